@@ -1,0 +1,32 @@
+#pragma once
+/// The only user of MPI in src/: sums over the ranks of a run.
+
+#include <cstddef>
+#include <memory>
+
+namespace furrow {
+
+/// The ranks that share a run. Default: this process alone.
+class Communicator {
+ public:
+  Communicator();
+  /// @param mpi_comm points to a live MPI_Comm; it is copied, not duplicated
+  explicit Communicator(const void* mpi_comm);
+  ~Communicator();
+  Communicator(const Communicator&);
+  Communicator& operator=(const Communicator&);
+
+  int rank() const;
+  int size() const;
+  /// Sums the numbers of all ranks in place; every rank gets bitwise the same result, in rank order of the tree MPI uses.
+  void sum(double* values, std::size_t count) const;
+  double sum(double value) const;
+  double max(double value) const;
+  bool any(bool value) const;
+
+ private:
+  struct Handle;
+  std::unique_ptr<Handle> handle_;
+};
+
+}  // namespace furrow

@@ -1,0 +1,221 @@
+#include "core/options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/error.h"
+
+namespace furrow {
+
+namespace {
+
+std::optional<double> to_number(const std::string& text) {
+  double value = 0.0;
+  const char* begin = text.data();
+  const char* end = begin + text.size();
+  if (begin != end && *begin == '+') ++begin;
+  const auto [stop, status] = std::from_chars(begin, end, value);
+  if (status != std::errc{} || stop != end) return std::nullopt;
+  return value;
+}
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+
+std::string nearest_key(const std::vector<Key>& keys, const std::string& name) {
+  std::string best;
+  std::size_t best_distance = 3;  // further away is no help
+  for (const Key& key : keys) {
+    const std::size_t distance = edit_distance(key.name, name);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = key.name;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  if (!std::isfinite(value)) return false;
+  if (lower_open ? value <= lower : value < lower) return false;
+  return upper_open ? value < upper : value <= upper;
+}
+
+std::string Range::text() const {
+  const bool below = std::isfinite(lower), above = std::isfinite(upper);
+  if (!below && !above) return "any finite number";
+  if (!above) return fmt::format("{} {}", lower_open ? ">" : ">=", lower);
+  if (!below) return fmt::format("{} {}", upper_open ? "<" : "<=", upper);
+  return fmt::format("in {}{}, {}{}", lower_open ? '(' : '[', lower, upper, upper_open ? ')' : ']');
+}
+
+std::string Key::allowed() const {
+  const std::string unit_text = unit.empty() ? "" : fmt::format(" [{}]", unit);
+  switch (kind) {
+    case Kind::number: return fmt::format("a number {}{}", range.text(), unit_text);
+    case Kind::integer: return fmt::format("an integer {}", range.text());
+    case Kind::numbers:
+      return fmt::format("{} numbers, each {}{}", count == 0 ? "a list of" : std::to_string(count), range.text(),
+                         unit_text);
+    case Kind::word: return fmt::format("one of: {}", fmt::join(words, ", "));
+    case Kind::text: return "a word";
+    case Kind::flag: return "yes or no";
+  }
+  return {};
+}
+
+Schema& Schema::declare(Key key) {
+  keys_.push_back(std::move(key));
+  return *this;
+}
+
+Schema& Schema::number(const std::string& name, const std::string& unit, Range range, const std::string& meaning) {
+  return declare({name, Key::Kind::number, unit, range, 1, {}, meaning});
+}
+Schema& Schema::integer(const std::string& name, Range range, const std::string& meaning) {
+  return declare({name, Key::Kind::integer, "", range, 1, {}, meaning});
+}
+Schema& Schema::numbers(const std::string& name, std::size_t count, const std::string& unit, Range range,
+                        const std::string& meaning) {
+  return declare({name, Key::Kind::numbers, unit, range, count, {}, meaning});
+}
+Schema& Schema::word(const std::string& name, std::vector<std::string> words, const std::string& meaning) {
+  return declare({name, Key::Kind::word, "", {}, 1, std::move(words), meaning});
+}
+Schema& Schema::text(const std::string& name, const std::string& meaning) {
+  return declare({name, Key::Kind::text, "", {}, 1, {}, meaning});
+}
+Schema& Schema::flag(const std::string& name, const std::string& meaning) {
+  return declare({name, Key::Kind::flag, "", {}, 1, {"yes", "no"}, meaning, false, {"no"}});
+}
+Schema& Schema::optional() {
+  keys_.back().required = false;
+  return *this;
+}
+Schema& Schema::by_default(const std::string& value) {
+  keys_.back().default_values = {value};
+  return optional();
+}
+Schema& Schema::by_default(double value) { return by_default(fmt::format("{}", value)); }
+Schema& Schema::by_default(std::vector<double> values) {
+  for (double value : values) keys_.back().default_values.push_back(fmt::format("{}", value));
+  return optional();
+}
+
+const Key* Schema::find(const std::string& name) const {
+  const auto found = std::find_if(keys_.begin(), keys_.end(), [&](const Key& key) { return key.name == name; });
+  return found == keys_.end() ? nullptr : &*found;
+}
+
+Options Schema::read(const std::vector<std::string>& words) const {
+  std::vector<Entry> entries;
+  for (std::size_t i = 0; i < words.size();) {
+    Entry entry{words[i++], {}};
+    const Key* key = find(entry.key);
+    const std::size_t count = !key ? words.size() : key->count;  // an unknown key is refused below, with its name
+    while (i < words.size() && (count == 0 ? to_number(words[i]).has_value() : entry.values.size() < count)) {
+      if (key && find(words[i]) && key->kind != Key::Kind::text && key->kind != Key::Kind::word) break;
+      entry.values.push_back(words[i++]);
+    }
+    entries.push_back(std::move(entry));
+  }
+  return read(entries);
+}
+
+Options Schema::read(const std::vector<Entry>& entries) const {
+  Options options;
+  options.subject_ = subject_;
+  for (const Key& key : keys_) options.order_.push_back(key.name);
+
+  const auto accept = [&](const Key& key, const std::vector<std::string>& texts, bool given) {
+    const std::string where = options.where(key.name);
+    if (key.count == 0 ? texts.empty() : texts.size() != key.count)
+      throw InputError(where, texts.empty() ? "has no value" : fmt::format("has {} value(s)", texts.size()),
+                       key.allowed());
+    Options::Value value{texts, {}, given};
+    if (key.kind == Key::Kind::word || key.kind == Key::Kind::flag) {
+      if (std::find(key.words.begin(), key.words.end(), texts[0]) == key.words.end())
+        throw InputError(where, fmt::format("is '{}'", texts[0]), key.allowed());
+    } else if (key.kind != Key::Kind::text) {
+      for (const std::string& text : texts) {
+        const std::optional<double> number = to_number(text);
+        if (!number) throw InputError(where, fmt::format("is '{}', which is not a number", text), key.allowed());
+        if (!key.range.contains(*number) || (key.kind == Key::Kind::integer && *number != std::round(*number)))
+          throw InputError(where, fmt::format("is {}", text), key.allowed());
+        value.numbers.push_back(*number);
+      }
+    }
+    options.values_[key.name] = std::move(value);
+  };
+
+  for (const Entry& entry : entries) {
+    const Key* key = find(entry.key);
+    if (!key) {
+      std::vector<std::string> names;
+      for (const Key& known : keys_) names.push_back(known.name);
+      const std::string near = nearest_key(keys_, entry.key);
+      throw InputError(subject_, fmt::format("has no keyword '{}'", entry.key), fmt::format("{}", fmt::join(names, ", ")),
+                       near.empty() ? "" : fmt::format("did you mean '{}'?", near));
+    }
+    if (options.given(entry.key))
+      throw InputError(options.where(entry.key), "is given twice", "each keyword once", "remove one of them");
+    accept(*key, entry.values, true);
+  }
+  for (const Key& key : keys_) {
+    if (options.given(key.name)) continue;
+    if (key.required)
+      throw InputError(options.where(key.name), "is missing", key.allowed(), "it is: " + key.meaning);
+    if (!key.default_values.empty()) accept(key, key.default_values, false);
+  }
+  return options;
+}
+
+std::string Schema::table() const {
+  std::string text;
+  for (const Key& key : keys_)
+    text += fmt::format("  {:<18} {:<42} {:<12} {}\n", key.name, key.allowed(),
+                        key.required ? "required" : fmt::format("{}", fmt::join(key.default_values, " ")), key.meaning);
+  return text;
+}
+
+const Options::Value& Options::value(const std::string& key) const {
+  const auto found = values_.find(key);
+  if (found == values_.end()) throw Error(where(key) + " has no value");
+  return found->second;
+}
+double Options::number(const std::string& key) const { return value(key).numbers.at(0); }
+long Options::integer(const std::string& key) const { return static_cast<long>(value(key).numbers.at(0)); }
+const std::vector<double>& Options::numbers(const std::string& key) const { return value(key).numbers; }
+const std::string& Options::word(const std::string& key) const { return value(key).texts.at(0); }
+bool Options::flag(const std::string& key) const { return value(key).texts.at(0) == "yes"; }
+bool Options::has(const std::string& key) const { return values_.count(key) > 0; }
+bool Options::given(const std::string& key) const {
+  const auto found = values_.find(key);
+  return found != values_.end() && found->second.given;
+}
+std::vector<Entry> Options::effective() const {
+  std::vector<Entry> entries;
+  for (const std::string& key : order_)
+    if (has(key)) entries.push_back({key, value(key).texts});
+  return entries;
+}
+
+}  // namespace furrow

@@ -1,0 +1,123 @@
+#pragma once
+/// Options are declared once: key, unit, range, meaning, default. Scripts, files, pages and errors all use that one declaration.
+
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace furrow {
+
+/// An interval of admissible numbers, each end open or closed.
+struct Range {
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  bool lower_open = false;
+  bool upper_open = false;
+
+  static Range any() { return {}; }
+  static Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true, false}; }
+  static Range non_negative() { return {0.0, std::numeric_limits<double>::infinity(), false, false}; }
+  static Range closed(double lower, double upper) { return {lower, upper, false, false}; }
+  static Range open(double lower, double upper) { return {lower, upper, true, true}; }
+  static Range at_least(double lower) { return {lower, std::numeric_limits<double>::infinity(), false, false}; }
+
+  bool contains(double value) const;  ///< false for NaN and infinities
+  std::string text() const;           ///< "> 0", "in [0, 0.5)", "any number"
+};
+
+/// One declared key.
+struct Key {
+  enum class Kind { number, integer, numbers, word, text, flag };
+
+  std::string name;
+  Kind kind = Kind::number;
+  std::string unit;                              ///< "" for words, texts and pure numbers
+  Range range;                                   ///< of every number
+  std::size_t count = 1;                         ///< values that follow; 0 (numbers only): as many as there are
+  std::vector<std::string> words;                ///< the admissible words
+  std::string meaning;
+  bool required = true;
+  std::vector<std::string> default_values = {};  ///< used when not required and not given; may be empty
+
+  std::string allowed() const;  ///< "a number > 0 [m]", "one of: towed, slip, torque"
+};
+
+/// One key with its values as text, as found in a script or a file.
+struct Entry {
+  std::string key;
+  std::vector<std::string> values;
+};
+
+class Options;
+
+/// The declaration of all keys that one style, law or file section understands.
+class Schema {
+ public:
+  /// @param subject names the owner in errors: "fix wheel/rigid", "law drucker_prager_cap"
+  explicit Schema(std::string subject) : subject_(std::move(subject)) {}
+
+  // Each call declares a required key; optional_*() declares one with a default, or without one (then ask given()).
+  Schema& number(const std::string& name, const std::string& unit, Range range, const std::string& meaning);
+  Schema& integer(const std::string& name, Range range, const std::string& meaning);
+  Schema& numbers(const std::string& name, std::size_t count, const std::string& unit, Range range,
+                  const std::string& meaning);
+  Schema& word(const std::string& name, std::vector<std::string> words, const std::string& meaning);
+  Schema& text(const std::string& name, const std::string& meaning);
+  Schema& flag(const std::string& name, const std::string& meaning);  ///< yes | no, "no" unless given
+  Schema& optional();                                                  ///< the key declared last may be left out
+  Schema& by_default(const std::string& value);                        ///< the same, and then has this value
+  Schema& by_default(double value);
+  Schema& by_default(std::vector<double> values);
+
+  const std::string& subject() const { return subject_; }
+  const std::vector<Key>& keys() const { return keys_; }
+  const Key* find(const std::string& name) const;
+
+  /// Reads "key value(s) key value(s) ..." as a script line has it. @throws InputError
+  Options read(const std::vector<std::string>& words) const;
+  /// Reads entries as a file has them. @throws InputError
+  Options read(const std::vector<Entry>& entries) const;
+  /// The table of keys for --help and for the pages: one line a key with unit, range, default and meaning.
+  std::string table() const;
+
+ private:
+  Schema& declare(Key key);
+
+  std::string subject_;
+  std::vector<Key> keys_;
+};
+
+/// Values that passed their Schema.
+class Options {
+ public:
+  double number(const std::string& key) const;
+  long integer(const std::string& key) const;
+  const std::vector<double>& numbers(const std::string& key) const;
+  const std::string& word(const std::string& key) const;  ///< also for text
+  bool flag(const std::string& key) const;
+  bool given(const std::string& key) const;               ///< the user wrote it
+  bool has(const std::string& key) const;                 ///< given, or has a default
+
+  const std::string& subject() const { return subject_; }
+  /// The effective values, defaults included, in the order of declaration: "key value ...".
+  std::vector<Entry> effective() const;
+  /// "fix wheel/rigid, keyword 'mass'", to build an InputError about a combination of keys.
+  std::string where(const std::string& key) const { return subject_ + ", keyword '" + key + "'"; }
+
+ private:
+  friend class Schema;
+  struct Value {
+    std::vector<std::string> texts;
+    std::vector<double> numbers;
+    bool given = false;
+  };
+  const Value& value(const std::string& key) const;
+
+  std::string subject_;
+  std::vector<std::string> order_;
+  std::map<std::string, Value> values_;
+};
+
+}  // namespace furrow

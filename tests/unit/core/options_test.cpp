@@ -1,0 +1,72 @@
+#include "core/options.h"
+
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+
+namespace furrow {
+namespace {
+
+using ::testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+Schema wheel_schema() {
+  Schema schema("fix wheel/rigid");
+  schema.number("diameter", "m", Range::positive(), "outer diameter");
+  schema.number("shoulder", "m", Range::non_negative(), "shoulder radius").by_default(0.0);
+  schema.integer("segments", Range::closed(8, 1000), "segments").by_default("64");
+  schema.word("mode", {"towed", "slip"}, "mode").optional();
+  schema.numbers("axle", 3, "m", Range::any(), "axle centre").by_default(std::vector<double>{0, 0, 0});
+  schema.numbers("table", 0, "Pa", Range::any(), "a list").optional();
+  return schema;
+}
+
+std::string message_of(const Words& words) {
+  try {
+    wheel_schema().read(words);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Options, ReadsGivenValuesAndDefaults) {
+  const Options options = wheel_schema().read(Words{"axle", "1", "-2", "3e-1", "diameter", "0.74", "table", "1", "2", "mode", "slip"});
+  EXPECT_DOUBLE_EQ(options.number("diameter"), 0.74);
+  EXPECT_DOUBLE_EQ(options.number("shoulder"), 0.0);
+  EXPECT_EQ(options.integer("segments"), 64);
+  EXPECT_EQ(options.word("mode"), "slip");
+  EXPECT_EQ(options.numbers("axle"), (std::vector<double>{1, -2, 0.3}));
+  EXPECT_EQ(options.numbers("table"), (std::vector<double>{1, 2}));
+  EXPECT_FALSE(options.given("shoulder"));
+  EXPECT_TRUE(options.has("shoulder"));
+  EXPECT_EQ(options.effective().size(), 6u);
+}
+
+TEST(Options, RefusesWithKeywordAllowedAndRemedy) {
+  EXPECT_THAT(message_of({"diametre", "1"}), HasSubstr("no keyword 'diametre'; allowed: diameter, shoulder"));
+  EXPECT_THAT(message_of({"diametre", "1"}), HasSubstr("did you mean 'diameter'?"));
+  EXPECT_THAT(message_of({"diameter", "-1"}), HasSubstr("keyword 'diameter' is -1; allowed: a number > 0 [m]"));
+  EXPECT_THAT(message_of({"diameter", "nan"}), HasSubstr("is nan; allowed"));
+  EXPECT_THAT(message_of({"diameter", "1e999"}), HasSubstr("not a number"));
+  EXPECT_THAT(message_of({"diameter", "1,5"}), HasSubstr("which is not a number"));
+  EXPECT_THAT(message_of({"diameter"}), HasSubstr("has no value"));
+  EXPECT_THAT(message_of({"diameter", "shoulder", "1"}), HasSubstr("keyword 'diameter' has no value"));
+  EXPECT_THAT(message_of({"shoulder", "0.1"}), HasSubstr("keyword 'diameter' is missing"));
+  EXPECT_THAT(message_of({"diameter", "1", "diameter", "2"}), HasSubstr("given twice"));
+  EXPECT_THAT(message_of({"diameter", "1", "segments", "9.5"}), HasSubstr("an integer in [8, 1000]"));
+  EXPECT_THAT(message_of({"diameter", "1", "mode", "free"}), HasSubstr("one of: towed, slip"));
+  EXPECT_THAT(message_of({"diameter", "1", "axle", "1", "2"}), HasSubstr("3 numbers"));
+  EXPECT_THAT(message_of({"diameter", "1", "table"}), HasSubstr("has no value"));
+}
+
+TEST(Range, EndsAreOpenOrClosedAndNaNIsNeverInside) {
+  EXPECT_FALSE(Range::positive().contains(0.0));
+  EXPECT_TRUE(Range::non_negative().contains(0.0));
+  EXPECT_FALSE(Range::any().contains(std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_FALSE(Range::any().contains(std::numeric_limits<double>::infinity()));
+  EXPECT_EQ((Range{0.0, 0.5, false, true}).text(), "in [0, 0.5)");
+}
+
+}  // namespace
+}  // namespace furrow
