@@ -2,6 +2,7 @@
 /// The triangles of a body: all that crosses between solvers.
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/types.h"
@@ -21,9 +22,11 @@ struct Surface {
   void resize(std::size_t nodes);  ///< all three arrays, zeroed
   void clear_forces() { f.setZero(); }
 
-  /// Barycentric coordinates of the projection of point onto the plane of a triangle.
+  /// Barycentric coordinates of the projection of point onto the plane of a triangle; negative ones lie outside of it.
+  /// @throws StateError when the triangle has no area
   Vector3 barycentric(std::size_t triangle, const Vector3& point) const;
-  /// Spreads a force over the three nodes with barycentric weights: keeps the force, and the moment of a point on the triangle.
+  /// Spreads a force over the three nodes with barycentric weights: keeps the force, and the moment of a point on the plane
+  /// of the triangle. A point at height d above it loses the moment d n x force: pass the contact point on the triangle.
   void add_force(std::size_t triangle, const Vector3& point, const Vector3& force);
 
   Vector3 total_force() const;                        ///< [N]
