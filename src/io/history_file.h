@@ -1,0 +1,83 @@
+#pragma once
+/// The results file of a run, history.h5:
+///
+///   /run                 attributes title, version, script, started, ranks; text effective_input
+///   /history/<channel>   one dataset a channel, with attributes unit and meaning; all of one length
+///   /grains/reference    id, x, radius, period of the settled bed before the wheel touches it; attribute bed_level
+///   /grains/final        the same and v, at the end
+///   /surface             triangles, x of the wheel or tyre at the end
+///   /audit, /cost        numbers as attributes; /audit/energies [J] with its attribute terms, a name a line
+///   /warnings            text, a sentence a line
+///
+/// The file on disk is complete at every instant: rows are gathered in memory, and a flush appends them to a copy beside it
+/// ("history.part.h5") which then takes the file's name in one step. A run that is killed leaves the state of its last flush,
+/// and others may read while it runs. A flush comes by itself when five seconds have passed and at least a hundred times the
+/// duration of the last one, so that files cost less than one per cent of a run.
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "body/surface.h"
+#include "io/grains.h"
+#include "io/run_report.h"
+#include "rig/history.h"
+
+namespace furrow {
+
+/// Writes history.h5 while the run goes on. One rank of a run has it.
+class HistoryFile {
+ public:
+  /// Starts a file; one that is there is replaced. @throws Error when it cannot be written
+  static HistoryFile create(const std::string& path, const std::vector<Channel>& channels, const RunInfo& info);
+
+  /// Continues the file of a run that was stopped. Time semantic of a restart: the checkpoint at time t holds the state after
+  /// the step that ended at t, and the row of that instant belongs to the part before. So every row with a time up to t is kept
+  /// (up to 1e-9 of the row spacing later, for rounding), later rows are dropped, and the next row appended must be later
+  /// than the last one kept. Call flush() with every checkpoint, or rows are missing at the seam.
+  /// @throws Error when the channels differ from the file's, or when rows are missing between the last one kept and t
+  static HistoryFile resume(const std::string& path, const std::vector<Channel>& channels, double time);
+
+  HistoryFile(HistoryFile&&) = default;
+  HistoryFile& operator=(HistoryFile&&) = default;
+  ~HistoryFile();  ///< flushes what is left; call flush() to see errors
+
+  /// Adds a row (channels' order, time first) and flushes when it is time to.
+  /// @throws Error for a wrong length; StateError when a value is not finite, or time does not grow
+  void append(const std::vector<double>& row);
+  /// Brings the file up to date. @throws Error
+  void flush();
+
+  void write_reference(const Grains& grains);
+  void write_final(const Grains& grains, const Surface& surface);  ///< either may be empty
+  void write_closing(const RunClosing& closing);
+
+  const History& history() const { return history_; }  ///< all rows, flushed or not, of this run and the parts before
+  const std::string& path() const { return path_; }
+  /// Seconds between flushes that come by themselves; 0: every row.
+  void set_flush_interval(double seconds) { flush_interval_ = seconds; }
+
+ private:
+  HistoryFile(std::string path, History history);
+  template <class Change>
+  void replace_with(Change change);  // change(Hdf5File&) on a copy that then takes the file's name
+
+  std::string path_;
+  History history_;
+  std::size_t flushed_rows_ = 0;
+  double flush_interval_ = 5.0;  // [s]
+  double flush_duration_ = 0.0;  // [s] of the last one
+  std::chrono::steady_clock::time_point last_flush_;
+};
+
+// Reading back. @throws Error when the file or the part is missing, naming both
+History read_history(const std::string& path);
+RunInfo read_run_info(const std::string& path);
+Grains read_reference_grains(const std::string& path);
+Grains read_final_grains(const std::string& path);
+Surface read_final_surface(const std::string& path);
+/// The run came to its end (write_closing was called).
+bool has_closing(const std::string& path);
+RunClosing read_closing(const std::string& path);
+
+}  // namespace furrow

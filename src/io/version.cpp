@@ -1,0 +1,7 @@
+#include "io/version.h"
+
+namespace furrow {
+
+std::string version() { return FURROW_VERSION; }  // defined by src/CMakeLists.txt
+
+}  // namespace furrow

@@ -1,0 +1,49 @@
+#pragma once
+/// Surfaces and grains for ParaView: .vtp frames and the .pvd collection that orders them in time.
+
+#include <string>
+#include <vector>
+
+#include "body/surface.h"
+#include "io/grains.h"
+
+namespace furrow {
+
+/// Triangles with point data velocity [m/s] and force [N]. Written beside and renamed: never half a file. @throws Error
+void write_vtp(const std::string& path, const Surface& surface);
+/// One vertex a grain with point data id, radius [m], velocity [m/s] and, with a reference, displacement [m]. @throws Error
+void write_vtp(const std::string& path, const Grains& grains, const Grains* reference = nullptr);
+
+/// A series of frames: <folder>/<name>_000000.vtp, ... and <folder>/<name>.pvd, which lists only complete frames and is itself
+/// replaced in one step, so that a run that is killed leaves a valid series.
+class VtkSeries {
+ public:
+  /// Starts a series; the folder is made if need be, an older series of that name is replaced. @throws Error
+  static VtkSeries create(const std::string& folder, const std::string& name);
+  /// Continues after a restart: frames later than time are dropped from the list and written anew. @throws Error
+  static VtkSeries resume(const std::string& folder, const std::string& name, double time);
+
+  /// @throws Error when time is not later than the last frame's, or a file cannot be written
+  void add(double time, const Surface& surface);
+  void add(double time, const Grains& grains, const Grains* reference = nullptr);
+
+  std::size_t size() const { return frames_.size(); }
+  std::string pvd() const;                      ///< path of the collection
+  std::vector<double> times() const;            ///< [s] of the frames so far
+
+ private:
+  struct Frame {
+    double time;
+    std::string file;  // relative to the folder
+  };
+
+  VtkSeries(std::string folder, std::string name) : folder_(std::move(folder)), name_(std::move(name)) {}
+  std::string next_file(double time) const;
+  void list(double time, const std::string& file);
+  void write_pvd() const;
+
+  std::string folder_, name_;
+  std::vector<Frame> frames_;
+};
+
+}  // namespace furrow
