@@ -1,0 +1,108 @@
+#include "io/hdf5_file.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "scratch.h"
+
+namespace furrow {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using Mode = Hdf5File::Mode;
+
+TEST(Hdf5File, KeepsNumbersTextsAndAttributes) {
+  const Scratch scratch;
+  const std::string path = scratch.path("all.h5");
+  Matrix3X columns(3, 2);
+  columns << 1, 4, 2, 5, 3, 6;
+  const std::string long_text(100000, 'x');  // an attribute could not hold it
+  {
+    Hdf5File file(path, Mode::create);
+    file.write("/group/deep/numbers", std::vector<double>{1.5, -2e-300, std::nan("")});
+    file.write("/group/ids", std::vector<std::int64_t>{1, std::int64_t(1) << 60});
+    file.write("/group/none", std::vector<double>{});
+    file.write("/x", columns);
+    file.write("/triangles", std::vector<Vector3i>{{0, 1, 2}, {2, 1, 3}});
+    file.write("/text", long_text);
+    file.set_attribute("/group", "title", "sand, 10°");
+    file.set_attribute("/group", "empty", "");
+    file.set_attribute("/x", "scale", 1.0 / 3.0);
+    file.close();
+  }
+  const Hdf5File file(path, Mode::read);
+  const std::vector<double> numbers = file.read_numbers("/group/deep/numbers");
+  ASSERT_EQ(numbers.size(), 3u);
+  EXPECT_EQ(numbers[0], 1.5);
+  EXPECT_EQ(numbers[1], -2e-300);
+  EXPECT_TRUE(std::isnan(numbers[2]));
+  EXPECT_THAT(file.read_integers("/group/ids"), ElementsAre(1, std::int64_t(1) << 60));
+  EXPECT_TRUE(file.read_numbers("/group/none").empty());
+  EXPECT_EQ(file.read_columns("/x"), columns);
+  EXPECT_THAT(file.read_triples("/triangles"), ElementsAre(Vector3i(0, 1, 2), Vector3i(2, 1, 3)));
+  EXPECT_EQ(file.read_text("/text"), long_text);
+  EXPECT_EQ(file.text_attribute("/group", "title"), "sand, 10°");
+  EXPECT_EQ(file.text_attribute("/group", "empty"), "");
+  EXPECT_EQ(file.number_attribute("/x", "scale"), 1.0 / 3.0);
+  EXPECT_THAT(file.attributes("/group"), ElementsAre("empty", "title"));
+  EXPECT_TRUE(file.has_attribute("/x", "scale"));
+  EXPECT_FALSE(file.has_attribute("/x", "unit"));
+  EXPECT_TRUE(file.exists("/group/deep/numbers"));
+  EXPECT_FALSE(file.exists("/group/shallow/numbers"));
+}
+
+TEST(Hdf5File, ReplacesDatasetsAndAttributes) {
+  const Scratch scratch;
+  Hdf5File file(scratch.path("replace.h5"), Mode::create);
+  file.write("/a", std::vector<double>{1, 2, 3});
+  file.write("/a", std::vector<double>{4});
+  file.set_attribute("/a", "unit", "m");
+  file.set_attribute("/a", "unit", "kilometre");
+  EXPECT_THAT(file.read_numbers("/a"), ElementsAre(4));
+  EXPECT_EQ(file.text_attribute("/a", "unit"), "kilometre");
+}
+
+TEST(Hdf5File, GrowsAndShrinksAcrossChunks) {
+  const Scratch scratch;
+  Hdf5File file(scratch.path("grow.h5"), Mode::create);
+  file.create_group("/history");
+  for (const char* name : {"/history/time", "/history/load", "/history/angle"}) file.create_growing(name, 4);
+  std::vector<double> expected;
+  for (int i = 0; i < 5; ++i) {
+    file.append("/history/time", {3.0 * i, 3.0 * i + 1.0, 3.0 * i + 2.0});
+    for (int j = 0; j < 3; ++j) expected.push_back(3.0 * i + j);
+  }
+  EXPECT_EQ(file.read_numbers("/history/time"), expected);
+  file.truncate("/history/time", 6);
+  file.append("/history/time", {-1.0});
+  EXPECT_THAT(file.read_numbers("/history/time"), ElementsAre(0, 1, 2, 3, 4, 5, -1));
+  EXPECT_EQ(file.length("/history/time"), 7u);
+  EXPECT_EQ(file.length("/history/load"), 0u);
+  EXPECT_THAT(file.members("/history"), ElementsAre("time", "load", "angle"));  // in the order they were made
+}
+
+TEST(Hdf5File, ErrorsNameFileObjectAndCause) {
+  const Scratch scratch;
+  const std::string missing = scratch.path("missing.h5"), text = scratch.path("text.h5"), good = scratch.path("good.h5");
+  EXPECT_THAT(message_of([&] { Hdf5File(missing, Mode::read); }),
+              AllOf(HasSubstr(missing + ": cannot open as an HDF5 file"), HasSubstr("No such file or directory")));
+  std::ofstream(text) << "time sinkage\n";
+  EXPECT_THAT(message_of([&] { Hdf5File(text, Mode::read); }), HasSubstr(text + ": cannot open as an HDF5 file"));
+  EXPECT_THAT(message_of([&] { Hdf5File(scratch.path("no/such/folder.h5"), Mode::create); }), HasSubstr("cannot create the file"));
+
+  Hdf5File file(good, Mode::create);
+  file.write("/x", Matrix3X::Zero(3, 4));
+  file.set_attribute("/x", "number", 1.0);
+  EXPECT_THAT(message_of([&] { file.read_numbers("/none"); }), HasSubstr(good + ": cannot open dataset '/none'"));
+  EXPECT_THAT(message_of([&] { file.read_numbers("/x"); }), HasSubstr(good + ": dataset '/x' must be one-dimensional"));
+  EXPECT_THAT(message_of([&] { file.text_attribute("/x", "unit"); }), HasSubstr("cannot read attribute unit of '/x'"));
+  EXPECT_THAT(message_of([&] { file.text_attribute("/x", "number"); }), HasSubstr("'number' of '/x' is not a text"));
+  EXPECT_THAT(message_of([&] { file.append("/x", {1.0}); }), HasSubstr("dataset '/x' must be one-dimensional"));
+}
+
+}  // namespace
+}  // namespace furrow
