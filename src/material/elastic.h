@@ -1,0 +1,23 @@
+#pragma once
+/// Elastic ground: linear or porous elasticity and nothing else. Rate form (hypoelastic) under finite strain.
+
+#include "material/elasticity.h"
+#include "material/material.h"
+#include "material/registry.h"
+
+namespace furrow {
+
+class Elastic : public Material {
+ public:
+  static Law law();
+  Elastic(double density, const ElasticityParameters& elasticity);
+
+  UpdateReport update_block(const PointBlock& block) const override;
+  ElasticModuli moduli(const VectorX& state) const override;
+  double stress_scale(const VectorX& state) const override;
+
+ private:
+  ElasticityParameters elasticity_;
+};
+
+}  // namespace furrow

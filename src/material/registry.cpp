@@ -1,0 +1,122 @@
+#include "material/registry.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/error.h"
+#include "material/elastic.h"
+
+namespace furrow {
+
+// ---- the table: to add a law, write its two files and one row here; tests/unit/material/conformance_test.cpp gets one line ----
+const std::vector<Law>& laws() {
+  static const std::vector<Law> table{
+      Elastic::law(),
+  };
+  return table;
+}
+
+namespace {
+
+template <class Items>
+std::string names_of(const Items& items) {
+  std::vector<std::string> names;
+  for (const auto& item : items) names.push_back(item.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+const Law& find_law(const std::string& name) {
+  for (const Law& law : laws())
+    if (law.name == name) return law;
+  throw InputError("material", fmt::format("has the unknown law '{}'", name), names_of(laws()));
+}
+
+const SectionChoice& SectionSchema::choice(const std::string& type) const {
+  std::vector<std::string> types;
+  for (const SectionChoice& candidate : choices) {
+    if (candidate.type == type) return candidate;
+    types.push_back(candidate.type);
+  }
+  if (choices.size() == 1)
+    throw InputError(fmt::format("section '{}'", name), fmt::format("has a type '{}'", type), "no key 'type' in this section");
+  throw InputError(fmt::format("section '{}', keyword 'type'", name), fmt::format("is '{}'", type),
+                   fmt::format("one of: {}", fmt::join(types, ", ")));
+}
+
+MaterialOptions read_sections(const Law& law, const MaterialSections& sections) {
+  for (const auto& [name, entries] : sections)
+    if (std::none_of(law.sections.begin(), law.sections.end(), [&](const auto& known) { return known.name == name; }))
+      throw InputError(fmt::format("law {}", law.name), fmt::format("has no section '{}'", name), names_of(law.sections));
+  MaterialOptions result;
+  for (const SectionSchema& section : law.sections) {
+    std::string type = section.choices.front().type;
+    std::vector<Entry> entries;
+    const auto given = sections.find(section.name);
+    if (given != sections.end()) {
+      for (const Entry& entry : given->second) {
+        if (entry.key != "type") {
+          entries.push_back(entry);
+        } else if (entry.values.size() == 1) {
+          type = entry.values.front();
+        } else {
+          throw InputError(fmt::format("section '{}', keyword 'type'", section.name),
+                           fmt::format("has {} value(s)", entry.values.size()), "one word");
+        }
+      }
+    }
+    result.emplace(section.name, SectionOptions{type, section.choice(type).schema.read(entries)});
+  }
+  return result;
+}
+
+MaterialSections to_sections(const Law& law, const std::vector<Entry>& flat) {
+  MaterialSections sections;
+  std::vector<Entry> keys;
+  std::map<std::string, std::string> types;
+  for (const SectionSchema& section : law.sections) types[section.name] = section.choices.front().type;
+  for (const Entry& entry : flat) {
+    if (types.count(entry.key) == 0) {
+      keys.push_back(entry);
+      continue;
+    }
+    if (entry.values.size() != 1)
+      throw InputError(fmt::format("keyword '{}'", entry.key), fmt::format("has {} value(s)", entry.values.size()), "one word");
+    types[entry.key] = entry.values.front();
+    sections[entry.key].push_back({"type", entry.values});
+  }
+  for (const Entry& entry : keys) {
+    std::vector<std::string> owners, known;
+    std::string bare = entry.key;
+    const std::size_t dot = entry.key.find('.');
+    if (dot != std::string::npos) bare = entry.key.substr(dot + 1);
+    for (const SectionSchema& section : law.sections) {
+      if (dot != std::string::npos && section.name != entry.key.substr(0, dot)) continue;
+      const Schema& schema = section.choice(types[section.name]).schema;
+      for (const Key& key : schema.keys()) known.push_back(key.name);
+      if (schema.find(bare)) owners.push_back(section.name);
+    }
+    if (owners.empty())
+      throw InputError(fmt::format("law {}", law.name), fmt::format("has no keyword '{}'", entry.key),
+                       fmt::format("{}", fmt::join(known, ", ")));
+    if (owners.size() > 1)
+      throw InputError(fmt::format("law {}, keyword '{}'", law.name, entry.key), "belongs to more than one section",
+                       fmt::format("{}.{}", fmt::join(owners, "." + bare + ", "), bare));
+    sections[owners.front()].push_back({bare, entry.values});
+  }
+  return sections;
+}
+
+std::unique_ptr<Material> make_material(const std::string& name, const MaterialSections& sections) {
+  const Law& law = find_law(name);
+  return law.create(read_sections(law, sections));
+}
+
+std::unique_ptr<Material> make_material(const std::string& name, const std::vector<Entry>& flat) {
+  return make_material(name, to_sections(find_law(name), flat));
+}
+
+}  // namespace furrow
