@@ -47,6 +47,23 @@ Vector3 Surface::area_vector(std::size_t triangle) const {
   return 0.5 * ab.cross(ac);
 }
 
+double Surface::total_area() const {
+  double area = 0.0;
+  for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle) area += area_vector(triangle).norm();
+  return area;
+}
+
+double Surface::minimum_angle() const {
+  double angle = pi / 3.0;  // no triangle has a larger smallest corner
+  for (const Vector3i& nodes : triangles)
+    for (int corner = 0; corner < 3; ++corner) {
+      const Vector3 here = x.col(nodes[corner]);
+      const Vector3 a = x.col(nodes[(corner + 1) % 3]) - here, b = x.col(nodes[(corner + 2) % 3]) - here;
+      angle = std::min(angle, std::atan2(a.cross(b).norm(), a.dot(b)));
+    }
+  return angle;
+}
+
 // Divergence theorem, V = (1/3) sum of x . A; taken from the first node, so that a surface far from the origin loses no digits.
 double Surface::enclosed_volume() const {
   if (triangles.empty()) return 0.0;

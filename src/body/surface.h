@@ -32,7 +32,9 @@ struct Surface {
   Vector3 total_force() const;                        ///< [N]
   Vector3 total_moment(const Vector3& about) const;   ///< [N m]
   Vector3 area_vector(std::size_t triangle) const;    ///< outward, length = area [m^2]
+  double total_area() const;                          ///< [m^2]
   double enclosed_volume() const;                     ///< [m^3] of a closed surface
+  double minimum_angle() const;                       ///< [rad] the sharpest corner of all triangles: how near to a sliver
   std::pair<Vector3, Vector3> bounds() const;         ///< lowest and highest corner
 
   /// Every edge is shared by exactly two triangles that run along it in opposite directions.
