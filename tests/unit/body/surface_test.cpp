@@ -89,6 +89,8 @@ TEST(Surface, VolumeAndAreaVectorsOfATetrahedronFarFromTheOrigin) {
   for (std::size_t i = 0; i < surface.triangle_count(); ++i) sum += surface.area_vector(i);
   EXPECT_NEAR(sum.norm(), 0.0, 1e-14);
   EXPECT_NEAR(surface.area_vector(3).norm(), std::sqrt(3.0) / 2.0, 1e-14);
+  EXPECT_NEAR(surface.total_area(), 1.5 + std::sqrt(3.0) / 2.0, 1e-14);
+  EXPECT_NEAR(surface.minimum_angle(), pi / 4.0, 1e-14);
 }
 
 TEST(Surface, BoundsAreTheExtremeCorners) {
