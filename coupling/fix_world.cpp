@@ -1,0 +1,149 @@
+#include "coupling/fix_world.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "coupling/guard.h"
+#include "modify.h"
+#include "update.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+constexpr char world_id[] = "furrow_world";
+constexpr double momentum_tolerance = 1e-10;  // of the force scale: round-off of the sums, nothing else
+
+}  // namespace
+
+FixWorld::FixWorld(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg), communicator_(&world) {
+  restart_global = 1;
+  time_integrate = 1;
+}
+
+FixWorld& FixWorld::of(LAMMPS_NS::LAMMPS& lammps) {
+  if (LAMMPS_NS::Fix* existing = lammps.modify->find_fix_id(world_id)) return dynamic_cast<FixWorld&>(*existing);
+  std::string words[] = {world_id, "all", "furrow/world"};
+  char* arguments[] = {words[0].data(), words[1].data(), words[2].data()};
+  lammps.modify->add_fix(3, arguments);
+  return of(lammps);
+}
+
+BodyFix& FixWorld::find_body(LAMMPS_NS::LAMMPS& lammps, const std::string& where, const std::string& fix_id) {
+  auto* found = dynamic_cast<BodyFix*>(lammps.modify->find_fix_id(fix_id.c_str()));
+  if (found) return *found;
+  std::string known;
+  for (int i = 0; i < lammps.modify->nfix; ++i)
+    if (dynamic_cast<BodyFix*>(lammps.modify->fix[i])) known += (known.empty() ? "" : ", ") + std::string(lammps.modify->fix[i]->id);
+  throw InputError(where, fmt::format("is '{}', and no body has that fix id", fix_id),
+                   known.empty() ? "the id of a fix that makes a body" : "one of: " + known,
+                   "write the fix that makes the body (such as wheel/rigid) before this line");
+}
+
+void FixWorld::add(Body& body, const std::string& name) {
+  world_.add(body, name);
+  members_.push_back({&body, name, {}, {}});
+}
+
+void FixWorld::remove(Body& body) {
+  world_.remove(body);
+  members_.erase(std::remove_if(members_.begin(), members_.end(), [&](const Member& m) { return m.body == &body; }), members_.end());
+}
+
+void FixWorld::remove(Driver& driver) { drivers_.erase(std::remove(drivers_.begin(), drivers_.end(), &driver), drivers_.end()); }
+
+FixWorld::Member& FixWorld::member(const Body& body) {
+  return *std::find_if(members_.begin(), members_.end(), [&](const Member& m) { return m.body == &body; });
+}
+ContactLedger& FixWorld::ledger(const Body& body) { return member(body).ledger; }
+const Vector3& FixWorld::moment_reference(const Body& body) { return member(body).reference; }
+const MomentumAudit& FixWorld::audit(const Body& body) { return member(body).audit; }
+double FixWorld::contact_count(const Body& body) { return member(body).contacts; }
+
+int FixWorld::setmask() { return LAMMPS_NS::FixConst::INITIAL_INTEGRATE | LAMMPS_NS::FixConst::FINAL_INTEGRATE; }
+
+void FixWorld::setup_pre_force(int) { clear_forces(); }
+
+void FixWorld::initial_integrate(int) {
+  guarded(*error, [&] {
+    if (!summed_) sum_forces();  // the forces of the set-up, made after this fix had its turn
+    for (Driver* driver : drivers_) driver->apply(time_, update->dt);
+    world_.advance(update->dt);
+    time_ += update->dt;
+    clear_forces();
+  });
+}
+
+void FixWorld::final_integrate() {
+  guarded(*error, [&] { sum_forces(); });
+}
+
+void FixWorld::clear_forces() {
+  for (Member& m : members_) {
+    Surface& surface = m.body->surface();
+    surface.clear_forces();
+    m.ledger = {};
+    m.reference = surface.x.rowwise().mean();
+  }
+  summed_ = false;
+}
+
+/// One sum over ranks for all bodies: nodal forces and ledgers side by side.
+void FixWorld::sum_forces() {
+  summed_ = true;
+  if (communicator_.size() > 1) {
+    buffer_.clear();
+    for (Member& m : members_) {
+      const Matrix3X& f = m.body->surface().f;
+      buffer_.insert(buffer_.end(), f.data(), f.data() + f.size());
+      for (const Vector3* v : {&m.ledger.grain_force, &m.ledger.grain_moment, &m.ledger.lever_gap})
+        buffer_.insert(buffer_.end(), v->data(), v->data() + 3);
+      buffer_.insert(buffer_.end(), {m.ledger.force_scale, m.ledger.moment_scale, m.ledger.contacts});
+    }
+    communicator_.sum(buffer_.data(), buffer_.size());
+    const double* next = buffer_.data();
+    for (Member& m : members_) {
+      Matrix3X& f = m.body->surface().f;
+      std::copy(next, next + f.size(), f.data());
+      next += f.size();
+      for (Vector3* v : {&m.ledger.grain_force, &m.ledger.grain_moment, &m.ledger.lever_gap}) {
+        *v = Vector3(next[0], next[1], next[2]);
+        next += 3;
+      }
+      m.ledger.force_scale = next[0];
+      m.ledger.moment_scale = next[1];
+      m.ledger.contacts = next[2];
+      next += 3;
+    }
+  }
+  for (Member& m : members_) check_momentum(m);
+}
+
+void FixWorld::check_momentum(Member& m) const {
+  m.contacts = m.ledger.contacts;
+  if (m.ledger.force_scale == 0.0) return;
+  const Surface& surface = m.body->surface();
+  const double force_defect = (surface.total_force() + m.ledger.grain_force).norm() / m.ledger.force_scale;
+  const double moment_defect = (surface.total_moment(m.reference) + m.ledger.grain_moment).norm() / m.ledger.moment_scale;
+  // Written so that NaN fails too.
+  if (!(force_defect < momentum_tolerance) || !(moment_defect < momentum_tolerance))
+    throw StateError(fmt::format("body '{}': forces on its nodes and on the grains do not cancel at step {}: relative defect {:.3g} "
+                                 "in force, {:.3g} in moment (limit {:g}); a contact force is not finite or was lost",
+                                 m.name, update->ntimestep, force_defect, moment_defect, momentum_tolerance));
+  m.audit.force = std::max(m.audit.force, force_defect);
+  m.audit.moment = std::max(m.audit.moment, moment_defect);
+  m.audit.lever_gap = std::max(m.audit.lever_gap, m.ledger.lever_gap.norm() / m.ledger.moment_scale);
+}
+
+void FixWorld::write_restart(FILE* file) {
+  if (communicator_.rank() != 0) return;
+  const int size = sizeof time_;
+  std::fwrite(&size, sizeof size, 1, file);
+  std::fwrite(&time_, sizeof time_, 1, file);
+}
+
+void FixWorld::restart(char* buffer) { time_ = *reinterpret_cast<const double*>(buffer); }
+
+}  // namespace furrow::coupling

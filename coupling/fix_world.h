@@ -1,0 +1,98 @@
+#pragma once
+/// The clock of all bodies of a scene. Made by the first fix that declares a body; users never write it.
+
+#include <string>
+#include <vector>
+
+#include "body/body.h"
+#include "body/world.h"
+#include "core/communicator.h"
+#include "fix.h"
+
+namespace furrow::coupling {
+
+/// A fix that owns a body. Name and body are found by the id of the fix.
+class BodyFix {
+ public:
+  virtual ~BodyFix() = default;
+  virtual Body& body() = 0;
+};
+
+/// Something that sets loads and prescribed motions before every step: a rig.
+class Driver {
+ public:
+  virtual ~Driver() = default;
+  virtual void apply(double time, double dt) = 0;
+};
+
+/// What the grains did to one body in one step, summed over ranks: the other side of the momentum audit.
+struct ContactLedger {
+  Vector3 grain_force = Vector3::Zero();   ///< sum of contact forces on grains [N]
+  Vector3 grain_moment = Vector3::Zero();  ///< sum of (contact point - reference) x force on grain [N m]
+  Vector3 lever_gap = Vector3::Zero();     ///< moment that LIGGGHTS's shorter torque arm leaves out of the grains' balance [N m]
+  double force_scale = 0.0;                ///< sum of |force| [N]
+  double moment_scale = 0.0;               ///< sum of |contact point - reference| |force| [N m]
+  double contacts = 0.0;
+};
+
+/// Largest relative defects since the start of the run.
+struct MomentumAudit {
+  double force = 0.0;      ///< |nodal forces + grain forces| / force scale
+  double moment = 0.0;     ///< the same for moments about the middle of the body's nodes
+  double lever_gap = 0.0;  ///< |lever gap| / moment scale: not an error of the wall, see fix_wall_gran_body.md
+};
+
+class FixWorld : public LAMMPS_NS::Fix {
+ public:
+  FixWorld(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
+
+  /// The world of a LIGGGHTS instance; made on first use.
+  static FixWorld& of(LAMMPS_NS::LAMMPS& lammps);
+  /// The body of a fix. @throws InputError when there is none of that id
+  static BodyFix& find_body(LAMMPS_NS::LAMMPS& lammps, const std::string& where, const std::string& fix_id);
+
+  void add(Body& body, const std::string& name);
+  void remove(Body& body);
+  void add(Driver& driver) { drivers_.push_back(&driver); }
+  void remove(Driver& driver);
+
+  ContactLedger& ledger(const Body& body);
+  /// Where moments of this step are taken about: the middle of the body's nodes.
+  const Vector3& moment_reference(const Body& body);
+  const MomentumAudit& audit(const Body& body);
+  double contact_count(const Body& body);  ///< of the last step, all ranks
+
+  double time() const { return time_; }
+  const Communicator& communicator() const { return communicator_; }
+
+  int setmask() override;
+  void setup_pre_force(int) override;
+  void initial_integrate(int) override;
+  void final_integrate() override;
+  void write_restart(FILE* file) override;
+  void restart(char* buffer) override;
+
+ private:
+  struct Member {
+    Body* body;
+    std::string name;
+    ContactLedger ledger;
+    MomentumAudit audit;
+    Vector3 reference = Vector3::Zero();
+    double contacts = 0.0;
+  };
+  Member& member(const Body& body);
+  void clear_forces();
+  void sum_forces();
+  void check_momentum(Member& member) const;
+
+  Communicator communicator_;
+  World world_;
+  std::vector<Member> members_;
+  std::vector<Driver*> drivers_;
+  std::vector<double> buffer_;
+  double time_ = 0.0;
+  bool summed_ = false;
+};
+
+}  // namespace furrow::coupling

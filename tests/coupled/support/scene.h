@@ -1,0 +1,78 @@
+#pragma once
+/// A LIGGGHTS instance with Furrow's styles inside a test, and bodies that a test moves as it likes.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <mpi.h>
+
+#include "body/body.h"
+#include "coupling/fix_world.h"
+#include "lammps.h"
+
+namespace furrow::test {
+
+/// A surface whose nodes follow a function of time.
+class PrescribedBody : public Body {
+ public:
+  using Motion = std::function<void(double time, Surface&)>;  ///< sets x and v
+  PrescribedBody(Surface surface, Motion motion) : surface_(std::move(surface)), motion_(std::move(motion)) {}
+
+  double stable_time_step() const override { return std::numeric_limits<double>::infinity(); }
+  void advance(double dt) override {
+    time_ += dt;
+    motion_(time_, surface_);
+  }
+  Surface& surface() override { return surface_; }
+  Balance balance() const override { return {}; }
+  std::vector<double> state() const override { return {time_}; }
+  void restore(const std::vector<double>& state) override { time_ = state.at(0); }
+
+ private:
+  Surface surface_;
+  Motion motion_;
+  double time_ = 0.0;
+};
+
+/// Square sheet of n x n cells, two triangles each, side length, in the plane z, normal up. Diagonals alternate if asked.
+Surface make_sheet(int n, double side, double z, bool alternate = false);
+
+/// One run. Commands as in a script; screen output goes nowhere.
+class Scene {
+ public:
+  Scene();
+  ~Scene();
+
+  void command(const std::string& text);
+  void commands(const std::string& lines);
+  /// Makes a body known as fix <id>.
+  void add_body(const std::string& id, std::unique_ptr<Body> body);
+  /// Called at the end of every step.
+  void at_end_of_step(std::function<void()> action);
+  /// Called at the start of every step, before the bodies advance (place for moving grains by hand).
+  void at_start_of_step(std::function<void()> action);
+
+  LAMMPS_NS::LAMMPS& lammps() { return *lammps_; }
+  coupling::FixWorld& world() { return coupling::FixWorld::of(*lammps_); }
+  int rank() const;
+  int ranks() const;
+  double sum(double value) const;
+  double max(double value) const;
+  /// Sum of masses of all grains [kg].
+  double grain_mass() const;
+  /// Kinetic energy of all grains, rotation included [J].
+  double grain_kinetic_energy() const;
+
+  /// Header of a granular scene in SI units: box corners, atom types, skin.
+  void granular_box(const Vector3& lower, const Vector3& upper, double skin, const std::string& boundary = "f f f");
+  /// Hertz contact properties alike for all types.
+  void contact_properties(double young, double poisson, double restitution, double friction);
+
+ private:
+  LAMMPS_NS::LAMMPS* lammps_;
+  int hooks_ = 0;
+};
+
+}  // namespace furrow::test
