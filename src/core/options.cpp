@@ -13,6 +13,10 @@ namespace furrow {
 
 namespace {
 
+std::string after_origin(const std::string& origin, const std::string& text) {
+  return origin.empty() ? text : origin + ": " + text;
+}
+
 std::optional<double> to_number(const std::string& text) {
   double value = 0.0;
   const char* begin = text.data();
@@ -145,12 +149,12 @@ Options Schema::read(const std::vector<Entry>& entries) const {
   options.subject_ = subject_;
   for (const Key& key : keys_) options.order_.push_back(key.name);
 
-  const auto accept = [&](const Key& key, const std::vector<std::string>& texts, bool given) {
-    const std::string where = options.where(key.name);
+  const auto accept = [&](const Key& key, const std::vector<std::string>& texts, bool given, const std::string& origin) {
+    const std::string where = after_origin(origin, options.where(key.name));
     if (key.count == 0 ? texts.empty() : texts.size() != key.count)
       throw InputError(where, texts.empty() ? "has no value" : fmt::format("has {} value(s)", texts.size()),
                        key.allowed());
-    Options::Value value{texts, {}, given};
+    Options::Value value{texts, {}, given, origin};
     if (key.kind == Key::Kind::word || key.kind == Key::Kind::flag) {
       if (std::find(key.words.begin(), key.words.end(), texts[0]) == key.words.end())
         throw InputError(where, fmt::format("is '{}'", texts[0]), key.allowed());
@@ -172,18 +176,19 @@ Options Schema::read(const std::vector<Entry>& entries) const {
       std::vector<std::string> names;
       for (const Key& known : keys_) names.push_back(known.name);
       const std::string near = nearest_key(keys_, entry.key);
-      throw InputError(subject_, fmt::format("has no keyword '{}'", entry.key), fmt::format("{}", fmt::join(names, ", ")),
-                       near.empty() ? "" : fmt::format("did you mean '{}'?", near));
+      throw InputError(after_origin(entry.origin, subject_), fmt::format("has no keyword '{}'", entry.key),
+                       fmt::format("{}", fmt::join(names, ", ")), near.empty() ? "" : fmt::format("did you mean '{}'?", near));
     }
     if (options.given(entry.key))
-      throw InputError(options.where(entry.key), "is given twice", "each keyword once", "remove one of them");
-    accept(*key, entry.values, true);
+      throw InputError(after_origin(entry.origin, subject_ + ", keyword '" + entry.key + "'"), "is given twice",
+                       "each keyword once", "remove one of them");
+    accept(*key, entry.values, true, entry.origin);
   }
   for (const Key& key : keys_) {
     if (options.given(key.name)) continue;
     if (key.required)
       throw InputError(options.where(key.name), "is missing", key.allowed(), "it is: " + key.meaning);
-    if (!key.default_values.empty()) accept(key, key.default_values, false);
+    if (!key.default_values.empty()) accept(key, key.default_values, false, {});
   }
   return options;
 }
@@ -210,6 +215,10 @@ bool Options::has(const std::string& key) const { return values_.count(key) > 0;
 bool Options::given(const std::string& key) const {
   const auto found = values_.find(key);
   return found != values_.end() && found->second.given;
+}
+std::string Options::where(const std::string& key) const {
+  const auto found = values_.find(key);
+  return after_origin(found == values_.end() ? "" : found->second.origin, subject_ + ", keyword '" + key + "'");
 }
 std::vector<Entry> Options::effective() const {
   std::vector<Entry> entries;

@@ -48,6 +48,7 @@ struct Key {
 struct Entry {
   std::string key;
   std::vector<std::string> values;
+  std::string origin = {};  ///< where it was written, "sand.yaml, line 12", for errors; empty when the reader says it
 };
 
 class Options;
@@ -103,8 +104,8 @@ class Options {
   const std::string& subject() const { return subject_; }
   /// The effective values, defaults included, in the order of declaration: "key value ...".
   std::vector<Entry> effective() const;
-  /// "fix wheel/rigid, keyword 'mass'", to build an InputError about a combination of keys.
-  std::string where(const std::string& key) const { return subject_ + ", keyword '" + key + "'"; }
+  /// "fix wheel/rigid, keyword 'mass'", after the key's origin if it has one; to build an InputError about a combination of keys.
+  std::string where(const std::string& key) const;
 
  private:
   friend class Schema;
@@ -112,6 +113,7 @@ class Options {
     std::vector<std::string> texts;
     std::vector<double> numbers;
     bool given = false;
+    std::string origin = {};
   };
   const Value& value(const std::string& key) const;
 

@@ -68,5 +68,23 @@ TEST(Range, EndsAreOpenOrClosedAndNaNIsNeverInside) {
   EXPECT_EQ((Range{0.0, 0.5, false, true}).text(), "in [0, 0.5)");
 }
 
+TEST(Options, EntriesOfAFileTellTheirLine) {
+  const auto message = [](const std::vector<Entry>& entries) {
+    try {
+      wheel_schema().read(entries);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_THAT(message({{"diameter", {"-1"}, "wheel.yaml, line 3"}}), HasSubstr("wheel.yaml, line 3: fix wheel/rigid, keyword 'diameter' is -1"));
+  EXPECT_THAT(message({{"diametre", {"1"}, "wheel.yaml, line 4"}}), HasSubstr("wheel.yaml, line 4: fix wheel/rigid has no keyword"));
+  EXPECT_THAT(message({{"diameter", {"1"}, "wheel.yaml, line 3"}, {"diameter", {"2"}, "wheel.yaml, line 9"}}),
+              HasSubstr("wheel.yaml, line 9: fix wheel/rigid, keyword 'diameter' is given twice"));
+  const Options options = wheel_schema().read(std::vector<Entry>{{"diameter", {"1"}, "wheel.yaml, line 3"}});
+  EXPECT_EQ(options.where("diameter"), "wheel.yaml, line 3: fix wheel/rigid, keyword 'diameter'");
+  EXPECT_EQ(options.where("shoulder"), "fix wheel/rigid, keyword 'shoulder'");
+}
+
 }  // namespace
 }  // namespace furrow
