@@ -1,0 +1,221 @@
+#include "rig/wheel_rig.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace furrow {
+
+namespace {
+
+constexpr double standstill = 1e-12;  // [m/s] below it, rim and axle both rest and the recorded slip is 0
+
+/// @throws InputError when key is missing (needed) or given (not needed)
+void expect_key(const Options& options, const std::string& key, bool needed, const std::string& context, const std::string& allowed) {
+  if (needed && !options.has(key))
+    throw InputError(options.where(key), "is missing " + context, allowed, fmt::format("add '{} <value>'", key));
+  if (!needed && options.given(key))
+    throw InputError(options.where(key), "is given " + context, allowed, "remove it or change the mode");
+}
+
+}  // namespace
+
+Schema WheelRig::schema(const std::string& subject) {
+  Schema schema(subject);
+  schema.number("load_mass", "kg", Range::positive(), "load as a mass: the ground carries load_mass x gravity, wheel included").optional();
+  schema.number("load_force", "N", Range::positive(), "load as a force: what the ground carries at rest, weight of the wheel included")
+      .optional();
+  schema.number("sinkage", "m", Range::any(), "instead of a load: the wheel is lowered to this sinkage and held there").optional();
+  schema.number("speed", "m/s", Range::non_negative(), "speed of the axle along x in cruise");
+  schema.word("mode", {"towed", "slip", "torque"}, "free spin, prescribed slip, or prescribed axle torque");
+  schema.number("slip", "", Range::any(), "slip in mode slip, driving positive").optional();
+  schema.word("slip_definition", slip_definition_words(),
+              "slip by the larger of rim and vehicle speed, by rim speed, or by vehicle speed (speed in the wheel plane)")
+      .by_default("larger_speed");
+  schema.number("torque", "N m", Range::any(), "axle torque in mode torque; < 0 brakes").optional();
+  schema.number("slip_angle", "degrees", Range::open(-90, 90), "angle from the travel to the wheel plane about z").by_default(0.0);
+  schema.number("camber", "degrees", Range::closed(-45, 45), "roll of the wheel about its heading").by_default(0.0);
+  schema.number("start", "s", Range::non_negative(), "time at which the settling begins; the wheel is held until then").by_default(0.0);
+  schema.number("settle_time", "s", Range::positive(), "duration of the settling at standstill");
+  schema.number("load_ramp_time", "s", Range::non_negative(), "the load grows in this time; by default half of settle_time").optional();
+  schema.number("accelerate_time", "s", Range::positive(), "duration of the acceleration");
+  schema.number("ground_level", "m", Range::any(), "z of the undisturbed ground: datum of the sinkage");
+  schema.number("gravity", "m/s^2", Range::positive(), "acceleration of gravity").by_default(standard_gravity);
+  schema.number("damping", "N s/m", Range::non_negative(),
+                "viscous resistance to the wheel's vertical motion, throughout; its loss is recorded").by_default(0.0);
+  return schema;
+}
+
+WheelRig::WheelRig(const Options& options, RigidWheel& wheel) : wheel_(wheel) {
+  ground_level_ = options.number("ground_level");
+  const double settle_time = options.number("settle_time");
+  load_ramp_ = {options.number("start"), options.has("load_ramp_time") ? options.number("load_ramp_time") : 0.5 * settle_time};
+  if (load_ramp_.duration > settle_time)
+    throw InputError(options.where("load_ramp_time"), fmt::format("is {} s", load_ramp_.duration),
+                     fmt::format("0 to settle_time, {} s", settle_time), "lengthen settle_time");
+  speed_ramp_ = {load_ramp_.start + settle_time, options.number("accelerate_time")};
+
+  wheel_.place(wheel_.centre(), radians(options.number("slip_angle")), radians(options.number("camber")));
+  read_vertical(options);
+  read_drive(options);
+  wheel_.set_vertical_damping(options.number("damping"));
+  wheel_.set_axle_torque(0.0);
+  for (const auto coordinate : {RigidWheel::y, RigidWheel::yaw, RigidWheel::camber}) wheel_.hold(coordinate);
+}
+
+void WheelRig::read_vertical(const Options& options) {
+  std::string given;
+  int count = 0;
+  for (const char* key : {"load_mass", "load_force", "sinkage"})
+    if (options.given(key)) given += (count++ ? " and " : "") + std::string(key);
+  if (count != 1)
+    throw InputError(options.subject(), count == 0 ? "has no load" : fmt::format("has {}", given),
+                     "exactly one of load_mass [kg], load_force [N], sinkage [m]",
+                     count == 0 ? "say what the ground carries, weight of the wheel included" : "keep the one that is meant");
+  sinkage_prescribed_ = options.given("sinkage");
+  if (options.given("load_mass")) load_ = options.number("load_mass") * options.number("gravity");
+  if (options.given("load_force")) load_ = options.number("load_force");
+  if (sinkage_prescribed_ && load_ramp_.duration == 0.0)
+    throw InputError(options.where("load_ramp_time"), "is 0 s with a prescribed sinkage", "a number > 0 [s]",
+                     "the wheel needs time to go down");
+  if (sinkage_prescribed_) lowering_ = ground_level_ - options.number("sinkage") - wheel_.lowest_point();
+}
+
+void WheelRig::read_drive(const Options& options) {
+  speed_ = options.number("speed");
+  plane_speed_ = speed_ * std::cos(radians(options.number("slip_angle")));
+  const std::string& mode = options.word("mode");
+  mode_ = mode == "towed" ? Mode::towed : mode == "slip" ? Mode::slip : Mode::torque;
+  const std::string context = fmt::format("in mode {}", mode);
+  expect_key(options, "slip", mode_ == Mode::slip, context, "a slip in mode slip, and only there");
+  expect_key(options, "slip_definition", mode_ == Mode::slip, context, "a slip_definition in mode slip, and only there");
+  expect_key(options, "torque", mode_ == Mode::torque, context, "a torque in mode torque, and only there");
+  if (mode_ == Mode::torque) torque_ = options.number("torque");
+  if (mode_ != Mode::slip) return;
+  if (speed_ == 0.0)
+    throw InputError(options.where("speed"), "is 0 m/s in mode slip", "a number > 0 [m/s]",
+                     "give a speed, or drive a standing wheel with mode torque");
+  try {
+    rim_speed_ = rim_speed(slip_definition(options.word("slip_definition")), options.number("slip"), plane_speed_);
+  } catch (const StateError&) {
+    throw InputError(options.where("slip"), fmt::format("is {} with slip_definition {}", options.number("slip"), options.word("slip_definition")),
+                     "-1 to below 1 by the larger speed, below 1 by rim speed, at least -1 by vehicle speed",
+                     "a wheel that spins on the spot or backwards needs mode torque");
+  }
+}
+
+WheelRig::Phase WheelRig::phase(double time) const {
+  return time < speed_ramp_.start ? Phase::settle : time < speed_ramp_.end() ? Phase::accelerate : Phase::cruise;
+}
+
+void WheelRig::apply(double time, double dt) {
+  drive_vertical(time, dt);
+  if (phase(time + 0.5 * dt) == Phase::settle) {  // by the middle of the step: safe against rounding of its ends
+    wheel_.hold(RigidWheel::x);
+    wheel_.hold(RigidWheel::spin);
+  } else {
+    wheel_.prescribe(RigidWheel::x, speed_ * speed_ramp_.mean(time, time + dt));
+    drive_spin(time, dt);
+  }
+}
+
+void WheelRig::drive_vertical(double time, double dt) {
+  if (time + 0.5 * dt < load_ramp_.start) {
+    wheel_.hold(RigidWheel::z);
+    wheel_.set_load(Vector3::Zero());
+  } else if (sinkage_prescribed_) {
+    wheel_.prescribe(RigidWheel::z, lowering_ * load_ramp_.mean_rate(time, time + dt));
+  } else {
+    wheel_.release(RigidWheel::z);
+    wheel_.set_load({0.0, 0.0, -load_ * load_ramp_.value(time)});
+  }
+}
+
+void WheelRig::drive_spin(double time, double dt) {
+  switch (mode_) {
+    case Mode::towed: wheel_.release(RigidWheel::spin); return;
+    case Mode::slip:
+      wheel_.prescribe(RigidWheel::spin, rim_speed_ / wheel_.parameters().geometry.radius() * speed_ramp_.mean(time, time + dt));
+      return;
+    case Mode::torque:
+      wheel_.release(RigidWheel::spin);
+      wheel_.set_axle_torque(torque_ * speed_ramp_.value(time));
+      return;
+  }
+}
+
+std::vector<Channel> WheelRig::channels() {
+  return {
+      {"time", "s", "time since the start of the run"},
+      {"phase", "", "0 settle, 1 accelerate, 2 cruise"},
+      {"x", "m", "axle centre, along the travel"},
+      {"y", "m", "axle centre, lateral"},
+      {"z", "m", "axle centre, upwards"},
+      {"velocity_x", "m/s", "of the axle centre, half a step before time"},
+      {"velocity_y", "m/s", "of the axle centre, half a step before time"},
+      {"velocity_z", "m/s", "of the axle centre, half a step before time"},
+      {"spin_angle", "rad", "turn about the axle since the start, > 0 rolling forward"},
+      {"spin_rate", "rad/s", "rate of spin_angle, half a step before time"},
+      {"slip", "",
+       slip_formula(SlipDefinition::larger_speed) + ", v_rim = spin_rate x radius without grousers, v = speed of the axle in the "
+                                                    "wheel plane; 0 at standstill"},
+      {"sinkage", "m", "ground level minus lowest point of the wheel without grousers"},
+      {"force_x", "N", "force of the ground on the wheel"},
+      {"force_y", "N", "force of the ground on the wheel"},
+      {"force_z", "N", "force of the ground on the wheel"},
+      {"moment_x", "N m", "moment of the ground on the wheel about the axle centre"},
+      {"moment_y", "N m", "moment of the ground on the wheel about the axle centre"},
+      {"moment_z", "N m", "moment of the ground on the wheel about the axle centre"},
+      {"drive_torque", "N m", "torque of the axle on the wheel, mean of the last step, > 0 drives forward"},
+      {"drawbar_pull", "N", "force of the axle on the vehicle along x, mean of the last step, > 0 pulls it forward"},
+      {"load", "N", "downward force on the wheel, its weight included, mean of the last step"},
+      {"kinetic_energy", "J", "of the wheel"},
+      {"contact_work", "J", "of the ground on the wheel, since the start"},
+      {"load_work", "J", "of the load on the wheel, weight included, since the start"},
+      {"drive_work", "J", "of the axle on the wheel by speed, torque and guides, since the start"},
+      {"damping_loss", "J", "taken out by the rig's vertical damping, since the start"},
+  };
+}
+
+std::vector<double> WheelRig::measure(double time) const {
+  const Surface& surface = static_cast<const RigidWheel&>(wheel_).surface();
+  const Vector3 &centre = wheel_.centre(), &velocity = wheel_.velocity();
+  const Vector3 force = surface.total_force(), moment = surface.total_moment(centre);
+  const Balance balance = wheel_.balance();
+
+  const double yaw = wheel_.position(RigidWheel::yaw), spin_rate = wheel_.rate(RigidWheel::spin);
+  const double rim = spin_rate * wheel_.parameters().geometry.radius();
+  const double along = velocity.x() * std::cos(yaw) + velocity.y() * std::sin(yaw);
+  const bool at_rest = std::abs(rim) < standstill && std::abs(along) < standstill;
+
+  return {time,
+          static_cast<double>(phase(time)),
+          centre.x(),
+          centre.y(),
+          centre.z(),
+          velocity.x(),
+          velocity.y(),
+          velocity.z(),
+          wheel_.position(RigidWheel::spin),
+          spin_rate,
+          at_rest ? 0.0 : slip(SlipDefinition::larger_speed, rim, along),
+          ground_level_ - wheel_.lowest_point(),
+          force.x(),
+          force.y(),
+          force.z(),
+          moment.x(),
+          moment.y(),
+          moment.z(),
+          wheel_.constraint(RigidWheel::spin),
+          -wheel_.constraint(RigidWheel::x),
+          -wheel_.load().z() - wheel_.constraint(RigidWheel::z),
+          balance.kinetic_energy,
+          balance.contact_work,
+          balance.load_work,
+          balance.drive_work,
+          balance.dissipated_energy};
+}
+
+}  // namespace furrow

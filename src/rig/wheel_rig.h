@@ -1,0 +1,72 @@
+#pragma once
+/// The test rig: lowers a wheel onto the ground, accelerates it and keeps it going.
+
+#include <string>
+#include <vector>
+
+#include "body/rigid_wheel.h"
+#include "core/options.h"
+#include "rig/history.h"
+#include "rig/ramp.h"
+#include "rig/slip.h"
+
+namespace furrow {
+
+/// Phases, one after the other:
+///   settle      x, y and spin held, the load grows smoothly from 0 over load_ramp_time (or the wheel is lowered to its sinkage);
+///               the spin is held so that every run starts to roll from the same, unturned wheel;
+///   accelerate  x follows speed x ramp; the spin is free (towed), follows the rim speed of the slip times the same ramp, so that
+///               the slip has its value from the first step (slip), or is driven by torque x ramp (torque);
+///   cruise      everything constant.
+/// y, yaw and camber are held throughout. Before `start` the wheel is held where it is. Travel is along +x.
+///
+/// The load is the whole vertical force on the ground at rest, weight of the wheel included: whatever the wheel's own mass times
+/// gravity lacks or exceeds is a constant force that the rig adds at the axle, without inertia.
+///
+/// All phases are functions of time alone: a rig restarts by being made again from the same input.
+class WheelRig {
+ public:
+  enum class Phase { settle = 0, accelerate = 1, cruise = 2 };
+  enum class Mode { towed, slip, torque };
+
+  /// The keys of the rig. @param subject names the owner in errors
+  static Schema schema(const std::string& subject = "wheel rig");
+
+  /// Takes hold of the wheel, which must outlive the rig, and turns it to its slip angle and camber.
+  /// @throws InputError for keys that contradict each other
+  WheelRig(const Options& options, RigidWheel& wheel);
+
+  /// Sets loads and motions of the wheel for the step [time, time + dt]; call it before every step.
+  void apply(double time, double dt);
+
+  /// What measure() returns, in its order.
+  static std::vector<Channel> channels();
+  /// One row: state of the wheel and the forces now on its surface; call it when the forces of the step are known.
+  std::vector<double> measure(double time) const;
+
+  Phase phase(double time) const;
+  Mode mode() const { return mode_; }
+  double load() const { return load_; }                   ///< [N] full; 0 when the sinkage is prescribed
+  double target_rim_speed() const { return rim_speed_; }  ///< [m/s] in cruise; 0 unless slip is prescribed
+  double cruise_start() const { return speed_ramp_.end(); }  ///< [s]
+
+ private:
+  void read_vertical(const Options& options);
+  void read_drive(const Options& options);
+  void drive_vertical(double time, double dt);
+  void drive_spin(double time, double dt);
+
+  RigidWheel& wheel_;
+  Mode mode_ = Mode::towed;
+  bool sinkage_prescribed_ = false;
+  double load_ = 0.0;            // [N]
+  double lowering_ = 0.0;        // [m] upwards from the first position to the prescribed sinkage
+  double speed_ = 0.0;           // [m/s]
+  double plane_speed_ = 0.0;     // [m/s] its component in the wheel plane, speed cos(slip angle)
+  double rim_speed_ = 0.0;       // [m/s]
+  double torque_ = 0.0;          // [N m]
+  double ground_level_ = 0.0;    // [m]
+  Ramp load_ramp_, speed_ramp_;  // the settling begins with the first, the acceleration with the second
+};
+
+}  // namespace furrow

@@ -1,0 +1,321 @@
+#include "rig/wheel_rig.h"
+
+#include <cmath>
+#include <functional>
+
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+
+namespace furrow {
+namespace {
+
+using ::testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+RigidWheel make_wheel(double height = 0.2) {
+  RigidWheelParameters wheel;
+  wheel.geometry.diameter = 0.4;
+  wheel.geometry.width = 0.1;
+  wheel.geometry.segments = 160;
+  wheel.geometry.element_size = 0.05;
+  wheel.mass = 3.0;
+  wheel.axle_inertia = 0.06;
+  wheel.diametral_inertia = 0.04;
+  wheel.axle_centre = {0.0, 0.0, height};
+  return RigidWheel(wheel);
+}
+
+Words with(Words words) {
+  const Words common{"settle_time", "0.2", "accelerate_time", "0.2", "ground_level", "0"};
+  for (std::size_t i = 0; i < common.size(); i += 2)
+    if (std::find(words.begin(), words.end(), common[i]) == words.end()) words.insert(words.end(), {common[i], common[i + 1]});
+  return words;
+}
+
+WheelRig make_rig(RigidWheel& wheel, const Words& words) { return WheelRig(WheelRig::schema("fix wheel/rig").read(with(words)), wheel); }
+
+std::string refusal_of(const Words& words) {
+  RigidWheel wheel = make_wheel();
+  try {
+    make_rig(wheel, words);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// A rigid floor at z = 0 by a penalty, with Coulomb friction that is viscous at creeping speeds.
+struct Floor {
+  double stiffness = 3e5;  // [N/m] a node
+  double friction = 0.5;   // [-]
+  double creep = 1e-3;     // [m/s] below it friction is proportional to the sliding speed
+
+  void press_on(Surface& surface) const {
+    surface.clear_forces();
+    for (Eigen::Index node = 0; node < surface.x.cols(); ++node) {
+      const double normal = -stiffness * surface.x(2, node);
+      if (normal <= 0.0) continue;
+      const Vector2 sliding = surface.v.col(node).head<2>();
+      const double speed = sliding.norm();
+      surface.f(2, node) = normal;
+      surface.f.col(node).head<2>() = -friction * normal * sliding / std::max(speed, creep);
+    }
+  }
+};
+
+/// Runs rig and wheel to an end on a floor (or without); calls each row.
+void run(WheelRig& rig, RigidWheel& wheel, double end, double dt, const Floor* floor,
+         const std::function<void(const std::vector<double>&)>& each) {
+  const long steps = std::lround(end / dt);
+  for (long i = 0; i < steps; ++i) {
+    rig.apply(i * dt, dt);
+    wheel.advance(dt);
+    if (floor) floor->press_on(wheel.surface());
+    each(rig.measure((i + 1) * dt));
+  }
+}
+
+std::size_t channel(const std::string& name) {
+  return History(WheelRig::channels()).index(name);
+}
+
+/// Means over the rows of the cruise.
+struct CruiseMean {
+  std::vector<double> sums = std::vector<double>(WheelRig::channels().size(), 0.0);
+  long rows = 0;
+  double after = 0.0;
+  void operator()(const std::vector<double>& row) {
+    if (row[0] < after) return;
+    for (std::size_t i = 0; i < row.size(); ++i) sums[i] += row[i];
+    ++rows;
+  }
+  double of(const std::string& name) const { return sums[channel(name)] / static_cast<double>(rows); }
+};
+
+TEST(WheelRig, ChannelsAndRowsAgree) {
+  RigidWheel wheel = make_wheel();
+  const WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed"});
+  EXPECT_EQ(rig.measure(0.0).size(), WheelRig::channels().size());
+  EXPECT_EQ(WheelRig::channels().front().name, "time");
+  for (const Channel& each : WheelRig::channels()) EXPECT_FALSE(each.meaning.empty());
+}
+
+TEST(WheelRig, PhasesFollowTheClock) {
+  RigidWheel wheel = make_wheel();
+  const WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed", "start", "1"});
+  EXPECT_EQ(rig.phase(0.5), WheelRig::Phase::settle);
+  EXPECT_EQ(rig.phase(1.19), WheelRig::Phase::settle);
+  EXPECT_EQ(rig.phase(1.21), WheelRig::Phase::accelerate);
+  EXPECT_EQ(rig.phase(1.41), WheelRig::Phase::cruise);
+  EXPECT_DOUBLE_EQ(rig.cruise_start(), 1.4);
+}
+
+TEST(WheelRig, TheLoadIsAMassOrAForceWheelIncluded) {
+  RigidWheel wheel = make_wheel();
+  EXPECT_DOUBLE_EQ(make_rig(wheel, {"load_mass", "5", "speed", "1", "mode", "towed"}).load(), 5.0 * 9.80665);
+  EXPECT_DOUBLE_EQ(make_rig(wheel, {"load_mass", "5", "gravity", "1.62", "speed", "1", "mode", "towed"}).load(), 5.0 * 1.62);
+  EXPECT_DOUBLE_EQ(make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed"}).load(), 60.0);
+}
+
+// Without ground: the impulse of the ramped load is momentum, z'(t) = -(W/m) times the integral of the ramp.
+TEST(WheelRig, WithoutGroundTheLoadFallsFreely) {
+  RigidWheel wheel = make_wheel();
+  WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "0", "mode", "towed", "load_ramp_time", "0.1", "start", "0.05"});
+  const Ramp ramp{0.05, 0.1};
+  run(rig, wheel, 0.3, 1e-4, nullptr, [&](const std::vector<double>& row) {
+    ASSERT_NEAR(row[channel("velocity_z")], -60.0 / 3.0 * ramp.integral(row[0]), 60.0 / 3.0 * 1e-4);
+  });
+  EXPECT_LT(wheel.velocity().z(), -1.0);
+}
+
+TEST(WheelRig, UntilItsStartTheWheelIsHeld) {
+  RigidWheel wheel = make_wheel();
+  WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed", "start", "0.5"});
+  run(rig, wheel, 0.5, 1e-3, nullptr, [](const std::vector<double>& row) { ASSERT_EQ(row[channel("z")], 0.2); });
+}
+
+TEST(WheelRig, ThePrescribedSinkageIsReachedAndKept) {
+  RigidWheel wheel = make_wheel(0.25);
+  WheelRig rig = make_rig(wheel, {"sinkage", "0.03", "speed", "1", "mode", "towed", "ground_level", "0.02"});
+  double last = -1.0;
+  run(rig, wheel, 0.6, 1e-4, nullptr, [&](const std::vector<double>& row) {
+    ASSERT_GE(row[channel("sinkage")], last - 1e-15);
+    last = row[channel("sinkage")];
+    if (row[0] > 0.1) {
+      ASSERT_NEAR(last, 0.03, 1e-13);
+    }
+  });
+  EXPECT_NEAR(wheel.centre().z(), 0.02 - 0.03 + 0.2, 1e-13);
+}
+
+TEST(WheelRig, PrescribedSlipIsExactFromTheFirstRollingStep) {
+  for (const double target : {-1.0, -0.5, 0.0, 0.25, 0.9})
+    for (const double angle : {0.0, 20.0}) {
+      RigidWheel wheel = make_wheel();
+      WheelRig rig = make_rig(wheel, {"sinkage", "0", "speed", "0.8", "mode", "slip", "slip", std::to_string(target), "slip_angle",
+                                      std::to_string(angle)});
+      const Ramp ramp{0.2, 0.2};
+      run(rig, wheel, 0.6, 1e-4, nullptr, [&](const std::vector<double>& row) {
+        if (row[0] > 0.2005) {
+          ASSERT_NEAR(row[channel("slip")], target, 1e-12);
+        }
+        ASSERT_NEAR(row[channel("x")], 0.8 * ramp.integral(row[0]), 1e-13);
+      });
+      EXPECT_NEAR(wheel.rate(RigidWheel::x), 0.8, 1e-15);
+      EXPECT_NEAR(wheel.axle().dot(Vector3(-std::sin(radians(angle)), std::cos(radians(angle)), 0.0)), 1.0, 1e-14);
+    }
+}
+
+TEST(WheelRig, SlipDefinitionsSetTheSameMotionByDifferentNumbers) {
+  RigidWheel wheel = make_wheel();
+  const Words common{"load_force", "60", "speed", "0.8", "mode", "slip"};
+  const auto target = [&](const std::string& definition, const std::string& value) {
+    Words words = common;
+    words.insert(words.end(), {"slip_definition", definition, "slip", value});
+    return make_rig(wheel, words).target_rim_speed();
+  };
+  EXPECT_DOUBLE_EQ(target("larger_speed", "0.2"), 1.0);
+  EXPECT_DOUBLE_EQ(target("rim_speed", "0.2"), 1.0);
+  EXPECT_DOUBLE_EQ(target("vehicle_speed", "0.25"), 1.0);
+}
+
+// No ground: alpha = T/I, so omega = T/I times the integral of the ramp.
+TEST(WheelRig, ATorqueSpinsTheWheelUpByItsInertia) {
+  RigidWheel wheel = make_wheel();
+  WheelRig rig = make_rig(wheel, {"sinkage", "0", "speed", "0", "mode", "torque", "torque", "0.3"});
+  const Ramp ramp{0.2, 0.2};
+  run(rig, wheel, 0.6, 1e-4, nullptr, [&](const std::vector<double>& row) {
+    ASSERT_NEAR(row[channel("spin_rate")], 0.3 / 0.06 * ramp.integral(row[0]), 0.3 / 0.06 * 1e-4);
+  });
+  EXPECT_NEAR(wheel.rate(RigidWheel::spin), 1.5, 5e-4);
+}
+
+TEST(WheelRig, OnAFloorTheWheelCarriesItsLoad) {
+  RigidWheel wheel = make_wheel(0.2005);
+  const Floor floor;
+  WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "0", "mode", "towed", "damping", "600"});
+  std::vector<double> last;
+  run(rig, wheel, 1.0, 4e-5, &floor, [&](const std::vector<double>& row) { last = row; });
+  EXPECT_NEAR(last[channel("force_z")], 60.0, 1e-6);
+  EXPECT_NEAR(last[channel("load")], 60.0, 1e-12);
+  EXPECT_GT(last[channel("damping_loss")], 0.0);
+  // the energy that left with the damper is what the load gave and the floor does not hold
+  EXPECT_NEAR(last[channel("contact_work")] + last[channel("load_work")] - last[channel("damping_loss")], last[channel("kinetic_energy")], 1e-12);
+}
+
+// No axle torque: in steady rolling the moment about the axle, and so the friction, vanishes; the wheel rolls at its own speed.
+TEST(WheelRig, ATowedWheelRollsFreelyOnAFrictionalFloor) {
+  RigidWheel wheel = make_wheel(0.2003);
+  const Floor floor;
+  WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed", "damping", "600"});
+  CruiseMean mean;
+  mean.after = 0.8;
+  run(rig, wheel, 1.6, 4e-5, &floor, std::ref(mean));
+  EXPECT_NEAR(mean.of("slip"), 0.0, 5e-3);
+  EXPECT_NEAR(mean.of("force_z"), 60.0, 0.3);
+  EXPECT_NEAR(mean.of("drive_torque"), 0.0, 1e-15);
+  EXPECT_NEAR(mean.of("drawbar_pull"), mean.of("force_x"), 0.02);
+  EXPECT_NEAR(mean.of("force_x"), 0.0, 0.3);
+  EXPECT_NEAR(mean.of("velocity_x"), 1.0, 1e-12);
+}
+
+// Coulomb: a wheel that slides over all of its contact pulls mu N, against the sliding; its drive supplies mu N r.
+TEST(WheelRig, ASlidingWheelPullsItsFrictionForce) {
+  for (const double slip : {-1.0, 0.5}) {
+    RigidWheel wheel = make_wheel(0.2003);
+    const Floor floor;
+    WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "slip", "slip", std::to_string(slip), "damping", "600"});
+    CruiseMean mean;
+    mean.after = 0.8;
+    run(rig, wheel, 1.6, 4e-5, &floor, std::ref(mean));
+    const double pull = (slip > 0.0 ? 1.0 : -1.0) * 0.5 * mean.of("force_z");
+    EXPECT_NEAR(mean.of("drawbar_pull"), pull, 0.02);
+    EXPECT_NEAR(mean.of("drive_torque"), pull * 0.2, 0.02);
+  }
+}
+
+// In steady driving the pull times the radius is the torque.
+TEST(WheelRig, ADrivenWheelTurnsItsTorqueIntoPull) {
+  RigidWheel wheel = make_wheel(0.2003);
+  const Floor floor;
+  WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "torque", "torque", "2", "damping", "600"});
+  CruiseMean mean;
+  mean.after = 0.8;
+  run(rig, wheel, 1.6, 4e-5, &floor, std::ref(mean));
+  EXPECT_NEAR(mean.of("drive_torque"), 2.0, 1e-12);
+  EXPECT_NEAR(mean.of("drawbar_pull"), 2.0 / 0.2, 0.3);
+  EXPECT_GT(mean.of("slip"), 0.0);
+}
+
+TEST(WheelRig, TheEnergyBalanceClosesOverAWholeRun) {
+  RigidWheel wheel = make_wheel(0.2003);
+  const Floor floor;
+  WheelRig rig = make_rig(wheel, {"load_mass", "6", "speed", "1", "mode", "slip", "slip", "0.3", "damping", "100", "slip_angle", "10"});
+  std::vector<double> last;
+  run(rig, wheel, 1.0, 4e-5, &floor, [&](const std::vector<double>& row) { last = row; });
+  const double drive = last[channel("drive_work")];
+  EXPECT_GT(std::abs(drive), 1.0);
+  EXPECT_NEAR(wheel.balance().residual(), 0.0, 1e-12 * std::abs(drive));
+  // friction against the sliding of the tread, v - v_rim x heading
+  const double rim = rig.target_rim_speed(), heading = radians(10.0);
+  EXPECT_NEAR(rim, std::cos(heading) / 0.7, 1e-15);
+  EXPECT_NEAR(last[channel("force_y")] / last[channel("force_x")], rim * std::sin(heading) / (rim * std::cos(heading) - 1.0), 0.02);
+}
+
+TEST(WheelRig, ARigMadeAgainContinuesBitwise) {
+  const Words words{"load_mass", "6", "speed", "1", "mode", "towed", "damping", "100", "slip_angle", "10"};
+  const Floor floor;
+  RigidWheel one = make_wheel(0.2003), other = make_wheel(0.2003);
+  WheelRig first = make_rig(one, words);
+  const double dt = 1e-4;
+  const auto step = [&](WheelRig& rig, RigidWheel& wheel, long i) {
+    rig.apply(static_cast<double>(i) * dt, dt);
+    wheel.advance(dt);
+    floor.press_on(wheel.surface());
+  };
+  for (long i = 0; i < 3000; ++i) step(first, one, i);
+  WheelRig second = make_rig(other, words);
+  other.restore(one.state());
+  for (long i = 3000; i < 5000; ++i) {
+    step(first, one, i);
+    step(second, other, i);
+  }
+  EXPECT_EQ(first.measure(0.5), second.measure(0.5));
+  EXPECT_EQ(one.state(), other.state());
+}
+
+TEST(WheelRig, RefusesContradictionsWithKeywordAndRemedy) {
+  EXPECT_THAT(refusal_of({"speed", "1", "mode", "towed"}),
+              HasSubstr("fix wheel/rig has no load; allowed: exactly one of load_mass [kg], load_force [N], sinkage [m]; say what the ground carries"));
+  EXPECT_THAT(refusal_of({"load_mass", "5", "load_force", "60", "speed", "1", "mode", "towed"}), HasSubstr("has load_mass and load_force; allowed: exactly one"));
+  EXPECT_THAT(refusal_of({"load_mass", "5", "sinkage", "0.1", "speed", "1", "mode", "towed"}), HasSubstr("has load_mass and sinkage"));
+  EXPECT_THAT(refusal_of({"load_force", "-60", "speed", "1", "mode", "towed"}), HasSubstr("keyword 'load_force' is -60; allowed: a number > 0 [N]"));
+  EXPECT_THAT(refusal_of({"load_mass", "0", "speed", "1", "mode", "towed"}), HasSubstr("keyword 'load_mass' is 0"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "-1", "mode", "towed"}), HasSubstr("keyword 'speed' is -1; allowed: a number >= 0 [m/s]"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "skid"}), HasSubstr("keyword 'mode' is 'skid'; allowed: one of: towed, slip, torque"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "0", "mode", "slip", "slip", "0.2"}),
+              HasSubstr("keyword 'speed' is 0 m/s in mode slip; allowed: a number > 0 [m/s]; give a speed, or drive a standing wheel with mode torque"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "slip"}), HasSubstr("keyword 'slip' is missing in mode slip"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "slip", "0.2"}),
+              HasSubstr("keyword 'slip' is given in mode towed; allowed: a slip in mode slip, and only there; remove it or change the mode"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "slip_definition", "rim_speed"}), HasSubstr("keyword 'slip_definition' is given in mode towed"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "torque"}), HasSubstr("keyword 'torque' is missing in mode torque"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "torque", "5"}), HasSubstr("keyword 'torque' is given in mode towed"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "slip", "slip", "1"}),
+              HasSubstr("keyword 'slip' is 1 with slip_definition larger_speed; allowed: -1 to below 1 by the larger speed"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "slip", "slip", "-1.2", "slip_definition", "vehicle_speed"}),
+              HasSubstr("keyword 'slip' is -1.2 with slip_definition vehicle_speed"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "load_ramp_time", "0.3"}),
+              HasSubstr("keyword 'load_ramp_time' is 0.3 s; allowed: 0 to settle_time, 0.2 s; lengthen settle_time"));
+  EXPECT_THAT(refusal_of({"sinkage", "0.1", "speed", "1", "mode", "towed", "load_ramp_time", "0"}),
+              HasSubstr("keyword 'load_ramp_time' is 0 s with a prescribed sinkage"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "settle_time", "0"}), HasSubstr("keyword 'settle_time' is 0"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "slip_angle", "90"}), HasSubstr("keyword 'slip_angle' is 90"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "damping", "-1"}), HasSubstr("keyword 'damping' is -1"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "camber", "50"}), HasSubstr("keyword 'camber' is 50"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "gravity", "0"}), HasSubstr("keyword 'gravity' is 0"));
+}
+
+}  // namespace
+}  // namespace furrow
