@@ -16,17 +16,41 @@ struct Points {
   Lanes stored = 0.0;            ///< energies of this step per current volume [J/m^3]
   Lanes frozen = 0.0;
   Lanes dissipated = 0.0;
-  Lanes own[4];                  ///< the law's own fields
+  Lanes own[6];                  ///< the law's own fields
   Lanes branch = 0.0;            ///< a Branch
   Lanes iterations = 0.0;
-  Mask beyond_table = Mask(false);
-  Mask stopped = Mask(false);    ///< beyond the table and the rule is to stop
+  Mask below_data = Mask(false);   ///< outside the hardening data
+  Mask beyond_data = Mask(false);
+  Mask stopped = Mask(false);      ///< the same, and the rule is to stop
 };
 
-/// Kernel: `static constexpr int own_fields;` and `void step(const Symmetric& strain, Points&) const`.
+struct Step {
+  Lanes volume;     ///< det Delta F
+  Mask admissible;  ///< Delta F finite with positive determinant
+  bool total_energy = false;  ///< points.stored is the energy per reference volume, not the work of the step
+};
+
+/// Laws of rate form: the strain is the logarithm of the step's stretch, the stress is turned afterwards.
+template <class Kernel>
+auto step_points(const Kernel& kernel, const Tensor& h, Points& points) -> decltype(kernel.step(Symmetric{}, points), Step{}) {
+  const Motion motion = motion_of(h);
+  kernel.step(motion.strain, points);
+  points.stress = turned(points.stress, motion.rotation);
+  return {motion.volume, motion.admissible, false};
+}
+/// Hyperelastic laws: they carry their deformation with them.
+template <class Kernel>
+auto step_points(const Kernel& kernel, const Tensor& h, Points& points) -> decltype(kernel.hyperelastic_step(h, points), Step{}) {
+  kernel.hyperelastic_step(h, points);
+  const Lanes volume = volume_change(h);
+  return {volume, volume > Lanes(0.0), true};
+}
+
+/// Kernel: `static constexpr int own_fields;` and either `void step(const Symmetric& strain, Points&) const`
+/// or `void hyperelastic_step(const Tensor& h, Points&) const`.
 template <class Kernel>
 BlockResult update_points(const Kernel& kernel, double density, const PointBlock& block) {
-  static_assert(Kernel::own_fields <= 4, "enlarge Points::own");
+  static_assert(Kernel::own_fields <= 6, "enlarge Points::own");
   BlockResult result;
   const double dense = density / ice_density;  // J below this is denser than ice
   for (std::size_t first = 0; first < block.size; first += lane_count) {
@@ -54,21 +78,20 @@ BlockResult update_points(const Kernel& kernel, double density, const PointBlock
 
     Tensor h;
     for (std::size_t k = 0; k < 9; ++k) h.m[k] = load(block.gradient[k]);
-    const Motion motion = motion_of(h);
     Points points;
     double* const* state = block.state;
     points.stress = {load(state[0]), load(state[1]), load(state[2]), load(state[3]), load(state[4]), load(state[5])};
     for (int k = 0; k < Kernel::own_fields; ++k) points.own[k] = load(state[field::own + static_cast<std::size_t>(k)]);
 
-    kernel.step(motion.strain, points);
+    const Step step = step_points(kernel, h, points);
 
-    const Symmetric stress = turned(points.stress, motion.rotation);
-    const Lanes ratio = load(state[field::volume_ratio]) * motion.volume;
-    const Mask good = motion.admissible && !points.stopped && finite(contract(stress, stress) + ratio) && ratio > Lanes(0.0);
+    const Symmetric& stress = points.stress;
+    const Lanes ratio = load(state[field::volume_ratio]) * step.volume;
+    const Mask good = step.admissible && !points.stopped && finite(contract(stress, stress) + ratio) && ratio > Lanes(0.0);
     if (!all(good)) {
       for (int lane = 0; lane < lanes; ++lane) {
         if (good[lane]) continue;
-        result.failure = !motion.admissible[lane] ? Failure::folded : points.stopped[lane] ? Failure::table_ends : Failure::not_finite;
+        result.failure = !step.admissible[lane] ? Failure::folded : points.stopped[lane] ? Failure::table_ends : Failure::not_finite;
         result.failed_point = first + static_cast<std::size_t>(lane);
         return result;
       }
@@ -80,12 +103,14 @@ BlockResult update_points(const Kernel& kernel, double density, const PointBlock
     store(state[4], stress.yz);
     store(state[5], stress.xz);
     store(state[field::volume_ratio], ratio);
-    store(state[field::stored_energy], load(state[field::stored_energy]) + ratio * points.stored);
-    if (Kernel::own_fields > 0) {  // a law that never yields keeps the energies of yielding as they are
+    if (step.total_energy) {
+      store(state[field::stored_energy], points.stored);
+    } else {
+      store(state[field::stored_energy], load(state[field::stored_energy]) + ratio * points.stored);
       store(state[field::frozen_energy], load(state[field::frozen_energy]) + ratio * points.frozen);
       store(state[field::dissipated_energy], load(state[field::dissipated_energy]) + ratio * points.dissipated);
-      for (int k = 0; k < Kernel::own_fields; ++k) store(state[field::own + static_cast<std::size_t>(k)], points.own[k]);
     }
+    for (int k = 0; k < Kernel::own_fields; ++k) store(state[field::own + static_cast<std::size_t>(k)], points.own[k]);
 
     UpdateReport& report = result.report;
     std::size_t yielding = 0;
@@ -102,7 +127,8 @@ BlockResult update_points(const Kernel& kernel, double density, const PointBlock
         if (iterations > report.most_iterations) report.most_iterations = iterations;
       }
     }
-    report.beyond_table += count(points.beyond_table);
+    report.below_data += count(points.below_data);
+    report.beyond_data += count(points.beyond_data);
     report.beyond_ice += count(ratio < Lanes(dense));
     if (block.branch)
       for (int lane = 0; lane < lanes; ++lane)

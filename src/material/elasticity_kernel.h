@@ -2,17 +2,10 @@
 /// Elastic response to a strain increment: linear or porous (elasticity.h has the equations).
 
 #include "material/elasticity_parameters.h"
-#include "material/lanes.h"
+#include "material/exponential.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {
-
-inline Lanes exponential(const Lanes& a) {
-  return each(a, [](double x) { return __builtin_exp(x); });
-}
-inline Lanes logarithm(const Lanes& a) {
-  return each(a, [](double x) { return __builtin_log(x); });
-}
 
 /// The elastic response of a step, from pressure p_n. x is the elastic volumetric strain of the step, compression positive.
 struct ElasticStep {

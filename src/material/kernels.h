@@ -1,7 +1,10 @@
 #pragma once
 /// The block updates of all laws, compiled once for each instruction set and chosen when the program starts.
 
+#include "material/crushable_foam_parameters.h"
+#include "material/drucker_prager_cap_parameters.h"
 #include "material/elasticity_parameters.h"
+#include "material/neo_hookean_parameters.h"
 #include "material/point_block.h"
 
 namespace furrow {
@@ -19,7 +22,10 @@ struct BlockResult {
 struct Kernels {
   const char* instruction_set;
   int lanes;  ///< points updated at once
+  BlockResult (*crushable_foam)(const CrushableFoamParameters&, double density, const PointBlock&);
+  BlockResult (*drucker_prager_cap)(const DruckerPragerCapParameters&, double density, const PointBlock&);
   BlockResult (*elastic)(const ElasticityParameters&, double density, const PointBlock&);
+  BlockResult (*neo_hookean)(const NeoHookeanParameters&, double density, const PointBlock&);
 };
 
 const Kernels& kernels_baseline();  ///< runs on every processor of the target

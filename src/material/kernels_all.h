@@ -1,17 +1,31 @@
 #pragma once
 /// The table of kernels of one instruction set; included once by each kernels_*.cpp.
 
+#include "material/crushable_foam_kernel.h"
+#include "material/drucker_prager_cap_kernel.h"
 #include "material/elastic_kernel.h"
+#include "material/neo_hookean_kernel.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {
 
+inline BlockResult update_crushable_foam(const CrushableFoamParameters& law, double density, const PointBlock& block) {
+  if (law.flow_ratio < 1.0) return update_points(CrushableFoamKernel<true>{law}, density, block);
+  return update_points(CrushableFoamKernel<false>{law}, density, block);
+}
+inline BlockResult update_drucker_prager_cap(const DruckerPragerCapParameters& law, double density, const PointBlock& block) {
+  if (law.flow_ratio < 1.0) return update_points(DruckerPragerCapKernel<true>{law}, density, block);
+  return update_points(DruckerPragerCapKernel<false>{law}, density, block);
+}
 inline BlockResult update_elastic(const ElasticityParameters& elasticity, double density, const PointBlock& block) {
   return update_points(ElasticKernel{elasticity}, density, block);
 }
+inline BlockResult update_neo_hookean(const NeoHookeanParameters& law, double density, const PointBlock& block) {
+  return update_points(NeoHookeanKernel{law}, density, block);
+}
 
 constexpr Kernels all_kernels(const char* instruction_set) {
-  return {instruction_set, lane_count, update_elastic};
+  return {instruction_set, lane_count, update_crushable_foam, update_drucker_prager_cap, update_elastic, update_neo_hookean};
 }
 
 }  // namespace FURROW_ISA

@@ -16,6 +16,13 @@ namespace furrow {
 
 inline namespace FURROW_ISA {
 
+/// det(I + H)
+inline Lanes volume_change(const Tensor& h) {
+  Lanes f[9];
+  for (int k = 0; k < 9; ++k) f[k] = k % 4 == 0 ? h.m[k] + Lanes(1.0) : h.m[k];
+  return f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6]) + f[2] * (f[3] * f[7] - f[4] * f[6]);
+}
+
 struct Motion {
   Symmetric strain;  ///< ln U, in the frame of the start of the step
   Tensor rotation;   ///< R
@@ -62,7 +69,7 @@ inline Motion motion_of(const Tensor& h) {
     r[i + 1] = f[i] * inverse_u.xy + f[i + 1] * inverse_u.yy + f[i + 2] * inverse_u.yz;
     r[i + 2] = f[i] * inverse_u.xz + f[i + 1] * inverse_u.yz + f[i + 2] * inverse_u.zz;
   }
-  motion.volume = f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6]) + f[2] * (f[3] * f[7] - f[4] * f[6]);
+  motion.volume = volume_change(h);
   motion.admissible = motion.admissible && motion.volume > Lanes(0.0);
   return motion;
 }

@@ -47,7 +47,8 @@ UpdateReport& UpdateReport::operator+=(const UpdateReport& other) {
   for (std::size_t b = 0; b < branch_count; ++b) points[b] += other.points[b];
   iterations += other.iterations;
   most_iterations = std::max(most_iterations, other.most_iterations);
-  beyond_table += other.beyond_table;
+  below_data += other.below_data;
+  beyond_data += other.beyond_data;
   beyond_ice += other.beyond_ice;
   return *this;
 }
@@ -136,6 +137,11 @@ Invariants invariants(const Vector6& stress) {
   const double q = std::sqrt(1.5 * s.squaredNorm());
   const double cos_3t = q > 0.0 ? std::clamp(13.5 * (s / q).determinant(), -1.0, 1.0) : -1.0;
   return {p, q, cos_3t};
+}
+
+double yield_measure(const Invariants& stress, double flow_ratio) {
+  const double inverse = 1.0 / flow_ratio;
+  return 0.5 * stress.q * (1.0 + inverse - (1.0 - inverse) * stress.cos_3t);
 }
 
 Matrix3 to_matrix(const Vector6& a) {

@@ -103,6 +103,8 @@ struct Invariants {
   double cos_3t;  ///< (r/q)^3 = (27/2) det s / q^3: -1 in triaxial compression, +1 in extension; -1 when q = 0
 };
 Invariants invariants(const Vector6& stress);
+/// t = (q/2) [1 + 1/K - (1 - 1/K)(r/q)^3] with the flow stress ratio K: q in triaxial compression, q/K in extension [Pa].
+double yield_measure(const Invariants& stress, double flow_ratio);
 inline Vector6 stress_of(const VectorX& state) { return state.segment<6>(field::stress); }
 Matrix3 to_matrix(const Vector6& symmetric);
 Vector6 to_vector6(const Matrix3& symmetric);

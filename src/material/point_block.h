@@ -12,6 +12,7 @@ constexpr double ice_density = 917.0;  ///< [kg/m^3] limit of a snow's density, 
 /// What a point did in its last step.
 enum class Branch : std::uint8_t { elastic, shear, transition, cap, tension };
 constexpr std::size_t branch_count = 5;
+
 /// Places of the fields that every law keeps first, in this order; the law's own fields follow from `own` on.
 namespace field {
 enum : std::size_t {
@@ -37,7 +38,8 @@ struct UpdateReport {
   std::array<std::size_t, branch_count> points{};  ///< by Branch
   std::size_t iterations = 0;                      ///< of the return mapping, summed over points
   std::size_t most_iterations = 0;                 ///< of one point
-  std::size_t beyond_table = 0;                    ///< points whose strength was extrapolated beyond the hardening table
+  std::size_t below_data = 0;                      ///< points whose strength was extrapolated below the hardening data (loosened)
+  std::size_t beyond_data = 0;                     ///< points whose strength was extrapolated beyond the hardening data (compacted)
   std::size_t beyond_ice = 0;                      ///< points denser than ice_density
 
   std::size_t size() const;

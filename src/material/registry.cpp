@@ -6,14 +6,20 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "material/crushable_foam.h"
+#include "material/drucker_prager_cap.h"
 #include "material/elastic.h"
+#include "material/neo_hookean.h"
 
 namespace furrow {
 
 // ---- the table: to add a law, write its two files and one row here; tests/unit/material/conformance_test.cpp gets one line ----
 const std::vector<Law>& laws() {
   static const std::vector<Law> table{
+      DruckerPragerCap::law(),
+      CrushableFoam::law(),
       Elastic::law(),
+      NeoHookean::law(),
   };
   return table;
 }

@@ -1,0 +1,93 @@
+#pragma once
+/// Paths for tests: laws from short lists of keys, steps of given logarithmic strain, components held at given stress.
+
+#include <cmath>
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include <Eigen/LU>
+
+#include "material/registry.h"
+
+namespace furrow::testing_paths {
+
+/// "law key value value key value ...": numbers follow the key they belong to.
+inline std::unique_ptr<Material> law_of(const std::string& text) {
+  std::istringstream words(text);
+  std::string law, word;
+  words >> law;
+  std::vector<Entry> entries;
+  const auto is_value = [](const std::string& w) { return w.find_first_not_of("0123456789+-.eE") == std::string::npos && w != "E"; };
+  while (words >> word) {
+    if (!entries.empty() && (is_value(word) || entries.back().values.empty())) {
+      entries.back().values.push_back(word);
+    } else {
+      entries.push_back({word, {}});
+    }
+  }
+  return make_material(law, entries);
+}
+
+/// McCormick Ranch sand, TR Tables 4 and 5. The density, not given there, only enters through inertia.
+inline std::string mccormick_sand(const std::string& more = "") {
+  return "drucker_prager_cap density 1800 d 1.194e6 beta 14.56 R 0.1 eps_vol_pl_0 0.001 elasticity linear E 689e6 nu 0.25 "
+         "hardening table p 0.138e6 0.172e6 0.434e6 0.896e6 1.655e6 2.758e6 4.137e6 6.895e6 13.447e6 "
+         "eps_vol_pl 0 0.005 0.01 0.02 0.03 0.04 0.05 0.06 0.1 interpolation linear beyond extrapolate " + more;
+}
+
+/// Displacement gradient of a step with Delta F = exp(strain), strain symmetric.
+inline Matrix3 stretch(const Vector6& strain) {
+  const Matrix3 e = to_matrix(strain);
+  Matrix3 term = e, sum = e;
+  for (int k = 2; k < 60 && term.norm() > 1e-18 * sum.norm(); ++k) term = term * e / k, sum += term;
+  return sum;
+}
+
+/// One step with the components of `strain`, except that the normal components marked in `held` take whatever keeps their stress at
+/// `target` (Newton's method on the law's tangent). Returns the strain increment.
+inline Vector6 mixed_step(const Material& law, VectorX& state, Vector6 strain, const std::array<bool, 3>& held, const Vector3& target,
+                          double tolerance) {
+  std::vector<int> free;
+  for (int i = 0; i < 3; ++i)
+    if (held[static_cast<std::size_t>(i)]) free.push_back(i);
+  const auto n = static_cast<Eigen::Index>(free.size());
+  const auto residual = [&](const Vector6& e, VectorX& result) {
+    result = state;
+    law.update_point(stretch(e), result);
+    Eigen::VectorXd r(n);
+    for (Eigen::Index i = 0; i < n; ++i) r[i] = result[free[static_cast<std::size_t>(i)]] - target[free[static_cast<std::size_t>(i)]];
+    return r;
+  };
+  VectorX result;
+  Eigen::VectorXd r = residual(strain, result);
+  for (int iteration = 0; iteration < 60 && r.norm() > tolerance; ++iteration) {
+    Eigen::MatrixXd jacobian(n, n);
+    const double h = 1e-7 * std::max(strain.norm(), 1e-6);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      Vector6 forward = strain, backward = strain;
+      forward[free[static_cast<std::size_t>(j)]] += h;
+      backward[free[static_cast<std::size_t>(j)]] -= h;
+      VectorX scratch;
+      const Eigen::VectorXd up = residual(forward, scratch), down = residual(backward, scratch);
+      jacobian.col(j) = (up - down) / (2 * h);
+    }
+    const Eigen::VectorXd change = jacobian.partialPivLu().solve(-r);
+    for (double part = 1.0; part > 1e-6; part *= 0.5) {  // shorten a step that does not help
+      Vector6 trial = strain;
+      for (Eigen::Index i = 0; i < n; ++i) trial[free[static_cast<std::size_t>(i)]] += part * change[i];
+      const Eigen::VectorXd better = residual(trial, result);
+      if (better.norm() < r.norm() || part < 2e-6) {
+        strain = trial;
+        r = better;
+        break;
+      }
+    }
+  }
+  if (r.norm() > tolerance) throw std::runtime_error("mixed_step does not converge, residual " + std::to_string(r.norm()));
+  residual(strain, result);
+  state = result;
+  return strain;
+}
+
+}  // namespace furrow::testing_paths
