@@ -196,7 +196,7 @@ TEST(WheelRig, OnAFloorTheWheelCarriesItsLoad) {
   const Floor floor;
   WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "0", "mode", "towed", "damping", "600"});
   std::vector<double> last;
-  run(rig, wheel, 1.0, 4e-5, &floor, [&](const std::vector<double>& row) { last = row; });
+  run(rig, wheel, 0.8, 4e-5, &floor, [&](const std::vector<double>& row) { last = row; });
   EXPECT_NEAR(last[channel("force_z")], 60.0, 1e-6);
   EXPECT_NEAR(last[channel("load")], 60.0, 1e-12);
   EXPECT_GT(last[channel("damping_loss")], 0.0);
@@ -210,8 +210,8 @@ TEST(WheelRig, ATowedWheelRollsFreelyOnAFrictionalFloor) {
   const Floor floor;
   WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed", "damping", "600"});
   CruiseMean mean;
-  mean.after = 0.8;
-  run(rig, wheel, 1.6, 4e-5, &floor, std::ref(mean));
+  mean.after = 0.6;
+  run(rig, wheel, 1.2, 4e-5, &floor, std::ref(mean));
   EXPECT_NEAR(mean.of("slip"), 0.0, 5e-3);
   EXPECT_NEAR(mean.of("force_z"), 60.0, 0.3);
   EXPECT_NEAR(mean.of("drive_torque"), 0.0, 1e-15);
@@ -227,8 +227,8 @@ TEST(WheelRig, ASlidingWheelPullsItsFrictionForce) {
     const Floor floor;
     WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "slip", "slip", std::to_string(slip), "damping", "600"});
     CruiseMean mean;
-    mean.after = 0.8;
-    run(rig, wheel, 1.6, 4e-5, &floor, std::ref(mean));
+    mean.after = 0.6;
+    run(rig, wheel, 1.2, 4e-5, &floor, std::ref(mean));
     const double pull = (slip > 0.0 ? 1.0 : -1.0) * 0.5 * mean.of("force_z");
     EXPECT_NEAR(mean.of("drawbar_pull"), pull, 0.02);
     EXPECT_NEAR(mean.of("drive_torque"), pull * 0.2, 0.02);
@@ -241,8 +241,8 @@ TEST(WheelRig, ADrivenWheelTurnsItsTorqueIntoPull) {
   const Floor floor;
   WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "torque", "torque", "2", "damping", "600"});
   CruiseMean mean;
-  mean.after = 0.8;
-  run(rig, wheel, 1.6, 4e-5, &floor, std::ref(mean));
+  mean.after = 0.6;
+  run(rig, wheel, 1.2, 4e-5, &floor, std::ref(mean));
   EXPECT_NEAR(mean.of("drive_torque"), 2.0, 1e-12);
   EXPECT_NEAR(mean.of("drawbar_pull"), 2.0 / 0.2, 0.3);
   EXPECT_GT(mean.of("slip"), 0.0);
@@ -253,7 +253,7 @@ TEST(WheelRig, TheEnergyBalanceClosesOverAWholeRun) {
   const Floor floor;
   WheelRig rig = make_rig(wheel, {"load_mass", "6", "speed", "1", "mode", "slip", "slip", "0.3", "damping", "100", "slip_angle", "10"});
   std::vector<double> last;
-  run(rig, wheel, 1.0, 4e-5, &floor, [&](const std::vector<double>& row) { last = row; });
+  run(rig, wheel, 0.8, 4e-5, &floor, [&](const std::vector<double>& row) { last = row; });
   const double drive = last[channel("drive_work")];
   EXPECT_GT(std::abs(drive), 1.0);
   EXPECT_NEAR(wheel.balance().residual(), 0.0, 1e-12 * std::abs(drive));
