@@ -17,6 +17,19 @@ constexpr double largest_camber = radians(85);  // the spin and the yaw become o
 constexpr bool is_translation(RigidWheel::Coordinate coordinate) { return coordinate <= RigidWheel::z; }
 constexpr int angle_index(RigidWheel::Coordinate coordinate) { return coordinate - RigidWheel::spin; }
 
+/// Axes of the carrier in space: columns e_x, a, e_n.
+Matrix3 carrier(double yaw, double camber) {
+  return (Eigen::AngleAxisd(yaw, Vector3::UnitZ()) * Eigen::AngleAxisd(camber, Vector3::UnitX())).toRotationMatrix();
+}
+
+/// Rates of spin, yaw and camber (rows) from the quasi-velocities w.
+Matrix3 rates_from_w(double camber) {
+  const double sine = std::sin(camber), cosine = std::cos(camber);
+  Matrix3 rates;
+  rates << 0.0, 1.0, -sine / cosine, 0.0, 0.0, 1.0 / cosine, 1.0, 0.0, 0.0;
+  return rates;
+}
+
 RigidWheelParameters parameters_from(const Options& options) {
   RigidWheelParameters wheel;
   wheel.geometry.diameter = options.number("diameter");
@@ -131,8 +144,7 @@ void RigidWheel::place(const Vector3& axle_centre, double yaw_angle, double camb
                             axle_centre.y(), axle_centre.z(), degrees(yaw_angle), degrees(camber_angle)));
   centre_ = axle_centre;
   angles_ = {0.0, yaw_angle, camber_angle};
-  velocity_.setZero();
-  w_.setZero();
+  for (Vector3* motion : {&velocity_, &w_, &rates_, &omega_}) motion->setZero();
   place_nodes();
 }
 
@@ -141,6 +153,8 @@ void RigidWheel::set_velocity(const Vector3& velocity, const Vector3& rates) {
   const double before = kinetic_energy();
   velocity_ = velocity;
   w_ = {rates[2], rates[0] + rates[1] * std::sin(angles_[2]), rates[1] * std::cos(angles_[2])};
+  rates_ = rates;
+  omega_ = carrier(angles_[1], angles_[2]) * w_;
   drive_work_ += kinetic_energy() - before;
   place_nodes();
 }
@@ -150,22 +164,10 @@ double RigidWheel::position(Coordinate coordinate) const {
 }
 
 double RigidWheel::rate(Coordinate coordinate) const {
-  return is_translation(coordinate) ? velocity_[coordinate] : (rates_from_w() * w_)[angle_index(coordinate)];
+  return is_translation(coordinate) ? velocity_[coordinate] : rates_[angle_index(coordinate)];
 }
 
-Matrix3 RigidWheel::carrier() const {
-  return (Eigen::AngleAxisd(angles_[1], Vector3::UnitZ()) * Eigen::AngleAxisd(angles_[2], Vector3::UnitX())).toRotationMatrix();
-}
-
-Matrix3 RigidWheel::rates_from_w() const {
-  const double sine = std::sin(angles_[2]), cosine = std::cos(angles_[2]);
-  Matrix3 rates;
-  rates << 0.0, 1.0, -sine / cosine, 0.0, 0.0, 1.0 / cosine, 1.0, 0.0, 0.0;
-  return rates;
-}
-
-Vector3 RigidWheel::axle() const { return carrier().col(1); }
-Vector3 RigidWheel::angular_velocity() const { return carrier() * w_; }
+Vector3 RigidWheel::axle() const { return carrier(angles_[1], angles_[2]).col(1); }
 double RigidWheel::lowest_point() const { return centre_.z() - parameters_.geometry.depth_below_centre(axle()); }
 
 double RigidWheel::stable_time_step() const { return std::numeric_limits<double>::infinity(); }
@@ -204,24 +206,26 @@ void RigidWheel::advance_translation(double dt, const Vector3& force) {
   }
 }
 
-// M (w1 - w0) + dt S (w0 + w1)/2 = dt (moment + D^T torques),  D_c w1 = prescribed rates,
-// with the gyroscopic S = k (e_n e_x^T - e_x e_n^T), k = C w_a - A w_n tan(camber), at the middle of the step. S does no work.
+// M (w1 - w0) + dt S (w0 + w1)/2 = dt (moment + D^T torques) at t_n,  D_c w1 = prescribed rates at t_n+1/2, where D are the rates
+// per w, with the gyroscopic S = k (e_n e_x^T - e_x e_n^T), k = C w_a - A w_n tan(camber), of (w0 + w1)/2. S does no work.
 void RigidWheel::advance_rotation(double dt, const Vector3& moment) {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   using Vector6 = Eigen::Matrix<double, 6, 1>;
-  const Matrix3 to_rates = rates_from_w();
+  const Matrix3 to_rates = rates_from_w(angles_[2]);
   const Vector3 inertia(parameters_.diametral_inertia, parameters_.axle_inertia, parameters_.diametral_inertia);
-  const Vector3 contact = carrier().transpose() * moment;
+  const Vector3 contact = carrier(angles_[1], angles_[2]).transpose() * moment;
   const double motor = motion_[spin] == Motion::free ? axle_torque_ : 0.0;
   const Vector3 applied = contact + motor * to_rates.row(0).transpose();
 
   Vector3 after = w_, torques = Vector3::Zero();  // of the constraints on spin, yaw, camber
-  for (int pass = 0; pass < 2; ++pass) {
+  Matrix3 to_rates_after = to_rates;
+  for (int pass = 0; pass < 3; ++pass) {  // each pass gains an order in dt
     const Vector3 middle = 0.5 * (w_ + after);
     const double k = inertia[1] * middle[1] - inertia[2] * middle[2] * std::tan(angles_[2]);
     Matrix3 gyroscopic = Matrix3::Zero();
     gyroscopic(0, 2) = -k;
     gyroscopic(2, 0) = k;
+    to_rates_after = rates_from_w(angles_[2] + 0.5 * dt * after[0]);
 
     Matrix6 system = Matrix6::Zero();
     Vector6 right = Vector6::Zero();
@@ -234,7 +238,7 @@ void RigidWheel::advance_rotation(double dt, const Vector3& moment) {
         system(3 + row, 3 + row) = 1.0;
       } else {
         system.block<3, 1>(0, 3 + row) = -to_rates.row(row).transpose();
-        system.block<1, 3>(3 + row, 0) = to_rates.row(row);
+        system.block<1, 3>(3 + row, 0) = to_rates_after.row(row);
         right[3 + row] = prescribed_[angle];
       }
     }
@@ -248,18 +252,22 @@ void RigidWheel::advance_rotation(double dt, const Vector3& moment) {
   drive_work_ += (torques.dot(mean_rates) + motor * mean_rates[0]) * dt;
   for (const Coordinate angle : {spin, yaw, camber}) constraint_[angle] = torques[angle_index(angle)];
   constraint_[spin] += motor;
+
   w_ = after;
-  angles_ += dt * (to_rates * after);
+  rates_ = to_rates_after * w_;
+  for (const Coordinate angle : {spin, yaw, camber})
+    if (motion_[angle] != Motion::free) rates_[angle_index(angle)] = prescribed_[angle];  // exactly
+  const Vector3 half_way = angles_ + 0.5 * dt * rates_;
+  omega_ = carrier(half_way[1], half_way[2]) * w_;
+  angles_ += dt * rates_;
 }
 
 void RigidWheel::place_nodes() {
-  const Matrix3 carrier_axes = carrier();
-  const Matrix3 attitude = carrier_axes * Eigen::AngleAxisd(angles_[0], Vector3::UnitY()).toRotationMatrix();
-  const Vector3 omega = carrier_axes * w_;
+  const Matrix3 attitude = carrier(angles_[1], angles_[2]) * Eigen::AngleAxisd(angles_[0], Vector3::UnitY()).toRotationMatrix();
   for (Eigen::Index node = 0; node < reference_.cols(); ++node) {
     const Vector3 arm = attitude * reference_.col(node);
     surface_.x.col(node) = centre_ + arm;
-    surface_.v.col(node) = velocity_ + omega.cross(arm);
+    surface_.v.col(node) = velocity_ + omega_.cross(arm);
   }
 }
 
@@ -290,7 +298,7 @@ std::vector<double> RigidWheel::fingerprint() const {
 std::vector<double> RigidWheel::state() const {
   std::vector<double> state = fingerprint();
   const auto add = [&](const auto& values) { state.insert(state.end(), values.data(), values.data() + values.size()); };
-  for (const Vector3& vector : {centre_, velocity_, angles_, w_, load_}) add(vector);
+  for (const Vector3& vector : {centre_, velocity_, angles_, w_, rates_, omega_, load_}) add(vector);
   for (const Motion motion : motion_) state.push_back(static_cast<double>(motion));
   add(prescribed_);
   add(constraint_);
@@ -309,7 +317,7 @@ void RigidWheel::restore(const std::vector<double>& state) {
     std::copy(next, next + values.size(), values.data());
     next += values.size();
   };
-  for (Vector3* vector : {&centre_, &velocity_, &angles_, &w_, &load_}) take(*vector);
+  for (Vector3* vector : {&centre_, &velocity_, &angles_, &w_, &rates_, &omega_, &load_}) take(*vector);
   for (Motion& motion : motion_) motion = static_cast<Motion>(*next++);
   take(prescribed_);
   take(constraint_);

@@ -26,7 +26,7 @@ struct RigidWheelParameters {
 ///   w_x = d(camber)/dt,  w_a = d(spin)/dt + d(yaw)/dt sin(camber),  w_n = d(yaw)/dt cos(camber).
 ///
 /// One step (leapfrog, as LIGGGHTS's velocity Verlet sees it: forces belong to t_n, velocities to t_n -+ dt/2, positions to t_n+1):
-///   v_n+1/2 = v_n-1/2 + dt F_n/m,  A-C-A dw/dt + (gyroscopic terms, skew in w) = moments + constraints,  q_n+1 = q_n + dt (dq/dt)_n+1/2.
+///   v_n+1/2 = v_n-1/2 + dt F_n/m,  (A, C, A) dw/dt + gyroscopic terms, skew in w = moments + constraints,  q_n+1 = q_n + dt (dq/dt)_n+1/2.
 /// All works are forces times the mean of the velocities before and after, which makes the energy balance exact to round-off.
 /// Nodes are placed from the reference mesh by the attitude, never accumulated; their velocity is that of n+1/2.
 ///
@@ -68,7 +68,7 @@ class RigidWheel : public Body {
   double position(Coordinate coordinate) const;                   ///< [m or rad] the spin is not wrapped at 2 pi
   double rate(Coordinate coordinate) const;                       ///< [m/s or rad/s] half a step ago
   Vector3 axle() const;                                           ///< unit vector, +y for an upright wheel that runs along x
-  Vector3 angular_velocity() const;                               ///< [rad/s] in space
+  const Vector3& angular_velocity() const { return omega_; }      ///< [rad/s] in space, half a step ago
   double lowest_point() const;                                    ///< [m] z of the true circle and shoulders, without grousers
   const Vector3& load() const { return load_; }                   ///< [N]
   double axle_torque() const { return axle_torque_; }             ///< [N m] as set
@@ -85,8 +85,6 @@ class RigidWheel : public Body {
   void restore(const std::vector<double>& state) override;
 
  private:
-  Matrix3 carrier() const;             // columns e_x, a, e_n
-  Matrix3 rates_from_w() const;        // rows: spin, yaw, camber rate
   void advance_translation(double dt, const Vector3& force);
   void advance_rotation(double dt, const Vector3& moment);
   void place_nodes();
@@ -100,6 +98,8 @@ class RigidWheel : public Body {
   Vector3 centre_, velocity_ = Vector3::Zero();
   Vector3 angles_ = Vector3::Zero();  // spin, yaw, camber [rad]
   Vector3 w_ = Vector3::Zero();       // about e_x, a, e_n [rad/s]
+  Vector3 rates_ = Vector3::Zero();   // of the angles, from w_ at the attitude of its time [rad/s]
+  Vector3 omega_ = Vector3::Zero();   // w_ in space, likewise [rad/s]
 
   std::array<Motion, coordinates> motion_;
   std::array<double, coordinates> prescribed_{};  // [m/s or rad/s]

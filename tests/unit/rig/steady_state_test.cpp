@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "core/types.h"
 
 namespace furrow {
 namespace {
@@ -96,6 +97,21 @@ TEST(SteadyState, ErrorsOfDriftAndHalvesAreThoseOfTheirScatter) {
   }
   EXPECT_NEAR(std::sqrt(drift_error / drift), 1.0, 0.1);
   EXPECT_NEAR(std::sqrt(halves_error / halves), 1.0, 0.1);
+}
+
+// The ripple of grousers: its incomplete period is an error of the mean that the bars must hold, whatever the phase.
+TEST(SteadyState, PeriodicRipplesAreSteadyAndTheirErrorIsNotUnderstated) {
+  int covered = 0, steady = 0;
+  const int phases = 100;
+  for (int phase = 0; phase < phases; ++phase) {
+    std::vector<double> values = autoregressive(0.5, 5000, static_cast<unsigned>(phase), 10.0);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] += 3.0 * std::sin(2.0 * pi * (static_cast<double>(i) / 230.0 + 0.01 * phase));
+    const SteadyValue value = analyse_steady("x", "", values, 0.1);
+    covered += std::abs(value.mean - 10.0) < 2.0 * value.standard_error;
+    steady += value.steady;
+  }
+  EXPECT_GE(covered, 0.95 * phases);
+  EXPECT_GE(steady, 0.95 * phases);
 }
 
 TEST(SteadyState, ACertainButNegligibleDriftIsSteady) {
