@@ -79,8 +79,7 @@ void check(const RigidWheelParameters& wheel, const std::string& where) {
   if (2.0 * wheel.diametral_inertia < wheel.axle_inertia)
     throw InputError(where + ", keyword 'inertia_diametral'", fmt::format("is {} kg m^2", wheel.diametral_inertia),
                      fmt::format("at least half of inertia, {} kg m^2", 0.5 * wheel.axle_inertia));
-  if (!wheel.axle_centre.allFinite())
-    throw InputError(where + ", keyword 'axle'", "is not finite", "three numbers [m]");
+  if (!wheel.axle_centre.allFinite()) throw InputError(where + ", keyword 'axle'", "is not finite", "three numbers [m]");
 }
 
 }  // namespace
@@ -92,15 +91,20 @@ Schema RigidWheel::schema(const std::string& subject) {
   schema.number("shoulder", "m", Range::non_negative(), "radius of the shoulders between tread and sides").by_default(0.0);
   schema.number("mass", "kg", Range::positive(), "mass that moves with the axle centre");
   schema.number("inertia", "kg m^2", Range::positive(), "moment of inertia about the axle");
-  schema.number("inertia_diametral", "kg m^2", Range::positive(),
-                "moment of inertia across the axle, for free yaw or camber; by default inertia/2 + mass width^2/12").optional();
+  schema
+      .number("inertia_diametral", "kg m^2", Range::positive(),
+              "moment of inertia across the axle, for free yaw or camber; by default inertia/2 + mass width^2/12")
+      .optional();
   schema.integer("segments", Range::closed(12, 5000), "facets around the tread").by_default("64");
-  schema.number("element_size", "m", Range::positive(), "size of the elements across; by default one and a half facets").optional();
+  schema.number("element_size", "m", Range::positive(), "size of the elements across; by default one and a half facets")
+      .optional();
   schema.integer("grousers", Range::closed(0, 1000), "number of straight bars across the tread").by_default("0");
   schema.number("grouser_height", "m", Range::positive(), "height of the bars above the tread").optional();
   schema.number("grouser_thickness", "m", Range::positive(), "thickness of the bars, square to them").optional();
-  schema.number("grouser_angle", "degrees", Range::closed(-60, 60),
-                "skew of the bars against the axle; > 0: the end at +y runs ahead").by_default(0.0);
+  schema
+      .number("grouser_angle", "degrees", Range::closed(-60, 60),
+              "skew of the bars against the axle; > 0: the end at +y runs ahead")
+      .by_default(0.0);
   schema.numbers("axle", 3, "m", Range::any(), "axle centre at the start: x y z").by_default(std::vector<double>{0, 0, 0});
   return schema;
 }
@@ -176,9 +180,9 @@ void RigidWheel::advance(double dt) {
   if (!(std::isfinite(dt) && dt > 0.0)) throw StateError(fmt::format("rigid wheel: a step of {} s", dt));
   const Vector3 force = surface_.total_force(), moment = surface_.total_moment(centre_);
   if (!(force.allFinite() && moment.allFinite() && load_.allFinite() && std::isfinite(axle_torque_)))
-    throw StateError(fmt::format("rigid wheel: not finite: force {} {} {} N, moment {} {} {} N m, load {} {} {} N, torque {} N m",
-                                 force.x(), force.y(), force.z(), moment.x(), moment.y(), moment.z(), load_.x(), load_.y(),
-                                 load_.z(), axle_torque_));
+    throw StateError(fmt::format(
+        "rigid wheel: not finite: force {} {} {} N, moment {} {} {} N m, load {} {} {} N, torque {} N m", force.x(),
+        force.y(), force.z(), moment.x(), moment.y(), moment.z(), load_.x(), load_.y(), load_.z(), axle_torque_));
   advance_translation(dt, force);
   advance_rotation(dt, moment);
   if (!(std::abs(angles_[2]) < largest_camber))
@@ -263,7 +267,8 @@ void RigidWheel::advance_rotation(double dt, const Vector3& moment) {
 }
 
 void RigidWheel::place_nodes() {
-  const Matrix3 attitude = carrier(angles_[1], angles_[2]) * Eigen::AngleAxisd(angles_[0], Vector3::UnitY()).toRotationMatrix();
+  const Matrix3 attitude =
+      carrier(angles_[1], angles_[2]) * Eigen::AngleAxisd(angles_[0], Vector3::UnitY()).toRotationMatrix();
   for (Eigen::Index node = 0; node < reference_.cols(); ++node) {
     const Vector3 arm = attitude * reference_.col(node);
     surface_.x.col(node) = centre_ + arm;
@@ -273,7 +278,8 @@ void RigidWheel::place_nodes() {
 
 double RigidWheel::kinetic_energy() const {
   const double diametral = parameters_.diametral_inertia, axial = parameters_.axle_inertia;
-  return 0.5 * (parameters_.mass * velocity_.squaredNorm() + diametral * (w_[0] * w_[0] + w_[2] * w_[2]) + axial * w_[1] * w_[1]);
+  return 0.5 *
+         (parameters_.mass * velocity_.squaredNorm() + diametral * (w_[0] * w_[0] + w_[2] * w_[2]) + axial * w_[1] * w_[1]);
 }
 
 Balance RigidWheel::balance() const {
@@ -290,9 +296,11 @@ Balance RigidWheel::balance() const {
 std::vector<double> RigidWheel::fingerprint() const {
   const WheelGeometry& shape = parameters_.geometry;
   const Grousers& bars = shape.grousers;
-  return {shape.diameter,    shape.width,      shape.shoulder,     static_cast<double>(bars.number), bars.height, bars.thickness,
-          bars.angle,        parameters_.mass, parameters_.axle_inertia, parameters_.diametral_inertia,
-          static_cast<double>(surface_.node_count())};
+  const auto number = [](auto count) { return static_cast<double>(count); };
+  // clang-format off
+  return {shape.diameter, shape.width, shape.shoulder, number(bars.number), bars.height, bars.thickness, bars.angle,
+          parameters_.mass, parameters_.axle_inertia, parameters_.diametral_inertia, number(surface_.node_count())};
+  // clang-format on
 }
 
 std::vector<double> RigidWheel::state() const {
@@ -311,7 +319,8 @@ std::vector<double> RigidWheel::state() const {
 void RigidWheel::restore(const std::vector<double>& state) {
   const std::vector<double> mine = fingerprint();
   if (state.size() != this->state().size() || !std::equal(mine.begin(), mine.end(), state.begin()))
-    throw Error("rigid wheel: the saved state belongs to another wheel; restart with the dimensions, mass and inertia of the first run");
+    throw Error(
+        "rigid wheel: the saved state belongs to another wheel; restart with the dimensions, mass and inertia of the first run");
   const double* next = state.data() + mine.size();
   const auto take = [&](auto& values) {
     std::copy(next, next + values.size(), values.data());

@@ -12,21 +12,22 @@ namespace furrow {
 /// Everything that makes a wheel.
 struct RigidWheelParameters {
   WheelGeometry geometry;
-  double mass = 0.0;                       ///< [kg] that moves with the axle centre
-  double axle_inertia = 0.0;               ///< [kg m^2] about the axle, C
-  double diametral_inertia = 0.0;          ///< [kg m^2] about any line across the axle through the centre, A
-  Vector3 axle_centre = Vector3::Zero();   ///< [m] at the start
+  double mass = 0.0;                      ///< [kg] that moves with the axle centre
+  double axle_inertia = 0.0;              ///< [kg m^2] about the axle, C
+  double diametral_inertia = 0.0;         ///< [kg m^2] about any line across the axle through the centre, A
+  Vector3 axle_centre = Vector3::Zero();  ///< [m] at the start
 };
 
 /// Attitude: R = Rz(yaw) Rx(camber) Ry(spin); the axle is a = R y. Coordinates q: x, y, z of the axle centre, spin, yaw, camber.
 ///
-/// Rotation is integrated in the quasi-velocities w = (w_x, w_a, w_n) along the carrier's axes: e_x level and across the axle, a the
-/// axle, e_n = e_x x a (the carrier yaws and cambers with the axle but does not spin). In them the kinetic energy of a body of
-/// revolution has constant coefficients, T = (A w_x^2 + C w_a^2 + A w_n^2)/2, and
+/// Rotation is integrated in the quasi-velocities w = (w_x, w_a, w_n) along the carrier's axes: e_x level and across the
+/// axle, a the axle, e_n = e_x x a (the carrier yaws and cambers with the axle but does not spin). In them the kinetic
+/// energy of a body of revolution has constant coefficients, T = (A w_x^2 + C w_a^2 + A w_n^2)/2, and
 ///   w_x = d(camber)/dt,  w_a = d(spin)/dt + d(yaw)/dt sin(camber),  w_n = d(yaw)/dt cos(camber).
 ///
-/// One step (leapfrog, as LIGGGHTS's velocity Verlet sees it: forces belong to t_n, velocities to t_n -+ dt/2, positions to t_n+1):
-///   v_n+1/2 = v_n-1/2 + dt F_n/m,  (A, C, A) dw/dt + gyroscopic terms, skew in w = moments + constraints,  q_n+1 = q_n + dt (dq/dt)_n+1/2.
+/// One step is a leapfrog, as LIGGGHTS's velocity Verlet sees it: forces belong to t_n, velocities to t_n -+ dt/2:
+///   v_n+1/2 = v_n-1/2 + dt F_n/m,  q_n+1 = q_n + dt (dq/dt)_n+1/2,
+///   (A, C, A) dw/dt + gyroscopic terms = moments of forces and constraints.
 /// All works are forces times the mean of the velocities before and after, which makes the energy balance exact to round-off.
 /// Nodes are placed from the reference mesh by the attitude, never accumulated; their velocity is that of n+1/2.
 ///
@@ -54,7 +55,8 @@ class RigidWheel : public Body {
   void set_load(const Vector3& force) { load_ = force; }
   /// Torque of a motor or brake between carrier and wheel, > 0 drives forward [N m]; of no effect while the spin is prescribed.
   void set_axle_torque(double torque) { axle_torque_ = torque; }
-  /// Viscous resistance to vertical motion, taken implicitly [N s/m]; its loss is the balance's dissipated_energy. @throws Error if < 0
+  /// Viscous resistance to vertical motion, taken implicitly [N s/m]; its loss is the balance's dissipated_energy.
+  /// @throws Error for a negative coefficient
   void set_vertical_damping(double coefficient);
 
   /// Sets the wheel down without motion [m, rad, rad]; spin 0. Meant for the start of a run: no work is counted.
@@ -63,15 +65,15 @@ class RigidWheel : public Body {
   void set_velocity(const Vector3& velocity, const Vector3& rates);
 
   const RigidWheelParameters& parameters() const { return parameters_; }
-  const Vector3& centre() const { return centre_; }               ///< [m] of the axle
-  const Vector3& velocity() const { return velocity_; }           ///< [m/s] half a step ago
-  double position(Coordinate coordinate) const;                   ///< [m or rad] the spin is not wrapped at 2 pi
-  double rate(Coordinate coordinate) const;                       ///< [m/s or rad/s] half a step ago
-  Vector3 axle() const;                                           ///< unit vector, +y for an upright wheel that runs along x
-  const Vector3& angular_velocity() const { return omega_; }      ///< [rad/s] in space, half a step ago
-  double lowest_point() const;                                    ///< [m] z of the true circle and shoulders, without grousers
-  const Vector3& load() const { return load_; }                   ///< [N]
-  double axle_torque() const { return axle_torque_; }             ///< [N m] as set
+  const Vector3& centre() const { return centre_; }           ///< [m] of the axle
+  const Vector3& velocity() const { return velocity_; }       ///< [m/s] half a step ago
+  double position(Coordinate coordinate) const;               ///< [m or rad] the spin is not wrapped at 2 pi
+  double rate(Coordinate coordinate) const;                   ///< [m/s or rad/s] half a step ago
+  Vector3 axle() const;                                       ///< unit vector, +y for an upright wheel that runs along x
+  const Vector3& angular_velocity() const { return omega_; }  ///< [rad/s] in space, half a step ago
+  double lowest_point() const;                                ///< [m] z of the true circle and shoulders, without grousers
+  const Vector3& load() const { return load_; }               ///< [N]
+  double axle_torque() const { return axle_torque_; }         ///< [N m] as set
   /// Force [N] or torque [N m] with which whatever holds or prescribes a coordinate acts on the wheel, mean of the last step; for
   /// the spin of a free wheel this is the axle torque. Zero for other free coordinates.
   double constraint(Coordinate coordinate) const { return constraint_[coordinate]; }

@@ -29,13 +29,13 @@ struct Surface {
   /// of the triangle. A point at height d above it loses the moment d n x force: pass the contact point on the triangle.
   void add_force(std::size_t triangle, const Vector3& point, const Vector3& force);
 
-  Vector3 total_force() const;                        ///< [N]
-  Vector3 total_moment(const Vector3& about) const;   ///< [N m]
-  Vector3 area_vector(std::size_t triangle) const;    ///< outward, length = area [m^2]
-  double total_area() const;                          ///< [m^2]
-  double enclosed_volume() const;                     ///< [m^3] of a closed surface
-  double minimum_angle() const;                       ///< [rad] the sharpest corner of all triangles: how near to a sliver
-  std::pair<Vector3, Vector3> bounds() const;         ///< lowest and highest corner
+  Vector3 total_force() const;                       ///< [N]
+  Vector3 total_moment(const Vector3& about) const;  ///< [N m]
+  Vector3 area_vector(std::size_t triangle) const;   ///< outward, length = area [m^2]
+  double total_area() const;                         ///< [m^2]
+  double enclosed_volume() const;                    ///< [m^3] of a closed surface
+  double minimum_angle() const;                      ///< [rad] the sharpest corner of all triangles: how near to a sliver
+  std::pair<Vector3, Vector3> bounds() const;        ///< lowest and highest corner
 
   /// Every edge is shared by exactly two triangles that run along it in opposite directions.
   bool is_closed() const;

@@ -15,7 +15,7 @@ namespace furrow {
 
 namespace {
 
-constexpr double largest_aspect = 4.0;       // element length over the smallest feature of a grouser
+constexpr double largest_aspect = 4.0;  // element length over the smallest feature of a grouser
 constexpr double largest_skew = radians(60);
 constexpr int largest_triangle_count = 500'000;
 
@@ -28,12 +28,13 @@ void check(const WheelGeometry& wheel, const std::string& where) {
   require_positive(wheel.diameter, "diameter", where);
   require_positive(wheel.width, "width", where);
   if (!(wheel.shoulder >= 0.0 && wheel.shoulder <= 0.5 * wheel.width && wheel.shoulder < wheel.radius()))
-    throw InputError(where, fmt::format("has shoulder {} m", wheel.shoulder),
-                     fmt::format("0 to half the width, {} m, and below the radius, {} m", 0.5 * wheel.width, wheel.radius()));
-  if (wheel.segments < 12)
-    throw InputError(where, fmt::format("has {} segments", wheel.segments), "an integer >= 12");
+    throw InputError(
+        where, fmt::format("has shoulder {} m", wheel.shoulder),
+        fmt::format("0 to half the width, {} m, and below the radius, {} m", 0.5 * wheel.width, wheel.radius()));
+  if (wheel.segments < 12) throw InputError(where, fmt::format("has {} segments", wheel.segments), "an integer >= 12");
   if (!(std::isfinite(wheel.element_size) && wheel.element_size >= 0.0))
-    throw InputError(where, fmt::format("has element_size {} m", wheel.element_size), "a number > 0, or 0 for one and a half facets");
+    throw InputError(where, fmt::format("has element_size {} m", wheel.element_size),
+                     "a number > 0, or 0 for one and a half facets");
 }
 
 void check(const Grousers& bars, const WheelGeometry& wheel, const std::string& where) {
@@ -45,13 +46,15 @@ void check(const Grousers& bars, const WheelGeometry& wheel, const std::string& 
     throw InputError(where, fmt::format("has grouser_angle {} degrees", degrees(bars.angle)), "-60 to 60 degrees");
   if (!(wheel.tread_width() > 0.0))
     throw InputError(where, "has grousers but no flat tread to carry them",
-                     fmt::format("grousers on a shoulder below half the width, {} m", 0.5 * wheel.width), "reduce the shoulder");
+                     fmt::format("grousers on a shoulder below half the width, {} m", 0.5 * wheel.width),
+                     "reduce the shoulder");
   const double along = bars.thickness / std::cos(bars.angle), pitch = 2.0 * pi * wheel.radius() / bars.number;
   if (along >= pitch || along >= wheel.radius())
-    throw InputError(where,
-                     fmt::format("has {} grousers that overlap: each takes {:.4g} m of the circumference, their pitch is {:.4g} m",
-                                 bars.number, along, pitch),
-                     "bars narrower than their pitch and than the radius", "reduce their number, thickness or angle");
+    throw InputError(
+        where,
+        fmt::format("has {} grousers that overlap: each takes {:.4g} m of the circumference, their pitch is {:.4g} m",
+                    bars.number, along, pitch),
+        "bars narrower than their pitch and than the radius", "reduce their number, thickness or angle");
 }
 
 int parts(double length, double size) { return std::max(1, static_cast<int>(std::ceil(length / size - 1e-9))); }
@@ -65,7 +68,7 @@ struct Circumference {
   };
   std::vector<double> angles;  // [rad]
   std::vector<Bar> bars;
-  double node_radius = 0.0;    // [m] of the polygon with the area of the circle
+  double node_radius = 0.0;  // [m] of the polygon with the area of the circle
 
   int columns() const { return static_cast<int>(angles.size()); }
   bool under_bar(int column) const {
@@ -132,7 +135,8 @@ class WheelMesh {
     const double estimate = 2.0 * (2.0 * pi * wheel.radius() / size) * (rows_ + 2.0 * shoulder_rows_ + 4.0);
     if (!(estimate < largest_triangle_count))
       throw InputError(where, fmt::format("would have about {:.2g} triangles", estimate),
-                       fmt::format("at most {}", largest_triangle_count), "give fewer segments, larger elements or thicker grousers");
+                       fmt::format("at most {}", largest_triangle_count),
+                       "give fewer segments, larger elements or thicker grousers");
     around_ = bars.number > 0 ? grouser_circumference(wheel, size) : plain_circumference(wheel);
 
     build_tread();
@@ -169,8 +173,9 @@ class WheelMesh {
 
   int tread_node(int i, int row) {
     const auto [found, fresh] = tread_nodes_.try_emplace({column(i), row}, -1);
-    if (fresh) found->second = add(on_circle(around_.angles[static_cast<std::size_t>(column(i))] + turn(row_y(row)),
-                                             around_.node_radius, row_y(row)));
+    if (fresh)
+      found->second = add(on_circle(around_.angles[static_cast<std::size_t>(column(i))] + turn(row_y(row)),
+                                    around_.node_radius, row_y(row)));
     return found->second;
   }
 
@@ -191,8 +196,8 @@ class WheelMesh {
     return (points_[static_cast<std::size_t>(a)] - points_[static_cast<std::size_t>(b)]).norm();
   }
 
-  /// Two triangles of a quadrilateral given clockwise as seen from outside, cut along the shorter diagonal; of two equal ones along ac where odd, so that cuts alternate. Without skew
-  /// all quadrilaterals are plane, and the cut does not change the shape.
+  /// Two triangles of a quadrilateral given clockwise as seen from outside, cut along the shorter diagonal; of two equal
+  /// ones along ac where odd, so that cuts alternate. Without skew all quadrilaterals are plane: the cut changes no shape.
   void quad(int a, int b, int c, int d, bool odd) {
     const double ac = distance(a, c), bd = distance(b, d);
     const bool cut_ac = std::abs(ac - bd) < 1e-6 * (ac + bd) ? odd : ac < bd;
@@ -209,7 +214,8 @@ class WheelMesh {
     for (int i = 0; i < around_.columns(); ++i) {
       if (around_.under_bar(i)) continue;
       for (int row = 0; row < rows_; ++row)
-        quad(tread_node(i, row), tread_node(i, row + 1), tread_node(i + 1, row + 1), tread_node(i + 1, row), (i + row) % 2 != 0);
+        quad(tread_node(i, row), tread_node(i, row + 1), tread_node(i + 1, row + 1), tread_node(i + 1, row),
+             (i + row) % 2 != 0);
     }
   }
 
@@ -218,10 +224,12 @@ class WheelMesh {
     const auto at = [&](int i, int row, int level) { return bar_node(bar, i, row, level); };
     for (int row = 0; row < rows_; ++row) {
       for (int i = first; i < last; ++i)
-        quad(at(i, row, levels_), at(i, row + 1, levels_), at(i + 1, row + 1, levels_), at(i + 1, row, levels_), (i + row) % 2 != 0);
+        quad(at(i, row, levels_), at(i, row + 1, levels_), at(i + 1, row + 1, levels_), at(i + 1, row, levels_),
+             (i + row) % 2 != 0);
       for (int level = 0; level < levels_; ++level) {
         const bool odd = (row + level) % 2 != 0;
-        quad(at(first, row, level), at(first, row + 1, level), at(first, row + 1, level + 1), at(first, row, level + 1), odd);
+        quad(at(first, row, level), at(first, row + 1, level), at(first, row + 1, level + 1), at(first, row, level + 1),
+             odd);
         quad(at(last, row, level), at(last, row, level + 1), at(last, row + 1, level + 1), at(last, row + 1, level), odd);
       }
     }
@@ -246,7 +254,8 @@ class WheelMesh {
       Ring next;
       next.radius = scale * (wheel_.radius() - wheel_.shoulder * (1.0 - std::cos(slope)));
       next.y = edge_y + side * wheel_.shoulder * std::sin(slope);
-      for (const double angle : around_.angles) next.nodes.push_back(add(on_circle(angle + turn(edge_y), next.radius, next.y)));
+      for (const double angle : around_.angles)
+        next.nodes.push_back(add(on_circle(angle + turn(edge_y), next.radius, next.y)));
       for (int i = 0; i < around_.columns(); ++i) {
         const auto here = static_cast<std::size_t>(i), ahead = static_cast<std::size_t>(column(i + 1));
         const bool odd = ((i + row) % 2 != 0) == (side > 0);
@@ -274,7 +283,8 @@ class WheelMesh {
       const int count = std::clamp(wanted, 6, static_cast<int>(ring.nodes.size()));
       const Vector3 start = points_[static_cast<std::size_t>(ring.nodes[0])];
       const double phase = std::atan2(start.x(), start.z());
-      for (int i = 0; i < count; ++i) next.nodes.push_back(add(on_circle(phase + 2.0 * pi * (i + 0.5) / count, next.radius, next.y)));
+      for (int i = 0; i < count; ++i)
+        next.nodes.push_back(add(on_circle(phase + 2.0 * pi * (i + 0.5) / count, next.radius, next.y)));
       connect(ring, next, side);
       ring = std::move(next);
     }
@@ -292,8 +302,10 @@ class WheelMesh {
     const auto outer_node = [&](std::size_t i) { return outer.nodes[i % outer_count]; };
     const auto inner_node = [&](std::size_t k) { return inner.nodes[(first + k) % inner_count]; };
     for (std::size_t i = 0, k = 0; i < outer_count || k < inner_count;) {
-      const double along_outer = i < outer_count ? distance(outer_node(i + 1), inner_node(k)) : std::numeric_limits<double>::max();
-      const double along_inner = k < inner_count ? distance(outer_node(i), inner_node(k + 1)) : std::numeric_limits<double>::max();
+      const double along_outer =
+          i < outer_count ? distance(outer_node(i + 1), inner_node(k)) : std::numeric_limits<double>::max();
+      const double along_inner =
+          k < inner_count ? distance(outer_node(i), inner_node(k + 1)) : std::numeric_limits<double>::max();
       if (along_outer <= along_inner) {
         add_on_side(outer_node(i), inner_node(k), outer_node(i + 1), side);
         ++i;
@@ -318,8 +330,8 @@ class WheelMesh {
   int rows_ = 0, shoulder_rows_ = 0, levels_ = 0;
   std::vector<Vector3> points_;
   std::vector<Vector3i> triangles_;
-  std::map<std::pair<int, int>, int> tread_nodes_;                 // column, row
-  std::map<std::tuple<int, int, int, int>, int> bar_nodes_;        // bar, column, row, level
+  std::map<std::pair<int, int>, int> tread_nodes_;           // column, row
+  std::map<std::tuple<int, int, int, int>, int> bar_nodes_;  // bar, column, row, level
 };
 
 }  // namespace
@@ -336,9 +348,10 @@ Surface make_wheel_mesh(const WheelGeometry& geometry, const std::string& where)
   Surface surface = WheelMesh(geometry, where).surface();
   const double sharpest = surface.minimum_angle();
   if (sharpest < minimum_mesh_angle)
-    throw InputError(where, fmt::format("would have sliver triangles (sharpest corner {:.2g} degrees)", degrees(sharpest)),
-                     fmt::format("corners of at least {:.0f} degrees", degrees(minimum_mesh_angle)),
-                     "give more segments, another element_size, or a shoulder neither far smaller than the facets nor close to the radius");
+    throw InputError(
+        where, fmt::format("would have sliver triangles (sharpest corner {:.2g} degrees)", degrees(sharpest)),
+        fmt::format("corners of at least {:.0f} degrees", degrees(minimum_mesh_angle)),
+        "give more segments, another element_size, or a shoulder neither far smaller than the facets nor close to the radius");
   return surface;
 }
 

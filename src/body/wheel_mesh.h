@@ -12,7 +12,7 @@ struct Grousers {
   int number = 0;          ///< equally spaced around
   double height = 0.0;     ///< [m] above the tread
   double thickness = 0.0;  ///< [m] square to the bar, the same from root to tip
-  double angle = 0.0;      ///< [rad] skew against the axle in the tread plane; > 0: the bar's end at +y runs ahead in forward spin
+  double angle = 0.0;      ///< [rad] skew against the axle in the tread plane; > 0: the end at +y runs ahead
 };
 
 /// A cylinder with rounded shoulders: axle along y, centre at the origin.
@@ -32,13 +32,13 @@ struct WheelGeometry {
 
 /// Triangulates a wheel: closed, outward, every edge shared by two triangles, no sliver.
 ///
-/// Nodes lie slightly outside of the true circle, by the one factor that makes the area of the polygon equal to that of the
-/// circle: nodes at (2 pi / segments)^2/12 of the radius outside, facet middles at half as much inside. The wheel so displaces the
-/// volume of the true one, and sinkage and rolling radius have no bias of first order in the facet height; nodes on the circle would
-/// make every wheel smaller. In the meridian plane the nodes lie on the shoulder's arc.
+/// Nodes lie slightly outside of the true circle, by the one factor that makes the area of the polygon equal to that of
+/// the circle: nodes (2 pi / segments)^2/12 of the radius outside, facet middles half as much inside. The wheel so
+/// displaces the volume of the true one, and its mean radius is right; nodes on the circle would make every wheel smaller.
+/// In the meridian plane the nodes lie on the shoulder's arc.
 ///
-/// Grousers stand on the tread grid, whose lines are laid along the edges of the bars (sheared by the skew angle); the tread below
-/// a bar is left out. Elements are refined so that none is longer than four times the smallest of thickness, height and gap.
+/// Grousers stand on the tread grid, whose lines are laid along the edges of the bars (sheared by the skew angle); the
+/// tread below a bar is left out. No element is longer than four times the smallest of thickness, height and gap.
 ///
 /// @param where names the wheel in errors: "fix wheel/rigid"
 /// @throws InputError for a shape that cannot be, or whose elements would be slivers (a corner below minimum_mesh_angle)

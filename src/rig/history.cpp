@@ -16,7 +16,8 @@ void History::append(const std::vector<double>& row) {
 
 double History::at(std::size_t row, std::size_t channel) const {
   if (row >= size() || channel >= channels_.size())
-    throw Error(fmt::format("the history has {} rows and {} channels, none at row {}, channel {}", size(), channels_.size(), row, channel));
+    throw Error(fmt::format("the history has {} rows and {} channels, none at row {}, channel {}", size(), channels_.size(),
+                            row, channel));
   return values_[row * channels_.size() + channel];
 }
 

@@ -48,7 +48,9 @@ struct Ramp {
     const double begin = std::clamp(start, from, to), finish = std::clamp(end(), from, to);
     const double half = 0.5 * (finish - begin), middle = 0.5 * (begin + finish), offset = std::sqrt(0.6) * half;
     if (half <= 0.0) return 0.0;
-    return half / 9.0 * (5.0 * (this->*function)(middle - offset) + 8.0 * (this->*function)(middle) + 5.0 * (this->*function)(middle + offset));
+    return half / 9.0 *
+           (5.0 * (this->*function)(middle - offset) + 8.0 * (this->*function)(middle) +
+            5.0 * (this->*function)(middle + offset));
   }
 
   double fraction(double time) const {

@@ -16,7 +16,8 @@ constexpr double least_coefficient = 0.1;  // of the vertical force, below which
 
 std::vector<double> part_of(const History& history, const std::string& channel, const Window& window) {
   const std::vector<double> column = history.column(channel);
-  return {column.begin() + static_cast<std::ptrdiff_t>(window.first), column.begin() + static_cast<std::ptrdiff_t>(window.last)};
+  return {column.begin() + static_cast<std::ptrdiff_t>(window.first),
+          column.begin() + static_cast<std::ptrdiff_t>(window.last)};
 }
 
 /// Spacing of rows [s]. @throws Error when one step between rows is longer than one and a half mean ones
@@ -24,16 +25,18 @@ double spacing_of(const std::vector<double>& time) {
   const double spacing = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   for (std::size_t i = 1; i < time.size(); ++i)
     if (!(time[i] > time[i - 1] && time[i] - time[i - 1] < 1.5 * spacing))
-      throw Error(fmt::format("the rows of the history are not equally spaced: {} s is followed by {} s, the mean spacing is {:.3g} s; "
-                              "rows are missing or were recorded with different intervals",
-                              time[i - 1], time[i], spacing));
+      throw Error(fmt::format(
+          "the rows of the history are not equally spaced: {} s is followed by {} s, the mean spacing is {:.3g} s; "
+          "rows are missing or were recorded with different intervals",
+          time[i - 1], time[i], spacing));
   return spacing;
 }
 
 }  // namespace
 
 const SteadyValue& Resistance::value(const std::string& name) const {
-  const auto found = std::find_if(values.begin(), values.end(), [&](const SteadyValue& value) { return value.name == name; });
+  const auto found =
+      std::find_if(values.begin(), values.end(), [&](const SteadyValue& value) { return value.name == name; });
   if (found == values.end()) throw Error(fmt::format("no steady value '{}'", name));
   return *found;
 }
@@ -54,7 +57,8 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
   const Window& window = result.window;
   const double spacing = spacing_of(part_of(history, "time", window));
   const auto part = [&](const std::string& channel) { return part_of(history, channel, window); };
-  const auto add = [&](const std::string& name, const std::string& unit, const std::vector<double>& values, double reference) {
+  const auto add = [&](const std::string& name, const std::string& unit, const std::vector<double>& values,
+                       double reference) {
     result.values.push_back(analyse_steady(name, unit, values, spacing, reference, options.criteria));
   };
 

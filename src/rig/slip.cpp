@@ -42,17 +42,21 @@ double slip(SlipDefinition definition, double rim, double vehicle) {
 
 double rim_speed(SlipDefinition definition, double slip, double vehicle) {
   if (!(std::isfinite(vehicle) && vehicle > 0.0))
-    throw StateError(fmt::format("a slip of {} sets no rim speed at a vehicle speed of {} m/s; allowed: a speed > 0", slip, vehicle));
+    throw StateError(
+        fmt::format("a slip of {} sets no rim speed at a vehicle speed of {} m/s; allowed: a speed > 0", slip, vehicle));
   const bool braking = slip < 0.0;
-  const bool by_vehicle = definition == SlipDefinition::vehicle_speed || (definition == SlipDefinition::larger_speed && braking);
+  const bool by_vehicle =
+      definition == SlipDefinition::vehicle_speed || (definition == SlipDefinition::larger_speed && braking);
   if (!std::isfinite(slip) || (by_vehicle ? slip < -1.0 : slip >= 1.0))
     throw StateError(fmt::format("no forward spin has a slip {} of {}; allowed: {}", slip_formula(definition), slip,
-                                 definition == SlipDefinition::larger_speed  ? "-1 <= slip < 1"
-                                 : definition == SlipDefinition::rim_speed ? "slip < 1"
-                                                                           : "slip >= -1"));
+                                 definition == SlipDefinition::larger_speed ? "-1 <= slip < 1"
+                                 : definition == SlipDefinition::rim_speed  ? "slip < 1"
+                                                                            : "slip >= -1"));
   return by_vehicle ? vehicle * (1.0 + slip) : vehicle / (1.0 - slip);
 }
 
-double convert_slip(double value, SlipDefinition from, SlipDefinition to) { return slip(to, rim_speed(from, value, 1.0), 1.0); }
+double convert_slip(double value, SlipDefinition from, SlipDefinition to) {
+  return slip(to, rim_speed(from, value, 1.0), 1.0);
+}
 
 }  // namespace furrow

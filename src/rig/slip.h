@@ -1,5 +1,6 @@
 #pragma once
-/// The definitions of slip. Driving is positive in all of them; v_rim = spin rate x radius, v = speed of the axle in the wheel plane.
+/// The definitions of slip. Driving is positive in all of them; v_rim = spin rate x radius, v = speed of the axle in the
+/// wheel plane.
 
 #include <string>
 #include <vector>
@@ -7,14 +8,14 @@
 namespace furrow {
 
 enum class SlipDefinition {
-  larger_speed,   ///< (v_rim - v)/max(|v_rim|, |v|): -1 locked, 0 rolling, +1 spinning on the spot (CMU sand data; Furrow's own)
-  rim_speed,      ///< (v_rim - v)/v_rim: the same for a driven wheel; -infinity locked (Wong)
+  larger_speed,  ///< (v_rim - v)/max(|v_rim|, |v|): -1 locked, +1 spinning on the spot (CMU sand data; Furrow's own)
+  rim_speed,     ///< (v_rim - v)/v_rim: the same for a driven wheel; -infinity locked (Wong)
   vehicle_speed,  ///< (v_rim - v)/v: the same for a braked wheel; +infinity on the spot (TR eq. 28)
 };
 
-const std::vector<std::string>& slip_definition_words();          ///< larger_speed, rim_speed, vehicle_speed
-SlipDefinition slip_definition(const std::string& word);          ///< @throws Error for another word
-std::string slip_formula(SlipDefinition definition);              ///< for tables: "(v_rim - v)/max(|v_rim|, |v|)"
+const std::vector<std::string>& slip_definition_words();  ///< larger_speed, rim_speed, vehicle_speed
+SlipDefinition slip_definition(const std::string& word);  ///< @throws Error for another word
+std::string slip_formula(SlipDefinition definition);      ///< for tables: "(v_rim - v)/max(|v_rim|, |v|)"
 
 /// Slip of a wheel from its speeds [m/s]. @throws StateError where the definition divides by zero
 double slip(SlipDefinition definition, double rim_speed, double vehicle_speed);

@@ -19,7 +19,8 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Two-sided 99 % quantile of Student's t, expansion of Cornish and Fisher about the normal one; within 3 % from 3 degrees on, 0.3 % from 6.
+/// Two-sided 99 % quantile of Student's t, expansion of Cornish and Fisher about the normal one; within 4 % from 3 degrees
+/// on, 0.3 % from 6.
 double student_t99(double freedom) {
   const double z = 2.5758293035489004, z2 = z * z, n = freedom;
   return z * (1.0 + (z2 + 1.0) / (4.0 * n) + ((5.0 * z2 + 16.0) * z2 + 3.0) / (96.0 * n * n) +
@@ -77,7 +78,8 @@ double half_difference(const std::vector<double>& values) {
 
 std::size_t first_row_of_cruise(const History& history) {
   const auto& channels = history.channels();
-  if (std::none_of(channels.begin(), channels.end(), [](const Channel& channel) { return channel.name == "phase"; })) return 0;
+  if (std::none_of(channels.begin(), channels.end(), [](const Channel& channel) { return channel.name == "phase"; }))
+    return 0;
   const std::vector<double> phase = history.column("phase");
   const auto first = std::find_if(phase.begin(), phase.end(), [](double value) { return value >= 2.0; });
   if (first == phase.end())
@@ -86,8 +88,8 @@ std::size_t first_row_of_cruise(const History& history) {
 }
 
 /// Rows whose value lies in [from, to] of a growing column.
-Window rows_between(const std::vector<double>& column, std::optional<double> from, std::optional<double> to, const char* what,
-                    const char* unit) {
+Window rows_between(const std::vector<double>& column, std::optional<double> from, std::optional<double> to,
+                    const char* what, const char* unit) {
   const double lowest = column.front(), highest = column.back();
   const double begin = from.value_or(lowest), end = to.value_or(highest), slack = 1e-9 * (highest - lowest);
   if (!(begin >= lowest - slack && end <= highest + slack && begin < end))
@@ -108,7 +110,8 @@ std::size_t mser_truncation(const std::vector<double>& values) {
   std::vector<double> means(batches);
   for (std::size_t i = 0; i < batches; ++i)
     means[i] = std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(i * mser_batch),
-                               values.begin() + static_cast<std::ptrdiff_t>((i + 1) * mser_batch), 0.0) / mser_batch;
+                               values.begin() + static_cast<std::ptrdiff_t>((i + 1) * mser_batch), 0.0) /
+               mser_batch;
   // running mean and sum of squares from the end (B. P. Welford 1962), so that offsets lose no digits
   double mean = 0.0, squares = 0.0, best = 0.0;
   std::size_t best_batch = 0;
@@ -156,19 +159,22 @@ Window select_window(const History& history, const WindowRequest& request, const
     window.last = history.size();
     window.automatic = true;
     window.how = fmt::format("cruise from {:.6g} s", time[start]);
-    if (transient > 0) window.how += fmt::format(", transient of {:.4g} s left out (MSER-5 on {})", time[window.first] - time[start], longest);
+    if (transient > 0)
+      window.how +=
+          fmt::format(", transient of {:.4g} s left out (MSER-5 on {})", time[window.first] - time[start], longest);
     if (static_cast<double>(transient) > longest_transient * static_cast<double>(rows))
       window.warning = fmt::format("the transient of {} fills nearly half of the cruise: run longer", longest);
   }
-  if (window.rows() < 2) throw Error(fmt::format("the window ({}) holds {} row(s): widen it or record more often", window.how, window.rows()));
+  if (window.rows() < 2)
+    throw Error(fmt::format("the window ({}) holds {} row(s): widen it or record more often", window.how, window.rows()));
   window.begin = time[window.first];
   window.end = time[window.last - 1];
   window.distance = x[window.last - 1] - x[window.first];
   return window;
 }
 
-SteadyValue analyse_steady(const std::string& name, const std::string& unit, const std::vector<double>& values, double spacing,
-                           double reference, const SteadyCriteria& criteria) {
+SteadyValue analyse_steady(const std::string& name, const std::string& unit, const std::vector<double>& values,
+                           double spacing, double reference, const SteadyCriteria& criteria) {
   if (values.size() < 2) throw Error(fmt::format("{}: {} value(s) have no standard error", name, values.size()));
   if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
     throw StateError(fmt::format("{}: a value of the window is not finite", name));
@@ -219,8 +225,9 @@ SteadyValue analyse_steady(const std::string& name, const std::string& unit, con
   if (std::abs(result.halves_difference) > negligible && std::abs(result.halves_difference) > certain * result.halves_error)
     add(fmt::format("its halves differ by {:.3g} +- {:.2g} {}", result.halves_difference, result.halves_error, unit));
   if (residual.blocks < criteria.fewest_blocks)
-    add(fmt::format("the window is too short: its fluctuations last so long that it holds only {} independent stretches, {} are needed",
-                    residual.blocks, criteria.fewest_blocks));
+    add(fmt::format(
+        "the window is too short: its fluctuations last so long that it holds only {} independent stretches, {} are needed",
+        residual.blocks, criteria.fewest_blocks));
   result.steady = reason.empty();
   result.verdict = result.steady ? "steady" : "not steady: " + reason;
   return result;

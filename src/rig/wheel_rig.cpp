@@ -13,7 +13,8 @@ namespace {
 constexpr double standstill = 1e-12;  // [m/s] below it, rim and axle both rest and the recorded slip is 0
 
 /// @throws InputError when key is missing (needed) or given (not needed)
-void expect_key(const Options& options, const std::string& key, bool needed, const std::string& context, const std::string& allowed) {
+void expect_key(const Options& options, const std::string& key, bool needed, const std::string& context,
+                const std::string& allowed) {
   if (needed && !options.has(key))
     throw InputError(options.where(key), "is missing " + context, allowed, fmt::format("add '{} <value>'", key));
   if (!needed && options.given(key))
@@ -24,34 +25,46 @@ void expect_key(const Options& options, const std::string& key, bool needed, con
 
 Schema WheelRig::schema(const std::string& subject) {
   Schema schema(subject);
-  schema.number("load_mass", "kg", Range::positive(), "load as a mass: the ground carries load_mass x gravity, wheel included").optional();
-  schema.number("load_force", "N", Range::positive(), "load as a force: what the ground carries at rest, weight of the wheel included")
+  schema
+      .number("load_mass", "kg", Range::positive(), "load as a mass: the ground carries load_mass x gravity, wheel included")
       .optional();
-  schema.number("sinkage", "m", Range::any(), "instead of a load: the wheel is lowered to this sinkage and held there").optional();
+  schema
+      .number("load_force", "N", Range::positive(),
+              "load as a force: what the ground carries at rest, weight of the wheel included")
+      .optional();
+  schema.number("sinkage", "m", Range::any(), "instead of a load: the wheel is lowered to this sinkage and held there")
+      .optional();
   schema.number("speed", "m/s", Range::non_negative(), "speed of the axle along x in cruise");
   schema.word("mode", {"towed", "slip", "torque"}, "free spin, prescribed slip, or prescribed axle torque");
   schema.number("slip", "", Range::any(), "slip in mode slip, driving positive").optional();
-  schema.word("slip_definition", slip_definition_words(),
-              "slip by the larger of rim and vehicle speed, by rim speed, or by vehicle speed (speed in the wheel plane)")
+  schema
+      .word("slip_definition", slip_definition_words(),
+            "slip by the larger of rim and vehicle speed, by rim speed, or by vehicle speed (speed in the wheel plane)")
       .by_default("larger_speed");
   schema.number("torque", "N m", Range::any(), "axle torque in mode torque; < 0 brakes").optional();
-  schema.number("slip_angle", "degrees", Range::open(-90, 90), "angle from the travel to the wheel plane about z").by_default(0.0);
+  schema.number("slip_angle", "degrees", Range::open(-90, 90), "angle from the travel to the wheel plane about z")
+      .by_default(0.0);
   schema.number("camber", "degrees", Range::closed(-45, 45), "roll of the wheel about its heading").by_default(0.0);
-  schema.number("start", "s", Range::non_negative(), "time at which the settling begins; the wheel is held until then").by_default(0.0);
+  schema.number("start", "s", Range::non_negative(), "time at which the settling begins; the wheel is held until then")
+      .by_default(0.0);
   schema.number("settle_time", "s", Range::positive(), "duration of the settling at standstill");
-  schema.number("load_ramp_time", "s", Range::non_negative(), "the load grows in this time; by default half of settle_time").optional();
+  schema.number("load_ramp_time", "s", Range::non_negative(), "the load grows in this time; by default half of settle_time")
+      .optional();
   schema.number("accelerate_time", "s", Range::positive(), "duration of the acceleration");
   schema.number("ground_level", "m", Range::any(), "z of the undisturbed ground: datum of the sinkage");
   schema.number("gravity", "m/s^2", Range::positive(), "acceleration of gravity").by_default(standard_gravity);
-  schema.number("damping", "N s/m", Range::non_negative(),
-                "viscous resistance to the wheel's vertical motion, throughout; its loss is recorded").by_default(0.0);
+  schema
+      .number("damping", "N s/m", Range::non_negative(),
+              "viscous resistance to the wheel's vertical motion, throughout; its loss is recorded")
+      .by_default(0.0);
   return schema;
 }
 
 WheelRig::WheelRig(const Options& options, RigidWheel& wheel) : wheel_(wheel) {
   ground_level_ = options.number("ground_level");
   const double settle_time = options.number("settle_time");
-  load_ramp_ = {options.number("start"), options.has("load_ramp_time") ? options.number("load_ramp_time") : 0.5 * settle_time};
+  load_ramp_ = {options.number("start"),
+                options.has("load_ramp_time") ? options.number("load_ramp_time") : 0.5 * settle_time};
   if (load_ramp_.duration > settle_time)
     throw InputError(options.where("load_ramp_time"), fmt::format("is {} s", load_ramp_.duration),
                      fmt::format("0 to settle_time, {} s", settle_time), "lengthen settle_time");
@@ -71,9 +84,10 @@ void WheelRig::read_vertical(const Options& options) {
   for (const char* key : {"load_mass", "load_force", "sinkage"})
     if (options.given(key)) given += (count++ ? " and " : "") + std::string(key);
   if (count != 1)
-    throw InputError(options.subject(), count == 0 ? "has no load" : fmt::format("has {}", given),
-                     "exactly one of load_mass [kg], load_force [N], sinkage [m]",
-                     count == 0 ? "say what the ground carries, weight of the wheel included" : "keep the one that is meant");
+    throw InputError(
+        options.subject(), count == 0 ? "has no load" : fmt::format("has {}", given),
+        "exactly one of load_mass [kg], load_force [N], sinkage [m]",
+        count == 0 ? "say what the ground carries, weight of the wheel included" : "keep the one that is meant");
   sinkage_prescribed_ = options.given("sinkage");
   if (options.given("load_mass")) load_ = options.number("load_mass") * options.number("gravity");
   if (options.given("load_force")) load_ = options.number("load_force");
@@ -100,7 +114,8 @@ void WheelRig::read_drive(const Options& options) {
   try {
     rim_speed_ = rim_speed(slip_definition(options.word("slip_definition")), options.number("slip"), plane_speed_);
   } catch (const StateError&) {
-    throw InputError(options.where("slip"), fmt::format("is {} with slip_definition {}", options.number("slip"), options.word("slip_definition")),
+    throw InputError(options.where("slip"),
+                     fmt::format("is {} with slip_definition {}", options.number("slip"), options.word("slip_definition")),
                      "-1 to below 1 by the larger speed, below 1 by rim speed, at least -1 by vehicle speed",
                      "a wheel that spins on the spot or backwards needs mode torque");
   }
@@ -137,7 +152,8 @@ void WheelRig::drive_spin(double time, double dt) {
   switch (mode_) {
     case Mode::towed: wheel_.release(RigidWheel::spin); return;
     case Mode::slip:
-      wheel_.prescribe(RigidWheel::spin, rim_speed_ / wheel_.parameters().geometry.radius() * speed_ramp_.mean(time, time + dt));
+      wheel_.prescribe(RigidWheel::spin,
+                       rim_speed_ / wheel_.parameters().geometry.radius() * speed_ramp_.mean(time, time + dt));
       return;
     case Mode::torque:
       wheel_.release(RigidWheel::spin);
@@ -159,8 +175,9 @@ std::vector<Channel> WheelRig::channels() {
       {"spin_angle", "rad", "turn about the axle since the start, > 0 rolling forward"},
       {"spin_rate", "rad/s", "rate of spin_angle, half a step before time"},
       {"slip", "",
-       slip_formula(SlipDefinition::larger_speed) + ", v_rim = spin_rate x radius without grousers, v = speed of the axle in the "
-                                                    "wheel plane; 0 at standstill"},
+       slip_formula(SlipDefinition::larger_speed) +
+           ", v_rim = spin_rate x radius without grousers, v = speed of the axle in the "
+           "wheel plane; 0 at standstill"},
       {"sinkage", "m", "ground level minus lowest point of the wheel without grousers"},
       {"force_x", "N", "force of the ground on the wheel"},
       {"force_y", "N", "force of the ground on the wheel"},

@@ -46,8 +46,8 @@ class WheelRig {
 
   Phase phase(double time) const;
   Mode mode() const { return mode_; }
-  double load() const { return load_; }                   ///< [N] full; 0 when the sinkage is prescribed
-  double target_rim_speed() const { return rim_speed_; }  ///< [m/s] in cruise; 0 unless slip is prescribed
+  double load() const { return load_; }                      ///< [N] full; 0 when the sinkage is prescribed
+  double target_rim_speed() const { return rim_speed_; }     ///< [m/s] in cruise; 0 unless slip is prescribed
   double cruise_start() const { return speed_ramp_.end(); }  ///< [s]
 
  private:

@@ -29,7 +29,8 @@ RigidWheelParameters small_wheel() {
 std::string refusal_of(Words words) {
   const Words needed{"diameter", "0.74", "width", "0.272", "mass", "636", "inertia", "2.15"};
   for (std::size_t i = 0; i < needed.size(); i += 2)
-    if (std::find(words.begin(), words.end(), needed[i]) == words.end()) words.insert(words.end(), {needed[i], needed[i + 1]});
+    if (std::find(words.begin(), words.end(), needed[i]) == words.end())
+      words.insert(words.end(), {needed[i], needed[i + 1]});
   try {
     RigidWheel wheel(RigidWheel::schema("fix wheel/rigid").read(words));
   } catch (const InputError& error) {
@@ -52,8 +53,8 @@ constexpr std::array<RigidWheel::Coordinate, 6> all_coordinates{RigidWheel::x,  
                                                                 RigidWheel::spin, RigidWheel::yaw, RigidWheel::camber};
 
 TEST(RigidWheel, ReadsItsKeys) {
-  const RigidWheel wheel(RigidWheel::schema().read(
-      Words{"diameter", "0.74", "width", "0.272", "shoulder", "0.051", "mass", "636", "inertia", "2.15", "axle", "1", "2", "3"}));
+  const RigidWheel wheel(RigidWheel::schema().read(Words{"diameter", "0.74", "width", "0.272", "shoulder", "0.051", "mass",
+                                                         "636", "inertia", "2.15", "axle", "1", "2", "3"}));
   EXPECT_DOUBLE_EQ(wheel.parameters().mass, 636.0);
   EXPECT_DOUBLE_EQ(wheel.parameters().axle_inertia, 2.15);
   EXPECT_DOUBLE_EQ(wheel.parameters().diametral_inertia, 0.5 * 2.15 + 636.0 * 0.272 * 0.272 / 12.0);
@@ -67,18 +68,21 @@ TEST(RigidWheel, ReadsItsKeys) {
 TEST(RigidWheel, RefusesWithKeywordAndRemedy) {
   EXPECT_THAT(refusal_of({"mass", "-5"}), HasSubstr("fix wheel/rigid, keyword 'mass' is -5; allowed: a number > 0 [kg]"));
   EXPECT_THAT(refusal_of({"inertia", "88"}), HasSubstr("keyword 'inertia' is 88 kg m^2; allowed: at most 87.0684 kg m^2"));
-  EXPECT_THAT(refusal_of({"inertia_diametral", "1"}), HasSubstr("keyword 'inertia_diametral' is 1 kg m^2; allowed: at least half of"));
+  EXPECT_THAT(refusal_of({"inertia_diametral", "1"}),
+              HasSubstr("keyword 'inertia_diametral' is 1 kg m^2; allowed: at least half of"));
   EXPECT_THAT(refusal_of({"shoulder", "0.2"}), HasSubstr("has shoulder 0.2 m"));
   EXPECT_THAT(refusal_of({"grousers", "6"}), HasSubstr("keyword 'grouser_height' is missing; allowed: a number > 0 [m]"));
   EXPECT_THAT(refusal_of({"grousers", "6", "grouser_height", "0.02"}), HasSubstr("keyword 'grouser_thickness' is missing"));
-  EXPECT_THAT(refusal_of({"grouser_height", "0.02"}), HasSubstr("keyword 'grouser_height' is given to a wheel without grousers"));
+  EXPECT_THAT(refusal_of({"grouser_height", "0.02"}),
+              HasSubstr("keyword 'grouser_height' is given to a wheel without grousers"));
   EXPECT_THAT(refusal_of({"segments", "8"}), HasSubstr("keyword 'segments' is 8; allowed: an integer in [12, 5000]"));
 }
 
 TEST(RigidWheel, RefusesParametersThatAreNotNumbers) {
   RigidWheelParameters wheel = small_wheel();
   wheel.mass = std::nan("");
-  EXPECT_THAT(error_of([&] { RigidWheel{wheel}; }), HasSubstr("rigid wheel, keyword 'mass' is nan kg; allowed: a number > 0"));
+  EXPECT_THAT(error_of([&] { RigidWheel{wheel}; }),
+              HasSubstr("rigid wheel, keyword 'mass' is nan kg; allowed: a number > 0"));
   wheel = small_wheel();
   wheel.axle_centre.x() = std::nan("");
   EXPECT_THAT(error_of([&] { RigidWheel{wheel}; }), HasSubstr("keyword 'axle' is not finite"));
@@ -216,7 +220,8 @@ void expect_closed_balance(const std::array<RigidWheel::Motion, 6>& motions) {
   double scale = 0.0, work = 0.0;
   for (int step = 0; step < 100000; ++step) {
     for (std::size_t i = 0; i < 6; ++i)
-      if (motions[i] == RigidWheel::Motion::prescribed) wheel.prescribe(all_coordinates[i], 0.5 * std::sin(1e-2 * step + static_cast<double>(i)));
+      if (motions[i] == RigidWheel::Motion::prescribed)
+        wheel.prescribe(all_coordinates[i], 0.5 * std::sin(1e-2 * step + static_cast<double>(i)));
     wheel.surface().clear_forces();
     const auto triangle = static_cast<std::size_t>(random() % wheel.surface().triangle_count());
     const Vector3 point = wheel.surface().x.col(wheel.surface().triangles[triangle][0]);
@@ -251,7 +256,8 @@ TEST(RigidWheel, VerticalDampingDecaysAndLosesWhatItDissipates) {
   for (int i = 0; i < 1000; ++i) wheel.advance(1e-3);
   EXPECT_NEAR(wheel.velocity().z(), std::exp(-2.0), 1e-7);
   EXPECT_NEAR(wheel.balance().dissipated_energy, 1.5 * (1.0 - std::exp(-4.0)), 1e-6);
-  EXPECT_THAT(error_of([&] { wheel.set_vertical_damping(-1.0); }), HasSubstr("vertical damping is -1 N s/m; allowed: a number >= 0"));
+  EXPECT_THAT(error_of([&] { wheel.set_vertical_damping(-1.0); }),
+              HasSubstr("vertical damping is -1 N s/m; allowed: a number >= 0"));
 }
 
 TEST(RigidWheel, ContinuesBitwiseFromItsState) {
@@ -280,7 +286,8 @@ TEST(RigidWheel, RefusesTheStateOfAnotherWheel) {
   RigidWheelParameters heavier = small_wheel();
   heavier.mass = 4.0;
   RigidWheel wheel(small_wheel());
-  EXPECT_THAT(error_of([&] { wheel.restore(RigidWheel(heavier).state()); }), HasSubstr("the saved state belongs to another wheel"));
+  EXPECT_THAT(error_of([&] { wheel.restore(RigidWheel(heavier).state()); }),
+              HasSubstr("the saved state belongs to another wheel"));
   EXPECT_THAT(error_of([&] { wheel.restore({1.0, 2.0}); }), HasSubstr("belongs to another wheel"));
 }
 

@@ -62,8 +62,8 @@ TEST(Surface, ForcesKeepForceAndMomentToRoundOff) {
     const auto triangle = static_cast<std::size_t>(i % 4);
     const Vector3i nodes = surface.triangles[triangle];
     const double beta = unit(random), gamma = unit(random);  // also outside of the triangle, on its plane
-    const Vector3 point = (1.0 - beta - gamma) * surface.x.col(nodes[0]) + beta * surface.x.col(nodes[1]) +
-                          gamma * surface.x.col(nodes[2]);
+    const Vector3 point =
+        (1.0 - beta - gamma) * surface.x.col(nodes[0]) + beta * surface.x.col(nodes[1]) + gamma * surface.x.col(nodes[2]);
     const Vector3 applied(unit(random), unit(random), unit(random));
     surface.add_force(triangle, point, applied);
     force += applied;

@@ -35,7 +35,8 @@ WheelGeometry grouser_wheel(double angle = 0.0) {
 // Pappus' theorems for a cylinder with quarter-circle shoulders.
 double true_volume(const WheelGeometry& w) {
   const double s = w.shoulder, inner = w.radius() - s;
-  return pi * w.radius() * w.radius() * w.tread_width() + 2.0 * pi * s * (inner * inner + 0.5 * pi * inner * s + 2.0 / 3.0 * s * s);
+  return pi * w.radius() * w.radius() * w.tread_width() +
+         2.0 * pi * s * (inner * inner + 0.5 * pi * inner * s + 2.0 / 3.0 * s * s);
 }
 double true_area(const WheelGeometry& w) {
   const double s = w.shoulder, inner = w.radius() - s;
@@ -60,7 +61,8 @@ int euler_characteristic(const Surface& surface) {
   std::set<std::pair<int, int>> edges;
   for (const Vector3i& nodes : surface.triangles)
     for (int k = 0; k < 3; ++k) edges.insert(std::minmax(nodes[k], nodes[(k + 1) % 3]));
-  return static_cast<int>(surface.node_count()) - static_cast<int>(edges.size()) + static_cast<int>(surface.triangle_count());
+  return static_cast<int>(surface.node_count()) - static_cast<int>(edges.size()) +
+         static_cast<int>(surface.triangle_count());
 }
 
 void expect_sound(const Surface& surface) {
@@ -123,9 +125,10 @@ TEST(WheelMesh, VolumeAreaAndInertiaOfTheRoundedWheelConvergeWithSecondOrder) {
   std::array<double, 3> volume_error{}, area_error{}, inertia_error{};
   const double s = tr_wheel().shoulder, r = tr_wheel().radius();
   // pi/2 times the integral of radius^4 along the axle, shoulder by the binomials of (r - s) + s cos
-  const double c1 = pi / 4, c2 = 2.0 / 3.0, c3 = 3 * pi / 16, c4 = 8.0 / 15.0, d = r - s;  // integrals of cos^(k+1) over a quarter
-  const double quarter = s * (std::pow(d, 4) + 4 * std::pow(d, 3) * s * c1 + 6 * d * d * s * s * c2 + 4 * d * std::pow(s, 3) * c3 +
-                              std::pow(s, 4) * c4);
+  const double c1 = pi / 4, c2 = 2.0 / 3.0, c3 = 3 * pi / 16, c4 = 8.0 / 15.0,
+               d = r - s;  // integrals of cos^(k+1) over a quarter
+  const double quarter = s * (std::pow(d, 4) + 4 * std::pow(d, 3) * s * c1 + 6 * d * d * s * s * c2 +
+                              4 * d * std::pow(s, 3) * c3 + std::pow(s, 4) * c4);
   const double inertia = 0.5 * pi * (std::pow(r, 4) * tr_wheel().tread_width() + 2.0 * quarter);
   for (std::size_t level = 0; level < 3; ++level) {
     WheelGeometry wheel = tr_wheel();
@@ -212,7 +215,8 @@ TEST(WheelMesh, SkewedGrousersFollowTheirLine) {
 TEST(WheelMesh, TheVolumeOfSkewedGrousersConvergesWithSecondOrder) {
   const double angle = radians(30.0);
   WheelGeometry wheel = grouser_wheel(angle);
-  const double prisms = wheel.grousers.number * wheel.grousers.height * wheel.grousers.thickness / std::cos(angle) * wheel.width;
+  const double prisms =
+      wheel.grousers.number * wheel.grousers.height * wheel.grousers.thickness / std::cos(angle) * wheel.width;
   std::array<double, 4> error{};
   for (std::size_t level = 0; level < 4; ++level) {
     wheel.segments = 60 << level;  // 2, 4, 8, 16 facets between two bars
@@ -225,8 +229,9 @@ TEST(WheelMesh, TheVolumeOfSkewedGrousersConvergesWithSecondOrder) {
 
 TEST(WheelMesh, GrousersOfManyShapesAreSound) {
   WheelGeometry wheel = tr_wheel();
-  for (const Grousers& bars : {Grousers{18, 0.02, 0.005, radians(15)}, Grousers{18, 0.05, 0.05, radians(-15)}, Grousers{1, 0.02, 0.05, 0.0},
-                               Grousers{60, 0.01, 0.02, 0.0}, Grousers{12, 0.03, 0.02, radians(45)}}) {
+  for (const Grousers& bars :
+       {Grousers{18, 0.02, 0.005, radians(15)}, Grousers{18, 0.05, 0.05, radians(-15)}, Grousers{1, 0.02, 0.05, 0.0},
+        Grousers{60, 0.01, 0.02, 0.0}, Grousers{12, 0.03, 0.02, radians(45)}}) {
     wheel.grousers = bars;
     expect_sound(make_wheel_mesh(wheel));
   }
@@ -243,7 +248,8 @@ TEST(WheelMesh, DepthBelowTheCentreIsThatOfTheTrueShape) {
   const Surface surface = make_wheel_mesh(fine);
   const Quaternion turn = Quaternion::FromTwoVectors(Vector3::UnitY(), axle);
   double lowest = 0.0;
-  for (Eigen::Index node = 0; node < surface.x.cols(); ++node) lowest = std::min(lowest, (turn * Vector3(surface.x.col(node))).z());
+  for (Eigen::Index node = 0; node < surface.x.cols(); ++node)
+    lowest = std::min(lowest, (turn * Vector3(surface.x.col(node))).z());
   EXPECT_NEAR(-lowest, wheel.depth_below_centre(axle), 1e-4);
 }
 
@@ -256,7 +262,8 @@ TEST(WheelMesh, RefusesImpossibleShapes) {
   EXPECT_THAT(refusal_of(wheel), HasSubstr("has width nan m"));
   wheel = tr_wheel();
   wheel.shoulder = 0.14;
-  EXPECT_THAT(refusal_of(wheel), HasSubstr("has shoulder 0.14 m; allowed: 0 to half the width, 0.136 m, and below the radius, 0.37 m"));
+  EXPECT_THAT(refusal_of(wheel),
+              HasSubstr("has shoulder 0.14 m; allowed: 0 to half the width, 0.136 m, and below the radius, 0.37 m"));
   wheel.diameter = 0.25;
   wheel.shoulder = 0.13;
   EXPECT_THAT(refusal_of(wheel), HasSubstr("below the radius, 0.125 m"));
@@ -287,7 +294,8 @@ TEST(WheelMesh, RefusesImpossibleGrousers) {
   EXPECT_THAT(refusal_of(wheel), HasSubstr("has grouser_angle 61 degrees; allowed: -60 to 60 degrees"));
   wheel = grouser_wheel();
   wheel.grousers.thickness = 0.016;
-  EXPECT_THAT(refusal_of(wheel), HasSubstr("has 24 grousers that overlap: each takes 0.016 m of the circumference, their pitch is 0.01518 m"));
+  EXPECT_THAT(refusal_of(wheel),
+              HasSubstr("has 24 grousers that overlap: each takes 0.016 m of the circumference, their pitch is 0.01518 m"));
   wheel.grousers.thickness = 0.010;
   wheel.grousers.angle = radians(50.0);  // 0.010 m fits, 0.010 m / cos(50 degrees) does not
   EXPECT_THAT(refusal_of(wheel), HasSubstr("overlap"));

@@ -39,7 +39,8 @@ TEST(Ramp, IntegralIsHalfTheDurationThenGrowsWithTime) {
 
 TEST(Ramp, MeansAgreeWithTheClosedFormAlsoAcrossTheEnds) {
   const Ramp ramp{1.0, 3.0};
-  for (const auto& [from, to] : {std::pair{0.0, 0.5}, {0.0, 2.0}, {1.5, 2.5}, {0.5, 6.0}, {3.5, 5.0}, {5.0, 6.0}, {0.9999, 1.0001}}) {
+  for (const auto& [from, to] :
+       {std::pair{0.0, 0.5}, {0.0, 2.0}, {1.5, 2.5}, {0.5, 6.0}, {3.5, 5.0}, {5.0, 6.0}, {0.9999, 1.0001}}) {
     EXPECT_NEAR(ramp.mean(from, to), (ramp.integral(to) - ramp.integral(from)) / (to - from), 1e-12);
     EXPECT_NEAR(ramp.mean_rate(from, to), (ramp.value(to) - ramp.value(from)) / (to - from), 1e-12);
   }

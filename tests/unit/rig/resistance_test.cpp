@@ -21,8 +21,15 @@ struct SyntheticRun {
   double skipped_from = 100.0, skipped_to = 100.0;
 
   History history() const {
-    History result({{"time", "s", ""}, {"phase", "", ""}, {"x", "m", ""}, {"sinkage", "m", ""}, {"force_x", "N", ""}, {"force_z", "N", ""},
-                    {"drawbar_pull", "N", ""}, {"drive_torque", "N m", ""}, {"slip", "", ""}});
+    History result({{"time", "s", ""},
+                    {"phase", "", ""},
+                    {"x", "m", ""},
+                    {"sinkage", "m", ""},
+                    {"force_x", "N", ""},
+                    {"force_z", "N", ""},
+                    {"drawbar_pull", "N", ""},
+                    {"drive_torque", "N m", ""},
+                    {"slip", "", ""}});
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
     double vertical = 0.0, own = 0.0;
@@ -130,12 +137,16 @@ TEST(Resistance, RefusesHistoriesWithGapsOrWithoutCruise) {
   early.end = 1.5;
   EXPECT_THAT(error_of([&] { measure_resistance(early.history()); }), HasSubstr("ends before the cruise begins"));
   EXPECT_THAT(error_of([] { measure_resistance(History({{"time", "s", ""}})); }), HasSubstr("the history has 0 rows"));
-  EXPECT_THAT(error_of([] { measure_resistance(SyntheticRun().history()).value("mass"); }), HasSubstr("no steady value 'mass'"));
+  EXPECT_THAT(error_of([] { measure_resistance(SyntheticRun().history()).value("mass"); }),
+              HasSubstr("no steady value 'mass'"));
 }
 
 TEST(Resistance, ARatioNeedsADenominator) {
   EXPECT_THAT(error_of([] { linearised_ratio({1.0, 2.0}, {1.0}); }), HasSubstr("a ratio of 2 and 1 values"));
-  EXPECT_THAT(error_of([] { linearised_ratio({1.0, 2.0}, {1.0, -1.0}); }), HasSubstr("a ratio to a quantity whose mean is zero"));
+  EXPECT_THAT(error_of([] {
+                linearised_ratio({1.0, 2.0}, {1.0, -1.0});
+              }),
+              HasSubstr("a ratio to a quantity whose mean is zero"));
   const std::vector<double> series = linearised_ratio({1.0, 3.0}, {2.0, 2.0});
   EXPECT_DOUBLE_EQ(0.5 * (series[0] + series[1]), 1.0);
 }

@@ -10,7 +10,8 @@ namespace furrow {
 namespace {
 
 using ::testing::HasSubstr;
-constexpr auto larger = SlipDefinition::larger_speed, by_rim = SlipDefinition::rim_speed, by_vehicle = SlipDefinition::vehicle_speed;
+constexpr auto larger = SlipDefinition::larger_speed, by_rim = SlipDefinition::rim_speed,
+               by_vehicle = SlipDefinition::vehicle_speed;
 
 template <class Function>
 std::string error_of(Function&& function) {
@@ -24,7 +25,8 @@ std::string error_of(Function&& function) {
 
 // The rim speeds of the CMU tests at 10 mm/s and the slips printed with them.
 TEST(Slip, ByTheLargerSpeedGivesTheSlipsOfTheSandTests) {
-  const std::vector<std::pair<double, double>> rim_and_slip{{0, -1.0}, {3, -0.7}, {5, -0.5}, {8, -0.2}, {10, 0.0}, {20, 0.5}, {40, 0.75}, {100, 0.9}};
+  const std::vector<std::pair<double, double>> rim_and_slip{{0, -1.0}, {3, -0.7}, {5, -0.5},  {8, -0.2},
+                                                            {10, 0.0}, {20, 0.5}, {40, 0.75}, {100, 0.9}};
   for (const auto& [rim, expected] : rim_and_slip) {
     EXPECT_NEAR(slip(larger, rim, 10.0), expected, 1e-15);
     EXPECT_NEAR(rim_speed(larger, expected, 10.0), rim, 1e-13);
@@ -32,7 +34,7 @@ TEST(Slip, ByTheLargerSpeedGivesTheSlipsOfTheSandTests) {
 }
 
 TEST(Slip, ByRimAndByVehicleSpeedAreTheTwoBranches) {
-  EXPECT_DOUBLE_EQ(slip(by_vehicle, 3.0, 2.0), 0.5);   // TR eq. 28
+  EXPECT_DOUBLE_EQ(slip(by_vehicle, 3.0, 2.0), 0.5);  // TR eq. 28
   EXPECT_DOUBLE_EQ(slip(by_rim, 3.0, 2.0), 1.0 / 3.0);
   EXPECT_DOUBLE_EQ(slip(larger, 3.0, 2.0), 1.0 / 3.0);
   EXPECT_DOUBLE_EQ(slip(larger, 1.0, 2.0), -0.5);
@@ -43,11 +45,13 @@ TEST(Slip, ByRimAndByVehicleSpeedAreTheTwoBranches) {
 TEST(Slip, ConversionsGoRoundWithoutLoss) {
   EXPECT_DOUBLE_EQ(convert_slip(0.2, by_rim, by_vehicle), 0.25);  // i = s/(1 - s)
   for (const double s : {-0.9, -0.3, 0.0, 0.3, 0.9})
-    for (const auto other : {by_rim, by_vehicle}) EXPECT_NEAR(convert_slip(convert_slip(s, larger, other), other, larger), s, 1e-14);
+    for (const auto other : {by_rim, by_vehicle})
+      EXPECT_NEAR(convert_slip(convert_slip(s, larger, other), other, larger), s, 1e-14);
 }
 
 TEST(Slip, SingularCasesAreRefused) {
-  EXPECT_THAT(error_of([] { slip(larger, 0.0, 0.0); }), HasSubstr("not defined at a rim speed of 0 m/s and a vehicle speed of 0 m/s"));
+  EXPECT_THAT(error_of([] { slip(larger, 0.0, 0.0); }),
+              HasSubstr("not defined at a rim speed of 0 m/s and a vehicle speed of 0 m/s"));
   EXPECT_THAT(error_of([] { slip(by_rim, 0.0, 1.0); }), HasSubstr("slip (v_rim - v)/v_rim is not defined"));
   EXPECT_THAT(error_of([] { slip(by_vehicle, 1.0, 0.0); }), HasSubstr("slip (v_rim - v)/v is not defined"));
   EXPECT_THAT(error_of([] { rim_speed(larger, 0.2, 0.0); }), HasSubstr("vehicle speed of 0 m/s; allowed: a speed > 0"));

@@ -36,8 +36,8 @@ std::string error_of(Function&& function) {
   return "no error";
 }
 
-// The mean of n correlated values has the variance 2 tau/n: bars of two errors hold it in 95 % of the runs, but for the scatter of the
-// error itself. Over 1000 seeds the share has a standard error of 0.7 %.
+// The mean of n correlated values has the variance 2 tau/n: bars of two errors hold it in 95 % of the runs, but for the
+// scatter of the error itself. Over 1000 seeds the share has a standard error of 0.7 %.
 TEST(SteadyState, ErrorBarsOfCorrelatedSignalsCoverTheTruth) {
   for (const double phi : {0.0, 0.5, 0.9, 0.97}) {
     const int seeds = 1000;
@@ -105,7 +105,8 @@ TEST(SteadyState, PeriodicRipplesAreSteadyAndTheirErrorIsNotUnderstated) {
   const int phases = 100;
   for (int phase = 0; phase < phases; ++phase) {
     std::vector<double> values = autoregressive(0.5, 5000, static_cast<unsigned>(phase), 10.0);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] += 3.0 * std::sin(2.0 * pi * (static_cast<double>(i) / 230.0 + 0.01 * phase));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] += 3.0 * std::sin(2.0 * pi * (static_cast<double>(i) / 230.0 + 0.01 * phase));
     const SteadyValue value = analyse_steady("x", "", values, 0.1);
     covered += std::abs(value.mean - 10.0) < 2.0 * value.standard_error;
     steady += value.steady;
@@ -116,7 +117,8 @@ TEST(SteadyState, PeriodicRipplesAreSteadyAndTheirErrorIsNotUnderstated) {
 
 TEST(SteadyState, ACertainButNegligibleDriftIsSteady) {
   std::vector<double> values = autoregressive(0.0, 4000, 3);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = 100.0 + 0.01 * values[i] + 0.5 * static_cast<double>(i) / 4000.0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = 100.0 + 0.01 * values[i] + 0.5 * static_cast<double>(i) / 4000.0;
   const SteadyValue value = analyse_steady("x", "", values, 1.0);
   EXPECT_GT(value.drift, 100.0 * value.drift_error);
   EXPECT_TRUE(value.steady) << value.verdict;
@@ -140,11 +142,15 @@ TEST(SteadyState, AConstantIsSteadyWithoutError) {
 TEST(SteadyState, AWindowOfAFewCorrelationTimesIsTooShort) {
   int refused = 0;
   const int seeds = 100;
-  for (int seed = 0; seed < seeds; ++seed) refused += !analyse_steady("x", "", autoregressive(0.999, 2000, static_cast<unsigned>(seed), 1.0), 0.1).steady;
+  for (int seed = 0; seed < seeds; ++seed)
+    refused += !analyse_steady("x", "", autoregressive(0.999, 2000, static_cast<unsigned>(seed), 1.0), 0.1).steady;
   EXPECT_GE(refused, 0.9 * seeds);  // two correlation times
   const SteadyValue few = analyse_steady("x", "", {1.0, 2.0, 1.5, 1.2}, 0.1);
   EXPECT_FALSE(few.steady);
-  EXPECT_THAT(few.verdict, HasSubstr("the window is too short: its fluctuations last so long that it holds only 2 independent stretches, 6 are needed"));
+  EXPECT_THAT(
+      few.verdict,
+      HasSubstr(
+          "the window is too short: its fluctuations last so long that it holds only 2 independent stretches, 6 are needed"));
 }
 
 TEST(SteadyState, ReportsSpreadAndExtremes) {
@@ -158,8 +164,12 @@ TEST(SteadyState, ReportsSpreadAndExtremes) {
 }
 
 TEST(SteadyState, RefusesWhatHasNoMeaning) {
-  EXPECT_THAT(error_of([] { analyse_steady("sinkage", "m", {1.0}, 1.0); }), HasSubstr("sinkage: 1 value(s) have no standard error"));
-  EXPECT_THAT(error_of([] { analyse_steady("sinkage", "m", {1.0, std::nan("")}, 1.0); }), HasSubstr("sinkage: a value of the window is not finite"));
+  EXPECT_THAT(error_of([] { analyse_steady("sinkage", "m", {1.0}, 1.0); }),
+              HasSubstr("sinkage: 1 value(s) have no standard error"));
+  EXPECT_THAT(error_of([] {
+                analyse_steady("sinkage", "m", {1.0, std::nan("")}, 1.0);
+              }),
+              HasSubstr("sinkage: a value of the window is not finite"));
 }
 
 TEST(SteadyState, MserLeavesOutADecayingTransientAndNoMore) {
@@ -193,7 +203,8 @@ History rolling(double transient_time, double end = 10.0) {
   std::normal_distribution<double> normal;
   for (int i = 0; i <= std::lround(end / 0.01); ++i) {
     const double time = 0.01 * i, phase = time < 1.0 - 1e-9 ? 0 : time < 2.0 - 1e-9 ? 1 : 2;
-    history.append({time, phase, 2.0 * std::max(0.0, time - 1.0), 7.0 + normal(random) + 50.0 * std::exp(-(time - 2.0) / transient_time)});
+    history.append({time, phase, 2.0 * std::max(0.0, time - 1.0),
+                    7.0 + normal(random) + 50.0 * std::exp(-(time - 2.0) / transient_time)});
   }
   return history;
 }
@@ -212,7 +223,8 @@ TEST(Window, BeginsWithTheCruiseLessTheTransient) {
 }
 
 TEST(Window, ATransientThatFillsTheCruiseIsSaid) {
-  EXPECT_THAT(select_window(rolling(20.0), {}, {"force"}).warning, HasSubstr("the transient of force fills nearly half of the cruise: run longer"));
+  EXPECT_THAT(select_window(rolling(20.0), {}, {"force"}).warning,
+              HasSubstr("the transient of force fills nearly half of the cruise: run longer"));
 }
 
 TEST(Window, IsTheUsersByTimeOrByDistance) {
@@ -237,19 +249,25 @@ TEST(Window, IsTheUsersByTimeOrByDistance) {
 TEST(Window, RefusesWhatTheHistoryDoesNotHold) {
   WindowRequest request;
   request.from_time = 11.0;
-  EXPECT_THAT(error_of([&] { select_window(rolling(0.2), request, {}); }), HasSubstr("the window by time is 11 to 10 s; allowed: a part of 0 to 10 s"));
+  EXPECT_THAT(error_of([&] { select_window(rolling(0.2), request, {}); }),
+              HasSubstr("the window by time is 11 to 10 s; allowed: a part of 0 to 10 s"));
   request.from_time = 5.0;
   request.to_time = 4.0;
   EXPECT_THAT(error_of([&] { select_window(rolling(0.2), request, {}); }), HasSubstr("the begin before the end"));
   request.to_time.reset();
   request.from_distance = 1.0;
-  EXPECT_THAT(error_of([&] { select_window(rolling(0.2), request, {}); }), HasSubstr("is given by time and by distance; allowed: one of them"));
+  EXPECT_THAT(error_of([&] { select_window(rolling(0.2), request, {}); }),
+              HasSubstr("is given by time and by distance; allowed: one of them"));
   WindowRequest narrow;
   narrow.from_time = 4.001;
   narrow.to_time = 4.002;
   EXPECT_THAT(error_of([&] { select_window(rolling(0.2), narrow, {}); }), HasSubstr("holds 0 row(s): widen it"));
-  EXPECT_THAT(error_of([&] { select_window(rolling(0.2, 1.5), {}, {"force"}); }), HasSubstr("the history ends before the cruise begins"));
-  EXPECT_THAT(error_of([&] { select_window(History({{"time", "s", ""}, {"x", "m", ""}}), {}, {}); }), HasSubstr("the history has 0 rows"));
+  EXPECT_THAT(error_of([&] { select_window(rolling(0.2, 1.5), {}, {"force"}); }),
+              HasSubstr("the history ends before the cruise begins"));
+  EXPECT_THAT(error_of([&] {
+                select_window(History({{"time", "s", ""}, {"x", "m", ""}}), {}, {});
+              }),
+              HasSubstr("the history has 0 rows"));
 }
 
 }  // namespace
