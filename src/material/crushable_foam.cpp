@@ -47,7 +47,7 @@ Law CrushableFoam::law() {
   schema.number("pt", "Pa", Range::positive(), "yield strength in hydrostatic tension, constant");
   schema.number("sigma0", "Pa", Range::positive(), "initial yield strength in uniaxial compression, below 3 pc0");
   schema.number("K", "", Range::closed(0.778, 1.0), "flow stress ratio, triaxial extension to compression").by_default(1.0);
-  schema.word("pc0_reading", {"pc0", "pc0_plus_pt"}, "what p0 of exponential hardening is: pc0, or pc0 + pt").by_default("pc0");
+  schema.word("pc0_reading", {"pc0", "pc0_plus_pt"}, "what pc0 of exponential hardening is: pc0, or pc0 + pt").by_default("pc0");
   return {"crushable_foam", "snow and foams: ellipse hardening by compaction (ABAQUS, TR eq 17-18)",
           {{"law", {{"", "", schema}}}, elasticity_section(), hardening_section()}, create};
 }
@@ -75,7 +75,8 @@ double CrushableFoam::yield_function(const VectorX& state) const {
 }
 
 double CrushableFoam::stress_scale(const VectorX& state) const {
-  return std::max(pc(state[eps_vol_pl]) + parameters_.pt, std::abs(invariants(stress_of(state)).p));
+  const double stress = std::max(pc(state[eps_vol_pl]), std::abs(invariants(stress_of(state)).p));
+  return std::max(parameters_.pt + stress, 1e-8 * moduli(state).wave());
 }
 
 std::vector<Vector2> CrushableFoam::yield_surface(const VectorX& state, std::size_t points) const {

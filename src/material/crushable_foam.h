@@ -7,7 +7,7 @@
 ///   pt is constant; pc(eps_vol_pl) hardens by compaction: exponential (hardening.h, offset pt) or a table. pc0 = pc(0).
 ///   sigma0 is the initial strength in uniaxial compression; it must stay below 3 pc0, where M becomes infinite.
 ///
-/// TR's Table 1 can be read as pc0 = p0 or as pc0 + pt = p0: the key pc0_reading chooses.
+/// TR's Table 1 can be read as pc0 or as pc0 + pt: the key pc0_reading says what pc0 of the hardening is.
 /// All plastic work is dissipated: sigma : d(eps_pl) = Lambda g^2 >= 0.
 
 #include "material/crushable_foam_parameters.h"

@@ -57,8 +57,7 @@ struct CrushableFoamKernel {
         return {distance - a, along / upper(distance, 1e-290) - dpc};
       };
       const Lanes high = sign * (dv - elastic.strain(0.0));
-      const Lanes tolerance = Lanes(1e-13) * high + Lanes(1e-3) * (Lanes(4e-16) * (magnitude(eps_old) + magnitude(dv)));
-      const Lanes y = decreasing_root(balance, 0.0, 0.0, high, tolerance, yielding && high > Lanes(0.0), points.iterations);
+      const Lanes y = decreasing_root(balance, 0.0, 0.0, high, Lanes(1e-15) * high, yielding && high > Lanes(0.0), points.iterations);
       const Lanes solution = select(yielding, upper(y, 0.0), 0.0);
       balance(solution);
       // Rounding is removed by placing the stress on the ellipse: along the ray from its centre, or at constant p when the root

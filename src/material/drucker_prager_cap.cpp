@@ -33,13 +33,13 @@ std::unique_ptr<Material> create(const MaterialOptions& sections) {
                      fmt::format("below cos(beta) = {:.4g}", std::cos(beta)), "0.01 to 0.05 is usual");
   const double apex = law.d / law.tan_beta;
   law.cutoff = o.has("tension") ? o.number("tension") : apex;
-  if (law.cutoff > apex)
+  if (law.cutoff > apex * (1.0 + 1e-12))
     throw InputError(o.where("tension"), fmt::format("is {} Pa, beyond the apex of the shear line", law.cutoff),
                      fmt::format("at most d/tan(beta) = {:.6g} Pa", apex), "leave it out to cut at the apex");
-  const double lowest = law.R * law.d / (1.0 + law.R * law.tan_beta);  // pa > -lowest whatever the cap does
+  const double lowest = std::max(law.cutoff, law.R * law.d / (1.0 + law.R * law.tan_beta));  // p and pa stay above -lowest
   if (law.elasticity.porous && law.elasticity.limit <= lowest)
     throw InputError("elasticity porous, keyword 'pt_el'", fmt::format("is {} Pa", law.elasticity.limit),
-                     fmt::format("above R d/(1 + R tan(beta)) = {:.6g} Pa", lowest), "the pressure could not reach the cap's top");
+                     fmt::format("above the tensile strength, {:.6g} Pa", lowest), "raise it, or lower the tension cut-off");
   check_initial(law.hardening, o, "eps_vol_pl_0");
   return std::make_unique<DruckerPragerCap>(o.number("density"), law, o.number("eps_vol_pl_0"));
 }
@@ -81,16 +81,17 @@ double DruckerPragerCap::pa(double eps) const {
   return (pb(eps) - parameters_.R * parameters_.d) / (1.0 + parameters_.R * parameters_.tan_beta);
 }
 
+double DruckerPragerCap::shear_strength(double p, double eps) const {
+  const double top = pa(eps), Q = parameters_.d + top * parameters_.tan_beta, radius = parameters_.alpha * Q, D = top - p;
+  if (D < radius * parameters_.sin_beta) return parameters_.B * Q + std::sqrt(radius * radius - D * D);
+  return parameters_.d + p * parameters_.tan_beta;
+}
+
 double DruckerPragerCap::strength(double p, double eps) const {
   const double top = pa(eps), Q = parameters_.d + top * parameters_.tan_beta;
-  if (p >= top) {
-    const double leg = parameters_.R * Q * parameters_.R * Q - (p - top) * (p - top);
-    return leg < 0.0 ? -1.0 : parameters_.A / parameters_.R * std::sqrt(leg);
-  }
-  const double radius = parameters_.alpha * Q;
-  if (top - p < radius * parameters_.sin_beta)
-    return parameters_.B * Q + std::sqrt(radius * radius - (top - p) * (top - p));
-  return p < -parameters_.cutoff ? -1.0 : parameters_.d + p * parameters_.tan_beta;
+  if (p < top) return p < -parameters_.cutoff ? 0.0 : shear_strength(p, eps);
+  const double leg = parameters_.R * Q * parameters_.R * Q - (p - top) * (p - top);
+  return parameters_.A / parameters_.R * std::sqrt(std::max(leg, 0.0));
 }
 
 double DruckerPragerCap::yield_function(const VectorX& state) const {
@@ -99,13 +100,12 @@ double DruckerPragerCap::yield_function(const VectorX& state) const {
   const double top = pa(eps), Q = parameters_.d + top * parameters_.tan_beta, D = stress.p - top;
   const double cut = -stress.p - parameters_.cutoff;
   if (D >= 0.0) return std::max(cut, std::hypot(D, parameters_.R * t / parameters_.A) - parameters_.R * Q);
-  const double radius = parameters_.alpha * Q;
-  if (-D < radius * parameters_.sin_beta) return std::max(cut, std::hypot(D, t - parameters_.B * Q) - radius);
-  return std::max(cut, t - stress.p * parameters_.tan_beta - parameters_.d);
+  return std::max(cut, t - shear_strength(stress.p, eps));
 }
 
 double DruckerPragerCap::stress_scale(const VectorX& state) const {
-  return parameters_.d + std::max(pb(state[eps_vol_pl]), std::abs(invariants(stress_of(state)).p));
+  const double stress = std::max(pb(state[eps_vol_pl]), std::abs(invariants(stress_of(state)).p));
+  return std::max(parameters_.d + stress, 1e-8 * moduli(state).wave());
 }
 
 std::vector<Vector2> DruckerPragerCap::yield_surface(const VectorX& state, std::size_t points) const {
@@ -116,12 +116,12 @@ std::vector<Vector2> DruckerPragerCap::yield_surface(const VectorX& state, std::
   for (std::size_t i = 0; i < half; ++i) {  // straight to the top, denser near it where the transition is
     const double share = static_cast<double>(i) / static_cast<double>(half);
     const double p = top - (top - start) * (1.0 - share) * (1.0 - share);
-    line.emplace_back(p, std::max(strength(p, eps), 0.0));
+    line.emplace_back(p, strength(p, eps));
   }
   for (std::size_t i = 0; i <= half; ++i) {  // by equal angles along the cap
     const double angle = 0.5 * pi * static_cast<double>(i) / static_cast<double>(half);
     const double p = i == half ? tip : top + (tip - top) * (1.0 - std::cos(angle));
-    line.emplace_back(p, i == half ? 0.0 : std::max(strength(p, eps), 0.0));
+    line.emplace_back(p, i == half ? 0.0 : strength(p, eps));
   }
   return line;
 }

@@ -41,7 +41,8 @@ class DruckerPragerCap : public Material {
   double pa(double eps) const;  ///< pressure at the top of the cap, the critical state [Pa]
 
  private:
-  double strength(double p, double eps) const;  ///< t on the surface at p; negative outside its range of p
+  double shear_strength(double p, double eps) const;  ///< t on the shear line or the transition, p <= pa
+  double strength(double p, double eps) const;        ///< t on the whole surface, 0 outside its range of p
 
   DruckerPragerCapParameters parameters_;
 };

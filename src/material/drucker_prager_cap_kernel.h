@@ -45,7 +45,7 @@ struct DruckerPragerCapKernel {
     const Lanes tan_beta = law.tan_beta;
     ValueAndSlope t{Lanes(law.d) + p * tan_beta, tan_beta * dp};
     if (law.alpha == 0.0) return t;
-    const Lanes radius = Lanes(law.alpha) * at.Q, D = at.pa - p;
+    const Lanes radius = Lanes(law.alpha) * at.Q, D = upper(at.pa - p, 0.0);
     const Mask on_arc = D < radius * Lanes(law.sin_beta);
     const Lanes leg = root(upper(radius * radius - D * D, 0.0));
     t.value = select(on_arc, Lanes(law.B) * at.Q + leg, t.value);
@@ -73,8 +73,7 @@ struct DruckerPragerCapKernel {
     const Lanes shear_excess = t_trial - shear_strength(old, p_trial, 0.0, 0.0, nullptr).value - slack;
     const Mask on_cap = compacts && cap_excess > rounding;
     const Mask on_shear = !compacts && shear_excess > rounding;
-    const bool cuts = !law.elasticity.porous || law.cutoff < law.elasticity.limit;
-    const Mask in_tension = Mask(cuts) && p_trial < Lanes(-law.cutoff) - rounding;
+    const Mask in_tension = p_trial < Lanes(-law.cutoff) - rounding;
     const Mask yielding = on_cap || on_shear || in_tension;
 
     Lanes p = p_trial, t = t_trial, m = 0.0, compaction = 0.0;  // compaction is De
@@ -84,7 +83,7 @@ struct DruckerPragerCapKernel {
                           Lanes(8e-16) * (magnitude(elastic.p_n) + magnitude(old.pa)) / elastic.bulk(0.0, elastic.p_n);
       if (any(on_cap)) cap(on_cap, elastic, dv, deviator, hardening, eps_old, old, p_trial, noise, points, p, t, m, compaction, at);
       if (any(on_shear)) shear(on_shear, elastic, dv, deviator, hardening, eps_old, old, p_trial, noise, points, p, t, m, compaction, at);
-      const Mask cut = Mask(cuts) && (yielding && p < Lanes(-law.cutoff) - rounding);
+      const Mask cut = yielding && p < Lanes(-law.cutoff * (1.0 + 1e-15));
       if (any(cut)) tension(cut, elastic, dv, deviator, hardening, eps_old, points, p, t, m, compaction, at);
     }
     const LodeReturn back = deviator.at(m, points.iterations, yielding);
@@ -114,7 +113,8 @@ struct DruckerPragerCapKernel {
     Lanes u = 0.0;
     Surfaces now = old;
     struct Angle {
-      Lanes cosine, sine, m, inner_slope, h_slope, root_;
+      Lanes cosine, sine, length, m, slope;
+      LodeReturn back;
     };
     Angle angle{};
     // tan(phi) for a given De: A Q sin(phi) h(m) = t_tr. Concave in u for K = 1, so Newton's method from the left is monotone.
@@ -131,7 +131,7 @@ struct DruckerPragerCapKernel {
         const LodeReturn back = deviator.at(multiplier, points.iterations, open);
         const Lanes value = top * sine * back.shrink - t_trial;
         const Lanes slope = top * (cosine * cosine * cosine * back.shrink + sine * back.slope * k * sine);
-        angle = {cosine, sine, multiplier, slope, back.slope, length};
+        angle = {cosine, sine, length, multiplier, slope, back};
         if (!any(open)) break;
         stdx::where(open, points.iterations) += 1.0;
         stdx::where(open && value > Lanes(0.0), high) = u;
@@ -152,11 +152,9 @@ struct DruckerPragerCapKernel {
       const Lanes cap_pressure = now.pa + R * now.Q * angle.cosine;
       // d(cos phi)/d(De) by the implicit derivative of the inner equation
       const Lanes dQ = Lanes(law.tan_beta) * now.pa_slope;
-      const Lanes top_h = A * angle.sine;
-      const Lanes m_slope = Lanes(3.0 * law.R / (law.A * law.A)) * elastic.shear / now.Q * angle.root_;
-      const LodeReturn back = deviator.at(angle.m, points.iterations, active);
-      const Lanes inner_de = top_h * dQ * back.shrink + top_h * now.Q * back.slope * (m_slope - angle.m * dQ / now.Q);
-      const Lanes dcos = angle.sine * square(angle.cosine) * inner_de / angle.inner_slope;
+      const Lanes m_slope = (Lanes(3.0 * law.R / (law.A * law.A)) * elastic.shear * angle.length - angle.m * dQ) / now.Q;
+      const Lanes inner = A * angle.sine * (dQ * angle.back.shrink + now.Q * angle.back.slope * m_slope);
+      const Lanes dcos = angle.sine * square(angle.cosine) * inner / angle.slope;
       const Lanes slope = -elastic.bulk(x, pressure) - now.pa_slope - R * (dQ * angle.cosine + now.Q * dcos);
       return {pressure - cap_pressure, slope};
     };
@@ -207,12 +205,14 @@ struct DruckerPragerCapKernel {
       return {t_trial * D - strength * Dh, t_trial * dD - yield.slope * Dh - strength * dDh};
     };
     const Lanes high = elastic.strain(old.pa) - dv;
-    const Lanes ratio = t_trial / upper(shear_strength(old, p_trial, 0.0, 0.0, nullptr).value, Lanes(1e-3) * t_trial) - Lanes(1.0);
+    const Lanes ratio = t_trial / upper(shear_strength(old, p_trial, 0.0, 0.0, nullptr).value, Lanes(1e-3) * t_trial + Lanes(1e-290)) - Lanes(1.0);
     const Lanes start = lower(ratio * (old.pa - p_trial) / (c + ratio * (elastic.bulk(dv, p_trial) + old.pa_slope)), high);
     const Lanes x = decreasing_root(balance, start, 0.0, high, Lanes(1e-13) * high + Lanes(0.01) * noise, active && high > Lanes(0.0),
                                     points.iterations);
     const Lanes solution = select(active, upper(x, 0.0), 0.0);
     balance(solution);
+    pressure = lower(pressure, now.pa);  // it is below, but for rounding
+    strength = shear_strength(now, pressure, 0.0, 0.0, nullptr).value;
     const Mask apex = strength <= Lanes(1e-12) * now.Q;
     stdx::where(active, compaction) = -solution;
     stdx::where(active, p) = pressure;

@@ -18,7 +18,7 @@ SectionSchema hardening_section() {
   table.word("below", {"extrapolate", "stop"}, "rule for strains below the first row: decay to zero strength, or stop")
       .by_default("extrapolate");
   Schema exponential("hardening exponential");
-  exponential.number("p0", "Pa", Range::positive(), "hydrostatic yield strength at zero volumetric plastic strain");
+  exponential.number("pc0", "Pa", Range::positive(), "hydrostatic yield strength at zero volumetric plastic strain");
   exponential.number("lambda", "", Range::positive(), "logarithmic hardening modulus: slope of void ratio against ln p in first loading");
   exponential.number("kappa", "", Range::non_negative(), "logarithmic bulk modulus: the same slope in unloading; below lambda");
   exponential.number("e0", "", Range::positive(), "initial void ratio");
@@ -61,7 +61,7 @@ HardeningParameters make_table(const Options& o) {
 HardeningParameters make_exponential(const Options& o, double offset, bool includes_offset) {
   HardeningParameters h;
   h.kind = HardeningParameters::Kind::exponential;
-  h.scale = o.number("p0") + (includes_offset ? 0.0 : offset);
+  h.scale = o.number("pc0") + (includes_offset ? 0.0 : offset);
   h.offset = offset;
   h.c = 1.0 + o.number("e0");
   h.lambda = o.number("lambda");
@@ -70,7 +70,7 @@ HardeningParameters make_exponential(const Options& o, double offset, bool inclu
     throw InputError(o.where("lambda"), fmt::format("is {}, not above kappa = {}", h.lambda, h.kappa), "lambda > kappa");
   h.first_value = h.scale - offset;
   if (h.first_value <= 0.0)
-    throw InputError(o.where("p0"), fmt::format("is {} Pa, which includes the tensile strength", h.scale), fmt::format("above {} Pa", offset));
+    throw InputError(o.where("pc0"), fmt::format("is {} Pa, which includes the tensile strength", h.scale), fmt::format("above {} Pa", offset));
   h.decay = h.scale * h.c / (h.lambda - h.kappa) / h.first_value;
   return h;
 }

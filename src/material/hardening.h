@@ -17,7 +17,7 @@ namespace furrow {
 /// The section "hardening" of a material file.
 SectionSchema hardening_section();
 /// @param offset           [Pa] of the exponential law (the tensile strength of a foam); tables do not use it
-/// @param includes_offset  the key p0 is p_c0 + offset, not p_c0
+/// @param includes_offset  the key pc0 is p_c0 + offset, not p_c0
 /// @throws InputError for rows that do not increase, a table of one row, lambda <= kappa
 HardeningParameters make_hardening(const SectionOptions& section, double offset = 0.0, bool includes_offset = false);
 /// Strength at eps_vol_pl [Pa].

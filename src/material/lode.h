@@ -51,19 +51,22 @@ class DeviatoricReturn<true> {
     const Symmetric unit = trial * select(q_ > Lanes(0.0), Lanes(1.0) / q_, 0.0);
     cos_3t_ = lower(upper(Lanes(13.5) * determinant(unit), -1.0), 1.0);
     theta_ = each(cos_3t_, [](double c) { return __builtin_acos(c) / 3.0; });
+    guess_ = theta_;
     t_ = q_ * gauge(theta_);
   }
   const Lanes& t() const { return t_; }
   LodeReturn at(const Lanes& m, Lanes& iterations, const Mask& active) const {
     const Lanes w = m / (Lanes(1.0) + m), v = Lanes(1.0) / (Lanes(1.0) + m);
     const Lanes third = 1.0471975511965977462;  // pi/3
+    const Mask turns = active && theta_ < third && m > Lanes(0.0);
     const Lanes theta = decreasing_root(
         [&](const Lanes& angle) -> ValueAndSlope {
           const Lanes g = gauge(angle), g1 = first(angle), g2 = second(angle);
           const Lanes sine = sin_of(theta_ - angle), cosine = cos_of(theta_ - angle), f = v + w * g * g;
           return {f * sine - w * g * g1 * cosine, w * g * g1 * sine - (f + w * (g1 * g1 + g * g2)) * cosine};
         },
-        theta_, theta_, third, 1e-15, active && theta_ < third, iterations);
+        select(turns, guess_, theta_), theta_, third, 1e-11, turns, iterations);
+    guess_ = theta;
     const Lanes g = gauge(theta), g1 = first(theta), g2 = second(theta);
     const Lanes radial = Lanes(1.0) + m * g * g, tangential = m * g * g1;
     // v^T (I + m H)^-1 v with v = (g^2, g g') and the Hessian H of t^2/2
@@ -112,6 +115,7 @@ class DeviatoricReturn<true> {
   const Symmetric& trial_;
   double a_, b_;
   Lanes q_, cos_3t_, theta_, t_;
+  mutable Lanes guess_;  ///< the last theta found, where the next search starts
 };
 
 }  // namespace FURROW_ISA

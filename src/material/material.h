@@ -77,7 +77,8 @@ class Material {
   /// Yield function of the state [Pa]: <= 0 inside; minus infinity for a law that never yields. Where several surfaces
   /// meet (cap, shear, tension cut-off), the largest.
   virtual double yield_function(const VectorX& state) const;
-  /// The strength that a yield function error is compared with [Pa].
+  /// The stress that an error of the yield function is compared with [Pa]: the strength or the pressure, and at least 1e-8 of the
+  /// wave modulus, below which the rounding of a strain is felt.
   virtual double stress_scale(const VectorX& state) const = 0;
   /// The yield surface of the state in triaxial compression as points (p, q), from the tensile end to the tip of the cap;
   /// empty for a law that never yields.

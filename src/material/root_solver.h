@@ -28,7 +28,7 @@ inline Lanes decreasing_root(Function&& f, Lanes x, Lanes low, Lanes high, const
     stdx::where(active && !left, high) = x;
     Lanes step = -at.value / at.slope;
     const Lanes newton = x + step;
-    const Mask trusted = newton >= low && newton <= high && magnitude(step) <= Lanes(0.5) * magnitude(last);
+    const Mask trusted = at.slope < Lanes(0.0) && finite(at.slope) && newton >= low && newton <= high && magnitude(step) <= Lanes(0.5) * magnitude(last);
     step = select(trusted, step, Lanes(0.5) * (low + high) - x);
     stdx::where(active, x) = x + step;
     stdx::where(active, last) = step;
