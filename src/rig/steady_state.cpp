@@ -19,6 +19,12 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
+/// Differences so small that they are rounding, not a signal: of a prescribed slip, of the torque of a free axle.
+bool is_constant(const std::vector<double>& values, double reference = 0.0) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *high - *low <= std::max(1e-12, 1e-9 * std::max({std::abs(*high), std::abs(*low), reference}));
+}
+
 /// Two-sided 99 % quantile of Student's t, expansion of Cornish and Fisher about the normal one; within 4 % from 3 degrees
 /// on, 0.3 % from 6.
 double student_t99(double freedom) {
@@ -151,7 +157,7 @@ Window select_window(const History& history, const WindowRequest& request, const
     for (const std::string& name : channels) {
       std::vector<double> values = history.column(name);
       values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(start));
-      const std::size_t truncation = mser_truncation(values);
+      const std::size_t truncation = is_constant(values) ? 0 : mser_truncation(values);
       if (truncation > transient) longest = name;
       transient = std::max(transient, truncation);
     }
@@ -195,7 +201,6 @@ SteadyValue analyse_steady(const std::string& name, const std::string& unit, con
   result.standard_error = blocking.standard_error;
   result.blocks = blocking.blocks;
   result.block_duration = spacing * static_cast<double>(blocking.block_length);
-  const bool constant = *high - *low <= 1e-12 * std::max({std::abs(*high), std::abs(*low), reference});  // but for round-off
   const double inefficiency = squares > 0.0 ? n * (n - 1.0) / squares * result.standard_error * result.standard_error : 1.0;
   result.independent_samples = n / inefficiency;
   result.correlation_time = 0.5 * inefficiency * spacing;
@@ -211,7 +216,7 @@ SteadyValue analyse_steady(const std::string& name, const std::string& unit, con
   result.halves_difference = half_difference(values);
   result.halves_error = 2.0 * residual.standard_error;
 
-  if (constant) {
+  if (is_constant(values, reference)) {
     result.steady = true;
     result.verdict = "steady";
     return result;

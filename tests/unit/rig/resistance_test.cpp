@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "rig/wheel_rig.h"
+#include "wheel_on_floor.h"
 
 namespace furrow {
 namespace {
@@ -78,6 +79,26 @@ TEST(Resistance, IsTheRatioOfTheMeansWithItsError) {
   EXPECT_DOUBLE_EQ(result.value("drawbar_coefficient").mean, -c.mean);
   EXPECT_DOUBLE_EQ(result.value("drawbar_coefficient").standard_error, c.standard_error);
   EXPECT_EQ(result.value("drawbar_pull").unit, "N");
+}
+
+// From the rig to the figure: a locked wheel dragged over a floor of friction mu has the resistance coefficient mu.
+TEST(Resistance, OfALockedWheelIsTheFriction) {
+  RigidWheel wheel = make_wheel(0.2003);
+  const Floor floor;
+  WheelRig rig(WheelRig::schema().read(std::vector<std::string>{
+                   "load_force", "60", "speed", "1", "mode", "slip", "slip", "-1", "settle_time", "0.1", "accelerate_time", "0.1",
+                   "ground_level", "0", "damping", "600"}),
+               wheel);
+  History history(WheelRig::channels());
+  run(rig, wheel, 0.8, 4e-5, &floor, [&](const std::vector<double>& row) { history.append(row); });
+  const Resistance result = measure_resistance(history);
+  EXPECT_TRUE(result.steady) << result.verdict;
+  EXPECT_GE(result.window.begin, 0.2 - 1e-9);
+  EXPECT_NEAR(result.value("resistance_coefficient").mean, floor.friction, 1e-6);
+  EXPECT_NEAR(result.value("drawbar_coefficient").mean, -floor.friction, 1e-3);
+  EXPECT_NEAR(result.value("force_z").mean, 60.0, 0.1);
+  EXPECT_NEAR(result.value("slip").mean, -1.0, 1e-12);
+  EXPECT_NEAR(result.value("drive_torque").mean, -floor.friction * 60.0 * 0.2, 0.05);
 }
 
 // The noise that both forces share does not enter their ratio: its error is that of the own noise alone, over the mean load.

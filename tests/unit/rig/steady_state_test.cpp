@@ -222,6 +222,14 @@ TEST(Window, BeginsWithTheCruiseLessTheTransient) {
   EXPECT_EQ(window.warning, "");
 }
 
+TEST(Window, RoundingIsNoTransient) {
+  History history({{"time", "s", ""}, {"x", "m", ""}, {"slip", "", ""}});
+  for (int i = 0; i < 1000; ++i) history.append({0.01 * i, 0.02 * i, 1e-16 * i});  // a slip of 0, rounded
+  const Window window = select_window(history, {}, {"slip"});
+  EXPECT_EQ(window.first, 0u);
+  EXPECT_EQ(window.warning, "");
+}
+
 TEST(Window, ATransientThatFillsTheCruiseIsSaid) {
   EXPECT_THAT(select_window(rolling(20.0), {}, {"force"}).warning,
               HasSubstr("the transient of force fills nearly half of the cruise: run longer"));

@@ -1,0 +1,57 @@
+#pragma once
+/// A small wheel and a floor with friction, for tests of the rig whose result is known in closed form.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "rig/wheel_rig.h"
+
+namespace furrow {
+
+inline RigidWheel make_wheel(double height = 0.2) {
+  RigidWheelParameters wheel;
+  wheel.geometry.diameter = 0.4;
+  wheel.geometry.width = 0.1;
+  wheel.geometry.segments = 160;
+  wheel.geometry.element_size = 0.05;
+  wheel.mass = 3.0;
+  wheel.axle_inertia = 0.06;
+  wheel.diametral_inertia = 0.04;
+  wheel.axle_centre = {0.0, 0.0, height};
+  return RigidWheel(wheel);
+}
+
+/// A rigid floor at z = 0 by a penalty, with Coulomb friction that is viscous at creeping speeds.
+struct Floor {
+  double stiffness = 3e5;  // [N/m] a node
+  double friction = 0.5;   // [-]
+  double creep = 1e-3;     // [m/s] below it friction is proportional to the sliding speed
+
+  void press_on(Surface& surface) const {
+    surface.clear_forces();
+    for (Eigen::Index node = 0; node < surface.x.cols(); ++node) {
+      const double normal = -stiffness * surface.x(2, node);
+      if (normal <= 0.0) continue;
+      const Vector2 sliding = surface.v.col(node).head<2>();
+      const double speed = sliding.norm();
+      surface.f(2, node) = normal;
+      surface.f.col(node).head<2>() = -friction * normal * sliding / std::max(speed, creep);
+    }
+  }
+};
+
+/// Runs rig and wheel to an end on a floor (or without); calls each row.
+inline void run(WheelRig& rig, RigidWheel& wheel, double end, double dt, const Floor* floor,
+         const std::function<void(const std::vector<double>&)>& each) {
+  const long steps = std::lround(end / dt);
+  for (long i = 0; i < steps; ++i) {
+    rig.apply(i * dt, dt);
+    wheel.advance(dt);
+    if (floor) floor->press_on(wheel.surface());
+    each(rig.measure((i + 1) * dt));
+  }
+}
+
+}  // namespace furrow
