@@ -10,6 +10,7 @@
 #include "coupling/fix_world.h"
 #include "coupling/guard.h"
 #include "coupling/liggghts_access.h"
+#include "coupling/words.h"
 #include "domain.h"
 #include "neighbor.h"
 #include "update.h"
@@ -133,7 +134,7 @@ Schema FixMeshBody::schema() {
 }
 
 FixMeshBody::Arguments::Arguments(int narg, char** arg) {
-  const Options options = schema().read(std::vector<std::string>(arg + std::min(narg, 3), arg + narg));
+  const Options options = schema().read(words_after_style(narg, arg));
   body = options.word("body");
   words = {arg[0], arg[1], "mesh/surface", "fix", body, "type", std::to_string(options.integer("type"))};
   for (std::string& word : words) pointers.push_back(word.data());

@@ -125,13 +125,18 @@ void FixWorld::check_momentum(Member& m) const {
   m.contacts = m.ledger.contacts;
   if (m.ledger.force_scale == 0.0) return;
   const Surface& surface = m.body->surface();
-  const double force_defect = (surface.total_force() + m.ledger.grain_force).norm() / m.ledger.force_scale;
-  const double moment_defect = (surface.total_moment(m.reference) + m.ledger.grain_moment).norm() / m.ledger.moment_scale;
+  const double force_imbalance = (surface.total_force() + m.ledger.grain_force).norm();
+  const double moment_imbalance = (surface.total_moment(m.reference) + m.ledger.grain_moment).norm();
+  const double force_defect = force_imbalance / m.ledger.force_scale, moment_defect = moment_imbalance / m.ledger.moment_scale;
   // Written so that NaN fails too.
   if (!(force_defect < momentum_tolerance) || !(moment_defect < momentum_tolerance))
     throw StateError(fmt::format("body '{}': forces on its nodes and on the grains do not cancel at step {}: relative defect {:.3g} "
                                  "in force, {:.3g} in moment (limit {:g}); a contact force is not finite or was lost",
                                  m.name, update->ntimestep, force_defect, moment_defect, momentum_tolerance));
+  m.audit.force_imbalance = std::max(m.audit.force_imbalance, force_imbalance);
+  m.audit.force_scale = std::max(m.audit.force_scale, m.ledger.force_scale);
+  m.audit.moment_imbalance = std::max(m.audit.moment_imbalance, moment_imbalance);
+  m.audit.moment_scale = std::max(m.audit.moment_scale, m.ledger.moment_scale);
   m.audit.force = std::max(m.audit.force, force_defect);
   m.audit.moment = std::max(m.audit.moment, moment_defect);
   m.audit.lever_gap = std::max(m.audit.lever_gap, m.ledger.lever_gap.norm() / m.ledger.moment_scale);

@@ -35,10 +35,12 @@ struct ContactLedger {
   double contacts = 0.0;
 };
 
-/// Largest relative defects since the start of the run.
+/// Largest defects since the start of the run, each with its scale; a scale of zero means that nothing has touched yet.
 struct MomentumAudit {
-  double force = 0.0;      ///< |nodal forces + grain forces| / force scale
-  double moment = 0.0;     ///< the same for moments about the middle of the body's nodes
+  double force_imbalance = 0.0, force_scale = 0.0;    ///< |nodal forces + grain forces|, sum of |contact force| [N]
+  double moment_imbalance = 0.0, moment_scale = 0.0;  ///< the same for moments about the middle of the body's nodes [N m]
+  double force = 0.0;      ///< largest ratio of imbalance to scale in one step
+  double moment = 0.0;     ///< the same for moments
   double lever_gap = 0.0;  ///< |lever gap| / moment scale: not an error of the wall, see fix_wall_gran_body.md
 };
 

@@ -1,7 +1,8 @@
-// Functions of libliggghts that this executable stands in front of. The dynamic linker finds ours first; each does its own small
-// part and calls the library's. They need default visibility, everything else in coupling/ is hidden.
+// Functions of libliggghts that this executable stands in front of: the dynamic linker finds ours first. They need default
+// visibility, everything else in coupling/ is hidden.
 
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 
 #include <dlfcn.h>
@@ -10,7 +11,10 @@
 #include "coupling/liggghts_access.h"
 #include "coupling/styles.h"
 #include "error.h"
+#include "fix.h"
 #include "lammps.h"
+#include "output.h"
+#include "universe.h"
 
 namespace {
 
@@ -24,18 +28,35 @@ Function next_definition(const char* symbol) {
   return reinterpret_cast<Function>(address);
 }
 
-/// LIGGGHTS says where in its own source an error arose; the user wants to know where in the script.
-void print_script_position(LAMMPS_NS::LAMMPS& lammps, bool every_rank) {
+/// One error, one message: what is wrong, where in the script, and where in the source it was noticed.
+/// (The library's own version may add a line from a string that no longer exists.)
+void print_error(LAMMPS_NS::LAMMPS& lammps, const std::string& text, const char* file, int line) {
+  const std::string position = furrow::coupling::script_position(lammps);
+  for (FILE* stream : {lammps.screen, lammps.logfile}) {
+    if (!stream) continue;
+    std::fprintf(stream, "\nERROR: %s\n", text.c_str());
+    if (!position.empty()) std::fprintf(stream, "  at %s\n", position.c_str());
+    if (line > 0) std::fprintf(stream, "  (LIGGGHTS, %s:%d)\n", file, line);
+    std::fflush(stream);
+  }
+}
+
+/// All ranks have come to the same error: leave together, dumps and logs closed.
+[[noreturn]] void stop_together(LAMMPS_NS::LAMMPS& lammps, const std::string& text, const char* file, int line) {
+  MPI_Barrier(lammps.world);
   int rank = 0;
   MPI_Comm_rank(lammps.world, &rank);
-  if (rank != 0) {
-    if (every_rank) std::fprintf(stderr, "ERROR on rank %d:\n", rank);
-    return;
-  }
-  const std::string position = furrow::coupling::script_position(lammps);
-  if (position.empty()) return;
-  for (FILE* stream : {lammps.screen, lammps.logfile})
-    if (stream) std::fprintf(stream, "\nERROR at %s\n", position.c_str());
+  if (rank == 0) print_error(lammps, text, file, line);
+  delete lammps.output;
+  if (lammps.logfile) std::fclose(lammps.logfile);
+  if (lammps.universe->nworlds > 1) MPI_Abort(lammps.universe->uworld, 1);
+  MPI_Finalize();
+  std::exit(1);
+}
+
+std::string fix_text(const LAMMPS_NS::Fix& fix, const char* style, const char* text) {
+  const std::string name = std::string("fix ") + style + " (id " + fix.id + "): ";
+  return name + (std::string(text).size() > 2 ? text : "illegal command");
 }
 
 }  // namespace
@@ -50,26 +71,27 @@ FURROW_EXPORTED void LAMMPS::create() {
   furrow::coupling::add_styles(*this);
 }
 
-FURROW_EXPORTED void Error::all(const char* file, int line, const char* text) {
-  print_script_position(*lmp, false);
-  next_definition<void (*)(Error*, const char*, int, const char*)>("_ZN9LAMMPS_NS5Error3allEPKciS2_")(this, file, line, text);
-}
-
-FURROW_EXPORTED void Error::one(const char* file, int line, const char* text) {
-  print_script_position(*lmp, true);
-  next_definition<void (*)(Error*, const char*, int, const char*)>("_ZN9LAMMPS_NS5Error3oneEPKciS2_")(this, file, line, text);
-}
+FURROW_EXPORTED void Error::all(const char* file, int line, const char* text) { stop_together(*lmp, text, file, line); }
 
 FURROW_EXPORTED void Error::fix_error(const char* file, int line, Fix* fix, const char* text) {
-  print_script_position(*lmp, false);
-  next_definition<void (*)(Error*, const char*, int, Fix*, const char*)>("_ZN9LAMMPS_NS5Error9fix_errorEPKciPNS_3FixES2_")(
-      this, file, line, fix, text);
+  stop_together(*lmp, fix_text(*fix, fix->style, text), file, line);
 }
 
 FURROW_EXPORTED void Error::fix_error(const char* file, int line, Fix* fix, const char* style, const char* text) {
-  print_script_position(*lmp, false);
-  next_definition<void (*)(Error*, const char*, int, Fix*, const char*, const char*)>(
-      "_ZN9LAMMPS_NS5Error9fix_errorEPKciPNS_3FixES2_S2_")(this, file, line, fix, style, text);
+  stop_together(*lmp, fix_text(*fix, style, text), file, line);
+}
+
+/// One rank alone: the others cannot be told, so the run is aborted.
+FURROW_EXPORTED void Error::one(const char* file, int line, const char* text) {
+  int rank = 0;
+  MPI_Comm_rank(world, &rank);
+  if (rank == 0) {
+    print_error(*lmp, text, file, line);
+  } else {
+    std::fprintf(stderr, "\nERROR on rank %d: %s\n", rank, text);
+    if (line > 0) std::fprintf(stderr, "  (LIGGGHTS, %s:%d)\n", file, line);
+  }
+  MPI_Abort(world, 1);
 }
 
 }  // namespace LAMMPS_NS

@@ -102,6 +102,10 @@ std::string script_position(const LAMMPS_NS::LAMMPS& lammps) {
   return fmt::format("{}, line {}: {}", file_name(lammps.infile), line, text ? text : "");
 }
 
+std::string script_name(const LAMMPS_NS::LAMMPS& lammps) {
+  return lammps.infile && lammps.infile != stdin ? file_name(lammps.infile) : "";
+}
+
 void replace_mesh(LAMMPS_NS::FixMesh& fix, LAMMPS_NS::AbstractMesh* mesh) {
   LAMMPS_NS::AbstractMesh*& slot = fix.*member(FixMeshMesh{});
   delete slot;

@@ -24,6 +24,9 @@ void add_command(LAMMPS_NS::LAMMPS& lammps, const std::string& name, CommandCrea
 /// "in.wheel, line 12: fix wheel all ..." of the command being executed; empty outside a script. Rank 0 only.
 std::string script_position(const LAMMPS_NS::LAMMPS& lammps);
 
+/// Path of the script being read; empty for standard input. Rank 0 only.
+std::string script_name(const LAMMPS_NS::LAMMPS& lammps);
+
 /// Gives a mesh fix another mesh (FixMesh::mesh_, private); the old one is deleted.
 void replace_mesh(LAMMPS_NS::FixMesh& fix, LAMMPS_NS::AbstractMesh* mesh);
 

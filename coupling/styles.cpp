@@ -1,7 +1,12 @@
 #include "coupling/styles.h"
 
+#include "coupling/command_bed.h"
 #include "coupling/fix_mesh_body.h"
 #include "coupling/fix_wall_gran_body.h"
+#include "coupling/fix_progress.h"
+#include "coupling/fix_wheel_history.h"
+#include "coupling/fix_wheel_rig.h"
+#include "coupling/fix_wheel_rigid.h"
 #include "coupling/fix_world.h"
 #include "coupling/guard.h"
 #include "coupling/liggghts_access.h"
@@ -18,13 +23,23 @@ LAMMPS_NS::Fix* create_fix(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) {
   return fix;
 }
 
+template <class Command>
+void run_command(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) {
+  guarded(*lammps->error, [&] { Command(lammps).command(narg, arg); });
+}
+
 }  // namespace
 
 void add_styles(LAMMPS_NS::LAMMPS& lammps) {
   guarded(*lammps.error, [&] { check_library(lammps); });
   add_fix_style(lammps, "furrow/world", create_fix<FixWorld>);
+  add_fix_style(lammps, "wheel/rigid", create_fix<FixWheelRigid>);
+  add_fix_style(lammps, "wheel/rig", create_fix<FixWheelRig>);
+  add_fix_style(lammps, "wheel/history", create_fix<FixWheelHistory>);
+  add_fix_style(lammps, "progress", create_fix<FixProgress>);
   add_fix_style(lammps, "mesh/body", create_fix<FixMeshBody>);
   add_fix_style(lammps, "wall/gran/body", create_fix<FixWallGranBody>);
+  add_command(lammps, "bed", run_command<CommandBed>);
 }
 
 }  // namespace furrow::coupling

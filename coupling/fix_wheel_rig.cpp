@@ -1,0 +1,48 @@
+#include "coupling/fix_wheel_rig.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "coupling/fix_wheel_rigid.h"
+#include "coupling/words.h"
+#include "modify.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+/// The wheel of that fix id, if no other rig has it.
+FixWheelRigid& find_free_wheel(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
+  const std::string where = options.where("wheel"), &id = options.word("wheel");
+  auto* wheel = dynamic_cast<FixWheelRigid*>(&FixWorld::find_body(lammps, where, id));
+  if (!wheel) throw InputError(where, fmt::format("is '{}', which is a body but no wheel", id), "the id of a fix wheel/rigid");
+  for (int i = 0; i < lammps.modify->nfix; ++i) {
+    auto* other = dynamic_cast<FixWheelRig*>(lammps.modify->fix[i]);
+    if (other && &other->wheel_fix() == wheel)
+      throw InputError(where, fmt::format("is '{}', which fix {} drives already", id, other->id), "one rig a wheel",
+                       fmt::format("remove one of them, or write 'unfix {}' before", other->id));
+  }
+  return *wheel;
+}
+
+}  // namespace
+
+Schema FixWheelRig::schema() {
+  Schema schema = WheelRig::schema("fix wheel/rig");
+  schema.text("wheel", "id of the fix wheel/rigid that it drives");
+  return schema;
+}
+
+FixWheelRig::FixWheelRig(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+    : Fix(lammps, narg, arg),
+      options_(schema().read(words_after_style(narg, arg))),
+      wheel_fix_(find_free_wheel(*lammps, options_)),
+      rig_(options_, wheel_fix_.wheel()) {}
+
+void FixWheelRig::post_create() { FixWorld::of(*lmp).add(static_cast<Driver&>(*this)); }
+
+void FixWheelRig::pre_delete(bool unfixflag) {
+  if (unfixflag) FixWorld::of(*lmp).remove(static_cast<Driver&>(*this));
+}
+
+}  // namespace furrow::coupling

@@ -1,0 +1,33 @@
+#pragma once
+/// fix wheel/rig: drives a wheel. See fix_wheel_rig.md.
+
+#include "coupling/effective_input.h"
+#include "coupling/fix_world.h"
+#include "fix.h"
+#include "rig/wheel_rig.h"
+
+namespace furrow::coupling {
+
+class FixWheelRigid;
+
+class FixWheelRig : public LAMMPS_NS::Fix, public Driver, public Described {
+ public:
+  FixWheelRig(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
+  static Schema schema();
+
+  void post_create() override;
+  void pre_delete(bool unfixflag) override;
+  int setmask() override { return 0; }
+  void apply(double time, double dt) override { rig_.apply(time, dt); }
+
+  const WheelRig& rig() const { return rig_; }
+  FixWheelRigid& wheel_fix() { return wheel_fix_; }
+  const Options& options() const override { return options_; }
+
+ private:
+  Options options_;
+  FixWheelRigid& wheel_fix_;
+  WheelRig rig_;
+};
+
+}  // namespace furrow::coupling

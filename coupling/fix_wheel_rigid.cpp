@@ -1,0 +1,13 @@
+#include "coupling/fix_wheel_rigid.h"
+
+#include "coupling/words.h"
+
+namespace furrow::coupling {
+
+FixWheelRigid::FixWheelRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+    : FixWheelRigid(lammps, narg, arg, schema().read(words_after_style(narg, arg))) {}
+
+FixWheelRigid::FixWheelRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Options& options)
+    : FixBody(lammps, narg, arg, std::make_unique<RigidWheel>(options)), options_(options) {}
+
+}  // namespace furrow::coupling
