@@ -11,6 +11,8 @@
 ///   outer:  p(De) - pa - R Q cos(phi) = 0                   decreasing in De
 /// Shear and transition, x = -De >= 0, D = pa - p. Flow (16): 3 G Lambda = m = 3 G x/(A^2 tan^2(beta) D).
 ///   t_y(p) D h(m) - t_tr D = 0, divided by -1               decreasing in x, a quadratic for K = 1 on a straight piece of the table
+/// For K = 1 both cap equations are first tried together by Newton's method in (De, u); points where that has not converged after a
+/// few iterations go through the nested, bracketed solution, which converges always.
 /// Tension cut-off, p = -cutoff: De follows from the elastic law, and t is the smaller of the trial's and the yield surface's.
 /// The stress is placed on the surface that belongs to the final eps, so the yield function is zero to rounding.
 
@@ -54,64 +56,147 @@ struct DruckerPragerCapKernel {
     return t;
   }
 
+  using Deviator = DeviatoricReturn<lode_dependent>;
+
+  /// The elastic trial of a step, and what it takes to correct it.
+  struct Trial {
+    const ElasticStep& elastic;
+    const Deviator& deviator;
+    Hardening& hardening;
+    Lanes dv;         ///< volumetric strain of the step, compression positive
+    Lanes eps;        ///< eps_vol_pl at the start of the step
+    Surfaces start;   ///< at the start of the step
+    Lanes p, t;       ///< of the elastic trial
+    Lanes noise;      ///< strain that rounding of p and eps amounts to
+  };
+  /// The end of the step.
+  struct Return {
+    Lanes p, t;
+    Lanes m = 0.0;           ///< 3 G Lambda of the deviatoric return
+    Lanes compaction = 0.0;  ///< De
+    Lanes pa;
+    Lanes branch = double(Branch::elastic);
+    Lanes iterations = 0.0;
+  };
+
   void step(const Symmetric& strain, Points& points) const {
     const ElasticStep elastic(law.elasticity, points.stress.trace() * Lanes(-1.0 / 3.0));
-    const Lanes dv = -strain.trace();  // compression positive
-    const Lanes p_trial = elastic.pressure(dv);
+    const Lanes dv = -strain.trace();
     const Symmetric s_old = points.stress.plus_identity(elastic.p_n);
     const Symmetric s_trial = s_old + strain.deviator() * (Lanes(2.0) * elastic.shear);
-    const DeviatoricReturn<lode_dependent> deviator(law.flow_ratio, s_trial);
-    const Lanes t_trial = deviator.t();
-    const Lanes eps_old = points.own[0];
+    const Deviator deviator(law.flow_ratio, s_trial);
     Hardening hardening(law.hardening);
-    const Surfaces old = surfaces(hardening, eps_old);
+    const Lanes eps = points.own[0];
+    Trial trial{elastic, deviator, hardening, dv, eps, surfaces(hardening, eps), elastic.pressure(dv), deviator.t(), 0.0};
+    const Surfaces& old = trial.start;
 
     // Which points yield, and where. The slack is rounding: a point at rest on its surface is elastic.
-    const Lanes slack = Lanes(1e-13) * old.Q, rounding = Lanes(1e-15) * magnitude(p_trial);
-    const Mask compacts = p_trial >= old.pa;
-    const Lanes cap_excess = root(square(p_trial - old.pa) + square(t_trial * Lanes(law.R / law.A))) - Lanes(law.R) * (old.Q + slack);
-    const Lanes shear_excess = t_trial - shear_strength(old, p_trial, 0.0, 0.0, nullptr).value - slack;
-    const Mask on_cap = compacts && cap_excess > rounding;
+    const Lanes slack = Lanes(1e-13) * old.Q, rounding = Lanes(1e-15) * magnitude(trial.p);
+    const Mask compacts = trial.p >= old.pa;
+    const Lanes cap_limit = Lanes(law.R) * (old.Q + slack) + rounding;
+    const Mask outside_cap = square(trial.p - old.pa) + square(trial.t * Lanes(law.R / law.A)) > square(cap_limit);
+    const Lanes shear_excess = trial.t - shear_strength(old, trial.p, 0.0, 0.0, nullptr).value - slack;
+    const Mask on_cap = compacts && outside_cap;
     const Mask on_shear = !compacts && shear_excess > rounding;
-    const Mask in_tension = p_trial < Lanes(-law.cutoff) - rounding;
+    const Mask in_tension = trial.p < Lanes(-law.cutoff) - rounding;
     const Mask yielding = on_cap || on_shear || in_tension;
 
-    Lanes p = p_trial, t = t_trial, m = 0.0, compaction = 0.0;  // compaction is De
-    Surfaces at = old;
+    Return end;
+    end.p = trial.p;
+    end.t = trial.t;
+    end.pa = old.pa;
     if (any(yielding)) {
-      const Lanes noise = Lanes(4e-16) * (magnitude(eps_old) + magnitude(dv)) +
-                          Lanes(8e-16) * (magnitude(elastic.p_n) + magnitude(old.pa)) / elastic.bulk(0.0, elastic.p_n);
-      if (any(on_cap)) cap(on_cap, elastic, dv, deviator, hardening, eps_old, old, p_trial, noise, points, p, t, m, compaction, at);
-      if (any(on_shear)) shear(on_shear, elastic, dv, deviator, hardening, eps_old, old, p_trial, noise, points, p, t, m, compaction, at);
-      const Mask cut = yielding && p < Lanes(-law.cutoff * (1.0 + 1e-15));
-      if (any(cut)) tension(cut, elastic, dv, deviator, hardening, eps_old, points, p, t, m, compaction, at);
+      trial.noise = Lanes(4e-16) * (magnitude(eps) + magnitude(dv)) +
+                    Lanes(8e-16) * (magnitude(elastic.p_n) + magnitude(old.pa)) / elastic.bulk(0.0, elastic.p_n);
+      if (any(on_cap)) cap(on_cap, trial, end);
+      if (any(on_shear)) shear(on_shear, trial, end);
+      const Mask cut = yielding && end.p < Lanes(-law.cutoff * (1.0 + 1e-15));
+      if (any(cut)) tension(cut, trial, end);
     }
-    const LodeReturn back = deviator.at(m, points.iterations, yielding);
-    const Symmetric s = deviator.stress(t, back, yielding);
+    const LodeReturn back = deviator.at(end.m, end.iterations, yielding);
+    const Symmetric s = deviator.stress(end.t, back, yielding);
 
-    const Lanes elastic_strain = dv - compaction;
-    const Lanes half_compliance = Lanes(0.5) / elastic.shear;
-    points.stored = elastic.volumetric_work(elastic_strain, p) + contract(s + s_old, s - s_old) * half_compliance * Lanes(0.5);
+    const Lanes elastic_strain = dv - end.compaction, half_compliance = Lanes(0.5) / elastic.shear;
+    points.stored = elastic.volumetric_work(elastic_strain, end.p) + contract(s + s_old, s - s_old) * half_compliance * Lanes(0.5);
     // Plastic work p De + s:De_dev. Compaction stores pa De as frozen energy; flow always leads away from (pa, 0), so the rest is >= 0.
-    const Lanes back_stress = select(points.branch == Lanes(double(Branch::tension)), upper(at.pa, p), at.pa);
-    points.frozen = select(yielding, back_stress * compaction, 0.0);
-    points.dissipated = select(yielding, (p - back_stress) * compaction + contract(s, s_trial - s) * half_compliance, 0.0);
-    points.own[0] = eps_old + compaction;
-    points.stress = s.plus_identity(-p);
+    const Lanes back_stress = select(end.branch == Lanes(double(Branch::tension)), upper(end.pa, end.p), end.pa);
+    points.frozen = select(yielding, back_stress * end.compaction, 0.0);
+    points.dissipated = select(yielding, (end.p - back_stress) * end.compaction + contract(s, s_trial - s) * half_compliance, 0.0);
+    points.own[0] = eps + end.compaction;
+    points.stress = s.plus_identity(-end.p);
+    points.branch = end.branch;
+    points.iterations = end.iterations;
     points.below_data = hardening.below(points.own[0]);
     points.beyond_data = hardening.beyond(points.own[0]);
     points.stopped = hardening.stopped(points.own[0]);
   }
 
  private:
-  using Deviator = DeviatoricReturn<lode_dependent>;
+  /// tan(phi) is not below this: sin(phi) <= min(tan(phi), 1) in A Q sin(phi) h = t_tr with h = 1 + k sqrt(1 + u^2).
+  static Lanes least_tangent(const Lanes& t, const Lanes& top, const Lanes& k) {
+    return lower(upper(t / (top * (k + Lanes(1.0))), (t - top) / (top * upper(k, 1e-140))), 1e140);
+  }
+  void finish_cap(const Mask& active, const Trial& trial, const Surfaces& now, const Lanes& cosine, const Lanes& sine, const Lanes& m,
+                  const Lanes& de, Return& end) const {
+    stdx::where(active, end.compaction) = de;
+    stdx::where(active, end.p) = now.pa + Lanes(law.R) * now.Q * cosine;
+    stdx::where(active, end.t) = lower(Lanes(law.A) * now.Q * sine, trial.t);
+    stdx::where(active, end.m) = m;
+    stdx::where(active, end.pa) = now.pa;
+    stdx::where(active, end.branch) = double(Branch::cap);
+  }
 
-  void cap(const Mask& active, const ElasticStep& elastic, const Lanes& dv, const Deviator& deviator, Hardening& hardening,
-           const Lanes& eps_old, const Surfaces& old, const Lanes& p_trial, const Lanes& noise, Points& points, Lanes& p, Lanes& t,
-           Lanes& m, Lanes& compaction, Surfaces& at) const {
-    const Lanes t_trial = deviator.t(), A = law.A, R = law.R;
+  void cap(const Mask& active, const Trial& trial, Return& end) const {
+    const Surfaces& old = trial.start;
+    // First guess: De at constant t and size of the cap.
+    const Lanes share = trial.t / (Lanes(law.A) * old.Q);
+    const Lanes cosine = root(upper(Lanes(1.0) - share * share, 0.0));
+    const Lanes excess = trial.p - old.pa - Lanes(law.R) * old.Q * cosine;
+    const Lanes stiffness = trial.elastic.bulk(trial.dv, trial.p) + old.pa_slope * (Lanes(1.0) + Lanes(law.R * law.tan_beta) * cosine);
+    const Lanes guess = upper(excess / stiffness, 0.0);
+    Mask open = active;
+    if (!lode_dependent && !law.elasticity.porous) open = cap_together(active, trial, guess, end);
+    if (any(open)) cap_nested(open, trial, guess, end);
+  }
+
+  /// Newton's method in (De, u) for K = 1: f = p - pa - R Q cos(phi) = 0, g = A Q sin(phi) + 3 G (R/A) De u - t_tr = 0.
+  /// Returns the lanes that it has not solved.
+  Mask cap_together(const Mask& active, const Trial& trial, const Lanes& guess, Return& end) const {
+    const Lanes A = law.A, R = law.R, tan_beta = law.tan_beta, bulk = law.elasticity.bulk;
+    const Lanes b = Lanes(3.0 * law.R / law.A) * trial.elastic.shear;
+    Lanes de = guess, u = least_tangent(trial.t, A * trial.start.Q, b * guess / (A * trial.start.Q));
+    Surfaces now = trial.start;
+    Lanes cosine = 1.0, sine = 0.0;
+    Mask solved(false);
+    constexpr int most = 9;
+    for (int i = 0;; ++i) {
+      now = surfaces(trial.hardening, trial.eps + de);
+      cosine = Lanes(1.0) / root(Lanes(1.0) + u * u);
+      sine = u * cosine;
+      const Lanes f = trial.p - bulk * de - now.pa - R * now.Q * cosine;
+      const Lanes g = A * now.Q * sine + b * de * u - trial.t;
+      stdx::where(active && !solved, end.iterations) += 1.0;
+      const Mask balanced = magnitude(f) <= Lanes(2e-14) * trial.p + bulk * trial.noise && magnitude(g) <= Lanes(1e-13) * trial.t;
+      solved = solved || (balanced && de >= Lanes(0.0) && u >= Lanes(0.0));
+      if (i == most || all(solved || !active)) break;
+      // - f = f_de dde + f_u du,  - g = g_de dde + g_u du
+      const Lanes f_de = -bulk - now.pa_slope * (Lanes(1.0) + R * tan_beta * cosine), f_u = R * now.Q * sine * cosine * cosine;
+      const Lanes g_de = A * tan_beta * now.pa_slope * sine + b * u, g_u = A * now.Q * cosine * cosine * cosine + b * de;
+      const Lanes f_over = Lanes(1.0) / (f_de * g_u - f_u * g_de);
+      const Lanes dde = (f_u * g - f * g_u) * f_over, du = (f * g_de - f_de * g) * f_over;
+      de = select(solved, de, upper(de + dde, Lanes(0.1) * de));
+      u = select(solved, u, upper(u + du, Lanes(0.1) * u));
+    }
+    finish_cap(active && solved, trial, now, cosine, sine, b * de / (A * now.Q * cosine), de, end);
+    return active && !solved;
+  }
+
+  void cap_nested(const Mask& active, const Trial& trial, const Lanes& guess, Return& end) const {
+    const ElasticStep& elastic = trial.elastic;
+    const Lanes A = law.A, R = law.R;
+    const Lanes k_factor = Lanes(3.0 * law.R / (law.A * law.A)) * elastic.shear;
     Lanes u = 0.0;
-    Surfaces now = old;
+    Surfaces now = trial.start;
     struct Angle {
       Lanes cosine, sine, length, m, slope;
       LodeReturn back;
@@ -120,20 +205,20 @@ struct DruckerPragerCapKernel {
     // tan(phi) for a given De: A Q sin(phi) h(m) = t_tr. Concave in u for K = 1, so Newton's method from the left is monotone.
     const auto solve_angle = [&](const Lanes& de) {
       const Lanes top = A * now.Q;
-      const Lanes k = Lanes(3.0 * law.R / (law.A * law.A)) * elastic.shear * de / now.Q;  // m = k sqrt(1 + u^2)
-      const Lanes left = lower(upper(t_trial / (top * (k + Lanes(1.0))), (t_trial - top) / (top * upper(k, 1e-140))), 1e140);
+      const Lanes k = k_factor * de / now.Q;  // m = k sqrt(1 + u^2)
+      const Lanes left = least_tangent(trial.t, top, k);
       Lanes low = 0.0, high = 1e150;
       u = upper(u, left);
       Mask open = active;
       for (int i = 0; i < most_root_iterations; ++i) {
         const Lanes length = root(Lanes(1.0) + u * u), cosine = Lanes(1.0) / length, sine = u * cosine;
         const Lanes multiplier = k * length;
-        const LodeReturn back = deviator.at(multiplier, points.iterations, open);
-        const Lanes value = top * sine * back.shrink - t_trial;
+        const LodeReturn back = trial.deviator.at(multiplier, end.iterations, open);
+        const Lanes value = top * sine * back.shrink - trial.t;
         const Lanes slope = top * (cosine * cosine * cosine * back.shrink + sine * back.slope * k * sine);
         angle = {cosine, sine, length, multiplier, slope, back};
         if (!any(open)) break;
-        stdx::where(open, points.iterations) += 1.0;
+        stdx::where(open, end.iterations) += 1.0;
         stdx::where(open && value > Lanes(0.0), high) = u;
         stdx::where(open && !(value > Lanes(0.0)), low) = u;
         const Lanes newton = u - value / slope;
@@ -146,102 +231,91 @@ struct DruckerPragerCapKernel {
       }
     };
     const auto balance = [&](const Lanes& de) -> ValueAndSlope {
-      now = surfaces(hardening, eps_old + de);
+      now = surfaces(trial.hardening, trial.eps + de);
       solve_angle(de);
-      const Lanes x = dv - de, pressure = elastic.pressure(x);
+      const Lanes x = trial.dv - de, pressure = elastic.pressure(x);
       const Lanes cap_pressure = now.pa + R * now.Q * angle.cosine;
       // d(cos phi)/d(De) by the implicit derivative of the inner equation
       const Lanes dQ = Lanes(law.tan_beta) * now.pa_slope;
-      const Lanes m_slope = (Lanes(3.0 * law.R / (law.A * law.A)) * elastic.shear * angle.length - angle.m * dQ) / now.Q;
+      const Lanes m_slope = (k_factor * angle.length - angle.m * dQ) / now.Q;
       const Lanes inner = A * angle.sine * (dQ * angle.back.shrink + now.Q * angle.back.slope * m_slope);
       const Lanes dcos = angle.sine * square(angle.cosine) * inner / angle.slope;
       const Lanes slope = -elastic.bulk(x, pressure) - now.pa_slope - R * (dQ * angle.cosine + now.Q * dcos);
       return {pressure - cap_pressure, slope};
     };
     const Lanes floor = Lanes(-law.elasticity.limit) + Lanes(1e-12) * (elastic.p_n + law.elasticity.limit);
-    const Lanes high = dv - elastic.strain(law.elasticity.porous ? floor : old.pa);
-    const Lanes share = t_trial / (A * old.Q);
-    const Lanes excess = p_trial - old.pa - R * old.Q * root(upper(Lanes(1.0) - share * share, 0.0));
-    const Lanes start = lower(upper(excess / (elastic.bulk(dv, p_trial) + old.pa_slope * Lanes(1.0 + law.R * law.tan_beta)), 0.0), high);
-    const Lanes de = decreasing_root(balance, start, 0.0, high, Lanes(1e-13) * high + noise, active && high > Lanes(0.0), points.iterations);
+    const Lanes high = trial.dv - elastic.strain(law.elasticity.porous ? floor : trial.start.pa);
+    const Lanes de = decreasing_root(balance, lower(guess, high), 0.0, high, Lanes(1e-13) * high + trial.noise,
+                                     active && high > Lanes(0.0), end.iterations);
     const Lanes solution = select(active, upper(de, 0.0), 0.0);
     balance(solution);
-    stdx::where(active, compaction) = solution;
-    stdx::where(active, p) = now.pa + R * now.Q * angle.cosine;
-    stdx::where(active, t) = lower(A * now.Q * angle.sine, t_trial);
-    stdx::where(active, m) = angle.m;
-    stdx::where(active, at.pa) = now.pa;
-    stdx::where(active, at.Q) = now.Q;
-    stdx::where(active, points.branch) = double(Branch::cap);
+    finish_cap(active, trial, now, angle.cosine, angle.sine, angle.m, solution, end);
   }
 
-  void shear(const Mask& active, const ElasticStep& elastic, const Lanes& dv, const Deviator& deviator, Hardening& hardening,
-             const Lanes& eps_old, const Surfaces& old, const Lanes& p_trial, const Lanes& noise, Points& points, Lanes& p, Lanes& t,
-             Lanes& m, Lanes& compaction, Surfaces& at) const {
-    const Lanes t_trial = deviator.t();
+  void shear(const Mask& active, const Trial& trial, Return& end) const {
+    const ElasticStep& elastic = trial.elastic;
+    const Surfaces& old = trial.start;
     const Lanes c = Lanes(3.0 / (law.A * law.A * law.tan_beta * law.tan_beta)) * elastic.shear;
     Surfaces now = old;
-    Lanes pressure = p_trial, D = 0.0, strength = 0.0, multiplier = 0.0;
+    Lanes pressure = trial.p, D = 0.0, strength = 0.0, multiplier = 0.0;
     Mask transition(false);
     const auto balance = [&](const Lanes& x) -> ValueAndSlope {
-      now = surfaces(hardening, eps_old - x);
-      pressure = elastic.pressure(dv + x);
-      const Lanes dp = elastic.bulk(dv + x, pressure), dpa = -now.pa_slope;
+      now = surfaces(trial.hardening, trial.eps - x);
+      pressure = elastic.pressure(trial.dv + x);
+      const Lanes dp = elastic.bulk(trial.dv + x, pressure), dpa = -now.pa_slope;
       const Mask before = now.pa > pressure;
       D = upper(now.pa - pressure, 0.0);
       const Lanes dD = select(before, dpa - dp, 0.0);
       const ValueAndSlope yield = shear_strength(now, pressure, dp, dpa, &transition);
       strength = yield.value;
-      multiplier = lower(c * x / upper(D, Lanes(1e-100)), 1e100);
       Lanes Dh, dDh;  // D h(m) and its derivative
       if (lode_dependent) {
-        const LodeReturn back = deviator.at(multiplier, points.iterations, active);
+        multiplier = lower(c * x / upper(D, Lanes(1e-100)), 1e100);
+        const LodeReturn back = trial.deviator.at(multiplier, end.iterations, active);
         Dh = select(before, D * back.shrink, c * x * back.slope);
         dDh = dD * back.shrink + back.slope * (c - multiplier * dD);
       } else {
         Dh = D + c * x;
         dDh = dD + c;
       }
-      return {t_trial * D - strength * Dh, t_trial * dD - yield.slope * Dh - strength * dDh};
+      return {trial.t * D - strength * Dh, trial.t * dD - yield.slope * Dh - strength * dDh};
     };
-    const Lanes high = elastic.strain(old.pa) - dv;
-    const Lanes ratio = t_trial / upper(shear_strength(old, p_trial, 0.0, 0.0, nullptr).value, Lanes(1e-3) * t_trial + Lanes(1e-290)) - Lanes(1.0);
-    const Lanes start = lower(ratio * (old.pa - p_trial) / (c + ratio * (elastic.bulk(dv, p_trial) + old.pa_slope)), high);
-    const Lanes x = decreasing_root(balance, start, 0.0, high, Lanes(1e-13) * high + Lanes(0.01) * noise, active && high > Lanes(0.0),
-                                    points.iterations);
+    const Lanes high = elastic.strain(old.pa) - trial.dv;
+    const Lanes positive = upper(shear_strength(old, trial.p, 0.0, 0.0, nullptr).value, Lanes(1e-3) * trial.t + Lanes(1e-290));
+    const Lanes ratio = trial.t / positive - Lanes(1.0);
+    const Lanes start = lower(ratio * (old.pa - trial.p) / (c + ratio * (elastic.bulk(trial.dv, trial.p) + old.pa_slope)), high);
+    const Lanes x = decreasing_root(balance, start, 0.0, high, Lanes(1e-13) * high + Lanes(0.01) * trial.noise,
+                                    active && high > Lanes(0.0), end.iterations);
     const Lanes solution = select(active, upper(x, 0.0), 0.0);
     balance(solution);
     pressure = lower(pressure, now.pa);  // it is below, but for rounding
     strength = shear_strength(now, pressure, 0.0, 0.0, nullptr).value;
     const Mask apex = strength <= Lanes(1e-12) * now.Q;
-    stdx::where(active, compaction) = -solution;
-    stdx::where(active, p) = pressure;
-    stdx::where(active, t) = lower(upper(strength, 0.0), t_trial);
-    stdx::where(active, m) = multiplier;
-    stdx::where(active, at.pa) = now.pa;
-    stdx::where(active, at.Q) = now.Q;
-    stdx::where(active, points.branch) = select(apex, double(Branch::tension), select(transition, double(Branch::transition), double(Branch::shear)));
+    stdx::where(active, end.compaction) = -solution;
+    stdx::where(active, end.p) = pressure;
+    stdx::where(active, end.t) = lower(upper(strength, 0.0), trial.t);
+    stdx::where(active, end.m) = multiplier;
+    stdx::where(active, end.pa) = now.pa;
+    stdx::where(active, end.branch) = select(apex, double(Branch::tension), select(transition, double(Branch::transition), double(Branch::shear)));
   }
 
-  void tension(const Mask& active, const ElasticStep& elastic, const Lanes& dv, const Deviator& deviator, Hardening& hardening,
-               const Lanes& eps_old, Points& points, Lanes& p, Lanes& t, Lanes& m, Lanes& compaction, Surfaces& at) const {
-    const Lanes t_trial = deviator.t(), pressure = -law.cutoff;
-    const Lanes de = select(active, dv - elastic.strain(pressure), 0.0);
-    const Surfaces now = surfaces(hardening, eps_old + de);
+  void tension(const Mask& active, const Trial& trial, Return& end) const {
+    const Lanes pressure = -law.cutoff;
+    const Lanes de = select(active, trial.dv - trial.elastic.strain(pressure), 0.0);
+    const Surfaces now = surfaces(trial.hardening, trial.eps + de);
     const Lanes D = pressure - now.pa;
     const Lanes on_cap = Lanes(law.A / law.R) * root(upper(square(Lanes(law.R) * now.Q) - D * D, 0.0));
     const Lanes strength = upper(select(D > Lanes(0.0), on_cap, shear_strength(now, pressure, 0.0, 0.0, nullptr).value), 0.0);
-    const Lanes measure = lower(t_trial, strength);
-    const Lanes shrink = t_trial / upper(measure, Lanes(1e-100) * t_trial + Lanes(1e-300));
-    const Lanes multiplier = deviator.multiplier(upper(shrink, 1.0), points.iterations, active);
-    stdx::where(active, points.iterations) += 1.0;
-    stdx::where(active, compaction) = de;
-    stdx::where(active, p) = pressure;
-    stdx::where(active, t) = measure;
-    stdx::where(active, m) = multiplier;
-    stdx::where(active, at.pa) = now.pa;
-    stdx::where(active, at.Q) = now.Q;
-    stdx::where(active, points.branch) = double(Branch::tension);
+    const Lanes measure = lower(trial.t, strength);
+    const Lanes shrink = trial.t / upper(measure, Lanes(1e-100) * trial.t + Lanes(1e-300));
+    const Lanes multiplier = trial.deviator.multiplier(upper(shrink, 1.0), end.iterations, active);
+    stdx::where(active, end.iterations) += 1.0;
+    stdx::where(active, end.compaction) = de;
+    stdx::where(active, end.p) = pressure;
+    stdx::where(active, end.t) = measure;
+    stdx::where(active, end.m) = multiplier;
+    stdx::where(active, end.pa) = now.pa;
+    stdx::where(active, end.branch) = double(Branch::tension);
   }
 };
 
