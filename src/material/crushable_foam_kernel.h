@@ -20,7 +20,7 @@ struct CrushableFoamKernel {
   static constexpr int own_fields = 1;  // eps_vol_pl
   const CrushableFoamParameters& law;
 
-  void step(const Symmetric& strain, Points& points) const {
+  FURROW_INLINE void step(const Symmetric& strain, Points& points) const {
     const ElasticStep elastic(law.elasticity, points.stress.trace() * Lanes(-1.0 / 3.0));
     const Lanes dv = -strain.trace();
     const Lanes p_trial = elastic.pressure(dv);

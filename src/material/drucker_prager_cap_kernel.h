@@ -35,7 +35,7 @@ struct DruckerPragerCapKernel {
     Lanes pa, Q;
     Lanes pa_slope;  ///< d(pa)/d(eps)
   };
-  Surfaces surfaces(Hardening& hardening, const Lanes& eps) const {
+  FURROW_INLINE Surfaces surfaces(Hardening& hardening, const Lanes& eps) const {
     const Hardening::Strength pb = hardening.at(eps);
     const Lanes f = 1.0 / (1.0 + law.R * law.tan_beta);
     const Lanes pa = (pb.value - Lanes(law.R * law.d)) * f;
@@ -43,7 +43,7 @@ struct DruckerPragerCapKernel {
   }
 
   /// t on the shear line or the transition at p <= pa, and its derivative when p grows by dp, pa by dpa.
-  ValueAndSlope shear_strength(const Surfaces& at, const Lanes& p, const Lanes& dp, const Lanes& dpa, Mask* transition) const {
+  FURROW_INLINE ValueAndSlope shear_strength(const Surfaces& at, const Lanes& p, const Lanes& dp, const Lanes& dpa, Mask* transition) const {
     const Lanes tan_beta = law.tan_beta;
     ValueAndSlope t{Lanes(law.d) + p * tan_beta, tan_beta * dp};
     if (law.alpha == 0.0) return t;
@@ -79,7 +79,7 @@ struct DruckerPragerCapKernel {
     Lanes iterations = 0.0;
   };
 
-  void step(const Symmetric& strain, Points& points) const {
+  FURROW_INLINE void step(const Symmetric& strain, Points& points) const {
     const ElasticStep elastic(law.elasticity, points.stress.trace() * Lanes(-1.0 / 3.0));
     const Lanes dv = -strain.trace();
     const Symmetric s_old = points.stress.plus_identity(elastic.p_n);
@@ -133,10 +133,10 @@ struct DruckerPragerCapKernel {
 
  private:
   /// tan(phi) is not below this: sin(phi) <= min(tan(phi), 1) in A Q sin(phi) h = t_tr with h = 1 + k sqrt(1 + u^2).
-  static Lanes least_tangent(const Lanes& t, const Lanes& top, const Lanes& k) {
+  FURROW_INLINE static Lanes least_tangent(const Lanes& t, const Lanes& top, const Lanes& k) {
     return lower(upper(t / (top * (k + Lanes(1.0))), (t - top) / (top * upper(k, 1e-140))), 1e140);
   }
-  void finish_cap(const Mask& active, const Trial& trial, const Surfaces& now, const Lanes& cosine, const Lanes& sine, const Lanes& m,
+  FURROW_INLINE void finish_cap(const Mask& active, const Trial& trial, const Surfaces& now, const Lanes& cosine, const Lanes& sine, const Lanes& m,
                   const Lanes& de, Return& end) const {
     stdx::where(active, end.compaction) = de;
     stdx::where(active, end.p) = now.pa + Lanes(law.R) * now.Q * cosine;
@@ -146,7 +146,7 @@ struct DruckerPragerCapKernel {
     stdx::where(active, end.branch) = double(Branch::cap);
   }
 
-  void cap(const Mask& active, const Trial& trial, Return& end) const {
+  FURROW_INLINE void cap(const Mask& active, const Trial& trial, Return& end) const {
     const Surfaces& old = trial.start;
     // First guess: De at constant t and size of the cap.
     const Lanes share = trial.t / (Lanes(law.A) * old.Q);
@@ -161,7 +161,7 @@ struct DruckerPragerCapKernel {
 
   /// Newton's method in (De, u) for K = 1: f = p - pa - R Q cos(phi) = 0, g = A Q sin(phi) + 3 G (R/A) De u - t_tr = 0.
   /// Returns the lanes that it has not solved.
-  Mask cap_together(const Mask& active, const Trial& trial, const Lanes& guess, Return& end) const {
+  FURROW_INLINE Mask cap_together(const Mask& active, const Trial& trial, const Lanes& guess, Return& end) const {
     const Lanes A = law.A, R = law.R, tan_beta = law.tan_beta, bulk = law.elasticity.bulk;
     const Lanes b = Lanes(3.0 * law.R / law.A) * trial.elastic.shear;
     Lanes de = guess, u = least_tangent(trial.t, A * trial.start.Q, b * guess / (A * trial.start.Q));
@@ -259,7 +259,7 @@ struct DruckerPragerCapKernel {
     Surfaces now = old;
     Lanes pressure = trial.p, D = 0.0, strength = 0.0, multiplier = 0.0;
     Mask transition(false);
-    const auto balance = [&](const Lanes& x) -> ValueAndSlope {
+    const auto balance = [&](const Lanes& x) __attribute__((always_inline)) -> ValueAndSlope {
       now = surfaces(trial.hardening, trial.eps - x);
       pressure = elastic.pressure(trial.dv + x);
       const Lanes dp = elastic.bulk(trial.dv + x, pressure), dpa = -now.pa_slope;

@@ -11,7 +11,7 @@ struct ElasticKernel {
   static constexpr int own_fields = 0;
   const ElasticityParameters& elasticity;
 
-  void step(const Symmetric& strain, Points& points) const {
+  FURROW_INLINE void step(const Symmetric& strain, Points& points) const {
     const ElasticStep elastic(elasticity, points.stress.trace() * Lanes(-1.0 / 3.0));
     const Lanes x = -strain.trace();
     const Lanes p = elastic.pressure(x);

@@ -14,7 +14,7 @@ struct ElasticStep {
   Lanes shear;  ///< G at the start of the step
   Lanes ratio;  ///< J_el at the start of the step (porous)
 
-  ElasticStep(const ElasticityParameters& constants, const Lanes& pressure) : parameters(constants), p_n(pressure) {
+  FURROW_INLINE ElasticStep(const ElasticityParameters& constants, const Lanes& pressure) : parameters(constants), p_n(pressure) {
     if (!parameters.porous) {
       shear = parameters.shear;
       return;
@@ -26,25 +26,25 @@ struct ElasticStep {
   }
 
   /// p(x), increasing. The largest exponent, exp(300), only bounds trial states of the return mapping.
-  Lanes pressure(const Lanes& x) const {
+  FURROW_INLINE Lanes pressure(const Lanes& x) const {
     if (!parameters.porous) return p_n + Lanes(parameters.bulk) * x;
     const Lanes exponent = Lanes(parameters.stiffness) * ratio * (Lanes(1.0) - exponential(-x));
     return (p_n + parameters.limit) * exponential(lower(exponent, 300.0)) - parameters.limit;
   }
   /// dp/dx at p = pressure(x)
-  Lanes bulk(const Lanes& x, const Lanes& p) const {
+  FURROW_INLINE Lanes bulk(const Lanes& x, const Lanes& p) const {
     if (!parameters.porous) return parameters.bulk;
     return (p + parameters.limit) * Lanes(parameters.stiffness) * ratio * exponential(-x);
   }
   /// x that takes the pressure to p > -limit: the inverse of pressure().
-  Lanes strain(const Lanes& p) const {
+  FURROW_INLINE Lanes strain(const Lanes& p) const {
     if (!parameters.porous) return (p - p_n) / Lanes(parameters.bulk);
     const Lanes exponent = logarithm((p + parameters.limit) / (p_n + parameters.limit));
     return -logarithm(Lanes(1.0) - exponent / (Lanes(parameters.stiffness) * ratio));
   }
   /// Elastic work of the step per current volume, volumetric part, from p_n to p = pressure(x): the integral of p dx.
   /// Exact for linear elasticity; porous: dx = dp / ((p + limit) c J_el) with the mean J_el, J_el(n+1) = J_el(n) exp(-x).
-  Lanes volumetric_work(const Lanes& x, const Lanes& p) const {
+  FURROW_INLINE Lanes volumetric_work(const Lanes& x, const Lanes& p) const {
     if (!parameters.porous) return Lanes(0.5) * (p_n + p) * x;
     const Lanes mean_ratio = Lanes(0.5) * ratio * (Lanes(1.0) + exponential(-x));
     return (p - p_n) / (Lanes(parameters.stiffness) * mean_ratio) - Lanes(parameters.limit) * x;

@@ -10,7 +10,7 @@ inline namespace FURROW_ISA {
 
 /// exp(a) to about one unit in the last place: a = n ln 2 + r with |r| <= ln(2)/2 and the Taylor series of exp(r) to r^13 / 13!,
 /// whose rest is below 5e-18. Underflows to 0, overflows to infinity, keeps not-a-number.
-inline Lanes exponential(const Lanes& a) {
+FURROW_INLINE Lanes exponential(const Lanes& a) {
   using Integers = stdx::rebind_simd_t<std::int64_t, Lanes>;
   constexpr double shift = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to the nearest integer, held in the last bits
   const Lanes bounded = upper(lower(a, 709.7), -708.3);

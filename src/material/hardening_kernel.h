@@ -17,7 +17,7 @@ class Hardening {
 
   explicit Hardening(const HardeningParameters& parameters) : h_(parameters) {}
 
-  Strength at(const Lanes& eps) {
+  FURROW_INLINE Strength at(const Lanes& eps) {
     Strength result = h_.kind == HardeningParameters::Kind::exponential ? by_formula(upper(eps, h_.first)) : by_table(eps);
     const Mask below = eps < Lanes(h_.first);
     if (any(below)) {  // exp(-80) is a strength that no arithmetic sees next to the stiffness
@@ -41,7 +41,7 @@ class Hardening {
     const Lanes value = Lanes(h_.scale) * exponential(Lanes(h_.c) * (Lanes(1.0) - ratio) * f);
     return {value - Lanes(h_.offset), value * Lanes(h_.c * (h_.lambda - h_.kappa)) * ratio * f * f};
   }
-  Strength by_table(const Lanes& eps) {
+  FURROW_INLINE Strength by_table(const Lanes& eps) {
     if (!all(eps >= from_ && eps < to_)) find(eps);
     const Lanes value = base_ + slope_ * (eps - start_);
     if (h_.kind == HardeningParameters::Kind::linear_table) return {value, slope_};

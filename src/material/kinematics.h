@@ -17,7 +17,7 @@ namespace furrow {
 inline namespace FURROW_ISA {
 
 /// det(I + H)
-inline Lanes volume_change(const Tensor& h) {
+FURROW_INLINE Lanes volume_change(const Tensor& h) {
   Lanes f[9];
   for (int k = 0; k < 9; ++k) f[k] = k % 4 == 0 ? h.m[k] + Lanes(1.0) : h.m[k];
   return f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6]) + f[2] * (f[3] * f[7] - f[4] * f[6]);
@@ -30,14 +30,14 @@ struct Motion {
   Mask admissible;   ///< Delta F finite with positive determinant
 };
 
-inline Motion motion_of(const Tensor& h) {
+FURROW_INLINE Motion motion_of(const Tensor& h) {
   const Lanes* m = h.m;
-  const auto column = [&](int i, int j) { return m[i] * m[j] + m[3 + i] * m[3 + j] + m[6 + i] * m[6 + j]; };
+  const auto column = [&](int i, int j) __attribute__((always_inline)) { return m[i] * m[j] + m[3 + i] * m[3 + j] + m[6 + i] * m[6 + j]; };
   const Symmetric x{m[0] + m[0] + column(0, 0), m[4] + m[4] + column(1, 1), m[8] + m[8] + column(2, 2),
                     m[1] + m[3] + column(0, 1), m[5] + m[7] + column(1, 2), m[2] + m[6] + column(0, 2)};
   const Symmetric z = commuting_product(x, inverse(x.plus_identity(2.0)));
   const Symmetric y = commuting_product(z, z), y2 = commuting_product(y, y), y3 = commuting_product(y2, y);
-  const auto series = [&](const double* c) {  // c0 I + c1 Y + ... + c6 Y^6
+  const auto series = [&](const double* c) __attribute__((always_inline)) {  // c0 I + c1 Y + ... + c6 Y^6
     const Symmetric low = (y * Lanes(c[1]) + y2 * Lanes(c[2])).plus_identity(c[0]);
     const Symmetric high = y * Lanes(c[4]) + y2 * Lanes(c[5]) + y3 * Lanes(c[6]);
     return low + commuting_product(y3, high.plus_identity(c[3]));

@@ -11,6 +11,9 @@
 #error "kernel headers are for kernels_*.cpp, which name the instruction set"
 #endif
 
+/// Lanes travel in registers only when a call is inlined; gcc 12 is too shy with that on its own.
+#define FURROW_INLINE [[gnu::always_inline]] inline
+
 namespace furrow {
 inline namespace FURROW_ISA {
 
@@ -19,23 +22,23 @@ using Lanes = stdx::native_simd<double>;
 using Mask = Lanes::mask_type;
 constexpr int lane_count = static_cast<int>(Lanes::size());
 
-inline Lanes select(const Mask& mask, const Lanes& yes, const Lanes& no) {
+FURROW_INLINE Lanes select(const Mask& mask, const Lanes& yes, const Lanes& no) {
   Lanes result = no;
   stdx::where(mask, result) = yes;
   return result;
 }
-inline bool any(const Mask& mask) { return stdx::any_of(mask); }
-inline bool all(const Mask& mask) { return stdx::all_of(mask); }
-inline Lanes lower(const Lanes& a, const Lanes& b) { return stdx::min(a, b); }
-inline Lanes upper(const Lanes& a, const Lanes& b) { return stdx::max(a, b); }
-inline Lanes square(const Lanes& a) { return a * a; }
-inline Lanes root(const Lanes& a) { return stdx::sqrt(a); }
-inline Lanes magnitude(const Lanes& a) { return stdx::abs(a); }
-inline Mask finite(const Lanes& a) { return a - a == Lanes(0.0); }
+FURROW_INLINE bool any(const Mask& mask) { return stdx::any_of(mask); }
+FURROW_INLINE bool all(const Mask& mask) { return stdx::all_of(mask); }
+FURROW_INLINE Lanes lower(const Lanes& a, const Lanes& b) { return stdx::min(a, b); }
+FURROW_INLINE Lanes upper(const Lanes& a, const Lanes& b) { return stdx::max(a, b); }
+FURROW_INLINE Lanes square(const Lanes& a) { return a * a; }
+FURROW_INLINE Lanes root(const Lanes& a) { return stdx::sqrt(a); }
+FURROW_INLINE Lanes magnitude(const Lanes& a) { return stdx::abs(a); }
+FURROW_INLINE Mask finite(const Lanes& a) { return a - a == Lanes(0.0); }
 
 /// A function of one number, lane by lane: for the rare and the dear.
 template <class Function>
-inline Lanes each(const Lanes& a, Function function) {
+FURROW_INLINE Lanes each(const Lanes& a, Function function) {
   return Lanes([&](auto lane) { return function(static_cast<double>(a[lane])); });
 }
 
@@ -43,30 +46,30 @@ inline Lanes each(const Lanes& a, Function function) {
 struct Symmetric {
   Lanes xx, yy, zz, xy, yz, xz;
 
-  Lanes trace() const { return xx + yy + zz; }
-  Symmetric operator*(const Lanes& f) const { return {xx * f, yy * f, zz * f, xy * f, yz * f, xz * f}; }
-  Symmetric operator+(const Symmetric& b) const { return {xx + b.xx, yy + b.yy, zz + b.zz, xy + b.xy, yz + b.yz, xz + b.xz}; }
-  Symmetric operator-(const Symmetric& b) const { return {xx - b.xx, yy - b.yy, zz - b.zz, xy - b.xy, yz - b.yz, xz - b.xz}; }
-  Symmetric plus_identity(const Lanes& f) const { return {xx + f, yy + f, zz + f, xy, yz, xz}; }
-  Symmetric deviator() const { return plus_identity(trace() * Lanes(-1.0 / 3.0)); }
+  FURROW_INLINE Lanes trace() const { return xx + yy + zz; }
+  FURROW_INLINE Symmetric operator*(const Lanes& f) const { return {xx * f, yy * f, zz * f, xy * f, yz * f, xz * f}; }
+  FURROW_INLINE Symmetric operator+(const Symmetric& b) const { return {xx + b.xx, yy + b.yy, zz + b.zz, xy + b.xy, yz + b.yz, xz + b.xz}; }
+  FURROW_INLINE Symmetric operator-(const Symmetric& b) const { return {xx - b.xx, yy - b.yy, zz - b.zz, xy - b.xy, yz - b.yz, xz - b.xz}; }
+  FURROW_INLINE Symmetric plus_identity(const Lanes& f) const { return {xx + f, yy + f, zz + f, xy, yz, xz}; }
+  FURROW_INLINE Symmetric deviator() const { return plus_identity(trace() * Lanes(-1.0 / 3.0)); }
 };
 
-inline Lanes contract(const Symmetric& a, const Symmetric& b) {  // a : b
+FURROW_INLINE Lanes contract(const Symmetric& a, const Symmetric& b) {  // a : b
   return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + Lanes(2.0) * (a.xy * b.xy + a.yz * b.yz + a.xz * b.xz);
 }
 
 /// a b for tensors that commute, so that the product is symmetric.
-inline Symmetric commuting_product(const Symmetric& a, const Symmetric& b) {
+FURROW_INLINE Symmetric commuting_product(const Symmetric& a, const Symmetric& b) {
   return {a.xx * b.xx + a.xy * b.xy + a.xz * b.xz, a.xy * b.xy + a.yy * b.yy + a.yz * b.yz,
           a.xz * b.xz + a.yz * b.yz + a.zz * b.zz, a.xx * b.xy + a.xy * b.yy + a.xz * b.yz,
           a.xy * b.xz + a.yy * b.yz + a.yz * b.zz, a.xx * b.xz + a.xy * b.yz + a.xz * b.zz};
 }
 
-inline Lanes determinant(const Symmetric& a) {
+FURROW_INLINE Lanes determinant(const Symmetric& a) {
   return a.xx * (a.yy * a.zz - a.yz * a.yz) - a.xy * (a.xy * a.zz - a.yz * a.xz) + a.xz * (a.xy * a.yz - a.yy * a.xz);
 }
 
-inline Symmetric inverse(const Symmetric& a) {
+FURROW_INLINE Symmetric inverse(const Symmetric& a) {
   const Lanes cxx = a.yy * a.zz - a.yz * a.yz, cxy = a.yz * a.xz - a.xy * a.zz, cxz = a.xy * a.yz - a.yy * a.xz;
   const Lanes f = Lanes(1.0) / (a.xx * cxx + a.xy * cxy + a.xz * cxz);
   return {cxx * f, (a.xx * a.zz - a.xz * a.xz) * f, (a.xx * a.yy - a.xy * a.xy) * f,
@@ -79,7 +82,7 @@ struct Tensor {
 };
 
 /// r a r^T
-inline Symmetric turned(const Symmetric& a, const Tensor& r) {
+FURROW_INLINE Symmetric turned(const Symmetric& a, const Tensor& r) {
   const Lanes* m = r.m;
   Lanes b[9];  // r a
   for (int i = 0; i < 3; ++i) {

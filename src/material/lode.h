@@ -27,13 +27,13 @@ class DeviatoricReturn;
 template <>
 class DeviatoricReturn<false> {
  public:
-  DeviatoricReturn(double /*flow_ratio*/, const Symmetric& trial) : trial_(trial), q_(root(Lanes(1.5) * contract(trial, trial))) {}
+  FURROW_INLINE DeviatoricReturn(double /*flow_ratio*/, const Symmetric& trial) : trial_(trial), q_(root(Lanes(1.5) * contract(trial, trial))) {}
   const Lanes& t() const { return q_; }  ///< of the trial
-  LodeReturn at(const Lanes& m, Lanes&, const Mask&) const { return {Lanes(1.0) + m, 1.0, 0.0, 1.0}; }
+  FURROW_INLINE LodeReturn at(const Lanes& m, Lanes&, const Mask&) const { return {Lanes(1.0) + m, 1.0, 0.0, 1.0}; }
   /// m at which t falls to t_tr/shrink.
   Lanes multiplier(const Lanes& shrink, Lanes&, const Mask&) const { return shrink - Lanes(1.0); }
   /// The deviator with measure t, in the direction of a return; lanes outside the mask keep the trial.
-  Symmetric stress(const Lanes& t, const LodeReturn&, const Mask& yielding) const {
+  FURROW_INLINE Symmetric stress(const Lanes& t, const LodeReturn&, const Mask& yielding) const {
     return trial_ * select(yielding && q_ > Lanes(0.0), t / q_, 1.0);
   }
 

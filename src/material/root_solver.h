@@ -18,7 +18,7 @@ struct ValueAndSlope {
 /// @param active      lanes to solve; the others return x as given
 /// @param iterations  += evaluations of f, lane by lane
 template <class Function>
-inline Lanes decreasing_root(Function&& f, Lanes x, Lanes low, Lanes high, const Lanes& tolerance, Mask active, Lanes& iterations) {
+FURROW_INLINE Lanes decreasing_root(Function&& f, Lanes x, Lanes low, Lanes high, const Lanes& tolerance, Mask active, Lanes& iterations) {
   Lanes last = high - low;
   for (int i = 0; i < most_root_iterations && any(active); ++i) {
     const ValueAndSlope at = f(x);
