@@ -133,22 +133,27 @@ Schema FixMeshBody::schema() {
   return schema;
 }
 
-FixMeshBody::Arguments::Arguments(int narg, char** arg) {
-  const Options options = schema().read(words_after_style(narg, arg));
-  body = options.word("body");
-  words = {arg[0], arg[1], "mesh/surface", "fix", body, "type", std::to_string(options.integer("type"))};
+FixMeshBody::Arguments::Arguments(LAMMPS_NS::LAMMPS& lammps, int narg, char** arg)
+    : options(schema().read(words_after_style(narg, arg))),
+      body(FixWorld::find_body(lammps, options.where("body"), options.word("body")).body()),
+      words{arg[0], arg[1], "mesh/surface", "fix", options.word("body"), "type", std::to_string(options.integer("type"))} {
   for (std::string& word : words) pointers.push_back(word.data());
 }
 
-FixMeshBody::FixMeshBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : FixMeshBody(lammps, Arguments(narg, arg)) {}
+FixMeshBody::FixMeshBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : FixMeshBody(lammps, Arguments(*lammps, narg, arg)) {}
 
 FixMeshBody::FixMeshBody(LAMMPS_NS::LAMMPS* lammps, Arguments arguments)
-    : FixMeshSurface((FixWorld::find_body(*lammps, "fix mesh/body, keyword 'body'", arguments.body), lammps),
-                     static_cast<int>(arguments.pointers.size()), arguments.pointers.data()),
-      body_(FixWorld::find_body(*lammps, "fix mesh/body, keyword 'body'", arguments.body).body()),
+    : FixMeshSurface(lammps, static_cast<int>(arguments.pointers.size()), arguments.pointers.data()),
+      options_(arguments.options),
+      body_(arguments.body),
       body_mesh_(new BodyMesh(lammps, id, body_.surface())) {
   replace_mesh(*this, body_mesh_);
   restart_global = 0;  // the body keeps its own state
+}
+
+bool FixMeshBody::needs(LAMMPS_NS::Fix& other) const {
+  auto* owner = dynamic_cast<BodyFix*>(&other);
+  return owner && &owner->body() == &body_;
 }
 
 int FixMeshBody::setmask() { return FixMeshSurface::setmask() | LAMMPS_NS::FixConst::INITIAL_INTEGRATE; }

@@ -6,6 +6,8 @@
 
 #include "body/body.h"
 #include "core/options.h"
+#include "coupling/dependent.h"
+#include "coupling/effective_input.h"
 #include "fix_mesh_surface.h"
 #include "tri_mesh.h"
 
@@ -44,14 +46,16 @@ class BodyMesh : public LAMMPS_NS::TriMesh {
   Vector3 reach_lower_, reach_upper_;  // box around all grains at the last rebuild, with a margin
 };
 
-class FixMeshBody : public LAMMPS_NS::FixMeshSurface {
+class FixMeshBody : public LAMMPS_NS::FixMeshSurface, public Described, public Dependent {
  public:
   FixMeshBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
 
   Body& body() { return body_; }
   BodyMesh& body_mesh() { return *body_mesh_; }
+  const Options& options() const override { return options_; }
 
+  bool needs(LAMMPS_NS::Fix& other) const override;
   int setmask() override;
   void setup_pre_force(int vflag) override;
   void initial_integrate(int vflag) override;
@@ -61,14 +65,16 @@ class FixMeshBody : public LAMMPS_NS::FixMeshSurface {
  private:
   /// The words with which FixMeshSurface is willing to be constructed.
   struct Arguments {
-    Arguments(int narg, char** arg);
-    std::string body;
+    Arguments(LAMMPS_NS::LAMMPS& lammps, int narg, char** arg);
+    Options options;
+    Body& body;
     std::vector<std::string> words;
     std::vector<char*> pointers;
   };
   FixMeshBody(LAMMPS_NS::LAMMPS* lammps, Arguments arguments);
   void check_inside_box() const;
 
+  Options options_;
   Body& body_;
   BodyMesh* body_mesh_;  // owned by FixMesh
   bool exchanged_ = false;

@@ -64,7 +64,7 @@ TEST(ContactSelection, RidgeIsOneContactOnTheEdge) {
 }
 
 TEST(ContactSelection, ShallowValleyIsOneContactASharpOneIsTwo) {
-  std::vector<ContactCandidate> shallow = candidates_over_edge(radians(10), Vector3(-0.01, 0.0, 0.2));
+  std::vector<ContactCandidate> shallow = candidates_over_edge(radians(10), Vector3(-0.03, 0.0, 0.2));
   ContactSelection().select(shallow, 0.25);
   ASSERT_EQ(shallow.size(), 1u);
   EXPECT_EQ(shallow[0].triangle, 0);  // the deeper one
