@@ -176,6 +176,8 @@ void CommandBed::command(int narg, char** arg) {
     input->one(("processors " + choice(grid[0]) + " " + choice(grid[1]) + " " + choice(grid[2])).c_str());
   }
   MPI_Barrier(world);
+  input->one("newton off");  // read_restart keeps the setting of the moment, and contact history needs it off
+  input->one("newton off");  // granular pairs ask for it, and a restart file does not bring it
   input->one(("read_restart " + restart.string()).c_str());
   run_script(section(text, "contact"));
   std::ifstream file(facts_path);
