@@ -1,6 +1,7 @@
 #include "coupling/fix_body.h"
 
 #include "comm.h"
+#include "coupling/dependent.h"
 #include "coupling/guard.h"
 
 namespace furrow::coupling {
@@ -17,7 +18,9 @@ FixBody::~FixBody() = default;
 void FixBody::post_create() { FixWorld::of(*lmp).add(*body_, id); }
 
 void FixBody::pre_delete(bool unfixflag) {
-  if (unfixflag) FixWorld::of(*lmp).remove(*body_);
+  if (!unfixflag) return;
+  guarded(*error, [&] { refuse_if_needed(*modify, *this); });
+  FixWorld::of(*lmp).remove(*body_);
 }
 
 void FixBody::write_restart(FILE* file) {
@@ -32,6 +35,7 @@ void FixBody::write_restart(FILE* file) {
 
 void FixBody::restart(char* buffer) {
   const auto* numbers = reinterpret_cast<const double*>(buffer);
+  state_as_made_ = body_->state();
   guarded(*error, [&] { body_->restore(std::vector<double>(numbers + 1, numbers + 1 + static_cast<std::size_t>(numbers[0]))); });
 }
 

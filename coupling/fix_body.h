@@ -14,6 +14,8 @@ class FixBody : public LAMMPS_NS::Fix, public BodyFix {
   ~FixBody() override;
 
   Body& body() override { return *body_; }
+  /// The body as its fix line made it, before a restart file moved it on; empty without a restart.
+  const std::vector<double>& state_as_made() const { return state_as_made_; }
 
   int setmask() override { return 0; }
   void post_create() override;
@@ -25,6 +27,7 @@ class FixBody : public LAMMPS_NS::Fix, public BodyFix {
 
  private:
   std::unique_ptr<Body> body_;
+  std::vector<double> state_as_made_;
 };
 
 }  // namespace furrow::coupling

@@ -13,6 +13,7 @@
 #include "coupling/fix_world.h"
 #include "coupling/guard.h"
 #include "coupling/liggghts_access.h"
+#include "coupling/time_step_check.h"
 #include "fix_neighlist_mesh.h"
 #include "neighbor.h"
 #include "update.h"
@@ -34,10 +35,16 @@ FixWallGranBody::FixWallGranBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg
     if (!dynamic_cast<FixMeshBody*>(FixMesh_list_[m])) stock_meshes_.push_back(FixMesh_list_[m]);
 }
 
+void FixWallGranBody::init() {
+  FixWallGran::init();
+  guarded(*error, [&] { check_time_step(*lmp, fmt::format("fix wall/gran/body '{}'", id)); });
+}
+
 void FixWallGranBody::setup(int vflag) {
-  const bool first_run = FixWorld::of(*lmp).time() == 0.0;
+  starting_ = FixWorld::of(*lmp).time() == 0.0;
   FixWallGran::setup(vflag);
-  if (first_run) guarded(*error, [&] { refuse_deep_start(); });
+  if (starting_) guarded(*error, [&] { refuse_deep_start(); });
+  starting_ = false;
 }
 
 void FixWallGranBody::refuse_deep_start() {
@@ -72,13 +79,15 @@ void FixWallGranBody::post_force_body(FixMeshBody& mesh_fix, int mesh_number) {
   atom_type_wall_ = mesh_fix.atomTypeWall();
 
   collect_candidates(mesh_fix);
-  ContactLedger& ledger = FixWorld::of(*lmp).ledger(mesh_fix.body());
+  FixWorld& bodies = FixWorld::of(*lmp);
+  ContactLedger& ledger = bodies.ledger(mesh_fix.body());
+  const Vector3 moment_reference = bodies.moment_reference(mesh_fix.body());
   for (const int grain : touched_) {
     of_grain_.clear();
     for (int c = first_[grain]; c >= 0; c = next_[c]) of_grain_.push_back(candidates_[c]);
     first_[grain] = -1;
     selection_.select(of_grain_, atom->radius[grain]);
-    for (const ContactCandidate& contact : of_grain_) apply(mesh_fix, mesh_number, grain, contact, ledger);
+    for (const ContactCandidate& contact : of_grain_) apply(mesh_fix, mesh_number, grain, contact, moment_reference, ledger);
   }
   if (history) history->cleanUpContacts();
 }
@@ -148,7 +157,8 @@ double* FixWallGranBody::history_of(LAMMPS_NS::FixContactHistoryMesh& history, c
   return values;
 }
 
-void FixWallGranBody::apply(FixMeshBody& mesh_fix, int mesh_number, int grain, const ContactCandidate& contact, ContactLedger& ledger) {
+void FixWallGranBody::apply(FixMeshBody& mesh_fix, int mesh_number, int grain, const ContactCandidate& contact,
+                            const Vector3& moment_reference, ContactLedger& ledger) {
   BodyMesh& mesh = mesh_fix.body_mesh();
   Surface& surface = mesh_fix.body().surface();
   const Vector3i& nodes = surface.triangles[static_cast<std::size_t>(contact.triangle)];
@@ -156,6 +166,7 @@ void FixWallGranBody::apply(FixMeshBody& mesh_fix, int mesh_number, int grain, c
   const double overlap = radius - contact.point.distance;
   const bool touching = overlap >= 0.0;
   deepest_ = std::max(deepest_, overlap / radius);
+  if (starting_ && overlap > deepest_start * radius) return;  // setup() refuses it; its force may not even be a number
 
   LIGGGHTS::ContactModels::SurfacesIntersectData data;
   data.is_wall = true;
@@ -189,7 +200,7 @@ void FixWallGranBody::apply(FixMeshBody& mesh_fix, int mesh_number, int grain, c
 
   const Vector3 centre = Eigen::Map<const Vector3>(atom->x[grain]) - mesh.image_shift(contact.tag);
   const Vector3 contact_point = centre - contact.point.separation;
-  const Vector3 arm = contact_point - FixWorld::of(*lmp).moment_reference(mesh_fix.body());
+  const Vector3 arm = contact_point - moment_reference;
   ledger.grain_force += contact_force;
   ledger.grain_moment += arm.cross(contact_force);
   // The grain's own balance: its torque about its centre against the force at the contact point.

@@ -1,6 +1,7 @@
 #include "coupling/fix_wheel_history.h"
 
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -53,11 +54,13 @@ FixWheelHistory::FixWheelHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg
 
 int FixWheelHistory::setmask() { return LAMMPS_NS::FixConst::END_OF_STEP | LAMMPS_NS::FixConst::POST_RUN; }
 
+bool FixWheelHistory::needs(LAMMPS_NS::Fix& other) const { return &other == &rig_fix_; }
+
 FixWorld& FixWheelHistory::bodies() { return FixWorld::of(*lmp); }
 
-/// Files are made when the first run starts: by then every style of the scene is known.
+/// Files are made when the first run starts: by then every style of the scene is known. Rank 0 alone writes, so it may fail alone.
 void FixWheelHistory::setup(int) {
-  guarded(*error, [&] {
+  guarded_alone(*error, [&] {
     if (opened_) return;
     opened_ = true;
     open();
@@ -86,6 +89,7 @@ void FixWheelHistory::open() {
     }
     return;
   }
+  make_folder();
   RunInfo info;
   info.title = options_.word("title");
   info.script = script_name(*lmp);
@@ -100,8 +104,21 @@ void FixWheelHistory::open() {
   }
 }
 
+void FixWheelHistory::make_folder() const {
+  std::error_code failed;
+  std::filesystem::create_directories(folder_, failed);
+  if (failed)
+    throw InputError(options_.where("folder"), fmt::format("is '{}', which cannot be made ({})", folder_, failed.message()),
+                     "a folder that you may write in");
+}
+
+/// An error ends the run: the rows since the last flush are still worth having.
+void FixWheelHistory::keep_results() {
+  if (file_) file_->flush();
+}
+
 void FixWheelHistory::end_of_step() {
-  guarded(*error, [&] {
+  guarded_alone(*error, [&] {
     if (update->ntimestep % every_ == 0) record();
     if (vtk_every_ > 0 && update->ntimestep % vtk_every_ == 0) write_frame();
   });
@@ -120,7 +137,7 @@ void FixWheelHistory::write_frame() {
 
 /// Also reached when the user interrupts the run: what there is, is written and evaluated.
 void FixWheelHistory::post_run() {
-  guarded(*error, [&] {
+  guarded_alone(*error, [&] {
     const RunClosing end = closing();
     const Grains grains = gather_grains(*lmp, reference_.bed_level);
     if (comm->me != 0) return;

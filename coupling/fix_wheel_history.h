@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "coupling/dependent.h"
 #include "coupling/effective_input.h"
+#include "coupling/results_keeper.h"
 #include "fix.h"
 #include "io/history_file.h"
 #include "io/vtk_file.h"
@@ -16,7 +18,7 @@ namespace furrow::coupling {
 class FixWheelRig;
 class FixWorld;
 
-class FixWheelHistory : public LAMMPS_NS::Fix, public Described {
+class FixWheelHistory : public LAMMPS_NS::Fix, public Described, public Dependent, public ResultsKeeper {
  public:
   FixWheelHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
@@ -28,9 +30,12 @@ class FixWheelHistory : public LAMMPS_NS::Fix, public Described {
   void write_restart(FILE* file) override;
   void restart(char* buffer) override;
   const Options& options() const override { return options_; }
+  void keep_results() override;
+  bool needs(LAMMPS_NS::Fix& other) const override;
 
  private:
   void open();
+  void make_folder() const;
   void record();
   void write_frame();
   RunClosing closing();

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "coupling/dependent.h"
 #include "coupling/fix_wheel_rigid.h"
+#include "coupling/guard.h"
 #include "coupling/words.h"
 #include "modify.h"
 
@@ -25,6 +27,19 @@ FixWheelRigid& find_free_wheel(LAMMPS_NS::LAMMPS& lammps, const Options& options
   return *wheel;
 }
 
+/// A rig is made with the wheel where the script puts it, also when the run continues: lowering, heading and camber are told from
+/// there. A wheel that comes from a restart file then goes back to the state it had.
+WheelRig make_rig(const Options& options, FixWheelRigid& wheel_fix) {
+  RigidWheel& wheel = wheel_fix.wheel();
+  if (wheel_fix.state_as_made().empty()) return WheelRig(options, wheel);
+  const std::vector<double> now = wheel.state();
+  wheel.restore(wheel_fix.state_as_made());
+  WheelRig rig(options, wheel);
+  wheel.restore(now);
+  wheel.set_vertical_damping(options.number("damping"));
+  return rig;
+}
+
 }  // namespace
 
 Schema FixWheelRig::schema() {
@@ -37,12 +52,16 @@ FixWheelRig::FixWheelRig(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : Fix(lammps, narg, arg),
       options_(schema().read(words_after_style(narg, arg))),
       wheel_fix_(find_free_wheel(*lammps, options_)),
-      rig_(options_, wheel_fix_.wheel()) {}
+      rig_(make_rig(options_, wheel_fix_)) {}
+
+bool FixWheelRig::needs(LAMMPS_NS::Fix& other) const { return &other == &wheel_fix_; }
 
 void FixWheelRig::post_create() { FixWorld::of(*lmp).add(static_cast<Driver&>(*this)); }
 
 void FixWheelRig::pre_delete(bool unfixflag) {
-  if (unfixflag) FixWorld::of(*lmp).remove(static_cast<Driver&>(*this));
+  if (!unfixflag) return;
+  guarded(*error, [&] { refuse_if_needed(*modify, *this); });
+  FixWorld::of(*lmp).remove(static_cast<Driver&>(*this));
 }
 
 }  // namespace furrow::coupling

@@ -1,6 +1,7 @@
 #pragma once
 /// fix wheel/rig: drives a wheel. See fix_wheel_rig.md.
 
+#include "coupling/dependent.h"
 #include "coupling/effective_input.h"
 #include "coupling/fix_world.h"
 #include "fix.h"
@@ -10,7 +11,7 @@ namespace furrow::coupling {
 
 class FixWheelRigid;
 
-class FixWheelRig : public LAMMPS_NS::Fix, public Driver, public Described {
+class FixWheelRig : public LAMMPS_NS::Fix, public Driver, public Described, public Dependent {
  public:
   FixWheelRig(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
@@ -18,6 +19,7 @@ class FixWheelRig : public LAMMPS_NS::Fix, public Driver, public Described {
   void post_create() override;
   void pre_delete(bool unfixflag) override;
   int setmask() override { return 0; }
+  bool needs(LAMMPS_NS::Fix& other) const override;
   void apply(double time, double dt) override { rig_.apply(time, dt); }
 
   const WheelRig& rig() const { return rig_; }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "coupling/grain_check.h"
 #include "coupling/guard.h"
 #include "modify.h"
 #include "update.h"
@@ -20,7 +21,7 @@ constexpr double momentum_tolerance = 1e-10;  // of the force scale: round-off o
 
 FixWorld::FixWorld(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg), communicator_(&world) {
   restart_global = 1;
-  time_integrate = 1;
+  nevery = 1;
 }
 
 FixWorld& FixWorld::of(LAMMPS_NS::LAMMPS& lammps) {
@@ -62,7 +63,15 @@ const Vector3& FixWorld::moment_reference(const Body& body) { return member(body
 const MomentumAudit& FixWorld::audit(const Body& body) { return member(body).audit; }
 double FixWorld::contact_count(const Body& body) { return member(body).contacts; }
 
-int FixWorld::setmask() { return LAMMPS_NS::FixConst::INITIAL_INTEGRATE | LAMMPS_NS::FixConst::FINAL_INTEGRATE; }
+int FixWorld::setmask() {
+  using namespace LAMMPS_NS::FixConst;
+  return INITIAL_INTEGRATE | FINAL_INTEGRATE | END_OF_STEP;
+}
+
+/// Before the first neighbour lists: a position that is no number would crash them.
+void FixWorld::init() {
+  guarded_alone(*error, [&] { check_grains_finite(*lmp); });
+}
 
 void FixWorld::setup_pre_force(int) { clear_forces(); }
 
@@ -78,6 +87,10 @@ void FixWorld::initial_integrate(int) {
 
 void FixWorld::final_integrate() {
   guarded(*error, [&] { sum_forces(); });
+}
+
+void FixWorld::end_of_step() {
+  guarded_alone(*error, [&] { check_grains_finite(*lmp); });
 }
 
 void FixWorld::clear_forces() {

@@ -68,9 +68,11 @@ class FixWorld : public LAMMPS_NS::Fix {
   const Communicator& communicator() const { return communicator_; }
 
   int setmask() override;
+  void init() override;
   void setup_pre_force(int) override;
   void initial_integrate(int) override;
   void final_integrate() override;
+  void end_of_step() override;
   void write_restart(FILE* file) override;
   void restart(char* buffer) override;
 

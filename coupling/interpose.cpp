@@ -9,10 +9,12 @@
 #include <mpi.h>
 
 #include "coupling/liggghts_access.h"
+#include "coupling/results_keeper.h"
 #include "coupling/styles.h"
 #include "error.h"
 #include "fix.h"
 #include "lammps.h"
+#include "modify.h"
 #include "output.h"
 #include "universe.h"
 
@@ -41,12 +43,24 @@ void print_error(LAMMPS_NS::LAMMPS& lammps, const std::string& text, const char*
   }
 }
 
+/// Whatever cannot be saved now is lost: the run ends with the error that stopped it, not with this one.
+void keep_results(const LAMMPS_NS::LAMMPS& lammps) {
+  for (int i = 0; lammps.modify && i < lammps.modify->nfix; ++i) try {
+      if (auto* keeper = dynamic_cast<furrow::coupling::ResultsKeeper*>(lammps.modify->fix[i])) keeper->keep_results();
+    } catch (const std::exception& loss) {
+      std::fprintf(stderr, "Results of fix %s are lost: %s\n", lammps.modify->fix[i]->id, loss.what());
+    }
+}
+
 /// All ranks have come to the same error: leave together, dumps and logs closed.
 [[noreturn]] void stop_together(LAMMPS_NS::LAMMPS& lammps, const std::string& text, const char* file, int line) {
   MPI_Barrier(lammps.world);
   int rank = 0;
   MPI_Comm_rank(lammps.world, &rank);
-  if (rank == 0) print_error(lammps, text, file, line);
+  if (rank == 0) {
+    print_error(lammps, text, file, line);
+    keep_results(lammps);
+  }
   delete lammps.output;
   if (lammps.logfile) std::fclose(lammps.logfile);
   if (lammps.universe->nworlds > 1) MPI_Abort(lammps.universe->uworld, 1);
@@ -87,6 +101,7 @@ FURROW_EXPORTED void Error::one(const char* file, int line, const char* text) {
   MPI_Comm_rank(world, &rank);
   if (rank == 0) {
     print_error(*lmp, text, file, line);
+    keep_results(*lmp);
   } else {
     std::fprintf(stderr, "\nERROR on rank %d: %s\n", rank, text);
     if (line > 0) std::fprintf(stderr, "  (LIGGGHTS, %s:%d)\n", file, line);
