@@ -18,7 +18,7 @@ inline std::unique_ptr<Material> law_of(const std::string& text) {
   std::string law, word;
   words >> law;
   std::vector<Entry> entries;
-  const auto is_value = [](const std::string& w) { return w.find_first_not_of("0123456789+-.eE") == std::string::npos && w != "E"; };
+  const auto is_value = [](const std::string& w) { return std::string("0123456789+-.").find(w[0]) != std::string::npos; };
   while (words >> word) {
     if (!entries.empty() && (is_value(word) || entries.back().values.empty())) {
       entries.back().values.push_back(word);
