@@ -50,7 +50,8 @@ def main(furrow, script, launcher):
     expected, warnings = header(script, "expect"), header(script, "warning")
     environment = dict(os.environ, FURROW_CACHE="cache")
     with tempfile.TemporaryDirectory() as folder:
-        command = [*launcher, furrow, "-in", script, "-log", "none", "-var", "parts", here / "parts", "-var", "beds", here.parents[2] / "inputs/beds"]
+        command = [*launcher, furrow, "-in", script, "-log", "none", "-var", "parts", here / "parts",
+                   "-var", "beds", here.parents[2] / "inputs/beds"]
         run = subprocess.run(command, cwd=folder, env=environment, timeout=TIME_LIMIT, text=True, stdin=subprocess.DEVNULL,
                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         print(run.stdout)

@@ -1,0 +1,81 @@
+"""A plain LIGGGHTS script must give the same numbers with furrow as with liggghts.
+
+    run.py same <liggghts> <furrow> <script> [<launcher> ...]   thermo lines and the final grains, every digit
+    run.py clear <furrow>                                       Furrow's styles after clear: as in a fresh process
+"""
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+
+HERE = Path(__file__).resolve().parent
+PARTS = HERE.parent / "bad_input/parts"
+TIME_LIMIT = 300  # s
+
+
+def run(command, script, folder):
+    done = subprocess.run([*command, "-in", script, "-log", "none", "-var", "here", HERE, "-var", "parts", PARTS],
+                          cwd=folder, timeout=TIME_LIMIT, text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    if done.returncode != 0:
+        sys.exit(f"{command} stopped with status {done.returncode}:\n{done.stdout}")
+    return done.stdout
+
+
+def is_numbers(line):
+    try:
+        return len([float(word) for word in line.split()]) > 0
+    except ValueError:
+        return False
+
+
+def thermo(output):
+    """One list of lines a run: header and numbers. The lines hold no times but simulated ones."""
+    runs, inside = [], False
+    for line in output.splitlines():
+        if line.split()[:1] == ["Step"]:
+            runs.append([])
+            inside = True
+        if line.startswith("Loop time"):
+            inside = False
+        if inside and (line.split()[:1] == ["Step"] or is_numbers(line)):
+            runs[-1].append(line)
+    assert runs and all(len(lines) > 1 for lines in runs), f"no thermo output in:\n{output}"
+    return runs
+
+
+def compare(first, second, what):
+    for a, b in zip(first, second):
+        if a != b:
+            sys.exit(f"{what} differ:\n  {a}\n  {b}")
+    if len(first) != len(second):
+        sys.exit(f"{what}: {len(first)} and {len(second)} lines")
+    print(f"{what}: {len(first)} lines agree in every digit")
+
+
+def same(liggghts, furrow, script, *launcher):
+    with tempfile.TemporaryDirectory() as one, tempfile.TemporaryDirectory() as other:
+        outputs = [run([*launcher, program], script, folder) for program, folder in ((liggghts, one), (furrow, other))]
+        compare(*(sum(thermo(output), []) for output in outputs), "thermo lines")
+        compare(*((Path(folder) / "grains.txt").read_text().splitlines() for folder in (one, other)), "final grains")
+        compare(*([line for line in output.splitlines() if "WARNING" in line] for output in outputs), "warnings")
+
+
+def history(folder):
+    with h5py.File(Path(folder) / "results/history.h5") as file:
+        return {name: data[:].tobytes() for name, data in file["history"].items()}
+
+
+def clear(furrow):
+    with tempfile.TemporaryDirectory() as one, tempfile.TemporaryDirectory() as other:
+        after = thermo(run([furrow], HERE / "clear.lig", one))
+        alone = thermo(run([furrow], PARTS.parent / "sound.lig", other))
+        assert len(after) > len(alone) == 1
+        compare(after[-1], alone[0], "thermo lines after clear")
+        assert history(one) == history(other), "the histories differ"
+
+
+if __name__ == "__main__":
+    {"same": same, "clear": clear}[sys.argv[1]](*sys.argv[2:])
