@@ -18,7 +18,8 @@ TIME_LIMIT = 300  # s
 
 def run(command, script, folder):
     done = subprocess.run([*command, "-in", script, "-log", "none", "-var", "here", HERE, "-var", "parts", PARTS],
-                          cwd=folder, timeout=TIME_LIMIT, text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                          cwd=folder, timeout=TIME_LIMIT, text=True,
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode != 0:
         sys.exit(f"{command} stopped with status {done.returncode}:\n{done.stdout}")
     return done.stdout
@@ -70,11 +71,13 @@ def history(folder):
 
 def clear(furrow):
     with tempfile.TemporaryDirectory() as one, tempfile.TemporaryDirectory() as other:
-        after = thermo(run([furrow], HERE / "clear.lig", one))
-        alone = thermo(run([furrow], PARTS.parent / "sound.lig", other))
-        assert len(after) > len(alone) == 1
-        compare(after[-1], alone[0], "thermo lines after clear")
-        assert history(one) == history(other), "the histories differ"
+        run([furrow], HERE / "clear.lig", one)
+        run([furrow], PARTS.parent / "sound.lig", other)
+        after, alone = history(one), history(other)
+        assert len(alone["time"]) > 0 and after.keys() == alone.keys()
+        for name in alone:
+            assert after[name] == alone[name], f"the histories differ in {name}"
+        print(f"{len(alone)} channels of the history agree in every bit")
 
 
 if __name__ == "__main__":
