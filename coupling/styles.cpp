@@ -2,6 +2,7 @@
 
 #include "coupling/command_bed.h"
 #include "coupling/fix_mesh_body.h"
+#include "coupling/fix_plate_rigid.h"
 #include "coupling/fix_wall_gran_body.h"
 #include "coupling/fix_progress.h"
 #include "coupling/fix_wheel_history.h"
@@ -33,6 +34,7 @@ void run_command(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) {
 void add_styles(LAMMPS_NS::LAMMPS& lammps) {
   guarded(*lammps.error, [&] { check_library(lammps); });
   add_fix_style(lammps, "furrow/world", create_fix<FixWorld>);
+  add_fix_style(lammps, "plate/rigid", create_fix<FixPlateRigid>);
   add_fix_style(lammps, "wheel/rigid", create_fix<FixWheelRigid>);
   add_fix_style(lammps, "wheel/rig", create_fix<FixWheelRig>);
   add_fix_style(lammps, "wheel/history", create_fix<FixWheelHistory>);
