@@ -142,7 +142,12 @@ void CommandBed::command(int narg, char** arg) {
   const std::string text = read_file(script);
   std::string identity = version() + "\n" + text;
   double depth = 0.0;
+  std::string from = "none";  // a checkpoint of a run on this bed
   for (std::size_t i = 1; i < words.size(); i += 2) {
+    if (words[i] == "from") {
+      from = words[i + 1];
+      continue;
+    }
     identity += "\n" + words[i] + " " + words[i + 1];
     set_variable("bed_" + words[i], words[i + 1]);
     if (words[i] == "depth") depth = std::strtod(words[i + 1].c_str(), nullptr);
@@ -177,8 +182,7 @@ void CommandBed::command(int narg, char** arg) {
   }
   MPI_Barrier(world);
   input->one("newton off");  // read_restart keeps the setting of the moment, and contact history needs it off
-  input->one("newton off");  // granular pairs ask for it, and a restart file does not bring it
-  input->one(("read_restart " + restart.string()).c_str());
+  input->one(("read_restart " + (from == "none" ? restart.string() : from)).c_str());
   run_script(section(text, "contact"));
   std::ifstream file(facts_path);
   std::string name, value;

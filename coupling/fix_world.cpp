@@ -19,7 +19,7 @@ constexpr double momentum_tolerance = 1e-10;  // of the force scale: round-off o
 
 }  // namespace
 
-FixWorld::FixWorld(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg), communicator_(&world) {
+FixWorld::FixWorld(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg), communicator_(&world), grain_forces_(*lammps) {
   restart_global = 1;
   nevery = 1;
 }
@@ -65,7 +65,7 @@ double FixWorld::contact_count(const Body& body) { return member(body).contacts;
 
 int FixWorld::setmask() {
   using namespace LAMMPS_NS::FixConst;
-  return INITIAL_INTEGRATE | FINAL_INTEGRATE | END_OF_STEP;
+  return PRE_INITIAL_INTEGRATE | INITIAL_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE | END_OF_STEP;  // PRE_FORCE: for setup_pre_force
 }
 
 /// Before the first neighbour lists: a position that is no number would crash them.
@@ -73,7 +73,21 @@ void FixWorld::init() {
   guarded_alone(*error, [&] { check_grains_finite(*lmp); });
 }
 
-void FixWorld::setup_pre_force(int) { clear_forces(); }
+void FixWorld::setup_pre_force(int) {
+  for (Member& m : members_)
+    if (resumed_ && m.resumed_forces.cols() == 0) m.resumed_forces = m.body->surface().f;
+  clear_forces();
+}
+
+/// The forces of the last step before the checkpoint, in place of those that the set-up has made of full-step velocities.
+void FixWorld::pre_initial_integrate() {
+  if (!resumed_) return;
+  resumed_ = false;
+  clear_forces();
+  grain_forces_.put_back();
+  for (Member& m : members_) m.body->surface().f = m.resumed_forces;
+  summed_ = true;
+}
 
 void FixWorld::initial_integrate(int) {
   guarded(*error, [&] {
@@ -155,13 +169,27 @@ void FixWorld::check_momentum(Member& m) const {
   m.audit.lever_gap = std::max(m.audit.lever_gap, m.ledger.lever_gap.norm() / m.ledger.moment_scale);
 }
 
+/// Collective. In the middle of a run (command restart) forces and contact histories are those of the last step; LIGGGHTS would write
+/// the histories as they were when the neighbour lists were made. After a run (command write_restart) it brings them up to date
+/// itself, moves grains between ranks without their forces, and a further run in this process computes them anew as well.
 void FixWorld::write_restart(FILE* file) {
+  const bool in_run = update->whichflag == 1;
+  if (in_run) {
+    grain_forces_.store();
+    for (int i = 0; i < modify->nfix; ++i)
+      if (modify->fix[i]->style == std::string("contacthistory")) modify->fix[i]->setup_pre_exchange();
+  }
   if (communicator_.rank() != 0) return;
-  const int size = sizeof time_;
+  const double state[] = {time_, in_run ? 1.0 : 0.0};
+  const int size = sizeof state;
   std::fwrite(&size, sizeof size, 1, file);
-  std::fwrite(&time_, sizeof time_, 1, file);
+  std::fwrite(state, sizeof state, 1, file);
 }
 
-void FixWorld::restart(char* buffer) { time_ = *reinterpret_cast<const double*>(buffer); }
+void FixWorld::restart(char* buffer) {
+  const auto* state = reinterpret_cast<const double*>(buffer);
+  time_ = state[0];
+  resumed_ = state[1] != 0.0;
+}
 
 }  // namespace furrow::coupling

@@ -7,6 +7,7 @@
 #include "body/body.h"
 #include "body/world.h"
 #include "core/communicator.h"
+#include "coupling/grain_forces.h"
 #include "fix.h"
 
 namespace furrow::coupling {
@@ -67,9 +68,11 @@ class FixWorld : public LAMMPS_NS::Fix {
   double time() const { return time_; }
   const Communicator& communicator() const { return communicator_; }
 
+  void post_create() override { grain_forces_.make_storage(); }
   int setmask() override;
   void init() override;
   void setup_pre_force(int) override;
+  void pre_initial_integrate() override;
   void initial_integrate(int) override;
   void final_integrate() override;
   void end_of_step() override;
@@ -84,6 +87,7 @@ class FixWorld : public LAMMPS_NS::Fix {
     MomentumAudit audit;
     Vector3 reference = Vector3::Zero();
     double contacts = 0.0;
+    Matrix3X resumed_forces = {};  // nodal, as the restart file brought them
   };
   Member& member(const Body& body);
   void clear_forces();
@@ -95,8 +99,10 @@ class FixWorld : public LAMMPS_NS::Fix {
   std::vector<Member> members_;
   std::vector<Driver*> drivers_;
   std::vector<double> buffer_;
+  GrainForces grain_forces_;
   double time_ = 0.0;
   bool summed_ = false;
+  bool resumed_ = false;  // continues a checkpoint written in the middle of a run, and has not made a step yet
 };
 
 }  // namespace furrow::coupling
