@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "material/kernels.h"
+#include "material/kernel_table.h"
 #include "material/kinematics.h"
 
 namespace furrow {

@@ -5,6 +5,7 @@
 
 #include <Eigen/SVD>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unsupported/Eigen/LevenbergMarquardt>
 
 #include "core/error.h"
@@ -28,8 +29,10 @@ class Variable {
     section_ = parameter.name.substr(0, dot);
     if (!key_name.empty() && key_name.back() == ']') {
       const std::size_t bracket = key_name.find('[');
-      const std::string digits = bracket == std::string::npos ? "" : key_name.substr(bracket + 1, key_name.size() - bracket - 2);
-      if (digits.empty() || digits.size() > 6 || digits.find_first_not_of("0123456789") != std::string::npos || std::stoul(digits) == 0)
+      const std::string digits =
+          bracket == std::string::npos ? "" : key_name.substr(bracket + 1, key_name.size() - bracket - 2);
+      if (digits.empty() || digits.size() > 6 || digits.find_first_not_of("0123456789") != std::string::npos ||
+          std::stoul(digits) == 0)
         throw InputError(where, "has no place in its list", "section.key[n], n from 1");
       place_ = std::stoul(digits) - 1;
       key_name.resize(bracket);
@@ -41,45 +44,50 @@ class Variable {
         if (candidate.name == section_) key = candidate.choice(section->second.type).schema.find(key_name);
     }
     std::vector<double> values;
-    if (key && key->kind == Key::Kind::number && section->second.options.has(key_name)) values = {section->second.options.number(key_name)};
-    if (key && key->kind == Key::Kind::numbers && section->second.options.has(key_name)) values = section->second.options.numbers(key_name);
+    if (key && key->kind == Key::Kind::number && section->second.options.has(key_name))
+      values = {section->second.options.number(key_name)};
+    if (key && key->kind == Key::Kind::numbers && section->second.options.has(key_name))
+      values = section->second.options.numbers(key_name);
     if (values.empty()) {
       std::string known;
       for (const auto& [name, candidate] : options)
-        for (const Entry& entry : candidate.options.effective()) known += fmt::format("{}{}.{}", known.empty() ? "" : ", ", name, entry.key);
-      throw InputError(where, "is no number of this material", known, "write section.key, or section.key[n] for one of a list");
+        for (const Entry& entry : candidate.options.effective())
+          known += fmt::format("{}{}.{}", known.empty() ? "" : ", ", name, entry.key);
+      throw InputError(where, "is no number of this material", known,
+                       "write section.key, or section.key[n] for one of a list");
     }
     if (key->kind == Key::Kind::numbers && parameter.name.back() != ']')
-      throw InputError(where, fmt::format("is a list of {}", values.size()), fmt::format("{}[1] to {}[{}]", parameter.name, parameter.name, values.size()));
+      throw InputError(where, fmt::format("is a list of {}", values.size()),
+                       fmt::format("{}[1] to {}[{}]", parameter.name, parameter.name, values.size()));
     if (place_ >= values.size())
-      throw InputError(where, fmt::format("is beyond the list of {}", values.size()), fmt::format("n up to {}", values.size()));
+      throw InputError(where, fmt::format("is beyond the list of {}", values.size()),
+                       fmt::format("n up to {}", values.size()));
 
     unit_ = key->unit;
     start_ = parameter.start.value_or(values[place_]);
     lower_ = std::max(parameter.lower, key->range.lower);
     upper_ = std::min(parameter.upper, key->range.upper);
-    if (!(lower_ < upper_)) throw InputError(where, fmt::format("has the bounds {} and {}", lower_, upper_), "lower < upper, within " + key->range.text());
+    if (!(lower_ < upper_))
+      throw InputError(where, fmt::format("has the bounds {} and {}", lower_, upper_),
+                       "lower < upper, within " + key->range.text());
     const bool inside = key->range.contains(start_) && start_ >= lower_ && start_ <= upper_;
-    if (!inside) throw InputError(where, fmt::format("starts at {}", start_), fmt::format("a start in [{}, {}], within {}", lower_, upper_, key->range.text()));
+    if (!inside)
+      throw InputError(where, fmt::format("starts at {}", start_),
+                       fmt::format("a start in [{}, {}], within {}", lower_, upper_, key->range.text()));
     logarithmic_ = lower_ >= 0.0 && start_ > 0.0;
     if (!logarithmic_) {
       scale_ = std::isfinite(upper_ - lower_) ? upper_ - lower_ : std::max(std::abs(start_), 1e-300);
       if (start_ == 0.0 && !std::isfinite(upper_ - lower_))
-        throw InputError(where, "starts at 0 without bounds, so its size is not known", "a start other than 0, or lower and upper");
+        throw InputError(where, "starts at 0 without bounds, so its size is not known",
+                         "a start other than 0, or lower and upper");
     }
-    const double low = z_of(lower_), high = z_of(upper_);
-    if (std::isfinite(low) && std::isfinite(high)) {
-      // A start at a bound would have no slope: it is moved inside by a thousandth of the interval.
-      bounded_ = true;
-      low_ = low;
-      high_ = high;
-    } else {
-      low_ = low;
-      high_ = high;
-    }
+    low_ = z_of(lower_);
+    high_ = z_of(upper_);
+    bounded_ = std::isfinite(low_) && std::isfinite(high_);
     // Written once in full, so that the place exists when the value changes.
     std::vector<Entry>& entries = sections[section_];
-    entries.erase(std::remove_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.key == key_name; }), entries.end());
+    entries.erase(std::remove_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.key == key_name; }),
+                  entries.end());
     Entry entry{key_name, {}};
     for (const double value : values) entry.values.push_back(fmt::format("{:.17g}", value));
     entries.push_back(entry);
@@ -89,10 +97,13 @@ class Variable {
   double start_t() const {
     const double z = z_of(start_);
     if (!bounded_) return z;
+    // A start at a bound would have no slope: it is moved inside by a thousandth of the interval.
     const double part = std::clamp((z - low_) / (high_ - low_), 1e-3, 1.0 - 1e-3);
     return std::atanh(2.0 * part - 1.0);
   }
-  double z_of_t(double t) const { return bounded_ ? low_ + (high_ - low_) * 0.5 * (1.0 + std::tanh(t)) : std::clamp(t, low_, high_); }
+  double z_of_t(double t) const {
+    return bounded_ ? low_ + (high_ - low_) * 0.5 * (1.0 + std::tanh(t)) : std::clamp(t, low_, high_);
+  }
   double z_of(double value) const { return logarithmic_ ? std::log(value) : value / scale_; }
   double value_of(double z) const { return logarithmic_ ? std::exp(z) : z * scale_; }
   void put(MaterialSections& sections, double z) const {
@@ -100,10 +111,10 @@ class Variable {
       if (entry.key == key_) entry.values.at(place_) = fmt::format("{:.17g}", value_of(z));
   }
   /// A difference step from z that stays inside the bounds.
-  std::pair<double, double> around(double z, double step) const { return {std::max(z - step, low_), std::min(z + step, high_)}; }
-  bool at_bound(double z) const {
-    return bounded_ && std::min(z - low_, high_ - z) < 2e-3 * (high_ - low_);
+  std::pair<double, double> around(double z, double step) const {
+    return {std::max(z - step, low_), std::min(z + step, high_)};
   }
+  bool at_bound(double z) const { return bounded_ && std::min(z - low_, high_ - z) < 2e-3 * (high_ - low_); }
   bool at_lower(double z) const { return z - low_ < high_ - z; }
 
   const std::string& unit() const { return unit_; }
@@ -129,25 +140,29 @@ class Residuals {
     for (std::size_t i = 0; i < problem.parameters.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j)
         if (problem.parameters[j].name == problem.parameters[i].name)
-          throw InputError(fmt::format("parameter '{}'", problem.parameters[i].name), "is given twice", "each parameter once");
+          throw InputError(fmt::format("parameter '{}'", problem.parameters[i].name), "is given twice",
+                           "each parameter once");
       variables_.emplace_back(law, options, sections_, problem.parameters[i]);
     }
     const auto material = make_material(problem.law, problem.sections);
     for (const FitCurve& curve : problem.curves) {
       find_point_channel(*material, curve.channel);
       if (curve.measured.size() != curve.path.segments.size())
-        throw InputError("curve " + curve.name, fmt::format("has {} values for {} segments", curve.measured.size(), curve.path.segments.size()),
+        throw InputError("curve " + curve.name,
+                         fmt::format("has {} values for {} segments", curve.measured.size(), curve.path.segments.size()),
                          "a value for each segment");
       for (const double value : curve.measured) {
         if (std::isnan(value)) continue;
         if (curve.relative && value <= 0.0)
-          throw InputError("curve " + curve.name, fmt::format("has the value {} and is compared in logarithms", value), "values > 0", "use scale: linear");
+          throw InputError("curve " + curve.name, fmt::format("has the value {} and is compared in logarithms", value),
+                           "values > 0", "use scale: linear");
         ++count_;
       }
     }
     if (variables_.empty()) throw InputError("fit", "has no parameter", "at least one");
     if (count_ < variables_.size())
-      throw InputError("fit", fmt::format("has {} parameters for {} data", variables_.size(), count_), "at least as many data as parameters");
+      throw InputError("fit", fmt::format("has {} parameters for {} data", variables_.size(), count_),
+                       "at least as many data as parameters");
   }
 
   const std::vector<Variable>& variables() const { return variables_; }
@@ -194,7 +209,8 @@ class Residuals {
         const double model = curves[c][i], measured = curve.measured[i];
         if (std::isnan(measured)) continue;
         if (curve.relative && model <= 0.0)
-          throw StateError(fmt::format("curve {}: {} is {} at point {} and is compared in logarithms", curve.name, curve.channel, model, i + 1));
+          throw StateError(fmt::format("curve {}: {} is {} at point {} and is compared in logarithms", curve.name,
+                                       curve.channel, model, i + 1));
         const double difference = curve.relative ? std::log(model / measured) : model - measured;
         r[row++] = difference / (curve.deviation > 0.0 ? curve.deviation : 1.0);
       }
@@ -238,7 +254,8 @@ struct Functor : Eigen::DenseFunctor<double> {
       : Eigen::DenseFunctor<double>(int(r.parameters()), int(r.data())), residuals(r), large(large_value) {}
 
   int operator()(const VectorX& t, VectorX& r) const {
-    if (!residuals.try_at(residuals.z_of_t(t), r)) r = VectorX::Constant(residuals.data(), large);  // the step is refused and shortened
+    if (!residuals.try_at(residuals.z_of_t(t), r))
+      r = VectorX::Constant(residuals.data(), large);  // the step is refused and shortened
     return 0;
   }
   int df(const VectorX& t, Eigen::MatrixXd& jacobian) const {
@@ -271,13 +288,20 @@ void judge(const FitProblem& problem, const Residuals& residuals, const VectorX&
   const bool no_scatter = !all_known && m == n;
 
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
-  std::vector<bool> open(std::size_t(n), false);
+  std::vector<std::string> open(static_cast<std::size_t>(n));  // why a parameter is not determined
   for (Eigen::Index k = 0; k < n; ++k) {
     const VectorX v = svd.matrixV().col(k);
     if (largest > 0.0 && result.singular_values[k] > least_singular_ratio * largest) {
       covariance += v * v.transpose() * std::pow(result.scatter / result.singular_values[k], 2);
     } else {
-      for (Eigen::Index i = 0; i < n; ++i) open[std::size_t(i)] = open[std::size_t(i)] || std::abs(v[i]) > 0.1;
+      std::vector<std::string> partners;
+      for (Eigen::Index i = 0; i < n; ++i)
+        if (std::abs(v[i]) > 0.1) partners.push_back(problem.parameters[std::size_t(i)].name);
+      for (Eigen::Index i = 0; i < n; ++i)
+        if (std::abs(v[i]) > 0.1)
+          open[std::size_t(i)] =
+              partners.size() == 1 ? "the curves do not depend on it"
+                                   : fmt::format("the curves depend only on a combination of {}", fmt::join(partners, ", "));
     }
   }
   result.correlation = Eigen::MatrixXd::Identity(n, n);
@@ -294,11 +318,12 @@ void judge(const FitProblem& problem, const Residuals& residuals, const VectorX&
     p.start = variable.start();
     p.value = variable.value_of(z[i]);
     p.logarithmic = variable.logarithmic();
-    p.scaled_deviation = open[std::size_t(i)] ? std::numeric_limits<double>::infinity() : std::sqrt(covariance(i, i));
+    p.scaled_deviation =
+        !open[std::size_t(i)].empty() ? std::numeric_limits<double>::infinity() : std::sqrt(covariance(i, i));
     p.deviation = p.scaled_deviation * (p.logarithmic ? p.value : variable.scale());
-    if (open[std::size_t(i)]) {
+    if (!open[std::size_t(i)].empty()) {
       p.determined = false;
-      p.remark = "the curves do not depend on it, or only together with others";
+      p.remark = open[std::size_t(i)];
     } else if (p.scaled_deviation > most_deviation) {
       p.determined = false;
       p.remark = p.logarithmic ? "known to no better than a factor of e" : "known no better than its range or size";
@@ -347,7 +372,8 @@ FitResult fit_material(const FitProblem& problem) {
     case Status::TooManyFunctionEvaluation: result.end = "400 evaluations were not enough"; break;
     default: result.end = "the curves cannot be computed around the last parameters";
   }
-  result.converged = status != Status::TooManyFunctionEvaluation && status != Status::UserAsked && status != Status::ImproperInputParameters;
+  result.converged = status != Status::TooManyFunctionEvaluation && status != Status::UserAsked &&
+                     status != Status::ImproperInputParameters;
 
   const VectorX z = residuals.z_of_t(t);
   result.rms = rms(residuals.at(z));

@@ -34,7 +34,7 @@ struct FitCurve {
   std::string channel;           ///< of point_channels(): what was measured
   std::vector<double> measured;  ///< at the end of each segment; NaN where there is none
   bool relative = false;         ///< compare logarithms
-  double deviation = 0.0;        ///< standard deviation of a value (of its logarithm when relative); 0: unknown, the same for all
+  double deviation = 0.0;  ///< standard deviation of a value (of its logarithm when relative); 0: unknown, the same for all
 };
 
 struct FitProblem {
@@ -52,21 +52,22 @@ struct FittedParameter {
   double scaled_deviation = 0.0;  ///< standard deviation of z: of ln(value), or of value/scale; infinite when undetermined
   double deviation = 0.0;         ///< standard deviation of the value, linearised
   bool determined = true;
-  std::string remark;             ///< why it is not determined, or that it stands at a bound
+  std::string remark;  ///< why it is not determined, or that it stands at a bound
 };
 
 struct FitResult {
   std::vector<FittedParameter> parameters;
-  MaterialSections sections;               ///< with the fitted values
-  std::vector<std::vector<double>> model_start, model;  ///< the curves at the measured points, NaN where nothing was measured
+  MaterialSections sections;  ///< with the fitted values
+  std::vector<std::vector<double>> model_start,
+      model;  ///< the curves at the measured points, NaN where nothing was measured
   std::size_t data = 0;
-  double rms_start = 0.0, rms = 0.0;       ///< of the residuals
-  double scatter = 1.0;                    ///< s
-  Eigen::MatrixXd correlation;             ///< of the determined part
-  VectorX singular_values;                 ///< of J, largest first
-  Eigen::MatrixXd directions;              ///< column k: the scaled parameters' direction of singular value k
+  double rms_start = 0.0, rms = 0.0;  ///< of the residuals
+  double scatter = 1.0;               ///< s
+  Eigen::MatrixXd correlation;        ///< of the determined part
+  VectorX singular_values;            ///< of J, largest first
+  Eigen::MatrixXd directions;         ///< column k: the scaled parameters' direction of singular value k
   int evaluations = 0;
-  std::string end;                         ///< why the iteration ended
+  std::string end;  ///< why the iteration ended
   bool converged = false;
 };
 

@@ -115,7 +115,7 @@ std::vector<Vector2> DruckerPragerCap::yield_surface(const VectorX& state, std::
   const std::size_t half = std::max<std::size_t>(points / 2, 2);
   for (std::size_t i = 0; i < half; ++i) {  // straight to the top, denser near it where the transition is
     const double share = static_cast<double>(i) / static_cast<double>(half);
-    const double p = top - (top - start) * (1.0 - share) * (1.0 - share);
+    const double p = i == 0 ? start : top - (top - start) * (1.0 - share) * (1.0 - share);
     line.emplace_back(p, strength(p, eps));
   }
   for (std::size_t i = 0; i <= half; ++i) {  // by equal angles along the cap

@@ -10,23 +10,34 @@
 
 namespace furrow {
 
+std::vector<const Kernels*> available_kernels() {
+  std::vector<const Kernels*> list{&kernels_baseline()};
+#ifdef FURROW_X86_KERNELS
+  __builtin_cpu_init();
+  const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
+                  __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("f16c") && __builtin_cpu_supports("lzcnt") &&
+                  __builtin_cpu_supports("movbe");
+  const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
+                  __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd");
+  if (v3) list.push_back(&kernels_avx2());
+  if (v4) list.push_back(&kernels_avx512());
+#endif
+  return list;
+}
+
 namespace {
 
 const Kernels& choose() {
+  const std::vector<const Kernels*> available = available_kernels();
   const char* wish = std::getenv("FURROW_ISA");
-  const std::string name = wish ? wish : "";
-#ifdef FURROW_X86_KERNELS
-  __builtin_cpu_init();
-  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
-  const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-                      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
-                      __builtin_cpu_supports("avx512cd");
-  if (avx512 && (name.empty() || name == "avx512")) return kernels_avx512();
-  if (avx2 && (name.empty() || name == "avx2")) return kernels_avx2();
-#endif
-  if (name.empty() || name == "baseline") return kernels_baseline();
-  throw InputError("environment variable FURROW_ISA", "is '" + name + "', which this processor or build does not run",
-                   "baseline, avx2, avx512", "leave it unset to take the fastest");
+  if (!wish) return *available.back();
+  std::string names;
+  for (const Kernels* kernels : available) {
+    if (kernels->instruction_set == std::string(wish)) return *kernels;
+    names += (names.empty() ? "" : ", ") + std::string(kernels->instruction_set);
+  }
+  throw InputError("environment variable FURROW_ISA", "is '" + std::string(wish) + "', which this processor or build does not have", names,
+                   "leave it unset to take the fastest");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 /// For |X| <= 0.1 (Frobenius) |Z| <= 0.053 and the terms kept leave a relative error below 1e-16. Larger stretches (a strain of more
 /// than 5 % in one step) take the eigenvalues of C instead, point by point.
 
-#include "material/kernels.h"
+#include "material/kernel_table.h"
 #include "material/lanes.h"
 
 namespace furrow {

@@ -31,7 +31,7 @@ struct StateField {
   double initial;       ///< at the start of a run
 };
 
-struct BlockResult;  // kernels.h
+struct BlockResult;  // kernel_table.h
 
 /// Stiffness against an infinitesimal elastic step: the bound for the explicit time step and the start of a Newton iteration.
 struct ElasticModuli {

@@ -56,7 +56,8 @@ Vector6 spatial_strain(Motion motion, const Vector6& e) {
 /// The point and its place on the path; one step at a time.
 class Stepper {
  public:
-  Stepper(const Material& material, const PointPath& path) : material_(material), path_(path), state_(material.initial_state()) {}
+  Stepper(const Material& material, const PointPath& path)
+      : material_(material), path_(path), state_(material.initial_state()) {}
 
   const VectorX& state() const { return state_; }
   const Vector6& variable() const { return variable_; }
@@ -131,7 +132,8 @@ class Stepper {
     double target_size = 0.0;
     for (const int c : unknown) target_size = std::max(target_size, std::abs(target[c]));
     const auto size_of = [&](const Trial& trial) {
-      const double stress = std::max(stress_of(state_).lpNorm<Eigen::Infinity>(), stress_of(trial.state).lpNorm<Eigen::Infinity>());
+      const double stress =
+          std::max(stress_of(state_).lpNorm<Eigen::Infinity>(), stress_of(trial.state).lpNorm<Eigen::Infinity>());
       return std::max({stress, target_size, std::numeric_limits<double>::min()});
     };
     // Rounding of a deformation of order one shows in the stress as this much.
@@ -163,7 +165,8 @@ class Stepper {
       if (factors.rank() < n) return describe(unknown, target, trial, "the stiffness of the controlled components vanishes");
       VectorX change = factors.solve(-r);
       const double longest = change.lpNorm<Eigen::Infinity>();
-      if (!(longest < std::numeric_limits<double>::infinity())) return describe(unknown, target, trial, "the Newton step is not finite");
+      if (!(longest < std::numeric_limits<double>::infinity()))
+        return describe(unknown, target, trial, "the Newton step is not finite");
       if (longest > 0.5) change *= 0.5 / longest;
       bool better = false;
       double factor = 1.0;
@@ -193,11 +196,12 @@ class Stepper {
     return {};
   }
 
-  static std::string describe(const std::vector<int>& unknown, const Vector6& target, const Trial& trial, const std::string& cause) {
+  static std::string describe(const std::vector<int>& unknown, const Vector6& target, const Trial& trial,
+                              const std::string& cause) {
     std::string text;
     for (const int c : unknown)
-      text += fmt::format("{}stress_{} = {:.6g} Pa (nearest {:.6g})", text.empty() ? "" : ", ", components[std::size_t(c)], target[c],
-                          trial.state[c]);
+      text += fmt::format("{}stress_{} = {:.6g} Pa (nearest {:.6g})", text.empty() ? "" : ", ", components[std::size_t(c)],
+                          target[c], trial.state[c]);
     return fmt::format("cannot reach {}: {}", text, cause);
   }
 
@@ -217,7 +221,8 @@ PointHistory drive_point(const Material& material, const PointPath& path) {
   Stepper point(material, path);
   PointHistory history;
   const auto record = [&](int segment, int step) {
-    history.records.push_back({segment, step, point.variable(), spatial_strain(path.motion, point.variable()), point.state(), point.branch()});
+    history.records.push_back(
+        {segment, step, point.variable(), spatial_strain(path.motion, point.variable()), point.state(), point.branch()});
   };
   record(0, 0);
   Vector6 origin = Vector6::Zero();  // of strain targets
@@ -241,9 +246,9 @@ PointHistory drive_point(const Material& material, const PointPath& path) {
         point.advance(segment.control, target);
       } catch (const StateError& error) {
         const Invariants now = invariants(stress_of(point.state()));
-        throw StateError(fmt::format("path {}, segment {}, step {} of {}: {}; the point stands at p = {:.6g} Pa, q = {:.6g} Pa, density {:.6g} kg/m3",
-                                     path.type, s + 1, step, segment.steps, error.what(), now.p, now.q,
-                                     material.current_density(point.state())));
+        throw StateError(fmt::format(
+            "path {}, segment {}, step {} of {}: {}; the point stands at p = {:.6g} Pa, q = {:.6g} Pa, density {:.6g} kg/m3",
+            path.type, s + 1, step, segment.steps, error.what(), now.p, now.q, material.current_density(point.state())));
       }
       record(static_cast<int>(s) + 1, step);
     }
@@ -261,19 +266,25 @@ std::vector<PointChannel> point_channels(const Material& material) {
   add("step", "", "in the segment", [](const PointRecord& r) { return double(r.step); });
   add("axial_strain", "", "-(ln V)_zz, compression positive", [](const PointRecord& r) { return -r.strain[2]; });
   add("axial_stress", "Pa", "-sigma_zz, compression positive", [](const PointRecord& r) { return -r.state[2]; });
-  add("shear_strain", "", "the path's variable xz: gamma = dx/dz of level planes, or (ln U)_xz", [](const PointRecord& r) { return r.variable[5]; });
+  add("shear_strain", "", "the path's variable xz: gamma = dx/dz of level planes, or (ln U)_xz",
+      [](const PointRecord& r) { return r.variable[5]; });
   add("shear_stress", "Pa", "sigma_xz", [](const PointRecord& r) { return r.state[5]; });
-  add("eps_vol", "", "-ln J, compression positive", [](const PointRecord& r) { return -std::log(r.state[field::volume_ratio]); });
+  add("eps_vol", "", "-ln J, compression positive",
+      [](const PointRecord& r) { return -std::log(r.state[field::volume_ratio]); });
   add("p", "Pa", "pressure, compression positive", [](const PointRecord& r) { return invariants(stress_of(r.state)).p; });
   add("q", "Pa", "Mises stress", [](const PointRecord& r) { return invariants(stress_of(r.state)).q; });
   add("density", "kg/m3", "rho0/J", [&material](const PointRecord& r) { return material.current_density(r.state); });
-  add("branch", "", "0 elastic, 1 shear, 2 transition, 3 cap, 4 tension: of the step", [](const PointRecord& r) { return double(r.branch); });
-  add("yield_function", "Pa", "<= 0 inside; -inf for a law that never yields", [&material](const PointRecord& r) { return material.yield_function(r.state); });
+  add("branch", "", "0 elastic, 1 shear, 2 transition, 3 cap, 4 tension: of the step",
+      [](const PointRecord& r) { return double(r.branch); });
+  add("yield_function", "Pa", "<= 0 inside; -inf for a law that never yields",
+      [&material](const PointRecord& r) { return material.yield_function(r.state); });
   for (int c = 0; c < 6; ++c)
-    add(fmt::format("strain_{}", components[std::size_t(c)]), "", "component of ln V, tension positive", [c](const PointRecord& r) { return r.strain[c]; });
+    add(fmt::format("strain_{}", components[std::size_t(c)]), "", "component of ln V, tension positive",
+        [c](const PointRecord& r) { return r.strain[c]; });
   const std::vector<StateField>& fields = material.state_fields();
   for (std::size_t f = 0; f < fields.size(); ++f)
-    add(fields[f].name, fields[f].unit, fields[f].meaning, [f](const PointRecord& r) { return r.state[static_cast<Eigen::Index>(f)]; });
+    add(fields[f].name, fields[f].unit, fields[f].meaning,
+        [f](const PointRecord& r) { return r.state[static_cast<Eigen::Index>(f)]; });
   return channels;
 }
 
@@ -283,7 +294,8 @@ PointChannel find_point_channel(const Material& material, const std::string& nam
     if (channel.name == name) return channel;
     names.push_back(channel.name);
   }
-  throw InputError(fmt::format("law {}", material.name()), fmt::format("has no channel '{}'", name), fmt::format("{}", fmt::join(names, ", ")));
+  throw InputError(fmt::format("law {}", material.name()), fmt::format("has no channel '{}'", name),
+                   fmt::format("{}", fmt::join(names, ", ")));
 }
 
 StepError step_error(const Material& material, const PointPath& path, const PointHistory& history) {
@@ -303,7 +315,8 @@ StepError step_error(const Material& material, const PointPath& path, const Poin
     const Invariants b = invariants(stress_of(fine.state));
     error.p = std::max(error.p, std::abs(a.p - b.p));
     error.q = std::max(error.q, std::abs(a.q - b.q));
-    error.eps_vol = std::max(error.eps_vol, std::abs(std::log(record.state[field::volume_ratio] / fine.state[field::volume_ratio])));
+    error.eps_vol =
+        std::max(error.eps_vol, std::abs(std::log(record.state[field::volume_ratio] / fine.state[field::volume_ratio])));
   }
   error.p /= scale;
   error.q /= scale;

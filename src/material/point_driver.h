@@ -17,22 +17,23 @@ namespace furrow {
 
 /// The point at the end of a step.
 struct PointRecord {
-  int segment = 0;                   ///< 0 for the start, then 1, 2, ...
-  int step = 0;                      ///< in the segment
+  int segment = 0;                     ///< 0 for the start, then 1, 2, ...
+  int step = 0;                        ///< in the segment
   Vector6 variable = Vector6::Zero();  ///< e of the path's motion
   Vector6 strain = Vector6::Zero();    ///< ln V, V = sqrt(F F^T)
-  VectorX state;                     ///< of the law
-  Branch branch = Branch::elastic;   ///< of the last update
+  VectorX state;                       ///< of the law
+  Branch branch = Branch::elastic;     ///< of the last update
 };
 
 /// How hard the path was.
 struct PointCost {
-  long steps = 0;              ///< of the path
-  long cuts = 0;               ///< halvings of a step
+  long steps = 0;  ///< of the path
+  long cuts = 0;   ///< halvings of a step
   long newton_iterations = 0;
   int most_newton_iterations = 0;  ///< of one step or its part
-  double largest_residual = 0.0;   ///< of accepted steps: controlled stress minus target, relative to the step's largest stress
-  UpdateReport updates;            ///< accepted updates by branch, and limits that were met
+  double largest_residual =
+      0.0;               ///< of accepted steps: controlled stress minus target, relative to the step's largest stress
+  UpdateReport updates;  ///< accepted updates by branch, and limits that were met
 };
 
 struct PointHistory {

@@ -18,7 +18,9 @@ Schema path_schema(const std::string& name) { return Schema("path " + name); }
 
 void add_common_keys(Schema& schema) {
   schema.integer("steps", Range::closed(1, 1e7), "steps of each straight piece of the path").by_default("100");
-  schema.number("tolerance", "", Range::closed(1e-13, 1e-3), "of controlled stresses, relative to the largest stress of the step")
+  schema
+      .number("tolerance", "", Range::closed(1e-13, 1e-3),
+              "of controlled stresses, relative to the largest stress of the step")
       .by_default(1e-10);
 }
 
@@ -49,15 +51,21 @@ void set_normal(PathSegment& segment, Control control, double target) {
 /// Exactly one of two lists of targets is given; says which.
 bool first_of(const Options& o, const std::string& first, const std::string& second) {
   if (o.given(first) == o.given(second))
-    throw InputError(o.subject(), fmt::format(o.given(first) ? "has both '{}' and '{}'" : "has neither '{}' nor '{}'", first, second),
+    throw InputError(o.subject(),
+                     fmt::format(o.given(first) ? "has both '{}' and '{}'" : "has neither '{}' nor '{}'", first, second),
                      fmt::format("exactly one of {}, {}", first, second));
   return o.given(first);
 }
 
 PathType hydrostatic() {
   Schema schema = path_schema("hydrostatic");
-  schema.numbers("pressure", 0, "Pa", Range::any(), "targets of p, one after the other; all three normal stresses are controlled").optional();
-  schema.numbers("volume_strain", 0, "", Range::open(-20.0, 20.0), "targets of -ln J, compression positive, instead of pressure; equal stretches")
+  schema
+      .numbers("pressure", 0, "Pa", Range::any(),
+               "targets of p, one after the other; all three normal stresses are controlled")
+      .optional();
+  schema
+      .numbers("volume_strain", 0, "", Range::open(-20.0, 20.0),
+               "targets of -ln J, compression positive, instead of pressure; equal stretches")
       .optional();
   add_common_keys(schema);
   return {"hydrostatic", "isotropic compression and unloading", schema, [](const Options& o) {
@@ -65,7 +73,8 @@ PathType hydrostatic() {
             if (first_of(o, "pressure", "volume_strain")) {
               for (const double p : o.numbers("pressure")) set_normal(next_segment(path, o), Control::stress, -p);
             } else {
-              for (const double eps : o.numbers("volume_strain")) set_normal(next_segment(path, o), Control::strain, -eps / 3.0);
+              for (const double eps : o.numbers("volume_strain"))
+                set_normal(next_segment(path, o), Control::strain, -eps / 3.0);
             }
             return path;
           }};
@@ -73,8 +82,11 @@ PathType hydrostatic() {
 
 PathType confined() {
   Schema schema = path_schema("confined");
-  schema.numbers("stress", 0, "Pa", Range::any(), "targets of the axial stress sigma_1 = -sigma_zz, one after the other").optional();
-  schema.numbers("strain", 0, "", Range::open(-20.0, 20.0), "targets of the axial logarithmic strain, compression positive, instead of stress")
+  schema.numbers("stress", 0, "Pa", Range::any(), "targets of the axial stress sigma_1 = -sigma_zz, one after the other")
+      .optional();
+  schema
+      .numbers("strain", 0, "", Range::open(-20.0, 20.0),
+               "targets of the axial logarithmic strain, compression positive, instead of stress")
       .optional();
   add_common_keys(schema);
   return {"confined", "uniaxial strain: the oedometer", schema, [](const Options& o) {
@@ -88,7 +100,8 @@ PathType confined() {
 
 PathType triaxial() {
   Schema schema = path_schema("triaxial");
-  schema.number("confinement", "Pa", Range::non_negative(), "pressure of the first, isotropic piece; then kept as lateral stress");
+  schema.number("confinement", "Pa", Range::non_negative(),
+                "pressure of the first, isotropic piece; then kept as lateral stress");
   schema.numbers("axial_strain", 0, "", Range::open(-20.0, 20.0),
                  "targets of the axial logarithmic strain added after the isotropic piece, compression positive");
   add_common_keys(schema);
@@ -102,9 +115,12 @@ PathType triaxial() {
 
 PathType simple_shear() {
   Schema schema = path_schema("simple_shear");
-  schema.number("normal_stress", "Pa", Range::any(), "-sigma_zz of the first piece; then kept (volume: free) or not (volume: fixed)");
+  schema.number("normal_stress", "Pa", Range::any(),
+                "-sigma_zz of the first piece; then kept (volume: free) or not (volume: fixed)");
   schema.numbers("shear", 0, "", Range::any(), "targets of the shear gamma = dx/dz, one after the other");
-  schema.word("consolidation", {"confined", "isotropic"}, "of the first piece: no lateral strain, or all normal stresses equal")
+  schema
+      .word("consolidation", {"confined", "isotropic"},
+            "of the first piece: no lateral strain, or all normal stresses equal")
       .by_default("confined");
   schema.word("volume", {"free", "fixed"}, "while shearing: constant normal stress, or constant height").by_default("free");
   add_common_keys(schema);
@@ -128,20 +144,28 @@ PathType cyclic() {
   schema.number("upper", "Pa", Range::any(), "upper axial stress -sigma_zz of a cycle");
   schema.number("lower", "Pa", Range::any(), "lower axial stress -sigma_zz of a cycle").by_default(0.0);
   schema.integer("cycles", Range::closed(1, 100000), "number of cycles; the path ends at the lower stress");
-  schema.word("lateral", {"fixed", "free"}, "no lateral strain, or lateral stress kept at `confinement`").by_default("fixed");
-  schema.number("confinement", "Pa", Range::non_negative(), "lateral pressure with lateral: free; an isotropic piece comes first").by_default(0.0);
+  schema.word("lateral", {"fixed", "free"}, "no lateral strain, or lateral stress kept at `confinement`")
+      .by_default("fixed");
+  schema
+      .number("confinement", "Pa", Range::non_negative(),
+              "lateral pressure with lateral: free; an isotropic piece comes first")
+      .by_default(0.0);
   add_common_keys(schema);
   return {"cyclic", "axial stress up and down, with or without lateral strain", schema, [](const Options& o) {
             if (o.number("upper") <= o.number("lower"))
-              throw InputError(o.where("upper"), fmt::format("is {}, not above lower = {}", o.number("upper"), o.number("lower")), "upper > lower");
+              throw InputError(o.where("upper"),
+                               fmt::format("is {}, not above lower = {}", o.number("upper"), o.number("lower")),
+                               "upper > lower");
             PointPath path = path_of(o, "cyclic");
             if (o.word("lateral") == "free") {
               set_normal(next_segment(path, o), Control::stress, -o.number("confinement"));
             } else if (o.given("confinement")) {
-              throw InputError(o.where("confinement"), "is given, but the lateral strain is fixed", "confinement only with lateral: free");
+              throw InputError(o.where("confinement"), "is given, but the lateral strain is fixed",
+                               "confinement only with lateral: free");
             }
             for (long cycle = 0; cycle < o.integer("cycles"); ++cycle)
-              for (const char* target : {"upper", "lower"}) set(next_segment(path, o), zz, Control::stress, -o.number(target));
+              for (const char* target : {"upper", "lower"})
+                set(next_segment(path, o), zz, Control::stress, -o.number(target));
             return path;
           }};
 }
@@ -149,7 +173,10 @@ PathType cyclic() {
 PathType tension() {
   Schema schema = path_schema("tension");
   schema.number("strain", "", Range::open(0.0, 20.0), "axial logarithmic strain at the end; hydrostatic: of each axis");
-  schema.word("lateral", {"free", "fixed", "hydrostatic"}, "no lateral stress, no lateral strain, or equal stretch of all axes").by_default("free");
+  schema
+      .word("lateral", {"free", "fixed", "hydrostatic"},
+            "no lateral stress, no lateral strain, or equal stretch of all axes")
+      .by_default("free");
   add_common_keys(schema);
   return {"tension", "pulling along one axis or all", schema, [](const Options& o) {
             PointPath path = path_of(o, "tension");
@@ -176,12 +203,15 @@ const PathType& find_path_type(const std::string& name) {
     if (type.name == name) return type;
     names.push_back(type.name);
   }
-  throw InputError("path, keyword 'type'", fmt::format("is '{}'", name), fmt::format("one of: {}, table", fmt::join(names, ", ")));
+  throw InputError("path, keyword 'type'", fmt::format("is '{}'", name),
+                   fmt::format("one of: {}, table", fmt::join(names, ", ")));
 }
 
 Schema table_path_schema() {
   Schema schema = path_schema("table");
-  schema.word("motion", {"stretch", "shear"}, "strains are components of ln U without rotation, or stretches and shears of level planes")
+  schema
+      .word("motion", {"stretch", "shear"},
+            "strains are components of ln U without rotation, or stretches and shears of level planes")
       .by_default("stretch");
   add_common_keys(schema);
   return schema;
@@ -190,9 +220,14 @@ Schema table_path_schema() {
 Schema table_row_schema() {
   Schema schema("row of path table");
   for (const char* component : components)
-    schema.number(fmt::format("strain_{}", component), "", Range::open(-20.0, 20.0), "deformation at the row's end, tension positive").optional();
+    schema
+        .number(fmt::format("strain_{}", component), "", Range::open(-20.0, 20.0),
+                "deformation at the row's end, tension positive")
+        .optional();
   for (const char* component : components)
-    schema.number(fmt::format("stress_{}", component), "Pa", Range::any(), "Cauchy stress at the row's end, tension positive").optional();
+    schema
+        .number(fmt::format("stress_{}", component), "Pa", Range::any(), "Cauchy stress at the row's end, tension positive")
+        .optional();
   schema.integer("steps", Range::closed(1, 1e7), "steps of this row; else the path's").optional();
   return schema;
 }
@@ -204,9 +239,11 @@ PointPath table_path(const Options& options, const std::vector<Options>& rows) {
     PathSegment& segment = next_segment(path, options);
     if (row.given("steps")) segment.steps = static_cast<int>(row.integer("steps"));
     for (int c = 0; c < 6; ++c) {
-      const std::string strain = fmt::format("strain_{}", components[std::size_t(c)]), stress = fmt::format("stress_{}", components[std::size_t(c)]);
+      const std::string strain = fmt::format("strain_{}", components[std::size_t(c)]),
+                        stress = fmt::format("stress_{}", components[std::size_t(c)]);
       if (row.given(strain) && row.given(stress))
-        throw InputError(row.where(stress), "controls a component whose strain is given too", "one of " + strain + ", " + stress);
+        throw InputError(row.where(stress), "controls a component whose strain is given too",
+                         "one of " + strain + ", " + stress);
       if (row.given(strain)) set(segment, c, Control::strain, row.number(strain));
       if (row.given(stress)) set(segment, c, Control::stress, row.number(stress));
     }
