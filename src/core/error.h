@@ -22,6 +22,8 @@ class InputError : public Error {
   InputError(const std::string& where, const std::string& problem, const std::string& allowed,
              const std::string& remedy = "")
       : Error(where + " " + problem + "; allowed: " + allowed + (remedy.empty() ? "" : "; " + remedy)) {}
+  /// A whole message, for a reader that adds the place to an error it caught.
+  explicit InputError(const std::string& message) : Error(message) {}
 };
 
 /// The computation reached a state that must not be continued: not a number, a folded element, an unstable step.

@@ -1,0 +1,253 @@
+#include "io/point_results.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/error.h"
+#include "io/csv_file.h"
+#include "io/hdf5_file.h"
+#include "io/replace_file.h"
+#include "io/version.h"
+
+namespace furrow {
+
+namespace {
+
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder))
+    throw Error(fmt::format("{}: cannot be made as a folder: {}", folder, error.message()));
+}
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
+}
+
+/// 4.5e-05 as a share of 1: "0.0045 %".
+std::string percent(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
+
+/// 1.3e6 Pa: "1.3 MPa", with four digits.
+std::string pascals(double value) {
+  const double size = std::abs(value);
+  if (size >= 1e9) return fmt::format("{:.4g} GPa", value * 1e-9);
+  if (size >= 1e6) return fmt::format("{:.4g} MPa", value * 1e-6);
+  if (size >= 1e3) return fmt::format("{:.4g} kPa", value * 1e-3);
+  return fmt::format("{:.4g} Pa", value);
+}
+
+std::vector<double> column(const PointChannel& channel, const PointHistory& history) {
+  std::vector<double> values;
+  for (const PointRecord& record : history.records) values.push_back(channel.value(record));
+  return values;
+}
+
+std::string run_text(const PointRun& run) {
+  std::string title = run.title;
+  for (std::size_t at = 0; (at = title.find('\'', at)) != std::string::npos; at += 2) title.insert(at, 1, '\'');
+  return fmt::format("title: '{}'\nmaterial: material.yaml\n{}", title, run.path_text);
+}
+
+}  // namespace
+
+void write_point_run(const std::string& folder, const PointRun& run, const Material& material, const PointHistory& history) {
+  make_folder(folder);
+  const auto in_folder = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
+  write_text_file(in_folder("material.yaml"),
+                  material_file_text(run.material.title, run.material.law, run.material.sections));
+  write_text_file(in_folder("run.yaml"), run_text(run));
+
+  const std::vector<PointChannel> channels = point_channels(material);
+  std::vector<std::string> names, comments{fmt::format("{} (furrow {})", run.title, version())};
+  std::vector<std::vector<double>> columns;
+  for (const PointChannel& channel : channels) {
+    names.push_back(channel.name);
+    columns.push_back(column(channel, history));
+    comments.push_back(fmt::format("{}: {}", with_unit(channel.name, channel.unit), channel.meaning));
+  }
+  write_text_file(in_folder("point.csv"), csv_text(comments, names, columns));
+
+  replace_file(in_folder("point.h5"), [&](const std::string& part) {
+    Hdf5File file(part, Hdf5File::Mode::create);
+    file.create_group("/point");
+    for (const auto& [name, value] :
+         {std::pair{"title", run.title}, std::pair{"law", material.name()}, std::pair{"material", run.material.title},
+          std::pair{"path", run.path.type}, std::pair{"version", version()}})
+      file.set_attribute("/point", name, value);
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      const std::string dataset = "/point/" + channels[c].name;
+      file.write(dataset, columns[c]);
+      file.set_attribute(dataset, "unit", channels[c].unit);
+      file.set_attribute(dataset, "meaning", channels[c].meaning);
+    }
+    file.create_group("/yield_surface");
+    int number = 0;
+    for (const PointRecord& record : history.records) {
+      const bool ends = record.segment == 0 || record.step == run.path.segments[std::size_t(record.segment) - 1].steps;
+      const std::vector<Vector2> line = ends ? material.yield_surface(record.state) : std::vector<Vector2>{};
+      if (line.empty()) continue;
+      std::vector<double> p, q;
+      for (const Vector2& point : line) p.push_back(point.x()), q.push_back(point.y());
+      const std::string group = fmt::format("/yield_surface/{}", number++);
+      file.write(group + "/p", p);
+      file.write(group + "/q", q);
+      file.set_attribute(group, "segment", double(record.segment));
+    }
+    file.close();
+  });
+}
+
+std::string run_report(const PointRun& run, const Material& material, const PointHistory& history, const StepError& error) {
+  const PointRecord& last = history.records.back();
+  const Invariants end = invariants(stress_of(last.state));
+  double most_p = end.p, most_q = end.q, most_density = 0.0;
+  for (const PointRecord& record : history.records) {
+    const Invariants now = invariants(stress_of(record.state));
+    most_p = std::max(most_p, now.p);
+    most_q = std::max(most_q, now.q);
+    most_density = std::max(most_density, material.current_density(record.state));
+  }
+  const PointCost& cost = history.cost;
+  std::string text = fmt::format("{}\n  material      {} ({})\n  path          {}, {} segment(s), {} steps\n", run.title,
+                                 run.material.title, material.name(), run.path.type, run.path.segments.size(), cost.steps);
+  text += fmt::format("  reached       p = {}, q = {}, density {:.5g} kg/m3, volume strain {:.5g} (compression positive)\n",
+                      pascals(end.p), pascals(end.q), material.current_density(last.state),
+                      -std::log(last.state[field::volume_ratio]));
+  text += fmt::format("  stress        xx {}, yy {}, zz {}, xy {}, yz {}, xz {} (tension positive)\n",
+                      pascals(last.state[0]), pascals(last.state[1]), pascals(last.state[2]), pascals(last.state[3]),
+                      pascals(last.state[4]), pascals(last.state[5]));
+  text +=
+      fmt::format("  largest       p = {}, q = {}, density {:.5g} kg/m3\n", pascals(most_p), pascals(most_q), most_density);
+  std::vector<std::string> branches;
+  for (std::size_t b = 0; b < branch_count; ++b)
+    if (cost.updates.points[b] > 0)
+      branches.push_back(fmt::format("{} {}", to_string(static_cast<Branch>(b)), cost.updates.points[b]));
+  text += fmt::format("  updates       {}\n", fmt::join(branches, ", "));
+  if (cost.updates.beyond_data > 0)
+    text += fmt::format("  WARNING       {} updates were beyond the hardening data, by extrapolation\n",
+                        cost.updates.beyond_data);
+  if (cost.updates.beyond_ice > 0 && material.density() < ice_density)
+    text +=
+        fmt::format("  WARNING       {} updates were denser than ice ({} kg/m3)\n", cost.updates.beyond_ice, ice_density);
+  text += fmt::format(
+      "  control       {} Newton iterations (most {} a step), {} step(s) cut, largest residual {:.1e} of the step's "
+      "stress\n",
+      cost.newton_iterations, cost.most_newton_iterations, cost.cuts, cost.largest_residual);
+  text += fmt::format(
+      "  step error    p {}, q {}, volume strain {:.1e}: change at the segments' ends when every step is halved\n",
+      percent(error.p), percent(error.q), error.eps_vol);
+  return text;
+}
+
+void write_point_fit(const std::string& folder, const PointFit& fit, const FitResult& result) {
+  make_folder(folder);
+  const auto in_folder = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
+  write_text_file(in_folder("material.yaml"),
+                  material_file_text(fit.material.title + ", fitted: " + fit.title, fit.material.law, result.sections));
+  write_text_file(in_folder("report.txt"), fit_report(fit, result));
+
+  std::vector<double> number, driven, measured, start, fitted;
+  for (std::size_t c = 0; c < fit.problem.curves.size(); ++c) {
+    const FitCurve& curve = fit.problem.curves[c];
+    const std::size_t first = curve.measured.size() - fit.driven[c].size();
+    for (std::size_t i = 0; i < fit.driven[c].size(); ++i) {
+      number.push_back(double(c));
+      driven.push_back(fit.driven[c][i]);
+      measured.push_back(curve.measured[first + i]);
+      start.push_back(result.model_start[c][first + i]);
+      fitted.push_back(result.model[c][first + i]);
+    }
+  }
+  std::vector<std::string> comments{fmt::format("{} (furrow {})", fit.title, version())};
+  for (std::size_t c = 0; c < fit.problem.curves.size(); ++c)
+    comments.push_back(fmt::format("curve {}: {}; driven: {}; compared: {}", c, fit.problem.curves[c].name,
+                                   fit.driven_names[c], fit.problem.curves[c].channel));
+  write_text_file(in_folder("fit.csv"), csv_text(comments, {"curve", "driven", "measured", "start", "fitted"},
+                                                 {number, driven, measured, start, fitted}));
+
+  const auto material = fit.material.make();
+  replace_file(in_folder("fit.h5"), [&](const std::string& part) {
+    Hdf5File file(part, Hdf5File::Mode::create);
+    file.create_group("/curves");
+    file.set_attribute("/curves", "title", fit.title);
+    for (std::size_t c = 0; c < fit.problem.curves.size(); ++c) {
+      const FitCurve& curve = fit.problem.curves[c];
+      const std::string group = fmt::format("/curves/{}", c);
+      const auto part_of = [&](const std::vector<double>& all) {
+        return std::vector<double>(all.end() - static_cast<std::ptrdiff_t>(fit.driven[c].size()), all.end());
+      };
+      file.write(group + "/driven", fit.driven[c]);
+      file.write(group + "/measured", part_of(curve.measured));
+      file.write(group + "/start", part_of(result.model_start[c]));
+      file.write(group + "/fitted", part_of(result.model[c]));
+      const PointChannel channel = find_point_channel(*material, curve.channel);
+      for (const auto& [name, value] :
+           {std::pair{"name", curve.name}, std::pair{"driven_by", fit.driven_names[c]},
+            std::pair{"compared", with_unit(channel.name, channel.unit)}, std::pair{"path", curve.path.type}})
+        file.set_attribute(group, name, value);
+      file.set_attribute(group, "relative", curve.relative ? 1.0 : 0.0);
+      file.set_attribute(group, "deviation", curve.deviation);
+    }
+    file.create_group("/parameters");
+    for (const FittedParameter& p : result.parameters) {
+      const std::string group = "/parameters/" + p.name;
+      file.create_group(group);
+      file.set_attribute(group, "unit", p.unit);
+      file.set_attribute(group, "remark", p.remark);
+      for (const auto& [name, value] :
+           {std::pair{"start", p.start}, std::pair{"value", p.value}, std::pair{"deviation", p.deviation},
+            std::pair{"determined", p.determined ? 1.0 : 0.0}})
+        file.set_attribute(group, name, value);
+    }
+    file.close();
+  });
+}
+
+std::string fit_report(const PointFit& fit, const FitResult& result) {
+  std::string text =
+      fmt::format("{}\n  material      {} ({})\n  data          {} values of {} curve(s), {} parameters\n", fit.title,
+                  fit.material.title, fit.problem.law, result.data, fit.problem.curves.size(), result.parameters.size());
+  text += fmt::format("  residual      rms {:.4g} at the start, {:.4g} fitted; {} evaluations; {}\n", result.rms_start,
+                      result.rms, result.evaluations, result.end);
+  if (!result.converged) text += "  WARNING       the fit did not converge\n";
+  text += fmt::format("\n  {:<24} {:>12} {:>12} {:>12} {:>8}\n", "parameter", "start", "fitted", "deviation", "");
+  for (const FittedParameter& p : result.parameters) {
+    const std::string relative =
+        p.value != 0.0 && std::isfinite(p.deviation) ? fmt::format("{:.2g} %", 100.0 * std::abs(p.deviation / p.value)) : "";
+    text +=
+        fmt::format("  {:<24} {:>12.6g} {:>12.6g} {:>12} {:>8}{}\n", with_unit(p.name, p.unit), p.start, p.value,
+                    std::isfinite(p.deviation) ? fmt::format("{:.3g}", p.deviation)
+                    : std::isnan(p.deviation)  ? "unknown"
+                                               : "infinite",
+                    relative, p.determined ? (p.remark.empty() ? "" : "  " + p.remark) : "  NOT DETERMINED: " + p.remark);
+  }
+  const auto n = static_cast<Eigen::Index>(result.parameters.size());
+  text += fmt::format(
+      "\n  deviation: one standard deviation, linearised{}\n",
+      result.scatter == 1.0 ? "" : fmt::format("; scatter of the data from the residuals, {:.3g}", result.scatter));
+  std::vector<std::string> values;
+  for (Eigen::Index k = 0; k < result.singular_values.size(); ++k)
+    values.push_back(fmt::format("{:.3g}", result.singular_values[k]));
+  text += fmt::format("  singular values of the scaled Jacobian: {}\n", fmt::join(values, ", "));
+  const VectorX weakest = result.directions.col(n - 1);
+  std::vector<std::string> parts;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (std::abs(weakest[i]) > 0.1)
+      parts.push_back(fmt::format("{:+.2f} {}", weakest[i], result.parameters[std::size_t(i)].name));
+  if (n > 1)
+    text += fmt::format("  the data say least about the combination {} (of {})\n", fmt::join(parts, " "),
+                        "logarithms, or values over their scale");
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < i; ++j)
+      if (std::abs(result.correlation(i, j)) > 0.95)
+        text += fmt::format("  {} and {} are correlated by {:.4f}: the data fix them together better than each alone\n",
+                            result.parameters[std::size_t(j)].name, result.parameters[std::size_t(i)].name,
+                            result.correlation(i, j));
+  return text;
+}
+
+}  // namespace furrow

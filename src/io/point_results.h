@@ -1,0 +1,28 @@
+#pragma once
+/// What furrow-point leaves in a results folder.
+///
+/// A run:  point.csv     every channel of every step
+///         point.h5      /point/<channel> with attributes unit, meaning; /yield_surface/<n>/p, q with attributes segment (after
+///                       which it is; 0: the start) and step; attributes of /: title, law, path, version
+///         material.yaml, run.yaml   the effective input: furrow-point run run.yaml repeats the run
+/// A fit:  fit.csv, fit.h5 (/curves/<n>/driven, measured, start, fitted), material.yaml with the fitted values, report.txt
+
+#include <string>
+
+#include "io/point_file.h"
+#include "material/calibration.h"
+#include "material/point_driver.h"
+
+namespace furrow {
+
+/// Writes all files of a run into the folder, which is made. @throws Error naming the file
+void write_point_run(const std::string& folder, const PointRun& run, const Material& material, const PointHistory& history);
+/// @throws Error naming the file
+void write_point_fit(const std::string& folder, const PointFit& fit, const FitResult& result);
+
+/// What a run reached: density, p, q, branches, limits met, cost and the error of the steps.
+std::string run_report(const PointRun& run, const Material& material, const PointHistory& history, const StepError& error);
+/// Parameters with uncertainties, what is not determined, correlations.
+std::string fit_report(const PointFit& fit, const FitResult& result);
+
+}  // namespace furrow
