@@ -14,6 +14,7 @@
 #include "coupling/guard.h"
 #include "coupling/liggghts_access.h"
 #include "coupling/words.h"
+#include "io/summary.h"
 #include "modify.h"
 #include "update.h"
 
@@ -144,6 +145,9 @@ void FixWheelHistory::post_run() {
     file_->write_final(grains, rig_fix_.wheel_fix().wheel().surface());
     file_->write_closing(end);
     file_->flush();
+    const Summary summary = summarise(folder_);
+    write_summary(folder_, summary);
+    if (screen) fmt::print(screen, "\n{}\n", summary_text(summary));
   });
 }
 

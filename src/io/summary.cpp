@@ -1,0 +1,146 @@
+#include "io/summary.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "io/history_file.h"
+#include "io/replace_file.h"
+
+namespace furrow {
+
+namespace {
+
+/// Standard error to two digits and the value to the same place: "0.01712 +- 0.00043".
+std::string with_error(double value, double error) {
+  if (!(error > 0.0)) return fmt::format("{:.6g}", value);
+  const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(error))));
+  return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, error, decimals);
+}
+
+std::string clock_text(double seconds) {
+  return seconds < 60.0 ? fmt::format("{:.1f} s", seconds)
+                        : fmt::format("{} min {:02} s", static_cast<long>(seconds) / 60, std::lround(seconds) % 60);
+}
+
+std::string title_of(const std::string& name) {
+  std::string text = name;
+  for (char& c : text)
+    if (c == '_') c = ' ';
+  return text;
+}
+
+std::string steady_table(const Resistance& r) {
+  std::string text = fmt::format("Steady values: {}\nWindow: {:.4g} s to {:.4g} s, {:.4g} m of travel ({})\n", r.verdict, r.window.begin,
+                                 r.window.end, r.window.distance, r.window.how);
+  if (!r.window.warning.empty()) text += "  note: " + r.window.warning + "\n";
+  text += "\n";
+  for (const SteadyValue& v : r.values)
+    text += fmt::format("  {:<24} {:>24} {:<5}  {}\n", title_of(v.name), with_error(v.mean, v.standard_error), v.unit,
+                        v.steady ? fmt::format("steady, {:.0f} independent samples", v.independent_samples) : v.verdict);
+  text += "\n  ± is one standard error of the mean over time (block averages). It does not hold the influence of grain size, box or\n"
+          "  packing: compare runs for that.\n";
+  return text;
+}
+
+std::string audit_text(const Audit& audit) {
+  std::string text = "Audit\n";
+  for (const EnergyTerm& term : audit.energies) text += fmt::format("  {:<38} {:>14.6g} J\n", term.name, term.value);
+  text += fmt::format("  {:<38} {:>14.3g} J  ({:.1e} of the largest)\n", "not accounted for", audit.energy_residual,
+                      audit.energy_scale > 0.0 ? std::abs(audit.energy_residual) / audit.energy_scale : 0.0);
+  text += fmt::format("  {:<38} {:>14.3g} N  of {:.4g} N\n", "forces on nodes + on grains, largest", audit.force_imbalance, audit.force_scale);
+  text += fmt::format("  {:<38} {:>14.3g} N m of {:.4g} N m\n", "their moments, largest", audit.moment_imbalance, audit.moment_scale);
+  return text;
+}
+
+std::string cost_text(const Cost& cost) {
+  return fmt::format(
+      "Cost\n  {} for {:.4g} s simulated ({:.3g} simulated seconds per wall second), {} steps\n"
+      "  {} rank(s), {} grains, {:.2f} million grain steps per second, {:.0f} MB\n",
+      clock_text(cost.wall_time), cost.simulated_time, cost.simulated_per_wall_second(), cost.steps, cost.ranks, cost.grains,
+      1e-6 * cost.particle_steps_per_second(), 1e-6 * cost.memory);
+}
+
+nlohmann::ordered_json json_of(const SteadyValue& v) {
+  return {{"mean", v.mean}, {"standard_error", v.standard_error}, {"unit", v.unit}, {"steady", v.steady}, {"verdict", v.verdict},
+          {"minimum", v.minimum}, {"maximum", v.maximum}, {"standard_deviation", v.deviation}, {"correlation_time", v.correlation_time},
+          {"independent_samples", v.independent_samples}, {"blocks", v.blocks}, {"drift", v.drift}, {"drift_error", v.drift_error}};
+}
+
+}  // namespace
+
+Summary summarise(const std::string& folder, const ResistanceOptions& options) {
+  const std::string path = folder + "/history.h5";
+  Summary summary;
+  summary.info = read_run_info(path);
+  summary.closed = has_closing(path);
+  if (summary.closed) summary.closing = read_closing(path);
+  const History history = read_history(path);
+  try {
+    summary.resistance = measure_resistance(history, options);
+  } catch (const InputError&) {
+    throw;  // the user asked for a window that is not there
+  } catch (const Error& error) {
+    summary.trouble = error.what();
+  }
+  return summary;
+}
+
+std::string summary_text(const Summary& s) {
+  std::string text = fmt::format("{}\n{}\n\n", s.info.title, std::string(s.info.title.size(), '='));
+  if (!s.closed) text += "THE RUN DID NOT COME TO ITS END: what follows is what there was when it stopped.\n\n";
+  text += s.trouble.empty() ? steady_table(s.resistance) : fmt::format("No steady values: {}\n", s.trouble);
+  if (s.closed) text += "\n" + audit_text(s.closing.audit) + "\n" + cost_text(s.closing.cost);
+  for (const std::string& warning : s.closing.warnings) text += "\nWARNING: " + warning + "\n";
+  text += fmt::format("\nFurrow {}, script {}, started {}\n", s.info.version, s.info.script, s.info.started);
+  text += "Signs: force_z carries the wheel; resistance coefficient = -force_x/force_z; drawbar pull > 0 pulls the vehicle forward;\n"
+          "slip > 0 when driving, (v_rim - v)/max(|v_rim|, |v|). Effective input: attribute effective_input of /run in history.h5.\n";
+  return text;
+}
+
+std::string summary_json(const Summary& s) {
+  nlohmann::ordered_json json;
+  json["title"] = s.info.title;
+  json["version"] = s.info.version;
+  json["script"] = s.info.script;
+  json["started"] = s.info.started;
+  json["complete"] = s.closed;
+  if (s.trouble.empty()) {
+    const Resistance& r = s.resistance;
+    json["steady"] = r.steady;
+    json["verdict"] = r.verdict;
+    json["window"] = {{"start", r.window.begin}, {"end", r.window.end}, {"distance", r.window.distance}, {"how", r.window.how},
+                      {"warning", r.window.warning}};
+    for (const SteadyValue& v : r.values) json["quantities"][v.name] = json_of(v);
+  } else {
+    json["steady"] = false;
+    json["verdict"] = s.trouble;
+  }
+  if (s.closed) {
+    const Audit& a = s.closing.audit;
+    for (const EnergyTerm& term : a.energies) json["audit"]["energies"][term.name] = term.value;
+    json["audit"]["energy_residual"] = a.energy_residual;
+    json["audit"]["energy_scale"] = a.energy_scale;
+    json["audit"]["force_imbalance"] = a.force_imbalance;
+    json["audit"]["force_scale"] = a.force_scale;
+    json["audit"]["moment_imbalance"] = a.moment_imbalance;
+    json["audit"]["moment_scale"] = a.moment_scale;
+    const Cost& c = s.closing.cost;
+    json["cost"] = {{"wall_time", c.wall_time}, {"simulated_time", c.simulated_time}, {"steps", c.steps}, {"grains", c.grains},
+                    {"ranks", c.ranks}, {"memory", c.memory}, {"particle_steps_per_second", c.particle_steps_per_second()},
+                    {"simulated_per_wall_second", c.simulated_per_wall_second()}};
+  }
+  json["warnings"] = s.closing.warnings;
+  json["effective_input"] = s.info.effective_input;
+  return json.dump(2) + "\n";
+}
+
+void write_summary(const std::string& folder, const Summary& summary) {
+  write_text_file(folder + "/summary.txt", summary_text(summary));
+  write_text_file(folder + "/summary.json", summary_json(summary));
+}
+
+}  // namespace furrow

@@ -1,0 +1,30 @@
+#pragma once
+/// summary.txt for a person and summary.json for a program: what a run found, how sure it is, what it cost.
+
+#include <string>
+
+#include "io/run_report.h"
+#include "rig/resistance.h"
+
+namespace furrow {
+
+/// Everything a summary says. The closing is missing when the run did not come to its end.
+struct Summary {
+  RunInfo info;
+  Resistance resistance;
+  std::string trouble;  ///< why there is no resistance ("the history ends before the cruise"); empty if there is
+  RunClosing closing;
+  bool closed = false;
+};
+
+/// Reads history.h5 of a results folder and evaluates it. A history that is too short is no error: the summary says so.
+/// @throws Error when the file is missing or cannot be read
+Summary summarise(const std::string& folder, const ResistanceOptions& options = {});
+
+std::string summary_text(const Summary& summary);
+std::string summary_json(const Summary& summary);
+
+/// Writes both into the folder, each in one step. @throws Error
+void write_summary(const std::string& folder, const Summary& summary);
+
+}  // namespace furrow
