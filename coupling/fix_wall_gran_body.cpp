@@ -31,6 +31,9 @@ FixWallGranBody::FixWallGranBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg
   if (!is_mesh_wall())
     throw InputError("fix wall/gran/body", "has no mesh", "mesh n_meshes N meshes id1 id2 ...",
                      "use fix wall/gran for primitive walls");
+  if (store_force_contact() || store_force_contact_stress())
+    throw InputError("fix wall/gran/body, keyword 'store_force_contact'", "is given", "it is not for meshes of bodies",
+                     "use store_force for the wall's force on every grain, or the history of the body for the sum");
   for (int m = 0; m < n_FixMesh_; ++m)
     if (!dynamic_cast<FixMeshBody*>(FixMesh_list_[m])) stock_meshes_.push_back(FixMesh_list_[m]);
 }
@@ -79,6 +82,8 @@ void FixWallGranBody::post_force_body(FixMeshBody& mesh_fix, int mesh_number) {
   atom_type_wall_ = mesh_fix.atomTypeWall();
 
   collect_candidates(mesh_fix);
+  // Not in the order in which LIGGGHTS happens to hold its triangles: sums, and so restarts, are the same to the last bit.
+  std::sort(touched_.begin(), touched_.end());
   FixWorld& bodies = FixWorld::of(*lmp);
   ContactLedger& ledger = bodies.ledger(mesh_fix.body());
   const Vector3 moment_reference = bodies.moment_reference(mesh_fix.body());
