@@ -1,5 +1,5 @@
-// The pages beside the code say what the code declares: every keyword of a style has its row, with unit and default, and no row
-// describes a keyword that is gone.
+// The pages beside the code say what the code declares: every keyword of a style has its row, with unit and default, and no
+// row describes a keyword that is gone.
 
 #include <fstream>
 #include <map>
@@ -67,10 +67,12 @@ void expect_page_of(const std::string& page, const Schema& schema) {
     EXPECT_EQ(row.unit, key.unit) << page << ", " << key.name;
     EXPECT_EQ(row.default_value, fmt::format("{}", fmt::join(key.default_values, " "))) << page << ", " << key.name;
     EXPECT_FALSE(row.meaning.empty()) << page << ", " << key.name;
-    for (const std::string& word : key.words) EXPECT_NE(row.meaning.find('`' + word + '`'), std::string::npos) << page << ", " << word;
+    for (const std::string& word : key.words)
+      EXPECT_NE(row.meaning.find('`' + word + '`'), std::string::npos) << page << ", " << word;
     rows.erase(key.name);
   }
-  for (const auto& [name, row] : rows) ADD_FAILURE() << page << " describes " << name << ", which " << schema.subject() << " does not have";
+  for (const auto& [name, row] : rows)
+    ADD_FAILURE() << page << " describes " << name << ", which " << schema.subject() << " does not have";
 }
 
 using namespace coupling;
