@@ -2,8 +2,8 @@
 /// What furrow-point leaves in a results folder.
 ///
 /// A run:  point.csv     every channel of every step
-///         point.h5      /point/<channel> with attributes unit, meaning; /yield_surface/<n>/p, q with attributes segment (after
-///                       which it is; 0: the start) and step; attributes of /: title, law, path, version
+///         point.h5      /point/<channel> with attributes unit, meaning; /point has title, law, material, path, version;
+///                       /yield_surface/<n>/p, q after the segment that is its attribute (0: the start)
 ///         material.yaml, run.yaml   the effective input: furrow-point run run.yaml repeats the run
 /// A fit:  fit.csv, fit.h5 (/curves/<n>/driven, measured, start, fitted), material.yaml with the fitted values, report.txt
 

@@ -355,8 +355,8 @@ FitResult fit_material(const FitProblem& problem) {
 
   Functor functor(residuals, 1e3 * (at_start.lpNorm<Eigen::Infinity>() + 1.0));
   Eigen::LevenbergMarquardt<Functor> method(functor);
-  method.setFtol(1e-14);
-  method.setXtol(1e-12);
+  method.setFtol(1e-12);  // the curves themselves are known to the paths' tolerance, 1e-10 unless changed
+  method.setXtol(1e-9);
   method.setGtol(0.0);
   method.setMaxfev(400);
   const auto status = method.minimize(t);

@@ -3,8 +3,8 @@
 ///
 /// Unknown are the deformation variables of the stress-controlled components. Each step solves
 ///   sigma_c(e) = target_c for these c,    |residual| <= tolerance * (largest stress of the step),
-/// by Newton's method with a difference Jacobian and a line search; a step that fails is cut in halves, and the run stops with
-/// the cause when that does not help.
+/// (8 epsilon of the P-wave modulus is added for rounding) by Newton's method with a difference Jacobian and a line search;
+/// a step that fails is cut in halves, and the run stops with the cause when that does not help.
 
 #include <functional>
 #include <string>
@@ -47,8 +47,8 @@ struct PointChannel {
   std::function<double(const PointRecord&)> value;
 };
 
-/// strain_xx ... , stress_xx ..., axial_strain, axial_stress, shear_strain, shear_stress, eps_vol, p, q, density, yield_function,
-/// and what the law keeps. Axial is z and compression positive; shear is xz.
+/// strain_xx ... , stress_xx ..., axial_strain, axial_stress, shear_strain, shear_stress, eps_vol, p, q, density, branch,
+/// yield_function, and what the law keeps. Axial is z and compression positive; shear is xz.
 std::vector<PointChannel> point_channels(const Material& material);
 /// @throws InputError listing the names
 PointChannel find_point_channel(const Material& material, const std::string& name);

@@ -148,8 +148,8 @@ PathType cyclic() {
       .by_default("fixed");
   schema
       .number("confinement", "Pa", Range::non_negative(),
-              "lateral pressure with lateral: free; an isotropic piece comes first")
-      .by_default(0.0);
+              "lateral pressure with lateral: free, 0 unless given; an isotropic piece comes first")
+      .optional();
   add_common_keys(schema);
   return {"cyclic", "axial stress up and down, with or without lateral strain", schema, [](const Options& o) {
             if (o.number("upper") <= o.number("lower"))
@@ -158,7 +158,7 @@ PathType cyclic() {
                                "upper > lower");
             PointPath path = path_of(o, "cyclic");
             if (o.word("lateral") == "free") {
-              set_normal(next_segment(path, o), Control::stress, -o.number("confinement"));
+              set_normal(next_segment(path, o), Control::stress, o.given("confinement") ? -o.number("confinement") : 0.0);
             } else if (o.given("confinement")) {
               throw InputError(o.where("confinement"), "is given, but the lateral strain is fixed",
                                "confinement only with lateral: free");
