@@ -1,0 +1,74 @@
+"""The command furrow-post and its subcommands."""
+
+import argparse
+import os
+import shutil
+import sys
+from pathlib import Path
+
+from .results import Results, ResultsError
+from .summary import Summary
+
+
+def _find_resistance_program():
+    """furrow-resistance: beside furrow-post, in the build folder of the source tree, or on the PATH."""
+    here = Path(sys.argv[0]).resolve().parent
+    build = Path(os.environ.get("FURROW_BUILD", here.parent / "build"))
+    for candidate in (here / "furrow-resistance", build / "bin" / "furrow-resistance"):
+        if candidate.is_file():
+            return str(candidate)
+    found = shutil.which("furrow-resistance")
+    if not found:
+        raise ResultsError("furrow-resistance is not built or not installed; run 'bash inputs/run' once, or put it on the PATH")
+    return found
+
+
+def _resistance(arguments):
+    program = _find_resistance_program()
+    os.execv(program, [program] + arguments.words)
+
+
+def _plot(arguments):
+    from . import histories
+
+    results = Results(arguments.results)
+    target = arguments.output or results.folder / f"histories.{arguments.format}"
+    histories.draw(results, target)
+    print(target)
+
+
+def _picture(arguments):
+    from . import picture
+
+    results = Results(arguments.results)
+    target = arguments.output or results.folder / f"rut.{arguments.format}"
+    picture.draw(results, Summary(results.folder).line(), target)
+    print(target)
+
+
+def _parser():
+    parser = argparse.ArgumentParser(prog="furrow-post", description="Steady values, plots and pictures of Furrow's results folders.")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="command")
+    resistance = commands.add_parser("resistance", add_help=False,
+                                     help="steady sinkage, motion resistance and torque with standard errors (furrow-resistance)")
+    resistance.add_argument("words", nargs=argparse.REMAINDER)
+    resistance.set_defaults(run=_resistance)
+    for name, run, text in (("plot", _plot, "forces, sinkage, torque and slip against time -> histories.png"),
+                            ("picture", _picture, "the rut from four sides, grains coloured by displacement -> rut.png")):
+        command = commands.add_parser(name, help=text, description=text)
+        command.add_argument("results", help="results folder of a run, or its history.h5")
+        command.add_argument("-o", "--output", type=Path, help="file to write (default: in the results folder)")
+        command.add_argument("--format", choices=("png", "svg", "pdf"), default="png", help="format (default: png)")
+        command.set_defaults(run=run)
+    return parser
+
+
+def main(words):
+    # The words of "resistance" belong to furrow-resistance, options included.
+    arguments = argparse.Namespace(words=words[1:], run=_resistance) if words[:1] == ["resistance"] else _parser().parse_args(words)
+    try:
+        arguments.run(arguments)
+    except (ResultsError, OSError) as error:
+        print(f"furrow-post: {error}", file=sys.stderr)
+        return 1
+    return 0
