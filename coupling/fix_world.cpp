@@ -104,7 +104,7 @@ void FixWorld::final_integrate() {
 }
 
 void FixWorld::end_of_step() {
-  guarded_alone(*error, [&] { check_grains_finite(*lmp); });
+  guarded_alone(*error, [&] { check_velocities_finite(*lmp); });
 }
 
 void FixWorld::clear_forces() {

@@ -53,7 +53,8 @@ void check_time_step(LAMMPS_NS::LAMMPS& lammps, const std::string& where) {
   const std::string remedy = fmt::format("write 'timestep {:.2g}' or less, or lower youngsModulus", rounded_down(0.2 * shortest));
   if (!(share <= step_limit)) throw StateError(fmt::format("{} (limit {:g}); {}", finding, step_limit, remedy));
   if (lammps.comm->me == 0)
-    lammps.error->warning("time_step_check.cpp", __LINE__, fmt::format("{} (recommended: at most {:g}); {}", finding, step_warning, remedy).c_str());
+    lammps.error->warning("time_step_check.cpp", __LINE__,
+                          fmt::format("{} (recommended: at most {:g}); {}", finding, step_warning, remedy).c_str());
 }
 
 }  // namespace furrow::coupling

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "body/closed_surface.h"
 #include "core/error.h"
 
 namespace furrow {
@@ -115,6 +116,7 @@ RigidWheel::RigidWheel(const RigidWheelParameters& parameters, const std::string
     : parameters_(parameters), centre_(parameters.axle_centre) {
   check(parameters, where);
   surface_ = make_wheel_mesh(parameters.geometry, where);
+  check_closed(surface_, where);
   reference_ = surface_.x;
   motion_.fill(Motion::held);
   place_nodes();

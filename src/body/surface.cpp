@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "body/closed_surface.h"
 #include "core/error.h"
 
 namespace furrow {
@@ -79,24 +80,7 @@ std::pair<Vector3, Vector3> Surface::bounds() const {
   return {x.rowwise().minCoeff(), x.rowwise().maxCoeff()};
 }
 
-bool Surface::is_closed() const {
-  std::vector<std::array<int, 3>> edges;  // lower node, higher node, direction
-  edges.reserve(3 * triangles.size());
-  for (const Vector3i& nodes : triangles)
-    for (int corner = 0; corner < 3; ++corner) {
-      const int from = nodes[corner], to = nodes[(corner + 1) % 3];
-      edges.push_back({std::min(from, to), std::max(from, to), from < to ? 0 : 1});
-    }
-  std::sort(edges.begin(), edges.end());
-  if (edges.empty() || edges.size() % 2 != 0) return false;
-  for (std::size_t i = 0; i < edges.size(); i += 2) {
-    const auto &forward = edges[i], &backward = edges[i + 1];
-    if (forward[0] == forward[1] || forward[0] != backward[0] || forward[1] != backward[1]) return false;
-    if (forward[2] != 0 || backward[2] != 1) return false;
-    if (i + 2 < edges.size() && edges[i + 2][0] == forward[0] && edges[i + 2][1] == forward[1]) return false;
-  }
-  return true;
-}
+bool Surface::is_closed() const { return closedness_problem(*this).empty(); }
 
 void Surface::check_finite(const std::string& body) const {
   if (x.allFinite() && v.allFinite()) return;
