@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -56,8 +57,14 @@ void run(const std::string& input, const std::string& output, bool plot) {
   const furrow::PointHistory history = furrow::drive_point(*material, run.path);
   const std::string folder = folder_for(output, input);
   furrow::write_point_run(folder, run, *material, history);
-  const furrow::StepError error = furrow::step_error(*material, run.path, history);
-  std::cout << furrow::run_report(run, *material, history, error) << "  results       " << folder << '\n';
+  std::optional<furrow::StepError> error;
+  try {
+    error = furrow::step_error(*material, run.path, history);
+  } catch (const furrow::StateError&) {
+    // The run itself stands; its report says that the error is not known.
+  }
+  std::cout << furrow::run_report(run, *material, history, error ? &*error : nullptr) << "  results       " << folder
+            << '\n';
   if (plot) draw(folder);
 }
 

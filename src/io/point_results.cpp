@@ -101,7 +101,7 @@ void write_point_run(const std::string& folder, const PointRun& run, const Mater
   });
 }
 
-std::string run_report(const PointRun& run, const Material& material, const PointHistory& history, const StepError& error) {
+std::string run_report(const PointRun& run, const Material& material, const PointHistory& history, const StepError* error) {
   const PointRecord& last = history.records.back();
   const Invariants end = invariants(stress_of(last.state));
   double most_p = end.p, most_q = end.q, most_density = 0.0;
@@ -137,9 +137,10 @@ std::string run_report(const PointRun& run, const Material& material, const Poin
       "  control       {} Newton iterations (most {} a step), {} step(s) cut, largest residual {:.1e} of the step's "
       "stress\n",
       cost.newton_iterations, cost.most_newton_iterations, cost.cuts, cost.largest_residual);
+  if (!error) return text + "  step error    not known: with halved steps the path could not be followed\n";
   text += fmt::format(
       "  step error    p {}, q {}, volume strain {:.1e}: change at the segments' ends when every step is halved\n",
-      percent(error.p), percent(error.q), error.eps_vol);
+      percent(error->p), percent(error->q), error->eps_vol);
   return text;
 }
 

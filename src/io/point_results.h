@@ -21,7 +21,8 @@ void write_point_run(const std::string& folder, const PointRun& run, const Mater
 void write_point_fit(const std::string& folder, const PointFit& fit, const FitResult& result);
 
 /// What a run reached: density, p, q, branches, limits met, cost and the error of the steps.
-std::string run_report(const PointRun& run, const Material& material, const PointHistory& history, const StepError& error);
+/// @param error  null when the path with halved steps could not be followed
+std::string run_report(const PointRun& run, const Material& material, const PointHistory& history, const StepError* error);
 /// Parameters with uncertainties, what is not determined, correlations.
 std::string fit_report(const PointFit& fit, const FitResult& result);
 

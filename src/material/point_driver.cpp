@@ -202,7 +202,8 @@ class Stepper {
     for (const int c : unknown)
       text += fmt::format("{}stress_{} = {:.6g} Pa (nearest {:.6g})", text.empty() ? "" : ", ", components[std::size_t(c)],
                           target[c], trial.state[c]);
-    return fmt::format("cannot reach {}: {}", text, cause);
+    return fmt::format("cannot reach {}: {} (beyond a strength, or while the point softens, control strains instead)", text,
+                       cause);
   }
 
   const Material& material_;
