@@ -165,9 +165,10 @@ def check_table(results, surface, evaluate):
     rows = []
     for name, (kind, point, what) in study.check_points().items():
         if finished(results / name):
-            row = wheel_row(name, results / name, kind, point, surface, evaluate)
+            diameter = finished(results / name)["job"]["variables"]["diameter"]  # the surface is a share of the grain
+            row = wheel_row(name, results / name, kind, point, surface * diameter / study.BASE["diameter"], evaluate)
             rows.append(dict(what=what, **{k: row[k] for k in ("wheel", "slip", "measured_fx_over_fz", "fx_over_fz", "fx_over_fz_error",
-                             "measured_sinkage_mm", "sinkage_from_mass_mm", "sinkage_error_mm", "steady", "grains", "steps", "cpu_s")}))
+                             "measured_sinkage_mm", "sinkage_mm", "sinkage_from_mass_mm", "sinkage_error_mm", "steady", "grains", "steps", "cpu_s")}))
     return rows
 
 
@@ -177,7 +178,7 @@ def picture(results, path, surface, rows):
         points = [r for r in study.reference() if r["kind"] == "plate" and r["size_mm"] == size]
         area = math.pi / 4 * size**2 / 1000  # mm2 to kPa
         plates.errorbar([r["sinkage_mm"] for r in points], [r["force_N"] / area for r in points], [np.nan_to_num(r["force_std_N"]) / area for r in points],
-                        fmt="o", ms=3, color=colour, label=f"{size} mm measured")
+                        fmt="o", ms=3, color=colour, label=f"{size} mm measured")  # scatter of the tests
         folder = results / f"plate_{study.CHOSEN}_{size}"
         if finished(folder):
             sinkage, force = plate_curve(folder)
