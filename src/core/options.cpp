@@ -74,7 +74,10 @@ std::string Range::text() const {
 std::string Key::allowed() const {
   const std::string unit_text = unit.empty() ? "" : fmt::format(" [{}]", unit);
   switch (kind) {
-    case Kind::number: return fmt::format("a number {}{}", range.text(), unit_text);
+    case Kind::number: {
+      const bool bounded = std::isfinite(range.lower) || std::isfinite(range.upper);
+      return fmt::format("{}{}{}", bounded ? "a number " : "", range.text(), unit_text);
+    }
     case Kind::integer: return fmt::format("an integer {}", range.text());
     case Kind::numbers:
       return fmt::format("{} numbers, each {}{}", count == 0 ? "a list of" : std::to_string(count), range.text(),
