@@ -173,6 +173,9 @@ RunClosing FixWheelHistory::closing() {
   end.cost.grains = static_cast<long>(atom->natoms);
   end.cost.ranks = comm->nprocs;
   end.cost.memory = bodies().communicator().sum(peak_memory());
+  if (update->ntimestep < update->laststep)
+    end.warnings.push_back(fmt::format("The run was interrupted at step {} of {}; the values are those of the part that was done.",
+                                       update->ntimestep, update->laststep));
   return end;
 }
 
