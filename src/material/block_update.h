@@ -12,12 +12,12 @@ inline namespace FURROW_ISA {
 
 /// What a kernel sees of lane_count points: the common state at the start of the step, to be replaced by that at its end.
 struct Points {
-  Symmetric stress;              ///< in the frame of the start of the step [Pa]
-  Lanes stored = 0.0;            ///< energies of this step per current volume [J/m^3]
+  Symmetric stress;                ///< in the frame of the start of the step [Pa]
+  Lanes stored = 0.0;              ///< energies of this step per current volume [J/m^3]
   Lanes frozen = 0.0;
   Lanes dissipated = 0.0;
-  Lanes own[6];                  ///< the law's own fields
-  Lanes branch = 0.0;            ///< a Branch
+  Lanes own[6];                    ///< the law's own fields
+  Lanes branch = 0.0;              ///< a Branch
   Lanes iterations = 0.0;
   Mask below_data = Mask(false);   ///< outside the hardening data
   Mask beyond_data = Mask(false);
@@ -25,15 +25,16 @@ struct Points {
 };
 
 struct Step {
-  Lanes volume;     ///< det Delta F
-  Mask admissible;  ///< Delta F finite with positive determinant
+  Lanes volume;               ///< det Delta F
+  Mask admissible;            ///< Delta F finite with positive determinant
   bool total_energy = false;  ///< points.stored is the energy per reference volume, not the work of the step
 };
 
 /// Laws of rate form: the strain is the logarithm of the step's stretch, the stress is turned afterwards.
 template <class Kernel>
 auto step_points(const Kernel& kernel, const Tensor& h, Points& points) -> decltype(kernel.step(Symmetric{}, points), Step{}) {
-  const Motion motion = motion_of(h);
+  Motion motion;
+  find_motion(h, motion);
   kernel.step(motion.strain, points);
   points.stress = turned(points.stress, motion.rotation);
   return {motion.volume, motion.admissible, false};
@@ -46,45 +47,50 @@ auto step_points(const Kernel& kernel, const Tensor& h, Points& points) -> declt
   return {volume, volume > Lanes(0.0), true};
 }
 
-/// Kernel: `static constexpr int own_fields;` and either `void step(const Symmetric& strain, Points&) const`
-/// or `void hyperelastic_step(const Tensor& h, Points&) const`.
-template <class Kernel>
-BlockResult update_points(const Kernel& kernel, double density, const PointBlock& block) {
-  static_assert(Kernel::own_fields <= 6, "enlarge Points::own");
-  BlockResult result;
-  const double dense = density / ice_density;  // J below this is denser than ice
-  for (std::size_t first = 0; first < block.size; first += lane_count) {
-    const std::size_t left = block.size - first;
-    const int lanes = left < static_cast<std::size_t>(lane_count) ? static_cast<int>(left) : lane_count;
-    const bool full = lanes == lane_count;
-    // The missing points of the last group are copies of its first.
-    const auto load = [&](const double* array) {
-      if (full) return Lanes(array + first, stdx::element_aligned);
-      return Lanes([&](auto lane) { return array[first + static_cast<std::size_t>(int(lane) < lanes ? int(lane) : 0)]; });
-    };
-    const auto store = [&](double* array, const Lanes& value) {
-      if (full) {
-        value.copy_to(array + first, stdx::element_aligned);
-      } else {
-        for (int lane = 0; lane < lanes; ++lane) array[first + static_cast<std::size_t>(lane)] = value[lane];
-      }
-    };
-    const auto count = [&](const Mask& mask) {
-      if (full) return static_cast<std::size_t>(stdx::popcount(mask));
-      std::size_t sum = 0;
-      for (int lane = 0; lane < lanes; ++lane) sum += mask[lane] ? 1 : 0;
-      return sum;
-    };
+/// lane_count neighbouring points of a block; the last group may have fewer.
+struct Group {
+  const PointBlock& block;
+  std::size_t first;
+  int lanes;
 
+  Group(const PointBlock& points, std::size_t start)
+      : block(points), first(start), lanes(points.size - start < lane_count ? static_cast<int>(points.size - start) : lane_count) {}
+
+  /// Missing points are copies of the group's first.
+  FURROW_INLINE Lanes load(const double* array) const {
+    if (lanes == lane_count) return Lanes(array + first, stdx::element_aligned);
+    return Lanes([&](auto lane) { return array[first + static_cast<std::size_t>(int(lane) < lanes ? int(lane) : 0)]; });
+  }
+  FURROW_INLINE void store(double* array, const Lanes& value) const {
+    if (lanes == lane_count) {
+      value.copy_to(array + first, stdx::element_aligned);
+    } else {
+      for (int lane = 0; lane < lanes; ++lane) array[first + static_cast<std::size_t>(lane)] = value[lane];
+    }
+  }
+  FURROW_INLINE std::size_t count(const Mask& mask) const {
+    if (lanes == lane_count) return static_cast<std::size_t>(stdx::popcount(mask));
+    std::size_t sum = 0;
+    for (int lane = 0; lane < lanes; ++lane) sum += mask[lane] ? 1 : 0;
+    return sum;
+  }
+
+  FURROW_INLINE Tensor load_gradient() const {
     Tensor h;
     for (std::size_t k = 0; k < 9; ++k) h.m[k] = load(block.gradient[k]);
+    return h;
+  }
+  FURROW_INLINE Points load_points(int own_fields) const {
     Points points;
     double* const* state = block.state;
     points.stress = {load(state[0]), load(state[1]), load(state[2]), load(state[3]), load(state[4]), load(state[5])};
-    for (int k = 0; k < Kernel::own_fields; ++k) points.own[k] = load(state[field::own + static_cast<std::size_t>(k)]);
+    for (int k = 0; k < own_fields; ++k) points.own[k] = load(state[field::own + static_cast<std::size_t>(k)]);
+    return points;
+  }
 
-    const Step step = step_points(kernel, h, points);
-
+  /// Checks and stores the end of the step. False, with the cause in the result, when the states must not be continued.
+  FURROW_INLINE bool store_points(const Points& points, const Step& step, int own_fields, double density, BlockResult& result) const {
+    double* const* state = block.state;
     const Symmetric& stress = points.stress;
     const Lanes ratio = load(state[field::volume_ratio]) * step.volume;
     const Mask good = step.admissible && !points.stopped && finite(contract(stress, stress) + ratio) && ratio > Lanes(0.0);
@@ -93,7 +99,7 @@ BlockResult update_points(const Kernel& kernel, double density, const PointBlock
         if (good[lane]) continue;
         result.failure = !step.admissible[lane] ? Failure::folded : points.stopped[lane] ? Failure::table_ends : Failure::not_finite;
         result.failed_point = first + static_cast<std::size_t>(lane);
-        return result;
+        return false;
       }
     }
     store(state[0], stress.xx);
@@ -110,7 +116,7 @@ BlockResult update_points(const Kernel& kernel, double density, const PointBlock
       store(state[field::frozen_energy], load(state[field::frozen_energy]) + ratio * points.frozen);
       store(state[field::dissipated_energy], load(state[field::dissipated_energy]) + ratio * points.dissipated);
     }
-    for (int k = 0; k < Kernel::own_fields; ++k) store(state[field::own + static_cast<std::size_t>(k)], points.own[k]);
+    for (int k = 0; k < own_fields; ++k) store(state[field::own + static_cast<std::size_t>(k)], points.own[k]);
 
     UpdateReport& report = result.report;
     std::size_t yielding = 0;
@@ -121,18 +127,98 @@ BlockResult update_points(const Kernel& kernel, double density, const PointBlock
     }
     report.points[0] += static_cast<std::size_t>(lanes) - yielding;
     if (yielding > 0) {
+      alignas(64) double each[lane_count];
+      points.iterations.copy_to(each, stdx::vector_aligned);
       for (int lane = 0; lane < lanes; ++lane) {
-        const std::size_t iterations = static_cast<std::size_t>(static_cast<double>(points.iterations[lane]));
+        const std::size_t iterations = static_cast<std::size_t>(each[lane]);
         report.iterations += iterations;
         if (iterations > report.most_iterations) report.most_iterations = iterations;
       }
     }
     report.below_data += count(points.below_data);
     report.beyond_data += count(points.beyond_data);
-    report.beyond_ice += count(ratio < Lanes(dense));
+    report.beyond_ice += count(ratio < Lanes(density / ice_density));
     if (block.branch)
       for (int lane = 0; lane < lanes; ++lane)
         block.branch[first + static_cast<std::size_t>(lane)] = static_cast<std::uint8_t>(static_cast<double>(points.branch[lane]));
+    return true;
+  }
+};
+
+/// Group by group. Kernel: `static constexpr int own_fields;` and either `void step(const Symmetric& strain, Points&) const`
+/// or `void hyperelastic_step(const Tensor& h, Points&) const`.
+template <class Kernel>
+BlockResult update_points(const Kernel& kernel, double density, const PointBlock& block) {
+  static_assert(Kernel::own_fields <= 6, "enlarge Points::own");
+  BlockResult result;
+  for (std::size_t first = 0; first < block.size; first += lane_count) {
+    const Group group(block, first);
+    Points points = group.load_points(Kernel::own_fields);
+    const Step step = step_points(kernel, group.load_gradient(), points);
+    if (!group.store_points(points, step, Kernel::own_fields, density, result)) break;
+  }
+  return result;
+}
+
+/// The same in three passes over a few groups at a time, for kernels whose return mapping is dear: trial states of all points; then
+/// the points that yield alike are gathered, so that no lane waits for a neighbour on another surface (a group that yields as one is
+/// corrected at once); then stresses. Between the passes a point is a few numbers. Kernel has
+///   Prediction  the numbers of the trial, and which surface each point met; none once corrected
+///   Numbers     the numbers of the end of the step
+///   predict(strain, points, Numbers&) -> Prediction,   correct(surface, trial numbers) -> Numbers,
+///   finish(strain, trial numbers, end numbers, points).
+template <class Kernel>
+BlockResult update_gathered(const Kernel& kernel, double density, const PointBlock& block) {
+  constexpr int most_groups = 8, size = most_groups * lane_count;
+  constexpr int inputs = Kernel::prediction_numbers, outputs = Kernel::return_numbers, surfaces = Kernel::surfaces_met;
+  BlockResult result;
+  Motion motions[most_groups];
+  alignas(64) double in[inputs][size], out[outputs][size], flags[lane_count];
+  int members[surfaces][size];
+  for (std::size_t start = 0; start < block.size; start += size) {
+    const std::size_t left = block.size - start;
+    const int groups = left < size ? static_cast<int>((left + lane_count - 1) / lane_count) : most_groups;
+    int count[surfaces] = {};
+    for (int g = 0; g < groups; ++g) {
+      const Group group(block, start + static_cast<std::size_t>(g) * lane_count);
+      find_motion(group.load_gradient(), motions[g]);
+      typename Kernel::Numbers end;
+      const typename Kernel::Prediction prediction = kernel.predict(motions[g].strain, group.load_points(Kernel::own_fields), end);
+      for (int k = 0; k < inputs; ++k) prediction.numbers[k].copy_to(&in[k][g * lane_count], stdx::vector_aligned);
+      for (int k = 0; k < outputs; ++k) end.numbers[k].copy_to(&out[k][g * lane_count], stdx::vector_aligned);
+      for (int surface = 0; surface < surfaces; ++surface) {
+        if (!any(prediction.met[surface])) continue;
+        select(prediction.met[surface], 1.0, 0.0).copy_to(flags, stdx::vector_aligned);
+        for (int lane = 0; lane < group.lanes; ++lane) {
+          members[surface][count[surface]] = g * lane_count + lane;
+          count[surface] += flags[lane] > 0.0 ? 1 : 0;
+        }
+      }
+    }
+    for (int surface = 0; surface < surfaces; ++surface) {
+      for (int done = 0; done < count[surface]; done += lane_count) {
+        const int* const list = members[surface] + done;
+        const int lanes = count[surface] - done < lane_count ? count[surface] - done : lane_count;
+        Lanes numbers[inputs];
+        for (int k = 0; k < inputs; ++k)
+          numbers[k] = Lanes([&](auto lane) { return in[k][list[int(lane) < lanes ? int(lane) : 0]]; });
+        const typename Kernel::Numbers end = kernel.correct(surface, numbers);
+        for (int k = 0; k < outputs; ++k) {
+          end.numbers[k].copy_to(flags, stdx::vector_aligned);
+          for (int lane = 0; lane < lanes; ++lane) out[k][list[lane]] = flags[lane];
+        }
+      }
+    }
+    for (int g = 0; g < groups; ++g) {
+      const Group group(block, start + static_cast<std::size_t>(g) * lane_count);
+      Points points = group.load_points(Kernel::own_fields);
+      Lanes numbers[inputs], ends[outputs];
+      for (int k = 0; k < inputs; ++k) numbers[k] = Lanes(&in[k][g * lane_count], stdx::vector_aligned);
+      for (int k = 0; k < outputs; ++k) ends[k] = Lanes(&out[k][g * lane_count], stdx::vector_aligned);
+      kernel.finish(motions[g].strain, numbers, ends, points);
+      points.stress = turned(points.stress, motions[g].rotation);
+      if (!group.store_points(points, {motions[g].volume, motions[g].admissible, false}, Kernel::own_fields, density, result)) return result;
+    }
   }
   return result;
 }

@@ -74,6 +74,10 @@ double CrushableFoam::yield_function(const VectorX& state) const {
   return std::hypot(stress.p - 0.5 * (strength - pt), t / parameters_.M) - 0.5 * (strength + pt);
 }
 
+double CrushableFoam::largest_wave_speed(const PointBlock& block) const {
+  return largest_elastic_wave_speed(parameters_.elasticity, density(), block);
+}
+
 double CrushableFoam::stress_scale(const VectorX& state) const {
   const double stress = std::max(pc(state[eps_vol_pl]), std::abs(invariants(stress_of(state)).p));
   return std::max(parameters_.pt + stress, 1e-8 * moduli(state).wave());

@@ -75,6 +75,10 @@ ElasticModuli DruckerPragerCap::moduli(const VectorX& state) const {
   return moduli_at(parameters_.elasticity, invariants(stress_of(state)).p);
 }
 
+double DruckerPragerCap::largest_wave_speed(const PointBlock& block) const {
+  return largest_elastic_wave_speed(parameters_.elasticity, density(), block);
+}
+
 double DruckerPragerCap::pb(double eps) const { return strength_at(parameters_.hardening, eps); }
 
 double DruckerPragerCap::pa(double eps) const {

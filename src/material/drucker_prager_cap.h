@@ -32,6 +32,7 @@ class DruckerPragerCap : public Material {
 
   UpdateReport update_block(const PointBlock& block) const override;
   ElasticModuli moduli(const VectorX& state) const override;
+  double largest_wave_speed(const PointBlock& block) const override;
   double yield_function(const VectorX& state) const override;
   double stress_scale(const VectorX& state) const override;
   std::vector<Vector2> yield_surface(const VectorX& state, std::size_t points = 200) const override;

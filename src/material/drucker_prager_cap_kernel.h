@@ -69,66 +69,127 @@ struct DruckerPragerCapKernel {
     Lanes p, t;       ///< of the elastic trial
     Lanes noise;      ///< strain that rounding of p and eps amounts to
   };
+  FURROW_INLINE Trial make_trial(const ElasticStep& elastic, const Deviator& deviator, Hardening& hardening, const Lanes& dv,
+                                 const Lanes& eps) const {
+    const Surfaces start = surfaces(hardening, eps);
+    const Lanes noise = Lanes(4e-16) * (magnitude(eps) + magnitude(dv)) +
+                        Lanes(8e-16) * (magnitude(elastic.p_n) + magnitude(start.pa)) / elastic.bulk(0.0, elastic.p_n);
+    return {elastic, deviator, hardening, dv, eps, start, elastic.pressure(dv), deviator.t(), noise};
+  }
   /// The end of the step.
   struct Return {
     Lanes p, t;
-    Lanes m = 0.0;           ///< 3 G Lambda of the deviatoric return
     Lanes compaction = 0.0;  ///< De
-    Lanes pa;
+    Lanes pa = 0.0;
     Lanes branch = double(Branch::elastic);
     Lanes iterations = 0.0;
+    Lanes m = 0.0;  ///< 3 G Lambda of the deviatoric return
+  };
+  /// Which points yield, and where; a point meets one surface at most.
+  struct Met {
+    Mask cap, shear, tension;
   };
 
-  FURROW_INLINE void step(const Symmetric& strain, Points& points) const {
-    const ElasticStep elastic(law.elasticity, points.stress.trace() * Lanes(-1.0 / 3.0));
-    const Lanes dv = -strain.trace();
-    const Symmetric s_old = points.stress.plus_identity(elastic.p_n);
-    const Symmetric s_trial = s_old + strain.deviator() * (Lanes(2.0) * elastic.shear);
-    const Deviator deviator(law.flow_ratio, s_trial);
-    Hardening hardening(law.hardening);
-    const Lanes eps = points.own[0];
-    Trial trial{elastic, deviator, hardening, dv, eps, surfaces(hardening, eps), elastic.pressure(dv), deviator.t(), 0.0};
+  FURROW_INLINE Met surfaces_met_by(const Trial& trial) const {
+    // The slack is rounding: a point at rest on its surface is elastic.
     const Surfaces& old = trial.start;
-
-    // Which points yield, and where. The slack is rounding: a point at rest on its surface is elastic.
     const Lanes slack = Lanes(1e-13) * old.Q, rounding = Lanes(1e-15) * magnitude(trial.p);
     const Mask compacts = trial.p >= old.pa;
     const Lanes cap_limit = Lanes(law.R) * (old.Q + slack) + rounding;
     const Mask outside_cap = square(trial.p - old.pa) + square(trial.t * Lanes(law.R / law.A)) > square(cap_limit);
     const Lanes shear_excess = trial.t - shear_strength(old, trial.p, 0.0, 0.0, nullptr).value - slack;
-    const Mask on_cap = compacts && outside_cap;
-    const Mask on_shear = !compacts && shear_excess > rounding;
-    const Mask in_tension = trial.p < Lanes(-law.cutoff) - rounding;
-    const Mask yielding = on_cap || on_shear || in_tension;
-
+    const Mask cap = compacts && outside_cap, shear = !compacts && shear_excess > rounding;
+    return {cap, shear, !cap && !shear && trial.p < Lanes(-law.cutoff) - rounding};
+  }
+  FURROW_INLINE Return correct(const Met& met, const Trial& trial) const {
     Return end;
     end.p = trial.p;
     end.t = trial.t;
-    end.pa = old.pa;
-    if (any(yielding)) {
-      trial.noise = Lanes(4e-16) * (magnitude(eps) + magnitude(dv)) +
-                    Lanes(8e-16) * (magnitude(elastic.p_n) + magnitude(old.pa)) / elastic.bulk(0.0, elastic.p_n);
-      if (any(on_cap)) cap(on_cap, trial, end);
-      if (any(on_shear)) shear(on_shear, trial, end);
-      const Mask cut = yielding && end.p < Lanes(-law.cutoff * (1.0 + 1e-15));
-      if (any(cut)) tension(cut, trial, end);
-    }
-    const LodeReturn back = deviator.at(end.m, end.iterations, yielding);
-    const Symmetric s = deviator.stress(end.t, back, yielding);
-
-    const Lanes elastic_strain = dv - end.compaction, half_compliance = Lanes(0.5) / elastic.shear;
+    if (any(met.cap)) return_to_cap(met.cap, trial, end);
+    if (any(met.shear)) return_to_shear(met.shear, trial, end);
+    const Mask cut = (met.cap || met.shear || met.tension) && end.p < Lanes(-law.cutoff * (1.0 + 1e-15));
+    if (any(cut)) return_to_cutoff(cut, trial, end);
+    return end;
+  }
+  /// Energies and the new state, from the deviator s of the end of the step.
+  FURROW_INLINE void conclude(const Symmetric& strain, const ElasticStep& elastic, const Symmetric& s_trial, const Symmetric& s,
+                              const Return& end, Points& points) const {
+    const Mask yielding = end.branch > Lanes(double(Branch::elastic));
+    const Symmetric s_old = points.stress.plus_identity(elastic.p_n);
+    const Lanes elastic_strain = -strain.trace() - end.compaction, half_compliance = Lanes(0.5) / elastic.shear;
     points.stored = elastic.volumetric_work(elastic_strain, end.p) + contract(s + s_old, s - s_old) * half_compliance * Lanes(0.5);
     // Plastic work p De + s:De_dev. Compaction stores pa De as frozen energy; flow always leads away from (pa, 0), so the rest is >= 0.
     const Lanes back_stress = select(end.branch == Lanes(double(Branch::tension)), upper(end.pa, end.p), end.pa);
     points.frozen = select(yielding, back_stress * end.compaction, 0.0);
     points.dissipated = select(yielding, (end.p - back_stress) * end.compaction + contract(s, s_trial - s) * half_compliance, 0.0);
-    points.own[0] = eps + end.compaction;
+    points.own[0] = points.own[0] + end.compaction;
     points.stress = s.plus_identity(-end.p);
     points.branch = end.branch;
     points.iterations = end.iterations;
+    const Hardening hardening(law.hardening);
     points.below_data = hardening.below(points.own[0]);
     points.beyond_data = hardening.beyond(points.own[0]);
     points.stopped = hardening.stopped(points.own[0]);
+  }
+  FURROW_INLINE static Symmetric trial_deviator(const ElasticStep& elastic, const Symmetric& strain, const Points& points) {
+    return points.stress.plus_identity(elastic.p_n) + strain.deviator() * (Lanes(2.0) * elastic.shear);
+  }
+  FURROW_INLINE static Lanes pressure_of(const Points& points) { return points.stress.trace() * Lanes(-1.0 / 3.0); }
+
+  void step(const Symmetric& strain, Points& points) const {
+    const ElasticStep elastic(law.elasticity, pressure_of(points));
+    const Symmetric s_trial = trial_deviator(elastic, strain, points);
+    const Deviator deviator(law.flow_ratio, s_trial);
+    Hardening hardening(law.hardening);
+    const Trial trial = make_trial(elastic, deviator, hardening, -strain.trace(), points.own[0]);
+    Return end = correct(surfaces_met_by(trial), trial);
+    const Mask yielding = end.branch > Lanes(double(Branch::elastic));
+    const LodeReturn back = deviator.at(end.m, end.iterations, yielding);
+    conclude(strain, elastic, s_trial, deviator.stress(s_trial, end.t, back, yielding), end, points);
+  }
+
+  // ---- in three passes (block_update.h), for K = 1, where the return mapping needs p and t only --------------------------
+  static constexpr int prediction_numbers = 5, return_numbers = 6, surfaces_met = 3;
+  struct Prediction {
+    Lanes numbers[prediction_numbers];  ///< p_n, dv, eps_n, trial p, trial t
+    Mask met[surfaces_met];
+  };
+  struct Numbers {
+    Lanes numbers[return_numbers];  ///< of a Return, without m
+  };
+
+  FURROW_INLINE static Numbers numbers_of(const Return& end) {
+    return {{end.p, end.t, end.compaction, end.pa, end.branch, end.iterations}};
+  }
+  FURROW_INLINE Prediction predict(const Symmetric& strain, const Points& points, Numbers& end) const {
+    const ElasticStep elastic(law.elasticity, pressure_of(points));
+    const Deviator deviator(law.flow_ratio, trial_deviator(elastic, strain, points));
+    Hardening hardening(law.hardening);
+    const Trial trial = make_trial(elastic, deviator, hardening, -strain.trace(), points.own[0]);
+    Met met = surfaces_met_by(trial);
+    const Mask none(false);
+    if (all(met.cap) || all(met.shear)) {
+      end = numbers_of(correct(met, trial));
+      met = {none, none, none};
+    } else {
+      end = numbers_of(correct(Met{none, none, none}, trial));
+    }
+    return {{elastic.p_n, trial.dv, trial.eps, trial.p, trial.t}, {met.cap, met.shear, met.tension}};
+  }
+  Numbers correct(int surface, const Lanes* prediction) const {
+    const ElasticStep elastic(law.elasticity, prediction[0]);
+    const Deviator deviator(prediction[4]);
+    Hardening hardening(law.hardening);
+    const Trial trial = make_trial(elastic, deviator, hardening, prediction[1], prediction[2]);
+    const Return end = correct(Met{Mask(surface == 0), Mask(surface == 1), Mask(surface == 2)}, trial);
+    return numbers_of(end);
+  }
+  FURROW_INLINE void finish(const Symmetric& strain, const Lanes* prediction, const Lanes* ends, Points& points) const {
+    const ElasticStep elastic(law.elasticity, prediction[0]);
+    const Symmetric s_trial = trial_deviator(elastic, strain, points);
+    const Return end{ends[0], ends[1], ends[2], ends[3], ends[4], ends[5], 0.0};
+    const Mask shrinks = end.branch > Lanes(double(Branch::elastic)) && prediction[4] > Lanes(0.0);
+    conclude(strain, elastic, s_trial, s_trial * select(shrinks, end.t / prediction[4], 1.0), end, points);
   }
 
  private:
@@ -146,7 +207,7 @@ struct DruckerPragerCapKernel {
     stdx::where(active, end.branch) = double(Branch::cap);
   }
 
-  FURROW_INLINE void cap(const Mask& active, const Trial& trial, Return& end) const {
+  FURROW_INLINE void return_to_cap(const Mask& active, const Trial& trial, Return& end) const {
     const Surfaces& old = trial.start;
     // First guess: De at constant t and size of the cap.
     const Lanes share = trial.t / (Lanes(law.A) * old.Q);
@@ -225,7 +286,8 @@ struct DruckerPragerCapKernel {
         const Mask inside = newton >= low && newton <= high;
         const Lanes halfway = select(high < Lanes(1e149), Lanes(0.5) * (low + high), Lanes(2.0) * u + Lanes(1.0));
         const Lanes next = lower(select(inside, newton, select(newton < low, upper(left, Lanes(0.5) * (low + u)), halfway)), 1e140);
-        const Mask done = magnitude(next - u) <= Lanes(1e-14) * next || high - low <= Lanes(1e-15) * high;
+        const Mask done = magnitude(next - u) <= Lanes(1e-14) * next || high - low <= Lanes(1e-15) * high ||
+                          magnitude(value) <= Lanes(4e-16) * trial.t;  // the rounding of t_tr
         u = select(open, next, u);
         open = open && !done;
       }
@@ -252,7 +314,7 @@ struct DruckerPragerCapKernel {
     finish_cap(active, trial, now, angle.cosine, angle.sine, angle.m, solution, end);
   }
 
-  void shear(const Mask& active, const Trial& trial, Return& end) const {
+  void return_to_shear(const Mask& active, const Trial& trial, Return& end) const {
     const ElasticStep& elastic = trial.elastic;
     const Surfaces& old = trial.start;
     const Lanes c = Lanes(3.0 / (law.A * law.A * law.tan_beta * law.tan_beta)) * elastic.shear;
@@ -284,8 +346,8 @@ struct DruckerPragerCapKernel {
     const Lanes positive = upper(shear_strength(old, trial.p, 0.0, 0.0, nullptr).value, Lanes(1e-3) * trial.t + Lanes(1e-290));
     const Lanes ratio = trial.t / positive - Lanes(1.0);
     const Lanes start = lower(ratio * (old.pa - trial.p) / (c + ratio * (elastic.bulk(trial.dv, trial.p) + old.pa_slope)), high);
-    const Lanes x = decreasing_root(balance, start, 0.0, high, Lanes(1e-13) * high + Lanes(0.01) * trial.noise,
-                                    active && high > Lanes(0.0), end.iterations);
+    // p and t are taken from the final x, on the surface: a last step of 1e-10 leaves the direction of flow exact to that, at least.
+    const Lanes x = decreasing_root(balance, start, 0.0, high, Lanes(1e-10) * high, active && high > Lanes(0.0), end.iterations);
     const Lanes solution = select(active, upper(x, 0.0), 0.0);
     balance(solution);
     pressure = lower(pressure, now.pa);  // it is below, but for rounding
@@ -299,7 +361,7 @@ struct DruckerPragerCapKernel {
     stdx::where(active, end.branch) = select(apex, double(Branch::tension), select(transition, double(Branch::transition), double(Branch::shear)));
   }
 
-  void tension(const Mask& active, const Trial& trial, Return& end) const {
+  void return_to_cutoff(const Mask& active, const Trial& trial, Return& end) const {
     const Lanes pressure = -law.cutoff;
     const Lanes de = select(active, trial.dv - trial.elastic.strain(pressure), 0.0);
     const Surfaces now = surfaces(trial.hardening, trial.eps + de);

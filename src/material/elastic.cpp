@@ -23,6 +23,10 @@ UpdateReport Elastic::update_block(const PointBlock& block) const {
 
 ElasticModuli Elastic::moduli(const VectorX& state) const { return moduli_at(elasticity_, invariants(stress_of(state)).p); }
 
+double Elastic::largest_wave_speed(const PointBlock& block) const {
+  return largest_elastic_wave_speed(elasticity_, density(), block);
+}
+
 double Elastic::stress_scale(const VectorX& state) const { return moduli(state).wave(); }
 
 }  // namespace furrow

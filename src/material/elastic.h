@@ -14,6 +14,7 @@ class Elastic : public Material {
 
   UpdateReport update_block(const PointBlock& block) const override;
   ElasticModuli moduli(const VectorX& state) const override;
+  double largest_wave_speed(const PointBlock& block) const override;
   double stress_scale(const VectorX& state) const override;
 
  private:

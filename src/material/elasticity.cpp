@@ -1,5 +1,6 @@
 #include "material/elasticity.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -57,6 +58,21 @@ ElasticModuli moduli_at(const ElasticityParameters& e, double p) {
   const double ratio = 1.0 - std::log((p + e.limit) / (e.p0 + e.limit)) / e.stiffness;
   const double bulk = (p + e.limit) * e.stiffness * ratio;
   return {bulk, e.shear_ratio > 0.0 ? e.shear_ratio * bulk : e.shear};
+}
+
+double largest_elastic_wave_speed(const ElasticityParameters& e, double density, const PointBlock& block) {
+  const double* const volume = block.state[field::volume_ratio];
+  double largest = 0.0;  // of modulus times J
+  if (!e.porous) {
+    for (std::size_t i = 0; i < block.size; ++i) largest = std::max(largest, volume[i]);
+    largest *= moduli_at(e, 0.0).wave();
+  } else {
+    for (std::size_t i = 0; i < block.size; ++i) {
+      const double p = -(block.state[0][i] + block.state[1][i] + block.state[2][i]) / 3.0;
+      largest = std::max(largest, moduli_at(e, p).wave() * volume[i]);
+    }
+  }
+  return std::sqrt(largest / density);
 }
 
 }  // namespace furrow

@@ -19,5 +19,7 @@ ElasticityParameters make_elasticity(const SectionOptions& section);
 double initial_pressure(const ElasticityParameters& parameters);
 /// Tangent moduli at pressure p.
 ElasticModuli moduli_at(const ElasticityParameters& parameters, double p);
+/// The largest elastic wave speed of a block's points [m/s], from their pressure and volume. @param density rho0 [kg/m^3]
+double largest_elastic_wave_speed(const ElasticityParameters& parameters, double density, const PointBlock& block);
 
 }  // namespace furrow

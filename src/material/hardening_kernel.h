@@ -18,7 +18,7 @@ class Hardening {
   explicit Hardening(const HardeningParameters& parameters) : h_(parameters) {}
 
   FURROW_INLINE Strength at(const Lanes& eps) {
-    Strength result = h_.kind == HardeningParameters::Kind::exponential ? by_formula(upper(eps, h_.first)) : by_table(eps);
+    Strength result = h_.kind == HardeningParameters::Kind::exponential ? by_formula(upper(eps, h_.first)) : by_table(upper(eps, h_.first));
     const Mask below = eps < Lanes(h_.first);
     if (any(below)) {  // exp(-80) is a strength that no arithmetic sees next to the stiffness
       const Lanes exponent = Lanes(h_.decay) * (eps - Lanes(h_.first));
@@ -42,14 +42,13 @@ class Hardening {
     return {value - Lanes(h_.offset), value * Lanes(h_.c * (h_.lambda - h_.kappa)) * ratio * f * f};
   }
   FURROW_INLINE Strength by_table(const Lanes& eps) {
-    if (!all(eps >= from_ && eps < to_)) find(eps);
+    if (!all(eps >= start_ && eps < to_)) find(eps);
     const Lanes value = base_ + slope_ * (eps - start_);
     if (h_.kind == HardeningParameters::Kind::linear_table) return {value, slope_};
     const Lanes strength = exponential(value);
     return {strength, strength * slope_};
   }
   void find(const Lanes& eps) {
-    from_ = -1e300;
     to_ = 1e300;
     start_ = h_.start[0];
     base_ = h_.base[0];
@@ -58,7 +57,6 @@ class Hardening {
       const Lanes start = h_.start[k];
       const Mask in = eps >= start;
       to_ = select(in, to_, lower(to_, start));
-      from_ = select(in, start, from_);
       start_ = select(in, start, start_);
       base_ = select(in, h_.base[k], base_);
       slope_ = select(in, h_.slope[k], slope_);
@@ -66,8 +64,8 @@ class Hardening {
   }
 
   const HardeningParameters& h_;
-  Lanes from_ = 1.0, to_ = 0.0;  // nothing remembered
-  Lanes start_ = 0.0, base_ = 0.0, slope_ = 0.0;
+  Lanes start_ = 1.0, to_ = 0.0;  // nothing remembered yet
+  Lanes base_ = 0.0, slope_ = 0.0;
 };
 
 }  // namespace FURROW_ISA

@@ -30,7 +30,7 @@ struct Motion {
   Mask admissible;   ///< Delta F finite with positive determinant
 };
 
-FURROW_INLINE Motion motion_of(const Tensor& h) {
+FURROW_INLINE void find_motion(const Tensor& h, Motion& motion) {
   const Lanes* m = h.m;
   const auto column = [&](int i, int j) __attribute__((always_inline)) { return m[i] * m[j] + m[3 + i] * m[3 + j] + m[6 + i] * m[6 + j]; };
   const Symmetric x{m[0] + m[0] + column(0, 0), m[4] + m[4] + column(1, 1), m[8] + m[8] + column(2, 2),
@@ -45,7 +45,6 @@ FURROW_INLINE Motion motion_of(const Tensor& h) {
   constexpr double atanh_terms[7] = {1.0, 1.0 / 3, 1.0 / 5, 1.0 / 7, 1.0 / 9, 1.0 / 11, 1.0 / 13};
   constexpr double root_terms[7] = {1.0, 1.0 / 2, 3.0 / 8, 5.0 / 16, 35.0 / 128, 63.0 / 256, 231.0 / 1024};
 
-  Motion motion;
   motion.strain = commuting_product(z, series(atanh_terms));
   Symmetric inverse_u = commuting_product((z * Lanes(-1.0)).plus_identity(1.0), series(root_terms));
   motion.admissible = Mask(true);
@@ -71,7 +70,6 @@ FURROW_INLINE Motion motion_of(const Tensor& h) {
   }
   motion.volume = volume_change(h);
   motion.admissible = motion.admissible && motion.volume > Lanes(0.0);
-  return motion;
 }
 
 }  // namespace FURROW_ISA

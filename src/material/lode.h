@@ -27,18 +27,18 @@ class DeviatoricReturn;
 template <>
 class DeviatoricReturn<false> {
  public:
-  FURROW_INLINE DeviatoricReturn(double /*flow_ratio*/, const Symmetric& trial) : trial_(trial), q_(root(Lanes(1.5) * contract(trial, trial))) {}
+  FURROW_INLINE DeviatoricReturn(double /*flow_ratio*/, const Symmetric& trial) : q_(root(Lanes(1.5) * contract(trial, trial))) {}
+  FURROW_INLINE explicit DeviatoricReturn(const Lanes& t) : q_(t) {}  ///< of a trial known by its measure only
   const Lanes& t() const { return q_; }  ///< of the trial
   FURROW_INLINE LodeReturn at(const Lanes& m, Lanes&, const Mask&) const { return {Lanes(1.0) + m, 1.0, 0.0, 1.0}; }
   /// m at which t falls to t_tr/shrink.
   Lanes multiplier(const Lanes& shrink, Lanes&, const Mask&) const { return shrink - Lanes(1.0); }
-  /// The deviator with measure t, in the direction of a return; lanes outside the mask keep the trial.
-  FURROW_INLINE Symmetric stress(const Lanes& t, const LodeReturn&, const Mask& yielding) const {
-    return trial_ * select(yielding && q_ > Lanes(0.0), t / q_, 1.0);
+  /// The deviator with measure t, in the direction of a return of the trial; lanes outside the mask keep the trial.
+  FURROW_INLINE Symmetric stress(const Symmetric& trial, const Lanes& t, const LodeReturn&, const Mask& yielding) const {
+    return trial * select(yielding && q_ > Lanes(0.0), t / q_, 1.0);
   }
 
  private:
-  const Symmetric& trial_;
   Lanes q_;
 };
 
@@ -46,7 +46,7 @@ template <>
 class DeviatoricReturn<true> {
  public:
   DeviatoricReturn(double flow_ratio, const Symmetric& trial)
-      : trial_(trial), a_(0.5 * (1.0 + 1.0 / flow_ratio)), b_(0.5 * (1.0 / flow_ratio - 1.0)) {
+      : a_(0.5 * (1.0 + 1.0 / flow_ratio)), b_(0.5 * (1.0 / flow_ratio - 1.0)) {
     q_ = root(Lanes(1.5) * contract(trial, trial));
     const Symmetric unit = trial * select(q_ > Lanes(0.0), Lanes(1.0) / q_, 0.0);
     cos_3t_ = lower(upper(Lanes(13.5) * determinant(unit), -1.0), 1.0);
@@ -89,10 +89,10 @@ class DeviatoricReturn<true> {
         },
         shrink - Lanes(1.0), 0.0, most, Lanes(1e-15) * (most + Lanes(1.0)), active && shrink > Lanes(1.0), iterations);
   }
-  Symmetric stress(const Lanes& t, const LodeReturn& back, const Mask& yielding) const {
+  Symmetric stress(const Symmetric& trial, const Lanes& t, const LodeReturn& back, const Mask& yielding) const {
     // Unit deviator S (S:S = 1); dev(S^2) = (cos(3 theta) S - sin(3 theta) T)/sqrt(6) gives the direction T of growing theta.
     const Lanes size = select(yielding, t / back.gauge, q_);
-    const Symmetric unit = trial_ * select(q_ > Lanes(0.0), Lanes(1.2247448713915890491) / q_, 0.0);
+    const Symmetric unit = trial * select(q_ > Lanes(0.0), Lanes(1.2247448713915890491) / q_, 0.0);
     const Lanes sin_3t = root(upper(Lanes(1.0) - cos_3t_ * cos_3t_, 0.0));
     const Mask turned = yielding && sin_3t > Lanes(1e-12);
     const Lanes along = select(turned, sin_of(back.turn) / sin_3t, 0.0);
@@ -112,7 +112,6 @@ class DeviatoricReturn<true> {
   Lanes first(const Lanes& theta) const { return Lanes(-3.0 * b_) * sin_of(Lanes(3.0) * theta); }
   Lanes second(const Lanes& theta) const { return Lanes(-9.0 * b_) * cos_of(Lanes(3.0) * theta); }
 
-  const Symmetric& trial_;
   double a_, b_;
   Lanes q_, cos_3t_, theta_, t_;
   mutable Lanes guess_;  ///< the last theta found, where the next search starts

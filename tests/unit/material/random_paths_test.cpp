@@ -61,7 +61,7 @@ std::string random_cap(Dice& dice) {
 
 std::string random_foam(Dice& dice) {
   const double young = dice.decades(1e5, 1e9), pc = young * dice.decades(1e-5, 1e-2), pt = pc * dice.decades(1e-4, 1);
-  return fmt::format("crushable_foam density 300 pt {} sigma0 {} K {}", pt, 3 * pc * dice.between(0.05, 0.95),
+  return fmt::format("crushable_foam density 300 pt {} sigma0 {} K {} ", pt, 3 * pc * dice.between(0.05, 0.95),
                      dice.chance(0.5) ? 1.0 : dice.between(0.778, 1)) +
          random_elasticity(dice, young, pt) + random_hardening(dice, pc);
 }
@@ -69,7 +69,7 @@ std::string random_foam(Dice& dice) {
 struct Tally {
   UpdateReport report;
   double worst_yield = 0, worst_dissipation = 0;
-  std::size_t steps = 0;
+  std::size_t steps = 0, most_plain = 0;
 };
 
 /// One path of mixed steps, from 1e-6 to jumps of 0.5 of strain, each turned at random.
@@ -99,7 +99,10 @@ void run_path(Dice& dice, const std::string& text, Tally& tally) {
     const double heat = state[field::dissipated_energy] - dissipated;
     tally.worst_dissipation = std::min(tally.worst_dissipation, heat / scale);
     ASSERT_GE(heat, -1e-14 * scale) << text << "\nstep " << step << " strain " << strain.transpose() << "\nstate " << state.transpose();
-    ASSERT_LT(report.most_iterations, 30000u) << text << "\nstep " << step << " strain " << strain.transpose();
+    // K < 1 solves for the Lode angle inside the other two equations, and counts every evaluation.
+    const bool plain = text.find(" K 1 ") != std::string::npos;
+    tally.most_plain = std::max(tally.most_plain, plain ? report.most_iterations : 0);
+    ASSERT_LT(report.most_iterations, plain ? 300u : 4000u) << text << "\nstep " << step << " strain " << strain.transpose();
   }
 }
 
@@ -113,9 +116,9 @@ TEST(RandomPaths, TenThousandStayOnTheSurfaceAndDissipate) {
     }
     const auto& points = tally.report.points;
     const double yielding = static_cast<double>(tally.steps - points[0]);
-    fmt::print("{}: {} steps: elastic {} shear {} transition {} cap {} tension {}; iterations mean {:.2f} most {}; yield {:.2e} heat {:.2e}\n",
+    fmt::print("{}: {} steps: elastic {} shear {} transition {} cap {} tension {}; iterations mean {:.2f} most {}, with K = 1 {}; yield {:.2e} heat {:.2e}\n",
                foam ? "foam" : "cap", tally.steps, points[0], points[1], points[2], points[3], points[4],
-               static_cast<double>(tally.report.iterations) / yielding, tally.report.most_iterations, tally.worst_yield, tally.worst_dissipation);
+               static_cast<double>(tally.report.iterations) / yielding, tally.report.most_iterations, tally.most_plain, tally.worst_yield, tally.worst_dissipation);
     for (const std::size_t branch : foam ? std::vector<std::size_t>{0, 3, 4} : std::vector<std::size_t>{0, 1, 2, 3, 4})
       EXPECT_GT(points[branch], 500u) << "hardly met: " << to_string(static_cast<Branch>(branch));
   }
