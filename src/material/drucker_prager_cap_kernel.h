@@ -287,7 +287,7 @@ struct DruckerPragerCapKernel {
         const Lanes halfway = select(high < Lanes(1e149), Lanes(0.5) * (low + high), Lanes(2.0) * u + Lanes(1.0));
         const Lanes next = lower(select(inside, newton, select(newton < low, upper(left, Lanes(0.5) * (low + u)), halfway)), 1e140);
         const Mask done = magnitude(next - u) <= Lanes(1e-14) * next || high - low <= Lanes(1e-15) * high ||
-                          magnitude(value) <= Lanes(4e-16) * trial.t;  // the rounding of t_tr
+                          magnitude(value) <= Lanes(2e-15) * trial.t;  // the rounding of t_tr
         u = select(open, next, u);
         open = open && !done;
       }
