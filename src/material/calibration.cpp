@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <Eigen/SVD>
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <unsupported/Eigen/LevenbergMarquardt>
 
 #include "core/error.h"
+#include "material/fit_variable.h"
 
 namespace furrow {
 
@@ -18,118 +20,6 @@ namespace {
 constexpr double least_singular_ratio = 1e-5;
 /// A parameter known no better than this (of ln, or of its scale) is not determined: a factor of e either way.
 constexpr double most_deviation = 1.0;
-
-/// A parameter's place in the sections, and its scaled variable z <-> value and unbounded variable t <-> z.
-class Variable {
- public:
-  Variable(const Law& law, const MaterialOptions& options, MaterialSections& sections, const FitParameter& parameter) {
-    const std::string where = fmt::format("parameter '{}'", parameter.name);
-    const std::size_t dot = parameter.name.find('.');
-    std::string key_name = dot == std::string::npos ? "" : parameter.name.substr(dot + 1);
-    section_ = parameter.name.substr(0, dot);
-    if (!key_name.empty() && key_name.back() == ']') {
-      const std::size_t bracket = key_name.find('[');
-      const std::string digits =
-          bracket == std::string::npos ? "" : key_name.substr(bracket + 1, key_name.size() - bracket - 2);
-      if (digits.empty() || digits.size() > 6 || digits.find_first_not_of("0123456789") != std::string::npos ||
-          std::stoul(digits) == 0)
-        throw InputError(where, "has no place in its list", "section.key[n], n from 1");
-      place_ = std::stoul(digits) - 1;
-      key_name.resize(bracket);
-    }
-    const auto section = options.find(section_);
-    const Key* key = nullptr;
-    if (section != options.end()) {
-      for (const SectionSchema& candidate : law.sections)
-        if (candidate.name == section_) key = candidate.choice(section->second.type).schema.find(key_name);
-    }
-    std::vector<double> values;
-    if (key && key->kind == Key::Kind::number && section->second.options.has(key_name))
-      values = {section->second.options.number(key_name)};
-    if (key && key->kind == Key::Kind::numbers && section->second.options.has(key_name))
-      values = section->second.options.numbers(key_name);
-    if (values.empty()) {
-      std::string known;
-      for (const auto& [name, candidate] : options)
-        for (const Entry& entry : candidate.options.effective())
-          known += fmt::format("{}{}.{}", known.empty() ? "" : ", ", name, entry.key);
-      throw InputError(where, "is no number of this material", known,
-                       "write section.key, or section.key[n] for one of a list");
-    }
-    if (key->kind == Key::Kind::numbers && parameter.name.back() != ']')
-      throw InputError(where, fmt::format("is a list of {}", values.size()),
-                       fmt::format("{}[1] to {}[{}]", parameter.name, parameter.name, values.size()));
-    if (place_ >= values.size())
-      throw InputError(where, fmt::format("is beyond the list of {}", values.size()),
-                       fmt::format("n up to {}", values.size()));
-
-    unit_ = key->unit;
-    start_ = parameter.start.value_or(values[place_]);
-    lower_ = std::max(parameter.lower, key->range.lower);
-    upper_ = std::min(parameter.upper, key->range.upper);
-    if (!(lower_ < upper_))
-      throw InputError(where, fmt::format("has the bounds {} and {}", lower_, upper_),
-                       "lower < upper, within " + key->range.text());
-    const bool inside = key->range.contains(start_) && start_ >= lower_ && start_ <= upper_;
-    if (!inside)
-      throw InputError(where, fmt::format("starts at {}", start_),
-                       fmt::format("a start in [{}, {}], within {}", lower_, upper_, key->range.text()));
-    logarithmic_ = lower_ >= 0.0 && start_ > 0.0;
-    if (!logarithmic_) {
-      scale_ = std::isfinite(upper_ - lower_) ? upper_ - lower_ : std::max(std::abs(start_), 1e-300);
-      if (start_ == 0.0 && !std::isfinite(upper_ - lower_))
-        throw InputError(where, "starts at 0 without bounds, so its size is not known",
-                         "a start other than 0, or lower and upper");
-    }
-    low_ = z_of(lower_);
-    high_ = z_of(upper_);
-    bounded_ = std::isfinite(low_) && std::isfinite(high_);
-    // Written once in full, so that the place exists when the value changes.
-    std::vector<Entry>& entries = sections[section_];
-    entries.erase(std::remove_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.key == key_name; }),
-                  entries.end());
-    Entry entry{key_name, {}};
-    for (const double value : values) entry.values.push_back(fmt::format("{:.17g}", value));
-    entries.push_back(entry);
-    key_ = key_name;
-  }
-
-  double start_t() const {
-    const double z = z_of(start_);
-    if (!bounded_) return z;
-    // A start at a bound would have no slope: it is moved inside by a thousandth of the interval.
-    const double part = std::clamp((z - low_) / (high_ - low_), 1e-3, 1.0 - 1e-3);
-    return std::atanh(2.0 * part - 1.0);
-  }
-  double z_of_t(double t) const {
-    return bounded_ ? low_ + (high_ - low_) * 0.5 * (1.0 + std::tanh(t)) : std::clamp(t, low_, high_);
-  }
-  double z_of(double value) const { return logarithmic_ ? std::log(value) : value / scale_; }
-  double value_of(double z) const { return logarithmic_ ? std::exp(z) : z * scale_; }
-  void put(MaterialSections& sections, double z) const {
-    for (Entry& entry : sections.at(section_))
-      if (entry.key == key_) entry.values.at(place_) = fmt::format("{:.17g}", value_of(z));
-  }
-  /// A difference step from z that stays inside the bounds.
-  std::pair<double, double> around(double z, double step) const {
-    return {std::max(z - step, low_), std::min(z + step, high_)};
-  }
-  bool at_bound(double z) const { return bounded_ && std::min(z - low_, high_ - z) < 2e-3 * (high_ - low_); }
-  bool at_lower(double z) const { return z - low_ < high_ - z; }
-
-  const std::string& unit() const { return unit_; }
-  double start() const { return start_; }
-  double lower() const { return lower_; }
-  double upper() const { return upper_; }
-  double scale() const { return scale_; }
-  bool logarithmic() const { return logarithmic_; }
-
- private:
-  std::string section_, key_, unit_;
-  std::size_t place_ = 0;
-  double start_ = 0.0, lower_ = 0.0, upper_ = 0.0, scale_ = 1.0, low_ = 0.0, high_ = 0.0;
-  bool logarithmic_ = false, bounded_ = false;
-};
 
 /// Residuals of all curves as a function of the parameters.
 class Residuals {
@@ -165,7 +55,7 @@ class Residuals {
                        "at least as many data as parameters");
   }
 
-  const std::vector<Variable>& variables() const { return variables_; }
+  const std::vector<FitVariable>& variables() const { return variables_; }
   Eigen::Index parameters() const { return static_cast<Eigen::Index>(variables_.size()); }
   Eigen::Index data() const { return static_cast<Eigen::Index>(count_); }
   int evaluations() const { return evaluations_; }
@@ -243,7 +133,7 @@ class Residuals {
  private:
   const FitProblem& problem_;
   MaterialSections sections_;
-  std::vector<Variable> variables_;
+  std::vector<FitVariable> variables_;
   std::size_t count_ = 0;
   mutable int evaluations_ = 0;
 };
@@ -261,7 +151,7 @@ struct Functor : Eigen::DenseFunctor<double> {
   int df(const VectorX& t, Eigen::MatrixXd& jacobian) const {
     if (!residuals.slope(residuals.z_of_t(t), jacobian)) return -1;
     for (Eigen::Index j = 0; j < t.size(); ++j) {
-      const Variable& variable = residuals.variables()[std::size_t(j)];
+      const FitVariable& variable = residuals.variables()[std::size_t(j)];
       jacobian.col(j) *= (variable.z_of_t(t[j] + 1e-5) - variable.z_of_t(t[j] - 1e-5)) / 2e-5;
     }
     return 0;
@@ -311,7 +201,7 @@ void judge(const FitProblem& problem, const Residuals& residuals, const VectorX&
         result.correlation(i, j) = covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
 
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Variable& variable = residuals.variables()[std::size_t(i)];
+    const FitVariable& variable = residuals.variables()[std::size_t(i)];
     FittedParameter p;
     p.name = problem.parameters[std::size_t(i)].name;
     p.unit = variable.unit();
@@ -331,10 +221,10 @@ void judge(const FitProblem& problem, const Residuals& residuals, const VectorX&
       p.remark = "as many data as parameters: no scatter to judge by, unless the deviation of the data is given";
       p.scaled_deviation = p.deviation = std::numeric_limits<double>::quiet_NaN();
     }
-    if (variable.at_bound(z[i])) {
+    const std::string bound = variable.bound_met(z[i]);
+    if (!bound.empty()) {
       p.determined = false;
-      p.remark = fmt::format("stands at its {} bound {}", variable.at_lower(z[i]) ? "lower" : "upper",
-                             variable.at_lower(z[i]) ? variable.lower() : variable.upper());
+      p.remark = bound;
     }
     result.parameters.push_back(p);
   }
