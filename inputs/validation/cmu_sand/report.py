@@ -10,7 +10,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 RADIUS = 58.0   # mm
-SURFACES = np.arange(0.0, 6.1, 0.25)  # mm, heights of the effective surface that are tried
+SURFACES = np.arange(0.0, 0.601, 0.025)  # of the grain diameter: from the level of the mass to the top of the highest grains
 
 
 def finished(folder):
@@ -40,11 +40,11 @@ def rms(values):
     return float(np.sqrt(np.mean(np.square(values))))
 
 
-def fit_plates(curves):
+def fit_plates(curves, diameter):
     """Effective surface [mm] of the smallest rms of ln(force), that rms, and the rms with the level of the mass as surface."""
     def error(surface):
         return rms(sum((log_errors(curve, size, surface) for size, curve in curves.items()), []))
-    surface = min(SURFACES, key=error)
+    surface = min(diameter * SURFACES, key=error)
     return float(surface), error(surface), error(0.0)
 
 
@@ -57,17 +57,25 @@ def homogeneous_floor():
 
 
 def calibration_table(results):
+    """One row a candidate, then the chosen one with one thing changed; plates that were not run are left out and show as empty."""
     rows = []
-    for name, (friction, rolling, pour, density) in study.CANDIDATES.items():
+    for name in [*study.CANDIDATES, *(study.CHOSEN + what for what in study.PLATE_CHECKS)]:
         folders = {size: results / f"plate_{name}_{size}" for size in study.PLATES}
-        if not all(finished(f) for f in folders.values()):
+        folders = {size: folder for size, folder in folders.items() if finished(folder)}
+        if not folders:
             continue
-        surface, best, plain = fit_plates({size: plate_curve(f) for size, f in folders.items()})
-        facts = finished(folders[study.PLATES[0]])["facts"]
-        row = dict(candidate=name, friction=friction, rolling=rolling, pour_friction=pour, solid_fraction=round(facts["solid_fraction"], 4),
-                   bulk_density_kgm3=round(facts["bulk_density"], 1), surface_mm=surface, rms_ln_force=round(best, 3), rms_ln_force_surface_0=round(plain, 3))
-        for size, folder in folders.items():
-            row[f"rms_{size}"] = round(rms(log_errors(plate_curve(folder), size, surface)), 3)
+        runs = {size: finished(folder) for size, folder in folders.items()}
+        curves = {size: plate_curve(folder) for size, folder in folders.items()}
+        run = next(iter(runs.values()))
+        surface, best, plain = fit_plates(curves, 1000 * run["job"]["variables"]["diameter"])
+        values, facts = run["job"]["variables"], run["facts"]
+        row = dict(candidate=name, grain_mm=1000 * values["diameter"], friction=values["friction"], rolling=values["rolling"],
+                   pour_friction=values["pour_friction"], speed=values["speed"], solid_fraction=round(facts["solid_fraction"], 4),
+                   bulk_density_kgm3=round(facts["bulk_density"], 1), surface_mm=round(surface, 3), surface_over_grain=round(surface / 1000 / values["diameter"], 2),
+                   rms_ln_force=round(best, 3), rms_ln_force_surface_0=round(plain, 3))
+        for size in study.PLATES:
+            row[f"rms_{size}"] = round(rms(log_errors(curves[size], size, surface)), 3) if size in curves else ""
+        row["cpu_s"] = round(sum(r["cost"]["cpu_s"] for r in runs.values()), 1)
         rows.append(row)
     return rows
 

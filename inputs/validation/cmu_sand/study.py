@@ -89,6 +89,8 @@ def point(kind, slip):
 CHECKS = {
     "grain_8": ("smooth", 0.231, dict(diameter=0.008), "grains of 8 mm"),
     "grain_12.5": ("smooth", 0.231, dict(diameter=0.0125), "grains of 12.5 mm"),
+    "grain_8_slip_0": ("smooth", 0.0, dict(diameter=0.008), "grains of 8 mm"),
+    "grain_12.5_slip_0": ("smooth", 0.0, dict(diameter=0.0125), "grains of 12.5 mm"),
     "bed_wide": ("smooth", 0.231, dict(diameter=0.0125, width=0.24, depth=0.10), "grains of 12.5 mm, bed 0.24 m wide, 0.10 m deep"),
     "fast": ("smooth", 0.231, dict(diameter=0.0125, fastest=0.4), "grains of 12.5 mm, twice the speed"),
     "slow": ("smooth", 0.231, dict(diameter=0.0125, fastest=0.1), "grains of 12.5 mm, half the speed"),
@@ -97,10 +99,18 @@ CHECKS = {
 }
 
 
+PLATE_CHECKS = {
+    "12.5": dict(diameter=0.0125),
+    "8": dict(diameter=0.008),
+    "seed": dict(seed=67867967),
+    "fast": dict(speed=0.1),
+}
+
+
 def check_points():
-    """The base point first, then every change of it."""
-    base = point("smooth", 0.231)
-    checks = {wheel_name("smooth", base): ("smooth", base, "base: grains of 10 mm, bed 0.46 x 0.16 x 0.07 m, 0.2 m/s, friction of wheel and sand 0.7")}
+    """The two base points first, then every change of them."""
+    base = "base: grains of 10 mm, bed 0.46 x 0.16 x 0.07 m, 0.2 m/s, friction of wheel and sand 0.7"
+    checks = {wheel_name("smooth", p): ("smooth", p, base) for p in (point("smooth", 0.0), point("smooth", 0.231))}
     return {**checks, **{f"check_{name}": (kind, point(kind, slip), what) for name, (kind, slip, _, what) in CHECKS.items()}}
 
 
@@ -111,7 +121,6 @@ def jobs(stage):
     if stage == "wheel":
         by_worth = {kind: sorted(wheel_points(kind), key=lambda p: ORDER.index(round(p["slip"], 1))) for kind in ("smooth", "grouser")}
         return {wheel_name(kind, p): wheel_job(kind, p) for kind, points in by_worth.items() for p in points}
-    plates = {f"plate_{CHOSEN}{what}_{size}": plate_job(size, CHOSEN, **changes)
-              for what, changes in (("8", dict(diameter=0.008)), ("12.5", dict(diameter=0.0125)), ("seed", dict(seed=67867967)), ("fast", dict(speed=0.1))) for size in PLATES}
+    plates = {f"plate_{CHOSEN}{what}_{size}": plate_job(size, CHOSEN, **changes) for what, changes in PLATE_CHECKS.items() for size in PLATES}
     wheels = {f"check_{name}": wheel_job(kind, point(kind, slip), **changes) for name, (kind, slip, changes, _) in CHECKS.items()}
     return {**wheels, **plates}
