@@ -19,6 +19,7 @@
 #include "domain.h"
 #include "input.h"
 #include "io/version.h"
+#include "update.h"
 #include "variable.h"
 
 namespace furrow::coupling {
@@ -124,7 +125,8 @@ std::map<std::string, double> CommandBed::measure(double depth) {
           {"bed_solid_fraction", sums[1] / (area * (high - low))},
           {"bed_bulk_density", bulk},
           {"bed_level", bottom + sums[0] / (area * bulk)},  // top of a uniform bed of this density and the same mass
-          {"bed_kinetic_energy", sums[3]}};
+          {"bed_kinetic_energy", sums[3]},
+          {"bed_settle_steps", static_cast<double>(update->ntimestep)}};
 }
 
 void CommandBed::command(int narg, char** arg) {
