@@ -7,8 +7,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+from .results import ResultsError
 from .style import MILLIMETRE, save, use_style
-from .summary import Summary
+from .summary import Summary, with_error
 
 PHASES = ("settle", "accelerate", "cruise")
 # title of the panel, unit, scale, channels with their legend, quantity of the summary
@@ -41,14 +42,32 @@ def _mark_steady(axes, summary, name, scale):
     mean, error = scale * value["mean"], scale * value["standard_error"]
     axes.fill_between(window, mean - error, mean + error, color="C3", alpha=0.25, lw=0, zorder=3)
     axes.plot(window, (mean, mean), color="C3", lw=1.6, ls="-" if value["steady"] else "--", zorder=4,
-              label=f"mean {mean:.3g} ± {error:.2g}" + ("" if value["steady"] else " (not steady)"))
+              label=f"mean {with_error(mean, error)}" + ("" if value["steady"] else " (not steady)"))
+
+
+def _look_at_cruise(axes, scale, columns, phase):
+    """Limits the axis where a short swing before the cruise (slip at the first motion) would flatten all the rest."""
+    cruise = np.concatenate([column[phase == 2] for column in columns]) * scale
+    if len(cruise) == 0:
+        return
+    low, high = min(cruise.min(), 0.0), max(cruise.max(), 0.0)
+    room = 1.5 * (high - low)
+    bottom, top = axes.get_ylim()
+    if room > 0 and (bottom < low - room or top > high + room):
+        axes.set_ylim(max(bottom, low - 0.4 * room), min(top, high + 0.4 * room))
+        axes.text(0.005, 0.03, "swings before the cruise go beyond this axis", transform=axes.transAxes, fontsize=7, color="0.4")
 
 
 def draw(results, target):
     """Draws the histories of a run to target."""
     use_style()
     summary = Summary(results.folder)
+    missing = [name for panel in PANELS for name, _ in panel[3] if name not in results.columns]
+    if "time" not in results.columns or missing:
+        raise ResultsError(f"{results.file}: has no channel {', '.join(missing) or 'time'}; plot needs the history of a wheel on a rig")
     time = results.columns["time"]
+    if len(time) == 0:
+        raise ResultsError(f"{results.file}: the history has no rows yet")
     phase = results.columns.get("phase", np.full(len(time), 2.0))
     figure, panels = plt.subplots(len(PANELS), 1, figsize=(10, 12), sharex=True, layout="constrained")
     for axes, (title, unit, scale, channels, quantity) in zip(panels, PANELS):
@@ -57,6 +76,7 @@ def draw(results, target):
             axes.plot(time, scale * results.columns[channel], lw=0.8, alpha=0.85, label=legend)
         _mark_steady(axes, summary, quantity, scale)
         axes.set_ylabel(f"{title} [{unit}]")
+        _look_at_cruise(axes, scale, [results.columns[channel] for channel, _ in channels], phase)
         axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
         axes.margins(x=0)
     panels[-1].set_xlabel("time [s]")

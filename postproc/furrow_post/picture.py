@@ -8,13 +8,13 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import EllipseCollection, LineCollection
-from matplotlib.colors import Normalize, TwoSlopeNorm
+from matplotlib.colors import LinearSegmentedColormap, Normalize, TwoSlopeNorm
 
 from . import render
 from .style import CENTIMETRE, MILLIMETRE, annotate_panel, save, use_style
 
 WHEEL = "#39424e"
-COLOURS = plt.get_cmap("viridis")
+COLOURS = LinearSegmentedColormap.from_list("sand", ["#e6d8b4", "#f0b55e", "#dd6a3c", "#a3264f", "#46125c"])  # at rest: sand
 
 
 class Scene:
@@ -108,12 +108,22 @@ def _lowest_around(image, reach):
     return image
 
 
+def _median_around(image):
+    """Median of the 3 x 3 cells about each cell that have a value: fills the pits between single grains; NaN where none has."""
+    padded = np.pad(image, 1, constant_values=np.nan)
+    rows, columns = image.shape
+    around = np.sort([padded[i:i + rows, j:j + columns] for i in range(3) for j in range(3)], axis=0)  # NaN last
+    count = np.isfinite(around).sum(axis=0)
+    low, high = np.maximum(count - 1, 0) // 2, count // 2
+    pick = lambda place: np.take_along_axis(around, np.minimum(place, 8)[None], 0)[0]
+    return 0.5 * (pick(low) + pick(high))
+
+
 def _oblique(axes, scene, pixels):
     """The whole bed from behind and beside the wheel."""
-    view = render.View.of_angles(-128.0, 33.0)
+    view = render.View.of_angles(-112.0, 30.0)
     shown = scene.visible_from(view)
-    span = scene.high - scene.low
-    width = np.abs(view.right) @ span
+    width = np.abs(view.right) @ (scene.high - scene.low)
     picture, extent = render.shaded_picture(scene.x[shown], scene.radius[shown], scene.colours(scene.moved[shown])[:, :3],
                                             scene.surface, view, width / pixels)
     axes.imshow(picture, extent=[CENTIMETRE * e for e in extent], interpolation="antialiased")
@@ -130,8 +140,9 @@ def _scale_bar(axes, scene, view):
     axes.annotate("", ends[1], ends[0], arrowprops={"arrowstyle": "-|>", "color": "0.2", "lw": 1.4}, annotation_clip=False)
     middle = ends.mean(axis=0)
     angle = np.degrees(np.arctan2(*(ends[1] - ends[0])[::-1]))
-    axes.text(*middle, f"{CENTIMETRE * length:g} cm along travel", rotation=angle, rotation_mode="anchor", ha="center", va="top",
-              color="0.2", fontsize=8)
+    away = (6 * np.sin(np.radians(angle)), -6 * np.cos(np.radians(angle)))  # points, below the arrow
+    axes.annotate(f"{CENTIMETRE * length:g} cm along travel", middle, away, textcoords="offset points", rotation=angle,
+                  rotation_mode="anchor", ha="center", va="top", color="0.2", fontsize=8, annotation_clip=False)
     axes.update_datalim(ends)
 
 
@@ -151,7 +162,7 @@ def _section(axes, scene, axis, position, thickness=2.0):
                                            capstyle="round", zorder=4))
     axes.set_xlim(CENTIMETRE * scene.low[along], CENTIMETRE * scene.high[along])
     top = max(scene.x[inside, 2].max() + scene.diameter, scene.bed_level + 2 * scene.diameter) if len(inside) else scene.high[2]
-    if scene.surface is not None:
+    if scene.surface is not None and scene.wheel_low[axis] < position < scene.wheel_high[axis]:
         top = max(top, min(scene.wheel_high[2], scene.bed_level + 0.45 * (scene.wheel_high[2] - scene.wheel_low[2])))
     axes.set_ylim(CENTIMETRE * scene.low[2], CENTIMETRE * top)
     axes.set_aspect("equal")
@@ -178,8 +189,8 @@ def _cut(surface, axis, position):
 
 def _height_map(figure, axes, scene, cross):
     """Height of the ground over the bed level, from above."""
-    values = MILLIMETRE * scene.heights
-    low, high = np.nanpercentile(values, [0.2, 99.8])
+    values = MILLIMETRE * _median_around(scene.heights)
+    low, high = np.nanpercentile(values, [0.5, 99.5])
     # the eye reads depth and heap on one scale when both sides have the same unit length
     limit = max(-low, high, MILLIMETRE * scene.diameter)
     norm = TwoSlopeNorm(0.0, -limit, limit)
@@ -210,29 +221,43 @@ def draw(results, numbers, target, pixels=1500):
     cross = scene.cross_section
     length, breadth = (scene.high - scene.low)[:2]
 
-    figure = plt.figure(figsize=(12, 12), layout="constrained")
-    grid = figure.add_gridspec(3, 2, height_ratios=[5.2, 2.6, 3.4], width_ratios=[1, 1.5])
+    # Heights of the panels from the shape of the bed, so that little paper stays empty.
+    wide = 11.0
+    figure = plt.figure(layout="constrained")
+    grid = figure.add_gridspec(3, 2, height_ratios=[1, 1, 1], width_ratios=[1, 1.6])
     oblique, lengthwise = figure.add_subplot(grid[0, :]), figure.add_subplot(grid[1, :])
     across, above = figure.add_subplot(grid[2, 0]), figure.add_subplot(grid[2, 1])
 
     _oblique(oblique, scene, pixels)
     bar = figure.colorbar(ScalarMappable(Normalize(0, MILLIMETRE * scene.range.vmax), COLOURS), ax=oblique, extend="max",
-                          fraction=0.03, pad=0.01, shrink=0.75)
+                          fraction=0.03, pad=0.01, shrink=0.8)
     bar.set_label("displacement of grains [mm]")
     _section(lengthwise, scene, 1, scene.middle)
     _section(across, scene, 0, cross)
     _height_map(figure, above, scene, cross)
+    tall = [min(height, 9.0) for height in (
+        0.9 * wide * _aspect(oblique) + 0.3, 0.95 * wide * _aspect(lengthwise) + 0.7,
+        max(0.34 * wide * _aspect(across), 0.48 * wide * _aspect(above)) + 0.7)]  # inches
+    head = 0.95  # inches for the title
+    height = head + sum(tall)
+    figure.set_size_inches(wide, height)
+    grid.set_height_ratios(tall)
 
     annotate_panel(oblique, "a", "from behind")
-    annotate_panel(lengthwise, "b", f"lengthwise, y = {CENTIMETRE * scene.middle:.1f} cm; dashed: bed level before")
+    annotate_panel(lengthwise, "b", f"lengthwise, y = {CENTIMETRE * scene.middle + 0.0:.1f} cm; dashed: bed level before")
     annotate_panel(across, "c", f"across, x = {CENTIMETRE * cross:.1f} cm")
-    annotate_panel(above, "d", "from above; dotted: sections, dashed: wheel")
+    annotate_panel(above, "d", "from above, pits between grains filled; dotted: sections" + (", dashed: wheel" if scene.surface is not None else ""))
 
-    figure.suptitle(results.title, fontsize=15, fontweight="bold")
-    bed = f"{len(scene.x):,} grains, mean diameter {MILLIMETRE * scene.diameter:.2f} mm, bed {CENTIMETRE * length:.0f} × " \
-          f"{CENTIMETRE * breadth:.0f} cm".replace(",", "\u2009")
-    figure.text(0.5, 0.957, bed, ha="center", va="top", fontsize=10, color="0.3")
-    if numbers:
-        figure.text(0.5, 0.94, numbers, ha="center", va="top", fontsize=10, color="0.1")
-    figure.get_layout_engine().set(rect=(0, 0, 1, 0.93))
+    bed = f"{len(scene.x):,}".replace(",", "\u2009") + f" grains, mean diameter {MILLIMETRE * scene.diameter:.3g} mm, " \
+          f"bed {CENTIMETRE * length:.0f} × {CENTIMETRE * breadth:.0f} cm"
+    lines = ((0.12, results.title, {"fontsize": 15, "fontweight": "bold"}), (0.45, bed, {"color": "0.35"}), (0.67, numbers, {}))
+    for inches, text, look in lines:
+        figure.text(0.5, 1 - inches / height, text, **{"ha": "center", "va": "top", "fontsize": 10, **look})
+    figure.get_layout_engine().set(rect=(0, 0, 1, 1 - head / height))
     save(figure, target)
+
+
+def _aspect(axes):
+    """Height over width of what axes with equal scales show."""
+    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    return abs((top - bottom) / (right - left))

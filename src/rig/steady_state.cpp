@@ -53,11 +53,15 @@ Blocking blocks_of(const std::vector<double>& values, std::size_t length) {
 }
 
 /// Lengthens the blocks until length^3 > 2 n (error/error of single values)^4; the longest, two blocks, when none is long enough.
+/// The error of every length is itself noisy and, for swings, goes up and down: the largest of all lengths so far counts, in the
+/// condition and as the result, so that a chance dip neither ends the search nor passes for certainty.
 Blocking block_average(const std::vector<double>& values) {
   const Blocking single = blocks_of(values, 1);
   Blocking blocking = single;
+  double largest = 0.0;
   for (std::size_t length = 1; values.size() / length >= 2; length = std::max(length + 1, length * 5 / 4)) {
     blocking = blocks_of(values, length);
+    largest = blocking.standard_error = std::max(largest, blocking.standard_error);
     const double growth = single.standard_error > 0.0 ? blocking.standard_error / single.standard_error : 1.0;
     if (std::pow(static_cast<double>(length), 3) > 2.0 * static_cast<double>(values.size()) * std::pow(growth, 4)) break;
   }

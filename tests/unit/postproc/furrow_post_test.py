@@ -1,5 +1,6 @@
 """furrow-post on a results folder made here: figures with something on them, the same numbers as furrow-resistance, clear errors."""
 
+import json
 import os
 import shutil
 import subprocess
@@ -37,6 +38,13 @@ def write_history(path, rows=4000):
         for name, (unit, values) in columns.items():
             group[name] = values
             group[name].attrs["unit"], group[name].attrs["meaning"] = np.bytes_(unit or " "), np.bytes_(name)
+
+
+SUMMARY = {"window": {"start": 0.9, "end": 3.9}, "steady": False, "quantities": {
+    "sinkage": {"mean": 0.02, "standard_error": 1.6e-4, "unit": "m", "steady": False},
+    "resistance_coefficient": {"mean": 0.2, "standard_error": 0.004, "unit": "", "steady": True},
+    "drive_torque": {"mean": 0.0, "standard_error": 0.0, "unit": "N m", "steady": True},
+    "slip": {"mean": None, "standard_error": None, "unit": "", "steady": False}}}
 
 
 class FurrowPost(unittest.TestCase):
@@ -80,6 +88,39 @@ class FurrowPost(unittest.TestCase):
             self.assertGreater(error, 0.0)
             self.assertLess(abs(float(row[name]) - mean), 4 * error, name)
         self.assertEqual(row["steady"], "1")
+
+    def copy(self, name):
+        folder = self.folder / name
+        folder.mkdir()
+        shutil.copy(self.folder / "history.h5", folder)
+        return folder
+
+    def test_plot_marks_the_means_of_the_summary(self):
+        folder = self.copy("summarised")
+        words = ("plot", folder, "--format", "svg")
+        self.assertEqual(self.run_post(*words).returncode, 0)
+        self.assertNotIn("not steady", (folder / "histories.svg").read_text())
+        (folder / "summary.json").write_text(json.dumps(SUMMARY))
+        done = self.run_post(*words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        drawn = (folder / "histories.svg").read_text()
+        self.assertIn("sinkage 20.00 ± 0.16 mm, resistance coefficient 0.200 ± 0.004, not all steady, see summary.txt", drawn)
+        self.assertIn("mean 20.00 ± 0.16 (not steady)", drawn)
+
+    def test_faulty_parts(self):
+        folder = self.copy("faulty")
+        with h5py.File(folder / "history.h5", "a") as content:
+            del content["history/slip"]
+            del content["surface"]
+        done = self.run_post("plot", folder)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("has no channel slip; plot needs the history of a wheel on a rig", done.stderr)
+        self.assertEqual(self.run_post("picture", folder).returncode, 0)  # without a wheel
+        self.check_picture(folder / "rut.png", 200)
+        (folder / "summary.json").write_text("{")
+        done = self.run_post("picture", folder)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("summary.json: cannot be read", done.stderr)
 
     def test_errors(self):
         missing = self.run_post("plot", self.folder / "nowhere")
