@@ -49,7 +49,8 @@ std::string read_file(const fs::path& path) {
 std::string section(const std::string& text, const std::string& name) {
   const std::size_t begin = text.find("#: " + name + "\n");
   if (begin == std::string::npos)
-    throw InputError("command bed", fmt::format("finds no line '#: {}' in the script", name), "sections '#: box', '#: contact', '#: settle'");
+    throw InputError("command bed", fmt::format("finds no line '#: {}' in the script", name),
+                     "sections '#: box', '#: contact', '#: settle'");
   return text.substr(begin, text.find("\n#: ", begin) - begin);
 }
 
@@ -119,7 +120,8 @@ std::map<std::string, double> CommandBed::measure(double depth) {
   ranks.sum(sums, 4);
   for (double& extreme : extremes) extreme = &extreme < extremes + 2 ? -ranks.max(-extreme) : ranks.max(extreme);
   double side[2];
-  for (int k = 0; k < 2; ++k) side[k] = (k == 0 ? domain->xperiodic : domain->yperiodic) ? domain->prd[k] : extremes[2 + k] - extremes[k];
+  for (int k = 0; k < 2; ++k)
+    side[k] = (k == 0 ? domain->xperiodic : domain->yperiodic) ? domain->prd[k] : extremes[2 + k] - extremes[k];
   const double area = side[0] * side[1], bulk = sums[2] / (area * (high - low));
   return {{"bed_grains", static_cast<double>(atom->natoms)},
           {"bed_solid_fraction", sums[1] / (area * (high - low))},
@@ -133,11 +135,11 @@ void CommandBed::command(int narg, char** arg) {
   // The words live in the buffer of the line being parsed, which other commands overwrite.
   const std::vector<std::string> words(arg, arg + narg);
   if (words.size() < 1 || words.size() % 2 == 0)
-    throw InputError("command bed", fmt::format("has {} words", words.size()), "bed <script> <name> <value> <name> <value> ...",
-                     "every parameter of the bed needs a value");
+    throw InputError("command bed", fmt::format("has {} words", words.size()),
+                     "bed <script> <name> <value> <name> <value> ...", "every parameter of the bed needs a value");
   if (domain->box_exist)
-    throw InputError("command bed", "comes after the simulation box was made", "bed before create_box, read_restart or read_data",
-                     "move the line up: the bed brings its own box");
+    throw InputError("command bed", "comes after the simulation box was made",
+                     "bed before create_box, read_restart or read_data", "move the line up: the bed brings its own box");
 
   const fs::path main_script = broadcast(comm->me == 0 ? script_name(*lmp) : "", world);
   const fs::path script = main_script.parent_path() / words[0];

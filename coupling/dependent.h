@@ -23,8 +23,8 @@ inline void refuse_if_needed(LAMMPS_NS::Modify& modify, LAMMPS_NS::Fix& fix) {
   for (int i = 0; i < modify.nfix; ++i) {
     const auto* dependent = dynamic_cast<const Dependent*>(modify.fix[i]);
     if (dependent && dependent->needs(fix))
-      throw StateError(fmt::format("fix {}: cannot be removed or replaced while fix {} uses it; write 'unfix {}' before", fix.id,
-                                   modify.fix[i]->id, modify.fix[i]->id));
+      throw StateError(fmt::format("fix {}: cannot be removed or replaced while fix {} uses it; write 'unfix {}' before",
+                                   fix.id, modify.fix[i]->id, modify.fix[i]->id));
   }
 }
 

@@ -28,8 +28,9 @@ BodyMesh::BodyMesh(LAMMPS_NS::LAMMPS* lammps, const char* id, const Surface& sur
     addElement(pointers, -1);
   }
   if (static_cast<std::size_t>(sizeLocal()) != surface.triangle_count())
-    throw StateError(fmt::format("mesh '{}': LIGGGHTS took {} of {} triangles; the surface has degenerate or double triangles", id,
-                                 sizeLocal(), surface.triangle_count()));
+    throw StateError(
+        fmt::format("mesh '{}': LIGGGHTS took {} of {} triangles; the surface has degenerate or double triangles", id,
+                    sizeLocal(), surface.triangle_count()));
   velocity_ = prop().addElementProperty<LAMMPS_NS::MultiVectorContainer<double, 3, 3>>("v", "comm_exchange_borders",
                                                                                        "frame_invariant", "restart_no");
   velocity_->setAll(0.0);
@@ -51,7 +52,8 @@ void BodyMesh::follow_surface() {
 void BodyMesh::follow(int i) {
   const Vector3i& triangle = surface_.triangles[static_cast<std::size_t>(id(i))];
   double* centre = center_(i);
-  const Vector3 body_centre = (surface_.x.col(triangle[0]) + surface_.x.col(triangle[1]) + surface_.x.col(triangle[2])) / 3.0;
+  const Vector3 body_centre =
+      (surface_.x.col(triangle[0]) + surface_.x.col(triangle[1]) + surface_.x.col(triangle[2])) / 3.0;
 
   Vector3 shift = Vector3::Zero();
   const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
@@ -143,7 +145,8 @@ FixMeshBody::Arguments::Arguments(LAMMPS_NS::LAMMPS& lammps, int narg, char** ar
                      fmt::format("1 to {}, the types of create_box", lammps.atom->ntypes));
 }
 
-FixMeshBody::FixMeshBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : FixMeshBody(lammps, Arguments(*lammps, narg, arg)) {}
+FixMeshBody::FixMeshBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+    : FixMeshBody(lammps, Arguments(*lammps, narg, arg)) {}
 
 FixMeshBody::FixMeshBody(LAMMPS_NS::LAMMPS* lammps, Arguments arguments)
     : FixMeshSurface(lammps, static_cast<int>(arguments.pointers.size()), arguments.pointers.data()),
@@ -166,9 +169,11 @@ void FixMeshBody::check_inside_box() const {
   const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
   for (int k = 0; k < 3; ++k)
     if (!periodic[k] && (lower[k] < domain->boxlo[k] || upper[k] > domain->boxhi[k]))
-      throw StateError(fmt::format("mesh '{}' leaves the simulation box in {} at step {}: it spans {:.6g} to {:.6g} m, the box {:.6g} "
-                                   "to {:.6g} m; make the region of create_box larger or the travel shorter",
-                                   id, "xyz"[k], update->ntimestep, lower[k], upper[k], domain->boxlo[k], domain->boxhi[k]));
+      throw StateError(
+          fmt::format("mesh '{}' leaves the simulation box in {} at step {}: it spans {:.6g} to {:.6g} m, the box {:.6g} "
+                      "to {:.6g} m; make the region of create_box larger or the travel shorter",
+                      id, std::string("xyz").at(static_cast<std::size_t>(k)), update->ntimestep, lower[k], upper[k],
+                      domain->boxlo[k], domain->boxhi[k]));
 }
 
 void FixMeshBody::setup_pre_force(int vflag) {

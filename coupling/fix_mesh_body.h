@@ -30,7 +30,8 @@ class BodyMesh : public LAMMPS_NS::TriMesh {
   const Surface& body_surface() const { return surface_; }
   /// Nodes of a triangle by the numbers that tell whether two triangles meet: equal across a seam or a periodic boundary.
   Vector3i welded(const Vector3i& nodes) const {
-    return {weld_[static_cast<std::size_t>(nodes[0])], weld_[static_cast<std::size_t>(nodes[1])], weld_[static_cast<std::size_t>(nodes[2])]};
+    return {weld_[static_cast<std::size_t>(nodes[0])], weld_[static_cast<std::size_t>(nodes[1])],
+            weld_[static_cast<std::size_t>(nodes[2])]};
   }
   /// Periodic image of a local triangle: its nodes are the surface's nodes plus this.
   const Vector3& image_shift(int local_triangle) const { return image_shift_[static_cast<std::size_t>(local_triangle)]; }

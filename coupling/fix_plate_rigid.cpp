@@ -42,9 +42,12 @@ void FixPlateRigid::apply(double time, double dt) { plate().prescribe(-speed_ * 
 
 double FixPlateRigid::compute_vector(int n) {
   switch (n) {
-    case 0: return ground_level_ - plate().centre().z();
-    case 1: return plate().surface().total_force().z();
-    default: return plate().mean_pressure();
+    case 0:
+      return ground_level_ - plate().centre().z();
+    case 1:
+      return plate().surface().total_force().z();
+    default:
+      return plate().mean_pressure();
   }
 }
 

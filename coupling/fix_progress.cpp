@@ -47,11 +47,12 @@ void FixProgress::end_of_step() {
 
 void FixProgress::print(Clock::time_point now) const {
   const double elapsed = std::chrono::duration<double>(now - started_).count();
-  const double done = static_cast<double>(update->ntimestep - update->firststep), all = static_cast<double>(update->laststep - update->firststep);
+  const double done = static_cast<double>(update->ntimestep - update->firststep),
+               all = static_cast<double>(update->laststep - update->firststep);
   const double left = done > 0.0 ? elapsed * (all - done) / done : 0.0;
-  const std::string line =
-      fmt::format("[{}] {:5.1f} %  elapsed {}  left {}  {:.1f} M grain steps/s\n", options_.word("label"), 100.0 * done / all,
-                  clock_text(elapsed), clock_text(left), elapsed > 0.0 ? 1e-6 * done * static_cast<double>(atom->natoms) / elapsed : 0.0);
+  const std::string line = fmt::format("[{}] {:5.1f} %  elapsed {}  left {}  {:.1f} M grain steps/s\n",
+                                       options_.word("label"), 100.0 * done / all, clock_text(elapsed), clock_text(left),
+                                       elapsed > 0.0 ? 1e-6 * done * static_cast<double>(atom->natoms) / elapsed : 0.0);
   if (screen) {
     std::fputs(line.c_str(), screen);
     std::fflush(screen);

@@ -53,9 +53,10 @@ void FixWallGranBody::setup(int vflag) {
 void FixWallGranBody::refuse_deep_start() {
   const double deepest = FixWorld::of(*lmp).communicator().max(deepest_);
   if (deepest > deepest_start)
-    throw StateError(fmt::format("fix wall/gran/body '{}': a body starts inside the bed: a grain overlaps it by {:.3g} of its radius "
-                                 "(limit {:g}); start the body higher, just above the surface of the bed",
-                                 id, deepest, deepest_start));
+    throw StateError(
+        fmt::format("fix wall/gran/body '{}': a body starts inside the bed: a grain overlaps it by {:.3g} of its radius "
+                    "(limit {:g}); start the body higher, just above the surface of the bed",
+                    id, deepest, deepest_start));
 }
 
 void FixWallGranBody::post_force_mesh(int vflag) {
@@ -195,9 +196,10 @@ void FixWallGranBody::apply(FixMeshBody& mesh_fix, int mesh_number, int grain, c
 
   if (!contact_force.allFinite())
     guarded_alone(*error, [&] {
-      throw StateError(fmt::format("fix wall/gran/body '{}': the force between grain {} and triangle {} is not finite at step {}; the "
-                                   "time step is too large or the grains have exploded",
-                                   id, atom->tag[grain], contact.triangle, update->ntimestep));
+      throw StateError(
+          fmt::format("fix wall/gran/body '{}': the force between grain {} and triangle {} is not finite at step {}; the "
+                      "time step is too large or the grains have exploded",
+                      id, atom->tag[grain], contact.triangle, update->ntimestep));
     });
 
   // By the weights of the contact point: the three nodes get the force and, because the point is on the triangle, its moment.

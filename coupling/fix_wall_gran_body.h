@@ -26,10 +26,10 @@ class FixWallGranBody : public LAMMPS_NS::FixWallGran {
   void post_force_stock_meshes(int vflag);
   void post_force_body(FixMeshBody& mesh_fix, int mesh_number);
   void collect_candidates(FixMeshBody& mesh_fix);
-  void apply(FixMeshBody& mesh_fix, int mesh_number, int grain, const ContactCandidate& contact, const Vector3& moment_reference,
-             ContactLedger& ledger);
-  double* history_of(LAMMPS_NS::FixContactHistoryMesh& history, const BodyMesh& mesh, int grain, const ContactCandidate& contact,
-                     bool touching) const;
+  void apply(FixMeshBody& mesh_fix, int mesh_number, int grain, const ContactCandidate& contact,
+             const Vector3& moment_reference, ContactLedger& ledger);
+  double* history_of(LAMMPS_NS::FixContactHistoryMesh& history, const BodyMesh& mesh, int grain,
+                     const ContactCandidate& contact, bool touching) const;
   void refuse_deep_start();
 
   ContactSelection selection_;
@@ -41,8 +41,8 @@ class FixWallGranBody : public LAMMPS_NS::FixWallGran {
   std::vector<int> first_;    // of each local grain; -1: none
   std::vector<int> touched_;  // grains with candidates, in the order found
   std::vector<ContactCandidate> of_grain_;
-  bool starting_ = false;     // in the set-up of the first run: deep contacts are counted, not computed
-  double deepest_ = 0.0;      // largest overlap over radius in the last call
+  bool starting_ = false;  // in the set-up of the first run: deep contacts are counted, not computed
+  double deepest_ = 0.0;   // largest overlap over radius in the last call
 };
 
 }  // namespace furrow::coupling

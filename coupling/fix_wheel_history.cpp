@@ -162,7 +162,8 @@ RunClosing FixWheelHistory::closing() {
                         {"kinetic energy of the wheel", -balance.kinetic_energy},
                         {"loss in the rig's damping", -balance.dissipated_energy}};
   end.audit.energy_residual = balance.residual() - first_energy_;
-  for (const EnergyTerm& term : end.audit.energies) end.audit.energy_scale = std::max(end.audit.energy_scale, std::abs(term.value));
+  for (const EnergyTerm& term : end.audit.energies)
+    end.audit.energy_scale = std::max(end.audit.energy_scale, std::abs(term.value));
   end.audit.force_imbalance = momentum.force_imbalance;
   end.audit.force_scale = momentum.force_scale;
   end.audit.moment_imbalance = momentum.moment_imbalance;
@@ -174,8 +175,9 @@ RunClosing FixWheelHistory::closing() {
   end.cost.ranks = comm->nprocs;
   end.cost.memory = bodies().communicator().sum(peak_memory());
   if (update->ntimestep < update->laststep)
-    end.warnings.push_back(fmt::format("The run was interrupted at step {} of {}; the values are those of the part that was done.",
-                                       update->ntimestep, update->laststep));
+    end.warnings.push_back(
+        fmt::format("The run was interrupted at step {} of {}; the values are those of the part that was done.",
+                    update->ntimestep, update->laststep));
   return end;
 }
 

@@ -17,7 +17,8 @@ namespace {
 FixWheelRigid& find_free_wheel(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   const std::string where = options.where("wheel"), &id = options.word("wheel");
   auto* wheel = dynamic_cast<FixWheelRigid*>(&FixWorld::find_body(lammps, where, id));
-  if (!wheel) throw InputError(where, fmt::format("is '{}', which is a body but no wheel", id), "the id of a fix wheel/rigid");
+  if (!wheel)
+    throw InputError(where, fmt::format("is '{}', which is a body but no wheel", id), "the id of a fix wheel/rigid");
   for (int i = 0; i < lammps.modify->nfix; ++i) {
     auto* other = dynamic_cast<FixWheelRig*>(lammps.modify->fix[i]);
     if (other && &other->wheel_fix() == wheel)

@@ -19,7 +19,8 @@ constexpr double momentum_tolerance = 1e-10;  // of the force scale: round-off o
 
 }  // namespace
 
-FixWorld::FixWorld(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg), communicator_(&world), grain_forces_(*lammps) {
+FixWorld::FixWorld(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+    : Fix(lammps, narg, arg), communicator_(&world), grain_forces_(*lammps) {
   restart_global = 1;
   nevery = 1;
 }
@@ -37,7 +38,8 @@ BodyFix& FixWorld::find_body(LAMMPS_NS::LAMMPS& lammps, const std::string& where
   if (found) return *found;
   std::string known;
   for (int i = 0; i < lammps.modify->nfix; ++i)
-    if (dynamic_cast<BodyFix*>(lammps.modify->fix[i])) known += (known.empty() ? "" : ", ") + std::string(lammps.modify->fix[i]->id);
+    if (dynamic_cast<BodyFix*>(lammps.modify->fix[i]))
+      known += (known.empty() ? "" : ", ") + std::string(lammps.modify->fix[i]->id);
   throw InputError(where, fmt::format("is '{}', and no body has that fix id", fix_id),
                    known.empty() ? "the id of a fix that makes a body" : "one of: " + known,
                    "write the fix that makes the body (such as wheel/rigid) before this line");
@@ -50,10 +52,13 @@ void FixWorld::add(Body& body, const std::string& name) {
 
 void FixWorld::remove(Body& body) {
   world_.remove(body);
-  members_.erase(std::remove_if(members_.begin(), members_.end(), [&](const Member& m) { return m.body == &body; }), members_.end());
+  members_.erase(std::remove_if(members_.begin(), members_.end(), [&](const Member& m) { return m.body == &body; }),
+                 members_.end());
 }
 
-void FixWorld::remove(Driver& driver) { drivers_.erase(std::remove(drivers_.begin(), drivers_.end(), &driver), drivers_.end()); }
+void FixWorld::remove(Driver& driver) {
+  drivers_.erase(std::remove(drivers_.begin(), drivers_.end(), &driver), drivers_.end());
+}
 
 FixWorld::Member& FixWorld::member(const Body& body) {
   return *std::find_if(members_.begin(), members_.end(), [&](const Member& m) { return m.body == &body; });
@@ -65,7 +70,8 @@ double FixWorld::contact_count(const Body& body) { return member(body).contacts;
 
 int FixWorld::setmask() {
   using namespace LAMMPS_NS::FixConst;
-  return PRE_INITIAL_INTEGRATE | INITIAL_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE | END_OF_STEP;  // PRE_FORCE: for setup_pre_force
+  return PRE_INITIAL_INTEGRATE | INITIAL_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE |
+         END_OF_STEP;  // PRE_FORCE: for setup_pre_force
 }
 
 /// Before the first neighbour lists: a position that is no number would crash them.
@@ -154,12 +160,14 @@ void FixWorld::check_momentum(Member& m) const {
   const Surface& surface = m.body->surface();
   const double force_imbalance = (surface.total_force() + m.ledger.grain_force).norm();
   const double moment_imbalance = (surface.total_moment(m.reference) + m.ledger.grain_moment).norm();
-  const double force_defect = force_imbalance / m.ledger.force_scale, moment_defect = moment_imbalance / m.ledger.moment_scale;
+  const double force_defect = force_imbalance / m.ledger.force_scale,
+               moment_defect = moment_imbalance / m.ledger.moment_scale;
   // Written so that NaN fails too.
   if (!(force_defect < momentum_tolerance) || !(moment_defect < momentum_tolerance))
-    throw StateError(fmt::format("body '{}': forces on its nodes and on the grains do not cancel at step {}: relative defect {:.3g} "
-                                 "in force, {:.3g} in moment (limit {:g}); a contact force is not finite or was lost",
-                                 m.name, update->ntimestep, force_defect, moment_defect, momentum_tolerance));
+    throw StateError(
+        fmt::format("body '{}': forces on its nodes and on the grains do not cancel at step {}: relative defect {:.3g} "
+                    "in force, {:.3g} in moment (limit {:g}); a contact force is not finite or was lost",
+                    m.name, update->ntimestep, force_defect, moment_defect, momentum_tolerance));
   m.audit.force_imbalance = std::max(m.audit.force_imbalance, force_imbalance);
   m.audit.force_scale = std::max(m.audit.force_scale, m.ledger.force_scale);
   m.audit.moment_imbalance = std::max(m.audit.moment_imbalance, moment_imbalance);

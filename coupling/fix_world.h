@@ -30,9 +30,10 @@ class Driver {
 struct ContactLedger {
   Vector3 grain_force = Vector3::Zero();   ///< sum of contact forces on grains [N]
   Vector3 grain_moment = Vector3::Zero();  ///< sum of (contact point - reference) x force on grain [N m]
-  Vector3 lever_gap = Vector3::Zero();     ///< moment that LIGGGHTS's shorter torque arm leaves out of the grains' balance [N m]
-  double force_scale = 0.0;                ///< sum of |force| [N]
-  double moment_scale = 0.0;               ///< sum of |contact point - reference| |force| [N m]
+  Vector3 lever_gap =
+      Vector3::Zero();        ///< moment that LIGGGHTS's shorter torque arm leaves out of the grains' balance [N m]
+  double force_scale = 0.0;   ///< sum of |force| [N]
+  double moment_scale = 0.0;  ///< sum of |contact point - reference| |force| [N m]
   double contacts = 0.0;
 };
 
@@ -40,8 +41,8 @@ struct ContactLedger {
 struct MomentumAudit {
   double force_imbalance = 0.0, force_scale = 0.0;    ///< |nodal forces + grain forces|, sum of |contact force| [N]
   double moment_imbalance = 0.0, moment_scale = 0.0;  ///< the same for moments about the middle of the body's nodes [N m]
-  double force = 0.0;      ///< largest ratio of imbalance to scale in one step
-  double moment = 0.0;     ///< the same for moments
+  double force = 0.0;                                 ///< largest ratio of imbalance to scale in one step
+  double moment = 0.0;                                ///< the same for moments
   double lever_gap = 0.0;  ///< |lever gap| / moment scale: not an error of the wall, see fix_wall_gran_body.md
 };
 

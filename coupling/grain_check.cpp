@@ -22,9 +22,10 @@ bool all_finite(const double* values, int count) {
   int i = 0;
   while (all_finite(atom.x[i], 3) && all_finite(atom.v[i], 3)) ++i;
   const double *x = atom.x[i], *v = atom.v[i];
-  throw StateError(fmt::format("grain {} is at {:.6g} {:.6g} {:.6g} m with velocity {:.6g} {:.6g} {:.6g} m/s at step {}; grains overlap "
-                               "at the start, the time step is too large, or a command set a value that is no number",
-                               atom.tag[i], x[0], x[1], x[2], v[0], v[1], v[2], lammps.update->ntimestep));
+  throw StateError(
+      fmt::format("grain {} is at {:.6g} {:.6g} {:.6g} m with velocity {:.6g} {:.6g} {:.6g} m/s at step {}; grains overlap "
+                  "at the start, the time step is too large, or a command set a value that is no number",
+                  atom.tag[i], x[0], x[1], x[2], v[0], v[1], v[2], lammps.update->ntimestep));
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ namespace furrow::coupling {
 namespace {
 
 LAMMPS_NS::FixPropertyGlobal* property_of_types(LAMMPS_NS::LAMMPS& lammps, const char* name) {
-  return static_cast<LAMMPS_NS::FixPropertyGlobal*>(lammps.modify->find_fix_property(
-      name, "property/global", "peratomtype", lammps.atom->ntypes, 0, "furrow", false));
+  return static_cast<LAMMPS_NS::FixPropertyGlobal*>(
+      lammps.modify->find_fix_property(name, "property/global", "peratomtype", lammps.atom->ntypes, 0, "furrow", false));
 }
 
 /// Largest number of two digits that is not above value.
@@ -47,10 +47,11 @@ void check_time_step(LAMMPS_NS::LAMMPS& lammps, const std::string& where) {
 
   const double step = lammps.update->dt, share = step / shortest;
   if (share <= step_warning) return;
-  const std::string finding =
-      fmt::format("{}: timestep {:.4g} s is {:.3g} of the Rayleigh time of the smallest, lightest or stiffest grain, {:.4g} s", where,
-                  step, share, shortest);
-  const std::string remedy = fmt::format("write 'timestep {:.2g}' or less, or lower youngsModulus", rounded_down(0.2 * shortest));
+  const std::string finding = fmt::format(
+      "{}: timestep {:.4g} s is {:.3g} of the Rayleigh time of the smallest, lightest or stiffest grain, {:.4g} s", where,
+      step, share, shortest);
+  const std::string remedy =
+      fmt::format("write 'timestep {:.2g}' or less, or lower youngsModulus", rounded_down(0.2 * shortest));
   if (!(share <= step_limit)) throw StateError(fmt::format("{} (limit {:g}); {}", finding, step_limit, remedy));
   if (lammps.comm->me == 0)
     lammps.error->warning("time_step_check.cpp", __LINE__,

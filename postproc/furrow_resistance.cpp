@@ -16,7 +16,8 @@ namespace {
 
 void print_csv_header() {
   fmt::print("folder,steady,begin_s,end_s,distance_m");
-  for (const char* name : {"sinkage", "force_z", "resistance_coefficient", "drawbar_pull", "drawbar_coefficient", "drive_torque", "slip"})
+  for (const char* name :
+       {"sinkage", "force_z", "resistance_coefficient", "drawbar_pull", "drawbar_coefficient", "drive_torque", "slip"})
     fmt::print(",{0},{0}_error,{0}_steady", name);
   fmt::print("\n");
 }

@@ -11,13 +11,13 @@ namespace furrow {
 
 /// Momentum and energy of a body, for the audit. Works are accumulated from the start of the run.
 struct Balance {
-  Vector3 momentum = Vector3::Zero();      ///< [kg m/s]
-  double kinetic_energy = 0.0;             ///< [J]
-  double stored_energy = 0.0;              ///< [J] elastic
-  double dissipated_energy = 0.0;          ///< [J] inside the body
-  double contact_work = 0.0;               ///< [J] done on the body by its surface forces
-  double load_work = 0.0;                  ///< [J] done on the body by loads and gravity
-  double drive_work = 0.0;                 ///< [J] done on the body by whatever prescribes its motion or torque
+  Vector3 momentum = Vector3::Zero();  ///< [kg m/s]
+  double kinetic_energy = 0.0;         ///< [J]
+  double stored_energy = 0.0;          ///< [J] elastic
+  double dissipated_energy = 0.0;      ///< [J] inside the body
+  double contact_work = 0.0;           ///< [J] done on the body by its surface forces
+  double load_work = 0.0;              ///< [J] done on the body by loads and gravity
+  double drive_work = 0.0;             ///< [J] done on the body by whatever prescribes its motion or torque
 
   /// Zero for an exact integrator, up to the energy the body started with.
   double residual() const {

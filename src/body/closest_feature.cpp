@@ -6,9 +6,7 @@ namespace {
 
 bool contains(const Vector3i& nodes, int node) { return nodes[0] == node || nodes[1] == node || nodes[2] == node; }
 
-bool share_node(const Vector3i& a, const Vector3i& b) {
-  return contains(b, a[0]) || contains(b, a[1]) || contains(b, a[2]);
-}
+bool share_node(const Vector3i& a, const Vector3i& b) { return contains(b, a[0]) || contains(b, a[1]) || contains(b, a[2]); }
 
 /// Every node of the feature on which this candidate's closest point lies belongs to the triangle other.
 bool feature_belongs_to(const ContactCandidate& candidate, const ContactCandidate& other) {

@@ -11,14 +11,12 @@ namespace furrow {
 
 /// The point of a triangle that is closest to a given point.
 struct ClosestPoint {
-  Vector3 barycentric;     ///< sums to one; exactly zero for the nodes that the feature does not contain
-  Vector3 separation;      ///< from the closest point to the given point [m]
-  double distance;         ///< |separation| [m]
+  Vector3 barycentric;  ///< sums to one; exactly zero for the nodes that the feature does not contain
+  Vector3 separation;   ///< from the closest point to the given point [m]
+  double distance;      ///< |separation| [m]
 
   /// Number of nodes that carry the feature: 1 corner, 2 edge, 3 face.
-  int feature_nodes() const {
-    return (barycentric[0] > 0.0) + (barycentric[1] > 0.0) + (barycentric[2] > 0.0);
-  }
+  int feature_nodes() const { return (barycentric[0] > 0.0) + (barycentric[1] > 0.0) + (barycentric[2] > 0.0); }
 };
 
 /// Closest point of the triangle (a, b, c) to p, for triangles of any shape.
@@ -28,9 +26,9 @@ ClosestPoint closest_point_on_triangle(const Vector3& p, const Vector3& a, const
 /// One triangle within reach of a sphere, before it is known whether it is a contact of its own.
 struct ContactCandidate {
   ClosestPoint point;
-  int triangle;    ///< global triangle number
-  Vector3i nodes;  ///< its global nodes
-  int tag;         ///< whatever the caller needs to find the triangle again
+  int triangle;        ///< global triangle number
+  Vector3i nodes;      ///< its global nodes
+  int tag;             ///< whatever the caller needs to find the triangle again
   bool owned = false;  ///< by a closer triangle; set by the selection
 };
 

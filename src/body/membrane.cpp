@@ -86,7 +86,8 @@ void Membrane::advance(double dt) {
   const double decay = std::exp(-material_.damping_rate * dt);
   for (Eigen::Index n = 0; n < surface_.x.cols(); ++n) {
     if (mobility_[n] == 0.0) continue;
-    const Vector3 kicked = surface_.v.col(n) + dt * mobility_[n] * (internal_.col(n) + pressure_force_.col(n) + surface_.f.col(n));
+    const Vector3 kicked =
+        surface_.v.col(n) + dt * mobility_[n] * (internal_.col(n) + pressure_force_.col(n) + surface_.f.col(n));
     const Vector3 v = decay * kicked;
     damped_ += 0.5 * mass_[n] * (kicked.squaredNorm() - v.squaredNorm());
     const Vector3 mean = 0.5 * (surface_.v.col(n) + kicked);  // makes the kinetic energy balance of the kick exact

@@ -45,8 +45,8 @@ class Membrane : public Body {
   Surface surface_;
   MembraneMaterial material_;
   std::vector<Element> elements_;
-  VectorX mass_;      // [kg] lumped
-  VectorX mobility_;  // 1/mass, or zero for a fixed node
+  VectorX mass_;                        // [kg] lumped
+  VectorX mobility_;                    // 1/mass, or zero for a fixed node
   Matrix3X internal_, pressure_force_;  // [N] at the start of the step
   double pressure_ = 0.0;
   double shortest_altitude_ = 0.0;

@@ -48,7 +48,8 @@ Face square(double side, int elements) {
   Face face;
   const auto node = [&](int i, int j) { return j * (elements + 1) + i; };
   for (int j = 0; j <= elements; ++j)
-    for (int i = 0; i <= elements; ++i) face.points.emplace_back(side * (double(i) / elements - 0.5), side * (double(j) / elements - 0.5));
+    for (int i = 0; i <= elements; ++i)
+      face.points.emplace_back(side * (double(i) / elements - 0.5), side * (double(j) / elements - 0.5));
   for (int j = 0; j < elements; ++j)
     for (int i = 0; i < elements; ++i) {
       face.triangles.emplace_back(node(i, j), node(i + 1, j), node(i + 1, j + 1));
@@ -106,10 +107,11 @@ Surface make_plate_mesh(const PlateGeometry& plate, const std::string& where) {
     surface.triangles.emplace_back(a, count + b, count + a);
   }
   if (surface.minimum_angle() < minimum_plate_angle)
-    throw InputError(fmt::format("{}, keyword 'elements'", where),
-                     fmt::format("is {}, which makes slivers at the edge of a plate {} m thick", plate.elements, plate.thickness),
-                     fmt::format("no corner sharper than {:.0f} degrees", degrees(minimum_plate_angle)),
-                     "choose elements about as long as the plate is thick");
+    throw InputError(
+        fmt::format("{}, keyword 'elements'", where),
+        fmt::format("is {}, which makes slivers at the edge of a plate {} m thick", plate.elements, plate.thickness),
+        fmt::format("no corner sharper than {:.0f} degrees", degrees(minimum_plate_angle)),
+        "choose elements about as long as the plate is thick");
   return surface;
 }
 
@@ -123,7 +125,8 @@ Schema RigidPlate::schema(const std::string& subject) {
   return schema;
 }
 
-RigidPlate::RigidPlate(const Options& options) : RigidPlate(geometry_from(options), centre_from(options), options.subject()) {}
+RigidPlate::RigidPlate(const Options& options)
+    : RigidPlate(geometry_from(options), centre_from(options), options.subject()) {}
 
 RigidPlate::RigidPlate(const PlateGeometry& geometry, const Vector3& centre, const std::string& where)
     : geometry_(geometry), surface_(make_plate_mesh(geometry, where)), centre_(centre) {
@@ -161,8 +164,15 @@ Balance RigidPlate::balance() const {
 }
 
 std::vector<double> RigidPlate::state() const {
-  std::vector<double> state = {static_cast<double>(geometry_.shape), geometry_.size, geometry_.thickness,
-                               static_cast<double>(geometry_.elements), centre_.x(), centre_.y(), centre_.z(), velocity_, contact_work_};
+  std::vector<double> state = {static_cast<double>(geometry_.shape),
+                               geometry_.size,
+                               geometry_.thickness,
+                               static_cast<double>(geometry_.elements),
+                               centre_.x(),
+                               centre_.y(),
+                               centre_.z(),
+                               velocity_,
+                               contact_work_};
   state.insert(state.end(), surface_.f.data(), surface_.f.data() + surface_.f.size());
   return state;
 }
@@ -171,7 +181,8 @@ void RigidPlate::restore(const std::vector<double>& state) {
   const std::vector<double> mine = this->state();
   constexpr long shape_numbers = 4, scalars = 9;
   if (state.size() != mine.size() || !std::equal(mine.begin(), mine.begin() + shape_numbers, state.begin()))
-    throw Error("rigid plate: the saved state belongs to another plate; restart with the shape, size and elements of the first run");
+    throw Error(
+        "rigid plate: the saved state belongs to another plate; restart with the shape, size and elements of the first run");
   centre_ = {state[4], state[5], state[6]};
   velocity_ = state[7];
   contact_work_ = state[8];

@@ -322,7 +322,8 @@ void RigidWheel::restore(const std::vector<double>& state) {
   const std::vector<double> mine = fingerprint();
   if (state.size() != this->state().size() || !std::equal(mine.begin(), mine.end(), state.begin()))
     throw Error(
-        "rigid wheel: the saved state belongs to another wheel; restart with the dimensions, mass and inertia of the first run");
+        "rigid wheel: the saved state belongs to another wheel; restart with the dimensions, mass and inertia of the first "
+        "run");
   const double* next = state.data() + mine.size();
   const auto take = [&](auto& values) {
     std::copy(next, next + values.size(), values.data());

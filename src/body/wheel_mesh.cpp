@@ -348,10 +348,10 @@ Surface make_wheel_mesh(const WheelGeometry& geometry, const std::string& where)
   Surface surface = WheelMesh(geometry, where).surface();
   const double sharpest = surface.minimum_angle();
   if (sharpest < minimum_mesh_angle)
-    throw InputError(
-        where, fmt::format("would have sliver triangles (sharpest corner {:.2g} degrees)", degrees(sharpest)),
-        fmt::format("corners of at least {:.0f} degrees", degrees(minimum_mesh_angle)),
-        "give more segments, another element_size, or a shoulder neither far smaller than the facets nor close to the radius");
+    throw InputError(where, fmt::format("would have sliver triangles (sharpest corner {:.2g} degrees)", degrees(sharpest)),
+                     fmt::format("corners of at least {:.0f} degrees", degrees(minimum_mesh_angle)),
+                     "give more segments, another element_size, or a shoulder neither far smaller than the facets nor close "
+                     "to the radius");
   return surface;
 }
 

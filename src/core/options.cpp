@@ -78,13 +78,16 @@ std::string Key::allowed() const {
       const bool bounded = std::isfinite(range.lower) || std::isfinite(range.upper);
       return fmt::format("{}{}{}", bounded ? "a number " : "", range.text(), unit_text);
     }
-    case Kind::integer: return fmt::format("an integer {}", range.text());
+    case Kind::integer:
+      return fmt::format("an integer {}", range.text());
     case Kind::numbers:
-      return fmt::format("{} numbers, each {}{}", count == 0 ? "a list of" : std::to_string(count), range.text(),
-                         unit_text);
-    case Kind::word: return fmt::format("one of: {}", fmt::join(words, ", "));
-    case Kind::text: return "a word";
-    case Kind::flag: return "yes or no";
+      return fmt::format("{} numbers, each {}{}", count == 0 ? "a list of" : std::to_string(count), range.text(), unit_text);
+    case Kind::word:
+      return fmt::format("one of: {}", fmt::join(words, ", "));
+    case Kind::text:
+      return "a word";
+    case Kind::flag:
+      return "yes or no";
   }
   return {};
 }
@@ -155,8 +158,7 @@ Options Schema::read(const std::vector<Entry>& entries) const {
   const auto accept = [&](const Key& key, const std::vector<std::string>& texts, bool given, const std::string& origin) {
     const std::string where = after_origin(origin, options.where(key.name));
     if (key.count == 0 ? texts.empty() : texts.size() != key.count)
-      throw InputError(where, texts.empty() ? "has no value" : fmt::format("has {} value(s)", texts.size()),
-                       key.allowed());
+      throw InputError(where, texts.empty() ? "has no value" : fmt::format("has {} value(s)", texts.size()), key.allowed());
     Options::Value value{texts, {}, given, origin};
     if (key.kind == Key::Kind::word || key.kind == Key::Kind::flag) {
       if (std::find(key.words.begin(), key.words.end(), texts[0]) == key.words.end())
@@ -180,7 +182,8 @@ Options Schema::read(const std::vector<Entry>& entries) const {
       for (const Key& known : keys_) names.push_back(known.name);
       const std::string near = nearest_key(keys_, entry.key);
       throw InputError(after_origin(entry.origin, subject_), fmt::format("has no keyword '{}'", entry.key),
-                       fmt::format("{}", fmt::join(names, ", ")), near.empty() ? "" : fmt::format("did you mean '{}'?", near));
+                       fmt::format("{}", fmt::join(names, ", ")),
+                       near.empty() ? "" : fmt::format("did you mean '{}'?", near));
     }
     if (options.given(entry.key))
       throw InputError(after_origin(entry.origin, subject_ + ", keyword '" + entry.key + "'"), "is given twice",
@@ -189,8 +192,7 @@ Options Schema::read(const std::vector<Entry>& entries) const {
   }
   for (const Key& key : keys_) {
     if (options.given(key.name)) continue;
-    if (key.required)
-      throw InputError(options.where(key.name), "is missing", key.allowed(), "it is: " + key.meaning);
+    if (key.required) throw InputError(options.where(key.name), "is missing", key.allowed(), "it is: " + key.meaning);
     if (!key.default_values.empty()) accept(key, key.default_values, false, {});
   }
   return options;

@@ -33,10 +33,10 @@ struct Key {
 
   std::string name;
   Kind kind = Kind::number;
-  std::string unit;                              ///< "" for words, texts and pure numbers
-  Range range;                                   ///< of every number
-  std::size_t count = 1;                         ///< values that follow; 0 (numbers only): as many as there are
-  std::vector<std::string> words;                ///< the admissible words
+  std::string unit;                ///< "" for words, texts and pure numbers
+  Range range;                     ///< of every number
+  std::size_t count = 1;           ///< values that follow; 0 (numbers only): as many as there are
+  std::vector<std::string> words;  ///< the admissible words
   std::string meaning;
   bool required = true;
   std::vector<std::string> default_values = {};  ///< used when not required and not given; may be empty
@@ -67,8 +67,8 @@ class Schema {
   Schema& word(const std::string& name, std::vector<std::string> words, const std::string& meaning);
   Schema& text(const std::string& name, const std::string& meaning);
   Schema& flag(const std::string& name, const std::string& meaning);  ///< yes | no, "no" unless given
-  Schema& optional();                                                  ///< the key declared last may be left out
-  Schema& by_default(const std::string& value);                        ///< the same, and then has this value
+  Schema& optional();                                                 ///< the key declared last may be left out
+  Schema& by_default(const std::string& value);                       ///< the same, and then has this value
   Schema& by_default(double value);
   Schema& by_default(std::vector<double> values);
 
@@ -98,8 +98,8 @@ class Options {
   const std::vector<double>& numbers(const std::string& key) const;
   const std::string& word(const std::string& key) const;  ///< also for text
   bool flag(const std::string& key) const;
-  bool given(const std::string& key) const;               ///< the user wrote it
-  bool has(const std::string& key) const;                 ///< given, or has a default
+  bool given(const std::string& key) const;  ///< the user wrote it
+  bool has(const std::string& key) const;    ///< given, or has a default
 
   const std::string& subject() const { return subject_; }
   /// The effective values, defaults included, in the order of declaration: "key value ...".

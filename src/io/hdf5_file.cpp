@@ -69,11 +69,17 @@ struct Shape {
 template <class T>
 hid_t memory_type();
 template <>
-hid_t memory_type<double>() { return H5T_NATIVE_DOUBLE; }
+hid_t memory_type<double>() {
+  return H5T_NATIVE_DOUBLE;
+}
 template <>
-hid_t memory_type<std::int64_t>() { return H5T_NATIVE_INT64; }
+hid_t memory_type<std::int64_t>() {
+  return H5T_NATIVE_INT64;
+}
 template <>
-hid_t memory_type<int>() { return H5T_NATIVE_INT; }
+hid_t memory_type<int>() {
+  return H5T_NATIVE_INT;
+}
 
 template <class T>
 void write_dataset(Hdf5File& owner, hid_t file, const std::string& dataset, const T* values, const Shape& shape) {
@@ -82,7 +88,8 @@ void write_dataset(Hdf5File& owner, hid_t file, const std::string& dataset, cons
   H5Pset_create_intermediate_group(parents, 1);
   const Handle space(H5Screate_simple(int(shape.extent.size()), shape.extent.data(), nullptr), H5Sclose);
   const Handle data(require(H5Dcreate2(file, dataset.c_str(), memory_type<T>(), space, parents, H5P_DEFAULT, H5P_DEFAULT),
-                            owner.path(), "create", dataset), H5Dclose);
+                            owner.path(), "create", dataset),
+                    H5Dclose);
   if (std::find(shape.extent.begin(), shape.extent.end(), 0u) != shape.extent.end()) return;
   require(H5Dwrite(data, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values), owner.path(), "write", dataset);
 }
@@ -93,7 +100,8 @@ std::vector<T> read_dataset(const Hdf5File& owner, hid_t file, const std::string
   const Handle data(require(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), owner.path(), "open dataset", dataset), H5Dclose);
   const Handle space(H5Dget_space(data), H5Sclose);
   hsize_t extent[2] = {0, 3};
-  if (H5Sget_simple_extent_ndims(space) != rank || H5Sget_simple_extent_dims(space, extent, nullptr) != rank || extent[1] != 3)
+  if (H5Sget_simple_extent_ndims(space) != rank || H5Sget_simple_extent_dims(space, extent, nullptr) != rank ||
+      extent[1] != 3)
     throw Error(fmt::format("{}: dataset '{}' must be {}", owner.path(), dataset, rank == 1 ? "one-dimensional" : "n x 3"));
   std::vector<T> values(extent[0] * (rank == 2 ? 3 : 1));
   if (!values.empty())
@@ -130,7 +138,7 @@ void Hdf5File::close() {
 
 bool Hdf5File::exists(const std::string& object) const {
   // H5Lexists wants every link on the way to exist
-  for (std::size_t end = object.find('/', 1); ; end = object.find('/', end + 1)) {
+  for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
     if (H5Lexists(file_, object.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
     if (end == std::string::npos) return true;
   }
@@ -153,8 +161,9 @@ void Hdf5File::create_group(const std::string& group) {
   if (slash != 0 && slash != std::string::npos) create_group(group.substr(0, slash));
   const Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
   H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-  const Handle handle(require(H5Gcreate2(file_, group.c_str(), H5P_DEFAULT, properties, H5P_DEFAULT), path_, "create group",
-                              group), H5Gclose);
+  const Handle handle(
+      require(H5Gcreate2(file_, group.c_str(), H5P_DEFAULT, properties, H5P_DEFAULT), path_, "create group", group),
+      H5Gclose);
 }
 
 void Hdf5File::remove(const std::string& object) {
@@ -167,7 +176,8 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
   const Handle type(text_type(text.size() + 1), H5Tclose);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Handle attribute(require(H5Acreate2(owner, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), path_,
-                                 "create attribute " + name + " of", object), H5Aclose);
+                                 "create attribute " + name + " of", object),
+                         H5Aclose);
   require(H5Awrite(attribute, type, text.c_str()), path_, "write attribute " + name + " of", object);
 }
 
@@ -176,7 +186,8 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
   if (H5Aexists(owner, name.c_str()) > 0) H5Adelete(owner, name.c_str());
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Handle attribute(require(H5Acreate2(owner, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT), path_,
-                                 "create attribute " + name + " of", object), H5Aclose);
+                                 "create attribute " + name + " of", object),
+                         H5Aclose);
   require(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &number), path_, "write attribute " + name + " of", object);
 }
 
@@ -186,8 +197,9 @@ bool Hdf5File::has_attribute(const std::string& object, const std::string& name)
 
 std::string Hdf5File::text_attribute(const std::string& object, const std::string& name) const {
   const std::string action = "read attribute " + name + " of";
-  const Handle attribute(require(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_, action,
-                                 object), H5Aclose);
+  const Handle attribute(
+      require(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_, action, object),
+      H5Aclose);
   const Handle type(H5Aget_type(attribute), H5Tclose);
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0)
     throw Error(fmt::format("{}: attribute '{}' of '{}' is not a text of fixed length", path_, name, object));
@@ -199,8 +211,9 @@ std::string Hdf5File::text_attribute(const std::string& object, const std::strin
 
 double Hdf5File::number_attribute(const std::string& object, const std::string& name) const {
   const std::string action = "read attribute " + name + " of";
-  const Handle attribute(require(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_, action,
-                                 object), H5Aclose);
+  const Handle attribute(
+      require(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_, action, object),
+      H5Aclose);
   double number = 0.0;
   require(H5Aread(attribute, H5T_NATIVE_DOUBLE, &number), path_, action, object);
   return number;
@@ -237,8 +250,9 @@ void Hdf5File::write(const std::string& dataset, const std::string& text) {
   H5Pset_create_intermediate_group(parents, 1);
   const Handle type(text_type(text.size() + 1), H5Tclose);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle data(require(H5Dcreate2(file_, dataset.c_str(), type, space, parents, H5P_DEFAULT, H5P_DEFAULT), path_, "create",
-                            dataset), H5Dclose);
+  const Handle data(
+      require(H5Dcreate2(file_, dataset.c_str(), type, space, parents, H5P_DEFAULT, H5P_DEFAULT), path_, "create", dataset),
+      H5Dclose);
   require(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), path_, "write", dataset);
 }
 
@@ -277,8 +291,9 @@ void Hdf5File::create_growing(const std::string& dataset, std::size_t chunk) {
   const hsize_t none = 0, any = H5S_UNLIMITED, chunk_length = chunk;
   H5Pset_chunk(layout, 1, &chunk_length);
   const Handle space(H5Screate_simple(1, &none, &any), H5Sclose);
-  const Handle data(require(H5Dcreate2(file_, dataset.c_str(), H5T_NATIVE_DOUBLE, space, parents, layout, H5P_DEFAULT), path_,
-                            "create", dataset), H5Dclose);
+  const Handle data(require(H5Dcreate2(file_, dataset.c_str(), H5T_NATIVE_DOUBLE, space, parents, layout, H5P_DEFAULT),
+                            path_, "create", dataset),
+                    H5Dclose);
 }
 
 void Hdf5File::append(const std::string& dataset, const std::vector<double>& values) {

@@ -42,12 +42,12 @@ class Hdf5File {
   void write(const std::string& dataset, const std::vector<std::int64_t>& values);
   void write(const std::string& dataset, const Matrix3X& columns);
   void write(const std::string& dataset, const std::vector<Vector3i>& rows);
-  void write(const std::string& dataset, const std::string& text);           ///< of any length; an attribute holds 64 KiB
+  void write(const std::string& dataset, const std::string& text);  ///< of any length; an attribute holds 64 KiB
   std::string read_text(const std::string& dataset) const;
-  std::vector<double> read_numbers(const std::string& dataset) const;        ///< 1-D
+  std::vector<double> read_numbers(const std::string& dataset) const;         ///< 1-D
   std::vector<std::int64_t> read_integers(const std::string& dataset) const;  ///< 1-D
-  Matrix3X read_columns(const std::string& dataset) const;                   ///< n x 3
-  std::vector<Vector3i> read_triples(const std::string& dataset) const;      ///< n x 3
+  Matrix3X read_columns(const std::string& dataset) const;                    ///< n x 3
+  std::vector<Vector3i> read_triples(const std::string& dataset) const;       ///< n x 3
 
   // One-dimensional datasets of doubles that grow.
   void create_growing(const std::string& dataset, std::size_t chunk = 1024);

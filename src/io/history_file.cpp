@@ -42,8 +42,8 @@ std::vector<std::string> split_lines(const std::string& text) {
 
 // The numbers of /audit, by attribute
 const NumberMember audit_numbers[] = {
-    {"energy_residual", &Audit::energy_residual}, {"energy_scale", &Audit::energy_scale},
-    {"force_imbalance", &Audit::force_imbalance}, {"force_scale", &Audit::force_scale},
+    {"energy_residual", &Audit::energy_residual},   {"energy_scale", &Audit::energy_scale},
+    {"force_imbalance", &Audit::force_imbalance},   {"force_scale", &Audit::force_scale},
     {"moment_imbalance", &Audit::moment_imbalance}, {"moment_scale", &Audit::moment_scale}};
 
 void write_grains(Hdf5File& file, const std::string& group, const Grains& grains, bool with_velocity) {
@@ -77,7 +77,8 @@ Grains read_grains(const std::string& path, const std::string& group) {
 }
 
 History read_rows(const Hdf5File& file) {
-  if (!file.exists("/history")) throw Error(fmt::format("{}: has no /history; is it a results file of Furrow?", file.path()));
+  if (!file.exists("/history"))
+    throw Error(fmt::format("{}: has no /history; is it a results file of Furrow?", file.path()));
   std::vector<Channel> channels;
   std::vector<std::vector<double>> columns;
   for (const std::string& name : file.members("/history")) {
@@ -105,9 +106,10 @@ void check_channels(const std::string& path, const std::vector<Channel>& found, 
     for (const Channel& channel : channels) texts.push_back(fmt::format("{} [{}]", channel.name, channel.unit));
     return fmt::format("{}", fmt::join(texts, ", "));
   };
-  throw Error(fmt::format("{}: cannot be continued: it has the channels {}; this run has {}; continue with the rig and the "
-                          "wheel it was started with, or name another file",
-                          path, list(found), list(expected)));
+  throw Error(
+      fmt::format("{}: cannot be continued: it has the channels {}; this run has {}; continue with the rig and the "
+                  "wheel it was started with, or name another file",
+                  path, list(found), list(expected)));
 }
 
 /// Drops what is later than time, and refuses a file that ends before it.
@@ -122,9 +124,10 @@ void cut_at(const std::string& path, History& history, double time) {
   const double spacing = times[last] - times[last - 1];
   history.truncate_after(time + 1e-9 * spacing);
   if (history.size() == times.size() && time - times.back() > (1.0 - 1e-6) * spacing)
-    throw Error(fmt::format("{}: ends at t = {:.9g} s but the run continues from t = {:.9g} s: rows between are missing; "
-                            "continue from an earlier checkpoint, or name another file",
-                            path, times.back(), time));
+    throw Error(
+        fmt::format("{}: ends at t = {:.9g} s but the run continues from t = {:.9g} s: rows between are missing; "
+                    "continue from an earlier checkpoint, or name another file",
+                    path, times.back(), time));
 }
 
 }  // namespace
@@ -198,7 +201,8 @@ void HistoryFile::append(const std::vector<double>& row) {
     throw StateError(fmt::format("{}: a row of t = {:.9g} s follows one of t = {:.9g} s", path_, row[0],
                                  history_.at(history_.size() - 1, 0)));
   history_.append(row);
-  if (seconds_since(last_flush_) >= flush_interval_ && (flush_interval_ == 0.0 || seconds_since(last_flush_) >= 100.0 * flush_duration_))
+  if (seconds_since(last_flush_) >= flush_interval_ &&
+      (flush_interval_ == 0.0 || seconds_since(last_flush_) >= 100.0 * flush_duration_))
     flush();
 }
 

@@ -11,39 +11,39 @@ namespace furrow {
 
 /// How a run came about. Written when it starts.
 struct RunInfo {
-  std::string title;                    ///< the scene: "rigid wheel on sand"
+  std::string title;  ///< the scene: "rigid wheel on sand"
   std::string version = furrow::version();
-  std::string script;                   ///< the input script as the user named it
-  std::string effective_input;          ///< every style with all its values, defaults included
-  std::string started;                  ///< ISO 8601, UTC; empty: now
+  std::string script;           ///< the input script as the user named it
+  std::string effective_input;  ///< every style with all its values, defaults included
+  std::string started;          ///< ISO 8601, UTC; empty: now
   int ranks = 1;
 };
 
 /// One side of the energy audit: a named work or energy.
 struct EnergyTerm {
-  std::string name;     ///< "contact work on the wheel"
-  double value = 0.0;   ///< [J]
+  std::string name;    ///< "contact work on the wheel"
+  double value = 0.0;  ///< [J]
 };
 
 /// Conservation, as the run measured it.
 struct Audit {
-  std::vector<EnergyTerm> energies;     ///< [J] the terms of the energy balance, each with its sign in it
-  double energy_residual = 0.0;         ///< [J] what the terms do not account for
-  double energy_scale = 0.0;            ///< [J] the largest of the terms: the residual is judged against it
-  double force_imbalance = 0.0;         ///< [N] largest |sum of nodal forces + sum of grain wall forces| of any step
-  double force_scale = 0.0;             ///< [N] largest sum of |contact force| of any step
-  double moment_imbalance = 0.0;        ///< [N m] the same of moments
-  double moment_scale = 0.0;            ///< [N m]
+  std::vector<EnergyTerm> energies;  ///< [J] the terms of the energy balance, each with its sign in it
+  double energy_residual = 0.0;      ///< [J] what the terms do not account for
+  double energy_scale = 0.0;         ///< [J] the largest of the terms: the residual is judged against it
+  double force_imbalance = 0.0;      ///< [N] largest |sum of nodal forces + sum of grain wall forces| of any step
+  double force_scale = 0.0;          ///< [N] largest sum of |contact force| of any step
+  double moment_imbalance = 0.0;     ///< [N m] the same of moments
+  double moment_scale = 0.0;         ///< [N m]
 };
 
 /// What a run took: the process that brought it to its end, counted from its restart if there was one. Zero where not measured.
 struct Cost {
-  double wall_time = 0.0;               ///< [s] of the stepping
-  double simulated_time = 0.0;          ///< [s]
+  double wall_time = 0.0;       ///< [s] of the stepping
+  double simulated_time = 0.0;  ///< [s]
   long steps = 0;
   long grains = 0;
   int ranks = 1;
-  double memory = 0.0;                  ///< [byte] peak resident size, all ranks together
+  double memory = 0.0;  ///< [byte] peak resident size, all ranks together
 
   double particle_steps_per_second() const { return wall_time > 0.0 ? double(steps) * double(grains) / wall_time : 0.0; }
   double simulated_per_wall_second() const { return wall_time > 0.0 ? simulated_time / wall_time : 0.0; }
@@ -53,7 +53,7 @@ struct Cost {
 struct RunClosing {
   Audit audit;
   Cost cost;
-  std::vector<std::string> warnings;    ///< whole sentences; the summary repeats them
+  std::vector<std::string> warnings;  ///< whole sentences; the summary repeats them
 };
 
 /// Peak resident memory of this process [byte]; 0 where the system does not tell. Sum it over the ranks for Cost::memory.

@@ -34,15 +34,17 @@ std::string title_of(const std::string& name) {
 }
 
 std::string steady_table(const Resistance& r) {
-  std::string text = fmt::format("Steady values: {}\nWindow: {:.4g} s to {:.4g} s, {:.4g} m of travel ({})\n", r.verdict, r.window.begin,
-                                 r.window.end, r.window.distance, r.window.how);
+  std::string text = fmt::format("Steady values: {}\nWindow: {:.4g} s to {:.4g} s, {:.4g} m of travel ({})\n", r.verdict,
+                                 r.window.begin, r.window.end, r.window.distance, r.window.how);
   if (!r.window.warning.empty()) text += "  note: " + r.window.warning + "\n";
   text += "\n";
   for (const SteadyValue& v : r.values)
     text += fmt::format("  {:<24} {:>24} {:<5}  {}\n", title_of(v.name), with_error(v.mean, v.standard_error), v.unit,
                         v.steady ? fmt::format("steady, {:.0f} independent samples", v.independent_samples) : v.verdict);
-  text += "\n  ± is one standard error of the mean over time (block averages). It does not hold the influence of grain size, box or\n"
-          "  packing: compare runs for that.\n";
+  text +=
+      "\n  ± is one standard error of the mean over time (block averages). It does not hold the influence of grain size, "
+      "box or\n"
+      "  packing: compare runs for that.\n";
   return text;
 }
 
@@ -51,8 +53,10 @@ std::string audit_text(const Audit& audit) {
   for (const EnergyTerm& term : audit.energies) text += fmt::format("  {:<38} {:>14.6g} J\n", term.name, term.value);
   text += fmt::format("  {:<38} {:>14.3g} J  ({:.1e} of the largest)\n", "not accounted for", audit.energy_residual,
                       audit.energy_scale > 0.0 ? std::abs(audit.energy_residual) / audit.energy_scale : 0.0);
-  text += fmt::format("  {:<38} {:>14.3g} N  of {:.4g} N\n", "forces on nodes + on grains, largest", audit.force_imbalance, audit.force_scale);
-  text += fmt::format("  {:<38} {:>14.3g} N m of {:.4g} N m\n", "their moments, largest", audit.moment_imbalance, audit.moment_scale);
+  text += fmt::format("  {:<38} {:>14.3g} N  of {:.4g} N\n", "forces on nodes + on grains, largest", audit.force_imbalance,
+                      audit.force_scale);
+  text += fmt::format("  {:<38} {:>14.3g} N m of {:.4g} N m\n", "their moments, largest", audit.moment_imbalance,
+                      audit.moment_scale);
   return text;
 }
 
@@ -65,9 +69,19 @@ std::string cost_text(const Cost& cost) {
 }
 
 nlohmann::ordered_json json_of(const SteadyValue& v) {
-  return {{"mean", v.mean}, {"standard_error", v.standard_error}, {"unit", v.unit}, {"steady", v.steady}, {"verdict", v.verdict},
-          {"minimum", v.minimum}, {"maximum", v.maximum}, {"standard_deviation", v.deviation}, {"correlation_time", v.correlation_time},
-          {"independent_samples", v.independent_samples}, {"blocks", v.blocks}, {"drift", v.drift}, {"drift_error", v.drift_error}};
+  return {{"mean", v.mean},
+          {"standard_error", v.standard_error},
+          {"unit", v.unit},
+          {"steady", v.steady},
+          {"verdict", v.verdict},
+          {"minimum", v.minimum},
+          {"maximum", v.maximum},
+          {"standard_deviation", v.deviation},
+          {"correlation_time", v.correlation_time},
+          {"independent_samples", v.independent_samples},
+          {"blocks", v.blocks},
+          {"drift", v.drift},
+          {"drift_error", v.drift_error}};
 }
 
 }  // namespace
@@ -96,8 +110,11 @@ std::string summary_text(const Summary& s) {
   if (s.closed) text += "\n" + audit_text(s.closing.audit) + "\n" + cost_text(s.closing.cost);
   for (const std::string& warning : s.closing.warnings) text += "\nWARNING: " + warning + "\n";
   text += fmt::format("\nFurrow {}, script {}, started {}\n", s.info.version, s.info.script, s.info.started);
-  text += "Signs: force_z carries the wheel; resistance coefficient = -force_x/force_z; drawbar pull > 0 pulls the vehicle forward;\n"
-          "slip > 0 when driving, (v_rim - v)/max(|v_rim|, |v|). Effective input: attribute effective_input of /run in history.h5.\n";
+  text +=
+      "Signs: force_z carries the wheel; resistance coefficient = -force_x/force_z; drawbar pull > 0 pulls the vehicle "
+      "forward;\n"
+      "slip > 0 when driving, (v_rim - v)/max(|v_rim|, |v|). Effective input: attribute effective_input of /run in "
+      "history.h5.\n";
   return text;
 }
 
@@ -112,7 +129,10 @@ std::string summary_json(const Summary& s) {
     const Resistance& r = s.resistance;
     json["steady"] = r.steady;
     json["verdict"] = r.verdict;
-    json["window"] = {{"start", r.window.begin}, {"end", r.window.end}, {"distance", r.window.distance}, {"how", r.window.how},
+    json["window"] = {{"start", r.window.begin},
+                      {"end", r.window.end},
+                      {"distance", r.window.distance},
+                      {"how", r.window.how},
                       {"warning", r.window.warning}};
     for (const SteadyValue& v : r.values) json["quantities"][v.name] = json_of(v);
   } else {
@@ -129,8 +149,13 @@ std::string summary_json(const Summary& s) {
     json["audit"]["moment_imbalance"] = a.moment_imbalance;
     json["audit"]["moment_scale"] = a.moment_scale;
     const Cost& c = s.closing.cost;
-    json["cost"] = {{"wall_time", c.wall_time}, {"simulated_time", c.simulated_time}, {"steps", c.steps}, {"grains", c.grains},
-                    {"ranks", c.ranks}, {"memory", c.memory}, {"particle_steps_per_second", c.particle_steps_per_second()},
+    json["cost"] = {{"wall_time", c.wall_time},
+                    {"simulated_time", c.simulated_time},
+                    {"steps", c.steps},
+                    {"grains", c.grains},
+                    {"ranks", c.ranks},
+                    {"memory", c.memory},
+                    {"particle_steps_per_second", c.particle_steps_per_second()},
                     {"simulated_per_wall_second", c.simulated_per_wall_second()}};
   }
   json["warnings"] = s.closing.warnings;

@@ -135,7 +135,8 @@ std::vector<double> VtkSeries::times() const {
 
 std::string VtkSeries::next_file(double time) const {
   if (!frames_.empty() && time <= frames_.back().time)
-    throw StateError(fmt::format("{}: a frame of t = {:.9g} s follows one of t = {:.9g} s", pvd(), time, frames_.back().time));
+    throw StateError(
+        fmt::format("{}: a frame of t = {:.9g} s follows one of t = {:.9g} s", pvd(), time, frames_.back().time));
   return fmt::format("{}_{:06d}.vtp", name_, frames_.size());
 }
 

@@ -28,8 +28,8 @@ class VtkSeries {
   void add(double time, const Grains& grains, const Grains* reference = nullptr);
 
   std::size_t size() const { return frames_.size(); }
-  std::string pvd() const;                      ///< path of the collection
-  std::vector<double> times() const;            ///< [s] of the frames so far
+  std::string pvd() const;            ///< path of the collection
+  std::vector<double> times() const;  ///< [s] of the frames so far
 
  private:
   struct Frame {

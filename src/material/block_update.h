@@ -12,16 +12,16 @@ inline namespace FURROW_ISA {
 
 /// What a kernel sees of lane_count points: the common state at the start of the step, to be replaced by that at its end.
 struct Points {
-  Symmetric stress;                ///< in the frame of the start of the step [Pa]
-  Lanes stored = 0.0;              ///< energies of this step per current volume [J/m^3]
+  Symmetric stress;    ///< in the frame of the start of the step [Pa]
+  Lanes stored = 0.0;  ///< energies of this step per current volume [J/m^3]
   Lanes frozen = 0.0;
   Lanes dissipated = 0.0;
-  Lanes own[6];                    ///< the law's own fields
-  Lanes branch = 0.0;              ///< a Branch
+  Lanes own[6];        ///< the law's own fields
+  Lanes branch = 0.0;  ///< a Branch
   Lanes iterations = 0.0;
-  Mask below_data = Mask(false);   ///< outside the hardening data
+  Mask below_data = Mask(false);  ///< outside the hardening data
   Mask beyond_data = Mask(false);
-  Mask stopped = Mask(false);      ///< the same, and the rule is to stop
+  Mask stopped = Mask(false);  ///< the same, and the rule is to stop
 };
 
 struct Step {
@@ -32,7 +32,8 @@ struct Step {
 
 /// Laws of rate form: the strain is the logarithm of the step's stretch, the stress is turned afterwards.
 template <class Kernel>
-auto step_points(const Kernel& kernel, const Tensor& h, Points& points) -> decltype(kernel.step(Symmetric{}, points), Step{}) {
+auto step_points(const Kernel& kernel, const Tensor& h, Points& points)
+    -> decltype(kernel.step(Symmetric{}, points), Step{}) {
   Motion motion;
   find_motion(h, motion);
   kernel.step(motion.strain, points);
@@ -41,7 +42,8 @@ auto step_points(const Kernel& kernel, const Tensor& h, Points& points) -> declt
 }
 /// Hyperelastic laws: they carry their deformation with them.
 template <class Kernel>
-auto step_points(const Kernel& kernel, const Tensor& h, Points& points) -> decltype(kernel.hyperelastic_step(h, points), Step{}) {
+auto step_points(const Kernel& kernel, const Tensor& h, Points& points)
+    -> decltype(kernel.hyperelastic_step(h, points), Step{}) {
   kernel.hyperelastic_step(h, points);
   const Lanes volume = volume_change(h);
   return {volume, volume > Lanes(0.0), true};
@@ -54,7 +56,9 @@ struct Group {
   int lanes;
 
   Group(const PointBlock& points, std::size_t start)
-      : block(points), first(start), lanes(points.size - start < lane_count ? static_cast<int>(points.size - start) : lane_count) {}
+      : block(points),
+        first(start),
+        lanes(points.size - start < lane_count ? static_cast<int>(points.size - start) : lane_count) {}
 
   /// Missing points are copies of the group's first.
   FURROW_INLINE Lanes load(const double* array) const {
@@ -89,7 +93,8 @@ struct Group {
   }
 
   /// Checks and stores the end of the step. False, with the cause in the result, when the states must not be continued.
-  FURROW_INLINE bool store_points(const Points& points, const Step& step, int own_fields, double density, BlockResult& result) const {
+  FURROW_INLINE bool store_points(const Points& points, const Step& step, int own_fields, double density,
+                                  BlockResult& result) const {
     double* const* state = block.state;
     const Symmetric& stress = points.stress;
     const Lanes ratio = load(state[field::volume_ratio]) * step.volume;
@@ -97,7 +102,9 @@ struct Group {
     if (!all(good)) {
       for (int lane = 0; lane < lanes; ++lane) {
         if (good[lane]) continue;
-        result.failure = !step.admissible[lane] ? Failure::folded : points.stopped[lane] ? Failure::table_ends : Failure::not_finite;
+        result.failure = !step.admissible[lane] ? Failure::folded
+                         : points.stopped[lane] ? Failure::table_ends
+                                                : Failure::not_finite;
         result.failed_point = first + static_cast<std::size_t>(lane);
         return false;
       }
@@ -140,7 +147,8 @@ struct Group {
     report.beyond_ice += count(ratio < Lanes(density / ice_density));
     if (block.branch)
       for (int lane = 0; lane < lanes; ++lane)
-        block.branch[first + static_cast<std::size_t>(lane)] = static_cast<std::uint8_t>(static_cast<double>(points.branch[lane]));
+        block.branch[first + static_cast<std::size_t>(lane)] =
+            static_cast<std::uint8_t>(static_cast<double>(points.branch[lane]));
     return true;
   }
 };
@@ -183,7 +191,8 @@ BlockResult update_gathered(const Kernel& kernel, double density, const PointBlo
       const Group group(block, start + static_cast<std::size_t>(g) * lane_count);
       find_motion(group.load_gradient(), motions[g]);
       typename Kernel::Numbers end;
-      const typename Kernel::Prediction prediction = kernel.predict(motions[g].strain, group.load_points(Kernel::own_fields), end);
+      const typename Kernel::Prediction prediction =
+          kernel.predict(motions[g].strain, group.load_points(Kernel::own_fields), end);
       for (int k = 0; k < inputs; ++k) prediction.numbers[k].copy_to(&in[k][g * lane_count], stdx::vector_aligned);
       for (int k = 0; k < outputs; ++k) end.numbers[k].copy_to(&out[k][g * lane_count], stdx::vector_aligned);
       for (int surface = 0; surface < surfaces; ++surface) {
@@ -217,7 +226,9 @@ BlockResult update_gathered(const Kernel& kernel, double density, const PointBlo
       for (int k = 0; k < outputs; ++k) ends[k] = Lanes(&out[k][g * lane_count], stdx::vector_aligned);
       kernel.finish(motions[g].strain, numbers, ends, points);
       points.stress = turned(points.stress, motions[g].rotation);
-      if (!group.store_points(points, {motions[g].volume, motions[g].admissible, false}, Kernel::own_fields, density, result)) return result;
+      if (!group.store_points(points, {motions[g].volume, motions[g].admissible, false}, Kernel::own_fields, density,
+                              result))
+        return result;
     }
   }
   return result;

@@ -252,15 +252,26 @@ FitResult fit_material(const FitProblem& problem) {
   const auto status = method.minimize(t);
   using Status = Eigen::LevenbergMarquardtSpace::Status;
   switch (status) {
-    case Status::RelativeReductionTooSmall: result.end = "the sum of squares no longer falls"; break;
+    case Status::RelativeReductionTooSmall:
+      result.end = "the sum of squares no longer falls";
+      break;
     case Status::RelativeErrorTooSmall:
-    case Status::RelativeErrorAndReductionTooSmall: result.end = "the parameters no longer change"; break;
+    case Status::RelativeErrorAndReductionTooSmall:
+      result.end = "the parameters no longer change";
+      break;
     case Status::CosinusTooSmall:
-    case Status::GtolTooSmall: result.end = "the residuals are normal to the slopes"; break;
+    case Status::GtolTooSmall:
+      result.end = "the residuals are normal to the slopes";
+      break;
     case Status::FtolTooSmall:
-    case Status::XtolTooSmall: result.end = "the precision of the numbers is reached"; break;
-    case Status::TooManyFunctionEvaluation: result.end = "400 evaluations were not enough"; break;
-    default: result.end = "the curves cannot be computed around the last parameters";
+    case Status::XtolTooSmall:
+      result.end = "the precision of the numbers is reached";
+      break;
+    case Status::TooManyFunctionEvaluation:
+      result.end = "400 evaluations were not enough";
+      break;
+    default:
+      result.end = "the curves cannot be computed around the last parameters";
   }
   result.converged = status != Status::TooManyFunctionEvaluation && status != Status::UserAsked &&
                      status != Status::ImproperInputParameters;

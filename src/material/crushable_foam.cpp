@@ -23,14 +23,18 @@ std::unique_ptr<Material> create(const MaterialOptions& sections) {
   const bool includes_pt = o.word("pc0_reading") == "pc0_plus_pt";
   const SectionOptions& hardening = sections.at("hardening");
   if (includes_pt && hardening.type != "exponential")
-    throw InputError(o.where("pc0_reading"), "is pc0_plus_pt, with a hardening table", "pc0 for a table, whose strengths are pc");
+    throw InputError(o.where("pc0_reading"), "is pc0_plus_pt, with a hardening table",
+                     "pc0 for a table, whose strengths are pc");
   law.hardening = make_hardening(hardening, law.pt, includes_pt);
   if (law.hardening.first > 0.0 || law.hardening.last < 0.0)
-    throw InputError("hardening table, keyword 'eps_vol_pl'", "does not contain 0", "a table around eps_vol_pl = 0, where pc0 is read");
+    throw InputError("hardening table, keyword 'eps_vol_pl'", "does not contain 0",
+                     "a table around eps_vol_pl = 0, where pc0 is read");
   const double pc0 = strength_at(law.hardening, 0.0), sigma0 = o.number("sigma0");
-  const double square = law.pt * pc0 + sigma0 * (pc0 - law.pt) / 3.0 - sigma0 * sigma0 / 9.0;  // = (3 pc0 - sigma0)(sigma0 + 3 pt)/9
+  const double square =
+      law.pt * pc0 + sigma0 * (pc0 - law.pt) / 3.0 - sigma0 * sigma0 / 9.0;  // = (3 pc0 - sigma0)(sigma0 + 3 pt)/9
   if (square <= 0.0)
-    throw InputError(o.where("sigma0"), fmt::format("is {}, which no ellipse through pc0 = {:.6g} Pa and pt reaches", sigma0, pc0),
+    throw InputError(o.where("sigma0"),
+                     fmt::format("is {}, which no ellipse through pc0 = {:.6g} Pa and pt reaches", sigma0, pc0),
                      fmt::format("below 3 pc0 = {:.6g} Pa", 3.0 * pc0));
   law.M = sigma0 / std::sqrt(square);
   if (law.elasticity.porous && law.elasticity.limit <= law.pt)
@@ -47,9 +51,12 @@ Law CrushableFoam::law() {
   schema.number("pt", "Pa", Range::positive(), "yield strength in hydrostatic tension, constant");
   schema.number("sigma0", "Pa", Range::positive(), "initial yield strength in uniaxial compression, below 3 pc0");
   schema.number("K", "", Range::closed(0.778, 1.0), "flow stress ratio, triaxial extension to compression").by_default(1.0);
-  schema.word("pc0_reading", {"pc0", "pc0_plus_pt"}, "what pc0 of exponential hardening is: pc0, or pc0 + pt").by_default("pc0");
-  return {"crushable_foam", "snow and foams: ellipse hardening by compaction (ABAQUS, TR eq 17-18)",
-          {{"law", {{"", "", schema}}}, elasticity_section(), hardening_section()}, create};
+  schema.word("pc0_reading", {"pc0", "pc0_plus_pt"}, "what pc0 of exponential hardening is: pc0, or pc0 + pt")
+      .by_default("pc0");
+  return {"crushable_foam",
+          "snow and foams: ellipse hardening by compaction (ABAQUS, TR eq 17-18)",
+          {{"law", {{"", "", schema}}}, elasticity_section(), hardening_section()},
+          create};
 }
 
 CrushableFoam::CrushableFoam(double density, const CrushableFoamParameters& parameters)
@@ -84,7 +91,8 @@ double CrushableFoam::stress_scale(const VectorX& state) const {
 }
 
 std::vector<Vector2> CrushableFoam::yield_surface(const VectorX& state, std::size_t points) const {
-  const double strength = pc(state[eps_vol_pl]), centre = 0.5 * (strength - parameters_.pt), radius = 0.5 * (strength + parameters_.pt);
+  const double strength = pc(state[eps_vol_pl]), centre = 0.5 * (strength - parameters_.pt),
+               radius = 0.5 * (strength + parameters_.pt);
   const std::size_t pieces = std::max<std::size_t>(points, 3) - 1;
   std::vector<Vector2> line;
   for (std::size_t i = 0; i <= pieces; ++i) {

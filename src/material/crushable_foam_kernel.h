@@ -33,9 +33,11 @@ struct CrushableFoamKernel {
 
     // Ellipse: centre (c, 0), half-width a.
     const auto excess = [&](const Lanes& pressure, const Lanes& measure, const Lanes& pc) {
-      return root(square(pressure - Lanes(0.5) * (pc - law.pt)) + square(measure * (1.0 / law.M))) - Lanes(0.5) * (pc + law.pt);
+      return root(square(pressure - Lanes(0.5) * (pc - law.pt)) + square(measure * (1.0 / law.M))) -
+             Lanes(0.5) * (pc + law.pt);
     };
-    const Mask yielding = excess(p_trial, t_trial, pc_old) > Lanes(1e-13) * (pc_old + law.pt) + Lanes(1e-15) * magnitude(p_trial);
+    const Mask yielding =
+        excess(p_trial, t_trial, pc_old) > Lanes(1e-13) * (pc_old + law.pt) + Lanes(1e-15) * magnitude(p_trial);
 
     Lanes p = p_trial, shrink = 1.0, compaction = 0.0;
     if (any(yielding)) {
@@ -57,7 +59,8 @@ struct CrushableFoamKernel {
         return {distance - a, along / upper(distance, 1e-290) - dpc};
       };
       const Lanes high = sign * (dv - elastic.strain(0.0));
-      const Lanes y = decreasing_root(balance, 0.0, 0.0, high, Lanes(1e-15) * high, yielding && high > Lanes(0.0), points.iterations);
+      const Lanes y =
+          decreasing_root(balance, 0.0, 0.0, high, Lanes(1e-15) * high, yielding && high > Lanes(0.0), points.iterations);
       const Lanes solution = select(yielding, upper(y, 0.0), 0.0);
       balance(solution);
       // Rounding is removed by placing the stress on the ellipse: along the ray from its centre, or at constant p when the root
@@ -74,7 +77,8 @@ struct CrushableFoamKernel {
     }
     const Symmetric s = s_trial * shrink;
     const Lanes elastic_strain = dv - compaction, half_compliance = Lanes(0.5) / elastic.shear;
-    points.stored = elastic.volumetric_work(elastic_strain, p) + contract(s + s_old, s - s_old) * half_compliance * Lanes(0.5);
+    points.stored =
+        elastic.volumetric_work(elastic_strain, p) + contract(s + s_old, s - s_old) * half_compliance * Lanes(0.5);
     points.dissipated = p * compaction + select(yielding, contract(s, s_trial - s) * half_compliance, 0.0);
     points.own[0] = eps_old + compaction;
     points.stress = s.plus_identity(-p);

@@ -29,7 +29,8 @@ std::unique_ptr<Material> create(const MaterialOptions& sections) {
   law.A = law.B + law.alpha;
   law.flow_ratio = o.number("K");
   if (law.B <= 0.0)
-    throw InputError(o.where("alpha"), fmt::format("is {}: the transition would be wider than the shear strength", law.alpha),
+    throw InputError(o.where("alpha"),
+                     fmt::format("is {}: the transition would be wider than the shear strength", law.alpha),
                      fmt::format("below cos(beta) = {:.4g}", std::cos(beta)), "0.01 to 0.05 is usual");
   const double apex = law.d / law.tan_beta;
   law.cutoff = o.has("tension") ? o.number("tension") : apex;
@@ -52,18 +53,25 @@ Law DruckerPragerCap::law() {
   schema.number("d", "Pa", Range::non_negative(), "cohesion: t at p = 0 on the shear line");
   schema.number("beta", "degree", Range{0.0, 80.0, true, false}, "slope of the shear line in the p-t plane");
   schema.number("R", "", Range::positive(), "eccentricity of the cap: its half-width in p over R is its height");
-  schema.number("alpha", "", Range{0.0, 1.0, false, true}, "size of the transition between shear line and cap").by_default(0.0);
-  schema.number("K", "", Range::closed(0.778, 1.0), "flow stress ratio, triaxial extension to compression").by_default(1.0);
-  schema.number("eps_vol_pl_0", "", Range::any(), "initial volumetric plastic strain, compression positive: positions the cap")
+  schema.number("alpha", "", Range{0.0, 1.0, false, true}, "size of the transition between shear line and cap")
       .by_default(0.0);
-  schema.number("tension", "Pa", Range::non_negative(), "tension cut-off: p stays above -tension; the apex d/tan(beta) unless given")
+  schema.number("K", "", Range::closed(0.778, 1.0), "flow stress ratio, triaxial extension to compression").by_default(1.0);
+  schema
+      .number("eps_vol_pl_0", "", Range::any(), "initial volumetric plastic strain, compression positive: positions the cap")
+      .by_default(0.0);
+  schema
+      .number("tension", "Pa", Range::non_negative(),
+              "tension cut-off: p stays above -tension; the apex d/tan(beta) unless given")
       .optional();
-  return {"drucker_prager_cap", "soils and snow: shear line, transition, hardening cap (ABAQUS, TR eq 12-16)",
-          {{"law", {{"", "", schema}}}, elasticity_section(), hardening_section()}, create};
+  return {"drucker_prager_cap",
+          "soils and snow: shear line, transition, hardening cap (ABAQUS, TR eq 12-16)",
+          {{"law", {{"", "", schema}}}, elasticity_section(), hardening_section()},
+          create};
 }
 
 DruckerPragerCap::DruckerPragerCap(double density, const DruckerPragerCapParameters& parameters, double eps_vol_pl_0)
-    : Material("drucker_prager_cap", density, {{"eps_vol_pl", "", "volumetric plastic strain, compression positive", eps_vol_pl_0}},
+    : Material("drucker_prager_cap", density,
+               {{"eps_vol_pl", "", "volumetric plastic strain, compression positive", eps_vol_pl_0}},
                initial_pressure(parameters.elasticity)),
       parameters_(parameters) {}
 

@@ -43,7 +43,8 @@ struct DruckerPragerCapKernel {
   }
 
   /// t on the shear line or the transition at p <= pa, and its derivative when p grows by dp, pa by dpa.
-  FURROW_INLINE ValueAndSlope shear_strength(const Surfaces& at, const Lanes& p, const Lanes& dp, const Lanes& dpa, Mask* transition) const {
+  FURROW_INLINE ValueAndSlope shear_strength(const Surfaces& at, const Lanes& p, const Lanes& dp, const Lanes& dpa,
+                                             Mask* transition) const {
     const Lanes tan_beta = law.tan_beta;
     ValueAndSlope t{Lanes(law.d) + p * tan_beta, tan_beta * dp};
     if (law.alpha == 0.0) return t;
@@ -51,7 +52,9 @@ struct DruckerPragerCapKernel {
     const Mask on_arc = D < radius * Lanes(law.sin_beta);
     const Lanes leg = root(upper(radius * radius - D * D, 0.0));
     t.value = select(on_arc, Lanes(law.B) * at.Q + leg, t.value);
-    t.slope = select(on_arc, Lanes(law.B) * tan_beta * dpa + (Lanes(law.alpha) * radius * tan_beta * dpa - D * (dpa - dp)) / leg, t.slope);
+    t.slope =
+        select(on_arc, Lanes(law.B) * tan_beta * dpa + (Lanes(law.alpha) * radius * tan_beta * dpa - D * (dpa - dp)) / leg,
+               t.slope);
     if (transition) *transition = on_arc;
     return t;
   }
@@ -63,11 +66,11 @@ struct DruckerPragerCapKernel {
     const ElasticStep& elastic;
     const Deviator& deviator;
     Hardening& hardening;
-    Lanes dv;         ///< volumetric strain of the step, compression positive
-    Lanes eps;        ///< eps_vol_pl at the start of the step
-    Surfaces start;   ///< at the start of the step
-    Lanes p, t;       ///< of the elastic trial
-    Lanes noise;      ///< strain that rounding of p and eps amounts to
+    Lanes dv;        ///< volumetric strain of the step, compression positive
+    Lanes eps;       ///< eps_vol_pl at the start of the step
+    Surfaces start;  ///< at the start of the step
+    Lanes p, t;      ///< of the elastic trial
+    Lanes noise;     ///< strain that rounding of p and eps amounts to
   };
   FURROW_INLINE Trial make_trial(const ElasticStep& elastic, const Deviator& deviator, Hardening& hardening, const Lanes& dv,
                                  const Lanes& eps) const {
@@ -112,16 +115,18 @@ struct DruckerPragerCapKernel {
     return end;
   }
   /// Energies and the new state, from the deviator s of the end of the step.
-  FURROW_INLINE void conclude(const Symmetric& strain, const ElasticStep& elastic, const Symmetric& s_trial, const Symmetric& s,
-                              const Return& end, Points& points) const {
+  FURROW_INLINE void conclude(const Symmetric& strain, const ElasticStep& elastic, const Symmetric& s_trial,
+                              const Symmetric& s, const Return& end, Points& points) const {
     const Mask yielding = end.branch > Lanes(double(Branch::elastic));
     const Symmetric s_old = points.stress.plus_identity(elastic.p_n);
     const Lanes elastic_strain = -strain.trace() - end.compaction, half_compliance = Lanes(0.5) / elastic.shear;
-    points.stored = elastic.volumetric_work(elastic_strain, end.p) + contract(s + s_old, s - s_old) * half_compliance * Lanes(0.5);
+    points.stored =
+        elastic.volumetric_work(elastic_strain, end.p) + contract(s + s_old, s - s_old) * half_compliance * Lanes(0.5);
     // Plastic work p De + s:De_dev. Compaction stores pa De as frozen energy; flow always leads away from (pa, 0), so the rest is >= 0.
     const Lanes back_stress = select(end.branch == Lanes(double(Branch::tension)), upper(end.pa, end.p), end.pa);
     points.frozen = select(yielding, back_stress * end.compaction, 0.0);
-    points.dissipated = select(yielding, (end.p - back_stress) * end.compaction + contract(s, s_trial - s) * half_compliance, 0.0);
+    points.dissipated =
+        select(yielding, (end.p - back_stress) * end.compaction + contract(s, s_trial - s) * half_compliance, 0.0);
     points.own[0] = points.own[0] + end.compaction;
     points.stress = s.plus_identity(-end.p);
     points.branch = end.branch;
@@ -197,8 +202,8 @@ struct DruckerPragerCapKernel {
   FURROW_INLINE static Lanes least_tangent(const Lanes& t, const Lanes& top, const Lanes& k) {
     return lower(upper(t / (top * (k + Lanes(1.0))), (t - top) / (top * upper(k, 1e-140))), 1e140);
   }
-  FURROW_INLINE void finish_cap(const Mask& active, const Trial& trial, const Surfaces& now, const Lanes& cosine, const Lanes& sine, const Lanes& m,
-                  const Lanes& de, Return& end) const {
+  FURROW_INLINE void finish_cap(const Mask& active, const Trial& trial, const Surfaces& now, const Lanes& cosine,
+                                const Lanes& sine, const Lanes& m, const Lanes& de, Return& end) const {
     stdx::where(active, end.compaction) = de;
     stdx::where(active, end.p) = now.pa + Lanes(law.R) * now.Q * cosine;
     stdx::where(active, end.t) = lower(Lanes(law.A) * now.Q * sine, trial.t);
@@ -213,7 +218,8 @@ struct DruckerPragerCapKernel {
     const Lanes share = trial.t / (Lanes(law.A) * old.Q);
     const Lanes cosine = root(upper(Lanes(1.0) - share * share, 0.0));
     const Lanes excess = trial.p - old.pa - Lanes(law.R) * old.Q * cosine;
-    const Lanes stiffness = trial.elastic.bulk(trial.dv, trial.p) + old.pa_slope * (Lanes(1.0) + Lanes(law.R * law.tan_beta) * cosine);
+    const Lanes stiffness =
+        trial.elastic.bulk(trial.dv, trial.p) + old.pa_slope * (Lanes(1.0) + Lanes(law.R * law.tan_beta) * cosine);
     const Lanes guess = upper(excess / stiffness, 0.0);
     Mask open = active;
     if (!lode_dependent && !law.elasticity.porous) open = cap_together(active, trial, guess, end);
@@ -237,11 +243,13 @@ struct DruckerPragerCapKernel {
       const Lanes f = trial.p - bulk * de - now.pa - R * now.Q * cosine;
       const Lanes g = A * now.Q * sine + b * de * u - trial.t;
       stdx::where(active && !solved, end.iterations) += 1.0;
-      const Mask balanced = magnitude(f) <= Lanes(2e-14) * trial.p + bulk * trial.noise && magnitude(g) <= Lanes(1e-13) * trial.t;
+      const Mask balanced =
+          magnitude(f) <= Lanes(2e-14) * trial.p + bulk * trial.noise && magnitude(g) <= Lanes(1e-13) * trial.t;
       solved = solved || (balanced && de >= Lanes(0.0) && u >= Lanes(0.0));
       if (i == most || all(solved || !active)) break;
       // - f = f_de dde + f_u du,  - g = g_de dde + g_u du
-      const Lanes f_de = -bulk - now.pa_slope * (Lanes(1.0) + R * tan_beta * cosine), f_u = R * now.Q * sine * cosine * cosine;
+      const Lanes f_de = -bulk - now.pa_slope * (Lanes(1.0) + R * tan_beta * cosine),
+                  f_u = R * now.Q * sine * cosine * cosine;
       const Lanes g_de = A * tan_beta * now.pa_slope * sine + b * u, g_u = A * now.Q * cosine * cosine * cosine + b * de;
       const Lanes f_over = Lanes(1.0) / (f_de * g_u - f_u * g_de);
       const Lanes dde = (f_u * g - f * g_u) * f_over, du = (f * g_de - f_de * g) * f_over;
@@ -285,7 +293,8 @@ struct DruckerPragerCapKernel {
         const Lanes newton = u - value / slope;
         const Mask inside = newton >= low && newton <= high;
         const Lanes halfway = select(high < Lanes(1e149), Lanes(0.5) * (low + high), Lanes(2.0) * u + Lanes(1.0));
-        const Lanes next = lower(select(inside, newton, select(newton < low, upper(left, Lanes(0.5) * (low + u)), halfway)), 1e140);
+        const Lanes next =
+            lower(select(inside, newton, select(newton < low, upper(left, Lanes(0.5) * (low + u)), halfway)), 1e140);
         const Mask done = magnitude(next - u) <= Lanes(1e-14) * next || high - low <= Lanes(1e-15) * high ||
                           magnitude(value) <= Lanes(2e-15) * trial.t;  // the rounding of t_tr
         u = select(open, next, u);
@@ -321,7 +330,7 @@ struct DruckerPragerCapKernel {
     Surfaces now = old;
     Lanes pressure = trial.p, D = 0.0, strength = 0.0, multiplier = 0.0;
     Mask transition(false);
-    const auto balance = [&](const Lanes& x) __attribute__((always_inline)) -> ValueAndSlope {
+    const auto balance = [&](const Lanes& x) __attribute__((always_inline))->ValueAndSlope {
       now = surfaces(trial.hardening, trial.eps - x);
       pressure = elastic.pressure(trial.dv + x);
       const Lanes dp = elastic.bulk(trial.dv + x, pressure), dpa = -now.pa_slope;
@@ -343,11 +352,14 @@ struct DruckerPragerCapKernel {
       return {trial.t * D - strength * Dh, trial.t * dD - yield.slope * Dh - strength * dDh};
     };
     const Lanes high = elastic.strain(old.pa) - trial.dv;
-    const Lanes positive = upper(shear_strength(old, trial.p, 0.0, 0.0, nullptr).value, Lanes(1e-3) * trial.t + Lanes(1e-290));
+    const Lanes positive =
+        upper(shear_strength(old, trial.p, 0.0, 0.0, nullptr).value, Lanes(1e-3) * trial.t + Lanes(1e-290));
     const Lanes ratio = trial.t / positive - Lanes(1.0);
-    const Lanes start = lower(ratio * (old.pa - trial.p) / (c + ratio * (elastic.bulk(trial.dv, trial.p) + old.pa_slope)), high);
+    const Lanes start =
+        lower(ratio * (old.pa - trial.p) / (c + ratio * (elastic.bulk(trial.dv, trial.p) + old.pa_slope)), high);
     // p and t are taken from the final x, on the surface: a last step of 1e-10 leaves the direction of flow exact to that, at least.
-    const Lanes x = decreasing_root(balance, start, 0.0, high, Lanes(1e-10) * high, active && high > Lanes(0.0), end.iterations);
+    const Lanes x =
+        decreasing_root(balance, start, 0.0, high, Lanes(1e-10) * high, active && high > Lanes(0.0), end.iterations);
     const Lanes solution = select(active, upper(x, 0.0), 0.0);
     balance(solution);
     pressure = lower(pressure, now.pa);  // it is below, but for rounding
@@ -358,7 +370,8 @@ struct DruckerPragerCapKernel {
     stdx::where(active, end.t) = lower(upper(strength, 0.0), trial.t);
     stdx::where(active, end.m) = multiplier;
     stdx::where(active, end.pa) = now.pa;
-    stdx::where(active, end.branch) = select(apex, double(Branch::tension), select(transition, double(Branch::transition), double(Branch::shear)));
+    stdx::where(active, end.branch) =
+        select(apex, double(Branch::tension), select(transition, double(Branch::transition), double(Branch::shear)));
   }
 
   void return_to_cutoff(const Mask& active, const Trial& trial, Return& end) const {
@@ -367,7 +380,8 @@ struct DruckerPragerCapKernel {
     const Surfaces now = surfaces(trial.hardening, trial.eps + de);
     const Lanes D = pressure - now.pa;
     const Lanes on_cap = Lanes(law.A / law.R) * root(upper(square(Lanes(law.R) * now.Q) - D * D, 0.0));
-    const Lanes strength = upper(select(D > Lanes(0.0), on_cap, shear_strength(now, pressure, 0.0, 0.0, nullptr).value), 0.0);
+    const Lanes strength =
+        upper(select(D > Lanes(0.0), on_cap, shear_strength(now, pressure, 0.0, 0.0, nullptr).value), 0.0);
     const Lanes measure = lower(trial.t, strength);
     const Lanes shrink = trial.t / upper(measure, Lanes(1e-100) * trial.t + Lanes(1e-300));
     const Lanes multiplier = trial.deviator.multiplier(upper(shrink, 1.0), end.iterations, active);

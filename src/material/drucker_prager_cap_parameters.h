@@ -9,8 +9,8 @@ namespace furrow {
 struct DruckerPragerCapParameters {
   ElasticityParameters elasticity;
   HardeningParameters hardening;
-  double d = 0.0;           ///< cohesion in the p-t plane [Pa]
-  double tan_beta = 0.0;    ///< slope of the shear line
+  double d = 0.0;         ///< cohesion in the p-t plane [Pa]
+  double tan_beta = 0.0;  ///< slope of the shear line
   double sin_beta = 0.0;
   double R = 0.0;           ///< eccentricity of the cap
   double alpha = 0.0;       ///< size of the transition

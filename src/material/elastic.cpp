@@ -7,7 +7,8 @@ namespace furrow {
 Law Elastic::law() {
   Schema schema("law elastic");
   schema.number("density", "kg/m3", Range::positive(), "mass density at the start");
-  return {"elastic", "elastic ground, linear or porous",
+  return {"elastic",
+          "elastic ground, linear or porous",
           {{"law", {{"", "", schema}}}, elasticity_section()},
           [](const MaterialOptions& o) -> std::unique_ptr<Material> {
             return std::make_unique<Elastic>(o.at("law").options.number("density"), make_elasticity(o.at("elasticity")));

@@ -41,7 +41,8 @@ ElasticityParameters make_elasticity(const SectionOptions& section) {
   if (e.p0 + e.limit <= 0.0)
     throw InputError(o.where("p0"), "and 'pt_el' are both 0: the bulk modulus would be 0", "p0 + pt_el > 0 [Pa]");
   if (o.has("nu") == o.has("G"))
-    throw InputError(o.subject(), o.has("nu") ? "has both 'nu' and 'G'" : "has neither 'nu' nor 'G'", "exactly one of nu, G");
+    throw InputError(o.subject(), o.has("nu") ? "has both 'nu' and 'G'" : "has neither 'nu' nor 'G'",
+                     "exactly one of nu, G");
   if (o.has("G")) {
     e.shear = o.number("G");
   } else {

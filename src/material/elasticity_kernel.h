@@ -14,7 +14,8 @@ struct ElasticStep {
   Lanes shear;  ///< G at the start of the step
   Lanes ratio;  ///< J_el at the start of the step (porous)
 
-  FURROW_INLINE ElasticStep(const ElasticityParameters& constants, const Lanes& pressure) : parameters(constants), p_n(pressure) {
+  FURROW_INLINE ElasticStep(const ElasticityParameters& constants, const Lanes& pressure)
+      : parameters(constants), p_n(pressure) {
     if (!parameters.porous) {
       shear = parameters.shear;
       return;

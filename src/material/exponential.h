@@ -17,8 +17,9 @@ FURROW_INLINE Lanes exponential(const Lanes& a) {
   const Lanes shifted = bounded * Lanes(1.4426950408889634) + Lanes(shift);
   const Lanes n = shifted - Lanes(shift);
   const Lanes r = (bounded - n * Lanes(0.693147180369123816490)) - n * Lanes(1.90821492927058770002e-10);
-  constexpr double inverse_factorial[14] = {1.0, 1.0, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040, 1.0 / 40320,
-                                            1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600, 1.0 / 6227020800.0};
+  constexpr double inverse_factorial[14] = {
+      1.0,        1.0,         1.0 / 2,      1.0 / 6,       1.0 / 24,       1.0 / 120,       1.0 / 720,
+      1.0 / 5040, 1.0 / 40320, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600, 1.0 / 6227020800.0};
   Lanes sum = inverse_factorial[13];
   for (int k = 12; k >= 0; --k) sum = sum * r + Lanes(inverse_factorial[k]);
   Integers bits;

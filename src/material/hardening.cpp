@@ -12,15 +12,18 @@ namespace furrow {
 SectionSchema hardening_section() {
   Schema table("hardening table");
   table.numbers("p", 0, "Pa", Range::positive(), "hydrostatic yield strengths p_b, increasing");
-  table.numbers("eps_vol_pl", 0, "", Range::any(), "volumetric plastic strains of the strengths, compression positive, increasing");
+  table.numbers("eps_vol_pl", 0, "", Range::any(),
+                "volumetric plastic strains of the strengths, compression positive, increasing");
   table.word("interpolation", {"linear", "log"}, "between rows: straight in p, or in ln p");
   table.word("beyond", {"extrapolate", "stop"}, "rule for strains beyond the last row");
   table.word("below", {"extrapolate", "stop"}, "rule for strains below the first row: decay to zero strength, or stop")
       .by_default("extrapolate");
   Schema exponential("hardening exponential");
   exponential.number("pc0", "Pa", Range::positive(), "hydrostatic yield strength at zero volumetric plastic strain");
-  exponential.number("lambda", "", Range::positive(), "logarithmic hardening modulus: slope of void ratio against ln p in first loading");
-  exponential.number("kappa", "", Range::non_negative(), "logarithmic bulk modulus: the same slope in unloading; below lambda");
+  exponential.number("lambda", "", Range::positive(),
+                     "logarithmic hardening modulus: slope of void ratio against ln p in first loading");
+  exponential.number("kappa", "", Range::non_negative(),
+                     "logarithmic bulk modulus: the same slope in unloading; below lambda");
   exponential.number("e0", "", Range::positive(), "initial void ratio");
   return {"hardening",
           {{"table", "strengths at given volumetric plastic strains", table},
@@ -33,7 +36,8 @@ HardeningParameters make_table(const Options& o) {
   const std::vector<double>&p = o.numbers("p"), &eps = o.numbers("eps_vol_pl");
   const std::size_t rows = p.size(), most = HardeningParameters::max_segments + 1;
   if (rows != eps.size())
-    throw InputError(o.where("eps_vol_pl"), fmt::format("has {} values for {} of 'p'", eps.size(), rows), "as many as of 'p'");
+    throw InputError(o.where("eps_vol_pl"), fmt::format("has {} values for {} of 'p'", eps.size(), rows),
+                     "as many as of 'p'");
   if (rows < 2 || rows > most)
     throw InputError(o.where("p"), fmt::format("has {} row(s)", rows), fmt::format("2 to {} rows", most));
   HardeningParameters h;
@@ -43,8 +47,10 @@ HardeningParameters make_table(const Options& o) {
   for (std::size_t k = 0; k + 1 < rows; ++k) {
     for (const auto& [key, column] : {std::pair{"p", &p}, std::pair{"eps_vol_pl", &eps}})
       if ((*column)[k + 1] <= (*column)[k])
-        throw InputError(o.where(key), fmt::format("does not increase: row {} is {}, row {} is {}", k + 1, (*column)[k], k + 2, (*column)[k + 1]),
-                         "strictly increasing values", "sort the rows, remove equal ones");
+        throw InputError(
+            o.where(key),
+            fmt::format("does not increase: row {} is {}, row {} is {}", k + 1, (*column)[k], k + 2, (*column)[k + 1]),
+            "strictly increasing values", "sort the rows, remove equal ones");
     h.start[k] = eps[k];
     h.base[k] = log ? std::log(p[k]) : p[k];
     h.slope[k] = ((log ? std::log(p[k + 1]) : p[k + 1]) - h.base[k]) / (eps[k + 1] - eps[k]);
@@ -70,7 +76,8 @@ HardeningParameters make_exponential(const Options& o, double offset, bool inclu
     throw InputError(o.where("lambda"), fmt::format("is {}, not above kappa = {}", h.lambda, h.kappa), "lambda > kappa");
   h.first_value = h.scale - offset;
   if (h.first_value <= 0.0)
-    throw InputError(o.where("pc0"), fmt::format("is {} Pa, which includes the tensile strength", h.scale), fmt::format("above {} Pa", offset));
+    throw InputError(o.where("pc0"), fmt::format("is {} Pa, which includes the tensile strength", h.scale),
+                     fmt::format("above {} Pa", offset));
   h.decay = h.scale * h.c / (h.lambda - h.kappa) / h.first_value;
   return h;
 }
@@ -96,7 +103,8 @@ double strength_at(const HardeningParameters& h, double eps) {
 void check_initial(const HardeningParameters& h, const Options& law, const std::string& key) {
   const double eps = law.number(key);
   if (eps < h.first || eps > h.last)
-    throw InputError(law.where(key), fmt::format("is {}, outside the hardening data", eps), fmt::format("in [{}, {}]", h.first, h.last));
+    throw InputError(law.where(key), fmt::format("is {}, outside the hardening data", eps),
+                     fmt::format("in [{}, {}]", h.first, h.last));
 }
 
 }  // namespace furrow

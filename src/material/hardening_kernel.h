@@ -18,7 +18,8 @@ class Hardening {
   explicit Hardening(const HardeningParameters& parameters) : h_(parameters) {}
 
   FURROW_INLINE Strength at(const Lanes& eps) {
-    Strength result = h_.kind == HardeningParameters::Kind::exponential ? by_formula(upper(eps, h_.first)) : by_table(upper(eps, h_.first));
+    Strength result = h_.kind == HardeningParameters::Kind::exponential ? by_formula(upper(eps, h_.first))
+                                                                        : by_table(upper(eps, h_.first));
     const Mask below = eps < Lanes(h_.first);
     if (any(below)) {  // exp(-80) is a strength that no arithmetic sees next to the stiffness
       const Lanes exponent = Lanes(h_.decay) * (eps - Lanes(h_.first));

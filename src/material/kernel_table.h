@@ -30,7 +30,7 @@ struct Kernels {
 };
 
 const Kernels& kernels_baseline();
-const Kernels& kernels_avx2();    // x86 builds only
+const Kernels& kernels_avx2();  // x86 builds only
 const Kernels& kernels_avx512();
 
 /// ln U and U^-1 of C = U^2 = I + X by eigenvalues, for the kernels' rare large steps. Components xx, yy, zz, xy, yz, xz.

@@ -17,8 +17,9 @@ std::vector<const Kernels*> available_kernels() {
   const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
                   __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("f16c") && __builtin_cpu_supports("lzcnt") &&
                   __builtin_cpu_supports("movbe");
-  const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
-                  __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd");
+  const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                  __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+                  __builtin_cpu_supports("avx512cd");
   if (v3) list.push_back(&kernels_avx2());
   if (v4) list.push_back(&kernels_avx512());
 #endif
@@ -36,7 +37,8 @@ const Kernels& choose() {
     if (kernels->instruction_set == std::string(wish)) return *kernels;
     names += (names.empty() ? "" : ", ") + std::string(kernels->instruction_set);
   }
-  throw InputError("environment variable FURROW_ISA", "is '" + std::string(wish) + "', which this processor or build does not have", names,
+  throw InputError("environment variable FURROW_ISA",
+                   "is '" + std::string(wish) + "', which this processor or build does not have", names,
                    "leave it unset to take the fastest");
 }
 

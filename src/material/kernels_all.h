@@ -13,7 +13,8 @@ inline BlockResult update_crushable_foam(const CrushableFoamParameters& law, dou
   if (law.flow_ratio < 1.0) return update_points(CrushableFoamKernel<true>{law}, density, block);
   return update_points(CrushableFoamKernel<false>{law}, density, block);
 }
-inline BlockResult update_drucker_prager_cap(const DruckerPragerCapParameters& law, double density, const PointBlock& block) {
+inline BlockResult update_drucker_prager_cap(const DruckerPragerCapParameters& law, double density,
+                                             const PointBlock& block) {
   if (law.flow_ratio < 1.0) return update_points(DruckerPragerCapKernel<true>{law}, density, block);
   return update_gathered(DruckerPragerCapKernel<false>{law}, density, block);
 }

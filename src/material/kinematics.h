@@ -32,7 +32,9 @@ struct Motion {
 
 FURROW_INLINE void find_motion(const Tensor& h, Motion& motion) {
   const Lanes* m = h.m;
-  const auto column = [&](int i, int j) __attribute__((always_inline)) { return m[i] * m[j] + m[3 + i] * m[3 + j] + m[6 + i] * m[6 + j]; };
+  const auto column = [&](int i, int j) __attribute__((always_inline)) {
+    return m[i] * m[j] + m[3 + i] * m[3 + j] + m[6 + i] * m[6 + j];
+  };
   const Symmetric x{m[0] + m[0] + column(0, 0), m[4] + m[4] + column(1, 1), m[8] + m[8] + column(2, 2),
                     m[1] + m[3] + column(0, 1), m[5] + m[7] + column(1, 2), m[2] + m[6] + column(0, 2)};
   const Symmetric z = commuting_product(x, inverse(x.plus_identity(2.0)));
@@ -56,7 +58,8 @@ FURROW_INLINE void find_motion(const Tensor& h, Motion& motion) {
       const double entries[6] = {x.xx[lane], x.yy[lane], x.zz[lane], x.xy[lane], x.yz[lane], x.xz[lane]};
       double log_u[6] = {}, inv[6] = {};
       if (!large_stretch(entries, log_u, inv)) motion.admissible[lane] = false;
-      Lanes* strain[6] = {&motion.strain.xx, &motion.strain.yy, &motion.strain.zz, &motion.strain.xy, &motion.strain.yz, &motion.strain.xz};
+      Lanes* strain[6] = {&motion.strain.xx, &motion.strain.yy, &motion.strain.zz,
+                          &motion.strain.xy, &motion.strain.yz, &motion.strain.xz};
       Lanes* u[6] = {&inverse_u.xx, &inverse_u.yy, &inverse_u.zz, &inverse_u.xy, &inverse_u.yz, &inverse_u.xz};
       for (int k = 0; k < 6; ++k) (*strain[k])[lane] = log_u[k], (*u[k])[lane] = inv[k];
     }

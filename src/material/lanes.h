@@ -48,8 +48,12 @@ struct Symmetric {
 
   FURROW_INLINE Lanes trace() const { return xx + yy + zz; }
   FURROW_INLINE Symmetric operator*(const Lanes& f) const { return {xx * f, yy * f, zz * f, xy * f, yz * f, xz * f}; }
-  FURROW_INLINE Symmetric operator+(const Symmetric& b) const { return {xx + b.xx, yy + b.yy, zz + b.zz, xy + b.xy, yz + b.yz, xz + b.xz}; }
-  FURROW_INLINE Symmetric operator-(const Symmetric& b) const { return {xx - b.xx, yy - b.yy, zz - b.zz, xy - b.xy, yz - b.yz, xz - b.xz}; }
+  FURROW_INLINE Symmetric operator+(const Symmetric& b) const {
+    return {xx + b.xx, yy + b.yy, zz + b.zz, xy + b.xy, yz + b.yz, xz + b.xz};
+  }
+  FURROW_INLINE Symmetric operator-(const Symmetric& b) const {
+    return {xx - b.xx, yy - b.yy, zz - b.zz, xy - b.xy, yz - b.yz, xz - b.xz};
+  }
   FURROW_INLINE Symmetric plus_identity(const Lanes& f) const { return {xx + f, yy + f, zz + f, xy, yz, xz}; }
   FURROW_INLINE Symmetric deviator() const { return plus_identity(trace() * Lanes(-1.0 / 3.0)); }
 };
@@ -90,7 +94,9 @@ FURROW_INLINE Symmetric turned(const Symmetric& a, const Tensor& r) {
     b[3 * i + 1] = m[3 * i] * a.xy + m[3 * i + 1] * a.yy + m[3 * i + 2] * a.yz;
     b[3 * i + 2] = m[3 * i] * a.xz + m[3 * i + 1] * a.yz + m[3 * i + 2] * a.zz;
   }
-  const auto entry = [&](int i, int j) { return b[3 * i] * m[3 * j] + b[3 * i + 1] * m[3 * j + 1] + b[3 * i + 2] * m[3 * j + 2]; };
+  const auto entry = [&](int i, int j) {
+    return b[3 * i] * m[3 * j] + b[3 * i + 1] * m[3 * j + 1] + b[3 * i + 2] * m[3 * j + 2];
+  };
   return {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(0, 2)};
 }
 

@@ -27,9 +27,10 @@ class DeviatoricReturn;
 template <>
 class DeviatoricReturn<false> {
  public:
-  FURROW_INLINE DeviatoricReturn(double /*flow_ratio*/, const Symmetric& trial) : q_(root(Lanes(1.5) * contract(trial, trial))) {}
+  FURROW_INLINE DeviatoricReturn(double /*flow_ratio*/, const Symmetric& trial)
+      : q_(root(Lanes(1.5) * contract(trial, trial))) {}
   FURROW_INLINE explicit DeviatoricReturn(const Lanes& t) : q_(t) {}  ///< of a trial known by its measure only
-  const Lanes& t() const { return q_; }  ///< of the trial
+  const Lanes& t() const { return q_; }                               ///< of the trial
   FURROW_INLINE LodeReturn at(const Lanes& m, Lanes&, const Mask&) const { return {Lanes(1.0) + m, 1.0, 0.0, 1.0}; }
   /// m at which t falls to t_tr/shrink.
   Lanes multiplier(const Lanes& shrink, Lanes&, const Mask&) const { return shrink - Lanes(1.0); }
@@ -71,7 +72,8 @@ class DeviatoricReturn<true> {
     const Lanes radial = Lanes(1.0) + m * g * g, tangential = m * g * g1;
     // v^T (I + m H)^-1 v with v = (g^2, g g') and the Hessian H of t^2/2
     const Lanes vx = g * g, vy = g * g1, hyy = Lanes(1.0) + m * (g1 * g1 + g * g2 + g * g);
-    const Lanes form = (vx * vx * hyy - Lanes(2.0) * vx * vy * tangential + vy * vy * radial) / (radial * hyy - tangential * tangential);
+    const Lanes form =
+        (vx * vx * hyy - Lanes(2.0) * vx * vy * tangential + vy * vy * radial) / (radial * hyy - tangential * tangential);
     LodeReturn result;
     result.shrink = gauge(theta_) / g * root(radial * radial + tangential * tangential);
     result.slope = result.shrink * form / (g * g);

@@ -35,8 +35,8 @@ struct BlockResult;  // kernel_table.h
 
 /// Stiffness against an infinitesimal elastic step: the bound for the explicit time step and the start of a Newton iteration.
 struct ElasticModuli {
-  double bulk = 0.0;   ///< [Pa]
-  double shear = 0.0;  ///< [Pa]
+  double bulk = 0.0;                                        ///< [Pa]
+  double shear = 0.0;                                       ///< [Pa]
   double wave() const { return bulk + 4.0 / 3.0 * shear; }  ///< P-wave (constrained) modulus [Pa]
 };
 

@@ -12,7 +12,8 @@ Law NeoHookean::law() {
   schema.number("density", "kg/m3", Range::positive(), "mass density at the start");
   schema.number("G", "Pa", Range::positive(), "shear modulus mu at small strain");
   schema.number("bulk", "Pa", Range::positive(), "bulk modulus K at small strain");
-  return {"neo_hookean", "rubber: compressible neo-Hookean",
+  return {"neo_hookean",
+          "rubber: compressible neo-Hookean",
           {{"law", {{"", "", schema}}}},
           [](const MaterialOptions& sections) -> std::unique_ptr<Material> {
             const Options& o = sections.at("law").options;
@@ -21,13 +22,14 @@ Law NeoHookean::law() {
 }
 
 NeoHookean::NeoHookean(double density, const NeoHookeanParameters& parameters)
-    : Material("neo_hookean", density,
-               [] {
-                 std::vector<StateField> fields;
-                 for (const char* component : {"xx", "yy", "zz", "xy", "yz", "xz"})
-                   fields.push_back({std::string("b_minus_i_") + component, "", "left Cauchy-Green tensor minus identity", 0.0});
-                 return fields;
-               }()),
+    : Material(
+          "neo_hookean", density,
+          [] {
+            std::vector<StateField> fields;
+            for (const char* component : {"xx", "yy", "zz", "xy", "yz", "xz"})
+              fields.push_back({std::string("b_minus_i_") + component, "", "left Cauchy-Green tensor minus identity", 0.0});
+            return fields;
+          }()),
       parameters_(parameters) {}
 
 UpdateReport NeoHookean::update_block(const PointBlock& block) const {

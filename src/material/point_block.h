@@ -38,9 +38,9 @@ struct UpdateReport {
   std::array<std::size_t, branch_count> points{};  ///< by Branch
   std::size_t iterations = 0;                      ///< of the return mapping, summed over points
   std::size_t most_iterations = 0;                 ///< of one point
-  std::size_t below_data = 0;                      ///< points whose strength was extrapolated below the hardening data (loosened)
-  std::size_t beyond_data = 0;                     ///< points whose strength was extrapolated beyond the hardening data (compacted)
-  std::size_t beyond_ice = 0;                      ///< points denser than ice_density
+  std::size_t below_data = 0;   ///< points whose strength was extrapolated below the hardening data (loosened)
+  std::size_t beyond_data = 0;  ///< points whose strength was extrapolated beyond the hardening data (compacted)
+  std::size_t beyond_ice = 0;   ///< points denser than ice_density
 
   std::size_t size() const;
   UpdateReport& operator+=(const UpdateReport& other);

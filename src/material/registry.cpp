@@ -48,7 +48,8 @@ const SectionChoice& SectionSchema::choice(const std::string& type) const {
     types.push_back(candidate.type);
   }
   if (choices.size() == 1)
-    throw InputError(fmt::format("section '{}'", name), fmt::format("has a type '{}'", type), "no key 'type' in this section");
+    throw InputError(fmt::format("section '{}'", name), fmt::format("has a type '{}'", type),
+                     "no key 'type' in this section");
   throw InputError(fmt::format("section '{}', keyword 'type'", name), fmt::format("is '{}'", type),
                    fmt::format("one of: {}", fmt::join(types, ", ")));
 }
@@ -90,7 +91,8 @@ MaterialSections to_sections(const Law& law, const std::vector<Entry>& flat) {
       continue;
     }
     if (entry.values.size() != 1)
-      throw InputError(fmt::format("keyword '{}'", entry.key), fmt::format("has {} value(s)", entry.values.size()), "one word");
+      throw InputError(fmt::format("keyword '{}'", entry.key), fmt::format("has {} value(s)", entry.values.size()),
+                       "one word");
     types[entry.key] = entry.values.front();
     sections[entry.key].push_back({"type", entry.values});
   }

@@ -18,7 +18,8 @@ struct ValueAndSlope {
 /// @param active      lanes to solve; the others return x as given
 /// @param iterations  += evaluations of f, lane by lane
 template <class Function>
-FURROW_INLINE Lanes decreasing_root(Function&& f, Lanes x, Lanes low, Lanes high, const Lanes& tolerance, Mask active, Lanes& iterations) {
+FURROW_INLINE Lanes decreasing_root(Function&& f, Lanes x, Lanes low, Lanes high, const Lanes& tolerance, Mask active,
+                                    Lanes& iterations) {
   Lanes last = high - low;
   for (int i = 0; i < most_root_iterations && any(active); ++i) {
     const ValueAndSlope at = f(x);
@@ -28,7 +29,8 @@ FURROW_INLINE Lanes decreasing_root(Function&& f, Lanes x, Lanes low, Lanes high
     stdx::where(active && !left, high) = x;
     Lanes step = -at.value / at.slope;
     const Lanes newton = x + step;
-    const Mask trusted = at.slope < Lanes(0.0) && finite(at.slope) && newton >= low && newton <= high && magnitude(step) <= Lanes(0.5) * magnitude(last);
+    const Mask trusted = at.slope < Lanes(0.0) && finite(at.slope) && newton >= low && newton <= high &&
+                         magnitude(step) <= Lanes(0.5) * magnitude(last);
     step = select(trusted, step, Lanes(0.5) * (low + high) - x);
     stdx::where(active, x) = x + step;
     stdx::where(active, last) = step;

@@ -23,9 +23,12 @@ SlipDefinition slip_definition(const std::string& word) {
 
 std::string slip_formula(SlipDefinition definition) {
   switch (definition) {
-    case SlipDefinition::larger_speed: return "(v_rim - v)/max(|v_rim|, |v|)";
-    case SlipDefinition::rim_speed: return "(v_rim - v)/v_rim";
-    case SlipDefinition::vehicle_speed: return "(v_rim - v)/v";
+    case SlipDefinition::larger_speed:
+      return "(v_rim - v)/max(|v_rim|, |v|)";
+    case SlipDefinition::rim_speed:
+      return "(v_rim - v)/v_rim";
+    case SlipDefinition::vehicle_speed:
+      return "(v_rim - v)/v";
   }
   return {};
 }

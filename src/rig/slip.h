@@ -8,8 +8,8 @@
 namespace furrow {
 
 enum class SlipDefinition {
-  larger_speed,  ///< (v_rim - v)/max(|v_rim|, |v|): -1 locked, +1 spinning on the spot (CMU sand data; Furrow's own)
-  rim_speed,     ///< (v_rim - v)/v_rim: the same for a driven wheel; -infinity locked (Wong)
+  larger_speed,   ///< (v_rim - v)/max(|v_rim|, |v|): -1 locked, +1 spinning on the spot (CMU sand data; Furrow's own)
+  rim_speed,      ///< (v_rim - v)/v_rim: the same for a driven wheel; -infinity locked (Wong)
   vehicle_speed,  ///< (v_rim - v)/v: the same for a braked wheel; +infinity on the spot (TR eq. 28)
 };
 

@@ -150,7 +150,9 @@ void WheelRig::drive_vertical(double time, double dt) {
 
 void WheelRig::drive_spin(double time, double dt) {
   switch (mode_) {
-    case Mode::towed: wheel_.release(RigidWheel::spin); return;
+    case Mode::towed:
+      wheel_.release(RigidWheel::spin);
+      return;
     case Mode::slip:
       wheel_.prescribe(RigidWheel::spin,
                        rim_speed_ / wheel_.parameters().geometry.radius() * speed_ramp_.mean(time, time + dt));

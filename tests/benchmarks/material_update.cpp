@@ -65,7 +65,9 @@ class Points {
   std::size_t run_;
 };
 
-std::unique_ptr<Material> make(const std::string& name, const MaterialSections& sections) { return make_material(name, sections); }
+std::unique_ptr<Material> make(const std::string& name, const MaterialSections& sections) {
+  return make_material(name, sections);
+}
 
 std::unique_ptr<Material> elastic() {
   return make("elastic", {{"law", {{"density", {"200"}}}}, {"elasticity", {{"E", {"13.79e6"}}, {"nu", {"0.3"}}}}});
@@ -73,22 +75,32 @@ std::unique_ptr<Material> elastic() {
 
 /// Fresh snow, TR Tables 1 and 3.
 std::unique_ptr<Material> snow(const std::string& K, const std::string& alpha, const std::string& interpolation) {
-  return make("drucker_prager_cap",
-              {{"law", {{"density", {"200"}}, {"d", {"5e3"}}, {"beta", {"22.53"}}, {"R", {"0.02"}}, {"alpha", {alpha}}, {"K", {K}},
-                        {"eps_vol_pl_0", {"0.001"}}}},
-               {"elasticity", {{"E", {"13.79e6"}}, {"nu", {"0.3"}}}},
-               {"hardening", {{"type", {"table"}},
-                              {"p", {"113.76", "5e4", "1e5", "2e5", "5e5", "1e6", "2e6", "2.8e6", "3.25e6", "6e6", "6e7"}},
-                              {"eps_vol_pl", {"0", "0.593", "0.669", "0.806", "0.944", "1.083", "1.299", "1.455", "1.475", "1.50", "1.514"}},
-                              {"interpolation", {interpolation}},
-                              {"beyond", {"extrapolate"}}}}});
+  return make(
+      "drucker_prager_cap",
+      {{"law",
+        {{"density", {"200"}},
+         {"d", {"5e3"}},
+         {"beta", {"22.53"}},
+         {"R", {"0.02"}},
+         {"alpha", {alpha}},
+         {"K", {K}},
+         {"eps_vol_pl_0", {"0.001"}}}},
+       {"elasticity", {{"E", {"13.79e6"}}, {"nu", {"0.3"}}}},
+       {"hardening",
+        {{"type", {"table"}},
+         {"p", {"113.76", "5e4", "1e5", "2e5", "5e5", "1e6", "2e6", "2.8e6", "3.25e6", "6e6", "6e7"}},
+         {"eps_vol_pl", {"0", "0.593", "0.669", "0.806", "0.944", "1.083", "1.299", "1.455", "1.475", "1.50", "1.514"}},
+         {"interpolation", {interpolation}},
+         {"beyond", {"extrapolate"}}}}});
 }
 
 std::unique_ptr<Material> foam() {
-  return make("crushable_foam",
-              {{"law", {{"density", {"200"}}, {"pt", {"11.376"}}, {"sigma0", {"275.79"}}}},
-               {"elasticity", {{"type", {"porous"}}, {"kappa", {"0.005"}}, {"e0", {"3.5"}}, {"pt_el", {"113.76"}}, {"nu", {"0.3"}}}},
-               {"hardening", {{"type", {"exponential"}}, {"pc0", {"113.76"}}, {"lambda", {"0.35"}}, {"kappa", {"0.005"}}, {"e0", {"3.5"}}}}});
+  return make(
+      "crushable_foam",
+      {{"law", {{"density", {"200"}}, {"pt", {"11.376"}}, {"sigma0", {"275.79"}}}},
+       {"elasticity", {{"type", {"porous"}}, {"kappa", {"0.005"}}, {"e0", {"3.5"}}, {"pt_el", {"113.76"}}, {"nu", {"0.3"}}}},
+       {"hardening",
+        {{"type", {"exponential"}}, {"pc0", {"113.76"}}, {"lambda", {"0.35"}}, {"kappa", {"0.005"}}, {"e0", {"3.5"}}}}});
 }
 
 void measure(benchmark::State& timer, const Material& law, double strain, double loosening, std::size_t run = 1) {
@@ -102,8 +114,8 @@ void measure(benchmark::State& timer, const Material& law, double strain, double
   }
   timer.SetLabel(kernels().instruction_set);
   timer.SetItemsProcessed(static_cast<std::int64_t>(timer.iterations() * point_count));
-  timer.counters["ns_per_point"] =
-      benchmark::Counter(1e-9 * static_cast<double>(point_count), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  timer.counters["ns_per_point"] = benchmark::Counter(
+      1e-9 * static_cast<double>(point_count), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   const auto share = [&](Branch branch) {
     return 100.0 * static_cast<double>(report.points[static_cast<std::size_t>(branch)]) / static_cast<double>(point_count);
   };

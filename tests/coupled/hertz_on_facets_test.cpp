@@ -16,7 +16,9 @@ namespace {
 constexpr double young = 5e6, poisson = 0.3, radius = 0.004, overlap = 4e-6, side = 0.2, height = 0.1;
 constexpr int cells = 20;
 
-double hertz_force() { return 4.0 / 3.0 * young / (2.0 * (1.0 - poisson * poisson)) * std::sqrt(radius) * std::pow(overlap, 1.5); }
+double hertz_force() {
+  return 4.0 / 3.0 * young / (2.0 * (1.0 - poisson * poisson)) * std::sqrt(radius) * std::pow(overlap, 1.5);
+}
 
 /// Cross-section of a sheet bent to a cylinder: z(x), curvature > 0 convex upwards, < 0 concave, 0 flat.
 double profile(double x, double curvature) {
@@ -75,10 +77,13 @@ TEST_P(HertzOnFacets, ForceIsHertzEverywhere) {
   scene.contact_properties(young, poisson, 0.3, 0.0);
   scene.commands("pair_style gran model hertz tangential history\npair_coeff * *\ntimestep 1e-5");
   scene.add_body("sheet", std::make_unique<PrescribedBody>(start, [&](double, Surface& surface) { bend(surface); }));
-  scene.commands("fix skin all mesh/body body sheet type 1\n"
-                 "fix walls all wall/gran/body model hertz tangential history mesh n_meshes 1 meshes skin");
+  scene.commands(
+      "fix skin all mesh/body body sheet type 1\n"
+      "fix walls all wall/gran/body model hertz tangential history mesh n_meshes 1 meshes skin");
   const std::vector<Vector2> path = centre_path(c.curvature, 5e-5);
-  const auto lateral = [=](double x) { return shear * x + 0.0031 + 0.004 * std::sin(40.0 * x); };  // wanders over diagonals and corners
+  const auto lateral = [=](double x) {
+    return shear * x + 0.0031 + 0.004 * std::sin(40.0 * x);
+  };  // wanders over diagonals and corners
   scene.command("create_atoms 1 single " + std::to_string(path[0][0]) + " " + std::to_string(lateral(path[0][0])) + " 0.15");
   scene.command("set group all density 2500 diameter 0.008");
   std::size_t index = 0;
@@ -107,15 +112,17 @@ TEST_P(HertzOnFacets, ForceIsHertzEverywhere) {
   EXPECT_NEAR(largest / hertz_force(), 1.0, 1e-3);
   EXPECT_LT(audit, 1e-10);
   if (scene.rank() == 0)
-    printf("%s: %zu positions, force over Hertz %.6f to %.6f, momentum defect %.1e\n", c.name, path.size(), smallest / hertz_force(),
-           largest / hertz_force(), audit);
+    printf("%s: %zu positions, force over Hertz %.6f to %.6f, momentum defect %.1e\n", c.name, path.size(),
+           smallest / hertz_force(), largest / hertz_force(), audit);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sheets, HertzOnFacets,
                          testing::Values(Case{0.0, false, false, "flat"}, Case{5.0, false, false, "convex"},
-                                         Case{-5.0, false, false, "concave"}, Case{5.0, true, false, "convex_bent_after_start"},
-                                         Case{-5.0, true, false, "concave_bent_after_start"}, Case{0.0, false, true, "flat_obtuse"},
-                                         Case{5.0, true, true, "convex_obtuse_bent"}, Case{-5.0, true, true, "concave_obtuse_bent"}),
+                                         Case{-5.0, false, false, "concave"},
+                                         Case{5.0, true, false, "convex_bent_after_start"},
+                                         Case{-5.0, true, false, "concave_bent_after_start"},
+                                         Case{0.0, false, true, "flat_obtuse"}, Case{5.0, true, true, "convex_obtuse_bent"},
+                                         Case{-5.0, true, true, "concave_obtuse_bent"}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 }  // namespace

@@ -30,22 +30,26 @@ std::unique_ptr<Membrane> make_cover(double height, const MembraneMaterial& mate
 
 /// Frictionless side walls, a bed of 300 grains that falls onto a membrane which is blown up from below.
 void make_bed_on_membrane(Scene& scene, const MembraneMaterial& material, double pressure, double young, double step) {
-  scene.granular_box(Vector3(-side / 2 - 0.001, -side / 2 - 0.001, 0), Vector3(side / 2 + 0.001, side / 2 + 0.001, 0.2), 0.002);
+  scene.granular_box(Vector3(-side / 2 - 0.001, -side / 2 - 0.001, 0), Vector3(side / 2 + 0.001, side / 2 + 0.001, 0.2),
+                     0.002);
   scene.contact_properties(young, 0.3, 0.5, 0.0);
-  scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity {} vector 0 0 -1", hertz, step, gravity));
+  scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity {} vector 0 0 -1",
+                             hertz, step, gravity));
   scene.add_body("cover", make_cover(0.03, material, pressure));
   scene.command("fix skin all mesh/body body cover type 2");
   scene.command(fmt::format("fix walls all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
   for (const char* wall : {"x1 all", "x2 all", "y1 all", "y2 all"}) {
     const std::string name = std::string(wall).substr(0, 2);
-    scene.command(fmt::format("fix {} wall/gran {} primitive type 1 {}plane {}", wall, hertz, name[0], name[1] == '1' ? -side / 2 : side / 2));
+    scene.command(fmt::format("fix {} wall/gran {} primitive type 1 {}plane {}", wall, hertz, name[0],
+                              name[1] == '1' ? -side / 2 : side / 2));
   }
-  scene.commands("fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant 0.004\n"
-                 "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
-                 "region fill block -0.04 0.04 -0.04 0.04 0.045 0.15 units box\n"
-                 "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once overlapcheck yes all_in yes "
-                 "particles_in_region 300 region fill\n"
-                 "fix move all nve/sphere\nthermo 100000");
+  scene.commands(
+      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant 0.004\n"
+      "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
+      "region fill block -0.04 0.04 -0.04 0.04 0.045 0.15 units box\n"
+      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once overlapcheck yes all_in yes "
+      "particles_in_region 300 region fill\n"
+      "fix move all nve/sphere\nthermo 100000");
 }
 
 TEST(MembraneOnBed, InflatedAgainstABedCarriesItsWeight) {

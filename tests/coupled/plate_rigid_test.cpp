@@ -17,13 +17,15 @@ TEST(PlateRigid, GivesSinkageForceAndPressureOfAHeldGrain) {
   Scene scene;
   scene.granular_box(Vector3(-0.1, -0.1, 0.0), Vector3(0.1, 0.1, 0.2), 0.001);
   scene.contact_properties(young, poisson, 1.0, 0.0);  // elastic: no damping adds to Hertz's force
-  scene.commands("create_atoms 1 single 0.011 0.007 0.05\n"
-                 "set group all diameter 0.008 density 2500\n"
-                 "pair_style gran model hertz tangential history\npair_coeff * *\ntimestep 1e-4\n"
-                 "fix plate all plate/rigid size 0.06 thickness 0.01 elements 12 centre 0 0 0.0545 speed 0.01 accelerate_time 0 ground_level 0.0545\n"
-                 "fix skin all mesh/body body plate type 1\n"
-                 "fix face all wall/gran/body model hertz tangential history mesh n_meshes 1 meshes skin\n"
-                 "run 1000");
+  scene.commands(
+      "create_atoms 1 single 0.011 0.007 0.05\n"
+      "set group all diameter 0.008 density 2500\n"
+      "pair_style gran model hertz tangential history\npair_coeff * *\ntimestep 1e-4\n"
+      "fix plate all plate/rigid size 0.06 thickness 0.01 elements 12 centre 0 0 0.0545 speed 0.01 accelerate_time 0 "
+      "ground_level 0.0545\n"
+      "fix skin all mesh/body body plate type 1\n"
+      "fix face all wall/gran/body model hertz tangential history mesh n_meshes 1 meshes skin\n"
+      "run 1000");
   LAMMPS_NS::Fix& plate = *scene.lammps().modify->find_fix_id("plate");
   const double overlap = speed * duration - gap;
   const double force = 4.0 / 3.0 * young / (2.0 * (1.0 - poisson * poisson)) * std::sqrt(radius) * std::pow(overlap, 1.5);

@@ -30,7 +30,8 @@ TEST(WallPhysics, BedOnADeformingFloorWeighsItsWeight) {
   const double side = 0.08;
   scene.granular_box(Vector3(-side / 2, -side / 2, 0), Vector3(side / 2, side / 2, 0.2), 0.002, "p p f");
   scene.contact_properties(5e6, 0.3, 0.3, 0.5);
-  scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep 2e-5\nfix weight all gravity {} vector 0 0 -1", hertz, gravity));
+  scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep 2e-5\nfix weight all gravity {} vector 0 0 -1",
+                             hertz, gravity));
   // Heave that fades to a fixed wave; both edges of the periodic sheet move alike.
   const Surface flat = make_sheet(8, side, 0.02);
   const auto heave = [=](double time, Surface& surface) {
@@ -44,12 +45,13 @@ TEST(WallPhysics, BedOnADeformingFloorWeighsItsWeight) {
   scene.add_body("floor", std::make_unique<PrescribedBody>(flat, heave));
   scene.command("fix skin all mesh/body body floor type 2");
   scene.command(fmt::format("fix walls all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
-  scene.commands("fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant 0.004\n"
-                 "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
-                 "region fill block -0.04 0.04 -0.04 0.04 0.035 0.15 units box\n"
-                 "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once overlapcheck yes all_in no "
-                 "particles_in_region 400 region fill\n"
-                 "fix move all nve/sphere\nfix calm all viscous 0.02\nthermo 100000");
+  scene.commands(
+      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant 0.004\n"
+      "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
+      "region fill block -0.04 0.04 -0.04 0.04 0.035 0.15 units box\n"
+      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once overlapcheck yes all_in no "
+      "particles_in_region 400 region fill\n"
+      "fix move all nve/sphere\nfix calm all viscous 0.02\nthermo 100000");
   scene.command("run 60000");
   double sum = 0.0;
   int samples = 0;
@@ -70,7 +72,8 @@ TEST(WallPhysics, SphereRollsOverAFlatSheetAsOverAPlane) {
   Scene scene;
   scene.granular_box(Vector3(-0.11, -0.11, 0), Vector3(0.11, 0.11, 0.2), 0.0015);
   scene.contact_properties(5e6, 0.3, 0.3, 0.5);
-  scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep 1e-5\nfix weight all gravity {} vector 0 0 -1", hertz, gravity));
+  scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep 1e-5\nfix weight all gravity {} vector 0 0 -1",
+                             hertz, gravity));
   scene.add_body("sheet", std::make_unique<PrescribedBody>(make_sheet(20, 0.2, 0.1, true), [](double, Surface&) {}));
   scene.command("fix skin all mesh/body body sheet type 2");
   scene.command(fmt::format("fix walls all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
@@ -109,8 +112,9 @@ TEST(WallPhysics, SphereRollsOverAFlatSheetAsOverAPlane) {
   scene.command("run 40000");
   const double weight = mass * gravity;
   if (scene.rank() == 0)
-    fmt::print("  rolled 0.12 m over {:.0f} edges: normal force ripple {:.1e} of the weight, speed {:.9f} to {:.9f} of the start\n",
-               0.12 / 0.01 * 3, (highest - lowest) / weight, slowest / speed, fastest / speed);
+    fmt::print(
+        "  rolled 0.12 m over {:.0f} edges: normal force ripple {:.1e} of the weight, speed {:.9f} to {:.9f} of the start\n",
+        0.12 / 0.01 * 3, (highest - lowest) / weight, slowest / speed, fastest / speed);
   EXPECT_LT((highest - lowest) / weight, 1e-6);
   EXPECT_NEAR(slowest / speed, 1.0, 1e-6);
   EXPECT_NEAR(fastest / speed, 1.0, 1e-6);
@@ -128,11 +132,11 @@ TEST(WallPhysics, PeriodicSheetRunsUnderASphere) {
   scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep 1e-5", hertz));
   const Surface start = make_sheet(10, side, 0.1);
   scene.add_body("belt", std::make_unique<PrescribedBody>(start, [=](double time, Surface& surface) {
-    surface.x.row(0) = start.x.row(0).array() + speed * time;
-    surface.x.row(1) = start.x.row(1).array() + 0.37 * speed * time;
-    surface.v.row(0).setConstant(speed);
-    surface.v.row(1).setConstant(0.37 * speed);
-  }));
+                   surface.x.row(0) = start.x.row(0).array() + speed * time;
+                   surface.x.row(1) = start.x.row(1).array() + 0.37 * speed * time;
+                   surface.v.row(0).setConstant(speed);
+                   surface.v.row(1).setConstant(0.37 * speed);
+                 }));
   scene.command("fix skin all mesh/body body belt type 2");
   scene.command(fmt::format("fix walls all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
   scene.command(fmt::format("create_atoms 1 single 0.0012 0.0007 {:.17g}", 0.1 + radius - overlap));

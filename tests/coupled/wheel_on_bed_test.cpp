@@ -23,15 +23,17 @@ constexpr double load = 8.0;
 void make_bed(Scene& scene) {
   scene.granular_box(Vector3(-0.13, -0.06, -0.01), Vector3(0.13, 0.06, 0.25), 0.003);
   scene.contact_properties(5e6, 0.3, 0.3, 0.5);
-  scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep 4e-5\nfix weight all gravity 9.81 vector 0 0 -1", hertz));
+  scene.commands(
+      fmt::format("pair_style gran {}\npair_coeff * *\ntimestep 4e-5\nfix weight all gravity 9.81 vector 0 0 -1", hertz));
   for (const char* wall : {"xplane -0.12", "xplane 0.12", "yplane -0.05", "yplane 0.05", "zplane 0"})
     scene.command(fmt::format("fix {0:.1}{1} all wall/gran {2} primitive type 1 {0}", wall, wall[7] == '-' ? 1 : 2, hertz));
-  scene.commands("fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant 0.004\n"
-                 "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
-                 "region fill block -0.12 0.12 -0.05 0.05 0 0.12 units box\n"
-                 "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once overlapcheck yes all_in yes "
-                 "particles_in_region 1500 region fill\n"
-                 "fix move all nve/sphere\nfix calm all viscous 0.02\nthermo 100000\nrun 12000\nunfix calm");
+  scene.commands(
+      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant 0.004\n"
+      "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
+      "region fill block -0.12 0.12 -0.05 0.05 0 0.12 units box\n"
+      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once overlapcheck yes all_in yes "
+      "particles_in_region 1500 region fill\n"
+      "fix move all nve/sphere\nfix calm all viscous 0.02\nthermo 100000\nrun 12000\nunfix calm");
 }
 
 double top_of(Scene& scene) {
@@ -51,10 +53,14 @@ struct Outcome {
 Outcome roll(Scene& scene, double slip) {
   make_bed(scene);
   const double level = top_of(scene);
-  scene.command(fmt::format("fix wheel all wheel/rigid diameter 0.1 width 0.05 shoulder 0.005 mass 0.5 inertia 6e-4 segments 48 axle "
-                            "-0.05 0 {:.9f}", level + 0.052));
-  scene.command(fmt::format("fix rig all wheel/rig wheel wheel load_force {} speed 0.2 mode slip slip {} settle_time 0.4 load_ramp_time 0.1 "
-                            "accelerate_time 0.1 ground_level {:.9f} damping 10", load, slip, level));
+  scene.command(
+      fmt::format("fix wheel all wheel/rigid diameter 0.1 width 0.05 shoulder 0.005 mass 0.5 inertia 6e-4 segments 48 axle "
+                  "-0.05 0 {:.9f}",
+                  level + 0.052));
+  scene.command(fmt::format(
+      "fix rig all wheel/rig wheel wheel load_force {} speed 0.2 mode slip slip {} settle_time 0.4 load_ramp_time 0.1 "
+      "accelerate_time 0.1 ground_level {:.9f} damping 10",
+      load, slip, level));
   scene.command("fix skin all mesh/body body wheel type 2");
   scene.command(fmt::format("fix tread all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
   const coupling::FixWheelRig& rig = *dynamic_cast<coupling::FixWheelRig*>(scene.lammps().modify->find_fix_id("rig"));
@@ -71,7 +77,8 @@ Outcome roll(Scene& scene, double slip) {
     }
     if (rig.rig().phase(time) == WheelRig::Phase::cruise) {
       const double rim = wheel.rate(RigidWheel::spin) * wheel.parameters().geometry.radius(), v = wheel.velocity()[0];
-      run.worst_slip_error = std::max(run.worst_slip_error, std::abs((rim - v) / std::max(std::abs(rim), std::abs(v)) - slip));
+      run.worst_slip_error =
+          std::max(run.worst_slip_error, std::abs((rim - v) / std::max(std::abs(rim), std::abs(v)) - slip));
     }
   });
   scene.command("run 17500");
@@ -88,9 +95,11 @@ TEST(WheelOnBed, CarriesItsLoadAndKeepsMomentumAndEnergy) {
   Scene scene;
   const Outcome run = roll(scene, 0.2);
   if (scene.rank() == 0)
-    fmt::print("  standing: force over load {:.5f}; slip error {:.1e}; energy residual over work {:.1e}; momentum defect {:.1e}, "
-               "moment defect {:.1e}\n",
-               run.settled_force / load, run.worst_slip_error, run.energy_residual / run.energy_scale, run.force_defect, run.moment_defect);
+    fmt::print(
+        "  standing: force over load {:.5f}; slip error {:.1e}; energy residual over work {:.1e}; momentum defect {:.1e}, "
+        "moment defect {:.1e}\n",
+        run.settled_force / load, run.worst_slip_error, run.energy_residual / run.energy_scale, run.force_defect,
+        run.moment_defect);
   EXPECT_NEAR(run.settled_force / load, 1.0, 2e-3);  // grains still tremble a little
   EXPECT_LT(run.worst_slip_error, 1e-10);
   EXPECT_LT(run.energy_residual / run.energy_scale, 1e-10);

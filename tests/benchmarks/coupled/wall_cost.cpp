@@ -64,8 +64,10 @@ double bed_level(Scene& scene) {
 
 double load_bed(Scene& scene) {
   scene.command("processors 1 * 1");
-  scene.command("bed " FURROW_SOURCE_DIR "/inputs/beds/sand.lig length 0.8 width 0.32 depth 0.12 headroom 0.36 diameter 0.01 "
-                "density 2600 young 2e7 poisson 0.25 restitution 0.3 friction 0.6 rolling 0.15 pour_friction 0.3 step 4e-5 seed 86028121");
+  scene.command("bed " FURROW_SOURCE_DIR
+                "/inputs/beds/sand.lig length 0.8 width 0.32 depth 0.12 headroom 0.36 diameter 0.01 "
+                "density 2600 young 2e7 poisson 0.25 restitution 0.3 friction 0.6 rolling 0.15 pour_friction 0.3 step 4e-5 "
+                "seed 86028121");
   scene.command("fix m4 all property/global coefficientFriction peratomtypepair 2 0.6 0.5 0.5 0.5");
   return bed_level(scene);
 }
@@ -89,8 +91,8 @@ void make_stock(Scene& scene) {
   scene.commands("unfix turn\nunfix down");
   const double t = sink_steps * step;
   scene.command(fmt::format("fix roll all move/mesh mesh wheel linear {} 0 0", speed));
-  scene.command(fmt::format("fix turn all move/mesh mesh wheel rotate origin {} 0 {} axis 0 1 0 period {}", axle[0] + speed * t,
-                            axle[2] - sink_speed * t, 2 * M_PI * radius / speed));
+  scene.command(fmt::format("fix turn all move/mesh mesh wheel rotate origin {} 0 {} axis 0 1 0 period {}",
+                            axle[0] + speed * t, axle[2] - sink_speed * t, 2 * M_PI * radius / speed));
   scene.command(fmt::format("run {}", warm_steps));
 }
 
@@ -100,15 +102,15 @@ void make_body(Scene& scene) {
   const Vector3 axle = start.x.rowwise().mean();
   const double sink_time = sink_steps * step, spin = speed / radius;
   scene.add_body("wheel", std::make_unique<PrescribedBody>(start, [=](double time, Surface& surface) {
-    const Vector3 centre = axle + Vector3(speed * time, 0.0, -sink_speed * std::min(time, sink_time));
-    const Vector3 velocity(speed, 0.0, time < sink_time ? -sink_speed : 0.0);
-    const furrow::Matrix3 turn = Eigen::AngleAxisd(spin * time, Vector3::UnitY()).toRotationMatrix();
-    for (Eigen::Index n = 0; n < surface.x.cols(); ++n) {
-      const Vector3 arm = turn * (start.x.col(n) - axle);
-      surface.x.col(n) = centre + arm;
-      surface.v.col(n) = velocity + spin * Vector3::UnitY().cross(arm);
-    }
-  }));
+                   const Vector3 centre = axle + Vector3(speed * time, 0.0, -sink_speed * std::min(time, sink_time));
+                   const Vector3 velocity(speed, 0.0, time < sink_time ? -sink_speed : 0.0);
+                   const furrow::Matrix3 turn = Eigen::AngleAxisd(spin * time, Vector3::UnitY()).toRotationMatrix();
+                   for (Eigen::Index n = 0; n < surface.x.cols(); ++n) {
+                     const Vector3 arm = turn * (start.x.col(n) - axle);
+                     surface.x.col(n) = centre + arm;
+                     surface.v.col(n) = velocity + spin * Vector3::UnitY().cross(arm);
+                   }
+                 }));
   scene.command("fix skin all mesh/body body wheel type 2");
   scene.command(fmt::format("fix walls all wall/gran/body {} mesh n_meshes 1 meshes skin", contact));
   scene.command("fix move all nve/sphere");
@@ -141,10 +143,11 @@ int main(int argc, char** argv) {
     std::sort(ratios.begin(), ratios.end());
     std::sort(milliseconds.begin(), milliseconds.end());
     if (stock.rank() == 0)
-      fmt::print("{} rank(s), {} grains, {} triangles: body wall over stock rigid mesh wall, time per step: median {:.3f} "
-                 "(min {:.3f}, max {:.3f}, {} pairs of {} steps); stock {:.2f} ms a step\n",
-                 stock.ranks(), static_cast<long>(stock.lammps().atom->natoms), wheel_at_start(0.1).triangle_count(),
-                 ratios[ratios.size() / 2], ratios.front(), ratios.back(), pairs, steps, milliseconds[milliseconds.size() / 2]);
+      fmt::print(
+          "{} rank(s), {} grains, {} triangles: body wall over stock rigid mesh wall, time per step: median {:.3f} "
+          "(min {:.3f}, max {:.3f}, {} pairs of {} steps); stock {:.2f} ms a step\n",
+          stock.ranks(), static_cast<long>(stock.lammps().atom->natoms), wheel_at_start(0.1).triangle_count(),
+          ratios[ratios.size() / 2], ratios.front(), ratios.back(), pairs, steps, milliseconds[milliseconds.size() / 2]);
   }
   MPI_Finalize();
 }

@@ -37,7 +37,9 @@ class FixTestBody : public coupling::FixBody {
 template <int Mask>
 class FixHook : public LAMMPS_NS::Fix {
  public:
-  FixHook(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg), action_(waiting_actions().at(arg[0])) { nevery = 1; }
+  FixHook(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg), action_(waiting_actions().at(arg[0])) {
+    nevery = 1;
+  }
   int setmask() override { return Mask; }
   void initial_integrate(int) override { action_(); }
   void end_of_step() override { action_(); }
@@ -162,8 +164,10 @@ double Scene::grain_kinetic_energy() const {
 }
 
 void Scene::granular_box(const Vector3& lower, const Vector3& upper, double skin, const std::string& boundary) {
-  commands("atom_style granular\natom_modify map array\nboundary " + boundary + "\nnewton off\ncommunicate single vel yes\nunits si");
-  command(fmt::format("region box block {} {} {} {} {} {} units box", lower[0], upper[0], lower[1], upper[1], lower[2], upper[2]));
+  commands("atom_style granular\natom_modify map array\nboundary " + boundary +
+           "\nnewton off\ncommunicate single vel yes\nunits si");
+  command(fmt::format("region box block {} {} {} {} {} {} units box", lower[0], upper[0], lower[1], upper[1], lower[2],
+                      upper[2]));
   command("create_box 2 box");
   command(fmt::format("neighbor {} bin", skin));
   command("neigh_modify delay 0 check yes");

@@ -51,7 +51,8 @@ TEST(ClosedSurface, TurnedTriangleIsNamed) {
 TEST(ClosedSurface, FinOnASolidIsRefused) {
   Surface surface = tetrahedron();
   surface.triangles.push_back({0, 1, 2});
-  EXPECT_THAT([&] { check_closed(surface, "soil"); }, ThrowsMessage<StateError>(HasSubstr("belongs to more than two triangles")));
+  EXPECT_THAT([&] { check_closed(surface, "soil"); },
+              ThrowsMessage<StateError>(HasSubstr("belongs to more than two triangles")));
 }
 
 TEST(ClosedSurface, NothingIsNotClosed) {

@@ -12,11 +12,11 @@ namespace {
 /// Icosahedron with every triangle split in four a number of times, nodes on the sphere.
 Surface make_sphere(double radius, int refinements) {
   const double t = (1.0 + std::sqrt(5.0)) / 2.0;
-  std::vector<Vector3> nodes = {{-1, t, 0}, {1, t, 0}, {-1, -t, 0}, {1, -t, 0}, {0, -1, t}, {0, 1, t},
-                                {0, -1, -t}, {0, 1, -t}, {t, 0, -1}, {t, 0, 1}, {-t, 0, -1}, {-t, 0, 1}};
-  std::vector<Vector3i> triangles = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                                     {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-                                     {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  std::vector<Vector3> nodes = {{-1, t, 0},  {1, t, 0},  {-1, -t, 0}, {1, -t, 0}, {0, -1, t},  {0, 1, t},
+                                {0, -1, -t}, {0, 1, -t}, {t, 0, -1},  {t, 0, 1},  {-t, 0, -1}, {-t, 0, 1}};
+  std::vector<Vector3i> triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                                     {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                                     {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (int level = 0; level < refinements; ++level) {
     std::map<std::pair<int, int>, int> middles;
     const auto middle = [&](int a, int b) {
@@ -68,7 +68,8 @@ TEST(Membrane, FreeFlightKeepsMomentumAndEnergyBalances) {
   const MembraneMaterial rubber{1e6, 0.3, 1e-3, 1000.0, 0.0};
   Membrane membrane(make_sphere(0.1, 2), rubber, {});
   for (Eigen::Index n = 0; n < membrane.surface().v.cols(); ++n)
-    membrane.surface().v.col(n) = Vector3(1.0, 0.5, -0.3) + 0.8 * membrane.surface().x.col(n).cwiseProduct(Vector3(10, -3, 5));
+    membrane.surface().v.col(n) =
+        Vector3(1.0, 0.5, -0.3) + 0.8 * membrane.surface().x.col(n).cwiseProduct(Vector3(10, -3, 5));
   const Balance start = membrane.balance();
   const double dt = 0.2 * membrane.stable_time_step();
   for (int i = 0; i < 5000; ++i) membrane.advance(dt);

@@ -31,7 +31,8 @@ std::string message_of(const Words& words) {
 }
 
 TEST(Options, ReadsGivenValuesAndDefaults) {
-  const Options options = wheel_schema().read(Words{"axle", "1", "-2", "3e-1", "diameter", "0.74", "table", "1", "2", "mode", "slip"});
+  const Options options =
+      wheel_schema().read(Words{"axle", "1", "-2", "3e-1", "diameter", "0.74", "table", "1", "2", "mode", "slip"});
   EXPECT_DOUBLE_EQ(options.number("diameter"), 0.74);
   EXPECT_DOUBLE_EQ(options.number("shoulder"), 0.0);
   EXPECT_EQ(options.integer("segments"), 64);
@@ -77,8 +78,10 @@ TEST(Options, EntriesOfAFileTellTheirLine) {
     }
     return std::string("no error");
   };
-  EXPECT_THAT(message({{"diameter", {"-1"}, "wheel.yaml, line 3"}}), HasSubstr("wheel.yaml, line 3: fix wheel/rigid, keyword 'diameter' is -1"));
-  EXPECT_THAT(message({{"diametre", {"1"}, "wheel.yaml, line 4"}}), HasSubstr("wheel.yaml, line 4: fix wheel/rigid has no keyword"));
+  EXPECT_THAT(message({{"diameter", {"-1"}, "wheel.yaml, line 3"}}),
+              HasSubstr("wheel.yaml, line 3: fix wheel/rigid, keyword 'diameter' is -1"));
+  EXPECT_THAT(message({{"diametre", {"1"}, "wheel.yaml, line 4"}}),
+              HasSubstr("wheel.yaml, line 4: fix wheel/rigid has no keyword"));
   EXPECT_THAT(message({{"diameter", {"1"}, "wheel.yaml, line 3"}, {"diameter", {"2"}, "wheel.yaml, line 9"}}),
               HasSubstr("wheel.yaml, line 9: fix wheel/rigid, keyword 'diameter' is given twice"));
   const Options options = wheel_schema().read(std::vector<Entry>{{"diameter", {"1"}, "wheel.yaml, line 3"}});

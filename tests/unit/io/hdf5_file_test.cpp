@@ -92,7 +92,8 @@ TEST(Hdf5File, ErrorsNameFileObjectAndCause) {
               AllOf(HasSubstr(missing + ": cannot open as an HDF5 file"), HasSubstr("No such file or directory")));
   std::ofstream(text) << "time sinkage\n";
   EXPECT_THAT(message_of([&] { Hdf5File(text, Mode::read); }), HasSubstr(text + ": cannot open as an HDF5 file"));
-  EXPECT_THAT(message_of([&] { Hdf5File(scratch.path("no/such/folder.h5"), Mode::create); }), HasSubstr("cannot create the file"));
+  EXPECT_THAT(message_of([&] { Hdf5File(scratch.path("no/such/folder.h5"), Mode::create); }),
+              HasSubstr("cannot create the file"));
 
   Hdf5File file(good, Mode::create);
   file.write("/x", Matrix3X::Zero(3, 4));

@@ -153,8 +153,9 @@ TEST(HistoryFile, RefusesToContinueWithAGapOrOtherChannels) {
                     HasSubstr("continue from an earlier checkpoint")));
   std::vector<Channel> other = channels;
   other[2] = {"torque", "N m", "torque"};
-  EXPECT_THAT(message_of([&] { HistoryFile::resume(path, other, 0.005); }),
-              HasSubstr("has the channels time [s], sinkage [m], force_x [N]; this run has time [s], sinkage [m], torque [N m]"));
+  EXPECT_THAT(
+      message_of([&] { HistoryFile::resume(path, other, 0.005); }),
+      HasSubstr("has the channels time [s], sinkage [m], force_x [N]; this run has time [s], sinkage [m], torque [N m]"));
   expect_rows(read_history(path), 11);  // a refusal leaves the file as it was
 }
 
@@ -163,7 +164,10 @@ TEST(HistoryFile, RefusesRowsThatAreNotFiniteOrNotLater) {
   HistoryFile file = HistoryFile::create(scratch.path("history.h5"), channels, {});
   append_rows(file, 0, 3);
   EXPECT_THAT(message_of([&] { file.append({0.003, std::nan(""), 1.0}); }), HasSubstr("sinkage is nan at t = 0.003 s"));
-  EXPECT_THAT(message_of([&] { file.append({0.002, 0.0, 1.0}); }), HasSubstr("a row of t = 0.002 s follows one of t = 0.002 s"));
+  EXPECT_THAT(message_of([&] {
+                file.append({0.002, 0.0, 1.0});
+              }),
+              HasSubstr("a row of t = 0.002 s follows one of t = 0.002 s"));
   EXPECT_NE(message_of([&] { file.append({0.003, 0.0}); }), "no error");
   expect_rows(file.history(), 3);
 }

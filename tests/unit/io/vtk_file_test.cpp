@@ -103,7 +103,8 @@ TEST(VtkSeries, ListsFramesAndContinuesAfterARestart) {
     VtkSeries series = VtkSeries::create(folder, "wheel");
     EXPECT_THAT(read_text_file(series.pvd()), HasSubstr("</VTKFile>"));  // valid before the first frame
     for (double time : {0.0, 0.1, 0.2, 0.3}) series.add(time, tetrahedron());
-    EXPECT_THAT(message_of([&] { series.add(0.3, tetrahedron()); }), HasSubstr("a frame of t = 0.3 s follows one of t = 0.3 s"));
+    EXPECT_THAT(message_of([&] { series.add(0.3, tetrahedron()); }),
+                HasSubstr("a frame of t = 0.3 s follows one of t = 0.3 s"));
   }
   VtkSeries series = VtkSeries::resume(folder, "wheel", 0.2);
   EXPECT_THAT(series.times(), ElementsAre(0.0, 0.1, 0.2));

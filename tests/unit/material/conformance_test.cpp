@@ -14,14 +14,18 @@ namespace {
 using testing_paths::law_of;
 using testing_paths::stretch;
 
-const std::string snow_table = " hardening table p 113.76 5e4 1e6 6e7 eps_vol_pl 0 0.593 1.083 1.514 beyond extrapolate interpolation ";
+const std::string snow_table =
+    " hardening table p 113.76 5e4 1e6 6e7 eps_vol_pl 0 0.593 1.083 1.514 beyond extrapolate interpolation ";
 
 std::vector<std::string> laws_under_test() {
   return {
-      "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.02 eps_vol_pl_0 0.3 elasticity linear E 13.79e6 nu 0.3" + snow_table + "linear",
+      "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.02 eps_vol_pl_0 0.3 elasticity linear E 13.79e6 nu 0.3" +
+          snow_table + "linear",
       "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.3 alpha 0.05 K 0.8 tension 2e3 eps_vol_pl_0 0.3 "
-      "elasticity porous kappa 0.005 e0 3.5 p0 10 pt_el 1.5e4 nu 0.3" + snow_table + "log",
-      "crushable_foam density 200 pt 11.376 sigma0 275.79 K 0.9 elasticity porous elasticity.kappa 0.005 elasticity.e0 3.5 pt_el 113.76 nu 0.3 "
+      "elasticity porous kappa 0.005 e0 3.5 p0 10 pt_el 1.5e4 nu 0.3" +
+          snow_table + "log",
+      "crushable_foam density 200 pt 11.376 sigma0 275.79 K 0.9 elasticity porous elasticity.kappa 0.005 elasticity.e0 3.5 "
+      "pt_el 113.76 nu 0.3 "
       "hardening exponential pc0 113.76 lambda 0.35 hardening.kappa 0.005 hardening.e0 3.5",
       "elastic density 1600 elasticity linear E 5e6 nu 0.2",
       "elastic density 1600 elasticity porous kappa 0.01 e0 0.7 p0 1e4 pt_el 1e3 G 2e6",
@@ -41,10 +45,14 @@ class Conformance : public ::testing::TestWithParam<std::string> {
     return h;
   }
   Matrix3 random_rotation() {
-    return Eigen::AngleAxisd(2 * normal_(engine_), Vector3(normal_(engine_), normal_(engine_), normal_(engine_)).normalized()).toRotationMatrix();
+    return Eigen::AngleAxisd(2 * normal_(engine_),
+                             Vector3(normal_(engine_), normal_(engine_), normal_(engine_)).normalized())
+        .toRotationMatrix();
   }
   /// The strain at which this law's stress is about its strength, or 1e-3.
-  double strain_scale(const VectorX& state) const { return std::min(1e-3, 2 * law_->stress_scale(state) / law_->moduli(state).wave()); }
+  double strain_scale(const VectorX& state) const {
+    return std::min(1e-3, 2 * law_->stress_scale(state) / law_->moduli(state).wave());
+  }
   /// A state somewhere on the way, after steps of mixed kind.
   VectorX some_state() {
     VectorX state = law_->initial_state();
@@ -101,7 +109,8 @@ TEST_P(Conformance, FirstStepHasTheElasticModuli) {
     EXPECT_NEAR((p0 - invariants(stress_of(volume)).p) / (sign * strain * moduli.bulk), 1.0, 1e-2);
     EXPECT_NEAR(shear[3] / (sign * strain * moduli.shear), 1.0, 1e-2);
   }
-  EXPECT_NEAR(law_->wave_speed(start), std::sqrt((moduli.bulk + 4 * moduli.shear / 3) / law_->density()), 1e-12 * law_->wave_speed(start));
+  EXPECT_NEAR(law_->wave_speed(start), std::sqrt((moduli.bulk + 4 * moduli.shear / 3) / law_->density()),
+              1e-12 * law_->wave_speed(start));
 }
 
 /// sigma(Q F Q^T, Q sigma Q^T) = Q sigma(F) Q^T: isotropic and objective.
@@ -155,7 +164,8 @@ TEST_P(Conformance, BlocksOfAnySizeAndAlignmentAgreeWithSinglePoints) {
     VectorX point = some_state();
     for (std::size_t f = 0; f < fields; ++f) state[f][i + 1] = point[static_cast<Eigen::Index>(f)];
     const Matrix3 h = random_gradient(i == 5 ? 0.3 : strain_scale(point));  // one point strains much
-    for (std::size_t k = 0; k < 9; ++k) gradient[k][i + 1] = h(static_cast<Eigen::Index>(k / 3), static_cast<Eigen::Index>(k % 3));
+    for (std::size_t k = 0; k < 9; ++k)
+      gradient[k][i + 1] = h(static_cast<Eigen::Index>(k / 3), static_cast<Eigen::Index>(k % 3));
     sum += law_->update_point(h, point, &branches[i]);
     expected.push_back(point);
   }
@@ -195,11 +205,14 @@ TEST_P(Conformance, WorkIsAccountedFor) {
     const double size = 20 * strain_scale(start);
     for (int step = 0; step < steps; ++step) {
       const double phase = (step + 0.5) / steps;
-      const Vector6 rate = size * (Vector6() << -1, -0.3 * phase, -1.5 + 3 * phase * phase, 0.5, 0, 0.4 * std::cos(4 * phase)).finished() / steps;
+      const Vector6 rate =
+          size * (Vector6() << -1, -0.3 * phase, -1.5 + 3 * phase * phase, 0.5, 0, 0.4 * std::cos(4 * phase)).finished() /
+          steps;
       const Vector6 before = stress_of(state);
       const double old_volume = state[field::volume_ratio];
       law_->update_point(stretch(rate), state);
-      const double power = (0.5 * (before + stress_of(state))).cwiseProduct((Vector6() << 1, 1, 1, 2, 2, 2).finished()).dot(rate);
+      const double power =
+          (0.5 * (before + stress_of(state))).cwiseProduct((Vector6() << 1, 1, 1, 2, 2, 2).finished()).dot(rate);
       work += 0.5 * (old_volume + state[field::volume_ratio]) * power;
     }
     const double energy = state[field::stored_energy] + state[field::frozen_energy] + state[field::dissipated_energy];

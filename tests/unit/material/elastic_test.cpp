@@ -10,8 +10,9 @@ namespace furrow {
 namespace {
 
 std::unique_ptr<Material> linear_elastic(double young, double nu) {
-  return make_material("elastic", MaterialSections{{"law", {{"density", {"1600"}}}},
-                                                   {"elasticity", {{"E", {std::to_string(young)}}, {"nu", {std::to_string(nu)}}}}});
+  return make_material("elastic",
+                       MaterialSections{{"law", {{"density", {"1600"}}}},
+                                        {"elasticity", {{"E", {std::to_string(young)}}, {"nu", {std::to_string(nu)}}}}});
 }
 
 /// A pure stretch of many sizes in one step: the logarithm of the stretch is exact, by hand.

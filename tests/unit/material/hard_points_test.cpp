@@ -14,7 +14,8 @@ using testing_paths::stretch;
 
 Vector6 strain_of(double xx, double yy, double zz, double xz = 0) { return (Vector6() << xx, yy, zz, 0, 0, xz).finished(); }
 
-std::string snow(const std::string& more, const std::string& interpolation = "linear", const std::string& beyond = "extrapolate") {
+std::string snow(const std::string& more, const std::string& interpolation = "linear",
+                 const std::string& beyond = "extrapolate") {
   return "drucker_prager_cap density 200 elasticity linear E 13.79e6 nu 0.3 "
          "hardening table p 113.76 5e4 1e5 2e5 5e5 1e6 2e6 2.8e6 3.25e6 6e6 6e7 "
          "eps_vol_pl 0 0.593 0.669 0.806 0.944 1.083 1.299 1.455 1.475 1.50 1.514 interpolation " +
@@ -29,7 +30,8 @@ Branch take(const Material& law, VectorX& state, const std::vector<Vector6>& str
     const UpdateReport report = law.update_point(stretch(strain), state, &branch);
     EXPECT_TRUE(state.allFinite());
     EXPECT_LE(law.yield_function(state), 1e-8 * law.stress_scale(state)) << "after strain " << strain.transpose();
-    EXPECT_GE(state[field::dissipated_energy] - heat, -1e-14 * law.stress_scale(state)) << "after strain " << strain.transpose();
+    EXPECT_GE(state[field::dissipated_energy] - heat, -1e-14 * law.stress_scale(state))
+        << "after strain " << strain.transpose();
     EXPECT_LT(report.most_iterations, 200u);
   }
   return branch;
@@ -42,8 +44,9 @@ TEST(HardPoints, NearlyZeroStrength) {
   for (const std::string d : {"0", "1e-3", "1"}) {
     const auto law = law_of(snow("R 0.02 d " + d));
     VectorX state = law->initial_state();
-    take(*law, state, {strain_of(0, 0, -1e-5), strain_of(0, 0, -1e-2), strain_of(1e-3, 0, 0, 0.01), strain_of(0.01, 0.01, 0.01),
-                       strain_of(0, 0, -0.2), strain_of(0, 0, 0, 0.1), strain_of(0.3, 0.3, 0.3), strain_of(-0.3, -0.3, -0.3)});
+    take(*law, state,
+         {strain_of(0, 0, -1e-5), strain_of(0, 0, -1e-2), strain_of(1e-3, 0, 0, 0.01), strain_of(0.01, 0.01, 0.01),
+          strain_of(0, 0, -0.2), strain_of(0, 0, 0, 0.1), strain_of(0.3, 0.3, 0.3), strain_of(-0.3, -0.3, -0.3)});
   }
 }
 
@@ -98,8 +101,10 @@ TEST(HardPoints, TensionCutOff) {
 
 TEST(HardPoints, CompactionToATenthOfTheVolume) {
   for (const std::string interpolation : {"linear", "log"}) {
-    const auto law = law_of("drucker_prager_cap density 90 d 5e3 beta 22.53 R 0.02 elasticity linear E 13.79e6 nu 0.3 hardening table "
-                            "p 113.76 5e4 1e6 6e7 eps_vol_pl 0 0.593 1.083 2.4 beyond extrapolate interpolation " + interpolation);
+    const auto law = law_of(
+        "drucker_prager_cap density 90 d 5e3 beta 22.53 R 0.02 elasticity linear E 13.79e6 nu 0.3 hardening table "
+        "p 113.76 5e4 1e6 6e7 eps_vol_pl 0 0.593 1.083 2.4 beyond extrapolate interpolation " +
+        interpolation);
     VectorX state = law->initial_state();
     UpdateReport report;
     for (int step = 0; step < 230; ++step) report += law->update_point(stretch(strain_of(0, 0, -0.01)), state);
@@ -132,10 +137,12 @@ TEST(HardPoints, JumpsOfOneHalf) {
   for (const std::string more : {"R 0.02 d 5e3", "R 1e-4 d 0", "R 1 d 1e5 alpha 0.05", "R 0.02 d 5e3 K 0.8 tension 0"}) {
     const auto law = law_of(snow(more));
     const double jump = 0.5;
-    for (const Vector6& first : {strain_of(-jump, 0, 0), strain_of(-jump, -jump, -jump), strain_of(jump, jump, jump), strain_of(0, 0, 0, jump),
-                                 strain_of(jump, -jump, 0), strain_of(0, 0, jump)}) {
+    for (const Vector6& first : {strain_of(-jump, 0, 0), strain_of(-jump, -jump, -jump), strain_of(jump, jump, jump),
+                                 strain_of(0, 0, 0, jump), strain_of(jump, -jump, 0), strain_of(0, 0, jump)}) {
       VectorX state = law->initial_state();
-      take(*law, state, {first, strain_of(0, -jump, 0), strain_of(jump, 0, -jump, jump), strain_of(jump, jump, jump), strain_of(-jump, -jump, -jump)});
+      take(*law, state,
+           {first, strain_of(0, -jump, 0), strain_of(jump, 0, -jump, jump), strain_of(jump, jump, jump),
+            strain_of(-jump, -jump, -jump)});
     }
   }
 }
@@ -143,8 +150,9 @@ TEST(HardPoints, JumpsOfOneHalf) {
 /// Hydrostatic compression lands on the hardening curve whatever it is made of, in one step or in many.
 TEST(HardPoints, HydrostaticCurveIsTheHardeningLaw) {
   const auto linear = law_of(snow("R 0.02 d 5e3")), logarithmic = law_of(snow("R 0.02 d 5e3", "log"));
-  const auto exponential = law_of("drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.02 elasticity linear E 13.79e6 nu 0.3 "
-                                  "hardening exponential pc0 113.76 lambda 0.35 kappa 0.005 e0 3.5");
+  const auto exponential = law_of(
+      "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.02 elasticity linear E 13.79e6 nu 0.3 "
+      "hardening exponential pc0 113.76 lambda 0.35 kappa 0.005 e0 3.5");
   for (const auto* law : {&linear, &logarithmic, &exponential}) {
     VectorX state = (*law)->initial_state();
     for (const double step : {0.01, 0.1, 0.25, 0.3, 0.2}) {

@@ -18,8 +18,9 @@ namespace {
 using testing_paths::law_of;
 
 TEST(Kernels, InstructionSetsAgree) {
-  const std::string snow = "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.05 eps_vol_pl_0 0.3 elasticity linear E 13.79e6 nu 0.3 "
-                           "hardening table p 113.76 5e4 1e6 6e7 eps_vol_pl 0 0.593 1.083 1.514 beyond extrapolate interpolation ";
+  const std::string snow =
+      "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.05 eps_vol_pl_0 0.3 elasticity linear E 13.79e6 nu 0.3 "
+      "hardening table p 113.76 5e4 1e6 6e7 eps_vol_pl 0 0.593 1.083 1.514 beyond extrapolate interpolation ";
   for (const std::string& text : {snow + "linear", snow + "log alpha 0.05", snow + "linear K 0.8"}) {
     const auto law = law_of(text);
     const auto& cap = static_cast<const DruckerPragerCap&>(*law);
@@ -41,8 +42,10 @@ TEST(Kernels, InstructionSetsAgree) {
       for (std::size_t k = 0; k < 9; ++k) block.gradient[k] = gradient[k].data();
       for (int step = 0; step < 8; ++step) {
         for (std::size_t i = 0; i < n; ++i)
-          for (std::size_t k = 0; k < 9; ++k) gradient[k][i] = (i % 7 == 0 ? 3e-2 : 1e-3) * (normal(engine) - (k % 4 == 0 ? 0.5 : 0.0));
-        EXPECT_EQ(kernels->drucker_prager_cap(cap.parameters(), 200, block).failure, Failure::none) << kernels->instruction_set;
+          for (std::size_t k = 0; k < 9; ++k)
+            gradient[k][i] = (i % 7 == 0 ? 3e-2 : 1e-3) * (normal(engine) - (k % 4 == 0 ? 0.5 : 0.0));
+        EXPECT_EQ(kernels->drucker_prager_cap(cap.parameters(), 200, block).failure, Failure::none)
+            << kernels->instruction_set;
       }
       results.push_back(state);
     }
@@ -52,7 +55,8 @@ TEST(Kernels, InstructionSetsAgree) {
     for (const auto& result : results)
       for (std::size_t f = 0; f < fields; ++f)
         for (std::size_t i = 0; i < n; ++i)
-          ASSERT_NEAR(result[f][i], results[0][f][i], 1e-7 * (f < 6 ? 1e5 : 1 + std::abs(results[0][f][i]))) << law->state_fields()[f].name;
+          ASSERT_NEAR(result[f][i], results[0][f][i], 1e-7 * (f < 6 ? 1e5 : 1 + std::abs(results[0][f][i])))
+              << law->state_fields()[f].name;
   }
 }
 
@@ -71,7 +75,8 @@ TEST(Kinematics, LogarithmicStrainAndRotationOfAnyStep) {
       law->update_point(h, state);
       const Eigen::JacobiSVD<Matrix3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
       const Matrix3 R = svd.matrixU() * svd.matrixV().transpose();
-      const Matrix3 log_u = svd.matrixV() * svd.singularValues().array().log().matrix().asDiagonal() * svd.matrixV().transpose();
+      const Matrix3 log_u =
+          svd.matrixV() * svd.singularValues().array().log().matrix().asDiagonal() * svd.matrixV().transpose();
       const Matrix3 expected = R * ((5.0 / 3 - 2.0 / 3) * log_u.trace() * Matrix3::Identity() + 2 * log_u) * R.transpose();
       // The singular values themselves are known to 1e-16 only, so the reference for tiny steps is the linear strain.
       const double error = (to_matrix(stress_of(state)) - expected).norm();

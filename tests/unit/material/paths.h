@@ -33,7 +33,8 @@ inline std::unique_ptr<Material> law_of(const std::string& text) {
 inline std::string mccormick_sand(const std::string& more = "") {
   return "drucker_prager_cap density 1800 d 1.194e6 beta 14.56 R 0.1 eps_vol_pl_0 0.001 elasticity linear E 689e6 nu 0.25 "
          "hardening table p 0.138e6 0.172e6 0.434e6 0.896e6 1.655e6 2.758e6 4.137e6 6.895e6 13.447e6 "
-         "eps_vol_pl 0 0.005 0.01 0.02 0.03 0.04 0.05 0.06 0.1 interpolation linear beyond extrapolate " + more;
+         "eps_vol_pl 0 0.005 0.01 0.02 0.03 0.04 0.05 0.06 0.1 interpolation linear beyond extrapolate " +
+         more;
 }
 
 /// Displacement gradient of a step with Delta F = exp(strain), strain symmetric.
@@ -46,8 +47,8 @@ inline Matrix3 stretch(const Vector6& strain) {
 
 /// One step with the components of `strain`, except that the normal components marked in `held` take whatever keeps their stress at
 /// `target` (Newton's method on the law's tangent). Returns the strain increment.
-inline Vector6 mixed_step(const Material& law, VectorX& state, Vector6 strain, const std::array<bool, 3>& held, const Vector3& target,
-                          double tolerance) {
+inline Vector6 mixed_step(const Material& law, VectorX& state, Vector6 strain, const std::array<bool, 3>& held,
+                          const Vector3& target, double tolerance) {
   std::vector<int> free;
   for (int i = 0; i < 3; ++i)
     if (held[static_cast<std::size_t>(i)]) free.push_back(i);
@@ -56,7 +57,8 @@ inline Vector6 mixed_step(const Material& law, VectorX& state, Vector6 strain, c
     result = state;
     law.update_point(stretch(e), result);
     Eigen::VectorXd r(n);
-    for (Eigen::Index i = 0; i < n; ++i) r[i] = result[free[static_cast<std::size_t>(i)]] - target[free[static_cast<std::size_t>(i)]];
+    for (Eigen::Index i = 0; i < n; ++i)
+      r[i] = result[free[static_cast<std::size_t>(i)]] - target[free[static_cast<std::size_t>(i)]];
     return r;
   };
   VectorX result;

@@ -85,9 +85,9 @@ TEST(Resistance, IsTheRatioOfTheMeansWithItsError) {
 TEST(Resistance, OfALockedWheelIsTheFriction) {
   RigidWheel wheel = make_wheel(0.2003);
   const Floor floor;
-  WheelRig rig(WheelRig::schema().read(std::vector<std::string>{
-                   "load_force", "60", "speed", "1", "mode", "slip", "slip", "-1", "settle_time", "0.1", "accelerate_time", "0.1",
-                   "ground_level", "0", "damping", "600"}),
+  WheelRig rig(WheelRig::schema().read(std::vector<std::string>{"load_force", "60", "speed", "1", "mode", "slip", "slip",
+                                                                "-1", "settle_time", "0.1", "accelerate_time", "0.1",
+                                                                "ground_level", "0", "damping", "600"}),
                wheel);
   History history(WheelRig::channels());
   run(rig, wheel, 0.8, 4e-5, &floor, [&](const std::vector<double>& row) { history.append(row); });

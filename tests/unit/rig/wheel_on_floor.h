@@ -44,7 +44,7 @@ struct Floor {
 
 /// Runs rig and wheel to an end on a floor (or without); calls each row.
 inline void run(WheelRig& rig, RigidWheel& wheel, double end, double dt, const Floor* floor,
-         const std::function<void(const std::vector<double>&)>& each) {
+                const std::function<void(const std::vector<double>&)>& each) {
   const long steps = std::lround(end / dt);
   for (long i = 0; i < steps; ++i) {
     rig.apply(i * dt, dt);

@@ -248,10 +248,9 @@ TEST(WheelRig, ARigMadeAgainContinuesBitwise) {
 }
 
 TEST(WheelRig, RefusesContradictionsWithKeywordAndRemedy) {
-  EXPECT_THAT(
-      refusal_of({"speed", "1", "mode", "towed"}),
-      HasSubstr(
-          "fix wheel/rig has no load; allowed: exactly one of load_mass [kg], load_force [N], sinkage [m]; say what the ground carries"));
+  EXPECT_THAT(refusal_of({"speed", "1", "mode", "towed"}),
+              HasSubstr("fix wheel/rig has no load; allowed: exactly one of load_mass [kg], load_force [N], sinkage [m]; "
+                        "say what the ground carries"));
   EXPECT_THAT(refusal_of({"load_mass", "5", "load_force", "60", "speed", "1", "mode", "towed"}),
               HasSubstr("has load_mass and load_force; allowed: exactly one"));
   EXPECT_THAT(refusal_of({"load_mass", "5", "sinkage", "0.1", "speed", "1", "mode", "towed"}),
@@ -263,16 +262,14 @@ TEST(WheelRig, RefusesContradictionsWithKeywordAndRemedy) {
               HasSubstr("keyword 'speed' is -1; allowed: a number >= 0 [m/s]"));
   EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "skid"}),
               HasSubstr("keyword 'mode' is 'skid'; allowed: one of: towed, slip, torque"));
-  EXPECT_THAT(
-      refusal_of({"load_force", "60", "speed", "0", "mode", "slip", "slip", "0.2"}),
-      HasSubstr(
-          "keyword 'speed' is 0 m/s in mode slip; allowed: a number > 0 [m/s]; give a speed, or drive a standing wheel with mode torque"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "0", "mode", "slip", "slip", "0.2"}),
+              HasSubstr("keyword 'speed' is 0 m/s in mode slip; allowed: a number > 0 [m/s]; give a speed, or drive a "
+                        "standing wheel with mode torque"));
   EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "slip"}),
               HasSubstr("keyword 'slip' is missing in mode slip"));
-  EXPECT_THAT(
-      refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "slip", "0.2"}),
-      HasSubstr(
-          "keyword 'slip' is given in mode towed; allowed: a slip in mode slip, and only there; remove it or change the mode"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "slip", "0.2"}),
+              HasSubstr("keyword 'slip' is given in mode towed; allowed: a slip in mode slip, and only there; remove it or "
+                        "change the mode"));
   EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "slip_definition", "rim_speed"}),
               HasSubstr("keyword 'slip_definition' is given in mode towed"));
   EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "torque"}),

@@ -21,10 +21,11 @@ Vector6 strain_of(double xx, double yy, double zz, double xy = 0, double yz = 0,
 
 /// Fresh snow with a cap of eccentricity R, TR Tables 1 and 3.
 std::string snow(double R, const std::string& more = "") {
-  return fmt::format("drucker_prager_cap density 200 d 5e3 beta 22.53 R {} eps_vol_pl_0 0.001 elasticity linear E 13.79e6 nu 0.3 "
-                     "hardening table p 113.76 5e4 1e5 2e5 5e5 1e6 2e6 2.8e6 3.25e6 6e6 6e7 "
-                     "eps_vol_pl 0 0.593 0.669 0.806 0.944 1.083 1.299 1.455 1.475 1.50 1.514 interpolation linear beyond extrapolate {}",
-                     R, more);
+  return fmt::format(
+      "drucker_prager_cap density 200 d 5e3 beta 22.53 R {} eps_vol_pl_0 0.001 elasticity linear E 13.79e6 nu 0.3 "
+      "hardening table p 113.76 5e4 1e5 2e5 5e5 1e6 2e6 2.8e6 3.25e6 6e6 6e7 "
+      "eps_vol_pl 0 0.593 0.669 0.806 0.944 1.083 1.299 1.455 1.475 1.50 1.514 interpolation linear beyond extrapolate {}",
+      R, more);
 }
 
 /// eps_v = p/K + H^-1(p) - eps_0 for any number of steps.
@@ -80,10 +81,12 @@ TEST(CapClosedForm, ConfinedCompressionOnTheCap) {
 TEST(CapClosedForm, TriaxialCompressionEndsInTheCriticalState) {
   const double tan_beta = std::tan(radians(14.56));
   const auto law = law_of(mccormick_sand());
-  for (const auto& [pressure, known] : {std::pair{0.25e6, 1.37826e6}, std::pair{1e6, 1.59153e6}, std::pair{4e6, 2.44459e6}}) {
+  for (const auto& [pressure, known] :
+       {std::pair{0.25e6, 1.37826e6}, std::pair{1e6, 1.59153e6}, std::pair{4e6, 2.44459e6}}) {
     VectorX state = law->initial_state();
     for (int step = 1; step <= 20; ++step)
-      mixed_step(*law, state, Vector6::Zero(), {true, true, true}, Vector3::Constant(-pressure * step / 20), 1e-7 * pressure);
+      mixed_step(*law, state, Vector6::Zero(), {true, true, true}, Vector3::Constant(-pressure * step / 20),
+                 1e-7 * pressure);
     for (int step = 0; step < 300; ++step)
       mixed_step(*law, state, strain_of(0, 0, -2e-3), {true, true, false}, Vector3::Constant(-pressure), 1e-8 * pressure);
     const Invariants end = invariants(stress_of(state));
@@ -118,7 +121,8 @@ TEST(StepSize, ConvergesAtFirstOrder) {
       // Shear and compaction at a turning rate: the path is not radial.
       for (int step = 0; step < steps; ++step) {
         const double middle = (step + 0.5) / steps;
-        const Vector6 rate = strain_of(-0.004 * (1 + middle), 0.002 * middle, -0.004 * std::cos(3 * middle), 0.003 * middle, 0, 0.003);
+        const Vector6 rate =
+            strain_of(-0.004 * (1 + middle), 0.002 * middle, -0.004 * std::cos(3 * middle), 0.003 * middle, 0, 0.003);
         law->update_point(stretch(rate / steps), state);
       }
       ends[level] = stress_of(state);
@@ -137,8 +141,9 @@ TEST(StepSize, SplittingDoesNotMatterOnRadialPaths) {
     Vector6 strain;
   };
   // Hydrostatic on the cap; pure tension to the apex; uniaxial compression of the foam, whose flow (18) is radial there.
-  const std::string foam = "crushable_foam density 200 pt 11.376 sigma0 275.79 elasticity linear E 1e6 nu 0 "
-                           "hardening exponential pc0 113.76 lambda 0.35 kappa 0.005 e0 3.5";
+  const std::string foam =
+      "crushable_foam density 200 pt 11.376 sigma0 275.79 elasticity linear E 1e6 nu 0 "
+      "hardening exponential pc0 113.76 lambda 0.35 kappa 0.005 e0 3.5";
   const std::vector<Case> cases{{snow(0.02), strain_of(-0.2, -0.2, -0.2)},
                                 {snow(0.02), strain_of(0.01, 0.01, 0.01)},
                                 {mccormick_sand("tension 1e5"), strain_of(0.002, 0.002, 0.002)},
@@ -170,8 +175,9 @@ TEST(StepSize, LargeStepsAgreeWithTinySteps) {
 
 // ---- foam --------------------------------------------------------------------------------------------------------------
 
-const std::string stiff_foam = "crushable_foam density 200 pt 11.376 sigma0 275.79 elasticity linear E 1e7 nu 0.3 "
-                               "hardening exponential pc0 113.76 lambda 0.35 kappa 0.005 e0 3.5 ";
+const std::string stiff_foam =
+    "crushable_foam density 200 pt 11.376 sigma0 275.79 elasticity linear E 1e7 nu 0.3 "
+    "hardening exponential pc0 113.76 lambda 0.35 kappa 0.005 e0 3.5 ";
 
 TEST(FoamClosedForm, AspectOfTheEllipseFromTheUniaxialStrength) {
   const auto law = law_of(stiff_foam);
@@ -193,8 +199,8 @@ TEST(FoamClosedForm, UniaxialCompressionHasNoLateralPlasticStrain) {
   VectorX state = law->initial_state();
   double lateral = 0;
   for (int step = 0; step < 100; ++step)
-    lateral += mixed_step(*law, state, step == 0 ? strain_of(6e-6, 6e-6, -2e-5) : strain_of(0, 0, -2e-3), {true, true, false},
-                          Vector3::Zero(), 1e-6)[0];
+    lateral += mixed_step(*law, state, step == 0 ? strain_of(6e-6, 6e-6, -2e-5) : strain_of(0, 0, -2e-3),
+                          {true, true, false}, Vector3::Zero(), 1e-6)[0];
   EXPECT_GT(-state[2], 275.79);
   EXPECT_NEAR(lateral, 0.3 * -state[2] / 1e7, 1e-9);
   EXPECT_NEAR(state[CrushableFoam::eps_vol_pl], 2e-5 + 99 * 2e-3 + state[2] / 1e7, 1e-9);

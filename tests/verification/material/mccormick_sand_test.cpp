@@ -124,8 +124,8 @@ void expect_agreement(const std::vector<Leg>& legs, int steps, bool extrapolate,
 TEST(McCormickSand, ConfinedToEightMegapascalAndUnloaded) {
   // sigma1 = 8 MPa at an axial strain of 0.0707; the legs stop on the way, unload (elastic, then into extension) and reload.
   const std::array<bool, 3> none{};
-  const std::vector<Leg> legs{{axial(-1), none, 0.002}, {axial(-1), none, 0.008}, {axial(-1), none, 0.02}, {axial(-1), none, 0.0407},
-                              {axial(1), none, 0.004},  {axial(1), none, 0.006}};
+  const std::vector<Leg> legs{{axial(-1), none, 0.002},  {axial(-1), none, 0.008}, {axial(-1), none, 0.02},
+                              {axial(-1), none, 0.0407}, {axial(1), none, 0.004},  {axial(1), none, 0.006}};
   expect_agreement(legs, 20000, true, 1e-6);
   EXPECT_NEAR(run_reference(legs)[3][2], -8e6, 0.15e6);
 }
@@ -133,7 +133,8 @@ TEST(McCormickSand, ConfinedToEightMegapascalAndUnloaded) {
 TEST(McCormickSand, Hydrostatic) {
   const Matrix3 L = -Matrix3::Identity() / 3;
   const std::array<bool, 3> none{};
-  expect_agreement({{L, none, 0.0002}, {L, none, 0.005}, {L, none, 0.02}, {L, none, 0.04}, {-L, none, 0.005}}, 50, false, 1e-9);
+  expect_agreement({{L, none, 0.0002}, {L, none, 0.005}, {L, none, 0.02}, {L, none, 0.04}, {-L, none, 0.005}}, 50, false,
+                   1e-9);
 }
 
 class Triaxial : public ::testing::TestWithParam<std::tuple<double, double>> {};
@@ -142,17 +143,23 @@ class Triaxial : public ::testing::TestWithParam<std::tuple<double, double>> {};
 TEST_P(Triaxial, CompressionAtConstantLateralStress) {
   const auto [pressure, volume_strain] = GetParam();
   const std::array<bool, 3> none{}, lateral{true, true, false};
-  const std::vector<Leg> legs{{-Matrix3::Identity() / 3, none, volume_strain}, {axial(-1), lateral, 0.001}, {axial(-1), lateral, 0.004},
-                              {axial(-1), lateral, 0.015},                     {axial(-1), lateral, 0.08},  {axial(-1), lateral, 0.3}};
+  const std::vector<Leg> legs{{-Matrix3::Identity() / 3, none, volume_strain},
+                              {axial(-1), lateral, 0.001},
+                              {axial(-1), lateral, 0.004},
+                              {axial(-1), lateral, 0.015},
+                              {axial(-1), lateral, 0.08},
+                              {axial(-1), lateral, 0.3}};
   EXPECT_NEAR(run_reference(legs)[0][0] / -pressure, 1.0, 1e-4);
   expect_agreement(legs, 1500, true, 1e-6);
   const Eigen::Matrix<double, 7, 1> end = run_reference(legs).back();
   const double tan_beta = std::tan(radians(14.56));
-  EXPECT_NEAR((end[0] - end[2]) / ((1.194e6 - end[0] * tan_beta) / (1 - tan_beta / 3)), 1.0, 1e-6);  // q at the critical state
+  EXPECT_NEAR((end[0] - end[2]) / ((1.194e6 - end[0] * tan_beta) / (1 - tan_beta / 3)), 1.0,
+              1e-6);  // q at the critical state
 }
 // Volume strains that give 0.25, 1 and 4 MPa: p/K + H^-1(p) - eps_0.
 INSTANTIATE_TEST_SUITE_P(Pressures, Triaxial,
-                         ::testing::Values(std::tuple{0.25e6, 0.25e6 / (689e6 / 1.5) + 0.005 + 0.078 / 0.262 * 0.005 - 0.001},
+                         ::testing::Values(std::tuple{0.25e6,
+                                                      0.25e6 / (689e6 / 1.5) + 0.005 + 0.078 / 0.262 * 0.005 - 0.001},
                                            std::tuple{1e6, 1e6 / (689e6 / 1.5) + 0.02 + 0.104 / 0.759 * 0.01 - 0.001},
                                            std::tuple{4e6, 4e6 / (689e6 / 1.5) + 0.04 + 1.242 / 1.379 * 0.01 - 0.001}));
 
@@ -165,8 +172,12 @@ TEST_P(SimpleShear, AtConstantVerticalStress) {
   Matrix3 shear = Matrix3::Zero();
   shear(0, 2) = 1.0;
   const std::array<bool, 3> none{}, vertical{false, false, true};
-  const std::vector<Leg> legs{{-Matrix3::Identity() / 3, none, volume_strain}, {shear, vertical, 0.002}, {shear, vertical, 0.006},
-                              {shear, vertical, 0.022},                        {shear, vertical, 0.07},  {-shear, vertical, 0.003}};
+  const std::vector<Leg> legs{{-Matrix3::Identity() / 3, none, volume_strain},
+                              {shear, vertical, 0.002},
+                              {shear, vertical, 0.006},
+                              {shear, vertical, 0.022},
+                              {shear, vertical, 0.07},
+                              {-shear, vertical, 0.003}};
   EXPECT_NEAR(run_reference(legs)[0][0] / -pressure, 1.0, 1e-4);
   expect_agreement(legs, 3000, true, 1e-6);
 }
