@@ -158,6 +158,15 @@ def report(results, folder, evaluate):
         write_table(folder / "checks.csv", checks)
     picture(results, folder / "comparison.png", chosen["surface_mm"], rows)
 
+    finer = [r for r in checks if r["run"].startswith("check_grain_8")]
+    if finer:
+        slips = [r["slip"] for r in finer]
+        same = [r for r in rows if r["wheel"] == "smooth" and r["slip"] in slips]
+        for what, mine in (("8", finer), ("10", same)):
+            pull, sinkage, _ = accuracy(mine)
+            reached[f"smooth wheel, {len(slips)} slips with grains of {what} mm: rms of Fx/Fz"] = pull
+            reached[f"smooth wheel, {len(slips)} slips with grains of {what} mm: rms of sinkage/r"] = sinkage
+
     missed = []
     print(f"least rms of ln(force) of any dry frictional half-space on these plates: {homogeneous_floor():.3f}")
     for name, value in reached.items():
@@ -175,7 +184,7 @@ def check_table(results, surface, evaluate):
         if finished(results / name):
             diameter = finished(results / name)["job"]["variables"]["diameter"]  # the surface is a share of the grain
             row = wheel_row(name, results / name, kind, point, surface * diameter / study.BASE["diameter"], evaluate)
-            rows.append(dict(what=what, **{k: row[k] for k in ("wheel", "slip", "measured_fx_over_fz", "fx_over_fz", "fx_over_fz_error",
+            rows.append(dict(run=name, what=what, **{k: row[k] for k in ("wheel", "slip", "measured_fx_over_fz", "fx_over_fz", "fx_over_fz_error",
                              "measured_sinkage_mm", "sinkage_mm", "sinkage_from_mass_mm", "sinkage_error_mm", "steady", "grains", "steps", "cpu_s")}))
     return rows
 

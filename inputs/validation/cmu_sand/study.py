@@ -31,8 +31,19 @@ CANDIDATES = {
 CHOSEN = "A"
 PLATES = (60, 80, 100)  # mm
 
-GOALS = {f"{kind} wheel: rms of {what}": 0.10 for kind in ("smooth", "grouser") for what in ("Fx/Fz", "sinkage/r")}
-REACHED = {}
+GOALS = {f"{kind}: rms of {what}": 0.10
+         for kind in ("smooth wheel", "grouser wheel", "smooth wheel, 5 slips with grains of 8 mm") for what in ("Fx/Fz", "sinkage/r")}
+# What was reached, plus the scatter from one pour to the next (0.04 for the plates, 0.02 to 0.03 for a wheel's rms, README.md): the
+# limits of the test. The goals stand beside them and are not all reached.
+REACHED = {
+    "plates: rms of ln(force)": 0.32,
+    "smooth wheel: rms of Fx/Fz": 0.11,
+    "smooth wheel: rms of sinkage/r": 0.07,
+    "grouser wheel: rms of Fx/Fz": 0.14,
+    "grouser wheel: rms of sinkage/r": 0.12,
+    "smooth wheel, 5 slips with grains of 8 mm: rms of Fx/Fz": 0.18,
+    "smooth wheel, 5 slips with grains of 8 mm: rms of sinkage/r": 0.10,
+}
 
 
 def step(diameter):
@@ -90,10 +101,14 @@ CHECKS = {
     "grain_8": ("smooth", 0.231, dict(diameter=0.008), "grains of 8 mm"),
     "grain_12.5": ("smooth", 0.231, dict(diameter=0.0125), "grains of 12.5 mm"),
     "grain_8_slip_0": ("smooth", 0.0, dict(diameter=0.008), "grains of 8 mm"),
+    "grain_8_slip_-0.2": ("smooth", -0.2, dict(diameter=0.008), "grains of 8 mm"),
+    "grain_8_slip_-0.5": ("smooth", -0.5, dict(diameter=0.008), "grains of 8 mm"),
+    "grain_8_slip_0.5": ("smooth", 0.5, dict(diameter=0.008), "grains of 8 mm"),
     "grain_12.5_slip_0": ("smooth", 0.0, dict(diameter=0.0125), "grains of 12.5 mm"),
     "bed_wide": ("smooth", 0.231, dict(diameter=0.0125, width=0.24, depth=0.10), "grains of 12.5 mm, bed 0.24 m wide, 0.10 m deep"),
     "fast": ("smooth", 0.231, dict(diameter=0.0125, fastest=0.4), "grains of 12.5 mm, twice the speed"),
     "slow": ("smooth", 0.231, dict(diameter=0.0125, fastest=0.1), "grains of 12.5 mm, half the speed"),
+    "seed_10": ("smooth", 0.231, dict(seed=67867967), "grains of 10 mm, another pour"),
     "seed": ("smooth", 0.231, dict(diameter=0.0125, seed=67867967), "grains of 12.5 mm, another pour"),
     "wall_0.4": ("smooth", 0.0, dict(wall_friction=0.4), "grains of 10 mm, friction of wheel and sand 0.4"),
 }
@@ -110,7 +125,7 @@ PLATE_CHECKS = {
 def check_points():
     """The two base points first, then every change of them."""
     base = "base: grains of 10 mm, bed 0.46 x 0.16 x 0.07 m, 0.2 m/s, friction of wheel and sand 0.7"
-    checks = {wheel_name("smooth", p): ("smooth", p, base) for p in (point("smooth", 0.0), point("smooth", 0.231))}
+    checks = {wheel_name("smooth", p): ("smooth", p, base) for p in wheel_points("smooth")[:-1]}
     return {**checks, **{f"check_{name}": (kind, point(kind, slip), what) for name, (kind, slip, _, what) in CHECKS.items()}}
 
 
