@@ -71,7 +71,8 @@ def calibration_table(results):
         values, facts = run["job"]["variables"], run["facts"]
         row = dict(candidate=name, grain_mm=1000 * values["diameter"], friction=values["friction"], rolling=values["rolling"],
                    pour_friction=values["pour_friction"], speed=values["speed"], solid_fraction=round(facts["solid_fraction"], 4),
-                   bulk_density_kgm3=round(facts["bulk_density"], 1), surface_mm=round(surface, 3), surface_over_grain=round(surface / 1000 / values["diameter"], 2),
+                   bulk_density_kgm3=round(facts["bulk_density"], 1), surface_mm=round(surface, 3),
+                   surface_over_grain=round(surface / 1000 / values["diameter"], 2),
                    rms_ln_force=round(best, 3), rms_ln_force_surface_0=round(plain, 3))
         for size in study.PLATES:
             row[f"rms_{size}"] = round(rms(log_errors(curves[size], size, surface)), 3) if size in curves else ""
@@ -92,7 +93,8 @@ def steady(folder, evaluate):
 def wheel_row(name, folder, kind, point, surface, evaluate):
     done, values = finished(folder), steady(folder, evaluate)
     return dict(run=name, wheel=kind, slip=point["slip"], load_N=point["load_N"],
-                measured_fx_over_fz=round(point["force_N"] / point["load_N"], 4), measured_error=round(point["force_std_N"] / point["load_N"], 4),
+                measured_fx_over_fz=round(point["force_N"] / point["load_N"], 4),
+                measured_error=round(point["force_std_N"] / point["load_N"], 4),
                 fx_over_fz=round(-values["resistance_coefficient"], 4), fx_over_fz_error=round(values["resistance_coefficient_error"], 4),
                 measured_sinkage_mm=point["sinkage_mm"], measured_sinkage_error_mm=point["sinkage_std_mm"],
                 sinkage_from_mass_mm=round(1000 * values["sinkage"], 2), sinkage_mm=round(1000 * values["sinkage"] + surface, 2),
@@ -172,7 +174,8 @@ def report(results, folder, evaluate):
     for name, value in reached.items():
         limit = study.REACHED.get(name)
         goal = study.GOALS.get(name)
-        print(f"{name}: {value:.3f}" + (f"  (goal {goal}: {'reached' if value <= goal else 'not reached'})" if goal else "") + (f"  limit {limit}" if limit else ""))
+        verdict = f"  (goal {goal}: {'reached' if value <= goal else 'not reached'})" if goal else ""
+        print(f"{name}: {value:.3f}{verdict}" + (f"  limit {limit}" if limit else ""))
         if limit and not value <= limit:
             missed.append(f"{name} is {value:.3f}, limit {limit}")
     return missed
@@ -184,8 +187,7 @@ def check_table(results, surface, evaluate):
         if finished(results / name):
             diameter = finished(results / name)["job"]["variables"]["diameter"]  # the surface is a share of the grain
             row = wheel_row(name, results / name, kind, point, surface * diameter / study.BASE["diameter"], evaluate)
-            rows.append(dict(run=name, what=what, **{k: row[k] for k in ("wheel", "slip", "measured_fx_over_fz", "fx_over_fz", "fx_over_fz_error",
-                             "measured_sinkage_mm", "sinkage_mm", "sinkage_from_mass_mm", "sinkage_error_mm", "steady", "grains", "steps", "cpu_s")}))
+            rows.append(dict(run=name, what=what, **{k: v for k, v in row.items() if k not in ("run", "load_N", "measured_error")}))
     return rows
 
 
@@ -194,7 +196,8 @@ def picture(results, path, surface, rows):
     for size, colour in zip(study.PLATES, ("tab:blue", "tab:orange", "tab:green")):
         points = [r for r in study.reference() if r["kind"] == "plate" and r["size_mm"] == size]
         area = math.pi / 4 * size**2 / 1000  # mm2 to kPa
-        plates.errorbar([r["sinkage_mm"] for r in points], [r["force_N"] / area for r in points], [np.nan_to_num(r["force_std_N"]) / area for r in points],
+        plates.errorbar([r["sinkage_mm"] for r in points], [r["force_N"] / area for r in points],
+                        [np.nan_to_num(r["force_std_N"]) / area for r in points],
                         fmt="o", ms=3, color=colour, label=f"{size} mm measured")  # scatter of the tests
         folder = results / f"plate_{study.CHOSEN}_{size}"
         if finished(folder):
@@ -204,12 +207,16 @@ def picture(results, path, surface, rows):
     for kind, colour in (("smooth", "tab:blue"), ("grouser", "tab:red")):
         measured = [r for r in study.reference() if r["kind"] == kind and -0.75 < r["slip"] < 0.95]
         slips = [r["slip"] for r in measured]
-        pull.errorbar(slips, [r["force_N"] / r["load_N"] for r in measured], [r["force_std_N"] / r["load_N"] for r in measured], fmt="o", ms=4, color=colour, label=f"{kind} measured")
-        sink.errorbar(slips, [r["sinkage_mm"] for r in measured], [r["sinkage_std_mm"] for r in measured], fmt="o", ms=4, color=colour)
+        dots = dict(fmt="o", ms=4, color=colour)
+        pull.errorbar(slips, [r["force_N"] / r["load_N"] for r in measured], [r["force_std_N"] / r["load_N"] for r in measured],
+                      label=f"{kind} measured", **dots)
+        sink.errorbar(slips, [r["sinkage_mm"] for r in measured], [r["sinkage_std_mm"] for r in measured], **dots)
         mine = sorted((r for r in rows if r["wheel"] == kind), key=lambda r: r["slip"])
         slips = [r["slip"] for r in mine]
-        pull.errorbar(slips, [r["fx_over_fz"] for r in mine], [2 * r["fx_over_fz_error"] for r in mine], marker="s", mfc="none", capsize=3, color=colour, label=f"{kind} computed")
-        sink.errorbar(slips, [r["sinkage_mm"] for r in mine], [2 * r["sinkage_error_mm"] for r in mine], marker="s", mfc="none", capsize=3, color=colour)
+        squares = dict(marker="s", mfc="none", capsize=3, color=colour)
+        pull.errorbar(slips, [r["fx_over_fz"] for r in mine], [2 * r["fx_over_fz_error"] for r in mine],
+                      label=f"{kind} computed", **squares)
+        sink.errorbar(slips, [r["sinkage_mm"] for r in mine], [2 * r["sinkage_error_mm"] for r in mine], **squares)
         sink.plot(slips, [r["sinkage_from_mass_mm"] for r in mine], ":", color=colour, label=f"{kind}, from the level of the mass")
     pull.axhline(0, color="grey", lw=0.5)
     pull.set(xlabel="slip", ylabel="Fx/Fz", title="wheel: tractive force")

@@ -60,20 +60,23 @@ def grains(candidate, **changes):
 
 
 def plate_job(size_mm, candidate, speed=PLATE_SPEED, **changes):
-    return dict(scene="plate", variables=dict(grains(candidate, **{**PLATE_BED, "wall_friction": PLATE_FRICTION, **changes}), size=size_mm / 1000, speed=speed, travel=0.024))
+    values = grains(candidate, **{**PLATE_BED, "wall_friction": PLATE_FRICTION, **changes})
+    return dict(scene="plate", variables=dict(values, size=size_mm / 1000, speed=speed, travel=0.024))
 
 
 def bed_key(job):
-    v = job["variables"]
-    return tuple(v.get(k) for k in ("length", "width", "depth", "diameter", "density", "young", "friction", "rolling", "pour_friction", "seed")) + (job["scene"],)
+    """Runs of equal keys use the same bed."""
+    keys = ("length", "width", "depth", "diameter", "density", "young", "friction", "rolling", "pour_friction", "seed")
+    return (job["scene"], *(job["variables"].get(key) for key in keys))
 
 
 def wheel_job(kind, point, candidate=CHOSEN, fastest=FASTEST, **changes):
     """One measured point: its own load and slip; the larger of travel and rim speed is the same for all slips."""
     slip, bars = point["slip"], dict(smooth=0, grouser=GROUSERS)[kind]
     words = f"grousers {bars}" + (f" grouser_height 0.005 grouser_thickness {GROUSER_THICKNESS}" if bars else "")
-    values = dict(grains(candidate, **{**WHEEL_BED, "wall_friction": WHEEL_FRICTION, **changes}), grousers=words, grouser_height=0.005 if bars else 0.0,
-                  slip=slip, load=point["load_N"], speed=round(fastest * min(1.0, 1.0 - slip), 5), travel=TRAVEL)
+    values = grains(candidate, **{**WHEEL_BED, "wall_friction": WHEEL_FRICTION, **changes})
+    values.update(grousers=words, grouser_height=0.005 if bars else 0.0, slip=slip, load=point["load_N"],
+                  speed=round(fastest * min(1.0, 1.0 - slip), 5), travel=TRAVEL)
     return dict(scene="wheel", variables=values)
 
 
@@ -134,8 +137,11 @@ def jobs(stage):
     if stage == "calibrate":
         return {f"plate_{c}_{size}": plate_job(size, c) for c in CANDIDATES for size in PLATES}
     if stage == "wheel":
-        by_worth = {kind: sorted(wheel_points(kind), key=lambda p: ORDER.index(round(p["slip"], 1))) for kind in ("smooth", "grouser")}
+        by_worth = {kind: sorted(wheel_points(kind), key=lambda p: ORDER.index(round(p["slip"], 1)))
+                    for kind in ("smooth", "grouser")}
         return {wheel_name(kind, p): wheel_job(kind, p) for kind, points in by_worth.items() for p in points}
-    plates = {f"plate_{CHOSEN}{what}_{size}": plate_job(size, CHOSEN, **changes) for what, changes in PLATE_CHECKS.items() for size in PLATES}
-    wheels = {f"check_{name}": wheel_job(kind, point(kind, slip), **changes) for name, (kind, slip, changes, _) in CHECKS.items()}
+    plates = {f"plate_{CHOSEN}{what}_{size}": plate_job(size, CHOSEN, **changes)
+              for what, changes in PLATE_CHECKS.items() for size in PLATES}
+    wheels = {f"check_{name}": wheel_job(kind, point(kind, slip), **changes)
+              for name, (kind, slip, changes, _) in CHECKS.items()}
     return {**wheels, **plates}
