@@ -113,6 +113,8 @@ CHECKS = {
     "slow": ("smooth", 0.231, dict(diameter=0.0125, fastest=0.1), "grains of 12.5 mm, half the speed"),
     "seed_10": ("smooth", 0.231, dict(seed=67867967), "grains of 10 mm, another pour"),
     "seed": ("smooth", 0.231, dict(diameter=0.0125, seed=67867967), "grains of 12.5 mm, another pour"),
+    "candidate_E": ("smooth", 0.231, dict(candidate="E"), "candidate E, grains of 10 mm"),
+    "candidate_E_slip_0": ("smooth", 0.0, dict(candidate="E"), "candidate E, grains of 10 mm"),
     "wall_0.4": ("smooth", 0.0, dict(wall_friction=0.4), "grains of 10 mm, friction of wheel and sand 0.4"),
 }
 
