@@ -64,6 +64,9 @@ void check(const TyreParameters& tyre, const std::string& where) {
   const TreadParameters& tread = tyre.tread;
   need_positive(tread.radius, where, "the tread's radius", "m");
   need_positive(tread.half_width, where, "the tread's half_width", "m");
+  need(tread.radius > tyre.bead_radius, where,
+       fmt::format("the tread, {:.4g} m from the axle, lies inside the rim ({:.4g} m)", tread.radius, tyre.bead_radius),
+       "a tread outside the rim");
   need(tread.crown >= 0.0 && tread.crown < tread.radius - tyre.bead_radius, where,
        fmt::format("the tread's crown is {} m", tread.crown),
        fmt::format("from 0 to below the section height, {:.4g} m", tread.radius - tyre.bead_radius));
@@ -79,10 +82,6 @@ void check(const TyreParameters& tyre, const std::string& where) {
 
   const Vector2 chord = tyre.sidewall_chord();
   const double distance = chord.norm(), length = tyre.sidewall.length;
-  need(chord[1] > 0.0, where,
-       fmt::format("the tread's edge, {:.4g} m from the axle, lies inside the rim ({:.4g} m)", tread.radius - tread.crown,
-                   tyre.bead_radius),
-       "a tread outside the rim");
   need(distance < length, where,
        fmt::format(
            "the sidewall is stretched past its length: bead and tread edge are {:.4g} m apart, its length is {:.4g} m",

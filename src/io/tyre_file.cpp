@@ -1,0 +1,134 @@
+#include "io/tyre_file.h"
+
+#include <filesystem>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/error.h"
+#include "io/yaml_tree.h"
+
+namespace furrow {
+
+namespace {
+
+Schema tyre_schema() {
+  Schema schema("tyre");
+  schema.number("pressure", "Pa", Range::non_negative(), "inflation above the atmosphere");
+  schema.number("bead_radius", "m", Range::positive(), "radius at which the sidewalls begin");
+  schema.number("bead_spacing", "m", Range::positive(), "distance of the two beads along the axle");
+  return schema;
+}
+
+Schema tread_schema() {
+  Schema schema("tread");
+  schema.number("radius", "m", Range::positive(), "radius of the belts, without pressure");
+  schema.number("half_width", "m", Range::positive(), "half the width of the tread");
+  schema.number("crown", "m", Range::non_negative(), "the radius at the edge is smaller by this").by_default(0.0);
+  schema.number("thickness", "m", Range::positive(), "of the equivalent shell, EI = E h^3/12 per unit width");
+  schema.number("E1", "Pa", Range::positive(), "modulus along the circumference");
+  schema.number("E2", "Pa", Range::positive(), "modulus across");
+  schema.number("nu12", "", Range::open(-1.0, 1.0), "Poisson's ratio: strain across for stress along");
+  schema.number("G12", "Pa", Range::positive(), "shear modulus");
+  schema.number("areal_mass", "kg/m2", Range::positive(), "mass of the real tread per area, rubber and belts");
+  return schema;
+}
+
+Schema sidewall_schema() {
+  Schema schema("sidewall");
+  schema.number("length", "m", Range::positive(), "of the whole chain of equal segments");
+  schema.numbers("bending", 0, "N m", Range::non_negative(),
+                 "stiffness EI per width of each hinge, from bead to tread: one fewer than segments");
+  schema.numbers("curvature", 0, "1/m", Range::any(), "stress-free curvature at each hinge");
+  schema.number("rim_angle", "degree", Range::closed(-180.0, 180.0),
+                "of the first segment, from outwards to upwards, where the rim's spring is free");
+  schema.number("tread_angle", "degree", Range::closed(-180.0, 180.0),
+                "of the last segment, where the tread's spring is free");
+  schema.number("rim_stiffness", "N m/rad/m", Range::non_negative(), "of the spring between rim and sidewall; 0: a pin");
+  schema.number("tread_stiffness", "N m/rad/m", Range::non_negative(), "of the spring between sidewall and tread; 0: a pin");
+  return schema;
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
+  return result + "'";
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, Schema>> tyre_schemas() {
+  return {{"tyre", tyre_schema()}, {"tread", tread_schema()}, {"sidewall", sidewall_schema()}};
+}
+
+TyreParameters read_tyre_file(const std::string& path) {
+  const YamlTree file = read_yaml(path);
+  refuse_other_keys(file, {"title", "tyre", "tread", "sidewall"});
+  const auto read = [&](const Schema& schema, const std::string& meaning) {
+    return read_map(schema, file.map(schema.subject(), meaning));
+  };
+  const Options tyre = read(tyre_schema(), "the section 'tyre' with pressure and beads");
+  const Options tread = read(tread_schema(), "the section 'tread' with dimensions, stiffnesses and mass");
+  const Options sidewall = read(sidewall_schema(), "the section 'sidewall' with length, hinges and end springs");
+
+  TyreParameters result;
+  const YamlTree* title = file.find("title");
+  if (title && title->kind != YamlTree::Kind::text)
+    throw InputError(fmt::format("{}: keyword 'title'", title->origin), "is not a text", "a text");
+  result.title = title ? title->text : std::filesystem::path(path).stem().string();
+  result.pressure = tyre.number("pressure");
+  result.bead_radius = tyre.number("bead_radius");
+  result.bead_spacing = tyre.number("bead_spacing");
+  result.tread = {tread.number("radius"),    tread.number("half_width"), tread.number("crown"),
+                  tread.number("thickness"), tread.number("E1"),         tread.number("E2"),
+                  tread.number("nu12"),      tread.number("G12"),        tread.number("areal_mass")};
+  result.sidewall = {sidewall.number("length"),
+                     sidewall.numbers("bending"),
+                     sidewall.numbers("curvature"),
+                     radians(sidewall.number("rim_angle")),
+                     radians(sidewall.number("tread_angle")),
+                     sidewall.number("rim_stiffness"),
+                     sidewall.number("tread_stiffness")};
+  check(result, fmt::format("{}: tyre '{}'", path, result.title));
+  return result;
+}
+
+std::string tyre_file_text(const TyreParameters& tyre) {
+  const TreadParameters& tread = tyre.tread;
+  const SidewallParameters& sidewall = tyre.sidewall;
+  const auto list = [](const std::vector<double>& values) { return fmt::format("[{}]", fmt::join(values, ", ")); };
+  const std::map<std::string, std::map<std::string, std::string>> values = {
+      {"tyre",
+       {{"pressure", fmt::to_string(tyre.pressure)},
+        {"bead_radius", fmt::to_string(tyre.bead_radius)},
+        {"bead_spacing", fmt::to_string(tyre.bead_spacing)}}},
+      {"tread",
+       {{"radius", fmt::to_string(tread.radius)},
+        {"half_width", fmt::to_string(tread.half_width)},
+        {"crown", fmt::to_string(tread.crown)},
+        {"thickness", fmt::to_string(tread.thickness)},
+        {"E1", fmt::to_string(tread.E1)},
+        {"E2", fmt::to_string(tread.E2)},
+        {"nu12", fmt::to_string(tread.nu12)},
+        {"G12", fmt::to_string(tread.G12)},
+        {"areal_mass", fmt::to_string(tread.areal_mass)}}},
+      {"sidewall",
+       {{"length", fmt::to_string(sidewall.length)},
+        {"bending", list(sidewall.bending)},
+        {"curvature", list(sidewall.curvature)},
+        {"rim_angle", fmt::to_string(degrees(sidewall.rim_angle))},
+        {"tread_angle", fmt::to_string(degrees(sidewall.tread_angle))},
+        {"rim_stiffness", fmt::to_string(sidewall.rim_stiffness)},
+        {"tread_stiffness", fmt::to_string(sidewall.tread_stiffness)}}}};
+  std::string text = fmt::format("title: {}\n", quoted(tyre.title));
+  for (const auto& [section, schema] : tyre_schemas()) {
+    text += fmt::format("{}:\n", section);
+    for (const Key& key : schema.keys())
+      text += fmt::format("  {}: {}  # {}{}\n", key.name, values.at(section).at(key.name),
+                          key.unit.empty() ? "" : fmt::format("[{}] ", key.unit), key.meaning);
+  }
+  return text;
+}
+
+}  // namespace furrow
