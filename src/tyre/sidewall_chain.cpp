@@ -46,7 +46,7 @@ void SidewallChain::check_end(const SidewallEnd& end, double pressure) const {
                     chord, end.a, end.r));
 }
 
-void SidewallChain::arc(const SidewallEnd& end, VectorX& angles) const {
+void SidewallChain::arc(const SidewallEnd& end, VectorX& angles) {
   check_end(end, 0.0);
   // N chords of a circle, each turned by 2 alpha/N from the one before: chord/length = sin(alpha)/(N sin(alpha/N)), falling in alpha.
   const double n = static_cast<double>(n_), share = std::hypot(end.a, end.r) / parameters_.length;
@@ -104,36 +104,36 @@ double SidewallChain::area(const VectorX& angles) const {
   return 0.5 * twice;
 }
 
-/// Phi = E - p G, G = S + a r/2 with the end where the angles put it.
+/// Phi = E - p G, G = S + a r/2 with the end where the angles put it. Uses their cosines and sines.
 double SidewallChain::functional(const VectorX& angles, double phi, double pressure) const {
-  const double L = segment();
-  double a = 0.0, G = 0.0;
+  double before = 0.0, G = 0.0;  // G in units of L^2
   for (Eigen::Index i = 0; i < n_; ++i) {
-    const double da = L * std::cos(angles[i]);
-    G += (a + 0.5 * da) * L * std::sin(angles[i]);
-    a += da;
+    G += (before + 0.5 * cosine_[i]) * sine_[i];
+    before += cosine_[i];
   }
-  return bending_energy(angles, phi) - pressure * G;
+  return bending_energy(angles, phi) - pressure * segment() * segment() * G;
 }
 
 /// Newton's method with the shortest step; few and small where the angles nearly fit. False when it does not end.
-bool SidewallChain::restore_end(const SidewallEnd& end, VectorX& angles) const {
+/// Leaves the cosines and sines of the angles.
+bool SidewallChain::restore_end(const SidewallEnd& end, VectorX& angles) {
   const double L = segment();
   for (int i = 0; i < 20; ++i) {
     double a = 0.0, r = 0.0, ss = 0.0, cc = 0.0, sc = 0.0;
     for (Eigen::Index k = 0; k < n_; ++k) {
-      const double c = L * std::cos(angles[k]), s = L * std::sin(angles[k]);
+      const double c = std::cos(angles[k]), s = std::sin(angles[k]);
       a += c, r += s, ss += s * s, cc += c * c, sc += s * c;
+      cosine_[k] = c, sine_[k] = s;
     }
-    const Vector2 gap(end.a - a, end.r - r);
-    if (gap.norm() < 1e-14 * parameters_.length) return true;
-    // J = (-s; c), J J^T = (ss, -sc; -sc, cc)
+    const Vector2 gap(end.a / L - a, end.r / L - r);
+    if (gap.norm() < 1e-14 * static_cast<double>(n_)) return true;
+    // J = L (-s; c), J J^T = L^2 (ss, -sc; -sc, cc)
     const double determinant = ss * cc - sc * sc;
-    if (!(determinant > 1e-20 * L * L * L * L)) return false;
+    if (!(determinant > 1e-20)) return false;
     const Vector2 y((cc * gap[0] + sc * gap[1]) / determinant, (sc * gap[0] + ss * gap[1]) / determinant);
     double largest = 0.0;
     for (Eigen::Index k = 0; k < n_; ++k) {
-      const double change = L * (-std::sin(angles[k]) * y[0] + std::cos(angles[k]) * y[1]);
+      const double change = -sine_[k] * y[0] + cosine_[k] * y[1];
       angles[k] += change;
       largest = std::max(largest, std::abs(change));
     }
@@ -142,13 +142,9 @@ bool SidewallChain::restore_end(const SidewallEnd& end, VectorX& angles) const {
   return false;
 }
 
-/// Gradient, QR of the constraint, multiplier, and the Lagrangian's Hessian in the axes of the QR.
+/// Gradient, QR of the constraint, multiplier, and the Lagrangian's Hessian in the axes of the QR. Uses the cosines and sines.
 void SidewallChain::linearise(const VectorX& angles, double phi, double pressure) {
   const double L = segment(), pLL = pressure * L * L;
-  for (Eigen::Index i = 0; i < n_; ++i) {
-    cosine_[i] = std::cos(angles[i]);
-    sine_[i] = std::sin(angles[i]);
-  }
   // dG/dtheta_k = L^2 (cos_k sum_(j<k) cos_j - sin_k sum_(i>k) sin_i + cos(2 theta_k)/2)
   double before = 0.0, after = sine_.sum();
   for (Eigen::Index k = 0; k < n_; ++k) {

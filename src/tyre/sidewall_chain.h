@@ -30,7 +30,7 @@ class SidewallChain {
   SidewallResponse solve(const SidewallEnd& end, double pressure, VectorX& angles, bool with_stiffness = true);
 
   /// The inscribed arc that bulges outwards. @throws StateError as solve
-  void arc(const SidewallEnd& end, VectorX& angles) const;
+  void arc(const SidewallEnd& end, VectorX& angles);
 
   // Of any angles, in equilibrium or not.
   void nodes(const VectorX& angles, Eigen::Matrix2Xd& nodes) const;  ///< from (0, 0); N + 1 columns [m]
@@ -45,7 +45,7 @@ class SidewallChain {
   bool descend(const SidewallEnd& end, double pressure, VectorX& angles);
   double functional(const VectorX& angles, double phi, double pressure) const;
   void linearise(const VectorX& angles, double phi, double pressure);
-  bool restore_end(const SidewallEnd& end, VectorX& angles) const;
+  bool restore_end(const SidewallEnd& end, VectorX& angles);
   bool factorise(double shift);
   void reflect(VectorX& vector, bool transpose) const;
   void substitute(VectorX& reduced) const;

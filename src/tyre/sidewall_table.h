@@ -1,0 +1,70 @@
+#pragma once
+/// A sidewall by lookup: its potential W at one pressure as a smooth table, and the forces as its exact gradient.
+///
+/// W (tyre/sidewall.h) depends on the chord's length c and direction chi and on the tread's rotation phi. It is tabulated over
+/// (u, chi, phi) with u = sqrt(1 - c/l): W has a square root at the stretched chain, but is smooth in u. The spline is quintic,
+/// so forces are C3 and stiffness C2 in the interior, around a closed path they do no work but the pressure's p times the area that the
+/// tread end sweeps, whatever the size of the table.
+
+#include <array>
+#include <string>
+
+#include "core/options.h"
+#include "tyre/quintic_spline.h"
+#include "tyre/sidewall_chain.h"
+
+namespace furrow {
+
+/// Where a table is valid, and how fine it is.
+struct SidewallTableGrid {
+  double chord_min = 0.2, chord_max = 0.999;                         ///< shares of the length
+  double direction_min = radians(30), direction_max = radians(150);  ///< chi [rad]: of the chord, from +a to +r
+  double rotation_min = radians(-60), rotation_max = radians(60);    ///< phi [rad]
+  int chord_nodes = 24, direction_nodes = 12, rotation_nodes = 12;
+
+  std::array<GridAxis, 3> axes() const;  ///< over u, chi, phi
+};
+
+class SidewallTable : public Sidewall {
+ public:
+  /// Solves the chain at every node of the grid, and compares with it between the nodes.
+  /// @throws InputError for bad parameters; StateError for a pressure < 0, a bad grid, a node without stable
+  ///         equilibrium, or forces that differ from the chain's by more than 0.5 % (rms)
+  SidewallTable(const SidewallParameters& parameters, double pressure, const SidewallTableGrid& grid = {});
+  /// With the coefficients() of an equal table, from a file. @throws as above
+  SidewallTable(const SidewallParameters& parameters, double pressure, const SidewallTableGrid& grid,
+                std::vector<double> coefficients);
+
+  const std::vector<double>& coefficients() const { return spline_.coefficients(); }
+  const SidewallTableGrid& grid() const { return grid_; }
+
+  /// @throws StateError for an end outside the grid, naming station, quantity and limits
+  void evaluate(const SidewallEnd* ends, SidewallResponse* responses, std::size_t n, bool with_stiffness) override;
+  double pressure() const override { return pressure_; }
+  void set_pressure(double pressure) override;  ///< makes the table anew unless the pressure stays
+  void profile(const SidewallEnd& end, Eigen::Matrix2Xd& nodes) override;  ///< by the chain
+  Energy energy(const SidewallEnd& end) override;                          ///< by the chain
+
+  /// Difference from the chain in the middle of cells.
+  struct Accuracy {
+    std::size_t points = 0;
+    double force_rms = 0.0, force_max = 0.0;    ///< |(F_a, F_r)| [N/m]
+    double moment_rms = 0.0, moment_max = 0.0;  ///< M [N m/m]
+    double force_scale = 0.0;                   ///< rms of the chain's force [N/m]
+    double force_max_share = 0.0;               ///< largest error of a force over that force
+  };
+  /// @param chord_limit leaves out chords above this share of the length, where forces grow without bound
+  /// @param every takes one cell of so many
+  Accuracy accuracy(double chord_limit, int every = 1);
+
+ private:
+  void build();
+  [[noreturn]] void refuse(const SidewallEnd& end, std::size_t station) const;
+
+  SidewallChain chain_;
+  double pressure_;
+  SidewallTableGrid grid_;
+  QuinticSpline3 spline_;
+};
+
+}  // namespace furrow
