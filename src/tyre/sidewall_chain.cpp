@@ -15,6 +15,7 @@ constexpr int max_iterations = 200;
 constexpr double step_limit = 0.3;            // [rad] of any segment in one step
 constexpr double gradient_tolerance = 1e-12;  // of the largest forces times lengths
 constexpr double rounding = 1e-13;            // of the functional's terms: a difference below is none
+constexpr double farthest_from_arc = 1.2;     // [rad] of any segment: a warm start that ends farther away is not trusted
 constexpr double shortest_chord = 0.02;       // of the length
 
 }  // namespace
@@ -59,6 +60,18 @@ void SidewallChain::arc(const SidewallEnd& end, VectorX& angles) {
   angles.resize(n_);
   for (Eigen::Index i = 0; i < n_; ++i) angles[i] = direction + (static_cast<double>(i) - 0.5 * (n - 1.0)) * turn;
   restore_end(end, angles);
+}
+
+/// A chain with a curl in it, or bent the other way, has angles far from the arc's.
+bool SidewallChain::resembles_arc(const SidewallEnd& end, const VectorX& angles) const {
+  const double n = static_cast<double>(n_), direction = std::atan2(end.r, end.a);
+  // Half the arc's angle from sin(alpha)/alpha = chord/length, within 0.01
+  const double uu = 1.0 - std::hypot(end.a, end.r) / parameters_.length;
+  const double alpha = std::sqrt(6.0 * uu) * (1.0 + 0.15 * uu + 0.1325 * uu * uu), turn = 2.0 * alpha / n;
+  for (Eigen::Index i = 0; i < n_; ++i)
+    if (std::abs(angles[i] - direction - (static_cast<double>(i) - 0.5 * (n - 1.0)) * turn) > farthest_from_arc)
+      return false;
+  return true;
 }
 
 double SidewallChain::bending_energy(const VectorX& angles, double phi) const {
@@ -273,7 +286,8 @@ bool SidewallChain::descend(const SidewallEnd& end, double pressure, VectorX& an
 
 SidewallResponse SidewallChain::solve(const SidewallEnd& end, double pressure, VectorX& angles, bool with_stiffness) {
   check_end(end, pressure);
-  bool found = angles.size() == n_ && angles.allFinite() && restore_end(end, angles) && descend(end, pressure, angles);
+  bool found = angles.size() == n_ && angles.allFinite() && restore_end(end, angles) && descend(end, pressure, angles) &&
+               resembles_arc(end, angles);
   if (!found) {
     arc(end, angles);
     found = descend(end, pressure, angles);

@@ -25,7 +25,8 @@ class SidewallChain {
 
   /// Equilibrium at an end.
   /// @param pressure >= 0 [Pa]
-  /// @param angles [rad] N values to start from and then the solution; when empty, the start is the arc
+  /// @param angles [rad] in: where to start from, such as the solution nearby, or empty for the arc; out: the solution. Where a start
+  ///        does not lead to a chain like the arc, the arc is taken
   /// @throws StateError: an end that is not finite, beyond the length, or at the bead; no stable equilibrium found
   SidewallResponse solve(const SidewallEnd& end, double pressure, VectorX& angles, bool with_stiffness = true);
 
@@ -45,6 +46,7 @@ class SidewallChain {
   bool descend(const SidewallEnd& end, double pressure, VectorX& angles);
   double functional(const VectorX& angles, double phi, double pressure) const;
   void linearise(const VectorX& angles, double phi, double pressure);
+  bool resembles_arc(const SidewallEnd& end, const VectorX& angles) const;
   bool restore_end(const SidewallEnd& end, VectorX& angles);
   bool factorise(double shift);
   void reflect(VectorX& vector, bool transpose) const;

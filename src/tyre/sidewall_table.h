@@ -7,9 +7,8 @@
 /// tread end sweeps, whatever the size of the table.
 
 #include <array>
-#include <string>
+#include <vector>
 
-#include "core/options.h"
 #include "tyre/quintic_spline.h"
 #include "tyre/sidewall_chain.h"
 

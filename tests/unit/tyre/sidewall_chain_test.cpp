@@ -1,0 +1,200 @@
+#include "tyre/sidewall_chain.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gmock/gmock.h>
+
+#include "tyre/sidewall_direct.h"
+#include "tyres.h"
+
+namespace furrow {
+namespace {
+
+using ::testing::HasSubstr;
+
+template <class Action>
+std::string message_of(Action action) {
+  try {
+    action();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+SidewallResponse cold(SidewallChain& chain, const SidewallEnd& end, double pressure) {
+  VectorX angles;
+  return chain.solve(end, pressure, angles);
+}
+
+/// Ends from a nearly stretched sidewall to one folded by a deep dent.
+const std::vector<SidewallEnd> ends = {
+    {-0.004, 0.1395, 0.0}, {-0.004, 0.155, 0.05}, {0.02, 0.1, -0.2}, {-0.03, 0.07, 0.3}, {0.02, 0.05, 0.1}};
+
+TEST(SidewallChain, StiffnessIsTheDerivativeOfTheForces) {
+  for (const double k : {0.0, 1.0, 100.0})
+    for (const double pressure : {0.0, 103e3, 241e3})
+      for (const SidewallEnd& end : ends) {
+        SidewallChain chain(tr_sidewall(k, k));
+        const auto response = [&](const SidewallEnd& e) { return cold(chain, e, pressure); };
+        const Matrix3 K = response(end).stiffness;
+        EXPECT_LT((K - stiffness_by_differences(response, end, 2e-5)).norm(), 1e-6 * K.norm())
+            << "k " << k << ", p " << pressure << ", a " << end.a << ", r " << end.r;
+      }
+}
+
+TEST(SidewallChain, ForcesAreTheGradientOfThePotentialAndHalfThePressureOnTheChord) {
+  for (const double k : {0.0, 10.0})
+    for (const double pressure : {0.0, 241e3})
+      for (const SidewallEnd& end : ends) {
+        SidewallChain chain(tr_sidewall(k, 2 * k));
+        const auto response = [&](const SidewallEnd& e) { return cold(chain, e, pressure); };
+        const SidewallResponse here = response(end);
+        const Vector3 expected =
+            -gradient_by_differences(response, end, 2e-5) + 0.5 * pressure * Vector3(end.r, -end.a, 0.0);
+        EXPECT_LT((here.on_tread - expected).norm(), 1e-7 * (1.0 + here.on_tread.norm())) << pressure << " " << end.r;
+        // dF_a/dr - dF_r/da = p, and the rest is symmetric
+        const Matrix3& K = here.stiffness;
+        EXPECT_NEAR(K(1, 0) - K(0, 1), pressure, 1e-9 * K.norm());
+        EXPECT_NEAR(K(0, 2), K(2, 0), 1e-9 * K.norm());
+        EXPECT_NEAR(K(1, 2), K(2, 1), 1e-9 * K.norm());
+      }
+}
+
+/// Forces on tread and rim are all that the gas does to the chain: resultant and moment, from the nodes themselves.
+TEST(SidewallChain, ForcesOfBothEndsBalanceThePressure) {
+  SidewallChain chain(tr_sidewall(5.0, 20.0));
+  for (const SidewallEnd& end : ends) {
+    VectorX angles;
+    const double p = 179e3;
+    const SidewallResponse response = chain.solve(end, p, angles);
+    Eigen::Matrix2Xd nodes;
+    chain.nodes(angles, nodes);
+    Vector2 force = Vector2::Zero();
+    double moment = 0.0;  // about the bead
+    for (int i = 0; i + 1 < nodes.cols(); ++i) {
+      const Vector2 edge = nodes.col(i + 1) - nodes.col(i), middle = 0.5 * (nodes.col(i + 1) + nodes.col(i));
+      const Vector2 load = p * Vector2(edge[1], -edge[0]);
+      force += load;
+      moment += middle[0] * load[1] - middle[1] * load[0];
+    }
+    const Vector3 tread = response.on_tread, rim = response.on_rim;
+    EXPECT_NEAR((tread + rim).head<2>().x(), force.x(), 1e-8);
+    EXPECT_NEAR((tread + rim).head<2>().y(), force.y(), 1e-8);
+    EXPECT_NEAR(tread[2] + rim[2] + end.a * tread[1] - end.r * tread[0], moment, 1e-8);
+    EXPECT_NEAR(nodes(0, 10), end.a, 1e-14);
+    EXPECT_NEAR(nodes(1, 10), end.r, 1e-14);
+    EXPECT_NEAR(chain.bending_energy(angles, end.phi) - p * chain.area(angles), response.potential, 1e-9);
+  }
+}
+
+/// Every hinge: moment difference = force times arm, with the pressure on the nodes beyond.
+TEST(SidewallChain, EveryHingeIsInEquilibrium) {
+  SidewallChain chain(tr_sidewall(3.0, 7.0));
+  for (const double p : {0.0, 103e3})
+    for (const SidewallEnd& end : ends) {
+      VectorX angles;
+      const SidewallResponse response = chain.solve(end, p, angles);
+      Eigen::Matrix2Xd x;
+      chain.nodes(angles, x);
+      const VectorX M = chain.moments(angles, end.phi);
+      // The part from node i on: what the tread does to it, the pressure on it, and the hinge's moment
+      for (int i = 0; i < 10; ++i) {
+        double moment = -response.on_tread[2] - M[i];
+        const Vector2 arm = x.col(10) - x.col(i);
+        moment -= arm[0] * response.on_tread[1] - arm[1] * response.on_tread[0];
+        for (int j = i; j < 10; ++j) {
+          const Vector2 edge = x.col(j + 1) - x.col(j), middle = 0.5 * (x.col(j + 1) + x.col(j)) - x.col(i);
+          moment += p * (-middle[0] * edge[0] - middle[1] * edge[1]);
+        }
+        EXPECT_NEAR(moment, 0.0, 1e-8) << "hinge " << i;
+      }
+    }
+}
+
+TEST(SidewallChain, TurningEverythingTurnsTheForces) {
+  SidewallParameters sidewall = tr_sidewall(8.0, 8.0);
+  SidewallChain chain(sidewall);
+  const double turn = 0.4;
+  sidewall.rim_angle += turn;
+  SidewallChain turned(sidewall);
+  const SidewallEnd end{0.01, 0.11, 0.1};
+  const Eigen::Rotation2Dd R(turn);
+  const Vector2 place = R * Vector2(end.a, end.r);
+  const SidewallResponse first = cold(chain, end, 103e3), second = cold(turned, {place[0], place[1], end.phi + turn}, 103e3);
+  EXPECT_LT((R * first.on_tread.head<2>() - second.on_tread.head<2>()).norm(), 1e-8);
+  EXPECT_NEAR(first.on_tread[2], second.on_tread[2], 1e-9);
+  EXPECT_NEAR(first.potential, second.potential, 1e-9);
+}
+
+/// From a chain that is bent the wrong way, in an S, or at random, the search ends where the arc leads.
+TEST(SidewallChain, ABadStartDoesNotLeadToAnotherBranch) {
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (const double pressure : {2e4, 103e3, 241e3})
+    for (const SidewallEnd& end : ends) {
+      SidewallChain chain(tr_sidewall(1.0, 1.0));
+      VectorX right;
+      const Vector3 expected = chain.solve(end, pressure, right).on_tread;
+      const double direction = std::atan2(end.r, end.a);
+      for (int start = 0; start < 12; ++start) {
+        VectorX angles = right;
+        for (int i = 0; i < 10; ++i) {
+          if (start == 0) angles[i] = 2.0 * direction - right[i];                             // mirrored: bulges inwards
+          if (start == 1) angles[i] = direction + (i < 5 ? 1 : -1) * (right[i] - direction);  // an S
+          if (start > 1) angles[i] = direction + 1.5 * uniform(engine);
+        }
+        EXPECT_LT((chain.solve(end, pressure, angles).on_tread - expected).norm(), 1e-7 * expected.norm())
+            << "start " << start << ", p " << pressure << ", a " << end.a << ", r " << end.r;
+        EXPECT_LT((angles - right).norm(), 1e-6);
+      }
+    }
+}
+
+/// A loop of the tread edge, in small steps from the last solution: it comes back to what it was, and agrees with a fresh search.
+TEST(SidewallChain, WarmStartsFollowTheSameBranch) {
+  for (const double k : {0.0, 10.0}) {
+    SidewallDirect warm(tr_sidewall(k, k), 103e3);
+    SidewallChain chain(tr_sidewall(k, k));
+    for (int step = 0; step <= 400; ++step) {
+      const double t = 2.0 * pi * step / 400;
+      const SidewallEnd end{0.03 * std::sin(t), 0.09 + 0.05 * std::cos(t), 0.4 * std::sin(2 * t)};
+      SidewallResponse response;
+      warm.evaluate(&end, &response, 1, false);
+      EXPECT_LT((response.on_tread - cold(chain, end, 103e3).on_tread).norm(), 1e-6) << "step " << step;
+    }
+  }
+}
+
+TEST(SidewallChain, WhatCannotBeIsRefused) {
+  SidewallChain chain(tr_sidewall(1.0, 1.0));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto refusal = [&](const SidewallEnd& end, double pressure) {
+    return message_of([&] { cold(chain, end, pressure); });
+  };
+  EXPECT_THAT(
+      refusal({0.0, 0.1611, 0.0}, 1e5),
+      HasSubstr("stretched past its length: its ends (a = 0 m, r = 0.1611 m) are 0.1611 m apart, its length is 0.161 m"));
+  EXPECT_THAT(refusal({0.001, 0.001, 0.0}, 1e5), HasSubstr("the tread edge lies on the bead"));
+  EXPECT_THAT(refusal({nan, 0.1, 0.0}, 1e5), HasSubstr("its tread end is at a = nan m"));
+  EXPECT_THAT(refusal({0.0, 0.1, nan}, 1e5), HasSubstr("phi = nan rad"));
+  EXPECT_THAT(refusal({0.0, 0.1, 0.0}, -1.0), HasSubstr("the pressure is -1 Pa; it must be >= 0"));
+  EXPECT_THAT(refusal({0.0, 0.1, 0.0}, nan), HasSubstr("the pressure is nan Pa"));
+
+  SidewallDirect direct(tr_sidewall(1.0, 1.0), 1e5);
+  const SidewallEnd stations[2] = {{0.0, 0.1, 0.0}, {0.0, 0.2, 0.0}};
+  SidewallResponse responses[2];
+  EXPECT_THAT(message_of([&] { direct.evaluate(stations, responses, 2, true); }),
+              HasSubstr("station 1: sidewall: stretched"));
+  EXPECT_THAT(message_of([&] { direct.set_pressure(-5.0); }), HasSubstr("the pressure is -5 Pa"));
+
+  SidewallParameters two = uniform_sidewall(3, 0.1, 1.0, 0.0);
+  EXPECT_THAT(message_of([&] { SidewallChain{two}; }), HasSubstr("has 2 values of bending; allowed: 3 to 999"));
+  SidewallParameters negative = tr_sidewall(-1.0, 0.0);
+  EXPECT_THAT(message_of([&] { SidewallChain{negative}; }), HasSubstr("the stiffness of an end spring is -1"));
+}
+
+}  // namespace
+}  // namespace furrow
