@@ -60,7 +60,7 @@ Schema WheelRig::schema(const std::string& subject) {
   return schema;
 }
 
-WheelRig::WheelRig(const Options& options, RigidWheel& wheel) : wheel_(wheel) {
+WheelRig::WheelRig(const Options& options, WheelHub& wheel) : wheel_(wheel) {
   ground_level_ = options.number("ground_level");
   const double settle_time = options.number("settle_time");
   load_ramp_ = {options.number("start"),
@@ -75,7 +75,7 @@ WheelRig::WheelRig(const Options& options, RigidWheel& wheel) : wheel_(wheel) {
   read_drive(options);
   wheel_.set_vertical_damping(options.number("damping"));
   wheel_.set_axle_torque(0.0);
-  for (const auto coordinate : {RigidWheel::y, RigidWheel::yaw, RigidWheel::camber}) wheel_.hold(coordinate);
+  for (const auto coordinate : {WheelHub::y, WheelHub::yaw, WheelHub::camber}) wheel_.hold(coordinate);
 }
 
 void WheelRig::read_vertical(const Options& options) {
@@ -128,22 +128,22 @@ WheelRig::Phase WheelRig::phase(double time) const {
 void WheelRig::apply(double time, double dt) {
   drive_vertical(time, dt);
   if (phase(time + 0.5 * dt) == Phase::settle) {  // by the middle of the step: safe against rounding of its ends
-    wheel_.hold(RigidWheel::x);
-    wheel_.hold(RigidWheel::spin);
+    wheel_.hold(WheelHub::x);
+    wheel_.hold(WheelHub::spin);
   } else {
-    wheel_.prescribe(RigidWheel::x, speed_ * speed_ramp_.mean(time, time + dt));
+    wheel_.prescribe(WheelHub::x, speed_ * speed_ramp_.mean(time, time + dt));
     drive_spin(time, dt);
   }
 }
 
 void WheelRig::drive_vertical(double time, double dt) {
   if (time + 0.5 * dt < load_ramp_.start) {
-    wheel_.hold(RigidWheel::z);
+    wheel_.hold(WheelHub::z);
     wheel_.set_load(Vector3::Zero());
   } else if (sinkage_prescribed_) {
-    wheel_.prescribe(RigidWheel::z, lowering_ * load_ramp_.mean_rate(time, time + dt));
+    wheel_.prescribe(WheelHub::z, lowering_ * load_ramp_.mean_rate(time, time + dt));
   } else {
-    wheel_.release(RigidWheel::z);
+    wheel_.release(WheelHub::z);
     wheel_.set_load({0.0, 0.0, -load_ * load_ramp_.value(time)});
   }
 }
@@ -151,14 +151,14 @@ void WheelRig::drive_vertical(double time, double dt) {
 void WheelRig::drive_spin(double time, double dt) {
   switch (mode_) {
     case Mode::towed:
-      wheel_.release(RigidWheel::spin);
+      wheel_.release(WheelHub::spin);
       return;
     case Mode::slip:
-      wheel_.prescribe(RigidWheel::spin,
-                       rim_speed_ / wheel_.parameters().geometry.radius() * speed_ramp_.mean(time, time + dt));
+      wheel_.prescribe(WheelHub::spin,
+                       rim_speed_ / wheel_.nominal_radius() * speed_ramp_.mean(time, time + dt));
       return;
     case Mode::torque:
-      wheel_.release(RigidWheel::spin);
+      wheel_.release(WheelHub::spin);
       wheel_.set_axle_torque(torque_ * speed_ramp_.value(time));
       return;
   }
@@ -199,13 +199,13 @@ std::vector<Channel> WheelRig::channels() {
 }
 
 std::vector<double> WheelRig::measure(double time) const {
-  const Surface& surface = static_cast<const RigidWheel&>(wheel_).surface();
+  const Surface& surface = static_cast<const WheelHub&>(wheel_).surface();
   const Vector3 &centre = wheel_.centre(), &velocity = wheel_.velocity();
   const Vector3 force = surface.total_force(), moment = surface.total_moment(centre);
   const Balance balance = wheel_.balance();
 
-  const double yaw = wheel_.position(RigidWheel::yaw), spin_rate = wheel_.rate(RigidWheel::spin);
-  const double rim = spin_rate * wheel_.parameters().geometry.radius();
+  const double yaw = wheel_.position(WheelHub::yaw), spin_rate = wheel_.rate(WheelHub::spin);
+  const double rim = spin_rate * wheel_.nominal_radius();
   const double along = velocity.x() * std::cos(yaw) + velocity.y() * std::sin(yaw);
   const bool at_rest = std::abs(rim) < standstill && std::abs(along) < standstill;
 
@@ -217,7 +217,7 @@ std::vector<double> WheelRig::measure(double time) const {
           velocity.x(),
           velocity.y(),
           velocity.z(),
-          wheel_.position(RigidWheel::spin),
+          wheel_.position(WheelHub::spin),
           spin_rate,
           at_rest ? 0.0 : slip(SlipDefinition::larger_speed, rim, along),
           ground_level_ - wheel_.lowest_point(),
@@ -227,9 +227,9 @@ std::vector<double> WheelRig::measure(double time) const {
           moment.x(),
           moment.y(),
           moment.z(),
-          wheel_.constraint(RigidWheel::spin),
-          -wheel_.constraint(RigidWheel::x),
-          -wheel_.load().z() - wheel_.constraint(RigidWheel::z),
+          wheel_.constraint(WheelHub::spin),
+          -wheel_.constraint(WheelHub::x),
+          -wheel_.load().z() - wheel_.constraint(WheelHub::z),
           balance.kinetic_energy,
           balance.contact_work,
           balance.load_work,

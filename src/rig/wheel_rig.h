@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "body/rigid_wheel.h"
+#include "body/wheel_hub.h"
 #include "core/options.h"
 #include "rig/history.h"
 #include "rig/ramp.h"
@@ -34,7 +34,7 @@ class WheelRig {
 
   /// Takes hold of the wheel, which must outlive the rig, and turns it to its slip angle and camber.
   /// @throws InputError for keys that contradict each other
-  WheelRig(const Options& options, RigidWheel& wheel);
+  WheelRig(const Options& options, WheelHub& wheel);
 
   /// Sets loads and motions of the wheel for the step [time, time + dt]; call it before every step.
   void apply(double time, double dt);
@@ -56,7 +56,7 @@ class WheelRig {
   void drive_vertical(double time, double dt);
   void drive_spin(double time, double dt);
 
-  RigidWheel& wheel_;
+  WheelHub& wheel_;
   Mode mode_ = Mode::towed;
   bool sinkage_prescribed_ = false;
   double load_ = 0.0;            // [N]

@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "body/rigid_wheel.h"
 #include "rig/wheel_rig.h"
 
 namespace furrow {
