@@ -65,7 +65,7 @@ void SidewallChain::arc(const SidewallEnd& end, VectorX& angles) {
 /// A chain with a curl in it, or bent the other way, has angles far from the arc's.
 bool SidewallChain::resembles_arc(const SidewallEnd& end, const VectorX& angles) const {
   const double n = static_cast<double>(n_), direction = std::atan2(end.r, end.a);
-  // Half the arc's angle from sin(alpha)/alpha = chord/length, within 0.01
+  // Half the angle of the arc, sin(alpha)/alpha = chord/length, within 0.05
   const double uu = 1.0 - std::hypot(end.a, end.r) / parameters_.length;
   const double alpha = std::sqrt(6.0 * uu) * (1.0 + 0.15 * uu + 0.1325 * uu * uu), turn = 2.0 * alpha / n;
   for (Eigen::Index i = 0; i < n_; ++i)
