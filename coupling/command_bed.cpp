@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -18,6 +17,7 @@
 #include "coupling/liggghts_access.h"
 #include "domain.h"
 #include "input.h"
+#include "io/cache.h"
 #include "io/version.h"
 #include "update.h"
 #include "variable.h"
@@ -27,13 +27,6 @@ namespace furrow::coupling {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// FNV-1a (Fowler, Noll, Vo), 64 bits: a name for a bed, not a safeguard.
-std::string hash_of(const std::string& text) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const unsigned char c : text) hash = (hash ^ c) * 1099511628211u;
-  return fmt::format("{:016x}", hash);
-}
 
 std::string read_file(const fs::path& path) {
   std::ifstream file(path);
@@ -52,14 +45,6 @@ std::string section(const std::string& text, const std::string& name) {
     throw InputError("command bed", fmt::format("finds no line '#: {}' in the script", name),
                      "sections '#: box', '#: contact', '#: settle'");
   return text.substr(begin, text.find("\n#: ", begin) - begin);
-}
-
-/// Where beds are kept: FURROW_CACHE if set, else the user's cache folder.
-fs::path cache_folder() {
-  if (const char* chosen = std::getenv("FURROW_CACHE")) return chosen;
-  if (const char* cache = std::getenv("XDG_CACHE_HOME")) return fs::path(cache) / "furrow";
-  const char* home = std::getenv("HOME");
-  return fs::path(home ? home : ".") / ".cache" / "furrow";
 }
 
 std::string broadcast(std::string text, MPI_Comm world) {
@@ -160,7 +145,7 @@ void CommandBed::command(int narg, char** arg) {
     throw InputError("command bed, parameter 'depth'", "is missing or not positive", "depth and a number > 0 [m]",
                      "the bed is levelled at this height above the floor");
 
-  const fs::path folder = cache_folder(), restart = folder / ("bed-" + hash_of(identity) + ".restart");
+  const fs::path folder = cache_folder(), restart = folder / ("bed-" + content_hash(identity) + ".restart");
   fs::path facts_path = restart;
   facts_path.replace_extension(".txt");
   int kept = comm->me == 0 && fs::exists(restart) && fs::exists(facts_path);
