@@ -24,8 +24,8 @@ void FixBody::pre_delete(bool unfixflag) {
 }
 
 void FixBody::write_restart(FILE* file) {
+  const std::vector<double> state = body_->state();  // collective where a body is spread over the ranks
   if (comm->me != 0) return;
-  const std::vector<double> state = body_->state();
   const int size = static_cast<int>(state.size() * sizeof(double) + sizeof(double));
   const double count = static_cast<double>(state.size());
   std::fwrite(&size, sizeof size, 1, file);

@@ -92,6 +92,7 @@ void FixWorld::pre_initial_integrate() {
   clear_forces();
   grain_forces_.put_back();
   for (Member& m : members_) m.body->surface().f = m.resumed_forces;
+  world_.restore_shown_forces(resumed_shown_);
   summed_ = true;
 }
 
@@ -106,7 +107,10 @@ void FixWorld::initial_integrate(int) {
 }
 
 void FixWorld::final_integrate() {
-  guarded(*error, [&] { sum_forces(); });
+  guarded(*error, [&] {
+    sum_forces();
+    world_.show_interaction_forces();
+  });
 }
 
 void FixWorld::end_of_step() {
@@ -114,11 +118,11 @@ void FixWorld::end_of_step() {
 }
 
 void FixWorld::clear_forces() {
+  world_.clear_forces();
   for (Member& m : members_) {
-    Surface& surface = m.body->surface();
-    surface.clear_forces();
+    const Surface& surface = m.body->surface();
     m.ledger = {};
-    m.reference = surface.x.rowwise().mean();
+    if (surface.node_count() > 0) m.reference = surface.x.rowwise().mean();
   }
   summed_ = false;
 }
@@ -188,16 +192,18 @@ void FixWorld::write_restart(FILE* file) {
       if (modify->fix[i]->style == std::string("contacthistory")) modify->fix[i]->setup_pre_exchange();
   }
   if (communicator_.rank() != 0) return;
-  const double state[] = {time_, in_run ? 1.0 : 0.0};
-  const int size = sizeof state;
+  std::vector<double> state = world_.shown_forces();
+  state.insert(state.begin(), {time_, in_run ? 1.0 : 0.0, static_cast<double>(state.size())});
+  const int size = static_cast<int>(state.size() * sizeof(double));
   std::fwrite(&size, sizeof size, 1, file);
-  std::fwrite(state, sizeof state, 1, file);
+  std::fwrite(state.data(), sizeof(double), state.size(), file);
 }
 
 void FixWorld::restart(char* buffer) {
   const auto* state = reinterpret_cast<const double*>(buffer);
   time_ = state[0];
   resumed_ = state[1] != 0.0;
+  resumed_shown_.assign(state + 3, state + 3 + static_cast<std::size_t>(state[2]));
 }
 
 }  // namespace furrow::coupling

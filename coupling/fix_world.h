@@ -59,6 +59,8 @@ class FixWorld : public LAMMPS_NS::Fix {
   void remove(Body& body);
   void add(Driver& driver) { drivers_.push_back(&driver); }
   void remove(Driver& driver);
+  void add(Interaction& interaction, const std::string& name) { world_.add(interaction, name); }
+  void remove(Interaction& interaction) { world_.remove(interaction); }
 
   ContactLedger& ledger(const Body& body);
   /// Where moments of this step are taken about: the middle of the body's nodes.
@@ -102,6 +104,7 @@ class FixWorld : public LAMMPS_NS::Fix {
   std::vector<double> buffer_;
   GrainForces grain_forces_;
   double time_ = 0.0;
+  std::vector<double> resumed_shown_;  // forces of interactions, as the restart file brought them
   bool summed_ = false;
   bool resumed_ = false;  // continues a checkpoint written in the middle of a run, and has not made a step yet
 };

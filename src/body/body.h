@@ -18,10 +18,11 @@ struct Balance {
   double contact_work = 0.0;           ///< [J] done on the body by its surface forces
   double load_work = 0.0;              ///< [J] done on the body by loads and gravity
   double drive_work = 0.0;             ///< [J] done on the body by whatever prescribes its motion or torque
+  double numerical_loss = 0.0;         ///< [J] kinetic energy that the discretisation takes; < 0: it makes some
 
   /// Zero for an exact integrator, up to the energy the body started with.
   double residual() const {
-    return contact_work + load_work + drive_work - kinetic_energy - stored_energy - dissipated_energy;
+    return contact_work + load_work + drive_work - kinetic_energy - stored_energy - dissipated_energy - numerical_loss;
   }
 };
 

@@ -22,6 +22,12 @@ void World::remove(const Body& body) {
       members_.end());
 }
 
+void World::remove(const Interaction& interaction) {
+  interactions_.erase(std::remove_if(interactions_.begin(), interactions_.end(),
+                                     [&](const Named& named) { return named.interaction == &interaction; }),
+                      interactions_.end());
+}
+
 int World::advance(double interval) {
   if (!(std::isfinite(interval) && interval > 0.0))
     throw StateError(fmt::format("the world cannot advance by {} s", interval));
@@ -36,16 +42,77 @@ int World::advance(double interval) {
     smallest = std::min(smallest, stable);
   }
   const int sub_steps = std::max(1, static_cast<int>(std::ceil(interval / smallest)));
-  for (int i = 0; i < sub_steps; ++i)
-    for (const Member& member : members_) {
-      try {
-        member.body->advance(interval / sub_steps);
-      } catch (const StateError& error) {
-        throw StateError(fmt::format("body '{}': {}", member.name, error.what()));
-      }
-      member.body->surface().check_finite(member.name);
-    }
+  if (interactions_.empty()) {
+    for (int i = 0; i < sub_steps; ++i) advance_bodies(interval / sub_steps);
+    return sub_steps;
+  }
+  for (Member& m : members_) {
+    Matrix3X& f = m.body->surface().f;
+    if (shown_) f -= m.interaction;
+    m.held = f;
+    m.interaction.setZero(3, f.cols());
+  }
+  shown_ = false;
+  for (int i = 0; i < sub_steps; ++i) {
+    apply_interactions(interval / sub_steps);
+    for (Member& m : members_) m.interaction += (m.body->surface().f - m.held) / sub_steps;
+    advance_bodies(interval / sub_steps);
+    for (Member& m : members_) m.body->surface().f = m.held;
+  }
   return sub_steps;
+}
+
+void World::apply_interactions(double dt) {
+  for (const Named& named : interactions_) try {
+      named.interaction->apply(dt);
+    } catch (const StateError& error) {
+      throw StateError(fmt::format("contact '{}': {}", named.name, error.what()));
+    }
+}
+
+void World::advance_bodies(double dt) {
+  for (const Member& member : members_) {
+    try {
+      member.body->advance(dt);
+    } catch (const StateError& error) {
+      throw StateError(fmt::format("body '{}': {}", member.name, error.what()));
+    }
+    member.body->surface().check_finite(member.name);
+  }
+}
+
+void World::clear_forces() {
+  for (const Member& m : members_) m.body->surface().clear_forces();
+  shown_ = false;
+}
+
+void World::show_interaction_forces() {
+  if (shown_ || interactions_.empty()) return;
+  for (Member& m : members_)
+    if (m.interaction.cols() == m.body->surface().f.cols()) m.body->surface().f += m.interaction;
+    else m.interaction.setZero(3, m.body->surface().f.cols());
+  shown_ = true;
+}
+
+std::vector<double> World::shown_forces() const {
+  std::vector<double> forces;
+  if (shown_)
+    for (const Member& m : members_) forces.insert(forces.end(), m.interaction.data(), m.interaction.data() + m.interaction.size());
+  return forces;
+}
+
+void World::restore_shown_forces(const std::vector<double>& forces) {
+  shown_ = !forces.empty();
+  const double* next = forces.data();
+  std::size_t needed = 0;
+  for (const Member& m : members_) needed += static_cast<std::size_t>(m.body->surface().f.size());
+  if (shown_ && needed != forces.size()) throw Error("the saved contact forces belong to other bodies");
+  for (Member& m : members_) {
+    if (!shown_) break;
+    m.interaction.resize(3, m.body->surface().f.cols());
+    std::copy_n(next, m.interaction.size(), m.interaction.data());
+    next += m.interaction.size();
+  }
 }
 
 }  // namespace furrow

@@ -1,5 +1,6 @@
 #include "core/communicator.h"
 
+#define OMPI_SKIP_MPICXX  // the C interface is all that is used
 #include <mpi.h>
 
 namespace furrow {
@@ -40,6 +41,26 @@ double Communicator::sum(double value) const {
 double Communicator::max(double value) const {
   if (size() > 1) MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, handle_->comm);
   return value;
+}
+
+std::vector<double> Communicator::exchange(int other, const std::vector<double>& numbers) const {
+  long mine = static_cast<long>(numbers.size()), theirs = 0;
+  MPI_Sendrecv(&mine, 1, MPI_LONG, other, 0, &theirs, 1, MPI_LONG, other, 0, handle_->comm, MPI_STATUS_IGNORE);
+  std::vector<double> received(static_cast<std::size_t>(theirs));
+  MPI_Sendrecv(numbers.data(), static_cast<int>(mine), MPI_DOUBLE, other, 1, received.data(), static_cast<int>(theirs), MPI_DOUBLE,
+               other, 1, handle_->comm, MPI_STATUS_IGNORE);
+  return received;
+}
+
+std::vector<double> Communicator::gather(const std::vector<double>& numbers) const {
+  if (size() == 1) return numbers;
+  const int mine = static_cast<int>(numbers.size());
+  std::vector<int> counts(static_cast<std::size_t>(size())), starts(counts.size(), 0);
+  MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, handle_->comm);
+  for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
+  std::vector<double> all(static_cast<std::size_t>(starts.back() + counts.back()));
+  MPI_Allgatherv(numbers.data(), mine, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, handle_->comm);
+  return all;
 }
 
 bool Communicator::any(bool value) const { return max(value ? 1.0 : 0.0) > 0.0; }

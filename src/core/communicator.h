@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace furrow {
 
@@ -23,6 +24,10 @@ class Communicator {
   double sum(double value) const;
   double max(double value) const;
   bool any(bool value) const;
+  /// Gives numbers to another rank and takes its own; both call it. Pairs in the same order on all ranks, or they wait for ever.
+  std::vector<double> exchange(int other, const std::vector<double>& numbers) const;
+  /// The numbers of all ranks, in rank order, on every rank.
+  std::vector<double> gather(const std::vector<double>& numbers) const;
 
  private:
   struct Handle;

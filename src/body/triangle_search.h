@@ -1,0 +1,48 @@
+#pragma once
+/// Which triangles of a surface are near a point: bins over space, made anew when the surface has moved far enough.
+
+#include <vector>
+
+#include "body/surface.h"
+
+namespace furrow {
+
+class TriangleSearch {
+ public:
+  /// Files every triangle under all bins within `reach` [m] of it. Bins cover the part of the surface inside [lower, upper].
+  TriangleSearch(const Surface& surface, double reach, const Vector3& lower, const Vector3& upper);
+
+  const Vector3& lower() const { return lower_; }  ///< of the region that has bins
+  const Vector3& upper() const { return upper_; }
+  bool covers(const Vector3& point) const { return (point.array() >= lower_.array()).all() && (point.array() <= upper_.array()).all(); }
+  /// Triangles that may be within reach of a point of the region, as a range of triangle numbers; none outside.
+  std::pair<const int*, const int*> near(const Vector3& point) const;
+
+ private:
+  std::size_t bin(const Vector3& point) const;
+
+  Vector3 lower_, upper_;
+  double per_length_ = 0.0;
+  Vector3i count_ = Vector3i::Zero();
+  std::vector<std::size_t> start_;
+  std::vector<int> triangles_;
+};
+
+/// Which triangles meet at a node.
+class NodeTriangles {
+ public:
+  explicit NodeTriangles(const Surface& surface);
+  /// A direction to the outside at the feature that a closest point lies on: the triangle's normal, the sum of the two normals at an edge,
+  /// the sum weighted by angles at a corner. Its sign tells inside from outside of a closed surface at every feature
+  /// (J. A. Baerentzen, H. Aanaes, IEEE TVCG 11, 2005). Not of unit length.
+  Vector3 outward(const Surface& surface, std::size_t triangle, const Vector3& barycentric) const;
+
+ private:
+  std::vector<std::size_t> start_;
+  std::vector<int> triangles_;
+};
+
+/// Whether a point is inside a closed surface, by counting the crossings of a ray. Visits every triangle.
+bool encloses(const Surface& surface, const Vector3& point);
+
+}  // namespace furrow

@@ -1,0 +1,116 @@
+#include "mpm/axis.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace furrow {
+
+namespace {
+
+constexpr double most_growth = 1.5;  // of neighbouring cells: beyond, waves are reflected by the grading
+
+/// Ends of cells from `start` outwards over `distance`, growing by `growth`: the last cell is stretched to end there.
+std::vector<double> growing(double start, double distance, double cell, double growth, double sign) {
+  std::vector<double> lengths;
+  double sum = 0.0;
+  for (double length = cell * growth; sum < distance * (1.0 - 1e-9); length *= growth) {
+    lengths.push_back(length);
+    sum += length;
+  }
+  // One cell less where that is nearer: the cells are then stretched by the same factor instead of shrunk.
+  if (lengths.size() > 1 && distance - (sum - lengths.back()) < sum - distance) {
+    sum -= lengths.back();
+    lengths.pop_back();
+  }
+  std::vector<double> ends;
+  double at = 0.0;
+  for (const double length : lengths) ends.push_back(start + sign * (at += length) * (distance / sum));
+  return ends;
+}
+
+}  // namespace
+
+Axis::Axis(const AxisLayout& layout, const std::string& where) {
+  const double lower = std::max(layout.lower, layout.fine_lower), upper = std::min(layout.upper, layout.fine_upper);
+  if (!(layout.upper > layout.lower) || !(layout.cell > 0.0) || !(upper > lower))
+    throw InputError(where, fmt::format("has cells of {} m from {} to {} m, fine from {} to {} m", layout.cell, layout.lower,
+                                        layout.upper, layout.fine_lower, layout.fine_upper),
+                     "lower < upper, a cell > 0, and a fine stretch that is not empty");
+  if (!(layout.growth >= 1.0 && layout.growth <= most_growth))
+    throw InputError(where, fmt::format("has cells that grow by {}", layout.growth),
+                     fmt::format("1 to {}", most_growth), "coarser steps reflect waves");
+  const int fine = std::max(1, static_cast<int>(std::lround((upper - lower) / layout.cell)));
+  const double cell = (upper - lower) / fine;
+  for (const double end : growing(lower, lower - layout.lower, cell, layout.growth, -1.0)) knot_.insert(knot_.begin(), end);
+  for (int i = 0; i <= fine; ++i) knot_.push_back(lower + i * cell);
+  for (const double end : growing(upper, layout.upper - upper, cell, layout.growth, 1.0)) knot_.push_back(end);
+  knot_.front() = layout.lower;
+  knot_.back() = layout.upper;
+  tabulate();
+}
+
+void Axis::tabulate() {
+  const int n = cells();
+  const auto at = [&](int i) { return knot(std::clamp(i, 0, n)); };
+  left_.resize(static_cast<std::size_t>(n));
+  right_.resize(left_.size());
+  node_.clear();
+  double longest = 0.0;
+  shortest_ = length(0);
+  for (int c = 0; c < n; ++c) {
+    left_[static_cast<std::size_t>(c)] = 1.0 / ((at(c + 1) - at(c - 1)) * length(c));
+    right_[static_cast<std::size_t>(c)] = 1.0 / ((at(c + 2) - at(c)) * length(c));
+    shortest_ = std::min(shortest_, length(c));
+    longest = std::max(longest, length(c));
+  }
+  for (int i = 0; i < n + 2; ++i) node_.push_back(0.5 * (at(i - 1) + at(i)));
+  uniform_ = longest - shortest_ < 1e-9 * longest;
+  const int bins = static_cast<int>(std::ceil((upper() - lower()) / shortest_ * (1.0 - 1e-12))) + 1;
+  bins_per_length_ = bins / (upper() - lower());
+  cell_of_bin_.clear();
+  for (int b = 0, c = 0; b < bins; ++b) {
+    while (c + 1 < n && knot(c + 1) <= lower() + b / bins_per_length_) ++c;
+    cell_of_bin_.push_back(c);
+  }
+}
+
+double Axis::extent(int i) const {
+  const int n = cells();
+  return (knot(std::clamp(i + 1, 0, n)) - knot(std::clamp(i - 2, 0, n))) / 3.0;
+}
+
+int Axis::cell_of(double x) const {
+  if (!(x >= lower() && x <= upper())) return -1;
+  const auto bin = std::min(static_cast<std::size_t>((x - lower()) * bins_per_length_), cell_of_bin_.size() - 1);
+  int cell = cell_of_bin_[bin];
+  while (cell + 1 < cells() && x >= knot(cell + 1)) ++cell;
+  return cell;
+}
+
+AxisView Axis::view() const {
+  AxisView view;
+  view.cells = cells();
+  view.bins = static_cast<int>(cell_of_bin_.size());
+  view.lower = view.from = lower();
+  view.to = upper();
+  view.bins_per_length = bins_per_length_;
+  view.cell_of_bin = cell_of_bin_.data();
+  view.knot = knot_.data();
+  view.left = left_.data();
+  view.right = right_.data();
+  view.node = node_.data();
+  return view;
+}
+
+void Axis::shift(int count) {
+  if (!uniform_) throw Error("a graded axis cannot move by whole cells");
+  const double distance = count * (upper() - lower()) / cells();
+  for (double& knot : knot_) knot += distance;
+  tabulate();
+}
+
+}  // namespace furrow

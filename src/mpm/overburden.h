@@ -1,0 +1,24 @@
+#pragma once
+/// The state of undisturbed ground under its own weight.
+
+#include <vector>
+
+#include "mpm/ground_parameters.h"
+
+namespace furrow {
+
+/// One level of particles, from the surface down.
+struct GroundLevel {
+  double z = 0.0;          ///< [m]
+  double half = 0.0;       ///< half the height of ground that it stands for [m]
+  std::size_t layer = 0;
+  VectorX state;           ///< of the law
+};
+
+/// Every level is compressed without sideways strain, each layer from its law's initial state, until its vertical stress carries what lies
+/// above: stress, density and hardening then belong together whatever the law. Without initial_stress the levels have the initial state.
+/// @param levels  z and half, from the surface down; layer and state are filled in
+/// @throws InputError when a law cannot carry the weight
+void find_overburden(const GroundParameters& ground, std::vector<GroundLevel>& levels);
+
+}  // namespace furrow

@@ -1,0 +1,78 @@
+#include "mpm/partition.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace furrow {
+
+void Partition::balance(const std::vector<double>& count) {
+  const int cells = static_cast<int>(count.size()), size = ranks_.size();
+  const double all = std::accumulate(count.begin(), count.end(), 0.0);
+  bounds_ = {0};
+  double sum = 0.0;
+  for (int cell = 0; cell < cells; ++cell) {
+    sum += count[static_cast<std::size_t>(cell)];
+    const int rank = static_cast<int>(bounds_.size());
+    if (rank < size && sum >= all * rank / size) bounds_.push_back(cell + 1);
+  }
+  while (static_cast<int>(bounds_.size()) < size) bounds_.push_back(cells);
+  bounds_.push_back(cells);
+}
+
+int Partition::owner(int cell) const {
+  return static_cast<int>(std::upper_bound(bounds_.begin() + 1, bounds_.end() - 1, cell) - bounds_.begin()) - 1;
+}
+
+PlaneRange Partition::reach(int rank) const {
+  const auto r = static_cast<std::size_t>(rank);
+  if (bounds_[r] == bounds_[r + 1]) return {bounds_[r], bounds_[r]};
+  return {std::max(0, bounds_[r] - 1), std::min(bounds_.back(), bounds_[r + 1] + 1) + 2};
+}
+
+/// A plane belongs to the first rank that touches it.
+PlaneRange Partition::owned() const {
+  PlaneRange mine = touched();
+  for (int r = 0; r < ranks_.rank(); ++r) mine.from = std::max(mine.from, std::min(mine.to, reach(r).to));
+  return mine;
+}
+
+void Partition::sum_shared(Grid& grid) const {
+  if (ranks_.size() == 1) return;
+  const PlaneRange mine = touched();
+  const std::size_t length = 4 * grid.plane_size();
+  const auto shared = [&](int rank) {
+    const PlaneRange theirs = reach(rank);
+    return PlaneRange{std::max(mine.from, theirs.from), std::min(mine.to, theirs.to)};
+  };
+  const auto numbers = [&](const PlaneRange& planes) {
+    const double* first = grid.plane(planes.from)->momentum;
+    return std::vector<double>(first, first + length * static_cast<std::size_t>(planes.to - planes.from));
+  };
+  // All are sent before anything is added, then added in the order of the ranks: a node's sum does not depend on who makes it.
+  std::vector<std::vector<double>> received(static_cast<std::size_t>(ranks_.size()));
+  for (int r = 0; r < ranks_.size(); ++r) {
+    const PlaneRange planes = shared(r);
+    if (r == ranks_.rank() || planes.to <= planes.from) continue;
+    received[static_cast<std::size_t>(r)] = ranks_.exchange(r, numbers(planes));
+  }
+  const int from = mine.from, to = mine.to;
+  for (int plane = from; plane < to; ++plane) {
+    std::vector<const double*> parts;
+    std::vector<double> own;
+    for (int r = 0; r < ranks_.size(); ++r) {
+      if (r == ranks_.rank()) {
+        own = numbers({plane, plane + 1});
+        parts.push_back(own.data());
+      } else if (const PlaneRange planes = shared(r); planes.contains(plane)) {
+        parts.push_back(received[static_cast<std::size_t>(r)].data() + length * static_cast<std::size_t>(plane - planes.from));
+      }
+    }
+    if (parts.size() == 1) continue;
+    double* sum = grid.plane(plane)->momentum;
+    std::copy_n(parts[0], length, sum);
+    for (std::size_t p = 1; p < parts.size(); ++p)
+      for (std::size_t n = 0; n < length; ++n) sum[n] += parts[p][n];
+  }
+}
+
+}  // namespace furrow

@@ -1,0 +1,253 @@
+#pragma once
+/// The transfers of transfer.h for one instruction set. Weights are found for a batch of particles at once, in loops the compiler
+/// vectorises over particles; the 27 nodes of a particle are then visited with the four numbers of a node as one vector.
+
+#include "mpm/transfer.h"
+
+#ifndef FURROW_ISA
+#error "kernel headers are for transfer_*.cpp, which name the instruction set"
+#endif
+
+namespace furrow {
+inline namespace FURROW_ISA {
+
+typedef double Vector4 __attribute__((vector_size(32)));                                // momentum and mass, or velocity, of a node
+typedef double Stored4 __attribute__((vector_size(32), aligned(8), may_alias));         // the same anywhere in memory
+
+constexpr std::size_t batch = 64;  // particles: their weights fit the first cache
+
+/// B-splines of a batch: values, values times d_i, D and 1/D, direction by direction.
+struct Weights {
+  double value[3][stencil][batch];
+  double moment[3][stencil][batch];
+  double spread[3][batch], inverse_spread[3][batch];
+  int first[batch];  // node of the lowest corner
+};
+
+/// @return how many of the particles are outside
+inline std::size_t find_weights(const GridView& grid, const double* const* position, std::size_t count, Weights& weights) {
+  std::size_t outside = 0;
+  int cell[3][batch];
+  for (int a = 0; a < 3; ++a) {
+    const AxisView& axis = grid.axis[a];
+    const double* x = position[a];
+    const int last = axis.cells - 1, last_bin = axis.bins - 1;
+    for (std::size_t p = 0; p < count; ++p) {
+      int bin = static_cast<int>((x[p] - axis.lower) * axis.bins_per_length);
+      bin = bin > 0 ? bin : 0;
+      bin = bin < last_bin ? bin : last_bin;
+      int c = axis.cell_of_bin[bin];
+      c += x[p] >= axis.knot[c + 1] ? 1 : 0;
+      cell[a][p] = c < last ? c : last;
+    }
+    int inside = 0;
+    for (std::size_t p = 0; p < count; ++p) inside += static_cast<int>(x[p] >= axis.from) & static_cast<int>(x[p] <= axis.to);
+    outside += count - static_cast<std::size_t>(inside);
+    for (std::size_t p = 0; p < count; ++p) {
+      const int c = cell[a][p];
+      const double below = x[p] - axis.knot[c], above = axis.knot[c + 1] - x[p];
+      const double w0 = axis.left[c] * above * above, w2 = axis.right[c] * below * below, w1 = 1.0 - w0 - w2;
+      const double d0 = axis.node[c] - x[p], d1 = axis.node[c + 1] - x[p], d2 = axis.node[c + 2] - x[p];
+      weights.value[a][0][p] = w0;
+      weights.value[a][1][p] = w1;
+      weights.value[a][2][p] = w2;
+      weights.moment[a][0][p] = w0 * d0;
+      weights.moment[a][1][p] = w1 * d1;
+      weights.moment[a][2][p] = w2 * d2;
+      weights.spread[a][p] = w0 * d0 * d0 + w1 * d1 * d1 + w2 * d2 * d2;
+      weights.inverse_spread[a][p] = 1.0 / weights.spread[a][p];
+    }
+  }
+  const int ny = grid.axis[1].cells + 2, nz = grid.axis[2].cells + 2;
+  for (std::size_t p = 0; p < count; ++p) weights.first[p] = (cell[0][p] * ny + cell[1][p]) * nz + cell[2][p];
+  return outside;
+}
+
+/// Adds N_i (base + sum_d slope_d d_i,d) to the nodes of particle p.
+inline void add_to_nodes(const GridView& grid, const Weights& weights, std::size_t p, const Vector4& base, const Vector4* slope) {
+  const std::size_t nz = static_cast<std::size_t>(grid.axis[2].cells) + 2,
+                    plane = (static_cast<std::size_t>(grid.axis[1].cells) + 2) * nz;
+  Vector4 value_z[stencil], along_x[stencil], along_y[stencil];
+  for (std::size_t k = 0; k < stencil; ++k) {
+    const double w = weights.value[2][k][p];
+    value_z[k] = w * base + weights.moment[2][k][p] * slope[2];
+    along_x[k] = w * slope[0];
+    along_y[k] = w * slope[1];
+  }
+  double* corner = grid.node + 4 * static_cast<std::size_t>(weights.first[p]);
+  for (std::size_t i = 0; i < stencil; ++i) {
+    const double w = weights.value[0][i][p], m = weights.moment[0][i][p];
+    Vector4 value[stencil], y_part[stencil];
+    for (std::size_t k = 0; k < stencil; ++k) {
+      value[k] = w * value_z[k] + m * along_x[k];
+      y_part[k] = w * along_y[k];
+    }
+    for (std::size_t j = 0; j < stencil; ++j) {
+      const double wy = weights.value[1][j][p], my = weights.moment[1][j][p];
+      Stored4* row = reinterpret_cast<Stored4*>(corner + 4 * (i * plane + j * nz));
+      for (std::size_t k = 0; k < stencil; ++k) row[k] += wy * value[k] + my * y_part[k];
+    }
+  }
+}
+
+inline ParticleView part(const ParticleView& all, std::size_t first, std::size_t count) {
+  ParticleView some = all;
+  some.size = count;
+  for (double*& x : some.position) x += first;
+  some.velocity += 4 * first;
+  some.affine += 12 * first;
+  some.volume += first;
+  some.volume_ratio += first;
+  for (const double*& s : some.stress) s += first;
+  return some;
+}
+
+inline std::size_t scatter_batch(const GridView& grid, const ParticleView& particles, double density, double dt,
+                                 const double* gravity) {
+  Weights weights;
+  if (const std::size_t outside = find_weights(grid, particles.position, particles.size, weights)) return outside;
+  // -dt V sigma D^-1, column by column
+  alignas(64) double force[9][batch];
+  constexpr int entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};  // of the stress: row, column
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row) {
+      const double *stress = particles.stress[entry[row][column]], *inverse_spread = weights.inverse_spread[column];
+      for (std::size_t p = 0; p < particles.size; ++p)
+        force[3 * column + row][p] = -dt * particles.volume[p] * particles.volume_ratio[p] * stress[p] * inverse_spread[p];
+    }
+  const Vector4 fall = {dt * gravity[0], dt * gravity[1], dt * gravity[2], 0.0};
+  for (std::size_t p = 0; p < particles.size; ++p) {
+    const double mass = density * particles.volume[p];
+    const Stored4* affine = reinterpret_cast<const Stored4*>(particles.affine + 12 * p);
+    Vector4 base = *reinterpret_cast<const Stored4*>(particles.velocity + 4 * p) + fall;
+    base[3] = 1.0;
+    base *= mass;
+    Vector4 slope[3];
+    for (int d = 0; d < 3; ++d)
+      slope[d] = mass * affine[d] + Vector4{force[3 * d][p], force[3 * d + 1][p], force[3 * d + 2][p], 0.0};
+    add_to_nodes(grid, weights, p, base, slope);
+  }
+  return 0;
+}
+
+inline std::size_t scatter(const GridView& grid, const ParticleView& particles, double density, double dt,
+                           const double* gravity) {
+  std::size_t outside = 0;
+  for (std::size_t first = 0; first < particles.size; first += batch) {
+    const std::size_t count = particles.size - first < batch ? particles.size - first : batch;
+    outside += scatter_batch(grid, part(particles, first, count), density, dt, gravity);
+  }
+  return outside;
+}
+
+inline void scatter_impulses(const GridView& grid, const PointImpulse* impulses, std::size_t count) {
+  Weights weights;
+  for (std::size_t n = 0; n < count; ++n) {
+    const PointImpulse& one = impulses[n];
+    const double* position[3] = {one.position, one.position + 1, one.position + 2};
+    if (find_weights(grid, position, 1, weights) > 0) continue;
+    const Vector4 base = {one.impulse[0], one.impulse[1], one.impulse[2], 0.0};
+    Vector4 slope[3];
+    for (int d = 0; d < 3; ++d) slope[d] = base * (one.lever[d] * weights.inverse_spread[d][0]);
+    add_to_nodes(grid, weights, 0, base, slope);
+  }
+}
+
+/// Velocity and its gradient from the nodes of particle p.
+inline void read_nodes(const GridView& grid, const Weights& weights, std::size_t p, Vector4& velocity, Vector4* affine) {
+  const std::size_t nz = static_cast<std::size_t>(grid.axis[2].cells) + 2,
+                    plane = (static_cast<std::size_t>(grid.axis[1].cells) + 2) * nz;
+  Vector4 value[stencil] = {}, along_x[stencil] = {}, along_y[stencil] = {};
+  const double* corner = grid.node + 4 * static_cast<std::size_t>(weights.first[p]);
+  for (std::size_t i = 0; i < stencil; ++i) {
+    Vector4 sum[stencil] = {}, sum_y[stencil] = {};
+    for (std::size_t j = 0; j < stencil; ++j) {
+      const double wy = weights.value[1][j][p], my = weights.moment[1][j][p];
+      const Stored4* row = reinterpret_cast<const Stored4*>(corner + 4 * (i * plane + j * nz));
+      for (std::size_t k = 0; k < stencil; ++k) {
+        const Vector4 v = row[k];
+        sum[k] += wy * v;
+        sum_y[k] += my * v;
+      }
+    }
+    const double w = weights.value[0][i][p], m = weights.moment[0][i][p];
+    for (std::size_t k = 0; k < stencil; ++k) {
+      value[k] += w * sum[k];
+      along_x[k] += m * sum[k];
+      along_y[k] += w * sum_y[k];
+    }
+  }
+  velocity = Vector4{};
+  for (int d = 0; d < 3; ++d) affine[d] = Vector4{};
+  for (std::size_t k = 0; k < stencil; ++k) {
+    const double w = weights.value[2][k][p];
+    velocity += w * value[k];
+    affine[0] += w * along_x[k];
+    affine[1] += w * along_y[k];
+    affine[2] += weights.moment[2][k][p] * value[k];
+  }
+  for (int d = 0; d < 3; ++d) affine[d] *= weights.inverse_spread[d][p];
+}
+
+inline void gather_batch(const GridView& grid, const ParticleView& particles, double density, double dt, double* const* gradient,
+                         std::size_t first, TransferSums& sums) {
+  Weights weights;
+  if (const std::size_t outside = find_weights(grid, particles.position, particles.size, weights)) {
+    if (sums.outside == 0) sums.first_outside = first;
+    sums.outside += outside;
+    return;
+  }
+  Vector4 momentum = {}, energy = {};
+  double fastest = sums.largest_speed * sums.largest_speed;
+  for (std::size_t p = 0; p < particles.size; ++p) {
+    Vector4 velocity, affine[3];
+    read_nodes(grid, weights, p, velocity, affine);
+    *reinterpret_cast<Stored4*>(particles.velocity + 4 * p) = velocity;
+    Stored4* stored = reinterpret_cast<Stored4*>(particles.affine + 12 * p);
+    for (int d = 0; d < 3; ++d) stored[d] = affine[d];
+    const double mass = density * particles.volume[p];
+    const Vector4 square = velocity * velocity;
+    momentum += mass * velocity;
+    Vector4 own = square;
+    for (int d = 0; d < 3; ++d) own += affine[d] * affine[d] * weights.spread[d][p];
+    energy += (0.5 * mass) * own;
+    const double speed = square[0] + square[1] + square[2];
+    fastest = fastest > speed ? fastest : speed;
+  }
+  for (int a = 0; a < 3; ++a)
+    for (std::size_t p = 0; p < particles.size; ++p) particles.position[a][p] += dt * particles.velocity[4 * p + a];
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      for (std::size_t p = 0; p < particles.size; ++p)
+        gradient[3 * row + column][first + p] = dt * particles.affine[12 * p + 4 * column + row];
+  const double* const* s = particles.stress;
+  double work = 0.0;
+  for (std::size_t p = 0; p < particles.size; ++p) {
+    const std::size_t q = first + p;
+    work += particles.volume[p] * particles.volume_ratio[p] *
+            (s[0][p] * gradient[0][q] + s[1][p] * gradient[4][q] + s[2][p] * gradient[8][q] +
+             s[3][p] * (gradient[1][q] + gradient[3][q]) + s[4][p] * (gradient[5][q] + gradient[7][q]) +
+             s[5][p] * (gradient[2][q] + gradient[6][q]));
+  }
+  sums.stress_work += work;
+  sums.kinetic_energy += energy[0] + energy[1] + energy[2];
+  for (int a = 0; a < 3; ++a) sums.momentum[a] += momentum[a];
+  sums.largest_speed = __builtin_sqrt(fastest);
+}
+
+inline TransferSums gather(const GridView& grid, const ParticleView& particles, double density, double dt,
+                           double* const* gradient) {
+  TransferSums sums;
+  for (std::size_t first = 0; first < particles.size; first += batch) {
+    const std::size_t count = particles.size - first < batch ? particles.size - first : batch;
+    gather_batch(grid, part(particles, first, count), density, dt, gradient, first, sums);
+  }
+  return sums;
+}
+
+constexpr TransferKernels all_transfers(const char* instruction_set) {
+  return {instruction_set, scatter, scatter_impulses, gather};
+}
+
+}  // namespace FURROW_ISA
+}  // namespace furrow
