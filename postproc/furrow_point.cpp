@@ -1,8 +1,5 @@
 /// furrow-point: drives one material point along a path, lists the laws, fits parameters to measured curves.
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -13,39 +10,13 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "figure.h"
 #include "io/point_file.h"
 #include "io/point_results.h"
 #include "io/version.h"
 #include "material/registry.h"
 
 namespace {
-
-using furrow::Error;
-
-/// The script that draws, in share/furrow beside the bin folder of this program.
-std::string figure_script() {
-  return (std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "share/furrow/point_figures.py")
-      .string();
-}
-
-/// Draws the figure of a results folder with the system's Python, which has matplotlib and h5py. @throws Error
-void draw(const std::string& folder) {
-  const std::string script = figure_script();
-  if (!std::filesystem::is_regular_file(script)) throw Error(script + " is missing; reinstall Furrow, or use --no-plot");
-  std::cout << std::flush;
-  const pid_t child = fork();
-  if (child < 0) throw Error("cannot start /usr/bin/python3 for the figure; the results are in " + folder);
-  if (child == 0) {
-    setenv("MPLBACKEND", "Agg", 1);
-    execl("/usr/bin/python3", "python3", "-B", script.c_str(), folder.c_str(), static_cast<char*>(nullptr));
-    _exit(127);
-  }
-  int status = 0;
-  if (waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw Error(fmt::format(
-        "the figure could not be drawn (/usr/bin/python3 {} {}); the results are complete in {}; --no-plot leaves it out",
-        script, folder, folder));
-}
 
 std::string folder_for(const std::string& wish, const std::string& input) {
   return wish.empty() ? (std::filesystem::path("results") / std::filesystem::path(input).stem()).string() : wish;
@@ -65,7 +36,7 @@ void run(const std::string& input, const std::string& output, bool plot) {
   }
   std::cout << furrow::run_report(run, *material, history, error ? &*error : nullptr) << "  results       " << folder
             << '\n';
-  if (plot) draw(folder);
+  if (plot) furrow::draw_figure("point_figures.py", folder);
 }
 
 int fit(const std::string& input, const std::string& output, bool plot) {
@@ -74,7 +45,7 @@ int fit(const std::string& input, const std::string& output, bool plot) {
   const std::string folder = folder_for(output, input);
   furrow::write_point_fit(folder, fit, result);
   std::cout << furrow::fit_report(fit, result) << "  results       " << folder << '\n';
-  if (plot) draw(folder);
+  if (plot) furrow::draw_figure("point_figures.py", folder);
   return result.converged ? 0 : 1;
 }
 

@@ -1,0 +1,20 @@
+#pragma once
+/// What furrow-sidewall leaves in a results folder.
+///
+///   deflection.csv, lateral.csv, rotation.csv   forces and stiffness, solved and looked up, along each motion of the tread edge
+///   sidewall.h5   the same as /<curve>/<column>; /profiles/<n>/A, R with the attribute deflection; / has title, pressure, version
+///   tyre.yaml     the effective tyre file
+
+#include <string>
+
+#include "tyre/sidewall_survey.h"
+
+namespace furrow {
+
+/// @throws Error naming the file
+void write_sidewall_survey(const std::string& folder, const SidewallSurvey& survey);
+
+/// Geometry, forces, stiffness, the table's accuracy, and a column of forces solved and looked up.
+std::string sidewall_report(const SidewallSurvey& survey);
+
+}  // namespace furrow
