@@ -1,6 +1,8 @@
 #include "coupling/styles.h"
 
 #include "coupling/command_bed.h"
+#include "coupling/fix_cell_servo.h"
+#include "coupling/fix_layer_shear.h"
 #include "coupling/fix_mesh_body.h"
 #include "coupling/fix_plate_rigid.h"
 #include "coupling/fix_wall_gran_body.h"
@@ -41,6 +43,8 @@ void add_styles(LAMMPS_NS::LAMMPS& lammps) {
   add_fix_style(lammps, "progress", create_fix<FixProgress>);
   add_fix_style(lammps, "mesh/body", create_fix<FixMeshBody>);
   add_fix_style(lammps, "wall/gran/body", create_fix<FixWallGranBody>);
+  add_fix_style(lammps, "cell/servo", create_fix<FixCellServo>);
+  add_fix_style(lammps, "layer/shear", create_fix<FixLayerShear>);
   add_command(lammps, "bed", run_command<CommandBed>);
 }
 

@@ -46,6 +46,16 @@ def _picture(arguments):
     print(target)
 
 
+def _laboratory(arguments):
+    from . import laboratory, laboratory_figures
+
+    tests, measured, points, text = laboratory.report(arguments.folders, arguments.reference, arguments.point)
+    print(text)
+    target = arguments.output or tests[0].folder / f"laboratory.{arguments.format}"
+    laboratory_figures.draw(tests, measured, points, target)
+    print(target)
+
+
 def _parser():
     parser = argparse.ArgumentParser(prog="furrow-post", description="Steady values, plots and pictures of Furrow's results folders.")
     commands = parser.add_subparsers(dest="command", required=True, metavar="command")
@@ -60,6 +70,14 @@ def _parser():
         command.add_argument("-o", "--output", type=Path, help="file to write (default: in the results folder)")
         command.add_argument("--format", choices=("png", "svg", "pdf"), default="png", help="format (default: png)")
         command.set_defaults(run=run)
+    text = "moduli, strengths, repose or run-out of laboratory tests with their errors -> laboratory.json, laboratory.png"
+    command = commands.add_parser("laboratory", help=text, description=text)
+    command.add_argument("folders", nargs="+", metavar="results", help="results folders of one test of inputs/laboratory")
+    command.add_argument("--reference", type=Path, help="reference.csv of an oedometer, with columns rho_kgm3 and sigma1_Pa")
+    command.add_argument("--point", action="append", default=[], help="results folder of furrow-point with the same path, to lay beside")
+    command.add_argument("-o", "--output", type=Path, help="figure to write (default: in the first folder)")
+    command.add_argument("--format", choices=("png", "svg", "pdf"), default="png", help="format (default: png)")
+    command.set_defaults(run=_laboratory)
     return parser
 
 
