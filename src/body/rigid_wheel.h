@@ -40,7 +40,7 @@ class RigidWheel : public WheelHub {
   void restore(const std::vector<double>& state) override;
 
  private:
-  void follow_placement() override { place_nodes(); }
+  void follow_placement(const Vector3&, const Matrix3&) override { place_nodes(); }
   void follow_velocity() override { place_nodes(); }
   void place_nodes();
   std::vector<double> fingerprint() const;

@@ -62,10 +62,16 @@ void WheelHub::place(const Vector3& axle_centre, double yaw_angle, double camber
   if (!(axle_centre.allFinite() && std::isfinite(yaw_angle) && std::abs(camber_angle) < largest_camber))
     throw Error(fmt::format("{}: cannot be placed at {} {} {} m with yaw {} and camber {} degrees", name_, axle_centre.x(),
                             axle_centre.y(), axle_centre.z(), degrees(yaw_angle), degrees(camber_angle)));
-  centre_ = axle_centre;
+  const Vector3 old_centre = centre_;
+  const Matrix3 old_attitude = attitude();
   angles_ = {0.0, yaw_angle, camber_angle};
+  rest_at(axle_centre);
+  follow_placement(old_centre, old_attitude);
+}
+
+void WheelHub::rest_at(const Vector3& centre) {
+  centre_ = centre;
   for (Vector3* motion : {&velocity_, &w_, &rates_, &omega_}) motion->setZero();
-  follow_placement();
 }
 
 void WheelHub::set_velocity(const Vector3& velocity, const Vector3& rates) {

@@ -79,9 +79,10 @@ class WheelHub : public Body {
   double hub_energy() const;         ///< kinetic [J]
   double given_work() const { return given_work_; }  ///< [J] of the forces and moments passed to advance_hub
   Balance hub_balance() const;       ///< without contact_work
-  /// The hub has been put elsewhere or given another motion: the rest of the wheel follows as a rigid body.
-  virtual void follow_placement() = 0;
-  virtual void follow_velocity() = 0;
+  /// The hub has been put elsewhere: what moves with it follows as a rigid body, without velocity.
+  virtual void follow_placement(const Vector3& old_centre, const Matrix3& old_attitude) = 0;
+  virtual void follow_velocity() = 0;           ///< it has been given another motion
+  void rest_at(const Vector3& centre);          ///< for a relaxation: the hub alone, without velocity
   virtual double kinetic_energy() const { return hub_energy(); }
   std::vector<double> hub_state() const;
   const double* restore_hub(const double* numbers);  ///< returns the first number it did not need
