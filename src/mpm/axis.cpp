@@ -107,6 +107,7 @@ AxisView Axis::view() const {
 }
 
 void Axis::shift(int count) {
+  if (count == 0) return;
   if (!uniform_) throw Error("a graded axis cannot move by whole cells");
   const double distance = count * (upper() - lower()) / cells();
   for (double& knot : knot_) knot += distance;

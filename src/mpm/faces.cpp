@@ -19,17 +19,20 @@ FaceLoop loop_of(const Grid& grid, FacePlace face) {
   return {axis, face % 2 == 0 ? 0 : grid.nodes(axis) - 1, axis == 0 ? 1 : 0, axis == 2 ? 1 : 2};
 }
 
-/// Calls visit(node, its place on the face, its plane across x, its level) for the nodes of a face inside the planes.
-template <class Nodes, class Visit>
-void for_face(Nodes& grid, const FaceLoop& loop, const PlaneRange& planes, Visit visit) {
-  int at[3];
-  at[loop.axis] = loop.plane;
-  std::size_t place = 0;
+using Place = std::array<int, 3>;  // of a node, along x, y, z
+
+/// Calls visit(node, its number on the face, its place in the grid) for the nodes of a face inside the planes.
+template <class Visit>
+void for_face(Grid& grid, const FaceLoop& loop, const PlaneRange& planes, Visit visit) {
+  Place at;
+  const auto axis = static_cast<std::size_t>(loop.axis), slow = static_cast<std::size_t>(loop.slow), fast = static_cast<std::size_t>(loop.fast);
+  at[axis] = loop.plane;
+  std::size_t number = 0;
   for (int s = 0; s < grid.nodes(loop.slow); ++s)
-    for (int f = 0; f < grid.nodes(loop.fast); ++f, ++place) {
-      at[loop.slow] = s;
-      at[loop.fast] = f;
-      if (planes.contains(at[0])) visit(grid.node(at[0], at[1], at[2]), place, at[0], at[2]);
+    for (int f = 0; f < grid.nodes(loop.fast); ++f, ++number) {
+      at[slow] = s;
+      at[fast] = f;
+      if (planes.contains(at[0])) visit(grid.node(at[0], at[1], at[2]), number, at);
     }
 }
 
@@ -69,13 +72,16 @@ Faces::Faces(const Grid& grid, const std::array<FaceKind, face_count>& kinds, st
   }
 }
 
-void Faces::capture(const Grid& grid, const PlaneRange& planes, double dt) {
+void Faces::capture(Grid& grid, const PlaneRange& planes, double dt) {
   captured_ = true;
   for (int f = 0; f < face_count; ++f) {
     if (kinds_[static_cast<std::size_t>(f)] != FaceKind::absorbing) continue;
     FarField& far = far_[static_cast<std::size_t>(f)];
-    for_face(grid, loop_of(grid, static_cast<FacePlace>(f)), planes, [&](const GridNode& node, std::size_t place, int, int) {
-      for (std::size_t c = 0; c < 3; ++c) far.hold[3 * place + c] = -node.momentum[c] / dt;
+    for_face(grid, loop_of(grid, static_cast<FacePlace>(f)), planes, [&](GridNode& node, std::size_t number, const Place&) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        far.hold[3 * number + c] = -node.momentum[c] / dt;
+        node.momentum[c] = 0.0;  // held: not by another face again
+      }
     });
   }
 }
@@ -89,29 +95,41 @@ void Faces::apply(Grid& grid, const PlaneRange& planes, const PlaneRange& owned,
 void Faces::constrain(Grid& grid, FacePlace face, const PlaneRange& planes, const PlaneRange& owned) {
   if (kinds_[face] != FaceKind::smooth && kinds_[face] != FaceKind::rough) return;
   const FaceLoop loop = loop_of(grid, face);
-  for_face(grid, loop, planes, [&](GridNode& node, std::size_t, int plane, int) {
+  for_face(grid, loop, planes, [&](GridNode& node, std::size_t, const Place& at) {
     for (int c = 0; c < 3; ++c) {
       if (kinds_[face] == FaceKind::smooth && c != loop.axis) continue;
-      if (owned.contains(plane)) impulse_[face][c] -= node.mass * node.momentum[c];
+      if (owned.contains(at[0])) impulse_[face][c] -= node.mass * node.momentum[c];
       node.momentum[c] = 0.0;
     }
   });
 }
 
+/// Whether a smooth or rough face holds a component of a node's velocity.
+bool Faces::is_held(const Grid& grid, const std::array<int, 3>& at, int component) const {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const bool upper : {false, true}) {
+      const FaceKind kind = kinds_[2 * axis + (upper ? 1 : 0)];
+      if (at[axis] != (upper ? grid.nodes(static_cast<int>(axis)) - 1 : 0)) continue;
+      if (kind == FaceKind::rough || (kind == FaceKind::smooth && static_cast<int>(axis) == component)) return true;
+    }
+  return false;
+}
+
 void Faces::absorb(Grid& grid, FacePlace face, const PlaneRange& planes, const PlaneRange& owned, double dt) {
   FarField& far = far_[face];
-  for_face(grid, loop_of(grid, face), planes, [&](GridNode& node, std::size_t place, int plane, int level) {
+  for_face(grid, loop_of(grid, face), planes, [&](GridNode& node, std::size_t number, const Place& at) {
     if (!(node.mass > 0.0)) return;
-    const WaveSpeeds& speeds = speeds_[static_cast<std::size_t>(level)];
+    const WaveSpeeds& speeds = speeds_[static_cast<std::size_t>(at[2])];
     for (int c = 0; c < 3; ++c) {
+      if (is_held(grid, at, c)) continue;
       const double speed = c == far.axis ? speeds.pressure : speeds.shear;
-      const std::size_t n = 3 * place + static_cast<std::size_t>(c);
+      const std::size_t n = 3 * number + static_cast<std::size_t>(c);
       const double before = node.momentum[c];
       const double pull = dt * (far.hold[n] / node.mass - speed * speed * far.inverse_extent * far.inverse_length * far.displacement[n]);
       const double after = (before + pull) / (1.0 + dt * speed * far.inverse_extent);
       node.momentum[c] = after;
       far.displacement[n] += dt * after;
-      if (owned.contains(plane)) {
+      if (owned.contains(at[0])) {
         const double impulse = node.mass * (after - before);
         impulse_[face][c] += impulse;
         work_ += impulse * after;

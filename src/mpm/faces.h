@@ -33,9 +33,9 @@ class Faces {
   Faces(const Grid& grid, const std::array<FaceKind, face_count>& kinds, std::vector<WaveSpeeds> speeds_of_level);
 
   FaceKind kind(FacePlace face) const { return kinds_[face]; }
-  /// Before anything else happens to the grid of the first step: its momenta are what the held ground must stand.
+  /// Before anything else happens to the grid of the first step: its momenta are what the held ground must stand, and are used up.
   bool captured() const { return captured_; }
-  void capture(const Grid& grid, const PlaneRange& planes, double dt);
+  void capture(Grid& grid, const PlaneRange& planes, double dt);
   /// Changes velocities after Grid::solve(). Sums count the planes of `owned` only.
   void apply(Grid& grid, const PlaneRange& planes, const PlaneRange& owned, double dt);
 
@@ -60,6 +60,7 @@ class Faces {
   };
   void constrain(Grid& grid, FacePlace face, const PlaneRange& planes, const PlaneRange& owned);
   void absorb(Grid& grid, FacePlace face, const PlaneRange& planes, const PlaneRange& owned, double dt);
+  bool is_held(const Grid& grid, const std::array<int, 3>& at, int component) const;
 
   std::array<FaceKind, face_count> kinds_;
   std::vector<WaveSpeeds> speeds_;

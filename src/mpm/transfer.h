@@ -63,7 +63,9 @@ struct TransferKernels {
 const TransferKernels& transfer_kernels_baseline();
 const TransferKernels& transfer_kernels_avx2();  // x86 builds only
 const TransferKernels& transfer_kernels_avx512();
-/// Those of the instruction set that the laws use (material/kernels.h).
+/// Those of an instruction set that available_kernels() names (material/kernels.h).
+const TransferKernels& transfer_kernels(const char* instruction_set);
+/// Those of the instruction set that the laws use.
 const TransferKernels& transfer_kernels();
 
 }  // namespace furrow

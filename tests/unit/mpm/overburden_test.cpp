@@ -1,0 +1,93 @@
+#include "mpm/overburden.h"
+
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+#include "ground_scene.h"
+
+namespace furrow {
+namespace {
+
+using ::testing::HasSubstr;
+using testing_ground::elastic;
+using testing_ground::law_of;
+using testing_ground::snow;
+
+GroundParameters deep(std::vector<GroundLayer> layers) {
+  GroundParameters ground;
+  ground.surface = 0.0;
+  ground.layers = std::move(layers);
+  return ground;
+}
+
+std::vector<GroundLevel> levels_down(double depth, int count) {
+  std::vector<GroundLevel> levels(static_cast<std::size_t>(count));
+  for (std::size_t n = 0; n < levels.size(); ++n) {
+    levels[n].half = 0.5 * depth / count;
+    levels[n].z = -(2.0 * double(n) + 1.0) * levels[n].half;
+  }
+  return levels;
+}
+
+/// sigma_zz = -rho g depth, sigma_xx = nu/(1 - nu) sigma_zz, for ground that is hardly compressed by its weight.
+TEST(Overburden, ElasticGroundCarriesItsWeight) {
+  const double rho = 1800.0, nu = 0.3;
+  auto levels = levels_down(2.0, 20);
+  find_overburden(deep({{law_of(elastic(1e9, nu, rho)), 2.0}}), levels);
+  for (const GroundLevel& level : levels) {
+    const double stress = rho * standard_gravity * level.z;
+    EXPECT_NEAR(level.state[field::stress + 2] / stress, 1.0, 1e-4);  // of the density's change, rho g z/M
+    EXPECT_NEAR(level.state[field::stress] / level.state[field::stress + 2], nu / (1.0 - nu), 1e-4);
+    EXPECT_EQ(level.state[field::stress + 5], 0.0);
+  }
+}
+
+/// Snow compacts under its weight: equilibrium holds with the density it has then, sum over what lies above of rho(z) g dz.
+TEST(Overburden, SnowIsInEquilibriumAtItsCompactedDensity) {
+  const auto law = law_of(snow());
+  auto levels = levels_down(2.0, 40);
+  find_overburden(deep({{law, 2.0}}), levels);
+  double above = 0.0;
+  for (const GroundLevel& level : levels) {
+    const double own = 2.0 * level.half * standard_gravity * law->current_density(level.state);
+    EXPECT_NEAR(-level.state[field::stress + 2] / (above + 0.5 * own), 1.0, 1e-3);
+    above += own;
+  }
+  EXPECT_GT(law->current_density(levels.back().state), law->current_density(levels.front().state));
+}
+
+TEST(Overburden, LayersLieOnOneAnother) {
+  const auto light = law_of(elastic(1e8, 0.3, 200)), heavy = law_of(elastic(1e9, 0.2, 2000));
+  auto levels = levels_down(1.0, 10);
+  find_overburden(deep({{light, 0.3}, {heavy, 0.1}}), levels);  // the lowest reaches the base whatever its thickness
+  for (const GroundLevel& level : levels) {
+    const double depth = -level.z;
+    EXPECT_EQ(level.layer, depth < 0.3 ? 0u : 1u) << depth;
+    const double stress = standard_gravity * (depth < 0.3 ? 200 * depth : 200 * 0.3 + 2000 * (depth - 0.3));
+    EXPECT_NEAR(-level.state[field::stress + 2] / stress, 1.0, 1e-3) << depth;
+  }
+}
+
+TEST(Overburden, NothingWithoutInitialStress) {
+  const auto law = law_of(snow());
+  auto ground = deep({{law, 1.0}});
+  ground.initial_stress = false;
+  auto levels = levels_down(1.0, 4);
+  find_overburden(ground, levels);
+  for (const GroundLevel& level : levels) EXPECT_EQ(level.state, law->initial_state());
+}
+
+TEST(Overburden, RefusesALawThatCannotCarryTheWeight) {
+  const auto law = law_of(elastic(1e3, 0.3, 5000));  // 1.3 kPa against 50 kPa a metre
+  auto levels = levels_down(2.0, 4);
+  try {
+    find_overburden(deep({{law, 2.0}}), levels);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("law elastic cannot carry"));
+    EXPECT_THAT(error.what(), HasSubstr("Pa of its own weight; allowed: a law that stiffens in confined compression"));
+  }
+}
+
+}  // namespace
+}  // namespace furrow

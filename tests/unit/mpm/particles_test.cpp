@@ -1,0 +1,101 @@
+#include "mpm/particles.h"
+
+#include <gtest/gtest.h>
+
+#include "ground_scene.h"
+
+namespace furrow {
+namespace {
+
+using testing_ground::elastic;
+using testing_ground::law_of;
+using testing_ground::snow;
+
+/// Every number of every particle tells column, component and particle.
+void number(Particles& particles) {
+  std::vector<double> record;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    particles.data(column::x)[p] = 100.0 * double(p);
+    particles.data(column::home_z)[p] = 100.0 * double(p) + 1.0;
+    for (std::size_t c = 0; c < 4; ++c) particles.data(column::velocity)[4 * p + c] = 100.0 * double(p) + 2.0 + double(c);
+    for (std::size_t c = 0; c < 12; ++c) particles.data(column::affine)[12 * p + c] = 100.0 * double(p) + 10.0 + double(c);
+  }
+}
+
+TEST(Particles, StartWithZeroAndTakeTheStateOfTheLaw) {
+  const auto law = law_of(snow());
+  Particles particles(*law);
+  EXPECT_EQ(particles.append(3), 0u);
+  EXPECT_EQ(particles.append(2), 3u);
+  EXPECT_EQ(particles.size(), 5u);
+  particles.set_state(4, law->initial_state());
+  EXPECT_EQ(particles.state(4), law->initial_state());
+  EXPECT_EQ(particles.state(3), VectorX::Zero(static_cast<Eigen::Index>(law->state_fields().size())));
+  EXPECT_EQ(particles.position(4), Vector3::Zero());
+}
+
+TEST(Particles, AffineIsReadColumnByColumn) {
+  const auto law = law_of(elastic(1e6, 0.3, 1000));
+  Particles particles(*law);
+  particles.append(2);
+  number(particles);
+  Matrix3 expected;
+  expected << 110, 114, 118, 111, 115, 119, 112, 116, 120;
+  EXPECT_EQ(particles.affine(1), expected);
+  EXPECT_EQ(particles.velocity(1), Vector3(102, 103, 104));
+}
+
+TEST(Particles, ReorderMovesAllColumnsAndDropsTheRest) {
+  const auto law = law_of(elastic(1e6, 0.3, 1000));
+  Particles particles(*law);
+  particles.append(4);
+  const std::size_t memory = particles.add_column("memory", 2);
+  number(particles);
+  for (std::size_t p = 0; p < 4; ++p) particles.data(memory)[2 * p + 1] = double(p);
+  particles.reorder({3, 0, 2});
+  ASSERT_EQ(particles.size(), 3u);
+  EXPECT_EQ(particles.position(0).x(), 300.0);
+  EXPECT_EQ(particles.position(1).x(), 0.0);
+  EXPECT_EQ(particles.data(column::home_z)[2], 201.0);
+  EXPECT_EQ(particles.affine(0)(0, 0), 310.0);
+  EXPECT_EQ(particles.data(memory)[1], 3.0);
+  EXPECT_EQ(particles.data(memory)[5], 2.0);
+  particles.reorder({});
+  EXPECT_EQ(particles.size(), 0u);
+}
+
+TEST(Particles, AColumnAddedLateIsZeroAndTravelsWithTheParticle) {
+  const auto law = law_of(elastic(1e6, 0.3, 1000));
+  Particles particles(*law);
+  particles.append(3);
+  const std::size_t before = particles.record_length(), memory = particles.add_column("memory", 4);
+  EXPECT_EQ(particles.record_length(), before + 4);
+  for (std::size_t n = 0; n < 12; ++n) EXPECT_EQ(particles.data(memory)[n], 0.0);
+  particles.data(memory)[9] = 7.0;
+  particles.append(1);
+  EXPECT_EQ(particles.data(memory)[9], 7.0);
+  EXPECT_EQ(particles.data(memory)[15], 0.0);
+}
+
+TEST(Particles, PackAndUnpackAreInverse) {
+  const auto law = law_of(snow());
+  Particles from(*law), to(*law);
+  from.append(3);
+  number(from);
+  from.set_state(1, law->initial_state());
+  std::vector<double> buffer;
+  from.pack(1, buffer);
+  from.pack(2, buffer);
+  ASSERT_EQ(buffer.size(), 2 * from.record_length());
+  to.unpack(buffer.data());
+  to.unpack(buffer.data() + from.record_length());
+  ASSERT_EQ(to.size(), 2u);
+  std::vector<double> again;
+  to.pack(0, again);
+  to.pack(1, again);
+  EXPECT_EQ(again, buffer);
+  EXPECT_EQ(to.state(0), law->initial_state());
+}
+
+}  // namespace
+}  // namespace furrow

@@ -1,0 +1,239 @@
+#include "mpm/transfer.h"
+
+#include <cstring>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "material/kernels.h"
+#include "mpm/grid.h"
+#include "ground_scene.h"
+
+namespace furrow {
+namespace {
+
+using testing_ground::even;
+
+/// Particles at random places with random motion and stress in a grid that is graded along two axes.
+struct Cloud {
+  explicit Cloud(std::size_t count)
+      : grid(Axis({0.0, 1.0, 0.1, 0.3, 0.6, 1.3}, "x"), Axis(even(-0.5, 0.5, 0.125), "y"),
+             Axis({0.0, 0.8, 0.08, 0.4, 0.8, 1.2}, "z")),
+        velocity(4 * count), affine(12 * count), volume(count), ratio(count), gradient(9 * count) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> unit(0.0, 1.0), sign(-1.0, 1.0);
+    const double lower[3] = {0.0, -0.5, 0.0}, size[3] = {1.0, 1.0, 0.8};
+    for (int a = 0; a < 3; ++a)
+      for (std::size_t p = 0; p < count; ++p) position[a].push_back(lower[a] + size[a] * (0.001 + 0.998 * unit(random)));
+    for (std::size_t p = 0; p < count; ++p) {
+      volume[p] = 1e-6 * (1.0 + unit(random));
+      ratio[p] = 0.3 + unit(random);
+      for (std::size_t c = 0; c < 3; ++c) {
+        velocity[4 * p + c] = sign(random);
+        for (std::size_t d = 0; d < 3; ++d) affine[12 * p + 4 * d + c] = 5.0 * sign(random);
+      }
+    }
+    for (auto& s : stress)
+      for (std::size_t p = 0; p < count; ++p) s.push_back(1e5 * sign(random));
+    for (std::size_t g = 0; g < 9; ++g) gradients[g] = gradient.data() + g * count;
+  }
+  ParticleView view() {
+    ParticleView v;
+    v.size = volume.size();
+    for (int a = 0; a < 3; ++a) v.position[a] = position[a].data();
+    v.velocity = velocity.data();
+    v.affine = affine.data();
+    v.volume = volume.data();
+    v.volume_ratio = ratio.data();
+    for (int s = 0; s < 6; ++s) v.stress[s] = stress[s].data();
+    return v;
+  }
+  Vector3 place(std::size_t p) const { return {position[0][p], position[1][p], position[2][p]}; }
+  Vector3 node_place(int i, int j, int k) const { return {grid.axis(0).node(i), grid.axis(1).node(j), grid.axis(2).node(k)}; }
+  template <class Visit>
+  void for_nodes(Visit visit) {
+    for (int i = 0; i < grid.nodes(0); ++i)
+      for (int j = 0; j < grid.nodes(1); ++j)
+        for (int k = 0; k < grid.nodes(2); ++k) visit(grid.node(i, j, k), node_place(i, j, k));
+  }
+
+  Grid grid;
+  std::vector<double> position[3], velocity, affine, volume, ratio, gradient, stress[6];
+  double* gradients[9];
+};
+
+std::vector<double> numbers_of(Grid& grid) {
+  const double* first = grid.plane(0)->momentum;
+  return std::vector<double>(first, first + 4 * grid.plane_size() * static_cast<std::size_t>(grid.nodes(0)));
+}
+
+constexpr double rho = 300.0, dt = 1e-3, weightless[3] = {0.0, 0.0, 0.0};
+
+TEST(Transfer, AllInstructionSetsAgree) {
+  std::vector<double> reference, moved, sums;
+  for (const Kernels* table : available_kernels()) {
+    const TransferKernels& kernels = transfer_kernels(table->instruction_set);
+    EXPECT_STREQ(kernels.instruction_set, table->instruction_set);
+    Cloud cloud(1003);  // no multiple of a batch
+    const double gravity[3] = {0.1, 0.2, -9.8};
+    ASSERT_EQ(kernels.scatter(cloud.grid.view(), cloud.view(), rho, dt, gravity), 0u);
+    const PointImpulse impulses[2] = {{{0.5, 0.1, 0.3}, {1.0, -2.0, 0.5}, {0.01, 0.0, -0.02}}, {{0.9, -0.4, 0.01}, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.0}}};
+    kernels.scatter_impulses(cloud.grid.view(), impulses, 2);
+    const std::vector<double> nodes = numbers_of(cloud.grid);
+    cloud.grid.solve(cloud.grid.all_planes());
+    const TransferSums s = kernels.gather(cloud.grid.view(), cloud.view(), rho, dt, cloud.gradients);
+    std::vector<double> after = cloud.gradient;
+    for (const auto& x : cloud.position) after.insert(after.end(), x.begin(), x.end());
+    after.insert(after.end(), cloud.velocity.begin(), cloud.velocity.end());
+    const std::vector<double> all_sums = {s.kinetic_energy, s.stress_work, s.momentum[0], s.momentum[1], s.momentum[2], s.largest_speed};
+    if (reference.empty()) {
+      reference = nodes;
+      moved = after;
+      sums = all_sums;
+      continue;
+    }
+    double largest = 0.0;
+    for (const double value : reference) largest = std::max(largest, std::abs(value));
+    for (std::size_t n = 0; n < nodes.size(); ++n) ASSERT_NEAR(nodes[n], reference[n], 1e-13 * largest) << table->instruction_set;
+    // A node that hardly any mass reaches has a large velocity with a large relative error; what particles take of it is small again.
+    for (std::size_t n = 0; n < after.size(); ++n) ASSERT_NEAR(after[n], moved[n], 1e-9 * (1.0 + std::abs(moved[n]))) << table->instruction_set;
+    for (std::size_t n = 0; n < sums.size(); ++n) EXPECT_NEAR(all_sums[n], sums[n], 1e-9 * (1.0 + std::abs(sums[n]))) << "sum " << n;
+  }
+}
+
+/// Mass, linear and angular momentum of the nodes are those of the particles, stresses or not: sum over nodes of x_i x p_i equals the sum
+/// over particles of m (x x v + axial vector of C D), D = sum N_i d_i d_i^T.
+TEST(Transfer, ToTheGridKeepsMassAndMomenta) {
+  Cloud cloud(2000);
+  ASSERT_EQ(transfer_kernels().scatter(cloud.grid.view(), cloud.view(), rho, dt, weightless), 0u);
+  double mass = 0.0, nodes_mass = 0.0;
+  Vector3 momentum = Vector3::Zero(), angular = momentum, nodes_momentum = momentum, nodes_angular = momentum;
+  cloud.for_nodes([&](const GridNode& node, const Vector3& x) {
+    const Vector3 p(node.momentum[0], node.momentum[1], node.momentum[2]);
+    nodes_mass += node.mass;
+    nodes_momentum += p;
+    nodes_angular += x.cross(p);
+  });
+  for (std::size_t p = 0; p < cloud.volume.size(); ++p) {
+    const double m = rho * cloud.volume[p];
+    const Vector3 x = cloud.place(p), v = Eigen::Map<const Vector3>(&cloud.velocity[4 * p]);
+    mass += m;
+    momentum += m * v;
+    angular += m * x.cross(v);
+    // The spin by its definition, node by node.
+    const auto axis_weights = [&](int a, double* w, double* d) {
+      const Axis& axis = cloud.grid.axis(a);
+      const AxisView view = axis.view();
+      const int c = axis.cell_of(x[a]);
+      const double above = axis.knot(c + 1) - x[a], below = x[a] - axis.knot(c);
+      w[0] = view.left[c] * above * above;
+      w[2] = view.right[c] * below * below;
+      w[1] = 1.0 - w[0] - w[2];
+      for (int i = 0; i < 3; ++i) d[i] = axis.node(c + i) - x[a];
+    };
+    double w[3][3], d[3][3];
+    for (int a = 0; a < 3; ++a) axis_weights(a, w[a], d[a]);
+    const Matrix3 C = Eigen::Map<const Eigen::Matrix<double, 4, 3>>(&cloud.affine[12 * p]).topRows<3>();
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        for (int k = 0; k < 3; ++k) {
+          const Vector3 lever(d[0][i], d[1][j], d[2][k]);
+          angular += m * w[0][i] * w[1][j] * w[2][k] * lever.cross(C * lever);
+        }
+  }
+  EXPECT_NEAR(nodes_mass / mass, 1.0, 1e-13);
+  const double scale = mass;  // speeds are of the order of 1 m/s, levers of 1 m
+  EXPECT_LT((nodes_momentum - momentum).norm(), 1e-12 * scale + 1e-11 * dt);
+  EXPECT_LT((nodes_angular - angular).norm(), 1e-12 * scale + 1e-11 * dt);
+}
+
+/// The nodes' velocity field, linear in x, comes back as v and C on any knots, next to the walls too.
+TEST(Transfer, FromTheGridReadsLinearFieldsExactly) {
+  Cloud cloud(2000);
+  Matrix3 L;
+  L << 1.0, -2.0, 0.5, 0.3, -0.7, 2.0, -1.5, 0.2, 0.9;
+  const Vector3 v0(0.3, -0.1, 0.7);
+  cloud.for_nodes([&](GridNode& node, const Vector3& x) { Eigen::Map<Vector3>(node.momentum) = v0 + L * x; });
+  const Cloud before = cloud;
+  const TransferSums sums = transfer_kernels().gather(cloud.grid.view(), cloud.view(), rho, dt, cloud.gradients);
+  double fastest = 0.0;
+  for (std::size_t p = 0; p < cloud.volume.size(); ++p) {
+    const Vector3 x = before.place(p), v = v0 + L * x;
+    fastest = std::max(fastest, v.norm());
+    EXPECT_LT((Eigen::Map<const Vector3>(&cloud.velocity[4 * p]) - v).norm(), 1e-13);
+    EXPECT_LT((cloud.place(p) - (x + dt * v)).norm(), 1e-15);
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column) EXPECT_NEAR(cloud.gradients[3 * row + column][p], dt * L(row, column), 1e-10 * dt);
+  }
+  EXPECT_DOUBLE_EQ(sums.largest_speed, fastest);
+}
+
+/// sum_i f_i . v_i = - sum_p V sigma : C for any stress and any nodal velocity: what the stress takes from the grid is its work.
+TEST(Transfer, ForceAndVelocityGradientAreAdjoint) {
+  Cloud cloud(2000);
+  std::fill(cloud.velocity.begin(), cloud.velocity.end(), 0.0);
+  std::fill(cloud.affine.begin(), cloud.affine.end(), 0.0);
+  ASSERT_EQ(transfer_kernels().scatter(cloud.grid.view(), cloud.view(), rho, dt, weightless), 0u);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> sign(-1.0, 1.0);
+  double power = 0.0, size = 0.0;
+  cloud.for_nodes([&](GridNode& node, const Vector3&) {
+    for (double& p : node.momentum) {
+      const double v = sign(random);
+      power += p * v;
+      size += std::abs(p * v);
+      p = v;
+    }
+  });
+  const TransferSums sums = transfer_kernels().gather(cloud.grid.view(), cloud.view(), rho, dt, cloud.gradients);
+  EXPECT_NEAR(sums.stress_work, -power, 1e-13 * size);
+}
+
+/// An impulse beside a particle acts where it is said to act: force and moment.
+TEST(Transfer, PointImpulseKeepsForceAndMoment) {
+  Cloud cloud(1);
+  const PointImpulse one{{0.07, 0.33, 0.02}, {3.0, -1.0, 2.0}, {0.03, -0.01, 0.04}};
+  transfer_kernels().scatter_impulses(cloud.grid.view(), &one, 1);
+  Vector3 momentum = Vector3::Zero(), angular = momentum;
+  cloud.for_nodes([&](const GridNode& node, const Vector3& x) {
+    const Vector3 p(node.momentum[0], node.momentum[1], node.momentum[2]);
+    momentum += p;
+    angular += x.cross(p);
+    EXPECT_EQ(node.mass, 0.0);
+  });
+  const Vector3 impulse(3.0, -1.0, 2.0), point(0.10, 0.32, 0.06);
+  EXPECT_LT((momentum - impulse).norm(), 1e-14);
+  EXPECT_LT((angular - point.cross(impulse)).norm(), 1e-14);
+}
+
+TEST(Transfer, CountsWhatIsOutsideAndLeavesItsBatchAlone) {
+  for (const double bad : {1.5, -0.1, std::nan(""), 1e300}) {
+    Cloud cloud(200);
+    cloud.position[0][70] = bad;
+    EXPECT_EQ(transfer_kernels().scatter(cloud.grid.view(), cloud.view(), rho, dt, weightless), 1u) << bad;
+    const TransferSums sums = transfer_kernels().gather(cloud.grid.view(), cloud.view(), rho, dt, cloud.gradients);
+    EXPECT_EQ(sums.outside, 1u);
+    EXPECT_LE(sums.first_outside, 70u);
+  }
+}
+
+/// Without forces, particles to grid and back never make kinetic energy.
+TEST(Transfer, NeverMakesKineticEnergy) {
+  Cloud cloud(3000);
+  for (auto& s : cloud.stress) std::fill(s.begin(), s.end(), 0.0);
+  std::fill(cloud.affine.begin(), cloud.affine.end(), 0.0);
+  double before = 0.0;
+  for (std::size_t p = 0; p < cloud.volume.size(); ++p)
+    before += 0.5 * rho * cloud.volume[p] * Eigen::Map<const Vector3>(&cloud.velocity[4 * p]).squaredNorm();
+  for (int step = 0; step < 20; ++step) {
+    cloud.grid.clear(cloud.grid.all_planes());
+    ASSERT_EQ(transfer_kernels().scatter(cloud.grid.view(), cloud.view(), rho, 0.0, weightless), 0u);
+    cloud.grid.solve(cloud.grid.all_planes());
+    const double after = transfer_kernels().gather(cloud.grid.view(), cloud.view(), rho, 0.0, cloud.gradients).kinetic_energy;
+    EXPECT_LE(after, before * (1.0 + 1e-14));
+    before = after;
+  }
+}
+
+}  // namespace
+}  // namespace furrow
