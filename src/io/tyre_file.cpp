@@ -18,6 +18,10 @@ Schema tyre_schema() {
   schema.number("pressure", "Pa", Range::non_negative(), "inflation above the atmosphere");
   schema.number("bead_radius", "m", Range::positive(), "radius at which the sidewalls begin");
   schema.number("bead_spacing", "m", Range::positive(), "distance of the two beads along the axle");
+  schema
+      .numbers("link", 2, "m", Range::any(),
+               "rigid arm from the tread's edge to the sidewall's end: axial (outwards) and radial part")
+      .by_default(std::vector<double>{0.0, 0.0});
   return schema;
 }
 
@@ -47,6 +51,10 @@ Schema sidewall_schema() {
                 "of the last segment, where the tread's spring is free");
   schema.number("rim_stiffness", "N m/rad/m", Range::non_negative(), "of the spring between rim and sidewall; 0: a pin");
   schema.number("tread_stiffness", "N m/rad/m", Range::non_negative(), "of the spring between sidewall and tread; 0: a pin");
+  schema
+      .word("strip", {"sector", "even"},
+            "what the pressure acts on: a strip between two meridians, narrower at the rim, or of the tread's width")
+      .by_default("sector");
   return schema;
 }
 
@@ -80,6 +88,7 @@ TyreParameters read_tyre_file(const std::string& path) {
   result.pressure = tyre.number("pressure");
   result.bead_radius = tyre.number("bead_radius");
   result.bead_spacing = tyre.number("bead_spacing");
+  result.link = {tyre.numbers("link")[0], tyre.numbers("link")[1]};
   result.tread = {tread.number("radius"),    tread.number("half_width"), tread.number("crown"),
                   tread.number("thickness"), tread.number("E1"),         tread.number("E2"),
                   tread.number("nu12"),      tread.number("G12"),        tread.number("areal_mass")};
@@ -102,7 +111,8 @@ std::string tyre_file_text(const TyreParameters& tyre) {
       {"tyre",
        {{"pressure", fmt::to_string(tyre.pressure)},
         {"bead_radius", fmt::to_string(tyre.bead_radius)},
-        {"bead_spacing", fmt::to_string(tyre.bead_spacing)}}},
+        {"bead_spacing", fmt::to_string(tyre.bead_spacing)},
+        {"link", list({tyre.link[0], tyre.link[1]})}}},
       {"tread",
        {{"radius", fmt::to_string(tread.radius)},
         {"half_width", fmt::to_string(tread.half_width)},
@@ -120,7 +130,8 @@ std::string tyre_file_text(const TyreParameters& tyre) {
         {"rim_angle", fmt::to_string(degrees(sidewall.rim_angle))},
         {"tread_angle", fmt::to_string(degrees(sidewall.tread_angle))},
         {"rim_stiffness", fmt::to_string(sidewall.rim_stiffness)},
-        {"tread_stiffness", fmt::to_string(sidewall.tread_stiffness)}}}};
+        {"tread_stiffness", fmt::to_string(sidewall.tread_stiffness)},
+        {"strip", sidewall.taper > 0.0 ? "sector" : "even"}}}};
   std::string text = fmt::format("title: {}\n", quoted(tyre.title));
   for (const auto& [section, schema] : tyre_schemas()) {
     text += fmt::format("{}:\n", section);

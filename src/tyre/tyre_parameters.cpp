@@ -54,6 +54,9 @@ void check(const SidewallParameters& sidewall, const std::string& where) {
   for (const double stiffness : {sidewall.rim_stiffness, sidewall.tread_stiffness})
     need(stiffness >= 0.0 && std::isfinite(stiffness), where,
          fmt::format("the stiffness of an end spring is {} N m/rad per m", stiffness), "a number >= 0");
+  need(sidewall.bead_width > 0.0 && std::isfinite(sidewall.bead_width) && sidewall.taper >= 0.0 &&
+           std::isfinite(sidewall.taper),
+       where, fmt::format("the strip's width is {} + {} r", sidewall.bead_width, sidewall.taper), "numbers > 0 and >= 0");
 }
 
 void check(const TyreParameters& tyre, const std::string& where) {
@@ -61,6 +64,7 @@ void check(const TyreParameters& tyre, const std::string& where) {
        "a number >= 0");
   need_positive(tyre.bead_radius, where, "bead_radius", "m");
   need_positive(tyre.bead_spacing, where, "bead_spacing", "m");
+  need(tyre.link.allFinite(), where, "the link is not finite", "two numbers [m]");
   const TreadParameters& tread = tyre.tread;
   need_positive(tread.radius, where, "the tread's radius", "m");
   need_positive(tread.half_width, where, "the tread's half_width", "m");

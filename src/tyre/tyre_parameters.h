@@ -2,7 +2,8 @@
 /// What a tyre is made of: rim, tread band, sidewalls. Tyre files (io/tyre_file.h) are read into these.
 ///
 /// Section of the tyre: A is the axial coordinate, outwards from the mid-plane, and R the radius about the axle. Both sidewalls are
-/// alike. A sidewall runs from its bead (A = bead_spacing/2, R = bead_radius) to the edge of the tread (A = half_width, R = radius).
+/// alike. A sidewall runs from its bead (A = bead_spacing/2, R = bead_radius) to the edge of the tread (A = half_width, R = radius - crown)
+/// plus the link, a rigid arm on the tread's edge.
 
 #include <string>
 #include <vector>
@@ -22,6 +23,10 @@ struct SidewallParameters {
   double tread_angle = 0.0;       ///< [rad] of the last segment where the tread's spring is, relative to the tread
   double rim_stiffness = 0.0;     ///< [N m/rad per m] of the spring between rim and first segment; 0: a pin
   double tread_stiffness = 0.0;   ///< [N m/rad per m] of the spring between last segment and tread; 0: a pin
+  /// Width of the strip that the pressure acts on, over its width at the tread: bead_width + taper r, r the radial distance from the
+  /// bead. A strip between two meridians has R_bead/R_tread and 1/R_tread; an even one 1 and 0.
+  double bead_width = 1.0;
+  double taper = 0.0;  ///< [1/m]
 
   std::size_t segments() const { return bending.size() + 1; }
 };
@@ -44,12 +49,13 @@ struct TyreParameters {
   double pressure = 0.0;      ///< [Pa] inflation above the atmosphere
   double bead_radius = 0.0;   ///< [m] R where a sidewall begins
   double bead_spacing = 0.0;  ///< [m] between the two beads
+  Vector2 link = Vector2::Zero();  ///< [m] axial and radial, from the tread's edge to the sidewall's end: a rigid arm that turns with the edge
   TreadParameters tread;
   SidewallParameters sidewall;
 
   /// Chord of a sidewall whose tread edge is where it was made: axial and radial [m].
   Vector2 sidewall_chord() const {
-    return {tread.half_width - 0.5 * bead_spacing, tread.radius - tread.crown - bead_radius};
+    return {tread.half_width + link[0] - 0.5 * bead_spacing, tread.radius - tread.crown + link[1] - bead_radius};
   }
 };
 

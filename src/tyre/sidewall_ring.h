@@ -1,0 +1,76 @@
+#pragma once
+/// One side of a tyre: stations around it, each a sidewall in the plane through its bead point, the axle's direction and its tread node.
+
+#include <memory>
+#include <vector>
+
+#include "fe/shell_nodes.h"
+#include "tyre/sidewall.h"
+#include "tyre/tyre_parameters.h"
+
+namespace furrow {
+
+/// Where the rim is: x = centre + attitude X.
+struct RimPose {
+  Vector3 centre = Vector3::Zero();
+  Matrix3 attitude = Matrix3::Identity();
+};
+
+/// Station i has its bead point B_i on the rim and holds the tread's node i by a strip of width w, its share of the tread's edge. The
+/// strip ends at the node or at the end of a link, a rigid arm s = Q s_0 on the node. In the rim's frame, with d from B_i to the
+/// strip's end and the outward axial unit vector A:
+///   a = d . A,  r e_r = d - a A,  phi = angle of the tread's axial line Q A from A towards e_r.
+/// The strip's plane so tilts when the tread is wound against the rim, and its tension resists that.
+///
+/// Its potential is w W(a, r, phi) (tyre/sidewall.h). The pressure on the chord, which Sidewall states for a strip of even width, is
+/// taken on the true surface instead: quadrilaterals between bead points, ends of links and tread nodes. With the tread they close the tyre's air,
+/// whose potential is -p V, so that forces have a potential as a whole, and act on rim and tread in balance.
+class SidewallRing {
+ public:
+  /// @param side +1 or -1: where its A points along the rim's y
+  /// @param edge tread nodes in the order of their angles, from the lowest point towards +x
+  /// @param width of a strip [m]
+  SidewallRing(std::unique_ptr<Sidewall> sidewall, const TyreParameters& tyre, int side, std::vector<int> edge, double width);
+
+  /// Adds to nodes.force and .moment. @throws StateError naming side and station
+  void add_forces(ShellNodes& nodes, const RimPose& rim);
+
+  void set_pressure(double pressure) { sidewall_->set_pressure(pressure); }
+  double potential() const { return potential_; }  ///< [J] sum of w W, at the last add_forces
+  double volume() const { return volume_; }        ///< [m^3] the quadrilaterals' third of the integral of x . n dA
+  double largest_chord() const { return largest_chord_; }  ///< of the length
+  const std::vector<SidewallEnd>& ends() const { return ends_; }
+  const std::vector<int>& edge() const { return edge_; }
+  std::size_t stations() const { return edge_.size(); }
+  int side() const { return side_; }
+  /// Points of the sidewall at a station by the chain, in space, from bead to tread.
+  Matrix3X profile(std::size_t station, const ShellNodes& nodes, const RimPose& rim);
+  /// Points of the arc of the sidewall's length over its chord, the chain's shape without bending stiffness: cheap enough for contact
+  /// in every step. Point k of n, k = 0 at the bead; columns are added from first on.
+  void arcs(int points, const ShellNodes& nodes, const RimPose& rim, Matrix3X& x, Eigen::Index first) const;
+  Vector3 bead(std::size_t station) const { return bead_.col(static_cast<Eigen::Index>(station)); }  ///< in the rim's frame
+
+ private:
+  struct Axes {
+    Vector3 A, e_r;  // in space
+    SidewallEnd end;
+    Vector3 g;       // Q A in space
+    Vector3 arm;     // the link in space
+  };
+  Axes axes(std::size_t station, const ShellNodes& nodes, const RimPose& rim) const;
+  void add_pressure(const ShellNodes& nodes, const RimPose& rim);
+
+  std::unique_ptr<Sidewall> sidewall_;
+  int side_;
+  std::vector<int> edge_;
+  double width_, length_;
+  bool linked_;
+  Matrix3X bead_, link_;         // in the rim's frame, links as made
+  Matrix3X on_node_, on_end_;    // forces on tread nodes and on ends of links [N]
+  std::vector<SidewallEnd> ends_;
+  std::vector<SidewallResponse> responses_;
+  std::vector<Axes> axes_;
+  double potential_ = 0.0, volume_ = 0.0, largest_chord_ = 0.0;
+};
+
+}  // namespace furrow
