@@ -16,7 +16,7 @@ TriangleSearch::TriangleSearch(const Surface& surface, double reach, const Vecto
   const auto [low, high] = surface.bounds();
   lower_ = lower.cwiseMax((low.array() - reach).matrix());
   upper_ = upper.cwiseMin((high.array() + reach).matrix());
-  if (!((upper_ - lower_).minCoeff() > 0.0)) {
+  if (!((upper_ - lower_).minCoeff() >= 0.0)) {
     upper_ = lower_.array() - 1.0;  // covers nothing
     return;
   }

@@ -186,7 +186,10 @@ inline void read_nodes(const GridView& grid, const Weights& weights, std::size_t
     affine[1] += w * along_y[k];
     affine[2] += weights.moment[2][k][p] * value[k];
   }
-  for (int d = 0; d < 3; ++d) affine[d] *= weights.inverse_spread[d][p];
+  for (int d = 0; d < 3; ++d) {  // the fourth number is the mass of nodes: it must not come back to them as a slope of mass
+    const double inverse = weights.inverse_spread[d][p];
+    affine[d] *= Vector4{inverse, inverse, inverse, 0.0};
+  }
 }
 
 inline void gather_batch(const GridView& grid, const ParticleView& particles, double density, double dt, double* const* gradient,

@@ -217,17 +217,24 @@ TEST(Transfer, CountsWhatIsOutsideAndLeavesItsBatchAlone) {
   }
 }
 
-/// Without forces, particles to grid and back never make kinetic energy.
-TEST(Transfer, NeverMakesKineticEnergy) {
+/// Without forces, particles to grid and back leave the nodes their mass and never make kinetic energy. Heavy particles: mass must not
+/// mix with velocity on the way.
+TEST(Transfer, KeepsNodalMassAndNeverMakesKineticEnergy) {
   Cloud cloud(3000);
+  for (double& volume : cloud.volume) volume *= 1e4;
   for (auto& s : cloud.stress) std::fill(s.begin(), s.end(), 0.0);
   std::fill(cloud.affine.begin(), cloud.affine.end(), 0.0);
   double before = 0.0;
   for (std::size_t p = 0; p < cloud.volume.size(); ++p)
     before += 0.5 * rho * cloud.volume[p] * Eigen::Map<const Vector3>(&cloud.velocity[4 * p]).squaredNorm();
+  std::vector<double> first_masses;
   for (int step = 0; step < 20; ++step) {
     cloud.grid.clear(cloud.grid.all_planes());
     ASSERT_EQ(transfer_kernels().scatter(cloud.grid.view(), cloud.view(), rho, 0.0, weightless), 0u);
+    std::vector<double> masses;
+    cloud.for_nodes([&](const GridNode& node, const Vector3&) { masses.push_back(node.mass); });
+    if (step == 0) first_masses = masses;
+    ASSERT_EQ(masses, first_masses);
     cloud.grid.solve(cloud.grid.all_planes());
     const double after = transfer_kernels().gather(cloud.grid.view(), cloud.view(), rho, 0.0, cloud.gradients).kinetic_energy;
     EXPECT_LE(after, before * (1.0 + 1e-14));
