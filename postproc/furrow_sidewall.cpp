@@ -30,7 +30,8 @@ void run(const Wishes& wishes) {
   furrow::SidewallTableGrid grid;
   if (wishes.nodes) {
     grid.chord_nodes = wishes.nodes;
-    grid.direction_nodes = grid.rotation_nodes = std::max(6, wishes.nodes / 2);
+    grid.direction_nodes = std::max(6, wishes.nodes / 2);
+    grid.rotation_nodes = std::max(6, wishes.nodes / 4);
   }
   const auto table = furrow::open_sidewall_table(tyre.sidewall, tyre.pressure, grid);
   const furrow::SidewallSurvey survey = furrow::survey_sidewall(tyre, tyre.pressure, *table);
@@ -57,7 +58,9 @@ int main(int argc, char** argv) {
   CLI::App* run_command = app.add_subcommand("run", "survey the sidewall of a tyre file (inputs/tyres/*.yaml)");
   run_command->add_option("file", wishes.input, "a tyre file; furrow-sidewall keys lists its keys")->required();
   run_command->add_option("-p,--pressure", wishes.pressure, "inflation pressure [Pa] instead of the file's");
-  run_command->add_option("-n,--nodes", wishes.nodes, "of the table along the chord; half as many along its other axes")
+  run_command
+      ->add_option("-n,--nodes", wishes.nodes,
+                   "of the table along the chord; half and a quarter as many along its other axes")
       ->check(CLI::Range(6, 200));
   run_command->add_option("-o,--output", wishes.output, "the results folder; results/<name of the file> unless given");
   run_command->add_flag("--no-plot", wishes.no_plot, "no figure");

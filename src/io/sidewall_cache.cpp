@@ -22,9 +22,10 @@ const char* const dataset = "/coefficients";
 /// Everything that a table depends on, numbers with all digits.
 std::string identity_of(const SidewallParameters& sidewall, double pressure, const SidewallTableGrid& grid) {
   std::string text = fmt::format(
-      "sidewall table 1 of furrow {}\nlength {}\nbending {}\ncurvature {}\nangles {} {}\nend springs {} {}\npressure {}\n",
+      "sidewall table 1 of furrow {}\nlength {}\nbending {}\ncurvature {}\nangles {} {}\nend springs {} {}\nstrip {} "
+      "{}\npressure {}\n",
       version(), sidewall.length, fmt::join(sidewall.bending, " "), fmt::join(sidewall.curvature, " "), sidewall.rim_angle,
-      sidewall.tread_angle, sidewall.rim_stiffness, sidewall.tread_stiffness, pressure);
+      sidewall.tread_angle, sidewall.rim_stiffness, sidewall.tread_stiffness, sidewall.bead_width, sidewall.taper, pressure);
   for (const GridAxis& axis : grid.axes()) text += fmt::format("axis {} {} {}\n", axis.lower, axis.upper, axis.nodes);
   return text;
 }

@@ -46,11 +46,6 @@ Columns columns_of(const SidewallCurve& curve) {
   return columns;
 }
 
-double turn_of(const Eigen::Matrix2Xd& nodes, Eigen::Index i) {
-  const Vector2 edge = nodes.col(i + 1) - nodes.col(i);
-  return std::atan2(edge[1], edge[0]);
-}
-
 }  // namespace
 
 void write_sidewall_survey(const std::string& folder, const SidewallSurvey& survey) {
@@ -99,12 +94,11 @@ std::string sidewall_report(const SidewallSurvey& survey) {
   const TyreParameters& tyre = survey.tyre;
   const SidewallParameters& sidewall = tyre.sidewall;
   const SidewallResponse& here = survey.response;
-  const Eigen::Matrix2Xd& profile = survey.profile;
-  const Eigen::Index n = profile.cols() - 1;
-  const double chord = std::hypot(survey.made.a, survey.made.r), width = 2.0 * profile.row(0).maxCoeff();
-  // Tension of the last segment: force on the tread less its half of the segment's pressure, along the segment
-  const double theta = turn_of(profile, n - 1);
-  const double tension = -(here.on_tread[0] * std::cos(theta) + here.on_tread[1] * std::sin(theta));
+  const VectorX& angles = survey.shape.angles;
+  const double chord = std::hypot(survey.made.a, survey.made.r);
+  const double width = tyre.bead_spacing + 2.0 * survey.shape.nodes.row(0).maxCoeff();
+  const double first = angles[0], last = angles[angles.size() - 1];
+  const double tension = -(here.on_tread[0] * std::cos(last) + here.on_tread[1] * std::sin(last));  // of the last segment
   std::string text = fmt::format("{} at {:.4g} kPa\n", tyre.title, survey.pressure / 1e3);
   const auto line = [&](const std::string& name, const std::string& value) {
     text += fmt::format("  {:<13} {}\n", name, value);
@@ -113,14 +107,15 @@ std::string sidewall_report(const SidewallSurvey& survey) {
                                1e3 * sidewall.length, 1e3 * chord, chord / sidewall.length));
   line("section",
        fmt::format("{:.4g} mm wide; the sidewall turns by {:.1f} degrees, from {:.1f} at the rim to {:.1f} at the tread",
-                   1e3 * width, degrees(theta - turn_of(profile, 0)), degrees(turn_of(profile, 0)), degrees(theta)));
+                   1e3 * width, degrees(last - first), degrees(first), degrees(last)));
   line("tension",
        fmt::format("{:.5g} N/m at the tread", tension) +
            (survey.pressure > 0.0 ? fmt::format(", p rho with rho = {:.4g} mm", 1e3 * tension / survey.pressure) : ""));
   line("on the tread", fmt::format("axial {:.5g} N/m, radial {:.5g} N/m, moment {:.4g} N m/m", here.on_tread[0],
                                    here.on_tread[1], here.on_tread[2]));
-  line("on the rim", fmt::format("axial {:.5g} N/m, radial {:.5g} N/m, moment {:.4g} N m/m", here.on_rim[0], here.on_rim[1],
-                                 here.on_rim[2]));
+  const Vector3& on_rim = survey.shape.on_rim;
+  line("on the rim",
+       fmt::format("axial {:.5g} N/m, radial {:.5g} N/m, moment {:.4g} N m/m", on_rim[0], on_rim[1], on_rim[2]));
   const Matrix3& K = here.stiffness;
   line("stiffness",
        fmt::format("axial {:.5g}, radial {:.5g}, coupled {:.5g} and {:.5g} N/m per m; rotation {:.4g} N m/rad per m",

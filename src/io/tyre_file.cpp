@@ -99,6 +99,11 @@ TyreParameters read_tyre_file(const std::string& path) {
                      radians(sidewall.number("tread_angle")),
                      sidewall.number("rim_stiffness"),
                      sidewall.number("tread_stiffness")};
+  if (sidewall.word("strip") == "sector") {
+    const double edge = result.tread.radius - result.tread.crown;
+    result.sidewall.bead_width = result.bead_radius / edge;
+    result.sidewall.taper = 1.0 / edge;
+  }
   check(result, fmt::format("{}: tyre '{}'", path, result.title));
   return result;
 }

@@ -2,16 +2,15 @@
 /// What a sidewall does to tread and rim: forces, stiffness and potential for a position of the tread edge, whichever way they are
 /// computed: SidewallDirect solves the chain, SidewallTable looks it up.
 ///
-/// A sidewall is taken as a planar chain per unit width in the meridian plane (Shoop & Darnell; TR-01-16). Neglected: that
-/// a strip between two meridians is narrower at the rim (R_bead/R_tread = 0.6), tension and shear along the circumference, its mass.
-/// All values are per unit circumference of the tread, also those on the rim: a station that holds the width w of tread takes w times
-/// them. A wheel's side sums its stations.
+/// A sidewall is taken as a planar chain in the meridian plane (Shoop & Darnell; TR-01-16), of the width that a strip of the tread has.
+/// All values are per unit circumference of the tread: a station that holds the width w of tread takes w times them. The
+/// pressure acts on the strip's own width omega = bead_width + taper r (tyre_parameters.h): even, as in a plane, or between two meridians.
+/// Neglected: tension and shear along the circumference, that bending stiffness varies with the strip's width, the sidewall's mass.
 ///
 /// Pressure is a follower load with live normals. Let W = min over the chain's angles of (bending energy - p S), S the area between
-/// chain and chord. W depends on the shape only; its gradient and the resultant of the pressure on the chord, half at each end, are
-///   F_tread = -dW/d(a, r) + p/2 (r, -a),   M_tread = -dW/dphi,   F_rim = p (r, -a) - F_tread.
-/// So dF_a/dr - dF_r/da = p: the force alone is no gradient, but W is tabulated and the rest is exact. With the pressure on the tread
-/// band itself it adds up to the gas's work p dV.
+/// chain and chord, weighted by omega. The force on the tread is W's gradient and the pressure on the chord, in the share of the tread end:
+///   F = -dW/d(a, r) + p (omega_0/2 + taper r/3) (r, -a),   M = -dW/dphi.
+/// So dF_a/dr - dF_r/da = p omega(r): the force alone is no gradient, but W is tabulated and the rest is exact.
 
 #include <cstddef>
 
@@ -27,10 +26,20 @@ struct SidewallEnd {
 };
 
 struct SidewallResponse {
+  Vector3 force =
+      Vector3::Zero();  ///< -dW/d(a, r, phi): what the tread feels but for the pressure on the chord [N/m, N/m, N m/m]
   Vector3 on_tread = Vector3::Zero();   ///< F_a, F_r [N/m], M [N m/m]; M turns from +a towards +r
-  Vector3 on_rim = Vector3::Zero();     ///< the same at the bead
-  Matrix3 stiffness = Matrix3::Zero();  ///< -d(on_tread)/d(a, r, phi); skew in (a, r) by the pressure's p/2
+  Matrix3 stiffness = Matrix3::Zero();  ///< -d(on_tread)/d(a, r, phi); not symmetric in (a, r) by the pressure
   double potential = 0.0;               ///< W [J/m]
+};
+
+/// What the chain itself tells of an equilibrium.
+struct SidewallShape {
+  Eigen::Matrix2Xd nodes;            ///< from the bead (0, 0) to the tread end (a, r); N + 1 columns [m]
+  VectorX angles;                    ///< of the N segments [rad]
+  Vector3 on_rim = Vector3::Zero();  ///< F_a, F_r [N/m], M [N m/m] at the bead
+  double bending = 0.0;              ///< energy of hinges and end springs [J/m]
+  double area = 0.0;                 ///< S [m^2]: W = bending - p S
 };
 
 class Sidewall {
@@ -44,13 +53,10 @@ class Sidewall {
 
   virtual double pressure() const = 0;             ///< [Pa]
   virtual void set_pressure(double pressure) = 0;  ///< from the next evaluation on; a table is made anew. @throws StateError
-  /// The nodes from bead (0, 0) to tread end (a, r), for pictures and for contact of the sidewall; N + 1 columns [m].
-  virtual void profile(const SidewallEnd& end, Eigen::Matrix2Xd& nodes) = 0;
-  /// Bending energy of hinges and end springs [J/m] and area S between chain and chord [m^2]: W = energy - p S.
-  struct Energy {
-    double bending = 0.0, area = 0.0;
-  };
-  virtual Energy energy(const SidewallEnd& end) = 0;
+  virtual SidewallShape shape(
+      const SidewallEnd& end) = 0;  ///< by the chain, also where forces are looked up. @throws StateError
+  /// The nodes of shape(), for pictures and for contact of the sidewall.
+  void profile(const SidewallEnd& end, Eigen::Matrix2Xd& nodes) { nodes = shape(end).nodes; }
 };
 
 }  // namespace furrow

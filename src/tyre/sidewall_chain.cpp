@@ -107,24 +107,39 @@ void SidewallChain::nodes(const VectorX& angles, Eigen::Matrix2Xd& nodes) const 
 
 /// Positive where the chain bulges outwards.
 double SidewallChain::area(const VectorX& angles) const {
-  double a = 0.0, r = 0.0, twice = 0.0;
+  const double L = segment();
+  double a = 0.0, r = 0.0, G = 0.0;
   for (Eigen::Index i = 0; i < n_; ++i) {
-    const double da = segment() * std::cos(angles[i]), dr = segment() * std::sin(angles[i]);
-    twice += a * dr - r * da;
+    const double da = L * std::cos(angles[i]), dr = L * std::sin(angles[i]);
+    G += strip(a, r, a + da, r + dr);
     a += da;
     r += dr;
   }
-  return 0.5 * twice;
+  return G - chord_share(a, r);
 }
 
-/// Phi = E - p G, G = S + a r/2 with the end where the angles put it. Uses their cosines and sines.
+/// Part of G under one straight piece: the integral of (omega_0 + taper r) a dr.
+double SidewallChain::strip(double a0, double r0, double a1, double r1) const {
+  return (r1 - r0) * (0.5 * parameters_.bead_width * (a0 + a1) +
+                      parameters_.taper / 6.0 * (2.0 * (a0 * r0 + a1 * r1) + a0 * r1 + a1 * r0));
+}
+
+/// g = G of the chord.
+double SidewallChain::chord_share(double a, double r) const {
+  return a * r * (0.5 * parameters_.bead_width + parameters_.taper * r / 3.0);
+}
+
+/// Phi = E - p G. Uses the cosines and sines of the angles.
 double SidewallChain::functional(const VectorX& angles, double phi, double pressure) const {
-  double before = 0.0, G = 0.0;  // G in units of L^2
+  const double L = segment();
+  double a = 0.0, r = 0.0, G = 0.0;
   for (Eigen::Index i = 0; i < n_; ++i) {
-    G += (before + 0.5 * cosine_[i]) * sine_[i];
-    before += cosine_[i];
+    const double da = L * cosine_[i], dr = L * sine_[i];
+    G += strip(a, r, a + da, r + dr);
+    a += da;
+    r += dr;
   }
-  return bending_energy(angles, phi) - pressure * segment() * segment() * G;
+  return bending_energy(angles, phi) - pressure * G;
 }
 
 /// Newton's method with the shortest step; few and small where the angles nearly fit. False when it does not end.
@@ -155,19 +170,44 @@ bool SidewallChain::restore_end(const SidewallEnd& end, VectorX& angles) {
   return false;
 }
 
+/// -p times gradient and Hessian of G with respect to the angles; sets gradient_ and hessian_.
+/// G is a sum over segments of g(x_i, x_(i+1)). Angle k moves the nodes beyond segment k by t_k = L (-sin, cos), so with p_j the node's
+/// gradient, D_j its own second derivatives and C_m those between nodes m and m + 1,
+///   dG/dtheta_k = t_k . P_k,  P_k = sum_(j>k) p_j;   d2G/(dtheta_k dtheta_m) = t_k . (T_m + C_m) t_m for k < m,
+///   T_m = sum over nodes and pairs beyond m;         d2G/dtheta_k^2 = t_k . T_k t_k - L (cos, sin) . P_k.
+void SidewallChain::add_pressure(double pressure) {
+  const double L = segment(), w0 = 0.5 * parameters_.bead_width, w1 = parameters_.taper / 6.0;
+  double a1 = 0.0, r1 = 0.0;
+  for (Eigen::Index k = 0; k < n_; ++k) a1 += L * cosine_[k], r1 += L * sine_[k];
+  Vector2 P = Vector2::Zero();  // from the last segment back to the first
+  double T_ar = 0.0, T_rr = 0.0;
+  for (Eigen::Index m = n_ - 1; m >= 0; --m) {
+    const double c = cosine_[m], s = sine_[m], a0 = a1 - L * c, r0 = r1 - L * s;
+    // Segment m's share of the gradient at its far node, and of the second derivatives there
+    P += Vector2(w0 * (r1 - r0) + w1 * (2.0 * r1 * r1 - r0 * r1 - r0 * r0),
+                 w0 * (a0 + a1) + w1 * (a0 * (r0 + 2.0 * r1) + a1 * (4.0 * r1 - r0)));
+    T_ar += w0 + w1 * (4.0 * r1 - r0);
+    T_rr += w1 * (2.0 * a0 + 4.0 * a1);
+    const double C_ar = w0 + w1 * (r0 + 2.0 * r1), C_ra = -w0 - w1 * (r1 + 2.0 * r0), C_rr = w1 * (a0 - a1);
+    gradient_[m] = -pressure * L * (c * P[1] - s * P[0]);
+    hessian_(m, m) = -pressure * (L * L * (c * c * T_rr - 2.0 * s * c * T_ar) - L * (c * P[0] + s * P[1]));
+    // (T + C) t_m
+    const double y_a = L * c * (T_ar + C_ar), y_r = L * (-s * (T_ar + C_ra) + c * (T_rr + C_rr));
+    for (Eigen::Index k = 0; k < m; ++k)
+      hessian_(k, m) = hessian_(m, k) = -pressure * L * (cosine_[k] * y_r - sine_[k] * y_a);
+    // ... at its near node, and between both
+    P += Vector2(w0 * (r1 - r0) + w1 * (r0 * r1 + r1 * r1 - 2.0 * r0 * r0),
+                 -w0 * (a0 + a1) + w1 * (a0 * (r1 - 4.0 * r0) - a1 * (r1 + 2.0 * r0)));
+    T_ar += -w0 + w1 * (r1 - 4.0 * r0) + C_ar + C_ra;
+    T_rr += -w1 * (4.0 * a0 + 2.0 * a1) + 2.0 * C_rr;
+    a1 = a0, r1 = r0;
+  }
+}
+
 /// Gradient, QR of the constraint, multiplier, and the Lagrangian's Hessian in the axes of the QR. Uses the cosines and sines.
 void SidewallChain::linearise(const VectorX& angles, double phi, double pressure) {
-  const double L = segment(), pLL = pressure * L * L;
-  // dG/dtheta_k = L^2 (cos_k sum_(j<k) cos_j - sin_k sum_(i>k) sin_i + cos(2 theta_k)/2)
-  double before = 0.0, after = sine_.sum();
-  for (Eigen::Index k = 0; k < n_; ++k) {
-    const double c = cosine_[k], s = sine_[k];
-    after -= s;
-    gradient_[k] = -pLL * (c * before - s * after + 0.5 * (c * c - s * s));
-    hessian_(k, k) = pLL * (s * before + c * after + 2.0 * s * c);
-    for (Eigen::Index m = k + 1; m < n_; ++m) hessian_(m, k) = hessian_(k, m) = pLL * s * cosine_[m];
-    before += c;
-  }
+  const double L = segment();
+  add_pressure(pressure);
   for (Eigen::Index i = 0; i + 1 < n_; ++i) {
     const auto hinge = static_cast<std::size_t>(i);
     const double stiffness = parameters_.bending[hinge] / L;
@@ -298,12 +338,13 @@ SidewallResponse SidewallChain::solve(const SidewallEnd& end, double pressure, V
                     end.r, end.phi, pressure));
 
   SidewallResponse response;
-  const double k_tread = parameters_.tread_stiffness;
-  response.on_tread = {-multiplier_[0], -multiplier_[1] - pressure * end.a,
+  const double k_tread = parameters_.tread_stiffness, a = end.a, r = end.r;
+  const double omega = parameters_.bead_width + parameters_.taper * r;
+  const double share = 0.5 * parameters_.bead_width + parameters_.taper * r / 3.0;  // of the chord's pressure, at the tread
+  response.on_tread = {-multiplier_[0], -multiplier_[1] - pressure * a * omega,
                        k_tread * (angles[n_ - 1] - parameters_.tread_angle - end.phi)};
-  response.on_rim = {pressure * end.r - response.on_tread[0], -pressure * end.a - response.on_tread[1],
-                     parameters_.rim_stiffness * (angles[0] - parameters_.rim_angle)};
-  response.potential = functional(angles, end.phi, pressure) + 0.5 * pressure * end.a * end.r;
+  response.force = response.on_tread - pressure * share * Vector3(r, -a, 0.0);
+  response.potential = functional(angles, end.phi, pressure) + pressure * chord_share(a, r);
   if (!with_stiffness) return response;
 
   // Linearised equilibrium, in the axes of the QR: H (y, z) + e dphi = (triangle dlambda, 0) with triangle^T y = d(a, r).
@@ -323,8 +364,26 @@ SidewallResponse SidewallChain::solve(const SidewallEnd& end, double pressure, V
     response.stiffness.col(j).head(2) = upper.solve(force);
     response.stiffness(2, j) = e.dot(change) + dphi * k_tread;
   }
-  response.stiffness(1, 0) += pressure;
+  response.stiffness(1, 0) += pressure * omega;
+  response.stiffness(1, 1) += pressure * a * parameters_.taper;
   return response;
+}
+
+/// On the rim acts what moving the whole chain costs: p times the change of G, less what acts on the tread.
+SidewallShape SidewallChain::shape(const SidewallEnd& end, double pressure) {
+  SidewallShape shape;
+  const Vector3 on_tread = solve(end, pressure, shape.angles, false).on_tread;
+  nodes(shape.angles, shape.nodes);
+  shape.bending = bending_energy(shape.angles, end.phi);
+  shape.area = area(shape.angles);
+  double a_dr = 0.0;  // integral of a dr
+  for (Eigen::Index i = 0; i < n_; ++i)
+    a_dr += 0.5 * (shape.nodes(0, i) + shape.nodes(0, i + 1)) * (shape.nodes(1, i + 1) - shape.nodes(1, i));
+  const double omega_0 = parameters_.bead_width, taper = parameters_.taper;
+  shape.on_rim = {pressure * end.r * (omega_0 + 0.5 * taper * end.r) - on_tread[0],
+                  pressure * (taper * a_dr - end.a * (omega_0 + taper * end.r)) - on_tread[1],
+                  parameters_.rim_stiffness * (shape.angles[0] - parameters_.rim_angle)};
+  return shape;
 }
 
 }  // namespace furrow

@@ -8,8 +8,9 @@ namespace furrow {
 
 /// Finds the angles theta of the N segments that make  Phi = E(theta, phi) - p G(theta)  least among chains that end at (a, r):
 ///   E = 1/2 sum EI/L (theta_(i+1) - theta_i - kappa_0 L)^2 + 1/2 k_rim (theta_1 - theta_rim)^2
-///       + 1/2 k_tread (theta_N - theta_tread - phi)^2,    G = integral of A dR along the chain = S + a r/2.
-/// The pressure's nodal forces are p/2 times the live normals of the two segments, which is the gradient of p G at inner nodes.
+///       + 1/2 k_tread (theta_N - theta_tread - phi)^2,    G = integral of omega(r) a dr along the chain.
+/// The pressure's nodal forces are the gradient of p G at the inner nodes: for an even strip p/2 times the live normals of the two
+/// segments. W = Phi + p g with the chord's own  g = a r (omega_0/2 + taper r/3), so S = G - g.
 ///
 /// Newton's method on the manifold of chains that end at (a, r): steps along its tangent plane (a 2-column QR of the constraint's
 /// gradient), modified Cholesky of the reduced Hessian, line search on Phi, and a step limit, so that a search goes downhill and never
@@ -33,10 +34,13 @@ class SidewallChain {
   /// The inscribed arc that bulges outwards. @throws StateError as solve
   void arc(const SidewallEnd& end, VectorX& angles);
 
+  /// All that the chain tells at an end. @throws StateError as solve
+  SidewallShape shape(const SidewallEnd& end, double pressure);
+
   // Of any angles, in equilibrium or not.
   void nodes(const VectorX& angles, Eigen::Matrix2Xd& nodes) const;  ///< from (0, 0); N + 1 columns [m]
   double bending_energy(const VectorX& angles, double phi) const;    ///< E [J/m]
-  double area(const VectorX& angles) const;                          ///< S between chain and chord [m^2]
+  double area(const VectorX& angles) const;                          ///< S between chain and chord, weighted by omega [m^2]
   VectorX moments(const VectorX& angles, double phi) const;          ///< rim spring, N - 1 hinges, tread spring [N m/m]
   int iterations() const { return iterations_; }                     ///< of the last solve
 
@@ -44,7 +48,10 @@ class SidewallChain {
   double segment() const { return parameters_.length / static_cast<double>(n_); }
   void check_end(const SidewallEnd& end, double pressure) const;
   bool descend(const SidewallEnd& end, double pressure, VectorX& angles);
+  double strip(double a0, double r0, double a1, double r1) const;
+  double chord_share(double a, double r) const;
   double functional(const VectorX& angles, double phi, double pressure) const;
+  void add_pressure(double pressure);
   void linearise(const VectorX& angles, double phi, double pressure);
   bool resembles_arc(const SidewallEnd& end, const VectorX& angles) const;
   bool restore_end(const SidewallEnd& end, VectorX& angles);

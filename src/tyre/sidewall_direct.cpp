@@ -29,16 +29,4 @@ void SidewallDirect::evaluate(const SidewallEnd* ends, SidewallResponse* respons
   }
 }
 
-void SidewallDirect::profile(const SidewallEnd& end, Eigen::Matrix2Xd& nodes) {
-  VectorX angles;
-  chain_.solve(end, pressure_, angles, false);
-  chain_.nodes(angles, nodes);
-}
-
-Sidewall::Energy SidewallDirect::energy(const SidewallEnd& end) {
-  VectorX angles;
-  chain_.solve(end, pressure_, angles, false);
-  return {chain_.bending_energy(angles, end.phi), chain_.area(angles)};
-}
-
 }  // namespace furrow

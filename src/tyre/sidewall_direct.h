@@ -15,8 +15,7 @@ class SidewallDirect : public Sidewall {
   void evaluate(const SidewallEnd* ends, SidewallResponse* responses, std::size_t n, bool with_stiffness) override;
   double pressure() const override { return pressure_; }
   void set_pressure(double pressure) override;
-  void profile(const SidewallEnd& end, Eigen::Matrix2Xd& nodes) override;
-  Energy energy(const SidewallEnd& end) override;
+  SidewallShape shape(const SidewallEnd& end) override { return chain_.shape(end, pressure_); }
 
  private:
   SidewallChain chain_;

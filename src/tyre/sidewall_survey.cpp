@@ -34,7 +34,7 @@ SidewallSurvey survey_sidewall(const TyreParameters& tyre, double pressure, Side
   const Vector2 chord = tyre.sidewall_chord();
   survey.made = {chord[0], chord[1], 0.0};
   direct.evaluate(&survey.made, &survey.response, 1, true);
-  survey.profile = section(direct, tyre, survey.made);
+  survey.shape = direct.shape(survey.made);
 
   const double l = tyre.sidewall.length, furthest = l * std::max(longest, 0.5 * (1.0 + chord.norm() / l));
   const double a = chord[0], r = chord[1];

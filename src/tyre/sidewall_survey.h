@@ -20,10 +20,10 @@ struct SidewallCurve {
 
 struct SidewallSurvey {
   TyreParameters tyre;
-  double pressure = 0.0;  ///< [Pa]
-  SidewallEnd made;       ///< where the tread edge was made
-  SidewallResponse response;
-  Eigen::Matrix2Xd profile;  ///< nodes (A, R) where it was made [m]
+  double pressure = 0.0;      ///< [Pa]
+  SidewallEnd made;           ///< where the tread edge was made
+  SidewallResponse response;  ///< there, with the chain's shape
+  SidewallShape shape;
   std::vector<SidewallCurve> curves;
   std::vector<double> deflections;         ///< [m] of the profiles
   std::vector<Eigen::Matrix2Xd> profiles;  ///< nodes (A, R) [m]

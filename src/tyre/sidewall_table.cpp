@@ -96,7 +96,9 @@ void SidewallTable::refuse(const SidewallEnd& end, std::size_t station) const {
 }
 
 void SidewallTable::evaluate(const SidewallEnd* ends, SidewallResponse* responses, std::size_t n, bool with_stiffness) {
-  const double length = chain_.parameters().length, per_length = 1.0 / length, p = pressure_;
+  const double per_length = 1.0 / chain_.parameters().length, p = pressure_;
+  const double half = 0.5 * chain_.parameters().bead_width,
+               third = chain_.parameters().taper / 3.0;  // of the chord's pressure
   const GridAxis &u_axis = spline_.axes()[0], &chi_axis = spline_.axes()[1], &phi_axis = spline_.axes()[2];
   QuinticSpline3::Value W;
   for (std::size_t i = 0; i < n; ++i) {
@@ -112,9 +114,9 @@ void SidewallTable::evaluate(const SidewallEnd* ends, SidewallResponse* response
     const Vector2 along(end.a * per_c, end.r * per_c), across(-along[1], along[0]);
     const double W_c = W.gradient[0] * u_c, W_chi = W.gradient[1] * per_c;
     SidewallResponse& out = responses[i];
-    out.on_tread.head<2>() = -W_c * along - W_chi * across + 0.5 * p * Vector2(end.r, -end.a);
-    out.on_tread[2] = -W.gradient[2];
-    out.on_rim = {p * end.r - out.on_tread[0], -p * end.a - out.on_tread[1], W.gradient[1] + W.gradient[2]};
+    out.force.head<2>() = -W_c * along - W_chi * across;
+    out.force[2] = -W.gradient[2];
+    out.on_tread = out.force + p * (half + third * end.r) * Vector3(end.r, -end.a, 0.0);
     out.potential = W.f;
     if (!with_stiffness) continue;
 
@@ -125,24 +127,13 @@ void SidewallTable::evaluate(const SidewallEnd* ends, SidewallResponse* response
     const Vector2 mixed = W.hessian(0, 2) * u_c * along + W.hessian(1, 2) * per_c * across;
     out.stiffness.topLeftCorner<2, 2>() = cc * along * along.transpose() + tt * across * across.transpose() +
                                           ct * (along * across.transpose() + across * along.transpose());
-    out.stiffness(0, 1) -= 0.5 * p;
-    out.stiffness(1, 0) += 0.5 * p;
+    out.stiffness(0, 1) -= p * (half + 2.0 * third * end.r);
+    out.stiffness(1, 0) += p * (half + third * end.r);
+    out.stiffness(1, 1) += p * third * end.a;
     out.stiffness.topRightCorner<2, 1>() = mixed;
     out.stiffness.bottomLeftCorner<1, 2>() = mixed.transpose();
     out.stiffness(2, 2) = W.hessian(2, 2);
   }
-}
-
-void SidewallTable::profile(const SidewallEnd& end, Eigen::Matrix2Xd& nodes) {
-  VectorX angles;
-  chain_.solve(end, pressure_, angles, false);
-  chain_.nodes(angles, nodes);
-}
-
-Sidewall::Energy SidewallTable::energy(const SidewallEnd& end) {
-  VectorX angles;
-  chain_.solve(end, pressure_, angles, false);
-  return {chain_.bending_energy(angles, end.phi), chain_.area(angles)};
 }
 
 SidewallTable::Accuracy SidewallTable::accuracy(double chord_limit, int every) {

@@ -3,8 +3,8 @@
 ///
 /// W (tyre/sidewall.h) depends on the chord's length c and direction chi and on the tread's rotation phi. It is tabulated over
 /// (u, chi, phi) with u = sqrt(1 - c/l): W has a square root at the stretched chain, but is smooth in u. The spline is quintic,
-/// so forces are C3 and stiffness C2 in the interior, around a closed path they do no work but the pressure's p times the area that the
-/// tread end sweeps, whatever the size of the table.
+/// so forces are C3 and stiffness C2 in the interior, and around a closed path they do no work but the pressure's, p times the area
+/// that the tread end sweeps, whatever the size of the table.
 
 #include <array>
 #include <vector>
@@ -19,7 +19,7 @@ struct SidewallTableGrid {
   double chord_min = 0.2, chord_max = 0.999;                         ///< shares of the length
   double direction_min = radians(30), direction_max = radians(150);  ///< chi [rad]: of the chord, from +a to +r
   double rotation_min = radians(-60), rotation_max = radians(60);    ///< phi [rad]
-  int chord_nodes = 24, direction_nodes = 12, rotation_nodes = 12;
+  int chord_nodes = 32, direction_nodes = 12, rotation_nodes = 8;
 
   std::array<GridAxis, 3> axes() const;  ///< over u, chi, phi
 };
@@ -41,8 +41,7 @@ class SidewallTable : public Sidewall {
   void evaluate(const SidewallEnd* ends, SidewallResponse* responses, std::size_t n, bool with_stiffness) override;
   double pressure() const override { return pressure_; }
   void set_pressure(double pressure) override;  ///< makes the table anew unless the pressure stays
-  void profile(const SidewallEnd& end, Eigen::Matrix2Xd& nodes) override;  ///< by the chain
-  Energy energy(const SidewallEnd& end) override;                          ///< by the chain
+  SidewallShape shape(const SidewallEnd& end) override { return chain_.shape(end, pressure_); }
 
   /// Difference from the chain in the middle of cells.
   struct Accuracy {

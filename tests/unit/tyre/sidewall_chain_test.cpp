@@ -34,44 +34,48 @@ const std::vector<SidewallEnd> ends = {
     {-0.004, 0.1395, 0.0}, {-0.004, 0.155, 0.05}, {0.02, 0.1, -0.2}, {-0.03, 0.07, 0.3}, {0.02, 0.05, 0.1}};
 
 TEST(SidewallChain, StiffnessIsTheDerivativeOfTheForces) {
-  for (const double k : {0.0, 1.0, 100.0})
-    for (const double pressure : {0.0, 103e3, 241e3})
-      for (const SidewallEnd& end : ends) {
-        SidewallChain chain(tr_sidewall(k, k));
-        const auto response = [&](const SidewallEnd& e) { return cold(chain, e, pressure); };
-        const Matrix3 K = response(end).stiffness;
-        EXPECT_LT((K - stiffness_by_differences(response, end, 2e-5)).norm(), 1e-6 * K.norm())
-            << "k " << k << ", p " << pressure << ", a " << end.a << ", r " << end.r;
-      }
+  for (const auto& make : {tr_sidewall, tr_sector})
+    for (const double k : {0.0, 1.0, 100.0})
+      for (const double pressure : {0.0, 103e3, 241e3})
+        for (const SidewallEnd& end : ends) {
+          SidewallChain chain(make(k, k));
+          const auto response = [&](const SidewallEnd& e) { return cold(chain, e, pressure); };
+          const Matrix3 K = response(end).stiffness;
+          EXPECT_LT((K - stiffness_by_differences(response, end, 2e-5)).norm(), 1e-6 * K.norm())
+              << "k " << k << ", p " << pressure << ", a " << end.a << ", r " << end.r;
+        }
 }
 
-TEST(SidewallChain, ForcesAreTheGradientOfThePotentialAndHalfThePressureOnTheChord) {
-  for (const double k : {0.0, 10.0})
-    for (const double pressure : {0.0, 241e3})
-      for (const SidewallEnd& end : ends) {
-        SidewallChain chain(tr_sidewall(k, 2 * k));
-        const auto response = [&](const SidewallEnd& e) { return cold(chain, e, pressure); };
-        const SidewallResponse here = response(end);
-        const Vector3 expected =
-            -gradient_by_differences(response, end, 2e-5) + 0.5 * pressure * Vector3(end.r, -end.a, 0.0);
-        EXPECT_LT((here.on_tread - expected).norm(), 1e-7 * (1.0 + here.on_tread.norm())) << pressure << " " << end.r;
-        // dF_a/dr - dF_r/da = p, and the rest is symmetric
-        const Matrix3& K = here.stiffness;
-        EXPECT_NEAR(K(1, 0) - K(0, 1), pressure, 1e-9 * K.norm());
-        EXPECT_NEAR(K(0, 2), K(2, 0), 1e-9 * K.norm());
-        EXPECT_NEAR(K(1, 2), K(2, 1), 1e-9 * K.norm());
-      }
+TEST(SidewallChain, ForcesAreTheGradientOfThePotentialAndTheSharedPressureOnTheChord) {
+  for (const auto& make : {tr_sidewall, tr_sector})
+    for (const double k : {0.0, 10.0})
+      for (const double pressure : {0.0, 241e3})
+        for (const SidewallEnd& end : ends) {
+          const SidewallParameters sidewall = make(k, 2 * k);
+          SidewallChain chain(sidewall);
+          const auto response = [&](const SidewallEnd& e) { return cold(chain, e, pressure); };
+          const SidewallResponse here = response(end);
+          EXPECT_LT((here.force + gradient_by_differences(response, end, 2e-5)).norm(), 1e-7 * (1.0 + here.on_tread.norm()));
+          // The chord's pressure on a strip of width omega: the tread's share is the integral of omega s/chord ds
+          const double share = sidewall.bead_width / 2 + sidewall.taper * end.r / 3;
+          EXPECT_LT((here.on_tread - here.force - pressure * share * Vector3(end.r, -end.a, 0.0)).norm(),
+                    1e-12 * (1.0 + here.on_tread.norm()));
+          // dF_a/dr - dF_r/da = p omega, and the rest is symmetric
+          const Matrix3& K = here.stiffness;
+          EXPECT_NEAR(K(1, 0) - K(0, 1), pressure * (sidewall.bead_width + sidewall.taper * end.r), 1e-9 * K.norm());
+          EXPECT_NEAR(K(0, 2), K(2, 0), 1e-9 * K.norm());
+          EXPECT_NEAR(K(1, 2), K(2, 1), 1e-9 * K.norm());
+        }
 }
 
-/// Forces on tread and rim are all that the gas does to the chain: resultant and moment, from the nodes themselves.
+/// Forces on tread and rim are all that the gas does to an even strip: resultant and moment, from the nodes themselves.
 TEST(SidewallChain, ForcesOfBothEndsBalanceThePressure) {
   SidewallChain chain(tr_sidewall(5.0, 20.0));
   for (const SidewallEnd& end : ends) {
-    VectorX angles;
     const double p = 179e3;
-    const SidewallResponse response = chain.solve(end, p, angles);
-    Eigen::Matrix2Xd nodes;
-    chain.nodes(angles, nodes);
+    const SidewallResponse response = cold(chain, end, p);
+    const SidewallShape shape = chain.shape(end, p);
+    const Eigen::Matrix2Xd& nodes = shape.nodes;
     Vector2 force = Vector2::Zero();
     double moment = 0.0;  // about the bead
     for (int i = 0; i + 1 < nodes.cols(); ++i) {
@@ -80,13 +84,30 @@ TEST(SidewallChain, ForcesOfBothEndsBalanceThePressure) {
       force += load;
       moment += middle[0] * load[1] - middle[1] * load[0];
     }
-    const Vector3 tread = response.on_tread, rim = response.on_rim;
+    const Vector3 tread = response.on_tread, rim = shape.on_rim;
     EXPECT_NEAR((tread + rim).head<2>().x(), force.x(), 1e-8);
     EXPECT_NEAR((tread + rim).head<2>().y(), force.y(), 1e-8);
     EXPECT_NEAR(tread[2] + rim[2] + end.a * tread[1] - end.r * tread[0], moment, 1e-8);
     EXPECT_NEAR(nodes(0, 10), end.a, 1e-14);
     EXPECT_NEAR(nodes(1, 10), end.r, 1e-14);
-    EXPECT_NEAR(chain.bending_energy(angles, end.phi) - p * chain.area(angles), response.potential, 1e-9);
+    EXPECT_NEAR(shape.bending - p * shape.area, response.potential, 1e-9);
+  }
+}
+
+/// Of a strip between two meridians the tyre's gas does work p dV, V = 2 pi integral of A R dR + ...: the potential holds that volume.
+TEST(SidewallChain, ASectorsAreaIsItsVolumePerCircumferenceOfTheTread) {
+  const double R_bead = 0.208, R_tread = 0.3475;
+  SidewallChain chain(tr_sector(1.0, 1.0));
+  for (const SidewallEnd& end : ends) {
+    const SidewallShape shape = chain.shape(end, 103e3);
+    // Pappus and Guldin: the polygon between chain and chord turned about the axle; triangles from the bead
+    double volume = 0.0;
+    for (int i = 1; i + 1 < shape.nodes.cols(); ++i) {
+      const Vector2 u = shape.nodes.col(i), v = shape.nodes.col(i + 1);
+      const double area = 0.5 * (u[0] * v[1] - u[1] * v[0]), centroid = R_bead + (u[1] + v[1]) / 3.0;
+      volume += 2.0 * pi * centroid * area;
+    }
+    EXPECT_NEAR(shape.area, volume / (2.0 * pi * R_tread), 1e-12);
   }
 }
 
@@ -95,11 +116,10 @@ TEST(SidewallChain, EveryHingeIsInEquilibrium) {
   SidewallChain chain(tr_sidewall(3.0, 7.0));
   for (const double p : {0.0, 103e3})
     for (const SidewallEnd& end : ends) {
-      VectorX angles;
-      const SidewallResponse response = chain.solve(end, p, angles);
-      Eigen::Matrix2Xd x;
-      chain.nodes(angles, x);
-      const VectorX M = chain.moments(angles, end.phi);
+      const SidewallResponse response = cold(chain, end, p);
+      const SidewallShape shape = chain.shape(end, p);
+      const Eigen::Matrix2Xd& x = shape.nodes;
+      const VectorX M = chain.moments(shape.angles, end.phi);
       // The part from node i on: what the tread does to it, the pressure on it, and the hinge's moment
       for (int i = 0; i < 10; ++i) {
         double moment = -response.on_tread[2] - M[i];
@@ -135,7 +155,7 @@ TEST(SidewallChain, ABadStartDoesNotLeadToAnotherBranch) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (const double pressure : {2e4, 103e3, 241e3})
     for (const SidewallEnd& end : ends) {
-      SidewallChain chain(tr_sidewall(1.0, 1.0));
+      SidewallChain chain(tr_sector(1.0, 1.0));
       VectorX right;
       const Vector3 expected = chain.solve(end, pressure, right).on_tread;
       const double direction = std::atan2(end.r, end.a);
@@ -156,8 +176,8 @@ TEST(SidewallChain, ABadStartDoesNotLeadToAnotherBranch) {
 /// A loop of the tread edge, in small steps from the last solution: it comes back to what it was, and agrees with a fresh search.
 TEST(SidewallChain, WarmStartsFollowTheSameBranch) {
   for (const double k : {0.0, 10.0}) {
-    SidewallDirect warm(tr_sidewall(k, k), 103e3);
-    SidewallChain chain(tr_sidewall(k, k));
+    SidewallDirect warm(tr_sector(k, k), 103e3);
+    SidewallChain chain(tr_sector(k, k));
     for (int step = 0; step <= 400; ++step) {
       const double t = 2.0 * pi * step / 400;
       const SidewallEnd end{0.03 * std::sin(t), 0.09 + 0.05 * std::cos(t), 0.4 * std::sin(2 * t)};

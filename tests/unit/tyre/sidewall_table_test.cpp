@@ -33,25 +33,35 @@ const std::vector<SidewallEnd> ends = {
     {-0.004, 0.1395, 0.0}, {-0.004, 0.155, 0.05}, {0.02, 0.1, -0.2}, {-0.03, 0.07, 0.3}, {0.02, 0.05, 0.1}};
 
 TEST(SidewallTable, ForcesAndStiffnessAreExactDerivativesOfItsPotential) {
-  SidewallTable table(tr_sidewall(5.0, 5.0), 103e3);
-  for (const SidewallEnd& end : ends) {
-    const auto response = [&](const SidewallEnd& e) { return at(table, e); };
-    const SidewallResponse here = response(end);
-    const Vector3 force = -gradient_by_differences(response, end, 2e-5) + 0.5 * 103e3 * Vector3(end.r, -end.a, 0.0);
-    EXPECT_LT((here.on_tread - force).norm(), 1e-7 * here.on_tread.norm());
-    EXPECT_LT((here.stiffness - stiffness_by_differences(response, end, 2e-5)).norm(), 1e-6 * here.stiffness.norm());
-    EXPECT_EQ(at(table, end, false).on_tread, here.on_tread);
+  for (const auto& make : {tr_sidewall, tr_sector}) {
+    const SidewallParameters sidewall = make(5.0, 5.0);
+    SidewallTable table(sidewall, 103e3);
+    for (const SidewallEnd& end : ends) {
+      const auto response = [&](const SidewallEnd& e) { return at(table, e); };
+      const SidewallResponse here = response(end);
+      EXPECT_LT((here.force + gradient_by_differences(response, end, 2e-5)).norm(), 1e-7 * here.on_tread.norm());
+      const double share = sidewall.bead_width / 2 + sidewall.taper * end.r / 3;
+      EXPECT_LT((here.on_tread - here.force - 103e3 * share * Vector3(end.r, -end.a, 0.0)).norm(),
+                1e-12 * here.on_tread.norm());
+      EXPECT_LT((here.stiffness - stiffness_by_differences(response, end, 2e-5)).norm(), 1e-6 * here.stiffness.norm());
+      EXPECT_LT((at(table, end, false).on_tread - here.on_tread).norm(), 1e-13 * here.on_tread.norm());
+    }
   }
 }
 
-TEST(SidewallTable, ReactionsOnTheRimAreThoseOfTheChain) {
-  SidewallTable table(tr_sidewall(5.0, 10.0), 103e3);
-  SidewallDirect direct(tr_sidewall(5.0, 10.0), 103e3);
-  for (const SidewallEnd& end : ends) {
-    const SidewallResponse looked_up = at(table, end), solved = at(direct, end);
-    EXPECT_LT((looked_up.on_rim - solved.on_rim).norm(), 1e-3 * solved.on_rim.norm());
-    EXPECT_NEAR(looked_up.on_rim[2], solved.on_rim[2], 2e-3);
-    EXPECT_NEAR(looked_up.potential, solved.potential, 1e-4 * std::abs(solved.potential));
+TEST(SidewallTable, AnswersAsTheChain) {
+  for (const auto& make : {tr_sidewall, tr_sector}) {
+    SidewallTable table(make(5.0, 10.0), 103e3);
+    SidewallDirect direct(make(5.0, 10.0), 103e3);
+    for (const SidewallEnd& end : ends) {
+      const SidewallResponse looked_up = at(table, end), solved = at(direct, end);
+      EXPECT_LT((looked_up.on_tread - solved.on_tread).norm(), 1e-5 * solved.on_tread.norm());
+      EXPECT_LT((looked_up.force - solved.force).norm(), 1e-5 * solved.on_tread.norm());
+      EXPECT_NEAR(looked_up.on_tread[2], solved.on_tread[2], 1e-3);
+      EXPECT_NEAR(looked_up.potential, solved.potential, 1e-5 * std::abs(solved.potential));
+      EXPECT_LT((looked_up.stiffness - solved.stiffness).norm(), 1e-3 * solved.stiffness.norm());
+      EXPECT_EQ(table.shape(end).on_rim, direct.shape(end).on_rim);
+    }
   }
 }
 

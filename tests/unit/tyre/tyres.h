@@ -19,6 +19,14 @@ inline SidewallParameters tr_sidewall(double rim_stiffness, double tread_stiffne
   return sidewall;
 }
 
+/// The same between two meridians: narrower at the rim.
+inline SidewallParameters tr_sector(double rim_stiffness, double tread_stiffness) {
+  SidewallParameters sidewall = tr_sidewall(rim_stiffness, tread_stiffness);
+  sidewall.bead_width = 0.208 / 0.3475;
+  sidewall.taper = 1.0 / 0.3475;
+  return sidewall;
+}
+
 /// N equal segments of one bending stiffness and curvature, pinned at both ends.
 inline SidewallParameters uniform_sidewall(int segments, double length, double bending, double curvature) {
   SidewallParameters sidewall;

@@ -46,7 +46,7 @@ TEST_F(SidewallCommand, RunPrintsTabulatesAndDraws) {
   const Outcome outcome = run("run " + tyres + "p235_75r15.yaml -o " + folder);
   ASSERT_EQ(outcome.status, 0) << outcome.text;
   EXPECT_THAT(outcome.text, AllOf(HasSubstr("P235/75 R15 at 241 kPa"), HasSubstr("10 segments, 161 mm; chord 139.6 mm"),
-                                  HasSubstr("24 x 12 x 12 nodes"), HasSubstr("results       " + folder)));
+                                  HasSubstr("32 x 12 x 8 nodes"), HasSubstr("results       " + folder)));
   const Hdf5File h5(folder + "/sidewall.h5", Hdf5File::Mode::read);
   EXPECT_EQ(h5.number_attribute("/", "pressure"), 241e3);
   for (const std::string name : {"deflection", "lateral", "rotation"}) {
@@ -59,7 +59,7 @@ TEST_F(SidewallCommand, RunPrintsTabulatesAndDraws) {
     const std::vector<double> K = csv.numbers("K_rr"), r = csv.numbers("r");
     if (name != "deflection") continue;
     for (std::size_t i = 30; i + 1 < r.size(); ++i)
-      EXPECT_NEAR(-(solved[i + 1] - solved[i - 1]) / (r[i + 1] - r[i - 1]), K[i], 0.005 * std::abs(K[i]));
+      EXPECT_NEAR(-(solved[i + 1] - solved[i - 1]) / (r[i + 1] - r[i - 1]), K[i], 0.005 * std::abs(K[i]) + 1e-3 * K[30]);
   }
   EXPECT_EQ(h5.members("/profiles").size(), 6u);
   const std::vector<double> R = h5.read_numbers("/profiles/0/R");
