@@ -277,11 +277,11 @@ TEST(Sidewall, TableFollowsTheChain) {
   }
 }
 
-/// Halved steps along the chord divide the table's error by 2^5, the order of a quintic spline's gradient.
+/// Halved steps along the chord divide the table's error by more and more, up to 2^5, the order of a quintic spline's gradient.
 TEST(Sidewall, FinerTablesConverge) {
   const SidewallParameters sidewall = tr_tyre().sidewall;
   std::vector<double> errors;
-  for (const int n : {17, 33, 65}) {
+  for (const int n : {9, 17, 33}) {
     SidewallTableGrid grid;
     grid.chord_min = 0.35;
     grid.chord_nodes = n;
@@ -289,8 +289,9 @@ TEST(Sidewall, FinerTablesConverge) {
     grid.rotation_nodes = 10;
     errors.push_back(SidewallTable(sidewall, 103e3, grid).accuracy(0.97).force_rms);
   }
-  EXPECT_GT(errors[0] / errors[1], 16.0);
-  EXPECT_GT(errors[1] / errors[2], 16.0);
+  EXPECT_GT(errors[0] / errors[1], 8.0);  // not yet at its order
+  EXPECT_GT(errors[1] / errors[2], 14.0);
+  EXPECT_LT(errors[2], 1e-3);  // [N/m]
 }
 
 /// Around a closed path the sidewall does the work of the pressure on the volume swept, p times it, and no other: also a coarse table. The
