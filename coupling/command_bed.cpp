@@ -47,14 +47,6 @@ std::string section(const std::string& text, const std::string& name) {
   return text.substr(begin, text.find("\n#: ", begin) - begin);
 }
 
-std::string broadcast(std::string text, MPI_Comm world) {
-  int size = static_cast<int>(text.size());
-  MPI_Bcast(&size, 1, MPI_INT, 0, world);
-  text.resize(static_cast<std::size_t>(size));
-  MPI_Bcast(text.data(), size, MPI_CHAR, 0, world);
-  return text;
-}
-
 }  // namespace
 
 void CommandBed::set_variable(const std::string& name, const std::string& value) {
@@ -126,8 +118,7 @@ void CommandBed::command(int narg, char** arg) {
     throw InputError("command bed", "comes after the simulation box was made",
                      "bed before create_box, read_restart or read_data", "move the line up: the bed brings its own box");
 
-  const fs::path main_script = broadcast(comm->me == 0 ? script_name(*lmp) : "", world);
-  const fs::path script = main_script.parent_path() / words[0];
+  const fs::path script = fs::path(script_folder(*lmp)) / words[0];
   const std::string text = read_file(script);
   std::string identity = version() + "\n" + text;
   double depth = 0.0;

@@ -1,5 +1,7 @@
 #include "coupling/liggghts_access.h"
 
+#include <filesystem>
+
 #include <map>
 
 #include <unistd.h>
@@ -104,6 +106,17 @@ std::string script_position(const LAMMPS_NS::LAMMPS& lammps) {
 
 std::string script_name(const LAMMPS_NS::LAMMPS& lammps) {
   return lammps.infile && lammps.infile != stdin ? file_name(lammps.infile) : "";
+}
+
+std::string script_folder(const LAMMPS_NS::LAMMPS& lammps) {
+  int rank = 0;
+  MPI_Comm_rank(lammps.world, &rank);
+  std::string folder = rank == 0 ? std::filesystem::path(script_name(lammps)).parent_path().string() : "";
+  int size = static_cast<int>(folder.size());
+  MPI_Bcast(&size, 1, MPI_INT, 0, lammps.world);
+  folder.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(folder.data(), size, MPI_CHAR, 0, lammps.world);
+  return folder;
 }
 
 void replace_mesh(LAMMPS_NS::FixMesh& fix, LAMMPS_NS::AbstractMesh* mesh) {

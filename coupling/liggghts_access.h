@@ -26,6 +26,8 @@ std::string script_position(const LAMMPS_NS::LAMMPS& lammps);
 
 /// Path of the script being read; empty for standard input. Rank 0 only.
 std::string script_name(const LAMMPS_NS::LAMMPS& lammps);
+/// Folder of that script, from which files named in a script are found; empty for the current folder. Collective.
+std::string script_folder(const LAMMPS_NS::LAMMPS& lammps);
 
 /// Gives a mesh fix another mesh (FixMesh::mesh_, private); the old one is deleted.
 void replace_mesh(LAMMPS_NS::FixMesh& fix, LAMMPS_NS::AbstractMesh* mesh);

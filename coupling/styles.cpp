@@ -3,10 +3,13 @@
 #include "coupling/command_bed.h"
 #include "coupling/fix_cell_servo.h"
 #include "coupling/fix_layer_shear.h"
+#include "coupling/fix_contact_bodies.h"
 #include "coupling/fix_mesh_body.h"
 #include "coupling/fix_plate_rigid.h"
 #include "coupling/fix_wall_gran_body.h"
 #include "coupling/fix_progress.h"
+#include "coupling/fix_terrain_continuum.h"
+#include "coupling/fix_terrain_history.h"
 #include "coupling/fix_wheel_history.h"
 #include "coupling/fix_wheel_rig.h"
 #include "coupling/fix_wheel_rigid.h"
@@ -40,6 +43,9 @@ void add_styles(LAMMPS_NS::LAMMPS& lammps) {
   add_fix_style(lammps, "wheel/rigid", create_fix<FixWheelRigid>);
   add_fix_style(lammps, "wheel/rig", create_fix<FixWheelRig>);
   add_fix_style(lammps, "wheel/history", create_fix<FixWheelHistory>);
+  add_fix_style(lammps, "terrain/continuum", create_fix<FixTerrainContinuum>);
+  add_fix_style(lammps, "terrain/history", create_fix<FixTerrainHistory>);
+  add_fix_style(lammps, "contact/bodies", create_fix<FixContactBodies>);
   add_fix_style(lammps, "progress", create_fix<FixProgress>);
   add_fix_style(lammps, "mesh/body", create_fix<FixMeshBody>);
   add_fix_style(lammps, "wall/gran/body", create_fix<FixWallGranBody>);

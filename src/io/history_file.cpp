@@ -240,6 +240,38 @@ void HistoryFile::write_final(const Grains& grains, const Surface& surface) {
   });
 }
 
+void HistoryFile::write_ground(const GroundSnapshot& ground, const std::vector<RutPoint>& rut) {
+  replace_with([&](Hdf5File& file) {
+    for (const char* group : {"/ground", "/rut"}) {
+      file.remove(group);
+      file.create_group(group);
+    }
+    const auto write = [&](const std::string& dataset, const auto& values, const char* unit) {
+      file.write(dataset, values);
+      file.set_attribute(dataset, "unit", unit);
+    };
+    write("/ground/id", ground.id, "");
+    write("/ground/x", ground.x, "m");
+    write("/ground/home", ground.home, "m");
+    write("/ground/v", ground.v, "m/s");
+    write("/ground/layer", ground.layer, "");
+    write("/ground/volume", ground.volume, "m^3");
+    write("/ground/density", ground.density, "kg/m^3");
+    write("/ground/pressure", ground.pressure, "Pa");
+    write("/ground/mises", ground.mises, "Pa");
+    write("/ground/vertical_stress", ground.vertical_stress, "Pa");
+    write("/ground/compaction", ground.compaction, "");
+    Matrix3X x(3, Eigen::Index(rut.size()));
+    std::vector<double> density;
+    for (const RutPoint& point : rut) {
+      x.col(Eigen::Index(density.size())) << point.x, point.y, point.z;
+      density.push_back(point.density);
+    }
+    write("/rut/x", x, "m");
+    write("/rut/density", density, "kg/m^3");
+  });
+}
+
 void HistoryFile::write_closing(const RunClosing& closing) {
   replace_with([&](Hdf5File& file) {
     file.remove("/audit");

@@ -6,6 +6,7 @@
 ///   /grains/reference    id, x, radius, period of the settled bed before the wheel touches it; attribute bed_level
 ///   /grains/final        the same and v, at the end
 ///   /surface             triangles, x of the wheel or tyre at the end
+///   /ground, /rut        continuum ground at the end: x, home, v, density, pressure, ...; what a moving ground has left behind
 ///   /audit, /cost        numbers as attributes; /audit/energies [J] with its attribute terms, a name a line
 ///   /warnings            text, a sentence a line
 ///
@@ -21,6 +22,7 @@
 #include "body/surface.h"
 #include "io/grains.h"
 #include "io/run_report.h"
+#include "mpm/snapshot.h"
 #include "rig/history.h"
 
 namespace furrow {
@@ -50,6 +52,8 @@ class HistoryFile {
 
   void write_reference(const Grains& grains);
   void write_final(const Grains& grains, const Surface& surface);  ///< either may be empty
+  /// The ground and, where it moved, the rut it left: /ground/<field>, /rut/{x,density}
+  void write_ground(const GroundSnapshot& ground, const std::vector<RutPoint>& rut);
   void write_closing(const RunClosing& closing);
 
   const History& history() const { return history_; }  ///< all rows, flushed or not, of this run and the parts before

@@ -47,6 +47,13 @@ vtkSmartPointer<vtkPoints> points_of(const Matrix3X& x) {
   return points;
 }
 
+vtkSmartPointer<vtkCellArray> vertices_of(std::size_t points) {
+  vtkSmartPointer<vtkCellArray> vertices = vtkSmartPointer<vtkCellArray>::New();
+  vertices->AllocateExact(vtkIdType(points), vtkIdType(points));
+  for (vtkIdType i = 0; i < vtkIdType(points); ++i) vertices->InsertNextCell(1, &i);
+  return vertices;
+}
+
 void write_poly_data(const std::string& path, vtkPolyData* data) {
   replace_file(path, [&](const std::string& part) {
     vtkNew<vtkXMLPolyDataWriter> writer;
@@ -79,9 +86,6 @@ void write_vtp(const std::string& path, const Surface& surface) {
 
 void write_vtp(const std::string& path, const Grains& grains, const Grains* reference) {
   grains.check();
-  vtkNew<vtkCellArray> vertices;
-  vertices->AllocateExact(vtkIdType(grains.size()), vtkIdType(grains.size()));
-  for (vtkIdType i = 0; i < vtkIdType(grains.size()); ++i) vertices->InsertNextCell(1, &i);
   vtkNew<vtkIdTypeArray> id;
   id->SetName("id");
   id->SetNumberOfTuples(vtkIdType(grains.size()));
@@ -89,11 +93,25 @@ void write_vtp(const std::string& path, const Grains& grains, const Grains* refe
 
   vtkNew<vtkPolyData> data;
   data->SetPoints(points_of(grains.x));
-  data->SetVerts(vertices);
+  data->SetVerts(vertices_of(grains.size()));
   data->GetPointData()->AddArray(id);
   data->GetPointData()->AddArray(array_of("radius", grains.radius));
   data->GetPointData()->AddArray(array_of("velocity", grains.v));
   if (reference) data->GetPointData()->AddArray(array_of("displacement", grains.displacement_from(*reference)));
+  write_poly_data(path, data);
+}
+
+void write_vtp(const std::string& path, const GroundSnapshot& ground) {
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points_of(ground.x));
+  data->SetVerts(vertices_of(ground.size()));
+  data->GetPointData()->AddArray(array_of("displacement", Matrix3X(ground.x - ground.home)));
+  data->GetPointData()->AddArray(array_of("velocity", ground.v));
+  for (const auto& [name, values] : {std::pair{"id", &ground.id}, std::pair{"layer", &ground.layer}, std::pair{"volume", &ground.volume},
+                                     std::pair{"density", &ground.density}, std::pair{"pressure", &ground.pressure},
+                                     std::pair{"mises", &ground.mises}, std::pair{"vertical_stress", &ground.vertical_stress},
+                                     std::pair{"compaction", &ground.compaction}})
+    data->GetPointData()->AddArray(array_of(name, Eigen::Map<const VectorX>(values->data(), Eigen::Index(values->size()))));
   write_poly_data(path, data);
 }
 
@@ -154,6 +172,12 @@ void VtkSeries::add(double time, const Surface& surface) {
 void VtkSeries::add(double time, const Grains& grains, const Grains* reference) {
   const std::string file = next_file(time);
   write_vtp((fs::path(folder_) / file).string(), grains, reference);
+  list(time, file);
+}
+
+void VtkSeries::add(double time, const GroundSnapshot& ground) {
+  const std::string file = next_file(time);
+  write_vtp((fs::path(folder_) / file).string(), ground);
   list(time, file);
 }
 

@@ -1,11 +1,12 @@
 #pragma once
-/// Surfaces and grains for ParaView: .vtp frames and the .pvd collection that orders them in time.
+/// Surfaces, grains and continuum ground for ParaView: .vtp frames and the .pvd collection that orders them in time.
 
 #include <string>
 #include <vector>
 
 #include "body/surface.h"
 #include "io/grains.h"
+#include "mpm/snapshot.h"
 
 namespace furrow {
 
@@ -13,6 +14,8 @@ namespace furrow {
 void write_vtp(const std::string& path, const Surface& surface);
 /// One vertex a grain with point data id, radius [m], velocity [m/s] and, with a reference, displacement [m]. @throws Error
 void write_vtp(const std::string& path, const Grains& grains, const Grains* reference = nullptr);
+/// One vertex a particle with the fields of GroundSnapshot and its displacement [m] from its home. @throws Error
+void write_vtp(const std::string& path, const GroundSnapshot& ground);
 
 /// A series of frames: <folder>/<name>_000000.vtp, ... and <folder>/<name>.pvd, which lists only complete frames and is itself
 /// replaced in one step, so that a run that is killed leaves a valid series.
@@ -26,6 +29,7 @@ class VtkSeries {
   /// @throws Error when time is not later than the last frame's, or a file cannot be written
   void add(double time, const Surface& surface);
   void add(double time, const Grains& grains, const Grains* reference = nullptr);
+  void add(double time, const GroundSnapshot& ground);
 
   std::size_t size() const { return frames_.size(); }
   std::string pvd() const;            ///< path of the collection

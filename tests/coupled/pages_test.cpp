@@ -9,9 +9,14 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include "coupling/fix_contact_plane.h"
+#include "coupling/fix_contact_bodies.h"
 #include "coupling/fix_mesh_body.h"
 #include "coupling/fix_plate_rigid.h"
 #include "coupling/fix_progress.h"
+#include "coupling/fix_terrain_continuum.h"
+#include "coupling/fix_terrain_history.h"
+#include "coupling/fix_tyre_darnell.h"
 #include "coupling/fix_wheel_history.h"
 #include "coupling/fix_wheel_rig.h"
 #include "coupling/fix_wheel_rigid.h"
@@ -78,10 +83,15 @@ void expect_page_of(const std::string& page, const Schema& schema) {
 using namespace coupling;
 
 TEST(Pages, WheelRigid) { expect_page_of("fix_wheel_rigid.md", FixWheelRigid::schema()); }
+TEST(Pages, TyreDarnell) { expect_page_of("fix_tyre_darnell.md", FixTyreDarnell::schema()); }
+TEST(Pages, ContactPlane) { expect_page_of("fix_contact_plane.md", FixContactPlane::schema()); }
 TEST(Pages, WheelRig) { expect_page_of("fix_wheel_rig.md", FixWheelRig::schema()); }
 TEST(Pages, WheelHistory) { expect_page_of("fix_wheel_history.md", FixWheelHistory::schema()); }
 TEST(Pages, PlateRigid) { expect_page_of("fix_plate_rigid.md", FixPlateRigid::schema()); }
 TEST(Pages, MeshBody) { expect_page_of("fix_mesh_body.md", FixMeshBody::schema()); }
+TEST(Pages, TerrainContinuum) { expect_page_of("fix_terrain_continuum.md", FixTerrainContinuum::schema()); }
+TEST(Pages, TerrainHistory) { expect_page_of("fix_terrain_history.md", FixTerrainHistory::schema()); }
+TEST(Pages, ContactBodies) { expect_page_of("fix_contact_bodies.md", FixContactBodies::schema()); }
 TEST(Pages, Progress) { expect_page_of("fix_progress.md", FixProgress::schema()); }
 
 TEST(Pages, HistoryNamesEveryChannel) {

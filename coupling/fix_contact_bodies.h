@@ -1,0 +1,37 @@
+#pragma once
+/// fix contact/bodies: contact between a body and continuum ground. See fix_contact_bodies.md.
+
+#include <memory>
+
+#include "coupling/dependent.h"
+#include "coupling/effective_input.h"
+#include "fix.h"
+#include "mpm/ground_contact.h"
+
+namespace furrow::coupling {
+
+class FixTerrainContinuum;
+
+class FixContactBodies : public LAMMPS_NS::Fix, public Described, public Dependent {
+ public:
+  FixContactBodies(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
+  static Schema schema();
+
+  const GroundContact& contact() const { return *contact_; }
+  const Options& options() const override { return options_; }
+  bool needs(LAMMPS_NS::Fix& other) const override { return &other == body_fix_ || &other == ground_fix_; }
+
+  int setmask() override { return 0; }
+  void post_create() override;
+  void pre_delete(bool unfixflag) override;
+  void write_restart(FILE* file) override;
+  void restart(char* buffer) override;
+  double compute_vector(int n) override;
+
+ private:
+  Options options_;
+  LAMMPS_NS::Fix *body_fix_, *ground_fix_;
+  std::unique_ptr<GroundContact> contact_;
+};
+
+}  // namespace furrow::coupling
