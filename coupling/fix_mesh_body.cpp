@@ -112,12 +112,13 @@ void BodyMesh::remember_rebuild() {
 /// box of all grains: the upper half of a fast wheel must not force new lists. Replicated data, so all ranks agree.
 bool BodyMesh::decideRebuild() {
   const double limit = 0.25 * neighbor->skin * neighbor->skin;
-  // Across periodic boundaries the box of the grains says nothing: take every node.
-  const bool everywhere = domain->xperiodic || domain->yperiodic || domain->zperiodic;
+  // Along a periodic axis the box of the grains says nothing.
+  const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
   const Matrix3X& x = surface_.x;
   for (const Vector3i& t : surface_.triangles) {
     bool within_reach = true;
-    for (int k = 0; k < 3 && !everywhere; ++k) {
+    for (int k = 0; k < 3; ++k) {
+      if (periodic[k]) continue;
       const double a = x(k, t[0]), b = x(k, t[1]), c = x(k, t[2]);
       within_reach &= std::max({a, b, c}) >= reach_lower_[k] && std::min({a, b, c}) <= reach_upper_[k];
     }

@@ -1,15 +1,18 @@
 #include "coupling/styles.h"
 
 #include "coupling/command_bed.h"
+#include "coupling/fix_bed_window.h"
 #include "coupling/fix_cell_servo.h"
 #include "coupling/fix_layer_shear.h"
 #include "coupling/fix_contact_bodies.h"
+#include "coupling/fix_contact_plane.h"
 #include "coupling/fix_mesh_body.h"
 #include "coupling/fix_plate_rigid.h"
 #include "coupling/fix_wall_gran_body.h"
 #include "coupling/fix_progress.h"
 #include "coupling/fix_terrain_continuum.h"
 #include "coupling/fix_terrain_history.h"
+#include "coupling/fix_tyre_darnell.h"
 #include "coupling/fix_wheel_history.h"
 #include "coupling/fix_wheel_rig.h"
 #include "coupling/fix_wheel_rigid.h"
@@ -41,6 +44,8 @@ void add_styles(LAMMPS_NS::LAMMPS& lammps) {
   add_fix_style(lammps, "furrow/world", create_fix<FixWorld>);
   add_fix_style(lammps, "plate/rigid", create_fix<FixPlateRigid>);
   add_fix_style(lammps, "wheel/rigid", create_fix<FixWheelRigid>);
+  add_fix_style(lammps, "tyre/darnell", create_fix<FixTyreDarnell>);
+  add_fix_style(lammps, "contact/plane", create_fix<FixContactPlane>);
   add_fix_style(lammps, "wheel/rig", create_fix<FixWheelRig>);
   add_fix_style(lammps, "wheel/history", create_fix<FixWheelHistory>);
   add_fix_style(lammps, "terrain/continuum", create_fix<FixTerrainContinuum>);
@@ -49,6 +54,7 @@ void add_styles(LAMMPS_NS::LAMMPS& lammps) {
   add_fix_style(lammps, "progress", create_fix<FixProgress>);
   add_fix_style(lammps, "mesh/body", create_fix<FixMeshBody>);
   add_fix_style(lammps, "wall/gran/body", create_fix<FixWallGranBody>);
+  add_fix_style(lammps, "bed/window", create_fix<FixBedWindow>);
   add_fix_style(lammps, "cell/servo", create_fix<FixCellServo>);
   add_fix_style(lammps, "layer/shear", create_fix<FixLayerShear>);
   add_command(lammps, "bed", run_command<CommandBed>);
