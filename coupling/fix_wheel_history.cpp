@@ -9,7 +9,7 @@
 #include "comm.h"
 #include "core/error.h"
 #include "coupling/fix_wheel_rig.h"
-#include "coupling/fix_wheel_rigid.h"
+#include "coupling/fix_wheel_hub.h"
 #include "coupling/gather_grains.h"
 #include "coupling/guard.h"
 #include "coupling/liggghts_access.h"
@@ -68,7 +68,7 @@ void FixWheelHistory::setup(int) {
     started_ = std::chrono::steady_clock::now();
     first_step_ = update->ntimestep;
     first_time_ = bodies().time();
-    first_energy_ = rig_fix_.wheel_fix().wheel().balance().residual();
+    first_energy_ = rig_fix_.wheel_fix().hub().balance().residual();
     if (!resume_time_) {
       record();
       if (vtk_every_ > 0) write_frame();
@@ -132,7 +132,7 @@ void FixWheelHistory::record() {
 void FixWheelHistory::write_frame() {
   const Grains grains = gather_grains(*lmp, reference_.bed_level);
   if (comm->me != 0) return;
-  wheel_frames_->add(bodies().time(), rig_fix_.wheel_fix().wheel().surface());
+  wheel_frames_->add(bodies().time(), rig_fix_.wheel_fix().hub().surface());
   if (grains.size() > 0) grain_frames_->add(bodies().time(), grains, &reference_);
 }
 
@@ -142,7 +142,7 @@ void FixWheelHistory::post_run() {
     const RunClosing end = closing();
     const Grains grains = gather_grains(*lmp, reference_.bed_level);
     if (comm->me != 0) return;
-    file_->write_final(grains, rig_fix_.wheel_fix().wheel().surface());
+    file_->write_final(grains, rig_fix_.wheel_fix().hub().surface());
     file_->write_closing(end);
     file_->flush();
     const Summary summary = summarise(folder_);
@@ -152,7 +152,7 @@ void FixWheelHistory::post_run() {
 }
 
 RunClosing FixWheelHistory::closing() {
-  const RigidWheel& wheel = rig_fix_.wheel_fix().wheel();
+  const WheelHub& wheel = rig_fix_.wheel_fix().hub();
   const Balance balance = wheel.balance();
   const MomentumAudit& momentum = bodies().audit(wheel);
   RunClosing end;
@@ -160,7 +160,8 @@ RunClosing FixWheelHistory::closing() {
                         {"work of the load", balance.load_work},
                         {"work of the drive", balance.drive_work},
                         {"kinetic energy of the wheel", -balance.kinetic_energy},
-                        {"loss in the rig's damping", -balance.dissipated_energy}};
+                        {"stored in the wheel", -balance.stored_energy},
+                        {"loss in the wheel and the rig's damping", -balance.dissipated_energy}};
   end.audit.energy_residual = balance.residual() - first_energy_;
   for (const EnergyTerm& term : end.audit.energies)
     end.audit.energy_scale = std::max(end.audit.energy_scale, std::abs(term.value));

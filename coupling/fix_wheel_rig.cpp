@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "coupling/dependent.h"
-#include "coupling/fix_wheel_rigid.h"
+#include "coupling/fix_wheel_hub.h"
 #include "coupling/guard.h"
 #include "coupling/words.h"
 #include "modify.h"
@@ -14,11 +14,11 @@ namespace furrow::coupling {
 namespace {
 
 /// The wheel of that fix id, if no other rig has it.
-FixWheelRigid& find_free_wheel(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
+FixWheelHub& find_free_wheel(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   const std::string where = options.where("wheel"), &id = options.word("wheel");
-  auto* wheel = dynamic_cast<FixWheelRigid*>(&FixWorld::find_body(lammps, where, id));
+  auto* wheel = dynamic_cast<FixWheelHub*>(&FixWorld::find_body(lammps, where, id));
   if (!wheel)
-    throw InputError(where, fmt::format("is '{}', which is a body but no wheel", id), "the id of a fix wheel/rigid");
+    throw InputError(where, fmt::format("is '{}', which is a body but no wheel", id), "the id of a fix wheel/rigid or tyre/darnell");
   for (int i = 0; i < lammps.modify->nfix; ++i) {
     auto* other = dynamic_cast<FixWheelRig*>(lammps.modify->fix[i]);
     if (other && &other->wheel_fix() == wheel)
@@ -30,8 +30,8 @@ FixWheelRigid& find_free_wheel(LAMMPS_NS::LAMMPS& lammps, const Options& options
 
 /// A rig is made with the wheel where the script puts it, also when the run continues: lowering, heading and camber are told from
 /// there. A wheel that comes from a restart file then goes back to the state it had.
-WheelRig make_rig(const Options& options, FixWheelRigid& wheel_fix) {
-  RigidWheel& wheel = wheel_fix.wheel();
+WheelRig make_rig(const Options& options, FixWheelHub& wheel_fix) {
+  WheelHub& wheel = wheel_fix.hub();
   if (wheel_fix.state_as_made().empty()) return WheelRig(options, wheel);
   const std::vector<double> now = wheel.state();
   wheel.restore(wheel_fix.state_as_made());
@@ -45,7 +45,7 @@ WheelRig make_rig(const Options& options, FixWheelRigid& wheel_fix) {
 
 Schema FixWheelRig::schema() {
   Schema schema = WheelRig::schema("fix wheel/rig");
-  schema.text("wheel", "id of the fix wheel/rigid that it drives");
+  schema.text("wheel", "id of the fix wheel/rigid or tyre/darnell that it drives");
   return schema;
 }
 

@@ -9,7 +9,7 @@
 
 namespace furrow::coupling {
 
-class FixWheelRigid;
+class FixWheelHub;
 
 class FixWheelRig : public LAMMPS_NS::Fix, public Driver, public Described, public Dependent {
  public:
@@ -23,12 +23,12 @@ class FixWheelRig : public LAMMPS_NS::Fix, public Driver, public Described, publ
   void apply(double time, double dt) override { rig_.apply(time, dt); }
 
   const WheelRig& rig() const { return rig_; }
-  FixWheelRigid& wheel_fix() { return wheel_fix_; }
+  FixWheelHub& wheel_fix() { return wheel_fix_; }
   const Options& options() const override { return options_; }
 
  private:
   Options options_;
-  FixWheelRigid& wheel_fix_;
+  FixWheelHub& wheel_fix_;
   WheelRig rig_;
 };
 

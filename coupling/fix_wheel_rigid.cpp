@@ -8,6 +8,6 @@ FixWheelRigid::FixWheelRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixWheelRigid(lammps, narg, arg, schema().read(words_after_style(narg, arg))) {}
 
 FixWheelRigid::FixWheelRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Options& options)
-    : FixBody(lammps, narg, arg, std::make_unique<RigidWheel>(options)), options_(options) {}
+    : FixWheelHub(lammps, narg, arg, std::make_unique<RigidWheel>(options), options) {}
 
 }  // namespace furrow::coupling

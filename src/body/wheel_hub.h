@@ -31,6 +31,7 @@ struct HubInertia {
 /// Every coordinate is held until release() or prescribe() says otherwise. Holding a moving coordinate stops it within a step.
 class WheelHub : public Body {
  public:
+  using Body::surface;
   enum Coordinate { x, y, z, spin, yaw, camber };
   enum class Motion { free, held, prescribed };
   static constexpr int coordinates = 6;
@@ -69,6 +70,11 @@ class WheelHub : public Body {
 
   virtual double nominal_radius() const = 0;  ///< [m] without load, grousers or ground: the rim speed's radius
   virtual double lowest_point() const = 0;    ///< [m] z of the unloaded shape, without grousers: what a sinkage is counted to
+  /// Force [N] and moment about the axle centre [N m] of all that touches the wheel now; a half model's are those of the whole.
+  struct Wrench {
+    Vector3 force, moment;
+  };
+  virtual Wrench ground_wrench() const { return {surface().total_force(), surface().total_moment(centre_)}; }
   virtual double total_mass() const { return inertia_.mass; }  ///< [kg] of all that moves with the wheel
 
  protected:

@@ -199,9 +199,8 @@ std::vector<Channel> WheelRig::channels() {
 }
 
 std::vector<double> WheelRig::measure(double time) const {
-  const Surface& surface = static_cast<const WheelHub&>(wheel_).surface();
   const Vector3 &centre = wheel_.centre(), &velocity = wheel_.velocity();
-  const Vector3 force = surface.total_force(), moment = surface.total_moment(centre);
+  const auto [force, moment] = wheel_.ground_wrench();
   const Balance balance = wheel_.balance();
 
   const double yaw = wheel_.position(WheelHub::yaw), spin_rate = wheel_.rate(WheelHub::spin);

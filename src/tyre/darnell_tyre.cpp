@@ -177,6 +177,12 @@ double DarnellTyre::lowest_point() const {
 
 double DarnellTyre::total_mass() const { return WheelHub::total_mass() + share_ * nodes_.mass.sum(); }
 
+WheelHub::Wrench DarnellTyre::ground_wrench() const {
+  Wrench wrench = WheelHub::ground_wrench();
+  mirror(wrench.force, wrench.moment);
+  return wrench;
+}
+
 double DarnellTyre::potential() const {
   double sidewalls = 0.0;
   for (const SidewallRing& ring : rings_) sidewalls += ring.potential();

@@ -61,6 +61,7 @@ class DarnellTyre : public WheelHub {
   double nominal_radius() const override { return tyre_.tread.radius; }
   double lowest_point() const override;  ///< of the undeformed tread about the present axle
   double total_mass() const override;
+  Wrench ground_wrench() const override;
 
   double pressure() const { return pressure_; }
   /// Inflates to another pressure; the change of stored energy at the present shape is counted as load work. @throws StateError
