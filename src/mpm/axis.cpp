@@ -68,6 +68,9 @@ void Axis::tabulate() {
     longest = std::max(longest, length(c));
   }
   for (int i = 0; i < n + 2; ++i) node_.push_back(0.5 * (at(i - 1) + at(i)));
+  uneven_.clear();
+  for (int c = 0; c < n; ++c)
+    uneven_.push_back(c == 0 || c == n - 1 || std::max(std::abs(length(c - 1) - length(c)), std::abs(length(c + 1) - length(c))) > 1e-9 * length(c) ? 1 : 0);
   uniform_ = longest - shortest_ < 1e-9 * longest;
   const int bins = static_cast<int>(std::ceil((upper() - lower()) / shortest_ * (1.0 - 1e-12))) + 1;
   bins_per_length_ = bins / (upper() - lower());
@@ -103,6 +106,7 @@ AxisView Axis::view() const {
   view.left = left_.data();
   view.right = right_.data();
   view.node = node_.data();
+  view.uneven = uneven_.data();
   return view;
 }
 

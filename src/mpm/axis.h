@@ -30,6 +30,7 @@ struct AxisView {
   const double* left;                    ///< N_0 = left (t_c+1 - x)^2 [1/m^2]
   const double* right;                   ///< N_2 = right (x - t_c)^2 [1/m^2]
   const double* node;                    ///< cells + 2 nodes [m]; cell c is served by c, c+1, c+2
+  const int* uneven;                     ///< 1 for a cell at an end or next to a cell of another length (transfer.h)
 };
 
 class Axis {
@@ -59,7 +60,7 @@ class Axis {
   void tabulate();
 
   std::vector<double> knot_, left_, right_, node_;
-  std::vector<int> cell_of_bin_;
+  std::vector<int> cell_of_bin_, uneven_;
   double shortest_ = 0.0, bins_per_length_ = 0.0;
   bool uniform_ = true;
 };

@@ -20,14 +20,17 @@ constexpr std::size_t batch = 64;  // particles: their weights fit the first cac
 struct Weights {
   double value[3][stencil][batch];
   double moment[3][stencil][batch];
+  double gradient[3][stencil][batch];  // set for uneven particles only: N d/D of even cells, N' of uneven ones
   double spread[3][batch], inverse_spread[3][batch];
-  int first[batch];  // node of the lowest corner
+  int first[batch];        // node of the lowest corner
+  bool uneven[batch];      // in an uneven cell of any axis
+  std::size_t uneven_count;
 };
 
 /// @return how many of the particles are outside
 inline std::size_t find_weights(const GridView& grid, const double* const* position, std::size_t count, Weights& weights) {
   std::size_t outside = 0;
-  int cell[3][batch];
+  int cell[3][batch], uneven[batch] = {};
   for (int a = 0; a < 3; ++a) {
     const AxisView& axis = grid.axis[a];
     const double* x = position[a];
@@ -56,6 +59,25 @@ inline std::size_t find_weights(const GridView& grid, const double* const* posit
       weights.moment[a][2][p] = w2 * d2;
       weights.spread[a][p] = w0 * d0 * d0 + w1 * d1 * d1 + w2 * d2 * d2;
       weights.inverse_spread[a][p] = 1.0 / weights.spread[a][p];
+      uneven[p] |= axis.uneven[c];
+    }
+  }
+  weights.uneven_count = 0;
+  for (std::size_t p = 0; p < count; ++p) {
+    weights.uneven[p] = uneven[p] != 0;
+    weights.uneven_count += weights.uneven[p] ? 1 : 0;
+  }
+  if (weights.uneven_count > 0) {
+    for (int a = 0; a < 3; ++a) {
+      const AxisView& axis = grid.axis[a];
+      const double* x = position[a];
+      for (std::size_t p = 0; p < count; ++p) {
+        const int c = cell[a][p];
+        const double g0 = -2.0 * axis.left[c] * (axis.knot[c + 1] - x[p]), g2 = 2.0 * axis.right[c] * (x[p] - axis.knot[c]);
+        const double own[stencil] = {g0, -g0 - g2, g2}, inverse = weights.inverse_spread[a][p];
+        for (std::size_t i = 0; i < stencil; ++i)
+          weights.gradient[a][i][p] = axis.uneven[c] ? own[i] : weights.moment[a][i][p] * inverse;
+      }
     }
   }
   const int ny = grid.axis[1].cells + 2, nz = grid.axis[2].cells + 2;
@@ -90,6 +112,46 @@ inline void add_to_nodes(const GridView& grid, const Weights& weights, std::size
   }
 }
 
+/// Adds the force of the stress of an uneven particle: sum_d flux_d dN_i/dx_d.
+inline void add_flux_to_nodes(const GridView& grid, const Weights& weights, std::size_t p, const Vector4* flux) {
+  const std::size_t nz = static_cast<std::size_t>(grid.axis[2].cells) + 2,
+                    plane = (static_cast<std::size_t>(grid.axis[1].cells) + 2) * nz;
+  double* corner = grid.node + 4 * static_cast<std::size_t>(weights.first[p]);
+  for (std::size_t i = 0; i < stencil; ++i) {
+    const double wx = weights.value[0][i][p], gx = weights.gradient[0][i][p];
+    for (std::size_t j = 0; j < stencil; ++j) {
+      const double wy = weights.value[1][j][p], gy = weights.gradient[1][j][p];
+      const Vector4 across = (gx * wy) * flux[0] + (wx * gy) * flux[1], along = (wx * wy) * flux[2];
+      Stored4* row = reinterpret_cast<Stored4*>(corner + 4 * (i * plane + j * nz));
+      for (std::size_t k = 0; k < stencil; ++k) row[k] += weights.value[2][k][p] * across + weights.gradient[2][k][p] * along;
+    }
+  }
+}
+
+/// The velocity gradient of an uneven particle, column by column.
+inline void read_gradient(const GridView& grid, const Weights& weights, std::size_t p, Vector4* rate) {
+  const std::size_t nz = static_cast<std::size_t>(grid.axis[2].cells) + 2,
+                    plane = (static_cast<std::size_t>(grid.axis[1].cells) + 2) * nz;
+  const double* corner = grid.node + 4 * static_cast<std::size_t>(weights.first[p]);
+  for (int d = 0; d < 3; ++d) rate[d] = Vector4{};
+  for (std::size_t i = 0; i < stencil; ++i) {
+    const double wx = weights.value[0][i][p], gx = weights.gradient[0][i][p];
+    for (std::size_t j = 0; j < stencil; ++j) {
+      const double wy = weights.value[1][j][p], gy = weights.gradient[1][j][p];
+      const Stored4* row = reinterpret_cast<const Stored4*>(corner + 4 * (i * plane + j * nz));
+      Vector4 sum = {}, sum_z = {};
+      for (std::size_t k = 0; k < stencil; ++k) {
+        const Vector4 v = row[k];
+        sum += weights.value[2][k][p] * v;
+        sum_z += weights.gradient[2][k][p] * v;
+      }
+      rate[0] += (gx * wy) * sum;
+      rate[1] += (wx * gy) * sum;
+      rate[2] += (wx * wy) * sum_z;
+    }
+  }
+}
+
 inline ParticleView part(const ParticleView& all, std::size_t first, std::size_t count) {
   ParticleView some = all;
   some.size = count;
@@ -106,14 +168,15 @@ inline std::size_t scatter_batch(const GridView& grid, const ParticleView& parti
                                  const double* gravity) {
   Weights weights;
   if (const std::size_t outside = find_weights(grid, particles.position, particles.size, weights)) return outside;
-  // -dt V sigma D^-1, column by column
+  // -dt V sigma D^-1, column by column; without D^-1 for uneven particles
   alignas(64) double force[9][batch];
   constexpr int entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};  // of the stress: row, column
   for (int column = 0; column < 3; ++column)
     for (int row = 0; row < 3; ++row) {
       const double *stress = particles.stress[entry[row][column]], *inverse_spread = weights.inverse_spread[column];
       for (std::size_t p = 0; p < particles.size; ++p)
-        force[3 * column + row][p] = -dt * particles.volume[p] * particles.volume_ratio[p] * stress[p] * inverse_spread[p];
+        force[3 * column + row][p] =
+            -dt * particles.volume[p] * particles.volume_ratio[p] * stress[p] * (weights.uneven[p] ? 1.0 : inverse_spread[p]);
     }
   const Vector4 fall = {dt * gravity[0], dt * gravity[1], dt * gravity[2], 0.0};
   for (std::size_t p = 0; p < particles.size; ++p) {
@@ -122,10 +185,14 @@ inline std::size_t scatter_batch(const GridView& grid, const ParticleView& parti
     Vector4 base = *reinterpret_cast<const Stored4*>(particles.velocity + 4 * p) + fall;
     base[3] = 1.0;
     base *= mass;
-    Vector4 slope[3];
-    for (int d = 0; d < 3; ++d)
-      slope[d] = mass * affine[d] + Vector4{force[3 * d][p], force[3 * d + 1][p], force[3 * d + 2][p], 0.0};
+    Vector4 slope[3], flux[3];
+    for (int d = 0; d < 3; ++d) {
+      slope[d] = mass * affine[d];
+      flux[d] = Vector4{force[3 * d][p], force[3 * d + 1][p], force[3 * d + 2][p], 0.0};
+      if (!weights.uneven[p]) slope[d] += flux[d];
+    }
     add_to_nodes(grid, weights, p, base, slope);
+    if (weights.uneven[p]) add_flux_to_nodes(grid, weights, p, flux);
   }
   return 0;
 }
@@ -200,14 +267,19 @@ inline void gather_batch(const GridView& grid, const ParticleView& particles, do
     sums.outside += outside;
     return;
   }
-  Vector4 momentum = {}, energy = {};
+  Vector4 momentum = {}, energy = {}, rates[3][batch];
   double fastest = sums.largest_speed * sums.largest_speed;
   for (std::size_t p = 0; p < particles.size; ++p) {
     Vector4 velocity, affine[3];
     read_nodes(grid, weights, p, velocity, affine);
     *reinterpret_cast<Stored4*>(particles.velocity + 4 * p) = velocity;
     Stored4* stored = reinterpret_cast<Stored4*>(particles.affine + 12 * p);
-    for (int d = 0; d < 3; ++d) stored[d] = affine[d];
+    for (int d = 0; d < 3; ++d) stored[d] = rates[d][p] = affine[d];
+    if (weights.uneven[p]) {
+      Vector4 rate[3];
+      read_gradient(grid, weights, p, rate);
+      for (int d = 0; d < 3; ++d) rates[d][p] = rate[d];
+    }
     const double mass = density * particles.volume[p];
     const Vector4 square = velocity * velocity;
     momentum += mass * velocity;
@@ -222,7 +294,7 @@ inline void gather_batch(const GridView& grid, const ParticleView& particles, do
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column)
       for (std::size_t p = 0; p < particles.size; ++p)
-        gradient[3 * row + column][first + p] = dt * particles.affine[12 * p + 4 * column + row];
+        gradient[3 * row + column][first + p] = dt * rates[column][p][row];
   const double* const* s = particles.stress;
   double work = 0.0;
   for (std::size_t p = 0; p < particles.size; ++p) {

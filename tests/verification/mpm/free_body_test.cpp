@@ -1,0 +1,131 @@
+// A block that touches nothing: conservation of momentum, angular momentum and energy, and its shape.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "../../unit/mpm/ground_scene.h"
+
+namespace furrow {
+namespace {
+
+using namespace testing_ground;
+
+constexpr double cell = 0.05;
+
+/// A cube of side 0.2 m in the middle of a grid of 1 m.
+MpmGround cube(double E, double cfl = 0.4) {
+  GroundParameters parameters = box(law_of(elastic(E, 0.3, 500)), {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, cell);
+  parameters.cfl = cfl;
+  MpmGround ground(parameters, Communicator());
+  carve(ground, [](const Vector3& x) { return x.cwiseAbs().maxCoeff() < 0.1; });
+  return ground;
+}
+
+/// Straight flight through many cells: nothing changes but the place.
+TEST(FreeFlight, IsExact) {
+  MpmGround ground = cube(1e6);
+  const Vector3 v(3.0, -2.0, 1.0);
+  set_motion(ground, v);
+  const Sums before = sums_of(ground);
+  double time = 0.0;
+  while (time < 0.1) {
+    const double dt = ground.stable_time_step();
+    ground.advance(dt);
+    time += dt;
+  }
+  const Sums after = sums_of(ground);
+  EXPECT_LT((after.centre - before.centre - time * v).norm(), 1e-13);
+  EXPECT_LT((after.momentum - before.momentum).norm(), 1e-13 * before.momentum.norm());
+  EXPECT_NEAR(after.kinetic / before.kinetic, 1.0, 1e-12);
+  EXPECT_NEAR(after.mass / before.mass, 1.0, 1e-15);
+  for_particles(ground, [&](Particles& particles, std::size_t p) {
+    for (std::size_t s = 0; s < 6; ++s) EXPECT_LT(std::abs(particles.data(column::state + s)[p]), 1e-6);  // of 1 MPa
+  });
+}
+
+/// Free fall: z = z_0 - g t^2/2 as leapfrog has it, z_0 - g dt^2 n(n + 1)/2; the weight's work is the kinetic energy.
+TEST(FreeFlight, FallsUnderGravity) {
+  GroundParameters parameters = box(law_of(elastic(1e6, 0.3, 500)), {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, cell);
+  parameters.gravity = {0.0, 0.0, -standard_gravity};
+  MpmGround ground(parameters, Communicator());
+  carve(ground, [](const Vector3& x) { return x.cwiseAbs().maxCoeff() < 0.1; });
+  const Sums before = sums_of(ground);
+  const double dt = 2e-4;
+  const int steps = 1000;
+  for (int n = 0; n < steps; ++n) ground.advance(dt);
+  const double fallen = 0.5 * standard_gravity * dt * dt * steps * (steps + 1.0), speed = standard_gravity * dt * steps;
+  EXPECT_NEAR(before.centre.z() - sums_of(ground).centre.z(), fallen, 1e-12);
+  const Balance balance = ground.balance();
+  EXPECT_NEAR(balance.momentum.z(), -before.mass * speed, 1e-10);
+  EXPECT_NEAR(balance.load_work, before.mass * standard_gravity * fallen, 1e-9 * balance.load_work);
+  EXPECT_NEAR(balance.kinetic_energy, 0.5 * before.mass * speed * speed, 1e-9 * balance.kinetic_energy);
+  EXPECT_LT(std::abs(balance.residual()), 1e-10 * balance.load_work);
+}
+
+/// Spin about a slanted axis: momenta to rounding; energy and shape over five turns.
+TEST(RigidRotation, KeepsMomentaEnergyAndShape) {
+  MpmGround ground = cube(1e7);
+  const Vector3 omega(20.0, 10.0, 30.0), v(0.1, 0.0, -0.2);
+  set_motion(ground, v, spin(omega));
+  std::vector<Vector3> home;
+  for_particles(ground, [&](Particles& particles, std::size_t p) { particles.data(column::home_x)[p] = double(p); });
+  for_particles(ground, [&](Particles& particles, std::size_t p) { home.push_back(particles.position(p)); });
+  const Sums before = sums_of(ground);
+  double time = 0.0, worst_momentum = 0.0, worst_angular = 0.0;
+  while (time < 5.0 * 2.0 * pi / omega.norm()) {
+    const double dt = ground.stable_time_step();
+    ground.advance(dt);
+    time += dt;
+    const Sums now = sums_of(ground);
+    worst_momentum = std::max(worst_momentum, (now.momentum - before.momentum).norm());
+    worst_angular = std::max(worst_angular, (now.angular - before.angular).norm());
+  }
+  EXPECT_LT(worst_momentum, 1e-12 * before.momentum.norm());
+  EXPECT_LT(worst_angular, 1e-12 * before.angular.norm());
+  const Balance balance = ground.balance();
+  const double energy = balance.kinetic_energy + balance.stored_energy;
+  // Distances between particles: elongation by the centrifugal stress rho omega^2 a^2/2 over E is 1e-4.
+  std::vector<Vector3> now(home.size());
+  for_particles(ground, [&](Particles& particles, std::size_t p) {
+    now[static_cast<std::size_t>(particles.data(column::home_x)[p])] = particles.position(p);
+  });
+  double strain = 0.0;
+  for (std::size_t a = 0; a < now.size(); ++a)
+    for (std::size_t b = a + 1; b < now.size(); b += 17)
+      strain = std::max(strain, std::abs((now[a] - now[b]).norm() / (home[a] - home[b]).norm() - 1.0));
+  RecordProperty("energy_kept", fmt::format("{:.6f}", energy / before.kinetic));
+  RecordProperty("largest_strain", fmt::format("{:.2e}", strain));
+  EXPECT_NEAR(energy / before.kinetic, 1.0, 2e-3);
+  EXPECT_LT(strain, 2e-3);
+}
+
+/// Under its own vibrations a free block keeps its momenta to rounding, and never gains energy.
+TEST(FreeVibration, KeepsMomentaAndNeverGainsEnergy) {
+  MpmGround ground = cube(1e6, 0.1);
+  for_particles(ground, [](Particles& particles, std::size_t p) {
+    const Vector3 x = particles.position(p);
+    Eigen::Map<Vector3>(particles.data(column::velocity) + 4 * p) = Vector3(std::sin(20 * x.x()), x.y() * x.z() * 50, std::cos(15 * x.x()));
+  });
+  const Sums before = sums_of(ground);
+  ground.advance(1e-6);  // the balance counts from here
+  const Balance start = ground.balance();
+  const double first = start.kinetic_energy + start.stored_energy;
+  double time = 0.0;
+  while (time < 0.05) {
+    const double dt = ground.stable_time_step();
+    ground.advance(dt);
+    time += dt;
+    const Balance b = ground.balance();
+    EXPECT_LE(b.kinetic_energy + b.stored_energy, 1.02 * first);  // a leapfrog's energies are half a step apart
+  }
+  const Sums after = sums_of(ground);
+  const Balance end = ground.balance();
+  EXPECT_LT((after.momentum - before.momentum).norm(), 1e-12 * before.mass);
+  EXPECT_LT((after.angular - before.angular).norm(), 1e-12 * before.mass);
+  EXPECT_LT(std::abs(end.residual() - start.residual()), 1e-3 * first);
+  EXPECT_GE(end.numerical_loss - start.numerical_loss, 0.0);
+  RecordProperty("energy_kept", fmt::format("{:.4f}", (end.kinetic_energy + end.stored_energy) / first));
+}
+
+}  // namespace
+}  // namespace furrow
