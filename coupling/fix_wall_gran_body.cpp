@@ -45,6 +45,11 @@ void FixWallGranBody::init() {
 
 void FixWallGranBody::setup(int vflag) {
   starting_ = FixWorld::of(*lmp).time() == 0.0;
+  for (int m = 0; m < n_FixMesh_; ++m)
+    if (auto* mesh_fix = dynamic_cast<FixMeshBody*>(FixMesh_list_[m])) {
+      const auto [check, fresh] = ground_checks_.try_emplace(m, *lmp, fmt::format("fix wall/gran/body '{}', mesh '{}'", id, mesh_fix->id));
+      if (fresh) check->second.start(mesh_fix->body().surface());
+    }
   FixWallGran::setup(vflag);
   if (starting_) guarded(*error, [&] { refuse_deep_start(); });
   starting_ = false;
@@ -82,6 +87,8 @@ void FixWallGranBody::post_force_body(FixMeshBody& mesh_fix, int mesh_number) {
   if (history) history->markAllContacts();
   atom_type_wall_ = mesh_fix.atomTypeWall();
 
+  const auto check = ground_checks_.find(mesh_number);
+  check_ = check == ground_checks_.end() ? nullptr : &check->second;
   collect_candidates(mesh_fix);
   // Not in the order in which LIGGGHTS happens to hold its triangles: sums, and so restarts, are the same to the last bit.
   std::sort(touched_.begin(), touched_.end());
@@ -96,6 +103,7 @@ void FixWallGranBody::post_force_body(FixMeshBody& mesh_fix, int mesh_number) {
     for (const ContactCandidate& contact : of_grain_) apply(mesh_fix, mesh_number, grain, contact, moment_reference, ledger);
   }
   if (history) history->cleanUpContacts();
+  if (check_) check_->finish_step(mesh_fix.body().surface());
 }
 
 void FixWallGranBody::collect_candidates(FixMeshBody& mesh_fix) {
@@ -207,6 +215,7 @@ void FixWallGranBody::apply(FixMeshBody& mesh_fix, int mesh_number, int grain, c
 
   const Vector3 centre = Eigen::Map<const Vector3>(atom->x[grain]) - mesh.image_shift(contact.tag);
   const Vector3 contact_point = centre - contact.point.separation;
+  if (check_) check_->contact(overlap, radius, contact_point, contact_force);
   const Vector3 arm = contact_point - moment_reference;
   ledger.grain_force += contact_force;
   ledger.grain_moment += arm.cross(contact_force);

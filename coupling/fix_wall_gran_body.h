@@ -1,9 +1,11 @@
 #pragma once
 /// fix wall/gran/body: LIGGGHTS's granular wall with Furrow's own contact detection. See fix_wall_gran_body.md.
 
+#include <map>
 #include <vector>
 
 #include "body/closest_feature.h"
+#include "coupling/ground_check.h"
 #include "fix_wall_gran.h"
 
 namespace furrow::coupling {
@@ -43,6 +45,8 @@ class FixWallGranBody : public LAMMPS_NS::FixWallGran {
   std::vector<ContactCandidate> of_grain_;
   bool starting_ = false;  // in the set-up of the first run: deep contacts are counted, not computed
   double deepest_ = 0.0;   // largest overlap over radius in the last call
+  std::map<int, GroundCheck> ground_checks_;  // of each mesh of a body, by its place in the list
+  GroundCheck* check_ = nullptr;              // of the mesh at work
 };
 
 }  // namespace furrow::coupling
