@@ -50,7 +50,8 @@ FaceKind face_kind(const std::string& name) {
   return static_cast<FaceKind>(found - names.begin());
 }
 
-Faces::Faces(const Grid& grid, const std::array<FaceKind, face_count>& kinds, std::vector<WaveSpeeds> speeds_of_level)
+Faces::Faces(const Grid& grid, const std::array<FaceKind, face_count>& kinds, const std::array<int, 3>& particles_per_cell,
+             std::vector<WaveSpeeds> speeds_of_level)
     : kinds_(kinds), speeds_(std::move(speeds_of_level)) {
   impulse_.fill(Vector3::Zero());
   captured_ = true;
@@ -64,7 +65,9 @@ Faces::Faces(const Grid& grid, const std::array<FaceKind, face_count>& kinds, st
     far.plane = loop.plane;
     far.count[0] = grid.nodes(loop.slow);
     far.count[1] = grid.nodes(loop.fast);
-    far.inverse_extent = 1.0 / axis.extent(loop.plane);
+    // A node's mass is summed over particles: the midpoint rule for the integral of (1 - xi)^2 over the outermost cell.
+    const double n = particles_per_cell[static_cast<std::size_t>(loop.axis)], cell = axis.length(loop.plane == 0 ? 0 : axis.cells() - 1);
+    far.inverse_extent = 1.0 / (cell * (1.0 / 3.0 - 1.0 / (12.0 * n * n)));
     // A load in the middle of the top: the far field begins half a width away sideways, and a depth away downwards.
     far.inverse_length = (loop.axis == 2 ? 1.0 : 2.0) / (axis.upper() - axis.lower());
     far.hold.assign(static_cast<std::size_t>(3 * far.count[0] * far.count[1]), 0.0);

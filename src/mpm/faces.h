@@ -30,7 +30,8 @@ struct WaveSpeeds {
 /// holds statically. With a node's mass m and the extent l of its B-spline across the face, rho A = m/l. Taken implicitly.
 class Faces {
  public:
-  Faces(const Grid& grid, const std::array<FaceKind, face_count>& kinds, std::vector<WaveSpeeds> speeds_of_level);
+  Faces(const Grid& grid, const std::array<FaceKind, face_count>& kinds, const std::array<int, 3>& particles_per_cell,
+        std::vector<WaveSpeeds> speeds_of_level);
 
   FaceKind kind(FacePlace face) const { return kinds_[face]; }
   /// Before anything else happens to the grid of the first step: its momenta are what the held ground must stand, and are used up.

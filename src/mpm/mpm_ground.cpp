@@ -76,7 +76,7 @@ MpmGround::MpmGround(const GroundParameters& parameters, const Communicator& ran
       grid_(make_grid(parameters, where)),
       levels_(make_levels(grid_, parameters)),
       partition_(ranks, grid_.axis(0).cells()),
-      faces_(grid_, parameters.faces, speeds_of_levels(grid_, levels_, parameters)),
+      faces_(grid_, parameters.faces, parameters.particles_per_cell, speeds_of_levels(grid_, levels_, parameters)),
       kernels_(transfer_kernels()),
       gradient_(9 * chunk),
       focus_(0.5 * (parameters.x.lower + parameters.x.upper)),

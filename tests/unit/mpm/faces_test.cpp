@@ -49,7 +49,7 @@ TEST(Faces, SmoothStopsWhatIsAcrossAndRoughStopsAll) {
     for (const FaceKind kind : {FaceKind::smooth, FaceKind::rough}) {
       Grid grid = small_grid();
       give_velocity(grid, v);
-      Faces faces(grid, only(static_cast<FacePlace>(face), kind), speeds(grid));
+      Faces faces(grid, only(static_cast<FacePlace>(face), kind), {2, 2, 2}, speeds(grid));
       EXPECT_TRUE(faces.captured());
       faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);
       const int axis = face / 2, plane = face % 2 == 0 ? 0 : grid.nodes(axis) - 1;
@@ -72,11 +72,11 @@ TEST(Faces, SmoothStopsWhatIsAcrossAndRoughStopsAll) {
 /// v' = (v - dt c^2/(l L) u)/(1 + dt c/l) with u the displacement before: dashpot and spring of one node across the face, taken implicitly.
 TEST(Faces, AbsorbingIsDashpotAndSpring) {
   Grid grid = small_grid();
-  Faces faces(grid, only(x_upper, FaceKind::absorbing), speeds(grid));
+  Faces faces(grid, only(x_upper, FaceKind::absorbing), {2, 2, 2}, speeds(grid));
   EXPECT_FALSE(faces.captured());
   faces.capture(grid, grid.all_planes(), dt);  // nothing to hold
   EXPECT_TRUE(faces.captured());
-  const double extent = 1.0 / 3, length = 0.5 * 4.0;
+  const double extent = 0.3125, length = 0.5 * 4.0;  // [m] (0.75^2 + 0.25^2)/2 of the spline at two particles a cell
   Vector3 u = Vector3::Zero(), v(1.0, 2.0, 3.0);
   double work = 0.0;
   for (int step = 0; step < 3; ++step) {
@@ -104,7 +104,7 @@ TEST(Faces, ForcesOfTheStartAreHeld) {
     const FacePlace places[3] = {x_upper, y_upper, z_lower};
     for (int n = 0; n < count; ++n) kinds[places[n]] = FaceKind::absorbing;
     Grid grid = small_grid();
-    Faces faces(grid, kinds, speeds(grid));
+    Faces faces(grid, kinds, {2, 2, 2}, speeds(grid));
     const Vector3 pull(10.0, -20.0, 30.0);  // [N] on every node
     give_velocity(grid, dt * pull);         // captured as momenta
     faces.capture(grid, grid.all_planes(), dt);
@@ -126,7 +126,7 @@ TEST(Faces, AbsorbingLeavesToWallsWhatTheyHold) {
   std::array<FaceKind, face_count> kinds = only(x_upper, FaceKind::absorbing);
   kinds[z_lower] = FaceKind::rough;
   kinds[y_lower] = FaceKind::smooth;
-  Faces faces(grid, kinds, speeds(grid));
+  Faces faces(grid, kinds, {2, 2, 2}, speeds(grid));
   faces.capture(grid, grid.all_planes(), dt);
   const Vector3 v(1.0, 2.0, 3.0);
   double work = 0.0;
@@ -148,7 +148,7 @@ TEST(Faces, AbsorbingLeavesToWallsWhatTheyHold) {
   EXPECT_NEAR(faces.impulse(z_lower).x(), floor * v.x(), 1e-9);
   EXPECT_NEAR(faces.impulse(z_lower).z(), floor * v.z(), 1e-9);
   // Nodes of the absorbing face that are free to move along x: without those of the floor.
-  const double c = 300.0, extent = 1.0 / 3, length = 2.0, cs = 150.0;
+  const double c = 300.0, extent = 0.3125, length = 2.0, cs = 150.0;
   double u[3] = {0, 0, 0};
   for (int step = 0; step < 2; ++step)
     for (int d = 0; d < 3; ++d) {
@@ -162,7 +162,7 @@ TEST(Faces, AbsorbingLeavesToWallsWhatTheyHold) {
 
 TEST(Faces, StateIsRestoredAndMovesWithTheGrid) {
   Grid grid = small_grid();
-  Faces faces(grid, only(y_upper, FaceKind::absorbing), speeds(grid));
+  Faces faces(grid, only(y_upper, FaceKind::absorbing), {2, 2, 2}, speeds(grid));
   give_velocity(grid, {1, 2, 3});
   faces.capture(grid, grid.all_planes(), dt);
   for_nodes(grid, [&](GridNode& n, int i, int, int) {
@@ -174,7 +174,7 @@ TEST(Faces, StateIsRestoredAndMovesWithTheGrid) {
   faces.save(saved);
   EXPECT_EQ(saved.size(), faces.state_length());
 
-  Faces other(grid, only(y_upper, FaceKind::absorbing), speeds(grid));
+  Faces other(grid, only(y_upper, FaceKind::absorbing), {2, 2, 2}, speeds(grid));
   EXPECT_EQ(other.restore(saved.data(), true), saved.data() + saved.size());
   std::vector<double> again;
   other.save(again);
@@ -194,7 +194,7 @@ TEST(Faces, StateIsRestoredAndMovesWithTheGrid) {
     const double expected = r < 2 || r + 2 >= rows ? before[r * row] : r + 3 < rows ? before[(r + 1) * row] : 0.0;
     EXPECT_EQ(after[r * row], expected) << "row " << r;
   }
-  Faces across(grid, only(x_upper, FaceKind::absorbing), speeds(grid));
+  Faces across(grid, only(x_upper, FaceKind::absorbing), {2, 2, 2}, speeds(grid));
   EXPECT_THROW(across.shift_x(1), Error);
 }
 
