@@ -1,0 +1,170 @@
+// A column that a plate compresses between smooth walls: every particle must follow the law in confined compression.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "../../unit/mpm/ground_scene.h"
+#include "body/rigid_plate.h"
+
+namespace furrow {
+namespace {
+
+using namespace testing_ground;
+
+/// The law in confined compression: states at small steps of logarithmic strain.
+class Confined {
+ public:
+  Confined(const Material& law, double strain, int steps) : step_(strain / steps) {
+    VectorX state = law.initial_state();
+    Matrix3 gradient = Matrix3::Zero();
+    gradient(2, 2) = std::expm1(-step_);
+    states_.push_back(state);
+    for (int n = 0; n < steps; ++n) {
+      law.update_point(gradient, state);
+      states_.push_back(state);
+    }
+  }
+  double stress(double volume_ratio, std::size_t component) const {
+    const double at = -std::log(volume_ratio) / step_;
+    const auto n = static_cast<std::size_t>(std::clamp(at, 0.0, double(states_.size()) - 2.0));
+    const auto c = static_cast<Eigen::Index>(component);
+    return states_[n][c] + (at - double(n)) * (states_[n + 1][c] - states_[n][c]);
+  }
+
+ private:
+  double step_;
+  std::vector<VectorX> states_;
+};
+
+struct Case {
+  const char* name;
+  std::string law;
+  double strain;  // engineering, of the column
+  double speed;   // [m/s] of the plate
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+class Column : public ::testing::TestWithParam<Case> {};
+
+std::string foam() {
+  return "crushable_foam density 200 pt 11.376 sigma0 275.79 K 1 pc0_reading pc0 elasticity porous elasticity.kappa 0.005 elasticity.e0 3.5 nu 0.3 "
+         "pt_el 22.752 hardening exponential pc0 113.76 lambda 0.35 hardening.kappa 0.005 hardening.e0 3.5";
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, Column,
+                         ::testing::Values(Case{"elastic", elastic(1e6, 0.3, 1000), 0.1, 0.05}, Case{"cap_snow", snow(), 0.5, 0.3},
+                                           Case{"crushable_foam", foam(), 0.5, 0.5},
+                                           Case{"mccormick_sand", testing_paths::mccormick_sand(), 0.03, 0.15}),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+TEST_P(Column, FollowsTheLawInConfinedCompression) {
+  const double cell = 0.02, height = 0.2;
+  const auto law = law_of(GetParam().law);
+  GroundParameters parameters = box(law, {0, 0, 0}, {2 * cell, 2 * cell, height}, cell);
+  parameters.z = even(0, height + 2 * cell, cell);
+  parameters.surface = height;
+  set_faces(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
+  MpmGround ground(parameters, Communicator());
+  PlateGeometry geometry{PlateShape::square, 6 * cell, 2 * cell, 3};
+  RigidPlate plate(geometry, {cell, cell, height + 1e-5});
+  ContactParameters smooth;
+  smooth.friction = 0.0;
+  GroundContact contact(plate, ground, smooth, false, "lid");
+  World world;
+  world.add(plate, "plate");
+  world.add(ground, "ground");
+  world.add(contact, "lid");
+  const double end = GetParam().strain * height;
+  const Confined reference(*law, -std::log(1.0 - GetParam().strain) * 1.5, 60000);
+  const auto mean_volume_ratio = [&] {
+    double sum = 0.0, volume = 0.0;
+    for_particles(ground, [&](Particles& particles, std::size_t p) {
+      const double v = particles.data(column::volume)[p];
+      sum += v * particles.data(column::state + field::volume_ratio)[p];
+      volume += v;
+    });
+    return sum / volume;
+  };
+  double time = 0.0, force = 0.0, expected_force = 0.0;
+  const double interval = 0.01 * end / GetParam().speed;
+  while (height - plate.centre().z() < end) {
+    plate.prescribe(-GetParam().speed * std::min(1.0, time / (20 * interval)));
+    world.advance(interval);
+    time += interval;
+    if (height - plate.centre().z() > 0.97 * end) {
+      force += contact.force().z();
+      expected_force -= reference.stress(mean_volume_ratio(), 2) * 4 * cell * cell;
+    }
+  }
+  double worst = 0.0, worst_side = 0.0, largest = 0.0, skew = 0.0;
+  for_particles(ground, [&](Particles& particles, std::size_t p) {
+    const VectorX state = particles.state(p);
+    const double J = state[field::volume_ratio], expected = reference.stress(J, 2);
+    largest = std::max(largest, std::abs(expected));
+    worst = std::max(worst, std::abs(state[2] / expected - 1.0));
+    worst_side = std::max(worst_side, std::abs(state[0] / reference.stress(J, 0) - 1.0));
+    skew = std::max(skew, std::abs(state[5] / expected));
+  });
+  // Mass is kept, so the mean density is that of the height that the plate leaves; its spring gives way by the penetration.
+  const double mean = mean_volume_ratio(), left = (plate.centre().z() + contact.penetration()) / height;
+  RecordProperty("worst_axial", fmt::format("{:.2e}", worst));
+  RecordProperty("worst_lateral", fmt::format("{:.2e}", worst_side));
+  RecordProperty("force_over_law", fmt::format("{:.4f}", force / expected_force));
+  RecordProperty("mean_volume_ratio", fmt::format("{:.5f}, height {:.5f}", mean, left));
+  RecordProperty("deepest_penetration", fmt::format("{:.2e}", contact.deepest_penetration()));
+  const Balance b = ground.balance();
+  RecordProperty("energies", fmt::format("contact {:.4g} stored {:.4g} dissipated {:.4g} kinetic {:.2g} numerical {:.2g} residual {:.2g}", b.contact_work, b.stored_energy, b.dissipated_energy, b.kinetic_energy, b.numerical_loss, b.residual()));
+  EXPECT_LT(worst, 1e-3);
+  EXPECT_LT(worst_side, 1e-3);
+  EXPECT_LT(skew, 1e-9);
+  EXPECT_NEAR(mean / left, 1.0, 2e-3);
+  EXPECT_NEAR(force / expected_force, 1.0, 0.03);  // the particles under the lid are not strained as those below: one layer of ten
+  EXPECT_LT(std::abs(b.residual()), 1e-3 * b.contact_work);
+}
+
+/// Force of a lid at a given height on an elastic column, over the closed form A M ln(height left).
+double force_at_given_height(double cell, double stiffness) {
+  const double height = 0.2, E = 1e6, nu = 0.3, M = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)), strain = 0.05, speed = 0.1;
+  GroundParameters parameters = box(law_of(elastic(E, nu, 1000)), {0, 0, 0}, {cell, cell, height}, cell);
+  parameters.z = even(0, height + 2 * cell, cell);
+  parameters.surface = height;
+  set_faces(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
+  MpmGround ground(parameters, Communicator());
+  RigidPlate plate({PlateShape::square, 6 * cell, 2 * cell, 3}, {0.5 * cell, 0.5 * cell, height + 1e-6});
+  ContactParameters lid;
+  lid.friction = 0.0;
+  lid.stiffness = stiffness;
+  GroundContact contact(plate, ground, lid, false, "lid");
+  World world;
+  world.add(plate, "plate");
+  world.add(ground, "ground");
+  world.add(contact, "lid");
+  double time = 0.0, sum = 0.0, expected = 0.0;
+  const double interval = 2e-4;
+  while (height - plate.centre().z() < strain * height) {
+    plate.prescribe(-speed * std::min(1.0, time / 0.02));
+    world.advance(interval);
+    time += interval;
+    if (height - plate.centre().z() < 0.9 * strain * height) continue;
+    sum += contact.force().z();
+    expected -= M * std::log(plate.centre().z() / height) * cell * cell;
+  }
+  return sum / expected;
+}
+
+/// The lid's spring gives way by a length that shrinks with the cell: the offset between particles and surface converges away, order 1.
+TEST(Lid, OffsetOfTheContactConvergesAway) {
+  const double coarse = force_at_given_height(0.04, 0.4), medium = force_at_given_height(0.02, 0.4), fine = force_at_given_height(0.01, 0.4);
+  RecordProperty("force_over_closed_form", fmt::format("{:.4f} {:.4f} {:.4f}", coarse, medium, fine));
+  RecordProperty("orders", fmt::format("{:.2f} {:.2f}", std::log2((1 - coarse) / (1 - medium)), std::log2((1 - medium) / (1 - fine))));
+  EXPECT_GT(std::log2((1 - coarse) / (1 - medium)), 0.7);
+  EXPECT_GT(std::log2((1 - medium) / (1 - fine)), 0.7);
+  EXPECT_LT(1 - fine, 0.08);
+  const double stiffer = force_at_given_height(0.02, 2.0);
+  RecordProperty("five_times_stiffer", fmt::format("{:.4f}", stiffer));
+  EXPECT_LT(std::abs(1 - stiffer), 0.4 * (1 - medium));
+}
+
+}  // namespace
+}  // namespace furrow
