@@ -83,5 +83,117 @@ TEST(World, RefusesAndNamesTheBody) {
   EXPECT_THAT(refusal_of(world, 1.0), HasSubstr("body 'tyre': the position of node 0 is not finite"));
 }
 
+/// Pushes two bodies apart with a force that the test chooses step by step; remembers what it saw.
+class Spring : public Interaction {
+ public:
+  Spring(Body& one, Body& two) : one_(one), two_(two) {}
+  void apply(double dt) override {
+    if (refuse) throw StateError("the spring broke");
+    seen.push_back(one_.surface().f(0, 0));
+    steps.push_back(dt);
+    const double force = forces[steps.size() - 1];
+    one_.surface().f(0, 0) += force;
+    two_.surface().f(0, 0) -= force;
+  }
+  std::vector<double> forces, seen, steps;
+  bool refuse = false;
+
+ private:
+  Body &one_, &two_;
+};
+
+/// Adds up the impulse of its surface force.
+class Mass : public Probe {
+ public:
+  void advance(double dt) override {
+    impulse += surface().f(0, 0) * dt;
+    Probe::advance(dt);
+  }
+  double impulse = 0.0;
+};
+
+TEST(World, InteractionsAreFoundInEverySubStepOnTopOfHeldForces) {
+  Mass wheel, ground;
+  wheel.stable = 0.25;
+  Spring contact(wheel, ground);
+  contact.forces = {1.0, 2.0, 4.0, 8.0};
+  World world;
+  world.add(wheel, "wheel");
+  world.add(ground, "ground");
+  world.add(contact, "contact");
+  wheel.surface().f(0, 0) = 100.0;  // of others, held
+  ASSERT_EQ(world.advance(1.0), 4);
+  EXPECT_EQ(contact.seen, std::vector<double>(4, 100.0));
+  EXPECT_EQ(contact.steps, std::vector<double>(4, 0.25));
+  EXPECT_DOUBLE_EQ(wheel.impulse, 100.0 + 0.25 * 15.0);
+  EXPECT_DOUBLE_EQ(ground.impulse, -0.25 * 15.0);
+  EXPECT_DOUBLE_EQ(wheel.surface().f(0, 0), 100.0);
+}
+
+TEST(World, ShowsTheMeanOfTheInteractionsUntilTheNextAdvance) {
+  Mass wheel, ground;
+  wheel.stable = 0.5;
+  Spring contact(wheel, ground);
+  contact.forces = {1.0, 3.0, 5.0, 5.0};
+  World world;
+  world.add(wheel, "wheel");
+  world.add(ground, "ground");
+  world.add(contact, "contact");
+  wheel.surface().f(0, 0) = 10.0;
+  world.advance(1.0);
+  EXPECT_TRUE(world.shown_forces().empty());
+  world.show_interaction_forces();
+  world.show_interaction_forces();  // once is enough
+  EXPECT_DOUBLE_EQ(wheel.surface().f(0, 0), 12.0);
+  EXPECT_DOUBLE_EQ(ground.surface().f(0, 0), -2.0);
+  EXPECT_EQ(world.shown_forces(), (std::vector<double>{2.0, 0.0, 0.0, -2.0, 0.0, 0.0}));
+  world.advance(1.0);  // takes them away again
+  EXPECT_EQ(contact.seen.back(), 10.0);
+  EXPECT_DOUBLE_EQ(wheel.impulse, 10.0 + 2.0 + 10.0 + 5.0);
+  world.show_interaction_forces();
+  world.clear_forces();
+  EXPECT_TRUE(world.shown_forces().empty());
+  EXPECT_DOUBLE_EQ(wheel.surface().f(0, 0), 0.0);
+}
+
+TEST(World, ShownForcesAreRestored) {
+  const auto second_impulse = [](bool restart) {
+    Mass wheel, ground;
+    Spring contact(wheel, ground);
+    contact.forces = {3.0, 4.0};
+    World first, second;
+    for (World* world : {&first, &second}) {
+      world->add(wheel, "wheel");
+      world->add(ground, "ground");
+      world->add(contact, "contact");
+    }
+    first.advance(1.0);
+    first.show_interaction_forces();
+    World& next = restart ? second : first;
+    if (restart) next.restore_shown_forces(first.shown_forces());
+    next.advance(1.0);
+    return wheel.impulse;
+  };
+  EXPECT_DOUBLE_EQ(second_impulse(true), second_impulse(false));
+  Mass wheel;
+  World world;
+  world.add(wheel, "wheel");
+  EXPECT_THROW(world.restore_shown_forces({1.0, 2.0}), Error);
+  EXPECT_NO_THROW(world.restore_shown_forces({}));
+}
+
+TEST(World, NamesTheContactThatRefuses) {
+  Mass wheel, ground;
+  Spring contact(wheel, ground);
+  World world;
+  world.add(wheel, "wheel");
+  world.add(ground, "ground");
+  world.add(contact, "touch");
+  contact.refuse = true;
+  EXPECT_THAT(refusal_of(world, 1.0), HasSubstr("contact 'touch': the spring broke"));
+  world.remove(contact);
+  EXPECT_EQ(world.advance(1.0), 1);
+}
+
 }  // namespace
 }  // namespace furrow
