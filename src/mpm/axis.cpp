@@ -71,6 +71,15 @@ void Axis::tabulate() {
   uneven_.clear();
   for (int c = 0; c < n; ++c)
     uneven_.push_back(c == 0 || c == n - 1 || std::max(std::abs(length(c - 1) - length(c)), std::abs(length(c + 1) - length(c))) > 1e-9 * length(c) ? 1 : 0);
+  even_from_ = even_to_ = 0;
+  for (int from = 0, c = 0; c <= n; ++c) {
+    if (c < n && uneven_[static_cast<std::size_t>(c)] == 0) continue;
+    if (c - from > even_to_ - even_from_) {
+      even_from_ = from;
+      even_to_ = c;
+    }
+    from = c + 1;
+  }
   uniform_ = longest - shortest_ < 1e-9 * longest;
   const int bins = static_cast<int>(std::ceil((upper() - lower()) / shortest_ * (1.0 - 1e-12))) + 1;
   bins_per_length_ = bins / (upper() - lower());
@@ -107,6 +116,10 @@ AxisView Axis::view() const {
   view.right = right_.data();
   view.node = node_.data();
   view.uneven = uneven_.data();
+  view.even_from = even_from_;
+  view.even_to = even_to_;
+  view.even_start = knot(even_from_);
+  view.even_length = length(even_from_);
   return view;
 }
 

@@ -30,6 +30,8 @@ struct AxisView {
   const double* left;                    ///< N_0 = left (t_c+1 - x)^2 [1/m^2]
   const double* right;                   ///< N_2 = right (x - t_c)^2 [1/m^2]
   const double* node;                    ///< cells + 2 nodes [m]; cell c is served by c, c+1, c+2
+  int even_from, even_to;                ///< the longest run of cells that are not uneven, all of one length
+  double even_start, even_length;        ///< where it begins, and that length [m]
   const int* uneven;                     ///< 1 for a cell at an end or next to a cell of another length (transfer.h)
 };
 
@@ -61,6 +63,7 @@ class Axis {
 
   std::vector<double> knot_, left_, right_, node_;
   std::vector<int> cell_of_bin_, uneven_;
+  int even_from_ = 0, even_to_ = 0;
   double shortest_ = 0.0, bins_per_length_ = 0.0;
   bool uniform_ = true;
 };

@@ -165,7 +165,8 @@ TEST(Transfer, FromTheGridReadsLinearFieldsExactly) {
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 3; ++column) EXPECT_NEAR(cloud.gradients[3 * row + column][p], dt * L(row, column), 1e-10 * dt);
   }
-  EXPECT_DOUBLE_EQ(sums.largest_speed, fastest);
+  EXPECT_GE(sums.largest_speed, fastest);  // a bound: of the largest components
+  EXPECT_LE(sums.largest_speed, std::sqrt(3.0) * fastest);
 }
 
 /// sum_i f_i . v_i = - sum_p V sigma : C for any stress and any nodal velocity: what the stress takes from the grid is its work.
