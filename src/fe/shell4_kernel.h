@@ -86,13 +86,13 @@ inline Shell4Result shell4_forces(const Shell4Kind* kinds, std::size_t kind_coun
         u[6 * n + 2] = arm[n].z - kind.x[n][2];
         Triple column[3];  // of the turn T: local axes of Q E
         const int* index = places.node[n] + i;
+        Lanes Q[9];
+        for (int entry = 0; entry < 9; ++entry) Q[entry] = gather(rotation, index, 9, entry);
         for (int c = 0; c < 3; ++c) {
-          const Lanes E0 = load(places.axes[3 * c] + i), E1 = load(places.axes[3 * c + 1] + i), E2 = load(places.axes[3 * c + 2] + i);
-          Lanes QE[3];
-          for (int r = 0; r < 3; ++r)
-            QE[r] = gather(rotation, index, 9, r) * E0 + gather(rotation, index, 9, 3 + r) * E1 +
-                    gather(rotation, index, 9, 6 + r) * E2;
-          column[c] = frame.local({QE[0], QE[1], QE[2]});
+          const Lanes E0 = load(places.axes[3 * c] + i), E1 = load(places.axes[3 * c + 1] + i),
+                      E2 = load(places.axes[3 * c + 2] + i);
+          column[c] = frame.local({Q[0] * E0 + Q[3] * E1 + Q[6] * E2, Q[1] * E0 + Q[4] * E1 + Q[7] * E2,
+                                   Q[2] * E0 + Q[5] * E1 + Q[8] * E2});
         }
         const Lanes four_cos2 = Lanes(1.0) + column[0].x + column[1].y + column[2].z;
         straightest = lower(straightest, four_cos2);
@@ -104,10 +104,18 @@ inline Shell4Result shell4_forces(const Shell4Kind* kinds, std::size_t kind_coun
         u[6 * n + 4] = turn.y;
         u[6 * n + 5] = turn.z;
       }
-      for (int row = 0; row < 24; ++row) {
-        Lanes sum = kind.stiffness[row][0] * u[0];
-        for (int c = 1; c < 24; ++c) sum += kind.stiffness[row][c] * u[c];
-        f[row] = sum;
+      for (int row = 0; row < 24; row += 4) {  // four sums at once: their additions need not wait for each other
+        Lanes sum0 = 0.0, sum1 = 0.0, sum2 = 0.0, sum3 = 0.0;
+        for (int c = 0; c < 24; ++c) {
+          sum0 += kind.stiffness[row][c] * u[c];
+          sum1 += kind.stiffness[row + 1][c] * u[c];
+          sum2 += kind.stiffness[row + 2][c] * u[c];
+          sum3 += kind.stiffness[row + 3][c] * u[c];
+        }
+        f[row] = sum0;
+        f[row + 1] = sum1;
+        f[row + 2] = sum2;
+        f[row + 3] = sum3;
       }
       Lanes twice = 0.0;
       for (int row = 0; row < 24; ++row) twice += u[row] * f[row];

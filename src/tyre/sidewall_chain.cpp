@@ -313,7 +313,7 @@ bool SidewallChain::descend(const SidewallEnd& end, double pressure, VectorX& an
     reflect(step_, false);
     double length = std::min(1.0, step_limit / step_.lpNorm<Eigen::Infinity>());
     const double start = functional(angles, end.phi, pressure);
-    const double slack = rounding * (std::abs(start) + pressure * l * l);
+    const double slack = rounding * (std::abs(start) + (pressure * l + multiplier_.norm()) * l);
     for (;; length *= 0.5) {
       if (length < 1e-8) return false;
       trial_ = angles + length * step_;
