@@ -15,6 +15,8 @@ namespace {
 constexpr double skin_cells = 0.5;         // a search lasts until surface and ground have moved so many cells towards each other
 constexpr double most_penetration = 0.5;   // of the shortest cell
 constexpr double correction = 0.2;         // of the penetration that an impulse takes away in one step (J. Baumgarte, 1972)
+/// What a particle remembers of a contact: tangential spring [m], slip [m], stiffness [N/m] as of the last search.
+enum Memory : std::size_t { spring, slip = 3, stiffness, memory_size };
 constexpr double mirror_tolerance = 1e-6;  // of the surface's size
 
 std::vector<int> mirror_nodes(const Surface& surface, double plane, const std::string& where) {
@@ -68,13 +70,32 @@ ContactParameters GroundContact::parameters_from(const Options& options) {
 GroundContact::GroundContact(Body& body, MpmGround& ground, const ContactParameters& parameters, bool half_model, const std::string& where)
     : body_(body), ground_(ground), parameters_(parameters), where_(where), corners_(body.surface()) {
   if (half_model) mirror_ = mirror_nodes(body.surface(), ground.grid().axis(1).lower(), where);
-  for (GroundPhase& phase : ground_.phases()) memory_.push_back(phase.particles.add_column("contact " + where, 4));
+  for (GroundPhase& phase : ground_.phases()) memory_.push_back(phase.particles.add_column("contact " + where, memory_size));
 }
 
+std::vector<double> GroundContact::state() const {
+  const Matrix3X& x = body_.surface().x;
+  const bool searched = searched_.cols() == x.cols(), fresh = searched && generation_ == ground_.generation();
+  std::vector<double> state = {deepest_, friction_loss_, damping_loss_, drift_, fresh ? 1.0 : 0.0};
+  const Matrix3X& nodes = searched ? searched_ : x;
+  state.insert(state.end(), nodes.data(), nodes.data() + nodes.size());
+  return state;
+}
+
+/// Candidates are found again at the present places, but with the stiffnesses of the last search, and the next search comes when it
+/// would have come: a run that is restarted continues bit for bit.
 void GroundContact::restore(const std::vector<double>& state) {
+  constexpr std::size_t scalars = 5;
+  const Matrix3X& x = body_.surface().x;
+  if (state.size() != scalars + static_cast<std::size_t>(x.size()))
+    throw Error(fmt::format("{}: the saved state belongs to a contact of another surface", where_));
+  find_candidates(false);
   deepest_ = state[0];
   friction_loss_ = state[1];
   damping_loss_ = state[2];
+  drift_ = state[3];
+  generation_ = ground_.generation() - (state[4] != 0.0 ? 0 : 1);
+  searched_ = Eigen::Map<const Matrix3X>(state.data() + scalars, 3, x.cols());
   started_ = true;
 }
 
@@ -84,8 +105,17 @@ bool GroundContact::is_stale() const {
   return moved + drift_ > skin_;
 }
 
-/// Particles that can touch before surface and ground have moved by the skin, each with its triangles.
 void GroundContact::search() {
+  find_candidates(true);
+  searched_ = body_.surface().x;
+  generation_ = ground_.generation();
+  drift_ = 0.0;
+  if (!started_) refuse_overlap();
+  started_ = true;
+}
+
+/// Particles that can touch before surface and ground have moved by the skin, each with its triangles.
+void GroundContact::find_candidates(bool stiffness_anew) {
   const Surface& surface = body_.surface();
   const double cell = ground_.grid().shortest_cell();
   skin_ = skin_cells * cell;
@@ -110,7 +140,7 @@ void GroundContact::search() {
   near_.clear();
   const TriangleSearch triangles(surface, reach_, lower, upper);
   for (std::size_t k = 0; k < ground_.phases().size(); ++k) {
-    const Particles& particles = ground_.phases()[k].particles;
+    Particles& particles = ground_.phases()[k].particles;
     const double *x = particles.data(column::x), *y = particles.data(column::y), *z = particles.data(column::z);
     for (std::size_t p = 0; p < particles.size(); ++p) {
       const Vector3 point(x[p], y[p], z[p]);
@@ -121,15 +151,12 @@ void GroundContact::search() {
         if (closest_point_on_triangle(point, surface.x.col(n[0]), surface.x.col(n[1]), surface.x.col(n[2])).distance <= reach_) near_.push_back(*t);
       }
       if (near_.size() == begin) continue;
-      const double modulus = ground_.phases()[k].law->moduli(particles.state(p)).wave();
-      candidates_.push_back({k, p, begin, near_.size(), parameters_.stiffness * modulus * std::cbrt(particles.data(column::volume)[p])});
+      candidates_.push_back({k, p, begin, near_.size()});
+      double& spring_stiffness = particles.data(memory_[k])[memory_size * p + Memory::stiffness];
+      if (stiffness_anew)
+        spring_stiffness = parameters_.stiffness * ground_.phases()[k].law->moduli(particles.state(p)).wave() * std::cbrt(particles.data(column::volume)[p]);
     }
   }
-  searched_ = surface.x;
-  generation_ = ground_.generation();
-  drift_ = 0.0;
-  if (!started_) refuse_overlap();
-  started_ = true;
 }
 
 void GroundContact::refuse_overlap() const {
@@ -186,8 +213,8 @@ Vector3 GroundContact::penalty_force(const Touch& touch, const Vector3& velocity
   const double spring = -stiffness * touch.gap, normal_force = std::max(0.0, spring + damping * approach);
   step_damping_ += (normal_force - spring) * approach * dt;
   const Vector3 along = velocity + approach * n;
-  Eigen::Map<Vector3> stretch(memory);
-  double& slip = memory[3];
+  Eigen::Map<Vector3> stretch(memory + Memory::spring);
+  double& slip = memory[Memory::slip];
   stretch += dt * along;
   stretch -= stretch.dot(n) * n;
   Vector3 pull = -stiffness * stretch - damping * along;
@@ -210,8 +237,8 @@ Vector3 GroundContact::impulse_force(const Touch& touch, const Vector3& velocity
   const Vector3& n = touch.normal;
   const double approach = -velocity.dot(n), normal_force = std::max(0.0, mass * (approach - correction * touch.gap / dt) / dt);
   const Vector3 along = velocity + approach * n;
-  memory[3] += dt * along.norm();
-  const double limit = friction_limit(normal_force, memory[3]), stopping = mass * along.norm() / dt;
+  memory[Memory::slip] += dt * along.norm();
+  const double limit = friction_limit(normal_force, memory[Memory::slip]), stopping = mass * along.norm() / dt;
   const double size = std::min(limit, stopping);
   step_damping_ += normal_force * approach * dt;
   step_friction_ += size * along.norm() * dt;
@@ -228,10 +255,10 @@ void GroundContact::apply(double dt) {
     GroundPhase& phase = ground_.phases()[candidate.phase];
     Particles& particles = phase.particles;
     const std::size_t p = candidate.particle;
-    double* memory = particles.data(memory_[candidate.phase]) + 4 * p;
+    double* memory = particles.data(memory_[candidate.phase]) + memory_size * p;
     Touch found;
     if (!touch(candidate, found)) {
-      std::fill_n(memory, 4, 0.0);
+      std::fill_n(memory, Memory::stiffness, 0.0);
       continue;
     }
     const double volume = particles.data(column::volume)[p], mass = phase.law->density() * volume, length = std::cbrt(volume);
@@ -241,7 +268,7 @@ void GroundContact::apply(double dt) {
     for (int c = 0; c < 3; ++c) velocity -= found.barycentric[c] * surface.v.col(nodes[c]);
     const Vector3 force =
         parameters_.enforcement == ContactParameters::Enforcement::penalty
-            ? penalty_force(found, velocity, mass, candidate.stiffness, dt, memory)
+            ? penalty_force(found, velocity, mass, memory[Memory::stiffness], dt, memory)
             : impulse_force(found, velocity, mass, dt, memory);
     ground_.push(candidate.phase, p, force, lever);
     for (int c = 0; c < 3; ++c) nodal_.col(nodes[c]) -= found.barycentric[c] * force;

@@ -52,14 +52,14 @@ class GroundContact : public Interaction {
   double damping_loss() const { return damping_loss_; }               ///< since the start [J]
   double area() const { return area_; }                               ///< of the touching particles' faces [m^2]
 
-  /// Sums since the start; what particles carry of a contact is part of the ground's state.
-  std::vector<double> state() const { return {deepest_, friction_loss_, damping_loss_}; }
-  void restore(const std::vector<double>& state);
+  /// Sums since the start, and when the candidates were found; what particles carry of a contact is part of the ground's state.
+  /// Its length depends on the surface only.
+  std::vector<double> state() const;
+  void restore(const std::vector<double>& state);  ///< after body and ground
 
  private:
   struct Candidate {
     std::size_t phase, particle, first, last;  // first, last: its triangles in near_
-    double stiffness;                          // [N/m]
   };
   struct Touch {
     Vector3 point, normal, barycentric;
@@ -68,6 +68,7 @@ class GroundContact : public Interaction {
   };
   bool is_stale() const;
   void search();
+  void find_candidates(bool stiffness_anew);
   void refuse_overlap() const;
   bool touch(const Candidate& candidate, Touch& touch) const;
   Vector3 penalty_force(const Touch& touch, const Vector3& velocity, double mass, double stiffness, double dt, double* memory);
@@ -81,7 +82,7 @@ class GroundContact : public Interaction {
   std::string where_;
   NodeTriangles corners_;
   std::vector<int> mirror_;          // the node at the mirror image of each node; empty unless half a model
-  std::vector<std::size_t> memory_;  // column of each phase: tangential spring [m] x y z, slip [m]
+  std::vector<std::size_t> memory_;  // column of each phase: see Memory in the source
 
   std::vector<Candidate> candidates_;
   std::vector<int> near_;
