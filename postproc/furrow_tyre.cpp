@@ -91,6 +91,7 @@ int main(int argc, char** argv) {
     settings.around = mesh[1];
     settings.half = half;
     settings.direct = direct;
+    settings.sidewall_points = 0;  // on a plane the tread alone touches, and its nodes' areas are the tread's
     fmt::print("{}\n", header);
     for (const double kilopascal : pressures) {
       parameters.pressure = 1e3 * kilopascal;
