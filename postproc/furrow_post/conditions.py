@@ -33,7 +33,10 @@ class Condition:
     unit: str = ""
 
     def text(self):
-        return f"{self.value:.4g} {self.unit}".strip() if isinstance(self.value, float) else str(self.value)
+        if not isinstance(self.value, float):
+            return str(self.value)
+        value = 0.0 if abs(self.value) < 1e-9 else self.value  # rounding of a sum that should vanish
+        return f"{value:.4g} {self.unit}".strip()
 
 
 def _after(words, key, default=None, count=1):
