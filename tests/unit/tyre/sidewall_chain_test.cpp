@@ -188,6 +188,29 @@ TEST(SidewallChain, WarmStartsFollowTheSameBranch) {
   }
 }
 
+/// Stiff springs, hardly any pressure, and a chain so nearly straight that forces are a thousand times those of the pressure.
+TEST(SidewallChain, NearlyStretchedItIsFoundToo) {
+  for (const auto& make : {tr_sidewall, tr_sector})
+    for (const double k : {0.0, 50.0, 1000.0})
+      for (const double pressure : {0.0, 5e3, 241e3})
+        for (const double direction : {45.0, 90.0, 135.0})
+          for (const double phi : {-1.0, 0.0, 1.0}) {
+            SidewallChain chain(make(k, k));
+            const auto end_at = [&](double share) {
+              const double c = 0.161 * share;
+              return SidewallEnd{c * std::cos(radians(direction)), c * std::sin(radians(direction)), phi};
+            };
+            const SidewallResponse nearly = cold(chain, end_at(0.999), pressure),
+                                   more = cold(chain, end_at(0.9999), pressure);
+            // The pull along the chord does work on the chord, and grows without bound as the chain is straightened
+            const Vector2 along(std::cos(radians(direction)), std::sin(radians(direction)));
+            const double pull = -nearly.on_tread.head<2>().dot(along), stronger = -more.on_tread.head<2>().dot(along);
+            EXPECT_GT(stronger, pull + 20.0) << "k " << k << ", p " << pressure;
+            if (pressure < 1e5) continue;
+            EXPECT_NEAR(stronger / pull, std::sqrt(10.0), 0.35);  // small angles: as 1/sqrt(1 - c/l)
+          }
+}
+
 TEST(SidewallChain, WhatCannotBeIsRefused) {
   SidewallChain chain(tr_sidewall(1.0, 1.0));
   const double nan = std::numeric_limits<double>::quiet_NaN();
