@@ -6,6 +6,7 @@ import shutil
 import sys
 from pathlib import Path
 
+from . import cross_commands
 from .results import Results, ResultsError
 from .summary import Summary
 
@@ -38,11 +39,26 @@ def _plot(arguments):
 
 
 def _picture(arguments):
-    from . import picture
+    from . import ground, picture
 
     results = Results(arguments.results)
     target = arguments.output or results.folder / f"rut.{arguments.format}"
-    picture.draw(results, Summary(results.folder).line(), target)
+    numbers = Summary(results.folder).line()
+    if results.has_grains or not (results.folder / "ground.h5").is_file():
+        picture.draw(results, numbers, target)
+    else:
+        ground.draw(results.folder, results.title, numbers, target)
+    print(target)
+
+
+def _ground(arguments):
+    from . import ground
+
+    folder = Path(arguments.results)
+    folder = folder if folder.is_dir() else folder.parent
+    target = arguments.output or folder / f"ground.{arguments.format}"
+    title = Results(folder).title if (folder / "history.h5").is_file() else folder.resolve().name
+    print(ground.text(ground.draw(folder, title, Summary(folder).line(), target)))
     print(target)
 
 
@@ -64,7 +80,8 @@ def _parser():
     resistance.add_argument("words", nargs=argparse.REMAINDER)
     resistance.set_defaults(run=_resistance)
     for name, run, text in (("plot", _plot, "forces, sinkage, torque and slip against time -> histories.png"),
-                            ("picture", _picture, "the rut from four sides, grains coloured by displacement -> rut.png")):
+                            ("picture", _picture, "the rut from four sides, grains coloured by displacement, continuum by density -> rut.png"),
+                            ("ground", _ground, "density sections, tracers and densities of the rut of continuum ground -> ground.png")):
         command = commands.add_parser(name, help=text, description=text)
         command.add_argument("results", help="results folder of a run, or its history.h5")
         command.add_argument("-o", "--output", type=Path, help="file to write (default: in the results folder)")
@@ -78,6 +95,7 @@ def _parser():
     command.add_argument("-o", "--output", type=Path, help="figure to write (default: in the first folder)")
     command.add_argument("--format", choices=("png", "svg", "pdf"), default="png", help="format (default: png)")
     command.set_defaults(run=_laboratory)
+    cross_commands.add(commands)
     return parser
 
 

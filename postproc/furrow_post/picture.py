@@ -33,21 +33,13 @@ class Scene:
         before = self._heights(reference.x, reference.radius)
         self.bed_level = reference.bed_level if np.isfinite(reference.bed_level) else np.nanmedian(before)
         self.heights = self._heights(self.x, self.radius) - self.bed_level
-        self.range = Normalize(0, self._round_up(np.nanpercentile(self.moved, 99.5)))
+        self.range = Normalize(0, render.round_up(np.nanpercentile(self.moved, 99.5)))
         nodes = self.surface[1] if self.surface is not None else None
         self.wheel_low = nodes.min(axis=0) if nodes is not None else None
         self.wheel_high = nodes.max(axis=0) if nodes is not None else None
 
     def _heights(self, x, radius):
         return render.top_heights(x, radius, self.low[:2], self.high[:2], self.cell)
-
-    @staticmethod
-    def _round_up(value):
-        """To 1, 1.5, 2, 3, 5, 7 times a power of ten."""
-        if not value > 0:
-            return 1e-3
-        power = 10.0 ** np.floor(np.log10(value))
-        return power * min(step for step in (1, 1.5, 2, 3, 5, 7, 10) if step * power >= value * (1 - 1e-9))
 
     @property
     def middle(self):
@@ -134,7 +126,7 @@ def _oblique(axes, scene, pixels):
 
 def _scale_bar(axes, scene, view):
     """A length along the travel direction on the ground beside the bed, with an arrow."""
-    length = scene._round_up(0.2 * (scene.high[0] - scene.low[0]))
+    length = render.round_up(0.2 * (scene.high[0] - scene.low[0]))
     start = np.array([scene.low[0], scene.low[1] - 0.06 * (scene.high[0] - scene.low[0]), scene.low[2]])
     ends = CENTIMETRE * view.project(np.array([start, start + [length, 0, 0]]))[:, :2]
     axes.annotate("", ends[1], ends[0], arrowprops={"arrowstyle": "-|>", "color": "0.2", "lw": 1.4}, annotation_clip=False)
@@ -158,7 +150,7 @@ def _section(axes, scene, axis, position, thickness=2.0):
                                           offsets=CENTIMETRE * scene.x[inside][:, [along, 2]], offset_transform=axes.transData))
     axes.axhline(CENTIMETRE * scene.bed_level, color="0.15", lw=0.9, ls=(0, (6, 4)), zorder=3)
     if scene.surface is not None:
-        axes.add_collection(LineCollection(CENTIMETRE * _cut(scene.surface, axis, position)[:, :, [along, 2]], colors=WHEEL, lw=1.8,
+        axes.add_collection(LineCollection(CENTIMETRE * cut(scene.surface, axis, position)[:, :, [along, 2]], colors=WHEEL, lw=1.8,
                                            capstyle="round", zorder=4))
     axes.set_xlim(CENTIMETRE * scene.low[along], CENTIMETRE * scene.high[along])
     top = max(scene.x[inside, 2].max() + scene.diameter, scene.bed_level + 2 * scene.diameter) if len(inside) else scene.high[2]
@@ -170,7 +162,7 @@ def _section(axes, scene, axis, position, thickness=2.0):
     axes.set_ylabel("z [cm]")
 
 
-def _cut(surface, axis, position):
+def cut(surface, axis, position):
     """Segments (k, 2, 3) in which triangles cross the plane x[axis] = position."""
     triangles, x = surface
     corners = x[triangles]

@@ -7,6 +7,14 @@ import numpy as np
 NOTHING = -1
 
 
+def round_up(value):
+    """The end of a scale: to 1, 1.5, 2, 3, 5, 7 times a power of ten."""
+    if not value > 0:
+        return 1e-3
+    power = 10.0 ** np.floor(np.log10(value))
+    return power * min(step for step in (1, 1.5, 2, 3, 5, 7, 10) if step * power >= value * (1 - 1e-9))
+
+
 @dataclass
 class View:
     """A parallel projection: world point -> (right, up, towards the viewer), each a unit vector."""

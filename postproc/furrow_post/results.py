@@ -64,6 +64,12 @@ class Results:
     def title(self):
         return self.run.get("title") or self.folder.resolve().name
 
+    @property
+    def has_grains(self):
+        """Whether the run kept grains; continuum ground has its own file, ground.h5."""
+        with h5py.File(self.file, "r") as content:
+            return "grains/final" in content
+
     def grains(self, when):
         """when: "reference" (the settled bed) or "final"."""
         with h5py.File(self.file, "r") as content:
