@@ -1,0 +1,218 @@
+"""furrow-post compare, cost, choose and report on made runs with known answers; refusals with their words."""
+
+import csv
+import json
+import math
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from html.parser import HTMLParser
+from pathlib import Path
+
+SOURCE = Path(os.environ["FURROW_SOURCE"])
+sys.path.insert(0, str(SOURCE / "postproc"))
+
+import h5py
+import numpy as np
+
+from furrow_post import compare, conditions, cost, cost_table
+from furrow_post.results import ResultsError
+
+FURROW_POST = SOURCE / "postproc" / "furrow-post"
+
+
+def row(name, ground, size, sinkage, coefficient, cpu, domain="2x1", seed="1", options="", error=0.0):
+    return cost_table.Row(name, ground, "half" if ground == "continuum" else "whole", "rigid wheel", size, domain, seed, sinkage, error,
+                          coefficient, error, cpu, options)
+
+
+def made_runs():
+    """Continuum: exact f0 + C h with f0 = 0.1 m and 0.2; grains: another line, with two packings and a wider domain."""
+    rows = [row(f"c{h}", "continuum", h, 0.1 * (1 + 2 * h), 0.2 * (1 - 5 * h), 1e-4 / h**4, seed="", options=f"wheel -v cell {h}", error=1e-9)
+            for h in (0.04, 0.02, 0.01)]
+    rows += [row(f"g{h}", "grains", h, 0.12 * (1 + 3 * h), 0.25, 5e-4 / h**4, options=f"grains -v diameter {h}", error=1e-9) for h in (0.04, 0.02)]
+    rows.append(row("seed", "grains", 0.04, 0.12 * 1.12 + 0.002, 0.25, 1.0, seed="2"))
+    rows.append(row("wide", "grains", 0.04, 0.12 * 1.12 - 0.005, 0.26, 1.0, domain="2x2"))
+    return rows
+
+
+class Table(unittest.TestCase):
+    def test_extrapolation_and_components_are_those_of_the_lines(self):
+        families = cost_table.families(made_runs())
+        f0, C, _ = families["continuum", "half", "rigid wheel"].fit("sinkage")
+        self.assertAlmostEqual(f0, 0.1, places=9)
+        self.assertAlmostEqual(C, 0.2, places=7)
+        parts = families["grains", "whole", "rigid wheel"].components("sinkage", 0.03, 1e-4)
+        self.assertAlmostEqual(parts.size, 0.12 * 3 * 0.03, places=7)
+        self.assertAlmostEqual(parts.packing, 0.002 / math.sqrt(2), places=9)
+        self.assertAlmostEqual(parts.domain, 0.005, places=9)
+        self.assertAlmostEqual(parts.total, math.sqrt(1e-8 + 0.0108**2 + 0.002**2 / 2 + 0.005**2), places=7)
+
+    def test_one_size_gives_no_error(self):
+        family = cost_table.families([row("a", "grains", 0.04, 0.1, 0.2, 1.0)])["grains", "whole", "rigid wheel"]
+        self.assertIsNone(family.fit("sinkage"))
+        self.assertEqual(family.components("sinkage", 0.04).known, [])
+        with self.assertRaisesRegex(ResultsError, "add a run of another size"):
+            cost.recommend(cost.assess([row("a", "grains", 0.04, 0.1, 0.2, 1.0)]), 0.1)
+
+    def test_recommends_the_cheapest_within_the_error(self):
+        slow = row("slow", "continuum", 0.02, 0.1 * 1.04, 0.2 * 0.9, 2e3, seed="", error=1e-9)  # as c0.02, at three times its cost
+        assessed = cost.assess(made_runs() + [slow])
+        errors = {a.row.run: a.error for a in assessed}
+        self.assertAlmostEqual(errors["c0.04"], 0.2, places=4)  # the coefficient's 5 h is the worse
+        self.assertAlmostEqual(errors["c0.02"], 0.1, places=4)
+        # sizes 3 h, packing and domain of the sinkage
+        self.assertAlmostEqual(errors["g0.02"], math.sqrt(0.06**2 + (0.002 / 0.12) ** 2 / 2 + (0.005 / 0.12) ** 2), places=4)
+        self.assertEqual({a.row.run for a in assessed if not a.pareto}, {"slow"})
+        for wanted, name, reached in ((0.101, "c0.02", True), (0.08, "g0.02", True), (0.001, "c0.01", False)):
+            choice, within = cost.recommend(assessed, wanted)
+            self.assertEqual((choice.row.run, within), (name, reached))
+
+    def test_written_table_comes_back(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "t.csv"
+            cost_table.write(path, made_runs(), ["# made"])
+            rows, comments = cost_table.read(path)
+            self.assertEqual([r.run for r in rows], [r.run for r in made_runs()])
+            self.assertEqual(comments, ["# made"])
+            path.write_text("run,ground\na,b\n")
+            with self.assertRaisesRegex(ResultsError, "has no column model; columns are run, ground"):
+                cost_table.read(path)
+
+
+class Verdict(unittest.TestCase):
+    def entry(self, source, value, u):
+        return compare.Entry("sinkage", source, value, cost_table.Components(time=u, size=0.0, domain=0.0, packing=0.0), "run")
+
+    def test_two_standard_deviations_decide(self):
+        a = self.entry("a", 0.100, 0.003)
+        self.assertTrue(compare.judge(a, self.entry("b", 0.100 + 2 * 0.005 - 1e-6, 0.004))[1])
+        text, agree = compare.judge(a, self.entry("b", 0.100 + 2 * 0.005 + 1e-6, 0.004))
+        self.assertFalse(agree)
+        self.assertIn("differ, by 1.0 times what their uncertainty allows (difference +10 mm (+10 %), allowed 10)", text)
+
+    def test_no_uncertainty_no_verdict(self):
+        other = compare.Entry("sinkage", "b", 0.1, cost_table.Components(), "run")
+        text, agree = compare.judge(self.entry("a", 0.1, 0.001), other)
+        self.assertIsNone(agree)
+        self.assertIn("b has no uncertainty", text)
+
+    def test_unknown_parts_are_named(self):
+        other = compare.Entry("sinkage", "b", 0.1, cost_table.Components(time=0.001), "run")
+        self.assertIn("not known: domain of b, packing of b, size of b", compare.judge(self.entry("a", 0.1, 0.001), other)[0])
+
+
+def write_run(folder, load=1000.0, sinkage=0.05, datum=0.0):
+    """A wheel of 0.6 m x 0.2 m on ground without grains, steady from 1 s on."""
+    folder.mkdir(parents=True)
+    time = np.arange(2000) * 1e-3
+    phase = np.where(time < 0.5, 0.0, np.where(time < 0.8, 1.0, 2.0))
+    v = np.where(time > 0.65, 1.0, 0.0)
+    one = np.ones_like(time)
+    columns = {"time": time, "phase": phase, "x": np.maximum(time - 0.65, 0), "y": 0 * one, "z": 0.3 * one, "velocity_x": v,
+               "spin_rate": v / 0.3 * 1.25, "sinkage": sinkage * np.minimum(time / 0.5, 1), "force_x": -0.2 * load * v, "force_y": 0 * one,
+               "force_z": load * one, "drawbar_pull": -0.2 * load * v, "drive_torque": 0 * one, "slip": 0.2 * v}
+    with h5py.File(folder / "history.h5", "w") as content:
+        run = content.create_group("run")
+        for name, value in (("title", "made"), ("version", "test"), ("script", "none"), ("started", "2026-01-01T00:00:00Z")):
+            run.attrs[name] = np.bytes_(value)
+        run.attrs["ranks"] = 1
+        run["effective_input"] = np.bytes_(
+            "# styles with their effective values\nfix wheel all wheel/rigid diameter 0.6 width 0.2 mass 50\n"
+            f"fix rig all wheel/rig load_force {load} speed 1 mode slip slip 0.2 slip_angle 0 camber 0 ground_level {datum} gravity 9.80665\n")
+        group = content.create_group("history", track_order=True)
+        for name, values in columns.items():
+            group[name] = values
+            group[name].attrs["unit"], group[name].attrs["meaning"] = np.bytes_(" "), np.bytes_(name)
+    quantity = lambda mean, error, unit: {"mean": mean, "standard_error": error, "unit": unit, "steady": True, "verdict": "steady"}
+    (folder / "summary.json").write_text(json.dumps({"window": {"start": 1.0, "end": 1.9}, "quantities": {
+        "sinkage": quantity(sinkage, 1e-3, "m"), "resistance_coefficient": quantity(0.2, 0.01, ""), "force_z": quantity(load, 1.0, "N"),
+        "drawbar_pull": quantity(-0.2 * load, 1.0, "N"), "drive_torque": quantity(0.0, 0.0, "N m"), "slip": quantity(0.2, 0.0, "")}}))
+
+
+class Balanced(HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.open, self.images = [], 0
+
+    def handle_startendtag(self, tag, attributes):
+        self.images += tag == "img"
+
+    def handle_starttag(self, tag, attributes):
+        self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag, tag
+
+
+class Command(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp())
+        write_run(cls.folder / "a")
+        write_run(cls.folder / "b", sinkage=0.051)
+        write_run(cls.folder / "heavy", load=1100.0)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def run_post(self, *words):
+        return subprocess.run([str(FURROW_POST), *map(str, words)], capture_output=True, text=True, timeout=240, cwd=self.folder)
+
+    def test_slip_in_both_definitions(self):
+        run = conditions.read(self.folder / "a")
+        self.assertAlmostEqual(run.conditions["slip"].value, 0.2, places=12)
+        self.assertAlmostEqual(run.conditions["slip_by_vehicle_speed"].value, 0.25, places=12)  # i = s/(1 - s)
+
+    def test_refuses_another_load_and_says_why(self):
+        done = self.run_post("compare", "a", "heavy", "-o", "refused")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("these runs are not comparable:\n  load: a: 1000 N; heavy: 1100 N (they may differ by 2 %)", done.stderr)
+        self.assertFalse((self.folder / "refused").exists())
+        done = self.run_post("compare", "a", "heavy", "-o", "anyway", "--anyway")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("COMPARED ALTHOUGH CONDITIONS DIFFER", done.stdout)
+
+    def test_compare_writes_table_and_figure(self):
+        done = self.run_post("compare", "one=a", "two=b", "-o", "both")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("sinkage: one and two agree within their uncertainty (difference +1 mm (+2 %), allowed 2.8)", done.stdout)
+        with open(self.folder / "both" / "compare.csv", encoding="utf-8") as file:
+            lines = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        self.assertEqual([(r["quantity"], r["source"], float(r["value"])) for r in lines[:3]],
+                         [("sinkage", "one", 0.05), ("resistance coefficient", "one", 0.2), ("sinkage", "two", 0.051)])
+        self.assertEqual(lines[0]["u_size"], "")  # not known is not zero
+        with h5py.File(self.folder / "both" / "compare.h5", "r") as content:
+            self.assertAlmostEqual(content["runs/two/history/sinkage"][-1], 0.051)
+        self.assertGreater((self.folder / "both" / "compare.png").stat().st_size, 20000)
+
+    def test_report_is_one_page(self):
+        done = self.run_post("report", "one=a", "two=b", "-o", "page/report.html")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = (self.folder / "page" / "report.html").read_text(encoding="utf-8")
+        parser = Balanced()
+        parser.feed(text.replace("<!DOCTYPE html>", ""))
+        self.assertEqual(parser.open, [])
+        self.assertEqual(parser.images, 3)
+        self.assertNotIn("src=\"http", text)
+        self.assertNotIn(str(self.folder), text)  # no path of this machine
+        for name in ("report.csv", "report.h5"):
+            self.assertTrue((self.folder / "page" / name).is_file())
+
+    def test_choose_and_held(self):
+        cost_table.write(self.folder / "made.csv", made_runs())
+        done = self.run_post("choose", "made.csv", "--error", "10.1%")
+        self.assertEqual((done.returncode, done.stdout), (0, "wheel -v cell 0.02\n"), done.stderr)
+        self.assertIn("For 10.1 % error use continuum, cells of 20 mm, half model, rigid wheel", done.stderr)
+        done = self.run_post("choose", "made.csv", "--error", "10.1%", "--held", "a")
+        self.assertIn("sinkage: 0.0500 ± 0.0010, -50.0 % from the value at size zero (0.1), allowed 12 %: NOT HELD", done.stdout)
+        self.assertIn("The estimate did not hold", done.stdout)
+        self.assertEqual(self.run_post("choose", "made.csv", "--error", "200%").returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
