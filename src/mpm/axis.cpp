@@ -50,6 +50,7 @@ Axis::Axis(const AxisLayout& layout, const std::string& where) {
   for (const double end : growing(upper, layout.upper - upper, cell, layout.growth, 1.0)) knot_.push_back(end);
   knot_.front() = layout.lower;
   knot_.back() = layout.upper;
+  first_ = knot_;
   tabulate();
 }
 
@@ -126,8 +127,9 @@ AxisView Axis::view() const {
 void Axis::shift(int count) {
   if (count == 0) return;
   if (!uniform_) throw Error("a graded axis cannot move by whole cells");
-  const double distance = count * (upper() - lower()) / cells();
-  for (double& knot : knot_) knot += distance;
+  shifted_ += count;
+  const double distance = shifted_ * ((first_.back() - first_.front()) / cells());
+  for (std::size_t i = 0; i < knot_.size(); ++i) knot_[i] = first_[i] + distance;
   tabulate();
 }
 

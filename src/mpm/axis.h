@@ -62,6 +62,8 @@ class Axis {
   void tabulate();
 
   std::vector<double> knot_, left_, right_, node_;
+  std::vector<double> first_;  // the knots before any shift: the same place, however it was reached, has the same bits
+  int shifted_ = 0;
   std::vector<int> cell_of_bin_, uneven_;
   int even_from_ = 0, even_to_ = 0;
   double shortest_ = 0.0, bins_per_length_ = 0.0;

@@ -350,6 +350,7 @@ void MpmGround::move_window() {
   bool moved = false;
   while (focus_ > 0.5 * (x.lower() + x.upper()) + x.length(0)) {
     drop_behind();
+    if (!moved) faces_.synchronise(ranks(), partition_.owned());  // rows go over from rank to rank
     grid_.shift_x(1);
     faces_.shift_x(1);
     ++shifts_;

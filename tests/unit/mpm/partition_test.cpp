@@ -1,4 +1,4 @@
-// On one rank; several ranks: tests/verification/mpm/ranks_test.cpp.
+// On one rank; several ranks: tests/verification/mpm_ranks/ranks_test.cpp.
 #include "mpm/partition.h"
 
 #include <gtest/gtest.h>
