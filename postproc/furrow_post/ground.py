@@ -143,15 +143,15 @@ def _nearest(ground, axis, position, pixel=0.002):
 def _section(axes, ground, body, norm, axis, position):
     image, extent = _nearest(ground, axis, position)
     axes.imshow(image, origin="lower", extent=[CENTIMETRE * e for e in extent], cmap=COLOURS, norm=norm, interpolation="nearest")
-    _frame(axes, ground, body, axis, position)
+    _frame(axes, ground, body.surface, axis, position)
 
 
-def _frame(axes, ground, body, axis, position):
+def _frame(axes, ground, surface, axis, position):
     """Level of the ground before, outline of the wheel, limits and names of the axes."""
     along = 1 - axis
     axes.axhline(CENTIMETRE * ground.level, color="0.15", lw=0.9, ls=(0, (6, 4)))
-    if body.surface:
-        segments = CENTIMETRE * cut(body.surface, axis, position)[:, :, [along, 2]]
+    if surface:
+        segments = CENTIMETRE * cut(surface, axis, position)[:, :, [along, 2]]
         axes.add_collection(LineCollection(segments, colors=WHEEL, lw=1.6, capstyle="round"))
     axes.set_xlim(CENTIMETRE * ground.x[:, along].min(), CENTIMETRE * ground.x[:, along].max())
     axes.set_ylim(CENTIMETRE * min(ground.x[:, 2].min(), 0.0), CENTIMETRE * (ground.level + 0.10))
@@ -171,7 +171,16 @@ def _tracers(axes, ground, body, axis, position):
         line = np.abs(home[:, 0] - place) < 1e-5
         order = np.argsort(home[line, 1])
         axes.plot(*(CENTIMETRE * x[line][order]).T, "-o", ms=2, lw=0.9, color=COLOURS(0.62))
-    _frame(axes, ground, body, axis, position)
+    _frame(axes, ground, body.surface, axis, position)
+
+
+def density_section(figure, axes, ground, axis, position):
+    """A section without a wheel, with its scale: for plates and columns. x[axis] = position [m]."""
+    norm = Normalize(0.9 * ground.undisturbed, render.round_up(float(ground.density.max())))
+    image, extent = _nearest(ground, axis, position)
+    axes.imshow(image, origin="lower", extent=[CENTIMETRE * e for e in extent], cmap=COLOURS, norm=norm, interpolation="nearest")
+    _frame(axes, ground, None, axis, position)
+    figure.colorbar(ScalarMappable(norm, COLOURS), ax=axes, shrink=0.7, extend="min").set_label("density [kg/m³]")
 
 
 def draw(folder, title, numbers, target, pixels=1400):
