@@ -175,11 +175,10 @@ void FixBedWindow::renew(long slab) {
   for (std::size_t g = 0; g < offset_.size(); ++g)
     if (slab_of_grain(g) == here) fresh.push_back(g);
 
-  // The slab ahead has not moved since it was renewed; it is put in once more, because its grains need partners in this slab.
+  // The slab behind has not moved since it was renewed; it is put in once more, because its grains need partners in this slab.
   take_out(here, fresh);
   for (const std::size_t g : fresh) current_tag_[g] = ++largest_tag_;
-  const int behind = static_cast<int>((here + slabs_ - 1) % slabs_);
-  put_in(fresh, behind);
+  put_in(fresh, static_cast<int>((here + 1) % slabs_));
   put_in(frozen_, -1);
   frozen_ = fresh;
   first_frozen_tag_ = largest_tag_ - static_cast<int>(fresh.size()) + 1;
@@ -197,20 +196,19 @@ void FixBedWindow::renew(long slab) {
 
 /// What stands in the slab, the slab frozen until now, and grains of the rut that lie in the grains to come.
 void FixBedWindow::take_out(long slab, const std::vector<std::size_t>& fresh) {
-  const double period = domain->prd[0];
-  const double left = domain->boxlo[0] + static_cast<double>(slab) * slab_length_;
+  const double period = domain->prd[0], middle = domain->boxlo[0] + (static_cast<double>(slab) + 0.5) * slab_length_;
   double largest = 0.0;
   for (const std::size_t g : fresh) largest = std::max(largest, packed(g)[at_radius]);
+  const double inner = 0.5 * slab_length_ - 2.0 * largest, outer = 0.5 * slab_length_ + 2.0 * largest;
   std::vector<const double*> at_seam;
   for (const std::size_t g : fresh)
-    if (packed(g)[at_x] < left + 2.0 * largest) at_seam.push_back(packed(g));
+    if (std::abs(packed(g)[at_x] - middle) > inner) at_seam.push_back(packed(g));
   // Frozen now: their tags are those of the slab renewed last.
   int i = 0;
   while (i < atom->nlocal) {
     const double* x = atom->x[i];
     bool out = slab_of(x[0]) == slab || (atom->tag[i] >= first_frozen_tag_ && atom->tag[i] <= last_frozen_tag_);
-    const double gap = std::remainder(left - x[0], period);
-    if (!out && gap >= 0.0 && gap < 2.0 * largest)
+    if (!out && std::abs(std::remainder(x[0] - middle, period)) < outer)
       for (const double* other : at_seam) {
         const double dx = std::remainder(x[0] - other[at_x], period), dy = x[1] - other[at_x + 1], dz = x[2] - other[at_x + 2];
         const double reach = (1.0 - seam_overlap) * (atom->radius[i] + other[at_radius]);
@@ -226,8 +224,8 @@ void FixBedWindow::take_out(long slab, const std::vector<std::size_t>& fresh) {
   }
 }
 
-/// @param slab_behind partners there are gone; -1: none is
-void FixBedWindow::put_in(const std::vector<std::size_t>& grains, int slab_behind) {
+/// @param rut partners in this slab are gone; -1: none is
+void FixBedWindow::put_in(const std::vector<std::size_t>& grains, int rut) {
   auto* history = dynamic_cast<LAMMPS_NS::FixContactHistory*>(modify->find_fix_style_strict("contacthistory", 0));
   const auto values = static_cast<std::size_t>(history ? history->get_dnum() : 0);
   std::vector<double> buffer;
@@ -248,7 +246,7 @@ void FixBedWindow::put_in(const std::vector<std::size_t>& grains, int slab_behin
       for (std::size_t n = 0; n < static_cast<std::size_t>(partners); ++n) {
         const double* entry = &buffer[begin + 1 + n * (1 + values)];
         const auto partner = static_cast<std::size_t>(ubuf(*entry).i);
-        if (partner >= offset_.size() || slab_of_grain(partner) == slab_behind) continue;
+        if (partner >= offset_.size() || slab_of_grain(partner) == rut) continue;
         kept.push_back(ubuf(current_tag_[partner]).d);
         kept.insert(kept.end(), entry + 1, entry + 1 + values);
         ++count;
@@ -265,7 +263,7 @@ void FixBedWindow::put_in(const std::vector<std::size_t>& grains, int slab_behin
   }
 }
 
-/// The slab renewed last stands still: its rear face looks into the rut.
+/// The slab renewed last stands still: its front face looks into the rut.
 void FixBedWindow::post_force(int) {
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->tag[i] >= first_frozen_tag_ && atom->tag[i] <= last_frozen_tag_)

@@ -36,7 +36,7 @@ class FixBedWindow : public LAMMPS_NS::Fix, public Described, public Dependent {
   int slab_of_grain(std::size_t grain) const { return static_cast<int>(slab_of(packed(grain)[1])); }
   const double* packed(std::size_t grain) const { return &reference_[offset_[grain]]; }
   void take_out(long slab, const std::vector<std::size_t>& fresh);
-  void put_in(const std::vector<std::size_t>& grains, int slab_behind);
+  void put_in(const std::vector<std::size_t>& grains, int rut);
 
   Options options_;
   Body& body_;

@@ -11,6 +11,9 @@
 
 #include "coupling/fix_contact_plane.h"
 #include "coupling/fix_contact_bodies.h"
+#include "coupling/fix_bed_window.h"
+#include "coupling/fix_cell_servo.h"
+#include "coupling/fix_layer_shear.h"
 #include "coupling/fix_mesh_body.h"
 #include "coupling/fix_plate_rigid.h"
 #include "coupling/fix_progress.h"
@@ -92,6 +95,9 @@ TEST(Pages, MeshBody) { expect_page_of("fix_mesh_body.md", FixMeshBody::schema()
 TEST(Pages, TerrainContinuum) { expect_page_of("fix_terrain_continuum.md", FixTerrainContinuum::schema()); }
 TEST(Pages, TerrainHistory) { expect_page_of("fix_terrain_history.md", FixTerrainHistory::schema()); }
 TEST(Pages, ContactBodies) { expect_page_of("fix_contact_bodies.md", FixContactBodies::schema()); }
+TEST(Pages, CellServo) { expect_page_of("fix_cell_servo.md", FixCellServo::schema()); }
+TEST(Pages, LayerShear) { expect_page_of("fix_layer_shear.md", FixLayerShear::schema()); }
+TEST(Pages, BedWindow) { expect_page_of("fix_bed_window.md", FixBedWindow::schema()); }
 TEST(Pages, Progress) { expect_page_of("fix_progress.md", FixProgress::schema()); }
 
 TEST(Pages, HistoryNamesEveryChannel) {
