@@ -106,6 +106,7 @@ Schema ground_schema(const std::string& subject) {
   schema.word("base", face_kind_names(), "what it lies on").by_default("rough");
   schema.number("gravity", "m/s^2", Range::non_negative(), "downwards").by_default(standard_gravity);
   schema.flag("weightless_start", "start without the stress of the ground's own weight");
+  schema.flag("sheet", "carry triangles on the upper face, for grains that lie on the ground");
   schema.number("cfl", "", Range::closed(0.01, 1.0), "step over shortest cell and wave speed").by_default(0.4);
   schema.number("soften", "", Range{0.0, 1.0, true, false}, "factor on Young's modulus, for longer steps").by_default(1.0);
   return schema;
@@ -127,6 +128,7 @@ GroundParameters read_ground(const Options& options, const std::string& folder) 
   ground.particles_per_cell = {particles, particles, particles};
   ground.gravity = {0.0, 0.0, -options.number("gravity")};
   ground.initial_stress = !options.flag("weightless_start");
+  ground.sheet = options.flag("sheet");
   ground.cfl = options.number("cfl");
   return ground;
 }

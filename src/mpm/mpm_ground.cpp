@@ -84,7 +84,10 @@ MpmGround::MpmGround(const GroundParameters& parameters, const Communicator& ran
   if (parameters.window && (parameters.faces[x_lower] == FaceKind::absorbing || parameters.faces[x_upper] == FaceKind::absorbing))
     throw InputError(where, "moves along x and absorbs there", "smooth, rough or free faces across x for ground that moves");
   for (const GroundLayer& layer : parameters_.layers) phases_.push_back({layer.law, Particles(*layer.law)});
+  if (parameters.window && parameters.sheet)
+    throw InputError(where, "moves along x and carries a sheet", "one of the two", "grains on moving ground would be left behind");
   fill();
+  if (parameters.sheet) lay_sheet();
   if (!faces_.captured()) {
     grid_.clear(partition_.touched());
     scatter(capture_step);
@@ -99,6 +102,21 @@ void MpmGround::fill() {
   for (int cell = 0; cell < cells; ++cell) add_column(cell);
   initial_ = internal_energy();
   sort();
+}
+
+void MpmGround::lay_sheet() {
+  const auto& per_cell = parameters_.particles_per_cell;
+  const auto columns = static_cast<std::size_t>(grid_.axis(0).cells() * per_cell[0]),
+             rows = static_cast<std::size_t>(grid_.axis(1).cells() * per_cell[1]);
+  std::vector<double> top(columns * rows);
+  for (std::size_t n = 0; n < top.size(); ++n) top[n] = static_cast<double>(n * levels_.size());  // the order of add_column()
+  sheet_ = GroundSheet(std::move(top), rows, columns);
+  sheet_.find(phases_);
+  move_sheet();
+}
+
+void MpmGround::move_sheet() {
+  sheet_.follow(phases_, [&](double* numbers, std::size_t count) { ranks().sum(numbers, count); });
 }
 
 /// The undisturbed particles of a column of cells across y and z, if it is this rank's. Ids are counted on all ranks.
@@ -147,6 +165,8 @@ void MpmGround::push(std::size_t phase, std::size_t particle, const Vector3& for
 }
 
 void MpmGround::advance(double dt) {
+  if (sheet_.exists())
+    sheet_.hand_over(phases_, [&](std::size_t phase, std::size_t particle, const Vector3& force, const Vector3& lever) { push(phase, particle, force, lever); });
   grid_.clear(partition_.touched());
   scatter(dt);
   partition_.sum_shared(grid_);
@@ -156,6 +176,7 @@ void MpmGround::advance(double dt) {
   move_window();
   drift_ += ranks().max(largest_speed_) * dt;
   if (drift_ > most_drift * grid_.shortest_cell()) sort();
+  if (sheet_.exists()) move_sheet();
 }
 
 /// Particles may be in this rank's slab and one cell beyond.
@@ -304,6 +325,7 @@ void MpmGround::sort() {
     for (std::size_t p = 0; p < n; ++p) order[start[cell[p]]++] = p;
     phase.particles.reorder(order);
   }
+  if (sheet_.exists()) sheet_.find(phases_);
 }
 
 /// Balances the slabs and sends every particle to the owner of its cell.
@@ -399,7 +421,7 @@ std::vector<double> MpmGround::fingerprint() const {
   for (int a = 0; a < 3; ++a) numbers.insert(numbers.end(), {static_cast<double>(grid_.axis(a).cells()), grid_.axis(a).shortest()});
   for (const GroundPhase& phase : phases_)
     numbers.insert(numbers.end(), {static_cast<double>(phase.particles.record_length()), phase.law->density()});
-  numbers.push_back(static_cast<double>(faces_.state_length()));
+  numbers.insert(numbers.end(), {static_cast<double>(faces_.state_length()), static_cast<double>(sheet_.surface().node_count())});
   return numbers;
 }
 
@@ -409,6 +431,8 @@ std::vector<double> MpmGround::state() const {
   ranks().sum(sums, std::size(sums));
   state.insert(state.end(), std::begin(sums), std::end(sums));
   state.insert(state.end(), {static_cast<double>(shifts_), focus_, next_id_, drift_, ranks().max(largest_speed_)});
+  const Matrix3X& f = sheet_.surface().f;
+  state.insert(state.end(), f.data(), f.data() + f.size());
   Faces faces = faces_;
   faces.synchronise(ranks(), partition_.owned());
   faces.collect(ranks());
@@ -437,6 +461,9 @@ void MpmGround::restore(const std::vector<double>& state) {
   next_id_ = *next++;
   drift_ = *next++;
   largest_speed_ = *next++;
+  Matrix3X& f = sheet_.surface().f;
+  std::copy_n(next, f.size(), f.data());
+  next += f.size();
   next = faces_.restore(next, ranks().rank() == 0);
   for (GroundPhase& phase : phases_) {
     phase.particles.reorder({});
@@ -448,6 +475,9 @@ void MpmGround::restore(const std::vector<double>& state) {
   if (ranks().size() > 1) sort();
   drift_ = drift;
   ++generation_;
+  if (!sheet_.exists()) return;
+  sheet_.find(phases_);
+  move_sheet();
 }
 
 }  // namespace furrow

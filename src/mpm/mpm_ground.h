@@ -7,6 +7,7 @@
 #include "body/body.h"
 #include "core/communicator.h"
 #include "mpm/ground_parameters.h"
+#include "mpm/ground_sheet.h"
 #include "mpm/overburden.h"
 #include "mpm/particles.h"
 #include "mpm/partition.h"
@@ -38,7 +39,8 @@ class MpmGround : public Body {
   double stable_time_step() const override;
   void advance(double dt) override;
   using Body::surface;
-  Surface& surface() override { return surface_; }  ///< no triangles: others press on the particles
+  /// The sheet of a ground that carries grains; otherwise without triangles, as others press on the particles.
+  Surface& surface() override { return sheet_.surface(); }
   Balance balance() const override;
   std::vector<double> state() const override;
   void restore(const std::vector<double>& state) override;
@@ -72,6 +74,8 @@ class MpmGround : public Body {
     Vector3 force, lever;
   };
   void fill();
+  void lay_sheet();
+  void move_sheet();
   void add_column(int cell);
   void scatter(double dt);
   void gather(double dt);
@@ -86,7 +90,6 @@ class MpmGround : public Body {
 
   GroundParameters parameters_;
   std::string where_;
-  Surface surface_;
   Grid grid_;
   std::vector<GroundLevel> levels_;
   std::vector<GroundPhase> phases_;
@@ -105,6 +108,7 @@ class MpmGround : public Body {
   double focus_, start_;  // [m]
   int shifts_ = 0;        // of the window, in cells
   std::vector<RutPoint> rut_;
+  GroundSheet sheet_;
 
   // this rank's share, since the start [J]
   double kinetic_ = 0.0, initial_ = 0.0, stress_work_ = 0.0, contact_work_ = 0.0, gravity_work_ = 0.0;
