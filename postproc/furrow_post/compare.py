@@ -17,6 +17,7 @@ from .results import ResultsError
 from .summary import with_error
 
 COVERAGE = 2.0  # standard deviations within which two values agree
+VAGUE = 0.5     # beyond this part of the value, agreement says nothing
 # condition -> (largest relative difference, largest absolute difference); the larger of the two counts
 TOLERANCES = {"load": (0.02, 0.0), "speed": (0.02, 0.0), "wheel_diameter": (0.02, 0.0), "wheel_width": (0.03, 0.0), "pressure": (0.02, 0.0),
               "depth": (0.06, 0.0), "density": (0.1, 0.0), "slip": (0.0, 0.03), "slip_angle": (0.0, 0.5), "camber": (0.0, 0.5),
@@ -84,7 +85,8 @@ def unique_labels(runs):
             run.label = f"{run.folder.resolve().parent.name}/{run.label}"
 
 
-def _entries_of_run(run, families, track):
+def entries_of_run(run, families):
+    """The Entry of each quantity of a WheelRun, with the parts of its error that a table's families know."""
     entries = []
     key = ("half" if run.half else "whole")
     family = families.get((run.ground, key, run.wheel))
@@ -143,7 +145,9 @@ def judge(a, b):
     agree = abs(difference) <= allowed
     numbers = f"difference {scale * difference:+.3g}{' ' + unit if unit else ''} ({relative}), allowed {scale * allowed:.2g}"
     lacking = sorted({f"{part} of {e.source}" for e in (a, b) for part in e.unknown})
-    verdict = "agree within their uncertainty" if agree else f"differ, by {abs(difference) / allowed:.1f} times what their uncertainty allows"
+    vague = agree and allowed > VAGUE * abs(a.value)
+    verdict = f"cannot be told apart, their uncertainty is {100 * allowed / abs(a.value):.0f} % of the value" if vague else \
+        "agree within their uncertainty" if agree else f"differ, by {abs(difference) / allowed:.1f} times what their uncertainty allows"
     return f"{name}: {a.source} and {b.source} {verdict} ({numbers})" + (f"; not known: {', '.join(lacking)}" if lacking else ""), agree
 
 
@@ -159,7 +163,7 @@ def compare(runs, table=None, formulas=(), measured=None, anyway=False):
     for run in runs:
         if run.ground != "none":
             result.tracks[run.label] = density.track_density(run)
-        result.entries += _entries_of_run(run, known, None)
+        result.entries += entries_of_run(run, known)
     for prediction in formulas:
         result.entries += formula_entries(prediction)
     if measured:
@@ -181,7 +185,12 @@ def overall(result):
     among = [(text, agree) for text, agree in result.verdicts if "measured" not in text]
     if not among:
         return ""
-    if all(agree for _, agree in among):
+    vague = [text.split(":")[0] for text, _ in among if "cannot be told apart" in text]
+    if all(agree for _, agree in among) and vague:
+        others = [text.split(":")[0] for text, _ in among if text.split(":")[0] not in vague]
+        verdict = (f"The runs agree in {' and '.join(dict.fromkeys(others))} within their uncertainty; " if others else "") + \
+            f"in {' and '.join(dict.fromkeys(vague))} they cannot be told apart: the uncertainty is too large."
+    elif all(agree for _, agree in among):
         verdict = "The runs agree within their uncertainty in sinkage and resistance."
     else:
         what = [text.split(":")[0] for text, agree in among if not agree]

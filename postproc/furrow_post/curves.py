@@ -1,4 +1,4 @@
-"""Comparison of curves: pressure against sinkage of plates, density against stress of oedometers; grains, continuum, measured.
+"""Comparison of curves: pressure against sinkage of plates, compression against stress of oedometers; grains, continuum, measured.
 
 A plate's folder has curve.txt (fix ave/time: step, sinkage [m], force [N], pressure [Pa]) and facts.txt (name value pairs); an oedometer's is
 one of inputs/laboratory, or one of furrow-point (point.csv).
@@ -18,12 +18,12 @@ from .style import annotate_panel, save, use_style
 
 PLATE_LEVELS = (0.05, 0.1, 0.2, 0.3, 0.5)          # sinkage over depth of the ground
 STRESS_LEVELS = (2e3, 1e4, 5e4, 1e5, 2e5, 5e5)     # Pa
-TOLERANCES = {"size": 0.02, "depth": 0.06, "density": 0.1}
+TOLERANCES = {"size": 0.02, "depth": 0.06, "density": 0.1, "speed": 0.02}
 
 
 @dataclass
 class Curve:
-    """x rising, y; kind "plate" (sinkage [m], pressure [Pa]) or "oedometer" (axial stress [Pa], density [kg/m3])."""
+    """x rising, y; kind "plate" (sinkage [m], pressure [Pa]) or "oedometer" (axial stress [Pa], density over that at the start)."""
 
     label: str
     kind: str
@@ -55,7 +55,8 @@ def read(folder, label=None):
         end = int(np.argmax(stress)) + 1
         rising = np.maximum.accumulate(stress[:end])
         keep = rising > 1.0
-        return Curve(label or point.label, "oedometer", "continuum", rising[keep], rho[:end][keep], {"density": float(rho[0])}, np.zeros(keep.sum()))
+        facts = {"density": float(rho[0])}
+        return Curve(label or point.label, "oedometer", "continuum", rising[keep], (rho[:end] / rho[0])[keep], facts, np.zeros(keep.sum()))
     test = Test(folder)
     facts = {key: float(value) for key, value in test.facts.items() if _number(value)}
     if test.kind == "plate":
@@ -68,7 +69,7 @@ def read(folder, label=None):
         axial = np.maximum.accumulate(np.maximum(stress[:, 2], 1e-3))
         end = int(np.argmax(stress[:, 2])) + 1
         facts["density"] = float(density[0])  # "density" of the facts is that of a grain's substance
-        return Curve(label or test.label, "oedometer", "grains", axial[:end], density[:end], facts, np.zeros(end))
+        return Curve(label or test.label, "oedometer", "grains", axial[:end], density[:end] / density[0], facts, np.zeros(end))
     raise ResultsError(f"{folder}: compare takes plates and oedometers, not '{test.kind}'")
 
 
@@ -115,7 +116,7 @@ def compare(curves, anyway=False):
         ratio = np.log(values[:, k] / values[:, 0])
         rms = float(np.sqrt(np.mean(ratio**2)))
         worst = int(np.argmax(np.abs(ratio)))
-        what = "pressure at equal sinkage" if kind == "plate" else "density at equal stress"
+        what = "pressure at equal sinkage" if kind == "plate" else "compression (density over that at the start) at equal stress"
         result.verdicts.append(f"{what}: {curve.label} is {100 * (math.exp(ratio.mean()) - 1):+.0f} % of {curves[0].label} on average, rms ln-ratio {rms:.3f}, "
                                f"largest {100 * (math.exp(ratio[worst]) - 1):+.0f} % at {_level(kind, levels[worst])}")
     return result
@@ -128,7 +129,7 @@ def _level(kind, value):
 def text(result):
     kind = result.curves[0].kind
     wide = max([len(c.label) for c in result.curves] + [12])
-    scale, unit = (1e-3, "kPa") if kind == "plate" else (1.0, "kg/m3")
+    scale, unit = (1e-3, "kPa") if kind == "plate" else (1.0, "density over that at the start")
     lines = [f"{'sinkage' if kind == 'plate' else 'axial stress':14}" + "".join(f"{c.label:>{wide + 2}}" for c in result.curves) + f"   [{unit}]"]
     for level, row in zip(result.levels, result.values):
         lines.append(f"{_level(kind, level):14}" + "".join(f"{scale * v:{wide + 2}.4g}" for v in row))
@@ -140,7 +141,7 @@ def write(result, folder):
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "compare.txt").write_text(text(result) + "\n", encoding="utf-8")
     with open(folder / "compare.csv", "w", encoding="utf-8", newline="") as file:
-        file.write("# plate: sinkage [m], pressure [Pa]; oedometer: axial stress [Pa], density [kg/m3]\n")
+        file.write("# plate: sinkage [m], pressure [Pa]; oedometer: axial stress [Pa], density over that at the start\n")
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["level"] + [c.label for c in result.curves])
         for level, row in zip(result.levels, result.values):
@@ -170,8 +171,8 @@ def draw(result, target, measured=None):
         else:
             axes.semilogx(1e-3 * c.x, c.y, color=colour, lw=1.4, label=c.label)
     if measured:
-        axes.plot([1e-3 * s for _, s in measured], [rho for rho, _ in measured], "ko", ms=5, label="measured")
-    axes.set(xlabel="sinkage [mm]" if kind == "plate" else "axial stress [kPa]", ylabel="mean pressure [kPa]" if kind == "plate" else "density [kg/m³]")
+        axes.plot([1e-3 * s for _, s in measured], [ratio for ratio, _ in measured], "ko", ms=5, label="measured")
+    axes.set(xlabel="sinkage [mm]" if kind == "plate" else "axial stress [kPa]", ylabel="mean pressure [kPa]" if kind == "plate" else "density over that at the start")
     axes.legend(fontsize=8)
     annotate_panel(axes, "a", "plate sinkage" if kind == "plate" else "confined compression")
     save(figure, target)
