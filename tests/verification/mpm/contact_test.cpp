@@ -1,0 +1,201 @@
+// Contact of surfaces with ground: Coulomb's law and TR eq 26 on an incline, momentum and its moment on both sides, energies.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "../../unit/mpm/ground_scene.h"
+#include "body/rigid_plate.h"
+
+namespace furrow {
+namespace {
+
+using namespace testing_ground;
+
+using Enforcement = ContactParameters::Enforcement;
+
+/// An elastic block of 0.2 x 0.1 x 0.1 m on a rigid plate, gravity turned by a slope.
+struct Incline {
+  Incline(double slope, const ContactParameters& parameters) : ground(block(slope), Communicator()), plate({PlateShape::square, 1.0, 0.1, 10}, {0, 0, -0.1}),
+                                                               contact(plate, ground, parameters, false, "plate") {
+    carve(ground, [](const Vector3& x) { return std::abs(x.x() + 0.2) < 0.1 && x.z() > 0.0; });
+    mass = sums_of(ground).mass;
+    start = sums_of(ground).centre.x();
+  }
+  static GroundParameters block(double slope) {
+    const double cell = 0.025;
+    GroundParameters p = box(law_of(elastic(1e6, 0.2, 1000)), {-0.4, 0, -0.05}, {0.4, 0.1, 0.1}, cell);
+    p.z = even(-0.05, 0.15, cell);
+    p.surface = 0.1;
+    set_faces(p, {"free", "free", "smooth", "smooth", "free", "free"});
+    p.gravity = standard_gravity * Vector3(std::sin(slope), 0, -std::cos(slope));
+    p.initial_stress = false;
+    return p;
+  }
+  void run(double duration) {
+    while (time < duration) {
+      const double dt = ground.stable_time_step();
+      plate.surface().clear_forces();
+      contact.apply(dt);
+      ground.advance(dt);
+      time += dt;
+      normal_impulse += dt * -contact.force().z();
+      friction_impulse += dt * contact.force().x();
+    }
+  }
+  double moved() { return sums_of(ground).centre.x() - start; }
+
+  MpmGround ground;
+  RigidPlate plate;
+  GroundContact contact;
+  double time = 0.0, mass, start, normal_impulse = 0.0, friction_impulse = 0.0;
+};
+
+class Enforcements : public ::testing::TestWithParam<Enforcement> {};
+INSTANTIATE_TEST_SUITE_P(Contact, Enforcements, ::testing::Values(Enforcement::penalty, Enforcement::impulse),
+                         [](const auto& one) { return one.param == Enforcement::penalty ? "penalty" : "impulse"; });
+
+/// a = g (sin(slope) - mu cos(slope)); every particle slides, so the friction is mu times the normal force, exactly.
+TEST_P(Enforcements, SlidesAsCoulombSays) {
+  ContactParameters parameters;
+  parameters.enforcement = GetParam();
+  parameters.friction = 0.3;
+  const double slope = std::atan(0.6), duration = 0.2;
+  Incline incline(slope, parameters);
+  incline.run(duration);
+  const double a = standard_gravity * (std::sin(slope) - 0.3 * std::cos(slope));
+  RecordProperty("distance_over_closed_form", fmt::format("{:.4f}", incline.moved() / (0.5 * a * incline.time * incline.time)));
+  EXPECT_NEAR(incline.moved(), 0.5 * a * incline.time * incline.time, 0.02 * incline.moved());
+  EXPECT_NEAR(incline.friction_impulse / incline.normal_impulse, 0.3, 0.006);
+  // mu N s
+  const double loss = 0.3 * incline.mass * standard_gravity * std::cos(slope) * incline.moved();
+  RecordProperty("friction_loss_over_closed_form", fmt::format("{:.4f}", incline.contact.friction_loss() / loss));
+  EXPECT_NEAR(incline.contact.friction_loss() / loss, 1.0, 0.03);
+}
+
+/// Below the angle of friction it does not slide once the first bounce is over. Springs hold it; impulses take away the velocity of each
+/// particle anew in every step and let it creep.
+TEST_P(Enforcements, SticksBelowTheAngleOfFriction) {
+  ContactParameters parameters;
+  parameters.enforcement = GetParam();
+  parameters.friction = 0.3;
+  parameters.damping = 1.0;
+  const double slope = std::atan(0.2), duration = 0.4;
+  Incline incline(slope, parameters);
+  incline.run(0.5 * duration);
+  const double at_half = incline.moved();
+  incline.run(duration);
+  const double free = 0.5 * standard_gravity * std::sin(slope) * duration * duration;
+  RecordProperty("crept_over_free_fall", fmt::format("{:.2e}", (incline.moved() - at_half) / free));
+  EXPECT_LT(std::abs(incline.moved() - at_half), (GetParam() == Enforcement::penalty ? 1e-3 : 2e-2) * free);
+  EXPECT_NEAR(incline.friction_impulse / incline.normal_impulse, 0.2, 0.02);
+}
+
+/// tau = mu sigma (1 - exp(-j/k)), TR eq 26: the distance slid solves s'' = g sin - mu g cos (1 - exp(-s/k)).
+TEST_P(Enforcements, SlidesAsEquation26Says) {
+  ContactParameters parameters;
+  parameters.enforcement = GetParam();
+  parameters.friction = 0.8;
+  parameters.slip_length = 0.05;
+  parameters.damping = 1.0;  // the block is put on the plate with its whole weight: a bounce would begin the slip anew
+  const double slope = std::atan(0.5), duration = 0.2;
+  Incline incline(slope, parameters);
+  incline.run(duration);
+  double s = 0.0, v = 0.0;
+  const double dt = 1e-6;
+  for (double t = 0.0; t < incline.time; t += dt) {
+    v += dt * standard_gravity * (std::sin(slope) - 0.8 * std::cos(slope) * (1.0 - std::exp(-s / 0.05)));
+    s += dt * v;
+  }
+  RecordProperty("distance_over_closed_form", fmt::format("{:.4f}", incline.moved() / s));
+  EXPECT_NEAR(incline.moved(), s, 0.03 * s);
+}
+
+TEST_P(Enforcements, RoughDoesNotSlideAndSmoothDoesNotHold) {
+  ContactParameters parameters;
+  parameters.enforcement = GetParam();
+  const double slope = std::atan(1.5), duration = 0.1, free = 0.5 * standard_gravity * std::sin(slope) * duration * duration;
+  parameters.friction = std::numeric_limits<double>::infinity();
+  Incline rough(slope, parameters);
+  rough.run(duration);
+  EXPECT_LT(rough.moved(), (GetParam() == Enforcement::penalty ? 0.1 : 0.2) * free);  // shear of the block; creep
+  parameters.friction = 0.0;
+  Incline smooth(slope, parameters);
+  smooth.run(duration);
+  EXPECT_NEAR(smooth.moved() / (0.5 * standard_gravity * std::sin(slope) * smooth.time * smooth.time), 1.0, 0.01);
+  EXPECT_EQ(smooth.contact.friction_loss(), 0.0);
+}
+
+/// A plate hits a free block off its middle: what the block gains in momentum and angular momentum, the plate's nodes lose, to rounding.
+TEST_P(Enforcements, ForceAndMomentAreEqualOnBothSides) {
+  GroundParameters p = box(law_of(elastic(1e6, 0.2, 500)), {-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3}, 0.05);
+  MpmGround ground(p, Communicator());
+  carve(ground, [](const Vector3& x) { return x.cwiseAbs().maxCoeff() < 0.1; });
+  set_motion(ground, {0.3, 0.2, 0.0}, spin({1.0, 2.0, -3.0}));
+  RigidPlate plate({PlateShape::circle, 0.12, 0.05, 4}, {0.05, 0.03, 0.1 + 1e-4});
+  ContactParameters parameters;
+  parameters.enforcement = GetParam();
+  GroundContact contact(plate, ground, parameters, false, "plate");
+  const Sums before = sums_of(ground);
+  Vector3 impulse = Vector3::Zero(), moment = impulse;
+  for (int n = 0; n < 300; ++n) {
+    const double dt = 0.5 * ground.stable_time_step();
+    plate.surface().clear_forces();
+    plate.prescribe(-1.0);
+    contact.apply(dt);
+    impulse += dt * plate.surface().total_force();
+    moment += dt * plate.surface().total_moment(Vector3::Zero());
+    plate.advance(dt);
+    ground.advance(dt);
+  }
+  const Sums after = sums_of(ground);
+  ASSERT_GT(impulse.norm(), 0.1 * after.mass);
+  EXPECT_LT((after.momentum - before.momentum + impulse).norm(), 1e-12 * impulse.norm());
+  EXPECT_LT((after.angular - before.angular + moment).norm(), 1e-11 * moment.norm());
+}
+
+/// A plate in a bed of snow, pressed in and pulled out: momentum against all impulses; energies against all works.
+TEST_P(Enforcements, MomentumAndEnergyOfAPressedBedAreAccountedFor) {
+  GroundParameters p = box(law_of(snow()), {-0.15, 0, 0}, {0.15, 0.15, 0.1}, 0.025);
+  p.z = even(0, 0.15, 0.025);
+  p.gravity = {0, 0, -standard_gravity};
+  p.initial_stress = true;
+  set_faces(p, {"absorbing", "absorbing", "smooth", "absorbing", "rough", "free"});
+  MpmGround ground(p, Communicator());
+  RigidPlate plate({PlateShape::square, 0.15, 0.05, 4}, {0.02, 0, 0.1 + 1e-4});
+  ContactParameters parameters;
+  parameters.enforcement = GetParam();
+  GroundContact contact(plate, ground, parameters, false, "plate");
+  const double mass = sums_of(ground).mass;
+  Vector3 impulse = Vector3::Zero();
+  double time = 0.0, most = 0.0, pressed = 0.0, loss = 0.0;
+  while (time < 0.05) {
+    const double dt = ground.stable_time_step();
+    plate.surface().clear_forces();
+    plate.prescribe(time < 0.035 ? -1.0 : 1.0);
+    contact.apply(dt);
+    impulse -= dt * contact.force();
+    plate.advance(dt);
+    ground.advance(dt);
+    time += dt;
+    impulse += dt * mass * p.gravity;
+    pressed = std::max(pressed, contact.force().z());
+    const Balance b = ground.balance();
+    EXPECT_GE(b.numerical_loss, loss - 1e-3 * b.contact_work);
+    loss = std::max(loss, b.numerical_loss);
+    Vector3 faces = Vector3::Zero();
+    for (int f = 0; f < face_count; ++f) faces += ground.face_impulse(static_cast<FacePlace>(f));
+    most = std::max(most, (b.momentum - impulse - faces).norm());
+  }
+  EXPECT_LT(most, 1e-12 * pressed * time);
+  const Balance b = ground.balance();
+  RecordProperty("energies", fmt::format("contact {:.4g}, stored {:.4g}, dissipated {:.4g}, kinetic {:.2g}, numerical {:.3g}, residual {:.2g} J",
+                                         b.contact_work, b.stored_energy, b.dissipated_energy, b.kinetic_energy, b.numerical_loss, b.residual()));
+  RecordProperty("peak_force", fmt::format("{:.1f}", pressed));
+  EXPECT_LT(std::abs(b.residual()), 5e-3 * b.contact_work);
+  EXPECT_GE(b.numerical_loss, 0.0);
+  // What the transfers take of the kinetic energy of the sharp edge of the plug, per step: with the speed it vanishes.
+  EXPECT_LT(b.numerical_loss, 0.2 * b.contact_work);
+}
+
+}  // namespace
+}  // namespace furrow
