@@ -57,5 +57,6 @@ def held(choice, error, run):
                      f"({reference:.4g}), allowed {100 * allowed:.0f} %: {'held' if ok else 'NOT HELD'}")
     if math.isfinite(run.cpu_time) and choice.row.cpu_time > 0:
         lines.append(f"  cost: {duration(run.cpu_time)}, {run.cpu_time / choice.row.cpu_time:.2f} times the estimate")
-    lines.append("The estimate held." if good else "The estimate did not hold: the scene differs from those of the table, or the table is out of date.")
+    lines.append("The estimate held." if good else
+                 "The estimate did not hold: the scene differs from those of the table, or the table is out of date.")
     return lines

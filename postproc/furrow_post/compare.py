@@ -102,8 +102,9 @@ def entries_of_run(run, families):
 
 def formula_entries(prediction):
     note = "extrapolated" if prediction.outside else ""
-    pair = (("sinkage", prediction.sinkage, prediction.sinkage_scatter), ("coefficient", prediction.coefficient, prediction.coefficient_scatter))
-    return [Entry(q, prediction.method, v, cost_table.Components(time=s) if s > 0 else cost_table.Components(), "formula", note) for q, v, s in pair]
+    values = (("sinkage", prediction.sinkage, prediction.sinkage_scatter), ("coefficient", prediction.coefficient, prediction.coefficient_scatter))
+    known = lambda scatter: cost_table.Components(time=scatter) if scatter > 0 else cost_table.Components()
+    return [Entry(quantity, prediction.method, value, known(scatter), "formula", note) for quantity, value, scatter in values]
 
 
 def read_measured(path, depth, density_range=(0.85, 1.15), depth_range=(0.9, 1.1), density=None):

@@ -22,8 +22,8 @@ def _values(axes, result, quantity, colours):
     for row, e in enumerate(entries):
         colour = colours.get(e.source, KIND_COLOURS.get(e.kind, "0.4"))
         known = np.isfinite(e.uncertainty)
-        axes.errorbar(scale * e.value, row, xerr=scale * compare.COVERAGE * e.uncertainty if known else None, fmt="s" if e.kind == "measured" else "o",
-                      ms=6, color=colour, capsize=4, lw=1.6, mfc="white" if e.kind == "formula" else colour)
+        axes.errorbar(scale * e.value, row, xerr=scale * compare.COVERAGE * e.uncertainty if known else None, ms=6, color=colour, capsize=4,
+                      lw=1.6, fmt="s" if e.kind == "measured" else "o", mfc="white" if e.kind == "formula" else colour)
         label = with_error(scale * e.value, scale * e.uncertainty) if known else f"{scale * e.value:.3g}"
         axes.annotate(label, (scale * e.value, row), (0, 8), textcoords="offset points", ha="center", fontsize=8, color="0.25")
     axes.set_yticks(range(len(entries)), [e.source for e in entries])
@@ -43,7 +43,7 @@ def _wheel_circle(axes, run):
 
 def draw(result, target):
     use_style()
-    runs = [run for run in result.runs]
+    runs = result.runs
     grounds = [run for run in runs if run.ground != "none"]
     colours = {run.label: COLOURS[k % len(COLOURS)] for k, run in enumerate(runs)}
     cuts = {run.label: density.sections(run) for run in grounds}
@@ -64,7 +64,6 @@ def draw(result, target):
         resist.plot(distance, c, color=colours[run.label], lw=1.2)
         z, p = compare.settling(run)
         settle.plot(CENTIMETRE * z, 1e-3 * p, color=colours[run.label], lw=1.2)
-        window = run.results.columns["time"]
     sink.set(xlabel="travel in cruise [m]", ylabel="sinkage [cm]")
     resist.set(xlabel="travel in cruise [m]", ylabel="resistance coefficient")
     steady = [e.value for e in result.of("coefficient", "run")]
@@ -72,7 +71,8 @@ def draw(result, target):
     sink.set_ylim(0, None)
     settle.set(xlabel="sinkage [cm]", ylabel="mean pressure [kPa]", ylim=(0, None), xlim=(0, None))
     sink.legend(fontsize=8)
-    for axes, letter, title in ((sink, "c", "sinkage"), (resist, "d", "resistance, smoothed"), (settle, "e", "pressure while it is let down")):
+    titles = ((sink, "c", "sinkage"), (resist, "d", "resistance, smoothed"), (settle, "e", "pressure while it is let down"))
+    for axes, letter, title in titles:
         annotate_panel(axes, letter, title)
 
     if grounds:

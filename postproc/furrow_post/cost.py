@@ -86,7 +86,8 @@ def advice(assessed, error, grounds=None):
 
 def text(assessed, error):
     wide = max(len(a.row.run) for a in assessed)
-    lines = [f"{'run':{wide}}  {'ground':10} {'model':6} {'wheel':12} {'size':>7} {'sinkage':>9} {'error':>7} {'coeff.':>8} {'error':>7} {'cost':>9}"]
+    lines = [f"{'run':{wide}}  {'ground':10} {'model':6} {'wheel':12} {'size':>7} {'sinkage':>9} {'error':>7} {'coeff.':>8} {'error':>7} "
+             f"{'cost':>9}"]
     percent = lambda e: f"{100 * e:.1f} %" if math.isfinite(e) else "?"
     for a in assessed:
         r = a.row
@@ -127,8 +128,9 @@ def draw(assessed, error, target):
     figure, panels = plt.subplots(1, 3, figsize=(12, 4), layout="constrained")
     for a in assessed:
         if math.isfinite(a.error):
-            panels[0].plot(a.row.cpu_time, 100 * a.error, "o", ms=7, color=colour[a.row.family], mfc=colour[a.row.family] if a.pareto else "white")
-            panels[0].annotate(f"{1e3 * a.row.size:.3g} mm", (a.row.cpu_time, 100 * a.error), (6, 4), textcoords="offset points", fontsize=8, color="0.3")
+            place, shade = (a.row.cpu_time, 100 * a.error), colour[a.row.family]
+            panels[0].plot(*place, "o", ms=7, color=shade, mfc=shade if a.pareto else "white")
+            panels[0].annotate(f"{1e3 * a.row.size:.3g} mm", place, (6, 4), textcoords="offset points", fontsize=8, color="0.3")
     front = sorted((a for a in assessed if a.pareto), key=lambda a: a.row.cpu_time)
     panels[0].plot([a.row.cpu_time for a in front], [100 * a.error for a in front], color="0.6", lw=1, zorder=0, drawstyle="steps-post")
     panels[0].axhline(100 * error, color="0.4", lw=0.8, ls=(0, (6, 4)))

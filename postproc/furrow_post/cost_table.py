@@ -59,8 +59,8 @@ def read(path):
     try:
         lines = path.read_text(encoding="utf-8").splitlines()
     except OSError as error:
-        raise ResultsError(f"{path}: cannot be read ({error.strerror}); a table is written by 'furrow-post cost --write {path} RESULTS...'") \
-            from error
+        raise ResultsError(f"{path}: cannot be read ({error.strerror}); "
+                           f"a table is written by 'furrow-post cost RESULTS... --write {path}'") from error
     comments = [line for line in lines if line.startswith("#")]
     rows = list(csv.DictReader(line for line in lines if line and not line.startswith("#")))
     missing = [name for name in HEADER if not rows or name not in rows[0]]

@@ -69,7 +69,8 @@ def compared(arguments):
 
     runs = [conditions.read(folder, label) for folder, label in _labelled(arguments.results)]
     table = cost_table.read(arguments.errors)[0] if arguments.errors else None
-    return compare.compare(runs, table, formulas_for(runs[0], arguments.formula, arguments.extrapolate), arguments.measured, arguments.anyway)
+    formulas = formulas_for(runs[0], arguments.formula, arguments.extrapolate)
+    return compare.compare(runs, table, formulas, arguments.measured, arguments.anyway)
 
 
 def _compare(arguments):
@@ -144,7 +145,8 @@ def add(commands):
     for command in (compare, report):
         command.add_argument("results", nargs="+", help="results folder, or LABEL=FOLDER")
         command.add_argument("--errors", type=Path, help="table of runs of the scene (inputs/costs): errors of size, domain, packing")
-        command.add_argument("--formula", action="append", default=[], help="nrmm:PRESSURE, bekker:TERRAIN or wong_reece:TERRAIN; may be repeated")
+        command.add_argument("--formula", action="append", default=[],
+                             help="nrmm:PRESSURE, bekker:TERRAIN or wong_reece:TERRAIN; may be repeated")
         command.add_argument("--measured", type=Path, help="reference.csv with depth_m, sinkage_m, resistance, density_kgm3")
         command.add_argument("--extrapolate", action="store_true", help="formulas outside of their range of validity too")
         command.add_argument("--anyway", action="store_true", help="compare runs whose conditions differ")

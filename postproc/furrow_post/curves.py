@@ -99,9 +99,11 @@ def compare(curves, anyway=False):
     for name, relative in TOLERANCES.items():
         have = [(c.label, c.facts[name]) for c in curves if name in c.facts]
         if len(have) > 1 and max(v for _, v in have) - min(v for _, v in have) > relative * max(v for _, v in have):
-            differences.append(f"{name}: " + "; ".join(f"{label}: {value:.4g}" for label, value in have) + f" (they may differ by {100 * relative:g} %)")
+            texts = "; ".join(f"{label}: {value:.4g}" for label, value in have)
+            differences.append(f"{name}: {texts} (they may differ by {100 * relative:g} %)")
     if differences and not anyway:
-        raise ResultsError("these tests are not comparable:\n  " + "\n  ".join(differences) + "\n  --anyway compares them all the same, and says so")
+        raise ResultsError("these tests are not comparable:\n  " + "\n  ".join(differences) +
+                           "\n  --anyway compares them all the same, and says so")
     kind = curves[0].kind
     depth = curves[0].facts.get("depth", 1.0)
     wanted = [s * depth for s in PLATE_LEVELS] if kind == "plate" else list(STRESS_LEVELS)
@@ -117,8 +119,9 @@ def compare(curves, anyway=False):
         rms = float(np.sqrt(np.mean(ratio**2)))
         worst = int(np.argmax(np.abs(ratio)))
         what = "pressure at equal sinkage" if kind == "plate" else "compression (density over that at the start) at equal stress"
-        result.verdicts.append(f"{what}: {curve.label} is {100 * (math.exp(ratio.mean()) - 1):+.0f} % of {curves[0].label} on average, rms ln-ratio {rms:.3f}, "
-                               f"largest {100 * (math.exp(ratio[worst]) - 1):+.0f} % at {_level(kind, levels[worst])}")
+        percent = lambda logarithm: f"{100 * (math.exp(logarithm) - 1):+.0f} %"
+        result.verdicts.append(f"{what}: {curve.label} differs from {curves[0].label} by {percent(ratio.mean())} on average, rms ln-ratio {rms:.3f}, "
+                               f"most at {_level(kind, levels[worst])}: {percent(ratio[worst])}")
     return result
 
 
@@ -130,7 +133,8 @@ def text(result):
     kind = result.curves[0].kind
     wide = max([len(c.label) for c in result.curves] + [12])
     scale, unit = (1e-3, "kPa") if kind == "plate" else (1.0, "density over that at the start")
-    lines = [f"{'sinkage' if kind == 'plate' else 'axial stress':14}" + "".join(f"{c.label:>{wide + 2}}" for c in result.curves) + f"   [{unit}]"]
+    head = "".join(f"{c.label:>{wide + 2}}" for c in result.curves)
+    lines = [f"{'sinkage' if kind == 'plate' else 'axial stress':14}{head}   [{unit}]"]
     for level, row in zip(result.levels, result.values):
         lines.append(f"{_level(kind, level):14}" + "".join(f"{scale * v:{wide + 2}.4g}" for v in row))
     lines += [""] + [f"COMPARED ALTHOUGH THEY DIFFER: {d}" for d in result.differences] + ["Verdict"] + [f"  - {v}" for v in result.verdicts]
@@ -172,7 +176,8 @@ def draw(result, target, measured=None):
             axes.semilogx(1e-3 * c.x, c.y, color=colour, lw=1.4, label=c.label)
     if measured:
         axes.plot([1e-3 * s for _, s in measured], [ratio for ratio, _ in measured], "ko", ms=5, label="measured")
-    axes.set(xlabel="sinkage [mm]" if kind == "plate" else "axial stress [kPa]", ylabel="mean pressure [kPa]" if kind == "plate" else "density over that at the start")
+    axes.set(xlabel="sinkage [mm]" if kind == "plate" else "axial stress [kPa]",
+             ylabel="mean pressure [kPa]" if kind == "plate" else "density over that at the start")
     axes.legend(fontsize=8)
     annotate_panel(axes, "a", "plate sinkage" if kind == "plate" else "confined compression")
     save(figure, target)

@@ -60,14 +60,15 @@ def _results_table(result):
         rows = []
         for e in result.of(quantity):
             cell = lambda part: f"{scale * getattr(e.parts, part):.2g}" if math.isfinite(getattr(e.parts, part)) else "?"
-            rows.append([e.source, _number(e, scale)] + ([cell(p) for p in e.parts.NAMES] if e.kind == "run" else [""] * 4) +
-                        [compare.duration(e.cpu_time), e.note])
+            parts_known = [cell(p) for p in e.parts.NAMES] if e.kind == "run" else [""] * 4
+            rows.append([e.source, _number(e, scale), *parts_known, compare.duration(e.cpu_time), e.note])
         parts.append(f"<h3>{esc(name[0].upper() + name[1:])}{f' [{esc(unit)}]' if unit else ''}</h3>" +
                      table(["", "value", "time", "size", "domain", "packing", "cost", ""], rows, (1, 2, 3, 4, 5, 6)))
     parts.append("<p>± is one standard deviation made of the parts that are known: time average, size of cells or grains, domain, packing; "
                  "“?” is not known, and not in the sum. Two values agree when they differ by no more than two.</p>")
     if result.tracks:
-        parts.append("<h3>Density under the track [kg/m³]</h3>" + table(["", "value"], [[k, with_error(*v)] for k, v in result.tracks.items()], (1,)))
+        rows = [[label, with_error(*value)] for label, value in result.tracks.items()]
+        parts.append("<h3>Density under the track [kg/m³]</h3>" + table(["", "value"], rows, (1,)))
     return "\n".join(parts)
 
 
@@ -86,9 +87,8 @@ def _run_section(run, folder):
     parts = [f"<h2>{esc(run.label)}</h2>"]
     summary = Summary(run.folder)
     parts.append(f"<p>{esc(summary.line())}</p>")
-    for file, caption in (("rut.png", "The ground after the run."),):
-        if (run.folder / file).is_file():
-            parts.append(picture(run.folder / file, caption))
+    if (run.folder / "rut.png").is_file():
+        parts.append(picture(run.folder / "rut.png", "The ground after the run."))
     drawn = folder / "histories.png"
     histories.draw(run.results, drawn)
     parts.append(picture(drawn, "Histories with the steady window's means; light bands: settling, acceleration, cruise."))
