@@ -5,10 +5,15 @@
 
 #include <fmt/format.h>
 
+#include "comm.h"
 #include "core/error.h"
+#include "coupling/fix_mesh_body.h"
 #include "coupling/liggghts_access.h"
 #include "coupling/words.h"
+#include "error.h"
 #include "io/tyre_file.h"
+#include "modify.h"
+#include "update.h"
 
 namespace furrow::coupling {
 
@@ -67,7 +72,7 @@ Schema FixTyreDarnell::schema() {
                 "the same across the axle; by default inertia/2 + mass bead_spacing^2/12")
       .optional();
   schema.number("damping", "1/s", Range::non_negative(), "rate at which the tread's motion relative to the rim is damped")
-      .by_default(20.0);
+      .by_default(100.0);
   schema.numbers("axle", 3, "m", Range::any(), "axle centre at the start: x y z").by_default(std::vector<double>{0, 0, 0});
   return schema;
 }
@@ -81,6 +86,22 @@ FixTyreDarnell::FixTyreDarnell(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, 
   size_vector = 5;
   global_freq = 1;
   extvector = 0;
+}
+
+/// Grain forces that are held over sub-steps feed energy into a light tread: fix_tyre_darnell.md.
+void FixTyreDarnell::init() {
+  FixWheelHub::init();
+  const double stable = tyre().stable_time_step();
+  bool on_grains = false;
+  for (int i = 0; i < modify->nfix; ++i) {
+    auto* mesh = dynamic_cast<FixMeshBody*>(modify->fix[i]);
+    on_grains |= mesh && mesh->needs(*this);
+  }
+  if (on_grains && update->dt > stable && comm->me == 0)
+    error->warning(FLERR, fmt::format("fix tyre/darnell '{}': the time step {:.3g} s is longer than the tyre's own, {:.3g} s; grain forces held "
+                                      "over sub-steps may shake the tread: choose a step of at most {:.2g} s",
+                                      id, update->dt, stable, stable)
+                              .c_str());
 }
 
 double FixTyreDarnell::compute_vector(int n) {

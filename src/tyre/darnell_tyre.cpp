@@ -33,8 +33,8 @@ std::unique_ptr<Sidewall> make_sidewall(const TyreParameters& tyre, bool direct)
   if (direct) return std::make_unique<SidewallDirect>(tyre.sidewall, tyre.pressure);
   SidewallTableGrid grid;  // wrinkles turn the tread's edge further than a smooth shape does
   grid.rotation_min = radians(-105);
-  grid.rotation_max = radians(75);
-  grid.rotation_nodes = 18;
+  grid.rotation_max = radians(105);
+  grid.rotation_nodes = 21;
   return std::make_unique<SidewallTable>(tyre.sidewall, tyre.pressure, grid);
 }
 

@@ -21,7 +21,7 @@ struct DarnellTyreSettings {
   bool half = false;         ///< only y >= 0, mirrored: for straight travel on symmetric ground
   bool direct = false;       ///< solve the chain at every station instead of looking it up
   int sidewall_points = 4;   ///< rows of nodes on each side between bead and tread, for contact; 0: the tread alone can touch
-  double damping_rate = 20.0;  ///< [1/s] of motion relative to the rim, c in f = -c m (v - v_rim)
+  double damping_rate = 100.0;  ///< [1/s] of motion relative to the rim, c in f = -c m (v - v_rim)
 };
 
 /// How a tyre is brought to rest.
