@@ -1,6 +1,7 @@
 """furrow-post choose: what to model for a wanted error, from the table of a scene, and afterwards whether the estimate held."""
 
 import math
+import shlex
 import sys
 
 from . import conditions, cost, cost_table
@@ -20,7 +21,7 @@ def command(arguments):
         print("\n".join(held(choice, arguments.error, conditions.read(arguments.held))))
         return
     print("\n".join(reasons(choice, within, assessed, arguments.error)), file=sys.stderr)
-    print(choice.row.options)
+    print("\n".join(shlex.split(choice.row.options)))  # a word a line
 
 
 def reasons(choice, within, assessed, error):

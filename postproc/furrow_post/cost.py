@@ -41,7 +41,9 @@ def assess(rows):
                 component = family.components(quantity, row.size, time_error)
                 reference, reference_error = family.reference(quantity)
                 parts[quantity], references[quantity] = component, reference
-                total = math.hypot(component.total, reference_error) if math.isfinite(component.size) else math.nan
+                # A value at size zero that noise leaves open by more than half of itself says nothing about errors.
+                resolved = math.isfinite(component.size) and reference_error < 0.5 * abs(reference)
+                total = math.hypot(component.total, reference_error) if resolved else math.nan
                 errors[quantity] = total / abs(reference)
             found.append(Assessed(row, errors, parts, references))
     ordered = sorted((a for a in found if math.isfinite(a.error)), key=lambda a: (a.row.cpu_time, a.error))
@@ -56,7 +58,8 @@ def recommend(assessed, error, grounds=None):
     """(cheapest run within the relative error, or the one with the least error; whether it is within)."""
     known = [a for a in assessed if math.isfinite(a.error) and (grounds is None or a.row.ground in grounds)]
     if not known:
-        raise ResultsError("no family of the table has two sizes, so that no error is known; add a run of another size")
+        raise ResultsError("no family of the table has two sizes whose difference stands out from their noise, so that no error is known; "
+                           "add a run of another size, or longer runs")
     within = [a for a in known if a.error <= error]
     return (min(within, key=lambda a: a.row.cpu_time), True) if within else (min(known, key=lambda a: a.error), False)
 
@@ -68,7 +71,10 @@ def describe(a):
 
 def advice(assessed, error, grounds=None):
     """Sentences: the choice and why."""
-    choice, within = recommend(assessed, error, grounds)
+    try:
+        choice, within = recommend(assessed, error, grounds)
+    except ResultsError as trouble:
+        return [f"No recommendation: {trouble}."]
     lines = [f"For {100 * error:g} % error use {describe(choice)}: it takes {duration(choice.row.cpu_time)} of one core, "
              f"error {100 * choice.error:.0f} % ({choice.worst})." if within else
              f"No run of the table reaches {100 * error:g} %; the best is {describe(choice)}: {100 * choice.error:.0f} % "
@@ -95,7 +101,8 @@ def text(assessed, error):
                      f"{percent(a.errors['sinkage']):>7} {r.coefficient:8.4f} {percent(a.errors['coefficient']):>7} "
                      f"{duration(r.cpu_time):>9}{'  *' if a.pareto else ''}")
     lines += ["", "Errors are numerical: time average, size (against the value at size zero of the same ground, first order), domain and packing",
-              "where the table has runs for them. They do not hold what the law or the grains' contact lack. * nothing is cheaper and better.",
+              "where the table has runs for them. They do not hold what the law or the grains' contact lack. * nothing is cheaper and better,",
+              "? the value at size zero is lost in the noise of the time averages, or there is one size only.",
               "", *advice(assessed, error)]
     return "\n".join(lines)
 

@@ -55,7 +55,7 @@ class Table(unittest.TestCase):
         family = cost_table.families([row("a", "grains", 0.04, 0.1, 0.2, 1.0)])["grains", "whole", "rigid wheel"]
         self.assertIsNone(family.fit("sinkage"))
         self.assertEqual(family.components("sinkage", 0.04).known, [])
-        with self.assertRaisesRegex(ResultsError, "add a run of another size"):
+        with self.assertRaisesRegex(ResultsError, "add a run of another size, or longer runs"):
             cost.recommend(cost.assess([row("a", "grains", 0.04, 0.1, 0.2, 1.0)]), 0.1)
 
     def test_recommends_the_cheapest_within_the_error(self):
@@ -206,7 +206,7 @@ class Command(unittest.TestCase):
     def test_choose_and_held(self):
         cost_table.write(self.folder / "made.csv", made_runs())
         done = self.run_post("choose", "made.csv", "--error", "10.1%")
-        self.assertEqual((done.returncode, done.stdout), (0, "wheel -v cell 0.02\n"), done.stderr)
+        self.assertEqual((done.returncode, done.stdout), (0, "wheel\n-v\ncell\n0.02\n"), done.stderr)
         self.assertIn("For 10.1 % error use continuum, cells of 20 mm, half model, rigid wheel", done.stderr)
         done = self.run_post("choose", "made.csv", "--error", "10.1%", "--held", "a")
         self.assertIn("sinkage: 0.0500 ± 0.0010, -50.0 % from the value at size zero (0.1), allowed 12 %: NOT HELD", done.stdout)
