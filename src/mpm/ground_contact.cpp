@@ -106,6 +106,7 @@ bool GroundContact::is_stale() const {
 }
 
 void GroundContact::search() {
+  refuse_departure();
   find_candidates(true);
   searched_ = body_.surface().x;
   generation_ = ground_.generation();
@@ -156,6 +157,19 @@ void GroundContact::find_candidates(bool stiffness_anew) {
       if (stiffness_anew)
         spring_stiffness = parameters_.stiffness * ground_.phases()[k].law->moduli(particles.state(p)).wave() * std::cbrt(particles.data(column::volume)[p]);
     }
+  }
+}
+
+void GroundContact::refuse_departure() const {
+  const auto [low, high] = body_.surface().bounds();
+  const Vector3 middle = 0.5 * (low + high);
+  for (int a = 0; a < 2; ++a) {
+    const Axis& axis = ground_.grid().axis(a);
+    // A half model ends under the middle of the wheel.
+    const double tolerance = mirror_tolerance * (high - low).norm();
+    if (middle[a] < axis.lower() - tolerance || middle[a] > axis.upper() + tolerance)
+      throw StateError(fmt::format("the middle of the body is at {} = {:.4g} m, beyond the ground that reaches from {:.4g} to {:.4g} m; give the ground "
+                                   "more length, or let it move with the body", a == 0 ? 'x' : 'y', middle[a], axis.lower(), axis.upper()));
   }
 }
 

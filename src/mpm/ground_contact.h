@@ -70,6 +70,7 @@ class GroundContact : public Interaction {
   void search();
   void find_candidates(bool stiffness_anew);
   void refuse_overlap() const;
+  void refuse_departure() const;
   bool touch(const Candidate& candidate, Touch& touch) const;
   Vector3 penalty_force(const Touch& touch, const Vector3& velocity, double mass, double stiffness, double dt, double* memory);
   Vector3 impulse_force(const Touch& touch, const Vector3& velocity, double mass, double dt, double* memory);

@@ -1,0 +1,237 @@
+// What users will do to a ground, coarse and short: each case ends with finite numbers and its energies accounted for, or stops with its cause.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "../../unit/mpm/ground_scene.h"
+#include "body/rigid_plate.h"
+#include "body/rigid_wheel.h"
+#include "core/error.h"
+
+namespace furrow {
+namespace {
+
+using ::testing::HasSubstr;
+using namespace testing_ground;
+
+constexpr double depth = 0.2, weight = 636.0 * standard_gravity;
+
+struct Bed {
+  std::string law = snow();
+  std::string crust;          // a layer of 5 cm on top, unless empty
+  double cell = depth / 3;
+  double friction = 0.3;
+  double length = 1.0;        // [m] ahead of the wheel
+};
+
+RigidWheelParameters tr_wheel(double height) {
+  RigidWheelParameters p;
+  p.geometry.diameter = 0.74;
+  p.geometry.width = 0.272;
+  p.geometry.shoulder = 0.051;
+  p.mass = 636.0;
+  p.axle_inertia = 2.15;
+  p.diametral_inertia = 1.5;
+  p.axle_centre = {0.0, 0.0, depth + 0.37 + height};
+  return p;
+}
+
+/// TR's wheel on 0.2 m of ground, half model; after a millimetre of free fall it carries its weight.
+struct Scene {
+  explicit Scene(const Bed& bed, double height = 1e-3)
+      : ground(parameters(bed), Communicator()), wheel(tr_wheel(height)), contact(wheel, ground, contact_parameters(bed), true, "contact") {
+    world.add(wheel, "wheel");
+    world.add(ground, "ground");
+    world.add(contact, "contact");
+    wheel.release(WheelHub::z);
+    wheel.set_load({0, 0, -weight});
+    wheel.set_vertical_damping(3000.0);
+  }
+  static GroundParameters parameters(const Bed& bed) {
+    GroundParameters p;
+    p.layers = {{law_of(bed.law), depth}};
+    if (!bed.crust.empty()) p.layers = {{law_of(bed.crust), 0.05}, {law_of(bed.law), depth}};
+    p.surface = depth;
+    p.x = even(-0.6, bed.length, bed.cell);
+    p.y = even(0.0, 0.4, bed.cell);
+    p.z = even(0.0, depth + 4 * bed.cell, bed.cell);
+    return p;
+  }
+  static ContactParameters contact_parameters(const Bed& bed) {
+    ContactParameters p;
+    p.friction = bed.friction;
+    return p;
+  }
+  void run(double duration) {
+    for (const double end = time + duration; time < end; time += 5e-4) world.advance(5e-4);
+  }
+  /// Rolls at a speed: spin as of rolling times `spin`.
+  void roll(double speed, double spin, double duration) {
+    wheel.prescribe(WheelHub::x, speed);
+    wheel.prescribe(WheelHub::spin, spin * speed / 0.37);
+    run(duration);
+  }
+  double sinkage() const { return depth - wheel.lowest_point(); }
+  /// Energy that is not accounted for, of the work done on the ground.
+  double imbalance() {
+    const Balance b = ground.balance();
+    return std::abs(b.residual()) / (std::abs(b.contact_work) + std::abs(b.load_work));
+  }
+  void expect_sound(const char* name) {
+    const Balance b = ground.balance();
+    ::testing::Test::RecordProperty(name, fmt::format("sinkage {:.4f} m, contact work {:.1f} J, numerical {:.1f} J, imbalance {:.1e}, penetration {:.1e} m", sinkage(),
+                                                      b.contact_work, b.numerical_loss, imbalance(), contact.deepest_penetration()));
+    EXPECT_TRUE(std::isfinite(b.kinetic_energy + b.stored_energy + b.dissipated_energy));
+    EXPECT_LT(imbalance(), 0.05);
+    EXPECT_GE(b.numerical_loss, -0.01 * b.contact_work);
+    EXPECT_GT(sinkage(), 0.0);
+    EXPECT_LT(sinkage(), depth);
+  }
+  MpmGround ground;
+  RigidWheel wheel;
+  GroundContact contact;
+  World world;
+  double time = 0.0;
+};
+
+TEST(HardCase, WheelDroppedFrom30Centimetres) {
+  Scene scene(Bed{});
+  scene.wheel.set_velocity({0, 0, -std::sqrt(2 * standard_gravity * 0.3)}, Vector3::Zero());
+  scene.run(0.12);
+  scene.expect_sound("drop");
+}
+
+TEST(HardCase, LoadDoubledInAStep) {
+  Scene scene(Bed{});
+  scene.run(0.12);
+  const double before = scene.sinkage();
+  scene.wheel.set_load({0, 0, -2 * weight});
+  scene.run(0.1);
+  EXPECT_GT(scene.sinkage(), before);
+  scene.expect_sound("doubled");
+}
+
+TEST(HardCase, LockedWheelDragged) {
+  Scene scene(Bed{});
+  scene.run(0.1);
+  scene.roll(2.2, 0.0, 0.12);
+  EXPECT_LT(scene.contact.force().x(), 0.0);  // it resists
+  scene.expect_sound("locked");
+}
+
+TEST(HardCase, SnowOf47PascalInitialStrength) {
+  Bed bed;
+  bed.law = snow();
+  bed.law.replace(bed.law.find("113.76"), 6, "47.0");
+  bed.law.replace(bed.law.find("R 2.2e-2"), 8, "R 9.0e-3");  // leaves p_a >= 0 at the start
+  Scene scene(bed);
+  scene.run(0.12);
+  scene.roll(2.2, 1.0, 0.1);
+  scene.expect_sound("weak");
+}
+
+TEST(HardCase, GridFourTimesCoarser) {
+  Bed bed;
+  bed.cell = 0.1;  // two cells of snow
+  Scene scene(bed);
+  scene.run(0.12);
+  scene.roll(2.2, 1.0, 0.2);
+  scene.expect_sound("coarse");
+}
+
+TEST(HardCase, NoFrictionAndMuchFriction) {
+  for (const double friction : {0.0, 0.9}) {
+    Bed bed;
+    bed.friction = friction;
+    Scene scene(bed);
+    scene.run(0.1);
+    scene.roll(2.2, 1.0, 0.1);
+    scene.expect_sound(friction > 0 ? "friction_09" : "friction_0");
+  }
+}
+
+TEST(HardCase, UnloadingAndASecondPassInTheSameRut) {
+  Scene scene(Bed{});
+  scene.run(0.1);
+  scene.roll(2.2, 1.0, 0.1);
+  const double first = scene.sinkage();
+  scene.wheel.prescribe(WheelHub::z, 1.0);  // lifted
+  scene.roll(0.0, 0.0, 0.1);
+  EXPECT_EQ(scene.contact.contacts(), 0.0);
+  scene.wheel.release(WheelHub::z);
+  scene.roll(0.0, 0.0, 0.15);
+  scene.roll(-2.2, 1.0, 0.1);
+  EXPECT_LT(std::abs(scene.sinkage() - first), 0.5 * first);
+  scene.expect_sound("second_pass");
+}
+
+TEST(HardCase, StiffCrustOnSoftSnow) {
+  Bed bed;
+  bed.crust = "drucker_prager_cap density 400 d 1e5 beta 40 R 0.02 eps_vol_pl_0 0.001 elasticity linear E 1e8 nu 0.2 "
+              "hardening table p 4e5 2e6 eps_vol_pl 0 0.5 interpolation linear beyond extrapolate";
+  Scene scene(bed);
+  scene.run(0.12);
+  scene.expect_sound("crust");
+}
+
+TEST(HardCase, WheelThatLeavesTheGroundStopsTheRun) {
+  Bed bed;
+  bed.length = 0.1;
+  Scene scene(bed);
+  try {
+    scene.run(0.05);
+    scene.roll(3.0, 1.0, 0.2);
+    FAIL() << "no error";
+  } catch (const StateError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("contact 'contact': the middle of the body is at x = 0.1"));
+    EXPECT_THAT(error.what(), HasSubstr("beyond the ground that reaches from -0.6 to 0.1 m; give the ground more length"));
+  }
+}
+
+/// Compacted to a tenth of its height: denser than ice, which is reported and not clamped.
+void compact_by_90_percent(double stiffness) {
+  const double cell = 0.02, height = 0.2;
+  const auto law = law_of(snow());
+  GroundParameters p = box(law, {0, 0, 0}, {cell, cell, height}, cell);
+  p.z = even(0, height + 2 * cell, cell);
+  p.surface = height;
+  set_faces(p, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
+  MpmGround ground(p, Communicator());
+  RigidPlate plate({PlateShape::square, 6 * cell, 2 * cell, 3}, {0.5 * cell, 0.5 * cell, height + 1e-5});
+  ContactParameters lid;
+  lid.stiffness = stiffness;
+  GroundContact contact(plate, ground, lid, false, "lid");
+  World world;
+  world.add(plate, "plate");
+  world.add(ground, "ground");
+  world.add(contact, "lid");
+  while (plate.centre().z() > 0.1 * height) {
+    plate.prescribe(-std::min(1.0, 20 * plate.centre().z()));
+    world.advance(1e-4);
+  }
+  EXPECT_GT(ground.last_report().beyond_ice, 0u);
+  const Balance b = ground.balance();
+  ::testing::Test::RecordProperty("energies", fmt::format("contact {:.4g}, residual {:.2g}, numerical {:.2g} J", b.contact_work, b.residual(), b.numerical_loss));
+  EXPECT_LT(std::abs(b.residual()), 0.01 * b.contact_work);
+  for_particles(ground, [](Particles& particles, std::size_t n) {
+    const double J = particles.data(column::state + field::volume_ratio)[n];
+    EXPECT_GT(J, 0.03);
+    EXPECT_LT(J, 0.2);
+  });
+}
+
+TEST(HardCase, CompactionBy90Percent) { compact_by_90_percent(4.0); }
+
+/// The contact's springs are made for the snow's elasticity; ice at tens of megapascals presses through them.
+TEST(HardCase, CompactionBy90PercentUnderASoftLidStopsWithItsCause) {
+  try {
+    compact_by_90_percent(0.4);
+    FAIL() << "no error";
+  } catch (const StateError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("contact 'lid': the surface is 0.01 m inside the ground, more than half a cell"));
+    EXPECT_THAT(error.what(), HasSubstr("raise 'stiffness'"));
+  }
+}
+
+}  // namespace
+}  // namespace furrow
