@@ -134,7 +134,7 @@ def _nearest(ground, axis, position, pixel=0.002):
     distance, nearest = cKDTree(flat).query(grid.reshape(-1, 2), k=4)
     squeeze = np.clip(ground.undisturbed / ground.density[slab], 0.2, 1.5)
     offset = np.abs(grid.reshape(-1, 1, 2) - flat[nearest])
-    covered = ((offset[..., 0] < 0.62 * ground.spacing) & (offset[..., 1] < 0.62 * ground.spacing * squeeze[nearest] + 0.25 * pixel)).any(axis=1)
+    covered = ((offset[..., 0] < 0.75 * ground.spacing) & (offset[..., 1] < 0.75 * ground.spacing * squeeze[nearest] + 0.25 * pixel)).any(axis=1)
     covered |= distance[:, 0] < 0.35 * ground.spacing
     image = np.where(covered, ground.density[slab][nearest[:, 0]], np.nan).reshape(rows, columns)
     return image, (low[0], low[0] + columns * pixel, low[1], low[1] + rows * pixel)
@@ -201,7 +201,7 @@ def draw(folder, title, numbers, target, pixels=1400):
     picture, extent = render.shaded_picture(ground.x, radius, COLOURS(norm(ground.density))[:, :3], body.surface, view, width / pixels)
     oblique.imshow(picture, extent=[CENTIMETRE * e for e in extent], interpolation="antialiased")
     oblique.set_axis_off()
-    bar = figure.colorbar(ScalarMappable(norm, COLOURS), ax=oblique, extend="both", fraction=0.03, pad=0.01, shrink=0.8)
+    bar = figure.colorbar(ScalarMappable(norm, COLOURS), ax=oblique, extend="both", fraction=0.03, pad=0.01, shrink=0.8, panchor=False)
     bar.set_label("density [kg/m³]")
     annotate_panel(oblique, "a", "from behind; particles")
 

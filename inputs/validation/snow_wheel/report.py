@@ -54,8 +54,8 @@ def evaluate(folder):
     def per_metre(time, energy):
         """Of the last WINDOW of travel, both halves of the model, over the load."""
         return round(float(np.diff(np.interp(np.interp([start, end], x, wheel["time"]), time, energy))[0] / study.WINDOW / LOAD), 4)
-    for name, channel in (("compaction", "stored_energy"), ("shear", "dissipated_energy"), ("numerical", "numerical_loss")):
-        row[name] = per_metre(ground["time"], 2 * ground[channel])
+    row["snow"] = per_metre(ground["time"], 2 * (ground["stored_energy"] + ground["dissipated_energy"]))
+    row["numerical"] = per_metre(ground["time"], 2 * ground["numerical_loss"])
     row["friction"] = per_metre(contact[:, 0] * 2e-4, contact[:, 1])
     snow = furrow_ground.Ground.read(folder)
     body = furrow_ground.Body(folder, snow)
@@ -168,7 +168,7 @@ def error_picture(table, limits, path):
         axes.errorbar([r["user_s"] for r in grids], [abs(r[what] - limit) / limit for r in grids], uncertain / limit, fmt="o-", capsize=3)
         for r in grids:
             axes.annotate(f"{100 * r['cell_m']:.3g} cm", (r["user_s"], abs(r[what] - limit) / limit), textcoords="offset points", xytext=(6, 6))
-        axes.set(xscale="log", xlabel="cost [core seconds]", ylabel=f"|{label} - value at size zero| over that value",
+        axes.set(xscale="log", xlabel="cost [core seconds]", ylabel=f"error of {label}, relative",
                  title=f"{label}: {limit:.3f} ± {uncertain:.3f} at size zero", ylim=(0, None))
         axes.grid(alpha=0.3, which="both")
     figure.savefig(path, dpi=90)
