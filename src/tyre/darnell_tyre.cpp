@@ -411,6 +411,7 @@ Relaxation DarnellTyre::settle(RigidPlane* plane, const SettleOptions& options) 
     rest_at(at);
     place_surface();
   }
+  surface_.f = outer;
   result.stops = damping.stops();
   nodes_.stop();
   stored_ = potential() - zero_;

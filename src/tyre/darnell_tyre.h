@@ -78,7 +78,7 @@ class DarnellTyre : public WheelHub {
   /// Brings the tyre to rest under its pressure and its load (if z is free) on a plane, which may be null: dynamic relaxation. First the
   /// load, or the way of the axle, is applied gradually while the tread is damped viscously, near the critical rate of its edges, so
   /// that nothing swings far beyond its rest; then kinetic damping until the unbalanced force is below the tolerance. Time, works and
-  /// dissipation are not counted.
+  /// dissipation are not counted; surface().f is as before.
   /// @throws StateError when max_steps do not suffice, and as advance()
   Relaxation settle(RigidPlane* plane, const SettleOptions& options = {});
 
