@@ -1,4 +1,4 @@
-"""The figure of a results folder of furrow-sidewall: sidewall_figures.py <folder>. SI in the files, mm and kN in the figure."""
+"""The figure of a results folder of furrow-sidewall: sidewall_figures.py <folder>. SI in files, mm and kN in the figure."""
 
 import sys
 from pathlib import Path

@@ -1,8 +1,9 @@
 #pragma once
 /// What furrow-sidewall leaves in a results folder.
 ///
-///   deflection.csv, lateral.csv, rotation.csv   forces and stiffness, solved and looked up, along each motion of the tread edge
-///   sidewall.h5   the same as /<curve>/<column>; /profiles/<n>/A, R with the attribute deflection; / has title, pressure, version
+///   deflection.csv, lateral.csv, rotation.csv
+///                 forces and stiffness, solved and looked up, along each motion of the tread edge
+///   sidewall.h5   the same as /<curve>/<column>; /profiles/<n>/A, R with the attribute deflection; / has title, pressure
 ///   tyre.yaml     the effective tyre file
 
 #include <string>

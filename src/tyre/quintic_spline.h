@@ -19,8 +19,8 @@ struct GridAxis {
 };
 
 /// Tensor product of B-splines of degree 5 with knots at the nodes, not-a-knot at the two nodes next to either end
-/// (C. de Boor, A Practical Guide to Splines): four times continuously differentiable. Error h^6 in the value, h^5 in the gradient, h^4
-/// in the second derivatives.
+/// (C. de Boor, A Practical Guide to Splines): four times continuously differentiable. Error h^6 in the value, h^5 in the
+/// gradient, h^4 in the second derivatives.
 class QuinticSpline3 {
  public:
   struct Value {
@@ -39,7 +39,8 @@ class QuinticSpline3 {
   const std::array<GridAxis, 3>& axes() const { return axes_; }
   const std::vector<double>& coefficients() const { return coefficients_; }
 
-  /// At a point inside the grid; outside, the polynomial of the nearest cell goes on. The Hessian is left as it is unless asked for.
+  /// At a point inside the grid; outside, the polynomial of the nearest cell goes on. The Hessian is left as it is unless
+  /// asked for.
   void evaluate(const Vector3& x, Value& value, bool with_hessian) const;
 
  private:

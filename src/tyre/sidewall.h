@@ -1,15 +1,17 @@
 #pragma once
-/// What a sidewall does to tread and rim: forces, stiffness and potential for a position of the tread edge, whichever way they are
-/// computed: SidewallDirect solves the chain, SidewallTable looks it up.
+/// What a sidewall does to tread and rim: forces, stiffness and potential for a position of the tread edge, whichever way
+/// they are computed: SidewallDirect solves the chain, SidewallTable looks it up.
 ///
-/// A sidewall is taken as a planar chain in the meridian plane (Shoop & Darnell; TR-01-16), of the width that a strip of the tread has.
+/// A sidewall is taken as a planar chain in the meridian plane (Shoop & Darnell; TR-01-16), as wide as its strip of the tread.
 /// All values are per unit circumference of the tread: a station that holds the width w of tread takes w times them. The
-/// pressure acts on the strip's own width omega = bead_width + taper r (tyre_parameters.h): even, as in a plane, or between two meridians.
-/// Neglected: tension and shear along the circumference, that bending stiffness varies with the strip's width, the sidewall's mass.
+/// pressure acts on the strip's own width omega = bead_width + taper r (tyre_parameters.h): even, as in a plane, or between
+/// two meridians, where it is narrower at the rim. Neglected: tension and shear along the circumference, that bending
+/// stiffness varies with the strip's width, the sidewall's mass.
 ///
-/// Pressure is a follower load with live normals. Let W = min over the chain's angles of (bending energy - p S), S the area between
-/// chain and chord, weighted by omega. The force on the tread is W's gradient and the pressure on the chord, in the share of the tread end:
-///   F = -dW/d(a, r) + p (omega_0/2 + taper r/3) (r, -a),   M = -dW/dphi.
+/// Pressure is a follower load with live normals. Let W = min over the chain's angles of (bending energy - p S), S the area
+/// between chain and chord, weighted by omega. On the tread act minus W's gradient and the tread's share of the pressure on
+/// the chord:
+///   F = -dW/d(a, r) + p (bead_width/2 + taper r/3) (r, -a),   M = -dW/dphi.
 /// So dF_a/dr - dF_r/da = p omega(r): the force alone is no gradient, but W is tabulated and the rest is exact.
 
 #include <cstddef>
@@ -26,8 +28,7 @@ struct SidewallEnd {
 };
 
 struct SidewallResponse {
-  Vector3 force =
-      Vector3::Zero();  ///< -dW/d(a, r, phi): what the tread feels but for the pressure on the chord [N/m, N/m, N m/m]
+  Vector3 force = Vector3::Zero();      ///< -dW/d(a, r, phi): on_tread without the pressure on the chord
   Vector3 on_tread = Vector3::Zero();   ///< F_a, F_r [N/m], M [N m/m]; M turns from +a towards +r
   Matrix3 stiffness = Matrix3::Zero();  ///< -d(on_tread)/d(a, r, phi); not symmetric in (a, r) by the pressure
   double potential = 0.0;               ///< W [J/m]

@@ -49,7 +49,8 @@ void SidewallChain::check_end(const SidewallEnd& end, double pressure) const {
 
 void SidewallChain::arc(const SidewallEnd& end, VectorX& angles) {
   check_end(end, 0.0);
-  // N chords of a circle, each turned by 2 alpha/N from the one before: chord/length = sin(alpha)/(N sin(alpha/N)), falling in alpha.
+  // N chords of a circle, each turned by 2 alpha/N from the one before: chord/length = sin(alpha)/(N sin(alpha/N)), falling
+  // in alpha.
   const double n = static_cast<double>(n_), share = std::hypot(end.a, end.r) / parameters_.length;
   double lower = 0.0, upper = pi;
   for (int i = 0; i < 60; ++i) {
@@ -171,8 +172,8 @@ bool SidewallChain::restore_end(const SidewallEnd& end, VectorX& angles) {
 }
 
 /// -p times gradient and Hessian of G with respect to the angles; sets gradient_ and hessian_.
-/// G is a sum over segments of g(x_i, x_(i+1)). Angle k moves the nodes beyond segment k by t_k = L (-sin, cos), so with p_j the node's
-/// gradient, D_j its own second derivatives and C_m those between nodes m and m + 1,
+/// G is a sum over segments of g(x_i, x_(i+1)). Angle k moves the nodes beyond segment k by t_k = L (-sin, cos), so with p_j
+/// the node's gradient, D_j its own second derivatives and C_m those between nodes m and m + 1,
 ///   dG/dtheta_k = t_k . P_k,  P_k = sum_(j>k) p_j;   d2G/(dtheta_k dtheta_m) = t_k . (T_m + C_m) t_m for k < m,
 ///   T_m = sum over nodes and pairs beyond m;         d2G/dtheta_k^2 = t_k . T_k t_k - L (cos, sin) . P_k.
 void SidewallChain::add_pressure(double pressure) {
@@ -204,7 +205,8 @@ void SidewallChain::add_pressure(double pressure) {
   }
 }
 
-/// Gradient, QR of the constraint, multiplier, and the Lagrangian's Hessian in the axes of the QR. Uses the cosines and sines.
+/// Gradient, QR of the constraint, multiplier, and the Lagrangian's Hessian in the axes of the QR. Uses the cosines and
+/// sines.
 void SidewallChain::linearise(const VectorX& angles, double phi, double pressure) {
   const double L = segment();
   add_pressure(pressure);

@@ -6,15 +6,16 @@
 
 namespace furrow {
 
-/// Finds the angles theta of the N segments that make  Phi = E(theta, phi) - p G(theta)  least among chains that end at (a, r):
+/// Finds the angles theta of the N segments that make  Phi = E(theta, phi) - p G(theta)  least among chains to (a, r):
 ///   E = 1/2 sum EI/L (theta_(i+1) - theta_i - kappa_0 L)^2 + 1/2 k_rim (theta_1 - theta_rim)^2
 ///       + 1/2 k_tread (theta_N - theta_tread - phi)^2,    G = integral of omega(r) a dr along the chain.
-/// The pressure's nodal forces are the gradient of p G at the inner nodes: for an even strip p/2 times the live normals of the two
-/// segments. W = Phi + p g with the chord's own  g = a r (omega_0/2 + taper r/3), so S = G - g.
+/// The pressure's nodal forces are the gradient of p G at the inner nodes: for an even strip p/2 times the live normals of
+/// the two segments. W = Phi + p g with the chord's own  g = a r (bead_width/2 + taper r/3), so S = G - g.
 ///
-/// Newton's method on the manifold of chains that end at (a, r): steps along its tangent plane (a 2-column QR of the constraint's
-/// gradient), modified Cholesky of the reduced Hessian, line search on Phi, and a step limit, so that a search goes downhill and never
-/// jumps over a ridge. What it ends at is a stable equilibrium: the reduced Hessian is positive definite there, or it is refused.
+/// Newton's method on the manifold of chains that end at (a, r): steps along its tangent plane (a 2-column QR of the
+/// constraint's gradient), modified Cholesky of the reduced Hessian, line search on Phi, and a step limit, so that a search
+/// goes downhill and never jumps over a ridge. What it ends at is a stable equilibrium: the reduced Hessian is positive
+/// definite there, or it is refused.
 /// The branch is the one that the circular arc relaxes to: the arc is the equilibrium without bending stiffness.
 /// An object is its own working space: one for each thread.
 class SidewallChain {
@@ -26,7 +27,8 @@ class SidewallChain {
 
   /// Equilibrium at an end.
   /// @param pressure >= 0 [Pa]
-  /// @param angles [rad] in: where to start from, such as the solution nearby, or empty for the arc; out: the solution. Where a start
+  /// @param angles [rad] in: where to start from, such as the solution nearby, or empty for the arc; out: the solution.
+  /// Where a start
   ///        does not lead to a chain like the arc, the arc is taken
   /// @throws StateError: an end that is not finite, beyond the length, or at the bead; no stable equilibrium found
   SidewallResponse solve(const SidewallEnd& end, double pressure, VectorX& angles, bool with_stiffness = true);

@@ -1,9 +1,9 @@
 #pragma once
 /// What a tyre is made of: rim, tread band, sidewalls. Tyre files (io/tyre_file.h) are read into these.
 ///
-/// Section of the tyre: A is the axial coordinate, outwards from the mid-plane, and R the radius about the axle. Both sidewalls are
-/// alike. A sidewall runs from its bead (A = bead_spacing/2, R = bead_radius) to the edge of the tread (A = half_width, R = radius - crown)
-/// plus the link, a rigid arm on the tread's edge.
+/// Section of the tyre: A is the axial coordinate, outwards from the mid-plane, and R the radius about the axle. Both
+/// sidewalls are alike. A sidewall runs from its bead (A = bead_spacing/2, R = bead_radius) to the edge of the tread (A =
+/// half_width, R = radius - crown) plus the link, a rigid arm on the tread's edge.
 
 #include <string>
 #include <vector>
@@ -12,9 +12,9 @@
 
 namespace furrow {
 
-/// A chain of N equal inextensible segments and N - 1 hinges between them, counted from bead to tread. Stiffnesses are per unit
-/// width, i.e. per unit circumference of the tread. Angles are those of a segment, from +A (outwards) towards +R (away from the
-/// axle): a sidewall leaves the rim near 23 degrees and reaches the tread near 133.
+/// A chain of N equal inextensible segments and N - 1 hinges between them, counted from bead to tread. Stiffnesses are per
+/// unit width, i.e. per unit circumference of the tread. Angles are those of a segment, from +A (outwards) towards +R (away
+/// from the axle): a sidewall leaves the rim near 23 degrees and reaches the tread near 133.
 struct SidewallParameters {
   double length = 0.0;            ///< l [m] of the whole chain; a segment has L = l/N
   std::vector<double> bending;    ///< EI [N m] of each hinge, whose stiffness is EI/L; N - 1 values
@@ -23,8 +23,8 @@ struct SidewallParameters {
   double tread_angle = 0.0;       ///< [rad] of the last segment where the tread's spring is, relative to the tread
   double rim_stiffness = 0.0;     ///< [N m/rad per m] of the spring between rim and first segment; 0: a pin
   double tread_stiffness = 0.0;   ///< [N m/rad per m] of the spring between last segment and tread; 0: a pin
-  /// Width of the strip that the pressure acts on, over its width at the tread: bead_width + taper r, r the radial distance from the
-  /// bead. A strip between two meridians has R_bead/R_tread and 1/R_tread; an even one 1 and 0.
+  /// Width of the strip that the pressure acts on, over its width at the tread: bead_width + taper r, r the radial distance
+  /// from the bead. A strip between two meridians has R_bead/R_tread and 1/R_tread; an even one 1 and 0.
   double bead_width = 1.0;
   double taper = 0.0;  ///< [1/m]
 
@@ -49,7 +49,8 @@ struct TyreParameters {
   double pressure = 0.0;      ///< [Pa] inflation above the atmosphere
   double bead_radius = 0.0;   ///< [m] R where a sidewall begins
   double bead_spacing = 0.0;  ///< [m] between the two beads
-  Vector2 link = Vector2::Zero();  ///< [m] axial and radial, from the tread's edge to the sidewall's end: a rigid arm that turns with the edge
+  Vector2 link = Vector2::
+      Zero();  ///< [m] axial and radial, from the tread's edge to the sidewall's end: a rigid arm that turns with the edge
   TreadParameters tread;
   SidewallParameters sidewall;
 

@@ -1,7 +1,8 @@
-// Cost of a sidewall: microseconds for each station of a side, looked up and solved, with and without the stiffness; and of making a table.
+// Cost of a sidewall: microseconds for each station of a side, looked up and solved, with and without the stiffness; and of
+// making a table.
 //   build/tests/benchmarks/sidewall_cost
-// The stations of a 6 x 72 tyre, both sides: the tread's edge dips into a contact patch and moves on with every evaluation, as in rolling
-// at 2 m/s with steps of 2e-5 s.
+// The stations of a 6 x 72 tyre, both sides: the tread's edge dips into a contact patch and moves on with every evaluation,
+// as in rolling at 2 m/s with steps of 2e-5 s.
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +60,8 @@ void BM_direct_with_stiffness(benchmark::State& timer) {
   measure(timer, sidewall, true);
 }
 
-/// Nodes along the chord, half and a quarter as many along the other two axes; with the error that is bought, rms of all cells.
+/// Nodes along the chord, half and a quarter as many along the other two axes; with the error that is bought, rms of all
+/// cells.
 void BM_making_a_table(benchmark::State& timer) {
   const SidewallParameters sidewall = tyre().sidewall;
   SidewallTableGrid grid;

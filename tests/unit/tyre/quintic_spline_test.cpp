@@ -67,7 +67,8 @@ TEST(QuinticSpline, ErrorsFallWithTheirOrder) {
     EXPECT_GT(errors[0][k] / errors[1][k], std::pow(2.0, 5.7 - static_cast<double>(k))) << "derivative " << k;
 }
 
-/// Value, gradient and Hessian are the same from both sides of a node, and so are third differences of the Hessian's neighbours.
+/// Value, gradient and Hessian are the same from both sides of a node, and so are third differences of the Hessian's
+/// neighbours.
 TEST(QuinticSpline, IsSmoothAcrossNodes) {
   std::mt19937 engine(3);
   std::normal_distribution<double> normal;

@@ -94,7 +94,8 @@ TEST(SidewallChain, ForcesOfBothEndsBalanceThePressure) {
   }
 }
 
-/// Of a strip between two meridians the tyre's gas does work p dV, V = 2 pi integral of A R dR + ...: the potential holds that volume.
+/// Of a strip between two meridians the tyre's gas does work p dV, V = 2 pi integral of A R dR + ...: the potential holds
+/// that volume.
 TEST(SidewallChain, ASectorsAreaIsItsVolumePerCircumferenceOfTheTread) {
   const double R_bead = 0.208, R_tread = 0.3475;
   SidewallChain chain(tr_sector(1.0, 1.0));
@@ -173,7 +174,8 @@ TEST(SidewallChain, ABadStartDoesNotLeadToAnotherBranch) {
     }
 }
 
-/// A loop of the tread edge, in small steps from the last solution: it comes back to what it was, and agrees with a fresh search.
+/// A loop of the tread edge, in small steps from the last solution: it comes back to what it was, and agrees with a fresh
+/// search.
 TEST(SidewallChain, WarmStartsFollowTheSameBranch) {
   for (const double k : {0.0, 10.0}) {
     SidewallDirect warm(tr_sector(k, k), 103e3);

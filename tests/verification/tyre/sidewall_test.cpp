@@ -1,5 +1,5 @@
-/// The sidewall against what does not come from it: the membrane, the elastica in closed form, the inflated band as an ordinary
-/// differential equation, and TR's geometry of the inflated 235/75 R15.
+/// The sidewall against what does not come from it: the membrane, the elastica in closed form, the inflated band as an
+/// ordinary differential equation, and TR's geometry of the inflated 235/75 R15.
 
 #include <cmath>
 #include <functional>
@@ -38,7 +38,8 @@ TyreParameters tr_tyre() { return read_tyre_file(FURROW_SOURCE_DIR "/inputs/tyre
 /// Observed order of the last two of errors at N, 2 N, 4 N, ...
 double order(const std::vector<double>& errors) { return std::log2(errors[errors.size() - 2] / errors.back()); }
 
-/// Without bending stiffness a chain is an arc: the tension is p times the radius. Of a polygon it is the inner radius, exactly.
+/// Without bending stiffness a chain is an arc: the tension is p times the radius. Of a polygon it is the inner radius,
+/// exactly.
 TEST(Sidewall, MembraneTensionIsPressureTimesRadius) {
   const double p = 241e3, length = 0.161;
   const SidewallEnd end{-0.004, 0.1395, 0.0};
@@ -63,9 +64,9 @@ TEST(Sidewall, MembraneTensionIsPressureTimesRadius) {
   EXPECT_NEAR(order(errors), 2.0, 0.02);
 }
 
-/// Between two meridians, without bending stiffness, the tension T is constant and the curvature p R/(R_tread T): with theta the angle of
-/// the cord from the axle's direction,  cos theta_1 - cos theta_2 = p (R_2^2 - R_1^2)/(2 R_tread T)  (the natural shape of a radial tyre;
-/// J. F. Purdy, Mathematics Underlying the Design of Pneumatic Tires, 1963).
+/// Between two meridians, without bending stiffness, the tension T is constant and the curvature p R/(R_tread T): with theta
+/// the angle of the cord from the axle's direction,  cos theta_1 - cos theta_2 = p (R_2^2 - R_1^2)/(2 R_tread T)  (the
+/// natural shape of a radial tyre; J. F. Purdy, Mathematics Underlying the Design of Pneumatic Tires, 1963).
 TEST(Sidewall, SectorMembraneHasTheNaturalShape) {
   const double p = 241e3, length = 0.161, R_bead = 0.208, R_tread = 0.3475;
   std::vector<double> tensions, shapes;
@@ -96,8 +97,10 @@ TEST(Sidewall, SectorMembraneHasTheNaturalShape) {
   EXPECT_NEAR(order(shapes), 2.0, 0.1);
 }
 
-/// Euler's elastica with pinned ends: with k = sin(half the difference of the end slopes/2), complete elliptic integrals K and E,
-///   chord/l = 2 E/K - 1,  P = EI (2 K/l)^2,  rise = k l/K.   (A. E. H. Love, Mathematical Theory of Elasticity, 4th ed., art. 263)
+/// Euler's elastica with pinned ends: with k = sin(half the difference of the end slopes/2), complete elliptic integrals K
+/// and E,
+///   chord/l = 2 E/K - 1,  P = EI (2 K/l)^2,  rise = k l/K.   (A. E. H. Love, Mathematical Theory of Elasticity, 4th ed.,
+///   art. 263)
 TEST(Sidewall, WithoutPressureItIsTheElastica) {
   const double l = 0.16, EI = 0.5;
   for (const double slope : {20.0, 60.0, 100.0}) {  // [degrees] at either end, against the chord
@@ -177,8 +180,8 @@ struct Band {
   }
 };
 
-/// The chain of a band: hinges between segments take the band's values there. An end spring acts on the middle of the end segment, so
-/// the half segment before it is put in series with the spring.
+/// The chain of a band: hinges between segments take the band's values there. An end spring acts on the middle of the end
+/// segment, so the half segment before it is put in series with the spring.
 SidewallParameters chain_of(const Band& band, int segments) {
   SidewallParameters sidewall;
   sidewall.length = band.length;
@@ -232,8 +235,9 @@ TEST(Sidewall, ChainsOfMoreSegmentsConvergeToTheInflatedBand) {
       }
 }
 
-/// TR's inflated section is 22.9 cm wide and its sidewall turns by 97 to 101 degrees: so it does here within 1 % and 3 degrees, if it
-/// ends at the diameter of the belts. With the diameter that TR prints for its end, 72.5 cm, it would be nearly straight.
+/// TR's inflated section is 22.9 cm wide and its sidewall turns by 97 to 101 degrees: so it does here within 1 % and 3
+/// degrees, if it ends at the diameter of the belts. With the diameter that TR prints for its end, 72.5 cm, it would be
+/// nearly straight.
 TEST(Sidewall, InflatedSectionIsThatOfTR) {
   const TyreParameters tyre = tr_tyre();
   const Vector2 chord = tyre.sidewall_chord();
@@ -287,7 +291,8 @@ TEST(Sidewall, TableFollowsTheChain) {
   }
 }
 
-/// Halved steps along the chord divide the table's error by more and more, up to 2^5, the order of a quintic spline's gradient.
+/// Halved steps along the chord divide the table's error by more and more, up to 2^5, the order of a quintic spline's
+/// gradient.
 TEST(Sidewall, FinerTablesConverge) {
   const SidewallParameters sidewall = tr_tyre().sidewall;
   std::vector<double> errors;
@@ -304,8 +309,8 @@ TEST(Sidewall, FinerTablesConverge) {
   EXPECT_LT(errors[2], 1e-2);  // [N/m]
 }
 
-/// Around a closed path the sidewall does the work of the pressure on the volume swept, p times it, and no other: also a coarse table. The
-/// volume, per circumference of the tread, is the integral of omega(r) da dr.
+/// Around a closed path the sidewall does the work of the pressure on the volume swept, p times it, and no other: also a
+/// coarse table. The volume, per circumference of the tread, is the integral of omega(r) da dr.
 TEST(Sidewall, WorkAroundALoopIsThePressureTimesTheVolumeSwept) {
   const SidewallParameters sidewall = sector_of(tr_tyre());
   const double p = 103e3;
