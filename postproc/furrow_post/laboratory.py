@@ -113,14 +113,14 @@ def reference_error(test, reference, lowest=5e4, highest=1e6):
     _, stress, density = cell_curve(test.curve())
     axial = np.maximum.accumulate(np.maximum(stress[:, 2], 1e-3))
     end = int(np.argmax(stress[:, 2])) + 1
-    measured = [(rho, sigma) for rho, sigma in reference if lowest <= sigma <= highest]
-    outside = [sigma for _, sigma in measured if sigma > axial[end - 1] * 1.001]
-    if outside:
-        raise ResultsError(f"{test.folder}: ends at {axial[end - 1]:.3g} Pa, and the reference has {max(outside):.3g} Pa")
+    wanted = [(rho, sigma) for rho, sigma in reference if lowest <= sigma <= highest]
+    measured = [(rho, sigma) for rho, sigma in wanted if sigma <= axial[end - 1] and rho <= density[end - 1]]
+    if len(measured) < 2:
+        raise ResultsError(f"{test.folder}: ends at {axial[end - 1]:.3g} Pa and {density[end - 1]:.3g} kg/m3, before two points of the reference")
     of_stress = [np.log(np.interp(rho, density[:end], axial[:end]) / sigma) for rho, sigma in measured]
     of_density = [np.log(np.interp(sigma, axial[:end], density[:end]) / rho) for rho, sigma in measured]
     rms = lambda values: float(np.sqrt(np.mean(np.square(values))))
-    return [Quantity("rms_ln_stress", rms(of_stress), 0.0, "", f"of stress at the measured densities, {len(measured)} points"),
+    return [Quantity("rms_ln_stress", rms(of_stress), 0.0, "", f"of stress at the measured densities, {len(measured)} of {len(wanted)} points"),
             Quantity("rms_ln_density", rms(of_density), 0.0, "", "of density at the measured stresses")]
 
 
