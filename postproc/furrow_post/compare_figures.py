@@ -1,5 +1,7 @@
 """The figure of furrow-post compare."""
 
+import textwrap
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -98,5 +100,6 @@ def draw(result, target):
                 panels.append(axes)
         bar = figure.colorbar(images[0], ax=panels, extend="max", fraction=0.025, pad=0.01, aspect=25)
         bar.set_label("density [kg/m³]")
-    figure.suptitle(compare.overall(result) or ", ".join(run.label for run in runs), fontsize=11, fontweight="bold")
+    title = compare.overall(result) or ", ".join(run.label for run in runs)
+    figure.suptitle("\n".join(textwrap.wrap(title, 110)), fontsize=11, fontweight="bold")
     save(figure, target)

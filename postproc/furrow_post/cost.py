@@ -125,6 +125,7 @@ def draw(assessed, error, target):
 
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+    from matplotlib.ticker import LogLocator, NullFormatter
 
     from .compare_figures import COLOURS
     from .style import annotate_panel, save, use_style
@@ -143,7 +144,12 @@ def draw(assessed, error, target):
     panels[0].axhline(100 * error, color="0.4", lw=0.8, ls=(0, (6, 4)))
     panels[0].set(xscale="log", yscale="log", xlabel="CPU time of one core [s]", ylabel="numerical error [%], worst of both")
     panels[0].margins(0.15)
-    annotate_panel(panels[0], "a", "error against cost; filled: nothing is cheaper and better")
+    for axis in (panels[0].xaxis, panels[0].yaxis):
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter(NullFormatter())
+    annotate_panel(panels[0], "a", "error against cost")
+    panels[0].text(0.03, 0.03, "filled: nothing is cheaper and better; dashed: wanted", transform=panels[0].transAxes, fontsize=7, color="0.4")
     for axes, quantity, letter, name, scale in ((panels[1], "sinkage", "b", "sinkage [mm]", 1e3),
                                                 (panels[2], "coefficient", "c", "resistance coefficient", 1.0)):
         for key, family in cost_table.families([a.row for a in assessed]).items():
