@@ -17,7 +17,6 @@ from furrow_post import ground as furrow_ground
 LOAD = study.LOAD_MASS * 9.80665  # N
 RADIUS = 0.38                     # m, Table 11
 PRESSURE = 179e3                  # Pa, contact pressure of the measured wheel's tyre, for NRMM
-GOALS = {"resistance": 0.031, "sinkage_m": 0.012}  # rms over the rows that were not used
 
 
 def finished(folder):
@@ -78,18 +77,19 @@ def rut_depth(snow, body):
 
 
 def row_table(results):
-    """The shared rows of Table 11, computed with the identified law and by NRMM (from the measured and from its own sinkage)."""
+    """The shared rows of Table 11, computed with the laws identified at zero slip and towed, and by NRMM (from its own and measured sinkage)."""
     table = []
     for r in study.reference():
-        own = nrmm.sinkage(r["depth_m"], r["density_kgm3"], PRESSURE)
-        found = evaluate(results / study.row_name(r["density_kgm3"], r["depth_m"])) or {}
-        table.append(dict(
-            row=int(r["row"]), used="calibration" if study.is_calibration(r) else "prediction", depth_m=r["depth_m"], density_kgm3=int(r["density_kgm3"]),
-            sinkage_m=r["sinkage_m"], computed_sinkage_m=found.get("sinkage_m", ""), nrmm_sinkage_m=round(own, 3),
-            resistance=r["resistance"], computed_resistance=found.get("resistance", ""),
-            nrmm_resistance=round(nrmm.resistance(own, r["density_kgm3"], study.WIDTH, RADIUS) / LOAD, 3),
-            nrmm_resistance_measured_sinkage=round(nrmm.resistance(r["sinkage_m"], r["density_kgm3"], study.WIDTH, RADIUS) / LOAD, 3),
-            density_under=found.get("density_under", ""), density_shoulder=found.get("density_shoulder", "")))
+        h, rho, z = r["depth_m"], r["density_kgm3"], r["sinkage_m"]
+        own = nrmm.sinkage(h, rho, PRESSURE)
+        row = dict(row=int(r["row"]), used="calibration" if study.is_calibration(r) else "prediction", depth_m=h, density_kgm3=int(rho),
+                   sinkage_m=z, resistance=r["resistance"])
+        for mode in study.CHOSEN:
+            found = evaluate(results / study.row_name(mode, rho, h)) or {}
+            row.update({f"{mode}_{what}": found.get(what, "") for what in ("sinkage_m", "resistance", "density_under", "density_shoulder")})
+        row.update(nrmm_sinkage_m=round(own, 3), nrmm_resistance=round(nrmm.resistance(own, rho, study.WIDTH, RADIUS) / LOAD, 3),
+                   nrmm_resistance_measured_sinkage=round(nrmm.resistance(z, rho, study.WIDTH, RADIUS) / LOAD, 3))
+        table.append(row)
     return table
 
 
@@ -97,31 +97,32 @@ def rms(values):
     return math.sqrt(sum(v * v for v in values) / len(values)) if values else math.nan
 
 
-def accuracy(table, used):
-    """rms and mean of computed minus measured, of Furrow and NRMM, over the rows of one use that were run."""
-    chosen = [r for r in table if used in ("all", r["used"]) and r["computed_sinkage_m"] != ""]
-    out = {"rows": len(chosen)}
+def accuracy(table, used, model):
+    """rms and mean of computed minus measured over the rows of one use that were run."""
+    chosen = [r for r in table if used in ("all", r["used"]) and r[f"{model}_sinkage_m"] != ""]
+    out = dict(model=model, rows=f"{used}: {len(chosen)}")
     for what in ("sinkage_m", "resistance"):
-        for model in ("computed", "nrmm"):
-            errors = [r[f"{model}_{what}"] - r[what] for r in chosen]
-            out[f"{model}_{what}_rms"], out[f"{model}_{what}_mean"] = round(rms(errors), 4), round(sum(errors) / max(len(errors), 1), 4)
-    errors = [r["nrmm_resistance_measured_sinkage"] - r["resistance"] for r in chosen]
-    out["nrmm_resistance_measured_sinkage_rms"] = round(rms(errors), 4)
+        errors = [r[f"{model}_{what}"] - r[what] for r in chosen]
+        out[f"{what}_rms"], out[f"{what}_mean"] = round(rms(errors), 4), round(sum(errors) / max(len(errors), 1), 4)
+    if model == "nrmm":
+        out["resistance_rms_from_measured_sinkage"] = round(rms([r["nrmm_resistance_measured_sinkage"] - r["resistance"] for r in chosen]), 4)
     return out
 
 
 def compare(table, path):
-    use = {"calibration": ("tab:blue", "identified on"), "prediction": ("tab:red", "predicted")}
+    marks = {"zero_slip": ("o", "tab:red", "zero slip"), "towed": ("s", "tab:blue", "towed")}
     figure, panels = plt.subplots(1, 2, figsize=(10, 4.8), constrained_layout=True)
     for axes, what, title in ((panels[0], "sinkage_m", "sinkage [m]"), (panels[1], "resistance", "resistance over load")):
-        top = 1.1 * max(max(r[what], r[f"computed_{what}"] or 0, r[f"nrmm_{what}"]) for r in table)
+        top = 1.08 * max(max(r[what], r[f"nrmm_{what}"], *(r[f"{mode}_{what}"] or 0 for mode in marks)) for r in table)
         axes.plot([0, top], [0, top], color="0.5", lw=0.8)
-        for used, (colour, label) in use.items():
-            mine = [r for r in table if r["used"] == used and r[f"computed_{what}"] != ""]
-            axes.plot([r[what] for r in mine], [r[f"computed_{what}"] for r in mine], "o", ms=5, color=colour, label=label)
+        for mode, (mark, colour, label) in marks.items():
+            for used, fill in (("calibration", "none"), ("prediction", colour)):
+                mine = [r for r in table if r["used"] == used and r[f"{mode}_{what}"] != ""]
+                axes.plot([r[what] for r in mine], [r[f"{mode}_{what}"] for r in mine], mark, ms=5, color=colour, mfc=fill,
+                          label=f"{label}, {'identified on' if fill == 'none' else 'predicted'}")
         axes.plot([r[what] for r in table], [r[f"nrmm_{what}"] for r in table], "x", ms=4, color="0.4", label="NRMM")
-        axes.set(xlabel=f"measured {title}", ylabel=f"computed {title}", xlim=(0, top), ylim=(0, top))
-        axes.legend(frameon=False)
+        axes.set(xlabel=f"measured {title}", ylabel=f"computed {title}", xlim=(0, top), ylim=(min(0, axes.get_ylim()[0]), top))
+        axes.legend(frameon=False, fontsize=8)
         axes.grid(alpha=0.3)
     figure.savefig(path, dpi=90)
     plt.close(figure)
@@ -207,23 +208,22 @@ def report(results, folder):
             found = evaluate(results / name)
             if found:
                 runs.append(dict(stage=stage, **found))
-    for name in ("identified_zero_slip", "error_oedometer_soften_1"):
+    for name in ("towed_law_zero_slip", "zero_slip_law_towed", "error_zero_slip_3.3cm", "error_oedometer_soften_1"):
         found = evaluate(results / name)
         if found:
             runs.append(dict(stage="check", **found))
+    for mode in study.CHOSEN:
+        runs += [dict(stage="rows", **found) for r in sorted({(r["density_kgm3"], r["depth_m"]) for r in study.reference()}, reverse=True)
+                 if (found := evaluate(results / study.row_name(mode, *r)))]
     show(runs)
     write_table(folder / "results.csv", runs)
     table = row_table(results)
     show(table)
     write_table(folder / "rows.csv", table)
     compare(table, folder / "comparison.png")
-    for used in ("calibration", "prediction", "all"):
-        values = accuracy(table, used)
-        print(f"{used}: " + ", ".join(f"{k} {v}" for k, v in values.items()))
-        if used == "prediction":
-            for what, goal in GOALS.items():
-                value = values[f"computed_{what}_rms"]
-                print(f"  rms of {what} {value}, goal {goal}: {'reached' if value <= goal else 'not reached'}")
+    scores = [accuracy(table, used, model) for model in (*study.CHOSEN, "nrmm") for used in ("calibration", "prediction", "all")]
+    show(scores)
+    write_table(folder / "accuracy.csv", scores)
     errors, limits = error_table(results)
     print()
     show(errors)
@@ -232,5 +232,6 @@ def report(results, folder):
         print(f"size zero: {what} {value:.4f} +- {uncertain:.4f}")
     if limits:
         error_picture(errors, limits, folder / "error.png")
-    if finished(results / "identified"):
-        furrow_ground.draw(results / "identified", "identified field snow, towed wheel", "", folder / "section.png")
+    section = results / study.row_name("zero_slip", 220, 0.20)
+    if finished(section):
+        furrow_ground.draw(section, "field snow, identified; rigid wheel at zero slip", "", folder / "section.png")
