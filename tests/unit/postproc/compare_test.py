@@ -133,6 +133,15 @@ def write_run(folder, load=1000.0, sinkage=0.05, datum=0.0):
         "drawbar_pull": quantity(-0.2 * load, 1.0, "N"), "drive_torque": quantity(0.0, 0.0, "N m"), "slip": quantity(0.2, 0.0, "")}}))
 
 
+def write_plate(folder, k, size=0.1, speed=0.5):
+    """p = k z up to 20 mm, ground of 0.05 m."""
+    folder.mkdir(parents=True)
+    z = np.linspace(-0.001, 0.02, 400)
+    pressure = k * np.maximum(z, 0)
+    np.savetxt(folder / "curve.txt", np.column_stack([np.arange(400), z, pressure * size**2, pressure]))
+    (folder / "facts.txt").write_text(f"test plate family made size {size} depth 0.05 speed {speed}\n")
+
+
 class Balanced(HTMLParser):
     def __init__(self):
         super().__init__()
@@ -189,6 +198,21 @@ class Command(unittest.TestCase):
         with h5py.File(self.folder / "both" / "compare.h5", "r") as content:
             self.assertAlmostEqual(content["runs/two/history/sinkage"][-1], 0.051)
         self.assertGreater((self.folder / "both" / "compare.png").stat().st_size, 20000)
+
+    def test_plates_are_compared_at_equal_sinkage(self):
+        write_plate(self.folder / "soft", 1e6)
+        write_plate(self.folder / "stiff", 1.5e6)
+        write_plate(self.folder / "large", 1e6, size=0.2)
+        done = self.run_post("compare", "soft", "stiff", "-o", "plates")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("stiff differs from soft by +50 % on average, rms ln-ratio 0.405", done.stdout)
+        with open(self.folder / "plates" / "compare.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        self.assertEqual([float(r["level"]) for r in rows], [0.0025, 0.005, 0.01, 0.015])
+        self.assertAlmostEqual(float(rows[2]["soft"]), 1e4, delta=10)
+        done = self.run_post("compare", "soft", "large", "-o", "refused")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("these tests are not comparable:\n  size: soft: 0.1; large: 0.2 (they may differ by 2 %)", done.stderr)
 
     def test_report_is_one_page(self):
         done = self.run_post("report", "one=a", "two=b", "-o", "page/report.html")
