@@ -54,6 +54,7 @@ class Comparison:
     differences: list = field(default_factory=list)  # (condition, texts) that are not comparable, or were compared anyway
     verdicts: list = field(default_factory=list)
     tracks: dict = field(default_factory=dict)       # label -> (density, error)
+    besides: list = field(default_factory=list)      # what differs besides the two quantities, in words
 
     def of(self, quantity, kind=None):
         return [e for e in self.entries if e.quantity == quantity and kind in (None, e.kind)]
@@ -178,7 +179,27 @@ def compare(runs, table=None, formulas=(), measured=None, anyway=False):
         for e in entries:
             if e.kind == "measured":
                 result.verdicts += [judge(e, r) for r in result.of(quantity, "run")]
+    result.besides = what_differs(result)
     return result
+
+
+def what_differs(result):
+    """Sentences on the first run against the others: pressure half way down while the wheel is let down, density under the track."""
+    first, sentences = result.runs[0], []
+    for other in result.runs[1:]:
+        z = 0.5 * min(run.values["sinkage"].mean for run in (first, other))
+        curves = [settling(run) for run in (first, other)]
+        if all(len(x) > 10 and x.min() < z < x.max() for x, _ in curves):
+            # the first passage: the wheel may bounce later
+            pressures = [float(p[np.argmax(x >= z)]) for x, p in curves]
+            if min(pressures) > 0 and not 1 / 1.5 < pressures[1] / pressures[0] < 1.5:
+                sentences.append(f"let down, at {1e3 * z:.0f} mm, {first.label} bears {pressures[0] / 1e3:.3g} kPa and {other.label} "
+                                 f"{pressures[1] / 1e3:.3g} kPa")
+        if first.label in result.tracks and other.label in result.tracks:
+            (a, da), (b, db) = result.tracks[first.label], result.tracks[other.label]
+            if abs(b - a) > COVERAGE * math.hypot(da, db) and abs(b - a) > 0.05 * a:
+                sentences.append(f"under the track {first.label} has {with_error(a, da)} kg/m3 and {other.label} {with_error(b, db)} kg/m3")
+    return sentences
 
 
 def overall(result):
@@ -251,6 +272,7 @@ def text(result):
     if result.differences:
         lines += ["", "COMPARED ALTHOUGH CONDITIONS DIFFER"] + [f"  {name}: {t}" for name, t in result.differences]
     lines += ["", "Verdict", "  " + overall(result)] + ["  - " + t for t, _ in result.verdicts]
+    lines += ["  - besides: " + sentence for sentence in result.besides]
     return "\n".join(lines)
 
 

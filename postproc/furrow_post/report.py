@@ -115,7 +115,7 @@ def page(result, title, lead, sections):
     verdict = compare.overall(result)
     body = [f"<h1>{esc(title)}</h1>", f'<p class="lead">{esc(lead)}</p>']
     if verdict:
-        points = "".join(f"<li>{esc(t)}</li>" for t, _ in result.verdicts)
+        points = "".join(f"<li>{esc(t)}</li>" for t in [t for t, _ in result.verdicts] + ["Besides: " + t for t in result.besides])
         body.append(f'<div class="verdict"><strong>{esc(verdict)}</strong><ul>{points}</ul></div>')
     if result.differences:
         body.append('<div class="warning"><strong>Compared although conditions differ.</strong><ul>' +
