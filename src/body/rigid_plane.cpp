@@ -55,6 +55,7 @@ void RigidPlane::press_on(Surface& surface) {
 std::vector<double> RigidPlane::state() const {
   std::vector<double> numbers(anchor_.data(), anchor_.data() + anchor_.size());
   numbers.insert(numbers.end(), sticking_.begin(), sticking_.end());
+  numbers.insert(numbers.end(), area_.data(), area_.data() + area_.size());
   return numbers;
 }
 
@@ -62,6 +63,7 @@ void RigidPlane::restore(const double* numbers) {
   std::copy(numbers, numbers + anchor_.size(), anchor_.data());
   numbers += anchor_.size();
   for (unsigned char& sticking : sticking_) sticking = *numbers++ != 0.0;
+  std::copy(numbers, numbers + area_.size(), area_.data());
 }
 
 }  // namespace furrow
