@@ -36,6 +36,19 @@ class NodeTriangles {
   /// the sum weighted by angles at a corner. Its sign tells inside from outside of a closed surface at every feature
   /// (J. A. Baerentzen, H. Aanaes, IEEE TVCG 11, 2005). Not of unit length.
   Vector3 outward(const Surface& surface, std::size_t triangle, const Vector3& barycentric) const;
+  /// Calls visit(unit normal) for every triangle that has the feature: the edge or corner of a closest point.
+  template <class Visit>
+  void for_normals(const Surface& surface, std::size_t triangle, const Vector3& barycentric, Visit visit) const {
+    const Vector3i& own = surface.triangles[triangle];
+    int carrier[3] = {-1, -1, -1}, found = 0;
+    for (int c = 0; c < 3; ++c)
+      if (barycentric[c] > 0.0) carrier[found++] = own[c];
+    const auto node = static_cast<std::size_t>(carrier[0]);
+    for (std::size_t n = start_[node]; n < start_[node + 1]; ++n) {
+      const auto t = static_cast<std::size_t>(triangles_[n]);
+      if (found < 2 || (surface.triangles[t].array() == carrier[1]).any()) visit(Vector3(surface.area_vector(t).normalized()));
+    }
+  }
 
  private:
   std::vector<std::size_t> start_;

@@ -209,6 +209,15 @@ bool GroundContact::touch(const Candidate& candidate, Touch& touch) const {
   // Closer than rounding, the separation has no direction.
   touch.normal = closest.distance > 1e-9 * half.norm() ? Vector3(side / closest.distance * closest.separation) : outward.normalized();
   touch.gap = side * closest.distance - ratio * touch.normal.cwiseAbs().dot(half);
+  // Beside an edge, the direction of the nearest point is not the one that separates: of it and of the faces' normals, the one with the
+  // largest gap does (separating axes). Without, ground level with a plate is pushed away from the plate's edge.
+  if (side > 0.0 && closest.feature_nodes() < 3)
+    corners_.for_normals(surface, touch.triangle, closest.barycentric, [&](const Vector3& normal) {
+      const double gap = closest.separation.dot(normal) - ratio * normal.cwiseAbs().dot(half);
+      if (gap <= touch.gap) return;
+      touch.gap = gap;
+      touch.normal = normal;
+    });
   touch.point = x - closest.separation;
   touch.barycentric = closest.barycentric;
   return touch.gap < 0.0;

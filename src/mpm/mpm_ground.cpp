@@ -15,12 +15,19 @@ namespace {
 
 constexpr std::size_t chunk = 1024;       // particles between grid and law: their gradients stay in the second cache
 constexpr double most_drift = 0.5;        // of the shortest cell between two sortings
+constexpr double most_off_knot = 1e-6;    // of the cell: the surface is where two cells meet
 constexpr double capture_step = 1e-6;     // [s] of any length: forces are momenta over it
 
 Grid make_grid(const GroundParameters& ground, const std::string& where) {
   Grid grid(Axis(ground.x, where + ", x axis"), Axis(ground.y, where + ", y axis"), Axis(ground.z, where + ", z axis"));
   if (ground.window && !grid.axis(0).uniform())
     throw InputError(where, "moves along a graded x axis", "a uniform x axis for ground that moves");
+  const Axis& z = grid.axis(2);
+  const int cell = z.cell_of(ground.surface);
+  const double off = cell < 0 ? 1.0 : std::min(ground.surface - z.knot(cell), z.knot(cell + 1) - ground.surface) / z.length(cell);
+  if (off > most_off_knot)
+    throw InputError(where, fmt::format("has its surface at z = {:.6g} m, inside of a cell", ground.surface), "the height of an end of a cell",
+                     "let the fine stretch of the z axis be a whole number of cells below the surface and above it");
   return grid;
 }
 

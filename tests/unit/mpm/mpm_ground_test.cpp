@@ -162,6 +162,17 @@ TEST(Ground, StopsWhenParticlesLeaveTheGrid) {
   }
 }
 
+TEST(Ground, RefusesASurfaceInsideACell) {
+  GroundParameters parameters = box(law_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
+  parameters.z = even(0, 0.32, 0.05);  // becomes six cells of 5.3 cm
+  try {
+    MpmGround ground(parameters, Communicator(), "fix soil");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("fix soil has its surface at z = 0.2 m, inside of a cell; allowed: the height of an end of a cell"));
+  }
+}
+
 TEST(Ground, LayersAreFilledWithTheirLaws) {
   GroundParameters parameters = box(law_of(snow()), {0, 0, 0}, {0.1, 0.1, 0.2}, 0.025);
   parameters.layers = {{law_of(snow()), 0.05}, {law_of(elastic(1e7, 0.3, 1800)), 0.0}};
