@@ -64,6 +64,26 @@ def recommend(assessed, error, grounds=None):
     return (min(within, key=lambda a: a.row.cpu_time), True) if within else (min(known, key=lambda a: a.error), False)
 
 
+def needed(assessed, error):
+    """(ground, model, wheel), size [m] and CPU time [s] at which a family's fits come down to this error, cheapest first; the time by a
+    power law through the family's runs. Beyond the table: an extrapolation."""
+    found = []
+    for key, family in cost_table.families([a.row for a in assessed]).items():
+        finest = min((a for a in assessed if a.row.family == key), key=lambda a: a.row.size)
+        if not math.isfinite(finest.error) or len({row.size for row in family.bases}) < 2:
+            continue
+        sizes = []
+        for quantity, parts in finest.parts.items():
+            rest = math.sqrt(max((finest.errors[quantity] * finest.references[quantity]) ** 2 - parts.size**2, 0.0))
+            room = (error * finest.references[quantity]) ** 2 - rest**2
+            sizes.append(finest.row.size * math.sqrt(room) / parts.size if room > 0 and parts.size > 0 else 0.0)
+        if min(sizes) > 0:
+            h, t = np.log([row.size for row in family.bases]), np.log([row.cpu_time for row in family.bases])
+            slope, level = np.polyfit(h, t, 1)
+            found.append((key, min(sizes), float(np.exp(level + slope * math.log(min(sizes))))))
+    return sorted(found, key=lambda item: item[2])
+
+
 def describe(a):
     kind = "cells" if a.row.ground == "continuum" else "grains"
     return f"{a.row.ground}, {kind} of {1e3 * a.row.size:.3g} mm, {a.row.model} model, {a.row.wheel}"
@@ -79,6 +99,10 @@ def advice(assessed, error, grounds=None):
              f"error {100 * choice.error:.0f} % ({choice.worst})." if within else
              f"No run of the table reaches {100 * error:g} %; the best is {describe(choice)}: {100 * choice.error:.0f} % "
              f"({choice.worst}), {duration(choice.row.cpu_time)} of one core."]
+    if not within:
+        for (ground, model, wheel), size, seconds in needed(assessed, error)[:1]:
+            lines.append(f"By its fit, {ground} would need {'cells' if ground == 'continuum' else 'grains'} of about {1e3 * size:.2g} mm and "
+                         f"{duration(seconds)} of one core: an extrapolation.")
     for ground in sorted({a.row.ground for a in assessed} - {choice.row.ground}):
         try:
             other, ok = recommend(assessed, error, {ground})

@@ -71,6 +71,13 @@ class Table(unittest.TestCase):
             choice, within = cost.recommend(assessed, wanted)
             self.assertEqual((choice.row.run, within), (name, reached))
 
+    def test_size_and_cost_beyond_the_table(self):
+        # coefficient error 5 h = 1 % at h = 2 mm, cost 1e-4/h^4
+        (family, size, seconds), *_ = cost.needed(cost.assess([r for r in made_runs() if r.ground == "continuum"]), 0.01)
+        self.assertEqual(family, ("continuum", "half", "rigid wheel"))
+        self.assertAlmostEqual(size, 0.002, delta=2e-5)
+        self.assertAlmostEqual(seconds / (1e-4 / 0.002**4), 1, delta=0.05)
+
     def test_written_table_comes_back(self):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "t.csv"
