@@ -33,8 +33,8 @@ def reasons(choice, within, assessed, error):
         lines.append(f"  {quantity}: error {100 * choice.errors[quantity]:.0f} % ({known})")
     if row.model == "half":
         lines.append("  half model: exact for straight travel on ground that is symmetric, and half the cost")
-    kinds = {a.row.wheel for a in assessed}
-    lines.append(f"  {row.wheel}: " + ("the only kind in the table" if len(kinds) == 1 else "cheapest within the error"))
+    kinds = {a.row.wheel for a in assessed if math.isfinite(a.error)}
+    lines.append(f"  {row.wheel}: " + ("the only kind whose error is known" if len(kinds) == 1 else "cheapest within the error"))
     for ground in sorted({a.row.ground for a in assessed} - {row.ground}):
         try:
             other, ok = cost.recommend(assessed, error, {ground})
