@@ -17,7 +17,7 @@ from .results import ResultsError
 from .summary import with_error
 
 COVERAGE = 2.0  # standard deviations within which two values agree
-VAGUE = 0.5     # beyond this part of the value, agreement says nothing
+VAGUE = 0.3     # beyond this part of the value, agreement says nothing
 # condition -> (largest relative difference, largest absolute difference); the larger of the two counts
 TOLERANCES = {"load": (0.02, 0.0), "speed": (0.02, 0.0), "wheel_diameter": (0.02, 0.0), "wheel_width": (0.03, 0.0), "pressure": (0.02, 0.0),
               "depth": (0.06, 0.0), "density": (0.1, 0.0), "slip": (0.0, 0.03), "slip_angle": (0.0, 0.5), "camber": (0.0, 0.5),
@@ -145,11 +145,12 @@ def judge(a, b):
         return f"{name}: {b.source} against {a.source}: {relative}; no verdict, {lacking} has no uncertainty", None
     allowed = COVERAGE * math.hypot(a.uncertainty, b.uncertainty)
     agree = abs(difference) <= allowed
-    numbers = f"difference {scale * difference:+.3g}{' ' + unit if unit else ''} ({relative}), allowed {scale * allowed:.2g}"
     lacking = sorted({f"{part} of {e.source}" for e in (a, b) for part in e.unknown})
+    numbers = f"difference {scale * difference:+.3g}{' ' + unit if unit else ''} ({relative}), allowed {scale * allowed:.2g}"
     vague = agree and allowed > VAGUE * abs(a.value)
+    beyond = "what is known of their uncertainty" if lacking else "their uncertainty"
     verdict = f"cannot be told apart, their uncertainty is {100 * allowed / abs(a.value):.0f} % of the value" if vague else \
-        "agree within their uncertainty" if agree else f"differ, by {abs(difference) / allowed:.1f} times what their uncertainty allows"
+        "agree within their uncertainty" if agree else f"differ by {abs(difference) / allowed:.1f} times what {beyond} allows"
     return f"{name}: {a.source} and {b.source} {verdict} ({numbers})" + (f"; not known: {', '.join(lacking)}" if lacking else ""), agree
 
 
@@ -210,13 +211,16 @@ def overall(result):
     vague = [text.split(":")[0] for text, _ in among if "cannot be told apart" in text]
     if all(agree for _, agree in among) and vague:
         others = [text.split(":")[0] for text, _ in among if text.split(":")[0] not in vague]
-        verdict = (f"The runs agree in {' and '.join(dict.fromkeys(others))} within their uncertainty; " if others else "") + \
-            f"in {' and '.join(dict.fromkeys(vague))} they cannot be told apart: the uncertainty is too large."
+        lost = ' and '.join(dict.fromkeys(vague))
+        verdict = f"The runs agree in {' and '.join(dict.fromkeys(others))} within their uncertainty; in {lost} they" if others else \
+            f"In {lost} the runs"
+        verdict += " cannot be told apart: the uncertainty is too large."
     elif all(agree for _, agree in among):
         verdict = "The runs agree within their uncertainty in sinkage and resistance."
     else:
         what = [text.split(":")[0] for text, agree in among if not agree]
-        verdict = f"The runs do not agree in {' and '.join(dict.fromkeys(what))}."
+        known = " as far as their uncertainty is known" if any("not known" in text for text, _ in among) else ""
+        verdict = f"The runs do not agree in {' and '.join(dict.fromkeys(what))}{known}."
     if result.differences:
         verdict += " They were compared though their conditions differ: " + ", ".join(name for name, _ in result.differences) + "."
     return verdict

@@ -99,7 +99,7 @@ class Verdict(unittest.TestCase):
         self.assertTrue(compare.judge(a, self.entry("b", 0.100 + 2 * 0.005 - 1e-6, 0.004))[1])
         text, agree = compare.judge(a, self.entry("b", 0.100 + 2 * 0.005 + 1e-6, 0.004))
         self.assertFalse(agree)
-        self.assertIn("differ, by 1.0 times what their uncertainty allows (difference +10 mm (+10 %), allowed 10)", text)
+        self.assertIn("differ by 1.0 times what their uncertainty allows (difference +10 mm (+10 %), allowed 10)", text)
 
     def test_no_uncertainty_no_verdict(self):
         other = compare.Entry("sinkage", "b", 0.1, cost_table.Components(), "run")
