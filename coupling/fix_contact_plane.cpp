@@ -21,7 +21,8 @@ Schema FixContactPlane::schema() {
   schema.number("level", "m", Range::any(), "z of the floor");
   schema.number("friction", "", Range::non_negative(), "Coulomb's mu");
   schema.number("stiffness", "Pa/m", Range::positive(), "pressure per penetration").by_default(2e9);
-  schema.number("tangential_stiffness", "Pa/m", Range::positive(), "shear stress per displacement while a node sticks").by_default(1e9);
+  schema.number("tangential_stiffness", "Pa/m", Range::positive(), "shear stress per displacement while a node sticks")
+      .by_default(1e9);
   schema.number("damping", "Pa s/m", Range::non_negative(), "pressure per approach velocity").by_default(0.0);
   return schema;
 }

@@ -48,7 +48,8 @@ std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& op
   const std::vector<double>& axle = options.numbers("axle");
   hub.centre = {axle[0], axle[1], axle[2]};
   if (settings.half && hub.centre.y() != 0.0)
-    throw InputError(options.where("axle"), fmt::format("has y = {} m with a half model", hub.centre.y()), "y = 0: the plane of symmetry");
+    throw InputError(options.where("axle"), fmt::format("has y = {} m with a half model", hub.centre.y()),
+                     "y = 0: the plane of symmetry");
 
   auto tyre = std::make_unique<DarnellTyre>(parameters, settings, hub, options.subject());
   tyre->settle(nullptr);
@@ -61,15 +62,20 @@ Schema FixTyreDarnell::schema() {
   Schema schema("fix tyre/darnell");
   schema.text("file", "tyre file, relative to the folder of the script");
   schema.number("pressure", "Pa", Range::non_negative(), "inflation pressure; by default that of the tyre file").optional();
-  schema.numbers("mesh", 2, "", Range::closed(2, 2000), "elements across the tread and around it").by_default(std::vector<double>{6, 72});
+  schema.numbers("mesh", 2, "", Range::closed(2, 2000), "elements across the tread and around it")
+      .by_default(std::vector<double>{6, 72});
   schema.flag("half", "only the half y >= 0, mirrored");
-  schema.word("sidewall", {"table", "direct"}, "sidewall forces looked up, or solved at every station and step").by_default("table");
-  schema.integer("sidewall_rows", Range::closed(0, 50), "rows of nodes on each sidewall, for contact; 0: only the tread can touch")
+  schema.word("sidewall", {"table", "direct"}, "sidewall forces looked up, or solved at every station and step")
+      .by_default("table");
+  schema
+      .integer("sidewall_rows", Range::closed(0, 50),
+               "rows of nodes on each sidewall, for contact; 0: only the tread can touch")
       .by_default("4");
   schema.number("mass", "kg", Range::positive(), "mass of the rim and whatever moves with the axle, without the tread");
   schema.number("inertia", "kg m^2", Range::positive(), "their moment of inertia about the axle");
-  schema.number("inertia_diametral", "kg m^2", Range::positive(),
-                "the same across the axle; by default inertia/2 + mass bead_spacing^2/12")
+  schema
+      .number("inertia_diametral", "kg m^2", Range::positive(),
+              "the same across the axle; by default inertia/2 + mass bead_spacing^2/12")
       .optional();
   schema.number("damping", "1/s", Range::non_negative(), "rate at which the tread's motion relative to the rim is damped")
       .by_default(100.0);
@@ -98,10 +104,13 @@ void FixTyreDarnell::init() {
     on_grains |= mesh && mesh->needs(*this);
   }
   if (on_grains && update->dt > stable && comm->me == 0)
-    error->warning(FLERR, fmt::format("fix tyre/darnell '{}': the time step {:.3g} s is longer than the tyre's own, {:.3g} s; grain forces held "
-                                      "over sub-steps may shake the tread: choose a step of at most {:.2g} s",
-                                      id, update->dt, stable, stable)
-                              .c_str());
+    error->warning(
+        FLERR,
+        fmt::format(
+            "fix tyre/darnell '{}': the time step {:.3g} s is longer than the tyre's own, {:.3g} s; grain forces held "
+            "over sub-steps may shake the tread: choose a step of at most {:.2g} s",
+            id, update->dt, stable, stable)
+            .c_str());
 }
 
 double FixTyreDarnell::compute_vector(int n) {

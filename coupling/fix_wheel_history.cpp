@@ -83,8 +83,10 @@ void FixWheelHistory::open() {
   const std::string path = folder_ + "/history.h5", frames = folder_ + "/vtk";
   if (resume_time_) {
     file_ = HistoryFile::resume(path, WheelRig::channels(), *resume_time_);
-    if (now.size() > 0) reference_ = read_reference_grains(path);
-    else reference_ = std::move(now);
+    if (now.size() > 0)
+      reference_ = read_reference_grains(path);
+    else
+      reference_ = std::move(now);
     if (vtk_every_ > 0) {
       wheel_frames_ = VtkSeries::resume(frames, "wheel", *resume_time_);
       grain_frames_ = VtkSeries::resume(frames, "grains", *resume_time_);

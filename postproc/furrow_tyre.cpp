@@ -32,9 +32,9 @@ constexpr const char* header =
 std::string line(const Row& r) {
   const ContactPatch& p = r.patch;
   return fmt::format("{:.6g},{:.6g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.6g},{:.3g},{:.4g},{},{:.2g}",
-                     1e-3 * r.pressure, r.load, 100 * r.deflection, 1e4 * p.perimeter_area, 1e4 * p.nodal_area, 100 * p.length,
-                     100 * p.width, 1e-3 * p.mean_pressure, 1e-3 * p.largest_pressure, 100 * r.width, 100 * r.radius,
-                     p.lifted_share, r.chord, r.steps, r.residual);
+                     1e-3 * r.pressure, r.load, 100 * r.deflection, 1e4 * p.perimeter_area, 1e4 * p.nodal_area,
+                     100 * p.length, 100 * p.width, 1e-3 * p.mean_pressure, 1e-3 * p.largest_pressure, 100 * r.width,
+                     100 * r.radius, p.lifted_share, r.chord, r.steps, r.residual);
 }
 
 double crown_radius(const DarnellTyre& tyre) {
@@ -53,13 +53,15 @@ void write_pressures(const std::string& path, const DarnellTyre& tyre, const Rig
   file.print("x_m,y_m,pressure_Pa,area_m2\n");
   for (Eigen::Index n = 0; n < tyre.tread().count(); ++n)
     if (plane.pressure()[n] > 0.0)
-      file.print("{:.6g},{:.6g},{:.6g},{:.6g}\n", tyre.tread().x(0, n), tyre.tread().x(1, n), plane.pressure()[n], plane.area()[n]);
+      file.print("{:.6g},{:.6g},{:.6g},{:.6g}\n", tyre.tread().x(0, n), tyre.tread().x(1, n), plane.pressure()[n],
+                 plane.area()[n]);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Brings a tyre to rest: inflated, then pressed on a rigid plane under each load. One comma separated line a state."};
+  CLI::App app{
+      "Brings a tyre to rest: inflated, then pressed on a rigid plane under each load. One comma separated line a state."};
   std::string path, folder;
   std::vector<double> pressures, loads, link;
   std::vector<int> mesh{6, 72};
@@ -72,7 +74,8 @@ int main(int argc, char** argv) {
   app.add_flag("--half", half, "only half of the tyre, mirrored");
   app.add_flag("--direct", direct, "solve the sidewall's chain instead of looking it up");
   app.add_option("--friction", friction, "of the plane")->capture_default_str();
-  app.add_option("--tolerance", tolerance, "largest unbalanced force over the pressure's force on a node")->capture_default_str();
+  app.add_option("--tolerance", tolerance, "largest unbalanced force over the pressure's force on a node")
+      ->capture_default_str();
   app.add_option("--rim-stiffness", rim_stiffness, "instead of the tyre file's [N m/rad/m]");
   app.add_option("--tread-stiffness", tread_stiffness, "instead of the tyre file's [N m/rad/m]");
   app.add_option("--link", link, "instead of the tyre file's: axial and radial [m]")->expected(2);
@@ -100,8 +103,15 @@ int main(int argc, char** argv) {
       RigidPlaneParameters plane_parameters;
       plane_parameters.friction = friction;
       const auto report = [&](double load, const Relaxation& relaxation, const RigidPlane* plane, double from) {
-        Row row{parameters.pressure, load, from - tyre.centre().z(), tyre.section_width(), crown_radius(tyre),
-                tyre.largest_sidewall_chord(), relaxation.residual, relaxation.steps, {}};
+        Row row{parameters.pressure,
+                load,
+                from - tyre.centre().z(),
+                tyre.section_width(),
+                crown_radius(tyre),
+                tyre.largest_sidewall_chord(),
+                relaxation.residual,
+                relaxation.steps,
+                {}};
         if (plane) row.patch = contact_patch(tyre, *plane);
         fmt::print("{}\n", line(row));
         std::fflush(stdout);

@@ -10,13 +10,15 @@ namespace furrow {
 
 RigidPlane::RigidPlane(const RigidPlaneParameters& parameters, const Surface& surface) : parameters_(parameters) {
   const auto need = [](double value, const char* name, bool good, const char* allowed) {
-    if (!(std::isfinite(value) && good)) throw InputError(fmt::format("rigid plane, {}", name), fmt::format("is {}", value), allowed);
+    if (!(std::isfinite(value) && good))
+      throw InputError(fmt::format("rigid plane, {}", name), fmt::format("is {}", value), allowed);
   };
   need(parameters.height, "height", true, "a number [m]");
   need(parameters.stiffness, "stiffness", parameters.stiffness > 0.0, "a number > 0 [Pa/m]");
   need(parameters.damping, "damping", parameters.damping >= 0.0, "a number >= 0 [Pa s/m]");
   need(parameters.friction, "friction", parameters.friction >= 0.0, "a number >= 0");
-  need(parameters.tangential_stiffness, "tangential_stiffness", parameters.tangential_stiffness > 0.0, "a number > 0 [Pa/m]");
+  need(parameters.tangential_stiffness, "tangential_stiffness", parameters.tangential_stiffness > 0.0,
+       "a number > 0 [Pa/m]");
   const auto nodes = static_cast<Eigen::Index>(surface.node_count());
   area_ = pressure_ = VectorX::Zero(nodes);
   for (std::size_t t = 0; t < surface.triangle_count(); ++t)

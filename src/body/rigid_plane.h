@@ -33,8 +33,8 @@ class RigidPlane {
   double stored_energy() const { return stored_; }
   void set_height(double height) { parameters_.height = height; }
   const RigidPlaneParameters& parameters() const { return parameters_; }
-  std::vector<double> state() const;  ///< where nodes stick, and their areas
-  void restore(const double* state);  ///< as many numbers
+  std::vector<double> state() const;                        ///< where nodes stick, and their areas
+  void restore(const double* state);                        ///< as many numbers
   void forget() { sticking_.assign(sticking_.size(), 0); }  ///< all nodes stick anew where they are
 
  private:

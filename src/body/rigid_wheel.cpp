@@ -94,7 +94,8 @@ Schema RigidWheel::schema(const std::string& subject) {
 RigidWheel::RigidWheel(const Options& options) : RigidWheel(parameters_from(options), options.subject()) {}
 
 RigidWheel::RigidWheel(const RigidWheelParameters& parameters, const std::string& where)
-    : WheelHub({parameters.mass, parameters.axle_inertia, parameters.diametral_inertia}, parameters.axle_centre, "rigid wheel"),
+    : WheelHub({parameters.mass, parameters.axle_inertia, parameters.diametral_inertia}, parameters.axle_centre,
+               "rigid wheel"),
       parameters_(parameters) {
   check(parameters, where);
   surface_ = make_wheel_mesh(parameters.geometry, where);

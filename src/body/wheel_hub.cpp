@@ -103,9 +103,9 @@ Matrix3 WheelHub::attitude() const {
 void WheelHub::advance_hub(double dt, const Vector3& force, const Vector3& moment) {
   if (!(std::isfinite(dt) && dt > 0.0)) throw StateError(fmt::format("{}: a step of {} s", name_, dt));
   if (!(force.allFinite() && moment.allFinite() && load_.allFinite() && std::isfinite(axle_torque_)))
-    throw StateError(fmt::format("{}: not finite: force {} {} {} N, moment {} {} {} N m, load {} {} {} N, torque {} N m", name_,
-                                 force.x(), force.y(), force.z(), moment.x(), moment.y(), moment.z(), load_.x(), load_.y(),
-                                 load_.z(), axle_torque_));
+    throw StateError(fmt::format("{}: not finite: force {} {} {} N, moment {} {} {} N m, load {} {} {} N, torque {} N m",
+                                 name_, force.x(), force.y(), force.z(), moment.x(), moment.y(), moment.z(), load_.x(),
+                                 load_.y(), load_.z(), axle_torque_));
   advance_translation(dt, force);
   advance_rotation(dt, moment);
   if (!(std::abs(angles_[2]) < largest_camber))

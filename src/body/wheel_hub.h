@@ -69,7 +69,7 @@ class WheelHub : public Body {
   double constraint(Coordinate coordinate) const { return constraint_[coordinate]; }
 
   virtual double nominal_radius() const = 0;  ///< [m] without load, grousers or ground: the rim speed's radius
-  virtual double lowest_point() const = 0;    ///< [m] z of the unloaded shape, without grousers: what a sinkage is counted to
+  virtual double lowest_point() const = 0;  ///< [m] z of the unloaded shape, without grousers: what a sinkage is counted to
   /// Force [N] and moment about the axle centre [N m] of all that touches the wheel now; a half model's are those of the whole.
   struct Wrench {
     Vector3 force, moment;
@@ -82,13 +82,13 @@ class WheelHub : public Body {
 
   /// One step of the hub. @throws StateError for what is not finite or a wheel that fell over
   void advance_hub(double dt, const Vector3& force, const Vector3& moment);
-  double hub_energy() const;         ///< kinetic [J]
+  double hub_energy() const;                         ///< kinetic [J]
   double given_work() const { return given_work_; }  ///< [J] of the forces and moments passed to advance_hub
-  Balance hub_balance() const;       ///< without contact_work
+  Balance hub_balance() const;                       ///< without contact_work
   /// The hub has been put elsewhere: what moves with it follows as a rigid body, without velocity.
   virtual void follow_placement(const Vector3& old_centre, const Matrix3& old_attitude) = 0;
-  virtual void follow_velocity() = 0;           ///< it has been given another motion
-  void rest_at(const Vector3& centre);          ///< for a relaxation: the hub alone, without velocity
+  virtual void follow_velocity() = 0;   ///< it has been given another motion
+  void rest_at(const Vector3& centre);  ///< for a relaxation: the hub alone, without velocity
   virtual double kinetic_energy() const { return hub_energy(); }
   std::vector<double> hub_state() const;
   const double* restore_hub(const double* numbers);  ///< returns the first number it did not need

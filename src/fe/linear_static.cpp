@@ -25,7 +25,8 @@ Matrix6X solve_linear(const Shell4& shell, const ShellNodes& nodes, const Matrix
     if (column < 0) continue;
     right[column] = load.data()[c];
     for (Eigen::SparseMatrix<double>::InnerIterator it(K, c); it; ++it)
-      if (const int row = unknown[static_cast<std::size_t>(it.row())]; row >= 0) entries.emplace_back(row, column, it.value());
+      if (const int row = unknown[static_cast<std::size_t>(it.row())]; row >= 0)
+        entries.emplace_back(row, column, it.value());
   }
   Eigen::SparseMatrix<double> reduced(count, count);
   reduced.setFromTriplets(entries.begin(), entries.end());

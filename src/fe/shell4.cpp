@@ -15,9 +15,9 @@ namespace furrow {
 
 namespace {
 
-constexpr double same_shape = 1e-9;         // of the element's size
-constexpr double straightest_limit = 1.0;   // 1 + trace: a node turned by 120 degrees against its element
-constexpr double stability_reserve = 0.9;   // for stretch, pressure and the turning of the axes
+constexpr double same_shape = 1e-9;        // of the element's size
+constexpr double straightest_limit = 1.0;  // 1 + trace: a node turned by 120 degrees against its element
+constexpr double stability_reserve = 0.9;  // for stretch, pressure and the turning of the axes
 
 /// An element's stress-free axes in space, columns.
 Matrix3 stress_free_axes(const Matrix34& x) {
@@ -191,7 +191,8 @@ void Shell4::add_forces(ShellNodes& nodes, double pressure) {
   const Shell4Result result = kernel(kinds_.data(), kinds_.size(), places_->view(), nodes.x.data(), nodes.rotation.data(),
                                      pressure, nodes.force.data(), nodes.moment.data());
   if (!result.finite || !(result.straightest > straightest_limit))
-    throw StateError(fmt::format("shell: element {} is folded or its nodes are not finite", places_->element[result.worst_place]));
+    throw StateError(
+        fmt::format("shell: element {} is folded or its nodes are not finite", places_->element[result.worst_place]));
   energy_ = result.energy;
   volume_ = result.volume;
 }

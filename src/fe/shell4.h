@@ -42,11 +42,11 @@ class Shell4 {
   double energy() const { return energy_; }  ///< [J] elastic, at the last add_forces
   double volume() const { return volume_; }  ///< [m^3] third of the integral of x . n dA; of a closed shell what it encloses
   const std::vector<Quad>& quads() const { return quads_; }
-  const VectorX& mass() const { return mass_; }                     ///< [kg] a quarter of each element at its nodes
-  const VectorX& rotary_inertia() const { return inertia_; }        ///< [kg m^2] scaled, see above
-  double stable_time_step() const { return stable_step_; }          ///< [s] 2/omega of the stiffest element, stress-free
-  std::size_t kind_count() const;                                   ///< distinct stiffness matrices
-  Eigen::SparseMatrix<double> stiffness() const;                    ///< of the stress-free state, 6 a node: u then theta
+  const VectorX& mass() const { return mass_; }               ///< [kg] a quarter of each element at its nodes
+  const VectorX& rotary_inertia() const { return inertia_; }  ///< [kg m^2] scaled, see above
+  double stable_time_step() const { return stable_step_; }    ///< [s] 2/omega of the stiffest element, stress-free
+  std::size_t kind_count() const;                             ///< distinct stiffness matrices
+  Eigen::SparseMatrix<double> stiffness() const;              ///< of the stress-free state, 6 a node: u then theta
 
  private:
   struct Places;

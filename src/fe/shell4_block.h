@@ -5,14 +5,15 @@
 
 namespace furrow {
 
-constexpr std::size_t shell4_padding = 8;  // elements of one shape come in multiples of it: the widest registers hold 8 numbers
+constexpr std::size_t shell4_padding =
+    8;  // elements of one shape come in multiples of it: the widest registers hold 8 numbers
 
 /// Elements of one stress-free shape share its stiffness.
 struct Shell4Kind {
-  double stiffness[24][24];       ///< in the element's axes
-  double x[4][3];                 ///< stress-free nodes in the element's axes [m]
-  double p1, p2, q2;              ///< inverse of the stress-free medians (columns), rows (p1, p2) and (0, q2) [1/m]
-  std::size_t first = 0, end = 0; ///< range of places, padded
+  double stiffness[24][24];        ///< in the element's axes
+  double x[4][3];                  ///< stress-free nodes in the element's axes [m]
+  double p1, p2, q2;               ///< inverse of the stress-free medians (columns), rows (p1, p2) and (0, q2) [1/m]
+  std::size_t first = 0, end = 0;  ///< range of places, padded
 };
 
 /// Places of elements, sorted by kind; a place that only pads has the nodes of another and active = 0.
@@ -39,10 +40,10 @@ using Shell4Kernel = Shell4Result (*)(const Shell4Kind* kinds, std::size_t kind_
 
 Shell4Kernel shell4_kernel();  ///< the fastest that this processor runs, or the one of FURROW_ISA (material/kernels.h)
 
-Shell4Result shell4_forces_baseline(const Shell4Kind*, std::size_t, const Shell4Places&, const double*, const double*, double,
-                                    double*, double*);
-Shell4Result shell4_forces_avx2(const Shell4Kind*, std::size_t, const Shell4Places&, const double*, const double*, double, double*,
-                                double*);
+Shell4Result shell4_forces_baseline(const Shell4Kind*, std::size_t, const Shell4Places&, const double*, const double*,
+                                    double, double*, double*);
+Shell4Result shell4_forces_avx2(const Shell4Kind*, std::size_t, const Shell4Places&, const double*, const double*, double,
+                                double*, double*);
 Shell4Result shell4_forces_avx512(const Shell4Kind*, std::size_t, const Shell4Places&, const double*, const double*, double,
                                   double*, double*);
 

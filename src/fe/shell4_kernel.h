@@ -56,8 +56,8 @@ struct Frame {
   FURROW_INLINE Triple space(const Triple& v) const { return v.x * e1 + v.y * e2 + v.z * e3; }
 };
 
-inline Shell4Result shell4_forces(const Shell4Kind* kinds, std::size_t kind_count, const Shell4Places& places, const double* x,
-                                  const double* rotation, double pressure, double* force, double* moment) {
+inline Shell4Result shell4_forces(const Shell4Kind* kinds, std::size_t kind_count, const Shell4Places& places,
+                                  const double* x, const double* rotation, double pressure, double* force, double* moment) {
   constexpr double xi[4] = {-1, 1, 1, -1}, eta[4] = {-1, -1, 1, 1};
   Shell4Result result;
   Lanes energy = 0.0, volume = 0.0;
@@ -91,13 +91,14 @@ inline Shell4Result shell4_forces(const Shell4Kind* kinds, std::size_t kind_coun
         for (int c = 0; c < 3; ++c) {
           const Lanes E0 = load(places.axes[3 * c] + i), E1 = load(places.axes[3 * c + 1] + i),
                       E2 = load(places.axes[3 * c + 2] + i);
-          column[c] = frame.local({Q[0] * E0 + Q[3] * E1 + Q[6] * E2, Q[1] * E0 + Q[4] * E1 + Q[7] * E2,
-                                   Q[2] * E0 + Q[5] * E1 + Q[8] * E2});
+          column[c] = frame.local(
+              {Q[0] * E0 + Q[3] * E1 + Q[6] * E2, Q[1] * E0 + Q[4] * E1 + Q[7] * E2, Q[2] * E0 + Q[5] * E1 + Q[8] * E2});
         }
         const Lanes four_cos2 = Lanes(1.0) + column[0].x + column[1].y + column[2].z;
         straightest = lower(straightest, four_cos2);
         const Lanes two_cos = root(four_cos2), inverse = Lanes(1.0) / two_cos;
-        const Triple turn = inverse * Triple{column[1].z - column[2].y, column[2].x - column[0].z, column[0].y - column[1].x};
+        const Triple turn =
+            inverse * Triple{column[1].z - column[2].y, column[2].x - column[0].z, column[0].y - column[1].x};
         cosine[n] = Lanes(0.5) * two_cos;
         half_turn[n] = Lanes(0.5) * turn;
         u[6 * n + 3] = turn.x;

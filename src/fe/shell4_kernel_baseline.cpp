@@ -4,7 +4,7 @@
 
 namespace furrow {
 Shell4Result shell4_forces_baseline(const Shell4Kind* kinds, std::size_t count, const Shell4Places& places, const double* x,
-                                const double* rotation, double pressure, double* force, double* moment) {
+                                    const double* rotation, double pressure, double* force, double* moment) {
   return shell4_forces(kinds, count, places, x, rotation, pressure, force, moment);
 }
 }  // namespace furrow

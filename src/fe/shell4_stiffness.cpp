@@ -70,8 +70,7 @@ void add_displacement(Eigen::Ref<Row24> row, const Vector3& a, const Eigen::Vect
 
 /// a . (rotation x director), i.e. rotation . (director x a)
 void add_director(Eigen::Ref<Row24> row, const Shell4Shape& shape, const Vector3& a, const Eigen::Vector4d& weight) {
-  for (int k = 0; k < 4; ++k)
-    row.segment<3>(6 * k + 3) += weight[k] * Vector3(shape.director.col(k)).cross(a).transpose();
+  for (int k = 0; k < 4; ++k) row.segment<3>(6 * k + 3) += weight[k] * Vector3(shape.director.col(k)).cross(a).transpose();
 }
 
 Rows3 membrane_rows(const Point& p) {

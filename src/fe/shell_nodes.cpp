@@ -49,7 +49,8 @@ void ShellNodes::drift(double dt) {
       cosine = std::cos(angle);
       sinc = std::sin(angle) / angle;
     }
-    Quaternion turned = Quaternion(cosine, sinc * half.x(), sinc * half.y(), sinc * half.z()) * q[static_cast<std::size_t>(n)];
+    Quaternion turned =
+        Quaternion(cosine, sinc * half.x(), sinc * half.y(), sinc * half.z()) * q[static_cast<std::size_t>(n)];
     turned.normalize();
     set_rotation(n, turned);
   }
@@ -62,8 +63,7 @@ void ShellNodes::stop() {
 
 double ShellNodes::kinetic_energy() const {
   double twice = 0.0;
-  for (Eigen::Index n = 0; n < count(); ++n)
-    twice += mass[n] * v.col(n).squaredNorm() + inertia[n] * w.col(n).squaredNorm();
+  for (Eigen::Index n = 0; n < count(); ++n) twice += mass[n] * v.col(n).squaredNorm() + inertia[n] * w.col(n).squaredNorm();
   return 0.5 * twice;
 }
 

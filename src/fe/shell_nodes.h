@@ -14,16 +14,16 @@ using Matrix9X = Eigen::Matrix<double, 9, Eigen::Dynamic>;
 struct ShellNodes {
   explicit ShellNodes(const Matrix3X& start);
 
-  Matrix3X x;                   ///< [m]
-  Matrix3X v;                   ///< [m/s] half a step ago
-  Matrix3X w;                   ///< [rad/s] in space, half a step ago
-  std::vector<Quaternion> q;    ///< rotation from the start
-  Matrix9X rotation;            ///< the same as matrices, column by column
-  VectorX mass;                 ///< [kg]
-  VectorX inertia;              ///< [kg m^2]
-  Matrix3X free_to_move;        ///< 1, or 0 for a component that is held
-  Matrix3X free_to_turn;        ///< 1, or 0
-  Matrix3X force, moment;       ///< [N], [N m] of this step
+  Matrix3X x;                 ///< [m]
+  Matrix3X v;                 ///< [m/s] half a step ago
+  Matrix3X w;                 ///< [rad/s] in space, half a step ago
+  std::vector<Quaternion> q;  ///< rotation from the start
+  Matrix9X rotation;          ///< the same as matrices, column by column
+  VectorX mass;               ///< [kg]
+  VectorX inertia;            ///< [kg m^2]
+  Matrix3X free_to_move;      ///< 1, or 0 for a component that is held
+  Matrix3X free_to_turn;      ///< 1, or 0
+  Matrix3X force, moment;     ///< [N], [N m] of this step
 
   Eigen::Index count() const { return x.cols(); }
   void hold(Eigen::Index node);  ///< everything

@@ -7,14 +7,14 @@
 namespace furrow {
 
 struct ContactPatch {
-  double length = 0.0;           ///< [m] longest line along the circumference
-  double width = 0.0;            ///< [m] between the outermost touching tread lines
-  double perimeter_area = 0.0;   ///< [m^2] inside the outline, gaps within included: what a print's outline encloses
-  double nodal_area = 0.0;       ///< [m^2] sum of the shares of the touching nodes
-  double largest_pressure = 0.0; ///< [Pa] of a tread node
-  double mean_pressure = 0.0;    ///< [Pa] vertical force over perimeter_area
-  double force = 0.0;            ///< [N] vertical, whole tyre
-  double lifted_share = 0.0;     ///< of the nodes inside the outline, those that do not touch: a buckled middle
+  double length = 0.0;            ///< [m] longest line along the circumference
+  double width = 0.0;             ///< [m] between the outermost touching tread lines
+  double perimeter_area = 0.0;    ///< [m^2] inside the outline, gaps within included: what a print's outline encloses
+  double nodal_area = 0.0;        ///< [m^2] sum of the shares of the touching nodes
+  double largest_pressure = 0.0;  ///< [Pa] of a tread node
+  double mean_pressure = 0.0;     ///< [Pa] vertical force over perimeter_area
+  double force = 0.0;             ///< [N] vertical, whole tyre
+  double lifted_share = 0.0;      ///< of the nodes inside the outline, those that do not touch: a buckled middle
 };
 
 /// The outline ends, on each line of nodes around the tread, where the gap that grows as the square of the distance from the edge (a

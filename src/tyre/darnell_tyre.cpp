@@ -58,7 +58,8 @@ struct DarnellTyre::Mesh {
     need(settings.across >= 2 && settings.across <= 200, "elements across", settings.across, "2 to 200");
     need(settings.around >= 12 && settings.around <= 2000, "elements around", settings.around, "12 to 2000");
     need(!settings.half || settings.across % 2 == 0, "elements across", settings.across, "an even number for a half model");
-    need(settings.sidewall_points >= 0 && settings.sidewall_points <= 50, "sidewall points", settings.sidewall_points, "0 to 50");
+    need(settings.sidewall_points >= 0 && settings.sidewall_points <= 50, "sidewall points", settings.sidewall_points,
+         "0 to 50");
     if (!(std::isfinite(settings.damping_rate) && settings.damping_rate >= 0.0))
       throw InputError(where + ", damping rate", fmt::format("is {} 1/s", settings.damping_rate), "a number >= 0");
     rows = settings.half ? settings.across / 2 : settings.across;
@@ -79,7 +80,8 @@ DarnellTyre::DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& 
                          const std::string& where)
     : DarnellTyre(tyre, settings, hub, Mesh(tyre, settings, where)) {}
 
-DarnellTyre::DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& settings, const DarnellTyreHub& hub, Mesh mesh)
+DarnellTyre::DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& settings, const DarnellTyreHub& hub,
+                         Mesh mesh)
     : WheelHub(hub.inertia, hub.centre, "tyre"),
       tyre_(tyre),
       settings_(settings),
@@ -131,7 +133,8 @@ DarnellTyre::DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& 
   };
   for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
     const Shell4::Quad& q = mesh.quads[e];
-    add_quad(q[0], q[1], q[2], q[3], 2 * (static_cast<int>(e) % rows_) >= rows_ && !settings.half);  // mirrored about the middle
+    add_quad(q[0], q[1], q[2], q[3],
+             2 * (static_cast<int>(e) % rows_) >= rows_ && !settings.half);  // mirrored about the middle
   }
   for (std::size_t r = 0; r < rings_.size() && points > 0; ++r) {
     const int first = tread_nodes + static_cast<int>(r) * n * points;
@@ -391,7 +394,10 @@ Relaxation DarnellTyre::settle(RigidPlane* plane, const SettleOptions& options) 
     nodes_.kick(dt);
     rim_velocity += dt * unbalanced / rim_mass;
     if (approaching) {
-      if (options.axle_height) rim_velocity = (start_height + (*options.axle_height - start_height) * smooth_step((time + dt) / approach) - at.z()) / dt;
+      if (options.axle_height) {
+        const double next = start_height + (*options.axle_height - start_height) * smooth_step((time + dt) / approach);
+        rim_velocity = (next - at.z()) / dt;
+      }
       nodes_.v *= 1.0 - approach_damping * dt;
       nodes_.v.row(2).array() += approach_damping * dt * rim_velocity;
       nodes_.w *= 1.0 - approach_damping * dt;
@@ -417,9 +423,10 @@ Relaxation DarnellTyre::settle(RigidPlane* plane, const SettleOptions& options) 
   stored_ = potential() - zero_;
   place_surface();
   if (!result.converged)
-    throw StateError(fmt::format("tyre: not at rest after {} steps of relaxation; the largest unbalanced force is {:.3g} of the "
-                                 "pressure's force on a node, asked for {:.3g}",
-                                 options.max_steps, result.residual, options.tolerance));
+    throw StateError(
+        fmt::format("tyre: not at rest after {} steps of relaxation; the largest unbalanced force is {:.3g} of the "
+                    "pressure's force on a node, asked for {:.3g}",
+                    options.max_steps, result.residual, options.tolerance));
   return result;
 }
 
@@ -443,8 +450,16 @@ double DarnellTyre::largest_sidewall_chord() const {
 
 std::vector<double> DarnellTyre::fingerprint() const {
   const TreadParameters& tread = tyre_.tread;
-  return {double(settings_.across), double(settings_.around), double(settings_.half), double(settings_.sidewall_points),
-          tread.radius, tread.half_width, tread.thickness, tread.E1, tread.E2, tyre_.sidewall.length};
+  return {double(settings_.across),
+          double(settings_.around),
+          double(settings_.half),
+          double(settings_.sidewall_points),
+          tread.radius,
+          tread.half_width,
+          tread.thickness,
+          tread.E1,
+          tread.E2,
+          tyre_.sidewall.length};
 }
 
 std::vector<double> DarnellTyre::state() const {

@@ -16,11 +16,11 @@ namespace furrow {
 
 /// How a tyre is computed.
 struct DarnellTyreSettings {
-  int across = 6;            ///< elements across the whole tread
-  int around = 72;           ///< elements around
-  bool half = false;         ///< only y >= 0, mirrored: for straight travel on symmetric ground
-  bool direct = false;       ///< solve the chain at every station instead of looking it up
-  int sidewall_points = 4;   ///< rows of nodes on each side between bead and tread, for contact; 0: the tread alone can touch
+  int across = 6;           ///< elements across the whole tread
+  int around = 72;          ///< elements around
+  bool half = false;        ///< only y >= 0, mirrored: for straight travel on symmetric ground
+  bool direct = false;      ///< solve the chain at every station instead of looking it up
+  int sidewall_points = 4;  ///< rows of nodes on each side between bead and tread, for contact; 0: the tread alone can touch
   double damping_rate = 100.0;  ///< [1/s] of motion relative to the rim, c in f = -c m (v - v_rim)
 };
 
@@ -83,8 +83,8 @@ class DarnellTyre : public WheelHub {
   Relaxation settle(RigidPlane* plane, const SettleOptions& options = {});
 
   const ShellNodes& tread() const { return nodes_; }
-  int tread_node(int i, int j) const;    ///< i around from the lowest point towards +x, j across towards +y
-  int rows() const { return rows_; }     ///< elements across that are computed
+  int tread_node(int i, int j) const;  ///< i around from the lowest point towards +x, j across towards +y
+  int rows() const { return rows_; }   ///< elements across that are computed
   const Shell4& shell() const { return shell_; }
   std::vector<SidewallRing>& sidewalls() { return rings_; }
   RimPose rim() const { return {centre(), attitude()}; }
@@ -99,10 +99,10 @@ class DarnellTyre : public WheelHub {
  private:
   struct Mesh;
   DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& settings, const DarnellTyreHub& hub, Mesh mesh);
-  void compute_internal();     // fills nodes_.force, nodes_.moment, potential_, rim_force_, rim_moment_
-  void add_damping();          // likewise
+  void compute_internal();  // fills nodes_.force, nodes_.moment, potential_, rim_force_, rim_moment_
+  void add_damping();       // likewise
   void disturb();
-  void add_contact();          // surface forces to nodes and to the rim
+  void add_contact();  // surface forces to nodes and to the rim
   double potential() const;
   void place_surface();
   void follow_placement(const Vector3& old_centre, const Matrix3& old_attitude) override;
@@ -123,7 +123,7 @@ class DarnellTyre : public WheelHub {
   Surface surface_;
   double pressure_ = 0.0, stable_step_ = 0.0, force_scale_ = 1.0;
 
-  Vector3 rim_force_ = Vector3::Zero(), rim_moment_ = Vector3::Zero();          // internal, of the whole tyre
+  Vector3 rim_force_ = Vector3::Zero(), rim_moment_ = Vector3::Zero();           // internal, of the whole tyre
   Vector3 contact_on_rim_ = Vector3::Zero(), contact_moment_ = Vector3::Zero();  // handed to the rim by sidewall nodes
   Matrix3X damping_force_, damping_moment_, contact_;
   double volume_ = 0.0, stored_ = 0.0, zero_ = 0.0;

@@ -103,7 +103,7 @@ void SidewallRing::add_pressure(const ShellNodes& nodes, const RimPose& rim) {
   constexpr double xi[4] = {-1, 1, 1, -1}, eta[4] = {-1, -1, 1, 1};
   const double p = -side_ * sidewall_->pressure();  // in this order of nodes the normal is outwards at -y
   volume_ = 0.0;
-  const auto press = [&](const Vector3 (&x)[4], Vector3 (&force)[4]) {
+  const auto press = [&](const Vector3(&x)[4], Vector3(&force)[4]) {
     const Vector3 A = 0.25 * (x[1] + x[2] - x[0] - x[3]), B = 0.25 * (x[2] + x[3] - x[0] - x[1]),
                   C = 0.25 * (x[0] - x[1] + x[2] - x[3]);
     const Vector3 AB = A.cross(B), AC = A.cross(C) / 3.0, CB = C.cross(B) / 3.0;

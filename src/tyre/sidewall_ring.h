@@ -30,14 +30,15 @@ class SidewallRing {
   /// @param side +1 or -1: where its A points along the rim's y
   /// @param edge tread nodes in the order of their angles, from the lowest point towards +x
   /// @param width of a strip [m]
-  SidewallRing(std::unique_ptr<Sidewall> sidewall, const TyreParameters& tyre, int side, std::vector<int> edge, double width);
+  SidewallRing(std::unique_ptr<Sidewall> sidewall, const TyreParameters& tyre, int side, std::vector<int> edge,
+               double width);
 
   /// Adds to nodes.force and .moment. @throws StateError naming side and station
   void add_forces(ShellNodes& nodes, const RimPose& rim);
 
   void set_pressure(double pressure) { sidewall_->set_pressure(pressure); }
-  double potential() const { return potential_; }  ///< [J] sum of w W, at the last add_forces
-  double volume() const { return volume_; }        ///< [m^3] the quadrilaterals' third of the integral of x . n dA
+  double potential() const { return potential_; }          ///< [J] sum of w W, at the last add_forces
+  double volume() const { return volume_; }                ///< [m^3] the quadrilaterals' third of the integral of x . n dA
   double largest_chord() const { return largest_chord_; }  ///< of the length
   const std::vector<SidewallEnd>& ends() const { return ends_; }
   const std::vector<int>& edge() const { return edge_; }
@@ -54,8 +55,8 @@ class SidewallRing {
   struct Axes {
     Vector3 A, e_r;  // in space
     SidewallEnd end;
-    Vector3 g;       // Q A in space
-    Vector3 arm;     // the link in space
+    Vector3 g;    // Q A in space
+    Vector3 arm;  // the link in space
   };
   Axes axes(std::size_t station, const ShellNodes& nodes, const RimPose& rim) const;
   void add_pressure(const ShellNodes& nodes, const RimPose& rim);
@@ -65,8 +66,8 @@ class SidewallRing {
   std::vector<int> edge_;
   double width_, length_;
   bool linked_;
-  Matrix3X bead_, link_;         // in the rim's frame, links as made
-  Matrix3X on_node_, on_end_;    // forces on tread nodes and on ends of links [N]
+  Matrix3X bead_, link_;       // in the rim's frame, links as made
+  Matrix3X on_node_, on_end_;  // forces on tread nodes and on ends of links [N]
   std::vector<SidewallEnd> ends_;
   std::vector<SidewallResponse> responses_;
   std::vector<Axes> axes_;

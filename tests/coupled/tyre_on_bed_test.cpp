@@ -47,12 +47,14 @@ TEST(TyreOnBed, KeepsMomentumAndEnergyWhileItDeformsAndRolls) {
   Scene scene;
   make_bed(scene);
   const double level = top_of(scene);
-  scene.command(fmt::format("fix tyre all tyre/darnell file {}/inputs/tyres/p235_75r15.yaml pressure 4e4 mesh 4 36 mass 20 inertia 0.6 "
-                            "axle -0.05 0 {:.9f}",
-                            FURROW_SOURCE_DIR, level + 0.3495));
-  scene.command(fmt::format("fix rig all wheel/rig wheel tyre load_force {} speed 0.4 mode towed settle_time 0.3 load_ramp_time 0.15 "
-                            "accelerate_time 0.1 ground_level {:.9f} damping {}",
-                            load, level, damping));
+  scene.command(fmt::format(
+      "fix tyre all tyre/darnell file {}/inputs/tyres/p235_75r15.yaml pressure 4e4 mesh 4 36 mass 20 inertia 0.6 "
+      "axle -0.05 0 {:.9f}",
+      FURROW_SOURCE_DIR, level + 0.3495));
+  scene.command(
+      fmt::format("fix rig all wheel/rig wheel tyre load_force {} speed 0.4 mode towed settle_time 0.3 load_ramp_time 0.15 "
+                  "accelerate_time 0.1 ground_level {:.9f} damping {}",
+                  load, level, damping));
   scene.command("fix skin all mesh/body body tyre type 2");
   scene.command(fmt::format("fix tread all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
   DarnellTyre& tyre = dynamic_cast<coupling::FixTyreDarnell*>(scene.lammps().modify->find_fix_id("tyre"))->tyre();
@@ -90,10 +92,12 @@ TEST(TyreOnBed, KeepsMomentumAndEnergyWhileItDeformsAndRolls) {
   EXPECT_LT(audit.force, 1e-10);
   EXPECT_LT(audit.moment, 1e-10);
   if (scene.rank() == 0)
-    fmt::print("  deflection {:.1f} mm, impulse over expectation {:.6f}, momentum defect {:.1e} force {:.1e} moment, energy {:.1e} of "
-               "{:.0f} J, rolled to x = {:.3f} m, spin {:.3f}\n",
-               1e3 * deflection, impulse / expected, audit.force, audit.moment, worst / scale, scale, tyre.centre().x(),
-               tyre.position(WheelHub::spin));
+    fmt::print(
+        "  deflection {:.1f} mm, impulse over expectation {:.6f}, momentum defect {:.1e} force {:.1e} moment, energy {:.1e} "
+        "of "
+        "{:.0f} J, rolled to x = {:.3f} m, spin {:.3f}\n",
+        1e3 * deflection, impulse / expected, audit.force, audit.moment, worst / scale, scale, tyre.centre().x(),
+        tyre.position(WheelHub::spin));
 }
 
 }  // namespace

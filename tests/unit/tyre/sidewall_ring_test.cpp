@@ -44,7 +44,8 @@ struct Ring {
 };
 
 TEST(SidewallRing, ForcesAreTheGradientOfThePotential) {
-  for (const auto& [side, link] : {std::pair{1, Vector2(0, 0)}, std::pair{-1, Vector2(0, 0)}, std::pair{1, Vector2(-0.012, 0.005)}}) {
+  for (const auto& [side, link] :
+       {std::pair{1, Vector2(0, 0)}, std::pair{-1, Vector2(0, 0)}, std::pair{1, Vector2(-0.012, 0.005)}}) {
     Ring model(side, link);
     SidewallRing ring = model.make(side);
     model.compute(ring);
@@ -100,7 +101,8 @@ TEST(SidewallRing, ForcesDoNotDependOnWhereTheWheelStands) {
   moved.rim.centre = turn * model.rim.centre + shift;
   moved.rim.attitude = turn * model.rim.attitude;
   moved.nodes.x = (turn * model.nodes.x).colwise() + shift;
-  for (int i = 0; i < Ring::n; ++i) moved.nodes.set_rotation(i, Quaternion(turn) * model.nodes.q[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < Ring::n; ++i)
+    moved.nodes.set_rotation(i, Quaternion(turn) * model.nodes.q[static_cast<std::size_t>(i)]);
   SidewallRing other = moved.make(1);
   moved.compute(other);
   EXPECT_LT((moved.nodes.force - turn * force).cwiseAbs().maxCoeff(), 1e-8 * force.cwiseAbs().maxCoeff());
@@ -115,9 +117,12 @@ TEST(SidewallRing, ArcsEndAtBeadAndTreadAndHaveTheSidewallsLength) {
   for (int i = 0; i < Ring::n; ++i) {
     double length = 0.0;
     for (int k = 0; k < points; ++k)
-      length += ((k + 1 < points ? Vector3(x.col(i * points + k + 1)) : Vector3(model.nodes.x.col(i))) - x.col(i * points + k)).norm();
+      length +=
+          ((k + 1 < points ? Vector3(x.col(i * points + k + 1)) : Vector3(model.nodes.x.col(i))) - x.col(i * points + k))
+              .norm();
     EXPECT_NEAR(length, model.parameters.sidewall.length, 1e-4 * length);
-    EXPECT_LT((x.col(i * points) - model.rim.centre - model.rim.attitude * ring.bead(static_cast<std::size_t>(i))).norm(), 1e-12);
+    EXPECT_LT((x.col(i * points) - model.rim.centre - model.rim.attitude * ring.bead(static_cast<std::size_t>(i))).norm(),
+              1e-12);
   }
 }
 

@@ -15,8 +15,8 @@ Vector3 along_x(const Vector3&) { return Vector3::UnitX(); }
 Vector3 along_z(const Vector3&) { return Vector3::UnitZ(); }
 
 /// Ratios to the reference over meshes; the last must be within the tolerance, and closer than the first.
-void expect_convergence(const char* name, const std::vector<int>& meshes, const std::function<double(int)>& ratio, double coarse,
-                        double fine) {
+void expect_convergence(const char* name, const std::vector<int>& meshes, const std::function<double(int)>& ratio,
+                        double coarse, double fine) {
   std::string line;
   std::vector<double> ratios;
   for (const int n : meshes) {

@@ -151,12 +151,14 @@ TEST(Shell4, ForcesAreTheGradientOfTheEnergy) {
         if (k < 3)
           moved.x(k, n) += h;
         else
-          moved.set_rotation(n, Quaternion(Eigen::AngleAxisd(h, Vector3::Unit(k - 3))) * moved.q[static_cast<std::size_t>(n)]);
+          moved.set_rotation(n,
+                             Quaternion(Eigen::AngleAxisd(h, Vector3::Unit(k - 3))) * moved.q[static_cast<std::size_t>(n)]);
         model.shell.add_forces(moved, 0.0);
         energy[side] = model.shell.energy();
       }
       const double gradient = (energy[1] - energy[0]) / (2.0 * step), analytic = -(k < 3 ? force(k, n) : moment(k - 3, n));
-      worst = std::max(worst, std::abs(gradient - analytic) / (k < 3 ? force.cwiseAbs().maxCoeff() : moment.cwiseAbs().maxCoeff()));
+      worst = std::max(worst,
+                       std::abs(gradient - analytic) / (k < 3 ? force.cwiseAbs().maxCoeff() : moment.cwiseAbs().maxCoeff()));
     }
   EXPECT_LT(worst, 1e-7);
 }
@@ -167,7 +169,8 @@ TEST(Shell4, PressureIsTheGradientOfTheVolume) {
   x << 0, 1, 1, 0, 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1;
   x += 0.1 * Matrix3X::Random(3, 8);
   ShellModel box(x, {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}},
-                 ShellSection(OrthotropicLayer::isotropic(1e6, 0.3, 0.01), 1.0), [](const Vector3&) { return Vector3(1, 2, 3); });
+                 ShellSection(OrthotropicLayer::isotropic(1e6, 0.3, 0.01), 1.0),
+                 [](const Vector3&) { return Vector3(1, 2, 3); });
   box.compute(1000.0);
   const Matrix3X force = box.nodes.force;
   EXPECT_LT(force.rowwise().sum().norm(), 1e-12 * force.norm());
@@ -280,7 +283,8 @@ TEST(Shell4, StripRolledIntoACircleIsInEquilibrium) {
     double inner = 0.0;
     for (Eigen::Index i = 0; i < nodes.count(); ++i) {
       const double at_end = i % (n + 1) == 0 || i % (n + 1) == n;
-      if (!at_end) inner = std::max({inner, nodes.moment.col(i).cwiseAbs().maxCoeff(), nodes.force.col(i).cwiseAbs().maxCoeff() * L});
+      if (!at_end)
+        inner = std::max({inner, nodes.moment.col(i).cwiseAbs().maxCoeff(), nodes.force.col(i).cwiseAbs().maxCoeff() * L});
     }
     EXPECT_LT(inner, 1e-9 * moment * n);
     const double end = 2.0 * nodes.moment.col(n).norm(), error = std::abs(end / moment - 1.0);  // both end nodes
@@ -338,8 +342,8 @@ TEST(Shell4, FreeMotionKeepsEnergyAndMomentum) {
     swing_before = swing;
     EXPECT_LT((momentum() - p0).norm(), 1e-10 * p0.norm());
     EXPECT_LT((angular() - L0).norm(), 1e-10 * L0.norm());
-    fmt::print("  {} of the stable step: energy swings by {:.1e}, drifts by {:.1e} of the elastic; ovalised by {:.3f} m\n", share,
-               swing / elastic, std::abs(late - early) / elastic, deflection);
+    fmt::print("  {} of the stable step: energy swings by {:.1e}, drifts by {:.1e} of the elastic; ovalised by {:.3f} m\n",
+               share, swing / elastic, std::abs(late - early) / elastic, deflection);
   }
 }
 
@@ -381,7 +385,8 @@ TEST(Shell4, RefusesWhatIsNoShell) {
   EXPECT_THROW(ShellSection(bad, 1.0), InputError);
   EXPECT_THROW(ShellSection(belt(), 0.0), InputError);
 
-  ShellModel model = mapped_shell(2, 2, [](double s, double t) { return Vector3(s, t, 0); }, section, along_y);
+  ShellModel model = mapped_shell(
+      2, 2, [](double s, double t) { return Vector3(s, t, 0); }, section, along_y);
   model.nodes.set_rotation(4, Quaternion(Eigen::AngleAxisd(2.5, Vector3::UnitX())));
   try {
     model.compute();

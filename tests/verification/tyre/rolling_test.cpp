@@ -31,11 +31,14 @@ Outcome roll(const std::string& mode, double value, double speed, double time) {
   road.height = tyre.tread().x.row(2).minCoeff() - 1e-4;
   road.friction = 0.8;
   RigidPlane plane(road, tyre.surface());
-  std::vector<std::string> words{"load_force", "6227", "speed", fmt::to_string(speed), "mode", mode, "settle_time", "0.25",
-                                 "accelerate_time", "0.25", "ground_level", fmt::to_string(road.height), "damping", "3000"};
-  if (!mode.empty() && mode != "towed") words.insert(words.end(), {mode == "slip" ? "slip" : "torque", fmt::to_string(value)});
+  std::vector<std::string> words{
+      "load_force",      "6227", "speed",        fmt::to_string(speed),       "mode",    mode,  "settle_time", "0.25",
+      "accelerate_time", "0.25", "ground_level", fmt::to_string(road.height), "damping", "3000"};
+  if (!mode.empty() && mode != "towed")
+    words.insert(words.end(), {mode == "slip" ? "slip" : "torque", fmt::to_string(value)});
   WheelRig rig(WheelRig::schema().read(words), tyre);
-  const double dt = tyre.stable_time_step(), start = tyre.balance().residual(), average_from = time - 2.0 * pi * 0.3475 / speed;
+  const double dt = tyre.stable_time_step(), start = tyre.balance().residual(),
+               average_from = time - 2.0 * pi * 0.3475 / speed;
   Outcome run{};
   double from_x = 0.0, from_spin = 0.0, from_damped = 0.0, counted = 0.0;
   const long steps = std::lround(time / dt);
@@ -49,7 +52,8 @@ Outcome roll(const std::string& mode, double value, double speed, double time) {
     run.worst_energy = std::max(run.worst_energy, std::abs(balance.residual() - start));
     run.energy_scale = std::max({run.energy_scale, balance.kinetic_energy, std::abs(balance.load_work)});
     if (static_cast<double>(i) * dt < average_from) continue;
-    if (counted == 0.0) from_x = tyre.centre().x(), from_spin = tyre.position(WheelHub::spin), from_damped = balance.dissipated_energy;
+    if (counted == 0.0)
+      from_x = tyre.centre().x(), from_spin = tyre.position(WheelHub::spin), from_damped = balance.dissipated_energy;
     run.force_x += force.x() * dt;
     run.force_z += force.z() * dt;
     run.deflection += (tyre.nominal_radius() - (tyre.centre().z() - road.height)) * dt;
@@ -66,8 +70,10 @@ Outcome roll(const std::string& mode, double value, double speed, double time) {
 
 TEST(RollingTyre, ManyTurns) {
   const Outcome run = roll("towed", 0.0, 6.0, 2.4);
-  fmt::print("  {:.1f} turns, rolling radius {:.4f} m, drag {:.1f} N, load {:.1f} N, damping takes {:.1f} W, energy off by {:.1e} of {:.0f} J\n",
-             run.turns, run.rolling_radius, -run.force_x, run.force_z, run.damping_power, run.worst_energy, run.energy_scale);
+  fmt::print(
+      "  {:.1f} turns, rolling radius {:.4f} m, drag {:.1f} N, load {:.1f} N, damping takes {:.1f} W, energy off by {:.1e} "
+      "of {:.0f} J\n",
+      run.turns, run.rolling_radius, -run.force_x, run.force_z, run.damping_power, run.worst_energy, run.energy_scale);
   EXPECT_GT(run.turns, 5.0);
   EXPECT_NEAR(run.force_z, 6227.0, 0.005 * 6227.0);
   EXPECT_LT(run.worst_energy, 1e-3 * run.energy_scale);
