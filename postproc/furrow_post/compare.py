@@ -148,7 +148,7 @@ def judge(a, b):
     lacking = sorted({f"{part} of {e.source}" for e in (a, b) for part in e.unknown})
     numbers = f"difference {scale * difference:+.3g}{' ' + unit if unit else ''} ({relative}), allowed {scale * allowed:.2g}"
     vague = agree and allowed > VAGUE * abs(a.value)
-    beyond = "what is known of their uncertainty" if lacking else "their uncertainty"
+    beyond = "the known part of their uncertainty" if lacking else "their uncertainty"
     verdict = f"cannot be told apart, their uncertainty is {100 * allowed / abs(a.value):.0f} % of the value" if vague else \
         "agree within their uncertainty" if agree else f"differ by {abs(difference) / allowed:.1f} times what {beyond} allows"
     return f"{name}: {a.source} and {b.source} {verdict} ({numbers})" + (f"; not known: {', '.join(lacking)}" if lacking else ""), agree
