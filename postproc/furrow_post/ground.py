@@ -183,7 +183,7 @@ def density_section(figure, axes, ground, axis, position):
     figure.colorbar(ScalarMappable(norm, COLOURS), ax=axes, shrink=0.7, extend="min").set_label("density [kg/m³]")
 
 
-def draw(folder, title, numbers, target, pixels=1400):
+def draw(folder, title, numbers, target, pixels=1400, dpi=150):
     """Draws the ground at the end of the run in folder. @return densities; @raises ResultsError when it kept no ground"""
     use_style()
     ground = Ground.read(folder)
@@ -217,5 +217,5 @@ def draw(folder, title, numbers, target, pixels=1400):
     _section(rut, ground, body, norm, 0, behind)
     annotate_panel(rut, "e", f"across, {CENTIMETRE * (axle - behind):.0f} cm behind: shoulder {values['at the shoulder']:.0f} kg/m³")
     figure.suptitle("\n".join(line for line in (title, f"{len(ground.x)} particles (mirrored), {ground.undisturbed:.0f} kg/m³ before", numbers) if line))
-    save(figure, target)
+    save(figure, target, dpi)
     return values

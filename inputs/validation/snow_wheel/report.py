@@ -234,4 +234,4 @@ def report(results, folder):
         error_picture(errors, limits, folder / "error.png")
     section = results / study.row_name("zero_slip", 220, 0.20)
     if finished(section):
-        furrow_ground.draw(section, "field snow, identified; rigid wheel at zero slip", "", folder / "section.png")
+        furrow_ground.draw(section, "field snow, identified; rigid wheel at zero slip", "", folder / "section.png", dpi=75)
