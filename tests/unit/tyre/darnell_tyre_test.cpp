@@ -98,7 +98,8 @@ TEST(DarnellTyre, CarriesItsLoadOnAPlane) {
   EXPECT_NEAR(tyre.rim_force().z() / 5000.0, 1.0, 1e-3);  // what the tread does to the rim
   EXPECT_LT(tyre.rim_force().head<2>().norm(), 1.0);
   Vector3 moment = Vector3::Zero();  // of the floor about the axle
-  const Surface& surface = tyre.surface();
+  Surface& surface = tyre.surface();
+  plane.press_on(surface);
   for (Eigen::Index n = 0; n < surface.x.cols(); ++n)
     moment += Vector3(surface.x.col(n) - tyre.centre()).cross(Vector3(surface.f.col(n)));
   EXPECT_LT((tyre.rim_moment() - moment).norm(), 1e-3 * 5000.0 * tyre.nominal_radius());
@@ -270,9 +271,10 @@ TEST(DarnellTyre, RefusesWhatCannotBe) {
 TEST(DarnellTyre, AStretchedSidewallStopsTheRun) {
   DarnellTyreSettings settings = coarse();
   settings.direct = true;
+  settings.damping_rate = 0.0;  // or it drags the tread along
   DarnellTyre tyre(p235(1.5e5), settings, rim);
   tyre.settle(nullptr);
-  tyre.prescribe(WheelHub::y, 30.0);
+  tyre.prescribe(WheelHub::y, 60.0);
   const std::string message = error_of([&] {
     for (int i = 0; i < 20000; ++i) tyre.advance(tyre.stable_time_step());
   });
