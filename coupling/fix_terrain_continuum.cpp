@@ -18,8 +18,9 @@ namespace furrow::coupling {
 
 namespace {
 
-constexpr long check_every = 100;          // steps between looks at the energy
-constexpr double least_energy = 1e-3;      // [J/kg] of the ground, its weight lifted by 0.1 mm: below it an imbalance does not matter
+constexpr long check_every = 100;  // steps between looks at the energy
+constexpr double least_energy =
+    1e-3;  // [J/kg] of the ground, its weight lifted by 0.1 mm: below it an imbalance does not matter
 
 GroundParameters parameters(const Options& options, const LAMMPS_NS::LAMMPS& lammps) {
   GroundParameters ground = read_ground(options, script_folder(lammps));
@@ -32,7 +33,8 @@ GroundParameters parameters(const Options& options, const LAMMPS_NS::LAMMPS& lam
 Schema FixTerrainContinuum::schema() {
   Schema schema = ground_schema("fix terrain/continuum");
   schema.text("follow", "id of the body that the ground moves along with").optional();
-  schema.number("energy_tolerance", "", Range::positive(), "energy that may be missing or made, over the largest work").by_default(0.05);
+  schema.number("energy_tolerance", "", Range::positive(), "energy that may be missing or made, over the largest work")
+      .by_default(0.05);
   return schema;
 }
 
@@ -40,7 +42,8 @@ FixTerrainContinuum::FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, ch
     : FixTerrainContinuum(lammps, narg, arg, schema().read(words_after_style(narg, arg))) {}
 
 FixTerrainContinuum::FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Options& options)
-    : FixBody(lammps, narg, arg, std::make_unique<MpmGround>(parameters(options, *lammps), Communicator(&lammps->world), options.subject())),
+    : FixBody(lammps, narg, arg,
+              std::make_unique<MpmGround>(parameters(options, *lammps), Communicator(&lammps->world), options.subject())),
       options_(options) {
   if (options_.given("follow")) {
     followed_ = &FixWorld::find_body(*lammps, options_.where("follow"), options_.word("follow")).body();
@@ -62,11 +65,13 @@ void FixTerrainContinuum::report() const {
   const double particles = soil.particle_count(), step = soil.stable_time_step();
   if (comm->me != 0 || !screen) return;
   const Grid& grid = soil.grid();
-  fmt::print(screen, "Continuum ground: {} x {} x {} cells, shortest {:.4g} m, {:.0f} particles; stable step {:.3g} s\n", grid.axis(0).cells(),
-             grid.axis(1).cells(), grid.axis(2).cells(), grid.shortest_cell(), particles, step);
+  fmt::print(screen, "Continuum ground: {} x {} x {} cells, shortest {:.4g} m, {:.0f} particles; stable step {:.3g} s\n",
+             grid.axis(0).cells(), grid.axis(1).cells(), grid.axis(2).cells(), grid.shortest_cell(), particles, step);
   const double soften = options_.number("soften");
   if (soften != 1.0)
-    fmt::print(screen, "WARNING: the ground's elasticity is softened by {:g}: steps are {:.2g} times longer, elastic strains {:.2g} times larger\n",
+    fmt::print(screen,
+               "WARNING: the ground's elasticity is softened by {:g}: steps are {:.2g} times longer, elastic strains {:.2g} "
+               "times larger\n",
                soften, 1.0 / std::sqrt(soften), 1.0 / soften);
 }
 
@@ -92,15 +97,20 @@ void FixTerrainContinuum::check_energy() {
   const Balance balance = ground().balance();
   double mass = 0.0;
   for (const GroundPhase& phase : ground().phases())
-    for (std::size_t p = 0; p < phase.particles.size(); ++p) mass += phase.law->density() * phase.particles.data(column::volume)[p];
+    for (std::size_t p = 0; p < phase.particles.size(); ++p)
+      mass += phase.law->density() * phase.particles.data(column::volume)[p];
   mass = ground().ranks().sum(mass);
-  const double scale = std::max({std::abs(balance.contact_work), std::abs(balance.load_work), std::abs(balance.dissipated_energy),
-                                 std::abs(balance.kinetic_energy), least_energy * mass});
+  const double scale =
+      std::max({std::abs(balance.contact_work), std::abs(balance.load_work), std::abs(balance.dissipated_energy),
+                std::abs(balance.kinetic_energy), least_energy * mass});
   const double limit = options_.number("energy_tolerance") * scale, residual = balance.residual();
   if (!(std::abs(residual) <= limit) || !(balance.numerical_loss >= -limit))
-    throw StateError(fmt::format("fix {}: the energy of the ground does not balance at step {}: {:.4g} J are missing between work and state, the "
-                                 "discretisation has taken {:.4g} J (< 0: made); allowed is {:.4g} J; the step is unstable or the load too sudden: lower "
-                                 "cfl, or the LIGGGHTS step", id, update->ntimestep, residual, balance.numerical_loss, limit));
+    throw StateError(fmt::format(
+        "fix {}: the energy of the ground does not balance at step {}: {:.4g} J are missing between work and state, the "
+        "discretisation has taken {:.4g} J (< 0: made); allowed is {:.4g} J; the step is unstable or the load too sudden: "
+        "lower "
+        "cfl, or the LIGGGHTS step",
+        id, update->ntimestep, residual, balance.numerical_loss, limit));
 }
 
 double FixTerrainContinuum::compute_vector(int n) {
@@ -115,8 +125,14 @@ double FixTerrainContinuum::compute_vector(int n) {
       break;
   }
   const Balance balance = ground().balance();
-  const double values[] = {0.0, balance.kinetic_energy, balance.stored_energy, balance.dissipated_energy, balance.contact_work, balance.load_work,
-                           balance.numerical_loss, balance.residual()};
+  const double values[] = {0.0,
+                           balance.kinetic_energy,
+                           balance.stored_energy,
+                           balance.dissipated_energy,
+                           balance.contact_work,
+                           balance.load_work,
+                           balance.numerical_loss,
+                           balance.residual()};
   return values[n];
 }
 

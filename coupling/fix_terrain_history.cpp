@@ -57,7 +57,9 @@ Schema FixTerrainHistory::schema() {
 }
 
 FixTerrainHistory::FixTerrainHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : Fix(lammps, narg, arg), options_(schema().read(words_after_style(narg, arg))), ground_fix_(find_ground(*lammps, options_)) {
+    : Fix(lammps, narg, arg),
+      options_(schema().read(words_after_style(narg, arg))),
+      ground_fix_(find_ground(*lammps, options_)) {
   nevery = 1;
   restart_global = 1;
 }
@@ -152,7 +154,8 @@ void FixTerrainHistory::post_run() {
                           {"plastic dissipation", -balance.dissipated_energy},
                           {"numerical loss", -balance.numerical_loss}};
     end.audit.energy_residual = balance.residual();
-    for (const EnergyTerm& term : end.audit.energies) end.audit.energy_scale = std::max(end.audit.energy_scale, std::abs(term.value));
+    for (const EnergyTerm& term : end.audit.energies)
+      end.audit.energy_scale = std::max(end.audit.energy_scale, std::abs(term.value));
     end.cost.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
     end.cost.ranks = comm->nprocs;
     file_->write_ground(snapshot, rut);

@@ -24,13 +24,15 @@ TriangleSearch::TriangleSearch(const Surface& surface, double reach, const Vecto
   const double length = std::max({reach, edge, (upper_ - lower_).maxCoeff() / most_bins});
   per_length_ = 1.0 / length;
   for (int a = 0; a < 3; ++a) count_[a] = 1 + static_cast<int>((upper_[a] - lower_[a]) * per_length_);
-  const std::size_t bins = static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) * static_cast<std::size_t>(count_[2]);
+  const std::size_t bins =
+      static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) * static_cast<std::size_t>(count_[2]);
   start_.assign(bins + 1, 0);
   const auto visit = [&](auto action) {
     for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
       const Vector3i& n = surface.triangles[t];
       const Vector3 a = surface.x.col(n[0]), b = surface.x.col(n[1]), c = surface.x.col(n[2]);
-      const Vector3 from = (a.cwiseMin(b).cwiseMin(c).array() - reach).matrix(), to = (a.cwiseMax(b).cwiseMax(c).array() + reach).matrix();
+      const Vector3 from = (a.cwiseMin(b).cwiseMin(c).array() - reach).matrix(),
+                    to = (a.cwiseMax(b).cwiseMax(c).array() + reach).matrix();
       if ((from.array() > upper_.array()).any() || (to.array() < lower_.array()).any()) continue;
       Vector3i first, last;
       for (int d = 0; d < 3; ++d) {
@@ -94,7 +96,8 @@ Vector3 NodeTriangles::outward(const Surface& surface, std::size_t triangle, con
     }
     const int corner = nodes[0] == carrier[0] ? 0 : nodes[1] == carrier[0] ? 1 : 2;
     const Vector3 at = surface.x.col(nodes[corner]);
-    const Vector3 one = (surface.x.col(nodes[(corner + 1) % 3]) - at).normalized(), two = (surface.x.col(nodes[(corner + 2) % 3]) - at).normalized();
+    const Vector3 one = (surface.x.col(nodes[(corner + 1) % 3]) - at).normalized(),
+                  two = (surface.x.col(nodes[(corner + 2) % 3]) - at).normalized();
     sum += std::acos(std::clamp(one.dot(two), -1.0, 1.0)) * normal;
   }
   return sum;

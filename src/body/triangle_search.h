@@ -14,7 +14,9 @@ class TriangleSearch {
 
   const Vector3& lower() const { return lower_; }  ///< of the region that has bins
   const Vector3& upper() const { return upper_; }
-  bool covers(const Vector3& point) const { return (point.array() >= lower_.array()).all() && (point.array() <= upper_.array()).all(); }
+  bool covers(const Vector3& point) const {
+    return (point.array() >= lower_.array()).all() && (point.array() <= upper_.array()).all();
+  }
   /// Triangles that may be within reach of a point of the region, as a range of triangle numbers; none outside.
   std::pair<const int*, const int*> near(const Vector3& point) const;
 
@@ -46,7 +48,8 @@ class NodeTriangles {
     const auto node = static_cast<std::size_t>(carrier[0]);
     for (std::size_t n = start_[node]; n < start_[node + 1]; ++n) {
       const auto t = static_cast<std::size_t>(triangles_[n]);
-      if (found < 2 || (surface.triangles[t].array() == carrier[1]).any()) visit(Vector3(surface.area_vector(t).normalized()));
+      if (found < 2 || (surface.triangles[t].array() == carrier[1]).any())
+        visit(Vector3(surface.area_vector(t).normalized()));
     }
   }
 

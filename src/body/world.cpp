@@ -89,15 +89,18 @@ void World::clear_forces() {
 void World::show_interaction_forces() {
   if (shown_ || interactions_.empty()) return;
   for (Member& m : members_)
-    if (m.interaction.cols() == m.body->surface().f.cols()) m.body->surface().f += m.interaction;
-    else m.interaction.setZero(3, m.body->surface().f.cols());
+    if (m.interaction.cols() == m.body->surface().f.cols())
+      m.body->surface().f += m.interaction;
+    else
+      m.interaction.setZero(3, m.body->surface().f.cols());
   shown_ = true;
 }
 
 std::vector<double> World::shown_forces() const {
   std::vector<double> forces;
   if (shown_)
-    for (const Member& m : members_) forces.insert(forces.end(), m.interaction.data(), m.interaction.data() + m.interaction.size());
+    for (const Member& m : members_)
+      forces.insert(forces.end(), m.interaction.data(), m.interaction.data() + m.interaction.size());
   return forces;
 }
 

@@ -55,10 +55,12 @@ std::vector<GroundLayer> read_layers(const Options& options, const std::filesyst
     if (words.size() == 2) {
       const auto [end, failed] = std::from_chars(words[1].data(), words[1].data() + words[1].size(), thickness);
       if (failed != std::errc() || end != words[1].data() + words[1].size() || !(thickness > 0.0))
-        throw InputError(where, fmt::format("has the layer '{}', whose thickness is no number > 0", parts[n]), "file:thickness in metres");
+        throw InputError(where, fmt::format("has the layer '{}', whose thickness is no number > 0", parts[n]),
+                         "file:thickness in metres");
     }
     if (words.size() > 2 || words[0].empty() || (words.size() == 1 && !last))
-      throw InputError(where, fmt::format("has the layer '{}'", parts[n]), "file:thickness,file:thickness,...,file from the top down",
+      throw InputError(where, fmt::format("has the layer '{}'", parts[n]),
+                       "file:thickness,file:thickness,...,file from the top down",
                        "only the lowest layer needs no thickness");
     layers.push_back({load(options, folder / words[0]), thickness});
   }
@@ -78,7 +80,8 @@ AxisLayout vertical_layout(const Options& options) {
   const double surface = options.number("surface"), depth = options.number("depth"), cell = options.number("cell");
   const double fine = options.given("fine_depth") ? std::min(depth, options.number("fine_depth")) : depth;
   const double own_cell = fine / std::max(1.0, std::round(fine / cell));
-  const double headroom = options.given("headroom") ? options.number("headroom") : std::max(least_headroom_cells * cell, headroom_of_depth * depth);
+  const double headroom = options.given("headroom") ? options.number("headroom")
+                                                    : std::max(least_headroom_cells * cell, headroom_of_depth * depth);
   const double top = surface + own_cell * std::ceil(headroom / own_cell - 1e-9);
   return {surface - depth, top, own_cell, surface - fine, top, options.number("growth")};
 }
@@ -122,7 +125,8 @@ GroundParameters read_ground(const Options& options, const std::string& folder) 
   ground.x = layout(options, x - half_length, x + half_length, x, "fine_length");
   ground.y = layout(options, half_model ? y : y - half_width, y + half_width, y, "fine_width");
   ground.z = vertical_layout(options);
-  const FaceKind ends = face_kind(options.word("ends")), sides = face_kind(options.word("sides")), base = face_kind(options.word("base"));
+  const FaceKind ends = face_kind(options.word("ends")), sides = face_kind(options.word("sides")),
+                 base = face_kind(options.word("base"));
   ground.faces = {ends, ends, half_model ? FaceKind::smooth : sides, sides, base, FaceKind::free};
   const int particles = static_cast<int>(options.integer("particles"));
   ground.particles_per_cell = {particles, particles, particles};

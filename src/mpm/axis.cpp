@@ -37,12 +37,13 @@ std::vector<double> growing(double start, double distance, double cell, double g
 Axis::Axis(const AxisLayout& layout, const std::string& where) {
   const double lower = std::max(layout.lower, layout.fine_lower), upper = std::min(layout.upper, layout.fine_upper);
   if (!(layout.upper > layout.lower) || !(layout.cell > 0.0) || !(upper > lower))
-    throw InputError(where, fmt::format("has cells of {} m from {} to {} m, fine from {} to {} m", layout.cell, layout.lower,
-                                        layout.upper, layout.fine_lower, layout.fine_upper),
+    throw InputError(where,
+                     fmt::format("has cells of {} m from {} to {} m, fine from {} to {} m", layout.cell, layout.lower,
+                                 layout.upper, layout.fine_lower, layout.fine_upper),
                      "lower < upper, a cell > 0, and a fine stretch that is not empty");
   if (!(layout.growth >= 1.0 && layout.growth <= most_growth))
-    throw InputError(where, fmt::format("has cells that grow by {}", layout.growth),
-                     fmt::format("1 to {}", most_growth), "coarser steps reflect waves");
+    throw InputError(where, fmt::format("has cells that grow by {}", layout.growth), fmt::format("1 to {}", most_growth),
+                     "coarser steps reflect waves");
   const int fine = std::max(1, static_cast<int>(std::lround((upper - lower) / layout.cell)));
   const double cell = (upper - lower) / fine;
   for (const double end : growing(lower, lower - layout.lower, cell, layout.growth, -1.0)) knot_.insert(knot_.begin(), end);
@@ -71,7 +72,11 @@ void Axis::tabulate() {
   for (int i = 0; i < n + 2; ++i) node_.push_back(0.5 * (at(i - 1) + at(i)));
   uneven_.clear();
   for (int c = 0; c < n; ++c)
-    uneven_.push_back(c == 0 || c == n - 1 || std::max(std::abs(length(c - 1) - length(c)), std::abs(length(c + 1) - length(c))) > 1e-9 * length(c) ? 1 : 0);
+    uneven_.push_back(c == 0 || c == n - 1 ||
+                              std::max(std::abs(length(c - 1) - length(c)), std::abs(length(c + 1) - length(c))) >
+                                  1e-9 * length(c)
+                          ? 1
+                          : 0);
   even_from_ = even_to_ = 0;
   for (int from = 0, c = 0; c <= n; ++c) {
     if (c < n && uneven_[static_cast<std::size_t>(c)] == 0) continue;

@@ -23,16 +23,16 @@ struct AxisLayout {
 /// What a kernel needs of an axis (transfer_kernel.h): arrays over cells and nodes, owned by the axis.
 struct AxisView {
   int cells, bins;
-  double lower, bins_per_length;  ///< [m, 1/m]
-  double from, to;                ///< where particles may be [m]: the axis, or this rank's part of it
-  const int* cell_of_bin;                ///< the cell that holds the lower end of a bin; bins are no longer than the shortest cell
-  const double* knot;                    ///< cells + 1 distinct knots [m]
-  const double* left;                    ///< N_0 = left (t_c+1 - x)^2 [1/m^2]
-  const double* right;                   ///< N_2 = right (x - t_c)^2 [1/m^2]
-  const double* node;                    ///< cells + 2 nodes [m]; cell c is served by c, c+1, c+2
-  int even_from, even_to;                ///< the longest run of cells that are not uneven, all of one length
-  double even_start, even_length;        ///< where it begins, and that length [m]
-  const int* uneven;                     ///< 1 for a cell at an end or next to a cell of another length (transfer.h)
+  double lower, bins_per_length;   ///< [m, 1/m]
+  double from, to;                 ///< where particles may be [m]: the axis, or this rank's part of it
+  const int* cell_of_bin;          ///< the cell that holds the lower end of a bin; bins are no longer than the shortest cell
+  const double* knot;              ///< cells + 1 distinct knots [m]
+  const double* left;              ///< N_0 = left (t_c+1 - x)^2 [1/m^2]
+  const double* right;             ///< N_2 = right (x - t_c)^2 [1/m^2]
+  const double* node;              ///< cells + 2 nodes [m]; cell c is served by c, c+1, c+2
+  int even_from, even_to;          ///< the longest run of cells that are not uneven, all of one length
+  double even_start, even_length;  ///< where it begins, and that length [m]
+  const int* uneven;               ///< 1 for a cell at an end or next to a cell of another length (transfer.h)
 };
 
 class Axis {

@@ -25,7 +25,8 @@ using Place = std::array<int, 3>;  // of a node, along x, y, z
 template <class Visit>
 void for_face(Grid& grid, const FaceLoop& loop, const PlaneRange& planes, Visit visit) {
   Place at;
-  const auto axis = static_cast<std::size_t>(loop.axis), slow = static_cast<std::size_t>(loop.slow), fast = static_cast<std::size_t>(loop.fast);
+  const auto axis = static_cast<std::size_t>(loop.axis), slow = static_cast<std::size_t>(loop.slow),
+             fast = static_cast<std::size_t>(loop.fast);
   at[axis] = loop.plane;
   std::size_t number = 0;
   for (int s = 0; s < grid.nodes(loop.slow); ++s)
@@ -66,7 +67,8 @@ Faces::Faces(const Grid& grid, const std::array<FaceKind, face_count>& kinds, co
     far.count[0] = grid.nodes(loop.slow);
     far.count[1] = grid.nodes(loop.fast);
     // A node's mass is summed over particles: the midpoint rule for the integral of (1 - xi)^2 over the outermost cell.
-    const double n = particles_per_cell[static_cast<std::size_t>(loop.axis)], cell = axis.length(loop.plane == 0 ? 0 : axis.cells() - 1);
+    const double n = particles_per_cell[static_cast<std::size_t>(loop.axis)],
+                 cell = axis.length(loop.plane == 0 ? 0 : axis.cells() - 1);
     far.inverse_extent = 1.0 / (cell * (1.0 / 3.0 - 1.0 / (12.0 * n * n)));
     // A load in the middle of the top: the far field begins half a width away sideways, and a depth away downwards.
     far.inverse_length = (loop.axis == 2 ? 1.0 : 2.0) / (axis.upper() - axis.lower());
@@ -91,7 +93,8 @@ void Faces::capture(Grid& grid, const PlaneRange& planes, double dt) {
 
 void Faces::apply(Grid& grid, const PlaneRange& planes, const PlaneRange& owned, double dt) {
   for (int f = 0; f < face_count; ++f)
-    if (kinds_[static_cast<std::size_t>(f)] == FaceKind::absorbing) absorb(grid, static_cast<FacePlace>(f), planes, owned, dt);
+    if (kinds_[static_cast<std::size_t>(f)] == FaceKind::absorbing)
+      absorb(grid, static_cast<FacePlace>(f), planes, owned, dt);
   for (int f = 0; f < face_count; ++f) constrain(grid, static_cast<FacePlace>(f), planes, owned);
 }
 
@@ -128,7 +131,8 @@ void Faces::absorb(Grid& grid, FacePlace face, const PlaneRange& planes, const P
       const double speed = c == far.axis ? speeds.pressure : speeds.shear;
       const std::size_t n = 3 * number + static_cast<std::size_t>(c);
       const double before = node.momentum[c];
-      const double pull = dt * (far.hold[n] / node.mass - speed * speed * far.inverse_extent * far.inverse_length * far.displacement[n]);
+      const double pull =
+          dt * (far.hold[n] / node.mass - speed * speed * far.inverse_extent * far.inverse_length * far.displacement[n]);
       const double after = (before + pull) / (1.0 + dt * speed * far.inverse_extent);
       node.momentum[c] = after;
       far.displacement[n] += dt * after;

@@ -11,7 +11,9 @@ Grid::Grid(Axis x, Axis y, Axis z) : axes_{std::move(x), std::move(y), std::move
 double Grid::shortest_cell() const { return std::min({axis(0).shortest(), axis(1).shortest(), axis(2).shortest()}); }
 
 void Grid::clear(const PlaneRange& planes) {
-  if (planes.to > planes.from) std::fill(plane(planes.from), plane(planes.from) + plane_size() * static_cast<std::size_t>(planes.to - planes.from), GridNode{});
+  if (planes.to > planes.from)
+    std::fill(plane(planes.from), plane(planes.from) + plane_size() * static_cast<std::size_t>(planes.to - planes.from),
+              GridNode{});
 }
 
 void Grid::solve(const PlaneRange& planes) {

@@ -12,9 +12,9 @@ namespace furrow {
 
 namespace {
 
-constexpr double skin_cells = 0.5;         // a search lasts until surface and ground have moved so many cells towards each other
-constexpr double most_penetration = 0.5;   // of the shortest cell
-constexpr double correction = 0.2;         // of the penetration that an impulse takes away in one step (J. Baumgarte, 1972)
+constexpr double skin_cells = 0.5;  // a search lasts until surface and ground have moved so many cells towards each other
+constexpr double most_penetration = 0.5;  // of the shortest cell
+constexpr double correction = 0.2;        // of the penetration that an impulse takes away in one step (J. Baumgarte, 1972)
 /// What a particle remembers of a contact: tangential spring [m], slip [m], stiffness [N/m] as of the last search.
 enum Memory : std::size_t { spring, slip = 3, stiffness, memory_size };
 constexpr double mirror_tolerance = 1e-6;  // of the surface's size
@@ -30,13 +30,18 @@ std::vector<int> mirror_nodes(const Surface& surface, double plane, const std::s
   for (std::size_t n = 0; n < mirror.size(); ++n) {
     Vector3 image = surface.x.col(static_cast<Eigen::Index>(n));
     image.y() = 2.0 * plane - image.y();
-    auto at = std::lower_bound(order.begin(), order.end(), image.x() - tolerance, [&](int a, double x) { return surface.x(0, a) < x; });
+    auto at = std::lower_bound(order.begin(), order.end(), image.x() - tolerance,
+                               [&](int a, double x) { return surface.x(0, a) < x; });
     for (; at != order.end() && surface.x(0, *at) <= image.x() + tolerance; ++at)
       if ((surface.x.col(*at) - image).norm() <= tolerance) mirror[n] = *at;
     if (mirror[n] < 0)
-      throw InputError(where, fmt::format("needs a surface that is its own mirror image in the plane y = {:.4g} m of the half model; the node at "
-                                          "{:.4g} {:.4g} {:.4g} m has none", plane, image.x(), 2.0 * plane - image.y(), image.z()),
-                       "a wheel in the middle, without slip angle or camber", "or model the whole ground");
+      throw InputError(
+          where,
+          fmt::format(
+              "needs a surface that is its own mirror image in the plane y = {:.4g} m of the half model; the node at "
+              "{:.4g} {:.4g} {:.4g} m has none",
+              plane, image.x(), 2.0 * plane - image.y(), image.z()),
+          "a wheel in the middle, without slip angle or camber", "or model the whole ground");
   }
   return mirror;
 }
@@ -45,30 +50,50 @@ std::vector<int> mirror_nodes(const Surface& surface, double plane, const std::s
 
 Schema GroundContact::schema(const std::string& subject) {
   Schema schema(subject);
-  schema.word("enforcement", {"penalty", "impulse"}, "springs, or the impulse that stops the approach").by_default("penalty");
+  schema.word("enforcement", {"penalty", "impulse"}, "springs, or the impulse that stops the approach")
+      .by_default("penalty");
   schema.word("surface", {"frictional", "rough", "smooth"}, "rough: no slip; smooth: no friction").by_default("frictional");
   schema.number("friction", "", Range::non_negative(), "coefficient mu of a frictional surface").by_default(0.3);
-  schema.number("slip_length", "m", Range::non_negative(), "k of tau = mu sigma (1 - exp(-j/k)) with the slip j; 0: tau = mu sigma").by_default(0.0);
-  schema.number("stiffness", "", Range::positive(), "spring of a particle over wave modulus x cube root of its volume").by_default(0.4);
+  schema
+      .number("slip_length", "m", Range::non_negative(),
+              "k of tau = mu sigma (1 - exp(-j/k)) with the slip j; 0: tau = mu sigma")
+      .by_default(0.0);
+  schema.number("stiffness", "", Range::positive(), "spring of a particle over wave modulus x cube root of its volume")
+      .by_default(0.4);
   schema.number("damping", "", Range::closed(0.0, 1.0), "of spring and particle, of critical").by_default(0.1);
   return schema;
 }
 
 ContactParameters GroundContact::parameters_from(const Options& options) {
   ContactParameters p;
-  p.enforcement = options.word("enforcement") == "penalty" ? ContactParameters::Enforcement::penalty : ContactParameters::Enforcement::impulse;
+  p.enforcement = options.word("enforcement") == "penalty" ? ContactParameters::Enforcement::penalty
+                                                           : ContactParameters::Enforcement::impulse;
   const std::string& surface = options.word("surface");
   if (surface != "frictional" && options.given("friction"))
-    throw InputError(options.where("friction"), fmt::format("is given with a {} surface", surface), "friction with surface frictional only");
-  p.friction = surface == "rough" ? std::numeric_limits<double>::infinity() : surface == "smooth" ? 0.0 : options.number("friction");
+    throw InputError(options.where("friction"), fmt::format("is given with a {} surface", surface),
+                     "friction with surface frictional only");
+  p.friction = surface == "rough"    ? std::numeric_limits<double>::infinity()
+               : surface == "smooth" ? 0.0
+                                     : options.number("friction");
   p.slip_length = options.number("slip_length");
   p.stiffness = options.number("stiffness");
   p.damping = options.number("damping");
   return p;
 }
 
-GroundContact::GroundContact(Body& body, MpmGround& ground, const ContactParameters& parameters, bool half_model, const std::string& where)
+GroundContact::GroundContact(Body& body, MpmGround& ground, const ContactParameters& parameters, bool half_model,
+                             const std::string& where)
     : body_(body), ground_(ground), parameters_(parameters), where_(where), corners_(body.surface()) {
+  // A particle of mass rho d^3 on its spring s M d, d the spacing: omega dt = sqrt(s) c dt/d, and a leapfrog needs less than 2.
+  const auto& per_cell = ground.parameters().particles_per_cell;
+  const double phase =
+      std::sqrt(parameters.stiffness) * ground.parameters().cfl * *std::max_element(per_cell.begin(), per_cell.end());
+  if (parameters.enforcement == ContactParameters::Enforcement::penalty && phase >= 2.0)
+    throw InputError(
+        where,
+        fmt::format("has a stiffness of {}, too stiff for steps of cfl {} with {} particles along a cell",
+                    parameters.stiffness, ground.parameters().cfl, *std::max_element(per_cell.begin(), per_cell.end())),
+        "sqrt(stiffness) x cfl x particles below 2", "lower the stiffness, or the ground's cfl");
   if (half_model) mirror_ = mirror_nodes(body.surface(), ground.grid().axis(1).lower(), where);
   for (GroundPhase& phase : ground_.phases()) memory_.push_back(phase.particles.add_column("contact " + where, memory_size));
 }
@@ -131,9 +156,11 @@ void GroundContact::find_candidates(bool stiffness_anew) {
   const auto [low, high] = surface.bounds();
   for (const GroundPhase& phase : ground_.phases())
     for (std::size_t p = 0; p < phase.particles.size(); ++p) {
-      const Vector3 x = phase.particles.position(p), h(phase.particles.data(column::half_x)[p], phase.particles.data(column::half_y)[p],
-                                                      phase.particles.data(column::half_z)[p]);
-      if ((x.array() > low.array() - 4.0 * h.array() - skin_).all() && (x.array() < high.array() + 4.0 * h.array() + skin_).all())
+      const Vector3 x = phase.particles.position(p),
+                    h(phase.particles.data(column::half_x)[p], phase.particles.data(column::half_y)[p],
+                      phase.particles.data(column::half_z)[p]);
+      if ((x.array() > low.array() - 4.0 * h.array() - skin_).all() &&
+          (x.array() < high.array() + 4.0 * h.array() + skin_).all())
         half = std::max(half, h.norm() * std::max(1.0, phase.particles.data(column::state + field::volume_ratio)[p]));
     }
   reach_ = half + skin_ + most_penetration * cell;
@@ -149,13 +176,16 @@ void GroundContact::find_candidates(bool stiffness_anew) {
       const std::size_t begin = near_.size();
       for (const int* t = first; t != last; ++t) {
         const Vector3i& n = surface.triangles[static_cast<std::size_t>(*t)];
-        if (closest_point_on_triangle(point, surface.x.col(n[0]), surface.x.col(n[1]), surface.x.col(n[2])).distance <= reach_) near_.push_back(*t);
+        if (closest_point_on_triangle(point, surface.x.col(n[0]), surface.x.col(n[1]), surface.x.col(n[2])).distance <=
+            reach_)
+          near_.push_back(*t);
       }
       if (near_.size() == begin) continue;
       candidates_.push_back({k, p, begin, near_.size()});
       double& spring_stiffness = particles.data(memory_[k])[memory_size * p + Memory::stiffness];
       if (stiffness_anew)
-        spring_stiffness = parameters_.stiffness * ground_.phases()[k].law->moduli(particles.state(p)).wave() * std::cbrt(particles.data(column::volume)[p]);
+        spring_stiffness = parameters_.stiffness * ground_.phases()[k].law->moduli(particles.state(p)).wave() *
+                           std::cbrt(particles.data(column::volume)[p]);
     }
   }
 }
@@ -168,8 +198,11 @@ void GroundContact::refuse_departure() const {
     // A half model ends under the middle of the wheel.
     const double tolerance = mirror_tolerance * (high - low).norm();
     if (middle[a] < axis.lower() - tolerance || middle[a] > axis.upper() + tolerance)
-      throw StateError(fmt::format("the middle of the body is at {} = {:.4g} m, beyond the ground that reaches from {:.4g} to {:.4g} m; give the ground "
-                                   "more length, or let it move with the body", a == 0 ? 'x' : 'y', middle[a], axis.lower(), axis.upper()));
+      throw StateError(
+          fmt::format("the middle of the body is at {} = {:.4g} m, beyond the ground that reaches from {:.4g} to {:.4g} m; "
+                      "give the ground "
+                      "more length, or let it move with the body",
+                      a == 0 ? 'x' : 'y', middle[a], axis.lower(), axis.upper()));
   }
 }
 
@@ -181,7 +214,9 @@ void GroundContact::refuse_overlap() const {
     for (std::size_t p = 0; p < phase.particles.size(); ++p) {
       const Vector3 x = phase.particles.position(p);
       if ((x.array() > low.array()).all() && (x.array() < high.array()).all() && encloses(surface, x))
-        throw StateError(fmt::format("the ground at {:.4g} {:.4g} {:.4g} m is inside of the body at the start; start above the ground", x[0], x[1], x[2]));
+        throw StateError(
+            fmt::format("the ground at {:.4g} {:.4g} {:.4g} m is inside of the body at the start; start above the ground",
+                        x[0], x[1], x[2]));
     }
 }
 
@@ -195,19 +230,22 @@ bool GroundContact::touch(const Candidate& candidate, Touch& touch) const {
   for (std::size_t n = candidate.first; n < candidate.last; ++n) {
     const auto t = static_cast<std::size_t>(near_[n]);
     const Vector3i& node = surface.triangles[t];
-    const ClosestPoint point = closest_point_on_triangle(x, surface.x.col(node[0]), surface.x.col(node[1]), surface.x.col(node[2]));
+    const ClosestPoint point =
+        closest_point_on_triangle(x, surface.x.col(node[0]), surface.x.col(node[1]), surface.x.col(node[2]));
     if (point.distance < closest.distance) {
       closest = point;
       touch.triangle = t;
     }
   }
-  const Vector3 half(particles.data(column::half_x)[p], particles.data(column::half_y)[p], particles.data(column::half_z)[p]);
+  const Vector3 half(particles.data(column::half_x)[p], particles.data(column::half_y)[p],
+                     particles.data(column::half_z)[p]);
   const double ratio = particles.data(column::state + field::volume_ratio)[p];
   const Vector3 outward = corners_.outward(surface, touch.triangle, closest.barycentric);
   const double side = closest.separation.dot(outward) >= 0.0 ? 1.0 : -1.0;
   if (side > 0.0 && closest.distance > ratio * half.norm()) return false;
   // Closer than rounding, the separation has no direction.
-  touch.normal = closest.distance > 1e-9 * half.norm() ? Vector3(side / closest.distance * closest.separation) : outward.normalized();
+  touch.normal =
+      closest.distance > 1e-9 * half.norm() ? Vector3(side / closest.distance * closest.separation) : outward.normalized();
   touch.gap = side * closest.distance - ratio * touch.normal.cwiseAbs().dot(half);
   // Beside an edge, the direction of the nearest point is not the one that separates: of it and of the faces' normals, the one with the
   // largest gap does (separating axes). Without, ground level with a plate is pushed away from the plate's edge.
@@ -230,7 +268,8 @@ double GroundContact::friction_limit(double normal_force, double slip) const {
 }
 
 /// @param velocity of the ground relative to the surface; @param memory tangential spring and slip of the particle
-Vector3 GroundContact::penalty_force(const Touch& touch, const Vector3& velocity, double mass, double stiffness, double dt, double* memory) {
+Vector3 GroundContact::penalty_force(const Touch& touch, const Vector3& velocity, double mass, double stiffness, double dt,
+                                     double* memory) {
   const Vector3& n = touch.normal;
   const double damping = 2.0 * parameters_.damping * std::sqrt(stiffness * mass), approach = -velocity.dot(n);
   const double spring = -stiffness * touch.gap, normal_force = std::max(0.0, spring + damping * approach);
@@ -258,7 +297,8 @@ Vector3 GroundContact::penalty_force(const Touch& touch, const Vector3& velocity
 
 Vector3 GroundContact::impulse_force(const Touch& touch, const Vector3& velocity, double mass, double dt, double* memory) {
   const Vector3& n = touch.normal;
-  const double approach = -velocity.dot(n), normal_force = std::max(0.0, mass * (approach - correction * touch.gap / dt) / dt);
+  const double approach = -velocity.dot(n),
+               normal_force = std::max(0.0, mass * (approach - correction * touch.gap / dt) / dt);
   const Vector3 along = velocity + approach * n;
   memory[Memory::slip] += dt * along.norm();
   const double limit = friction_limit(normal_force, memory[Memory::slip]), stopping = mass * along.norm() / dt;
@@ -284,15 +324,15 @@ void GroundContact::apply(double dt) {
       std::fill_n(memory, Memory::stiffness, 0.0);
       continue;
     }
-    const double volume = particles.data(column::volume)[p], mass = phase.law->density() * volume, length = std::cbrt(volume);
+    const double volume = particles.data(column::volume)[p], mass = phase.law->density() * volume,
+                 length = std::cbrt(volume);
     const Vector3 lever = found.point - particles.position(p);
     Vector3 velocity = particles.velocity(p) + particles.affine(p) * lever;
     const Vector3i& nodes = surface.triangles[found.triangle];
     for (int c = 0; c < 3; ++c) velocity -= found.barycentric[c] * surface.v.col(nodes[c]);
-    const Vector3 force =
-        parameters_.enforcement == ContactParameters::Enforcement::penalty
-            ? penalty_force(found, velocity, mass, memory[Memory::stiffness], dt, memory)
-            : impulse_force(found, velocity, mass, dt, memory);
+    const Vector3 force = parameters_.enforcement == ContactParameters::Enforcement::penalty
+                              ? penalty_force(found, velocity, mass, memory[Memory::stiffness], dt, memory)
+                              : impulse_force(found, velocity, mass, dt, memory);
     ground_.push(candidate.phase, p, force, lever);
     for (int c = 0; c < 3; ++c) nodal_.col(nodes[c]) -= found.barycentric[c] * force;
     contacts_ += 1.0;
@@ -333,8 +373,11 @@ void GroundContact::collect() {
   damping_loss_ += step_damping_;
   deepest_ = std::max(deepest_, penetration_);
   if (penetration_ > most_penetration * ground_.grid().shortest_cell())
-    throw StateError(fmt::format("the surface is {:.3g} m inside the ground, more than half a cell: the contact's springs are too soft for this load, or "
-                                 "the step is unstable; raise 'stiffness'", penetration_));
+    throw StateError(
+        fmt::format("the surface is {:.3g} m inside the ground, more than half a cell: the contact's springs are too soft "
+                    "for this load, or "
+                    "the step is unstable; raise 'stiffness'",
+                    penetration_));
   force_ = nodal_.rowwise().sum();
   body_.surface().f += nodal_;
 }

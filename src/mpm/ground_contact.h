@@ -39,18 +39,19 @@ class GroundContact : public Interaction {
 
   /// Body and ground must outlive the contact. @param half_model the ground's lower y face is a plane of symmetry
   /// @throws InputError when a half model's surface is not its own mirror image
-  GroundContact(Body& body, MpmGround& ground, const ContactParameters& parameters, bool half_model, const std::string& where);
+  GroundContact(Body& body, MpmGround& ground, const ContactParameters& parameters, bool half_model,
+                const std::string& where);
 
   void apply(double dt) override;
 
   // What the last step had; of all ranks and, of a half model, both halves.
-  const Vector3& force() const { return force_; }                     ///< on the body [N]
+  const Vector3& force() const { return force_; }  ///< on the body [N]
   double contacts() const { return contacts_; }
-  double penetration() const { return penetration_; }                 ///< the deepest [m]
-  double deepest_penetration() const { return deepest_; }             ///< since the start [m]
-  double friction_loss() const { return friction_loss_; }             ///< since the start [J]
-  double damping_loss() const { return damping_loss_; }               ///< since the start [J]
-  double area() const { return area_; }                               ///< of the touching particles' faces [m^2]
+  double penetration() const { return penetration_; }      ///< the deepest [m]
+  double deepest_penetration() const { return deepest_; }  ///< since the start [m]
+  double friction_loss() const { return friction_loss_; }  ///< since the start [J]
+  double damping_loss() const { return damping_loss_; }    ///< since the start [J]
+  double area() const { return area_; }                    ///< of the touching particles' faces [m^2]
 
   /// Sums since the start, and when the candidates were found; what particles carry of a contact is part of the ground's state.
   /// Its length depends on the surface only.
@@ -72,7 +73,8 @@ class GroundContact : public Interaction {
   void refuse_overlap() const;
   void refuse_departure() const;
   bool touch(const Candidate& candidate, Touch& touch) const;
-  Vector3 penalty_force(const Touch& touch, const Vector3& velocity, double mass, double stiffness, double dt, double* memory);
+  Vector3 penalty_force(const Touch& touch, const Vector3& velocity, double mass, double stiffness, double dt,
+                        double* memory);
   Vector3 impulse_force(const Touch& touch, const Vector3& velocity, double mass, double dt, double* memory);
   double friction_limit(double normal_force, double slip) const;
   void collect();

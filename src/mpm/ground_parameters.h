@@ -19,8 +19,8 @@ struct GroundLayer {
 };
 
 struct GroundParameters {
-  AxisLayout x, y, z;                           ///< of the grid; z reaches above the surface for what is pushed up
-  double surface = 0.0;                         ///< z of the undisturbed ground [m]; a knot of the z axis
+  AxisLayout x, y, z;    ///< of the grid; z reaches above the surface for what is pushed up
+  double surface = 0.0;  ///< z of the undisturbed ground [m]; a knot of the z axis
   std::vector<GroundLayer> layers;
   std::array<FaceKind, face_count> faces = {FaceKind::smooth, FaceKind::smooth, FaceKind::smooth,
                                             FaceKind::smooth, FaceKind::rough,  FaceKind::free};

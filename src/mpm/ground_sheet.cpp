@@ -6,7 +6,8 @@
 
 namespace furrow {
 
-GroundSheet::GroundSheet(std::vector<double> ids, std::size_t rows, std::size_t columns) : ids_(std::move(ids)), numbers_(6 * ids_.size()) {
+GroundSheet::GroundSheet(std::vector<double> ids, std::size_t rows, std::size_t columns)
+    : ids_(std::move(ids)), numbers_(6 * ids_.size()) {
   surface_.resize(ids_.size());
   reach_.setZero(3, surface_.x.cols());
   reach_.row(2).setOnes();

@@ -36,7 +36,8 @@ class GroundSheet {
   template <class Push>
   void hand_over(const std::vector<GroundPhase>& phases, Push&& push) const {
     for (const Seat& seat : seats_)
-      if (surface_.f.col(seat.node).squaredNorm() > 0.0) push(seat.phase, seat.particle, Vector3(surface_.f.col(seat.node)), lever(phases, seat));
+      if (surface_.f.col(seat.node).squaredNorm() > 0.0)
+        push(seat.phase, seat.particle, Vector3(surface_.f.col(seat.node)), lever(phases, seat));
   }
 
  private:

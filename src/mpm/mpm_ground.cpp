@@ -13,10 +13,10 @@ namespace furrow {
 
 namespace {
 
-constexpr std::size_t chunk = 1024;       // particles between grid and law: their gradients stay in the second cache
-constexpr double most_drift = 0.5;        // of the shortest cell between two sortings
-constexpr double most_off_knot = 1e-6;    // of the cell: the surface is where two cells meet
-constexpr double capture_step = 1e-6;     // [s] of any length: forces are momenta over it
+constexpr std::size_t chunk = 1024;     // particles between grid and law: their gradients stay in the second cache
+constexpr double most_drift = 0.5;      // of the shortest cell between two sortings
+constexpr double most_off_knot = 1e-6;  // of the cell: the surface is where two cells meet
+constexpr double capture_step = 1e-6;   // [s] of any length: forces are momenta over it
 
 Grid make_grid(const GroundParameters& ground, const std::string& where) {
   Grid grid(Axis(ground.x, where + ", x axis"), Axis(ground.y, where + ", y axis"), Axis(ground.z, where + ", z axis"));
@@ -24,14 +24,17 @@ Grid make_grid(const GroundParameters& ground, const std::string& where) {
     throw InputError(where, "moves along a graded x axis", "a uniform x axis for ground that moves");
   const Axis& z = grid.axis(2);
   const int cell = z.cell_of(ground.surface);
-  const double off = cell < 0 ? 1.0 : std::min(ground.surface - z.knot(cell), z.knot(cell + 1) - ground.surface) / z.length(cell);
+  const double off =
+      cell < 0 ? 1.0 : std::min(ground.surface - z.knot(cell), z.knot(cell + 1) - ground.surface) / z.length(cell);
   if (off > most_off_knot)
-    throw InputError(where, fmt::format("has its surface at z = {:.6g} m, inside of a cell", ground.surface), "the height of an end of a cell",
+    throw InputError(where, fmt::format("has its surface at z = {:.6g} m, inside of a cell", ground.surface),
+                     "the height of an end of a cell",
                      "let the fine stretch of the z axis be a whole number of cells below the surface and above it");
   return grid;
 }
 
-std::vector<WaveSpeeds> speeds_of_levels(const Grid& grid, const std::vector<GroundLevel>& levels, const GroundParameters& ground) {
+std::vector<WaveSpeeds> speeds_of_levels(const Grid& grid, const std::vector<GroundLevel>& levels,
+                                         const GroundParameters& ground) {
   std::vector<WaveSpeeds> speeds;
   for (int k = 0; k < grid.nodes(2); ++k) {
     const auto nearest = std::min_element(levels.begin(), levels.end(), [&](const GroundLevel& a, const GroundLevel& b) {
@@ -70,8 +73,8 @@ double stress_work(const ParticleView& particles, const std::array<double*, 9>& 
   double work = 0.0;
   for (std::size_t p = 0; p < particles.size; ++p)
     work += particles.volume[p] * particles.volume_ratio[p] *
-            (s[0][p] * h[0][p] + s[1][p] * h[4][p] + s[2][p] * h[8][p] + s[3][p] * (h[1][p] + h[3][p]) + s[4][p] * (h[5][p] + h[7][p]) +
-             s[5][p] * (h[2][p] + h[6][p]));
+            (s[0][p] * h[0][p] + s[1][p] * h[4][p] + s[2][p] * h[8][p] + s[3][p] * (h[1][p] + h[3][p]) +
+             s[4][p] * (h[5][p] + h[7][p]) + s[5][p] * (h[2][p] + h[6][p]));
   return work;
 }
 
@@ -88,11 +91,13 @@ MpmGround::MpmGround(const GroundParameters& parameters, const Communicator& ran
       gradient_(9 * chunk),
       focus_(0.5 * (parameters.x.lower + parameters.x.upper)),
       start_(parameters.x.lower) {
-  if (parameters.window && (parameters.faces[x_lower] == FaceKind::absorbing || parameters.faces[x_upper] == FaceKind::absorbing))
+  if (parameters.window &&
+      (parameters.faces[x_lower] == FaceKind::absorbing || parameters.faces[x_upper] == FaceKind::absorbing))
     throw InputError(where, "moves along x and absorbs there", "smooth, rough or free faces across x for ground that moves");
   for (const GroundLayer& layer : parameters_.layers) phases_.push_back({layer.law, Particles(*layer.law)});
   if (parameters.window && parameters.sheet)
-    throw InputError(where, "moves along x and carries a sheet", "one of the two", "grains on moving ground would be left behind");
+    throw InputError(where, "moves along x and carries a sheet", "one of the two",
+                     "grains on moving ground would be left behind");
   fill();
   if (parameters.sheet) lay_sheet();
   if (!faces_.captured()) {
@@ -116,7 +121,8 @@ void MpmGround::lay_sheet() {
   const auto columns = static_cast<std::size_t>(grid_.axis(0).cells() * per_cell[0]),
              rows = static_cast<std::size_t>(grid_.axis(1).cells() * per_cell[1]);
   std::vector<double> top(columns * rows);
-  for (std::size_t n = 0; n < top.size(); ++n) top[n] = static_cast<double>(n * levels_.size());  // the order of add_column()
+  for (std::size_t n = 0; n < top.size(); ++n)
+    top[n] = static_cast<double>(n * levels_.size());  // the order of add_column()
   sheet_ = GroundSheet(std::move(top), rows, columns);
   sheet_.find(phases_);
   move_sheet();
@@ -173,7 +179,9 @@ void MpmGround::push(std::size_t phase, std::size_t particle, const Vector3& for
 
 void MpmGround::advance(double dt) {
   if (sheet_.exists())
-    sheet_.hand_over(phases_, [&](std::size_t phase, std::size_t particle, const Vector3& force, const Vector3& lever) { push(phase, particle, force, lever); });
+    sheet_.hand_over(phases_, [&](std::size_t phase, std::size_t particle, const Vector3& force, const Vector3& lever) {
+      push(phase, particle, force, lever);
+    });
   grid_.clear(partition_.touched());
   scatter(dt);
   partition_.sum_shared(grid_);
@@ -197,13 +205,14 @@ GridView MpmGround::local_view() {
 void MpmGround::scatter(double dt) {
   const GridView view = local_view();
   for (GroundPhase& phase : phases_)
-    if (phase.particles.size() > 0 && kernels_.scatter(view, phase.particles.view(0, phase.particles.size()), phase.law->density(),
-                                                       dt, parameters_.gravity.data()) > 0)
+    if (phase.particles.size() > 0 && kernels_.scatter(view, phase.particles.view(0, phase.particles.size()),
+                                                       phase.law->density(), dt, parameters_.gravity.data()) > 0)
       report_outside(phase);
   impulses_.clear();
   for (const Push& push : pushes_) {
     const Vector3 x = phases_[push.phase].particles.position(push.particle), impulse = dt * push.force;
-    impulses_.push_back({{x[0], x[1], x[2]}, {impulse[0], impulse[1], impulse[2]}, {push.lever[0], push.lever[1], push.lever[2]}});
+    impulses_.push_back(
+        {{x[0], x[1], x[2]}, {impulse[0], impulse[1], impulse[2]}, {push.lever[0], push.lever[1], push.lever[2]}});
   }
   kernels_.scatter_impulses(view, impulses_.data(), impulses_.size());
 }
@@ -231,9 +240,9 @@ void MpmGround::gather(double dt) {
       try {
         report_ += phase.law->update_block(block);
       } catch (const StateError& error) {
-        throw StateError(fmt::format("{} (particles from number {} of its layer, near x {:.3f} m, y {:.3f} m, z {:.3f} m)", error.what(), first,
-                                     phase.particles.data(column::x)[first], phase.particles.data(column::y)[first],
-                                     phase.particles.data(column::z)[first]));
+        throw StateError(fmt::format("{} (particles from number {} of its layer, near x {:.3f} m, y {:.3f} m, z {:.3f} m)",
+                                     error.what(), first, phase.particles.data(column::x)[first],
+                                     phase.particles.data(column::y)[first], phase.particles.data(column::z)[first]));
       }
       // By the mean of the stresses before and after the step: with either alone the audit of a vibrating body drifts by O(dt).
       stress_work_ += 0.5 * (sums.stress_work + stress_work(particles, gradient));
@@ -250,40 +259,42 @@ void MpmGround::report_outside(const GroundPhase& phase) const {
     const Vector3 x = phase.particles.position(p);
     for (int a = 0; a < 3; ++a)
       if (grid_.axis(a).cell_of(x[a]) < 0)
-        throw StateError(fmt::format("a particle is at {:.4g} {:.4g} {:.4g} m, outside of the grid (x {:.4g} to {:.4g}, y {:.4g} to {:.4g}, z {:.4g} to "
-                                     "{:.4g} m): give the ground more headroom or size, or look for an unstable contact",
-                                     x[0], x[1], x[2], grid_.axis(0).lower(), grid_.axis(0).upper(), grid_.axis(1).lower(),
-                                     grid_.axis(1).upper(), grid_.axis(2).lower(), grid_.axis(2).upper()));
+        throw StateError(
+            fmt::format("a particle is at {:.4g} {:.4g} {:.4g} m, outside of the grid (x {:.4g} to {:.4g}, y {:.4g} to "
+                        "{:.4g}, z {:.4g} to "
+                        "{:.4g} m): give the ground more headroom or size, or look for an unstable contact",
+                        x[0], x[1], x[2], grid_.axis(0).lower(), grid_.axis(0).upper(), grid_.axis(1).lower(),
+                        grid_.axis(1).upper(), grid_.axis(2).lower(), grid_.axis(2).upper()));
   }
-  throw StateError(fmt::format("particles moved more than a cell in {:.2g} m of expected drift: the ground has become unstable", drift_));
+  throw StateError(
+      fmt::format("particles moved more than a cell in {:.2g} m of expected drift: the ground has become unstable", drift_));
 }
 
-double MpmGround::internal_energy() const {
+double MpmGround::energy(std::size_t kind) const {
   double sum = 0.0;
   for (const GroundPhase& phase : phases_) {
-    const double* volume = phase.particles.data(column::volume);
-    for (const std::size_t kind : {field::stored_energy, field::frozen_energy, field::dissipated_energy}) {
-      const double* energy = phase.particles.data(column::state + kind);
-      for (std::size_t p = 0; p < phase.particles.size(); ++p) sum += volume[p] * energy[p];
-    }
+    const double *volume = phase.particles.data(column::volume), *energy = phase.particles.data(column::state + kind);
+    for (std::size_t p = 0; p < phase.particles.size(); ++p) sum += volume[p] * energy[p];
   }
   return sum;
 }
 
+double MpmGround::internal_energy() const {
+  return energy(field::stored_energy) + energy(field::frozen_energy) + energy(field::dissipated_energy);
+}
+
 Balance MpmGround::balance() const {
-  double dissipated = 0.0;
+  const double dissipated = energy(field::dissipated_energy) + dropped_dissipated_;
   Vector3 momentum = Vector3::Zero();
-  for (const GroundPhase& phase : phases_) {
-    const double *volume = phase.particles.data(column::volume),
-                 *heat = phase.particles.data(column::state + field::dissipated_energy);
-    for (std::size_t p = 0; p < phase.particles.size(); ++p) {
-      dissipated += volume[p] * heat[p];
-      momentum += phase.law->density() * volume[p] * phase.particles.velocity(p);
-    }
-  }
+  for (const GroundPhase& phase : phases_)
+    for (std::size_t p = 0; p < phase.particles.size(); ++p)
+      momentum += phase.law->density() * phase.particles.data(column::volume)[p] * phase.particles.velocity(p);
   const double kinetic = kinetic_ + dropped_kinetic_, load = gravity_work_ + faces_.work();
-  double sums[] = {kinetic,  internal_energy() - initial_ + dropped_internal_ - dissipated, dissipated,   contact_work_, load,
-                   contact_work_ + load - stress_work_ - kinetic, momentum.x(), momentum.y(), momentum.z()};
+  double sums[] = {kinetic,      internal_energy() - initial_ + dropped_internal_ - dissipated,
+                   dissipated,   contact_work_,
+                   load,         contact_work_ + load - stress_work_ - kinetic,
+                   momentum.x(), momentum.y(),
+                   momentum.z()};
   ranks().sum(sums, std::size(sums));
   Balance balance;
   balance.kinetic_energy = sums[0];
@@ -314,7 +325,8 @@ void MpmGround::sort() {
   drift_ = 0.0;
   ++generation_;
   migrate();
-  const std::size_t ny = static_cast<std::size_t>(grid_.axis(1).cells()), nz = static_cast<std::size_t>(grid_.axis(2).cells());
+  const std::size_t ny = static_cast<std::size_t>(grid_.axis(1).cells()),
+                    nz = static_cast<std::size_t>(grid_.axis(2).cells());
   std::vector<std::size_t> cell, start, order;
   for (GroundPhase& phase : phases_) {
     const std::size_t n = phase.particles.size();
@@ -364,7 +376,8 @@ void MpmGround::migrate() {
     for (int r = 0; r < ranks().size(); ++r) {
       if (r == ranks().rank()) continue;
       const std::vector<double> arriving = ranks().exchange(r, leaving[static_cast<std::size_t>(r)]);
-      for (std::size_t n = 0; n < arriving.size(); n += phase.particles.record_length()) phase.particles.unpack(arriving.data() + n);
+      for (std::size_t n = 0; n < arriving.size(); n += phase.particles.record_length())
+        phase.particles.unpack(arriving.data() + n);
     }
   }
 }
@@ -394,8 +407,9 @@ void MpmGround::move_window() {
 void MpmGround::drop_behind() {
   const Axis &x = grid_.axis(0), &y = grid_.axis(1);
   const double edge = x.knot(1);
-  std::vector<double> top(static_cast<std::size_t>(y.cells()), -std::numeric_limits<double>::infinity()), mass(top.size(), 0.0), volume(top.size(), 0.0);
-  const double before = internal_energy();
+  std::vector<double> top(static_cast<std::size_t>(y.cells()), -std::numeric_limits<double>::infinity()),
+      mass(top.size(), 0.0), volume(top.size(), 0.0);
+  const double before = internal_energy(), heat_before = energy(field::dissipated_energy);
   std::vector<std::size_t> kept;
   for (GroundPhase& phase : phases_) {
     const Particles& particles = phase.particles;
@@ -406,7 +420,8 @@ void MpmGround::drop_behind() {
         continue;
       }
       const auto row = static_cast<std::size_t>(y.cell_of(particles.data(column::y)[p]));
-      const double ratio = particles.data(column::state + field::volume_ratio)[p], reference = particles.data(column::volume)[p];
+      const double ratio = particles.data(column::state + field::volume_ratio)[p],
+                   reference = particles.data(column::volume)[p];
       top[row] = std::max(top[row], particles.data(column::z)[p] + particles.data(column::half_z)[p] * ratio);
       mass[row] += phase.law->density() * reference;
       volume[row] += reference * ratio;
@@ -415,26 +430,30 @@ void MpmGround::drop_behind() {
     phase.particles.reorder(kept);
   }
   dropped_internal_ += before - internal_energy();
+  dropped_dissipated_ += heat_before - energy(field::dissipated_energy);
   for (std::size_t row = 0; row < top.size(); ++row)
     if (volume[row] > 0.0)
-      rut_.push_back({0.5 * (x.lower() + edge), y.knot(static_cast<int>(row)) + 0.5 * y.length(static_cast<int>(row)), top[row],
-                      mass[row] / volume[row]});
+      rut_.push_back({0.5 * (x.lower() + edge), y.knot(static_cast<int>(row)) + 0.5 * y.length(static_cast<int>(row)),
+                      top[row], mass[row] / volume[row]});
 }
 
 // ---- restart --------------------------------------------------------------------------------------------------------------------
 
 std::vector<double> MpmGround::fingerprint() const {
   std::vector<double> numbers = {static_cast<double>(phases_.size())};
-  for (int a = 0; a < 3; ++a) numbers.insert(numbers.end(), {static_cast<double>(grid_.axis(a).cells()), grid_.axis(a).shortest()});
+  for (int a = 0; a < 3; ++a)
+    numbers.insert(numbers.end(), {static_cast<double>(grid_.axis(a).cells()), grid_.axis(a).shortest()});
   for (const GroundPhase& phase : phases_)
     numbers.insert(numbers.end(), {static_cast<double>(phase.particles.record_length()), phase.law->density()});
-  numbers.insert(numbers.end(), {static_cast<double>(faces_.state_length()), static_cast<double>(sheet_.surface().node_count())});
+  numbers.insert(numbers.end(),
+                 {static_cast<double>(faces_.state_length()), static_cast<double>(sheet_.surface().node_count())});
   return numbers;
 }
 
 std::vector<double> MpmGround::state() const {
   std::vector<double> state = fingerprint();
-  double sums[] = {kinetic_, initial_, stress_work_, contact_work_, gravity_work_, dropped_kinetic_, dropped_internal_};
+  double sums[] = {kinetic_,      initial_,         stress_work_,      contact_work_,
+                   gravity_work_, dropped_kinetic_, dropped_internal_, dropped_dissipated_};
   ranks().sum(sums, std::size(sums));
   state.insert(state.end(), std::begin(sums), std::end(sums));
   state.insert(state.end(), {static_cast<double>(shifts_), focus_, next_id_, drift_, ranks().max(largest_speed_)});
@@ -457,9 +476,11 @@ std::vector<double> MpmGround::state() const {
 void MpmGround::restore(const std::vector<double>& state) {
   const std::vector<double> mine = fingerprint();
   if (state.size() < mine.size() || !std::equal(mine.begin(), mine.end(), state.begin()))
-    throw Error(fmt::format("{}: the saved state belongs to other ground; restart with the materials, size and cells of the first run", where_));
+    throw Error(fmt::format(
+        "{}: the saved state belongs to other ground; restart with the materials, size and cells of the first run", where_));
   const double* next = state.data() + mine.size();
-  for (double* sum : {&kinetic_, &initial_, &stress_work_, &contact_work_, &gravity_work_, &dropped_kinetic_, &dropped_internal_})
+  for (double* sum : {&kinetic_, &initial_, &stress_work_, &contact_work_, &gravity_work_, &dropped_kinetic_,
+                      &dropped_internal_, &dropped_dissipated_})
     *sum = ranks().rank() == 0 ? *next++ : (++next, 0.0);
   const int shifts = static_cast<int>(*next++);
   grid_.shift_x(shifts - shifts_);

@@ -49,8 +49,8 @@ class MpmGround : public Body {
   const Grid& grid() const { return grid_; }
   const Faces& faces() const { return faces_; }
   const Communicator& ranks() const { return partition_.ranks(); }
-  Vector3 face_impulse(FacePlace face) const;  ///< [N s] given to the ground since the start
-  double particle_count() const;               ///< of all ranks
+  Vector3 face_impulse(FacePlace face) const;                  ///< [N s] given to the ground since the start
+  double particle_count() const;                               ///< of all ranks
   const UpdateReport& last_report() const { return report_; }  ///< of this rank's particles in the last step
 
   // ---- for contacts: this rank's particles; not collective ------------------------------------------------------------------
@@ -83,6 +83,7 @@ class MpmGround : public Body {
   void drop_behind();
   void sort();
   void migrate();
+  double energy(std::size_t kind) const;  // of a field per reference volume, this rank's particles [J]
   double internal_energy() const;
   GridView local_view();
   [[noreturn]] void report_outside(const GroundPhase& phase) const;
@@ -112,7 +113,7 @@ class MpmGround : public Body {
 
   // this rank's share, since the start [J]
   double kinetic_ = 0.0, initial_ = 0.0, stress_work_ = 0.0, contact_work_ = 0.0, gravity_work_ = 0.0;
-  double dropped_kinetic_ = 0.0, dropped_internal_ = 0.0;
+  double dropped_kinetic_ = 0.0, dropped_internal_ = 0.0, dropped_dissipated_ = 0.0;
 };
 
 }  // namespace furrow

@@ -9,10 +9,10 @@ namespace furrow {
 
 /// One level of particles, from the surface down.
 struct GroundLevel {
-  double z = 0.0;          ///< [m]
-  double half = 0.0;       ///< half the height of ground that it stands for [m]
+  double z = 0.0;     ///< [m]
+  double half = 0.0;  ///< half the height of ground that it stands for [m]
   std::size_t layer = 0;
-  VectorX state;           ///< of the law
+  VectorX state;  ///< of the law
 };
 
 /// Every level is compressed without sideways strain, each layer from its law's initial state, until its vertical stress carries what lies

@@ -49,8 +49,7 @@ void Particles::reorder(const std::vector<std::size_t>& order) {
   for (Column& c : columns_) {
     const auto n = static_cast<std::size_t>(c.components);
     scratch_.resize(order.size() * n);
-    for (std::size_t i = 0; i < order.size(); ++i)
-      std::copy_n(c.values.data() + n * order[i], n, scratch_.data() + n * i);
+    for (std::size_t i = 0; i < order.size(); ++i) std::copy_n(c.values.data() + n * order[i], n, scratch_.data() + n * i);
     c.values.swap(scratch_);
   }
   size_ = order.size();

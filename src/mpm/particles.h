@@ -15,14 +15,20 @@ namespace furrow {
 /// Columns every particle has; those of the law's state follow, then those that others keep with the particles.
 namespace column {
 enum : std::size_t {
-  x, y, z,                             ///< position [m]
-  velocity,                            ///< [m/s] four numbers, the last is unused
-  affine,                              ///< C [1/s], three columns of four numbers
-  volume,                              ///< in the reference configuration [m^3]
-  home_x, home_y, home_z,              ///< position at the start [m]
-  half_x, half_y, half_z,              ///< half the spacing of the particles at the start [m]
-  id,                                  ///< whole numbers, unique in a ground
-  state                                ///< first of the law's state fields
+  x,
+  y,
+  z,         ///< position [m]
+  velocity,  ///< [m/s] four numbers, the last is unused
+  affine,    ///< C [1/s], three columns of four numbers
+  volume,    ///< in the reference configuration [m^3]
+  home_x,
+  home_y,
+  home_z,  ///< position at the start [m]
+  half_x,
+  half_y,
+  half_z,  ///< half the spacing of the particles at the start [m]
+  id,      ///< whole numbers, unique in a ground
+  state    ///< first of the law's state fields
 };
 }
 

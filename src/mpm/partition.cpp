@@ -64,7 +64,8 @@ void Partition::sum_shared(Grid& grid) const {
         own = numbers({plane, plane + 1});
         parts.push_back(own.data());
       } else if (const PlaneRange planes = shared(r); planes.contains(plane)) {
-        parts.push_back(received[static_cast<std::size_t>(r)].data() + length * static_cast<std::size_t>(plane - planes.from));
+        parts.push_back(received[static_cast<std::size_t>(r)].data() +
+                        length * static_cast<std::size_t>(plane - planes.from));
       }
     }
     if (parts.size() == 1) continue;

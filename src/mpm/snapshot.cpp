@@ -8,13 +8,27 @@ namespace furrow {
 
 namespace {
 
-enum : std::size_t { id, x, home = x + 3, v = home + 3, layer = v + 3, volume, density, pressure, mises, vertical, compaction, length };
+enum : std::size_t {
+  id,
+  x,
+  home = x + 3,
+  v = home + 3,
+  layer = v + 3,
+  volume,
+  density,
+  pressure,
+  mises,
+  vertical,
+  compaction,
+  length
+};
 
 /// Column of the law's compaction, or that of the volume ratio.
 std::size_t compaction_column(const Material& law) {
   const auto& fields = law.state_fields();
   const auto found = std::find_if(fields.begin(), fields.end(), [](const StateField& f) { return f.name == "eps_vol_pl"; });
-  return column::state + (found == fields.end() ? std::size_t(field::volume_ratio) : static_cast<std::size_t>(found - fields.begin()));
+  return column::state +
+         (found == fields.end() ? std::size_t(field::volume_ratio) : static_cast<std::size_t>(found - fields.begin()));
 }
 
 }  // namespace
@@ -51,7 +65,8 @@ GroundSnapshot take_snapshot(const MpmGround& ground) {
   const std::size_t count = records.size() / length;
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t(0));
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return records[a * length] < records[b * length]; });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return records[a * length] < records[b * length]; });
 
   GroundSnapshot snapshot;
   for (Matrix3X* columns : {&snapshot.x, &snapshot.home, &snapshot.v}) columns->resize(3, static_cast<Eigen::Index>(count));
@@ -61,9 +76,10 @@ GroundSnapshot take_snapshot(const MpmGround& ground) {
     snapshot.x.col(column) = Eigen::Map<const Vector3>(r + x);
     snapshot.home.col(column) = Eigen::Map<const Vector3>(r + home);
     snapshot.v.col(column) = Eigen::Map<const Vector3>(r + v);
-    for (auto [values, at] : {std::pair{&snapshot.id, id}, std::pair{&snapshot.layer, layer}, std::pair{&snapshot.volume, volume},
-                              std::pair{&snapshot.density, density}, std::pair{&snapshot.pressure, pressure}, std::pair{&snapshot.mises, mises},
-                              std::pair{&snapshot.vertical_stress, vertical}, std::pair{&snapshot.compaction, compaction}})
+    for (auto [values, at] :
+         {std::pair{&snapshot.id, id}, std::pair{&snapshot.layer, layer}, std::pair{&snapshot.volume, volume},
+          std::pair{&snapshot.density, density}, std::pair{&snapshot.pressure, pressure}, std::pair{&snapshot.mises, mises},
+          std::pair{&snapshot.vertical_stress, vertical}, std::pair{&snapshot.compaction, compaction}})
       values->push_back(r[at]);
   }
   return snapshot;
@@ -74,7 +90,8 @@ std::vector<RutPoint> collect_rut(const MpmGround& ground) {
   for (const RutPoint& point : ground.rut()) numbers.insert(numbers.end(), {point.x, point.y, point.z, point.density});
   numbers = ground.ranks().gather(numbers);
   std::vector<RutPoint> rut;
-  for (std::size_t n = 0; n < numbers.size(); n += 4) rut.push_back({numbers[n], numbers[n + 1], numbers[n + 2], numbers[n + 3]});
+  for (std::size_t n = 0; n < numbers.size(); n += 4)
+    rut.push_back({numbers[n], numbers[n + 1], numbers[n + 2], numbers[n + 3]});
   return rut;
 }
 

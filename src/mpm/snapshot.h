@@ -13,12 +13,12 @@ namespace furrow {
 /// Particles of all ranks and layers in the order of their ids.
 struct GroundSnapshot {
   std::vector<double> id;
-  Matrix3X x, home, v;                      ///< position now and at the start [m], velocity [m/s]
-  std::vector<double> layer;                ///< 0 on top
-  std::vector<double> volume, density;      ///< now [m^3], [kg/m^3]
-  std::vector<double> pressure, mises;      ///< p (compression positive) and q [Pa]
-  std::vector<double> vertical_stress;      ///< sigma_zz, tension positive [Pa]
-  std::vector<double> compaction;           ///< eps_vol_pl of laws that have it, otherwise -ln J
+  Matrix3X x, home, v;                  ///< position now and at the start [m], velocity [m/s]
+  std::vector<double> layer;            ///< 0 on top
+  std::vector<double> volume, density;  ///< now [m^3], [kg/m^3]
+  std::vector<double> pressure, mises;  ///< p (compression positive) and q [Pa]
+  std::vector<double> vertical_stress;  ///< sigma_zz, tension positive [Pa]
+  std::vector<double> compaction;       ///< eps_vol_pl of laws that have it, otherwise -ln J
   std::size_t size() const { return id.size(); }
 };
 

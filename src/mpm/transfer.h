@@ -40,11 +40,11 @@ struct ParticleView {
 
 /// What gather() sums over its particles, and the first that cannot be placed.
 struct TransferSums {
-  double kinetic_energy = 0.0;   ///< of the particles after the step, affine part included [J]
-  double stress_work = 0.0;      ///< done on the material: dt V sigma : C, with the stress of the start of the step [J]
-  double momentum[3] = {};       ///< [kg m/s]
-  double largest_speed = 0.0;    ///< [m/s] a bound: of the largest components
-  std::size_t outside = 0;       ///< particles that are not inside the grid, or are no number
+  double kinetic_energy = 0.0;  ///< of the particles after the step, affine part included [J]
+  double stress_work = 0.0;     ///< done on the material: dt V sigma : C, with the stress of the start of the step [J]
+  double momentum[3] = {};      ///< [kg m/s]
+  double largest_speed = 0.0;   ///< [m/s] a bound: of the largest components
+  std::size_t outside = 0;      ///< particles that are not inside the grid, or are no number
   std::size_t first_outside = 0;
 };
 

@@ -11,8 +11,8 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-typedef double Vector4 __attribute__((vector_size(32)));                                // momentum and mass, or velocity, of a node
-typedef double Stored4 __attribute__((vector_size(32), aligned(8), may_alias));         // the same anywhere in memory
+typedef double Vector4 __attribute__((vector_size(32)));                         // momentum and mass, or velocity, of a node
+typedef double Stored4 __attribute__((vector_size(32), aligned(8), may_alias));  // the same anywhere in memory
 
 constexpr std::size_t batch = 64;  // particles: their weights fit the first cache
 
@@ -51,7 +51,8 @@ inline int find_weights_by_table(const AxisView& axis, int a, double x, std::siz
 }
 
 /// Gradients of an uneven particle's splines.
-inline void find_gradients(const GridView& grid, const double* const* position, const int (&cell)[3][batch], std::size_t p, Weights& weights) {
+inline void find_gradients(const GridView& grid, const double* const* position, const int (&cell)[3][batch], std::size_t p,
+                           Weights& weights) {
   for (int a = 0; a < 3; ++a) {
     const AxisView& axis = grid.axis[a];
     const int c = cell[a][p];
@@ -72,7 +73,8 @@ inline std::size_t find_weights(const GridView& grid, const double* const* posit
     const AxisView& axis = grid.axis[a];
     const double* x = position[a];
     int inside = 0;
-    for (std::size_t p = 0; p < count; ++p) inside += static_cast<int>(x[p] >= axis.from) & static_cast<int>(x[p] <= axis.to);
+    for (std::size_t p = 0; p < count; ++p)
+      inside += static_cast<int>(x[p] >= axis.from) & static_cast<int>(x[p] <= axis.to);
     if (static_cast<std::size_t>(inside) < count) return count - static_cast<std::size_t>(inside);
     // Cells of one length: the splines are those of unit cells, D = h^2/4. No table, so that the compiler vectorises.
     const double h = axis.even_length, per_length = 1.0 / h, spread = 0.25 * h * h;
@@ -161,7 +163,8 @@ inline void add_flux_to_nodes(const GridView& grid, const Weights& weights, std:
       const double wy = weights.value[1][j][p], gy = weights.gradient[1][j][p];
       const Vector4 across = (gx * wy) * flux[0] + (wx * gy) * flux[1], along = (wx * wy) * flux[2];
       Stored4* row = reinterpret_cast<Stored4*>(corner + 4 * (i * plane + j * nz));
-      for (std::size_t k = 0; k < stencil; ++k) row[k] += weights.value[2][k][p] * across + weights.gradient[2][k][p] * along;
+      for (std::size_t k = 0; k < stencil; ++k)
+        row[k] += weights.value[2][k][p] * across + weights.gradient[2][k][p] * along;
     }
   }
 }
@@ -306,8 +309,8 @@ inline void read_nodes(const GridView& grid, const Weights& weights, std::size_t
   }
 }
 
-inline void gather_batch(const GridView& grid, const ParticleView& particles, double density, double dt, double* const* gradient,
-                         std::size_t first, TransferSums& sums) {
+inline void gather_batch(const GridView& grid, const ParticleView& particles, double density, double dt,
+                         double* const* gradient, std::size_t first, TransferSums& sums) {
   Weights weights;
   if (const std::size_t outside = find_weights(grid, particles.position, particles.size, weights)) {
     if (sums.outside == 0) sums.first_outside = first;
@@ -338,8 +341,7 @@ inline void gather_batch(const GridView& grid, const ParticleView& particles, do
     for (std::size_t p = 0; p < particles.size; ++p) particles.position[a][p] += dt * particles.velocity[4 * p + a];
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column)
-      for (std::size_t p = 0; p < particles.size; ++p)
-        gradient[3 * row + column][first + p] = dt * rates[column][p][row];
+      for (std::size_t p = 0; p < particles.size; ++p) gradient[3 * row + column][first + p] = dt * rates[column][p][row];
   const double* const* s = particles.stress;
   double work = 0.0;
   for (std::size_t p = 0; p < particles.size; ++p) {

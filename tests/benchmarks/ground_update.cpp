@@ -43,8 +43,9 @@ int run(int argc, char** argv) {
   parameters.diametral_inertia = 1.5;
   parameters.axle_centre = {0.0, 0.0, depth + 0.37 + 0.005};
   RigidWheel wheel(parameters);
-  WheelRig rig(WheelRig::schema().read({"load_mass", "636", "speed", "2.2352", "mode", "slip", "slip", "0", "settle_time", "0.3", "load_ramp_time", "0.3",
-                                        "accelerate_time", "0.15", "ground_level", fmt::format("{}", depth), "damping", "3000"}),
+  WheelRig rig(WheelRig::schema().read({"load_mass", "636", "speed", "2.2352", "mode", "slip", "slip", "0", "settle_time",
+                                        "0.3", "load_ramp_time", "0.3", "accelerate_time", "0.15", "ground_level",
+                                        fmt::format("{}", depth), "damping", "3000"}),
                wheel);
   GroundContact contact(wheel, soil, ContactParameters{}, true, "contact");
   World world;
@@ -73,16 +74,19 @@ int run(int argc, char** argv) {
     if (seconds() - last > 5.0) {
       last = seconds();
       const Balance b = soil.balance();
-      fmt::print("t {:.3f} x {:.3f} sinkage {:.4f} Fz {:.0f} Fx {:.0f} penetration {:.1e} contacts {} | E contact {:.1f} kin {:.2f} stored {:.2f} diss {:.2f} num {:.2f} "
-                 "resid {:.3f} | rate {:.2f} M/s\n",
-                 time, wheel.centre().x(), depth - wheel.lowest_point(), contact.force().z(), contact.force().x(), contact.penetration(), contact.contacts(),
-                 b.contact_work, b.kinetic_energy, b.stored_energy, b.dissipated_energy, b.numerical_loss, b.residual(), updates / (last - start) * 1e-6);
+      fmt::print(
+          "t {:.3f} x {:.3f} sinkage {:.4f} Fz {:.0f} Fx {:.0f} penetration {:.1e} contacts {} | E contact {:.1f} kin "
+          "{:.2f} stored {:.2f} diss {:.2f} num {:.2f} "
+          "resid {:.3f} | rate {:.2f} M/s\n",
+          time, wheel.centre().x(), depth - wheel.lowest_point(), contact.force().z(), contact.force().x(),
+          contact.penetration(), contact.contacts(), b.contact_work, b.kinetic_energy, b.stored_energy, b.dissipated_energy,
+          b.numerical_loss, b.residual(), updates / (last - start) * 1e-6);
       std::fflush(stdout);
     }
   }
   const double wall = seconds() - start;
-  fmt::print("particles {:.0f}, sub-steps {}, step {:.2e} s, wall {:.1f} s, {:.2f} M updates/s\n", soil.particle_count(), sub_steps, time / sub_steps, wall,
-             updates / wall * 1e-6);
+  fmt::print("particles {:.0f}, sub-steps {}, step {:.2e} s, wall {:.1f} s, {:.2f} M updates/s\n", soil.particle_count(),
+             sub_steps, time / sub_steps, wall, updates / wall * 1e-6);
   fmt::print("sinkage {:.4f} m, resistance coefficient {:.4f}, load {:.0f} N\n", sinkage / count, -fx / fz, fz / count);
   return 0;
 }

@@ -16,7 +16,10 @@ namespace {
 
 class Scene {
  public:
-  Scene() : law_(make_material("elastic", std::vector<Entry>{{"density", {"200"}}, {"E", {"1e6"}}, {"nu", {"0.3"}}})), grid_(axis(50), axis(16), axis(8)), particles_(*law_) {
+  Scene()
+      : law_(make_material("elastic", std::vector<Entry>{{"density", {"200"}}, {"E", {"1e6"}}, {"nu", {"0.3"}}})),
+        grid_(axis(50), axis(16), axis(8)),
+        particles_(*law_) {
     std::mt19937 engine(1);
     std::uniform_real_distribution<double> shake(-0.2, 0.2);
     for (int i = 0; i < 50; ++i)
@@ -40,7 +43,9 @@ class Scene {
     const double gravity[3] = {0.0, 0.0, -9.81};
     transfer_kernels().scatter(grid_.view(), particles_.view(0, particles_.size()), 200.0, 1e-9, gravity);
   }
-  void gather() { transfer_kernels().gather(grid_.view(), particles_.view(0, particles_.size()), 200.0, 1e-9, gradient_.data()); }
+  void gather() {
+    transfer_kernels().gather(grid_.view(), particles_.view(0, particles_.size()), 200.0, 1e-9, gradient_.data());
+  }
   void clear() { grid_.clear(grid_.all_planes()); }
   std::size_t size() const { return particles_.size(); }
 
@@ -53,7 +58,8 @@ class Scene {
 };
 
 void report(benchmark::State& state, const Scene& scene) {
-  state.counters["ns/particle"] = benchmark::Counter(double(scene.size()) * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["ns/particle"] = benchmark::Counter(
+      double(scene.size()) * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void to_grid(benchmark::State& state) {

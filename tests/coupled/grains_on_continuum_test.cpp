@@ -29,13 +29,18 @@ TEST(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
   Scene scene;
   scene.granular_box(Vector3(-0.041, -0.041, -0.01), Vector3(0.041, 0.041, 0.15), 0.002);
   scene.contact_properties(5e6, 0.3, 0.5, 0.0);  // walls without friction carry no weight
-  scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity {} vector 0 0 -1", hertz, step, gravity));
-  scene.command(fmt::format("fix soil all terrain/continuum material {}/inputs/materials/rubber.yaml length {} width {} depth 0.03 surface 0.03 cell 0.01 "
-                            "gravity {} sheet yes", FURROW_SOURCE_DIR, side, side, gravity));
+  scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity {} vector 0 0 -1",
+                             hertz, step, gravity));
+  scene.command(
+      fmt::format("fix soil all terrain/continuum material {}/inputs/materials/rubber.yaml length {} width {} depth 0.03 "
+                  "surface 0.03 cell 0.01 "
+                  "gravity {} sheet yes",
+                  FURROW_SOURCE_DIR, side, side, gravity));
   scene.command("fix skin all mesh/body body soil type 2");
   scene.command(fmt::format("fix top all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
   for (const char* wall : {"x1", "x2", "y1", "y2"})
-    scene.command(fmt::format("fix {} all wall/gran {} primitive type 1 {}plane {}", wall, hertz, wall[0], wall[1] == '1' ? -side / 2 : side / 2));
+    scene.command(fmt::format("fix {} all wall/gran {} primitive type 1 {}plane {}", wall, hertz, wall[0],
+                              wall[1] == '1' ? -side / 2 : side / 2));
   scene.commands(
       "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant 0.005\n"
       "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
@@ -44,7 +49,8 @@ TEST(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
       "particles_in_region 120 region fill\n"
       "fix move all nve/sphere\nfix calm all viscous 0.03\nthermo 100000\nrun 15000\nunfix calm");
 
-  auto& ground = static_cast<coupling::FixTerrainContinuum*>(scene.lammps().modify->find_fix_id(const_cast<char*>("soil")))->ground();
+  auto& ground =
+      static_cast<coupling::FixTerrainContinuum*>(scene.lammps().modify->find_fix_id(const_cast<char*>("soil")))->ground();
   const double before = upward_momentum(scene);
   const Vector3 ground_before = ground.balance().momentum, base_before = ground.face_impulse(z_lower);
   double impulse = 0.0;
@@ -60,16 +66,19 @@ TEST(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
   // What the base gave carries the ground, its grains and their change of momentum.
   double mass = 0.0;
   for (const GroundPhase& phase : ground.phases())
-    for (std::size_t p = 0; p < phase.particles.size(); ++p) mass += phase.law->density() * phase.particles.data(column::volume)[p];
+    for (std::size_t p = 0; p < phase.particles.size(); ++p)
+      mass += phase.law->density() * phase.particles.data(column::volume)[p];
   mass = scene.sum(mass);
-  const double base = ground.face_impulse(z_lower).z() - base_before.z(), ground_gain = ground.balance().momentum.z() - ground_before.z();
+  const double base = ground.face_impulse(z_lower).z() - base_before.z(),
+               ground_gain = ground.balance().momentum.z() - ground_before.z();
   EXPECT_NEAR(base, mass * gravity * time + ground_gain - impulse, 2e-3 * base);  // forces are one step older in the ground
   const coupling::MomentumAudit& audit = scene.world().audit(ground);
   EXPECT_GT(audit.force_scale, 0.0);
   EXPECT_LT(audit.force, 1e-10);
   EXPECT_LT(audit.moment, 1e-10);
   if (scene.rank() == 0)
-    fmt::print("base {:.6f} N s of {:.6f}; audit force {:.1e}, moment {:.1e}\n", base, mass * gravity * time + ground_gain - impulse, audit.force, audit.moment);
+    fmt::print("base {:.6f} N s of {:.6f}; audit force {:.1e}, moment {:.1e}\n", base,
+               mass * gravity * time + ground_gain - impulse, audit.force, audit.moment);
 }
 
 }  // namespace

@@ -51,7 +51,8 @@ TEST_P(BothAxes, SplinesAreThoseOfCoxAndDeBoorOnOpenKnots) {
   knots.insert(knots.end(), {axis.upper(), axis.upper()});
   for (double x = axis.lower() + 1e-3; x < axis.upper(); x += 0.00731) {
     const Splines s = splines_at(axis, x);
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(s.value[i], cox_de_boor(knots, static_cast<std::size_t>(s.cell + i), 2, x), 1e-13) << x;
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(s.value[i], cox_de_boor(knots, static_cast<std::size_t>(s.cell + i), 2, x), 1e-13) << x;
   }
 }
 
@@ -87,7 +88,8 @@ TEST_P(BothAxes, ExtentIsTheIntegralOfTheSpline) {
       const Splines s = splines_at(axis, axis.knot(c) + 0.5 * axis.length(c) * (1.0 + (g - 1) * point));
       for (int i = 0; i < 3; ++i) integral[static_cast<std::size_t>(c + i)] += weight[g] * axis.length(c) * s.value[i];
     }
-  for (int i = 0; i < axis.nodes(); ++i) EXPECT_NEAR(axis.extent(i), integral[static_cast<std::size_t>(i)], 1e-14) << "node " << i;
+  for (int i = 0; i < axis.nodes(); ++i)
+    EXPECT_NEAR(axis.extent(i), integral[static_cast<std::size_t>(i)], 1e-14) << "node " << i;
 }
 
 /// The kernels find a cell through bins and at most one step further: right for every x, ends and knots included.
@@ -157,7 +159,8 @@ TEST(Axis, ShiftMovesEverythingByWholeCells) {
   Axis in_steps({-1.0, 2.0, 0.3, -1.0, 2.0, 1.0}, "x axis"), at_once = in_steps;
   for (int n = 0; n < 17; ++n) in_steps.shift(1);
   at_once.shift(17);
-  for (int c = 0; c <= axis.cells() && c <= at_once.cells(); ++c) EXPECT_EQ(in_steps.knot(c), at_once.knot(c));  // every bit: a restart
+  for (int c = 0; c <= axis.cells() && c <= at_once.cells(); ++c)
+    EXPECT_EQ(in_steps.knot(c), at_once.knot(c));  // every bit: a restart
   Axis graded(graded_layout, "x axis");
   EXPECT_THROW(graded.shift(1), Error);
   EXPECT_NO_THROW(graded.shift(0));

@@ -35,7 +35,9 @@ std::array<FaceKind, face_count> only(FacePlace face, FaceKind kind) {
   return kinds;
 }
 
-std::vector<WaveSpeeds> speeds(const Grid& grid) { return std::vector<WaveSpeeds>(static_cast<std::size_t>(grid.nodes(2)), {300.0, 150.0}); }
+std::vector<WaveSpeeds> speeds(const Grid& grid) {
+  return std::vector<WaveSpeeds>(static_cast<std::size_t>(grid.nodes(2)), {300.0, 150.0});
+}
 
 TEST(Faces, NamesFollowTheKinds) {
   EXPECT_EQ(face_kind("free"), FaceKind::free);
@@ -114,7 +116,8 @@ TEST(Faces, ForcesOfTheStartAreHeld) {
       for_nodes(grid, [&](const GridNode& n, int i, int j, int k) {
         const bool held = i == grid.nodes(0) - 1 || (count > 1 && j == grid.nodes(1) - 1) || (count > 2 && k == 0);
         const Vector3 expected = held ? Vector3(0, 0, 0) : Vector3(dt * pull / mass);
-        EXPECT_LT((Eigen::Map<const Vector3>(n.momentum) - expected).norm(), 1e-14) << count << " faces, node " << i << " " << j << " " << k;
+        EXPECT_LT((Eigen::Map<const Vector3>(n.momentum) - expected).norm(), 1e-14)
+            << count << " faces, node " << i << " " << j << " " << k;
       });
     }
   }
@@ -152,7 +155,8 @@ TEST(Faces, AbsorbingLeavesToWallsWhatTheyHold) {
   double u[3] = {0, 0, 0};
   for (int step = 0; step < 2; ++step)
     for (int d = 0; d < 3; ++d) {
-      const double speed = d == 0 ? c : cs, after = (v[d] - dt * speed * speed / (extent * length) * u[d]) / (1.0 + dt * speed / extent);
+      const double speed = d == 0 ? c : cs,
+                   after = (v[d] - dt * speed * speed / (extent * length) * u[d]) / (1.0 + dt * speed / extent);
       u[d] += dt * after;
       const int rows = d == 1 ? grid.nodes(1) - 1 : grid.nodes(1);
       work += rows * (grid.nodes(2) - 1) * mass * (after - v[d]) * after;

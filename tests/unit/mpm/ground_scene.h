@@ -33,7 +33,8 @@ inline std::string snow() {
 inline AxisLayout even(double lower, double upper, double cell) { return {lower, upper, cell, lower, upper, 1.0}; }
 
 /// Weightless ground that fills a box up to its top; every face is free.
-inline GroundParameters box(const std::shared_ptr<const Material>& law, const Vector3& lower, const Vector3& upper, double cell) {
+inline GroundParameters box(const std::shared_ptr<const Material>& law, const Vector3& lower, const Vector3& upper,
+                            double cell) {
   GroundParameters ground;
   ground.x = even(lower.x(), upper.x(), cell);
   ground.y = even(lower.y(), upper.y(), cell);
@@ -69,7 +70,8 @@ void carve(MpmGround& ground, Keep keep) {
 }
 
 /// Gives every particle the velocity v + W (x - about).
-inline void set_motion(MpmGround& ground, const Vector3& v, const Matrix3& W = Matrix3::Zero(), const Vector3& about = Vector3::Zero()) {
+inline void set_motion(MpmGround& ground, const Vector3& v, const Matrix3& W = Matrix3::Zero(),
+                       const Vector3& about = Vector3::Zero()) {
   for_particles(ground, [&](Particles& particles, std::size_t p) {
     Eigen::Map<Vector3>(particles.data(column::velocity) + 4 * p) = v + W * (particles.position(p) - about);
     for (int d = 0; d < 3; ++d) Eigen::Map<Vector3>(particles.data(column::affine) + 12 * p + 4 * d) = W.col(d);

@@ -78,9 +78,10 @@ TEST(GroundRestart, ContinuesBitForBitOnAGradedGrid) {
 
 /// Porous elasticity: the stiffness of the contact follows the modulus.
 TEST(GroundRestart, ContinuesBitForBitWithPorousElasticity) {
-  expect_exact_restart(snow_bed(
-      "crushable_foam density 200 pt 2000 sigma0 5000 K 1 pc0_reading pc0 elasticity porous elasticity.kappa 0.005 elasticity.e0 3.5 nu 0.3 "
-      "pt_el 5000 hardening exponential pc0 5000 lambda 0.35 hardening.kappa 0.005 hardening.e0 3.5"));
+  expect_exact_restart(
+      snow_bed("crushable_foam density 200 pt 2000 sigma0 5000 K 1 pc0_reading pc0 elasticity porous elasticity.kappa 0.005 "
+               "elasticity.e0 3.5 nu 0.3 "
+               "pt_el 5000 hardening exponential pc0 5000 lambda 0.35 hardening.kappa 0.005 hardening.e0 3.5"));
 }
 
 TEST(GroundRestart, RefusesTheStateOfOtherGround) {
@@ -158,7 +159,9 @@ TEST(Ground, StopsWhenParticlesLeaveTheGrid) {
     for (int n = 0; n < 1000; ++n) ground.advance(1e-4);
     FAIL();
   } catch (const StateError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("outside of the grid (x 0 to 0.2, y 0 to 0.2, z 0 to 0.2 m): give the ground more headroom or size"));
+    EXPECT_THAT(
+        error.what(),
+        HasSubstr("outside of the grid (x 0 to 0.2, y 0 to 0.2, z 0 to 0.2 m): give the ground more headroom or size"));
   }
 }
 
@@ -169,7 +172,9 @@ TEST(Ground, RefusesASurfaceInsideACell) {
     MpmGround ground(parameters, Communicator(), "fix soil");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("fix soil has its surface at z = 0.2 m, inside of a cell; allowed: the height of an end of a cell"));
+    EXPECT_THAT(
+        error.what(),
+        HasSubstr("fix soil has its surface at z = 0.2 m, inside of a cell; allowed: the height of an end of a cell"));
   }
 }
 

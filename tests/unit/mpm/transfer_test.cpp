@@ -19,7 +19,11 @@ struct Cloud {
   explicit Cloud(std::size_t count)
       : grid(Axis({0.0, 1.0, 0.1, 0.3, 0.6, 1.3}, "x"), Axis(even(-0.5, 0.5, 0.125), "y"),
              Axis({0.0, 0.8, 0.08, 0.4, 0.8, 1.2}, "z")),
-        velocity(4 * count), affine(12 * count), volume(count), ratio(count), gradient(9 * count) {
+        velocity(4 * count),
+        affine(12 * count),
+        volume(count),
+        ratio(count),
+        gradient(9 * count) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(0.0, 1.0), sign(-1.0, 1.0);
     const double lower[3] = {0.0, -0.5, 0.0}, size[3] = {1.0, 1.0, 0.8};
@@ -49,7 +53,9 @@ struct Cloud {
     return v;
   }
   Vector3 place(std::size_t p) const { return {position[0][p], position[1][p], position[2][p]}; }
-  Vector3 node_place(int i, int j, int k) const { return {grid.axis(0).node(i), grid.axis(1).node(j), grid.axis(2).node(k)}; }
+  Vector3 node_place(int i, int j, int k) const {
+    return {grid.axis(0).node(i), grid.axis(1).node(j), grid.axis(2).node(k)};
+  }
   template <class Visit>
   void for_nodes(Visit visit) {
     for (int i = 0; i < grid.nodes(0); ++i)
@@ -77,7 +83,8 @@ TEST(Transfer, AllInstructionSetsAgree) {
     Cloud cloud(1003);  // no multiple of a batch
     const double gravity[3] = {0.1, 0.2, -9.8};
     ASSERT_EQ(kernels.scatter(cloud.grid.view(), cloud.view(), rho, dt, gravity), 0u);
-    const PointImpulse impulses[2] = {{{0.5, 0.1, 0.3}, {1.0, -2.0, 0.5}, {0.01, 0.0, -0.02}}, {{0.9, -0.4, 0.01}, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.0}}};
+    const PointImpulse impulses[2] = {{{0.5, 0.1, 0.3}, {1.0, -2.0, 0.5}, {0.01, 0.0, -0.02}},
+                                      {{0.9, -0.4, 0.01}, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.0}}};
     kernels.scatter_impulses(cloud.grid.view(), impulses, 2);
     const std::vector<double> nodes = numbers_of(cloud.grid);
     cloud.grid.solve(cloud.grid.all_planes());
@@ -85,7 +92,8 @@ TEST(Transfer, AllInstructionSetsAgree) {
     std::vector<double> after = cloud.gradient;
     for (const auto& x : cloud.position) after.insert(after.end(), x.begin(), x.end());
     after.insert(after.end(), cloud.velocity.begin(), cloud.velocity.end());
-    const std::vector<double> all_sums = {s.kinetic_energy, s.stress_work, s.momentum[0], s.momentum[1], s.momentum[2], s.largest_speed};
+    const std::vector<double> all_sums = {s.kinetic_energy, s.stress_work, s.momentum[0],
+                                          s.momentum[1],    s.momentum[2], s.largest_speed};
     if (reference.empty()) {
       reference = nodes;
       moved = after;
@@ -94,10 +102,13 @@ TEST(Transfer, AllInstructionSetsAgree) {
     }
     double largest = 0.0;
     for (const double value : reference) largest = std::max(largest, std::abs(value));
-    for (std::size_t n = 0; n < nodes.size(); ++n) ASSERT_NEAR(nodes[n], reference[n], 1e-13 * largest) << table->instruction_set;
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      ASSERT_NEAR(nodes[n], reference[n], 1e-13 * largest) << table->instruction_set;
     // A node that hardly any mass reaches has a large velocity with a large relative error; what particles take of it is small again.
-    for (std::size_t n = 0; n < after.size(); ++n) ASSERT_NEAR(after[n], moved[n], 1e-9 * (1.0 + std::abs(moved[n]))) << table->instruction_set;
-    for (std::size_t n = 0; n < sums.size(); ++n) EXPECT_NEAR(all_sums[n], sums[n], 1e-9 * (1.0 + std::abs(sums[n]))) << "sum " << n;
+    for (std::size_t n = 0; n < after.size(); ++n)
+      ASSERT_NEAR(after[n], moved[n], 1e-9 * (1.0 + std::abs(moved[n]))) << table->instruction_set;
+    for (std::size_t n = 0; n < sums.size(); ++n)
+      EXPECT_NEAR(all_sums[n], sums[n], 1e-9 * (1.0 + std::abs(sums[n]))) << "sum " << n;
   }
 }
 
@@ -163,7 +174,8 @@ TEST(Transfer, FromTheGridReadsLinearFieldsExactly) {
     EXPECT_LT((Eigen::Map<const Vector3>(&cloud.velocity[4 * p]) - v).norm(), 1e-13);
     EXPECT_LT((cloud.place(p) - (x + dt * v)).norm(), 1e-15);
     for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 3; ++column) EXPECT_NEAR(cloud.gradients[3 * row + column][p], dt * L(row, column), 1e-10 * dt);
+      for (int column = 0; column < 3; ++column)
+        EXPECT_NEAR(cloud.gradients[3 * row + column][p], dt * L(row, column), 1e-10 * dt);
   }
   EXPECT_GE(sums.largest_speed, fastest);  // a bound: of the largest components
   EXPECT_LE(sums.largest_speed, std::sqrt(3.0) * fastest);
@@ -277,7 +289,8 @@ TEST(Transfer, KeepsNodalMassAndNeverMakesKineticEnergy) {
     if (step == 0) first_masses = masses;
     ASSERT_EQ(masses, first_masses);
     cloud.grid.solve(cloud.grid.all_planes());
-    const double after = transfer_kernels().gather(cloud.grid.view(), cloud.view(), rho, 0.0, cloud.gradients).kinetic_energy;
+    const double after =
+        transfer_kernels().gather(cloud.grid.view(), cloud.view(), rho, 0.0, cloud.gradients).kinetic_energy;
     EXPECT_LE(after, before * (1.0 + 1e-14));
     before = after;
   }

@@ -15,8 +15,10 @@ using Enforcement = ContactParameters::Enforcement;
 
 /// An elastic block of 0.2 x 0.1 x 0.1 m on a rigid plate, gravity turned by a slope.
 struct Incline {
-  Incline(double slope, const ContactParameters& parameters) : ground(block(slope), Communicator()), plate({PlateShape::square, 1.0, 0.1, 10}, {0, 0, -0.1}),
-                                                               contact(plate, ground, parameters, false, "plate") {
+  Incline(double slope, const ContactParameters& parameters)
+      : ground(block(slope), Communicator()),
+        plate({PlateShape::square, 1.0, 0.1, 10}, {0, 0, -0.1}),
+        contact(plate, ground, parameters, false, "plate") {
     carve(ground, [](const Vector3& x) { return std::abs(x.x() + 0.2) < 0.1 && x.z() > 0.0; });
     mass = sums_of(ground).mass;
     start = sums_of(ground).centre.x();
@@ -63,7 +65,8 @@ TEST_P(Enforcements, SlidesAsCoulombSays) {
   Incline incline(slope, parameters);
   incline.run(duration);
   const double a = standard_gravity * (std::sin(slope) - 0.3 * std::cos(slope));
-  RecordProperty("distance_over_closed_form", fmt::format("{:.4f}", incline.moved() / (0.5 * a * incline.time * incline.time)));
+  RecordProperty("distance_over_closed_form",
+                 fmt::format("{:.4f}", incline.moved() / (0.5 * a * incline.time * incline.time)));
   EXPECT_NEAR(incline.moved(), 0.5 * a * incline.time * incline.time, 0.02 * incline.moved());
   EXPECT_NEAR(incline.friction_impulse / incline.normal_impulse, 0.3, 0.006);
   // mu N s
@@ -188,8 +191,10 @@ TEST_P(Enforcements, MomentumAndEnergyOfAPressedBedAreAccountedFor) {
   }
   EXPECT_LT(most, 1e-12 * pressed * time);
   const Balance b = ground.balance();
-  RecordProperty("energies", fmt::format("contact {:.4g}, stored {:.4g}, dissipated {:.4g}, kinetic {:.2g}, numerical {:.3g}, residual {:.2g} J",
-                                         b.contact_work, b.stored_energy, b.dissipated_energy, b.kinetic_energy, b.numerical_loss, b.residual()));
+  RecordProperty(
+      "energies",
+      fmt::format("contact {:.4g}, stored {:.4g}, dissipated {:.4g}, kinetic {:.2g}, numerical {:.3g}, residual {:.2g} J",
+                  b.contact_work, b.stored_energy, b.dissipated_energy, b.kinetic_energy, b.numerical_loss, b.residual()));
   RecordProperty("peak_force", fmt::format("{:.1f}", pressed));
   EXPECT_LT(std::abs(b.residual()), 5e-3 * b.contact_work);
   EXPECT_GE(b.numerical_loss, 0.0);

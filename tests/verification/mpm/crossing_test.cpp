@@ -16,7 +16,8 @@ struct Noise {
 
 /// A bar under constant axial pressure, held sideways, flies along itself through cells: its stress should stay uniform.
 Noise noise_of(double strain, double speed) {
-  const double cell = 0.05, E = 1e6, nu = 0.3, M = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)), pressure = M * strain, half = 0.5;
+  const double cell = 0.05, E = 1e6, nu = 0.3, M = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)), pressure = M * strain,
+               half = 0.5;
   GroundParameters p = box(law_of(elastic(E, nu, 1000)), {-1, 0, 0}, {2, cell, cell}, cell);
   set_faces(p, {"free", "free", "smooth", "smooth", "smooth", "smooth"});
   MpmGround ground(p, Communicator());
@@ -34,7 +35,8 @@ Noise noise_of(double strain, double speed) {
     Particles& particles = ground.phases()[0].particles;
     for (std::size_t n = 0; n < particles.size(); ++n) {
       const double home = particles.data(column::home_x)[n], side = home > 0 ? 1.0 : -1.0;
-      if (std::abs(home) > half - 0.5 * cell) ground.push(0, n, {-side * pressure * cell * cell / 4, 0, 0}, {side * 0.25 * cell, 0, 0});
+      if (std::abs(home) > half - 0.5 * cell)
+        ground.push(0, n, {-side * pressure * cell * cell / 4, 0, 0}, {side * 0.25 * cell, 0, 0});
     }
     ground.advance(dt);
     time += dt;
@@ -52,8 +54,10 @@ Noise noise_of(double strain, double speed) {
 /// At rest a uniform stress stays to rounding of the ends; through eight cells at 1 m/s the noise is that of the quadratic spline.
 TEST(CellCrossing, NoiseIsSmall) {
   const Noise rest = noise_of(0.001, 0.0), small = noise_of(0.001, 1.0), large = noise_of(0.05, 1.0);
-  RecordProperty("noise", fmt::format("at rest rms {:.1e}; moving, strain 0.1 %: rms {:.2e} worst {:.2e}; strain 5 %: rms {:.2e} worst {:.2e}", rest.rms, small.rms, small.worst,
-                                      large.rms, large.worst));
+  RecordProperty(
+      "noise",
+      fmt::format("at rest rms {:.1e}; moving, strain 0.1 %: rms {:.2e} worst {:.2e}; strain 5 %: rms {:.2e} worst {:.2e}",
+                  rest.rms, small.rms, small.worst, large.rms, large.worst));
   EXPECT_LT(rest.rms, 0.01);
   EXPECT_LT(small.rms, 0.03);
   EXPECT_LT(large.rms, 0.03);

@@ -104,7 +104,8 @@ TEST(FreeVibration, KeepsMomentaAndNeverGainsEnergy) {
   MpmGround ground = cube(1e6, 0.1);
   for_particles(ground, [](Particles& particles, std::size_t p) {
     const Vector3 x = particles.position(p);
-    Eigen::Map<Vector3>(particles.data(column::velocity) + 4 * p) = Vector3(std::sin(20 * x.x()), x.y() * x.z() * 50, std::cos(15 * x.x()));
+    Eigen::Map<Vector3>(particles.data(column::velocity) + 4 * p) =
+        Vector3(std::sin(20 * x.x()), x.y() * x.z() * 50, std::cos(15 * x.x()));
   });
   const Sums before = sums_of(ground);
   ground.advance(1e-6);  // the balance counts from here

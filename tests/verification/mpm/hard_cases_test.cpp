@@ -18,10 +18,10 @@ constexpr double depth = 0.2, weight = 636.0 * standard_gravity;
 
 struct Bed {
   std::string law = snow();
-  std::string crust;          // a layer of 5 cm on top, unless empty
+  std::string crust;  // a layer of 5 cm on top, unless empty
   double cell = depth / 3;
   double friction = 0.3;
-  double length = 1.0;        // [m] ahead of the wheel
+  double length = 1.0;  // [m] ahead of the wheel
 };
 
 RigidWheelParameters tr_wheel(double height) {
@@ -39,7 +39,9 @@ RigidWheelParameters tr_wheel(double height) {
 /// TR's wheel on 0.2 m of ground, half model; after a millimetre of free fall it carries its weight.
 struct Scene {
   explicit Scene(const Bed& bed, double height = 1e-3)
-      : ground(parameters(bed), Communicator()), wheel(tr_wheel(height)), contact(wheel, ground, contact_parameters(bed), true, "contact") {
+      : ground(parameters(bed), Communicator()),
+        wheel(tr_wheel(height)),
+        contact(wheel, ground, contact_parameters(bed), true, "contact") {
     world.add(wheel, "wheel");
     world.add(ground, "ground");
     world.add(contact, "contact");
@@ -79,8 +81,10 @@ struct Scene {
   }
   void expect_sound(const char* name) {
     const Balance b = ground.balance();
-    ::testing::Test::RecordProperty(name, fmt::format("sinkage {:.4f} m, contact work {:.1f} J, numerical {:.1f} J, imbalance {:.1e}, penetration {:.1e} m", sinkage(),
-                                                      b.contact_work, b.numerical_loss, imbalance(), contact.deepest_penetration()));
+    ::testing::Test::RecordProperty(
+        name,
+        fmt::format("sinkage {:.4f} m, contact work {:.1f} J, numerical {:.1f} J, imbalance {:.1e}, penetration {:.1e} m",
+                    sinkage(), b.contact_work, b.numerical_loss, imbalance(), contact.deepest_penetration()));
     EXPECT_TRUE(std::isfinite(b.kinetic_energy + b.stored_energy + b.dissipated_energy));
     EXPECT_LT(imbalance(), 0.05);
     EXPECT_GE(b.numerical_loss, -0.01 * b.contact_work);
@@ -167,8 +171,9 @@ TEST(HardCase, UnloadingAndASecondPassInTheSameRut) {
 
 TEST(HardCase, StiffCrustOnSoftSnow) {
   Bed bed;
-  bed.crust = "drucker_prager_cap density 400 d 1e5 beta 40 R 0.02 eps_vol_pl_0 0.001 elasticity linear E 1e8 nu 0.2 "
-              "hardening table p 4e5 2e6 eps_vol_pl 0 0.5 interpolation linear beyond extrapolate";
+  bed.crust =
+      "drucker_prager_cap density 400 d 1e5 beta 40 R 0.02 eps_vol_pl_0 0.001 elasticity linear E 1e8 nu 0.2 "
+      "hardening table p 4e5 2e6 eps_vol_pl 0 0.5 interpolation linear beyond extrapolate";
   Scene scene(bed);
   scene.run(0.12);
   scene.expect_sound("crust");
@@ -211,7 +216,8 @@ void compact_by_90_percent(double stiffness) {
   }
   EXPECT_GT(ground.last_report().beyond_ice, 0u);
   const Balance b = ground.balance();
-  ::testing::Test::RecordProperty("energies", fmt::format("contact {:.4g}, residual {:.2g}, numerical {:.2g} J", b.contact_work, b.residual(), b.numerical_loss));
+  ::testing::Test::RecordProperty("energies", fmt::format("contact {:.4g}, residual {:.2g}, numerical {:.2g} J",
+                                                          b.contact_work, b.residual(), b.numerical_loss));
   EXPECT_LT(std::abs(b.residual()), 0.01 * b.contact_work);
   for_particles(ground, [](Particles& particles, std::size_t n) {
     const double J = particles.data(column::state + field::volume_ratio)[n];

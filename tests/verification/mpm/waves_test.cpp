@@ -45,7 +45,8 @@ double standing_wave_error(double cell) {
 
 /// The transfers take 0.024 (kh)^4 of the amplitude in a step: third order at a given Courant number. Splines and leapfrog are of second.
 TEST(StandingWave, ConvergesToTheClosedForm) {
-  const double coarse = standing_wave_error(1.0 / 8), medium = standing_wave_error(1.0 / 16), fine = standing_wave_error(1.0 / 32);
+  const double coarse = standing_wave_error(1.0 / 8), medium = standing_wave_error(1.0 / 16),
+               fine = standing_wave_error(1.0 / 32);
   RecordProperty("errors", fmt::format("{:.2e} {:.2e} {:.2e}", coarse, medium, fine));
   RecordProperty("orders", fmt::format("{:.2f} {:.2f}", std::log2(coarse / medium), std::log2(medium / fine)));
   EXPECT_GT(std::log2(coarse / medium), 2.0);
@@ -101,7 +102,9 @@ TEST(PressureWave, TravelsWithTheSpeedOfTheWaveModulus) {
 
 double largest_speed_left(MpmGround& ground) {
   double largest = 0.0;
-  for_particles(ground, [&](Particles& particles, std::size_t p) { largest = std::max(largest, std::abs(particles.velocity(p).x())); });
+  for_particles(ground, [&](Particles& particles, std::size_t p) {
+    largest = std::max(largest, std::abs(particles.velocity(p).x()));
+  });
   return largest;
 }
 
@@ -153,7 +156,8 @@ TEST(AbsorbingFace, LetsObliqueWavesPass) {
         const Vector3 x = particles.position(p);
         if (std::max(std::abs(x.x()), std::abs(x.y())) > 1.0) return;
         const double v = particles.data(column::volume)[p];
-        sum += v * (0.5 * rho * particles.velocity(p).squaredNorm() + particles.data(column::state + field::stored_energy)[p]);
+        sum +=
+            v * (0.5 * rho * particles.velocity(p).squaredNorm() + particles.data(column::state + field::stored_energy)[p]);
       });
       return sum;
     };
@@ -164,7 +168,8 @@ TEST(AbsorbingFace, LetsObliqueWavesPass) {
       for (int a = 0; a < 2; ++a) {
         particles.data(column::velocity)[4 * p + static_cast<std::size_t>(a)] = x[a] / 0.2 * e;
         for (int b = 0; b < 2; ++b)
-          particles.data(column::affine)[12 * p + static_cast<std::size_t>(4 * b + a)] = ((a == b ? 1.0 : 0.0) / 0.2 - x[a] * x[b] / 0.2 / 0.02) * e;
+          particles.data(column::affine)[12 * p + static_cast<std::size_t>(4 * b + a)] =
+              ((a == b ? 1.0 : 0.0) / 0.2 - x[a] * x[b] / 0.2 / 0.02) * e;
       }
     });
     start = energy();
@@ -172,7 +177,8 @@ TEST(AbsorbingFace, LetsObliqueWavesPass) {
     end = energy();
     return end / start;
   };
-  const double absorbing = energy_left(1.0, "absorbing"), open = energy_left(3.0, "smooth"), wall = energy_left(1.0, "smooth");
+  const double absorbing = energy_left(1.0, "absorbing"), open = energy_left(3.0, "smooth"),
+               wall = energy_left(1.0, "smooth");
   RecordProperty("energy_left", fmt::format("absorbing {:.4f}, wide ground {:.5f}, walls {:.3f}", absorbing, open, wall));
   RecordProperty("mean_reflection", fmt::format("{:.3f}", std::sqrt((absorbing - open) / wall)));
   EXPECT_LT(std::sqrt((absorbing - open) / wall), 0.15);
@@ -189,7 +195,8 @@ double unrest(double cell) {
   run(ground, 0.2);
   double moved = 0.0;
   for_particles(ground, [&](Particles& particles, std::size_t p) {
-    const Vector3 home(particles.data(column::home_x)[p], particles.data(column::home_y)[p], particles.data(column::home_z)[p]);
+    const Vector3 home(particles.data(column::home_x)[p], particles.data(column::home_y)[p],
+                       particles.data(column::home_z)[p]);
     moved = std::max(moved, (particles.position(p) - home).norm());
   });
   return moved / (rho * standard_gravity * 0.4 * 0.4 / (2 * wave_modulus));
@@ -248,7 +255,8 @@ TEST(GradedGrid, LetsWavesPass) {
       const double at = particles.position(p).x();
       if (at > 1.0 && at < 1.9) back = std::max(back, std::abs(particles.velocity(p).x()));
     });
-    RecordProperty(fmt::format("reflected_{:.0f}", 100 * growth), fmt::format("{:.4f}, longest cell {:.3f}", back / pulse_speed, x.length(x.cells() - 1)));
+    RecordProperty(fmt::format("reflected_{:.0f}", 100 * growth),
+                   fmt::format("{:.4f}, longest cell {:.3f}", back / pulse_speed, x.length(x.cells() - 1)));
     EXPECT_LT(back / pulse_speed, growth < 1.2 ? 0.01 : 0.03);
   }
 }

@@ -68,11 +68,15 @@ std::vector<double> sorted_particles(MpmGround& ground) {
   for (std::size_t n = 0; n < order.size(); ++n) order[n] = n;
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return all[record * a] < all[record * b]; });
   std::vector<double> sorted;
-  for (const std::size_t n : order) sorted.insert(sorted.end(), all.begin() + static_cast<long>(record * n), all.begin() + static_cast<long>(record * (n + 1)));
+  for (const std::size_t n : order)
+    sorted.insert(sorted.end(), all.begin() + static_cast<long>(record * n),
+                  all.begin() + static_cast<long>(record * (n + 1)));
   return sorted;
 }
 
-void expect_near(double a, double b, double scale, const std::string& what) { EXPECT_LE(std::abs(a - b), 1e-9 * scale) << what << ": " << a << " " << b; }
+void expect_near(double a, double b, double scale, const std::string& what) {
+  EXPECT_LE(std::abs(a - b), 1e-9 * scale) << what << ": " << a << " " << b;
+}
 
 void compare(Scene& many, Scene& one) {
   const std::vector<double> a = sorted_particles(many.ground), b = sorted_particles(one.ground);
@@ -93,7 +97,8 @@ void compare(Scene& many, Scene& one) {
   expect_near(m.load_work, o.load_work, o.contact_work, "load work");
   expect_near(m.numerical_loss, o.numerical_loss, o.contact_work, "numerical loss");
   for (int f = 0; f < face_count; ++f) {
-    const Vector3 i = many.ground.face_impulse(static_cast<FacePlace>(f)), j = one.ground.face_impulse(static_cast<FacePlace>(f));
+    const Vector3 i = many.ground.face_impulse(static_cast<FacePlace>(f)),
+                  j = one.ground.face_impulse(static_cast<FacePlace>(f));
     EXPECT_LE((i - j).norm(), 1e-9 * one.ground.face_impulse(z_lower).norm()) << "impulse of face " << f;
   }
 }
