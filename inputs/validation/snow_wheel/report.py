@@ -5,14 +5,13 @@ import h5py
 import matplotlib
 import numpy as np
 
-import nrmm
 import study
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "postproc"))
-from furrow_post import ground as furrow_ground
+from furrow_post import empirical, ground as furrow_ground
 
 LOAD = study.LOAD_MASS * 9.80665  # N
 RADIUS = 0.38                     # m, Table 11
@@ -81,14 +80,14 @@ def row_table(results):
     table = []
     for r in study.reference():
         h, rho, z = r["depth_m"], r["density_kgm3"], r["sinkage_m"]
-        own = nrmm.sinkage(h, rho, PRESSURE)
+        own = empirical.nrmm_sinkage(h, rho, PRESSURE)
         row = dict(row=int(r["row"]), used="calibration" if study.is_calibration(r) else "prediction", depth_m=h, density_kgm3=int(rho),
                    sinkage_m=z, resistance=r["resistance"])
         for mode in study.CHOSEN:
             found = evaluate(results / study.row_name(mode, rho, h)) or {}
             row.update({f"{mode}_{what}": found.get(what, "") for what in ("sinkage_m", "resistance", "density_under", "density_shoulder")})
-        row.update(nrmm_sinkage_m=round(own, 3), nrmm_resistance=round(nrmm.resistance(own, rho, study.WIDTH, RADIUS) / LOAD, 3),
-                   nrmm_resistance_measured_sinkage=round(nrmm.resistance(z, rho, study.WIDTH, RADIUS) / LOAD, 3))
+        row.update(nrmm_sinkage_m=round(own, 3), nrmm_resistance=round(empirical.nrmm_resistance(rho, study.WIDTH, RADIUS, own) / LOAD, 3),
+                   nrmm_resistance_measured_sinkage=round(empirical.nrmm_resistance(rho, study.WIDTH, RADIUS, z) / LOAD, 3))
         table.append(row)
     return table
 
