@@ -61,8 +61,9 @@ def main(furrow, script, launcher):
         if expected:
             number, command_name = last_line(script)
             expected += ["ERROR: ", f"at {script}, line {number}: {command_name}"]
-        elif ("WARNING" in run.stdout) != bool(warnings):
-            problems.append("there is a warning" if not warnings else "there is no warning")
+        else:
+            problems += [f"an unannounced warning: {line}" for line in run.stdout.splitlines()
+                         if "WARNING" in line and not any(text in line for text in warnings)]
         problems += [f"the message lacks: {text}" for text in expected + warnings if text not in run.stdout]
         for path in header(script, "intact"):
             try:
