@@ -3,6 +3,7 @@
 #include "comm.h"
 #include "coupling/dependent.h"
 #include "coupling/guard.h"
+#include "coupling/restart_record.h"
 
 namespace furrow::coupling {
 
@@ -24,13 +25,10 @@ void FixBody::pre_delete(bool unfixflag) {
 }
 
 void FixBody::write_restart(FILE* file) {
-  const std::vector<double> state = body_->state();  // collective where a body is spread over the ranks
+  std::vector<double> state = body_->state();  // collective where a body is spread over the ranks
   if (comm->me != 0) return;
-  const int size = static_cast<int>(state.size() * sizeof(double) + sizeof(double));
-  const double count = static_cast<double>(state.size());
-  std::fwrite(&size, sizeof size, 1, file);
-  std::fwrite(&count, sizeof count, 1, file);
-  std::fwrite(state.data(), sizeof(double), state.size(), file);
+  state.insert(state.begin(), static_cast<double>(state.size()));
+  write_record(file, state);
 }
 
 void FixBody::restart(char* buffer) {

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "coupling/fix_terrain_continuum.h"
 #include "coupling/guard.h"
+#include "coupling/restart_record.h"
 #include "coupling/words.h"
 #include "modify.h"
 
@@ -49,10 +50,7 @@ void FixContactBodies::pre_delete(bool unfixflag) {
 
 void FixContactBodies::write_restart(FILE* file) {
   if (comm->me != 0) return;
-  const std::vector<double> state = contact_->state();
-  const int size = static_cast<int>(state.size() * sizeof(double));
-  std::fwrite(&size, sizeof size, 1, file);
-  std::fwrite(state.data(), sizeof(double), state.size(), file);
+  write_record(file, contact_->state());
 }
 
 void FixContactBodies::restart(char* buffer) {

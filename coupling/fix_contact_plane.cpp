@@ -2,6 +2,7 @@
 
 #include "comm.h"
 #include "coupling/fix_world.h"
+#include "coupling/restart_record.h"
 #include "coupling/words.h"
 #include "modify.h"
 
@@ -56,10 +57,7 @@ void FixContactPlane::pre_delete(bool unfixflag) {
 /// Where nodes stick.
 void FixContactPlane::write_restart(FILE* file) {
   if (comm->me != 0) return;
-  const std::vector<double> state = contact_->plane.state();
-  const int size = static_cast<int>(state.size() * sizeof(double));
-  std::fwrite(&size, sizeof size, 1, file);
-  std::fwrite(state.data(), sizeof(double), state.size(), file);
+  write_record(file, contact_->plane.state());
 }
 
 void FixContactPlane::restart(char* buffer) { contact_->plane.restore(reinterpret_cast<const double*>(buffer)); }

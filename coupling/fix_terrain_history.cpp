@@ -1,7 +1,6 @@
 #include "coupling/fix_terrain_history.h"
 
 #include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -10,6 +9,8 @@
 #include "coupling/fix_terrain_continuum.h"
 #include "coupling/guard.h"
 #include "coupling/liggghts_access.h"
+#include "coupling/restart_record.h"
+#include "coupling/results_folder.h"
 #include "coupling/words.h"
 #include "modify.h"
 #include "mpm/snapshot.h"
@@ -90,11 +91,7 @@ void FixTerrainHistory::open() {
     if (draw) frames_ = VtkSeries::resume(frames, "ground", *resume_time_);
     return;
   }
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed)
-    throw InputError(options_.where("folder"), fmt::format("is '{}', which cannot be made ({})", folder, failed.message()),
-                     "a folder that you may write in");
+  make_results_folder(options_);
   RunInfo info;
   info.title = "ground";
   info.script = script_name(*lmp);
@@ -169,10 +166,7 @@ void FixTerrainHistory::write_restart(FILE* checkpoint) {
   guarded_alone(*error, [&] {
     if (file_) file_->flush();
   });
-  const double now = time();
-  const int size = sizeof now;
-  std::fwrite(&size, sizeof size, 1, checkpoint);
-  std::fwrite(&now, sizeof now, 1, checkpoint);
+  write_record(checkpoint, {time()});
 }
 
 void FixTerrainHistory::restart(char* buffer) { resume_time_ = *reinterpret_cast<const double*>(buffer); }

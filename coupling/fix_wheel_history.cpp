@@ -1,7 +1,6 @@
 #include "coupling/fix_wheel_history.h"
 
 #include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -13,6 +12,8 @@
 #include "coupling/gather_grains.h"
 #include "coupling/guard.h"
 #include "coupling/liggghts_access.h"
+#include "coupling/restart_record.h"
+#include "coupling/results_folder.h"
 #include "coupling/words.h"
 #include "io/summary.h"
 #include "modify.h"
@@ -93,7 +94,7 @@ void FixWheelHistory::open() {
     }
     return;
   }
-  make_folder();
+  make_results_folder(options_);
   RunInfo info;
   info.title = options_.word("title");
   info.script = script_name(*lmp);
@@ -106,14 +107,6 @@ void FixWheelHistory::open() {
     wheel_frames_ = VtkSeries::create(frames, "wheel");
     grain_frames_ = VtkSeries::create(frames, "grains");
   }
-}
-
-void FixWheelHistory::make_folder() const {
-  std::error_code failed;
-  std::filesystem::create_directories(folder_, failed);
-  if (failed)
-    throw InputError(options_.where("folder"), fmt::format("is '{}', which cannot be made ({})", folder_, failed.message()),
-                     "a folder that you may write in");
 }
 
 /// An error ends the run: the rows since the last flush are still worth having.
@@ -191,10 +184,7 @@ void FixWheelHistory::write_restart(FILE* checkpoint) {
   guarded_alone(*error, [&] {
     if (file_) file_->flush();
   });
-  const double time = bodies().time();
-  const int size = sizeof time;
-  std::fwrite(&size, sizeof size, 1, checkpoint);
-  std::fwrite(&time, sizeof time, 1, checkpoint);
+  write_record(checkpoint, {bodies().time()});
 }
 
 void FixWheelHistory::restart(char* buffer) { resume_time_ = *reinterpret_cast<const double*>(buffer); }

@@ -35,7 +35,6 @@ class FixWheelHistory : public LAMMPS_NS::Fix, public Described, public Dependen
 
  private:
   void open();
-  void make_folder() const;
   void record();
   void write_frame();
   RunClosing closing();

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "coupling/grain_check.h"
 #include "coupling/guard.h"
+#include "coupling/restart_record.h"
 #include "modify.h"
 #include "update.h"
 
@@ -194,9 +195,7 @@ void FixWorld::write_restart(FILE* file) {
   if (communicator_.rank() != 0) return;
   std::vector<double> state = world_.shown_forces();
   state.insert(state.begin(), {time_, in_run ? 1.0 : 0.0, static_cast<double>(state.size())});
-  const int size = static_cast<int>(state.size() * sizeof(double));
-  std::fwrite(&size, sizeof size, 1, file);
-  std::fwrite(state.data(), sizeof(double), state.size(), file);
+  write_record(file, state);
 }
 
 void FixWorld::restart(char* buffer) {
