@@ -32,6 +32,7 @@ class FixContactBodies : public LAMMPS_NS::Fix, public Described, public Depende
   Options options_;
   LAMMPS_NS::Fix *body_fix_, *ground_fix_;
   std::unique_ptr<GroundContact> contact_;
+  bool half_body_ = false;
 };
 
 }  // namespace furrow::coupling

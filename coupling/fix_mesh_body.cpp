@@ -141,6 +141,9 @@ FixMeshBody::Arguments::Arguments(LAMMPS_NS::LAMMPS& lammps, int narg, char** ar
       body(FixWorld::find_body(lammps, options.where("body"), options.word("body")).body()),
       words{arg[0], arg[1], "mesh/surface", "fix", options.word("body"), "type", std::to_string(options.integer("type"))} {
   for (std::string& word : words) pointers.push_back(word.data());
+  if (body.half_model())
+    throw InputError(options.where("body"), fmt::format("is '{}', which is a half model", options.word("body")),
+                     "a whole body", "grains have no plane of symmetry: give the body 'half no'");
   if (options.integer("type") > lammps.atom->ntypes)  // LIGGGHTS would read properties beyond their end
     throw InputError(options.where("type"), fmt::format("is {}", options.integer("type")),
                      fmt::format("1 to {}, the types of create_box", lammps.atom->ntypes));

@@ -11,6 +11,7 @@
 #include "coupling/liggghts_access.h"
 #include "coupling/words.h"
 #include "error.h"
+#include "io/sidewall_cache.h"
 #include "io/tyre_file.h"
 #include "modify.h"
 #include "update.h"
@@ -51,7 +52,7 @@ std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& op
     throw InputError(options.where("axle"), fmt::format("has y = {} m with a half model", hub.centre.y()),
                      "y = 0: the plane of symmetry");
 
-  auto tyre = std::make_unique<DarnellTyre>(parameters, settings, hub, options.subject());
+  auto tyre = std::make_unique<DarnellTyre>(parameters, settings, hub, options.subject(), open_sidewall_table);
   tyre->settle(nullptr);
   return tyre;
 }

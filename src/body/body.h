@@ -38,6 +38,8 @@ class Body {
   virtual Surface& surface() = 0;
   const Surface& surface() const { return const_cast<Body*>(this)->surface(); }
   virtual Balance balance() const = 0;
+  /// True when the surface is the half y >= 0 of a body that is its own mirror image in y = 0; loads and balance are those of the whole.
+  virtual bool half_model() const { return false; }
 
   /// Everything needed to continue exactly, as numbers; restore() of another build or another scene is refused.
   virtual std::vector<double> state() const = 0;

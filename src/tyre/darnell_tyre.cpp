@@ -9,7 +9,6 @@
 #include "core/error.h"
 
 #include "tyre/sidewall_direct.h"
-#include "tyre/sidewall_table.h"
 
 namespace furrow {
 
@@ -29,12 +28,13 @@ double smooth_step(double u) {
   return u * u * u * (10.0 - u * (15.0 - 6.0 * u));
 }
 
-std::unique_ptr<Sidewall> make_sidewall(const TyreParameters& tyre, bool direct) {
+std::unique_ptr<Sidewall> make_sidewall(const TyreParameters& tyre, bool direct, const SidewallTableMaker& make_table) {
   if (direct) return std::make_unique<SidewallDirect>(tyre.sidewall, tyre.pressure);
   SidewallTableGrid grid;  // wrinkles turn the tread's edge further than a smooth shape does
   grid.rotation_min = radians(-105);
   grid.rotation_max = radians(105);
   grid.rotation_nodes = 21;
+  if (make_table) return make_table(tyre.sidewall, tyre.pressure, grid);
   return std::make_unique<SidewallTable>(tyre.sidewall, tyre.pressure, grid);
 }
 
@@ -77,11 +77,11 @@ struct DarnellTyre::Mesh {
 };
 
 DarnellTyre::DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& settings, const DarnellTyreHub& hub,
-                         const std::string& where)
-    : DarnellTyre(tyre, settings, hub, Mesh(tyre, settings, where)) {}
+                         const std::string& where, const SidewallTableMaker& make_table)
+    : DarnellTyre(tyre, settings, hub, make_table, Mesh(tyre, settings, where)) {}
 
 DarnellTyre::DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& settings, const DarnellTyreHub& hub,
-                         Mesh mesh)
+                         const SidewallTableMaker& make_table, Mesh mesh)
     : WheelHub(hub.inertia, hub.centre, "tyre"),
       tyre_(tyre),
       settings_(settings),
@@ -116,7 +116,7 @@ DarnellTyre::DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& 
     if (settings.half && side < 0) continue;
     std::vector<int> edge;
     for (int i = 0; i < settings.around; ++i) edge.push_back(tread_node(i, side > 0 ? rows_ : 0));
-    rings_.emplace_back(make_sidewall(tyre, settings.direct), tyre, side, std::move(edge), width);
+    rings_.emplace_back(make_sidewall(tyre, settings.direct, make_table), tyre, side, std::move(edge), width);
   }
 
   // Surface: the tread's nodes, then rows of sidewall nodes, one ring after the other; triangles outward.
@@ -134,7 +134,7 @@ DarnellTyre::DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& 
   for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
     const Shell4::Quad& q = mesh.quads[e];
     add_quad(q[0], q[1], q[2], q[3],
-             2 * (static_cast<int>(e) % rows_) >= rows_ && !settings.half);  // mirrored about the middle
+             settings.half || 2 * (static_cast<int>(e) % rows_) >= rows_);  // mirrored about the middle
   }
   for (std::size_t r = 0; r < rings_.size() && points > 0; ++r) {
     const int first = tread_nodes + static_cast<int>(r) * n * points;

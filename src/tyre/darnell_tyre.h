@@ -1,6 +1,7 @@
 #pragma once
 /// The tyre of Shoop and Darnell (TR-01-16): a shell for the tread, sidewalls by chain or table, a rigid rim.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "fe/kinetic_damping.h"
 #include "fe/shell4.h"
 #include "tyre/sidewall_ring.h"
+#include "tyre/sidewall_table.h"
 
 namespace furrow {
 
@@ -23,6 +25,10 @@ struct DarnellTyreSettings {
   int sidewall_points = 4;  ///< rows of nodes on each side between bead and tread, for contact; 0: the tread alone can touch
   double damping_rate = 100.0;  ///< [1/s] of motion relative to the rim, c in f = -c m (v - v_rim)
 };
+
+/// Makes the lookup table of a sidewall, or fetches one that was made before (io/sidewall_cache.h).
+using SidewallTableMaker =
+    std::function<std::unique_ptr<Sidewall>(const SidewallParameters&, double pressure, const SidewallTableGrid&)>;
 
 /// How a tyre is brought to rest.
 struct SettleOptions {
@@ -52,9 +58,10 @@ struct DarnellTyreHub {
 /// Weight of the tread: as everywhere in a rig the load on the axle includes it (rig/wheel_rig.h); the tread knows no gravity.
 class DarnellTyre : public WheelHub {
  public:
+  /// @param make_table where the sidewalls' tables come from; without it they are made
   /// @throws InputError for settings or parameters that cannot be
   DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& settings, const DarnellTyreHub& hub,
-              const std::string& where = "tyre");
+              const std::string& where = "tyre", const SidewallTableMaker& make_table = {});
 
   const TyreParameters& parameters() const { return tyre_; }
   const DarnellTyreSettings& settings() const { return settings_; }
@@ -72,6 +79,7 @@ class DarnellTyre : public WheelHub {
   using Body::surface;
   Surface& surface() override { return surface_; }
   Balance balance() const override;
+  bool half_model() const override { return settings_.half; }
   std::vector<double> state() const override;
   void restore(const std::vector<double>& state) override;
 
@@ -98,7 +106,8 @@ class DarnellTyre : public WheelHub {
 
  private:
   struct Mesh;
-  DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& settings, const DarnellTyreHub& hub, Mesh mesh);
+  DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& settings, const DarnellTyreHub& hub,
+              const SidewallTableMaker& make_table, Mesh mesh);
   void compute_internal();  // fills nodes_.force, nodes_.moment, potential_, rim_force_, rim_moment_
   void add_damping();       // likewise
   void disturb();

@@ -1,0 +1,74 @@
+// Half a tyre on half a ground against the whole tyre on the same half a ground: the same arithmetic in another order.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "../../unit/mpm/ground_scene.h"
+#include "io/tyre_file.h"
+#include "tyre/darnell_tyre.h"
+
+namespace furrow {
+namespace {
+
+struct Outcome {
+  double height, spin, force_x, force_z, width, friction, work, dissipated;
+};
+
+/// Inflated without a disturbance, so that the whole tyre stays symmetric, dropped on snow and pulled along with friction.
+Outcome drop_and_pull(bool half) {
+  TyreParameters parameters = read_tyre_file(std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/p235_75r15.yaml");
+  parameters.pressure = 4e4;
+  DarnellTyreSettings settings;
+  settings.across = 4;
+  settings.around = 36;
+  settings.half = half;
+  settings.damping_rate = 2000.0;
+  DarnellTyre tyre(parameters, settings, {{20.0, 0.6, 0.4}, {0.0, 0.0, 0.36}});
+  const double dt = 0.9 * tyre.stable_time_step();
+  for (int i = 0; i < 1500; ++i) tyre.advance(dt);
+
+  GroundParameters snow = testing_ground::box(testing_ground::law_of(testing_ground::snow()), {-0.3, 0.0, -0.12}, {0.5, 0.2, 0.0}, 0.04);
+  snow.z = testing_ground::even(-0.12, 0.12, 0.04);
+  testing_ground::set_faces(snow, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
+  MpmGround ground(snow, Communicator());
+  GroundContact contact(tyre, ground, ContactParameters{}, !half, "contact");
+  World world;
+  world.add(tyre, "tyre");
+  world.add(ground, "ground");
+  world.add(contact, "contact");
+  tyre.release(WheelHub::z);
+  tyre.release(WheelHub::spin);
+  tyre.prescribe(WheelHub::x, 3.0);
+  tyre.set_load({0.0, 0.0, -1500.0});
+  tyre.set_velocity({3.0, 0.0, -2.0}, {4.0, 0.0, 0.0});
+  for (int i = 0; i < 600; ++i) {
+    world.clear_forces();
+    world.advance(5e-5);
+    world.show_interaction_forces();
+  }
+  const WheelHub::Wrench wrench = tyre.ground_wrench();
+  const double both = half ? 2.0 : 1.0;
+  return {tyre.centre().z(),      tyre.position(WheelHub::spin),  wrench.force.x(), wrench.force.z(), tyre.section_width(),
+          both * contact.friction_loss(), ground.balance().contact_work, ground.balance().dissipated_energy};
+}
+
+TEST(HalfTyre, OnHalfAGroundIsTheWholeOnHalfAGround) {
+  const Outcome half = drop_and_pull(true), whole = drop_and_pull(false);
+  EXPECT_LT(whole.height, 0.33);
+  EXPECT_GT(whole.force_z, 500.0);
+  EXPECT_LT(whole.force_x, -50.0);
+  EXPECT_GT(whole.friction, 1.0);
+  EXPECT_GT(whole.dissipated, 5.0);
+  EXPECT_NEAR(half.height, whole.height, 1e-8);
+  EXPECT_NEAR(half.spin, whole.spin, 1e-7);
+  EXPECT_NEAR(half.width, whole.width, 1e-7);
+  EXPECT_NEAR(half.force_x / whole.force_x, 1.0, 1e-6);
+  EXPECT_NEAR(half.force_z / whole.force_z, 1.0, 1e-6);
+  EXPECT_NEAR(half.friction / whole.friction, 1.0, 1e-6);
+  EXPECT_NEAR(half.work / whole.work, 1.0, 1e-6);
+  EXPECT_NEAR(half.dissipated / whole.dissipated, 1.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace furrow
