@@ -18,6 +18,7 @@ from .style import annotate_panel, save, use_style
 
 PLATE_LEVELS = (0.05, 0.1, 0.2, 0.3, 0.5)          # sinkage over depth of the ground
 STRESS_LEVELS = (2e3, 1e4, 5e4, 1e5, 2e5, 5e5)     # Pa
+COVERAGE = 2.0                                     # standard deviations within which two values agree
 TOLERANCES = {"size": 0.02, "depth": 0.06, "density": 0.1, "speed": 0.02}
 
 
@@ -125,6 +126,64 @@ def compare(curves, anyway=False):
     return result
 
 
+def numerical_errors(base, checks, levels):
+    """Relative standard deviation of base's y at levels by what checks vary: {"size": .., "domain": .., "packing": ..} of arrays, NaN: not known.
+
+    checks are curves of the same test; a check with another size (facts cell or diameter) and base's seed gives the error of the size, of first
+    order as in cost_table; one with another box the error of the domain; else it is another packing. The last two are differences from the
+    curve of the same size.
+    """
+    size = lambda c: c.facts.get("cell", c.facts.get("diameter", math.nan))
+    box = lambda c: c.facts.get("box", math.nan)
+    # of no size and box: facts that are not numbers, or are not there, differ in nothing
+    same = lambda a, b: not abs(a - b) > 0.02 * abs(a)
+    log = lambda c: np.log(np.interp(levels, c.x, c.y))
+    # np.interp would go on with the end values
+    inside = lambda c: np.array([c.x[0] <= v <= c.x[-1] for v in levels])
+    found = {name: np.full(len(levels), np.nan) for name in ("size", "domain", "packing")}
+    series = [base]
+    for check in checks:
+        if not same(size(base), size(check)) and all(not same(size(c), size(check)) for c in series):
+            series.append(check)
+    if len(series) > 1:
+        h = np.array([size(c) for c in series])
+        slope = np.polyfit(h, np.array([log(c) for c in series]), 1)[0]
+        found["size"] = np.where(np.all([inside(c) for c in series], axis=0), np.abs(slope) * size(base), np.nan)
+    for check in checks:
+        if any(check is c for c in series):
+            continue
+        twin = next((c for c in series if same(size(c), size(check))), None)
+        if twin is None:
+            continue
+        difference = np.where(inside(check) & inside(twin), np.abs(log(check) - log(twin)), np.nan)
+        # two packings: the standard deviation of one is the difference over sqrt(2)
+        name, value = ("packing", difference / math.sqrt(2)) if same(box(twin), box(check)) else ("domain", difference)
+        found[name] = np.fmax(found[name], value)
+    if base.ground == "continuum":
+        found["packing"] = np.zeros(len(levels))  # a lattice: nothing is random
+    return found
+
+
+def judge(result, k, errors):
+    """A sentence: at which levels curve k agrees with the first within twice the known errors. errors: one dict of numerical_errors a curve."""
+    total = np.zeros(len(result.levels))
+    lacking = []
+    for c, column in ((0, errors[0]), (k, errors[k])):
+        for name, value in column.items():
+            total += np.nan_to_num(value) ** 2
+            if np.isnan(value).all():
+                lacking.append(f"{name} of {result.curves[c].label}")
+        total += (result.errors[:, c] / result.values[:, c]) ** 2
+    allowed = COVERAGE * np.sqrt(total)
+    agree = np.abs(np.log(result.values[:, k] / result.values[:, 0])) <= allowed
+    levels = lambda wanted: ", ".join(_level(result.curves[0].kind, v) for v, yes in zip(result.levels, agree) if yes == wanted)
+    words = "agree within their uncertainty at every level" if agree.all() else f"agree at {levels(True)}, not at {levels(False)}" if agree.any() \
+        else "agree at no level"
+    span = f"{100 * allowed.min():.0f}" + (f" to {100 * allowed.max():.0f}" if f"{100 * allowed.min():.0f}" != f"{100 * allowed.max():.0f}" else "")
+    return f"{result.curves[0].label} and {result.curves[k].label} {words} (allowed {span} %)" + \
+        (f"; not known: {', '.join(lacking)}" if lacking else "")
+
+
 def _level(kind, value):
     return f"{1e3 * value:.3g} mm" if kind == "plate" else f"{value / 1e3:.3g} kPa"
 
@@ -157,7 +216,8 @@ def write(result, folder):
             group.attrs["kind"], group.attrs["ground"] = c.kind, c.ground
 
 
-def draw(result, target, measured=None):
+def draw(result, target, measured=None, formulas=()):
+    """measured: (density ratio, stress) of an oedometer; formulas: (label, x, y) of lines to lay beside."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -174,6 +234,10 @@ def draw(result, target, measured=None):
             axes.fill_between(1e3 * c.x, 1e-3 * (c.y - 2 * c.noise), 1e-3 * (c.y + 2 * c.noise), color=colour, alpha=0.2, lw=0)
         else:
             axes.semilogx(1e-3 * c.x, c.y, color=colour, lw=1.4, label=c.label)
+    for (label, x, y), dashes in zip(formulas, ((6, 2), (2, 2), (6, 2, 1, 2), (1, 2))):
+        axes.plot(1e3 * x, 1e-3 * y, color="0.45", lw=1.1, dashes=dashes, label=label)
+    if formulas:  # a formula may lie far above: the runs keep their room
+        axes.set_ylim(0, 1e-3 * 1.6 * max(c.y.max() for c in result.curves))
     if measured:
         axes.plot([1e-3 * s for _, s in measured], [ratio for ratio, _ in measured], "ko", ms=5, label="measured")
     axes.set(xlabel="sinkage [mm]" if kind == "plate" else "axial stress [kPa]",

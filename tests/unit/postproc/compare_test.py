@@ -18,7 +18,7 @@ sys.path.insert(0, str(SOURCE / "postproc"))
 import h5py
 import numpy as np
 
-from furrow_post import compare, conditions, cost, cost_table
+from furrow_post import compare, conditions, cost, cost_table, curves
 from furrow_post.results import ResultsError
 
 FURROW_POST = SOURCE / "postproc" / "furrow-post"
@@ -138,6 +138,37 @@ def write_run(folder, load=1000.0, sinkage=0.05, datum=0.0):
     (folder / "summary.json").write_text(json.dumps({"window": {"start": 1.0, "end": 1.9}, "quantities": {
         "sinkage": quantity(sinkage, 1e-3, "m"), "resistance_coefficient": quantity(0.2, 0.01, ""), "force_z": quantity(load, 1.0, "N"),
         "drawbar_pull": quantity(-0.2 * load, 1.0, "N"), "drive_torque": quantity(0.0, 0.0, "N m"), "slip": quantity(0.2, 0.0, "")}}))
+
+
+def plate_curve(label, factor, box=0.8, **facts):
+    """p = factor x 1 MPa/m z."""
+    z = np.linspace(1e-4, 0.05, 200)
+    return curves.Curve(label, "plate", "grains", z, 1e6 * factor * z, {"depth": 0.1, "box": box, **facts}, np.zeros(200))
+
+
+class CurveErrors(unittest.TestCase):
+    base = plate_curve("base", math.exp(5 * 0.02), diameter=0.02)
+
+    def test_errors_are_those_of_the_checks(self):
+        checks = [plate_curve("coarse", math.exp(5 * 0.04), diameter=0.04), plate_curve("seed", 1.1 * math.exp(5 * 0.04), diameter=0.04),
+                  plate_curve("wide", 0.9 * math.exp(5 * 0.02), box=1.2, diameter=0.02)]
+        found = curves.numerical_errors(self.base, checks, [0.01, 0.02])
+        np.testing.assert_allclose(found["size"], 5 * 0.02, rtol=1e-9)   # ln p is linear in the size
+        np.testing.assert_allclose(found["packing"], math.log(1.1) / math.sqrt(2), rtol=1e-9)
+        np.testing.assert_allclose(found["domain"], -math.log(0.9), rtol=1e-9)
+        self.assertTrue(all(np.isnan(v).all() for v in curves.numerical_errors(self.base, [], [0.01]).values()))
+        # beyond the end of a check nothing is known
+        self.assertTrue(np.isnan(curves.numerical_errors(self.base, checks, [0.06])["size"][0]))
+
+    def test_verdict_names_what_is_not_known(self):
+        other = plate_curve("other", 1.3 * math.exp(5 * 0.02), diameter=0.02)
+        result = curves.compare([self.base, other])
+        none = {name: np.full(len(result.levels), np.nan) for name in ("size", "domain", "packing")}
+        known = {name: np.full(len(result.levels), 0.1) for name in ("size", "domain", "packing")}
+        self.assertEqual(curves.judge(result, 1, [known, none]), "base and other agree within their uncertainty at every level (allowed 35 %); "
+                         "not known: size of other, domain of other, packing of other")
+        far = curves.compare([self.base, plate_curve("far", 2.0, diameter=0.02)])
+        self.assertEqual(curves.judge(far, 1, [known, known]), "base and far agree at no level (allowed 49 %)")
 
 
 def write_plate(folder, k, size=0.1, speed=0.5):
