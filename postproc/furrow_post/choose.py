@@ -11,9 +11,9 @@ from .summary import with_error
 
 
 def command(arguments):
-    rows, _ = cost_table.read(arguments.table)
+    rows, comments = cost_table.read(arguments.table)
     runnable = {row.run for row in rows if row.options}
-    assessed = [a for a in cost.assess(rows) if a.row.run in runnable]
+    assessed = [a for a in cost.assess(rows, cost_table.wanted_wheel(comments)) if a.row.run in runnable]
     if not assessed:
         raise ResultsError(f"{arguments.table}: no row says how to run it (column options)")
     choice, within = cost.recommend(assessed, arguments.error)
@@ -34,7 +34,15 @@ def reasons(choice, within, assessed, error):
     if row.model == "half":
         lines.append("  half model: exact for straight travel on ground that is symmetric, and half the cost")
     kinds = {a.row.wheel for a in assessed if math.isfinite(a.error)}
-    lines.append(f"  {row.wheel}: " + ("the only kind whose error is known" if len(kinds) == 1 else "cheapest within the error"))
+    lines.append(f"  {row.wheel}: " + ("the only kind whose error is known" if len(kinds) == 1 else "cheapest within the error" if within else "least error"))
+    for kind in sorted(kinds - {row.wheel}):
+        other = min((a for a in assessed if a.row.wheel == kind and math.isfinite(a.error)), key=lambda a: a.error)
+        worst = max(other.models, key=other.models.get)
+        stands = f"standing in for the {row.wheel} it errs by {100 * other.models[worst]:.0f} % in the {worst}, whatever its size" \
+            if other.models[worst] > 0 else f"{100 * other.error:.0f} % at best, {duration(other.row.cpu_time)}"
+        lines.append(f"  not {kind}: {stands}")
+    if choice.models[choice.worst] > 0:
+        lines.append("  it stands in for another wheel: " + ", ".join(f"{q} off by {100 * m:.0f} %" for q, m in choice.models.items()))
     for ground in sorted({a.row.ground for a in assessed} - {row.ground}):
         try:
             other, ok = cost.recommend(assessed, error, {ground})

@@ -18,7 +18,8 @@ class Assessed:
     row: cost_table.Row
     errors: dict       # quantity -> relative error, NaN: not known
     parts: dict        # quantity -> Components
-    references: dict   # quantity -> value at size zero
+    references: dict   # quantity -> value at size zero, of the wanted wheel
+    models: dict       # quantity -> relative error of standing in for the wanted wheel; 0 of that wheel itself
     pareto: bool = False
 
     @property
@@ -30,22 +31,32 @@ class Assessed:
         return max(self.errors, key=lambda q: self.errors[q])
 
 
-def assess(rows):
-    """Every base run of every family, with its error against the value at size zero of its own family."""
+def assess(rows, wheel=""):
+    """Every base run of every family, with its error against the value at size zero of its own family.
+
+    wheel: the one that is wanted. A run of another wheel errs besides by the difference of the two families' values at size zero on its ground.
+    """
     found = []
-    for family in cost_table.families(rows).values():
+    families = cost_table.families(rows)
+    for family in families.values():
+        ground, kind = family.rows[0].ground, family.rows[0].wheel
+        target = family if kind == (wheel or kind) else next((f for key, f in families.items() if (key[0], key[2]) == (ground, wheel)), None)
         for row in family.bases:
-            errors, parts, references = {}, {}, {}
+            errors, parts, references, models = {}, {}, {}, {}
             for quantity in cost_table.QUANTITIES:
                 value, time_error = row.value(quantity)
                 component = family.components(quantity, row.size, time_error)
-                reference, reference_error = family.reference(quantity)
+                own, own_error = family.reference(quantity)
+                reference, reference_error = target.reference(quantity) if target else (own, math.nan)
+                models[quantity] = abs(own - reference) / abs(reference)
+                if target is not family:
+                    reference_error = math.hypot(reference_error, own_error)
                 parts[quantity], references[quantity] = component, reference
                 # A value at size zero that noise leaves open by more than half of itself says nothing about errors.
                 resolved = math.isfinite(component.size) and reference_error < 0.5 * abs(reference)
-                total = math.hypot(component.total, reference_error) if resolved else math.nan
+                total = math.hypot(component.total, reference_error, own - reference) if resolved else math.nan
                 errors[quantity] = total / abs(reference)
-            found.append(Assessed(row, errors, parts, references))
+            found.append(Assessed(row, errors, parts, references, models))
     ordered = sorted((a for a in found if math.isfinite(a.error)), key=lambda a: (a.row.cpu_time, a.error))
     best = math.inf
     for a in ordered:

@@ -73,6 +73,12 @@ def read(path):
         raise ResultsError(f"{path}: {error}") from error
 
 
+def wanted_wheel(comments):
+    """The wheel that a table is about, from its comment "# wheel: tyre"; empty where every wheel is judged by itself."""
+    found = [line.partition(":")[2].strip() for line in comments if line.startswith("# wheel:")]
+    return found[0] if found else ""
+
+
 def write(path, rows, comments=()):
     with open(path, "w", encoding="utf-8", newline="") as file:
         file.write("".join(line.rstrip() + "\n" for line in comments))

@@ -104,7 +104,7 @@ def _cost(arguments):
             rows.append(cost_table.row_of(conditions.read(folder, label)))
     if arguments.write:
         cost_table.write(arguments.write, rows, comments)
-    assessed = cost.assess(rows)
+    assessed = cost.assess(rows, cost_table.wanted_wheel(comments))
     print(cost.text(assessed, arguments.error))
     target = arguments.output or Path("cost.png")
     cost.draw(assessed, arguments.error, target)

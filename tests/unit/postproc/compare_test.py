@@ -1,6 +1,7 @@
 """furrow-post compare, cost, choose and report on made runs with known answers; refusals with their words."""
 
 import csv
+import dataclasses
 import json
 import math
 import os
@@ -70,6 +71,20 @@ class Table(unittest.TestCase):
         for wanted, name, reached in ((0.101, "c0.02", True), (0.08, "g0.02", True), (0.001, "c0.01", False)):
             choice, within = cost.recommend(assessed, wanted)
             self.assertEqual((choice.row.run, within), (name, reached))
+
+    def test_another_wheel_errs_by_the_difference_of_values_at_size_zero(self):
+        tyres = [dataclasses.replace(r, run="t" + r.run, wheel="tyre", model="whole", sinkage=1.25 * r.sinkage, cpu_time=9 * r.cpu_time)
+                 for r in made_runs() if r.ground == "continuum"]
+        assessed = {a.row.run: a for a in cost.assess(made_runs() + tyres, "tyre")}
+        stand_in, tyre = assessed["c0.01"], assessed["tc0.01"]
+        self.assertAlmostEqual(tyre.error, 0.05, places=4)                      # its own size, as before
+        self.assertEqual(tyre.models["sinkage"], 0.0)
+        self.assertAlmostEqual(stand_in.models["sinkage"], 0.2, places=6)       # 0.1 m for 0.125 m
+        self.assertAlmostEqual(stand_in.errors["sinkage"], math.hypot(0.2, 0.2 * 0.01 / 0.125), places=4)
+        self.assertAlmostEqual(stand_in.references["sinkage"], 0.125, places=6)
+        self.assertTrue(math.isnan(assessed["g0.02"].error))                    # no tyre on grains to be judged by
+        self.assertEqual(cost.recommend(list(assessed.values()), 0.101)[0].row.run, "tc0.02")
+        self.assertEqual(cost_table.wanted_wheel(["# made", "# wheel: tyre"]), "tyre")
 
     def test_size_and_cost_beyond_the_table(self):
         # coefficient error 5 h = 1 % at h = 2 mm, cost 1e-4/h^4
