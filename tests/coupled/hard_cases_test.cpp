@@ -81,7 +81,9 @@ TEST_P(HardCase, LosesNothing) {
 
 INSTANTIATE_TEST_SUITE_P(Wheel, HardCase,
                          testing::Values(Case{"dropped from 50 mm", 5e6, 4e-5, 0.08, 0.0, 0.05}, Case{"slip 90 %", 5e6, 4e-5, 0.08, 0.9, 0.0},
-                                         Case{"stiff", 1e8, 9e-6, 0.03, 0.2, 0.0}, Case{"thin: grains caught on the floor", 5e6, 4e-5, 0.025, 0.5, 0.0}),
+                                         Case{"stiff", 1e8, 9e-6, 0.03, 0.2, 0.0}, Case{"thin: grains caught on the floor", 5e6, 4e-5, 0.025, 0.5, 0.0},
+                                         // A tenth of a megapascal: grains overlap by a quarter of their diameter under the wheel
+                                         Case{"very soft", 1e5, 2e-4, 0.08, 0.2, 0.0}),
                          [](const auto& entry) { return fmt::format("case_{}", entry.index); });
 
 /// A column of sticky grains whose side is taken away falls and comes to rest: kinetic energy never exceeds what gravity gives.
