@@ -107,26 +107,30 @@ class Laboratory(unittest.TestCase):
         self.assertAlmostEqual(found["rms_ln_density"], np.log(2) / 4, delta=1e-3)
 
     def test_cap_law_from_its_own_curves(self):
-        """inputs/laboratory/identify finds beta, E, nu, R and the hardening line of the law that the curves were made with."""
+        """inputs/laboratory/identify finds phi, E, nu, R and the hardening line of the law that the curves were made with."""
         path = Path(os.environ["FURROW_SOURCE"]) / "inputs" / "laboratory" / "identify"
         loader = importlib.machinery.SourceFileLoader("identify", str(path))
         identify = importlib.util.module_from_spec(importlib.util.spec_from_loader("identify", loader))
         loader.exec_module(identify)
-        tangent, d, E, nu, R, H = 1.1, 100.0, 4e6, 0.2, 0.3, 2e6  # p_b = 1 kPa + H eps
+        tangent, E, nu, R, H = 1.1, 4e6, 0.2, 0.3, 2e6  # p_b = its first value + H eps
+        sine = 3 * tangent / (6 + tangent)  # triaxial compression
         folders = []
         for lateral in (1e4, 5e4):
             axial = np.linspace(0, 0.2, 4000)
-            q = np.minimum(E * axial, (d + lateral * tangent) / (1 - tangent / 3))
+            q = np.minimum(E * axial, lateral * tangent / (1 - tangent / 3))
             strain = np.column_stack((-nu * axial, -nu * axial, axial))
             stress = np.column_stack((np.full_like(axial, lateral),) * 2 + (lateral + q,))
             folders.append(write(self.folder / f"triaxial_{lateral:g}", f"test triaxial ground made confinement {lateral}", cell(strain, stress)))
-        slope, _ = identify.friction([laboratory.Test(f) for f in folders], d)
-        self.assertAlmostEqual(slope, tangent, delta=1e-3)
+        found, _ = identify.friction([laboratory.Test(f) for f in folders])
+        self.assertAlmostEqual(found, sine, delta=1e-3)
+        self.assertAlmostEqual(identify.MATCH["triaxial"][0](found), tangent, delta=4e-3)
+        self.assertAlmostEqual(identify.MATCH["plane_strain"][0](np.sin(np.radians(30.0))), np.sqrt(0.75), places=9)
         np.testing.assert_allclose(identify.elasticity(laboratory.Test(folders[1])), (E, nu), rtol=1e-3)
         p, q, tip = identify.stresses(np.geomspace(1e3, 3e5, 3000), R, tangent, 0.0)
         self.assertAlmostEqual(identify.eccentricity(float(((p - q / 3) / (p + 2 * q / 3))[0]), tangent), R, delta=1e-3)
-        axial, modulus = p + 2 * q / 3, E * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
-        compression = (axial - axial[0]) / modulus + (tip - tip[0]) / H
+        self.assertEqual(identify.eccentricity(0.1, tangent), identify.SMALLEST)
+        axial = p + 2 * q / 3
+        compression = (p - p[0]) * 3 * (1 - 2 * nu) / E + (tip - tip[0]) / H  # elastic and plastic volume
         rows = cell(np.column_stack((0 * p, 0 * p, compression)), np.column_stack((p - q / 3, p - q / 3, axial)))
         rows[:, 7] = 1500.0 * np.exp(np.concatenate((compression[:1], compression)))
         test = laboratory.Test(write(self.folder / "oedometer", "test oedometer ground made", rows))
