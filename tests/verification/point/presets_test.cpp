@@ -80,6 +80,18 @@ TEST(Presets, McCormickSandIsTRTables4And5) {
               1.0);  // first yield in hydrostatic compression
 }
 
+/// inputs/laboratory/identify made both laws from these grains' tests: they follow the oedometer that they were made with.
+TEST(Presets, DrySandFollowsTheOedometerOfItsGrains) {
+  const CsvTable grains = CsvTable::read(inputs + "/validation/grains/sand_dry_oedometer.csv");
+  const std::vector<double> rho = grains.numbers("rho_kgm3");
+  for (const char* name : {"dry_sand", "dry_sand_triaxial"}) {
+    const auto sand = file_of(name).make();
+    const PointHistory history = oedometer(*sand, grains.numbers("sigma1_Pa"));
+    for (std::size_t i = 0; i < rho.size(); ++i)
+      EXPECT_NEAR(sand->current_density(history.records[200 * (i + 1)].state) / rho[i], 1.0, 1.5e-3) << name << ", row " << i;
+  }
+}
+
 TEST(Presets, SnowAsPrintedIsTRTable3) {
   const MaterialOptions snow = options_of("fresh_snow_as_printed");
   const CsvTable table = reference("snow_tr_table3");
