@@ -24,6 +24,7 @@ constexpr const char* hertz = "model hertz tangential history";
 
 void make_bed(Scene& scene, const Case& c) {
   scene.granular_box(Vector3(-0.13, -0.06, -0.01), Vector3(0.13, 0.06, 0.3), 0.003);
+  if (c.young < 5e6) scene.command("soft_particles yes");  // LIGGGHTS asks for this word below 5 MPa
   scene.contact_properties(c.young, 0.3, 0.3, 0.5);
   scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity 9.81 vector 0 0 -1", hertz, c.step));
   for (const char* wall : {"xplane -0.12", "xplane 0.12", "yplane -0.05", "yplane 0.05", "zplane 0"})
