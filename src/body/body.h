@@ -35,6 +35,9 @@ class Body {
   virtual double stable_time_step() const = 0;
   /// One step under surface().f (held constant) and the body's own loads. @throws StateError
   virtual void advance(double dt) = 0;
+  /// Around the steps that make up an interval of the world: what a body reports of "the last step" then is the interval's mean.
+  virtual void begin_interval() {}
+  virtual void end_interval() {}
   virtual Surface& surface() = 0;
   const Surface& surface() const { return const_cast<Body*>(this)->surface(); }
   virtual Balance balance() const = 0;

@@ -100,6 +100,17 @@ Matrix3 WheelHub::attitude() const {
   return carrier(angles_[1], angles_[2]) * Eigen::AngleAxisd(angles_[0], Vector3::UnitY()).toRotationMatrix();
 }
 
+void WheelHub::begin_interval() {
+  interval_ = 0.0;
+  constraint_impulse_.fill(0.0);
+}
+
+void WheelHub::end_interval() {
+  if (interval_ > 0.0)
+    for (std::size_t c = 0; c < coordinates; ++c) constraint_[c] = constraint_impulse_[c] / interval_;
+  interval_ = -1.0;
+}
+
 void WheelHub::advance_hub(double dt, const Vector3& force, const Vector3& moment) {
   if (!(std::isfinite(dt) && dt > 0.0)) throw StateError(fmt::format("{}: a step of {} s", name_, dt));
   if (!(force.allFinite() && moment.allFinite() && load_.allFinite() && std::isfinite(axle_torque_)))
@@ -108,6 +119,10 @@ void WheelHub::advance_hub(double dt, const Vector3& force, const Vector3& momen
                                  load_.y(), load_.z(), axle_torque_));
   advance_translation(dt, force);
   advance_rotation(dt, moment);
+  if (interval_ >= 0.0) {
+    interval_ += dt;
+    for (std::size_t c = 0; c < coordinates; ++c) constraint_impulse_[c] += dt * constraint_[c];
+  }
   if (!(std::abs(angles_[2]) < largest_camber))
     throw StateError(fmt::format("{}: fell over, its camber is {:.4g} degrees; hold the camber or guide the wheel", name_,
                                  degrees(angles_[2])));

@@ -64,9 +64,11 @@ class WheelHub : public Body {
   const Vector3& angular_velocity() const { return omega_; }  ///< [rad/s] in space, half a step ago
   const Vector3& load() const { return load_; }               ///< [N]
   double axle_torque() const { return axle_torque_; }         ///< [N m] as set
-  /// Force [N] or torque [N m] with which whatever holds or prescribes a coordinate acts on the wheel, mean of the last step; for
-  /// the spin of a free wheel this is the axle torque. Zero for other free coordinates.
+  /// Force [N] or torque [N m] with which whatever holds or prescribes a coordinate acts on the wheel, mean of the last step or interval;
+  /// for the spin of a free wheel this is the axle torque. Zero for other free coordinates.
   double constraint(Coordinate coordinate) const { return constraint_[coordinate]; }
+  void begin_interval() override;
+  void end_interval() override;
 
   virtual double nominal_radius() const = 0;  ///< [m] without load, grousers or ground: the rim speed's radius
   virtual double lowest_point() const = 0;  ///< [m] z of the unloaded shape, without grousers: what a sinkage is counted to
@@ -107,7 +109,9 @@ class WheelHub : public Body {
 
   std::array<Motion, coordinates> motion_;
   std::array<double, coordinates> prescribed_{};  // [m/s or rad/s]
-  std::array<double, coordinates> constraint_{};  // [N or N m]
+  std::array<double, coordinates> constraint_{};          // [N or N m]
+  std::array<double, coordinates> constraint_impulse_{};  // of the interval so far [N s or N m s]
+  double interval_ = -1.0;                                // [s] so far; < 0 outside of one
   Vector3 load_ = Vector3::Zero();
   double axle_torque_ = 0.0, vertical_damping_ = 0.0;
   double given_work_ = 0.0, load_work_ = 0.0, drive_work_ = 0.0, dissipated_ = 0.0;  // [J]

@@ -42,22 +42,27 @@ int World::advance(double interval) {
     smallest = std::min(smallest, stable);
   }
   const int sub_steps = std::max(1, static_cast<int>(std::ceil(interval / smallest)));
-  if (interactions_.empty()) {
-    for (int i = 0; i < sub_steps; ++i) advance_bodies(interval / sub_steps);
-    return sub_steps;
-  }
+  const double dt = interval / sub_steps;
   for (Member& m : members_) {
     Matrix3X& f = m.body->surface().f;
     if (shown_) f -= m.interaction;
-    m.held = f;
-    m.interaction.setZero(3, f.cols());
+    m.given = f;
+    f *= sub_steps;
+    if (!interactions_.empty()) m.interaction.setZero(3, f.cols());
+    m.body->begin_interval();
   }
   shown_ = false;
   for (int i = 0; i < sub_steps; ++i) {
-    apply_interactions(interval / sub_steps);
-    for (Member& m : members_) m.interaction += (m.body->surface().f - m.held) / sub_steps;
-    advance_bodies(interval / sub_steps);
-    for (Member& m : members_) m.body->surface().f = m.held;
+    apply_interactions(dt);
+    if (!interactions_.empty())
+      for (Member& m : members_) m.interaction += m.body->surface().f / sub_steps;
+    advance_bodies(dt);
+    for (Member& m : members_) m.body->surface().f.setZero();
+  }
+  for (Member& m : members_) {
+    if (!interactions_.empty()) m.interaction -= m.given;
+    m.body->surface().f = m.given;
+    m.body->end_interval();
   }
   return sub_steps;
 }

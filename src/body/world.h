@@ -17,8 +17,10 @@ class World {
   void add(Interaction& interaction, const std::string& name) { interactions_.push_back({&interaction, name}); }
   void remove(const Interaction& interaction);
 
-  /// Advances every body by an interval [s] in equal sub-steps no longer than the smallest stable step of any body now;
-  /// surface forces are held over the interval, interactions are found anew in every sub-step. Returns the number of sub-steps.
+  /// Advances every body by an interval [s] in equal sub-steps no longer than the smallest stable step of any body now. Surface forces
+  /// act as one impulse, force times interval, in the first sub-step: their kick is centred on the time they belong to (r-RESPA:
+  /// M. Tuckerman, B. J. Berne, G. J. Martyna, J. Chem. Phys. 97, 1990 (1992)). Held over n sub-steps they would lag, and a spring k on a
+  /// mass m gain energy at the rate k interval/(2 m) (1 - 1/n). Interactions are found anew in every sub-step. Returns their number.
   /// @throws StateError naming the body when its stable step vanishes, its state is not finite or its own advance() refuses
   int advance(double interval);
 
@@ -34,7 +36,7 @@ class World {
   struct Member {
     Body* body;
     std::string name;
-    Matrix3X held = {}, interaction = {};  // [N] of others; mean of the interactions over the last interval
+    Matrix3X given = {}, interaction = {};  // [N] of others; mean of the interactions over the last interval
   };
   struct Named {
     Interaction* interaction;
