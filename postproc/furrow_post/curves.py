@@ -137,9 +137,12 @@ def numerical_errors(base, checks, levels):
     box = lambda c: c.facts.get("box", math.nan)
     # of no size and box: facts that are not numbers, or are not there, differ in nothing
     same = lambda a, b: not abs(a - b) > 0.02 * abs(a)
-    log = lambda c: np.log(np.interp(levels, c.x, c.y))
-    # np.interp would go on with the end values
-    inside = lambda c: np.array([c.x[0] <= v <= c.x[-1] for v in levels])
+
+    def log(curve):
+        """ln y at the levels; NaN beyond the curve's ends and where it carries nothing yet."""
+        y = np.interp(levels, curve.x, curve.y, left=math.nan, right=math.nan)
+        return np.log(np.where(y > 0, y, math.nan))
+
     found = {name: np.full(len(levels), np.nan) for name in ("size", "domain", "packing")}
     series = [base]
     for check in checks:
@@ -147,15 +150,15 @@ def numerical_errors(base, checks, levels):
             series.append(check)
     if len(series) > 1:
         h = np.array([size(c) for c in series])
-        slope = np.polyfit(h, np.array([log(c) for c in series]), 1)[0]
-        found["size"] = np.where(np.all([inside(c) for c in series], axis=0), np.abs(slope) * size(base), np.nan)
+        slope = (h - h.mean()) @ np.array([log(c) for c in series]) / np.sum((h - h.mean()) ** 2)
+        found["size"] = np.abs(slope) * size(base)
     for check in checks:
         if any(check is c for c in series):
             continue
         twin = next((c for c in series if same(size(c), size(check))), None)
         if twin is None:
             continue
-        difference = np.where(inside(check) & inside(twin), np.abs(log(check) - log(twin)), np.nan)
+        difference = np.abs(log(check) - log(twin))
         # two packings: the standard deviation of one is the difference over sqrt(2)
         name, value = ("packing", difference / math.sqrt(2)) if same(box(twin), box(check)) else ("domain", difference)
         found[name] = np.fmax(found[name], value)
