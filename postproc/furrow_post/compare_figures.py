@@ -28,7 +28,7 @@ def _values(axes, result, quantity, colours):
                       lw=1.6, fmt="s" if e.kind == "measured" else "o", mfc="white" if e.kind == "formula" else colour)
         label = with_error(scale * e.value, scale * e.uncertainty) if known else f"{scale * e.value:.3g}"
         axes.annotate(label, (scale * e.value, row), (0, 8), textcoords="offset points", ha="center", fontsize=8, color="0.25")
-    axes.set_yticks(range(len(entries)), [e.source for e in entries])
+    axes.set_yticks(range(len(entries)), [textwrap.fill(e.source, 16) for e in entries])
     axes.set_ylim(len(entries) - 0.5, -0.7)
     low, high = axes.get_xlim()
     axes.set_xlim(min(low, 0) if low < 0.35 * high else low - 0.08 * (high - low), high + 0.08 * (high - low))
@@ -50,10 +50,11 @@ def draw(result, target):
     colours = {run.label: COLOURS[k % len(COLOURS)] for k, run in enumerate(runs)}
     cuts = {run.label: density.sections(run) for run in grounds}
 
-    tall = 5.9 + 1.75 * len(grounds)
+    many = max(len(result.of("sinkage")) - 4, 0)  # entries that need more room than the first panels have
+    tall = 5.9 + 1.75 * len(grounds) + 0.4 * many
     figure = plt.figure(figsize=(11, tall), layout="constrained")
     figure.get_layout_engine().set(hspace=0.04)
-    grid = figure.add_gridspec(2 + len(grounds), 6, height_ratios=[2.4, 2.4] + [1.75] * len(grounds))
+    grid = figure.add_gridspec(2 + len(grounds), 6, height_ratios=[2.4 + 0.4 * many, 2.4] + [1.75] * len(grounds))
     for k, quantity in enumerate(compare.QUANTITIES):
         axes = figure.add_subplot(grid[0, 3 * k:3 * k + 3])
         _values(axes, result, quantity, colours)
