@@ -26,7 +26,8 @@ def command(arguments):
 
 def reasons(choice, within, assessed, error):
     """Sentences on what was chosen and what each choice costs in accuracy."""
-    lines = cost.advice(assessed, error)[:1]
+    advice = cost.advice(assessed, error)
+    lines = advice[:1] + [line for line in advice[1:] if line.startswith("By its fit")]
     row = choice.row
     for quantity, part in choice.parts.items():
         known = ", ".join(f"{name} {100 * getattr(part, name) / abs(choice.references[quantity]):.1f} %" for name in part.known)
