@@ -124,7 +124,8 @@ def _rig_conditions(run, rig, wheel, tyre):
         surface = run.results.surface()
         low, high = surface[1].min(axis=0), surface[1].max(axis=0)
         conditions["wheel_diameter"] = Condition(float(high[0] - low[0]), "m")
-        conditions["wheel_width"] = Condition(float(2 * max(high[1], -low[1])), "m")  # of half a tyre, the whole
+        half = "half" in tyre and tyre[tyre.index("half") + 1] == "yes"
+        conditions["wheel_width"] = Condition(float(2 * high[1] if half else high[1] - low[1]), "m")
     else:
         conditions["wheel"] = Condition("rigid wheel")
         conditions["wheel_diameter"] = Condition(_after(wheel, "diameter"), "m")

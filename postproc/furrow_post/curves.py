@@ -19,6 +19,7 @@ from .style import annotate_panel, save, use_style
 PLATE_LEVELS = (0.05, 0.1, 0.2, 0.3, 0.5)          # sinkage over depth of the ground
 STRESS_LEVELS = (2e3, 1e4, 5e4, 1e5, 2e5, 5e5)     # Pa
 COVERAGE = 2.0                                     # standard deviations within which two values agree
+VAGUE = 0.4                                        # beyond this uncertainty of ln(y), 50 %, agreement says nothing
 TOLERANCES = {"size": 0.02, "depth": 0.06, "density": 0.1, "speed": 0.02}
 
 
@@ -168,7 +169,7 @@ def numerical_errors(base, checks, levels):
 
 
 def judge(result, k, errors):
-    """A sentence: at which levels curve k agrees with the first within twice the known errors. errors: one dict of numerical_errors a curve."""
+    """A sentence: at which levels curve k agrees with the first within twice the known errors, or cannot be told from it. errors: one dict of numerical_errors a curve."""
     total = np.zeros(len(result.levels))
     lacking = []
     for c, column in ((0, errors[0]), (k, errors[k])):
@@ -178,10 +179,14 @@ def judge(result, k, errors):
                 lacking.append(f"{name} of {result.curves[c].label}")
         total += (result.errors[:, c] / result.values[:, c]) ** 2
     allowed = COVERAGE * np.sqrt(total)
-    agree = np.abs(np.log(result.values[:, k] / result.values[:, 0])) <= allowed
-    levels = lambda wanted: ", ".join(_level(result.curves[0].kind, v) for v, yes in zip(result.levels, agree) if yes == wanted)
-    words = "agree within their uncertainty at every level" if agree.all() else f"agree at {levels(True)}, not at {levels(False)}" if agree.any() \
-        else "agree at no level"
+    near = np.abs(np.log(result.values[:, k] / result.values[:, 0])) <= allowed
+    vague = near & (allowed > VAGUE)
+    words = []
+    for which, text in ((near & ~vague, "agree within their uncertainty"), (vague, "cannot be told apart"), (~near, "differ")):
+        if which.any():
+            where = "every level" if which.all() else ", ".join(_level(result.curves[0].kind, v) for v, yes in zip(result.levels, which) if yes)
+            words.append(f"{text} at {where}")
+    words = "; ".join(words)
     span = f"{100 * allowed.min():.0f}" + (f" to {100 * allowed.max():.0f}" if f"{100 * allowed.min():.0f}" != f"{100 * allowed.max():.0f}" else "")
     return f"{result.curves[0].label} and {result.curves[k].label} {words} (allowed {span} %)" + \
         (f"; not known: {', '.join(lacking)}" if lacking else "")

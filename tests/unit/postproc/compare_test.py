@@ -183,7 +183,9 @@ class CurveErrors(unittest.TestCase):
         self.assertEqual(curves.judge(result, 1, [known, none]), "base and other agree within their uncertainty at every level (allowed 35 %); "
                          "not known: size of other, domain of other, packing of other")
         far = curves.compare([self.base, plate_curve("far", 2.0, diameter=0.02)])
-        self.assertEqual(curves.judge(far, 1, [known, known]), "base and far agree at no level (allowed 49 %)")
+        self.assertEqual(curves.judge(far, 1, [known, known]), "base and far differ at every level (allowed 49 %)")
+        large = {name: np.full(len(result.levels), 0.2) for name in ("size", "domain", "packing")}
+        self.assertIn("base and other cannot be told apart at every level", curves.judge(result, 1, [large, known]))
 
 
 def write_plate(folder, k, size=0.1, speed=0.5):
