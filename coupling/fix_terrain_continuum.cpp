@@ -96,7 +96,7 @@ void FixTerrainContinuum::end_of_step() {
 void FixTerrainContinuum::check_energy() {
   const Balance balance = ground().balance();
   double mass = 0.0;
-  for (const GroundPhase& phase : ground().phases())
+  for (const GroundPhase& phase : ground().lagging_phases())
     for (std::size_t p = 0; p < phase.particles.size(); ++p)
       mass += phase.law->density() * phase.particles.data(column::volume)[p];
   mass = ground().ranks().sum(mass);

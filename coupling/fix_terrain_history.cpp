@@ -138,7 +138,7 @@ void FixTerrainHistory::write_frame() {
 
 void FixTerrainHistory::post_run() {
   guarded_alone(*error, [&] {
-    const MpmGround& ground = ground_fix_.ground();
+    MpmGround& ground = ground_fix_.ground();
     const Balance balance = ground.balance();
     const GroundSnapshot snapshot = take_snapshot(ground);
     const std::vector<RutPoint> rut = collect_rut(ground);

@@ -111,6 +111,7 @@ Schema ground_schema(const std::string& subject) {
   schema.flag("weightless_start", "start without the stress of the ground's own weight");
   schema.flag("sheet", "carry triangles on the upper face, for grains that lie on the ground");
   schema.number("cfl", "", Range::closed(0.01, 1.0), "step over shortest cell and wave speed").by_default(0.4);
+  schema.integer("cycle", Range::closed(1, 64), "most steps between two mappings of particles to the grid").by_default("16");
   schema.number("soften", "", Range{0.0, 1.0, true, false}, "factor on Young's modulus, for longer steps").by_default(1.0);
   return schema;
 }
@@ -134,6 +135,7 @@ GroundParameters read_ground(const Options& options, const std::string& folder) 
   ground.initial_stress = !options.flag("weightless_start");
   ground.sheet = options.flag("sheet");
   ground.cfl = options.number("cfl");
+  ground.cycle = static_cast<int>(options.integer("cycle"));
   return ground;
 }
 

@@ -21,9 +21,9 @@ FaceLoop loop_of(const Grid& grid, FacePlace face) {
 
 using Place = std::array<int, 3>;  // of a node, along x, y, z
 
-/// Calls visit(node, its number on the face, its place in the grid) for the nodes of a face inside the planes.
+/// Calls visit(number on the face, place in the grid) for the nodes of a face inside the planes.
 template <class Visit>
-void for_face(Grid& grid, const FaceLoop& loop, const PlaneRange& planes, Visit visit) {
+void for_face(const Grid& grid, const FaceLoop& loop, const PlaneRange& planes, Visit visit) {
   Place at;
   const auto axis = static_cast<std::size_t>(loop.axis), slow = static_cast<std::size_t>(loop.slow),
              fast = static_cast<std::size_t>(loop.fast);
@@ -33,7 +33,7 @@ void for_face(Grid& grid, const FaceLoop& loop, const PlaneRange& planes, Visit 
     for (int f = 0; f < grid.nodes(loop.fast); ++f, ++number) {
       at[slow] = s;
       at[fast] = f;
-      if (planes.contains(at[0])) visit(grid.node(at[0], at[1], at[2]), number, at);
+      if (planes.contains(at[0])) visit(number, at);
     }
 }
 
@@ -77,16 +77,16 @@ Faces::Faces(const Grid& grid, const std::array<FaceKind, face_count>& kinds, co
   }
 }
 
-void Faces::capture(Grid& grid, const PlaneRange& planes, double dt) {
+void Faces::capture(Grid& grid, const PlaneRange& planes, const Vector3& gravity, double dt) {
   captured_ = true;
   for (int f = 0; f < face_count; ++f) {
     if (kinds_[static_cast<std::size_t>(f)] != FaceKind::absorbing) continue;
     FarField& far = far_[static_cast<std::size_t>(f)];
-    for_face(grid, loop_of(grid, static_cast<FacePlace>(f)), planes, [&](GridNode& node, std::size_t number, const Place&) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        far.hold[3 * number + c] = -node.momentum[c] / dt;
-        node.momentum[c] = 0.0;  // held: not by another face again
-      }
+    for_face(grid, loop_of(grid, static_cast<FacePlace>(f)), planes, [&](std::size_t number, const Place& at) {
+      NodeSum& node = grid.sum(at[0], at[1], at[2]);
+      for (int c = 0; c < 3; ++c)
+        far.hold[3 * number + static_cast<std::size_t>(c)] = -node.momentum[c] / dt - node.mass * gravity[c];
+      node = NodeSum{};  // held: not by another face again
     });
   }
 }
@@ -101,11 +101,12 @@ void Faces::apply(Grid& grid, const PlaneRange& planes, const PlaneRange& owned,
 void Faces::constrain(Grid& grid, FacePlace face, const PlaneRange& planes, const PlaneRange& owned) {
   if (kinds_[face] != FaceKind::smooth && kinds_[face] != FaceKind::rough) return;
   const FaceLoop loop = loop_of(grid, face);
-  for_face(grid, loop, planes, [&](GridNode& node, std::size_t, const Place& at) {
+  for_face(grid, loop, planes, [&](std::size_t, const Place& at) {
+    NodeMotion& node = grid.motion(at[0], at[1], at[2]);
     for (int c = 0; c < 3; ++c) {
       if (kinds_[face] == FaceKind::smooth && c != loop.axis) continue;
-      if (owned.contains(at[0])) impulse_[face][c] -= node.mass * node.momentum[c];
-      node.momentum[c] = 0.0;
+      if (owned.contains(at[0])) impulse_[face][c] -= node.mass * node.velocity[c];
+      node.velocity[c] = 0.0;
     }
   });
 }
@@ -123,18 +124,19 @@ bool Faces::is_held(const Grid& grid, const std::array<int, 3>& at, int componen
 
 void Faces::absorb(Grid& grid, FacePlace face, const PlaneRange& planes, const PlaneRange& owned, double dt) {
   FarField& far = far_[face];
-  for_face(grid, loop_of(grid, face), planes, [&](GridNode& node, std::size_t number, const Place& at) {
+  for_face(grid, loop_of(grid, face), planes, [&](std::size_t number, const Place& at) {
+    NodeMotion& node = grid.motion(at[0], at[1], at[2]);
     if (!(node.mass > 0.0)) return;
     const WaveSpeeds& speeds = speeds_[static_cast<std::size_t>(at[2])];
     for (int c = 0; c < 3; ++c) {
       if (is_held(grid, at, c)) continue;
       const double speed = c == far.axis ? speeds.pressure : speeds.shear;
       const std::size_t n = 3 * number + static_cast<std::size_t>(c);
-      const double before = node.momentum[c];
+      const double before = node.velocity[c];
       const double pull =
           dt * (far.hold[n] / node.mass - speed * speed * far.inverse_extent * far.inverse_length * far.displacement[n]);
       const double after = (before + pull) / (1.0 + dt * speed * far.inverse_extent);
-      node.momentum[c] = after;
+      node.velocity[c] = after;
       far.displacement[n] += dt * after;
       if (owned.contains(at[0])) {
         const double impulse = node.mass * (after - before);

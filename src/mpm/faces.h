@@ -34,10 +34,11 @@ class Faces {
         std::vector<WaveSpeeds> speeds_of_level);
 
   FaceKind kind(FacePlace face) const { return kinds_[face]; }
-  /// Before anything else happens to the grid of the first step: its momenta are what the held ground must stand, and are used up.
+  /// Before anything else happens to the grid of the first step: its sums of momenta, and gravity [m/s^2], are what the held ground must
+  /// stand, and are used up.
   bool captured() const { return captured_; }
-  void capture(Grid& grid, const PlaneRange& planes, double dt);
-  /// Changes velocities after Grid::solve(). Sums count the planes of `owned` only.
+  void capture(Grid& grid, const PlaneRange& planes, const Vector3& gravity, double dt);
+  /// Changes the velocities of nodes. Sums count the planes of `owned` only.
   void apply(Grid& grid, const PlaneRange& planes, const PlaneRange& owned, double dt);
 
   /// Impulse that each face gave to the ground since the start, this rank's share [N s].

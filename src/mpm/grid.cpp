@@ -5,26 +5,82 @@
 namespace furrow {
 
 Grid::Grid(Axis x, Axis y, Axis z) : axes_{std::move(x), std::move(y), std::move(z)} {
-  nodes_.resize(static_cast<std::size_t>(nodes(0)) * plane_size());
+  const std::size_t count = static_cast<std::size_t>(nodes(0)) * plane_size();
+  sums_.resize(count);
+  motions_.resize(count);
+  displacements_.resize(count);
 }
 
 double Grid::shortest_cell() const { return std::min({axis(0).shortest(), axis(1).shortest(), axis(2).shortest()}); }
 
-void Grid::clear(const PlaneRange& planes) {
-  if (planes.to > planes.from)
-    std::fill(plane(planes.from), plane(planes.from) + plane_size() * static_cast<std::size_t>(planes.to - planes.from),
-              GridNode{});
+std::size_t Grid::last(const PlaneRange& planes) const {
+  return static_cast<std::size_t>(std::max(planes.from, planes.to)) * plane_size();
 }
 
-void Grid::solve(const PlaneRange& planes) {
-  GridNode* const begin = plane(planes.from);
-  GridNode* const end = begin + plane_size() * static_cast<std::size_t>(std::max(0, planes.to - planes.from));
-  for (GridNode* n = begin; n != end; ++n) {
-    const double inverse = n->mass > 0.0 ? 1.0 / n->mass : 0.0;
-    for (double& p : n->momentum) p *= inverse;
+void Grid::clear_sums(const PlaneRange& planes) {
+  std::fill(sums_.data() + first(planes), sums_.data() + last(planes), NodeSum{});
+}
+
+void Grid::start(const PlaneRange& planes, const Vector3& dv) {
+  for (std::size_t n = first(planes); n < last(planes); ++n) {
+    const NodeSum& sum = sums_[n];
+    const bool loaded = sum.mass > 0.0;
+    const double inverse = loaded ? 1.0 / sum.mass : 0.0;
+    for (int a = 0; a < 3; ++a) motions_[n].velocity[a] = loaded ? inverse * sum.momentum[a] + dv[a] : 0.0;
+    motions_[n].mass = sum.mass;
   }
 }
 
-GridView Grid::view() { return {{axes_[0].view(), axes_[1].view(), axes_[2].view()}, nodes_.front().momentum}; }
+void Grid::accelerate(const PlaneRange& planes, const Vector3& dv) {
+  for (std::size_t n = first(planes); n < last(planes); ++n) {
+    NodeMotion& node = motions_[n];
+    if (!(node.mass > 0.0)) continue;
+    const double inverse = 1.0 / node.mass;
+    for (int a = 0; a < 3; ++a) node.velocity[a] += inverse * sums_[n].momentum[a] + dv[a];
+  }
+}
+
+NodeTotals Grid::move(const PlaneRange& planes, const PlaneRange& owned, double dt) {
+  for (std::size_t n = first(planes); n < last(planes); ++n)
+    for (int a = 0; a < 3; ++a) displacements_[n].u[a] += dt * motions_[n].velocity[a];
+  NodeTotals totals;
+  for (std::size_t n = first(owned); n < last(owned); ++n) {
+    const NodeMotion& node = motions_[n];
+    const Vector3 v(node.velocity[0], node.velocity[1], node.velocity[2]);
+    totals.momentum += node.mass * v;
+    totals.kinetic_energy += 0.5 * node.mass * v.squaredNorm();
+  }
+  return totals;
+}
+
+void Grid::clear_displacement(const PlaneRange& planes) {
+  std::fill(displacements_.data() + first(planes), displacements_.data() + last(planes), NodeDisplacement{});
+}
+
+GridView Grid::view() {
+  return {{axes_[0].view(), axes_[1].view(), axes_[2].view()},
+          sums_.front().momentum,
+          motions_.front().velocity,
+          displacements_.front().u};
+}
+
+std::vector<double> Grid::moving_state(const PlaneRange& planes) const {
+  std::vector<double> state(8 * motions_.size(), 0.0);
+  for (std::size_t n = first(planes); n < last(planes); ++n) {
+    std::copy_n(motions_[n].velocity, 3, state.data() + 8 * n);
+    state[8 * n + 3] = motions_[n].mass;
+    std::copy_n(displacements_[n].u, 4, state.data() + 8 * n + 4);
+  }
+  return state;
+}
+
+const double* Grid::restore_moving_state(const double* state) {
+  for (std::size_t n = 0; n < motions_.size(); ++n, state += 8) {
+    std::copy_n(state, 3, motions_[n].velocity);
+    motions_[n].mass = state[3];
+    std::copy_n(state + 4, 4, displacements_[n].u);
+  }
+  return state;
+}
 
 }  // namespace furrow

@@ -1,18 +1,34 @@
 #pragma once
-/// The background grid: momentum, then velocity, and mass at the nodes of three axes. It holds nothing from one step to the next.
+/// The background grid on three axes: what particles give to its nodes, and how the nodes move.
 
 #include <array>
 #include <cstddef>
 #include <vector>
 
+#include "core/types.h"
 #include "mpm/axis.h"
 #include "mpm/transfer.h"
 
 namespace furrow {
 
-struct alignas(32) GridNode {
-  double momentum[3];  ///< [kg m/s]; after solve() the velocity [m/s]
+/// What particles gave to a node.
+struct alignas(32) NodeSum {
+  double momentum[3];  ///< or impulse of forces [N s]
   double mass;         ///< [kg]
+};
+
+struct alignas(32) NodeMotion {
+  double velocity[3];  ///< [m/s]
+  double mass;         ///< [kg]; a node without has no velocity
+};
+
+struct alignas(32) NodeDisplacement {
+  double u[4];  ///< [m]; the fourth is unused
+};
+
+struct NodeTotals {
+  Vector3 momentum = Vector3::Zero();  ///< [N s]
+  double kinetic_energy = 0.0;         ///< [J]
 };
 
 /// A half-open range of planes of nodes across x.
@@ -31,14 +47,25 @@ class Grid {
   std::size_t plane_size() const { return static_cast<std::size_t>(nodes(1)) * static_cast<std::size_t>(nodes(2)); }
   double shortest_cell() const;  ///< [m]
 
-  GridNode& node(int i, int j, int k) { return nodes_[index(i, j, k)]; }
-  const GridNode& node(int i, int j, int k) const { return nodes_[index(i, j, k)]; }
-  GridNode* plane(int i) { return nodes_.data() + static_cast<std::size_t>(i) * plane_size(); }
+  NodeSum& sum(int i, int j, int k) { return sums_[index(i, j, k)]; }
+  NodeMotion& motion(int i, int j, int k) { return motions_[index(i, j, k)]; }
+  double* plane_sums(int i) { return sums_[index(i, 0, 0)].momentum; }  ///< four numbers a node
 
-  void clear(const PlaneRange& planes);
-  void solve(const PlaneRange& planes);  ///< momentum -> velocity
+  void clear_sums(const PlaneRange& planes);
+  /// Velocity = momentum/mass + dv.
+  void start(const PlaneRange& planes, const Vector3& dv);
+  /// Velocity += impulse/mass + dv.
+  void accelerate(const PlaneRange& planes, const Vector3& dv);
+  /// Displacement += dt velocity. @return of the planes of `owned`
+  NodeTotals move(const PlaneRange& planes, const PlaneRange& owned, double dt);
+  void clear_displacement(const PlaneRange& planes);
+
   void shift_x(int cells) { axes_[0].shift(cells); }
   GridView view();
+
+  /// Motion and displacement of some planes, zero elsewhere: eight numbers a node of the whole grid.
+  std::vector<double> moving_state(const PlaneRange& planes) const;
+  const double* restore_moving_state(const double* state);  ///< @return what follows
 
  private:
   std::size_t index(int i, int j, int k) const {
@@ -46,9 +73,13 @@ class Grid {
                static_cast<std::size_t>(nodes(2)) +
            static_cast<std::size_t>(k);
   }
+  std::size_t first(const PlaneRange& planes) const { return static_cast<std::size_t>(planes.from) * plane_size(); }
+  std::size_t last(const PlaneRange& planes) const;
 
   std::array<Axis, 3> axes_;
-  std::vector<GridNode> nodes_;
+  std::vector<NodeSum> sums_;
+  std::vector<NodeMotion> motions_;
+  std::vector<NodeDisplacement> displacements_;
 };
 
 }  // namespace furrow

@@ -95,7 +95,8 @@ GroundContact::GroundContact(Body& body, MpmGround& ground, const ContactParamet
                     parameters.stiffness, ground.parameters().cfl, *std::max_element(per_cell.begin(), per_cell.end())),
         "sqrt(stiffness) x cfl x particles below 2", "lower the stiffness, or the ground's cfl");
   if (half_model) mirror_ = mirror_nodes(body.surface(), ground.grid().axis(1).lower(), where);
-  for (GroundPhase& phase : ground_.phases()) memory_.push_back(phase.particles.add_column("contact " + where, memory_size));
+  for (GroundPhase& layer : ground_.lagging_phases())
+    memory_.push_back(layer.particles.add_column("contact " + where, memory_size));
 }
 
 std::vector<double> GroundContact::state() const {
@@ -147,14 +148,14 @@ void GroundContact::find_candidates(bool stiffness_anew) {
   skin_ = skin_cells * cell;
   double half = 0.0;
   Vector3 lower = Vector3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
-  for (const GroundPhase& phase : ground_.phases())
+  for (const GroundPhase& phase : ground_.lagging_phases())
     for (std::size_t p = 0; p < phase.particles.size(); ++p) {
       const Vector3 x = phase.particles.position(p);
       lower = lower.cwiseMin(x);
       upper = upper.cwiseMax(x);
     }
   const auto [low, high] = surface.bounds();
-  for (const GroundPhase& phase : ground_.phases())
+  for (const GroundPhase& phase : ground_.lagging_phases())
     for (std::size_t p = 0; p < phase.particles.size(); ++p) {
       const Vector3 x = phase.particles.position(p),
                     h(phase.particles.data(column::half_x)[p], phase.particles.data(column::half_y)[p],
@@ -163,12 +164,13 @@ void GroundContact::find_candidates(bool stiffness_anew) {
           (x.array() < high.array() + 4.0 * h.array() + skin_).all())
         half = std::max(half, h.norm() * std::max(1.0, phase.particles.data(column::state + field::volume_ratio)[p]));
     }
-  reach_ = half + skin_ + most_penetration * cell;
+  reach_ = half + skin_ + most_penetration * cell + ground_.lag();
   candidates_.clear();
+  points_.clear();
   near_.clear();
   const TriangleSearch triangles(surface, reach_, lower, upper);
-  for (std::size_t k = 0; k < ground_.phases().size(); ++k) {
-    Particles& particles = ground_.phases()[k].particles;
+  for (std::size_t k = 0; k < ground_.lagging_phases().size(); ++k) {
+    Particles& particles = ground_.lagging_phases()[k].particles;
     const double *x = particles.data(column::x), *y = particles.data(column::y), *z = particles.data(column::z);
     for (std::size_t p = 0; p < particles.size(); ++p) {
       const Vector3 point(x[p], y[p], z[p]);
@@ -181,10 +183,11 @@ void GroundContact::find_candidates(bool stiffness_anew) {
           near_.push_back(*t);
       }
       if (near_.size() == begin) continue;
-      candidates_.push_back({k, p, begin, near_.size()});
+      candidates_.push_back({begin, near_.size()});
+      points_.push_back({k, p});
       double& spring_stiffness = particles.data(memory_[k])[memory_size * p + Memory::stiffness];
       if (stiffness_anew)
-        spring_stiffness = parameters_.stiffness * ground_.phases()[k].law->moduli(particles.state(p)).wave() *
+        spring_stiffness = parameters_.stiffness * ground_.lagging_phases()[k].law->moduli(particles.state(p)).wave() *
                            std::cbrt(particles.data(column::volume)[p]);
     }
   }
@@ -210,7 +213,7 @@ void GroundContact::refuse_overlap() const {
   const Surface& surface = body_.surface();
   if (!surface.is_closed()) return;
   const auto [low, high] = surface.bounds();
-  for (const GroundPhase& phase : ground_.phases())
+  for (const GroundPhase& phase : ground_.lagging_phases())
     for (std::size_t p = 0; p < phase.particles.size(); ++p) {
       const Vector3 x = phase.particles.position(p);
       if ((x.array() > low.array()).all() && (x.array() < high.array()).all() && encloses(surface, x))
@@ -220,11 +223,11 @@ void GroundContact::refuse_overlap() const {
     }
 }
 
-bool GroundContact::touch(const Candidate& candidate, Touch& touch) const {
+/// @param x where the particle is
+bool GroundContact::touch(const Candidate& candidate, const GroundPoint& at, const Vector3& x, Touch& touch) const {
   const Surface& surface = body_.surface();
-  const Particles& particles = ground_.phases()[candidate.phase].particles;
-  const std::size_t p = candidate.particle;
-  const Vector3 x = particles.position(p);
+  const Particles& particles = ground_.lagging_phases()[at.phase].particles;
+  const std::size_t p = at.particle;
   ClosestPoint closest{};
   closest.distance = std::numeric_limits<double>::infinity();
   for (std::size_t n = candidate.first; n < candidate.last; ++n) {
@@ -314,26 +317,27 @@ void GroundContact::apply(double dt) {
   const Surface& surface = body_.surface();
   nodal_.setZero(3, surface.x.cols());
   contacts_ = penetration_ = area_ = step_friction_ = step_damping_ = 0.0;
-  for (const Candidate& candidate : candidates_) {
-    GroundPhase& phase = ground_.phases()[candidate.phase];
+  ground_.probe(points_, motions_);
+  for (std::size_t n = 0; n < candidates_.size(); ++n) {
+    const GroundPoint& at = points_[n];
+    GroundPhase& phase = ground_.lagging_phases()[at.phase];
     Particles& particles = phase.particles;
-    const std::size_t p = candidate.particle;
-    double* memory = particles.data(memory_[candidate.phase]) + memory_size * p;
+    const std::size_t p = at.particle;
+    double* memory = particles.data(memory_[at.phase]) + memory_size * p;
     Touch found;
-    if (!touch(candidate, found)) {
+    if (!touch(candidates_[n], at, motions_[n].position, found)) {
       std::fill_n(memory, Memory::stiffness, 0.0);
       continue;
     }
     const double volume = particles.data(column::volume)[p], mass = phase.law->density() * volume,
                  length = std::cbrt(volume);
-    const Vector3 lever = found.point - particles.position(p);
-    Vector3 velocity = particles.velocity(p) + particles.affine(p) * lever;
+    Vector3 velocity = motions_[n].velocity_at(found.point);
     const Vector3i& nodes = surface.triangles[found.triangle];
     for (int c = 0; c < 3; ++c) velocity -= found.barycentric[c] * surface.v.col(nodes[c]);
     const Vector3 force = parameters_.enforcement == ContactParameters::Enforcement::penalty
                               ? penalty_force(found, velocity, mass, memory[Memory::stiffness], dt, memory)
                               : impulse_force(found, velocity, mass, dt, memory);
-    ground_.push(candidate.phase, p, force, lever);
+    ground_.push(at, force, found.point);
     for (int c = 0; c < 3; ++c) nodal_.col(nodes[c]) -= found.barycentric[c] * force;
     contacts_ += 1.0;
     area_ += length * length;

@@ -60,7 +60,7 @@ class GroundContact : public Interaction {
 
  private:
   struct Candidate {
-    std::size_t phase, particle, first, last;  // first, last: its triangles in near_
+    std::size_t first, last;  // its triangles in near_
   };
   struct Touch {
     Vector3 point, normal, barycentric;
@@ -72,7 +72,7 @@ class GroundContact : public Interaction {
   void find_candidates(bool stiffness_anew);
   void refuse_overlap() const;
   void refuse_departure() const;
-  bool touch(const Candidate& candidate, Touch& touch) const;
+  bool touch(const Candidate& candidate, const GroundPoint& at, const Vector3& x, Touch& touch) const;
   Vector3 penalty_force(const Touch& touch, const Vector3& velocity, double mass, double stiffness, double dt,
                         double* memory);
   Vector3 impulse_force(const Touch& touch, const Vector3& velocity, double mass, double dt, double* memory);
@@ -88,6 +88,8 @@ class GroundContact : public Interaction {
   std::vector<std::size_t> memory_;  // column of each phase: see Memory in the source
 
   std::vector<Candidate> candidates_;
+  std::vector<GroundPoint> points_;  // their particles
+  std::vector<GroundMotion> motions_;
   std::vector<int> near_;
   Matrix3X searched_;  // nodes when the candidates were found
   unsigned long generation_ = 0;

@@ -28,8 +28,9 @@ struct GroundParameters {
   Vector3 gravity = {0.0, 0.0, -standard_gravity};    ///< [m/s^2]
   bool initial_stress = true;  ///< the weight of the ground is carried from the start, sideways as in confined compression
   double cfl = 0.4;            ///< step over (shortest cell)/(wave speed + speed of the ground)
-  bool sheet = false;          ///< carries triangles on its upper face, for grains
-  bool window = false;         ///< the ground moves along x with what follow() names
+  int cycle = 16;       ///< most steps for which the grid moves with the ground before particles are mapped to it anew
+  bool sheet = false;   ///< carries triangles on its upper face, for grains
+  bool window = false;  ///< the ground moves along x with what follow() names
 };
 
 }  // namespace furrow

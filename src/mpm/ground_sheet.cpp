@@ -50,6 +50,10 @@ Vector3 GroundSheet::lever(const std::vector<GroundPhase>& phases, const Seat& s
   return half.cwiseProduct(reach_.col(seat.node));
 }
 
+Vector3 GroundSheet::point_of(const std::vector<GroundPhase>& phases, const Seat& seat) const {
+  return phases[seat.phase].particles.position(seat.particle) + lever(phases, seat);
+}
+
 void GroundSheet::place(const std::vector<GroundPhase>& phases) {
   std::fill(numbers_.begin(), numbers_.end(), 0.0);
   for (const Seat& seat : seats_) {

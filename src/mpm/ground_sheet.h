@@ -32,12 +32,12 @@ class GroundSheet {
     sum(numbers_.data(), numbers_.size());
     take();
   }
-  /// Calls push(phase, particle, force, lever) for every node that carries a force here.
+  /// Calls push(GroundPoint, force, point) for every node that carries a force here.
   template <class Push>
   void hand_over(const std::vector<GroundPhase>& phases, Push&& push) const {
     for (const Seat& seat : seats_)
       if (surface_.f.col(seat.node).squaredNorm() > 0.0)
-        push(seat.phase, seat.particle, Vector3(surface_.f.col(seat.node)), lever(phases, seat));
+        push({seat.phase, seat.particle}, Vector3(surface_.f.col(seat.node)), point_of(phases, seat));
   }
 
  private:
@@ -46,6 +46,7 @@ class GroundSheet {
     std::size_t phase, particle;
   };
   Vector3 lever(const std::vector<GroundPhase>& phases, const Seat& seat) const;
+  Vector3 point_of(const std::vector<GroundPhase>& phases, const Seat& seat) const;
   void place(const std::vector<GroundPhase>& phases);
   void take();
 

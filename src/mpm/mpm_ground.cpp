@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -14,6 +12,7 @@ namespace furrow {
 namespace {
 
 constexpr std::size_t chunk = 1024;     // particles between grid and law: their gradients stay in the second cache
+constexpr double most_travel = 0.05;    // in a cycle, of the shortest cell times the volume ratio
 constexpr double most_drift = 0.5;      // of the shortest cell between two sortings
 constexpr double most_off_knot = 1e-6;  // of the cell: the surface is where two cells meet
 constexpr double capture_step = 1e-6;   // [s] of any length: forces are momenta over it
@@ -66,18 +65,6 @@ std::vector<GroundLevel> make_levels(const Grid& grid, const GroundParameters& g
   return levels;
 }
 
-/// V sigma : H of some particles with their present stress [J]; @param gradient nine arrays for H, row by row
-double stress_work(const ParticleView& particles, const std::array<double*, 9>& gradient) {
-  const double* const* s = particles.stress;
-  const auto& h = gradient;
-  double work = 0.0;
-  for (std::size_t p = 0; p < particles.size; ++p)
-    work += particles.volume[p] * particles.volume_ratio[p] *
-            (s[0][p] * h[0][p] + s[1][p] * h[4][p] + s[2][p] * h[8][p] + s[3][p] * (h[1][p] + h[3][p]) +
-             s[4][p] * (h[5][p] + h[7][p]) + s[5][p] * (h[2][p] + h[6][p]));
-  return work;
-}
-
 }  // namespace
 
 MpmGround::MpmGround(const GroundParameters& parameters, const Communicator& ranks, const std::string& where)
@@ -101,10 +88,12 @@ MpmGround::MpmGround(const GroundParameters& parameters, const Communicator& ran
   fill();
   if (parameters.sheet) lay_sheet();
   if (!faces_.captured()) {
-    grid_.clear(partition_.touched());
-    scatter(capture_step);
+    set_references(0.0);
+    grid_.clear_sums(partition_.touched());
+    give_momentum();
+    give_forces(capture_step);
     partition_.sum_shared(grid_);
-    faces_.capture(grid_, partition_.touched(), capture_step);
+    faces_.capture(grid_, partition_.touched(), parameters_.gravity, capture_step);
   }
 }
 
@@ -149,7 +138,8 @@ void MpmGround::add_column(int cell) {
           const double position[3] = {x.knot(cell) + (2 * i + 1) * half_x, y.knot(row) + (2 * j + 1) * half_y, level.z};
           const double half[3] = {half_x, half_y, level.half};
           for (std::size_t a = 0; a < 3; ++a) {
-            particles.data(column::x + a)[p] = particles.data(column::home_x + a)[p] = position[a];
+            particles.data(column::x + a)[p] = position[a];
+            particles.data(column::reference_x + a)[p] = particles.data(column::home_x + a)[p] = position[a];
             particles.data(column::half_x + a)[p] = half[a];
           }
           particles.data(column::volume)[p] = 8.0 * half_x * half_y * level.half / level.state[field::volume_ratio];
@@ -173,25 +163,89 @@ double MpmGround::stable_time_step() const {
   return parameters_.cfl * grid_.shortest_cell() / ranks().max(fastest + largest_speed_);
 }
 
-void MpmGround::push(std::size_t phase, std::size_t particle, const Vector3& force, const Vector3& lever) {
-  pushes_.push_back({phase, particle, force, lever});
-}
-
 void MpmGround::advance(double dt) {
   if (sheet_.exists())
-    sheet_.hand_over(phases_, [&](std::size_t phase, std::size_t particle, const Vector3& force, const Vector3& lever) {
-      push(phase, particle, force, lever);
-    });
-  grid_.clear(partition_.touched());
-  scatter(dt);
+    sheet_.hand_over(phases_,
+                     [&](const GroundPoint& near, const Vector3& force, const Vector3& point) { push(near, force, point); });
+  const bool first = !in_cycle();
+  if (first) begin_cycle(dt);
+  grid_.clear_sums(partition_.touched());
+  if (first) give_momentum();
+  give_forces(dt);
   partition_.sum_shared(grid_);
-  grid_.solve(partition_.touched());
+  if (first)
+    grid_.start(partition_.touched(), dt * parameters_.gravity);
+  else
+    grid_.accelerate(partition_.touched(), dt * parameters_.gravity);
   faces_.apply(grid_, partition_.touched(), partition_.owned(), dt);
-  gather(dt);
+  totals_ = grid_.move(partition_.touched(), partition_.owned(), dt);
+  gravity_work_ += dt * parameters_.gravity.dot(totals_.momentum);
+  lagging_ = true;
+  deform(dt);
+  count_contact_work(dt);
+  const double way = ranks().max(largest_speed_) * dt;
+  drift_ += way;
+  travel_ += way;
+  // A push can make the ground faster than it was when the cycle began.
+  if (--steps_left_ == 0 || travel_ > 2.0 * most_travel * grid_.shortest_cell()) end_cycle();
+  if (sheet_.exists()) {
+    update_particles();
+    move_sheet();
+  }
+}
+
+/// Long enough that mapping takes little, short enough that the weights fit: the more a particle is compacted, the thinner is what it
+/// stands for, and the less it may travel.
+void MpmGround::begin_cycle(double dt) {
+  double square = 0.0, square_over_ratio = 0.0;
+  for (const GroundPhase& phase : phases_) {
+    const double *v = phase.particles.data(column::velocity),
+                 *ratio = phase.particles.data(column::state + field::volume_ratio);
+    for (std::size_t p = 0; p < phase.particles.size(); ++p) {
+      const double own = v[4 * p] * v[4 * p] + v[4 * p + 1] * v[4 * p + 1] + v[4 * p + 2] * v[4 * p + 2];
+      square = std::max(square, own);
+      square_over_ratio = std::max(square_over_ratio, own / (ratio[p] * ratio[p]));
+    }
+  }
+  largest_speed_ = std::sqrt(square);
+  travel_ = 0.0;
+  const double pace = ranks().max(std::sqrt(square_over_ratio)), most = parameters_.cycle,
+               steps = pace > 0.0 ? most_travel * grid_.shortest_cell() / (pace * dt) : most;
+  steps_left_ = std::max(1, static_cast<int>(std::min(steps, most)));
+  set_references(0.5 * (steps_left_ - 1) * dt);
+  grid_.clear_displacement(partition_.touched());
+}
+
+/// Weights are taken where particles will be after a time.
+void MpmGround::set_references(double time) {
+  for (GroundPhase& phase : phases_) {
+    const double* v = phase.particles.data(column::velocity);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double* x = phase.particles.data(column::x + a);
+      double* reference = phase.particles.data(column::reference_x + a);
+      for (std::size_t p = 0; p < phase.particles.size(); ++p) reference[p] = x[p] + time * v[4 * p + a];
+    }
+  }
+}
+
+void MpmGround::end_cycle() {
+  steps_left_ = 0;
+  update_particles();
   move_window();
-  drift_ += ranks().max(largest_speed_) * dt;
   if (drift_ > most_drift * grid_.shortest_cell()) sort();
-  if (sheet_.exists()) move_sheet();
+}
+
+void MpmGround::update_particles() {
+  if (!lagging_) return;
+  lagging_ = false;
+  const GridView view = local_view();
+  for (GroundPhase& phase : phases_) kernels_.gather_motion(view, phase.particles.view(0, phase.particles.size()));
+  grid_.clear_displacement(partition_.touched());
+}
+
+std::vector<GroundPhase>& MpmGround::phases() {
+  update_particles();
+  return phases_;
 }
 
 /// Particles may be in this rank's slab and one cell beyond.
@@ -202,36 +256,38 @@ GridView MpmGround::local_view() {
   return view;
 }
 
-void MpmGround::scatter(double dt) {
+void MpmGround::give_momentum() {
   const GridView view = local_view();
   for (GroundPhase& phase : phases_)
-    if (phase.particles.size() > 0 && kernels_.scatter(view, phase.particles.view(0, phase.particles.size()),
-                                                       phase.law->density(), dt, parameters_.gravity.data()) > 0)
+    if (kernels_.scatter_momentum(view, phase.particles.view(0, phase.particles.size()), phase.law->density()) > 0)
       report_outside(phase);
+}
+
+void MpmGround::give_forces(double dt) {
+  const GridView view = local_view();
+  for (GroundPhase& phase : phases_) kernels_.scatter_force(view, phase.particles.view(0, phase.particles.size()), dt);
   impulses_.clear();
   for (const Push& push : pushes_) {
-    const Vector3 x = phases_[push.phase].particles.position(push.particle), impulse = dt * push.force;
+    const Vector3 reference = phases_[push.near.phase].particles.reference(push.near.particle), impulse = dt * push.force,
+                  lever = push.point - reference;
     impulses_.push_back(
-        {{x[0], x[1], x[2]}, {impulse[0], impulse[1], impulse[2]}, {push.lever[0], push.lever[1], push.lever[2]}});
+        {{reference[0], reference[1], reference[2]}, {impulse[0], impulse[1], impulse[2]}, {lever[0], lever[1], lever[2]}});
   }
   kernels_.scatter_impulses(view, impulses_.data(), impulses_.size());
 }
 
-void MpmGround::gather(double dt) {
+void MpmGround::deform(double dt) {
   const GridView view = local_view();
   std::array<double*, 9> gradient;
   for (std::size_t g = 0; g < 9; ++g) gradient[g] = gradient_.data() + g * chunk;
-  kinetic_ = largest_speed_ = 0.0;
   report_ = {};
   for (GroundPhase& phase : phases_)
     for (std::size_t first = 0; first < phase.particles.size(); first += chunk) {
       const std::size_t count = std::min(chunk, phase.particles.size() - first);
       const ParticleView particles = phase.particles.view(first, count);
-      const TransferSums sums = kernels_.gather(view, particles, phase.law->density(), dt, gradient.data());
-      if (sums.outside > 0) report_outside(phase);
-      kinetic_ += sums.kinetic_energy;
-      gravity_work_ += dt * parameters_.gravity.dot(Eigen::Map<const Vector3>(sums.momentum));
-      largest_speed_ = std::max(largest_speed_, sums.largest_speed);
+      kernels_.gather_strain(view, particles, dt, gradient.data());
+      // By the mean of the stresses before and after the step: with either alone the audit of a vibrating body drifts by O(dt).
+      stress_work_ += 0.5 * kernels_.stress_work(particles, gradient.data());
       PointBlock block;
       block.size = count;
       std::copy(gradient.begin(), gradient.end(), block.gradient.begin());
@@ -244,15 +300,54 @@ void MpmGround::gather(double dt) {
                                      error.what(), first, phase.particles.data(column::x)[first],
                                      phase.particles.data(column::y)[first], phase.particles.data(column::z)[first]));
       }
-      // By the mean of the stresses before and after the step: with either alone the audit of a vibrating body drifts by O(dt).
-      stress_work_ += 0.5 * (sums.stress_work + stress_work(particles, gradient));
+      stress_work_ += 0.5 * kernels_.stress_work(particles, gradient.data());
     }
-  for (const Push& push : pushes_) {
-    const Particles& particles = phases_[push.phase].particles;
-    contact_work_ += dt * push.force.dot(particles.velocity(push.particle) + particles.affine(push.particle) * push.lever);
+}
+
+// ---- contact --------------------------------------------------------------------------------------------------------------------
+
+void MpmGround::push(const GroundPoint& near, const Vector3& force, const Vector3& point) {
+  pushes_.push_back({near, force, point});
+}
+
+void MpmGround::probe(const std::vector<GroundPoint>& points, std::vector<GroundMotion>& motions) {
+  motions.resize(points.size());
+  if (!lagging_) {
+    for (std::size_t n = 0; n < points.size(); ++n) {
+      const Particles& particles = phases_[points[n].phase].particles;
+      const std::size_t p = points[n].particle;
+      const Vector3 x = particles.position(p);
+      motions[n] = {x, in_cycle() ? particles.reference(p) : x, particles.velocity(p), particles.affine(p)};
+    }
+    return;
+  }
+  point_motions_.resize(points.size());
+  for (std::size_t n = 0; n < points.size(); ++n)
+    Eigen::Map<Vector3>(point_motions_[n].position) = phases_[points[n].phase].particles.reference(points[n].particle);
+  kernels_.probe(local_view(), point_motions_.data(), points.size());
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const PointMotion& point = point_motions_[n];
+    motions[n].reference = Eigen::Map<const Vector3>(point.position);
+    motions[n].position =
+        phases_[points[n].phase].particles.position(points[n].particle) + Eigen::Map<const Vector3>(point.displacement);
+    motions[n].velocity = Eigen::Map<const Vector3>(point.velocity);
+    motions[n].affine = Eigen::Map<const Eigen::Matrix<double, 4, 3>>(point.affine).topRows<3>();
+  }
+}
+
+void MpmGround::count_contact_work(double dt) {
+  if (pushes_.empty()) return;
+  pushed_.clear();
+  for (const Push& push : pushes_) pushed_.push_back(push.near);
+  probe(pushed_, pushed_motions_);
+  for (std::size_t n = 0; n < pushes_.size(); ++n) {
+    contact_work_ += dt * pushes_[n].force.dot(pushed_motions_[n].velocity_at(pushes_[n].point));
+    largest_speed_ = std::max(largest_speed_, pushed_motions_[n].velocity.norm());
   }
   pushes_.clear();
 }
+
+// ---- errors and balance ---------------------------------------------------------------------------------------------------------
 
 void MpmGround::report_outside(const GroundPhase& phase) const {
   for (std::size_t p = 0; p < phase.particles.size(); ++p) {
@@ -283,13 +378,18 @@ double MpmGround::internal_energy() const {
   return energy(field::stored_energy) + energy(field::frozen_energy) + energy(field::dissipated_energy);
 }
 
-Balance MpmGround::balance() const {
-  const double dissipated = energy(field::dissipated_energy) + dropped_dissipated_;
+Vector3 MpmGround::particle_momentum() const {
   Vector3 momentum = Vector3::Zero();
   for (const GroundPhase& phase : phases_)
     for (std::size_t p = 0; p < phase.particles.size(); ++p)
       momentum += phase.law->density() * phase.particles.data(column::volume)[p] * phase.particles.velocity(p);
-  const double kinetic = kinetic_ + dropped_kinetic_, load = gravity_work_ + faces_.work();
+  return momentum;
+}
+
+Balance MpmGround::balance() const {
+  const double dissipated = energy(field::dissipated_energy) + dropped_dissipated_;
+  const Vector3 momentum = lagging_ ? totals_.momentum : particle_momentum();
+  const double kinetic = totals_.kinetic_energy + dropped_kinetic_, load = gravity_work_ + faces_.work();
   double sums[] = {kinetic,      internal_energy() - initial_ + dropped_internal_ - dissipated,
                    dissipated,   contact_work_,
                    load,         contact_work_ + load - stress_work_ - kinetic,
@@ -317,195 +417,6 @@ double MpmGround::particle_count() const {
   double count = 0.0;
   for (const GroundPhase& phase : phases_) count += static_cast<double>(phase.particles.size());
   return ranks().sum(count);
-}
-
-// ---- order and place of the particles -----------------------------------------------------------------------------------------
-
-void MpmGround::sort() {
-  drift_ = 0.0;
-  ++generation_;
-  migrate();
-  const std::size_t ny = static_cast<std::size_t>(grid_.axis(1).cells()),
-                    nz = static_cast<std::size_t>(grid_.axis(2).cells());
-  std::vector<std::size_t> cell, start, order;
-  for (GroundPhase& phase : phases_) {
-    const std::size_t n = phase.particles.size();
-    cell.resize(n);
-    start.assign(static_cast<std::size_t>(grid_.axis(0).cells()) * ny * nz + 1, 0);
-    for (std::size_t p = 0; p < n; ++p) {
-      const Vector3 x = phase.particles.position(p);
-      const int c[3] = {grid_.axis(0).cell_of(x[0]), grid_.axis(1).cell_of(x[1]), grid_.axis(2).cell_of(x[2])};
-      if (c[0] < 0 || c[1] < 0 || c[2] < 0) report_outside(phase);
-      cell[p] = (static_cast<std::size_t>(c[0]) * ny + static_cast<std::size_t>(c[1])) * nz + static_cast<std::size_t>(c[2]);
-      ++start[cell[p] + 1];
-    }
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    order.resize(n);
-    for (std::size_t p = 0; p < n; ++p) order[start[cell[p]]++] = p;
-    phase.particles.reorder(order);
-  }
-  if (sheet_.exists()) sheet_.find(phases_);
-}
-
-/// Balances the slabs and sends every particle to the owner of its cell.
-void MpmGround::migrate() {
-  if (ranks().size() == 1) return;
-  const Axis& x = grid_.axis(0);
-  std::vector<double> count(static_cast<std::size_t>(x.cells()), 0.0);
-  for (const GroundPhase& phase : phases_)
-    for (std::size_t p = 0; p < phase.particles.size(); ++p) {
-      const int cell = x.cell_of(phase.particles.data(column::x)[p]);
-      if (cell < 0) report_outside(phase);
-      ++count[static_cast<std::size_t>(cell)];
-    }
-  ranks().sum(count.data(), count.size());
-  faces_.synchronise(ranks(), partition_.owned());
-  partition_.balance(count);
-  std::vector<std::size_t> staying;
-  for (GroundPhase& phase : phases_) {
-    std::vector<std::vector<double>> leaving(static_cast<std::size_t>(ranks().size()));
-    staying.clear();
-    for (std::size_t p = 0; p < phase.particles.size(); ++p) {
-      const int owner = partition_.owner(x.cell_of(phase.particles.data(column::x)[p]));
-      if (owner == ranks().rank())
-        staying.push_back(p);
-      else
-        phase.particles.pack(p, leaving[static_cast<std::size_t>(owner)]);
-    }
-    phase.particles.reorder(staying);
-    for (int r = 0; r < ranks().size(); ++r) {
-      if (r == ranks().rank()) continue;
-      const std::vector<double> arriving = ranks().exchange(r, leaving[static_cast<std::size_t>(r)]);
-      for (std::size_t n = 0; n < arriving.size(); n += phase.particles.record_length())
-        phase.particles.unpack(arriving.data() + n);
-    }
-  }
-}
-
-// ---- moving ground --------------------------------------------------------------------------------------------------------------
-
-double MpmGround::travelled() const { return grid_.axis(0).lower() - start_; }
-
-void MpmGround::move_window() {
-  if (!parameters_.window) return;
-  const Axis& x = grid_.axis(0);
-  bool moved = false;
-  while (focus_ > 0.5 * (x.lower() + x.upper()) + x.length(0)) {
-    drop_behind();
-    if (!moved) faces_.synchronise(ranks(), partition_.owned());  // rows go over from rank to rank
-    grid_.shift_x(1);
-    faces_.shift_x(1);
-    ++shifts_;
-    const double before = internal_energy();
-    add_column(x.cells() - 1);
-    initial_ += internal_energy() - before;
-    moved = true;
-  }
-  if (moved) sort();
-}
-
-void MpmGround::drop_behind() {
-  const Axis &x = grid_.axis(0), &y = grid_.axis(1);
-  const double edge = x.knot(1);
-  std::vector<double> top(static_cast<std::size_t>(y.cells()), -std::numeric_limits<double>::infinity()),
-      mass(top.size(), 0.0), volume(top.size(), 0.0);
-  const double before = internal_energy(), heat_before = energy(field::dissipated_energy);
-  std::vector<std::size_t> kept;
-  for (GroundPhase& phase : phases_) {
-    const Particles& particles = phase.particles;
-    kept.clear();
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      if (particles.data(column::x)[p] >= edge) {
-        kept.push_back(p);
-        continue;
-      }
-      const auto row = static_cast<std::size_t>(y.cell_of(particles.data(column::y)[p]));
-      const double ratio = particles.data(column::state + field::volume_ratio)[p],
-                   reference = particles.data(column::volume)[p];
-      top[row] = std::max(top[row], particles.data(column::z)[p] + particles.data(column::half_z)[p] * ratio);
-      mass[row] += phase.law->density() * reference;
-      volume[row] += reference * ratio;
-      dropped_kinetic_ += 0.5 * phase.law->density() * reference * particles.velocity(p).squaredNorm();
-    }
-    phase.particles.reorder(kept);
-  }
-  dropped_internal_ += before - internal_energy();
-  dropped_dissipated_ += heat_before - energy(field::dissipated_energy);
-  for (std::size_t row = 0; row < top.size(); ++row)
-    if (volume[row] > 0.0)
-      rut_.push_back({0.5 * (x.lower() + edge), y.knot(static_cast<int>(row)) + 0.5 * y.length(static_cast<int>(row)),
-                      top[row], mass[row] / volume[row]});
-}
-
-// ---- restart --------------------------------------------------------------------------------------------------------------------
-
-std::vector<double> MpmGround::fingerprint() const {
-  std::vector<double> numbers = {static_cast<double>(phases_.size())};
-  for (int a = 0; a < 3; ++a)
-    numbers.insert(numbers.end(), {static_cast<double>(grid_.axis(a).cells()), grid_.axis(a).shortest()});
-  for (const GroundPhase& phase : phases_)
-    numbers.insert(numbers.end(), {static_cast<double>(phase.particles.record_length()), phase.law->density()});
-  numbers.insert(numbers.end(),
-                 {static_cast<double>(faces_.state_length()), static_cast<double>(sheet_.surface().node_count())});
-  return numbers;
-}
-
-std::vector<double> MpmGround::state() const {
-  std::vector<double> state = fingerprint();
-  double sums[] = {kinetic_,      initial_,         stress_work_,      contact_work_,
-                   gravity_work_, dropped_kinetic_, dropped_internal_, dropped_dissipated_};
-  ranks().sum(sums, std::size(sums));
-  state.insert(state.end(), std::begin(sums), std::end(sums));
-  state.insert(state.end(), {static_cast<double>(shifts_), focus_, next_id_, drift_, ranks().max(largest_speed_)});
-  const Matrix3X& f = sheet_.surface().f;
-  state.insert(state.end(), f.data(), f.data() + f.size());
-  Faces faces = faces_;
-  faces.synchronise(ranks(), partition_.owned());
-  faces.collect(ranks());
-  faces.save(state);
-  for (const GroundPhase& phase : phases_) {
-    std::vector<double> records;
-    for (std::size_t p = 0; p < phase.particles.size(); ++p) phase.particles.pack(p, records);
-    records = ranks().gather(records);
-    state.push_back(static_cast<double>(records.size()));
-    state.insert(state.end(), records.begin(), records.end());
-  }
-  return state;
-}
-
-void MpmGround::restore(const std::vector<double>& state) {
-  const std::vector<double> mine = fingerprint();
-  if (state.size() < mine.size() || !std::equal(mine.begin(), mine.end(), state.begin()))
-    throw Error(fmt::format(
-        "{}: the saved state belongs to other ground; restart with the materials, size and cells of the first run", where_));
-  const double* next = state.data() + mine.size();
-  for (double* sum : {&kinetic_, &initial_, &stress_work_, &contact_work_, &gravity_work_, &dropped_kinetic_,
-                      &dropped_internal_, &dropped_dissipated_})
-    *sum = ranks().rank() == 0 ? *next++ : (++next, 0.0);
-  const int shifts = static_cast<int>(*next++);
-  grid_.shift_x(shifts - shifts_);
-  shifts_ = shifts;
-  focus_ = *next++;
-  next_id_ = *next++;
-  drift_ = *next++;
-  largest_speed_ = *next++;
-  Matrix3X& f = sheet_.surface().f;
-  std::copy_n(next, f.size(), f.data());
-  next += f.size();
-  next = faces_.restore(next, ranks().rank() == 0);
-  for (GroundPhase& phase : phases_) {
-    phase.particles.reorder({});
-    const auto length = static_cast<std::size_t>(*next++);
-    for (const double* end = next + length; next != end; next += phase.particles.record_length())
-      if (partition_.owner(grid_.axis(0).cell_of(next[0])) == ranks().rank()) phase.particles.unpack(next);
-  }
-  const double drift = drift_;
-  if (ranks().size() > 1) sort();
-  drift_ = drift;
-  ++generation_;
-  if (!sheet_.exists()) return;
-  sheet_.find(phases_);
-  move_sheet();
 }
 
 }  // namespace furrow

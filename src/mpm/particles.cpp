@@ -8,7 +8,8 @@ Particles::Particles(const Material& law) : state_fields_(law.state_fields().siz
   for (const char* name : {"x", "y", "z"}) columns_.push_back({name, 1, {}});
   columns_.push_back({"velocity", 4, {}});
   columns_.push_back({"affine", 12, {}});
-  for (const char* name : {"volume", "home_x", "home_y", "home_z", "half_x", "half_y", "half_z", "id"})
+  for (const char* name : {"volume", "reference_x", "reference_y", "reference_z", "home_x", "home_y", "home_z", "half_x",
+                           "half_y", "half_z", "id"})
     columns_.push_back({name, 1, {}});
   for (const StateField& field : law.state_fields()) columns_.push_back({field.name, 1, {}});
 }
@@ -73,7 +74,10 @@ void Particles::unpack(const double* record) {
 ParticleView Particles::view(std::size_t first, std::size_t count) {
   ParticleView view;
   view.size = count;
-  for (std::size_t a = 0; a < 3; ++a) view.position[a] = data(column::x + a) + first;
+  for (std::size_t a = 0; a < 3; ++a) {
+    view.reference[a] = data(column::reference_x + a) + first;
+    view.position[a] = data(column::x + a) + first;
+  }
   view.velocity = data(column::velocity) + 4 * first;
   view.affine = data(column::affine) + 12 * first;
   view.volume = data(column::volume) + first;

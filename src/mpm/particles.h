@@ -21,6 +21,9 @@ enum : std::size_t {
   velocity,  ///< [m/s] four numbers, the last is unused
   affine,    ///< C [1/s], three columns of four numbers
   volume,    ///< in the reference configuration [m^3]
+  reference_x,
+  reference_y,
+  reference_z,  ///< position where the weights are taken (mpm_ground.h) [m]
   home_x,
   home_y,
   home_z,  ///< position at the start [m]
@@ -45,6 +48,9 @@ class Particles {
   double* data(std::size_t column) { return columns_[column].values.data(); }
   const double* data(std::size_t column) const { return columns_[column].values.data(); }
   Vector3 position(std::size_t i) const { return {data(column::x)[i], data(column::y)[i], data(column::z)[i]}; }
+  Vector3 reference(std::size_t i) const {
+    return {data(column::reference_x)[i], data(column::reference_y)[i], data(column::reference_z)[i]};
+  }
   Vector3 velocity(std::size_t i) const { return Eigen::Map<const Vector3>(data(column::velocity) + 4 * i); }
   Matrix3 affine(std::size_t i) const;
 

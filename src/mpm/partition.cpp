@@ -45,7 +45,7 @@ void Partition::sum_shared(Grid& grid) const {
     return PlaneRange{std::max(mine.from, theirs.from), std::min(mine.to, theirs.to)};
   };
   const auto numbers = [&](const PlaneRange& planes) {
-    const double* first = grid.plane(planes.from)->momentum;
+    const double* first = grid.plane_sums(planes.from);
     return std::vector<double>(first, first + length * static_cast<std::size_t>(planes.to - planes.from));
   };
   // All are sent before anything is added, then added in the order of the ranks: a node's sum does not depend on who makes it.
@@ -69,7 +69,7 @@ void Partition::sum_shared(Grid& grid) const {
       }
     }
     if (parts.size() == 1) continue;
-    double* sum = grid.plane(plane)->momentum;
+    double* sum = grid.plane_sums(plane);
     std::copy_n(parts[0], length, sum);
     for (std::size_t p = 1; p < parts.size(); ++p)
       for (std::size_t n = 0; n < length; ++n) sum[n] += parts[p][n];

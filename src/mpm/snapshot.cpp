@@ -33,10 +33,11 @@ std::size_t compaction_column(const Material& law) {
 
 }  // namespace
 
-GroundSnapshot take_snapshot(const MpmGround& ground) {
+GroundSnapshot take_snapshot(MpmGround& ground) {
   std::vector<double> records;
-  for (std::size_t k = 0; k < ground.phases().size(); ++k) {
-    const GroundPhase& phase = ground.phases()[k];
+  const std::vector<GroundPhase>& phases = ground.phases();
+  for (std::size_t k = 0; k < phases.size(); ++k) {
+    const GroundPhase& phase = phases[k];
     const Particles& particles = phase.particles;
     const std::size_t compacted = compaction_column(*phase.law);
     for (std::size_t p = 0; p < particles.size(); ++p) {

@@ -23,7 +23,7 @@ struct GroundSnapshot {
 };
 
 /// Collective; every rank gets all.
-GroundSnapshot take_snapshot(const MpmGround& ground);
+GroundSnapshot take_snapshot(MpmGround& ground);
 /// What the moving ground dropped, of all ranks. Collective.
 std::vector<RutPoint> collect_rut(const MpmGround& ground);
 

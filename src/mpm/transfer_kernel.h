@@ -11,24 +11,27 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-typedef double Vector4 __attribute__((vector_size(32)));                         // momentum and mass, or velocity, of a node
+typedef double Vector4 __attribute__((vector_size(32)));                         // the four numbers of a node
 typedef double Stored4 __attribute__((vector_size(32), aligned(8), may_alias));  // the same anywhere in memory
 
 constexpr std::size_t batch = 64;  // particles: their weights fit the first cache
 
-/// B-splines of a batch: values, values times d_i, D and 1/D, direction by direction.
+enum class Slope {
+  moment,   // N d, for momentum and motion
+  gradient  // G of transfer.h, for force and strain
+};
+
+/// B-splines of a batch, direction by direction.
 struct Weights {
   double value[3][stencil][batch];
-  double moment[3][stencil][batch];
-  double gradient[3][stencil][batch];  // set for uneven particles only: N d/D of even cells, N' of uneven ones
-  double spread[3][batch], inverse_spread[3][batch];
-  double flux_factor[3][batch];  // 1/D; 1 for uneven particles, whose force goes by gradients
-  int first[batch];              // node of the lowest corner
-  int uneven[batch];             // 1: in an uneven cell of any axis
+  double slope[3][stencil][batch];
+  double inverse_spread[3][batch];  // 1/D; with moments only
+  int first[batch];                 // node of the lowest corner
 };
 
 /// A particle whose cell is not in the run of even cells: by the axis's tables.
-inline int find_weights_by_table(const AxisView& axis, int a, double x, std::size_t p, Weights& weights) {
+template <Slope kind>
+int find_weights_by_table(const AxisView& axis, int a, double x, std::size_t p, Weights& weights) {
   int bin = static_cast<int>((x - axis.lower) * axis.bins_per_length);
   bin = bin > 0 ? bin : 0;
   bin = bin < axis.bins ? bin : axis.bins - 1;
@@ -37,47 +40,43 @@ inline int find_weights_by_table(const AxisView& axis, int a, double x, std::siz
   const double below = x - axis.knot[c], above = axis.knot[c + 1] - x;
   const double w0 = axis.left[c] * above * above, w2 = axis.right[c] * below * below;
   const double w[stencil] = {w0, 1.0 - w0 - w2, w2};
-  double spread = 0.0;
+  double moment[stencil], spread = 0.0;
   for (std::size_t i = 0; i < stencil; ++i) {
     const double d = axis.node[c + static_cast<int>(i)] - x;
-    weights.value[a][i][p] = w[i];
-    weights.moment[a][i][p] = w[i] * d;
-    spread += w[i] * d * d;
+    moment[i] = w[i] * d;
+    spread += moment[i] * d;
   }
-  weights.spread[a][p] = spread;
-  weights.inverse_spread[a][p] = weights.flux_factor[a][p] = 1.0 / spread;
-  weights.uneven[p] |= axis.uneven[c];
+  const double inverse = 1.0 / spread;
+  const double g0 = -2.0 * axis.left[c] * above, g2 = 2.0 * axis.right[c] * below;
+  const double gradient[stencil] = {g0, -g0 - g2, g2};
+  for (std::size_t i = 0; i < stencil; ++i) {
+    weights.value[a][i][p] = w[i];
+    weights.slope[a][i][p] = kind == Slope::moment ? moment[i] : axis.uneven[c] ? gradient[i] : moment[i] * inverse;
+  }
+  if (kind == Slope::moment) weights.inverse_spread[a][p] = inverse;
   return c;
 }
 
-/// Gradients of an uneven particle's splines.
-inline void find_gradients(const GridView& grid, const double* const* position, const int (&cell)[3][batch], std::size_t p,
-                           Weights& weights) {
-  for (int a = 0; a < 3; ++a) {
-    const AxisView& axis = grid.axis[a];
-    const int c = cell[a][p];
-    const double x = position[a][p], inverse = weights.inverse_spread[a][p];
-    const double g0 = -2.0 * axis.left[c] * (axis.knot[c + 1] - x), g2 = 2.0 * axis.right[c] * (x - axis.knot[c]);
-    const double own[stencil] = {g0, -g0 - g2, g2};
-    for (std::size_t i = 0; i < stencil; ++i)
-      weights.gradient[a][i][p] = axis.uneven[c] ? own[i] : weights.moment[a][i][p] * inverse;
-    weights.flux_factor[a][p] = 1.0;
+inline std::size_t count_outside(const GridView& grid, const double* const* position, std::size_t count) {
+  int outside = 0;
+  for (std::size_t p = 0; p < count; ++p) {
+    int inside = 1;
+    for (int a = 0; a < 3; ++a)
+      inside &= static_cast<int>(position[a][p] >= grid.axis[a].from) & static_cast<int>(position[a][p] <= grid.axis[a].to);
+    outside += 1 - inside;
   }
+  return static_cast<std::size_t>(outside);
 }
 
-/// @return how many of the particles are outside
-inline std::size_t find_weights(const GridView& grid, const double* const* position, std::size_t count, Weights& weights) {
+template <Slope kind>
+void find_weights(const GridView& grid, const double* const* position, std::size_t count, Weights& weights) {
   int cell[3][batch], apart[batch];
-  for (std::size_t p = 0; p < count; ++p) weights.uneven[p] = 0;
   for (int a = 0; a < 3; ++a) {
     const AxisView& axis = grid.axis[a];
     const double* x = position[a];
-    int inside = 0;
-    for (std::size_t p = 0; p < count; ++p)
-      inside += static_cast<int>(x[p] >= axis.from) & static_cast<int>(x[p] <= axis.to);
-    if (static_cast<std::size_t>(inside) < count) return count - static_cast<std::size_t>(inside);
     // Cells of one length: the splines are those of unit cells, D = h^2/4. No table, so that the compiler vectorises.
-    const double h = axis.even_length, per_length = 1.0 / h, spread = 0.25 * h * h;
+    const double h = axis.even_length, per_length = 1.0 / h, inverse_spread = 4.0 * per_length * per_length,
+                 scale = kind == Slope::moment ? h : h * inverse_spread;
     int any = 0;
     for (std::size_t p = 0; p < count; ++p) {
       const double from_start = (x[p] - axis.even_start) * per_length;
@@ -88,114 +87,91 @@ inline std::size_t find_weights(const GridView& grid, const double* const* posit
       weights.value[a][0][p] = w0;
       weights.value[a][1][p] = w1;
       weights.value[a][2][p] = w2;
-      weights.moment[a][0][p] = w0 * (-0.5 - f) * h;
-      weights.moment[a][1][p] = w1 * (0.5 - f) * h;
-      weights.moment[a][2][p] = w2 * (1.5 - f) * h;
-      weights.spread[a][p] = spread;
-      weights.inverse_spread[a][p] = weights.flux_factor[a][p] = 1.0 / spread;
+      weights.slope[a][0][p] = w0 * (-0.5 - f) * scale;
+      weights.slope[a][1][p] = w1 * (0.5 - f) * scale;
+      weights.slope[a][2][p] = w2 * (1.5 - f) * scale;
+      if (kind == Slope::moment) weights.inverse_spread[a][p] = inverse_spread;
       cell[a][p] = c;
       apart[p] = static_cast<int>(from_start < 0.0) | static_cast<int>(c >= axis.even_to);
       any |= apart[p];
     }
     if (any)
       for (std::size_t p = 0; p < count; ++p)
-        if (apart[p]) cell[a][p] = find_weights_by_table(axis, a, x[p], p, weights);
+        if (apart[p]) cell[a][p] = find_weights_by_table<kind>(axis, a, x[p], p, weights);
   }
-  for (std::size_t p = 0; p < count; ++p)
-    if (weights.uneven[p]) find_gradients(grid, position, cell, p, weights);
   const int ny = grid.axis[1].cells + 2, nz = grid.axis[2].cells + 2;
   for (std::size_t p = 0; p < count; ++p) weights.first[p] = (cell[0][p] * ny + cell[1][p]) * nz + cell[2][p];
-  return 0;
 }
+
+/// Numbers from a node to the next along x and y.
+struct Strides {
+  explicit Strides(const GridView& grid)
+      : y(4 * (static_cast<std::size_t>(grid.axis[2].cells) + 2)),
+        x(y * (static_cast<std::size_t>(grid.axis[1].cells) + 2)) {}
+  std::size_t y, x;
+};
 
 /// What the particles of one cell give to its 27 nodes, held in registers until the last of them.
 struct CellSum {
   Vector4 node[stencil][stencil][stencil];
 
-  /// Adds N_i (base + sum_d slope_d d_i,d).
-  [[gnu::always_inline]] void add(const Weights& weights, std::size_t p, const Vector4& base, const Vector4* slope) {
-    Vector4 value_z[stencil], along_x[stencil], along_y[stencil];
+  /// Adds N_i base + sum_d (slope of N_i along d) flux_d.
+  [[gnu::always_inline]] void add(const Weights& weights, std::size_t p, const Vector4& base, const Vector4* flux) {
+    Vector4 value_z[stencil];
 #pragma GCC unroll 3
-    for (std::size_t k = 0; k < stencil; ++k) {
-      const double w = weights.value[2][k][p];
-      value_z[k] = w * base + weights.moment[2][k][p] * slope[2];
-      along_x[k] = w * slope[0];
-      along_y[k] = w * slope[1];
-    }
-#pragma GCC unroll 3
-    for (std::size_t i = 0; i < stencil; ++i) {
-      const double w = weights.value[0][i][p], m = weights.moment[0][i][p];
-#pragma GCC unroll 3
-      for (std::size_t k = 0; k < stencil; ++k) {
-        const Vector4 value = w * value_z[k] + m * along_x[k], y_part = w * along_y[k];
-#pragma GCC unroll 3
-        for (std::size_t j = 0; j < stencil; ++j) {
-          node[i][j][k] += weights.value[1][j][p] * value;
-          node[i][j][k] += weights.moment[1][j][p] * y_part;
-        }
-      }
-    }
+    for (std::size_t k = 0; k < stencil; ++k) value_z[k] = weights.value[2][k][p] * base + weights.slope[2][k][p] * flux[2];
+    add_rows(weights, p, value_z, flux);
   }
 
-  [[gnu::always_inline]] void give_to(const GridView& grid, int first) const {
-    const std::size_t nz = static_cast<std::size_t>(grid.axis[2].cells) + 2,
-                      plane = (static_cast<std::size_t>(grid.axis[1].cells) + 2) * nz;
-    double* corner = grid.node + 4 * static_cast<std::size_t>(first);
+  /// The same without base.
+  [[gnu::always_inline]] void add(const Weights& weights, std::size_t p, const Vector4* flux) {
+    Vector4 value_z[stencil];
+#pragma GCC unroll 3
+    for (std::size_t k = 0; k < stencil; ++k) value_z[k] = weights.slope[2][k][p] * flux[2];
+    add_rows(weights, p, value_z, flux);
+  }
+
+  [[gnu::always_inline]] void give_to(const GridView& grid, const Strides& stride, int first) const {
+    double* corner = grid.sums + 4 * static_cast<std::size_t>(first);
 #pragma GCC unroll 3
     for (std::size_t i = 0; i < stencil; ++i)
 #pragma GCC unroll 3
       for (std::size_t j = 0; j < stencil; ++j) {
-        Stored4* row = reinterpret_cast<Stored4*>(corner + 4 * (i * plane + j * nz));
+        Stored4* row = reinterpret_cast<Stored4*>(corner + i * stride.x + j * stride.y);
 #pragma GCC unroll 3
         for (std::size_t k = 0; k < stencil; ++k) row[k] += node[i][j][k];
       }
   }
-};
 
-/// Adds the force of the stress of an uneven particle: sum_d flux_d dN_i/dx_d.
-inline void add_flux_to_nodes(const GridView& grid, const Weights& weights, std::size_t p, const Vector4* flux) {
-  const std::size_t nz = static_cast<std::size_t>(grid.axis[2].cells) + 2,
-                    plane = (static_cast<std::size_t>(grid.axis[1].cells) + 2) * nz;
-  double* corner = grid.node + 4 * static_cast<std::size_t>(weights.first[p]);
-  for (std::size_t i = 0; i < stencil; ++i) {
-    const double wx = weights.value[0][i][p], gx = weights.gradient[0][i][p];
-    for (std::size_t j = 0; j < stencil; ++j) {
-      const double wy = weights.value[1][j][p], gy = weights.gradient[1][j][p];
-      const Vector4 across = (gx * wy) * flux[0] + (wx * gy) * flux[1], along = (wx * wy) * flux[2];
-      Stored4* row = reinterpret_cast<Stored4*>(corner + 4 * (i * plane + j * nz));
-      for (std::size_t k = 0; k < stencil; ++k)
-        row[k] += weights.value[2][k][p] * across + weights.gradient[2][k][p] * along;
+ private:
+  [[gnu::always_inline]] void add_rows(const Weights& weights, std::size_t p, const Vector4* value_z, const Vector4* flux) {
+    Vector4 along_x[stencil], along_y[stencil];
+#pragma GCC unroll 3
+    for (std::size_t k = 0; k < stencil; ++k) {
+      const double w = weights.value[2][k][p];
+      along_x[k] = w * flux[0];
+      along_y[k] = w * flux[1];
     }
-  }
-}
-
-/// The velocity gradient of an uneven particle, column by column.
-inline void read_gradient(const GridView& grid, const Weights& weights, std::size_t p, Vector4* rate) {
-  const std::size_t nz = static_cast<std::size_t>(grid.axis[2].cells) + 2,
-                    plane = (static_cast<std::size_t>(grid.axis[1].cells) + 2) * nz;
-  const double* corner = grid.node + 4 * static_cast<std::size_t>(weights.first[p]);
-  for (int d = 0; d < 3; ++d) rate[d] = Vector4{};
-  for (std::size_t i = 0; i < stencil; ++i) {
-    const double wx = weights.value[0][i][p], gx = weights.gradient[0][i][p];
-    for (std::size_t j = 0; j < stencil; ++j) {
-      const double wy = weights.value[1][j][p], gy = weights.gradient[1][j][p];
-      const Stored4* row = reinterpret_cast<const Stored4*>(corner + 4 * (i * plane + j * nz));
-      Vector4 sum = {}, sum_z = {};
+#pragma GCC unroll 3
+    for (std::size_t i = 0; i < stencil; ++i) {
+      const double w = weights.value[0][i][p], g = weights.slope[0][i][p];
+#pragma GCC unroll 3
       for (std::size_t k = 0; k < stencil; ++k) {
-        const Vector4 v = row[k];
-        sum += weights.value[2][k][p] * v;
-        sum_z += weights.gradient[2][k][p] * v;
+        const Vector4 value = w * value_z[k] + g * along_x[k], y_part = w * along_y[k];
+#pragma GCC unroll 3
+        for (std::size_t j = 0; j < stencil; ++j) {
+          node[i][j][k] += weights.value[1][j][p] * value;
+          node[i][j][k] += weights.slope[1][j][p] * y_part;
+        }
       }
-      rate[0] += (gx * wy) * sum;
-      rate[1] += (wx * gy) * sum;
-      rate[2] += (wx * wy) * sum_z;
     }
   }
-}
+};
 
 inline ParticleView part(const ParticleView& all, std::size_t first, std::size_t count) {
   ParticleView some = all;
   some.size = count;
+  for (const double*& x : some.reference) x += first;
   for (double*& x : some.position) x += first;
   some.velocity += 4 * first;
   some.affine += 12 * first;
@@ -205,171 +181,223 @@ inline ParticleView part(const ParticleView& all, std::size_t first, std::size_t
   return some;
 }
 
-inline std::size_t scatter_batch(const GridView& grid, const ParticleView& particles, double density, double dt,
-                                 const double* gravity) {
-  Weights weights;
-  if (const std::size_t outside = find_weights(grid, particles.position, particles.size, weights)) return outside;
-  // -dt V sigma D^-1, column by column; without D^-1 for uneven particles
-  alignas(64) double force[9][batch];
-  constexpr int entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};  // of the stress: row, column
-  for (int column = 0; column < 3; ++column)
-    for (int row = 0; row < 3; ++row) {
-      const double *stress = particles.stress[entry[row][column]], *factor = weights.flux_factor[column];
-      for (std::size_t p = 0; p < particles.size; ++p)
-        force[3 * column + row][p] = -dt * particles.volume[p] * particles.volume_ratio[p] * stress[p] * factor[p];
-    }
-  const Vector4 fall = {dt * gravity[0], dt * gravity[1], dt * gravity[2], 0.0};
-  for (std::size_t p = 0; p < particles.size;) {
-    const int first = weights.first[p];
-    CellSum sum = {};
-    do {
-      const double mass = density * particles.volume[p];
-      const Stored4* affine = reinterpret_cast<const Stored4*>(particles.affine + 12 * p);
-      Vector4 base = *reinterpret_cast<const Stored4*>(particles.velocity + 4 * p) + fall;
-      base[3] = 1.0;
-      base *= mass;
-      Vector4 slope[3], flux[3];
-      for (int d = 0; d < 3; ++d) {
-        slope[d] = mass * affine[d];
-        flux[d] = Vector4{force[3 * d][p], force[3 * d + 1][p], force[3 * d + 2][p], 0.0};
-      }
-      if (weights.uneven[p])
-        add_flux_to_nodes(grid, weights, p, flux);
-      else
-        for (int d = 0; d < 3; ++d) slope[d] += flux[d];
-      sum.add(weights, p, base, slope);
-      ++p;
-    } while (p < particles.size && weights.first[p] == first);
-    sum.give_to(grid, first);
-  }
-  return 0;
+/// Calls visit(particles, number of the first) for batches of the particles.
+template <class Visit>
+void for_batches(const ParticleView& particles, Visit&& visit) {
+  for (std::size_t first = 0; first < particles.size; first += batch)
+    visit(part(particles, first, particles.size - first < batch ? particles.size - first : batch), first);
 }
 
-inline std::size_t scatter(const GridView& grid, const ParticleView& particles, double density, double dt,
-                           const double* gravity) {
-  std::size_t outside = 0;
-  for (std::size_t first = 0; first < particles.size; first += batch) {
-    const std::size_t count = particles.size - first < batch ? particles.size - first : batch;
-    outside += scatter_batch(grid, part(particles, first, count), density, dt, gravity);
+/// Calls add(sum, particle) for the particles in turn, and gives the sum of those of one cell to its nodes.
+template <class Add>
+[[gnu::always_inline]] inline void for_cells(const GridView& grid, const Weights& weights, std::size_t count, Add&& add) {
+  const Strides stride(grid);
+  for (std::size_t p = 0; p < count;) {
+    const int first = weights.first[p];
+    CellSum sum = {};
+    do add(sum, p);
+    while (++p < count && weights.first[p] == first);
+    sum.give_to(grid, stride, first);
   }
+}
+
+inline std::size_t scatter_momentum(const GridView& grid, const ParticleView& all, double density) {
+  std::size_t outside = 0;
+  for_batches(all, [&](const ParticleView& particles, std::size_t) {
+    if (const std::size_t count = count_outside(grid, particles.reference, particles.size)) {
+      outside += count;
+      return;
+    }
+    Weights weights;
+    find_weights<Slope::moment>(grid, particles.reference, particles.size, weights);
+    for_cells(
+        grid, weights, particles.size, [&](CellSum & sum, std::size_t p) __attribute__((always_inline)) {
+          const double mass = density * particles.volume[p];
+          const Stored4* affine = reinterpret_cast<const Stored4*>(particles.affine + 12 * p);
+          Vector4 base = *reinterpret_cast<const Stored4*>(particles.velocity + 4 * p);
+          base[3] = 1.0;
+          const Vector4 slope[3] = {mass * affine[0], mass * affine[1], mass * affine[2]};
+          sum.add(weights, p, mass * base, slope);
+        });
+  });
   return outside;
 }
 
+inline void scatter_force(const GridView& grid, const ParticleView& all, double dt) {
+  for_batches(all, [&](const ParticleView& particles, std::size_t) {
+    Weights weights;
+    find_weights<Slope::gradient>(grid, particles.reference, particles.size, weights);
+    alignas(64) double force[6][batch];  // -dt V sigma
+    for (int s = 0; s < 6; ++s)
+      for (std::size_t p = 0; p < particles.size; ++p)
+        force[s][p] = -dt * particles.volume[p] * particles.volume_ratio[p] * particles.stress[s][p];
+    for_cells(
+        grid, weights, particles.size, [&](CellSum & sum, std::size_t p) __attribute__((always_inline)) {
+          const double xx = force[0][p], yy = force[1][p], zz = force[2][p], xy = force[3][p], yz = force[4][p],
+                       xz = force[5][p];
+          const Vector4 flux[3] = {{xx, xy, xz, 0.0}, {xy, yy, yz, 0.0}, {xz, yz, zz, 0.0}};
+          sum.add(weights, p, flux);
+        });
+  });
+}
+
 inline void scatter_impulses(const GridView& grid, const PointImpulse* impulses, std::size_t count) {
+  const Strides stride(grid);
   Weights weights;
   for (std::size_t n = 0; n < count; ++n) {
     const PointImpulse& one = impulses[n];
     const double* position[3] = {one.position, one.position + 1, one.position + 2};
-    if (find_weights(grid, position, 1, weights) > 0) continue;
+    find_weights<Slope::moment>(grid, position, 1, weights);
     const Vector4 base = {one.impulse[0], one.impulse[1], one.impulse[2], 0.0};
     Vector4 slope[3];
     for (int d = 0; d < 3; ++d) slope[d] = base * (one.lever[d] * weights.inverse_spread[d][0]);
     CellSum sum = {};
     sum.add(weights, 0, base, slope);
-    sum.give_to(grid, weights.first[0]);
+    sum.give_to(grid, stride, weights.first[0]);
   }
 }
 
-/// Velocity and its gradient from the nodes of particle p.
-inline void read_nodes(const GridView& grid, const Weights& weights, std::size_t p, Vector4& velocity, Vector4* affine) {
-  const std::size_t nz = static_cast<std::size_t>(grid.axis[2].cells) + 2,
-                    plane = (static_cast<std::size_t>(grid.axis[1].cells) + 2) * nz;
-  Vector4 value[stencil] = {}, along_x[stencil] = {}, along_y[stencil] = {};
-  const double* corner = grid.node + 4 * static_cast<std::size_t>(weights.first[p]);
+/// sum N_i q_i of a quantity of the nodes.
+[[gnu::always_inline]] inline void read_value(const double* nodes, const Strides& stride, const Weights& weights,
+                                              std::size_t p, Vector4& value) {
+  const double* corner = nodes + 4 * static_cast<std::size_t>(weights.first[p]);
+  Vector4 total[stencil] = {};
+#pragma GCC unroll 3
+  for (std::size_t i = 0; i < stencil; ++i) {
+    Vector4 sum[stencil] = {};
+#pragma GCC unroll 3
+    for (std::size_t j = 0; j < stencil; ++j) {
+      const Stored4* row = reinterpret_cast<const Stored4*>(corner + i * stride.x + j * stride.y);
+#pragma GCC unroll 3
+      for (std::size_t k = 0; k < stencil; ++k) sum[k] += weights.value[1][j][p] * row[k];
+    }
+#pragma GCC unroll 3
+    for (std::size_t k = 0; k < stencil; ++k) total[k] += weights.value[0][i][p] * sum[k];
+  }
+  value = weights.value[2][0][p] * total[0] + weights.value[2][1][p] * total[1] + weights.value[2][2][p] * total[2];
+}
+
+/// sum N_i q_i, and sum (slope of N_i along d) q_i.
+[[gnu::always_inline]] inline void read_slopes(const double* nodes, const Strides& stride, const Weights& weights,
+                                               std::size_t p, Vector4& value, Vector4* slope) {
+  const double* corner = nodes + 4 * static_cast<std::size_t>(weights.first[p]);
+  Vector4 total[stencil] = {}, along_x[stencil] = {}, along_y[stencil] = {};
+#pragma GCC unroll 3
   for (std::size_t i = 0; i < stencil; ++i) {
     Vector4 sum[stencil] = {}, sum_y[stencil] = {};
+#pragma GCC unroll 3
     for (std::size_t j = 0; j < stencil; ++j) {
-      const double wy = weights.value[1][j][p], my = weights.moment[1][j][p];
-      const Stored4* row = reinterpret_cast<const Stored4*>(corner + 4 * (i * plane + j * nz));
+      const double w = weights.value[1][j][p], g = weights.slope[1][j][p];
+      const Stored4* row = reinterpret_cast<const Stored4*>(corner + i * stride.x + j * stride.y);
+#pragma GCC unroll 3
       for (std::size_t k = 0; k < stencil; ++k) {
-        const Vector4 v = row[k];
-        sum[k] += wy * v;
-        sum_y[k] += my * v;
+        const Vector4 q = row[k];
+        sum[k] += w * q;
+        sum_y[k] += g * q;
       }
     }
-    const double w = weights.value[0][i][p], m = weights.moment[0][i][p];
+    const double w = weights.value[0][i][p], g = weights.slope[0][i][p];
+#pragma GCC unroll 3
     for (std::size_t k = 0; k < stencil; ++k) {
-      value[k] += w * sum[k];
-      along_x[k] += m * sum[k];
+      total[k] += w * sum[k];
+      along_x[k] += g * sum[k];
       along_y[k] += w * sum_y[k];
     }
   }
-  velocity = Vector4{};
-  for (int d = 0; d < 3; ++d) affine[d] = Vector4{};
+  value = slope[0] = slope[1] = slope[2] = Vector4{};
+#pragma GCC unroll 3
   for (std::size_t k = 0; k < stencil; ++k) {
     const double w = weights.value[2][k][p];
-    velocity += w * value[k];
-    affine[0] += w * along_x[k];
-    affine[1] += w * along_y[k];
-    affine[2] += weights.moment[2][k][p] * value[k];
+    value += w * total[k];
+    slope[0] += w * along_x[k];
+    slope[1] += w * along_y[k];
+    slope[2] += weights.slope[2][k][p] * total[k];
   }
-  for (int d = 0; d < 3; ++d) {  // the fourth number is the mass of nodes: it must not come back to them as a slope of mass
+}
+
+inline void gather_strain(const GridView& grid, const ParticleView& all, double dt, double* const* gradient) {
+  const Strides stride(grid);
+  for_batches(all, [&](const ParticleView& particles, std::size_t first) {
+    Weights weights;
+    find_weights<Slope::gradient>(grid, particles.reference, particles.size, weights);
+    for (std::size_t p = 0; p < particles.size; ++p) {
+      Vector4 velocity, column[3];
+      read_slopes(grid.velocity, stride, weights, p, velocity, column);
+      for (int d = 0; d < 3; ++d) column[d] *= dt;
+#pragma GCC unroll 3
+      for (int row = 0; row < 3; ++row)
+#pragma GCC unroll 3
+        for (int d = 0; d < 3; ++d) gradient[3 * row + d][first + p] = column[d][row];
+    }
+  });
+}
+
+inline double stress_work(const ParticleView& particles, const double* const* h) {
+  const double* const* s = particles.stress;
+  constexpr std::size_t lanes = 8;  // sums side by side: the order of additions is part of the result
+  double work[lanes] = {};
+  const auto of = [&](std::size_t p) {
+    return particles.volume[p] * particles.volume_ratio[p] *
+           (s[0][p] * h[0][p] + s[1][p] * h[4][p] + s[2][p] * h[8][p] + s[3][p] * (h[1][p] + h[3][p]) +
+            s[4][p] * (h[5][p] + h[7][p]) + s[5][p] * (h[2][p] + h[6][p]));
+  };
+  const std::size_t whole = particles.size - particles.size % lanes;
+  for (std::size_t p = 0; p < whole; p += lanes)
+    for (std::size_t lane = 0; lane < lanes; ++lane) work[lane] += of(p + lane);
+  for (std::size_t p = whole; p < particles.size; ++p) work[p - whole] += of(p);
+  double sum = 0.0;
+  for (const double w : work) sum += w;
+  return sum;
+}
+
+/// Velocity and C of a particle; C's fourth numbers would be slopes of the nodes' mass and must not come back to them: zero.
+[[gnu::always_inline]] inline void read_motion(const GridView& grid, const Strides& stride, const Weights& weights,
+                                               std::size_t p, Vector4& velocity, Vector4* affine) {
+  read_slopes(grid.velocity, stride, weights, p, velocity, affine);
+  for (int d = 0; d < 3; ++d) {
     const double inverse = weights.inverse_spread[d][p];
     affine[d] *= Vector4{inverse, inverse, inverse, 0.0};
   }
 }
 
-inline void gather_batch(const GridView& grid, const ParticleView& particles, double density, double dt,
-                         double* const* gradient, std::size_t first, TransferSums& sums) {
-  Weights weights;
-  if (const std::size_t outside = find_weights(grid, particles.position, particles.size, weights)) {
-    if (sums.outside == 0) sums.first_outside = first;
-    sums.outside += outside;
-    return;
-  }
-  Vector4 momentum = {}, energy = {}, largest = {}, rates[3][batch];
-  for (std::size_t p = 0; p < particles.size; ++p) {
-    Vector4 velocity, affine[3];
-    read_nodes(grid, weights, p, velocity, affine);
-    *reinterpret_cast<Stored4*>(particles.velocity + 4 * p) = velocity;
-    Stored4* stored = reinterpret_cast<Stored4*>(particles.affine + 12 * p);
-    for (int d = 0; d < 3; ++d) stored[d] = rates[d][p] = affine[d];
-    if (weights.uneven[p]) {
-      Vector4 rate[3];
-      read_gradient(grid, weights, p, rate);
-      for (int d = 0; d < 3; ++d) rates[d][p] = rate[d];
+inline void gather_motion(const GridView& grid, const ParticleView& all) {
+  const Strides stride(grid);
+  for_batches(all, [&](const ParticleView& particles, std::size_t) {
+    Weights weights;
+    find_weights<Slope::moment>(grid, particles.reference, particles.size, weights);
+    for (std::size_t p = 0; p < particles.size; ++p) {
+      Vector4 velocity, affine[3];
+      read_motion(grid, stride, weights, p, velocity, affine);
+      *reinterpret_cast<Stored4*>(particles.velocity + 4 * p) = velocity;
+      Stored4* stored = reinterpret_cast<Stored4*>(particles.affine + 12 * p);
+      for (int d = 0; d < 3; ++d) stored[d] = affine[d];
+      Vector4 moved;
+      read_value(grid.displacement, stride, weights, p, moved);
+      for (int a = 0; a < 3; ++a) particles.position[a][p] += moved[a];
     }
-    const double mass = density * particles.volume[p];
-    const Vector4 square = velocity * velocity;
-    momentum += mass * velocity;
-    Vector4 own = square;
-    for (int d = 0; d < 3; ++d) own += affine[d] * affine[d] * weights.spread[d][p];
-    energy += (0.5 * mass) * own;
-    largest = square > largest ? square : largest;
-  }
-  for (int a = 0; a < 3; ++a)
-    for (std::size_t p = 0; p < particles.size; ++p) particles.position[a][p] += dt * particles.velocity[4 * p + a];
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      for (std::size_t p = 0; p < particles.size; ++p) gradient[3 * row + column][first + p] = dt * rates[column][p][row];
-  const double* const* s = particles.stress;
-  double work = 0.0;
-  for (std::size_t p = 0; p < particles.size; ++p) {
-    const std::size_t q = first + p;
-    work += particles.volume[p] * particles.volume_ratio[p] *
-            (s[0][p] * gradient[0][q] + s[1][p] * gradient[4][q] + s[2][p] * gradient[8][q] +
-             s[3][p] * (gradient[1][q] + gradient[3][q]) + s[4][p] * (gradient[5][q] + gradient[7][q]) +
-             s[5][p] * (gradient[2][q] + gradient[6][q]));
-  }
-  sums.stress_work += work;
-  sums.kinetic_energy += energy[0] + energy[1] + energy[2];
-  for (int a = 0; a < 3; ++a) sums.momentum[a] += momentum[a];
-  const double fastest = largest[0] + largest[1] + largest[2];
-  if (fastest > sums.largest_speed * sums.largest_speed) sums.largest_speed = __builtin_sqrt(fastest);
+  });
 }
 
-inline TransferSums gather(const GridView& grid, const ParticleView& particles, double density, double dt,
-                           double* const* gradient) {
-  TransferSums sums;
-  for (std::size_t first = 0; first < particles.size; first += batch) {
-    const std::size_t count = particles.size - first < batch ? particles.size - first : batch;
-    gather_batch(grid, part(particles, first, count), density, dt, gradient, first, sums);
+inline void probe(const GridView& grid, PointMotion* points, std::size_t count) {
+  const Strides stride(grid);
+  Weights weights;
+  for (std::size_t n = 0; n < count; ++n) {
+    PointMotion& point = points[n];
+    const double* position[3] = {point.position, point.position + 1, point.position + 2};
+    find_weights<Slope::moment>(grid, position, 1, weights);
+    Vector4 velocity, affine[3];
+    read_motion(grid, stride, weights, 0, velocity, affine);
+    *reinterpret_cast<Stored4*>(point.velocity) = velocity;
+    for (int d = 0; d < 3; ++d) *reinterpret_cast<Stored4*>(point.affine + 4 * d) = affine[d];
+    Vector4 displacement;
+    read_value(grid.displacement, stride, weights, 0, displacement);
+    *reinterpret_cast<Stored4*>(point.displacement) = displacement;
   }
-  return sums;
 }
 
 constexpr TransferKernels all_transfers(const char* instruction_set) {
-  return {instruction_set, scatter, scatter_impulses, gather};
+  return {instruction_set, scatter_momentum, scatter_force, scatter_impulses,
+          gather_strain,   stress_work,      gather_motion, probe};
 }
 
 }  // namespace FURROW_ISA

@@ -30,6 +30,8 @@ class Scene {
             particles_.data(column::x)[p] = i + 0.25 + 0.5 * (n & 1) + shake(engine);
             particles_.data(column::y)[p] = j + 0.25 + 0.5 * ((n >> 1) & 1) + shake(engine);
             particles_.data(column::z)[p] = k + 0.25 + 0.5 * ((n >> 2) & 1) + shake(engine);
+            for (std::size_t a = 0; a < 3; ++a)
+              particles_.data(column::reference_x + a)[p] = particles_.data(column::x + a)[p];
             particles_.data(column::volume)[p] = 0.125;
             particles_.set_state(p, law_->initial_state());
           }
@@ -39,17 +41,16 @@ class Scene {
     }
   }
   static Axis axis(int cells) { return Axis({0.0, double(cells), 1.0, 0.0, double(cells), 1.0}, "axis"); }
-  void scatter() {
-    const double gravity[3] = {0.0, 0.0, -9.81};
-    transfer_kernels().scatter(grid_.view(), particles_.view(0, particles_.size()), 200.0, 1e-9, gravity);
-  }
-  void gather() {
-    transfer_kernels().gather(grid_.view(), particles_.view(0, particles_.size()), 200.0, 1e-9, gradient_.data());
-  }
-  void clear() { grid_.clear(grid_.all_planes()); }
+  void momentum() { kernels_.scatter_momentum(grid_.view(), view(), 200.0); }
+  void force() { kernels_.scatter_force(grid_.view(), view(), 1e-9); }
+  void strain() { kernels_.gather_strain(grid_.view(), view(), 1e-9, gradient_.data()); }
+  void motion() { kernels_.gather_motion(grid_.view(), view()); }
   std::size_t size() const { return particles_.size(); }
 
  private:
+  ParticleView view() { return particles_.view(0, particles_.size()); }
+
+  const TransferKernels& kernels_ = transfer_kernels();
   std::unique_ptr<Material> law_;
   Grid grid_;
   Particles particles_;
@@ -62,23 +63,19 @@ void report(benchmark::State& state, const Scene& scene) {
       double(scene.size()) * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-void to_grid(benchmark::State& state) {
+template <void (Scene::*part)()>
+void run(benchmark::State& state) {
   Scene scene;
-  for (auto _ : state) {
-    scene.scatter();
-  }
+  for (auto _ : state) (scene.*part)();
   report(state, scene);
 }
 
-void from_grid(benchmark::State& state) {
-  Scene scene;
-  scene.clear();
-  for (auto _ : state) scene.gather();
-  report(state, scene);
-}
-
-BENCHMARK(to_grid)->Unit(benchmark::kMillisecond);
-BENCHMARK(from_grid)->Unit(benchmark::kMillisecond);
+// At every step:
+BENCHMARK(run<&Scene::force>)->Name("force to grid")->Unit(benchmark::kMillisecond);
+BENCHMARK(run<&Scene::strain>)->Name("strain from grid")->Unit(benchmark::kMillisecond);
+// Once a cycle:
+BENCHMARK(run<&Scene::momentum>)->Name("momentum to grid")->Unit(benchmark::kMillisecond);
+BENCHMARK(run<&Scene::motion>)->Name("motion from grid")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace furrow

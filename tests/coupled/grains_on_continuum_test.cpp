@@ -65,7 +65,7 @@ TEST(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
   EXPECT_NEAR(-impulse, weight * time + grains_gain, 1e-3 * weight * time);
   // What the base gave carries the ground, its grains and their change of momentum.
   double mass = 0.0;
-  for (const GroundPhase& phase : ground.phases())
+  for (const GroundPhase& phase : ground.lagging_phases())
     for (std::size_t p = 0; p < phase.particles.size(); ++p)
       mass += phase.law->density() * phase.particles.data(column::volume)[p];
   mass = scene.sum(mass);

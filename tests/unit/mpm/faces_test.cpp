@@ -11,6 +11,7 @@ namespace {
 using testing_ground::even;
 
 constexpr double mass = 2.0, dt = 1e-3;
+const Vector3 weightless = Vector3::Zero();
 
 Grid small_grid() { return Grid(Axis(even(0, 4, 1), "x"), Axis(even(0, 3, 1), "y"), Axis(even(0, 2, 1), "z")); }
 
@@ -18,14 +19,23 @@ template <class Visit>
 void for_nodes(Grid& grid, Visit visit) {
   for (int i = 0; i < grid.nodes(0); ++i)
     for (int j = 0; j < grid.nodes(1); ++j)
-      for (int k = 0; k < grid.nodes(2); ++k) visit(grid.node(i, j, k), i, j, k);
+      for (int k = 0; k < grid.nodes(2); ++k) visit(grid.motion(i, j, k), i, j, k);
 }
 
 void give_velocity(Grid& grid, const Vector3& v) {
-  for_nodes(grid, [&](GridNode& n, int, int, int) {
-    Eigen::Map<Vector3>(n.momentum) = v;
+  for_nodes(grid, [&](NodeMotion& n, int, int, int) {
+    Eigen::Map<Vector3>(n.velocity) = v;
     n.mass = mass;
   });
+}
+
+void give_sums(Grid& grid, const Vector3& impulse) {
+  for (int i = 0; i < grid.nodes(0); ++i)
+    for (int j = 0; j < grid.nodes(1); ++j)
+      for (int k = 0; k < grid.nodes(2); ++k) {
+        Eigen::Map<Vector3>(grid.sum(i, j, k).momentum) = impulse;
+        grid.sum(i, j, k).mass = mass;
+      }
 }
 
 std::array<FaceKind, face_count> only(FacePlace face, FaceKind kind) {
@@ -56,7 +66,7 @@ TEST(Faces, SmoothStopsWhatIsAcrossAndRoughStopsAll) {
       faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);
       const int axis = face / 2, plane = face % 2 == 0 ? 0 : grid.nodes(axis) - 1;
       Vector3 expected = Vector3::Zero();
-      for_nodes(grid, [&](const GridNode& n, int i, int j, int k) {
+      for_nodes(grid, [&](const NodeMotion& n, int i, int j, int k) {
         const int at[3] = {i, j, k};
         Vector3 after = v;
         if (at[axis] == plane) {
@@ -64,7 +74,7 @@ TEST(Faces, SmoothStopsWhatIsAcrossAndRoughStopsAll) {
           after[axis] = 0.0;
           expected += mass * (after - v);
         }
-        EXPECT_EQ(Vector3(Eigen::Map<const Vector3>(n.momentum)), after);
+        EXPECT_EQ(Vector3(Eigen::Map<const Vector3>(n.velocity)), after);
       });
       EXPECT_LT((faces.impulse(static_cast<FacePlace>(face)) - expected).norm(), 1e-12);
       EXPECT_EQ(faces.work(), 0.0);
@@ -76,7 +86,7 @@ TEST(Faces, AbsorbingIsDashpotAndSpring) {
   Grid grid = small_grid();
   Faces faces(grid, only(x_upper, FaceKind::absorbing), {2, 2, 2}, speeds(grid));
   EXPECT_FALSE(faces.captured());
-  faces.capture(grid, grid.all_planes(), dt);  // nothing to hold
+  faces.capture(grid, grid.all_planes(), weightless, dt);  // nothing to hold
   EXPECT_TRUE(faces.captured());
   const double extent = 0.3125, length = 0.5 * 4.0;  // [m] (0.75^2 + 0.25^2)/2 of the spline at two particles a cell
   Vector3 u = Vector3::Zero(), v(1.0, 2.0, 3.0);
@@ -90,8 +100,8 @@ TEST(Faces, AbsorbingIsDashpotAndSpring) {
       after[c] = (v[c] - dt * speed * speed / (extent * length) * u[c]) / (1.0 + dt * speed / extent);
     }
     u += dt * after;
-    EXPECT_LT((Eigen::Map<const Vector3>(grid.node(5, 2, 1).momentum) - after).norm(), 1e-14);
-    EXPECT_EQ(Vector3(Eigen::Map<const Vector3>(grid.node(4, 2, 1).momentum)), v);
+    EXPECT_LT((Eigen::Map<const Vector3>(grid.motion(5, 2, 1).velocity) - after).norm(), 1e-14);
+    EXPECT_EQ(Vector3(Eigen::Map<const Vector3>(grid.motion(4, 2, 1).velocity)), v);
     work += grid.nodes(1) * grid.nodes(2) * mass * (after - v).dot(after);
     v = after;
   }
@@ -108,15 +118,16 @@ TEST(Faces, ForcesOfTheStartAreHeld) {
     Grid grid = small_grid();
     Faces faces(grid, kinds, {2, 2, 2}, speeds(grid));
     const Vector3 pull(10.0, -20.0, 30.0);  // [N] on every node
-    give_velocity(grid, dt * pull);         // captured as momenta
-    faces.capture(grid, grid.all_planes(), dt);
+    const Vector3 gravity(0.0, 1.0, -9.0), stress = pull - mass * gravity;
+    give_sums(grid, dt * stress);
+    faces.capture(grid, grid.all_planes(), gravity, dt);
     for (int step = 0; step < 5; ++step) {
       give_velocity(grid, dt * pull / mass);
       faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);
-      for_nodes(grid, [&](const GridNode& n, int i, int j, int k) {
+      for_nodes(grid, [&](const NodeMotion& n, int i, int j, int k) {
         const bool held = i == grid.nodes(0) - 1 || (count > 1 && j == grid.nodes(1) - 1) || (count > 2 && k == 0);
         const Vector3 expected = held ? Vector3(0, 0, 0) : Vector3(dt * pull / mass);
-        EXPECT_LT((Eigen::Map<const Vector3>(n.momentum) - expected).norm(), 1e-14)
+        EXPECT_LT((Eigen::Map<const Vector3>(n.velocity) - expected).norm(), 1e-14)
             << count << " faces, node " << i << " " << j << " " << k;
       });
     }
@@ -130,19 +141,19 @@ TEST(Faces, AbsorbingLeavesToWallsWhatTheyHold) {
   kinds[z_lower] = FaceKind::rough;
   kinds[y_lower] = FaceKind::smooth;
   Faces faces(grid, kinds, {2, 2, 2}, speeds(grid));
-  faces.capture(grid, grid.all_planes(), dt);
+  faces.capture(grid, grid.all_planes(), weightless, dt);
   const Vector3 v(1.0, 2.0, 3.0);
   double work = 0.0;
   for (int step = 0; step < 2; ++step) {
     give_velocity(grid, v);
     faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);
   }
-  for_nodes(grid, [&](const GridNode& n, int i, int j, int k) {
+  for_nodes(grid, [&](const NodeMotion& n, int i, int j, int k) {
     if (k == 0 || j == 0) {
-      EXPECT_EQ(n.momentum[1], 0.0);
+      EXPECT_EQ(n.velocity[1], 0.0);
     }
     if (k == 0) {
-      EXPECT_EQ(n.momentum[0], 0.0);
+      EXPECT_EQ(n.velocity[0], 0.0);
     }
     static_cast<void>(i);
   });
@@ -168,9 +179,9 @@ TEST(Faces, StateIsRestoredAndMovesWithTheGrid) {
   Grid grid = small_grid();
   Faces faces(grid, only(y_upper, FaceKind::absorbing), {2, 2, 2}, speeds(grid));
   give_velocity(grid, {1, 2, 3});
-  faces.capture(grid, grid.all_planes(), dt);
-  for_nodes(grid, [&](GridNode& n, int i, int, int) {
-    Eigen::Map<Vector3>(n.momentum) = Vector3(i, 0, 0);
+  faces.capture(grid, grid.all_planes(), weightless, dt);
+  for_nodes(grid, [&](NodeMotion& n, int i, int, int) {
+    Eigen::Map<Vector3>(n.velocity) = Vector3(i, 0, 0);
     n.mass = mass;
   });
   faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);

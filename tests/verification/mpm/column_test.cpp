@@ -41,6 +41,7 @@ struct Case {
   std::string law;
   double strain;  // engineering, of the column
   double speed;   // [m/s] of the plate
+  int cycle = GroundParameters().cycle;
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -53,9 +54,11 @@ std::string foam() {
          "pt_el 22.752 hardening exponential pc0 113.76 lambda 0.35 hardening.kappa 0.005 hardening.e0 3.5";
 }
 
+// The foam of TR snaps when a wave unloads it (porous kappa 0.005): mapping at each step damps the waves. In cycles of 16 steps the
+// lateral stress is off by 5 %.
 INSTANTIATE_TEST_SUITE_P(Laws, Column,
                          ::testing::Values(Case{"elastic", elastic(1e6, 0.3, 1000), 0.1, 0.05},
-                                           Case{"cap_snow", snow(), 0.5, 0.3}, Case{"crushable_foam", foam(), 0.5, 0.5},
+                                           Case{"cap_snow", snow(), 0.5, 0.3}, Case{"crushable_foam", foam(), 0.5, 0.2, 1},
                                            Case{"mccormick_sand", testing_paths::mccormick_sand(), 0.03, 0.15}),
                          [](const auto& one) { return std::string(one.param.name); });
 
@@ -65,6 +68,7 @@ TEST_P(Column, FollowsTheLawInConfinedCompression) {
   GroundParameters parameters = box(law, {0, 0, 0}, {2 * cell, 2 * cell, height}, cell);
   parameters.z = even(0, height + 2 * cell, cell);
   parameters.surface = height;
+  parameters.cycle = GetParam().cycle;
   set_faces(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
   MpmGround ground(parameters, Communicator());
   PlateGeometry geometry{PlateShape::square, 6 * cell, 2 * cell, 3};

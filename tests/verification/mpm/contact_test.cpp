@@ -128,15 +128,17 @@ TEST_P(Enforcements, RoughDoesNotSlideAndSmoothDoesNotHold) {
   EXPECT_EQ(smooth.contact.friction_loss(), 0.0);
 }
 
-/// A plate hits a free block off its middle: what the block gains in momentum and angular momentum, the plate's nodes lose, to rounding.
-TEST_P(Enforcements, ForceAndMomentAreEqualOnBothSides) {
+/// A plate hits a free block off its middle: what the block gains in momentum and angular momentum, the plate's nodes lose, to rounding;
+/// in cycles, angular momentum to second order in what the block turns and vibrates in one (mpm_ground.h).
+void hit_block(ContactParameters::Enforcement enforcement, int cycle, double angular_tolerance) {
   GroundParameters p = box(law_of(elastic(1e6, 0.2, 500)), {-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3}, 0.05);
+  p.cycle = cycle;
   MpmGround ground(p, Communicator());
   carve(ground, [](const Vector3& x) { return x.cwiseAbs().maxCoeff() < 0.1; });
   set_motion(ground, {0.3, 0.2, 0.0}, spin({1.0, 2.0, -3.0}));
   RigidPlate plate({PlateShape::circle, 0.12, 0.05, 4}, {0.05, 0.03, 0.1 + 1e-4});
   ContactParameters parameters;
-  parameters.enforcement = GetParam();
+  parameters.enforcement = enforcement;
   GroundContact contact(plate, ground, parameters, false, "plate");
   const Sums before = sums_of(ground);
   Vector3 impulse = Vector3::Zero(), moment = impulse;
@@ -153,7 +155,12 @@ TEST_P(Enforcements, ForceAndMomentAreEqualOnBothSides) {
   const Sums after = sums_of(ground);
   ASSERT_GT(impulse.norm(), 0.1 * after.mass);
   EXPECT_LT((after.momentum - before.momentum + impulse).norm(), 1e-12 * impulse.norm());
-  EXPECT_LT((after.angular - before.angular + moment).norm(), 1e-11 * moment.norm());
+  EXPECT_LT((after.angular - before.angular + moment).norm(), angular_tolerance * moment.norm());
+}
+
+TEST_P(Enforcements, ForceAndMomentAreEqualOnBothSides) {
+  hit_block(GetParam(), 1, 1e-11);
+  hit_block(GetParam(), GroundParameters().cycle, 2e-3);
 }
 
 /// A plate in a bed of snow, pressed in and pulled out: momentum against all impulses; energies against all works.
@@ -183,7 +190,8 @@ TEST_P(Enforcements, MomentumAndEnergyOfAPressedBedAreAccountedFor) {
     impulse += dt * mass * p.gravity;
     pressed = std::max(pressed, contact.force().z());
     const Balance b = ground.balance();
-    EXPECT_GE(b.numerical_loss, loss - 1e-3 * b.contact_work);
+    // Mapping only takes. Within a cycle the works of an explicit step are off by what comes back in the next.
+    EXPECT_GE(b.numerical_loss, loss - 5e-3 * b.contact_work - 1e-9);
     loss = std::max(loss, b.numerical_loss);
     Vector3 faces = Vector3::Zero();
     for (int f = 0; f < face_count; ++f) faces += ground.face_impulse(static_cast<FacePlace>(f));

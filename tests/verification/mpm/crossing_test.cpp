@@ -36,7 +36,8 @@ Noise noise_of(double strain, double speed) {
     for (std::size_t n = 0; n < particles.size(); ++n) {
       const double home = particles.data(column::home_x)[n], side = home > 0 ? 1.0 : -1.0;
       if (std::abs(home) > half - 0.5 * cell)
-        ground.push(0, n, {-side * pressure * cell * cell / 4, 0, 0}, {side * 0.25 * cell, 0, 0});
+        ground.push({0, n}, {-side * pressure * cell * cell / 4, 0, 0},
+                    particles.position(n) + Vector3(side * 0.25 * cell, 0, 0));
     }
     ground.advance(dt);
     time += dt;
