@@ -19,6 +19,7 @@
 #include "input.h"
 #include "io/cache.h"
 #include "io/version.h"
+#include "signal_handling.h"
 #include "update.h"
 #include "variable.h"
 
@@ -147,6 +148,9 @@ void CommandBed::command(int narg, char** arg) {
     const int grid[3] = {comm->user_procgrid[0], comm->user_procgrid[1], comm->user_procgrid[2]};
     if (comm->me == 0) fs::create_directories(folder);
     for (const char* name : {"box", "contact", "settle"}) run_script(section(text, name));
+    // A termination signal ends every run at once and lets the script go on: what came of it is no bed, and must not be kept for others.
+    if (Communicator(&world).max(LAMMPS_NS::SignalHandler::request_quit ? 1.0 : 0.0) > 0.0)
+      throw StateError("command bed was interrupted while it made the bed, which is not kept; start the script again");
     const std::map<std::string, double> facts = measure(depth);
     const std::string part = fmt::format("{}.part{}", restart.string(), static_cast<long>(facts.at("bed_grains")));
     input->one(("write_restart " + part).c_str());

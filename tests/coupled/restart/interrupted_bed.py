@@ -1,0 +1,40 @@
+"""A termination signal while a bed is made: an error that says so, a status that is not zero, and nothing kept for later runs.
+
+    interrupted_bed.py <furrow> <bed script>
+
+LIGGGHTS takes the signal as a wish for a checkpoint, ends the run of the moment and goes on with the script, so that without care the grains are kept as
+they fell.
+"""
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+furrow, bed = sys.argv[1:]
+with tempfile.TemporaryDirectory() as name:
+    folder = Path(name)
+    (folder / "bed.lig").write_text(
+        f"processors 1 * 1\nbed {bed} length 0.4 width 0.2 depth 0.1 headroom 0.1 diameter 0.008 density 2600 young 5e6 poisson 0.25 restitution 0.3 "
+        "friction 0.5 rolling 0.1 pour_friction 0.5 step 5e-5 seed 86028121\nrun 0\n")
+    run = subprocess.Popen([furrow, "-in", "bed.lig", "-log", "none"], cwd=folder, env={**os.environ, "FURROW_CACHE": str(folder / "cache")},
+                           text=True, stdin=subprocess.DEVNULL, stdout=open(folder / "screen.txt", "w"), stderr=subprocess.STDOUT)
+    deadline = time.monotonic() + 60
+    while not (folder / "cache").exists() and run.poll() is None and time.monotonic() < deadline:
+        time.sleep(0.05)
+    time.sleep(1.0)  # into the pouring, which takes several seconds
+    if run.poll() is not None:
+        sys.exit("the bed was made before it could be interrupted:\n" + (folder / "screen.txt").read_text()[-2000:])
+    run.send_signal(signal.SIGTERM)
+    status = run.wait(timeout=120)
+    said = (folder / "screen.txt").read_text()
+    if "command bed was interrupted while it made the bed, which is not kept" not in said:
+        sys.exit("no word of the interruption:\n" + said[-2000:])
+    if status == 0:
+        sys.exit("the status is 0")
+    kept = [path.name for path in (folder / "cache").iterdir()]
+    if kept:
+        sys.exit(f"something was kept: {kept}")
