@@ -14,8 +14,8 @@ namespace furrow {
 
 namespace {
 
-constexpr double least_headroom_cells = 4.0;
-constexpr double headroom_of_depth = 0.3;  // what a wheel pushes up beside and before it
+constexpr double least_headroom_cells = 6.0;
+constexpr double headroom_of_depth = 1.0;  // what a wheel pushes up beside and before it
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;

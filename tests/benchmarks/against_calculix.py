@@ -75,7 +75,7 @@ def main():
         for _ in range(pairs):
             short, long = run_calculix(folder, 20), run_calculix(folder, 120)
             theirs = N ** 3 * 100 / (long - short)
-            out = subprocess.run([program, "0.025", "0.02"], capture_output=True, text=True, check=True).stdout
+            out = subprocess.run([program, "0.04", "0.02"], capture_output=True, text=True, check=True).stdout
             ours = float(re.search(r"([\d.]+) M updates/s\n", out).group(1)) * 1e6
             ratios.append(ours / theirs)
             print(f"CalculiX {theirs:.3g} element updates/s, Furrow {ours:.3g} particle updates/s, ratio {ratios[-1]:.1f}", flush=True)

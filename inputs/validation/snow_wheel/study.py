@@ -57,9 +57,9 @@ def material_text(sections, title):
 
 
 def job(material, depth, mode="towed", diameter=0.76, cells=None, soften=1.0, stiffness=0.4, length=1.2, sections=None, **changes):
-    """Cells of about 4 cm that divide the depth; three of them as headroom."""
+    """Cells of about 4 cm that divide the depth."""
     cell = depth / (cells or round(depth * CELLS / 0.20))
-    values = dict(BASE, depth=depth, diameter=diameter, cell=round(cell, 6), headroom=round(3 * cell if cell > 0.035 else 0.11, 6), soften=soften,
+    values = dict(BASE, depth=depth, diameter=diameter, cell=round(cell, 6), headroom=0.4, soften=soften,
                   stiffness=stiffness, length=length, mode="slip slip 0" if mode == "zero_slip" else mode)
     values.update(changes)
     return dict(variables=values, material=material, sections=sections)
