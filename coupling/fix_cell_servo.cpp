@@ -11,6 +11,7 @@
 #include "core/communicator.h"
 #include "core/error.h"
 #include "coupling/guard.h"
+#include "coupling/time_step_check.h"
 #include "coupling/words.h"
 #include "domain.h"
 #include "modify.h"
@@ -107,6 +108,7 @@ void FixCellServo::init() {
   grain_density_ = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
   mean_diameter_ = sums[3] > 0.0 ? sums[2] / sums[3] : 0.0;
   modify->compute[modify->find_compute(pressure_id)]->addstep(update->ntimestep + 1);
+  guarded(*error, [&] { check_time_step(*lmp, fmt::format("fix cell/servo '{}'", id)); });
 }
 
 /// The box moves before the grains: forces of this step belong to the new box.
