@@ -22,7 +22,7 @@ void Grid::clear_sums(const PlaneRange& planes) {
 }
 
 void Grid::start(const PlaneRange& planes, const Vector3& dv) {
-  for (std::size_t n = first(planes); n < last(planes); ++n) {
+  for (std::size_t n = first(planes), end = last(planes); n < end; ++n) {
     const NodeSum& sum = sums_[n];
     const bool loaded = sum.mass > 0.0;
     const double inverse = loaded ? 1.0 / sum.mass : 0.0;
@@ -32,7 +32,7 @@ void Grid::start(const PlaneRange& planes, const Vector3& dv) {
 }
 
 void Grid::accelerate(const PlaneRange& planes, const Vector3& dv) {
-  for (std::size_t n = first(planes); n < last(planes); ++n) {
+  for (std::size_t n = first(planes), end = last(planes); n < end; ++n) {
     NodeMotion& node = motions_[n];
     if (!(node.mass > 0.0)) continue;
     const double inverse = 1.0 / node.mass;
@@ -41,10 +41,10 @@ void Grid::accelerate(const PlaneRange& planes, const Vector3& dv) {
 }
 
 NodeTotals Grid::move(const PlaneRange& planes, const PlaneRange& owned, double dt) {
-  for (std::size_t n = first(planes); n < last(planes); ++n)
+  for (std::size_t n = first(planes), end = last(planes); n < end; ++n)
     for (int a = 0; a < 3; ++a) displacements_[n].u[a] += dt * motions_[n].velocity[a];
   NodeTotals totals;
-  for (std::size_t n = first(owned); n < last(owned); ++n) {
+  for (std::size_t n = first(owned), end = last(owned); n < end; ++n) {
     const NodeMotion& node = motions_[n];
     const Vector3 v(node.velocity[0], node.velocity[1], node.velocity[2]);
     totals.momentum += node.mass * v;
@@ -66,7 +66,7 @@ GridView Grid::view() {
 
 std::vector<double> Grid::moving_state(const PlaneRange& planes) const {
   std::vector<double> state(8 * motions_.size(), 0.0);
-  for (std::size_t n = first(planes); n < last(planes); ++n) {
+  for (std::size_t n = first(planes), end = last(planes); n < end; ++n) {
     std::copy_n(motions_[n].velocity, 3, state.data() + 8 * n);
     state[8 * n + 3] = motions_[n].mass;
     std::copy_n(displacements_[n].u, 4, state.data() + 8 * n + 4);

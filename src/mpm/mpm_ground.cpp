@@ -139,7 +139,7 @@ void MpmGround::add_column(int cell) {
           const double half[3] = {half_x, half_y, level.half};
           for (std::size_t a = 0; a < 3; ++a) {
             particles.data(column::x + a)[p] = position[a];
-            particles.data(column::reference_x + a)[p] = particles.data(column::home_x + a)[p] = position[a];
+            particles.data(column::home_x + a)[p] = position[a];
             particles.data(column::half_x + a)[p] = half[a];
           }
           particles.data(column::volume)[p] = 8.0 * half_x * half_y * level.half / level.state[field::volume_ratio];
