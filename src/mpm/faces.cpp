@@ -77,16 +77,18 @@ Faces::Faces(const Grid& grid, const std::array<FaceKind, face_count>& kinds, co
   }
 }
 
-void Faces::capture(Grid& grid, const PlaneRange& planes, const Vector3& gravity, double dt) {
+void Faces::capture(Grid& grid, const PlaneRange& planes, const Vector3& gravity) {
   captured_ = true;
   for (int f = 0; f < face_count; ++f) {
     if (kinds_[static_cast<std::size_t>(f)] != FaceKind::absorbing) continue;
     FarField& far = far_[static_cast<std::size_t>(f)];
     for_face(grid, loop_of(grid, static_cast<FacePlace>(f)), planes, [&](std::size_t number, const Place& at) {
-      NodeSum& node = grid.sum(at[0], at[1], at[2]);
+      NodeSum& sum = grid.sum(at[0], at[1], at[2]);
+      double& mass = grid.motion(at[0], at[1], at[2]).mass;
       for (int c = 0; c < 3; ++c)
-        far.hold[3 * number + static_cast<std::size_t>(c)] = -node.momentum[c] / dt - node.mass * gravity[c];
-      node = NodeSum{};  // held: not by another face again
+        far.hold[3 * number + static_cast<std::size_t>(c)] = -sum.total[c] - mass * gravity[c];
+      sum = NodeSum{};  // held: not by another face again
+      mass = 0.0;
     });
   }
 }

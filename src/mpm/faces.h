@@ -37,7 +37,7 @@ class Faces {
   /// Before anything else happens to the grid of the first step: its sums of momenta, and gravity [m/s^2], are what the held ground must
   /// stand, and are used up.
   bool captured() const { return captured_; }
-  void capture(Grid& grid, const PlaneRange& planes, const Vector3& gravity, double dt);
+  void capture(Grid& grid, const PlaneRange& planes, const Vector3& gravity);
   /// Changes the velocities of nodes. Sums count the planes of `owned` only.
   void apply(Grid& grid, const PlaneRange& planes, const PlaneRange& owned, double dt);
 

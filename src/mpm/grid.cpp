@@ -1,6 +1,7 @@
 #include "mpm/grid.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace furrow {
 
@@ -21,22 +22,22 @@ void Grid::clear_sums(const PlaneRange& planes) {
   std::fill(sums_.data() + first(planes), sums_.data() + last(planes), NodeSum{});
 }
 
-void Grid::start(const PlaneRange& planes, const Vector3& dv) {
+void Grid::start(const PlaneRange& planes) {
   for (std::size_t n = first(planes), end = last(planes); n < end; ++n) {
-    const NodeSum& sum = sums_[n];
-    const bool loaded = sum.mass > 0.0;
-    const double inverse = loaded ? 1.0 / sum.mass : 0.0;
-    for (int a = 0; a < 3; ++a) motions_[n].velocity[a] = loaded ? inverse * sum.momentum[a] + dv[a] : 0.0;
+    const NodeSum sum = std::exchange(sums_[n], NodeSum{});
+    const double inverse = sum.mass > 0.0 ? 1.0 / sum.mass : 0.0;
+    for (int a = 0; a < 3; ++a) motions_[n].velocity[a] = inverse * sum.total[a];
     motions_[n].mass = sum.mass;
   }
 }
 
-void Grid::accelerate(const PlaneRange& planes, const Vector3& dv) {
+void Grid::accelerate(const PlaneRange& planes, double dt, const Vector3& gravity) {
   for (std::size_t n = first(planes), end = last(planes); n < end; ++n) {
+    const NodeSum sum = std::exchange(sums_[n], NodeSum{});
     NodeMotion& node = motions_[n];
     if (!(node.mass > 0.0)) continue;
-    const double inverse = 1.0 / node.mass;
-    for (int a = 0; a < 3; ++a) node.velocity[a] += inverse * sums_[n].momentum[a] + dv[a];
+    const double per_mass = dt / node.mass;
+    for (int a = 0; a < 3; ++a) node.velocity[a] += per_mass * sum.total[a] + dt * gravity[a];
   }
 }
 
@@ -59,7 +60,7 @@ void Grid::clear_displacement(const PlaneRange& planes) {
 
 GridView Grid::view() {
   return {{axes_[0].view(), axes_[1].view(), axes_[2].view()},
-          sums_.front().momentum,
+          sums_.front().total,
           motions_.front().velocity,
           displacements_.front().u};
 }

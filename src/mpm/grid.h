@@ -13,8 +13,8 @@ namespace furrow {
 
 /// What particles gave to a node.
 struct alignas(32) NodeSum {
-  double momentum[3];  ///< or impulse of forces [N s]
-  double mass;         ///< [kg]
+  double total[3];  ///< momentum [N s], or force [N]
+  double mass;      ///< [kg]
 };
 
 struct alignas(32) NodeMotion {
@@ -49,13 +49,13 @@ class Grid {
 
   NodeSum& sum(int i, int j, int k) { return sums_[index(i, j, k)]; }
   NodeMotion& motion(int i, int j, int k) { return motions_[index(i, j, k)]; }
-  double* plane_sums(int i) { return sums_[index(i, 0, 0)].momentum; }  ///< four numbers a node
+  double* plane_sums(int i) { return sums_[index(i, 0, 0)].total; }  ///< four numbers a node
 
   void clear_sums(const PlaneRange& planes);
-  /// Velocity = momentum/mass + dv.
-  void start(const PlaneRange& planes, const Vector3& dv);
-  /// Velocity += impulse/mass + dv.
-  void accelerate(const PlaneRange& planes, const Vector3& dv);
+  /// Velocity = momentum/mass. The sums are used up: zero.
+  void start(const PlaneRange& planes);
+  /// Velocity += dt (force/mass + gravity). The sums are used up: zero.
+  void accelerate(const PlaneRange& planes, double dt, const Vector3& gravity);
   /// Displacement += dt velocity. @return of the planes of `owned`
   NodeTotals move(const PlaneRange& planes, const PlaneRange& owned, double dt);
   void clear_displacement(const PlaneRange& planes);

@@ -125,10 +125,10 @@ void GroundContact::restore(const std::vector<double>& state) {
   started_ = true;
 }
 
-bool GroundContact::is_stale() const {
+bool GroundContact::is_stale() {
   if (!started_ || generation_ != ground_.generation() || searched_.cols() != body_.surface().x.cols()) return true;
-  const double moved = std::sqrt((body_.surface().x - searched_).colwise().squaredNorm().maxCoeff());
-  return moved + drift_ > skin_;
+  moved_ = std::sqrt((body_.surface().x - searched_).colwise().squaredNorm().maxCoeff());
+  return moved_ + drift_ > skin_;
 }
 
 void GroundContact::search() {
@@ -136,7 +136,7 @@ void GroundContact::search() {
   find_candidates(true);
   searched_ = body_.surface().x;
   generation_ = ground_.generation();
-  drift_ = 0.0;
+  moved_ = drift_ = 0.0;
   if (!started_) refuse_overlap();
   started_ = true;
 }
@@ -164,9 +164,9 @@ void GroundContact::find_candidates(bool stiffness_anew) {
           (x.array() < high.array() + 4.0 * h.array() + skin_).all())
         half = std::max(half, h.norm() * std::max(1.0, phase.particles.data(column::state + field::volume_ratio)[p]));
     }
-  reach_ = half + skin_ + most_penetration * cell + ground_.lag();
+  lag_ = ground_.lag();
+  reach_ = half + skin_ + most_penetration * cell + lag_;
   candidates_.clear();
-  points_.clear();
   near_.clear();
   const TriangleSearch triangles(surface, reach_, lower, upper);
   for (std::size_t k = 0; k < ground_.lagging_phases().size(); ++k) {
@@ -178,16 +178,17 @@ void GroundContact::find_candidates(bool stiffness_anew) {
       const std::size_t begin = near_.size();
       for (const int* t = first; t != last; ++t) {
         const Vector3i& n = surface.triangles[static_cast<std::size_t>(*t)];
-        if (closest_point_on_triangle(point, surface.x.col(n[0]), surface.x.col(n[1]), surface.x.col(n[2])).distance <=
-            reach_)
-          near_.push_back(*t);
+        const double distance =
+            closest_point_on_triangle(point, surface.x.col(n[0]), surface.x.col(n[1]), surface.x.col(n[2])).distance;
+        if (distance <= reach_) near_.push_back({distance, *t});
       }
       if (near_.size() == begin) continue;
-      candidates_.push_back({begin, near_.size()});
-      points_.push_back({k, p});
-      double& spring_stiffness = particles.data(memory_[k])[memory_size * p + Memory::stiffness];
+      std::sort(near_.begin() + static_cast<std::ptrdiff_t>(begin), near_.end(),
+                [](const Near& a, const Near& b) { return a.distance < b.distance; });
+      candidates_.push_back({{k, p}, point, begin, near_.size()});
       if (stiffness_anew)
-        spring_stiffness = parameters_.stiffness * ground_.lagging_phases()[k].law->moduli(particles.state(p)).wave() *
+        memory_of({k, p})[Memory::stiffness] =
+            parameters_.stiffness * ground_.lagging_phases()[k].law->moduli(particles.state(p)).wave() *
                            std::cbrt(particles.data(column::volume)[p]);
     }
   }
@@ -223,19 +224,54 @@ void GroundContact::refuse_overlap() const {
     }
 }
 
-/// @param x where the particle is
-bool GroundContact::touch(const Candidate& candidate, const GroundPoint& at, const Vector3& x, Touch& touch) const {
-  const Surface& surface = body_.surface();
+double* GroundContact::memory_of(const GroundPoint& at) {
+  return ground_.lagging_phases()[at.phase].particles.data(memory_[at.phase]) + memory_size * at.particle;
+}
+
+/// Spring and slip end with the contact.
+void GroundContact::forget(const GroundPoint& at) { std::fill_n(memory_of(at), Memory::stiffness, 0.0); }
+
+/// A particle farther from the surface than this does not touch it [m].
+double GroundContact::touch_distance(const GroundPoint& at) const {
   const Particles& particles = ground_.lagging_phases()[at.phase].particles;
   const std::size_t p = at.particle;
+  const Vector3 half(particles.data(column::half_x)[p], particles.data(column::half_y)[p],
+                     particles.data(column::half_z)[p]);
+  return particles.data(column::state + field::volume_ratio)[p] * half.norm();
+}
+
+/// Candidates whose nearest triangle was so far away that it cannot have come near enough since are left out; they forget the contact.
+void GroundContact::choose_active() {
+  active_.clear();
+  points_.clear();
+  for (std::size_t n = 0; n < candidates_.size(); ++n) {
+    const Candidate& candidate = candidates_[n];
+    if (near_[candidate.first].distance - moved_ - drift_ - lag_ > touch_distance(candidate.at)) {
+      forget(candidate.at);
+      continue;
+    }
+    active_.push_back(n);
+    points_.push_back(candidate.at);
+  }
+}
+
+/// @param x where the particle is
+bool GroundContact::touch(const Candidate& candidate, const Vector3& x, Touch& touch) const {
+  const Surface& surface = body_.surface();
+  const Particles& particles = ground_.lagging_phases()[candidate.at.phase].particles;
+  const std::size_t p = candidate.at.particle;
   ClosestPoint closest{};
   closest.distance = std::numeric_limits<double>::infinity();
-  for (std::size_t n = candidate.first; n < candidate.last; ++n) {
-    const auto t = static_cast<std::size_t>(near_[n]);
+  touch.triangle = 0;
+  // What was farther by more than both have moved since is farther still. Of equally near triangles the first counts, in whatever order
+  // they come.
+  const double approach = moved_ + (x - candidate.found).norm();
+  for (std::size_t n = candidate.first; n < candidate.last && near_[n].distance - approach <= closest.distance; ++n) {
+    const auto t = static_cast<std::size_t>(near_[n].triangle);
     const Vector3i& node = surface.triangles[t];
     const ClosestPoint point =
         closest_point_on_triangle(x, surface.x.col(node[0]), surface.x.col(node[1]), surface.x.col(node[2]));
-    if (point.distance < closest.distance) {
+    if (point.distance < closest.distance || (point.distance == closest.distance && t < touch.triangle)) {
       closest = point;
       touch.triangle = t;
     }
@@ -245,7 +281,7 @@ bool GroundContact::touch(const Candidate& candidate, const GroundPoint& at, con
   const double ratio = particles.data(column::state + field::volume_ratio)[p];
   const Vector3 outward = corners_.outward(surface, touch.triangle, closest.barycentric);
   const double side = closest.separation.dot(outward) >= 0.0 ? 1.0 : -1.0;
-  if (side > 0.0 && closest.distance > ratio * half.norm()) return false;
+  if (side > 0.0 && closest.distance > touch_distance(candidate.at)) return false;
   // Closer than rounding, the separation has no direction.
   touch.normal =
       closest.distance > 1e-9 * half.norm() ? Vector3(side / closest.distance * closest.separation) : outward.normalized();
@@ -317,19 +353,18 @@ void GroundContact::apply(double dt) {
   const Surface& surface = body_.surface();
   nodal_.setZero(3, surface.x.cols());
   contacts_ = penetration_ = area_ = step_friction_ = step_damping_ = 0.0;
+  choose_active();
   ground_.probe(points_, motions_);
-  for (std::size_t n = 0; n < candidates_.size(); ++n) {
+  for (std::size_t n = 0; n < active_.size(); ++n) {
     const GroundPoint& at = points_[n];
-    GroundPhase& phase = ground_.lagging_phases()[at.phase];
-    Particles& particles = phase.particles;
-    const std::size_t p = at.particle;
-    double* memory = particles.data(memory_[at.phase]) + memory_size * p;
     Touch found;
-    if (!touch(candidates_[n], at, motions_[n].position, found)) {
-      std::fill_n(memory, Memory::stiffness, 0.0);
+    if (!touch(candidates_[active_[n]], motions_[n].position, found)) {
+      forget(at);
       continue;
     }
-    const double volume = particles.data(column::volume)[p], mass = phase.law->density() * volume,
+    const GroundPhase& phase = ground_.lagging_phases()[at.phase];
+    double* memory = memory_of(at);
+    const double volume = phase.particles.data(column::volume)[at.particle], mass = phase.law->density() * volume,
                  length = std::cbrt(volume);
     Vector3 velocity = motions_[n].velocity_at(found.point);
     const Vector3i& nodes = surface.triangles[found.triangle];

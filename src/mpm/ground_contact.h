@@ -59,20 +59,30 @@ class GroundContact : public Interaction {
   void restore(const std::vector<double>& state);  ///< after body and ground
 
  private:
+  struct Near {
+    double distance;  // when the candidates were found [m]
+    int triangle;
+  };
   struct Candidate {
-    std::size_t first, last;  // its triangles in near_
+    GroundPoint at;
+    Vector3 found;            // where the particle was when the candidates were found
+    std::size_t first, last;  // its triangles in near_, the nearest first
   };
   struct Touch {
     Vector3 point, normal, barycentric;
     double gap;
     std::size_t triangle;
   };
-  bool is_stale() const;
+  bool is_stale();
   void search();
   void find_candidates(bool stiffness_anew);
   void refuse_overlap() const;
   void refuse_departure() const;
-  bool touch(const Candidate& candidate, const GroundPoint& at, const Vector3& x, Touch& touch) const;
+  double* memory_of(const GroundPoint& at);
+  void forget(const GroundPoint& at);
+  double touch_distance(const GroundPoint& at) const;
+  void choose_active();
+  bool touch(const Candidate& candidate, const Vector3& x, Touch& touch) const;
   Vector3 penalty_force(const Touch& touch, const Vector3& velocity, double mass, double stiffness, double dt,
                         double* memory);
   Vector3 impulse_force(const Touch& touch, const Vector3& velocity, double mass, double dt, double* memory);
@@ -88,12 +98,14 @@ class GroundContact : public Interaction {
   std::vector<std::size_t> memory_;  // column of each phase: see Memory in the source
 
   std::vector<Candidate> candidates_;
+  std::vector<Near> near_;
+  std::vector<std::size_t> active_;  // candidates that may have come close enough by now
   std::vector<GroundPoint> points_;  // their particles
   std::vector<GroundMotion> motions_;
-  std::vector<int> near_;
   Matrix3X searched_;  // nodes when the candidates were found
   unsigned long generation_ = 0;
-  double reach_ = 0.0, skin_ = 0.0, drift_ = 0.0;  // [m]
+  double reach_ = 0.0, skin_ = 0.0, lag_ = 0.0;  // [m] of the last search; lag_: by which its places were behind
+  double moved_ = 0.0, drift_ = 0.0;             // [m] of the surface and of the ground since the last search
   bool started_ = false;
 
   Matrix3X nodal_;  // forces on the body [N]

@@ -15,7 +15,6 @@ constexpr std::size_t chunk = 1024;     // particles between grid and law: their
 constexpr double most_travel = 0.05;    // in a cycle, of the shortest cell times the volume ratio
 constexpr double most_drift = 0.5;      // of the shortest cell between two sortings
 constexpr double most_off_knot = 1e-6;  // of the cell: the surface is where two cells meet
-constexpr double capture_step = 1e-6;   // [s] of any length: forces are momenta over it
 
 Grid make_grid(const GroundParameters& ground, const std::string& where) {
   Grid grid(Axis(ground.x, where + ", x axis"), Axis(ground.y, where + ", y axis"), Axis(ground.z, where + ", z axis"));
@@ -76,6 +75,7 @@ MpmGround::MpmGround(const GroundParameters& parameters, const Communicator& ran
       faces_(grid_, parameters.faces, parameters.particles_per_cell, speeds_of_levels(grid_, levels_, parameters)),
       kernels_(transfer_kernels()),
       gradient_(9 * chunk),
+      weights_(batches(chunk)),
       focus_(0.5 * (parameters.x.lower + parameters.x.upper)),
       start_(parameters.x.lower) {
   if (parameters.window &&
@@ -89,11 +89,9 @@ MpmGround::MpmGround(const GroundParameters& parameters, const Communicator& ran
   if (parameters.sheet) lay_sheet();
   if (!faces_.captured()) {
     set_references(0.0);
-    grid_.clear_sums(partition_.touched());
-    give_momentum();
-    give_forces(capture_step);
+    start_grid();
     partition_.sum_shared(grid_);
-    faces_.capture(grid_, partition_.touched(), parameters_.gravity, capture_step);
+    faces_.capture(grid_, partition_.touched(), parameters_.gravity);
   }
 }
 
@@ -167,16 +165,10 @@ void MpmGround::advance(double dt) {
   if (sheet_.exists())
     sheet_.hand_over(phases_,
                      [&](const GroundPoint& near, const Vector3& force, const Vector3& point) { push(near, force, point); });
-  const bool first = !in_cycle();
-  if (first) begin_cycle(dt);
-  grid_.clear_sums(partition_.touched());
-  if (first) give_momentum();
-  give_forces(dt);
+  if (!in_cycle()) begin_cycle(dt);
+  give_pushes();
   partition_.sum_shared(grid_);
-  if (first)
-    grid_.start(partition_.touched(), dt * parameters_.gravity);
-  else
-    grid_.accelerate(partition_.touched(), dt * parameters_.gravity);
+  grid_.accelerate(partition_.touched(), dt, parameters_.gravity);
   faces_.apply(grid_, partition_.touched(), partition_.owned(), dt);
   totals_ = grid_.move(partition_.touched(), partition_.owned(), dt);
   gravity_work_ += dt * parameters_.gravity.dot(totals_.momentum);
@@ -214,6 +206,19 @@ void MpmGround::begin_cycle(double dt) {
   steps_left_ = std::max(1, static_cast<int>(std::min(steps, most)));
   set_references(0.5 * (steps_left_ - 1) * dt);
   grid_.clear_displacement(partition_.touched());
+  start_grid();
+}
+
+/// A fresh grid: masses, velocities and the forces of the stress.
+void MpmGround::start_grid() {
+  grid_.clear_sums(partition_.touched());
+  const GridView view = local_view();
+  for (GroundPhase& phase : phases_)
+    if (kernels_.scatter_momentum(view, phase.particles.view(0, phase.particles.size()), phase.law->density()) > 0)
+      report_outside(phase);
+  partition_.sum_shared(grid_);
+  grid_.start(partition_.touched());
+  give_forces();
 }
 
 /// Weights are taken where particles will be after a time.
@@ -256,27 +261,31 @@ GridView MpmGround::local_view() {
   return view;
 }
 
-void MpmGround::give_momentum() {
+/// Of the stress, with weights found anew; in a cycle deform() does it with those of the strain.
+void MpmGround::give_forces() {
   const GridView view = local_view();
   for (GroundPhase& phase : phases_)
-    if (kernels_.scatter_momentum(view, phase.particles.view(0, phase.particles.size()), phase.law->density()) > 0)
-      report_outside(phase);
+    for (std::size_t first = 0; first < phase.particles.size(); first += chunk) {
+      const ParticleView particles = phase.particles.view(first, std::min(chunk, phase.particles.size() - first));
+      kernels_.find_weights(view, particles, weights_.data());
+      kernels_.scatter_force(view, particles, weights_.data());
+    }
 }
 
-void MpmGround::give_forces(double dt) {
-  const GridView view = local_view();
-  for (GroundPhase& phase : phases_) kernels_.scatter_force(view, phase.particles.view(0, phase.particles.size()), dt);
-  impulses_.clear();
+void MpmGround::give_pushes() {
+  point_forces_.clear();
   for (const Push& push : pushes_) {
-    const Vector3 reference = phases_[push.near.phase].particles.reference(push.near.particle), impulse = dt * push.force,
+    const Vector3 reference = phases_[push.near.phase].particles.reference(push.near.particle), &force = push.force,
                   lever = push.point - reference;
-    impulses_.push_back(
-        {{reference[0], reference[1], reference[2]}, {impulse[0], impulse[1], impulse[2]}, {lever[0], lever[1], lever[2]}});
+    point_forces_.push_back(
+        {{reference[0], reference[1], reference[2]}, {force[0], force[1], force[2]}, {lever[0], lever[1], lever[2]}});
   }
-  kernels_.scatter_impulses(view, impulses_.data(), impulses_.size());
+  kernels_.scatter_point_forces(local_view(), point_forces_.data(), point_forces_.size());
 }
 
+/// Strain, law and, while the weights stay, the force that the new stress has in the next step.
 void MpmGround::deform(double dt) {
+  const bool last = steps_left_ == 1;
   const GridView view = local_view();
   std::array<double*, 9> gradient;
   for (std::size_t g = 0; g < 9; ++g) gradient[g] = gradient_.data() + g * chunk;
@@ -285,7 +294,8 @@ void MpmGround::deform(double dt) {
     for (std::size_t first = 0; first < phase.particles.size(); first += chunk) {
       const std::size_t count = std::min(chunk, phase.particles.size() - first);
       const ParticleView particles = phase.particles.view(first, count);
-      kernels_.gather_strain(view, particles, dt, gradient.data());
+      kernels_.find_weights(view, particles, weights_.data());
+      kernels_.gather_strain(view, particles, weights_.data(), dt, gradient.data());
       // By the mean of the stresses before and after the step: with either alone the audit of a vibrating body drifts by O(dt).
       stress_work_ += 0.5 * kernels_.stress_work(particles, gradient.data());
       PointBlock block;
@@ -301,6 +311,7 @@ void MpmGround::deform(double dt) {
                                      phase.particles.data(column::y)[first], phase.particles.data(column::z)[first]));
       }
       stress_work_ += 0.5 * kernels_.stress_work(particles, gradient.data());
+      if (!last) kernels_.scatter_force(view, particles, weights_.data());
     }
 }
 

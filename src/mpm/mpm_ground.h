@@ -39,7 +39,8 @@ struct RutPoint {
 };
 
 /// One step from t_n to t_n+1 (double precision throughout; velocities at half steps, as LIGGGHTS's leapfrog has them):
-///   force of the stress and contact impulses -> grid, faces, nodes move, strain -> particles (transfer.h), the law with H.
+///   forces of stress and contact -> grid, faces, nodes move, strain -> particles (transfer.h), the law with H.
+/// In a cycle, which is what follows, the law's new stress gives its force to the grid at once, as it has the weights of the strain.
 ///
 /// The grid moves with the ground for a cycle of m steps; then its velocity and displacement go to the particles and theirs to a fresh grid.
 /// Each such mapping smooths the velocity and takes kinetic energy (Balance::numerical_loss): with one at each step, 15 % of the work of
@@ -107,8 +108,9 @@ class MpmGround : public Body {
   void set_references(double time);
   void end_cycle();
   void update_particles();
-  void give_momentum();
-  void give_forces(double dt);
+  void start_grid();
+  void give_forces();
+  void give_pushes();
   void deform(double dt);
   void count_contact_work(double dt);
   Vector3 particle_momentum() const;
@@ -132,11 +134,12 @@ class MpmGround : public Body {
   const TransferKernels& kernels_;
 
   std::vector<Push> pushes_;
-  std::vector<PointImpulse> impulses_;
+  std::vector<PointForce> point_forces_;
   std::vector<PointMotion> point_motions_;
   std::vector<GroundPoint> pushed_;
   std::vector<GroundMotion> pushed_motions_;
   std::vector<double> gradient_;
+  std::vector<Weights> weights_;
   std::vector<double*> state_pointers_;
   UpdateReport report_;
   unsigned long generation_ = 0;

@@ -91,6 +91,10 @@ void MpmGround::restore(const std::vector<double>& state) {
   if (ranks().size() > 1) sort();
   drift_ = drift;
   ++generation_;
+  if (in_cycle()) {
+    grid_.clear_sums(partition_.touched());
+    give_forces();
+  }
   if (!sheet_.exists()) return;
   sheet_.find(phases_);
   move_sheet();

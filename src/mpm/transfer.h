@@ -5,7 +5,7 @@
 /// With N_i the B-splines of a particle's 27 nodes, d_i = x_i - x_p and D = sum N_i d_i d_i^T (diagonal for a product grid):
 ///   momentum to the grid   m_i = sum_p N_i m,   m_i v_i = sum_p N_i m (v + C d_i)
 ///   motion from the grid   v = sum N_i v_i,     C = (sum N_i v_i d_i^T) D^-1
-///   force to the grid      m_i dv_i = -dt sum_p V sigma G_i
+///   force to the grid      f_i = -sum_p V sigma G_i
 ///   strain from the grid   H = dt sum v_i G_i^T
 /// Linear momentum is kept because sum N_i = 1, angular momentum because C carries it (C. Jiang, C. Schroeder, J. Teran, J. Comput. Phys.
 /// 338, 2017). Force and strain have the same G_i, so that the work of the stress is what the grid loses. G_i = N_i D^-1 d_i (Y. Hu et
@@ -22,11 +22,21 @@
 namespace furrow {
 
 constexpr std::size_t stencil = 3;  ///< nodes of a particle in each direction
+constexpr std::size_t batch = 64;   ///< particles whose weights are found together: they fit the first cache
+
+/// Splines of a batch of particles, direction by direction.
+struct Weights {
+  double value[3][stencil][batch];
+  double slope[3][stencil][batch];  ///< G of each direction for force and strain, N d for momentum and motion
+  double inverse_spread[3][batch];  ///< 1/D; with N d only
+  int first[batch];                 ///< node of the lowest corner
+};
+constexpr std::size_t batches(std::size_t particles) { return (particles + batch - 1) / batch; }
 
 /// The grid as a kernel sees it: four numbers a node, aligned to 32 bytes; z runs fastest, then y, then x.
 struct GridView {
   AxisView axis[3];
-  double* sums;                ///< momentum or impulse [N s], and mass [kg]
+  double* sums;                ///< momentum [N s] and mass [kg], or force [N] and zero
   const double* velocity;      ///< [m/s], and mass
   const double* displacement;  ///< [m] since particles were last moved; the fourth is unused
 };
@@ -43,10 +53,10 @@ struct ParticleView {
   const double* stress[6] = {};          ///< xx, yy, zz, xy, yz, xz [Pa]
 };
 
-/// An impulse at a point near a particle: given to the particle's nodes with force and moment kept.
-struct PointImpulse {
+/// A force at a point near a particle: given to the particle's nodes with force and moment kept.
+struct PointForce {
   double position[3];  ///< reference position of the particle [m]
-  double impulse[3];   ///< [N s]
+  double force[3];     ///< [N]
   double lever[3];     ///< from there to the point where the force acts [m]
 };
 
@@ -62,10 +72,12 @@ struct TransferKernels {
   const char* instruction_set;
   /// @return number of particles outside of the grid, or no number; nothing is added for their batch. The others expect none.
   std::size_t (*scatter_momentum)(const GridView&, const ParticleView&, double density);
-  void (*scatter_force)(const GridView&, const ParticleView&, double dt);
-  void (*scatter_impulses)(const GridView&, const PointImpulse*, std::size_t count);
+  void (*scatter_point_forces)(const GridView&, const PointForce*, std::size_t count);
+  /// With G, for the two that follow. @param weights batches(size) of them
+  void (*find_weights)(const GridView&, const ParticleView&, Weights* weights);
+  void (*scatter_force)(const GridView&, const ParticleView&, const Weights*);
   /// @param gradient nine arrays for H, row by row (PointBlock)
-  void (*gather_strain)(const GridView&, const ParticleView&, double dt, double* const* gradient);
+  void (*gather_strain)(const GridView&, const ParticleView&, const Weights*, double dt, double* const* gradient);
   /// V sigma : H of the particles with their present stress [J]
   double (*stress_work)(const ParticleView&, const double* const* gradient);
   /// Moves the particles by the nodes' displacement and gives them the nodes' velocity.

@@ -14,19 +14,9 @@ inline namespace FURROW_ISA {
 typedef double Vector4 __attribute__((vector_size(32)));                         // the four numbers of a node
 typedef double Stored4 __attribute__((vector_size(32), aligned(8), may_alias));  // the same anywhere in memory
 
-constexpr std::size_t batch = 64;  // particles: their weights fit the first cache
-
 enum class Slope {
   moment,   // N d, for momentum and motion
   gradient  // G of transfer.h, for force and strain
-};
-
-/// B-splines of a batch, direction by direction.
-struct Weights {
-  double value[3][stencil][batch];
-  double slope[3][stencil][batch];
-  double inverse_spread[3][batch];  // 1/D; with moments only
-  int first[batch];                 // node of the lowest corner
 };
 
 /// A particle whose cell is not in the run of even cells: by the axis's tables.
@@ -40,6 +30,14 @@ int find_weights_by_table(const AxisView& axis, int a, double x, std::size_t p, 
   const double below = x - axis.knot[c], above = axis.knot[c + 1] - x;
   const double w0 = axis.left[c] * above * above, w2 = axis.right[c] * below * below;
   const double w[stencil] = {w0, 1.0 - w0 - w2, w2};
+  for (std::size_t i = 0; i < stencil; ++i) weights.value[a][i][p] = w[i];
+  if (kind == Slope::gradient && axis.uneven[c]) {
+    const double g0 = -2.0 * axis.left[c] * above, g2 = 2.0 * axis.right[c] * below;
+    weights.slope[a][0][p] = g0;
+    weights.slope[a][1][p] = -g0 - g2;
+    weights.slope[a][2][p] = g2;
+    return c;
+  }
   double moment[stencil], spread = 0.0;
   for (std::size_t i = 0; i < stencil; ++i) {
     const double d = axis.node[c + static_cast<int>(i)] - x;
@@ -47,12 +45,8 @@ int find_weights_by_table(const AxisView& axis, int a, double x, std::size_t p, 
     spread += moment[i] * d;
   }
   const double inverse = 1.0 / spread;
-  const double g0 = -2.0 * axis.left[c] * above, g2 = 2.0 * axis.right[c] * below;
-  const double gradient[stencil] = {g0, -g0 - g2, g2};
-  for (std::size_t i = 0; i < stencil; ++i) {
-    weights.value[a][i][p] = w[i];
-    weights.slope[a][i][p] = kind == Slope::moment ? moment[i] : axis.uneven[c] ? gradient[i] : moment[i] * inverse;
-  }
+  for (std::size_t i = 0; i < stencil; ++i)
+    weights.slope[a][i][p] = kind == Slope::moment ? moment[i] : moment[i] * inverse;
   if (kind == Slope::moment) weights.inverse_spread[a][p] = inverse;
   return c;
 }
@@ -69,7 +63,7 @@ inline std::size_t count_outside(const GridView& grid, const double* const* posi
 }
 
 template <Slope kind>
-void find_weights(const GridView& grid, const double* const* position, std::size_t count, Weights& weights) {
+void find_batch(const GridView& grid, const double* const* position, std::size_t count, Weights& weights) {
   int cell[3][batch], apart[batch];
   for (int a = 0; a < 3; ++a) {
     const AxisView& axis = grid.axis[a];
@@ -209,7 +203,7 @@ inline std::size_t scatter_momentum(const GridView& grid, const ParticleView& al
       return;
     }
     Weights weights;
-    find_weights<Slope::moment>(grid, particles.reference, particles.size, weights);
+    find_batch<Slope::moment>(grid, particles.reference, particles.size, weights);
     for_cells(
         grid, weights, particles.size, [&](CellSum & sum, std::size_t p) __attribute__((always_inline)) {
           const double mass = density * particles.volume[p];
@@ -223,14 +217,19 @@ inline std::size_t scatter_momentum(const GridView& grid, const ParticleView& al
   return outside;
 }
 
-inline void scatter_force(const GridView& grid, const ParticleView& all, double dt) {
-  for_batches(all, [&](const ParticleView& particles, std::size_t) {
-    Weights weights;
-    find_weights<Slope::gradient>(grid, particles.reference, particles.size, weights);
-    alignas(64) double force[6][batch];  // -dt V sigma
+inline void find_weights(const GridView& grid, const ParticleView& all, Weights* weights) {
+  for_batches(all, [&](const ParticleView& particles, std::size_t first) {
+    find_batch<Slope::gradient>(grid, particles.reference, particles.size, weights[first / batch]);
+  });
+}
+
+inline void scatter_force(const GridView& grid, const ParticleView& all, const Weights* of_batches) {
+  for_batches(all, [&](const ParticleView& particles, std::size_t first) {
+    const Weights& weights = of_batches[first / batch];
+    alignas(64) double force[6][batch];  // -V sigma
     for (int s = 0; s < 6; ++s)
       for (std::size_t p = 0; p < particles.size; ++p)
-        force[s][p] = -dt * particles.volume[p] * particles.volume_ratio[p] * particles.stress[s][p];
+        force[s][p] = -particles.volume[p] * particles.volume_ratio[p] * particles.stress[s][p];
     for_cells(
         grid, weights, particles.size, [&](CellSum & sum, std::size_t p) __attribute__((always_inline)) {
           const double xx = force[0][p], yy = force[1][p], zz = force[2][p], xy = force[3][p], yz = force[4][p],
@@ -241,14 +240,14 @@ inline void scatter_force(const GridView& grid, const ParticleView& all, double 
   });
 }
 
-inline void scatter_impulses(const GridView& grid, const PointImpulse* impulses, std::size_t count) {
+inline void scatter_point_forces(const GridView& grid, const PointForce* forces, std::size_t count) {
   const Strides stride(grid);
   Weights weights;
   for (std::size_t n = 0; n < count; ++n) {
-    const PointImpulse& one = impulses[n];
+    const PointForce& one = forces[n];
     const double* position[3] = {one.position, one.position + 1, one.position + 2};
-    find_weights<Slope::moment>(grid, position, 1, weights);
-    const Vector4 base = {one.impulse[0], one.impulse[1], one.impulse[2], 0.0};
+    find_batch<Slope::moment>(grid, position, 1, weights);
+    const Vector4 base = {one.force[0], one.force[1], one.force[2], 0.0};
     Vector4 slope[3];
     for (int d = 0; d < 3; ++d) slope[d] = base * (one.lever[d] * weights.inverse_spread[d][0]);
     CellSum sum = {};
@@ -315,11 +314,11 @@ inline void scatter_impulses(const GridView& grid, const PointImpulse* impulses,
   }
 }
 
-inline void gather_strain(const GridView& grid, const ParticleView& all, double dt, double* const* gradient) {
+inline void gather_strain(const GridView& grid, const ParticleView& all, const Weights* of_batches, double dt,
+                          double* const* gradient) {
   const Strides stride(grid);
   for_batches(all, [&](const ParticleView& particles, std::size_t first) {
-    Weights weights;
-    find_weights<Slope::gradient>(grid, particles.reference, particles.size, weights);
+    const Weights& weights = of_batches[first / batch];
     for (std::size_t p = 0; p < particles.size; ++p) {
       Vector4 velocity, column[3];
       read_slopes(grid.velocity, stride, weights, p, velocity, column);
@@ -364,7 +363,7 @@ inline void gather_motion(const GridView& grid, const ParticleView& all) {
   const Strides stride(grid);
   for_batches(all, [&](const ParticleView& particles, std::size_t) {
     Weights weights;
-    find_weights<Slope::moment>(grid, particles.reference, particles.size, weights);
+    find_batch<Slope::moment>(grid, particles.reference, particles.size, weights);
     for (std::size_t p = 0; p < particles.size; ++p) {
       Vector4 velocity, affine[3];
       read_motion(grid, stride, weights, p, velocity, affine);
@@ -384,7 +383,7 @@ inline void probe(const GridView& grid, PointMotion* points, std::size_t count) 
   for (std::size_t n = 0; n < count; ++n) {
     PointMotion& point = points[n];
     const double* position[3] = {point.position, point.position + 1, point.position + 2};
-    find_weights<Slope::moment>(grid, position, 1, weights);
+    find_batch<Slope::moment>(grid, position, 1, weights);
     Vector4 velocity, affine[3];
     read_motion(grid, stride, weights, 0, velocity, affine);
     *reinterpret_cast<Stored4*>(point.velocity) = velocity;
@@ -396,8 +395,8 @@ inline void probe(const GridView& grid, PointMotion* points, std::size_t count) 
 }
 
 constexpr TransferKernels all_transfers(const char* instruction_set) {
-  return {instruction_set, scatter_momentum, scatter_force, scatter_impulses,
-          gather_strain,   stress_work,      gather_motion, probe};
+  return {instruction_set, scatter_momentum, scatter_point_forces, find_weights, scatter_force,
+          gather_strain,   stress_work,      gather_motion,        probe};
 }
 
 }  // namespace FURROW_ISA

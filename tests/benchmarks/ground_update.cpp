@@ -31,7 +31,7 @@ int run(int argc, char** argv) {
   ground.surface = depth;
   ground.x = {-half_length, half_length, cell, -half_length, half_length, 1.0};
   ground.y = {0.0, half_width, cell, 0.0, half_width, 1.0};
-  ground.z = {0.0, depth + 4 * cell, cell, 0.0, depth + 4 * cell, 1.0};
+  ground.z = {0.0, depth + 6 * cell, cell, 0.0, depth + 6 * cell, 1.0};
   ground.window = true;
   if (argc > 5) ground.cycle = std::atoi(argv[5]);
   if (argc > 4) ground.cfl = std::atof(argv[4]);

@@ -29,12 +29,12 @@ void give_velocity(Grid& grid, const Vector3& v) {
   });
 }
 
-void give_sums(Grid& grid, const Vector3& impulse) {
+void give_sums(Grid& grid, const Vector3& force) {
   for (int i = 0; i < grid.nodes(0); ++i)
     for (int j = 0; j < grid.nodes(1); ++j)
       for (int k = 0; k < grid.nodes(2); ++k) {
-        Eigen::Map<Vector3>(grid.sum(i, j, k).momentum) = impulse;
-        grid.sum(i, j, k).mass = mass;
+        Eigen::Map<Vector3>(grid.sum(i, j, k).total) = force;
+        grid.motion(i, j, k).mass = mass;
       }
 }
 
@@ -86,7 +86,7 @@ TEST(Faces, AbsorbingIsDashpotAndSpring) {
   Grid grid = small_grid();
   Faces faces(grid, only(x_upper, FaceKind::absorbing), {2, 2, 2}, speeds(grid));
   EXPECT_FALSE(faces.captured());
-  faces.capture(grid, grid.all_planes(), weightless, dt);  // nothing to hold
+  faces.capture(grid, grid.all_planes(), weightless);  // nothing to hold
   EXPECT_TRUE(faces.captured());
   const double extent = 0.3125, length = 0.5 * 4.0;  // [m] (0.75^2 + 0.25^2)/2 of the spline at two particles a cell
   Vector3 u = Vector3::Zero(), v(1.0, 2.0, 3.0);
@@ -119,8 +119,8 @@ TEST(Faces, ForcesOfTheStartAreHeld) {
     Faces faces(grid, kinds, {2, 2, 2}, speeds(grid));
     const Vector3 pull(10.0, -20.0, 30.0);  // [N] on every node
     const Vector3 gravity(0.0, 1.0, -9.0), stress = pull - mass * gravity;
-    give_sums(grid, dt * stress);
-    faces.capture(grid, grid.all_planes(), gravity, dt);
+    give_sums(grid, stress);
+    faces.capture(grid, grid.all_planes(), gravity);
     for (int step = 0; step < 5; ++step) {
       give_velocity(grid, dt * pull / mass);
       faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);
@@ -141,7 +141,7 @@ TEST(Faces, AbsorbingLeavesToWallsWhatTheyHold) {
   kinds[z_lower] = FaceKind::rough;
   kinds[y_lower] = FaceKind::smooth;
   Faces faces(grid, kinds, {2, 2, 2}, speeds(grid));
-  faces.capture(grid, grid.all_planes(), weightless, dt);
+  faces.capture(grid, grid.all_planes(), weightless);
   const Vector3 v(1.0, 2.0, 3.0);
   double work = 0.0;
   for (int step = 0; step < 2; ++step) {
@@ -179,7 +179,7 @@ TEST(Faces, StateIsRestoredAndMovesWithTheGrid) {
   Grid grid = small_grid();
   Faces faces(grid, only(y_upper, FaceKind::absorbing), {2, 2, 2}, speeds(grid));
   give_velocity(grid, {1, 2, 3});
-  faces.capture(grid, grid.all_planes(), weightless, dt);
+  faces.capture(grid, grid.all_planes(), weightless);
   for_nodes(grid, [&](NodeMotion& n, int i, int, int) {
     Eigen::Map<Vector3>(n.velocity) = Vector3(i, 0, 0);
     n.mass = mass;
