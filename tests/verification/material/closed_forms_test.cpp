@@ -206,6 +206,25 @@ TEST(FoamClosedForm, UniaxialCompressionHasNoLateralPlasticStrain) {
   EXPECT_NEAR(state[CrushableFoam::eps_vol_pl], 2e-5 + 99 * 2e-3 + state[2] / 1e7, 1e-9);
 }
 
+/// Confined compression without Poisson's ratio is uniaxial stress too: q = 3 p = sigma_1 on the ellipse at pc(eps - sigma_1/E), which is
+///   (1 + 9/M^2) p^2 - (pc - pt) p - pc pt = 0.
+TEST(FoamClosedForm, ConfinedCompressionHasNoLateralStress) {
+  const double E = 1e7, pt = 11.376;
+  const auto law = law_of(
+      "crushable_foam density 200 pt 11.376 sigma0 275.79 elasticity linear E 1e7 nu 0 "
+      "hardening exponential pc0 113.76 lambda 0.35 kappa 0.005 e0 3.5");
+  const double M = static_cast<const CrushableFoam&>(*law).parameters().M, a = 1 + 9 / (M * M);
+  VectorX state = law->initial_state();
+  for (const double strain : {0.1, 0.3, 0.6, 0.9}) {  // 221, 270, 364, 492 kg/m3
+    const double before = std::log(state[field::volume_ratio]);
+    for (int step = 0; step < 10; ++step) law->update_point(stretch(strain_of(0, 0, -(strain + before) / 10)), state);
+    const double sigma1 = -state[2], J_pl = std::exp(sigma1 / E - strain);
+    const double pc = (113.76 + pt) * std::exp(4.5 * (1 - J_pl) / (0.35 - 0.005 * J_pl)) - pt, half = 0.5 * (pc - pt);
+    EXPECT_NEAR(sigma1 / (3 * (half + std::sqrt(half * half + a * pc * pt)) / a), 1.0, 1e-10) << strain;
+    EXPECT_NEAR(state[0] / sigma1, 0.0, 1e-10) << strain;
+  }
+}
+
 /// Hydrostatic compression follows p = pc, tension p = -pt whatever the volume.
 TEST(FoamClosedForm, HydrostaticStrengths) {
   const auto law = law_of(stiff_foam);

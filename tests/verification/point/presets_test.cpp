@@ -195,6 +195,12 @@ TEST(Presets, FoamHasBothReadings) {
   EXPECT_EQ(foam.at("elasticity").options.number("kappa"), 0.005);
 }
 
+/// TR's lambda needs twice the oedometer's stress; the fitted one meets its densities.
+TEST(Presets, FoamInTheOedometer) {
+  EXPECT_NEAR(oedometer_error("fresh_snow_foam"), 0.163, 5e-3);
+  EXPECT_LT(oedometer_error("fresh_snow_foam_oedometer"), 0.04);
+}
+
 TEST(Presets, ElasticSandAndRubber) {
   const auto sand = file_of("compacted_sand_elastic").make();
   const ElasticModuli moduli = sand->moduli(sand->initial_state());
