@@ -118,13 +118,20 @@ def sections(run, cell=0.01):
     return lengthwise, across
 
 
+def height_left(run):
+    """Of ground under the wheel [m]. A tyre's sinkage counts to its unloaded tread: there the tread's lowest point at the end is taken."""
+    depth = run.conditions["depth"].value
+    if run.wheel == "tyre":
+        return float(run.results.surface()[1][:, 2].min()) - (run.ground_level - depth)
+    return depth - run.values["sinkage"].mean
+
+
 def track_density(run):
     """Mass on the middle half of the track behind the wheel over the height left under the wheel [kg/m3], and the standard error of
     four stretches of the track: the same definition for grains and continuum, without any smoothing."""
     ground = ground_of(run)
     radius, width = run.radius, run.conditions["wheel_width"].value
-    depth = run.conditions["depth"].value
-    sinkage = run.values["sinkage"].mean
+    left = height_left(run)
     parts = []
     stations = np.linspace(-1.3 * radius, -0.6 * radius, 5)
     for low, high in zip(stations[:-1], stations[1:]):
@@ -133,5 +140,5 @@ def track_density(run):
         points = (ground.x[near, None, :] + 0.5 * ground.size[near, None, None] * _IN_SPHERE).reshape(-1, 3)
         mass = np.repeat(ground.mass[near] / len(_IN_SPHERE), len(_IN_SPHERE))
         inside = (points[:, 0] > low) & (points[:, 0] < high) & (np.abs(points[:, 1]) < 0.25 * width)
-        parts.append(mass[inside].sum() / ((high - low) * 0.5 * width * (depth - sinkage)))
+        parts.append(mass[inside].sum() / ((high - low) * 0.5 * width * left))
     return float(np.mean(parts)), float(np.std(parts, ddof=1) / np.sqrt(len(parts)))

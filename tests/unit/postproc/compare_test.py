@@ -12,6 +12,7 @@ import tempfile
 import unittest
 from html.parser import HTMLParser
 from pathlib import Path
+from types import SimpleNamespace
 
 SOURCE = Path(os.environ["FURROW_SOURCE"])
 sys.path.insert(0, str(SOURCE / "postproc"))
@@ -19,7 +20,7 @@ sys.path.insert(0, str(SOURCE / "postproc"))
 import h5py
 import numpy as np
 
-from furrow_post import compare, conditions, cost, cost_table, curves
+from furrow_post import compare, conditions, cost, cost_table, curves, density
 from furrow_post.results import ResultsError
 
 FURROW_POST = SOURCE / "postproc" / "furrow-post"
@@ -125,6 +126,18 @@ class Verdict(unittest.TestCase):
     def test_unknown_parts_are_named(self):
         other = compare.Entry("sinkage", "b", 0.1, cost_table.Components(time=0.001), "run")
         self.assertIn("not known: domain of b, packing of b, size of b", compare.judge(self.entry("a", 0.1, 0.001), other)[0])
+
+
+class Track(unittest.TestCase):
+    def test_height_left_under_a_tyre_counts_its_deflection(self):
+        """0.2 m of ground up to 0.5 m; sinkage of the unloaded outline 0.18 m, the tread's lowest point at 0.34 m: 20 mm further up."""
+        value = lambda v: SimpleNamespace(value=v, mean=v)
+        surface = (np.empty((0, 3), int), np.array([[0.0, 0.0, 0.34], [0.1, 0.0, 0.4]]))
+        run = SimpleNamespace(wheel="rigid wheel", conditions={"depth": value(0.2)}, values={"sinkage": value(0.18)}, ground_level=0.5,
+                              results=SimpleNamespace(surface=lambda: surface))
+        self.assertAlmostEqual(density.height_left(run), 0.02)
+        run.wheel = "tyre"
+        self.assertAlmostEqual(density.height_left(run), 0.04)
 
 
 def write_run(folder, load=1000.0, sinkage=0.05, datum=0.0):
