@@ -98,7 +98,9 @@ struct Group {
     double* const* state = block.state;
     const Symmetric& stress = points.stress;
     const Lanes ratio = load(state[field::volume_ratio]) * step.volume;
-    const Mask good = step.admissible && !points.stopped && finite(contract(stress, stress) + ratio) && ratio > Lanes(0.0);
+    Lanes everything = contract(stress, stress) + ratio + points.stored + points.frozen + points.dissipated;
+    for (int k = 0; k < own_fields; ++k) everything += points.own[k];
+    const Mask good = step.admissible && !points.stopped && finite(everything) && ratio > Lanes(0.0);
     if (!all(good)) {
       for (int lane = 0; lane < lanes; ++lane) {
         if (good[lane]) continue;

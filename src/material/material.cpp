@@ -74,9 +74,9 @@ UpdateReport Material::checked(const BlockResult& result, const PointBlock& bloc
   const char* cause = result.failure == Failure::folded ? "the deformation of the step is folded or not finite"
                       : result.failure == Failure::table_ends
                           ? "the hardening table ends (its rule beyond the table is 'stop')"
-                          : "the new stress or volume is not finite (numbers too large, or porous elasticity at its "
+                          : "the new state is not finite (numbers too large, or porous elasticity at its "
                             "tensile limit)";
-  throw StateError(fmt::format("law {}, point {} of the block: {}; {}; {}", name_, i, cause, step, old));
+  throw PointError(i, fmt::format("law {}: {}; {}; {}", name_, cause, step, old));
 }
 
 std::size_t Material::field_index(const std::string& name) const {

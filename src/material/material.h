@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "core/types.h"
 #include "material/point_block.h"
 
@@ -29,6 +30,13 @@ struct StateField {
   std::string unit;     ///< "Pa", "" when it has none
   std::string meaning;  ///< "compressive volumetric plastic strain"
   double initial;       ///< at the start of a run
+};
+
+/// A law refused the step of a point.
+class PointError : public StateError {
+ public:
+  PointError(std::size_t place, const std::string& message) : StateError(message), point(place) {}
+  std::size_t point;  ///< its place in the block
 };
 
 struct BlockResult;  // kernel_table.h
@@ -54,8 +62,8 @@ class Material {
   std::size_t field_index(const std::string& name) const;
 
   /// One step of every point of a block. Not all-or-nothing: after a throw the states of the block are unspecified.
-  /// @throws StateError when a result is not finite, Delta F is not invertible with positive determinant, or the hardening
-  ///         table ends under the rule "stop"; the message gives the point's place in the block
+  /// @throws PointError when a result is not finite, Delta F is not invertible with positive determinant, or the hardening
+  ///         table ends under the rule "stop"
   virtual UpdateReport update_block(const PointBlock& block) const = 0;
 
   // ---- one point: `state` has state_fields().size() values in the order of state_fields() --------------------------------

@@ -85,8 +85,7 @@ void Faces::capture(Grid& grid, const PlaneRange& planes, const Vector3& gravity
     for_face(grid, loop_of(grid, static_cast<FacePlace>(f)), planes, [&](std::size_t number, const Place& at) {
       NodeSum& sum = grid.sum(at[0], at[1], at[2]);
       double& mass = grid.motion(at[0], at[1], at[2]).mass;
-      for (int c = 0; c < 3; ++c)
-        far.hold[3 * number + static_cast<std::size_t>(c)] = -sum.total[c] - mass * gravity[c];
+      for (int c = 0; c < 3; ++c) far.hold[3 * number + static_cast<std::size_t>(c)] = -sum.total[c] - mass * gravity[c];
       sum = NodeSum{};  // held: not by another face again
       mass = 0.0;
     });

@@ -187,9 +187,9 @@ void GroundContact::find_candidates(bool stiffness_anew) {
                 [](const Near& a, const Near& b) { return a.distance < b.distance; });
       candidates_.push_back({{k, p}, point, begin, near_.size()});
       if (stiffness_anew)
-        memory_of({k, p})[Memory::stiffness] =
-            parameters_.stiffness * ground_.lagging_phases()[k].law->moduli(particles.state(p)).wave() *
-                           std::cbrt(particles.data(column::volume)[p]);
+        memory_of({k, p})[Memory::stiffness] = parameters_.stiffness *
+                                               ground_.lagging_phases()[k].law->moduli(particles.state(p)).wave() *
+                                               std::cbrt(particles.data(column::volume)[p]);
     }
   }
 }

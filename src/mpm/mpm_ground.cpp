@@ -11,7 +11,7 @@ namespace furrow {
 
 namespace {
 
-constexpr std::size_t chunk = 1024;     // particles between grid and law: their gradients stay in the second cache
+constexpr std::size_t chunk = 256;      // particles between grid and law: gradients and weights stay in the second cache
 constexpr double most_travel = 0.05;    // in a cycle, of the shortest cell times the volume ratio
 constexpr double most_drift = 0.5;      // of the shortest cell between two sortings
 constexpr double most_off_knot = 1e-6;  // of the cell: the surface is where two cells meet
@@ -147,6 +147,9 @@ void MpmGround::add_column(int cell) {
   ++generation_;
 }
 
+/// The d_i/sqrt(D) are orthonormal under the weights N_i, so that |sum_i u_i G_i^T|^2 <= sum_i N_i |u_i|^2/D (Bessel) and omega^2 <= 3 K/(rho D)
+/// with D = h^2/4, the largest eigenvalue of an elasticity with nu >= 0: on any arrangement of particles, away from faces. Wave speeds have M
+/// in the place of 3 K; cfl makes up for that (coupling/fix_terrain_continuum.md).
 double MpmGround::stable_time_step() const {
   double fastest = 0.0;
   for (const GroundPhase& phase : phases_) {
@@ -305,10 +308,9 @@ void MpmGround::deform(double dt) {
       block.state = state_pointers_.data();
       try {
         report_ += phase.law->update_block(block);
-      } catch (const StateError& error) {
-        throw StateError(fmt::format("{} (particles from number {} of its layer, near x {:.3f} m, y {:.3f} m, z {:.3f} m)",
-                                     error.what(), first, phase.particles.data(column::x)[first],
-                                     phase.particles.data(column::y)[first], phase.particles.data(column::z)[first]));
+      } catch (const PointError& error) {
+        const Vector3 x = phase.particles.position(first + error.point);
+        throw StateError(fmt::format("the particle at {:.4g} {:.4g} {:.4g} m: {}", x[0], x[1], x[2], error.what()));
       }
       stress_work_ += 0.5 * kernels_.stress_work(particles, gradient.data());
       if (!last) kernels_.scatter_force(view, particles, weights_.data());

@@ -55,20 +55,21 @@ void Partition::sum_shared(Grid& grid) const {
     if (r == ranks_.rank() || planes.to <= planes.from) continue;
     received[static_cast<std::size_t>(r)] = ranks_.exchange(r, numbers(planes));
   }
-  const int from = mine.from, to = mine.to;
-  for (int plane = from; plane < to; ++plane) {
-    std::vector<const double*> parts;
-    std::vector<double> own;
+  std::vector<const double*> parts;
+  std::vector<double> own;
+  for (int plane = mine.from; plane < mine.to; ++plane) {
+    parts.clear();
     for (int r = 0; r < ranks_.size(); ++r) {
       if (r == ranks_.rank()) {
-        own = numbers({plane, plane + 1});
-        parts.push_back(own.data());
+        parts.push_back(nullptr);
       } else if (const PlaneRange planes = shared(r); planes.contains(plane)) {
         parts.push_back(received[static_cast<std::size_t>(r)].data() +
                         length * static_cast<std::size_t>(plane - planes.from));
       }
     }
     if (parts.size() == 1) continue;
+    own = numbers({plane, plane + 1});
+    std::replace(parts.begin(), parts.end(), static_cast<const double*>(nullptr), static_cast<const double*>(own.data()));
     double* sum = grid.plane_sums(plane);
     std::copy_n(parts[0], length, sum);
     for (std::size_t p = 1; p < parts.size(); ++p)

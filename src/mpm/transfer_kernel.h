@@ -45,8 +45,7 @@ int find_weights_by_table(const AxisView& axis, int a, double x, std::size_t p, 
     spread += moment[i] * d;
   }
   const double inverse = 1.0 / spread;
-  for (std::size_t i = 0; i < stencil; ++i)
-    weights.slope[a][i][p] = kind == Slope::moment ? moment[i] : moment[i] * inverse;
+  for (std::size_t i = 0; i < stencil; ++i) weights.slope[a][i][p] = kind == Slope::moment ? moment[i] : moment[i] * inverse;
   if (kind == Slope::moment) weights.inverse_spread[a][p] = inverse;
   return c;
 }

@@ -1,5 +1,6 @@
 #include "mpm/mpm_ground.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "body/rigid_plate.h"
@@ -108,7 +109,7 @@ TEST(MovingGround, DropsBehindAndAddsAhead) {
   ground.advance(1e-5);
   ground.follow(0.3);
   for (int step = 0; step < parameters.cycle; ++step) ground.advance(1e-5);  // at the end of a cycle
-  EXPECT_NEAR(ground.travelled(), 0.275, 1e-12);  // by whole cells, one behind what it follows
+  EXPECT_NEAR(ground.travelled(), 0.275, 1e-12);                             // by whole cells, one behind what it follows
   EXPECT_EQ(ground.particle_count(), particles);
   EXPECT_NEAR(sums_of(ground).mass / mass, 1.0, 1e-12);
   EXPECT_NEAR(sums_of(ground).centre.x(), 0.275, 1e-6);
@@ -186,6 +187,24 @@ TEST(Ground, LayersAreFilledWithTheirLaws) {
   EXPECT_EQ(ground.phases()[0].particles.size(), 4u * 4u * 2u * 8u);
   EXPECT_EQ(ground.phases()[1].particles.size(), 4u * 4u * 6u * 8u);
   EXPECT_NEAR(sums_of(ground).mass, 0.01 * (0.05 * 200 + 0.15 * 1800), 1e-9);
+}
+
+/// Which particle a law refuses, not which block it was in.
+TEST(Ground, ALawsRefusalNamesTheParticle) {
+  GroundParameters parameters = box(law_of(snow()), {-0.1, -0.1, 0}, {0.1, 0.1, depth}, cell);
+  MpmGround ground(parameters, Communicator());
+  Particles& particles = ground.phases()[0].particles;
+  const std::size_t broken = particles.size() - 5;
+  // What only the law reads: others are not touched by it.
+  particles.data(column::state + parameters.layers[0].law->field_index("eps_vol_pl"))[broken] = std::nan("");
+  const Vector3 x = particles.position(broken);
+  set_motion(ground, Vector3::Zero(), Vector3(0.0, 0.0, -10.0).asDiagonal());  // all yield
+  try {
+    ground.advance(1e-5);
+    ADD_FAILURE() << "accepted";
+  } catch (const StateError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(fmt::format("the particle at {:.4g} {:.4g} {:.4g} m: law", x[0], x[1], x[2])));
+  }
 }
 
 }  // namespace
