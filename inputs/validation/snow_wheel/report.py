@@ -34,7 +34,7 @@ def evaluate(folder):
     done = finished(folder)
     if done is None:
         return None
-    row = dict(run=folder.name, user_s=done["cost"]["user_s"], error=done["error"])
+    row = dict(run=folder.name, user_s=done["cost"]["user_s"], error=done["error"], cycle=done.get("cycle", done["job"]["variables"]["cycle"]))
     if done["error"]:
         return row
     wheel, ground, contact = columns(folder / "history.h5"), columns(folder / "ground.h5"), np.loadtxt(folder / "contact.txt")
@@ -83,7 +83,7 @@ def row_table(results):
         own = empirical.nrmm_sinkage(h, rho, PRESSURE)
         row = dict(row=int(r["row"]), used="calibration" if study.is_calibration(r) else "prediction", depth_m=h, density_kgm3=int(rho),
                    sinkage_m=z, resistance=r["resistance"])
-        for mode in study.CHOSEN:
+        for mode in study.LAWS:
             found = evaluate(results / study.row_name(mode, rho, h)) or {}
             row.update({f"{mode}_{what}": found.get(what, "") for what in ("sinkage_m", "resistance", "density_under", "density_shoulder")})
         row.update(nrmm_sinkage_m=round(own, 3), nrmm_resistance=round(empirical.nrmm_resistance(rho, study.WIDTH, RADIUS, own) / LOAD, 3),
@@ -142,26 +142,32 @@ def extrapolated(sizes, values):
 
 
 def error_table(results):
-    """Each change of one numerical choice beside the base; and size zero, for sinkage and resistance."""
+    """Each change of one numerical choice beside the base; and size zero, for sinkage and resistance. Then the oedometer's law."""
     base = evaluate(results / study.ERROR_BASE)
     if not base or base["error"]:
         return [], {}
-    table = [dict(change="base: cells of 4 cm, 8 particles", cell_m=0.04, **{k: v for k, v in base.items() if k != "run"})]
-    for name, (what, changes) in study.ERRORS.items():
-        found = evaluate(results / f"error_{name}")
-        if found:
-            cell = round(0.20 / changes.get("cells", study.CELLS), 4)
-            table.append(dict(change=what, cell_m=cell, **{k: v for k, v in found.items() if k != "run"}))
+
+    def line(law, change, cells, found):
+        return dict(law=law, change=change, cell_m=round(0.20 / cells, 4), **{k: v for k, v in found.items() if k != "run"})
+    table = [line("towed", "base: cells of 4 cm, 8 particles", study.CELLS, base)]
+    changed = {f"error_{name}": change for name, change in study.ERRORS.items()}
+    changed |= {f"error_contact_{factor:g}": (f"contact springs times {factor:g}", {}) for factor in study.SPRINGS}
+    table += [line("towed", what, changes.get("cells", study.CELLS), found) for name, (what, changes) in changed.items()
+              if (found := evaluate(results / name))]
     grids = [r for r in table if not r["error"] and (r["cell_m"] != 0.04 or r is table[0])]
     limits = {}
     if len(grids) >= 3:
         for what in ("sinkage_m", "resistance"):
             limits[what] = extrapolated([r["cell_m"] for r in grids], np.array([r[what] for r in grids]))
+    others = {"oedometer_towed": ("base: modulus softened by 0.25, springs 0.4", None)}
+    others |= {f"error_oedometer_{name}": case for name, case in study.oedometer_errors().items()}
+    table += [line("oedometer", what, round(0.20 / job["variables"]["cell"]) if job else study.CELLS, found) for name, (what, job) in others.items()
+              if (found := evaluate(results / name))]
     return table, limits
 
 
 def error_picture(table, limits, path):
-    grids = sorted((r for r in table if not r["error"] and (r["cell_m"] != 0.04 or r is table[0])), key=lambda r: -r["cell_m"])
+    grids = sorted((r for r in table if r["law"] == "towed" and not r["error"] and (r["cell_m"] != 0.04 or r is table[0])), key=lambda r: -r["cell_m"])
     figure, panels = plt.subplots(1, 2, figsize=(10, 4.2), constrained_layout=True)
     for axes, what, label in ((panels[0], "sinkage_m", "sinkage"), (panels[1], "resistance", "resistance coefficient")):
         limit, uncertain = limits[what]
@@ -201,17 +207,9 @@ def show(rows):
 
 def report(results, folder):
     """Writes results.csv, rows.csv, error.csv and the pictures into folder and prints them."""
-    runs = []
-    for stage in ("predict", "identify"):
-        for name in study.STAGES[stage]():
-            found = evaluate(results / name)
-            if found:
-                runs.append(dict(stage=stage, **found))
-    for name in ("towed_law_zero_slip", "zero_slip_law_towed", "error_zero_slip_3.3cm", "error_oedometer_soften_1"):
-        found = evaluate(results / name)
-        if found:
-            runs.append(dict(stage="check", **found))
-    for mode in study.CHOSEN:
+    runs = [dict(stage="predict", **found) for name in study.prediction() if (found := evaluate(results / name))]
+    runs += [dict(stage="check", **found) for name in ("towed_law_zero_slip", "zero_slip_law_towed") if (found := evaluate(results / name))]
+    for mode in study.LAWS:
         runs += [dict(stage="rows", **found) for r in sorted({(r["density_kgm3"], r["depth_m"]) for r in study.reference()}, reverse=True)
                  if (found := evaluate(results / study.row_name(mode, *r)))]
     show(runs)
@@ -220,7 +218,7 @@ def report(results, folder):
     show(table)
     write_table(folder / "rows.csv", table)
     compare(table, folder / "comparison.png")
-    scores = [accuracy(table, used, model) for model in (*study.CHOSEN, "nrmm") for used in ("calibration", "prediction", "all")]
+    scores = [accuracy(table, used, model) for model in (*study.LAWS, "nrmm") for used in ("calibration", "prediction", "all")]
     show(scores)
     write_table(folder / "accuracy.csv", scores)
     errors, limits = error_table(results)
@@ -231,6 +229,6 @@ def report(results, folder):
         print(f"size zero: {what} {value:.4f} +- {uncertain:.4f}")
     if limits:
         error_picture(errors, limits, folder / "error.png")
-    section = results / study.row_name("zero_slip", 220, 0.20)
+    section = results / study.row_name("towed", 220, 0.20)
     if finished(section):
-        furrow_ground.draw(section, "field snow, identified; rigid wheel at zero slip", "", folder / "section.png", dpi=75)
+        furrow_ground.draw(section, "field snow, identified; rigid wheel, towed", "", folder / "section.png", dpi=75)
