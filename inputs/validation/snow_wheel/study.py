@@ -36,7 +36,7 @@ def power_law(density, slope, d, beta, E, p_510):
 # The identified laws, rounded from what identify.py found; inputs/materials/field_snow_identified[_towed].yaml are these at 220 kg/m3.
 # zero_slip: as TR compares; towed: free spin, as the wheel was measured.
 LAWS = {
-    "zero_slip": dict(slope=8, d=2300, beta=22.53, E=13.79e6, p_510=180e3),
+    "zero_slip": dict(slope=26, d=7e3, beta=22.53, E=13.79e6, p_510=130e3),
     "towed": dict(slope=30, d=1e3, beta=57, E=0.35e6, p_510=70e3),
 }
 
