@@ -34,6 +34,9 @@ struct Audit {
   double force_scale = 0.0;          ///< [N] largest sum of |contact force| of any step
   double moment_imbalance = 0.0;     ///< [N m] the same of moments
   double moment_scale = 0.0;         ///< [N m]
+
+  /// The terms, their residual and their scale.
+  void set_energies(std::vector<EnergyTerm> terms, double residual);
 };
 
 /// What a run took: the process that brought it to its end, counted from its restart if there was one. Zero where not measured.

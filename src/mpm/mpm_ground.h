@@ -40,14 +40,15 @@ struct RutPoint {
 
 /// One step from t_n to t_n+1 (double precision throughout; velocities at half steps, as LIGGGHTS's leapfrog has them):
 ///   forces of stress and contact -> grid, faces, nodes move, strain -> particles (transfer.h), the law with H.
-/// In a cycle, which is what follows, the law's new stress gives its force to the grid at once, as it has the weights of the strain.
 ///
-/// The grid moves with the ground for a cycle of m steps; then its velocity and displacement go to the particles and theirs to a fresh grid.
-/// Each such mapping smooths the velocity and takes kinetic energy (Balance::numerical_loss): with one at each step, 15 % of the work of
-/// a wheel on snow in 4 cm cells; with one in 16 steps, a third of that. In a cycle the weights are taken at the place that a particle
-/// passes half-way, x_ref = x + (m - 1)/2 dt v, so that strain is that of the mid-configuration. Momentum is kept exactly, angular
-/// momentum exactly for m = 1 and else to second order in the turn of a cycle. m: at most GroundParameters::cycle, and no more steps than any particle needs
-/// for a twentieth of a cell, compacted as the particle is. Between, particles lag behind: phases() brings them up to date.
+/// The grid moves with the ground for a cycle of m steps; then its velocity and displacement go to the particles and theirs to a fresh
+/// grid. Each such mapping smooths the velocity and takes kinetic energy (Balance::numerical_loss): with one at each step, 15 % of the
+/// work of a wheel on snow in 4 cm cells; with one in 16 steps, a third of that. In a cycle the weights are taken at the place that a
+/// particle passes half-way, x_ref = x + (m - 1)/2 dt v, so that strain is that of the mid-configuration, and they are found once a
+/// step: the law's new stress gives its force to the grid with the weights of the strain. Momentum is kept exactly, angular momentum
+/// exactly for m = 1 and else to second order in the turn of a cycle. m: at most GroundParameters::cycle, and no more steps than any
+/// particle needs for a twentieth of a cell, compacted as the particle is. Between, particles lag behind: phases() brings them up to
+/// date. What phases() changes of stresses is seen from the next cycle on.
 ///
 /// Particles are kept in the order of their cells. Each rank owns a slab of the ground (partition.h); every call is collective unless said
 /// otherwise, and bodies that touch it are replicated.
@@ -82,9 +83,8 @@ class MpmGround : public Body {
   void probe(const std::vector<GroundPoint>& points, std::vector<GroundMotion>& motions);
   /// Changes whenever particles change their places in memory.
   unsigned long generation() const { return generation_; }
-  double largest_speed() const {
-    return largest_speed_;
-  }  ///< [m/s] of this rank's particles, at the start of the cycle or pushed since
+  /// [m/s] of this rank's particles, at the start of the cycle or pushed since.
+  double largest_speed() const { return largest_speed_; }
   /// A force on the ground during the next step [N], by the weights of a particle near the point where it acts [m].
   void push(const GroundPoint& near, const Vector3& force, const Vector3& point);
 
