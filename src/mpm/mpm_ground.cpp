@@ -224,14 +224,18 @@ void MpmGround::start_grid() {
   give_forces();
 }
 
-/// Weights are taken where particles will be after a time.
+/// Weights are taken where particles will be after a time; where that is beyond a face, which stops them first, where they are.
 void MpmGround::set_references(double time) {
   for (GroundPhase& phase : phases_) {
     const double* v = phase.particles.data(column::velocity);
     for (std::size_t a = 0; a < 3; ++a) {
       const double* x = phase.particles.data(column::x + a);
       double* reference = phase.particles.data(column::reference_x + a);
-      for (std::size_t p = 0; p < phase.particles.size(); ++p) reference[p] = x[p] + time * v[4 * p + a];
+      const double lower = grid_.axis(static_cast<int>(a)).lower(), upper = grid_.axis(static_cast<int>(a)).upper();
+      for (std::size_t p = 0; p < phase.particles.size(); ++p) {
+        const double later = x[p] + time * v[4 * p + a];
+        reference[p] = later >= lower && later <= upper ? later : x[p];
+      }
     }
   }
 }

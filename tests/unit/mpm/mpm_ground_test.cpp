@@ -166,6 +166,17 @@ TEST(Ground, StopsWhenParticlesLeaveTheGrid) {
   }
 }
 
+/// A particle close to a wall that moves towards it is stopped there, whatever the cycle; its half-way place would be beyond.
+TEST(Ground, AParticleThatMeetsAWallStaysInside) {
+  GroundParameters parameters = box(law_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
+  set_faces(parameters, {"smooth", "free", "smooth", "smooth", "smooth", "free"});
+  MpmGround ground(parameters, Communicator());
+  ground.phases()[0].particles.data(column::x)[0] = 1e-6;
+  set_motion(ground, {-1.0, 0, 0});
+  for (int n = 0; n < 32; ++n) ground.advance(1e-5);
+  EXPECT_GE(ground.phases()[0].particles.data(column::x)[0], 0.0);
+}
+
 TEST(Ground, RefusesASurfaceInsideACell) {
   GroundParameters parameters = box(law_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
   parameters.z = even(0, 0.32, 0.05);  // becomes six cells of 5.3 cm
