@@ -114,7 +114,7 @@ ERRORS = {
     "cell_5cm": ("cells of 5 cm", dict(cells=4)),
     "cell_3.3cm": ("cells of 3.33 cm", dict(cells=6)),
     "cell_2.5cm": ("cells of 2.5 cm", dict(cells=8)),
-    "particles_3": ("27 particles in a cell", dict(particles=3)),
+    "particles_3": ("27 particles in a cell, springs 2.5", dict(particles=3, stiffness=2.5)),
     "uniform": ("cells of 4 cm over the whole width", dict(fine_width=0.7)),
     "graded": ("cells grow under the wheel: below 8 cm and beside 20 cm", dict(fine_depth=0.08, fine_width=0.2)),
     "wide": ("ground 1.0 m wide", dict(width=1.0)),
