@@ -1,9 +1,11 @@
 // Functions of libliggghts that this executable stands in front of: the dynamic linker finds ours first. They need default
 // visibility, everything else in coupling/ is hidden.
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <thread>
 
 #include <dlfcn.h>
 #include <mpi.h>
@@ -52,9 +54,26 @@ void keep_results(const LAMMPS_NS::LAMMPS& lammps) {
     }
 }
 
-/// All ranks have come to the same error: leave together, dumps and logs closed.
+constexpr std::chrono::seconds patience(10);  // for ranks that come to the same error a little later
+
+/// Whether all ranks come here; false when one of them waits for this one elsewhere.
+bool all_arrive(MPI_Comm ranks) {
+  MPI_Request request;
+  MPI_Ibarrier(ranks, &request);
+  int done = 0;
+  for (const auto start = std::chrono::steady_clock::now(); !done && std::chrono::steady_clock::now() - start < patience;
+       std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+  return done != 0;
+}
+
+/// All ranks have come to the same error: leave together, dumps and logs closed. What was thought to befall all may befall one (a particle
+/// of its part of the ground): then as Error::one.
 [[noreturn]] void stop_together(LAMMPS_NS::LAMMPS& lammps, const std::string& text, const char* file, int line) {
-  MPI_Barrier(lammps.world);
+  if (!all_arrive(lammps.world)) {
+    lammps.error->one(file, line, text.c_str());
+    std::abort();  // one() does not come back
+  }
   int rank = 0;
   MPI_Comm_rank(lammps.world, &rank);
   if (rank == 0) {

@@ -82,8 +82,8 @@ def prediction():
     for variant in ("log", "p_0413", "abele_gow", "exponential", "beta_41", "d_30"):
         runs[f"{variant}_towed"] = preset(f"fresh_snow_{variant}")
     runs["log_zero_slip"] = preset("fresh_snow_log", mode="zero_slip")
-    runs["smooth_wheel"] = preset("fresh_snow", friction=0.0)
-    deep = dict(depth=0.50, width=0.9, distance=DEEP_DISTANCE)
+    runs["smooth_wheel"] = preset("fresh_snow", friction=0.0, headroom=1.0)  # does not turn: it pushes snow up before it
+    deep = dict(depth=0.50, width=0.9, distance=DEEP_DISTANCE, headroom=1.0)
     runs["deep_towed"] = preset("fresh_snow", **deep)
     runs["deep_zero_slip"] = preset("fresh_snow", mode="zero_slip", **deep)
     runs["deep_field_towed"] = on_field_snow(220, law="towed", **deep)
