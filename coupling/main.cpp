@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // furrow: LIGGGHTS with the fix styles of this folder. Same command line, same scripts: furrow -in script.
 
 #include <csignal>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 # Shared by inputs/run and tests/run: what Furrow needs from Debian, and how it is built. Source it; it defines functions only.
 
 furrow_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

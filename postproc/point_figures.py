@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The figure of a results folder of furrow-point: point_figures.py <folder>. SI in the files, kPa and MPa in the figure."""
 
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The figure of a results folder of furrow-sidewall: sidewall_figures.py <folder>. SI in files, mm and kN in the figure."""
 
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """furrow-post choose: what to model for a wanted error, from the table of a scene, and afterwards whether the estimate held."""
 
 import math

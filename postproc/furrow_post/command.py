@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The command furrow-post and its subcommands."""
 
 import argparse

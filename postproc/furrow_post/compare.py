@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """furrow-post compare: the same scene on several grounds, aligned, with uncertainties and a verdict.
 
 Refused are runs whose conditions differ beyond TOLERANCES. Uncertainties are standard deviations: of the time average from the run itself;

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What a wheel run was: its conditions and discretisation, read from its results folder; the base of every comparison.
 
 Definitions are aligned here, once: load is the vertical force the ground carries at rest, slip is counted in the definition of the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """furrow-post cost: error against cost of the runs of one scene, and which to take for a wanted error."""
 
 import csv

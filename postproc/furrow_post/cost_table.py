@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Runs of one scene in a table: what each gave, with what discretisation, at what cost; and what that says about errors.
 
 A family is one ground, whole or half model, one kind of wheel. Within a family the value at size h is taken as f0 + C h (first order in

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The subcommands of furrow-post that lay runs beside each other and beside formulas: empirical, compare, cost, report."""
 
 from pathlib import Path

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Comparison of curves: pressure against sinkage of plates, compression against stress of oedometers; grains, continuum, measured.
 
 A plate's folder has curve.txt (fix ave/time: step, sinkage [m], force [N], pressure [Pa]) and facts.txt (name value pairs); an oedometer's is

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Density of the ground around a wheel, on a regular grid, from grains or from the particles of continuum ground.
 
 Coordinates are those of the wheel: x from the axle along the travel, y from its middle plane, z from the undisturbed ground. Grains: the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Empirical formulas of mobility to lay beside computed runs, each with its source and range of validity.
 
 Nothing is extrapolated unless asked: outside of the range a formula raises OutOfRange, which names every value that is outside.

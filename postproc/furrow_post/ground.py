@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """furrow-post ground: density sections and tracers of continuum ground, the densities of the rut, a picture without a display.
 
 Sections as S. A. Shoop (ERDC/CRREL TR-01-16, 2001, Fig 65-67) shows them: across the track and along it, coloured by density, and the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """furrow-post plot: sinkage, forces, torque and slip against time."""
 
 import matplotlib

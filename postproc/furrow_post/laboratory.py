@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """furrow-post laboratory: what the tests of inputs/laboratory say: moduli, strengths, repose, run-out, each with its error.
 
 Stress and strain: compression positive. A result is a Quantity; the standard errors of means are those of eight blocks of

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The figure of furrow-post laboratory: one test kind, all its runs, measurements and continuum laws beside them."""
 
 import matplotlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """furrow-post picture: the rut in four views, drawn without a display."""
 
 import matplotlib

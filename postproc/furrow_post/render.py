@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """A z-buffer for spheres and triangles in numpy: parallel projection, one sun with shadow, ambient occlusion."""
 
 from dataclasses import dataclass

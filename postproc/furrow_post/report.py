@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """furrow-post report: one self-contained HTML page on runs and their comparison, and the same numbers as CSV and HDF5."""
 
 import base64

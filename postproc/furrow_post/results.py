@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Reading history.h5, the results file of a run (its layout is written down in src/io/history_file.h)."""
 
 from dataclasses import dataclass

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The steady values of a run as summary.json has them; they are computed by furrow-resistance, never here."""
 
 import json

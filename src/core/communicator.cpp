@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/communicator.h"
 
 #define OMPI_SKIP_MPICXX  // the C interface is all that is used

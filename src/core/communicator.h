@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The only user of MPI in src/: sums over the ranks of a run.
 

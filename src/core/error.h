@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Every refusal of the library is one of these exceptions; only coupling/ turns them into LIGGGHTS errors.
 

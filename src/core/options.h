@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Options are declared once: key, unit, range, meaning, default. Scripts, files, pages and errors all use that one declaration.
 

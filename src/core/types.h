@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Vector types and the conventions that hold everywhere in Furrow.
 ///

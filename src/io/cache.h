@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Where things are kept that can be made again, under names that follow from what they are made of.
 

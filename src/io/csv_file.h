@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Tables as text: commas, one line of names, '#' comments before it.
 

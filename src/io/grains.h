@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Grains as the files keep them: what a picture, a table or a displacement needs of a bed of spheres.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A thin layer over the HDF5 C library: handles that close themselves, and errors that name file and object.
 /// Paths inside a file are absolute ("/history/time"); missing groups on the way are made.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The results file of a run, history.h5:
 ///
@@ -19,11 +20,11 @@
 #include <string>
 #include <vector>
 
-#include "body/surface.h"
+#include "geometry/surface.h"
 #include "io/grains.h"
 #include "io/run_report.h"
-#include "mpm/snapshot.h"
-#include "rig/history.h"
+#include "mpm/terrain_snapshot.h"
+#include "statistics/history.h"
 
 namespace furrow {
 

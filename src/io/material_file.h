@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Material files (inputs/materials/*.yaml): a law and its values, read through the law's own declaration of keys.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Files of furrow-point: a path to drive (inputs/points/*.yaml), or curves to fit.
 ///
@@ -19,8 +20,8 @@
 #include <vector>
 
 #include "io/material_file.h"
-#include "material/calibration.h"
-#include "material/point_path.h"
+#include "material/fit/calibration.h"
+#include "material/fit/point_path.h"
 
 namespace furrow {
 

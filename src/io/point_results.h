@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What furrow-point leaves in a results folder.
 ///
@@ -10,8 +11,8 @@
 #include <string>
 
 #include "io/point_file.h"
-#include "material/calibration.h"
-#include "material/point_driver.h"
+#include "material/fit/calibration.h"
+#include "material/fit/point_driver.h"
 
 namespace furrow {
 

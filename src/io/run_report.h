@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What a run says about itself: identity, audit and cost. The history file keeps it, the summary prints it.
 

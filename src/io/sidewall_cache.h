@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Sidewalls by the name a script or a file gives them; tables are kept from run to run.
 

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// summary.txt for a person and summary.json for a program: what a run found, how sure it is, what it cost.
 
 #include <string>
 
 #include "io/run_report.h"
-#include "rig/resistance.h"
+#include "statistics/resistance.h"
 
 namespace furrow {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Tyre files (inputs/tyres/*.yaml): sections tyre, tread and sidewall with the keys of tyre_schemas().
 ///

@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Surfaces, grains and continuum ground for ParaView: .vtp frames and the .pvd collection that orders them in time.
 
 #include <string>
 #include <vector>
 
-#include "body/surface.h"
+#include "geometry/surface.h"
 #include "io/grains.h"
-#include "mpm/snapshot.h"
+#include "mpm/terrain_snapshot.h"
 
 namespace furrow {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A YAML file as plain values with the line of each, and its maps read by a Schema.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The loop over a block: loads a few points, lets a law's kernel update them, turns the stress, stores, counts.
 

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The table of block updates that kernels_*.cpp fill, one for each instruction set. Plain data only: this header is compiled with
 /// every instruction set (lanes.h says why that matters).
 
-#include "material/crushable_foam_parameters.h"
-#include "material/drucker_prager_cap_parameters.h"
-#include "material/elasticity_parameters.h"
-#include "material/neo_hookean_parameters.h"
+#include "material/models/crushable_foam/crushable_foam_parameters.h"
+#include "material/models/drucker_prager_cap/drucker_prager_cap_parameters.h"
+#include "material/elasticity/elasticity_parameters.h"
+#include "material/models/neo_hookean/neo_hookean_parameters.h"
 #include "material/point_block.h"
 
 namespace furrow {

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The table of kernels of one instruction set; included once by each kernels_*.cpp.
 
-#include "material/crushable_foam_kernel.h"
-#include "material/drucker_prager_cap_kernel.h"
-#include "material/elastic_kernel.h"
-#include "material/neo_hookean_kernel.h"
+#include "material/models/crushable_foam/crushable_foam_kernel.h"
+#include "material/models/drucker_prager_cap/drucker_prager_cap_kernel.h"
+#include "material/models/elastic/elastic_kernel.h"
+#include "material/models/neo_hookean/neo_hookean_kernel.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The kernels for every processor of the target; no special instructions.
 #define FURROW_ISA isa_baseline
 #include "material/kernels_all.h"

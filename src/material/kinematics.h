@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Finite strain, once for every law: from the displacement gradient H of a step to the logarithm of its stretch and its rotation.
 ///
@@ -11,7 +12,7 @@
 /// instead, point by point.
 
 #include "material/kernel_table.h"
-#include "material/lanes.h"
+#include "simd/lanes.h"
 
 namespace furrow {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Return mapping in the deviatoric plane for a yield measure t that depends on the Lode angle (K < 1) or not (K = 1).
 ///
@@ -8,7 +9,7 @@
 /// in polar components (1 + m g^2) sin(theta_tr - theta) = m g g' cos(theta_tr - theta),  q = q_tr / |(1 + m g^2, m g g')|.
 /// t^2/2 is convex for K >= 7/9, which makes it unique. K = 1: t = t_tr/(1 + m), a radial return.
 
-#include "material/root_solver.h"
+#include "simd/root_solver.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

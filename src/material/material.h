@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A constitutive law: parameters, the state of a point, and one update. No mesh, no MPI, no files.
 ///

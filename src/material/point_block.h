@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Plain data of a block of material points: shared by the laws (material.h) and their kernels (kernels_*.cpp).
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "material/registry.h"
 
 #include <algorithm>
@@ -6,10 +7,10 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
-#include "material/crushable_foam.h"
-#include "material/drucker_prager_cap.h"
-#include "material/elastic.h"
-#include "material/neo_hookean.h"
+#include "material/models/crushable_foam/crushable_foam.h"
+#include "material/models/drucker_prager_cap/drucker_prager_cap.h"
+#include "material/models/elastic/elastic.h"
+#include "material/models/neo_hookean/neo_hookean.h"
 
 namespace furrow {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The table of constitutive laws: names, meanings, declared options, creation. A new law adds one row (registry.cpp).
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// One direction of the background grid: quadratic B-splines on a graded knot vector with open ends.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The background grid on three axes: what particles give to its nodes, and how the nodes move.
 

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The state of undisturbed ground under its own weight.
 
 #include <vector>
 
-#include "mpm/ground_parameters.h"
+#include "mpm/terrain_parameters.h"
 
 namespace furrow {
 

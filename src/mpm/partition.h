@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Who computes what: every rank owns a slab of cells across x, and shares the nodes near its ends with its neighbours.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Particles to grid and back: the affine particle-in-cell transfer, the force of the stress and the strain. Plain data only: this header
 /// is compiled with every instruction set (material/lanes.h says why that matters).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The transfers of transfer.h for one instruction set. Weights are found for a batch of particles at once, in loops the compiler
 /// vectorises over particles; the 27 nodes of a particle are then visited with the four numbers of a node as one vector.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The definitions of slip. Driving is positive in all of them; v_rim = spin rate x radius, v = speed of the axle in the
 /// wheel plane.

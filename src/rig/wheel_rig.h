@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The test rig: lowers a wheel onto the ground, accelerates it and keeps it going.
 
 #include <string>
 #include <vector>
 
-#include "body/wheel_hub.h"
+#include "bodies/wheel_hub.h"
 #include "core/options.h"
-#include "rig/history.h"
+#include "statistics/history.h"
 #include "rig/ramp.h"
 #include "rig/slip.h"
 

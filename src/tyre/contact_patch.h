@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The footprint of a tyre on a rigid plane.
 
-#include "body/rigid_plane.h"
+#include "bodies/rigid_plane.h"
 #include "tyre/darnell_tyre.h"
 
 namespace furrow {

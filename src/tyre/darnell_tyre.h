@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The tyre of Shoop and Darnell (TR-01-16): a shell for the tread, sidewalls by chain or table, a rigid rim.
 
@@ -7,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "body/rigid_plane.h"
-#include "body/wheel_hub.h"
-#include "fe/kinetic_damping.h"
-#include "fe/shell4.h"
+#include "bodies/rigid_plane.h"
+#include "bodies/wheel_hub.h"
+#include "shell/kinetic_damping.h"
+#include "shell/shell4.h"
 #include "tyre/sidewall_ring.h"
 #include "tyre/sidewall_table.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A function of three variables as the quintic spline through its values on a uniform grid.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What a sidewall does to tread and rim: forces, stiffness and potential for a position of the tread edge, whichever way
 /// they are computed: SidewallDirect solves the chain, SidewallTable looks it up.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The equilibrium of a sidewall: a planar chain of inextensible segments with bending springs under follower pressure.
 

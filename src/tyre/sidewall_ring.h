@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// One side of a tyre: stations around it, each a sidewall in the plane through its bead point, the axle's direction and its tread node.
 
 #include <memory>
 #include <vector>
 
-#include "fe/shell_nodes.h"
+#include "shell/shell_nodes.h"
 #include "tyre/sidewall.h"
 #include "tyre/tyre_parameters.h"
 

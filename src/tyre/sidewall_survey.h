@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// How a sidewall answers when its tread edge moves, solved and looked up side by side: what furrow-sidewall shows.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A sidewall by lookup: its potential W at one pressure as a smooth table, and the forces as its exact gradient.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "tyre/tyre_parameters.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What a tyre is made of: rim, tread band, sidewalls. Tyre files (io/tyre_file.h) are read into these.
 ///

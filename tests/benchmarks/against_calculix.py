@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Continuum ground against CalculiX, run in turns on one core.
 
 CalculiX (Debian package calculix-ccx): *DYNAMIC, EXPLICIT, 24 x 24 x 24 C3D8R with Mises plasticity, a block that its lid

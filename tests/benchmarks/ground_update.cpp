@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Cost of the continuum ground: TR's rigid wheel (half model, moving ground) rolls over 0.20 m of snow; particle updates a second on one
 // core, by part, while rolling, and the sinkage and resistance of the stretch for orientation.
 //   build/tests/benchmarks/ground_update [cell in m] [metres of rolling] [material file] [cfl] [cycle]
@@ -8,11 +9,11 @@
 
 #include <fmt/format.h>
 
-#include "body/rigid_wheel.h"
-#include "body/world.h"
+#include "bodies/rigid_wheel.h"
+#include "bodies/coupled_system.h"
 #include "io/material_file.h"
-#include "mpm/ground_contact.h"
-#include "mpm/mpm_ground.h"
+#include "mpm/contact/terrain_contact.h"
+#include "mpm/continuum_terrain.h"
 #include "rig/wheel_rig.h"
 
 namespace furrow {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Cost of constitutive updates: blocks of 1e5 points, nanoseconds per point and as a multiple of the elastic update alone, with the
 // share of points in each branch. Every iteration starts from the same states, so that the mix of branches stays.
 //   build/tests/benchmarks/material_update [--benchmark_filter=...]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Cost of a sidewall: microseconds for each station of a side, looked up and solved, with and without the stiffness; and of
 // making a table.
 //   build/tests/benchmarks/sidewall_cost

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Cost of the transfers between particles and grid alone, nanoseconds a particle of CPU time: 50 x 16 x 8 cells with 8 particles each in the
 // order of their cells, as the ground keeps them, slightly displaced.
 //   build/tests/benchmarks/transfer_cost

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // A bed that is renewed while nothing touches it must not notice: the copies, their contact histories and the seams are those of the
 // settled bed. The body flies over it, so slab after slab is taken out and put in again.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The periodic cell against closed forms: a cubic lattice of spheres has Hertz's stress, F/a^2 with F = 4/3 E* sqrt(R*) (d - a)^1.5 and
 // lattice constant a; a wanted stress is reached and held; lengths follow their rates.
 

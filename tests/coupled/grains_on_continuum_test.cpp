@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The hybrid: grains that lie on continuum ground. The sheet on top of the ground is one more mesh wall; the laws of motion are the
 // reference: what grains and ground gain in momentum is what gravity and the base give them, to rounding.
 
@@ -7,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "atom.h"
-#include "coupling/fix_terrain_continuum.h"
+#include "coupling/terrain/fix_terrain_continuum.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 #include "update.h"

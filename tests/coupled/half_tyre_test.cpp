@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Half a tyre on half a ground is the whole tyre on the whole ground: let down and rolled over snow, all that is recorded agrees.
 // Where it is refused: bad_input/tyre_half_*.lig.
 
@@ -6,9 +7,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "coupling/fix_contact_bodies.h"
-#include "coupling/fix_terrain_continuum.h"
-#include "coupling/fix_tyre_darnell.h"
+#include "coupling/contact/fix_contact_continuum.h"
+#include "coupling/terrain/fix_terrain_continuum.h"
+#include "coupling/bodies/fix_tyre_darnell.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Hard cases of a wheel on grains: dropped, digging at 90 % slip, soft and stiff grains, a bed so thin that grains are caught between wheel and
 // floor, and a cohesive column that collapses. What must hold: no grain is lost, every number is finite, momentum is kept, the wheel's energy balance
 // closes, and grains lose energy only (they start at rest under weight).
@@ -8,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "atom.h"
-#include "coupling/fix_wheel_rigid.h"
+#include "coupling/bodies/fix_wheel_rigid.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 

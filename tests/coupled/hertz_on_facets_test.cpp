@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // A sphere held against a faceted sheet gives Hertz's force F = 4/3 E* sqrt(R) delta^(3/2) everywhere: on faces, over edges and
 // corners, on flat, convex and concave sheets, also when the sheet was flat at the start and bent afterwards, also with obtuse
 // triangles. Closed form: Hertz (1882), with E* = E/(2 (1 - nu^2)) for equal materials.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // A light, stiff, deforming body on grains: the exchange of forces once a LIGGGHTS step must stay stable and keep the balance of
 // energy. Statics and energy conservation are the references.
 
@@ -7,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "atom.h"
-#include "body/membrane.h"
+#include "tests/support/membrane.h"
 #include "tests/coupled/support/scene.h"
 #include "update.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The pages beside the code say what the code declares: every keyword of a style has its row, with unit and default, and no
 // row describes a keyword that is gone.
 
@@ -9,20 +10,20 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
-#include "coupling/fix_contact_plane.h"
-#include "coupling/fix_contact_bodies.h"
-#include "coupling/fix_bed_window.h"
-#include "coupling/fix_cell_servo.h"
-#include "coupling/fix_layer_shear.h"
-#include "coupling/fix_mesh_body.h"
-#include "coupling/fix_plate_rigid.h"
-#include "coupling/fix_progress.h"
-#include "coupling/fix_terrain_continuum.h"
-#include "coupling/fix_terrain_history.h"
-#include "coupling/fix_tyre_darnell.h"
-#include "coupling/fix_wheel_history.h"
-#include "coupling/fix_wheel_rig.h"
-#include "coupling/fix_wheel_rigid.h"
+#include "coupling/contact/fix_contact_plane.h"
+#include "coupling/contact/fix_contact_continuum.h"
+#include "coupling/terrain/fix_bed_window.h"
+#include "coupling/laboratory/fix_cell_servo.h"
+#include "coupling/laboratory/fix_layer_shear.h"
+#include "coupling/bodies/fix_mesh_body.h"
+#include "coupling/bodies/fix_plate_rigid.h"
+#include "coupling/output/fix_progress.h"
+#include "coupling/terrain/fix_terrain_continuum.h"
+#include "coupling/output/fix_terrain_history.h"
+#include "coupling/bodies/fix_tyre_darnell.h"
+#include "coupling/output/fix_wheel_history.h"
+#include "coupling/drive/fix_wheel_rig.h"
+#include "coupling/bodies/fix_wheel_rigid.h"
 
 namespace furrow::test {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // A deforming tyre on grains, on one and two ranks: forces on nodes and grains cancel in every step, the load is carried (impulse
 // theorem), the tyre's energy balance closes, and it rolls.
 
@@ -7,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "atom.h"
-#include "coupling/fix_tyre_darnell.h"
-#include "coupling/fix_wheel_rig.h"
+#include "coupling/bodies/fix_tyre_darnell.h"
+#include "coupling/drive/fix_wheel_rig.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 #include "update.h"

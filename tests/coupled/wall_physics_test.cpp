@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The mesh wall of a deforming body against statics and conservation: weight, a rolling sphere, a periodic moving sheet whose
 // triangles change rank, and the audit of nodal forces and moments in every step.
 

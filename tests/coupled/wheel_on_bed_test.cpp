@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // A small wheel on a small bed: conservation laws of the coupled system. The load is carried (statics), the wheel's energy
 // balance closes to round-off, forces on nodes and grains cancel in every step, and slip is what was asked for.
 
@@ -7,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "atom.h"
-#include "coupling/fix_wheel_rig.h"
-#include "coupling/fix_wheel_rigid.h"
+#include "coupling/drive/fix_wheel_rig.h"
+#include "coupling/bodies/fix_wheel_rigid.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 #include "update.h"

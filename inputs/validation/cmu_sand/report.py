@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What is made of the runs: tables, accuracy, the picture."""
 import csv, json, math, subprocess
 

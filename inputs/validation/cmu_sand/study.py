@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What is run, and what is made of it: the lists of runs, the evaluation, the comparison."""
 import csv, math, pathlib
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Density under the track of a wheel on clusters: mass over volume below the rut's surface, behind the wheel.
 
   track_density.py RESULTS CLUSTER_DENSITY

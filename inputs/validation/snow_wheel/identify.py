@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Identifies three parameters of a law on the calibration rows, by Levenberg and Marquardt over their logarithms. See README.md.
 
   identify.py zero_slip|towed    mode of the wheel: as TR compares, or free as it was measured

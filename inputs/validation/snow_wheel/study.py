@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What is run: the lists of runs and the laws they use."""
 import csv, math, pathlib
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // What a tyre costs in a coupled step: the time in the bodies' advance (all of the tyre's sub-steps and the rig) and in the mesh that
 // follows it, over the time of whole steps of the same run. The tyre is let down on 100,000 grains of 10 mm. They lie in a
 // cubic lattice, six contacts a grain, as many as in a poured bed: it needs no settling.
@@ -13,7 +14,7 @@
 #include <mpi.h>
 
 #include "atom.h"
-#include "coupling/fix_tyre_darnell.h"
+#include "coupling/bodies/fix_tyre_darnell.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
 

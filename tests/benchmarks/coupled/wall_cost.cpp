@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // What a body's mesh wall costs: time per step with mesh/body + wall/gran/body over that with LIGGGHTS's own rigid moving mesh
 // (mesh/surface + move/mesh + wall/gran), same bed, same wheel, same motion. Two instances take turns, a few hundred steps each,
 // so that a noisy machine meets both alike; the ratio of each pair is taken and its median printed.
@@ -17,7 +18,7 @@
 #include <mpi.h>
 
 #include "atom.h"
-#include "body/wheel_mesh.h"
+#include "geometry/wheel_mesh.h"
 #include "tests/coupled/support/scene.h"
 
 namespace {

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Runs furrow on a script with one fault and checks how it is refused.
 
     run.py <furrow> <script> [<launcher> ...]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """A wheel run that is stopped and continued against the same run in one go: the histories must agree.
 
     run.py <case> <furrow> [<mpirun -n>]

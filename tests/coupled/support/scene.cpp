@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "tests/coupled/support/scene.h"
 
 #include <cstdio>
@@ -9,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "coupling/fix_body.h"
-#include "coupling/liggghts_access.h"
+#include "coupling/bodies/fix_body.h"
+#include "coupling/liggghts/access.h"
 #include "input.h"
 #include "modify.h"
 

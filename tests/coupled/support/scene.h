@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A LIGGGHTS instance with Furrow's styles inside a test, and bodies that a test moves as it likes.
 
@@ -8,8 +9,8 @@
 
 #include <mpi.h>
 
-#include "body/body.h"
-#include "coupling/fix_world.h"
+#include "bodies/body.h"
+#include "coupling/bodies/fix_coupled_system.h"
 #include "lammps.h"
 
 namespace furrow::test {

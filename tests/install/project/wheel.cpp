@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // A wheel of the installed library falls freely for one second: z - z0 = -g t^2/2.
 
 #include <cmath>
@@ -5,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "body/rigid_wheel.h"
+#include "bodies/rigid_wheel.h"
 #include "io/version.h"
 
 int main() {

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "io/point_file.h"
 
 #include <gmock/gmock.h>
 
 #include "io/replace_file.h"
-#include "material/point_driver.h"
+#include "material/fit/point_driver.h"
 #include "scratch.h"
 
 namespace furrow {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "io/tyre_file.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // What every law must do, whatever it models. A new law joins with one line in laws_under_test().
 
 #include <random>

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The hard points of issue 3 for the cap law, one by one; random_paths_test.cpp mixes them.
 
 #include <gmock/gmock.h>
 
 #include "core/error.h"
-#include "material/drucker_prager_cap.h"
+#include "material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "paths.h"
 
 namespace furrow {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The kernels of every instruction set that this processor runs give the same results, and the finite-strain kinematics agree with
 // eigenvalues.
 
@@ -9,7 +10,7 @@
 #include <Eigen/SVD>
 #include <gtest/gtest.h>
 
-#include "material/drucker_prager_cap.h"
+#include "material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "paths.h"
 
 namespace furrow {

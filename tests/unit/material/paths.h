@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Paths for tests: laws from short lists of keys, steps of given logarithmic strain, components held at given stress.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Bad parameters, each with its message; the two ways to write a law; what the listing offers.
 
 #include "material/registry.h"

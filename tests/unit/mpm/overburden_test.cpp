@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "mpm/overburden.h"
 
 #include <gmock/gmock.h>
 
 #include "core/error.h"
-#include "ground_scene.h"
+#include "terrain_scene.h"
 
 namespace furrow {
 namespace {

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "mpm/particles.h"
 
 #include <gtest/gtest.h>
 
-#include "ground_scene.h"
+#include "terrain_scene.h"
 
 namespace furrow {
 namespace {

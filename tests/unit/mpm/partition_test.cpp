@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // On one rank; several ranks: tests/verification/mpm_ranks/ranks_test.cpp.
 #include "mpm/partition.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "mpm/transfer.h"
 
 #include <cstring>
@@ -7,7 +8,7 @@
 
 #include "material/kernels.h"
 #include "mpm/grid.h"
-#include "ground_scene.h"
+#include "terrain_scene.h"
 
 namespace furrow {
 namespace {

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """furrow-post compare, cost, choose and report on made runs with known answers; refusals with their words."""
 
 import csv

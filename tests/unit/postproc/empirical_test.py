@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """furrow_post.empirical against closed forms, an independent quadrature and measurements; refusals with their words."""
 
 import csv

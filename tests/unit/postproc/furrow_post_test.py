@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """furrow-post on a results folder made here: figures with something on them, the same numbers as furrow-resistance, clear errors."""
 
 import json

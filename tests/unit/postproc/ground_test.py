@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """furrow-post ground on ground made here: densities in closed form, a picture with something on it, a clear error."""
 
 import os

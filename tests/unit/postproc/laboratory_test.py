@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """furrow-post laboratory on curves whose answers are known: a Mohr-Coulomb ground, Janosi's and Bekker's formulas, a cone, refusals."""
 
 import contextlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """A results folder with a rut in closed form: grains on a jittered lattice, pushed down and aside under a wheel's path."""
 
 import h5py

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A small wheel and a floor with friction, for tests of the rig whose result is known in closed form.
 
@@ -6,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "body/rigid_wheel.h"
+#include "bodies/rigid_wheel.h"
 #include "rig/wheel_rig.h"
 
 namespace furrow {

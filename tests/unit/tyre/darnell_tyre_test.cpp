@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The tyre as a body: conservation laws in free flight, rest on a plane, half and whole, table and chain, contact on the sidewalls,
 // restarts, refusals.
 

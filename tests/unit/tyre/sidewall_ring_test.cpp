@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // A ring of sidewalls: its forces on the tread are the gradient of its potential, and with the rim's reaction they balance.
 
 #include "tyre/sidewall_ring.h"

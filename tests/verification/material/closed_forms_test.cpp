@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Laws against closed forms: facts.md section 3 (cap), TR eq 12-18, Simo and Hughes (rubber), and against their own step size.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "material/crushable_foam.h"
-#include "material/drucker_prager_cap.h"
+#include "material/models/crushable_foam/crushable_foam.h"
+#include "material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "../../unit/material/paths.h"
 
 namespace furrow {

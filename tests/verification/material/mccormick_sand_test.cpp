@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // McCormick Ranch sand (TR Tables 4, 5) along the paths of issue 3: the implicit update of src/material against an independent explicit
 // integration of the same rate equations (rate_reference.h), to 1e-6. The update is of first order in the step, so two step sizes are
 // extrapolated to zero (Richardson) where the path is not radial.

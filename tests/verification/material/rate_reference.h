@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// An independent integration of the cap law's rate equations (facts: TR eq 12-16 with K = 1, alpha = 0), for comparison with the
 /// implicit update of src/material. Nothing of src/material is used: the elastoplastic rate equations with the consistency condition,

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // A column that a plate compresses between smooth walls: every particle must follow the law in confined compression.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "../../unit/mpm/ground_scene.h"
-#include "body/rigid_plate.h"
+#include "../../unit/mpm/terrain_scene.h"
+#include "bodies/rigid_plate.h"
 
 namespace furrow {
 namespace {

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Contact of surfaces with ground: Coulomb's law and TR eq 26 on an incline, momentum and its moment on both sides, energies.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "../../unit/mpm/ground_scene.h"
-#include "body/rigid_plate.h"
+#include "../../unit/mpm/terrain_scene.h"
+#include "bodies/rigid_plate.h"
 
 namespace furrow {
 namespace {

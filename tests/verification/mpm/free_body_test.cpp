@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // A block that touches nothing: conservation of momentum, angular momentum and energy, and its shape.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "../../unit/mpm/ground_scene.h"
+#include "../../unit/mpm/terrain_scene.h"
 
 namespace furrow {
 namespace {

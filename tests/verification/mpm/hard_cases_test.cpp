@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // What users will do to a ground, coarse and short: each case ends with finite numbers and its energies accounted for, or stops with its cause.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "../../unit/mpm/ground_scene.h"
-#include "body/rigid_plate.h"
-#include "body/rigid_wheel.h"
+#include "../../unit/mpm/terrain_scene.h"
+#include "bodies/rigid_plate.h"
+#include "bodies/rigid_wheel.h"
 #include "core/error.h"
 
 namespace furrow {

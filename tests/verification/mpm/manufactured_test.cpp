@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // A motion in all directions that a body force is made for: the whole chain of particles, grid, walls and law against its closed form.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "../../unit/mpm/ground_scene.h"
+#include "../../unit/mpm/terrain_scene.h"
 
 namespace furrow {
 namespace {

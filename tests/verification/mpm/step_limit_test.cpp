@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The largest stable step of the ground, against the closed form of a lone particle that breathes (coupling/fix_terrain_continuum.md).
 
 #include <gtest/gtest.h>
 
-#include "../../unit/mpm/ground_scene.h"
+#include "../../unit/mpm/terrain_scene.h"
 
 namespace furrow {
 namespace {

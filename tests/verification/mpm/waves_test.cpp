@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Waves in elastic ground: speed and order against closed forms, absorbing faces, graded grids.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "../../unit/mpm/ground_scene.h"
+#include "../../unit/mpm/terrain_scene.h"
 
 namespace furrow {
 namespace {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The same answer on every number of ranks. Each rank runs the scene alone too and compares; run under mpirun (tests/CMakeLists.txt).
 
 #include <gtest/gtest.h>
@@ -6,8 +7,8 @@
 
 #include <algorithm>
 
-#include "../../unit/mpm/ground_scene.h"
-#include "body/rigid_plate.h"
+#include "../../unit/mpm/terrain_scene.h"
+#include "bodies/rigid_plate.h"
 #include "core/error.h"
 
 namespace furrow {

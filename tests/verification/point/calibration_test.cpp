@@ -1,4 +1,5 @@
-#include "material/calibration.h"
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "material/fit/calibration.h"
 
 #include <cmath>
 #include <random>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// The program furrow-point as a user runs it.
 
 #include <sys/wait.h>

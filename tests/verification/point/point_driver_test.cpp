@@ -1,4 +1,5 @@
-#include "material/point_driver.h"
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "material/fit/point_driver.h"
 
 #include <cmath>
 

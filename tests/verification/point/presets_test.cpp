@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Every preset of inputs/materials against its source: TR is S. A. Shoop, ERDC/CRREL TR-01-16 (2001).
 
 #include <cmath>
@@ -7,9 +8,9 @@
 
 #include "io/csv_file.h"
 #include "io/material_file.h"
-#include "material/crushable_foam.h"
-#include "material/drucker_prager_cap.h"
-#include "material/point_driver.h"
+#include "material/models/crushable_foam/crushable_foam.h"
+#include "material/models/drucker_prager_cap/drucker_prager_cap.h"
+#include "material/fit/point_driver.h"
 
 namespace furrow {
 namespace {

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Half a tyre on half a ground against the whole tyre on the same half a ground: the same arithmetic in another order.
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "../../unit/mpm/ground_scene.h"
+#include "../../unit/mpm/terrain_scene.h"
 #include "io/tyre_file.h"
 #include "tyre/darnell_tyre.h"
 

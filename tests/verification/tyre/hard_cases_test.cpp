@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Where a thin belt is at its limit: little air under much load, a crowned tread, a tread that buckles inside its shoulder. The tyre
 // comes to rest or says why not; what is tested are balances and orders that hold for any tyre.
 

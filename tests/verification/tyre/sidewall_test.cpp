@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// The sidewall against what does not come from it: the membrane, the elastica in closed form, the inflated band as an
 /// ordinary differential equation, and TR's geometry of the inflated 235/75 R15.
 

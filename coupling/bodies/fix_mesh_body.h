@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// fix mesh/body: a LIGGGHTS mesh whose triangles follow the nodes of a body. See fix_mesh_body.md.
+
+#include <string>
+#include <vector>
+
+#include "bodies/body.h"
+#include "core/options.h"
+#include "coupling/base/uses_fix.h"
+#include "coupling/output/effective_input.h"
+#include "fix_mesh_surface.h"
+#include "tri_mesh.h"
+
+namespace furrow::coupling {
+
+/// Triangles of a body's surface, distributed over ranks as LIGGGHTS likes; node data come from the replicated surface.
+class BodyMesh : public LAMMPS_NS::TriMesh {
+ public:
+  BodyMesh(LAMMPS_NS::LAMMPS* lammps, const char* id, const Surface& surface);
+
+  bool isDeforming() override { return true; }
+  bool isMoving() override { return true; }
+  bool decideRebuild() override;
+
+  /// Node positions, velocities and all that LIGGGHTS derives from them, for owned and ghost triangles.
+  void follow_surface();
+  /// Call when neighbour lists are about to be made: later motion is measured from here, and only where grains can be reached.
+  void remember_rebuild();
+
+  const Surface& body_surface() const { return surface_; }
+  /// Nodes of a triangle by the numbers that tell whether two triangles meet: equal across a seam or a periodic boundary.
+  Vector3i welded(const Vector3i& nodes) const {
+    return {weld_[static_cast<std::size_t>(nodes[0])], weld_[static_cast<std::size_t>(nodes[1])],
+            weld_[static_cast<std::size_t>(nodes[2])]};
+  }
+  /// Periodic image of a local triangle: its nodes are the surface's nodes plus this.
+  const Vector3& image_shift(int local_triangle) const { return image_shift_[static_cast<std::size_t>(local_triangle)]; }
+
+ private:
+  void follow(int local_triangle);
+
+  const Surface& surface_;
+  LAMMPS_NS::MultiVectorContainer<double, 3, 3>* velocity_;
+  std::vector<Vector3> image_shift_;
+  std::vector<int> weld_;
+  Matrix3X x_at_rebuild_;
+  Vector3 reach_lower_, reach_upper_;  // box around all grains at the last rebuild, with a margin
+};
+
+class FixMeshBody : public LAMMPS_NS::FixMeshSurface, public Described, public Dependent {
+ public:
+  FixMeshBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
+  static Schema schema();
+
+  Body& body() { return body_; }
+  BodyMesh& body_mesh() { return *body_mesh_; }
+  const Options& options() const override { return options_; }
+
+  bool needs(LAMMPS_NS::Fix& other) const override;
+  int setmask() override;
+  void setup_pre_force(int vflag) override;
+  void initial_integrate(int vflag) override;
+  void pre_exchange() override;
+  void pre_force(int vflag) override;
+
+ private:
+  /// The words with which FixMeshSurface is willing to be constructed.
+  struct Arguments {
+    Arguments(LAMMPS_NS::LAMMPS& lammps, int narg, char** arg);
+    Options options;
+    Body& body;
+    std::vector<std::string> words;
+    std::vector<char*> pointers;
+  };
+  FixMeshBody(LAMMPS_NS::LAMMPS* lammps, Arguments arguments);
+  void check_inside_box() const;
+
+  Options options_;
+  Body& body_;
+  BodyMesh* body_mesh_;  // owned by FixMesh
+  bool exchanged_ = false;
+};
+
+}  // namespace furrow::coupling

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/contact/fix_wall_gran_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "atom.h"
+#include "contact_interface.h"
+#include "core/error.h"
+#include "coupling/bodies/fix_mesh_body.h"
+#include "coupling/bodies/fix_coupled_system.h"
+#include "coupling/liggghts/errors.h"
+#include "coupling/liggghts/access.h"
+#include "coupling/contact/time_step_check.h"
+#include "fix_neighlist_mesh.h"
+#include "neighbor.h"
+#include "update.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+// A grain that overlaps a body by a tenth of its radius before the first step would be shot out of the bed.
+constexpr double deepest_start = 0.1;
+
+}  // namespace
+
+FixWallGranBody::FixWallGranBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : FixWallGran(lammps, narg, arg) {
+  if (!is_mesh_wall())
+    throw InputError("fix wall/gran/body", "has no mesh", "mesh n_meshes N meshes id1 id2 ...",
+                     "use fix wall/gran for primitive walls");
+  if (store_force_contact() || store_force_contact_stress())
+    throw InputError("fix wall/gran/body, keyword 'store_force_contact'", "is given", "it is not for meshes of bodies",
+                     "use store_force for the wall's force on every grain, or the history of the body for the sum");
+  for (int m = 0; m < n_FixMesh_; ++m)
+    if (!dynamic_cast<FixMeshBody*>(FixMesh_list_[m])) stock_meshes_.push_back(FixMesh_list_[m]);
+}
+
+void FixWallGranBody::init() {
+  FixWallGran::init();
+  guarded(*error, [&] { check_time_step(*lmp, fmt::format("fix wall/gran/body '{}'", id)); });
+}
+
+void FixWallGranBody::setup(int vflag) {
+  starting_ = FixWorld::of(*lmp).time() == 0.0;
+  for (int m = 0; m < n_FixMesh_; ++m)
+    if (auto* mesh_fix = dynamic_cast<FixMeshBody*>(FixMesh_list_[m])) {
+      const auto [check, fresh] = ground_checks_.try_emplace(m, *lmp, fmt::format("fix wall/gran/body '{}', mesh '{}'", id, mesh_fix->id));
+      if (fresh) check->second.start(mesh_fix->body().surface());
+    }
+  FixWallGran::setup(vflag);
+  if (starting_) guarded(*error, [&] { refuse_deep_start(); });
+  starting_ = false;
+}
+
+void FixWallGranBody::refuse_deep_start() {
+  const double deepest = FixWorld::of(*lmp).communicator().max(deepest_);
+  if (deepest > deepest_start)
+    throw StateError(
+        fmt::format("fix wall/gran/body '{}': a body starts inside the bed: a grain overlaps it by {:.3g} of its radius "
+                    "(limit {:g}); start the body higher, just above the surface of the bed",
+                    id, deepest, deepest_start));
+}
+
+void FixWallGranBody::post_force_mesh(int vflag) {
+  deepest_ = 0.0;
+  if (!stock_meshes_.empty()) post_force_stock_meshes(vflag);
+  for (int m = 0; m < n_FixMesh_; ++m)
+    if (auto* mesh_fix = dynamic_cast<FixMeshBody*>(FixMesh_list_[m])) post_force_body(*mesh_fix, m);
+}
+
+/// LIGGGHTS wants all meshes in one wall fix; those that are not ours get its own detection.
+void FixWallGranBody::post_force_stock_meshes(int vflag) {
+  LAMMPS_NS::FixMeshSurface** all = FixMesh_list_;
+  const int count = n_FixMesh_;
+  FixMesh_list_ = stock_meshes_.data();
+  n_FixMesh_ = static_cast<int>(stock_meshes_.size());
+  FixWallGran::post_force_mesh(vflag);
+  FixMesh_list_ = all;
+  n_FixMesh_ = count;
+}
+
+void FixWallGranBody::post_force_body(FixMeshBody& mesh_fix, int mesh_number) {
+  LAMMPS_NS::FixContactHistoryMesh* history = mesh_fix.contactHistory();
+  if (history) history->markAllContacts();
+  atom_type_wall_ = mesh_fix.atomTypeWall();
+
+  const auto check = ground_checks_.find(mesh_number);
+  check_ = check == ground_checks_.end() ? nullptr : &check->second;
+  collect_candidates(mesh_fix);
+  // Not in the order in which LIGGGHTS happens to hold its triangles: sums, and so restarts, are the same to the last bit.
+  std::sort(touched_.begin(), touched_.end());
+  FixWorld& bodies = FixWorld::of(*lmp);
+  ContactLedger& ledger = bodies.ledger(mesh_fix.body());
+  const Vector3 moment_reference = bodies.moment_reference(mesh_fix.body());
+  for (const int grain : touched_) {
+    of_grain_.clear();
+    for (int c = first_[grain]; c >= 0; c = next_[c]) of_grain_.push_back(candidates_[c]);
+    first_[grain] = -1;
+    selection_.select(of_grain_, atom->radius[grain]);
+    for (const ContactCandidate& contact : of_grain_) apply(mesh_fix, mesh_number, grain, contact, moment_reference, ledger);
+  }
+  if (history) history->cleanUpContacts();
+  if (check_) check_->finish_step(mesh_fix.body().surface());
+}
+
+void FixWallGranBody::collect_candidates(FixMeshBody& mesh_fix) {
+  BodyMesh& mesh = mesh_fix.body_mesh();
+  const Surface& surface = mesh.body_surface();
+  LAMMPS_NS::FixNeighlistMesh& neighbours = *mesh_fix.meshNeighlist();
+  const double reach_factor = neighbor->contactDistanceFactor;  // > 1 for models that act before contact
+
+  candidates_.clear();
+  next_.clear();
+  touched_.clear();
+  if (first_.size() < static_cast<std::size_t>(atom->nlocal)) first_.resize(atom->nmax, -1);
+
+  const int triangles = mesh.sizeLocal() + mesh.sizeGhost();
+  for (int t = 0; t < triangles; ++t) {
+    const std::vector<int>& grains = neighbours.get_contact_list(t);
+    if (grains.empty()) continue;
+    const int id_of_triangle = mesh.id(t);
+    const Vector3i& nodes = surface.triangles[static_cast<std::size_t>(id_of_triangle)];
+    const Vector3 a = surface.x.col(nodes[0]) + mesh.image_shift(t);
+    const Vector3 b = surface.x.col(nodes[1]) + mesh.image_shift(t);
+    const Vector3 c = surface.x.col(nodes[2]) + mesh.image_shift(t);
+    const Vector3 normal = (b - a).cross(c - a).normalized();
+
+    for (const int grain : grains) {
+      if (grain >= atom->nlocal) continue;  // a ghost: its owner has the contact
+      const double reach = atom->radius[grain] * reach_factor;
+      const Vector3 centre = Eigen::Map<const Vector3>(atom->x[grain]);
+      if (std::abs(normal.dot(centre - a)) > reach) continue;
+      const ClosestPoint point = closest_point_on_triangle(centre, a, b, c);
+      if (!(point.distance <= reach)) continue;
+      if (first_[grain] < 0) touched_.push_back(grain);
+      candidates_.push_back({point, id_of_triangle, mesh.welded(nodes), t});
+      next_.push_back(first_[grain]);
+      first_[grain] = static_cast<int>(candidates_.size()) - 1;
+    }
+  }
+}
+
+/// The stored history of this contact. A contact that has just moved over from a neighbouring triangle takes its history along:
+/// a grain that slides or rolls over an edge keeps its tangential spring.
+double* FixWallGranBody::history_of(LAMMPS_NS::FixContactHistoryMesh& history, const BodyMesh& mesh, int grain,
+                                    const ContactCandidate& contact, bool touching) const {
+  const int slots = history.nneighs(grain);
+  bool known = false;
+  for (int j = 0; j < slots; ++j) known |= history.partner(grain, j) == contact.triangle;
+
+  double* values = nullptr;
+  history.handleContact(grain, contact.triangle, values, touching, false);
+  if (known || dnum_ == 0) return values;
+
+  int best_slot = -1, most_shared = 0;
+  for (int j = 0; j < slots; ++j) {
+    const int other = history.partner(grain, j);
+    if (other < 0 || other == contact.triangle || contact_seen(history, grain, j)) continue;
+    const Vector3i nodes = mesh.welded(mesh.body_surface().triangles[static_cast<std::size_t>(other)]);
+    int shared = 0;
+    for (int k = 0; k < 3; ++k) shared += (nodes.array() == contact.nodes[k]).any();
+    if (shared > most_shared) {
+      most_shared = shared;
+      best_slot = j;
+    }
+  }
+  if (best_slot >= 0) std::copy_n(history.contacthistory(grain, best_slot), dnum_, values);
+  return values;
+}
+
+void FixWallGranBody::apply(FixMeshBody& mesh_fix, int mesh_number, int grain, const ContactCandidate& contact,
+                            const Vector3& moment_reference, ContactLedger& ledger) {
+  BodyMesh& mesh = mesh_fix.body_mesh();
+  Surface& surface = mesh_fix.body().surface();
+  const Vector3i& nodes = surface.triangles[static_cast<std::size_t>(contact.triangle)];
+  const double radius = atom->radius[grain];
+  const double overlap = radius - contact.point.distance;
+  const bool touching = overlap >= 0.0;
+  deepest_ = std::max(deepest_, overlap / radius);
+  if (starting_ && overlap > deepest_start * radius) return;  // setup() refuses it; its force may not even be a number
+
+  LIGGGHTS::ContactModels::SurfacesIntersectData data;
+  data.is_wall = true;
+  data.i = grain;
+  data.radi = radius;
+  data.mesh = &mesh;
+  data.fix_mesh = &mesh_fix;
+  data.deltan = overlap;
+  for (int k = 0; k < 3; ++k) data.delta[k] = contact.point.separation[k];
+  if (LAMMPS_NS::FixContactHistoryMesh* history = mesh_fix.contactHistory())
+    data.contact_history = history_of(*history, mesh, grain, contact, touching);
+
+  Vector3 wall_velocity = Vector3::Zero();
+  for (int j = 0; j < 3; ++j) wall_velocity += contact.point.barycentric[j] * surface.v.col(nodes[j]);
+
+  Eigen::Map<Vector3> grain_force(atom->f[grain]), grain_torque(atom->torque[grain]);
+  const Vector3 force_before = grain_force, torque_before = grain_torque;
+  impl->compute_force(this, data, touching, wall_velocity.data(), &mesh_fix, mesh_number, &mesh, contact.tag);
+  const Vector3 contact_force = grain_force - force_before;
+  const Vector3 contact_torque = grain_torque - torque_before;
+
+  if (!contact_force.allFinite())
+    guarded_alone(*error, [&] {
+      throw StateError(
+          fmt::format("fix wall/gran/body '{}': the force between grain {} and triangle {} is not finite at step {}; the "
+                      "time step is too large or the grains have exploded",
+                      id, atom->tag[grain], contact.triangle, update->ntimestep));
+    });
+
+  // By the weights of the contact point: the three nodes get the force and, because the point is on the triangle, its moment.
+  for (int j = 0; j < 3; ++j) surface.f.col(nodes[j]) -= contact.point.barycentric[j] * contact_force;
+
+  const Vector3 centre = Eigen::Map<const Vector3>(atom->x[grain]) - mesh.image_shift(contact.tag);
+  const Vector3 contact_point = centre - contact.point.separation;
+  if (check_) check_->contact(overlap, radius, contact_point, contact_force);
+  const Vector3 arm = contact_point - moment_reference;
+  ledger.grain_force += contact_force;
+  ledger.grain_moment += arm.cross(contact_force);
+  // The grain's own balance: its torque about its centre against the force at the contact point.
+  ledger.lever_gap += contact_torque + contact.point.separation.cross(contact_force);
+  ledger.force_scale += contact_force.norm();
+  ledger.moment_scale += arm.norm() * contact_force.norm();
+  ledger.contacts += 1.0;
+}
+
+}  // namespace furrow::coupling

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/laboratory/fix_cell_servo.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "atom.h"
+#include "atom_vec.h"
+#include "compute.h"
+#include "core/communicator.h"
+#include "core/error.h"
+#include "coupling/liggghts/errors.h"
+#include "coupling/contact/time_step_check.h"
+#include "coupling/base/args.h"
+#include "domain.h"
+#include "modify.h"
+#include "update.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+constexpr char temperature_id[] = "furrow_cell_temperature", pressure_id[] = "furrow_cell_pressure";
+constexpr char axis_names[] = "xyz";
+// Integral action over this many response times: the stress is met also while the cell moves, without ringing.
+constexpr double integral_times = 4.0;
+
+}  // namespace
+
+Schema FixCellServo::schema() {
+  Schema schema("fix cell/servo");
+  for (const char name : {'x', 'y', 'z'}) {
+    schema.number(fmt::format("rate_{}", name), "1/s", Range::any(), "logarithmic strain rate along this axis, compression positive")
+        .optional();
+    schema.number(fmt::format("stress_{}", name), "Pa", Range::non_negative(), "normal stress along this axis, compression positive")
+        .optional();
+  }
+  schema.number("rate_limit", "1/s", Range::positive(), "largest strain rate that the stress control may use").by_default(0.5);
+  schema.number("stiffness", "Pa", Range::positive(), "upper estimate of the confined stiffness of the ground").by_default(1e7);
+  schema.number("response_time", "s", Range::positive(), "time in which an error of stress is removed").by_default(2e-3);
+  schema.number("ramp_time", "s", Range::non_negative(), "time in which the rates grow to their values").by_default(0.0);
+  return schema;
+}
+
+FixCellServo::FixCellServo(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+    : Fix(lammps, narg, arg),
+      options_(schema().read(words_after_style(narg, arg))),
+      rate_limit_(options_.number("rate_limit")),
+      stiffness_(options_.number("stiffness")),
+      response_time_(options_.number("response_time")),
+      ramp_time_(options_.number("ramp_time")) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::string rate = fmt::format("rate_{}", axis_names[k]), stress = fmt::format("stress_{}", axis_names[k]);
+    if (options_.given(rate) && options_.given(stress))
+      throw InputError(options_.where(stress), "is given besides " + rate, "one of them for an axis",
+                       "leave one out; without both, the edge keeps its length");
+    if (options_.given(rate)) axes_[k] = {Axis::Control::rate, options_.number(rate)};
+    if (options_.given(stress)) axes_[k] = {Axis::Control::stress, options_.number(stress)};
+  }
+  if (!domain->xperiodic || !domain->yperiodic || !domain->zperiodic || domain->triclinic)
+    throw InputError("fix cell/servo", "stands in a box that is not periodic along x, y and z", "boundary p p p, no tilt",
+                     "a cell has no walls; use plate/rigid for ground in a box");
+  box_change_size = 1;
+  vector_flag = 1;
+  size_vector = 8;
+  global_freq = 1;
+  extvector = 0;
+  nevery = 1;
+}
+
+int FixCellServo::setmask() { return LAMMPS_NS::FixConst::INITIAL_INTEGRATE | LAMMPS_NS::FixConst::END_OF_STEP; }
+
+void FixCellServo::post_create() {
+  std::string temperature[] = {temperature_id, "all", "temp"};
+  std::string pressure[] = {pressure_id, "all", "pressure", temperature_id, "virial"};
+  std::vector<char*> words;
+  for (std::string& word : temperature) words.push_back(word.data());
+  if (modify->find_compute(temperature_id) < 0) modify->add_compute(3, words.data());
+  words.clear();
+  for (std::string& word : pressure) words.push_back(word.data());
+  if (modify->find_compute(pressure_id) < 0) modify->add_compute(5, words.data());
+}
+
+void FixCellServo::pre_delete(bool) {
+  domain->deform_vremap = 0;
+  atom->avec->init();
+}
+
+void FixCellServo::init() {
+  // Grains and ghosts that cross a face gain the velocity of the opposite face, as fix deform has it; no other fix may set it.
+  domain->deform_flag = domain->deform_vremap = 1;
+  domain->deform_groupbit = groupbit;
+  for (int k = 0; k < 6; ++k) domain->h_rate[k] = 0.0;
+  for (int k = 0; k < 3; ++k) domain->h_rate[k] = -axes_[static_cast<std::size_t>(k)].rate * domain->prd[k];
+  atom->avec->init();
+
+  const Communicator ranks(&world);
+  double sums[] = {0.0, 0.0, 0.0, 0.0};  // mass, solid volume, diameter, count
+  for (int i = 0; i < atom->nlocal; ++i) {
+    sums[0] += atom->rmass[i];
+    sums[1] += atom->rmass[i] / atom->density[i];
+    sums[2] += 2.0 * atom->radius[i];
+    sums[3] += 1.0;
+  }
+  ranks.sum(sums, 4);
+  mass_ = sums[0];
+  grain_density_ = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+  mean_diameter_ = sums[3] > 0.0 ? sums[2] / sums[3] : 0.0;
+  modify->compute[modify->find_compute(pressure_id)]->addstep(update->ntimestep + 1);
+  guarded(*error, [&] { check_time_step(*lmp, fmt::format("fix cell/servo '{}'", id)); });
+}
+
+/// The box moves before the grains: forces of this step belong to the new box.
+void FixCellServo::initial_integrate(int) { move_box(); }
+
+/// Proportional and integral: a ground of confined stiffness M answers a strain rate D with a stress rate M D.
+double FixCellServo::next_rate(Axis& axis, double stress) const {
+  if (axis.control == Axis::Control::hold) return 0.0;
+  const double ramp = ramp_time_ > 0.0 ? std::min(1.0, elapsed_ / ramp_time_) : 1.0;
+  if (axis.control == Axis::Control::rate) return ramp * axis.target;
+  const double limit = ramp * rate_limit_, proportional = (axis.target - stress) / (stiffness_ * response_time_);
+  axis.integral = std::clamp(axis.integral + proportional * update->dt / (integral_times * response_time_), -limit, limit);
+  return std::clamp(proportional + axis.integral, -limit, limit);
+}
+
+void FixCellServo::move_box() {
+  const double dt = update->dt;
+  double change[3], middle[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    Axis& axis = axes_[k];
+    const double rate = next_rate(axis, stress_[k]);
+    change[k] = axis.rate - rate;  // of the stretching rate
+    axis.rate = rate;
+    middle[k] = 0.5 * (domain->boxlo[k] + domain->boxhi[k]);
+    const double half = 0.5 * domain->prd[k] * std::exp(-rate * dt);
+    domain->boxlo[k] = middle[k] - half;
+    domain->boxhi[k] = middle[k] + half;
+    domain->h_rate[k] = -2.0 * rate * half;
+    domain->h_ratelo[k] = rate * half;
+  }
+  domain->set_global_box();
+  domain->set_local_box();
+  // A change of the rates takes all grains along at once, so that no wave starts at the faces.
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit)
+      for (int k = 0; k < 3; ++k) atom->v[i][k] += change[k] * (atom->x[i][k] - middle[k]);
+  elapsed_ += dt;
+}
+
+void FixCellServo::end_of_step() { measure(); }
+
+void FixCellServo::measure() {
+  LAMMPS_NS::Compute& pressure = *modify->compute[modify->find_compute(pressure_id)];
+  pressure.compute_vector();
+  for (std::size_t k = 0; k < 3; ++k) stress_[k] = pressure.vector[k];
+  pressure.addstep(update->ntimestep + 1);
+  for (const double stress : stress_)
+    if (!std::isfinite(stress))
+      guarded(*error, [&] { throw StateError(fmt::format("fix cell/servo '{}': the stress is not finite at step {}", id, update->ntimestep)); });
+}
+
+double FixCellServo::compute_vector(int n) {
+  if (n < 3) return domain->prd[n];
+  if (n < 6) return stress_[static_cast<std::size_t>(n - 3)];
+  if (n == 6) return mass_ / (domain->prd[0] * domain->prd[1] * domain->prd[2]);
+  const double p = (stress_[0] + stress_[1] + stress_[2]) / 3.0;
+  double largest = 0.0;
+  for (const Axis& axis : axes_) largest = std::max(largest, std::abs(axis.rate));
+  return p > 0.0 ? largest * mean_diameter_ * std::sqrt(grain_density_ / p) : 0.0;
+}
+
+}  // namespace furrow::coupling

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// What the fixes that record results have in common: one file of rows, frames for ParaView, a closing at the end of the run, and runs
+/// that are continued from a checkpoint.
+
+#include <chrono>
+#include <optional>
+
+#include "coupling/base/uses_fix.h"
+#include "coupling/output/effective_input.h"
+#include "coupling/base/flushes_on_error.h"
+#include "fix.h"
+#include "io/history_file.h"
+
+namespace furrow::coupling {
+
+class FixHistory : public LAMMPS_NS::Fix, public Described, public Dependent, public ResultsKeeper {
+ public:
+  int setmask() override;
+  /// Files are made when the first run starts: by then every style of the scene is known.
+  void setup(int vflag) override;
+  void end_of_step() override;
+  /// Also reached when the user interrupts the run: what there is, is written and evaluated.
+  void post_run() override;
+  void write_restart(FILE* file) override;
+  void restart(char* buffer) override;
+  const Options& options() const override { return options_; }
+  /// An error ends the run: the rows since the last flush are still worth having.
+  void keep_results() override;
+
+ protected:
+  /// @param schema with the keys of add_keys()
+  FixHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema);
+  /// The keys that all have: folder, every and vtk. @param frames what a frame shows
+  static void add_keys(Schema& schema, const char* frames);
+
+  // ---- the recorder's part: called on all ranks --------------------------------------------------------------------------------
+  /// @param resume_time of the checkpoint that this run continues; none for a run from the start
+  virtual void open(std::optional<double> resume_time) = 0;
+  virtual void record() = 0;
+  virtual void write_frame() = 0;
+  virtual void close() = 0;
+
+  bool draws() const { return options_.integer("vtk") > 0; }
+  double time() const;       ///< of the scene [s]
+  double wall_time() const;  ///< since the first run began [s]
+  RunInfo run_info(const std::string& title) const;
+
+  std::optional<HistoryFile> file_;  ///< rank 0 only
+
+ private:
+  Options options_;
+  std::optional<double> resume_time_;
+  bool opened_ = false;
+  std::chrono::steady_clock::time_point started_;
+};
+
+}  // namespace furrow::coupling

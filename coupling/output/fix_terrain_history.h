@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// fix terrain/history: the results of continuum ground. See fix_terrain_history.md.
+
+#include "coupling/output/fix_history.h"
+#include "io/vtk_file.h"
+
+namespace furrow::coupling {
+
+class FixTerrainContinuum;
+
+class FixTerrainHistory : public FixHistory {
+ public:
+  FixTerrainHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
+  static Schema schema();
+  bool needs(LAMMPS_NS::Fix& other) const override;
+
+ private:
+  void open(std::optional<double> resume_time) override;
+  void record() override;
+  void write_frame() override;
+  void close() override;
+
+  FixTerrainContinuum& ground_fix_;
+  std::optional<VtkSeries> frames_;  // rank 0 only
+};
+
+}  // namespace furrow::coupling

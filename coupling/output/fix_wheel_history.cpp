@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/output/fix_wheel_history.h"
+
+#include <fmt/format.h>
+
+#include "atom.h"
+#include "comm.h"
+#include "core/error.h"
+#include "coupling/drive/fix_wheel_rig.h"
+#include "coupling/bodies/fix_wheel_hub.h"
+#include "coupling/output/gather_grains.h"
+#include "coupling/output/results_folder.h"
+#include "io/summary.h"
+#include "modify.h"
+#include "update.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+FixWheelRig& find_rig(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
+  auto* rig = dynamic_cast<FixWheelRig*>(lammps.modify->find_fix_id(options.word("rig").c_str()));
+  if (!rig)
+    throw InputError(options.where("rig"), fmt::format("is '{}', and there is no such rig", options.word("rig")),
+                     "the id of a fix wheel/rig", "write the fix wheel/rig before this line");
+  return *rig;
+}
+
+}  // namespace
+
+Schema FixWheelHistory::schema() {
+  Schema schema("fix wheel/history");
+  schema.text("rig", "id of the fix wheel/rig whose wheel is recorded");
+  add_keys(schema, "wheel and grains");
+  schema.text("title", "what the scene is, for summaries and pictures").by_default("wheel");
+  return schema;
+}
+
+FixWheelHistory::FixWheelHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+    : FixHistory(lammps, narg, arg, schema()), rig_fix_(find_rig(*lammps, options())) {}
+
+bool FixWheelHistory::needs(LAMMPS_NS::Fix& other) const { return &other == &rig_fix_; }
+
+FixWorld& FixWheelHistory::bodies() { return FixWorld::of(*lmp); }
+
+void FixWheelHistory::open(std::optional<double> resume_time) {
+  first_step_ = update->ntimestep;
+  first_time_ = time();
+  first_energy_ = rig_fix_.wheel_fix().hub().balance().residual();
+  const double ground_level = rig_fix_.options().number("ground_level");
+  Grains now = gather_grains(*lmp, ground_level);
+  if (comm->me != 0) return;
+  const std::string& folder = options().word("folder");
+  const std::string path = folder + "/history.h5", frames = folder + "/vtk";
+  if (resume_time) {
+    file_ = HistoryFile::resume(path, WheelRig::channels(), *resume_time);
+    if (now.size() > 0)
+      reference_ = read_reference_grains(path);
+    else
+      reference_ = std::move(now);
+    if (draws()) {
+      wheel_frames_ = VtkSeries::resume(frames, "wheel", *resume_time);
+      grain_frames_ = VtkSeries::resume(frames, "grains", *resume_time);
+    }
+    return;
+  }
+  make_results_folder(options());
+  file_ = HistoryFile::create(path, WheelRig::channels(), run_info(options().word("title")));
+  reference_ = std::move(now);
+  if (reference_.size() > 0) file_->write_reference(reference_);
+  if (draws()) {
+    wheel_frames_ = VtkSeries::create(frames, "wheel");
+    grain_frames_ = VtkSeries::create(frames, "grains");
+  }
+}
+
+void FixWheelHistory::record() {
+  if (file_) file_->append(rig_fix_.rig().measure(time()));
+}
+
+void FixWheelHistory::write_frame() {
+  const Grains grains = gather_grains(*lmp, reference_.bed_level);
+  if (comm->me != 0) return;
+  wheel_frames_->add(time(), rig_fix_.wheel_fix().hub().surface());
+  if (grains.size() > 0) grain_frames_->add(time(), grains, &reference_);
+}
+
+void FixWheelHistory::close() {
+  const RunClosing end = closing();
+  const Grains grains = gather_grains(*lmp, reference_.bed_level);
+  if (comm->me != 0) return;
+  file_->write_final(grains, rig_fix_.wheel_fix().hub().surface());
+  file_->write_closing(end);
+  file_->flush();
+  const std::string& folder = options().word("folder");
+  const Summary summary = summarise(folder);
+  write_summary(folder, summary);
+  if (screen) fmt::print(screen, "\n{}\n", summary_text(summary));
+}
+
+RunClosing FixWheelHistory::closing() {
+  const WheelHub& wheel = rig_fix_.wheel_fix().hub();
+  const Balance balance = wheel.balance();
+  const MomentumAudit& momentum = bodies().audit(wheel);
+  RunClosing end;
+  end.audit.set_energies({{"work of the ground on the wheel", balance.contact_work},
+                          {"work of the load", balance.load_work},
+                          {"work of the drive", balance.drive_work},
+                          {"kinetic energy of the wheel", -balance.kinetic_energy},
+                          {"stored in the wheel", -balance.stored_energy},
+                          {"loss in the wheel and the rig's damping", -balance.dissipated_energy}},
+                         balance.residual() - first_energy_);
+  end.audit.force_imbalance = momentum.force_imbalance;
+  end.audit.force_scale = momentum.force_scale;
+  end.audit.moment_imbalance = momentum.moment_imbalance;
+  end.audit.moment_scale = momentum.moment_scale;
+  end.cost.wall_time = wall_time();
+  end.cost.simulated_time = time() - first_time_;
+  end.cost.steps = static_cast<long>(update->ntimestep) - first_step_;
+  end.cost.grains = static_cast<long>(atom->natoms);
+  end.cost.ranks = comm->nprocs;
+  end.cost.memory = bodies().communicator().sum(peak_memory());
+  if (update->ntimestep < update->laststep)
+    end.warnings.push_back(
+        fmt::format("The run was interrupted at step {} of {}; the values are those of the part that was done.",
+                    update->ntimestep, update->laststep));
+  return end;
+}
+
+}  // namespace furrow::coupling

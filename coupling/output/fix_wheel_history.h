@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// fix wheel/history: the results folder of a wheel run. See fix_wheel_history.md.
+
+#include "coupling/output/fix_history.h"
+#include "io/vtk_file.h"
+
+namespace furrow::coupling {
+
+class FixWheelRig;
+class FixWorld;
+
+class FixWheelHistory : public FixHistory {
+ public:
+  FixWheelHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
+  static Schema schema();
+  bool needs(LAMMPS_NS::Fix& other) const override;
+
+ private:
+  void open(std::optional<double> resume_time) override;
+  void record() override;
+  void write_frame() override;
+  void close() override;
+  RunClosing closing();
+  FixWorld& bodies();
+
+  FixWheelRig& rig_fix_;
+
+  // Rank 0 only.
+  std::optional<VtkSeries> wheel_frames_, grain_frames_;
+  Grains reference_;
+
+  long first_step_ = 0;
+  double first_time_ = 0.0, first_energy_ = 0.0;
+};
+
+}  // namespace furrow::coupling

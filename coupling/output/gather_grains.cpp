@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/output/gather_grains.h"
+
+#include <mpi.h>
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+
+namespace furrow::coupling {
+
+Grains gather_grains(LAMMPS_NS::LAMMPS& lammps, double bed_level) {
+  constexpr int width = 8;  // id, x, v, radius
+  const LAMMPS_NS::Atom& atom = *lammps.atom;
+  std::vector<double> mine;
+  mine.reserve(static_cast<std::size_t>(atom.nlocal) * width);
+  for (int i = 0; i < atom.nlocal; ++i) {
+    const double *x = atom.x[i], *v = atom.v[i];
+    mine.insert(mine.end(), {static_cast<double>(atom.tag[i]), x[0], x[1], x[2], v[0], v[1], v[2], atom.radius[i]});
+  }
+  const int ranks = lammps.comm->nprocs, count = static_cast<int>(mine.size());
+  std::vector<int> counts(static_cast<std::size_t>(ranks)), starts(static_cast<std::size_t>(ranks), 0);
+  MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, lammps.world);
+  for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
+  std::vector<double> all(lammps.comm->me == 0 ? static_cast<std::size_t>(starts.back() + counts.back()) : 0);
+  MPI_Gatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, 0, lammps.world);
+
+  Grains grains;
+  grains.resize(all.size() / width);
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const double* row = all.data() + i * width;
+    const auto column = static_cast<Eigen::Index>(i);
+    grains.id[i] = static_cast<std::int64_t>(row[0]);
+    grains.x.col(column) = Vector3(row[1], row[2], row[3]);
+    grains.v.col(column) = Vector3(row[4], row[5], row[6]);
+    grains.radius[column] = row[7];
+  }
+  const LAMMPS_NS::Domain& domain = *lammps.domain;
+  const int periodic[3] = {domain.xperiodic, domain.yperiodic, domain.zperiodic};
+  for (int k = 0; k < 3; ++k) grains.period[k] = periodic[k] ? domain.prd[k] : 0.0;
+  grains.bed_level = bed_level;
+  return grains;
+}
+
+}  // namespace furrow::coupling

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The folder that a fix writes its results to.
+
+#include <filesystem>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/options.h"
+
+namespace furrow::coupling {
+
+/// Makes the folder of the keyword 'folder' if need be. @throws InputError
+inline void make_results_folder(const Options& options) {
+  const std::string& folder = options.word("folder");
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed)
+    throw InputError(options.where("folder"), fmt::format("is '{}', which cannot be made ({})", folder, failed.message()),
+                     "a folder that you may write in");
+}
+
+}  // namespace furrow::coupling

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Do grains, speed and box leave the range in which results are known to hold? Warnings, never errors.
+
+#include <string>
+
+#include "geometry/surface.h"
+#include "lammps.h"
+
+namespace furrow::coupling {
+
+/// Limits with the study that shows them: inputs/validation/grains/README.md.
+struct GroundLimits {
+  static constexpr double overlap = 0.05;          ///< of a grain's diameter, elastic contacts
+  static constexpr double inertial_number = 0.05;  ///< speed / length x diameter x sqrt(grain density / pressure) under a body
+  static constexpr double grains_per_width = 8.0;  ///< width of the body over mean diameter
+  static constexpr double bed_widths = 2.0;        ///< width of the bed over width of the body
+};
+
+/// Watches the contact of one body with grains; each kind of warning comes once a run.
+class GroundCheck {
+ public:
+  /// @param where names the wall in messages
+  GroundCheck(LAMMPS_NS::LAMMPS& lammps, std::string where) : lammps_(lammps), where_(std::move(where)) {}
+
+  /// Size of grains and bed against the body's width. Collective.
+  void start(const Surface& surface);
+  /// This rank's contact in this step.
+  void contact(double overlap, double radius, const Vector3& point, const Vector3& force);
+  /// After the contacts of a step; looks at them every so many steps. Collective.
+  void finish_step(const Surface& surface);
+
+ private:
+  void warn(bool& done, const std::string& text);
+
+  LAMMPS_NS::LAMMPS& lammps_;
+  std::string where_;
+  bool elastic_ = false;  // contacts with Young's modulus; plastic ones overlap by design
+  double mean_diameter_ = 0.0, density_ = 0.0;
+  double deepest_ = 0.0;
+  Vector3 force_ = Vector3::Zero(), lower_, upper_;
+  long steps_ = 0;
+  bool looks_ = false, warned_overlap_ = false, warned_inertia_ = false;
+};
+
+}  // namespace furrow::coupling

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// What acts between two bodies of a world: a contact.
+
+namespace furrow {
+
+class Interaction {
+ public:
+  virtual ~Interaction() = default;
+  /// Finds the forces at the present positions and adds them to both bodies, before they advance by dt [s].
+  /// @throws StateError
+  virtual void apply(double dt) = 0;
+};
+
+}  // namespace furrow

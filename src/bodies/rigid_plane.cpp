@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "bodies/rigid_plane.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace furrow {
+
+RigidPlane::RigidPlane(const RigidPlaneParameters& parameters, const Surface& surface) : parameters_(parameters) {
+  const auto need = [](double value, const char* name, bool good, const char* allowed) {
+    if (!(std::isfinite(value) && good))
+      throw InputError(fmt::format("rigid plane, {}", name), fmt::format("is {}", value), allowed);
+  };
+  need(parameters.height, "height", true, "a number [m]");
+  need(parameters.stiffness, "stiffness", parameters.stiffness > 0.0, "a number > 0 [Pa/m]");
+  need(parameters.damping, "damping", parameters.damping >= 0.0, "a number >= 0 [Pa s/m]");
+  need(parameters.friction, "friction", parameters.friction >= 0.0, "a number >= 0");
+  need(parameters.tangential_stiffness, "tangential_stiffness", parameters.tangential_stiffness > 0.0,
+       "a number > 0 [Pa/m]");
+  const auto nodes = static_cast<Eigen::Index>(surface.node_count());
+  area_ = pressure_ = VectorX::Zero(nodes);
+  for (std::size_t t = 0; t < surface.triangle_count(); ++t)
+    for (int k = 0; k < 3; ++k) area_[surface.triangles[t][k]] += surface.area_vector(t).norm() / 3.0;
+  anchor_ = Eigen::Matrix2Xd::Zero(2, nodes);
+  sticking_.assign(static_cast<std::size_t>(nodes), 0);
+}
+
+void RigidPlane::press_on(Surface& surface) {
+  total_.setZero();
+  stored_ = 0.0;
+  for (Eigen::Index n = 0; n < surface.x.cols(); ++n) {
+    const double depth = parameters_.height - surface.x(2, n);
+    unsigned char& sticking = sticking_[static_cast<std::size_t>(n)];
+    pressure_[n] = depth > 0.0 ? std::max(0.0, parameters_.stiffness * depth - parameters_.damping * surface.v(2, n)) : 0.0;
+    if (depth <= 0.0) {
+      sticking = 0;
+      continue;
+    }
+    const Vector2 point = surface.x.col(n).head<2>();
+    if (!sticking) anchor_.col(n) = point;
+    sticking = 1;
+    const double k = parameters_.tangential_stiffness, limit = parameters_.friction * pressure_[n];
+    Vector2 shear = k * (anchor_.col(n) - point);
+    if (const double size = shear.norm(); size > limit) {
+      shear *= limit / size;
+      anchor_.col(n) = point + shear / k;
+    }
+    const Vector3 force(area_[n] * shear.x(), area_[n] * shear.y(), area_[n] * pressure_[n]);
+    surface.f.col(n) += force;
+    total_ += force;
+    stored_ += 0.5 * area_[n] * (parameters_.stiffness * depth * depth + shear.squaredNorm() / k);
+  }
+}
+
+std::vector<double> RigidPlane::state() const {
+  std::vector<double> numbers(anchor_.data(), anchor_.data() + anchor_.size());
+  numbers.insert(numbers.end(), sticking_.begin(), sticking_.end());
+  numbers.insert(numbers.end(), area_.data(), area_.data() + area_.size());
+  return numbers;
+}
+
+void RigidPlane::restore(const double* numbers) {
+  std::copy(numbers, numbers + anchor_.size(), anchor_.data());
+  numbers += anchor_.size();
+  for (unsigned char& sticking : sticking_) sticking = *numbers++ != 0.0;
+  std::copy(numbers, numbers + area_.size(), area_.data());
+}
+
+}  // namespace furrow

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// A rigid wheel on an axle: six degrees of freedom, each free, held or prescribed.
+
+#include "bodies/wheel_hub.h"
+#include "geometry/wheel_mesh.h"
+#include "core/options.h"
+
+namespace furrow {
+
+/// Everything that makes a wheel.
+struct RigidWheelParameters {
+  WheelGeometry geometry;
+  double mass = 0.0;                      ///< [kg] that moves with the axle centre
+  double axle_inertia = 0.0;              ///< [kg m^2] about the axle, C
+  double diametral_inertia = 0.0;         ///< [kg m^2] about any line across the axle through the centre, A
+  Vector3 axle_centre = Vector3::Zero();  ///< [m] at the start
+};
+
+/// A hub (wheel_hub.h) that carries a rigid surface: nodes are placed from the reference mesh by the attitude, never accumulated;
+/// their velocity is that of n+1/2.
+class RigidWheel : public WheelHub {
+ public:
+  /// The keys of a wheel. @param subject names the owner in errors
+  static Schema schema(const std::string& subject = "rigid wheel");
+  /// @throws InputError for values that are each allowed and together impossible
+  explicit RigidWheel(const Options& options);
+  /// @param where names the wheel in errors
+  explicit RigidWheel(const RigidWheelParameters& parameters, const std::string& where = "rigid wheel");
+
+  const RigidWheelParameters& parameters() const { return parameters_; }
+  double nominal_radius() const override { return parameters_.geometry.radius(); }
+  double lowest_point() const override;  ///< of the true circle and shoulders
+
+  double stable_time_step() const override;  ///< infinity
+  void advance(double dt) override;
+  using Body::surface;
+  Surface& surface() override { return surface_; }
+  Balance balance() const override;
+  std::vector<double> state() const override;
+  void restore(const std::vector<double>& state) override;
+
+ private:
+  void follow_placement(const Vector3&, const Matrix3&) override { place_nodes(); }
+  void follow_velocity() override { place_nodes(); }
+  void place_nodes();
+  std::vector<double> fingerprint() const;
+
+  RigidWheelParameters parameters_;
+  Matrix3X reference_;  // nodes about the axle centre, unturned
+  Surface surface_;
+};
+
+}  // namespace furrow

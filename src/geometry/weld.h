@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Which nodes of a surface are the same point of the body although they have different numbers.
+
+#include <array>
+#include <vector>
+
+#include "core/types.h"
+
+namespace furrow {
+
+/// For every node the lowest number of all nodes at the same place, periodic images included.
+/// @param period [m] of each axis; 0 for an axis without periodicity
+/// @param tolerance [m] largest distance of nodes that are the same
+std::vector<int> weld_nodes(const Matrix3X& x, const Vector3& period, double tolerance);
+
+}  // namespace furrow

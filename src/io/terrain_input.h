@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Continuum ground from the keys of a script line: lengths, cells, faces, and the files of its materials.
+
+#include "core/options.h"
+#include "mpm/terrain_parameters.h"
+
+namespace furrow {
+
+/// The keys of continuum ground. @param subject names the owner in errors
+Schema ground_schema(const std::string& subject = "continuum ground");
+/// Reads the material files and lays out the grid. @throws InputError
+/// @param folder from which relative paths of material files are found
+GroundParameters read_ground(const Options& options, const std::string& folder = "");
+
+}  // namespace furrow

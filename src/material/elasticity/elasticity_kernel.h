@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Elastic response to a strain increment: linear or porous (elasticity.h has the equations).
+
+#include "material/elasticity/elasticity_parameters.h"
+#include "simd/exponential.h"
+
+namespace furrow {
+inline namespace FURROW_ISA {
+
+/// The elastic response of a step, from pressure p_n. x is the elastic volumetric strain of the step, compression positive.
+struct ElasticStep {
+  const ElasticityParameters& parameters;
+  Lanes p_n;
+  Lanes shear;  ///< G at the start of the step
+  Lanes ratio;  ///< J_el at the start of the step (porous)
+
+  FURROW_INLINE ElasticStep(const ElasticityParameters& constants, const Lanes& pressure)
+      : parameters(constants), p_n(pressure) {
+    if (!parameters.porous) {
+      shear = parameters.shear;
+      return;
+    }
+    const Lanes c = parameters.stiffness;
+    ratio = Lanes(1.0) - logarithm((p_n + parameters.limit) / Lanes(parameters.p0 + parameters.limit)) / c;
+    shear = parameters.shear_ratio > 0.0 ? Lanes(parameters.shear_ratio) * (p_n + parameters.limit) * c * ratio
+                                         : Lanes(parameters.shear);
+  }
+
+  /// p(x), increasing. The largest exponent, exp(300), only bounds trial states of the return mapping.
+  FURROW_INLINE Lanes pressure(const Lanes& x) const {
+    if (!parameters.porous) return p_n + Lanes(parameters.bulk) * x;
+    const Lanes exponent = Lanes(parameters.stiffness) * ratio * (Lanes(1.0) - exponential(-x));
+    return (p_n + parameters.limit) * exponential(lower(exponent, 300.0)) - parameters.limit;
+  }
+  /// dp/dx at p = pressure(x)
+  FURROW_INLINE Lanes bulk(const Lanes& x, const Lanes& p) const {
+    if (!parameters.porous) return parameters.bulk;
+    return (p + parameters.limit) * Lanes(parameters.stiffness) * ratio * exponential(-x);
+  }
+  /// x that takes the pressure to p > -limit: the inverse of pressure().
+  FURROW_INLINE Lanes strain(const Lanes& p) const {
+    if (!parameters.porous) return (p - p_n) / Lanes(parameters.bulk);
+    const Lanes exponent = logarithm((p + parameters.limit) / (p_n + parameters.limit));
+    return -logarithm(Lanes(1.0) - exponent / (Lanes(parameters.stiffness) * ratio));
+  }
+  /// Elastic work of the step per current volume, volumetric part, from p_n to p = pressure(x): the integral of p dx.
+  /// Exact for linear elasticity; porous: dx = dp / ((p + limit) c J_el) with the mean J_el, J_el(n+1) = J_el(n) exp(-x).
+  FURROW_INLINE Lanes volumetric_work(const Lanes& x, const Lanes& p) const {
+    if (!parameters.porous) return Lanes(0.5) * (p_n + p) * x;
+    const Lanes mean_ratio = Lanes(0.5) * ratio * (Lanes(1.0) + exponential(-x));
+    return (p - p_n) / (Lanes(parameters.stiffness) * mean_ratio) - Lanes(parameters.limit) * x;
+  }
+};
+
+}  // namespace FURROW_ISA
+}  // namespace furrow

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Kernel of the crushable foam law: implicit (backward Euler) return mapping. Equations (17), (18): crushable_foam.h.
+///
+/// Flow (18) is along (9/2 p, q): De = 4.5 Lambda p, deviatoric plastic strain = Lambda q. So the deviator shrinks radially,
+///   q = q_tr/(1 + 3 G Lambda) = q_tr |p|/(|p| + (2/3) G |De|),
+/// p keeps the sign of the trial, and the unknown |De| runs from 0 to the value that brings p to 0, where q vanishes too: that
+/// point is inside the ellipse because pt > 0 and pc > 0, so the root is bracketed.
+
+#include "material/block_update.h"
+#include "material/models/crushable_foam/crushable_foam_parameters.h"
+#include "material/elasticity/elasticity_kernel.h"
+#include "material/hardening/hardening_kernel.h"
+#include "material/lode.h"
+
+namespace furrow {
+inline namespace FURROW_ISA {
+
+template <bool lode_dependent>
+struct CrushableFoamKernel {
+  static constexpr int own_fields = 1;  // eps_vol_pl
+  const CrushableFoamParameters& law;
+
+  FURROW_INLINE void step(const Symmetric& strain, Points& points) const {
+    const ElasticStep elastic(law.elasticity, points.stress.trace() * Lanes(-1.0 / 3.0));
+    const Lanes dv = -strain.trace();
+    const Lanes p_trial = elastic.pressure(dv);
+    const Symmetric s_old = points.stress.plus_identity(elastic.p_n);
+    const Symmetric s_trial = s_old + strain.deviator() * (Lanes(2.0) * elastic.shear);
+    const Lanes t_trial = DeviatoricReturn<lode_dependent>(law.flow_ratio, s_trial).t();
+    const Lanes eps_old = points.own[0];
+    Hardening hardening(law.hardening);
+    const Lanes pc_old = hardening.at(eps_old).value;
+
+    // Ellipse: centre (c, 0), half-width a.
+    const auto excess = [&](const Lanes& pressure, const Lanes& measure, const Lanes& pc) {
+      return root(square(pressure - Lanes(0.5) * (pc - law.pt)) + square(measure * (1.0 / law.M))) -
+             Lanes(0.5) * (pc + law.pt);
+    };
+    const Mask yielding =
+        excess(p_trial, t_trial, pc_old) > Lanes(1e-13) * (pc_old + law.pt) + Lanes(1e-15) * magnitude(p_trial);
+
+    Lanes p = p_trial, shrink = 1.0, compaction = 0.0;
+    if (any(yielding)) {
+      const Lanes sign = select(p_trial < Lanes(0.0), -1.0, 1.0);
+      Lanes pressure = p_trial, measure = t_trial, c = 0.0, a = 0.0;
+      const auto balance = [&](const Lanes& y) -> ValueAndSlope {
+        const Hardening::Strength pc = hardening.at(eps_old + sign * y);
+        const Lanes x = dv - sign * y;
+        pressure = sign * upper(sign * elastic.pressure(x), 0.0);
+        const Lanes k = Lanes(2.0 / 3.0) * elastic.shear, bulk = elastic.bulk(x, pressure), size = magnitude(pressure);
+        const Lanes sum = upper(size + k * y, 1e-290);
+        measure = t_trial * size / sum;
+        const Lanes measure_slope = -t_trial * k * (y * bulk + size) / (sum * sum);
+        c = Lanes(0.5) * (pc.value - law.pt);
+        a = Lanes(0.5) * (pc.value + law.pt);
+        const Lanes dpc = Lanes(0.5) * sign * pc.slope;
+        const Lanes distance = root(square(pressure - c) + square(measure * (1.0 / law.M)));
+        const Lanes along = (pressure - c) * (-sign * bulk - dpc) + measure * measure_slope * (1.0 / (law.M * law.M));
+        return {distance - a, along / upper(distance, 1e-290) - dpc};
+      };
+      const Lanes high = sign * (dv - elastic.strain(0.0));
+      const Lanes y =
+          decreasing_root(balance, 0.0, 0.0, high, Lanes(1e-15) * high, yielding && high > Lanes(0.0), points.iterations);
+      const Lanes solution = select(yielding, upper(y, 0.0), 0.0);
+      balance(solution);
+      // Rounding is removed by placing the stress on the ellipse: along the ray from its centre, or at constant p when the root
+      // could not be resolved (p_tr next to zero).
+      const Lanes distance = root(square(pressure - c) + square(measure * (1.0 / law.M)));
+      const Mask near = magnitude(distance - a) <= Lanes(1e-6) * a;
+      const Lanes ray = sign * upper(sign * (c + (pressure - c) * a / distance), 0.0);
+      const Lanes leg = Lanes(law.M) * root(upper(a * a - square(pressure - c), 0.0));
+      const Lanes t = select(near, measure * a / distance, lower(leg, t_trial));
+      stdx::where(yielding, p) = select(near, ray, pressure);
+      stdx::where(yielding && t_trial > Lanes(0.0), shrink) = t / t_trial;
+      stdx::where(yielding, compaction) = sign * solution;
+      stdx::where(yielding, points.branch) = select(sign > Lanes(0.0), double(Branch::cap), double(Branch::tension));
+    }
+    const Symmetric s = s_trial * shrink;
+    const Lanes elastic_strain = dv - compaction, half_compliance = Lanes(0.5) / elastic.shear;
+    points.stored =
+        elastic.volumetric_work(elastic_strain, p) + contract(s + s_old, s - s_old) * half_compliance * Lanes(0.5);
+    points.dissipated = p * compaction + select(yielding, contract(s, s_trial - s) * half_compliance, 0.0);
+    points.own[0] = eps_old + compaction;
+    points.stress = s.plus_identity(-p);
+    points.below_data = hardening.below(points.own[0]);
+    points.beyond_data = hardening.beyond(points.own[0]);
+    points.stopped = hardening.stopped(points.own[0]);
+  }
+};
+
+}  // namespace FURROW_ISA
+}  // namespace furrow

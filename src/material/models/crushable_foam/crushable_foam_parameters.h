@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Constants of the crushable foam law, as plain data for the kernels.
+
+#include "material/elasticity/elasticity_parameters.h"
+#include "material/hardening/hardening_parameters.h"
+
+namespace furrow {
+
+struct CrushableFoamParameters {
+  ElasticityParameters elasticity;
+  HardeningParameters hardening;
+  double pt = 0.0;          ///< yield strength in hydrostatic tension [Pa], constant
+  double M = 1.0;           ///< aspect of the ellipse: its half-height in t over its half-width in p
+  double flow_ratio = 1.0;  ///< K
+};
+
+}  // namespace furrow

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "material/models/drucker_prager_cap/drucker_prager_cap.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "material/elasticity/elasticity.h"
+#include "material/hardening/hardening.h"
+#include "material/kernels.h"
+
+namespace furrow {
+
+namespace {
+
+std::unique_ptr<Material> create(const MaterialOptions& sections) {
+  const Options& o = sections.at("law").options;
+  DruckerPragerCapParameters law;
+  law.elasticity = make_elasticity(sections.at("elasticity"));
+  law.hardening = make_hardening(sections.at("hardening"));
+  const double beta = radians(o.number("beta"));
+  law.d = o.number("d");
+  law.tan_beta = std::tan(beta);
+  law.sin_beta = std::sin(beta);
+  law.R = o.number("R");
+  law.alpha = o.number("alpha");
+  law.B = 1.0 - law.alpha / std::cos(beta);
+  law.A = law.B + law.alpha;
+  law.flow_ratio = o.number("K");
+  if (law.B <= 0.0)
+    throw InputError(o.where("alpha"),
+                     fmt::format("is {}: the transition would be wider than the shear strength", law.alpha),
+                     fmt::format("below cos(beta) = {:.4g}", std::cos(beta)), "0.01 to 0.05 is usual");
+  const double apex = law.d / law.tan_beta;
+  law.cutoff = o.has("tension") ? o.number("tension") : apex;
+  if (law.cutoff > apex * (1.0 + 1e-12))
+    throw InputError(o.where("tension"), fmt::format("is {} Pa, beyond the apex of the shear line", law.cutoff),
+                     fmt::format("at most d/tan(beta) = {:.6g} Pa", apex), "leave it out to cut at the apex");
+  const double lowest = std::max(law.cutoff, law.R * law.d / (1.0 + law.R * law.tan_beta));  // p and pa stay above -lowest
+  if (law.elasticity.porous && law.elasticity.limit <= lowest)
+    throw InputError("elasticity porous, keyword 'pt_el'", fmt::format("is {} Pa", law.elasticity.limit),
+                     fmt::format("above the tensile strength, {:.6g} Pa", lowest), "raise it, or lower the tension cut-off");
+  check_initial(law.hardening, o, "eps_vol_pl_0");
+  return std::make_unique<DruckerPragerCap>(o.number("density"), law, o.number("eps_vol_pl_0"));
+}
+
+}  // namespace
+
+Law DruckerPragerCap::law() {
+  Schema schema("law drucker_prager_cap");
+  schema.number("density", "kg/m3", Range::positive(), "mass density at the start");
+  schema.number("d", "Pa", Range::non_negative(), "cohesion: t at p = 0 on the shear line");
+  schema.number("beta", "degree", Range{0.0, 80.0, true, false}, "slope of the shear line in the p-t plane");
+  schema.number("R", "", Range::positive(), "eccentricity of the cap: its half-width in p over R is its height");
+  schema.number("alpha", "", Range{0.0, 1.0, false, true}, "size of the transition between shear line and cap")
+      .by_default(0.0);
+  schema.number("K", "", Range::closed(0.778, 1.0), "flow stress ratio, triaxial extension to compression").by_default(1.0);
+  schema
+      .number("eps_vol_pl_0", "", Range::any(), "initial volumetric plastic strain, compression positive: positions the cap")
+      .by_default(0.0);
+  schema
+      .number("tension", "Pa", Range::non_negative(),
+              "tension cut-off: p stays above -tension; the apex d/tan(beta) unless given")
+      .optional();
+  return {"drucker_prager_cap",
+          "soils and snow: shear line, transition, hardening cap (ABAQUS, TR eq 12-16)",
+          {{"law", {{"", "", schema}}}, elasticity_section(), hardening_section()},
+          create};
+}
+
+DruckerPragerCap::DruckerPragerCap(double density, const DruckerPragerCapParameters& parameters, double eps_vol_pl_0)
+    : Material("drucker_prager_cap", density,
+               {{"eps_vol_pl", "", "volumetric plastic strain, compression positive", eps_vol_pl_0}},
+               initial_pressure(parameters.elasticity)),
+      parameters_(parameters) {}
+
+UpdateReport DruckerPragerCap::update_block(const PointBlock& block) const {
+  return checked(kernels().drucker_prager_cap(parameters_, density(), block), block);
+}
+
+ElasticModuli DruckerPragerCap::moduli(const VectorX& state) const {
+  return moduli_at(parameters_.elasticity, invariants(stress_of(state)).p);
+}
+
+double DruckerPragerCap::largest_wave_speed(const PointBlock& block) const {
+  return largest_elastic_wave_speed(parameters_.elasticity, density(), block);
+}
+
+double DruckerPragerCap::pb(double eps) const { return strength_at(parameters_.hardening, eps); }
+
+double DruckerPragerCap::pa(double eps) const {
+  return (pb(eps) - parameters_.R * parameters_.d) / (1.0 + parameters_.R * parameters_.tan_beta);
+}
+
+double DruckerPragerCap::shear_strength(double p, double eps) const {
+  const double top = pa(eps), Q = parameters_.d + top * parameters_.tan_beta, radius = parameters_.alpha * Q, D = top - p;
+  if (D < radius * parameters_.sin_beta) return parameters_.B * Q + std::sqrt(radius * radius - D * D);
+  return parameters_.d + p * parameters_.tan_beta;
+}
+
+double DruckerPragerCap::strength(double p, double eps) const {
+  const double top = pa(eps), Q = parameters_.d + top * parameters_.tan_beta;
+  if (p < top) return p < -parameters_.cutoff ? 0.0 : shear_strength(p, eps);
+  const double leg = parameters_.R * Q * parameters_.R * Q - (p - top) * (p - top);
+  return parameters_.A / parameters_.R * std::sqrt(std::max(leg, 0.0));
+}
+
+double DruckerPragerCap::yield_function(const VectorX& state) const {
+  const Invariants stress = invariants(stress_of(state));
+  const double t = yield_measure(stress, parameters_.flow_ratio), eps = state[eps_vol_pl];
+  const double top = pa(eps), Q = parameters_.d + top * parameters_.tan_beta, D = stress.p - top;
+  const double cut = -stress.p - parameters_.cutoff;
+  if (D >= 0.0) return std::max(cut, std::hypot(D, parameters_.R * t / parameters_.A) - parameters_.R * Q);
+  return std::max(cut, t - shear_strength(stress.p, eps));
+}
+
+double DruckerPragerCap::stress_scale(const VectorX& state) const {
+  const double stress = std::max(pb(state[eps_vol_pl]), std::abs(invariants(stress_of(state)).p));
+  return std::max(parameters_.d + stress, 1e-8 * moduli(state).wave());
+}
+
+std::vector<Vector2> DruckerPragerCap::yield_surface(const VectorX& state, std::size_t points) const {
+  const double eps = state[eps_vol_pl], tip = pb(eps), start = -parameters_.cutoff, top = std::max(pa(eps), start);
+  std::vector<Vector2> line;
+  if (parameters_.cutoff < parameters_.d / parameters_.tan_beta) line.emplace_back(start, 0.0);
+  const std::size_t half = std::max<std::size_t>(points / 2, 2);
+  for (std::size_t i = 0; i < half; ++i) {  // straight to the top, denser near it where the transition is
+    const double share = static_cast<double>(i) / static_cast<double>(half);
+    const double p = i == 0 ? start : top - (top - start) * (1.0 - share) * (1.0 - share);
+    line.emplace_back(p, strength(p, eps));
+  }
+  for (std::size_t i = 0; i <= half; ++i) {  // by equal angles along the cap
+    const double angle = 0.5 * pi * static_cast<double>(i) / static_cast<double>(half);
+    const double p = i == half ? tip : top + (tip - top) * (1.0 - std::cos(angle));
+    line.emplace_back(p, i == half ? 0.0 : strength(p, eps));
+  }
+  return line;
+}
+
+}  // namespace furrow

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Constants of the Drucker-Prager cap law, as plain data for the kernels.
+
+#include "material/elasticity/elasticity_parameters.h"
+#include "material/hardening/hardening_parameters.h"
+
+namespace furrow {
+
+struct DruckerPragerCapParameters {
+  ElasticityParameters elasticity;
+  HardeningParameters hardening;
+  double d = 0.0;         ///< cohesion in the p-t plane [Pa]
+  double tan_beta = 0.0;  ///< slope of the shear line
+  double sin_beta = 0.0;
+  double R = 0.0;           ///< eccentricity of the cap
+  double alpha = 0.0;       ///< size of the transition
+  double A = 1.0;           ///< 1 + alpha - alpha/cos(beta): top of the cap is t = A (d + pa tan(beta))
+  double B = 1.0;           ///< 1 - alpha/cos(beta): height of the transition's centre
+  double flow_ratio = 1.0;  ///< K
+  double cutoff = 1e300;    ///< tension cut-off: p >= -cutoff [Pa]
+};
+
+}  // namespace furrow

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Kernel of the elastic law.
+
+#include "material/block_update.h"
+#include "material/elasticity/elasticity_kernel.h"
+
+namespace furrow {
+inline namespace FURROW_ISA {
+
+struct ElasticKernel {
+  static constexpr int own_fields = 0;
+  const ElasticityParameters& elasticity;
+
+  FURROW_INLINE void step(const Symmetric& strain, Points& points) const {
+    const ElasticStep elastic(elasticity, points.stress.trace() * Lanes(-1.0 / 3.0));
+    const Lanes x = -strain.trace();
+    const Lanes p = elastic.pressure(x);
+    const Symmetric change = strain.deviator() * (Lanes(2.0) * elastic.shear);
+    const Symmetric s = points.stress.plus_identity(elastic.p_n) + change;
+    points.stored = elastic.volumetric_work(x, p) + contract(s - change * Lanes(0.5), strain.deviator());
+    points.stress = s.plus_identity(-p);
+  }
+};
+
+}  // namespace FURROW_ISA
+}  // namespace furrow

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Rubber: compressible neo-Hookean, J. C. Simo and T. J. R. Hughes, Computational Inelasticity (1998), section 9.2.
+///
+///   energy per reference volume  W = (mu/2)(J^(-2/3) tr b - 3) + (K/4)(J^2 - 1 - 2 ln J)
+///   Cauchy stress                sigma = (mu/J) J^(-2/3) dev b + (K/2)(J - 1/J) I
+/// The state is the left Cauchy-Green tensor b; the stress follows from it, so setting the stress alone has no effect.
+
+#include "material/material.h"
+#include "material/models/neo_hookean/neo_hookean_parameters.h"
+#include "material/registry.h"
+
+namespace furrow {
+
+class NeoHookean : public Material {
+ public:
+  enum : std::size_t { b_minus_identity = field::own };  ///< six fields xx, yy, zz, xy, yz, xz
+
+  static Law law();
+  NeoHookean(double density, const NeoHookeanParameters& parameters);
+
+  UpdateReport update_block(const PointBlock& block) const override;
+  /// A bound: the small-strain moduli, raised by the stretch of the state.
+  ElasticModuli moduli(const VectorX& state) const override;
+  double stress_scale(const VectorX& state) const override;
+
+ private:
+  NeoHookeanParameters parameters_;
+};
+
+}  // namespace furrow

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mpm/free_surface_mesh.h"
+
+#include <algorithm>
+
+#include "mpm/continuum_terrain.h"
+
+namespace furrow {
+
+GroundSheet::GroundSheet(std::vector<double> ids, std::size_t rows, std::size_t columns)
+    : ids_(std::move(ids)), numbers_(6 * ids_.size()) {
+  surface_.resize(ids_.size());
+  reach_.setZero(3, surface_.x.cols());
+  reach_.row(2).setOnes();
+  const auto node = [&](std::size_t column, std::size_t row) { return static_cast<int>(column * rows + row); };
+  for (std::size_t c = 0; c < columns; ++c)
+    for (std::size_t r = 0; r < rows; ++r) {
+      reach_(0, node(c, r)) = c == 0 ? -1.0 : c + 1 == columns ? 1.0 : 0.0;
+      reach_(1, node(c, r)) = r == 0 ? -1.0 : r + 1 == rows ? 1.0 : 0.0;
+    }
+  for (std::size_t c = 0; c + 1 < columns; ++c)
+    for (std::size_t r = 0; r + 1 < rows; ++r) {
+      // Diagonals in turns: no direction is preferred.
+      const int a = node(c, r), b = node(c + 1, r), d = node(c, r + 1), e = node(c + 1, r + 1);
+      if ((c + r) % 2 == 0) {
+        surface_.triangles.emplace_back(a, b, e);
+        surface_.triangles.emplace_back(a, e, d);
+      } else {
+        surface_.triangles.emplace_back(a, b, d);
+        surface_.triangles.emplace_back(b, e, d);
+      }
+    }
+}
+
+void GroundSheet::find(const std::vector<GroundPhase>& phases) {
+  seats_.clear();
+  for (std::size_t k = 0; k < phases.size(); ++k) {
+    const double* id = phases[k].particles.data(column::id);
+    for (std::size_t p = 0; p < phases[k].particles.size(); ++p) {
+      const auto found = std::lower_bound(ids_.begin(), ids_.end(), id[p]);
+      if (found != ids_.end() && *found == id[p]) seats_.push_back({found - ids_.begin(), k, p});
+    }
+  }
+}
+
+Vector3 GroundSheet::lever(const std::vector<GroundPhase>& phases, const Seat& seat) const {
+  const Particles& particles = phases[seat.phase].particles;
+  const std::size_t p = seat.particle;
+  Vector3 half(particles.data(column::half_x)[p], particles.data(column::half_y)[p],
+               particles.data(column::half_z)[p] * particles.data(column::state + field::volume_ratio)[p]);
+  return half.cwiseProduct(reach_.col(seat.node));
+}
+
+Vector3 GroundSheet::point_of(const std::vector<GroundPhase>& phases, const Seat& seat) const {
+  return phases[seat.phase].particles.position(seat.particle) + lever(phases, seat);
+}
+
+void GroundSheet::place(const std::vector<GroundPhase>& phases) {
+  std::fill(numbers_.begin(), numbers_.end(), 0.0);
+  for (const Seat& seat : seats_) {
+    const Particles& particles = phases[seat.phase].particles;
+    const Vector3 arm = lever(phases, seat), x = particles.position(seat.particle) + arm,
+                  v = particles.velocity(seat.particle) + particles.affine(seat.particle) * arm;
+    double* numbers = numbers_.data() + 6 * seat.node;
+    std::copy_n(x.data(), 3, numbers);
+    std::copy_n(v.data(), 3, numbers + 3);
+  }
+}
+
+void GroundSheet::take() {
+  for (Eigen::Index n = 0; n < surface_.x.cols(); ++n) {
+    surface_.x.col(n) = Eigen::Map<const Vector3>(numbers_.data() + 6 * n);
+    surface_.v.col(n) = Eigen::Map<const Vector3>(numbers_.data() + 6 * n + 3);
+  }
+}
+
+}  // namespace furrow

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// furrow-point: drives one material point along a path, lists the laws, fits parameters to measured curves.
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "figure.h"
+#include "io/point_file.h"
+#include "io/point_results.h"
+#include "io/version.h"
+#include "material/registry.h"
+
+namespace {
+
+std::string folder_for(const std::string& wish, const std::string& input) {
+  return wish.empty() ? (std::filesystem::path("results") / std::filesystem::path(input).stem()).string() : wish;
+}
+
+void run(const std::string& input, const std::string& output, bool plot) {
+  const furrow::PointRun run = furrow::read_point_run(input);
+  const auto material = run.material.make();
+  const furrow::PointHistory history = furrow::drive_point(*material, run.path);
+  const std::string folder = folder_for(output, input);
+  furrow::write_point_run(folder, run, *material, history);
+  std::optional<furrow::StepError> error;
+  try {
+    error = furrow::step_error(*material, run.path, history);
+  } catch (const furrow::StateError&) {
+    // The run itself stands; its report says that the error is not known.
+  }
+  std::cout << furrow::run_report(run, *material, history, error ? &*error : nullptr) << "  results       " << folder
+            << '\n';
+  if (plot) furrow::draw_figure("point_figures.py", folder);
+}
+
+int fit(const std::string& input, const std::string& output, bool plot) {
+  const furrow::PointFit fit = furrow::read_point_fit(input);
+  const furrow::FitResult result = furrow::fit_material(fit.problem);
+  const std::string folder = folder_for(output, input);
+  furrow::write_point_fit(folder, fit, result);
+  std::cout << furrow::fit_report(fit, result) << "  results       " << folder << '\n';
+  if (plot) furrow::draw_figure("point_figures.py", folder);
+  return result.converged ? 0 : 1;
+}
+
+void list_laws(const std::string& name) {
+  for (const furrow::Law& law : furrow::laws()) {
+    if (!name.empty() && law.name != name) continue;
+    std::cout << law.name << ": " << law.meaning << '\n';
+    for (const furrow::SectionSchema& section : law.sections)
+      for (const furrow::SectionChoice& choice : section.choices) {
+        const std::string type = section.name == "law" ? law.name : choice.type;
+        std::cout << ' ' << section.name << (type.empty() ? "" : ", type: " + type)
+                  << (choice.meaning.empty() ? "" : "  (" + choice.meaning + ")") << '\n'
+                  << choice.schema.table();
+      }
+    std::cout << '\n';
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("One material point of a law: along a path, or fitted to measured curves.", "furrow-point");
+  app.set_version_flag("--version", furrow::version());
+  app.require_subcommand(1);
+
+  std::string input, output, law;
+  bool no_plot = false;
+  CLI::App* run_command = app.add_subcommand("run", "drive a point along the path of a file (inputs/points/*.yaml)");
+  CLI::App* fit_command = app.add_subcommand("fit", "fit parameters of a law to measured curves (inputs/points/fit_*.yaml)");
+  for (CLI::App* command : {run_command, fit_command}) {
+    command->add_option("file", input, "a YAML file; furrow-point paths lists its keys")->required();
+    command->add_option("-o,--output", output, "the results folder; results/<name of the file> unless given");
+    command->add_flag("--no-plot", no_plot, "no figure");
+  }
+  CLI::App* laws_command = app.add_subcommand("laws", "list the laws with their keys, units, ranges and meanings");
+  laws_command->add_option("name", law, "only this law");
+  CLI::App* paths_command = app.add_subcommand("paths", "list the paths and the keys of a fit");
+  CLI11_PARSE(app, argc, argv);
+
+  try {
+    if (*run_command) run(input, output, !no_plot);
+    if (*fit_command) return fit(input, output, !no_plot);
+    if (*laws_command) {
+      if (!law.empty()) furrow::find_law(law);
+      list_laws(law);
+    }
+    if (*paths_command) std::cout << furrow::path_tables();
+  } catch (const std::exception& error) {
+    std::cout << std::flush;
+    std::cerr << "furrow-point: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "shell/shell_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace furrow {
+
+ShellNodes::ShellNodes(const Matrix3X& start)
+    : x(start),
+      q(static_cast<std::size_t>(start.cols()), Quaternion::Identity()),
+      rotation(9, start.cols()),
+      mass(VectorX::Zero(start.cols())),
+      inertia(VectorX::Zero(start.cols())) {
+  for (Matrix3X* m : {&v, &w, &force, &moment}) m->setZero(3, start.cols());
+  for (Matrix3X* m : {&free_to_move, &free_to_turn}) m->setOnes(3, start.cols());
+  rotation.colwise() = Eigen::Map<const Eigen::Matrix<double, 9, 1>>(Matrix3::Identity().eval().data());
+}
+
+void ShellNodes::hold(Eigen::Index node) {
+  free_to_move.col(node).setZero();
+  free_to_turn.col(node).setZero();
+}
+
+void ShellNodes::kick(double dt) {
+  for (Eigen::Index n = 0; n < count(); ++n) {
+    v.col(n) += (dt / mass[n]) * force.col(n).cwiseProduct(free_to_move.col(n));
+    w.col(n) += (dt / inertia[n]) * moment.col(n).cwiseProduct(free_to_turn.col(n));
+  }
+}
+
+void ShellNodes::set_rotation(Eigen::Index n, const Quaternion& turned) {
+  q[static_cast<std::size_t>(n)] = turned;
+  Eigen::Map<Matrix3>(rotation.col(n).data()) = turned.toRotationMatrix();
+}
+
+void ShellNodes::drift(double dt) {
+  x += dt * v;
+  for (Eigen::Index n = 0; n < count(); ++n) {
+    const Vector3 half = 0.5 * dt * w.col(n);
+    const double squared = half.squaredNorm();
+    if (squared == 0.0) continue;
+    // cos and sin(angle)/angle of half the turn, by series while it is small
+    double cosine, sinc;
+    if (squared < 1e-4) {
+      cosine = 1.0 - squared / 2.0 * (1.0 - squared / 12.0 * (1.0 - squared / 30.0 * (1.0 - squared / 56.0)));
+      sinc = 1.0 - squared / 6.0 * (1.0 - squared / 20.0 * (1.0 - squared / 42.0));
+    } else {
+      const double angle = std::sqrt(squared);
+      cosine = std::cos(angle);
+      sinc = std::sin(angle) / angle;
+    }
+    Quaternion turned =
+        Quaternion(cosine, sinc * half.x(), sinc * half.y(), sinc * half.z()) * q[static_cast<std::size_t>(n)];
+    turned.normalize();
+    set_rotation(n, turned);
+  }
+}
+
+void ShellNodes::stop() {
+  v.setZero();
+  w.setZero();
+}
+
+double ShellNodes::kinetic_energy() const {
+  double twice = 0.0;
+  for (Eigen::Index n = 0; n < count(); ++n) twice += mass[n] * v.col(n).squaredNorm() + inertia[n] * w.col(n).squaredNorm();
+  return 0.5 * twice;
+}
+
+double ShellNodes::largest_unbalanced(double length) const {
+  return std::max(force.cwiseProduct(free_to_move).cwiseAbs().maxCoeff(),
+                  moment.cwiseProduct(free_to_turn).cwiseAbs().maxCoeff() / length);
+}
+
+std::vector<double> ShellNodes::state() const {
+  std::vector<double> numbers;
+  numbers.reserve(state_size());
+  for (const Matrix3X* m : {&x, &v, &w}) numbers.insert(numbers.end(), m->data(), m->data() + m->size());
+  for (const Quaternion& turn : q) numbers.insert(numbers.end(), turn.coeffs().data(), turn.coeffs().data() + 4);
+  return numbers;
+}
+
+const double* ShellNodes::restore(const double* next) {
+  for (Matrix3X* m : {&x, &v, &w}) {
+    std::copy(next, next + m->size(), m->data());
+    next += m->size();
+  }
+  for (Eigen::Index n = 0; n < count(); ++n, next += 4) {
+    Quaternion turn;
+    std::copy(next, next + 4, turn.coeffs().data());
+    set_rotation(n, turn);
+  }
+  return next;
+}
+
+}  // namespace furrow

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// A table of recorded quantities against time: what the rig measures and the files keep.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace furrow {
+
+/// One recorded quantity.
+struct Channel {
+  std::string name;     ///< "sinkage"
+  std::string unit;     ///< "m"
+  std::string meaning;  ///< "bed level minus lowest point of the wheel without grousers"
+};
+
+/// Rows of equal length, one column a channel; the first channel is the time [s].
+class History {
+ public:
+  History() = default;
+  explicit History(std::vector<Channel> channels);
+
+  const std::vector<Channel>& channels() const { return channels_; }
+  std::size_t size() const { return channels_.empty() ? 0 : values_.size() / channels_.size(); }
+  void append(const std::vector<double>& row);  ///< @throws Error when the length differs from channels()
+  double at(std::size_t row, std::size_t channel) const;
+  std::vector<double> column(const std::string& name) const;  ///< @throws Error for an unknown channel
+  std::size_t index(const std::string& name) const;           ///< @throws Error for an unknown channel
+  /// Drops every row later than time (a restart continues from there).
+  void truncate_after(double time);
+
+ private:
+  std::vector<Channel> channels_;
+  std::vector<double> values_;  // row after row
+};
+
+}  // namespace furrow

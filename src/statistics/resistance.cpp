@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "statistics/resistance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace furrow {
+
+namespace {
+
+constexpr double least_coefficient = 0.1;  // of the vertical force, below which a force or a coefficient counts as small
+
+std::vector<double> part_of(const History& history, const std::string& channel, const Window& window) {
+  const std::vector<double> column = history.column(channel);
+  return {column.begin() + static_cast<std::ptrdiff_t>(window.first),
+          column.begin() + static_cast<std::ptrdiff_t>(window.last)};
+}
+
+/// Spacing of rows [s]. @throws Error when one step between rows is longer than one and a half mean ones
+double spacing_of(const std::vector<double>& time) {
+  const double spacing = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+  for (std::size_t i = 1; i < time.size(); ++i)
+    if (!(time[i] > time[i - 1] && time[i] - time[i - 1] < 1.5 * spacing))
+      throw Error(fmt::format(
+          "the rows of the history are not equally spaced: {} s is followed by {} s, the mean spacing is {:.3g} s; "
+          "rows are missing or were recorded with different intervals",
+          time[i - 1], time[i], spacing));
+  return spacing;
+}
+
+}  // namespace
+
+const SteadyValue& Resistance::value(const std::string& name) const {
+  const auto found =
+      std::find_if(values.begin(), values.end(), [&](const SteadyValue& value) { return value.name == name; });
+  if (found == values.end()) throw Error(fmt::format("no steady value '{}'", name));
+  return *found;
+}
+
+std::vector<double> linearised_ratio(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.size() != b.size() || a.empty()) throw Error(fmt::format("a ratio of {} and {} values", a.size(), b.size()));
+  const double sum_a = std::accumulate(a.begin(), a.end(), 0.0), sum_b = std::accumulate(b.begin(), b.end(), 0.0);
+  if (!(std::abs(sum_b) > 0.0)) throw StateError("a ratio to a quantity whose mean is zero");
+  const double ratio = sum_a / sum_b, mean_b = sum_b / static_cast<double>(b.size());
+  std::vector<double> series(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) series[i] = ratio + (a[i] - ratio * b[i]) / mean_b;
+  return series;
+}
+
+Resistance measure_resistance(const History& history, const ResistanceOptions& options) {
+  Resistance result;
+  result.window = select_window(history, options.window, {"sinkage", "force_x", "force_z", "drive_torque", "slip"});
+  const Window& window = result.window;
+  const double spacing = spacing_of(part_of(history, "time", window));
+  const auto part = [&](const std::string& channel) { return part_of(history, channel, window); };
+  const auto add = [&](const std::string& name, const std::string& unit, const std::vector<double>& values,
+                       double reference) {
+    result.values.push_back(analyse_steady(name, unit, values, spacing, reference, options.criteria));
+  };
+
+  const std::vector<double> force_z = part("force_z"), drawbar_pull = part("drawbar_pull");
+  std::vector<double> resistance = part("force_x");
+  for (double& force : resistance) force = -force;
+
+  add("sinkage", "m", part("sinkage"), 0.0);
+  add("force_z", "N", force_z, 0.0);
+  const double small_force = least_coefficient * std::abs(result.values.back().mean);
+  add("resistance_coefficient", "", linearised_ratio(resistance, force_z), least_coefficient);
+  add("drawbar_pull", "N", drawbar_pull, small_force);
+  add("drawbar_coefficient", "", linearised_ratio(drawbar_pull, force_z), least_coefficient);
+  add("drive_torque", "N m", part("drive_torque"), 0.0);
+  add("slip", "", part("slip"), least_coefficient);
+
+  std::string reason;
+  const auto because = [&](const std::string& text) { reason += (reason.empty() ? "" : "; ") + text; };
+  if (!window.warning.empty()) because(window.warning);
+  if (window.distance < options.shortest_distance)
+    because(fmt::format("the window is too short: the wheel travels {:.3g} m in it, {:.3g} m are needed", window.distance,
+                        options.shortest_distance));
+  for (const SteadyValue& value : result.values)
+    if (!value.steady) because(fmt::format("{}: {}", value.name, value.verdict.substr(std::string("not steady: ").size())));
+  result.steady = reason.empty();
+  result.verdict = result.steady ? "steady" : "not steady: " + reason;
+  return result;
+}
+
+}  // namespace furrow

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The rigid floor: pressure by penetration, sticking and sliding by Coulomb's law, continuation.
+
+#include "bodies/rigid_plane.h"
+
+#include <gtest/gtest.h>
+
+#include "bodies/rigid_plate.h"
+#include "core/error.h"
+
+namespace furrow {
+namespace {
+
+constexpr double side = 0.2;
+
+Surface plate_at(double height) {
+  Surface surface = make_plate_mesh({PlateShape::square, side, 0.02, 8}, "plate");
+  surface.x.row(2).array() += height;
+  return surface;
+}
+
+TEST(RigidPlane, ANodesShareOfTheAreaCarriesItsPressure) {
+  Surface surface = plate_at(-1e-4);
+  RigidPlane plane({0.0, 1e8, 0.0, 0.0, 1e8}, surface);
+  plane.press_on(surface);
+  // Lower face of side^2 and, at its edge, half of the sides 0.02 m high (their own triangles' shares)
+  const double lower = side * side, sides = 0.5 * 4.0 * side * 0.02;
+  EXPECT_NEAR(plane.total_force().z(), 1e8 * 1e-4 * (lower + sides), 0.1 * 1e8 * 1e-4 * sides);
+  EXPECT_NEAR(surface.total_force().z(), plane.total_force().z(), 1e-9);
+  EXPECT_NEAR(plane.pressure().maxCoeff(), 1e4, 1e-6);
+  EXPECT_NEAR(plane.stored_energy(), 0.5 * 1e-4 * plane.total_force().z(), 1e-9);
+  surface.clear_forces();
+  surface.x.row(2).array() += 2e-4;
+  plane.press_on(surface);
+  EXPECT_EQ(surface.f.cwiseAbs().maxCoeff(), 0.0);
+}
+
+TEST(RigidPlane, SticksAndSlides) {
+  Surface surface = plate_at(-1e-4);
+  RigidPlane plane({0.0, 1e8, 0.0, 0.5, 1e8}, surface);
+  plane.press_on(surface);
+  EXPECT_EQ(plane.total_force().x(), 0.0);
+  const double weight = plane.total_force().z();
+  surface.x.row(0).array() += 2e-5;  // shear stress 2e3 of at most 5e3 Pa: sticks
+  surface.clear_forces();
+  plane.press_on(surface);
+  EXPECT_NEAR(plane.total_force().x(), -0.2 * weight, 1e-9 * weight);
+  surface.x.row(0).array() += 1e-3;  // slides
+  surface.clear_forces();
+  plane.press_on(surface);
+  EXPECT_NEAR(plane.total_force().x(), -0.5 * weight, 1e-9 * weight);
+  surface.x.row(0).array() -= 5e-5;  // back by the spring's stretch: free of force, at the new place
+  surface.clear_forces();
+  plane.press_on(surface);
+  EXPECT_NEAR(plane.total_force().x(), 0.0, 1e-9 * weight);
+}
+
+TEST(RigidPlane, DampingPushesButNeverPulls) {
+  Surface surface = plate_at(-1e-4);
+  RigidPlane plane({0.0, 1e8, 1e5, 0.0, 1e8}, surface);
+  surface.v.row(2).setConstant(-0.05);
+  plane.press_on(surface);
+  EXPECT_NEAR(plane.pressure().maxCoeff(), 1e4 + 5e3, 1e-6);
+  surface.v.row(2).setConstant(1.0);
+  plane.press_on(surface);
+  EXPECT_EQ(plane.pressure().maxCoeff(), 0.0);
+}
+
+TEST(RigidPlane, ContinuesFromItsState) {
+  Surface surface = plate_at(-1e-4);
+  const RigidPlaneParameters parameters{0.0, 1e8, 0.0, 0.5, 1e8};
+  RigidPlane plane(parameters, surface);
+  plane.press_on(surface);
+  surface.x.row(1).array() += 3e-5;
+  Surface moved = surface;
+  moved.x *= 1.1;  // another shape, whose areas must not count
+  moved.x.row(2) = surface.x.row(2);
+  RigidPlane other(parameters, moved);
+  const std::vector<double> state = plane.state();
+  other.restore(state.data());
+  plane.press_on(surface);
+  other.press_on(surface);
+  EXPECT_EQ(plane.total_force(), other.total_force());
+  EXPECT_LT(plane.total_force().y(), 0.0);
+}
+
+TEST(RigidPlane, RefusesValuesOutOfRange) {
+  const Surface surface = plate_at(0.0);
+  try {
+    RigidPlane({0.0, -1.0, 0.0, 0.5, 1e8}, surface);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "rigid plane, stiffness is -1; allowed: a number > 0 [Pa/m]");
+  }
+  EXPECT_THROW(RigidPlane({0.0, 1e8, 0.0, -0.5, 1e8}, surface), InputError);
+}
+
+}  // namespace
+}  // namespace furrow

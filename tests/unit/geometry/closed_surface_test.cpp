@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A surface that should be the skin of a solid: what is wrong with it is said with the edge.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/closed_surface.h"
+#include "geometry/wheel_mesh.h"
+#include "core/error.h"
+
+namespace furrow {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+Surface tetrahedron() {
+  Surface surface;
+  surface.resize(4);
+  surface.x.col(1) = Vector3::UnitX();
+  surface.x.col(2) = Vector3::UnitY();
+  surface.x.col(3) = Vector3::UnitZ();
+  surface.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  return surface;
+}
+
+TEST(ClosedSurface, TetrahedronAndWheelAreClosed) {
+  EXPECT_NO_THROW(check_closed(tetrahedron(), "tetrahedron"));
+  WheelGeometry wheel;
+  wheel.diameter = 0.6;
+  wheel.width = 0.2;
+  wheel.shoulder = 0.03;
+  wheel.grousers = {12, 0.02, 0.01, 0.3};
+  EXPECT_NO_THROW(check_closed(make_wheel_mesh(wheel), "wheel"));
+}
+
+TEST(ClosedSurface, MissingTriangleIsAnOpenEdge) {
+  Surface surface = tetrahedron();
+  surface.triangles.pop_back();
+  EXPECT_THAT([&] { check_closed(surface, "soil"); },
+              ThrowsMessage<StateError>(AllOf(HasSubstr("body 'soil': its surface is not closed"),
+                                              HasSubstr("the edge of nodes 1 and 2 belongs to one triangle"))));
+}
+
+TEST(ClosedSurface, TurnedTriangleIsNamed) {
+  Surface surface = tetrahedron();
+  std::swap(surface.triangles[3][0], surface.triangles[3][1]);
+  EXPECT_THAT([&] { check_closed(surface, "soil"); }, ThrowsMessage<StateError>(HasSubstr("turned inside out")));
+}
+
+TEST(ClosedSurface, FinOnASolidIsRefused) {
+  Surface surface = tetrahedron();
+  surface.triangles.push_back({0, 1, 2});
+  EXPECT_THAT([&] { check_closed(surface, "soil"); },
+              ThrowsMessage<StateError>(HasSubstr("belongs to more than two triangles")));
+}
+
+TEST(ClosedSurface, NothingIsNotClosed) {
+  EXPECT_THAT([] { check_closed(Surface(), "soil"); }, ThrowsMessage<StateError>(HasSubstr("there are no triangles")));
+}
+
+}  // namespace
+}  // namespace furrow

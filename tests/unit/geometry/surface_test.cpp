@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "geometry/surface.h"
+
+#include <limits>
+#include <random>
+
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+
+namespace furrow {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A tetrahedron with three unit edges from its corner: volume 1/6, closed, outward.
+Surface tetrahedron(const Vector3& corner = Vector3::Zero()) {
+  Surface surface;
+  surface.resize(4);
+  surface.x << 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1;
+  surface.x.colwise() += corner;
+  surface.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  return surface;
+}
+
+template <class Function>
+std::string state_error_of(Function&& function) {
+  try {
+    function();
+  } catch (const StateError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Surface, ResizeZeroesAllArrays) {
+  Surface surface;
+  surface.resize(5);
+  EXPECT_EQ(surface.node_count(), 5u);
+  EXPECT_EQ(surface.triangle_count(), 0u);
+  EXPECT_EQ(surface.x, Matrix3X::Zero(3, 5));
+  EXPECT_EQ(surface.v, Matrix3X::Zero(3, 5));
+  EXPECT_EQ(surface.f, Matrix3X::Zero(3, 5));
+}
+
+TEST(Surface, BarycentricCoordinatesOfCornersAndOfAPointAboveThePlane) {
+  const Surface surface = tetrahedron();
+  for (int corner = 0; corner < 3; ++corner) {
+    const Vector3 weights = surface.barycentric(3, surface.x.col(surface.triangles[3][corner]));
+    EXPECT_NEAR((weights - Vector3::Unit(corner)).norm(), 0.0, 1e-15);
+  }
+  const Vector3 inside(0.2, 0.3, 0.5), above = inside + 0.7 * surface.area_vector(3);
+  EXPECT_NEAR((surface.barycentric(3, above) - inside).norm(), 0.0, 1e-15);
+}
+
+TEST(Surface, ForcesKeepForceAndMomentToRoundOff) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  Surface surface = tetrahedron({3.0, -2.0, 1.0});
+  const Vector3 about(0.1, 0.2, 0.3);
+  Vector3 force = Vector3::Zero(), moment = Vector3::Zero();
+  for (int i = 0; i < 1000; ++i) {
+    const auto triangle = static_cast<std::size_t>(i % 4);
+    const Vector3i nodes = surface.triangles[triangle];
+    const double beta = unit(random), gamma = unit(random);  // also outside of the triangle, on its plane
+    const Vector3 point =
+        (1.0 - beta - gamma) * surface.x.col(nodes[0]) + beta * surface.x.col(nodes[1]) + gamma * surface.x.col(nodes[2]);
+    const Vector3 applied(unit(random), unit(random), unit(random));
+    surface.add_force(triangle, point, applied);
+    force += applied;
+    moment += (point - about).cross(applied);
+  }
+  EXPECT_NEAR((surface.total_force() - force).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((surface.total_moment(about) - moment).norm(), 0.0, 5e-12);
+  surface.clear_forces();
+  EXPECT_EQ(surface.total_force(), Vector3(Vector3::Zero()));
+}
+
+TEST(Surface, ATriangleWithoutAreaTakesNoForce) {
+  Surface surface = tetrahedron();
+  surface.x.col(3) = surface.x.col(1);
+  EXPECT_THAT(state_error_of([&] { surface.add_force(1, Vector3::Zero(), Vector3::UnitX()); }),
+              HasSubstr("triangle 1 has no area"));
+}
+
+TEST(Surface, VolumeAndAreaVectorsOfATetrahedronFarFromTheOrigin) {
+  const Surface surface = tetrahedron({1e6, -1e6, 1e6});
+  EXPECT_NEAR(surface.enclosed_volume(), 1.0 / 6.0, 1e-14);
+  Vector3 sum = Vector3::Zero();
+  for (std::size_t i = 0; i < surface.triangle_count(); ++i) sum += surface.area_vector(i);
+  EXPECT_NEAR(sum.norm(), 0.0, 1e-14);
+  EXPECT_NEAR(surface.area_vector(3).norm(), std::sqrt(3.0) / 2.0, 1e-14);
+  EXPECT_NEAR(surface.total_area(), 1.5 + std::sqrt(3.0) / 2.0, 1e-14);
+  EXPECT_NEAR(surface.minimum_angle(), pi / 4.0, 1e-14);
+}
+
+TEST(Surface, BoundsAreTheExtremeCorners) {
+  const auto [low, high] = tetrahedron({1, 2, 3}).bounds();
+  EXPECT_EQ(low, Vector3(1, 2, 3));
+  EXPECT_EQ(high, Vector3(2, 3, 4));
+  EXPECT_THAT(state_error_of([] { Surface().bounds(); }), HasSubstr("without nodes"));
+}
+
+TEST(Surface, ClosedMeansEveryEdgeTwiceInOppositeDirections) {
+  EXPECT_TRUE(tetrahedron().is_closed());
+  EXPECT_FALSE(Surface().is_closed());
+
+  Surface open = tetrahedron();
+  open.triangles.pop_back();
+  EXPECT_FALSE(open.is_closed());
+
+  Surface flipped = tetrahedron();
+  std::swap(flipped.triangles[2][0], flipped.triangles[2][1]);
+  EXPECT_FALSE(flipped.is_closed());
+
+  Surface doubled = tetrahedron();
+  doubled.triangles.insert(doubled.triangles.end(), doubled.triangles.begin(), doubled.triangles.begin() + 4);
+  EXPECT_FALSE(doubled.is_closed());
+
+  Surface degenerate = tetrahedron();
+  degenerate.triangles.push_back({0, 0, 1});
+  degenerate.triangles.push_back({1, 0, 0});
+  EXPECT_FALSE(degenerate.is_closed());
+}
+
+TEST(Surface, NotANumberIsReportedWithBodyAndNode) {
+  Surface surface = tetrahedron();
+  EXPECT_NO_THROW(surface.check_finite("wheel"));
+  surface.v(1, 2) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(state_error_of([&] { surface.check_finite("wheel"); }),
+              HasSubstr("body 'wheel': the velocity of node 2 is not finite (0 nan 0)"));
+  surface.x(0, 1) = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(state_error_of([&] { surface.check_finite("wheel"); }), HasSubstr("the position of node 1 is not finite"));
+}
+
+}  // namespace
+}  // namespace furrow

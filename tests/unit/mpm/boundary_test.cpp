@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mpm/boundary.h"
+
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+#include "terrain_scene.h"
+
+namespace furrow {
+namespace {
+
+using testing_ground::even;
+
+constexpr double mass = 2.0, dt = 1e-3;
+const Vector3 weightless = Vector3::Zero();
+
+Grid small_grid() { return Grid(Axis(even(0, 4, 1), "x"), Axis(even(0, 3, 1), "y"), Axis(even(0, 2, 1), "z")); }
+
+template <class Visit>
+void for_nodes(Grid& grid, Visit visit) {
+  for (int i = 0; i < grid.nodes(0); ++i)
+    for (int j = 0; j < grid.nodes(1); ++j)
+      for (int k = 0; k < grid.nodes(2); ++k) visit(grid.motion(i, j, k), i, j, k);
+}
+
+void give_velocity(Grid& grid, const Vector3& v) {
+  for_nodes(grid, [&](NodeMotion& n, int, int, int) {
+    Eigen::Map<Vector3>(n.velocity) = v;
+    n.mass = mass;
+  });
+}
+
+void give_sums(Grid& grid, const Vector3& force) {
+  for (int i = 0; i < grid.nodes(0); ++i)
+    for (int j = 0; j < grid.nodes(1); ++j)
+      for (int k = 0; k < grid.nodes(2); ++k) {
+        Eigen::Map<Vector3>(grid.sum(i, j, k).total) = force;
+        grid.motion(i, j, k).mass = mass;
+      }
+}
+
+std::array<FaceKind, face_count> only(FacePlace face, FaceKind kind) {
+  std::array<FaceKind, face_count> kinds;
+  kinds.fill(FaceKind::free);
+  kinds[face] = kind;
+  return kinds;
+}
+
+std::vector<WaveSpeeds> speeds(const Grid& grid) {
+  return std::vector<WaveSpeeds>(static_cast<std::size_t>(grid.nodes(2)), {300.0, 150.0});
+}
+
+TEST(Faces, NamesFollowTheKinds) {
+  EXPECT_EQ(face_kind("free"), FaceKind::free);
+  EXPECT_EQ(face_kind("absorbing"), FaceKind::absorbing);
+  EXPECT_THROW(face_kind("sticky"), Error);
+}
+
+TEST(Faces, SmoothStopsWhatIsAcrossAndRoughStopsAll) {
+  const Vector3 v(1.0, 2.0, 3.0);
+  for (int face = 0; face < face_count; ++face)
+    for (const FaceKind kind : {FaceKind::smooth, FaceKind::rough}) {
+      Grid grid = small_grid();
+      give_velocity(grid, v);
+      Faces faces(grid, only(static_cast<FacePlace>(face), kind), {2, 2, 2}, speeds(grid));
+      EXPECT_TRUE(faces.captured());
+      faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+      const int axis = face / 2, plane = face % 2 == 0 ? 0 : grid.nodes(axis) - 1;
+      Vector3 expected = Vector3::Zero();
+      for_nodes(grid, [&](const NodeMotion& n, int i, int j, int k) {
+        const int at[3] = {i, j, k};
+        Vector3 after = v;
+        if (at[axis] == plane) {
+          if (kind == FaceKind::rough) after.setZero();
+          after[axis] = 0.0;
+          expected += mass * (after - v);
+        }
+        EXPECT_EQ(Vector3(Eigen::Map<const Vector3>(n.velocity)), after);
+      });
+      EXPECT_LT((faces.impulse(static_cast<FacePlace>(face)) - expected).norm(), 1e-12);
+      EXPECT_EQ(faces.work(), 0.0);
+    }
+}
+
+/// v' = (v - dt c^2/(l L) u)/(1 + dt c/l) with u the displacement before: dashpot and spring of one node across the face, taken implicitly.
+TEST(Faces, AbsorbingIsDashpotAndSpring) {
+  Grid grid = small_grid();
+  Faces faces(grid, only(x_upper, FaceKind::absorbing), {2, 2, 2}, speeds(grid));
+  EXPECT_FALSE(faces.captured());
+  faces.capture(grid, grid.all_planes(), weightless);  // nothing to hold
+  EXPECT_TRUE(faces.captured());
+  const double extent = 0.3125, length = 0.5 * 4.0;  // [m] (0.75^2 + 0.25^2)/2 of the spline at two particles a cell
+  Vector3 u = Vector3::Zero(), v(1.0, 2.0, 3.0);
+  double work = 0.0;
+  for (int step = 0; step < 3; ++step) {
+    give_velocity(grid, v);
+    faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+    Vector3 after;
+    for (int c = 0; c < 3; ++c) {
+      const double speed = c == 0 ? 300.0 : 150.0;
+      after[c] = (v[c] - dt * speed * speed / (extent * length) * u[c]) / (1.0 + dt * speed / extent);
+    }
+    u += dt * after;
+    EXPECT_LT((Eigen::Map<const Vector3>(grid.motion(5, 2, 1).velocity) - after).norm(), 1e-14);
+    EXPECT_EQ(Vector3(Eigen::Map<const Vector3>(grid.motion(4, 2, 1).velocity)), v);
+    work += grid.nodes(1) * grid.nodes(2) * mass * (after - v).dot(after);
+    v = after;
+  }
+  EXPECT_NEAR(faces.work(), work, 1e-12 * std::abs(work));
+}
+
+/// What held the ground at the start is held on: a node on several faces is held once.
+TEST(Faces, ForcesOfTheStartAreHeld) {
+  for (const int count : {1, 2, 3}) {
+    std::array<FaceKind, face_count> kinds;
+    kinds.fill(FaceKind::free);
+    const FacePlace places[3] = {x_upper, y_upper, z_lower};
+    for (int n = 0; n < count; ++n) kinds[places[n]] = FaceKind::absorbing;
+    Grid grid = small_grid();
+    Faces faces(grid, kinds, {2, 2, 2}, speeds(grid));
+    const Vector3 pull(10.0, -20.0, 30.0);  // [N] on every node
+    const Vector3 gravity(0.0, 1.0, -9.0), stress = pull - mass * gravity;
+    give_sums(grid, stress);
+    faces.capture(grid, grid.all_planes(), gravity);
+    for (int step = 0; step < 5; ++step) {
+      give_velocity(grid, dt * pull / mass);
+      faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+      for_nodes(grid, [&](const NodeMotion& n, int i, int j, int k) {
+        const bool held = i == grid.nodes(0) - 1 || (count > 1 && j == grid.nodes(1) - 1) || (count > 2 && k == 0);
+        const Vector3 expected = held ? Vector3(0, 0, 0) : Vector3(dt * pull / mass);
+        EXPECT_LT((Eigen::Map<const Vector3>(n.velocity) - expected).norm(), 1e-14)
+            << count << " faces, node " << i << " " << j << " " << k;
+      });
+    }
+  }
+}
+
+/// A node that a wall holds does not move, so the far field that meets the wall there does no work on it and holds nothing.
+TEST(Faces, AbsorbingLeavesToWallsWhatTheyHold) {
+  Grid grid = small_grid();
+  std::array<FaceKind, face_count> kinds = only(x_upper, FaceKind::absorbing);
+  kinds[z_lower] = FaceKind::rough;
+  kinds[y_lower] = FaceKind::smooth;
+  Faces faces(grid, kinds, {2, 2, 2}, speeds(grid));
+  faces.capture(grid, grid.all_planes(), weightless);
+  const Vector3 v(1.0, 2.0, 3.0);
+  double work = 0.0;
+  for (int step = 0; step < 2; ++step) {
+    give_velocity(grid, v);
+    faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+  }
+  for_nodes(grid, [&](const NodeMotion& n, int i, int j, int k) {
+    if (k == 0 || j == 0) {
+      EXPECT_EQ(n.velocity[1], 0.0);
+    }
+    if (k == 0) {
+      EXPECT_EQ(n.velocity[0], 0.0);
+    }
+    static_cast<void>(i);
+  });
+  // The whole impulse on the nodes of the rough floor is the floor's.
+  const double floor = -2.0 * mass * grid.nodes(0) * grid.nodes(1);
+  EXPECT_NEAR(faces.impulse(z_lower).x(), floor * v.x(), 1e-9);
+  EXPECT_NEAR(faces.impulse(z_lower).z(), floor * v.z(), 1e-9);
+  // Nodes of the absorbing face that are free to move along x: without those of the floor.
+  const double c = 300.0, extent = 0.3125, length = 2.0, cs = 150.0;
+  double u[3] = {0, 0, 0};
+  for (int step = 0; step < 2; ++step)
+    for (int d = 0; d < 3; ++d) {
+      const double speed = d == 0 ? c : cs,
+                   after = (v[d] - dt * speed * speed / (extent * length) * u[d]) / (1.0 + dt * speed / extent);
+      u[d] += dt * after;
+      const int rows = d == 1 ? grid.nodes(1) - 1 : grid.nodes(1);
+      work += rows * (grid.nodes(2) - 1) * mass * (after - v[d]) * after;
+    }
+  EXPECT_NEAR(faces.work(), work, 1e-12 * std::abs(work));
+}
+
+TEST(Faces, StateIsRestoredAndMovesWithTheGrid) {
+  Grid grid = small_grid();
+  Faces faces(grid, only(y_upper, FaceKind::absorbing), {2, 2, 2}, speeds(grid));
+  give_velocity(grid, {1, 2, 3});
+  faces.capture(grid, grid.all_planes(), weightless);
+  for_nodes(grid, [&](NodeMotion& n, int i, int, int) {
+    Eigen::Map<Vector3>(n.velocity) = Vector3(i, 0, 0);
+    n.mass = mass;
+  });
+  faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+  std::vector<double> saved;
+  faces.save(saved);
+  EXPECT_EQ(saved.size(), faces.state_length());
+
+  Faces other(grid, only(y_upper, FaceKind::absorbing), {2, 2, 2}, speeds(grid));
+  EXPECT_EQ(other.restore(saved.data(), true), saved.data() + saved.size());
+  std::vector<double> again;
+  other.save(again);
+  EXPECT_EQ(again, saved);
+  other.restore(saved.data(), false);
+  EXPECT_EQ(other.impulse(y_upper), Vector3::Zero());
+  EXPECT_EQ(other.work(), 0.0);
+
+  // Rows between the ends move by one; the one that enters has no displacement. Displacements are the last numbers of the state.
+  faces.shift_x(1);
+  std::vector<double> moved;
+  faces.save(moved);
+  const auto row = static_cast<std::size_t>(3 * grid.nodes(2)), rows = static_cast<std::size_t>(grid.nodes(0));
+  const double* before = saved.data() + saved.size() - rows * row;
+  const double* after = moved.data() + moved.size() - rows * row;
+  for (std::size_t r = 0; r < rows; ++r) {
+    const double expected = r < 2 || r + 2 >= rows ? before[r * row] : r + 3 < rows ? before[(r + 1) * row] : 0.0;
+    EXPECT_EQ(after[r * row], expected) << "row " << r;
+  }
+  Faces across(grid, only(x_upper, FaceKind::absorbing), {2, 2, 2}, speeds(grid));
+  EXPECT_THROW(across.shift_x(1), Error);
+}
+
+}  // namespace
+}  // namespace furrow

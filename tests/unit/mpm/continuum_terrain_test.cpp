@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mpm/continuum_terrain.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "bodies/rigid_plate.h"
+#include "core/error.h"
+#include "terrain_scene.h"
+
+namespace furrow {
+namespace {
+
+using ::testing::HasSubstr;
+using namespace testing_ground;
+
+constexpr double cell = 0.025, depth = 0.1;
+
+GroundParameters snow_bed(const std::string& law = snow()) {
+  GroundParameters parameters = box(law_of(law), {-0.1, -0.1, 0}, {0.1, 0.1, depth}, cell);
+  parameters.z = even(0, depth + 2 * cell, cell);
+  parameters.gravity = {0, 0, -standard_gravity};
+  parameters.initial_stress = true;
+  set_faces(parameters, {"absorbing", "smooth", "smooth", "absorbing", "rough", "free"});
+  return parameters;
+}
+
+/// A plate that is pushed into a bed, with all that a restart must carry: friction, absorbing faces, sorting.
+struct Scene {
+  explicit Scene(const GroundParameters& parameters)
+      : ground(parameters, Communicator()),
+        plate({PlateShape::square, 0.1, 0.05, 4}, {0, 0, depth + 1e-4}),
+        contact(plate, ground, ContactParameters{}, false, "foot") {
+    world.add(plate, "plate");
+    world.add(ground, "ground");
+    world.add(contact, "foot");
+  }
+  void run(int intervals) {
+    for (int n = 0; n < intervals; ++n) {
+      plate.prescribe(-1.0);
+      world.advance(2e-4);
+    }
+  }
+  MpmGround ground;
+  RigidPlate plate;
+  GroundContact contact;
+  World world;
+};
+
+void expect_same(const std::vector<double>& a, const std::vector<double>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  std::size_t different = 0;
+  for (std::size_t n = 0; n < a.size(); ++n) different += a[n] != b[n] ? 1 : 0;
+  EXPECT_EQ(different, 0u) << "of " << a.size() << " numbers";
+}
+
+void expect_exact_restart(const GroundParameters& parameters) {
+  Scene through(parameters);
+  through.run(40);
+  Scene again(parameters);
+  again.plate.restore(through.plate.state());
+  again.ground.restore(through.ground.state());
+  again.contact.restore(through.contact.state());
+  expect_same(through.ground.state(), again.ground.state());
+  through.run(50);
+  again.run(50);
+  EXPECT_GT(through.contact.contacts(), 10.0);
+  expect_same(through.ground.state(), again.ground.state());
+  expect_same(through.contact.state(), again.contact.state());
+  EXPECT_EQ(through.contact.force(), again.contact.force());
+}
+
+TEST(GroundRestart, ContinuesBitForBit) { expect_exact_restart(snow_bed()); }
+
+TEST(GroundRestart, ContinuesBitForBitOnAGradedGrid) {
+  GroundParameters parameters = snow_bed();
+  parameters.x = {-0.2, 0.2, cell, -0.1, 0.1, 1.2};
+  expect_exact_restart(parameters);
+}
+
+/// Porous elasticity: the stiffness of the contact follows the modulus.
+TEST(GroundRestart, ContinuesBitForBitWithPorousElasticity) {
+  expect_exact_restart(
+      snow_bed("crushable_foam density 200 pt 2000 sigma0 5000 K 1 pc0_reading pc0 elasticity porous elasticity.kappa 0.005 "
+               "elasticity.e0 3.5 nu 0.3 "
+               "pt_el 5000 hardening exponential pc0 5000 lambda 0.35 hardening.kappa 0.005 hardening.e0 3.5"));
+}
+
+TEST(GroundRestart, RefusesTheStateOfOtherGround) {
+  const MpmGround ground(snow_bed(), Communicator());
+  GroundParameters other = snow_bed();
+  other.x = even(-0.1, 0.2, cell);
+  MpmGround wider(other, Communicator());
+  try {
+    wider.restore(ground.state());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("continuum ground: the saved state belongs to other ground"));
+  }
+  EXPECT_THROW(wider.restore({}), Error);
+}
+
+/// Ground that follows a wheel: fresh ground ahead, what is behind is dropped and leaves its profile; nothing moves by that.
+TEST(MovingGround, DropsBehindAndAddsAhead) {
+  GroundParameters parameters = snow_bed();
+  set_faces(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
+  parameters.window = true;
+  MpmGround ground(parameters, Communicator());
+  const double particles = ground.particle_count(), mass = sums_of(ground).mass;
+  ground.advance(1e-5);
+  ground.follow(0.3);
+  for (int step = 0; step < parameters.cycle; ++step) ground.advance(1e-5);  // at the end of a cycle
+  EXPECT_NEAR(ground.travelled(), 0.275, 1e-12);                             // by whole cells, one behind what it follows
+  EXPECT_EQ(ground.particle_count(), particles);
+  EXPECT_NEAR(sums_of(ground).mass / mass, 1.0, 1e-12);
+  EXPECT_NEAR(sums_of(ground).centre.x(), 0.275, 1e-6);
+  ASSERT_EQ(ground.rut().size(), 11u * 8u);  // columns dropped times cells across, the new ones of the gap included
+  for (const RutPoint& point : ground.rut()) {
+    EXPECT_NEAR(point.z, depth, 1e-3);
+    EXPECT_NEAR(point.density, 200.0, 1.0);
+    EXPECT_LT(point.x, 0.275 - 0.1);
+  }
+  std::vector<double> ids;
+  for_particles(ground, [&](Particles& p, std::size_t n) { ids.push_back(p.data(column::id)[n]); });
+  std::sort(ids.begin(), ids.end());
+  EXPECT_EQ(std::unique(ids.begin(), ids.end()), ids.end());
+  const Balance balance = ground.balance();
+  EXPECT_NEAR(balance.stored_energy + balance.dissipated_energy, 0.0, 1e-6);
+}
+
+TEST(MovingGround, RefusesGradedAndAbsorbingFacesAlongItsWay) {
+  GroundParameters parameters = snow_bed();
+  parameters.window = true;
+  EXPECT_THROW(MpmGround(parameters, Communicator()), InputError);  // absorbs across x
+  set_faces(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
+  parameters.x = {-0.2, 0.2, cell, -0.1, 0.1, 1.2};
+  try {
+    MpmGround ground(parameters, Communicator(), "fix soil");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("fix soil moves along a graded x axis"));
+  }
+}
+
+TEST(Ground, StableStepIsTheCourantNumberOfTheShortestCell) {
+  GroundParameters parameters = box(law_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
+  parameters.z = even(0, 0.2, 0.025);
+  parameters.cfl = 0.3;
+  MpmGround ground(parameters, Communicator());
+  EXPECT_NEAR(ground.stable_time_step(), 0.3 * 0.025 / std::sqrt(1.2e6 / 1000), 1e-9);
+  set_motion(ground, {30.0, 0, 0});
+  ground.advance(1e-9);
+  EXPECT_NEAR(ground.stable_time_step(), 0.3 * 0.025 / (std::sqrt(1.2e6 / 1000) + 30.0), 1e-9);
+}
+
+TEST(Ground, StopsWhenParticlesLeaveTheGrid) {
+  GroundParameters parameters = box(law_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
+  MpmGround ground(parameters, Communicator());
+  set_motion(ground, {10.0, 0, 0});  // all faces are free
+  try {
+    for (int n = 0; n < 1000; ++n) ground.advance(1e-4);
+    FAIL();
+  } catch (const StateError& error) {
+    EXPECT_THAT(
+        error.what(),
+        HasSubstr("outside of the grid (x 0 to 0.2, y 0 to 0.2, z 0 to 0.2 m): give the ground more headroom or size"));
+  }
+}
+
+/// A particle close to a wall that moves towards it is stopped there, whatever the cycle; its half-way place would be beyond.
+TEST(Ground, AParticleThatMeetsAWallStaysInside) {
+  GroundParameters parameters = box(law_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
+  set_faces(parameters, {"smooth", "free", "smooth", "smooth", "smooth", "free"});
+  MpmGround ground(parameters, Communicator());
+  ground.phases()[0].particles.data(column::x)[0] = 1e-6;
+  set_motion(ground, {-1.0, 0, 0});
+  for (int n = 0; n < 32; ++n) ground.advance(1e-5);
+  EXPECT_GE(ground.phases()[0].particles.data(column::x)[0], 0.0);
+}
+
+TEST(Ground, RefusesASurfaceInsideACell) {
+  GroundParameters parameters = box(law_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
+  parameters.z = even(0, 0.32, 0.05);  // becomes six cells of 5.3 cm
+  try {
+    MpmGround ground(parameters, Communicator(), "fix soil");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(
+        error.what(),
+        HasSubstr("fix soil has its surface at z = 0.2 m, inside of a cell; allowed: the height of an end of a cell"));
+  }
+}
+
+TEST(Ground, LayersAreFilledWithTheirLaws) {
+  GroundParameters parameters = box(law_of(snow()), {0, 0, 0}, {0.1, 0.1, 0.2}, 0.025);
+  parameters.layers = {{law_of(snow()), 0.05}, {law_of(elastic(1e7, 0.3, 1800)), 0.0}};
+  MpmGround ground(parameters, Communicator());
+  ASSERT_EQ(ground.phases().size(), 2u);
+  EXPECT_EQ(ground.phases()[0].particles.size(), 4u * 4u * 2u * 8u);
+  EXPECT_EQ(ground.phases()[1].particles.size(), 4u * 4u * 6u * 8u);
+  EXPECT_NEAR(sums_of(ground).mass, 0.01 * (0.05 * 200 + 0.15 * 1800), 1e-9);
+}
+
+/// Which particle a law refuses, not which block it was in.
+TEST(Ground, ALawsRefusalNamesTheParticle) {
+  GroundParameters parameters = box(law_of(snow()), {-0.1, -0.1, 0}, {0.1, 0.1, depth}, cell);
+  MpmGround ground(parameters, Communicator());
+  Particles& particles = ground.phases()[0].particles;
+  const std::size_t broken = particles.size() - 5;
+  // What only the law reads: others are not touched by it.
+  particles.data(column::state + parameters.layers[0].law->field_index("eps_vol_pl"))[broken] = std::nan("");
+  const Vector3 x = particles.position(broken);
+  set_motion(ground, Vector3::Zero(), Vector3(0.0, 0.0, -10.0).asDiagonal());  // all yield
+  try {
+    ground.advance(1e-5);
+    ADD_FAILURE() << "accepted";
+  } catch (const StateError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(fmt::format("the particle at {:.4g} {:.4g} {:.4g} m: law", x[0], x[1], x[2])));
+  }
+}
+
+}  // namespace
+}  // namespace furrow

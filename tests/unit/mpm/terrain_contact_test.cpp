@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mpm/contact/terrain_contact.h"
+
+#include <gmock/gmock.h>
+
+#include "bodies/rigid_plate.h"
+#include "core/error.h"
+#include "terrain_scene.h"
+
+namespace furrow {
+namespace {
+
+using ::testing::HasSubstr;
+using namespace testing_ground;
+
+template <class Action>
+std::string refusal_of(Action action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+MpmGround block(double y_lower = -0.1) {
+  GroundParameters p = box(law_of(elastic(1e6, 0.2, 500)), {-0.1, y_lower, -0.1}, {0.1, 0.1, 0.0}, 0.025);
+  p.z = even(-0.1, 0.1, 0.025);
+  return MpmGround(p, Communicator());
+}
+
+TEST(GroundContact, ReadsItsKeys) {
+  const auto read = [](const std::vector<std::string>& words) {
+    return GroundContact::parameters_from(GroundContact::schema().read(words));
+  };
+  EXPECT_EQ(read({}).friction, 0.3);
+  EXPECT_EQ(read({"surface", "smooth"}).friction, 0.0);
+  EXPECT_EQ(read({"surface", "rough"}).friction, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(read({"enforcement", "impulse"}).enforcement, ContactParameters::Enforcement::impulse);
+  EXPECT_EQ(read({"friction", "0.5", "slip_length", "0.02"}).slip_length, 0.02);
+  EXPECT_THAT(refusal_of([&] {
+                read({"surface", "rough", "friction", "0.5"});
+              }),
+              HasSubstr("keyword 'friction' is given with a rough surface"));
+  EXPECT_THAT(refusal_of([&] { read({"friction", "-1"}); }), HasSubstr("keyword 'friction' is -1"));
+  EXPECT_THAT(refusal_of([&] { read({"damping", "2"}); }), HasSubstr("keyword 'damping' is 2"));
+}
+
+/// Ground level with a plate's lower face is not touched by it, under the plate or beside its edge.
+TEST(GroundContact, LevelPlateJustTouchesNothing) {
+  MpmGround ground = block();
+  RigidPlate plate({PlateShape::circle, 0.11, 0.05, 4}, {0.003, 0.004, 1e-9});
+  GroundContact contact(plate, ground, ContactParameters{}, false, "foot");
+  contact.apply(1e-5);
+  EXPECT_EQ(contact.contacts(), 0.0);
+  EXPECT_EQ(contact.force(), Vector3::Zero());
+}
+
+/// A spring that the step cannot follow makes energy from nothing.
+TEST(GroundContact, RefusesASpringTooStiffForTheStep) {
+  MpmGround ground = block();
+  RigidPlate plate({PlateShape::circle, 0.11, 0.05, 4}, {0.0, 0.0, 0.01});
+  ContactParameters stiff;
+  stiff.stiffness = 1.01 * std::pow(2.0 / (2.0 * ground.parameters().cfl), 2);
+  EXPECT_THAT(refusal_of([&] { GroundContact(plate, ground, stiff, false, "foot"); }),
+              HasSubstr("sqrt(stiffness) x cfl x particles below 2"));
+}
+
+/// gap = height of the plate above the particles' faces: spring force k gap of every particle under it.
+TEST(GroundContact, SpringsPushByTheirPenetration) {
+  MpmGround ground = block();
+  const double depth = 1e-4, stiffness = 0.4 * (1e6 * 0.8 / (1.2 * 0.6)) * 0.0125;  // 0.4 M V^(1/3)
+  RigidPlate plate({PlateShape::square, 0.1, 0.05, 4}, {0, 0, -depth});
+  GroundContact contact(plate, ground, ContactParameters{}, false, "foot");
+  contact.apply(1e-5);
+  EXPECT_EQ(contact.contacts(), 64.0);
+  EXPECT_NEAR(contact.penetration(), depth, 1e-12);
+  EXPECT_NEAR(contact.force().z(), 64 * stiffness * depth, 1e-9 * contact.force().z());
+  EXPECT_NEAR(contact.area(), 0.01, 1e-9);
+  EXPECT_NEAR(plate.surface().total_force().z(), contact.force().z(), 1e-9);
+}
+
+/// Half a model gives the whole plate's force, without sideways force or moment about x.
+TEST(GroundContact, HalfAModelIsMirrored) {
+  MpmGround whole = block(), half = block(0.0);
+  RigidPlate one({PlateShape::square, 0.1, 0.05, 4}, {0.01, 0, -1e-4}),
+      other({PlateShape::square, 0.1, 0.05, 4}, {0.01, 0, -1e-4});
+  GroundContact full(one, whole, ContactParameters{}, false, "whole"),
+      mirrored(other, half, ContactParameters{}, true, "half");
+  full.apply(1e-5);
+  mirrored.apply(1e-5);
+  EXPECT_EQ(full.contacts(), mirrored.contacts());
+  EXPECT_LT((full.force() - mirrored.force()).norm(), 1e-9 * full.force().norm());
+  // The plate's diagonals are not mirrored, so that nodes may share a force otherwise; its moment is the same.
+  EXPECT_LT((one.surface().total_moment(Vector3::Zero()) - other.surface().total_moment(Vector3::Zero())).norm(),
+            1e-9 * full.force().norm());
+}
+
+TEST(GroundContact, RefusesWhatCannotBe) {
+  MpmGround ground = block(0.0);
+  RigidPlate aside({PlateShape::square, 0.05, 0.05, 4}, {0, 0.01, 0.01});
+  EXPECT_THAT(refusal_of([&] { GroundContact(aside, ground, ContactParameters{}, true, "foot"); }),
+              HasSubstr("foot needs a surface that is its own mirror image in the plane y = 0 m"));
+  RigidPlate inside({PlateShape::square, 0.1, 0.05, 4}, {0, 0.05, -0.08});
+  GroundContact overlap(inside, ground, ContactParameters{}, false, "foot");
+  EXPECT_THAT(refusal_of([&] { overlap.apply(1e-5); }),
+              HasSubstr("is inside of the body at the start; start above the ground"));
+  RigidPlate away({PlateShape::square, 0.1, 0.05, 4}, {0.3, 0.05, 0.01});
+  GroundContact departed(away, ground, ContactParameters{}, false, "foot");
+  EXPECT_THAT(refusal_of([&] { departed.apply(1e-5); }), HasSubstr("the middle of the body is at x = 0.3 m"));
+  GroundContact one(inside, ground, ContactParameters{}, false, "foot");
+  EXPECT_THAT(refusal_of([&] { one.restore({1.0}); }),
+              HasSubstr("foot: the saved state belongs to a contact of another surface"));
+}
+
+}  // namespace
+}  // namespace furrow

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Pieces of ground for tests: boxes of one cell length, bodies carved out of them, their sums, and scenes to run.
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bodies/coupled_system.h"
+#include "mpm/contact/terrain_contact.h"
+#include "mpm/continuum_terrain.h"
+#include "../material/paths.h"
+
+namespace furrow::testing_ground {
+
+inline std::shared_ptr<const Material> law_of(const std::string& text) { return testing_paths::law_of(text); }
+
+inline std::string elastic(double E, double nu, double density) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "elastic density " << density << " elasticity linear E " << E << " nu " << nu;
+  return text.str();
+}
+
+/// Fresh snow of TR Tables 1 and 3 (inputs/materials/fresh_snow.yaml).
+inline std::string snow() {
+  return "drucker_prager_cap density 200 d 5e3 beta 22.53 R 2.2e-2 eps_vol_pl_0 0.001 elasticity linear E 13.79e6 nu 0.3 "
+         "hardening table p 113.76 5e4 1e5 2e5 5e5 1e6 2e6 2.8e6 3.25e6 "
+         "eps_vol_pl 0 0.6419 0.7178 0.8544 0.9933 1.1314 1.3481 1.5041 1.5228 interpolation linear beyond extrapolate";
+}
+
+inline AxisLayout even(double lower, double upper, double cell) { return {lower, upper, cell, lower, upper, 1.0}; }
+
+/// Weightless ground that fills a box up to its top; every face is free.
+inline GroundParameters box(const std::shared_ptr<const Material>& law, const Vector3& lower, const Vector3& upper,
+                            double cell) {
+  GroundParameters ground;
+  ground.x = even(lower.x(), upper.x(), cell);
+  ground.y = even(lower.y(), upper.y(), cell);
+  ground.z = even(lower.z(), upper.z(), cell);
+  ground.surface = upper.z();
+  ground.layers = {{law, upper.z() - lower.z()}};
+  ground.faces.fill(FaceKind::free);
+  ground.gravity.setZero();
+  ground.initial_stress = false;
+  return ground;
+}
+
+inline void set_faces(GroundParameters& ground, const std::array<const char*, face_count>& kinds) {
+  for (std::size_t f = 0; f < face_count; ++f) ground.faces[f] = face_kind(kinds[f]);
+}
+
+/// Calls visit(particles, index) for all particles of this rank.
+template <class Visit>
+void for_particles(MpmGround& ground, Visit visit) {
+  for (GroundPhase& phase : ground.phases())
+    for (std::size_t p = 0; p < phase.particles.size(); ++p) visit(phase.particles, p);
+}
+
+/// Drops all particles but those whose position passes.
+template <class Keep>
+void carve(MpmGround& ground, Keep keep) {
+  for (GroundPhase& phase : ground.phases()) {
+    std::vector<std::size_t> kept;
+    for (std::size_t p = 0; p < phase.particles.size(); ++p)
+      if (keep(phase.particles.position(p))) kept.push_back(p);
+    phase.particles.reorder(kept);
+  }
+}
+
+/// Gives every particle the velocity v + W (x - about).
+inline void set_motion(MpmGround& ground, const Vector3& v, const Matrix3& W = Matrix3::Zero(),
+                       const Vector3& about = Vector3::Zero()) {
+  for_particles(ground, [&](Particles& particles, std::size_t p) {
+    Eigen::Map<Vector3>(particles.data(column::velocity) + 4 * p) = v + W * (particles.position(p) - about);
+    for (int d = 0; d < 3; ++d) Eigen::Map<Vector3>(particles.data(column::affine) + 12 * p + 4 * d) = W.col(d);
+  });
+}
+
+inline Matrix3 spin(const Vector3& omega) {
+  Matrix3 W;
+  W << 0, -omega.z(), omega.y(), omega.z(), 0, -omega.x(), -omega.y(), omega.x(), 0;
+  return W;
+}
+
+struct Sums {
+  double mass = 0.0, kinetic = 0.0;
+  Vector3 centre = Vector3::Zero(), momentum = Vector3::Zero(), angular = Vector3::Zero();
+};
+
+/// Of this rank's particles; the affine velocity counts with D = cell^2/4 of a uniform grid inside.
+inline Sums sums_of(MpmGround& ground) {
+  Sums sums;
+  Vector3 D;
+  for (int a = 0; a < 3; ++a) D[a] = 0.25 * std::pow(ground.grid().axis(a).shortest(), 2);
+  for (GroundPhase& phase : ground.phases())
+    for (std::size_t p = 0; p < phase.particles.size(); ++p) {
+      const double m = phase.law->density() * phase.particles.data(column::volume)[p];
+      const Vector3 x = phase.particles.position(p), v = phase.particles.velocity(p);
+      const Matrix3 C = phase.particles.affine(p), B = C * D.asDiagonal();
+      sums.mass += m;
+      sums.centre += m * x;
+      sums.momentum += m * v;
+      sums.angular += m * (x.cross(v) + Vector3(B(2, 1) - B(1, 2), B(0, 2) - B(2, 0), B(1, 0) - B(0, 1)));
+      sums.kinetic += 0.5 * m * (v.squaredNorm() + (C * D.asDiagonal() * C.transpose()).trace());
+    }
+  sums.centre /= sums.mass;
+  return sums;
+}
+
+/// Volume average of a state field over the particles that pass.
+template <class Where>
+double mean_of(MpmGround& ground, std::size_t state_field, Where where) {
+  double sum = 0.0, volume = 0.0;
+  for_particles(ground, [&](Particles& particles, std::size_t p) {
+    if (!where(particles.position(p))) return;
+    const double v = particles.data(column::volume)[p] * particles.data(column::state + field::volume_ratio)[p];
+    sum += v * particles.data(column::state + state_field)[p];
+    volume += v;
+  });
+  return sum / volume;
+}
+
+}  // namespace furrow::testing_ground

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "statistics/history.h"
+
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+
+namespace furrow {
+namespace {
+
+using ::testing::HasSubstr;
+
+History three_rows() {
+  History history({{"time", "s", "time"}, {"force", "N", "force"}});
+  history.append({0.0, 5.0});
+  history.append({0.5, 6.0});
+  history.append({1.0, 7.0});
+  return history;
+}
+
+template <class Function>
+std::string error_of(Function&& function) {
+  try {
+    function();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(History, KeepsRowsAndGivesColumns) {
+  const History history = three_rows();
+  EXPECT_EQ(history.size(), 3u);
+  EXPECT_EQ(history.index("force"), 1u);
+  EXPECT_EQ(history.column("force"), (std::vector<double>{5, 6, 7}));
+  EXPECT_EQ(history.at(1, 0), 0.5);
+  EXPECT_EQ(History().size(), 0u);
+}
+
+TEST(History, TruncationKeepsTheRowAtTheTime) {
+  History history = three_rows();
+  history.truncate_after(0.5);
+  EXPECT_EQ(history.column("time"), (std::vector<double>{0.0, 0.5}));
+  history.truncate_after(-1.0);
+  EXPECT_EQ(history.size(), 0u);
+}
+
+TEST(History, RefusesWrongRowsAndNames) {
+  History history = three_rows();
+  EXPECT_THAT(error_of([&] { history.append({1.0}); }), HasSubstr("a history of 2 channels cannot take a row of 1 numbers"));
+  EXPECT_THAT(error_of([&] { history.column("torque"); }), HasSubstr("no channel 'torque'; it has time, force"));
+  EXPECT_THAT(error_of([&] { history.at(3, 0); }), HasSubstr("has 3 rows and 2 channels, none at row 3, channel 0"));
+  EXPECT_THAT(error_of([] { History().index("time"); }), HasSubstr("it has none"));
+}
+
+}  // namespace
+}  // namespace furrow

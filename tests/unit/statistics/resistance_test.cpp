@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "statistics/resistance.h"
+
+#include <cmath>
+#include <random>
+
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+#include "rig/wheel_rig.h"
+#include "wheel_on_floor.h"
+
+namespace furrow {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A synthetic run: force_z = 100 (1 + noise), force_x = -0.2 force_z + own noise, both AR(1); 10 s of cruise at 1 m/s.
+struct SyntheticRun {
+  unsigned seed = 1;
+  double sinkage_drift = 0.0;  // [m] over the cruise
+  double end = 12.0;           // [s]
+  double skipped_from = 100.0, skipped_to = 100.0;
+
+  History history() const {
+    History result({{"time", "s", ""},
+                    {"phase", "", ""},
+                    {"x", "m", ""},
+                    {"sinkage", "m", ""},
+                    {"force_x", "N", ""},
+                    {"force_z", "N", ""},
+                    {"drawbar_pull", "N", ""},
+                    {"drive_torque", "N m", ""},
+                    {"slip", "", ""}});
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    double vertical = 0.0, own = 0.0;
+    for (int i = 0; i <= std::lround(end / 0.002); ++i) {
+      const double time = 0.002 * i;
+      vertical = 0.9 * vertical + 0.02 * normal(random);
+      own = 0.9 * own + 0.3 * normal(random);
+      if (time > skipped_from && time < skipped_to) continue;
+      const double force_z = 100.0 * (1.0 + vertical), force_x = -0.2 * force_z + own;
+      const double phase = time < 1.0 ? 0.0 : time < 2.0 ? 1.0 : 2.0;
+      const double sinkage = 0.03 + 1e-4 * normal(random) + sinkage_drift * std::max(0.0, time - 2.0) / 10.0;
+      result.append({time, phase, std::max(0.0, time - 1.5), sinkage, force_x, force_z, force_x, 0.0, -0.05});
+    }
+    return result;
+  }
+};
+
+template <class Function>
+std::string error_of(Function&& function) {
+  try {
+    function();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Resistance, FindsItsChannelsInTheRecordOfTheRig) {
+  const History record(WheelRig::channels()), synthetic = SyntheticRun().history();
+  for (const Channel& channel : synthetic.channels()) {
+    const std::size_t index = record.index(channel.name);  // throws for a name that the rig does not know
+    EXPECT_EQ(record.channels()[index].unit, channel.unit);
+  }
+}
+
+TEST(Resistance, IsTheRatioOfTheMeansWithItsError) {
+  const Resistance result = measure_resistance(SyntheticRun().history());
+  EXPECT_TRUE(result.steady) << result.verdict;
+  EXPECT_EQ(result.verdict, "steady");
+  const SteadyValue& c = result.value("resistance_coefficient");
+  EXPECT_NEAR(c.mean, 0.2, 4.0 * c.standard_error);
+  EXPECT_NEAR(result.value("sinkage").mean, 0.03, 4.0 * result.value("sinkage").standard_error);
+  EXPECT_NEAR(result.value("force_z").mean, 100.0, 4.0 * result.value("force_z").standard_error);
+  EXPECT_NEAR(result.value("slip").mean, -0.05, 1e-13);
+  EXPECT_EQ(result.value("drive_torque").mean, 0.0);
+  EXPECT_DOUBLE_EQ(result.value("drawbar_coefficient").mean, -c.mean);
+  EXPECT_DOUBLE_EQ(result.value("drawbar_coefficient").standard_error, c.standard_error);
+  EXPECT_EQ(result.value("drawbar_pull").unit, "N");
+}
+
+// From the rig to the figure: a locked wheel dragged over a floor of friction mu has the resistance coefficient mu.
+TEST(Resistance, OfALockedWheelIsTheFriction) {
+  RigidWheel wheel = make_wheel(0.2003);
+  const Floor floor;
+  WheelRig rig(WheelRig::schema().read(std::vector<std::string>{"load_force", "60", "speed", "1", "mode", "slip", "slip",
+                                                                "-1", "settle_time", "0.1", "accelerate_time", "0.1",
+                                                                "ground_level", "0", "damping", "600"}),
+               wheel);
+  History history(WheelRig::channels());
+  run(rig, wheel, 0.8, 4e-5, &floor, [&](const std::vector<double>& row) { history.append(row); });
+  const Resistance result = measure_resistance(history);
+  EXPECT_TRUE(result.steady) << result.verdict;
+  EXPECT_GE(result.window.begin, 0.2 - 1e-9);
+  EXPECT_NEAR(result.value("resistance_coefficient").mean, floor.friction, 1e-6);
+  EXPECT_NEAR(result.value("drawbar_coefficient").mean, -floor.friction, 1e-3);
+  EXPECT_NEAR(result.value("force_z").mean, 60.0, 0.1);
+  EXPECT_NEAR(result.value("slip").mean, -1.0, 1e-12);
+  EXPECT_NEAR(result.value("drive_torque").mean, -floor.friction * 60.0 * 0.2, 0.05);
+}
+
+// The noise that both forces share does not enter their ratio: its error is that of the own noise alone, over the mean load.
+// own: deviation 0.3/sqrt(1 - 0.81), inefficiency (1 + 0.9)/(1 - 0.9) = 19.
+TEST(Resistance, ErrorOfTheRatioIsThatOfItsScatterOverManyRuns) {
+  double squares = 0.0, errors = 0.0, expected = 0.0;
+  const int runs = 200;
+  for (int run = 0; run < runs; ++run) {
+    SyntheticRun synthetic;
+    synthetic.seed = static_cast<unsigned>(run);
+    const Resistance result = measure_resistance(synthetic.history());
+    const SteadyValue& c = result.value("resistance_coefficient");
+    squares += (c.mean - 0.2) * (c.mean - 0.2) / runs;
+    errors += c.standard_error * c.standard_error / runs;
+    expected += 0.09 / 0.19 * 19.0 / static_cast<double>(result.window.rows()) / 1e4 / runs;
+  }
+  EXPECT_NEAR(std::sqrt(errors / expected), 1.0, 0.1);
+  EXPECT_NEAR(std::sqrt(squares / expected), 1.0, 0.15);  // a deviation from 200 runs is known within 5 %
+}
+
+TEST(Resistance, ADriftingSinkageMakesTheRunNotSteady) {
+  SyntheticRun run;
+  run.sinkage_drift = 0.01;
+  const Resistance result = measure_resistance(run.history());
+  EXPECT_FALSE(result.steady);
+  EXPECT_THAT(result.verdict, HasSubstr("not steady: "));
+  EXPECT_THAT(result.verdict, HasSubstr("sinkage: it drifts by"));
+  EXPECT_FALSE(result.value("sinkage").steady);
+  EXPECT_TRUE(result.value("resistance_coefficient").steady);
+}
+
+TEST(Resistance, AShortTravelIsSaid) {
+  ResistanceOptions options;
+  options.shortest_distance = 20.0;
+  const Resistance result = measure_resistance(SyntheticRun().history(), options);
+  EXPECT_FALSE(result.steady);
+  EXPECT_THAT(result.verdict, HasSubstr("the window is too short: the wheel travels"));
+  EXPECT_THAT(result.verdict, HasSubstr("20 m are needed"));
+}
+
+TEST(Resistance, AWindowByTimeIsTaken) {
+  ResistanceOptions options;
+  options.window.from_time = 4.0;
+  options.window.to_time = 9.0;
+  const Resistance result = measure_resistance(SyntheticRun().history(), options);
+  EXPECT_NEAR(result.window.begin, 4.0, 1e-9);
+  EXPECT_NEAR(result.window.end, 9.0, 1e-9);
+  EXPECT_NEAR(result.window.distance, 5.0, 1e-9);
+}
+
+TEST(Resistance, RefusesHistoriesWithGapsOrWithoutCruise) {
+  SyntheticRun gap;
+  gap.skipped_from = 8.0;
+  gap.skipped_to = 9.0;
+  EXPECT_THAT(error_of([&] { measure_resistance(gap.history()); }), HasSubstr("rows of the history are not equally spaced"));
+  SyntheticRun early;
+  early.end = 1.5;
+  EXPECT_THAT(error_of([&] { measure_resistance(early.history()); }), HasSubstr("ends before the cruise begins"));
+  EXPECT_THAT(error_of([] { measure_resistance(History({{"time", "s", ""}})); }), HasSubstr("the history has 0 rows"));
+  EXPECT_THAT(error_of([] { measure_resistance(SyntheticRun().history()).value("mass"); }),
+              HasSubstr("no steady value 'mass'"));
+}
+
+TEST(Resistance, ARatioNeedsADenominator) {
+  EXPECT_THAT(error_of([] { linearised_ratio({1.0, 2.0}, {1.0}); }), HasSubstr("a ratio of 2 and 1 values"));
+  EXPECT_THAT(error_of([] {
+                linearised_ratio({1.0, 2.0}, {1.0, -1.0});
+              }),
+              HasSubstr("a ratio to a quantity whose mean is zero"));
+  const std::vector<double> series = linearised_ratio({1.0, 3.0}, {2.0, 2.0});
+  EXPECT_DOUBLE_EQ(0.5 * (series[0] + series[1]), 1.0);
+}
+
+}  // namespace
+}  // namespace furrow

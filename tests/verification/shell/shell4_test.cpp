@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The shell against closed forms and conservation laws: patch tests, rigid turns, the exact gradient, pressure on a ring, inextensional
+// bending, a strip rolled up, free vibration.
+
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "shell_model.h"
+
+namespace furrow::test {
+namespace {
+
+Vector3 along_x(const Vector3&) { return Vector3::UnitX(); }
+Vector3 along_y(const Vector3&) { return Vector3::UnitY(); }
+Vector3 around_y(const Vector3& x) { return Vector3(-x.z(), 0.0, x.x()); }
+
+/// The belt of TR's tyre: E1 3.62e10, E2 1.98e10 Pa, h 1.11 mm; nu12 and G assumed.
+OrthotropicLayer belt() { return {3.62e10, 1.98e10, 0.3, 1e10, 1e10, 1e10, 1.11e-3}; }
+
+/// A ring round the y axis, normals outwards: n elements around, m across.
+ShellModel ring(double R, double width, int n, int m, const ShellSection& section) {
+  Matrix3X x(3, n * (m + 1));
+  std::vector<Shell4::Quad> quads;
+  const auto node = [&](int i, int j) { return (i % n) * (m + 1) + j; };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j <= m; ++j) {
+      const double angle = 2.0 * pi * i / n;
+      x.col(node(i, j)) << R * std::sin(angle), width * (double(j) / m - 0.5), -R * std::cos(angle);
+      if (j < m) quads.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
+    }
+  // The sense must make outward normals: checked by the volume below.
+  for (Shell4::Quad& quad : quads) {
+    const Vector3 normal = Vector3(x.col(quad[1]) - x.col(quad[0])).cross(Vector3(x.col(quad[3]) - x.col(quad[0])));
+    if (normal.dot(Vector3(x(0, quad[0]), 0.0, x(2, quad[0]))) < 0.0) std::swap(quad[1], quad[3]);
+  }
+  return ShellModel(x, quads, section, around_y);
+}
+
+/// MacNeal and Harder's patch of five distorted elements, 0.24 x 0.12.
+ShellModel patch(const ShellSection& section) {
+  Matrix3X x(3, 8);
+  x << 0, 0.24, 0.24, 0, 0.04, 0.18, 0.16, 0.08,  //
+      0, 0, 0.12, 0.12, 0.02, 0.03, 0.08, 0.08,   //
+      0, 0, 0, 0, 0, 0, 0, 0;
+  return ShellModel(x, {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}}, section, along_x);
+}
+
+/// Prescribes u and theta at the outer nodes as in a linear field and finds the inner ones; returns the largest error there.
+double patch_error(const ShellSection& section, const std::function<Eigen::Matrix<double, 6, 1>(const Vector3&)>& field) {
+  ShellModel model = patch(section);
+  const Eigen::SparseMatrix<double> K = model.shell.stiffness();
+  Matrix6X exact(6, 8), outer = Matrix6X::Zero(6, 8);
+  for (Eigen::Index n = 0; n < 8; ++n) exact.col(n) = field(model.nodes.x.col(n));
+  outer.leftCols<4>() = exact.leftCols<4>();
+  const VectorX reaction = K * Eigen::Map<const VectorX>(outer.data(), 48);
+  for (Eigen::Index n = 0; n < 4; ++n) model.nodes.hold(n);
+  for (Eigen::Index i = 24; i < 48; ++i) model.load.data()[i] = -reaction[i];
+  const Matrix6X found = model.solve();
+  return (found - exact).rightCols<4>().cwiseAbs().maxCoeff() / exact.cwiseAbs().maxCoeff();
+}
+
+TEST(Shell4, PatchTestOfTheMembrane) {
+  const ShellSection section(belt(), 1.0);
+  for (int k = 0; k < 3; ++k)
+    EXPECT_LT(patch_error(section,
+                          [&](const Vector3& x) {
+                            Eigen::Matrix<double, 6, 1> u = Eigen::Matrix<double, 6, 1>::Zero();
+                            if (k == 0) u[0] = 1e-3 * x.x();
+                            if (k == 1) u[1] = 1e-3 * x.y();
+                            if (k == 2) u[0] = 1e-3 * x.y(), u[5] = -0.5e-3;
+                            return u;
+                          }),
+              1e-10)
+        << k;
+}
+
+/// w of constant curvatures, with rotations (dw/dy, -dw/dx).
+TEST(Shell4, PatchTestOfBendingAndTwist) {
+  const ShellSection section(belt(), 1.0);
+  for (int k = 0; k < 3; ++k)
+    EXPECT_LT(patch_error(section,
+                          [&](const Vector3& x) {
+                            const double kxx = k == 0, kyy = k == 1, kxy = k == 2;
+                            Eigen::Matrix<double, 6, 1> u = Eigen::Matrix<double, 6, 1>::Zero();
+                            u[2] = 1e-3 * (0.5 * kxx * x.x() * x.x() + 0.5 * kyy * x.y() * x.y() + kxy * x.x() * x.y());
+                            u[3] = 1e-3 * (kyy * x.y() + kxy * x.x());
+                            u[4] = -1e-3 * (kxx * x.x() + kxy * x.y());
+                            return u;
+                          }),
+              1e-8)
+        << k;
+}
+
+/// Constant transverse shear: w = gamma x without rotation is no equilibrium of a plate (it needs a moment), so the field is the
+/// thick plate's whose moment is carried at the nodes: only forces of the shear at the inner nodes must vanish for a constant one.
+TEST(Shell4, PatchTestOfTransverseShear) {
+  const ShellSection section(OrthotropicLayer::isotropic(1e6, 0.25, 0.05), 1.0);
+  ShellModel model = patch(section);
+  Matrix6X u = Matrix6X::Zero(6, 8);
+  u.row(2) = 1e-3 * model.nodes.x.row(0);
+  const VectorX f = model.shell.stiffness() * Eigen::Map<const VectorX>(u.data(), 48);
+  double work = 0.0;
+  for (Eigen::Index n = 4; n < 8; ++n) EXPECT_NEAR(f[6 * n + 2], 0.0, 1e-12 * section.shear(0, 0));
+  work = 0.5 * f.dot(Eigen::Map<const VectorX>(u.data(), 48));
+  EXPECT_NEAR(work / (0.5 * section.shear(0, 0) * 1e-6 * 0.24 * 0.12), 1.0, 1e-10);
+}
+
+TEST(Shell4, OnlySixMotionsAreFreeOfEnergy) {
+  ShellModel model = mapped_shell(
+      1, 1, [](double s, double t) { return Vector3(s + 0.1 * t, t - 0.2 * s * t, 0.15 * s * t); },
+      ShellSection(OrthotropicLayer::isotropic(1e6, 0.3, 0.05), 1.0), along_x);
+  const Eigen::MatrixXd K = Eigen::MatrixXd(model.shell.stiffness());
+  const VectorX eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues();
+  EXPECT_LT(std::abs(eigenvalues[5]), 1e-9 * eigenvalues[23]);
+  EXPECT_GT(eigenvalues[6], 1e-6 * eigenvalues[23]);
+}
+
+TEST(Shell4, EqualShapesShareOneStiffness) {
+  EXPECT_EQ(ring(0.3475, 0.157, 72, 6, ShellSection(belt(), 19.6)).shell.kind_count(), 1u);
+}
+
+/// Forces are the gradient of the energy, at any rotation and deformation: central differences.
+TEST(Shell4, ForcesAreTheGradientOfTheEnergy) {
+  ShellModel model = ring(0.3, 0.2, 6, 2, ShellSection(belt(), 19.6));
+  ShellNodes& nodes = model.nodes;
+  std::srand(5);
+  nodes.x += 0.01 * Matrix3X::Random(3, nodes.count());
+  const Quaternion whole(Eigen::AngleAxisd(2.5, Vector3(1, 2, -1).normalized()));
+  for (Eigen::Index n = 0; n < nodes.count(); ++n) {
+    nodes.x.col(n) = whole * nodes.x.col(n);
+    const Vector3 turn = 0.2 * Vector3::Random();
+    nodes.set_rotation(n, whole * Quaternion(Eigen::AngleAxisd(turn.norm(), turn.normalized())));
+  }
+  model.compute();
+  const Matrix3X force = nodes.force, moment = nodes.moment;
+  EXPECT_LT(force.rowwise().sum().norm(), 1e-12 * force.norm());
+  Vector3 total = moment.rowwise().sum();
+  for (Eigen::Index n = 0; n < nodes.count(); ++n) total += Vector3(nodes.x.col(n)).cross(Vector3(force.col(n)));
+  EXPECT_LT(total.norm(), 1e-12 * force.norm());
+  const double step = 1e-6;
+  double worst = 0.0;
+  for (Eigen::Index n = 0; n < nodes.count(); n += 5)
+    for (int k = 0; k < 6; ++k) {
+      double energy[2];
+      for (int side = 0; side < 2; ++side) {
+        ShellNodes moved = nodes;
+        const double h = side ? step : -step;
+        if (k < 3)
+          moved.x(k, n) += h;
+        else
+          moved.set_rotation(n,
+                             Quaternion(Eigen::AngleAxisd(h, Vector3::Unit(k - 3))) * moved.q[static_cast<std::size_t>(n)]);
+        model.shell.add_forces(moved, 0.0);
+        energy[side] = model.shell.energy();
+      }
+      const double gradient = (energy[1] - energy[0]) / (2.0 * step), analytic = -(k < 3 ? force(k, n) : moment(k - 3, n));
+      worst = std::max(worst,
+                       std::abs(gradient - analytic) / (k < 3 ? force.cwiseAbs().maxCoeff() : moment.cwiseAbs().maxCoeff()));
+    }
+  EXPECT_LT(worst, 1e-7);
+}
+
+/// The pressure's forces are the gradient of p V of a closed shell.
+TEST(Shell4, PressureIsTheGradientOfTheVolume) {
+  Matrix3X x(3, 8);
+  x << 0, 1, 1, 0, 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1;
+  x += 0.1 * Matrix3X::Random(3, 8);
+  ShellModel box(x, {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}},
+                 ShellSection(OrthotropicLayer::isotropic(1e6, 0.3, 0.01), 1.0),
+                 [](const Vector3&) { return Vector3(1, 2, 3); });
+  box.compute(1000.0);
+  const Matrix3X force = box.nodes.force;
+  EXPECT_LT(force.rowwise().sum().norm(), 1e-12 * force.norm());
+  const double step = 1e-6;
+  ShellNodes undeformed = box.nodes;
+  for (Eigen::Index n = 0; n < 8; ++n)
+    for (int k = 0; k < 3; ++k) {
+      double potential[2];
+      for (int side = 0; side < 2; ++side) {
+        ShellNodes moved = undeformed;
+        moved.x(k, n) += side ? step : -step;
+        box.shell.add_forces(moved, 0.0);
+        potential[side] = 1000.0 * box.shell.volume() - box.shell.energy();
+      }
+      EXPECT_NEAR((potential[1] - potential[0]) / (2 * step), force(k, n), 1e-6 * force.cwiseAbs().maxCoeff());
+    }
+}
+
+/// A thousand turns about a slanting axis, as the motion of a rolling tyre makes them: no strain, no energy, no force.
+TEST(Shell4, ManyTurnsWithoutStrain) {
+  ShellModel model = ring(0.3475, 0.157, 36, 3, ShellSection(belt(), 19.6));
+  ShellNodes& nodes = model.nodes;
+  const Matrix3X start = nodes.x;
+  const Vector3 axis = Vector3(0.3, 1.0, -0.2).normalized(), centre(0.1, 0.2, 0.3);
+  const int steps_a_turn = 97, turns = 1000;
+  const double step = 2.0 * pi / steps_a_turn;
+  for (Eigen::Index n = 0; n < nodes.count(); ++n) nodes.w.col(n) = axis;
+  double largest = 0.0, force = 0.0;
+  for (int i = 1; i <= turns * steps_a_turn; ++i) {
+    nodes.drift(step);  // turns the nodes by their spin; positions are set below
+    if (i % 997 != 0) continue;
+    const Matrix3 turned = Eigen::AngleAxisd(std::fmod(i * step, 2.0 * pi), axis).toRotationMatrix();
+    nodes.x = (turned * (start.colwise() - centre)).colwise() + centre;
+    model.compute();
+    largest = std::max(largest, model.shell.energy());
+    force = std::max(force, nodes.force.cwiseAbs().maxCoeff());
+  }
+  // Scale: the energy and force of one per mille of strain
+  const double area = 2.0 * pi * 0.3475 * 0.157, N = 1e-3 * 3.62e10 * 1.11e-3;
+  EXPECT_LT(largest, 1e-12 * 0.5 * N * 1e-3 * area);
+  EXPECT_LT(force, 1e-6 * N * 0.03);
+  fmt::print("  {} turns: energy {:.1e} J, largest force {:.1e} N\n", turns, largest, force);
+}
+
+/// A narrow ring under pressure: T = p R, radial growth p R^2/(E1 h); polygon and tension of the ring in equilibrium.
+TEST(Shell4, PressureOnARingGivesTensionPR) {
+  const double R = 0.3475, width = 0.05, p = 241e3;
+  for (const int n : {36, 72, 144}) {
+    ShellModel model = ring(R, width, n, 1, ShellSection(belt(), 19.6));
+    ShellNodes& nodes = model.nodes;
+    // grown evenly, without turning: equilibrium is where the radial force vanishes
+    const Matrix3X start = nodes.x;
+    const auto radial_force = [&](double growth) {
+      nodes.x = start;
+      nodes.x.row(0) *= 1.0 + growth;
+      nodes.x.row(2) *= 1.0 + growth;
+      model.compute(p);
+      return nodes.force(2, 0);
+    };
+    const double a = radial_force(0.0), b = radial_force(1e-3), growth = 1e-3 * a / (a - b);
+    EXPECT_NEAR(radial_force(growth) / a, 0.0, 1e-6);
+    // Closed form of a membrane free to contract sideways; held in width here, so the plane-strain stiffness.
+    const double stiffness = 3.62e10 * 1.11e-3 / (1.0 - 0.3 * 0.3 * 1.98 / 3.62);
+    const double exact = p * R / stiffness / (1.0 - p * R / stiffness);  // p R (1 + g) = stiffness g
+    EXPECT_NEAR(growth / exact, 1.0, 1.5 * std::pow(2.0 * pi / n, 2)) << n;
+    fmt::print("  {} elements: growth / (p R / E h) = {:.5f}\n", n, growth / exact);
+  }
+}
+
+/// A thin ring pulled at two opposite points: growth of the loaded diameter P R^3/EI (pi/4 - 2/pi), inextensional.
+TEST(Shell4, InextensionalBendingOfARing) {
+  const double R = 1.0, width = 0.1, h = 0.005, E = 1e9;
+  ShellModel model = ring(R, width, 64, 2, ShellSection(OrthotropicLayer::isotropic(E, 0.0, h), 1.0));
+  const double tiny = 1e-6;
+  // A quarter would do; the whole ring with supports that take no force
+  model.symmetry(0, [&](const Vector3& x) { return std::abs(x.x()) < tiny; });
+  model.symmetry(2, [&](const Vector3& x) { return std::abs(x.z()) < tiny; });
+  model.symmetry(1, [&](const Vector3& x) { return std::abs(x.y()) < tiny; });
+  const double P = 1.0;
+  const double share[3] = {0.25, 0.5, 0.25};
+  for (int j = 0; j < 3; ++j) {
+    model.load(2, model.nearest({0, width * (0.5 * j - 0.5), R})) = P * share[j];
+    model.load(2, model.nearest({0, width * (0.5 * j - 0.5), -R})) = -P * share[j];
+  }
+  const Matrix6X u = model.solve();
+  const double EI = E * width * h * h * h / 12.0, exact = P * R * R * R / EI * (pi / 4.0 - 2.0 / pi);
+  EXPECT_NEAR(2.0 * u(2, model.nearest({0, 0, R})) / exact, 1.0, 5e-3);
+}
+
+/// A cantilever strip with an end moment 2 pi EI/L rolls up into a circle: finite rotations. Its nodes are put on that circle; what is
+/// left over as force must vanish with the square of the element's turn.
+TEST(Shell4, StripRolledIntoACircleIsInEquilibrium) {
+  const double L = 1.0, width = 0.05, E = 1e9, h = 0.002, R = L / (2.0 * pi);
+  double before = 0.0;
+  for (const int n : {24, 48}) {
+    ShellModel model = mapped_shell(
+        n, 1, [&](double s, double t) { return Vector3(L * s, width * t, 0.0); },
+        ShellSection(OrthotropicLayer::isotropic(E, 0.0, h), 1.0), along_x);
+    ShellNodes& nodes = model.nodes;
+    // chords keep their length: the polygon of n sides of L/n
+    const double radius = 0.5 * (L / n) / std::sin(pi / n);
+    for (Eigen::Index i = 0; i < nodes.count(); ++i) {
+      const double angle = nodes.x(0, i) / R;
+      nodes.x.col(i) << radius * std::sin(angle), nodes.x(1, i), radius * (1.0 - std::cos(angle));
+      nodes.set_rotation(i, Quaternion(Eigen::AngleAxisd(-angle, Vector3::UnitY())));
+    }
+    // rotations at the ends are those of tangents to the circle; the first chord is half a step ahead
+    model.compute();
+    const double moment = E * width * h * h * h / 12.0 / R;
+    double inner = 0.0;
+    for (Eigen::Index i = 0; i < nodes.count(); ++i) {
+      const double at_end = i % (n + 1) == 0 || i % (n + 1) == n;
+      if (!at_end)
+        inner = std::max({inner, nodes.moment.col(i).cwiseAbs().maxCoeff(), nodes.force.col(i).cwiseAbs().maxCoeff() * L});
+    }
+    EXPECT_LT(inner, 1e-9 * moment * n);
+    const double end = 2.0 * nodes.moment.col(n).norm(), error = std::abs(end / moment - 1.0);  // both end nodes
+    if (before > 0.0) {
+      EXPECT_LT(error, 0.3 * before);
+    }
+    before = error;
+    fmt::print("  {} elements: end moment / (EI/R) = {:.6f}\n", n, end / moment);
+  }
+  EXPECT_LT(before, 2e-3);
+}
+
+/// Free vibration and tumbling with large displacements. Momentum and angular momentum stay to round-off. The energy at full steps
+/// swings with the square of the step, as the leapfrog has it, and does not drift.
+TEST(Shell4, FreeMotionKeepsEnergyAndMomentum) {
+  double swing_before = 0.0;
+  for (const double share : {0.8, 0.2}) {
+    ShellModel model = ring(0.3475, 0.157, 24, 2, ShellSection(belt(), 19.6));
+    ShellNodes& nodes = model.nodes;
+    for (Eigen::Index n = 0; n < nodes.count(); ++n) {
+      const double angle = std::atan2(nodes.x(0, n), -nodes.x(2, n));
+      nodes.v.col(n) = Vector3(2, 1, 0) + Vector3(0, 20, 0).cross(Vector3(nodes.x.col(n)));  // flies and rolls,
+      nodes.v.col(n) += 3.0 * std::cos(2.0 * angle) * Vector3(nodes.x.col(n)).normalized();  // and ovalises by centimetres
+      nodes.w.col(n) << 0, 20, 0;
+    }
+    const auto momentum = [&] { return Vector3(nodes.v * nodes.mass); };
+    const auto angular = [&] {
+      Vector3 sum = nodes.w * nodes.inertia;
+      for (Eigen::Index n = 0; n < nodes.count(); ++n)
+        sum += nodes.mass[n] * Vector3(nodes.x.col(n)).cross(Vector3(nodes.v.col(n)));
+      return sum;
+    };
+    const double dt = share * model.shell.stable_time_step();
+    const Vector3 p0 = momentum(), L0 = angular();
+    double first = 0.0, swing = 0.0, deflection = 0.0, elastic = 0.0, early = 0.0, late = 0.0;
+    const long steps = std::lround(0.5 / dt);
+    for (long i = 0; i < steps; ++i) {
+      model.compute();
+      nodes.kick(0.5 * dt);
+      const double total = nodes.kinetic_energy() + model.shell.energy();
+      nodes.kick(0.5 * dt);
+      nodes.drift(dt);
+      if (i == 0) first = total;
+      swing = std::max(swing, std::abs(total - first));
+      (2 * i < steps ? early : late) += (total - first) / (0.5 * static_cast<double>(steps));
+      elastic = std::max(elastic, model.shell.energy());
+      deflection = std::max(deflection, std::abs((nodes.x.col(0) - nodes.x.col(nodes.count() / 2)).norm() - 0.695));
+    }
+    EXPECT_GT(deflection, 0.02);
+    EXPECT_LT(std::abs(late - early), 2e-3 * elastic);
+    if (swing_before > 0.0) {
+      EXPECT_LT(swing, swing_before / 10.0);
+      EXPECT_LT(swing, 5e-3 * elastic);
+    }
+    swing_before = swing;
+    EXPECT_LT((momentum() - p0).norm(), 1e-10 * p0.norm());
+    EXPECT_LT((angular() - L0).norm(), 1e-10 * L0.norm());
+    fmt::print("  {} of the stable step: energy swings by {:.1e}, drifts by {:.1e} of the elastic; ovalised by {:.3f} m\n",
+               share, swing / elastic, std::abs(late - early) / elastic, deflection);
+  }
+}
+
+/// The stated step is stable and not far below the limit.
+TEST(Shell4, StableStep) {
+  for (const double share : {1.0, 1.4}) {
+    ShellModel model = ring(0.3475, 0.157, 24, 2, ShellSection(belt(), 19.6));
+    ShellNodes& nodes = model.nodes;
+    nodes.v = 1e-3 * Matrix3X::Random(3, nodes.count());
+    const double start = nodes.kinetic_energy();
+    bool grew = false;
+    for (int i = 0; i < 3000 && !grew; ++i) {
+      try {
+        model.compute();
+      } catch (const StateError&) {
+        grew = true;
+        break;
+      }
+      nodes.kick(share * model.shell.stable_time_step());
+      nodes.drift(share * model.shell.stable_time_step());
+      grew = !(nodes.kinetic_energy() < 100.0 * start);
+    }
+    EXPECT_EQ(grew, share > 1.0);
+  }
+}
+
+TEST(Shell4, RefusesWhatIsNoShell) {
+  const ShellSection section(belt(), 19.6);
+  Matrix3X x(3, 4);
+  x << 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0;
+  try {
+    Shell4(x, {{0, 1, 3, 2}}, section, along_x);
+    FAIL();
+  } catch (const StateError& error) {
+    EXPECT_NE(std::string(error.what()).find("element 0"), std::string::npos) << error.what();
+  }
+  OrthotropicLayer bad = belt();
+  bad.nu12 = 1.5;
+  EXPECT_THROW(ShellSection(bad, 1.0), InputError);
+  EXPECT_THROW(ShellSection(belt(), 0.0), InputError);
+
+  ShellModel model = mapped_shell(
+      2, 2, [](double s, double t) { return Vector3(s, t, 0); }, section, along_y);
+  model.nodes.set_rotation(4, Quaternion(Eigen::AngleAxisd(2.5, Vector3::UnitX())));
+  try {
+    model.compute();
+    FAIL();
+  } catch (const StateError& error) {
+    EXPECT_NE(std::string(error.what()).find("is folded"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(model.solve(), StateError);  // no supports
+}
+
+}  // namespace
+}  // namespace furrow::test

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Shells for tests: a mesh of a parameter square mapped into space, its supports and loads.
+
+#include <cmath>
+#include <functional>
+
+#include "tests/support/linear_static.h"
+#include "shell/shell4.h"
+
+namespace furrow::test {
+
+using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+struct ShellModel {
+  ShellModel(Matrix3X x, std::vector<Shell4::Quad> quads, const ShellSection& section,
+             const std::function<Vector3(const Vector3&)>& fibre)
+      : shell(x, std::move(quads), section, fibre), nodes(x), load(Matrix6X::Zero(6, x.cols())) {
+    nodes.mass = shell.mass();
+    nodes.inertia = shell.rotary_inertia();
+  }
+  Shell4 shell;
+  ShellNodes nodes;
+  Matrix6X load;
+
+  /// Symmetry about the plane normal to an axis for the nodes that the predicate picks.
+  void symmetry(int axis, const std::function<bool(const Vector3&)>& pick) {
+    for (Eigen::Index n = 0; n < nodes.count(); ++n)
+      if (pick(nodes.x.col(n)))
+        for (int k = 0; k < 3; ++k) (k == axis ? nodes.free_to_move : nodes.free_to_turn)(k, n) = 0.0;
+  }
+  Eigen::Index nearest(const Vector3& point) const {
+    Eigen::Index best = 0;
+    (nodes.x.colwise() - point).colwise().squaredNorm().minCoeff(&best);
+    return best;
+  }
+  Matrix6X solve() const { return solve_linear(shell, nodes, load); }
+  void compute(double pressure = 0.0) {
+    nodes.force.setZero();
+    nodes.moment.setZero();
+    shell.add_forces(nodes, pressure);
+  }
+};
+
+/// (n + 1) x (m + 1) nodes of map(s, t), s and t from 0 to 1; quads run s first, so the normal is map_s x map_t.
+inline ShellModel mapped_shell(int n, int m, const std::function<Vector3(double, double)>& map, const ShellSection& section,
+                               const std::function<Vector3(const Vector3&)>& fibre) {
+  Matrix3X x(3, (n + 1) * (m + 1));
+  std::vector<Shell4::Quad> quads;
+  const auto node = [&](int i, int j) { return j * (n + 1) + i; };
+  for (int j = 0; j <= m; ++j)
+    for (int i = 0; i <= n; ++i) x.col(node(i, j)) = map(double(i) / n, double(j) / m);
+  for (int j = 0; j < m; ++j)
+    for (int i = 0; i < n; ++i) quads.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
+  return ShellModel(x, std::move(quads), section, fibre);
+}
+
+}  // namespace furrow::test
