@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// furrow: LIGGGHTS with the fix styles of this folder. Same command line, same scripts: furrow -in script.
+// furrow: LIGGGHTS with the fix styles of this folder. Same command line, same scripts: furrow -in
+// script.
 
 #include <csignal>
 
@@ -10,7 +11,8 @@
 #include "signal_handling.h"
 
 int main(int argc, char** argv) {
-  // As liggghts does: an interrupt ends the run at the next step and lets fixes write what they have.
+  // As liggghts does: an interrupt ends the run at the next step and lets fixes write what they
+  // have.
   struct sigaction interrupt = {}, checkpoint = {};
   interrupt.sa_handler = LAMMPS_NS::SignalHandler::int_handler;
   checkpoint.sa_handler = LAMMPS_NS::SignalHandler::usr1_handler;

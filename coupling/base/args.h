@@ -8,6 +8,8 @@
 
 namespace furrow::coupling {
 
-inline std::vector<std::string> words_after_style(int narg, char** arg) { return {arg + std::min(narg, 3), arg + narg}; }
+inline std::vector<std::string> words_after_style(int narg, char** arg) {
+  return {arg + std::min(narg, 3), arg + narg};
+}
 
 }  // namespace furrow::coupling

@@ -19,13 +19,15 @@ class Dependent {
   virtual bool needs(LAMMPS_NS::Fix& other) const = 0;
 };
 
-/// For pre_delete(true), that is for unfix and for a second fix of the same id. @throws StateError when another fix needs this one
+/// For pre_delete(true), that is for unfix and for a second fix of the same id. @throws StateError
+/// when another fix needs this one
 inline void refuse_if_needed(LAMMPS_NS::Modify& modify, LAMMPS_NS::Fix& fix) {
   for (int i = 0; i < modify.nfix; ++i) {
     const auto* dependent = dynamic_cast<const Dependent*>(modify.fix[i]);
     if (dependent && dependent->needs(fix))
-      throw StateError(fmt::format("fix {}: cannot be removed or replaced while fix {} uses it; write 'unfix {}' before",
-                                   fix.id, modify.fix[i]->id, modify.fix[i]->id));
+      throw StateError(fmt::format(
+          "fix {}: cannot be removed or replaced while fix {} uses it; write 'unfix {}' before",
+          fix.id, modify.fix[i]->id, modify.fix[i]->id));
   }
 }
 

@@ -35,8 +35,10 @@ void FixBody::write_restart(FILE* file) {
 void FixBody::restart(char* buffer) {
   const auto* numbers = reinterpret_cast<const double*>(buffer);
   state_as_made_ = body_->state();
-  guarded(*error,
-          [&] { body_->restore(std::vector<double>(numbers + 1, numbers + 1 + static_cast<std::size_t>(numbers[0]))); });
+  guarded(*error, [&] {
+    body_->restore(
+        std::vector<double>(numbers + 1, numbers + 1 + static_cast<std::size_t>(numbers[0])));
+  });
 }
 
 int FixBody::getCreateMeshTriCount() { return static_cast<int>(body_->surface().triangle_count()); }

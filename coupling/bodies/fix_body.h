@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What every fix that makes a body has in common: a place in the world, its state in restart files, its triangles for mesh/body.
+/// What every fix that makes a body has in common: a place in the world, its state in restart
+/// files, its triangles for mesh/body.
 
 #include <memory>
 

@@ -17,7 +17,8 @@ namespace furrow::coupling {
 namespace {
 
 constexpr char world_id[] = "furrow_world";
-constexpr double momentum_tolerance = 1e-10;  // of the force scale: round-off of the sums, nothing else
+// of the force scale: round-off of the sums, nothing else
+constexpr double momentum_tolerance = 1e-10;
 
 }  // namespace
 
@@ -28,14 +29,16 @@ FixWorld::FixWorld(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
 }
 
 FixWorld& FixWorld::of(LAMMPS_NS::LAMMPS& lammps) {
-  if (LAMMPS_NS::Fix* existing = lammps.modify->find_fix_id(world_id)) return dynamic_cast<FixWorld&>(*existing);
+  if (LAMMPS_NS::Fix* existing = lammps.modify->find_fix_id(world_id))
+    return dynamic_cast<FixWorld&>(*existing);
   std::string words[] = {world_id, "all", "furrow/world"};
   char* arguments[] = {words[0].data(), words[1].data(), words[2].data()};
   lammps.modify->add_fix(3, arguments);
   return of(lammps);
 }
 
-BodyFix& FixWorld::find_body(LAMMPS_NS::LAMMPS& lammps, const std::string& where, const std::string& fix_id) {
+BodyFix& FixWorld::find_body(LAMMPS_NS::LAMMPS& lammps, const std::string& where,
+                             const std::string& fix_id) {
   auto* found = dynamic_cast<BodyFix*>(lammps.modify->find_fix_id(fix_id.c_str()));
   if (found) return *found;
   std::string known;
@@ -54,7 +57,8 @@ void FixWorld::add(Body& body, const std::string& name) {
 
 void FixWorld::remove(Body& body) {
   world_.remove(body);
-  members_.erase(std::remove_if(members_.begin(), members_.end(), [&](const Member& m) { return m.body == &body; }),
+  members_.erase(std::remove_if(members_.begin(), members_.end(),
+                                [&](const Member& m) { return m.body == &body; }),
                  members_.end());
 }
 
@@ -63,7 +67,8 @@ void FixWorld::remove(Driver& driver) {
 }
 
 FixWorld::Member& FixWorld::member(const Body& body) {
-  return *std::find_if(members_.begin(), members_.end(), [&](const Member& m) { return m.body == &body; });
+  return *std::find_if(members_.begin(), members_.end(),
+                       [&](const Member& m) { return m.body == &body; });
 }
 ContactLedger& FixWorld::ledger(const Body& body) { return member(body).ledger; }
 const Vector3& FixWorld::moment_reference(const Body& body) { return member(body).reference; }
@@ -87,7 +92,8 @@ void FixWorld::setup_pre_force(int) {
   clear_forces();
 }
 
-/// The forces of the last step before the checkpoint, in place of those that the set-up has made of full-step velocities.
+/// The forces of the last step before the checkpoint, in place of those that the set-up has made of
+/// full-step velocities.
 void FixWorld::pre_initial_integrate() {
   if (!resumed_) return;
   resumed_ = false;
@@ -139,7 +145,8 @@ void FixWorld::sum_forces() {
       buffer_.insert(buffer_.end(), f.data(), f.data() + f.size());
       for (const Vector3* v : {&m.ledger.grain_force, &m.ledger.grain_moment, &m.ledger.lever_gap})
         buffer_.insert(buffer_.end(), v->data(), v->data() + 3);
-      buffer_.insert(buffer_.end(), {m.ledger.force_scale, m.ledger.moment_scale, m.ledger.contacts});
+      buffer_.insert(buffer_.end(),
+                     {m.ledger.force_scale, m.ledger.moment_scale, m.ledger.contacts});
     }
     communicator_.sum(buffer_.data(), buffer_.size());
     const double* next = buffer_.data();
@@ -165,33 +172,38 @@ void FixWorld::check_momentum(Member& m) const {
   if (m.ledger.force_scale == 0.0) return;
   const Surface& surface = m.body->surface();
   const double force_imbalance = (surface.total_force() + m.ledger.grain_force).norm();
-  const double moment_imbalance = (surface.total_moment(m.reference) + m.ledger.grain_moment).norm();
+  const double moment_imbalance =
+      (surface.total_moment(m.reference) + m.ledger.grain_moment).norm();
   const double force_defect = force_imbalance / m.ledger.force_scale,
                moment_defect = moment_imbalance / m.ledger.moment_scale;
   // Written so that NaN fails too.
   if (!(force_defect < momentum_tolerance) || !(moment_defect < momentum_tolerance))
-    throw StateError(
-        fmt::format("body '{}': forces on its nodes and on the grains do not cancel at step {}: relative defect {:.3g} "
-                    "in force, {:.3g} in moment (limit {:g}); a contact force is not finite or was lost",
-                    m.name, update->ntimestep, force_defect, moment_defect, momentum_tolerance));
+    throw StateError(fmt::format(
+        "body '{}': forces on its nodes and on the grains do not cancel at step {}: relative "
+        "defect {:.3g} "
+        "in force, {:.3g} in moment (limit {:g}); a contact force is not finite or was lost",
+        m.name, update->ntimestep, force_defect, moment_defect, momentum_tolerance));
   m.audit.force_imbalance = std::max(m.audit.force_imbalance, force_imbalance);
   m.audit.force_scale = std::max(m.audit.force_scale, m.ledger.force_scale);
   m.audit.moment_imbalance = std::max(m.audit.moment_imbalance, moment_imbalance);
   m.audit.moment_scale = std::max(m.audit.moment_scale, m.ledger.moment_scale);
   m.audit.force = std::max(m.audit.force, force_defect);
   m.audit.moment = std::max(m.audit.moment, moment_defect);
-  m.audit.lever_gap = std::max(m.audit.lever_gap, m.ledger.lever_gap.norm() / m.ledger.moment_scale);
+  m.audit.lever_gap =
+      std::max(m.audit.lever_gap, m.ledger.lever_gap.norm() / m.ledger.moment_scale);
 }
 
-/// Collective. In the middle of a run (command restart) forces and contact histories are those of the last step; LIGGGHTS would write
-/// the histories as they were when the neighbour lists were made. After a run (command write_restart) it brings them up to date
-/// itself, moves grains between ranks without their forces, and a further run in this process computes them anew as well.
+/// Collective. In the middle of a run (command restart) forces and contact histories are those of
+/// the last step; LIGGGHTS would write the histories as they were when the neighbour lists were
+/// made. After a run (command write_restart) it brings them up to date itself, moves grains between
+/// ranks without their forces, and a further run in this process computes them anew as well.
 void FixWorld::write_restart(FILE* file) {
   const bool in_run = update->whichflag == 1;
   if (in_run) {
     grain_forces_.store();
     for (int i = 0; i < modify->nfix; ++i)
-      if (modify->fix[i]->style == std::string("contacthistory")) modify->fix[i]->setup_pre_exchange();
+      if (modify->fix[i]->style == std::string("contacthistory"))
+        modify->fix[i]->setup_pre_exchange();
   }
   if (communicator_.rank() != 0) return;
   std::vector<double> state = world_.shown_forces();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The clock of all bodies of a scene. Made by the first fix that declares a body; users never write it.
+/// The clock of all bodies of a scene. Made by the first fix that declares a body; users never
+/// write it.
 
 #include <string>
 #include <vector>
@@ -27,24 +28,31 @@ class Driver {
   virtual void apply(double time, double dt) = 0;
 };
 
-/// What the grains did to one body in one step, summed over ranks: the other side of the momentum audit.
+/// What the grains did to one body in one step, summed over ranks: the other side of the momentum
+/// audit.
 struct ContactLedger {
-  Vector3 grain_force = Vector3::Zero();   ///< sum of contact forces on grains [N]
-  Vector3 grain_moment = Vector3::Zero();  ///< sum of (contact point - reference) x force on grain [N m]
-  Vector3 lever_gap =
-      Vector3::Zero();        ///< moment that LIGGGHTS's shorter torque arm leaves out of the grains' balance [N m]
-  double force_scale = 0.0;   ///< sum of |force| [N]
-  double moment_scale = 0.0;  ///< sum of |contact point - reference| |force| [N m]
+  Vector3 grain_force = Vector3::Zero();  ///< sum of contact forces on grains [N]
+  /// sum of (contact point - reference) x force on grain [N m]
+  Vector3 grain_moment = Vector3::Zero();
+  Vector3 lever_gap = Vector3::Zero();  ///< moment that LIGGGHTS's shorter torque arm leaves out of
+                                        ///< the grains' balance [N m]
+  double force_scale = 0.0;             ///< sum of |force| [N]
+  double moment_scale = 0.0;            ///< sum of |contact point - reference| |force| [N m]
   double contacts = 0.0;
 };
 
-/// Largest defects since the start of the run, each with its scale; a scale of zero means that nothing has touched yet.
+/// Largest defects since the start of the run, each with its scale; a scale of zero means that
+/// nothing has touched yet.
 struct MomentumAudit {
-  double force_imbalance = 0.0, force_scale = 0.0;    ///< |nodal forces + grain forces|, sum of |contact force| [N]
-  double moment_imbalance = 0.0, moment_scale = 0.0;  ///< the same for moments about the middle of the body's nodes [N m]
-  double force = 0.0;                                 ///< largest ratio of imbalance to scale in one step
-  double moment = 0.0;                                ///< the same for moments
-  double lever_gap = 0.0;  ///< |lever gap| / moment scale: not an error of the wall, see fix_wall_gran_body.md
+  /// |nodal forces + grain forces|, sum of |contact force| [N]
+  double force_imbalance = 0.0, force_scale = 0.0;
+  /// the same for moments about the middle of the body's nodes [N m]
+  double moment_imbalance = 0.0, moment_scale = 0.0;
+  /// largest ratio of imbalance to scale in one step
+  double force = 0.0;
+  double moment = 0.0;  ///< the same for moments
+  /// |lever gap| / moment scale: not an error of the wall, see fix_wall_gran_body.md
+  double lever_gap = 0.0;
 };
 
 class FixWorld : public LAMMPS_NS::Fix {
@@ -54,7 +62,8 @@ class FixWorld : public LAMMPS_NS::Fix {
   /// The world of a LIGGGHTS instance; made on first use.
   static FixWorld& of(LAMMPS_NS::LAMMPS& lammps);
   /// The body of a fix. @throws InputError when there is none of that id
-  static BodyFix& find_body(LAMMPS_NS::LAMMPS& lammps, const std::string& where, const std::string& fix_id);
+  static BodyFix& find_body(LAMMPS_NS::LAMMPS& lammps, const std::string& where,
+                            const std::string& fix_id);
 
   void add(Body& body, const std::string& name);
   void remove(Body& body);
@@ -107,7 +116,8 @@ class FixWorld : public LAMMPS_NS::Fix {
   double time_ = 0.0;
   std::vector<double> resumed_shown_;  // forces of interactions, as the restart file brought them
   bool summed_ = false;
-  bool resumed_ = false;  // continues a checkpoint written in the middle of a run, and has not made a step yet
+  // continues a checkpoint written in the middle of a run, and has not made a step yet
+  bool resumed_ = false;
 };
 
 }  // namespace furrow::coupling

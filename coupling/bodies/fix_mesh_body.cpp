@@ -18,9 +18,11 @@
 
 namespace furrow::coupling {
 
-BodyMesh::BodyMesh(LAMMPS_NS::LAMMPS* lammps, const char* id, const Surface& surface) : TriMesh(lammps), surface_(surface) {
+BodyMesh::BodyMesh(LAMMPS_NS::LAMMPS* lammps, const char* id, const Surface& surface)
+    : TriMesh(lammps), surface_(surface) {
   setMeshID(id);
-  // Every triangle on every rank: LIGGGHTS keeps those it owns. Its triangle ids then are our triangle numbers.
+  // Every triangle on every rank: LIGGGHTS keeps those it owns. Its triangle ids then are our
+  // triangle numbers.
   for (const Vector3i& triangle : surface.triangles) {
     double nodes[3][3];
     double* pointers[3] = {nodes[0], nodes[1], nodes[2]};
@@ -30,12 +32,14 @@ BodyMesh::BodyMesh(LAMMPS_NS::LAMMPS* lammps, const char* id, const Surface& sur
   }
   if (static_cast<std::size_t>(sizeLocal()) != surface.triangle_count())
     throw StateError(
-        fmt::format("mesh '{}': LIGGGHTS took {} of {} triangles; the surface has degenerate or double triangles", id,
-                    sizeLocal(), surface.triangle_count()));
-  velocity_ = prop().addElementProperty<LAMMPS_NS::MultiVectorContainer<double, 3, 3>>("v", "comm_exchange_borders",
-                                                                                       "frame_invariant", "restart_no");
+        fmt::format("mesh '{}': LIGGGHTS took {} of {} triangles; the surface has degenerate or "
+                    "double triangles",
+                    id, sizeLocal(), surface.triangle_count()));
+  velocity_ = prop().addElementProperty<LAMMPS_NS::MultiVectorContainer<double, 3, 3>>(
+      "v", "comm_exchange_borders", "frame_invariant", "restart_no");
   velocity_->setAll(0.0);
-  const Vector3 period(domain->xperiodic ? domain->prd[0] : 0.0, domain->yperiodic ? domain->prd[1] : 0.0,
+  const Vector3 period(domain->xperiodic ? domain->prd[0] : 0.0,
+                       domain->yperiodic ? domain->prd[1] : 0.0,
                        domain->zperiodic ? domain->prd[2] : 0.0);
   const auto [lower, upper] = surface.bounds();
   weld_ = weld_nodes(surface.x, period, 1e-9 * (upper - lower).norm());
@@ -47,19 +51,22 @@ void BodyMesh::follow_surface() {
   image_shift_.resize(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) follow(i);
   bbox_.reset();
-  for (Eigen::Index n = 0; n < surface_.x.cols(); ++n) bbox_.extendToContain(surface_.x.col(n).data());
+  for (Eigen::Index n = 0; n < surface_.x.cols(); ++n)
+    bbox_.extendToContain(surface_.x.col(n).data());
 }
 
 void BodyMesh::follow(int i) {
   const Vector3i& triangle = surface_.triangles[static_cast<std::size_t>(id(i))];
   double* centre = center_(i);
   const Vector3 body_centre =
-      (surface_.x.col(triangle[0]) + surface_.x.col(triangle[1]) + surface_.x.col(triangle[2])) / 3.0;
+      (surface_.x.col(triangle[0]) + surface_.x.col(triangle[1]) + surface_.x.col(triangle[2])) /
+      3.0;
 
   Vector3 shift = Vector3::Zero();
   const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
   for (int k = 0; k < 3; ++k)
-    if (periodic[k]) shift[k] = std::round((centre[k] - body_centre[k]) / domain->prd[k]) * domain->prd[k];
+    if (periodic[k])
+      shift[k] = std::round((centre[k] - body_centre[k]) / domain->prd[k]) * domain->prd[k];
   image_shift_[static_cast<std::size_t>(i)] = shift;
 
   double bound_squared = 0.0;
@@ -85,7 +92,8 @@ void BodyMesh::follow(int i) {
   for (int j = 0; j < 3; ++j) {
     const double* ahead = edgeVec(i)[j];
     const double* behind = edgeVec(i)[(j + 2) % 3];
-    if (ahead[0] * behind[0] + ahead[1] * behind[1] + ahead[2] * behind[2] > 0.0) obtuseAngleIndex(i) = j;
+    if (ahead[0] * behind[0] + ahead[1] * behind[1] + ahead[2] * behind[2] > 0.0)
+      obtuseAngleIndex(i) = j;
   }
 }
 
@@ -109,8 +117,9 @@ void BodyMesh::remember_rebuild() {
   }
 }
 
-/// As LIGGGHTS: half a skin of motion since the lists were made. But a node counts only if one of its triangles overlaps the
-/// box of all grains: the upper half of a fast wheel must not force new lists. Replicated data, so all ranks agree.
+/// As LIGGGHTS: half a skin of motion since the lists were made. But a node counts only if one of
+/// its triangles overlaps the box of all grains: the upper half of a fast wheel must not force new
+/// lists. Replicated data, so all ranks agree.
 bool BodyMesh::decideRebuild() {
   const double limit = 0.25 * neighbor->skin * neighbor->skin;
   // Along a periodic axis the box of the grains says nothing.
@@ -121,7 +130,8 @@ bool BodyMesh::decideRebuild() {
     for (int k = 0; k < 3; ++k) {
       if (periodic[k]) continue;
       const double a = x(k, t[0]), b = x(k, t[1]), c = x(k, t[2]);
-      within_reach &= std::max({a, b, c}) >= reach_lower_[k] && std::min({a, b, c}) <= reach_upper_[k];
+      within_reach &=
+          std::max({a, b, c}) >= reach_lower_[k] && std::min({a, b, c}) <= reach_upper_[k];
     }
     if (!within_reach) continue;
     for (int j = 0; j < 3; ++j)
@@ -133,19 +143,28 @@ bool BodyMesh::decideRebuild() {
 Schema FixMeshBody::schema() {
   Schema schema("fix mesh/body");
   schema.text("body", "id of the fix that makes the body");
-  schema.integer("type", Range::at_least(1), "atom type of the surface: picks the contact properties");
+  schema.integer("type", Range::at_least(1),
+                 "atom type of the surface: picks the contact properties");
   return schema;
 }
 
 FixMeshBody::Arguments::Arguments(LAMMPS_NS::LAMMPS& lammps, int narg, char** arg)
     : options(schema().read(words_after_style(narg, arg))),
       body(FixWorld::find_body(lammps, options.where("body"), options.word("body")).body()),
-      words{arg[0], arg[1], "mesh/surface", "fix", options.word("body"), "type", std::to_string(options.integer("type"))} {
+      words{arg[0],
+            arg[1],
+            "mesh/surface",
+            "fix",
+            options.word("body"),
+            "type",
+            std::to_string(options.integer("type"))} {
   for (std::string& word : words) pointers.push_back(word.data());
   if (body.half_model())
-    throw InputError(options.where("body"), fmt::format("is '{}', which is a half model", options.word("body")),
+    throw InputError(options.where("body"),
+                     fmt::format("is '{}', which is a half model", options.word("body")),
                      "a whole body", "grains have no plane of symmetry: give the body 'half no'");
-  if (options.integer("type") > lammps.atom->ntypes)  // LIGGGHTS would read properties beyond their end
+  // LIGGGHTS would read properties beyond their end
+  if (options.integer("type") > lammps.atom->ntypes)
     throw InputError(options.where("type"), fmt::format("is {}", options.integer("type")),
                      fmt::format("1 to {}, the types of create_box", lammps.atom->ntypes));
 }
@@ -154,7 +173,8 @@ FixMeshBody::FixMeshBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixMeshBody(lammps, Arguments(*lammps, narg, arg)) {}
 
 FixMeshBody::FixMeshBody(LAMMPS_NS::LAMMPS* lammps, Arguments arguments)
-    : FixMeshSurface(lammps, static_cast<int>(arguments.pointers.size()), arguments.pointers.data()),
+    : FixMeshSurface(lammps, static_cast<int>(arguments.pointers.size()),
+                     arguments.pointers.data()),
       options_(arguments.options),
       body_(arguments.body),
       body_mesh_(new BodyMesh(lammps, id, body_.surface())) {
@@ -167,7 +187,9 @@ bool FixMeshBody::needs(LAMMPS_NS::Fix& other) const {
   return owner && &owner->body() == &body_;
 }
 
-int FixMeshBody::setmask() { return FixMeshSurface::setmask() | LAMMPS_NS::FixConst::INITIAL_INTEGRATE; }
+int FixMeshBody::setmask() {
+  return FixMeshSurface::setmask() | LAMMPS_NS::FixConst::INITIAL_INTEGRATE;
+}
 
 void FixMeshBody::check_inside_box() const {
   const auto [lower, upper] = body_.surface().bounds();
@@ -175,10 +197,11 @@ void FixMeshBody::check_inside_box() const {
   for (int k = 0; k < 3; ++k)
     if (!periodic[k] && (lower[k] < domain->boxlo[k] || upper[k] > domain->boxhi[k]))
       throw StateError(
-          fmt::format("mesh '{}' leaves the simulation box in {} at step {}: it spans {:.6g} to {:.6g} m, the box {:.6g} "
+          fmt::format("mesh '{}' leaves the simulation box in {} at step {}: it spans {:.6g} to "
+                      "{:.6g} m, the box {:.6g} "
                       "to {:.6g} m; make the region of create_box larger or the travel shorter",
-                      id, std::string("xyz").at(static_cast<std::size_t>(k)), update->ntimestep, lower[k], upper[k],
-                      domain->boxlo[k], domain->boxhi[k]));
+                      id, std::string("xyz").at(static_cast<std::size_t>(k)), update->ntimestep,
+                      lower[k], upper[k], domain->boxlo[k], domain->boxhi[k]));
 }
 
 void FixMeshBody::setup_pre_force(int vflag) {
@@ -195,7 +218,8 @@ void FixMeshBody::initial_integrate(int) {
 
 void FixMeshBody::pre_exchange() { exchanged_ = true; }
 
-/// In place of FixMesh::pre_force: node data are known on every rank, so nothing is sent between rebuilds.
+/// In place of FixMesh::pre_force: node data are known on every rank, so nothing is sent between
+/// rebuilds.
 void FixMeshBody::pre_force(int) {
   if (exchanged_) {
     body_mesh_->pbcExchangeBorders(0);

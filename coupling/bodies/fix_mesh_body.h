@@ -14,7 +14,8 @@
 
 namespace furrow::coupling {
 
-/// Triangles of a body's surface, distributed over ranks as LIGGGHTS likes; node data come from the replicated surface.
+/// Triangles of a body's surface, distributed over ranks as LIGGGHTS likes; node data come from the
+/// replicated surface.
 class BodyMesh : public LAMMPS_NS::TriMesh {
  public:
   BodyMesh(LAMMPS_NS::LAMMPS* lammps, const char* id, const Surface& surface);
@@ -23,19 +24,24 @@ class BodyMesh : public LAMMPS_NS::TriMesh {
   bool isMoving() override { return true; }
   bool decideRebuild() override;
 
-  /// Node positions, velocities and all that LIGGGHTS derives from them, for owned and ghost triangles.
+  /// Node positions, velocities and all that LIGGGHTS derives from them, for owned and ghost
+  /// triangles.
   void follow_surface();
-  /// Call when neighbour lists are about to be made: later motion is measured from here, and only where grains can be reached.
+  /// Call when neighbour lists are about to be made: later motion is measured from here, and only
+  /// where grains can be reached.
   void remember_rebuild();
 
   const Surface& body_surface() const { return surface_; }
-  /// Nodes of a triangle by the numbers that tell whether two triangles meet: equal across a seam or a periodic boundary.
+  /// Nodes of a triangle by the numbers that tell whether two triangles meet: equal across a seam
+  /// or a periodic boundary.
   Vector3i welded(const Vector3i& nodes) const {
     return {weld_[static_cast<std::size_t>(nodes[0])], weld_[static_cast<std::size_t>(nodes[1])],
             weld_[static_cast<std::size_t>(nodes[2])]};
   }
   /// Periodic image of a local triangle: its nodes are the surface's nodes plus this.
-  const Vector3& image_shift(int local_triangle) const { return image_shift_[static_cast<std::size_t>(local_triangle)]; }
+  const Vector3& image_shift(int local_triangle) const {
+    return image_shift_[static_cast<std::size_t>(local_triangle)];
+  }
 
  private:
   void follow(int local_triangle);

@@ -8,16 +8,20 @@ namespace furrow::coupling {
 Schema FixPlateRigid::schema() {
   Schema schema = RigidPlate::schema("fix plate/rigid");
   schema.number("speed", "m/s", Range::non_negative(), "downward speed");
-  schema.number("start", "s", Range::non_negative(), "time at which the plate sets off").by_default(0.0);
-  schema.number("accelerate_time", "s", Range::non_negative(), "time in which it gains its speed, smoothly");
-  schema.number("ground_level", "m", Range::any(), "z of the undisturbed ground: datum of the sinkage");
+  schema.number("start", "s", Range::non_negative(), "time at which the plate sets off")
+      .by_default(0.0);
+  schema.number("accelerate_time", "s", Range::non_negative(),
+                "time in which it gains its speed, smoothly");
+  schema.number("ground_level", "m", Range::any(),
+                "z of the undisturbed ground: datum of the sinkage");
   return schema;
 }
 
 FixPlateRigid::FixPlateRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixPlateRigid(lammps, narg, arg, schema().read(words_after_style(narg, arg))) {}
 
-FixPlateRigid::FixPlateRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Options& options)
+FixPlateRigid::FixPlateRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg,
+                             const Options& options)
     : FixBody(lammps, narg, arg, std::make_unique<RigidPlate>(options)),
       options_(options),
       ramp_{options.number("start"), options.number("accelerate_time")},
@@ -39,7 +43,9 @@ void FixPlateRigid::pre_delete(bool unfixflag) {
   FixBody::pre_delete(unfixflag);
 }
 
-void FixPlateRigid::apply(double time, double dt) { plate().prescribe(-speed_ * ramp_.mean(time, time + dt)); }
+void FixPlateRigid::apply(double time, double dt) {
+  plate().prescribe(-speed_ * ramp_.mean(time, time + dt));
+}
 
 double FixPlateRigid::compute_vector(int n) {
   switch (n) {

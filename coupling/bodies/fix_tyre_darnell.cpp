@@ -31,7 +31,8 @@ int whole_number(const Options& options, const char* key, double value) {
 
 /// Read, made and inflated.
 std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
-  const std::filesystem::path path = std::filesystem::path(script_folder(lammps)) / options.word("file");
+  const std::filesystem::path path =
+      std::filesystem::path(script_folder(lammps)) / options.word("file");
   TyreParameters parameters = read_tyre_file(path.string());
   if (options.has("pressure")) parameters.pressure = options.number("pressure");
 
@@ -48,14 +49,17 @@ std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& op
   hub.inertia.axial = options.number("inertia");
   hub.inertia.diametral = options.has("inertia_diametral")
                               ? options.number("inertia_diametral")
-                              : 0.5 * hub.inertia.axial + hub.inertia.mass * std::pow(parameters.bead_spacing, 2) / 12.0;
+                              : 0.5 * hub.inertia.axial +
+                                    hub.inertia.mass * std::pow(parameters.bead_spacing, 2) / 12.0;
   const std::vector<double>& axle = options.numbers("axle");
   hub.centre = {axle[0], axle[1], axle[2]};
   if (settings.half && hub.centre.y() != 0.0)
-    throw InputError(options.where("axle"), fmt::format("has y = {} m with a half model", hub.centre.y()),
+    throw InputError(options.where("axle"),
+                     fmt::format("has y = {} m with a half model", hub.centre.y()),
                      "y = 0: the plane of symmetry");
 
-  auto tyre = std::make_unique<DarnellTyre>(parameters, settings, hub, options.subject(), open_sidewall_table);
+  auto tyre = std::make_unique<DarnellTyre>(parameters, settings, hub, options.subject(),
+                                            open_sidewall_table);
   tyre->settle(nullptr);
   return tyre;
 }
@@ -65,32 +69,42 @@ std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& op
 Schema FixTyreDarnell::schema() {
   Schema schema("fix tyre/darnell");
   schema.text("file", "tyre file, relative to the folder of the script");
-  schema.number("pressure", "Pa", Range::non_negative(), "inflation pressure; by default that of the tyre file").optional();
+  schema
+      .number("pressure", "Pa", Range::non_negative(),
+              "inflation pressure; by default that of the tyre file")
+      .optional();
   schema.numbers("mesh", 2, "", Range::closed(2, 2000), "elements across the tread and around it")
       .by_default(std::vector<double>{6, 72});
   schema.flag("half", "only the half y >= 0, mirrored");
-  schema.word("sidewall", {"table", "direct"}, "sidewall forces looked up, or solved at every station and step")
+  schema
+      .word("sidewall", {"table", "direct"},
+            "sidewall forces looked up, or solved at every station and step")
       .by_default("table");
   schema
       .integer("sidewall_rows", Range::closed(0, 50),
                "rows of nodes on each sidewall, for contact; 0: only the tread can touch")
       .by_default("4");
-  schema.number("mass", "kg", Range::positive(), "mass of the rim and whatever moves with the axle, without the tread");
+  schema.number("mass", "kg", Range::positive(),
+                "mass of the rim and whatever moves with the axle, without the tread");
   schema.number("inertia", "kg m^2", Range::positive(), "their moment of inertia about the axle");
   schema
       .number("inertia_diametral", "kg m^2", Range::positive(),
               "the same across the axle; by default inertia/2 + mass bead_spacing^2/12")
       .optional();
-  schema.number("damping", "1/s", Range::non_negative(), "rate at which the tread's motion relative to the rim is damped")
+  schema
+      .number("damping", "1/s", Range::non_negative(),
+              "rate at which the tread's motion relative to the rim is damped")
       .by_default(100.0);
-  schema.numbers("axle", 3, "m", Range::any(), "axle centre at the start: x y z").by_default(std::vector<double>{0, 0, 0});
+  schema.numbers("axle", 3, "m", Range::any(), "axle centre at the start: x y z")
+      .by_default(std::vector<double>{0, 0, 0});
   return schema;
 }
 
 FixTyreDarnell::FixTyreDarnell(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixTyreDarnell(lammps, narg, arg, schema().read(words_after_style(narg, arg))) {}
 
-FixTyreDarnell::FixTyreDarnell(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Options& options)
+FixTyreDarnell::FixTyreDarnell(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg,
+                               const Options& options)
     : FixWheelHub(lammps, narg, arg, make_tyre(*lammps, options), options) {
   vector_flag = 1;
   size_vector = 5;
@@ -98,7 +112,8 @@ FixTyreDarnell::FixTyreDarnell(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, 
   extvector = 0;
 }
 
-/// Grain forces that come only once in many sub-steps may feed energy into a light tread: fix_tyre_darnell.md.
+/// Grain forces that come only once in many sub-steps may feed energy into a light tread:
+/// fix_tyre_darnell.md.
 void FixTyreDarnell::init() {
   FixWheelHub::init();
   const double stable = tyre().stable_time_step();
@@ -108,13 +123,12 @@ void FixTyreDarnell::init() {
     on_grains |= mesh && mesh->needs(*this);
   }
   if (on_grains && update->dt > most_sub_steps * stable && comm->me == 0)
-    error->warning(
-        FLERR,
-        fmt::format(
-            "fix tyre/darnell '{}': the time step {:.3g} s is more than {} of the tyre's own, {:.3g} s; grain forces come once a "
-            "step and may shake the tread: choose a step of at most {:.2g} s",
-            id, update->dt, most_sub_steps, stable, most_sub_steps * stable)
-            .c_str());
+    error->warning(FLERR,
+                   fmt::format("fix tyre/darnell '{}': the time step {:.3g} s is more than {} of "
+                               "the tyre's own, {:.3g} s; grain forces come once a "
+                               "step and may shake the tread: choose a step of at most {:.2g} s",
+                               id, update->dt, most_sub_steps, stable, most_sub_steps * stable)
+                       .c_str());
 }
 
 double FixTyreDarnell::compute_vector(int n) {

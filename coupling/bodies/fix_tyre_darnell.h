@@ -14,8 +14,9 @@ class FixTyreDarnell : public FixWheelHub {
 
   DarnellTyre& tyre() { return static_cast<DarnellTyre&>(body()); }
   void init() override;
-  /// f_id[1]: deflection [m], f_id[2]: inflation pressure [Pa], f_id[3]: section width [m], f_id[4]: elastic energy of the tread [J],
-  /// f_id[5]: longest sidewall chord over the sidewall's length
+  /// f_id[1]: deflection [m], f_id[2]: inflation pressure [Pa], f_id[3]: section width [m],
+  /// f_id[4]: elastic energy of the tread [J], f_id[5]: longest sidewall chord over the sidewall's
+  /// length
   double compute_vector(int n) override;
 
  private:

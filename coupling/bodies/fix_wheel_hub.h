@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What fixes that make a wheel or a tyre have in common: a hub that a wheel/rig drives and a wheel/history records.
+/// What fixes that make a wheel or a tyre have in common: a hub that a wheel/rig drives and a
+/// wheel/history records.
 
 #include "bodies/wheel_hub.h"
 #include "coupling/output/effective_input.h"
@@ -11,7 +12,8 @@ namespace furrow::coupling {
 class FixWheelHub : public FixBody, public Described {
  public:
   /// @param options as they took effect
-  FixWheelHub(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, std::unique_ptr<WheelHub> hub, const Options& options)
+  FixWheelHub(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, std::unique_ptr<WheelHub> hub,
+              const Options& options)
       : FixBody(lammps, narg, arg, std::move(hub)), options_(options) {}
 
   WheelHub& hub() { return static_cast<WheelHub&>(body()); }

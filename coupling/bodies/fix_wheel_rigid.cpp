@@ -8,7 +8,8 @@ namespace furrow::coupling {
 FixWheelRigid::FixWheelRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixWheelRigid(lammps, narg, arg, schema().read(words_after_style(narg, arg))) {}
 
-FixWheelRigid::FixWheelRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Options& options)
+FixWheelRigid::FixWheelRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg,
+                             const Options& options)
     : FixWheelHub(lammps, narg, arg, std::make_unique<RigidWheel>(options), options) {}
 
 }  // namespace furrow::coupling

@@ -23,30 +23,36 @@ Schema FixContactBodies::schema() {
 FixContactBodies::FixContactBodies(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : Fix(lammps, narg, arg), options_(schema().read(words_after_style(narg, arg))) {
   Body& body = FixWorld::find_body(*lammps, options_.where("body"), options_.word("body")).body();
-  auto* ground =
-      dynamic_cast<FixTerrainContinuum*>(&FixWorld::find_body(*lammps, options_.where("ground"), options_.word("ground")));
+  auto* ground = dynamic_cast<FixTerrainContinuum*>(
+      &FixWorld::find_body(*lammps, options_.where("ground"), options_.word("ground")));
   if (!ground)
     throw InputError(options_.where("ground"),
                      fmt::format("is '{}', which is a body but no ground", options_.word("ground")),
                      "the id of a fix terrain/continuum");
   if (body.surface().triangle_count() == 0)
-    throw InputError(options_.where("body"), fmt::format("is '{}', which has no surface", options_.word("body")),
+    throw InputError(options_.where("body"),
+                     fmt::format("is '{}', which has no surface", options_.word("body")),
                      "a wheel, a tyre or a plate");
   body_fix_ = lammps->modify->find_fix_id(options_.word("body").c_str());
   ground_fix_ = lammps->modify->find_fix_id(options_.word("ground").c_str());
   const double plane = ground->ground().grid().axis(1).lower();
   half_body_ = body.half_model();
   if (half_body_ && !(ground->half_model() && plane == 0.0))
-    throw InputError(options_.where("body"),
-                     ground->half_model()
-                         ? fmt::format("is the half y >= 0 of '{}', and the ground's plane of symmetry is y = {:.4g} m",
-                                       options_.word("body"), plane)
-                         : fmt::format("is '{}', which is a half model, and the ground is whole", options_.word("body")),
-                     "a half model on half a ground with the same plane",
-                     "give the ground 'symmetry yes' and its centre y = 0, or the body 'half no'");
-  // A half body mirrors what it is given itself; a whole one needs the forces of the other half as well.
-  contact_ = std::make_unique<GroundContact>(body, ground->ground(), GroundContact::parameters_from(options_),
-                                             ground->half_model() && !half_body_, fmt::format("fix {} contact/bodies", id));
+    throw InputError(
+        options_.where("body"),
+        ground->half_model()
+            ? fmt::format(
+                  "is the half y >= 0 of '{}', and the ground's plane of symmetry is y = {:.4g} m",
+                  options_.word("body"), plane)
+            : fmt::format("is '{}', which is a half model, and the ground is whole",
+                          options_.word("body")),
+        "a half model on half a ground with the same plane",
+        "give the ground 'symmetry yes' and its centre y = 0, or the body 'half no'");
+  // A half body mirrors what it is given itself; a whole one needs the forces of the other half as
+  // well.
+  contact_ = std::make_unique<GroundContact>(
+      body, ground->ground(), GroundContact::parameters_from(options_),
+      ground->half_model() && !half_body_, fmt::format("fix {} contact/bodies", id));
   restart_global = 1;
   vector_flag = 1;
   size_vector = 9;
@@ -73,14 +79,10 @@ void FixContactBodies::restart(char* buffer) {
 double FixContactBodies::compute_vector(int n) {
   const GroundContact& c = *contact_;
   const double both = half_body_ ? 2.0 : 1.0;
-  const double values[] = {both * c.force().x(),
-                           half_body_ ? 0.0 : c.force().y(),
-                           both * c.force().z(),
-                           both * c.contacts(),
-                           both * c.area(),
-                           c.penetration(),
-                           c.deepest_penetration(),
-                           both * c.friction_loss(),
+  const double values[] = {both * c.force().x(),    half_body_ ? 0.0 : c.force().y(),
+                           both * c.force().z(),    both * c.contacts(),
+                           both * c.area(),         c.penetration(),
+                           c.deepest_penetration(), both * c.friction_loss(),
                            both * c.damping_loss()};
   return values[n];
 }

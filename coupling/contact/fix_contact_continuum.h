@@ -20,7 +20,9 @@ class FixContactBodies : public LAMMPS_NS::Fix, public Described, public Depende
 
   const GroundContact& contact() const { return *contact_; }
   const Options& options() const override { return options_; }
-  bool needs(LAMMPS_NS::Fix& other) const override { return &other == body_fix_ || &other == ground_fix_; }
+  bool needs(LAMMPS_NS::Fix& other) const override {
+    return &other == body_fix_ || &other == ground_fix_;
+  }
 
   int setmask() override { return 0; }
   void post_create() override;

@@ -10,7 +10,8 @@
 namespace furrow::coupling {
 
 struct FixContactPlane::Contact : public Interaction {
-  Contact(Body& touching, const RigidPlaneParameters& parameters) : body(touching), plane(parameters, touching.surface()) {}
+  Contact(Body& touching, const RigidPlaneParameters& parameters)
+      : body(touching), plane(parameters, touching.surface()) {}
   void apply(double) override { plane.press_on(body.surface()); }
 
   Body& body;
@@ -23,9 +24,12 @@ Schema FixContactPlane::schema() {
   schema.number("level", "m", Range::any(), "z of the floor");
   schema.number("friction", "", Range::non_negative(), "Coulomb's mu");
   schema.number("stiffness", "Pa/m", Range::positive(), "pressure per penetration").by_default(2e9);
-  schema.number("tangential_stiffness", "Pa/m", Range::positive(), "shear stress per displacement while a node sticks")
+  schema
+      .number("tangential_stiffness", "Pa/m", Range::positive(),
+              "shear stress per displacement while a node sticks")
       .by_default(1e9);
-  schema.number("damping", "Pa s/m", Range::non_negative(), "pressure per approach velocity").by_default(0.0);
+  schema.number("damping", "Pa s/m", Range::non_negative(), "pressure per approach velocity")
+      .by_default(0.0);
   return schema;
 }
 
@@ -61,7 +65,9 @@ void FixContactPlane::write_restart(FILE* file) {
   write_record(file, contact_->plane.state());
 }
 
-void FixContactPlane::restart(char* buffer) { contact_->plane.restore(reinterpret_cast<const double*>(buffer)); }
+void FixContactPlane::restart(char* buffer) {
+  contact_->plane.restore(reinterpret_cast<const double*>(buffer));
+}
 
 double FixContactPlane::compute_vector(int n) {
   const RigidPlane& plane = contact_->plane;

@@ -25,7 +25,8 @@ class FixContactPlane : public LAMMPS_NS::Fix, public Described, public Dependen
   void pre_delete(bool unfixflag) override;
   void write_restart(FILE* file) override;
   void restart(char* buffer) override;
-  /// f_id[1-3]: force on the body [N], f_id[4]: largest pressure at a node [Pa], f_id[5]: area of the touching nodes [m^2]
+  /// f_id[1-3]: force on the body [N], f_id[4]: largest pressure at a node [Pa], f_id[5]: area of
+  /// the touching nodes [m^2]
   double compute_vector(int n) override;
 
  private:

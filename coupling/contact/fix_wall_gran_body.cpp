@@ -23,18 +23,22 @@ namespace furrow::coupling {
 
 namespace {
 
-// A grain that overlaps a body by a tenth of its radius before the first step would be shot out of the bed.
+// A grain that overlaps a body by a tenth of its radius before the first step would be shot out of
+// the bed.
 constexpr double deepest_start = 0.1;
 
 }  // namespace
 
-FixWallGranBody::FixWallGranBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : FixWallGran(lammps, narg, arg) {
+FixWallGranBody::FixWallGranBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+    : FixWallGran(lammps, narg, arg) {
   if (!is_mesh_wall())
     throw InputError("fix wall/gran/body", "has no mesh", "mesh n_meshes N meshes id1 id2 ...",
                      "use fix wall/gran for primitive walls");
   if (store_force_contact() || store_force_contact_stress())
-    throw InputError("fix wall/gran/body, keyword 'store_force_contact'", "is given", "it is not for meshes of bodies",
-                     "use store_force for the wall's force on every grain, or the history of the body for the sum");
+    throw InputError("fix wall/gran/body, keyword 'store_force_contact'", "is given",
+                     "it is not for meshes of bodies",
+                     "use store_force for the wall's force on every grain, or the history of the "
+                     "body for the sum");
   for (int m = 0; m < n_FixMesh_; ++m)
     if (!dynamic_cast<FixMeshBody*>(FixMesh_list_[m])) stock_meshes_.push_back(FixMesh_list_[m]);
 }
@@ -48,7 +52,8 @@ void FixWallGranBody::setup(int vflag) {
   starting_ = FixWorld::of(*lmp).time() == 0.0;
   for (int m = 0; m < n_FixMesh_; ++m)
     if (auto* mesh_fix = dynamic_cast<FixMeshBody*>(FixMesh_list_[m])) {
-      const auto [check, fresh] = ground_checks_.try_emplace(m, *lmp, fmt::format("fix wall/gran/body '{}', mesh '{}'", id, mesh_fix->id));
+      const auto [check, fresh] = ground_checks_.try_emplace(
+          m, *lmp, fmt::format("fix wall/gran/body '{}', mesh '{}'", id, mesh_fix->id));
       if (fresh) check->second.start(mesh_fix->body().surface());
     }
   FixWallGran::setup(vflag);
@@ -60,7 +65,8 @@ void FixWallGranBody::refuse_deep_start() {
   const double deepest = FixWorld::of(*lmp).communicator().max(deepest_);
   if (deepest > deepest_start)
     throw StateError(
-        fmt::format("fix wall/gran/body '{}': a body starts inside the bed: a grain overlaps it by {:.3g} of its radius "
+        fmt::format("fix wall/gran/body '{}': a body starts inside the bed: a grain overlaps it by "
+                    "{:.3g} of its radius "
                     "(limit {:g}); start the body higher, just above the surface of the bed",
                     id, deepest, deepest_start));
 }
@@ -69,7 +75,8 @@ void FixWallGranBody::post_force_mesh(int vflag) {
   deepest_ = 0.0;
   if (!stock_meshes_.empty()) post_force_stock_meshes(vflag);
   for (int m = 0; m < n_FixMesh_; ++m)
-    if (auto* mesh_fix = dynamic_cast<FixMeshBody*>(FixMesh_list_[m])) post_force_body(*mesh_fix, m);
+    if (auto* mesh_fix = dynamic_cast<FixMeshBody*>(FixMesh_list_[m]))
+      post_force_body(*mesh_fix, m);
 }
 
 /// LIGGGHTS wants all meshes in one wall fix; those that are not ours get its own detection.
@@ -91,7 +98,8 @@ void FixWallGranBody::post_force_body(FixMeshBody& mesh_fix, int mesh_number) {
   const auto check = ground_checks_.find(mesh_number);
   check_ = check == ground_checks_.end() ? nullptr : &check->second;
   collect_candidates(mesh_fix);
-  // Not in the order in which LIGGGHTS happens to hold its triangles: sums, and so restarts, are the same to the last bit.
+  // Not in the order in which LIGGGHTS happens to hold its triangles: sums, and so restarts, are
+  // the same to the last bit.
   std::sort(touched_.begin(), touched_.end());
   FixWorld& bodies = FixWorld::of(*lmp);
   ContactLedger& ledger = bodies.ledger(mesh_fix.body());
@@ -101,7 +109,8 @@ void FixWallGranBody::post_force_body(FixMeshBody& mesh_fix, int mesh_number) {
     for (int c = first_[grain]; c >= 0; c = next_[c]) of_grain_.push_back(candidates_[c]);
     first_[grain] = -1;
     selection_.select(of_grain_, atom->radius[grain]);
-    for (const ContactCandidate& contact : of_grain_) apply(mesh_fix, mesh_number, grain, contact, moment_reference, ledger);
+    for (const ContactCandidate& contact : of_grain_)
+      apply(mesh_fix, mesh_number, grain, contact, moment_reference, ledger);
   }
   if (history) history->cleanUpContacts();
   if (check_) check_->finish_step(mesh_fix.body().surface());
@@ -111,7 +120,8 @@ void FixWallGranBody::collect_candidates(FixMeshBody& mesh_fix) {
   BodyMesh& mesh = mesh_fix.body_mesh();
   const Surface& surface = mesh.body_surface();
   LAMMPS_NS::FixNeighlistMesh& neighbours = *mesh_fix.meshNeighlist();
-  const double reach_factor = neighbor->contactDistanceFactor;  // > 1 for models that act before contact
+  // > 1 for models that act before contact
+  const double reach_factor = neighbor->contactDistanceFactor;
 
   candidates_.clear();
   next_.clear();
@@ -144,10 +154,12 @@ void FixWallGranBody::collect_candidates(FixMeshBody& mesh_fix) {
   }
 }
 
-/// The stored history of this contact. A contact that has just moved over from a neighbouring triangle takes its history along:
-/// a grain that slides or rolls over an edge keeps its tangential spring.
-double* FixWallGranBody::history_of(LAMMPS_NS::FixContactHistoryMesh& history, const BodyMesh& mesh, int grain,
-                                    const ContactCandidate& contact, bool touching) const {
+/// The stored history of this contact. A contact that has just moved over from a neighbouring
+/// triangle takes its history along: a grain that slides or rolls over an edge keeps its tangential
+/// spring.
+double* FixWallGranBody::history_of(LAMMPS_NS::FixContactHistoryMesh& history, const BodyMesh& mesh,
+                                    int grain, const ContactCandidate& contact,
+                                    bool touching) const {
   const int slots = history.nneighs(grain);
   bool known = false;
   for (int j = 0; j < slots; ++j) known |= history.partner(grain, j) == contact.triangle;
@@ -160,7 +172,8 @@ double* FixWallGranBody::history_of(LAMMPS_NS::FixContactHistoryMesh& history, c
   for (int j = 0; j < slots; ++j) {
     const int other = history.partner(grain, j);
     if (other < 0 || other == contact.triangle || contact_seen(history, grain, j)) continue;
-    const Vector3i nodes = mesh.welded(mesh.body_surface().triangles[static_cast<std::size_t>(other)]);
+    const Vector3i nodes =
+        mesh.welded(mesh.body_surface().triangles[static_cast<std::size_t>(other)]);
     int shared = 0;
     for (int k = 0; k < 3; ++k) shared += (nodes.array() == contact.nodes[k]).any();
     if (shared > most_shared) {
@@ -172,8 +185,9 @@ double* FixWallGranBody::history_of(LAMMPS_NS::FixContactHistoryMesh& history, c
   return values;
 }
 
-void FixWallGranBody::apply(FixMeshBody& mesh_fix, int mesh_number, int grain, const ContactCandidate& contact,
-                            const Vector3& moment_reference, ContactLedger& ledger) {
+void FixWallGranBody::apply(FixMeshBody& mesh_fix, int mesh_number, int grain,
+                            const ContactCandidate& contact, const Vector3& moment_reference,
+                            ContactLedger& ledger) {
   BodyMesh& mesh = mesh_fix.body_mesh();
   Surface& surface = mesh_fix.body().surface();
   const Vector3i& nodes = surface.triangles[static_cast<std::size_t>(contact.triangle)];
@@ -181,7 +195,8 @@ void FixWallGranBody::apply(FixMeshBody& mesh_fix, int mesh_number, int grain, c
   const double overlap = radius - contact.point.distance;
   const bool touching = overlap >= 0.0;
   deepest_ = std::max(deepest_, overlap / radius);
-  if (starting_ && overlap > deepest_start * radius) return;  // setup() refuses it; its force may not even be a number
+  // setup() refuses it; its force may not even be a number
+  if (starting_ && overlap > deepest_start * radius) return;
 
   LIGGGHTS::ContactModels::SurfacesIntersectData data;
   data.is_wall = true;
@@ -195,24 +210,29 @@ void FixWallGranBody::apply(FixMeshBody& mesh_fix, int mesh_number, int grain, c
     data.contact_history = history_of(*history, mesh, grain, contact, touching);
 
   Vector3 wall_velocity = Vector3::Zero();
-  for (int j = 0; j < 3; ++j) wall_velocity += contact.point.barycentric[j] * surface.v.col(nodes[j]);
+  for (int j = 0; j < 3; ++j)
+    wall_velocity += contact.point.barycentric[j] * surface.v.col(nodes[j]);
 
   Eigen::Map<Vector3> grain_force(atom->f[grain]), grain_torque(atom->torque[grain]);
   const Vector3 force_before = grain_force, torque_before = grain_torque;
-  impl->compute_force(this, data, touching, wall_velocity.data(), &mesh_fix, mesh_number, &mesh, contact.tag);
+  impl->compute_force(this, data, touching, wall_velocity.data(), &mesh_fix, mesh_number, &mesh,
+                      contact.tag);
   const Vector3 contact_force = grain_force - force_before;
   const Vector3 contact_torque = grain_torque - torque_before;
 
   if (!contact_force.allFinite())
     guarded_alone(*error, [&] {
       throw StateError(
-          fmt::format("fix wall/gran/body '{}': the force between grain {} and triangle {} is not finite at step {}; the "
+          fmt::format("fix wall/gran/body '{}': the force between grain {} and triangle {} is not "
+                      "finite at step {}; the "
                       "time step is too large or the grains have exploded",
                       id, atom->tag[grain], contact.triangle, update->ntimestep));
     });
 
-  // By the weights of the contact point: the three nodes get the force and, because the point is on the triangle, its moment.
-  for (int j = 0; j < 3; ++j) surface.f.col(nodes[j]) -= contact.point.barycentric[j] * contact_force;
+  // By the weights of the contact point: the three nodes get the force and, because the point is on
+  // the triangle, its moment.
+  for (int j = 0; j < 3; ++j)
+    surface.f.col(nodes[j]) -= contact.point.barycentric[j] * contact_force;
 
   const Vector3 centre = Eigen::Map<const Vector3>(atom->x[grain]) - mesh.image_shift(contact.tag);
   const Vector3 contact_point = centre - contact.point.separation;

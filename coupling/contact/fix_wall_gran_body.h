@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// fix wall/gran/body: LIGGGHTS's granular wall with Furrow's own contact detection. See fix_wall_gran_body.md.
+/// fix wall/gran/body: LIGGGHTS's granular wall with Furrow's own contact detection. See
+/// fix_wall_gran_body.md.
 
 #include <map>
 #include <vector>
@@ -44,8 +45,9 @@ class FixWallGranBody : public LAMMPS_NS::FixWallGran {
   std::vector<int> first_;    // of each local grain; -1: none
   std::vector<int> touched_;  // grains with candidates, in the order found
   std::vector<ContactCandidate> of_grain_;
-  bool starting_ = false;  // in the set-up of the first run: deep contacts are counted, not computed
-  double deepest_ = 0.0;   // largest overlap over radius in the last call
+  // in the set-up of the first run: deep contacts are counted, not computed
+  bool starting_ = false;
+  double deepest_ = 0.0;                      // largest overlap over radius in the last call
   std::map<int, GroundCheck> ground_checks_;  // of each mesh of a body, by its place in the list
   GroundCheck* check_ = nullptr;              // of the mesh at work
 };

@@ -6,10 +6,12 @@
 
 namespace furrow::coupling {
 
-/// LIGGGHTS itself ends such a run with an internal error or a crash, some steps later. This rank's grains only.
+/// LIGGGHTS itself ends such a run with an internal error or a crash, some steps later. This rank's
+/// grains only.
 /// @throws StateError naming a grain whose position or velocity is not finite
 void check_grains_finite(const LAMMPS_NS::LAMMPS& lammps);
-/// The same between steps, where velocities tell all: a position goes wrong only through its velocity.
+/// The same between steps, where velocities tell all: a position goes wrong only through its
+/// velocity.
 void check_velocities_finite(const LAMMPS_NS::LAMMPS& lammps);
 
 }  // namespace furrow::coupling

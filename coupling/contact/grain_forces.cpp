@@ -16,15 +16,19 @@ namespace {
 constexpr char storage_id[] = "furrow_grain_forces";
 
 double** storage(LAMMPS_NS::LAMMPS& lammps) {
-  return static_cast<LAMMPS_NS::FixPropertyAtom*>(lammps.modify->find_fix_id(storage_id))->array_atom;
+  return static_cast<LAMMPS_NS::FixPropertyAtom*>(lammps.modify->find_fix_id(storage_id))
+      ->array_atom;
 }
 
 }  // namespace
 
 void GrainForces::make_storage() {
   // restart yes, no communication to ghosts or back, six values that begin with 0
-  std::vector<std::string> words = {
-      storage_id, "all", "property/atom", storage_id, "vector", "yes", "no", "no", "0", "0", "0", "0", "0", "0"};
+  std::vector<std::string> words = {storage_id, "all",    "property/atom",
+                                    storage_id, "vector", "yes",
+                                    "no",       "no",     "0",
+                                    "0",        "0",      "0",
+                                    "0",        "0"};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   lammps_.modify->add_fix(static_cast<int>(arguments.size()), arguments.data());

@@ -20,8 +20,8 @@ namespace furrow::coupling {
 namespace {
 
 LAMMPS_NS::FixPropertyGlobal* property_of_types(LAMMPS_NS::LAMMPS& lammps, const char* name) {
-  return static_cast<LAMMPS_NS::FixPropertyGlobal*>(
-      lammps.modify->find_fix_property(name, "property/global", "peratomtype", lammps.atom->ntypes, 0, "furrow", false));
+  return static_cast<LAMMPS_NS::FixPropertyGlobal*>(lammps.modify->find_fix_property(
+      name, "property/global", "peratomtype", lammps.atom->ntypes, 0, "furrow", false));
 }
 
 /// Largest number of two digits that is not above value.
@@ -33,15 +33,18 @@ double rounded_down(double value) {
 }  // namespace
 
 void check_time_step(LAMMPS_NS::LAMMPS& lammps, const std::string& where) {
-  auto *young = property_of_types(lammps, "youngsModulus"), *poisson = property_of_types(lammps, "poissonsRatio");
+  auto *young = property_of_types(lammps, "youngsModulus"),
+       *poisson = property_of_types(lammps, "poissonsRatio");
   if (!young || !poisson) return;
 
   const LAMMPS_NS::Atom& atom = *lammps.atom;
   double shortest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < atom.nlocal; ++i) {
     const auto type = atom.type[i] - 1;
-    const double E = young->get_values()[type], nu = poisson->get_values()[type], G = E / (2.0 * (1.0 + nu));
-    shortest = std::min(shortest, M_PI * atom.radius[i] * std::sqrt(atom.density[i] / G) / (0.1631 * nu + 0.8766));
+    const double E = young->get_values()[type], nu = poisson->get_values()[type],
+                 G = E / (2.0 * (1.0 + nu));
+    shortest = std::min(
+        shortest, M_PI * atom.radius[i] * std::sqrt(atom.density[i] / G) / (0.1631 * nu + 0.8766));
   }
   shortest = -Communicator(&lammps.world).max(-shortest);
   if (std::isinf(shortest)) return;
@@ -49,14 +52,17 @@ void check_time_step(LAMMPS_NS::LAMMPS& lammps, const std::string& where) {
   const double step = lammps.update->dt, share = step / shortest;
   if (share <= step_warning) return;
   const std::string finding = fmt::format(
-      "{}: timestep {:.4g} s is {:.3g} of the Rayleigh time of the smallest, lightest or stiffest grain, {:.4g} s", where,
-      step, share, shortest);
-  const std::string remedy =
-      fmt::format("write 'timestep {:.2g}' or less, or lower youngsModulus", rounded_down(0.2 * shortest));
-  if (!(share <= step_limit)) throw StateError(fmt::format("{} (limit {:g}); {}", finding, step_limit, remedy));
+      "{}: timestep {:.4g} s is {:.3g} of the Rayleigh time of the smallest, lightest or stiffest "
+      "grain, {:.4g} s",
+      where, step, share, shortest);
+  const std::string remedy = fmt::format("write 'timestep {:.2g}' or less, or lower youngsModulus",
+                                         rounded_down(0.2 * shortest));
+  if (!(share <= step_limit))
+    throw StateError(fmt::format("{} (limit {:g}); {}", finding, step_limit, remedy));
   if (lammps.comm->me == 0)
-    lammps.error->warning("time_step_check.cpp", __LINE__,
-                          fmt::format("{} (recommended: at most {:g}); {}", finding, step_warning, remedy).c_str());
+    lammps.error->warning(
+        "time_step_check.cpp", __LINE__,
+        fmt::format("{} (recommended: at most {:g}); {}", finding, step_warning, remedy).c_str());
 }
 
 }  // namespace furrow::coupling

@@ -8,14 +8,17 @@
 
 namespace furrow::coupling {
 
-// Shares of the Rayleigh time: 0.1 to 0.3 is common practice, and beyond half a contact of several grains gains energy.
+// Shares of the Rayleigh time: 0.1 to 0.3 is common practice, and beyond half a contact of several
+// grains gains energy.
 constexpr double step_warning = 0.25, step_limit = 0.5;
 
-/// Compares the step with the time in which a Rayleigh wave runs over the surface of the worst grain,
+/// Compares the step with the time in which a Rayleigh wave runs over the surface of the worst
+/// grain,
 ///   T = pi r sqrt(rho / G) / (0.1631 nu + 0.8766),  G = E / (2 (1 + nu))
-/// (C. Thornton and C. W. Randall, in: Micromechanics of granular materials, Elsevier 1988; LIGGGHTS's check/timestep/gran uses it
-/// too). Warns above step_warning of it. Collective. Without grains, or without the properties youngsModulus and poissonsRatio
-/// (contact models that have none), there is nothing to compare.
+/// (C. Thornton and C. W. Randall, in: Micromechanics of granular materials, Elsevier 1988;
+/// LIGGGHTS's check/timestep/gran uses it too). Warns above step_warning of it. Collective. Without
+/// grains, or without the properties youngsModulus and poissonsRatio (contact models that have
+/// none), there is nothing to compare.
 /// @throws StateError above step_limit of it
 void check_time_step(LAMMPS_NS::LAMMPS& lammps, const std::string& where);
 

@@ -19,18 +19,21 @@ FixWheelHub& find_free_wheel(LAMMPS_NS::LAMMPS& lammps, const Options& options) 
   const std::string where = options.where("wheel"), &id = options.word("wheel");
   auto* wheel = dynamic_cast<FixWheelHub*>(&FixWorld::find_body(lammps, where, id));
   if (!wheel)
-    throw InputError(where, fmt::format("is '{}', which is a body but no wheel", id), "the id of a fix wheel/rigid or tyre/darnell");
+    throw InputError(where, fmt::format("is '{}', which is a body but no wheel", id),
+                     "the id of a fix wheel/rigid or tyre/darnell");
   for (int i = 0; i < lammps.modify->nfix; ++i) {
     auto* other = dynamic_cast<FixWheelRig*>(lammps.modify->fix[i]);
     if (other && &other->wheel_fix() == wheel)
-      throw InputError(where, fmt::format("is '{}', which fix {} drives already", id, other->id), "one rig a wheel",
+      throw InputError(where, fmt::format("is '{}', which fix {} drives already", id, other->id),
+                       "one rig a wheel",
                        fmt::format("remove one of them, or write 'unfix {}' before", other->id));
   }
   return *wheel;
 }
 
-/// A rig is made with the wheel where the script puts it, also when the run continues: lowering, heading and camber are told from
-/// there. A wheel that comes from a restart file then goes back to the state it had.
+/// A rig is made with the wheel where the script puts it, also when the run continues: lowering,
+/// heading and camber are told from there. A wheel that comes from a restart file then goes back to
+/// the state it had.
 WheelRig make_rig(const Options& options, FixWheelHub& wheel_fix) {
   WheelHub& wheel = wheel_fix.hub();
   if (wheel_fix.state_as_made().empty()) return WheelRig(options, wheel);

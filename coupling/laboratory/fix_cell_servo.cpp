@@ -24,7 +24,8 @@ namespace {
 
 constexpr char temperature_id[] = "furrow_cell_temperature", pressure_id[] = "furrow_cell_pressure";
 constexpr char axis_names[] = "xyz";
-// Integral action over this many response times: the stress is met also while the cell moves, without ringing.
+// Integral action over this many response times: the stress is met also while the cell moves,
+// without ringing.
 constexpr double integral_times = 4.0;
 
 }  // namespace
@@ -32,15 +33,31 @@ constexpr double integral_times = 4.0;
 Schema FixCellServo::schema() {
   Schema schema("fix cell/servo");
   for (const char name : {'x', 'y', 'z'}) {
-    schema.number(fmt::format("rate_{}", name), "1/s", Range::any(), "logarithmic strain rate along this axis, compression positive")
+    schema
+        .number(fmt::format("rate_{}", name), "1/s", Range::any(),
+                "logarithmic strain rate along this axis, compression positive")
         .optional();
-    schema.number(fmt::format("stress_{}", name), "Pa", Range::non_negative(), "normal stress along this axis, compression positive")
+    schema
+        .number(fmt::format("stress_{}", name), "Pa", Range::non_negative(),
+                "normal stress along this axis, compression positive")
         .optional();
   }
-  schema.number("rate_limit", "1/s", Range::positive(), "largest strain rate that the stress control may use").by_default(0.5);
-  schema.number("stiffness", "Pa", Range::positive(), "upper estimate of the confined stiffness of the ground").by_default(1e7);
-  schema.number("response_time", "s", Range::positive(), "time in which an error of stress is removed").by_default(2e-3);
-  schema.number("ramp_time", "s", Range::non_negative(), "time in which the rates grow to their values").by_default(0.0);
+  schema
+      .number("rate_limit", "1/s", Range::positive(),
+              "largest strain rate that the stress control may use")
+      .by_default(0.5);
+  schema
+      .number("stiffness", "Pa", Range::positive(),
+              "upper estimate of the confined stiffness of the ground")
+      .by_default(1e7);
+  schema
+      .number("response_time", "s", Range::positive(),
+              "time in which an error of stress is removed")
+      .by_default(2e-3);
+  schema
+      .number("ramp_time", "s", Range::non_negative(),
+              "time in which the rates grow to their values")
+      .by_default(0.0);
   return schema;
 }
 
@@ -52,15 +69,18 @@ FixCellServo::FixCellServo(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
       response_time_(options_.number("response_time")),
       ramp_time_(options_.number("ramp_time")) {
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::string rate = fmt::format("rate_{}", axis_names[k]), stress = fmt::format("stress_{}", axis_names[k]);
+    const std::string rate = fmt::format("rate_{}", axis_names[k]),
+                      stress = fmt::format("stress_{}", axis_names[k]);
     if (options_.given(rate) && options_.given(stress))
-      throw InputError(options_.where(stress), "is given besides " + rate, "one of them for an axis",
+      throw InputError(options_.where(stress), "is given besides " + rate,
+                       "one of them for an axis",
                        "leave one out; without both, the edge keeps its length");
     if (options_.given(rate)) axes_[k] = {Axis::Control::rate, options_.number(rate)};
     if (options_.given(stress)) axes_[k] = {Axis::Control::stress, options_.number(stress)};
   }
   if (!domain->xperiodic || !domain->yperiodic || !domain->zperiodic || domain->triclinic)
-    throw InputError("fix cell/servo", "stands in a box that is not periodic along x, y and z", "boundary p p p, no tilt",
+    throw InputError("fix cell/servo", "stands in a box that is not periodic along x, y and z",
+                     "boundary p p p, no tilt",
                      "a cell has no walls; use plate/rigid for ground in a box");
   box_change_size = 1;
   vector_flag = 1;
@@ -70,7 +90,9 @@ FixCellServo::FixCellServo(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
   nevery = 1;
 }
 
-int FixCellServo::setmask() { return LAMMPS_NS::FixConst::INITIAL_INTEGRATE | LAMMPS_NS::FixConst::END_OF_STEP; }
+int FixCellServo::setmask() {
+  return LAMMPS_NS::FixConst::INITIAL_INTEGRATE | LAMMPS_NS::FixConst::END_OF_STEP;
+}
 
 void FixCellServo::post_create() {
   std::string temperature[] = {temperature_id, "all", "temp"};
@@ -89,11 +111,13 @@ void FixCellServo::pre_delete(bool) {
 }
 
 void FixCellServo::init() {
-  // Grains and ghosts that cross a face gain the velocity of the opposite face, as fix deform has it; no other fix may set it.
+  // Grains and ghosts that cross a face gain the velocity of the opposite face, as fix deform has
+  // it; no other fix may set it.
   domain->deform_flag = domain->deform_vremap = 1;
   domain->deform_groupbit = groupbit;
   for (int k = 0; k < 6; ++k) domain->h_rate[k] = 0.0;
-  for (int k = 0; k < 3; ++k) domain->h_rate[k] = -axes_[static_cast<std::size_t>(k)].rate * domain->prd[k];
+  for (int k = 0; k < 3; ++k)
+    domain->h_rate[k] = -axes_[static_cast<std::size_t>(k)].rate * domain->prd[k];
   atom->avec->init();
 
   const Communicator ranks(&world);
@@ -115,13 +139,16 @@ void FixCellServo::init() {
 /// The box moves before the grains: forces of this step belong to the new box.
 void FixCellServo::initial_integrate(int) { move_box(); }
 
-/// Proportional and integral: a ground of confined stiffness M answers a strain rate D with a stress rate M D.
+/// Proportional and integral: a ground of confined stiffness M answers a strain rate D with a
+/// stress rate M D.
 double FixCellServo::next_rate(Axis& axis, double stress) const {
   if (axis.control == Axis::Control::hold) return 0.0;
   const double ramp = ramp_time_ > 0.0 ? std::min(1.0, elapsed_ / ramp_time_) : 1.0;
   if (axis.control == Axis::Control::rate) return ramp * axis.target;
-  const double limit = ramp * rate_limit_, proportional = (axis.target - stress) / (stiffness_ * response_time_);
-  axis.integral = std::clamp(axis.integral + proportional * update->dt / (integral_times * response_time_), -limit, limit);
+  const double limit = ramp * rate_limit_,
+               proportional = (axis.target - stress) / (stiffness_ * response_time_);
+  axis.integral = std::clamp(
+      axis.integral + proportional * update->dt / (integral_times * response_time_), -limit, limit);
   return std::clamp(proportional + axis.integral, -limit, limit);
 }
 
@@ -158,7 +185,10 @@ void FixCellServo::measure() {
   pressure.addstep(update->ntimestep + 1);
   for (const double stress : stress_)
     if (!std::isfinite(stress))
-      guarded(*error, [&] { throw StateError(fmt::format("fix cell/servo '{}': the stress is not finite at step {}", id, update->ntimestep)); });
+      guarded(*error, [&] {
+        throw StateError(fmt::format("fix cell/servo '{}': the stress is not finite at step {}", id,
+                                     update->ntimestep));
+      });
 }
 
 double FixCellServo::compute_vector(int n) {

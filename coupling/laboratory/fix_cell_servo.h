@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// fix cell/servo: a periodic cell of grains under prescribed strain rates and stresses. See fix_cell_servo.md.
+/// fix cell/servo: a periodic cell of grains under prescribed strain rates and stresses. See
+/// fix_cell_servo.md.
 
 #include <array>
 
@@ -20,14 +21,16 @@ class FixCellServo : public LAMMPS_NS::Fix, public Described {
   void init() override;
   void initial_integrate(int vflag) override;
   void end_of_step() override;
-  /// f_id[1..3]: edges [m]; [4..6]: normal stresses, compression positive [Pa]; [7]: density [kg/m3]; [8]: inertial number
+  /// f_id[1..3]: edges [m]; [4..6]: normal stresses, compression positive [Pa]; [7]: density
+  /// [kg/m3]; [8]: inertial number
   double compute_vector(int n) override;
   const Options& options() const override { return options_; }
 
  private:
   struct Axis {
     enum class Control { hold, rate, stress } control = Control::hold;
-    double target = 0.0;    // strain rate, compression positive [1/s], or normal stress, compression positive [Pa]
+    // strain rate, compression positive [1/s], or normal stress, compression positive [Pa]
+    double target = 0.0;
     double integral = 0.0;  // of the controller [1/s]
     double rate = 0.0;      // of the last step [1/s]
   };

@@ -20,7 +20,10 @@ namespace furrow::coupling {
 Schema FixLayerShear::schema() {
   Schema schema("fix layer/shear");
   schema.number("speed", "m/s", Range::any(), "velocity along x");
-  schema.number("accelerate_time", "s", Range::non_negative(), "time in which it gains its speed, smoothly").by_default(0.0);
+  schema
+      .number("accelerate_time", "s", Range::non_negative(),
+              "time in which it gains its speed, smoothly")
+      .by_default(0.0);
   return schema;
 }
 
@@ -35,9 +38,12 @@ FixLayerShear::FixLayerShear(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
   extvector = 0;
 }
 
-int FixLayerShear::setmask() { return LAMMPS_NS::FixConst::INITIAL_INTEGRATE | LAMMPS_NS::FixConst::FINAL_INTEGRATE; }
+int FixLayerShear::setmask() {
+  return LAMMPS_NS::FixConst::INITIAL_INTEGRATE | LAMMPS_NS::FixConst::FINAL_INTEGRATE;
+}
 
-/// The layer is rigid: it follows the cell along z with the velocity that the cell has at its middle.
+/// The layer is rigid: it follows the cell along z with the velocity that the cell has at its
+/// middle.
 void FixLayerShear::init() {
   const Communicator ranks(&world);
   double sums[] = {0.0, 0.0};
@@ -49,14 +55,16 @@ void FixLayerShear::init() {
   ranks.sum(sums, 2);
   guarded(*error, [&] {
     if (sums[1] == 0.0)
-      throw InputError(fmt::format("fix layer/shear '{}'", id), "has no grains in its group", "a group with grains",
+      throw InputError(fmt::format("fix layer/shear '{}'", id), "has no grains in its group",
+                       "a group with grains",
                        "define the group by a region that holds a layer of grains");
   });
   height_ = sums[0] / sums[1];
 }
 
 void FixLayerShear::initial_integrate(int) {
-  const double dt = update->dt, speed = speed_ * Ramp{0.0, accelerate_time_}.mean(elapsed_, elapsed_ + dt);
+  const double dt = update->dt,
+               speed = speed_ * Ramp{0.0, accelerate_time_}.mean(elapsed_, elapsed_ + dt);
   const double middle = 0.5 * (domain->boxlo[2] + domain->boxhi[2]);
   const double rise = domain->h_rate[2] / domain->prd[2] * (height_ - middle);
   for (int i = 0; i < atom->nlocal; ++i)
@@ -83,6 +91,8 @@ void FixLayerShear::final_integrate() {
   Communicator(&world).sum(force_.data(), 3);
 }
 
-double FixLayerShear::compute_vector(int n) { return n == 0 ? displacement_ : force_[static_cast<std::size_t>(n - 1)]; }
+double FixLayerShear::compute_vector(int n) {
+  return n == 0 ? displacement_ : force_[static_cast<std::size_t>(n - 1)];
+}
 
 }  // namespace furrow::coupling

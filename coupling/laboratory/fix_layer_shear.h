@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// fix layer/shear: a layer of grains frozen into a rough rigid plate that shears a periodic cell. See fix_layer_shear.md.
+/// fix layer/shear: a layer of grains frozen into a rough rigid plate that shears a periodic cell.
+/// See fix_layer_shear.md.
 
 #include <array>
 

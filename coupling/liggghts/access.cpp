@@ -20,7 +20,8 @@ namespace furrow::coupling {
 
 namespace {
 
-// An explicit template instantiation may name private members; the friend function hands the pointer to member out.
+// An explicit template instantiation may name private members; the friend function hands the
+// pointer to member out.
 template <class Tag, typename Tag::type Member>
 struct Expose {
   friend typename Tag::type member(Tag) { return Member; }
@@ -59,7 +60,8 @@ struct HistoryKeep {
 };
 template struct Expose<HistoryKeep, &LAMMPS_NS::FixContactHistoryMesh::keepflag_>;
 
-/// Number of the line that the stream has just been read up to; 0 when it cannot be told (standard input).
+/// Number of the line that the stream has just been read up to; 0 when it cannot be told (standard
+/// input).
 long line_number(FILE* file) {
   const long position = file ? std::ftell(file) : -1;
   if (position < 0 || file == stdin) return 0;
@@ -76,7 +78,8 @@ long line_number(FILE* file) {
 
 std::string file_name(FILE* file) {
   char path[4096];
-  const ssize_t length = readlink(fmt::format("/proc/self/fd/{}", fileno(file)).c_str(), path, sizeof path - 1);
+  const ssize_t length =
+      readlink(fmt::format("/proc/self/fd/{}", fileno(file)).c_str(), path, sizeof path - 1);
   return length > 0 ? std::string(path, static_cast<std::size_t>(length)) : "input script";
 }
 
@@ -85,8 +88,9 @@ std::string file_name(FILE* file) {
 void check_library(const LAMMPS_NS::LAMMPS& lammps) {
   const std::string version = lammps.universe->version;
   if (version.find("3.8.0") == std::string::npos)
-    throw Error("the LIGGGHTS library at hand is '" + version +
-                "', but furrow uses the class layout of 3.8.0; install Debian 12's libliggghts3 3.8.0");
+    throw Error(
+        "the LIGGGHTS library at hand is '" + version +
+        "', but furrow uses the class layout of 3.8.0; install Debian 12's libliggghts3 3.8.0");
 }
 
 void add_fix_style(LAMMPS_NS::LAMMPS& lammps, const std::string& style, FixCreator creator) {
@@ -112,7 +116,8 @@ std::string script_name(const LAMMPS_NS::LAMMPS& lammps) {
 std::string script_folder(const LAMMPS_NS::LAMMPS& lammps) {
   int rank = 0;
   MPI_Comm_rank(lammps.world, &rank);
-  std::string folder = rank == 0 ? std::filesystem::path(script_name(lammps)).parent_path().string() : "";
+  std::string folder =
+      rank == 0 ? std::filesystem::path(script_name(lammps)).parent_path().string() : "";
   int size = static_cast<int>(folder.size());
   MPI_Bcast(&size, 1, MPI_INT, 0, lammps.world);
   folder.resize(static_cast<std::size_t>(size));

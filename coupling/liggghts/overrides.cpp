@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Functions of libliggghts that this executable stands in front of: the dynamic linker finds ours first. They need default
-// visibility, everything else in coupling/ is hidden.
+// Functions of libliggghts that this executable stands in front of: the dynamic linker finds ours
+// first. They need default visibility, everything else in coupling/ is hidden.
 
 #include <chrono>
 #include <cstdio>
@@ -27,14 +27,15 @@ template <class Function>
 Function next_definition(const char* symbol) {
   void* address = dlsym(RTLD_NEXT, symbol);
   if (!address) {
-    std::fprintf(stderr, "ERROR: libliggghts has no %s; install Debian 12's libliggghts3 3.8.0\n", symbol);
+    std::fprintf(stderr, "ERROR: libliggghts has no %s; install Debian 12's libliggghts3 3.8.0\n",
+                 symbol);
     MPI_Abort(MPI_COMM_WORLD, 1);
   }
   return reinterpret_cast<Function>(address);
 }
 
-/// One error, one message: what is wrong, where in the script, and where in the source it was noticed.
-/// (The library's own version may add a line from a string that no longer exists.)
+/// One error, one message: what is wrong, where in the script, and where in the source it was
+/// noticed. (The library's own version may add a line from a string that no longer exists.)
 void print_error(LAMMPS_NS::LAMMPS& lammps, const std::string& text, const char* file, int line) {
   const std::string position = furrow::coupling::script_position(lammps);
   for (FILE* stream : {lammps.screen, lammps.logfile}) {
@@ -46,31 +47,37 @@ void print_error(LAMMPS_NS::LAMMPS& lammps, const std::string& text, const char*
   }
 }
 
-/// Whatever cannot be saved now is lost: the run ends with the error that stopped it, not with this one.
+/// Whatever cannot be saved now is lost: the run ends with the error that stopped it, not with this
+/// one.
 void keep_results(const LAMMPS_NS::LAMMPS& lammps) {
   for (int i = 0; lammps.modify && i < lammps.modify->nfix; ++i) try {
-      if (auto* keeper = dynamic_cast<furrow::coupling::ResultsKeeper*>(lammps.modify->fix[i])) keeper->keep_results();
+      if (auto* keeper = dynamic_cast<furrow::coupling::ResultsKeeper*>(lammps.modify->fix[i]))
+        keeper->keep_results();
     } catch (const std::exception& loss) {
-      std::fprintf(stderr, "Results of fix %s are lost: %s\n", lammps.modify->fix[i]->id, loss.what());
+      std::fprintf(stderr, "Results of fix %s are lost: %s\n", lammps.modify->fix[i]->id,
+                   loss.what());
     }
 }
 
-constexpr std::chrono::seconds patience(10);  // for ranks that come to the same error a little later
+// for ranks that come to the same error a little later
+constexpr std::chrono::seconds patience(10);
 
 /// Whether all ranks come here; false when one of them waits for this one elsewhere.
 bool all_arrive(MPI_Comm ranks) {
   MPI_Request request;
   MPI_Ibarrier(ranks, &request);
   int done = 0;
-  for (const auto start = std::chrono::steady_clock::now(); !done && std::chrono::steady_clock::now() - start < patience;
+  for (const auto start = std::chrono::steady_clock::now();
+       !done && std::chrono::steady_clock::now() - start < patience;
        std::this_thread::sleep_for(std::chrono::milliseconds(1)))
     MPI_Test(&request, &done, MPI_STATUS_IGNORE);
   return done != 0;
 }
 
-/// All ranks have come to the same error: leave together, dumps and logs closed. What was thought to befall all may befall one (a particle
-/// of its part of the ground): then as Error::one.
-[[noreturn]] void stop_together(LAMMPS_NS::LAMMPS& lammps, const std::string& text, const char* file, int line) {
+/// All ranks have come to the same error: leave together, dumps and logs closed. What was thought
+/// to befall all may befall one (a particle of its part of the ground): then as Error::one.
+[[noreturn]] void stop_together(LAMMPS_NS::LAMMPS& lammps, const std::string& text,
+                                const char* file, int line) {
   if (!all_arrive(lammps.world)) {
     lammps.error->one(file, line, text.c_str());
     std::abort();  // one() does not come back
@@ -105,13 +112,16 @@ FURROW_EXPORTED void LAMMPS::create() {
   furrow::coupling::add_styles(*this);
 }
 
-FURROW_EXPORTED void Error::all(const char* file, int line, const char* text) { stop_together(*lmp, text, file, line); }
+FURROW_EXPORTED void Error::all(const char* file, int line, const char* text) {
+  stop_together(*lmp, text, file, line);
+}
 
 FURROW_EXPORTED void Error::fix_error(const char* file, int line, Fix* fix, const char* text) {
   stop_together(*lmp, fix_text(*fix, fix->style, text), file, line);
 }
 
-FURROW_EXPORTED void Error::fix_error(const char* file, int line, Fix* fix, const char* style, const char* text) {
+FURROW_EXPORTED void Error::fix_error(const char* file, int line, Fix* fix, const char* style,
+                                      const char* text) {
   stop_together(*lmp, fix_text(*fix, style, text), file, line);
 }
 

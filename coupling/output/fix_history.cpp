@@ -12,9 +12,13 @@
 namespace furrow::coupling {
 
 void FixHistory::add_keys(Schema& schema, const char* frames) {
-  schema.text("folder", "folder for the results; made if need be, earlier results in it are replaced");
+  schema.text("folder",
+              "folder for the results; made if need be, earlier results in it are replaced");
   schema.integer("every", Range::at_least(1), "steps between rows of the history");
-  schema.integer("vtk", Range::at_least(0), fmt::format("steps between frames of {}; 0: none", frames)).by_default("0");
+  schema
+      .integer("vtk", Range::at_least(0),
+               fmt::format("steps between frames of {}; 0: none", frames))
+      .by_default("0");
 }
 
 FixHistory::FixHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema)
@@ -23,7 +27,9 @@ FixHistory::FixHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Sc
   restart_global = 1;
 }
 
-int FixHistory::setmask() { return LAMMPS_NS::FixConst::END_OF_STEP | LAMMPS_NS::FixConst::POST_RUN; }
+int FixHistory::setmask() {
+  return LAMMPS_NS::FixConst::END_OF_STEP | LAMMPS_NS::FixConst::POST_RUN;
+}
 
 double FixHistory::time() const { return FixWorld::of(*lmp).time(); }
 

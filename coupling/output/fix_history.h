@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What the fixes that record results have in common: one file of rows, frames for ParaView, a closing at the end of the run, and runs
-/// that are continued from a checkpoint.
+/// What the fixes that record results have in common: one file of rows, frames for ParaView, a
+/// closing at the end of the run, and runs that are continued from a checkpoint.
 
 #include <chrono>
 #include <optional>
@@ -34,7 +34,7 @@ class FixHistory : public LAMMPS_NS::Fix, public Described, public Dependent, pu
   /// The keys that all have: folder, every and vtk. @param frames what a frame shows
   static void add_keys(Schema& schema, const char* frames);
 
-  // ---- the recorder's part: called on all ranks --------------------------------------------------------------------------------
+  // ---- the recorder's part: called on all ranks -------------------------------------------------
   /// @param resume_time of the checkpoint that this run continues; none for a run from the start
   virtual void open(std::optional<double> resume_time) = 0;
   virtual void record() = 0;

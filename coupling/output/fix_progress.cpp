@@ -16,20 +16,24 @@ namespace {
 
 std::string clock_text(double seconds) {
   const long s = std::lround(seconds);
-  return s < 3600 ? fmt::format("{}:{:02}", s / 60, s % 60) : fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+  return s < 3600 ? fmt::format("{}:{:02}", s / 60, s % 60)
+                  : fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
 }
 
 }  // namespace
 
 Schema FixProgress::schema() {
   Schema schema("fix progress");
-  schema.number("every", "s", Range::positive(), "seconds of wall time between lines").by_default(5.0);
+  schema.number("every", "s", Range::positive(), "seconds of wall time between lines")
+      .by_default(5.0);
   schema.text("label", "what is going on, first word of the line").by_default("run");
   return schema;
 }
 
 FixProgress::FixProgress(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : Fix(lammps, narg, arg), options_(schema().read(words_after_style(narg, arg))), interval_(options_.number("every")) {
+    : Fix(lammps, narg, arg),
+      options_(schema().read(words_after_style(narg, arg))),
+      interval_(options_.number("every")) {
   nevery = 10;  // looking at the clock is cheap, but not free
 }
 
@@ -51,9 +55,10 @@ void FixProgress::print(Clock::time_point now) const {
   const double done = static_cast<double>(update->ntimestep - update->firststep),
                all = static_cast<double>(update->laststep - update->firststep);
   const double left = done > 0.0 ? elapsed * (all - done) / done : 0.0;
-  const std::string line = fmt::format("[{}] {:5.1f} %  elapsed {}  left {}  {:.1f} M grain steps/s\n",
-                                       options_.word("label"), 100.0 * done / all, clock_text(elapsed), clock_text(left),
-                                       elapsed > 0.0 ? 1e-6 * done * static_cast<double>(atom->natoms) / elapsed : 0.0);
+  const std::string line =
+      fmt::format("[{}] {:5.1f} %  elapsed {}  left {}  {:.1f} M grain steps/s\n",
+                  options_.word("label"), 100.0 * done / all, clock_text(elapsed), clock_text(left),
+                  elapsed > 0.0 ? 1e-6 * done * static_cast<double>(atom->natoms) / elapsed : 0.0);
   if (screen) {
     std::fputs(line.c_str(), screen);
     std::fflush(screen);

@@ -15,10 +15,13 @@ namespace furrow::coupling {
 namespace {
 
 FixTerrainContinuum& find_ground(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
-  auto* ground = dynamic_cast<FixTerrainContinuum*>(lammps.modify->find_fix_id(options.word("ground").c_str()));
+  auto* ground = dynamic_cast<FixTerrainContinuum*>(
+      lammps.modify->find_fix_id(options.word("ground").c_str()));
   if (!ground)
-    throw InputError(options.where("ground"), fmt::format("is '{}', and there is no such ground", options.word("ground")),
-                     "the id of a fix terrain/continuum", "write the fix terrain/continuum before this line");
+    throw InputError(options.where("ground"),
+                     fmt::format("is '{}', and there is no such ground", options.word("ground")),
+                     "the id of a fix terrain/continuum",
+                     "write the fix terrain/continuum before this line");
   return *ground;
 }
 

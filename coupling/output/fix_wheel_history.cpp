@@ -21,7 +21,8 @@ namespace {
 FixWheelRig& find_rig(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   auto* rig = dynamic_cast<FixWheelRig*>(lammps.modify->find_fix_id(options.word("rig").c_str()));
   if (!rig)
-    throw InputError(options.where("rig"), fmt::format("is '{}', and there is no such rig", options.word("rig")),
+    throw InputError(options.where("rig"),
+                     fmt::format("is '{}', and there is no such rig", options.word("rig")),
                      "the id of a fix wheel/rig", "write the fix wheel/rig before this line");
   return *rig;
 }
@@ -121,9 +122,9 @@ RunClosing FixWheelHistory::closing() {
   end.cost.ranks = comm->nprocs;
   end.cost.memory = bodies().communicator().sum(peak_memory());
   if (update->ntimestep < update->laststep)
-    end.warnings.push_back(
-        fmt::format("The run was interrupted at step {} of {}; the values are those of the part that was done.",
-                    update->ntimestep, update->laststep));
+    end.warnings.push_back(fmt::format(
+        "The run was interrupted at step {} of {}; the values are those of the part that was done.",
+        update->ntimestep, update->laststep));
   return end;
 }
 

@@ -16,14 +16,18 @@ Grains gather_grains(LAMMPS_NS::LAMMPS& lammps, double bed_level) {
   mine.reserve(static_cast<std::size_t>(atom.nlocal) * width);
   for (int i = 0; i < atom.nlocal; ++i) {
     const double *x = atom.x[i], *v = atom.v[i];
-    mine.insert(mine.end(), {static_cast<double>(atom.tag[i]), x[0], x[1], x[2], v[0], v[1], v[2], atom.radius[i]});
+    mine.insert(mine.end(), {static_cast<double>(atom.tag[i]), x[0], x[1], x[2], v[0], v[1], v[2],
+                             atom.radius[i]});
   }
   const int ranks = lammps.comm->nprocs, count = static_cast<int>(mine.size());
-  std::vector<int> counts(static_cast<std::size_t>(ranks)), starts(static_cast<std::size_t>(ranks), 0);
+  std::vector<int> counts(static_cast<std::size_t>(ranks)),
+      starts(static_cast<std::size_t>(ranks), 0);
   MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, lammps.world);
   for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
-  std::vector<double> all(lammps.comm->me == 0 ? static_cast<std::size_t>(starts.back() + counts.back()) : 0);
-  MPI_Gatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, 0, lammps.world);
+  std::vector<double> all(
+      lammps.comm->me == 0 ? static_cast<std::size_t>(starts.back() + counts.back()) : 0);
+  MPI_Gatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE,
+              0, lammps.world);
 
   Grains grains;
   grains.resize(all.size() / width);

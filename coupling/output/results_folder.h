@@ -18,7 +18,8 @@ inline void make_results_folder(const Options& options) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   if (failed)
-    throw InputError(options.where("folder"), fmt::format("is '{}', which cannot be made ({})", folder, failed.message()),
+    throw InputError(options.where("folder"),
+                     fmt::format("is '{}', which cannot be made ({})", folder, failed.message()),
                      "a folder that you may write in");
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// fix bed/window: the bed behind a body is renewed, so that a periodic bed of few wheel lengths serves a roll of any length.
-/// See fix_bed_window.md.
+/// fix bed/window: the bed behind a body is renewed, so that a periodic bed of few wheel lengths
+/// serves a roll of any length. See fix_bed_window.md.
 
 #include <vector>
 
@@ -25,7 +25,8 @@ class FixBedWindow : public LAMMPS_NS::Fix, public Described, public Dependent {
   void pre_neighbor() override {}
   void setup(int vflag) override { post_force(vflag); }
   void post_force(int vflag) override;
-  /// f_id[1]: slabs renewed; [2]: grains now; [3]: grains put in less grains taken out since the start
+  /// f_id[1]: slabs renewed; [2]: grains now; [3]: grains put in less grains taken out since the
+  /// start
   double compute_vector(int n) override;
   bool needs(LAMMPS_NS::Fix& other) const override;
   const Options& options() const override { return options_; }
@@ -33,7 +34,7 @@ class FixBedWindow : public LAMMPS_NS::Fix, public Described, public Dependent {
  private:
   void remember_bed();
   void renew(long slab);
-  long slab_of(double x) const;     // 0 to slabs_-1, x anywhere
+  long slab_of(double x) const;  // 0 to slabs_-1, x anywhere
   int slab_of_grain(std::size_t grain) const { return static_cast<int>(slab_of(packed(grain)[1])); }
   const double* packed(std::size_t grain) const { return &reference_[offset_[grain]]; }
   void take_out(long slab, const std::vector<std::size_t>& fresh);
@@ -46,7 +47,8 @@ class FixBedWindow : public LAMMPS_NS::Fix, public Described, public Dependent {
   double slab_length_ = 0.0;
   bool due_ = false, remembered_ = false;
 
-  // The undisturbed bed as AtomVec::pack_exchange writes it, all ranks' grains on every rank, sorted by tag.
+  // The undisturbed bed as AtomVec::pack_exchange writes it, all ranks' grains on every rank,
+  // sorted by tag.
   std::vector<double> reference_;
   std::vector<std::size_t> offset_;          // of each grain in reference_
   std::vector<std::size_t> history_offset_;  // of its contact history, from its own beginning

@@ -19,9 +19,9 @@ namespace furrow::coupling {
 
 namespace {
 
-constexpr long check_every = 100;  // steps between looks at the energy
-constexpr double least_energy =
-    1e-3;  // [J/kg] of the ground, its weight lifted by 0.1 mm: below it an imbalance does not matter
+constexpr long check_every = 100;      // steps between looks at the energy
+constexpr double least_energy = 1e-3;  // [J/kg] of the ground, its weight lifted by 0.1 mm: below
+                                       // it an imbalance does not matter
 
 GroundParameters parameters(const Options& options, const LAMMPS_NS::LAMMPS& lammps) {
   GroundParameters ground = read_ground(options, script_folder(lammps));
@@ -34,7 +34,9 @@ GroundParameters parameters(const Options& options, const LAMMPS_NS::LAMMPS& lam
 Schema FixTerrainContinuum::schema() {
   Schema schema = ground_schema("fix terrain/continuum");
   schema.text("follow", "id of the body that the ground moves along with").optional();
-  schema.number("energy_tolerance", "", Range::positive(), "energy that may be missing or made, over the largest work")
+  schema
+      .number("energy_tolerance", "", Range::positive(),
+              "energy that may be missing or made, over the largest work")
       .by_default(0.05);
   return schema;
 }
@@ -42,12 +44,15 @@ Schema FixTerrainContinuum::schema() {
 FixTerrainContinuum::FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixTerrainContinuum(lammps, narg, arg, schema().read(words_after_style(narg, arg))) {}
 
-FixTerrainContinuum::FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Options& options)
+FixTerrainContinuum::FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg,
+                                         const Options& options)
     : FixBody(lammps, narg, arg,
-              std::make_unique<MpmGround>(parameters(options, *lammps), Communicator(&lammps->world), options.subject())),
+              std::make_unique<MpmGround>(parameters(options, *lammps),
+                                          Communicator(&lammps->world), options.subject())),
       options_(options) {
   if (options_.given("follow")) {
-    followed_ = &FixWorld::find_body(*lammps, options_.where("follow"), options_.word("follow")).body();
+    followed_ =
+        &FixWorld::find_body(*lammps, options_.where("follow"), options_.word("follow")).body();
     followed_fix_ = lammps->modify->find_fix_id(options_.word("follow").c_str());
   }
   vector_flag = 1;
@@ -66,12 +71,16 @@ void FixTerrainContinuum::report() const {
   const double particles = soil.particle_count(), step = soil.stable_time_step();
   if (comm->me != 0 || !screen) return;
   const Grid& grid = soil.grid();
-  fmt::print(screen, "Continuum ground: {} x {} x {} cells, shortest {:.4g} m, {:.0f} particles; stable step {:.3g} s\n",
-             grid.axis(0).cells(), grid.axis(1).cells(), grid.axis(2).cells(), grid.shortest_cell(), particles, step);
+  fmt::print(screen,
+             "Continuum ground: {} x {} x {} cells, shortest {:.4g} m, {:.0f} particles; stable "
+             "step {:.3g} s\n",
+             grid.axis(0).cells(), grid.axis(1).cells(), grid.axis(2).cells(), grid.shortest_cell(),
+             particles, step);
   const double soften = options_.number("soften");
   if (soften != 1.0)
     fmt::print(screen,
-               "WARNING: the ground's elasticity is softened by {:g}: steps are {:.2g} times longer, elastic strains {:.2g} "
+               "WARNING: the ground's elasticity is softened by {:g}: steps are {:.2g} times "
+               "longer, elastic strains {:.2g} "
                "times larger\n",
                soften, 1.0 / std::sqrt(soften), 1.0 / soften);
 }
@@ -101,17 +110,19 @@ void FixTerrainContinuum::check_energy() {
     for (std::size_t p = 0; p < phase.particles.size(); ++p)
       mass += phase.law->density() * phase.particles.data(column::volume)[p];
   mass = ground().ranks().sum(mass);
-  const double scale =
-      std::max({std::abs(balance.contact_work), std::abs(balance.load_work), std::abs(balance.dissipated_energy),
-                std::abs(balance.kinetic_energy), least_energy * mass});
+  const double scale = std::max({std::abs(balance.contact_work), std::abs(balance.load_work),
+                                 std::abs(balance.dissipated_energy),
+                                 std::abs(balance.kinetic_energy), least_energy * mass});
   const double limit = options_.number("energy_tolerance") * scale, residual = balance.residual();
   if (!(std::abs(residual) <= limit) || !(balance.numerical_loss >= -limit))
-    throw StateError(fmt::format(
-        "fix {}: the energy of the ground does not balance at step {}: {:.4g} J are missing between work and state, the "
-        "discretisation has taken {:.4g} J (< 0: made); allowed is {:.4g} J; the step is unstable or the load too sudden: "
-        "lower "
-        "cfl, or the LIGGGHTS step",
-        id, update->ntimestep, residual, balance.numerical_loss, limit));
+    throw StateError(
+        fmt::format("fix {}: the energy of the ground does not balance at step {}: {:.4g} J are "
+                    "missing between work and state, the "
+                    "discretisation has taken {:.4g} J (< 0: made); allowed is {:.4g} J; the step "
+                    "is unstable or the load too sudden: "
+                    "lower "
+                    "cfl, or the LIGGGHTS step",
+                    id, update->ntimestep, residual, balance.numerical_loss, limit));
 }
 
 double FixTerrainContinuum::compute_vector(int n) {

@@ -25,7 +25,9 @@ constexpr long every = 200;  // steps between looks
 void GroundCheck::warn(bool& done, const std::string& text) {
   if (done) return;
   done = true;
-  if (lammps_.comm->me == 0) lammps_.error->warning("ground_check.cpp", __LINE__, fmt::format("{}: {}", where_, text).c_str());
+  if (lammps_.comm->me == 0)
+    lammps_.error->warning("ground_check.cpp", __LINE__,
+                           fmt::format("{}: {}", where_, text).c_str());
 }
 
 void GroundCheck::start(const Surface& surface) {
@@ -48,20 +50,25 @@ void GroundCheck::start(const Surface& surface) {
   if (sums[2] < 100.0) return;  // no bed: a few grains meet a body
   mean_diameter_ = sums[0] / sums[2];
   density_ = sums[1] / sums[2];
-  elastic_ = lammps_.modify->find_fix_property("youngsModulus", "property/global", "peratomtype", atom.ntypes, 0, "furrow", false) != nullptr;
+  elastic_ = lammps_.modify->find_fix_property("youngsModulus", "property/global", "peratomtype",
+                                               atom.ntypes, 0, "furrow", false) != nullptr;
 
   const auto [lower, upper] = surface.bounds();
-  const double width = upper[1] - lower[1], bed = lammps_.domain->yperiodic ? lammps_.domain->prd[1] : highest - lowest;
+  const double width = upper[1] - lower[1],
+               bed = lammps_.domain->yperiodic ? lammps_.domain->prd[1] : highest - lowest;
   bool once = false, once_more = false;
   if (width < GroundLimits::grains_per_width * mean_diameter_)
-    warn(once, fmt::format("the body is {:.3g} grains wide (recommended: at least {:g}); use smaller grains, or compare two sizes",
+    warn(once, fmt::format("the body is {:.3g} grains wide (recommended: at least {:g}); use "
+                           "smaller grains, or compare two sizes",
                            width / mean_diameter_, GroundLimits::grains_per_width));
   if (bed < GroundLimits::bed_widths * width)
-    warn(once_more, fmt::format("the bed is {:.3g} bodies wide (recommended: at least {:g}); its walls hold the ground together",
+    warn(once_more, fmt::format("the bed is {:.3g} bodies wide (recommended: at least {:g}); its "
+                                "walls hold the ground together",
                                 bed / width, GroundLimits::bed_widths));
 }
 
-void GroundCheck::contact(double overlap, double radius, const Vector3& point, const Vector3& force) {
+void GroundCheck::contact(double overlap, double radius, const Vector3& point,
+                          const Vector3& force) {
   if (mean_diameter_ == 0.0 || steps_ % every != 0) return;
   if (!looks_) {
     looks_ = true;
@@ -79,7 +86,8 @@ void GroundCheck::finish_step(const Surface& surface) {
   const double infinity = std::numeric_limits<double>::infinity();
   double extent[2];
   for (int k = 0; k < 2; ++k)
-    extent[k] = ranks.max(looks_ ? upper_[k] : -infinity) + ranks.max(looks_ ? -lower_[k] : -infinity);
+    extent[k] =
+        ranks.max(looks_ ? upper_[k] : -infinity) + ranks.max(looks_ ? -lower_[k] : -infinity);
   const double deepest = ranks.max(deepest_);
   double sum[3] = {force_[0], force_[1], force_[2]};
   ranks.sum(sum, 3);
@@ -88,16 +96,22 @@ void GroundCheck::finish_step(const Surface& surface) {
   looks_ = false;
 
   if (elastic_ && deepest > GroundLimits::overlap)
-    warn(warned_overlap_, fmt::format("a grain overlaps the body by {:.3g} of its diameter (recommended: at most {:g}); the grains are too "
-                                      "soft for this load: raise youngsModulus and settle the bed anew", deepest, GroundLimits::overlap));
+    warn(warned_overlap_,
+         fmt::format("a grain overlaps the body by {:.3g} of its diameter (recommended: at most "
+                     "{:g}); the grains are too "
+                     "soft for this load: raise youngsModulus and settle the bed anew",
+                     deepest, GroundLimits::overlap));
   // Fewer than a handful of grains carry no pressure.
   const double area = extent[0] * extent[1], force = std::abs(sum[2]);
   if (!(area > 9.0 * mean_diameter_ * mean_diameter_) || !(force > 0.0)) return;
   const double speed = surface.v.rowwise().mean().norm();
-  const double number = speed / std::sqrt(area) * mean_diameter_ * std::sqrt(density_ * area / force);
+  const double number =
+      speed / std::sqrt(area) * mean_diameter_ * std::sqrt(density_ * area / force);
   if (number > GroundLimits::inertial_number)
-    warn(warned_inertia_, fmt::format("the inertial number under the body is {:.3g} (shown to be without influence: up to {:g}); the motion is "
-                                      "not slow for these grains: compare with a slower run", number, GroundLimits::inertial_number));
+    warn(warned_inertia_, fmt::format("the inertial number under the body is {:.3g} (shown to be "
+                                      "without influence: up to {:g}); the motion is "
+                                      "not slow for these grains: compare with a slower run",
+                                      number, GroundLimits::inertial_number));
 }
 
 }  // namespace furrow::coupling

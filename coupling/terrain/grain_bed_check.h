@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Do grains, speed and box leave the range in which results are known to hold? Warnings, never errors.
+/// Do grains, speed and box leave the range in which results are known to hold? Warnings, never
+/// errors.
 
 #include <string>
 
@@ -11,8 +12,9 @@ namespace furrow::coupling {
 
 /// Limits with the study that shows them: inputs/validation/grains/README.md.
 struct GroundLimits {
-  static constexpr double overlap = 0.05;          ///< of a grain's diameter, elastic contacts
-  static constexpr double inertial_number = 0.05;  ///< speed / length x diameter x sqrt(grain density / pressure) under a body
+  static constexpr double overlap = 0.05;  ///< of a grain's diameter, elastic contacts
+  /// speed / length x diameter x sqrt(grain density / pressure) under a body
+  static constexpr double inertial_number = 0.05;
   static constexpr double grains_per_width = 8.0;  ///< width of the body over mean diameter
   static constexpr double bed_widths = 2.0;        ///< width of the bed over width of the body
 };
@@ -21,7 +23,8 @@ struct GroundLimits {
 class GroundCheck {
  public:
   /// @param where names the wall in messages
-  GroundCheck(LAMMPS_NS::LAMMPS& lammps, std::string where) : lammps_(lammps), where_(std::move(where)) {}
+  GroundCheck(LAMMPS_NS::LAMMPS& lammps, std::string where)
+      : lammps_(lammps), where_(std::move(where)) {}
 
   /// Size of grains and bed against the body's width. Collective.
   void start(const Surface& surface);

@@ -18,16 +18,20 @@ struct Balance {
   double dissipated_energy = 0.0;      ///< [J] inside the body
   double contact_work = 0.0;           ///< [J] done on the body by its surface forces
   double load_work = 0.0;              ///< [J] done on the body by loads and gravity
-  double drive_work = 0.0;             ///< [J] done on the body by whatever prescribes its motion or torque
-  double numerical_loss = 0.0;         ///< [J] kinetic energy that the discretisation takes; < 0: it makes some
+  /// [J] done on the body by whatever prescribes its motion or torque
+  double drive_work = 0.0;
+  /// [J] kinetic energy that the discretisation takes; < 0: it makes some
+  double numerical_loss = 0.0;
 
   /// Zero for an exact integrator, up to the energy the body started with.
   double residual() const {
-    return contact_work + load_work + drive_work - kinetic_energy - stored_energy - dissipated_energy - numerical_loss;
+    return contact_work + load_work + drive_work - kinetic_energy - stored_energy -
+           dissipated_energy - numerical_loss;
   }
 };
 
-/// A body advances under the forces on its surface and its own loads. Replicated on every rank: all ranks must compute the same.
+/// A body advances under the forces on its surface and its own loads. Replicated on every rank: all
+/// ranks must compute the same.
 class Body {
  public:
   virtual ~Body() = default;
@@ -36,16 +40,19 @@ class Body {
   virtual double stable_time_step() const = 0;
   /// One step under surface().f (held constant) and the body's own loads. @throws StateError
   virtual void advance(double dt) = 0;
-  /// Around the steps that make up an interval of the world: what a body reports of "the last step" then is the interval's mean.
+  /// Around the steps that make up an interval of the world: what a body reports of "the last step"
+  /// then is the interval's mean.
   virtual void begin_interval() {}
   virtual void end_interval() {}
   virtual Surface& surface() = 0;
   const Surface& surface() const { return const_cast<Body*>(this)->surface(); }
   virtual Balance balance() const = 0;
-  /// True when the surface is the half y >= 0 of a body that is its own mirror image in y = 0; loads and balance are those of the whole.
+  /// True when the surface is the half y >= 0 of a body that is its own mirror image in y = 0;
+  /// loads and balance are those of the whole.
   virtual bool half_model() const { return false; }
 
-  /// Everything needed to continue exactly, as numbers; restore() of another build or another scene is refused.
+  /// Everything needed to continue exactly, as numbers; restore() of another build or another scene
+  /// is refused.
   virtual std::vector<double> state() const = 0;
   /// @throws Error when the numbers do not belong to a body like this one
   virtual void restore(const std::vector<double>& state) = 0;

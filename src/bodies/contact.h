@@ -7,7 +7,8 @@ namespace furrow {
 class Interaction {
  public:
   virtual ~Interaction() = default;
-  /// Finds the forces at the present positions and adds them to both bodies, before they advance by dt [s].
+  /// Finds the forces at the present positions and adds them to both bodies, before they advance by
+  /// dt [s].
   /// @throws StateError
   virtual void apply(double dt) = 0;
 };

@@ -13,20 +13,22 @@ namespace furrow {
 
 namespace {
 
-constexpr double most_sub_steps = 1e6;  // more in one interval means that a body is collapsing, not that it is stiff
+// more in one interval means that a body is collapsing, not that it is stiff
+constexpr double most_sub_steps = 1e6;
 
 }  // namespace
 
 void World::remove(const Body& body) {
-  members_.erase(
-      std::remove_if(members_.begin(), members_.end(), [&](const Member& member) { return member.body == &body; }),
-      members_.end());
+  members_.erase(std::remove_if(members_.begin(), members_.end(),
+                                [&](const Member& member) { return member.body == &body; }),
+                 members_.end());
 }
 
 void World::remove(const Interaction& interaction) {
-  interactions_.erase(std::remove_if(interactions_.begin(), interactions_.end(),
-                                     [&](const Named& named) { return named.interaction == &interaction; }),
-                      interactions_.end());
+  interactions_.erase(
+      std::remove_if(interactions_.begin(), interactions_.end(),
+                     [&](const Named& named) { return named.interaction == &interaction; }),
+      interactions_.end());
 }
 
 int World::advance(double interval) {
@@ -37,7 +39,8 @@ int World::advance(double interval) {
     const double stable = member.body->stable_time_step();
     if (!(stable > interval / most_sub_steps))
       throw StateError(
-          fmt::format("body '{}': its stable time step is {} s, less than a millionth of the interval {} s; an element has "
+          fmt::format("body '{}': its stable time step is {} s, less than a millionth of the "
+                      "interval {} s; an element has "
                       "collapsed or a stiffness has grown without bound",
                       member.name, stable, interval));
     smallest = std::min(smallest, stable);
@@ -106,7 +109,8 @@ std::vector<double> World::shown_forces() const {
   std::vector<double> forces;
   if (shown_)
     for (const Member& m : members_)
-      forces.insert(forces.end(), m.interaction.data(), m.interaction.data() + m.interaction.size());
+      forces.insert(forces.end(), m.interaction.data(),
+                    m.interaction.data() + m.interaction.size());
   return forces;
 }
 
@@ -115,7 +119,8 @@ void World::restore_shown_forces(const std::vector<double>& forces) {
   const double* next = forces.data();
   std::size_t needed = 0;
   for (const Member& m : members_) needed += static_cast<std::size_t>(m.body->surface().f.size());
-  if (shown_ && needed != forces.size()) throw Error("the saved contact forces belong to other bodies");
+  if (shown_ && needed != forces.size())
+    throw Error("the saved contact forces belong to other bodies");
   for (Member& m : members_) {
     if (!shown_) break;
     m.interaction.resize(3, m.body->surface().f.cols());

@@ -9,7 +9,8 @@
 
 namespace furrow {
 
-RigidPlane::RigidPlane(const RigidPlaneParameters& parameters, const Surface& surface) : parameters_(parameters) {
+RigidPlane::RigidPlane(const RigidPlaneParameters& parameters, const Surface& surface)
+    : parameters_(parameters) {
   const auto need = [](double value, const char* name, bool good, const char* allowed) {
     if (!(std::isfinite(value) && good))
       throw InputError(fmt::format("rigid plane, {}", name), fmt::format("is {}", value), allowed);
@@ -18,12 +19,13 @@ RigidPlane::RigidPlane(const RigidPlaneParameters& parameters, const Surface& su
   need(parameters.stiffness, "stiffness", parameters.stiffness > 0.0, "a number > 0 [Pa/m]");
   need(parameters.damping, "damping", parameters.damping >= 0.0, "a number >= 0 [Pa s/m]");
   need(parameters.friction, "friction", parameters.friction >= 0.0, "a number >= 0");
-  need(parameters.tangential_stiffness, "tangential_stiffness", parameters.tangential_stiffness > 0.0,
-       "a number > 0 [Pa/m]");
+  need(parameters.tangential_stiffness, "tangential_stiffness",
+       parameters.tangential_stiffness > 0.0, "a number > 0 [Pa/m]");
   const auto nodes = static_cast<Eigen::Index>(surface.node_count());
   area_ = pressure_ = VectorX::Zero(nodes);
   for (std::size_t t = 0; t < surface.triangle_count(); ++t)
-    for (int k = 0; k < 3; ++k) area_[surface.triangles[t][k]] += surface.area_vector(t).norm() / 3.0;
+    for (int k = 0; k < 3; ++k)
+      area_[surface.triangles[t][k]] += surface.area_vector(t).norm() / 3.0;
   anchor_ = Eigen::Matrix2Xd::Zero(2, nodes);
   sticking_.assign(static_cast<std::size_t>(nodes), 0);
 }
@@ -34,7 +36,10 @@ void RigidPlane::press_on(Surface& surface) {
   for (Eigen::Index n = 0; n < surface.x.cols(); ++n) {
     const double depth = parameters_.height - surface.x(2, n);
     unsigned char& sticking = sticking_[static_cast<std::size_t>(n)];
-    pressure_[n] = depth > 0.0 ? std::max(0.0, parameters_.stiffness * depth - parameters_.damping * surface.v(2, n)) : 0.0;
+    pressure_[n] =
+        depth > 0.0
+            ? std::max(0.0, parameters_.stiffness * depth - parameters_.damping * surface.v(2, n))
+            : 0.0;
     if (depth <= 0.0) {
       sticking = 0;
       continue;

@@ -8,7 +8,8 @@
 
 namespace furrow {
 
-/// What the floor is like. Pressure grows with penetration: p = stiffness d + damping (-v_z), never below 0.
+/// What the floor is like. Pressure grows with penetration: p = stiffness d + damping (-v_z), never
+/// below 0.
 struct RigidPlaneParameters {
   double height = 0.0;                ///< z of the floor [m]
   double stiffness = 2e9;             ///< [Pa/m]
@@ -17,8 +18,9 @@ struct RigidPlaneParameters {
   double tangential_stiffness = 1e9;  ///< [Pa/m] of sticking
 };
 
-/// Contact at the nodes of a surface, each with its share of the area of the triangles around (of the shape at construction).
-/// Sticking is a tangential spring from the point of first touch, dragged along when the force exceeds mu times the normal one.
+/// Contact at the nodes of a surface, each with its share of the area of the triangles around (of
+/// the shape at construction). Sticking is a tangential spring from the point of first touch,
+/// dragged along when the force exceeds mu times the normal one.
 class RigidPlane {
  public:
   /// @throws InputError for values out of range
@@ -29,8 +31,10 @@ class RigidPlane {
 
   const VectorX& area() const { return area_; }          ///< [m^2] of each node
   const VectorX& pressure() const { return pressure_; }  ///< [Pa] normal, of the last press_on
-  Vector3 total_force() const { return total_; }         ///< [N] on the surface, of the last press_on
-  /// Elastic energy of penetration and sticking [J], and what friction and damping took since the start: exact for small steps.
+  /// [N] on the surface, of the last press_on
+  Vector3 total_force() const { return total_; }
+  /// Elastic energy of penetration and sticking [J], and what friction and damping took since the
+  /// start: exact for small steps.
   double stored_energy() const { return stored_; }
   void set_height(double height) { parameters_.height = height; }
   const RigidPlaneParameters& parameters() const { return parameters_; }

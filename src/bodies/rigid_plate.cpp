@@ -14,7 +14,8 @@ namespace {
 
 constexpr double minimum_plate_angle = radians(5.0);
 
-/// A flat face: points of the plane, triangles counter-clockwise, and the nodes of its edge in that sense.
+/// A flat face: points of the plane, triangles counter-clockwise, and the nodes of its edge in that
+/// sense.
 struct Face {
   std::vector<Eigen::Vector2d> points;
   std::vector<Vector3i> triangles;
@@ -24,10 +25,13 @@ struct Face {
 /// Rings of 6 k nodes around one in the middle: all triangles are nearly equilateral.
 Face disc(double radius, int rings) {
   // Regular n-gon of the circle's area: n/2 R'^2 sin(2 pi/n) = pi R^2.
-  const double n = 6.0 * rings, outer = radius * std::sqrt(2.0 * M_PI / (n * std::sin(2.0 * M_PI / n)));
+  const double n = 6.0 * rings,
+               outer = radius * std::sqrt(2.0 * M_PI / (n * std::sin(2.0 * M_PI / n)));
   Face face;
   const auto first_of = [](int ring) { return ring == 0 ? 0 : 1 + 3 * ring * (ring - 1); };
-  const auto node = [&](int ring, int i) { return first_of(ring) + (ring == 0 ? 0 : i % (6 * ring)); };
+  const auto node = [&](int ring, int i) {
+    return first_of(ring) + (ring == 0 ? 0 : i % (6 * ring));
+  };
   face.points.emplace_back(0.0, 0.0);
   for (int ring = 1; ring <= rings; ++ring)
     for (int i = 0; i < 6 * ring; ++i) {
@@ -39,7 +43,9 @@ Face disc(double radius, int rings) {
       for (int i = 0; i < ring; ++i) {
         const int out = sector * ring + i, in = sector * (ring - 1) + i;
         face.triangles.emplace_back(node(ring - 1, in), node(ring, out), node(ring, out + 1));
-        if (i + 1 < ring) face.triangles.emplace_back(node(ring - 1, in), node(ring, out + 1), node(ring - 1, in + 1));
+        if (i + 1 < ring)
+          face.triangles.emplace_back(node(ring - 1, in), node(ring, out + 1),
+                                      node(ring - 1, in + 1));
       }
   for (int i = 0; i < 6 * rings; ++i) face.edge.push_back(node(rings, i));
   return face;
@@ -50,7 +56,8 @@ Face square(double side, int elements) {
   const auto node = [&](int i, int j) { return j * (elements + 1) + i; };
   for (int j = 0; j <= elements; ++j)
     for (int i = 0; i <= elements; ++i)
-      face.points.emplace_back(side * (double(i) / elements - 0.5), side * (double(j) / elements - 0.5));
+      face.points.emplace_back(side * (double(i) / elements - 0.5),
+                               side * (double(j) / elements - 0.5));
   for (int j = 0; j < elements; ++j)
     for (int i = 0; i < elements; ++i) {
       face.triangles.emplace_back(node(i, j), node(i + 1, j), node(i + 1, j + 1));
@@ -79,17 +86,23 @@ Vector3 centre_from(const Options& options) {
 
 }  // namespace
 
-double PlateGeometry::area() const { return (shape == PlateShape::circle ? M_PI / 4.0 : 1.0) * size * size; }
+double PlateGeometry::area() const {
+  return (shape == PlateShape::circle ? M_PI / 4.0 : 1.0) * size * size;
+}
 
 Surface make_plate_mesh(const PlateGeometry& plate, const std::string& where) {
-  for (const auto& [value, key] : {std::pair{plate.size, "size"}, std::pair{plate.thickness, "thickness"}})
+  for (const auto& [value, key] :
+       {std::pair{plate.size, "size"}, std::pair{plate.thickness, "thickness"}})
     if (!(std::isfinite(value) && value > 0.0))
-      throw InputError(fmt::format("{}, keyword '{}'", where, key), fmt::format("is {} m", value), "a number > 0 [m]");
+      throw InputError(fmt::format("{}, keyword '{}'", where, key), fmt::format("is {} m", value),
+                       "a number > 0 [m]");
   const bool circle = plate.shape == PlateShape::circle;
   if (plate.elements < 2 || (circle && plate.elements % 2 != 0))
-    throw InputError(fmt::format("{}, keyword 'elements'", where), fmt::format("is {}", plate.elements),
+    throw InputError(fmt::format("{}, keyword 'elements'", where),
+                     fmt::format("is {}", plate.elements),
                      circle ? "an even number, at least 2" : "at least 2");
-  const Face face = circle ? disc(0.5 * plate.size, plate.elements / 2) : square(plate.size, plate.elements);
+  const Face face =
+      circle ? disc(0.5 * plate.size, plate.elements / 2) : square(plate.size, plate.elements);
 
   Surface surface;
   const int count = static_cast<int>(face.points.size());
@@ -110,7 +123,8 @@ Surface make_plate_mesh(const PlateGeometry& plate, const std::string& where) {
   if (surface.minimum_angle() < minimum_plate_angle)
     throw InputError(
         fmt::format("{}, keyword 'elements'", where),
-        fmt::format("is {}, which makes slivers at the edge of a plate {} m thick", plate.elements, plate.thickness),
+        fmt::format("is {}, which makes slivers at the edge of a plate {} m thick", plate.elements,
+                    plate.thickness),
         fmt::format("no corner sharper than {:.0f} degrees", degrees(minimum_plate_angle)),
         "choose elements about as long as the plate is thick");
   return surface;
@@ -121,7 +135,8 @@ Schema RigidPlate::schema(const std::string& subject) {
   schema.word("shape", {"circle", "square"}, "outline of the plate").by_default("circle");
   schema.number("size", "m", Range::positive(), "diameter of a circle, side of a square");
   schema.number("thickness", "m", Range::positive(), "height of the plate's edge");
-  schema.integer("elements", Range::closed(2, 400), "triangles across the plate; even for a circle").by_default("20");
+  schema.integer("elements", Range::closed(2, 400), "triangles across the plate; even for a circle")
+      .by_default("20");
   schema.numbers("centre", 3, "m", Range::any(), "centre of the lower face at the start: x y z");
   return schema;
 }
@@ -129,14 +144,16 @@ Schema RigidPlate::schema(const std::string& subject) {
 RigidPlate::RigidPlate(const Options& options)
     : RigidPlate(geometry_from(options), centre_from(options), options.subject()) {}
 
-RigidPlate::RigidPlate(const PlateGeometry& geometry, const Vector3& centre, const std::string& where)
+RigidPlate::RigidPlate(const PlateGeometry& geometry, const Vector3& centre,
+                       const std::string& where)
     : geometry_(geometry), surface_(make_plate_mesh(geometry, where)), centre_(centre) {
   reference_ = surface_.x;
   place_nodes();
 }
 
 void RigidPlate::prescribe(double velocity) {
-  if (!std::isfinite(velocity)) throw StateError(fmt::format("rigid plate: prescribed velocity is {}", velocity));
+  if (!std::isfinite(velocity))
+    throw StateError(fmt::format("rigid plate: prescribed velocity is {}", velocity));
   velocity_ = velocity;
 }
 
@@ -146,7 +163,8 @@ double RigidPlate::stable_time_step() const { return std::numeric_limits<double>
 
 void RigidPlate::advance(double dt) {
   const double force = surface_.total_force().z();
-  if (!std::isfinite(force)) throw StateError(fmt::format("rigid plate: the force on it is {} N", force));
+  if (!std::isfinite(force))
+    throw StateError(fmt::format("rigid plate: the force on it is {} N", force));
   contact_work_ += force * velocity_ * dt;
   centre_.z() += velocity_ * dt;
   place_nodes();
@@ -181,9 +199,11 @@ std::vector<double> RigidPlate::state() const {
 void RigidPlate::restore(const std::vector<double>& state) {
   const std::vector<double> mine = this->state();
   constexpr long shape_numbers = 4, scalars = 9;
-  if (state.size() != mine.size() || !std::equal(mine.begin(), mine.begin() + shape_numbers, state.begin()))
+  if (state.size() != mine.size() ||
+      !std::equal(mine.begin(), mine.begin() + shape_numbers, state.begin()))
     throw Error(
-        "rigid plate: the saved state belongs to another plate; restart with the shape, size and elements of the first run");
+        "rigid plate: the saved state belongs to another plate; restart with the shape, size and "
+        "elements of the first run");
   centre_ = {state[4], state[5], state[6]};
   velocity_ = state[7];
   contact_work_ = state[8];

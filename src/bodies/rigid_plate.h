@@ -21,21 +21,23 @@ struct PlateGeometry {
   double area() const;  ///< [m^2] of the lower face
 };
 
-/// Triangulates a plate: closed, outward; centre of the lower face at the origin, the plate above it.
-/// The edge of a circle is a regular polygon of the circle's area, so mean pressures are exact.
+/// Triangulates a plate: closed, outward; centre of the lower face at the origin, the plate above
+/// it. The edge of a circle is a regular polygon of the circle's area, so mean pressures are exact.
 /// @param where names the plate in errors
 /// @throws InputError for a shape that cannot be, or whose elements would be slivers
 Surface make_plate_mesh(const PlateGeometry& geometry, const std::string& where = "plate");
 
-/// Moves up and down only, at the speed it is told; everything else is held. It has no mass: whatever drives it takes all forces,
-/// and the work of the driver is minus the work of the contact forces.
+/// Moves up and down only, at the speed it is told; everything else is held. It has no mass:
+/// whatever drives it takes all forces, and the work of the driver is minus the work of the contact
+/// forces.
 class RigidPlate : public Body {
  public:
   /// The keys of a plate. @param subject names the owner in errors
   static Schema schema(const std::string& subject = "rigid plate");
   explicit RigidPlate(const Options& options);
   /// @param centre of the lower face at the start [m] @param where names the plate in errors
-  RigidPlate(const PlateGeometry& geometry, const Vector3& centre, const std::string& where = "rigid plate");
+  RigidPlate(const PlateGeometry& geometry, const Vector3& centre,
+             const std::string& where = "rigid plate");
 
   /// @param velocity upwards [m/s], from the next step on @throws StateError when it is not finite
   void prescribe(double velocity);

@@ -23,9 +23,10 @@ RigidWheelParameters parameters_from(const Options& options) {
   wheel.mass = options.number("mass");
   wheel.axle_inertia = options.number("inertia");
   // exact for any distribution of mass that is the same in every plane across the axle
-  wheel.diametral_inertia = options.has("inertia_diametral")
-                                ? options.number("inertia_diametral")
-                                : 0.5 * wheel.axle_inertia + wheel.mass * std::pow(wheel.geometry.width, 2) / 12.0;
+  wheel.diametral_inertia =
+      options.has("inertia_diametral")
+          ? options.number("inertia_diametral")
+          : 0.5 * wheel.axle_inertia + wheel.mass * std::pow(wheel.geometry.width, 2) / 12.0;
   const std::vector<double>& axle = options.numbers("axle");
   wheel.axle_centre = {axle[0], axle[1], axle[2]};
 
@@ -33,10 +34,11 @@ RigidWheelParameters parameters_from(const Options& options) {
   bars.number = static_cast<int>(options.integer("grousers"));
   for (const char* key : {"grouser_height", "grouser_thickness"}) {
     if (bars.number > 0 && !options.has(key))
-      throw InputError(options.where(key), "is missing", "a number > 0 [m]", "every grouser needs it");
+      throw InputError(options.where(key), "is missing", "a number > 0 [m]",
+                       "every grouser needs it");
     if (bars.number == 0 && options.has(key))
-      throw InputError(options.where(key), "is given to a wheel without grousers", "only with grousers > 0",
-                       "add 'grousers <number>' or remove it");
+      throw InputError(options.where(key), "is given to a wheel without grousers",
+                       "only with grousers > 0", "add 'grousers <number>' or remove it");
   }
   if (bars.number > 0) {
     bars.height = options.number("grouser_height");
@@ -49,7 +51,8 @@ RigidWheelParameters parameters_from(const Options& options) {
 void check(const RigidWheelParameters& wheel, const std::string& where) {
   const auto positive = [&](double value, const char* key, const char* unit) {
     if (!(std::isfinite(value) && value > 0.0))
-      throw InputError(fmt::format("{}, keyword '{}'", where, key), fmt::format("is {} {}", value, unit), "a number > 0");
+      throw InputError(fmt::format("{}, keyword '{}'", where, key),
+                       fmt::format("is {} {}", value, unit), "a number > 0");
   };
   positive(wheel.mass, "mass", "kg");
   positive(wheel.axle_inertia, "inertia", "kg m^2");
@@ -57,12 +60,15 @@ void check(const RigidWheelParameters& wheel, const std::string& where) {
   const double reach = wheel.geometry.radius() + wheel.geometry.grousers.height;
   if (wheel.axle_inertia > wheel.mass * reach * reach)
     throw InputError(where + ", keyword 'inertia'", fmt::format("is {} kg m^2", wheel.axle_inertia),
-                     fmt::format("at most {:.6g} kg m^2, with all of the mass at the rim", wheel.mass * reach * reach),
+                     fmt::format("at most {:.6g} kg m^2, with all of the mass at the rim",
+                                 wheel.mass * reach * reach),
                      "check inertia, mass and diameter");
   if (2.0 * wheel.diametral_inertia < wheel.axle_inertia)
-    throw InputError(where + ", keyword 'inertia_diametral'", fmt::format("is {} kg m^2", wheel.diametral_inertia),
+    throw InputError(where + ", keyword 'inertia_diametral'",
+                     fmt::format("is {} kg m^2", wheel.diametral_inertia),
                      fmt::format("at least half of inertia, {} kg m^2", 0.5 * wheel.axle_inertia));
-  if (!wheel.axle_centre.allFinite()) throw InputError(where + ", keyword 'axle'", "is not finite", "three numbers [m]");
+  if (!wheel.axle_centre.allFinite())
+    throw InputError(where + ", keyword 'axle'", "is not finite", "three numbers [m]");
 }
 
 }  // namespace
@@ -71,32 +77,44 @@ Schema RigidWheel::schema(const std::string& subject) {
   Schema schema(subject);
   schema.number("diameter", "m", Range::positive(), "diameter of the tread, without grousers");
   schema.number("width", "m", Range::positive(), "width from side to side");
-  schema.number("shoulder", "m", Range::non_negative(), "radius of the shoulders between tread and sides").by_default(0.0);
+  schema
+      .number("shoulder", "m", Range::non_negative(),
+              "radius of the shoulders between tread and sides")
+      .by_default(0.0);
   schema.number("mass", "kg", Range::positive(), "mass that moves with the axle centre");
   schema.number("inertia", "kg m^2", Range::positive(), "moment of inertia about the axle");
   schema
       .number("inertia_diametral", "kg m^2", Range::positive(),
-              "moment of inertia across the axle, for free yaw or camber; by default inertia/2 + mass width^2/12")
+              "moment of inertia across the axle, for free yaw or camber; by default inertia/2 + "
+              "mass width^2/12")
       .optional();
   schema.integer("segments", Range::closed(12, 5000), "facets around the tread").by_default("64");
-  schema.number("element_size", "m", Range::positive(), "size of the elements across; by default one and a half facets")
+  schema
+      .number("element_size", "m", Range::positive(),
+              "size of the elements across; by default one and a half facets")
       .optional();
-  schema.integer("grousers", Range::closed(0, 1000), "number of straight bars across the tread").by_default("0");
-  schema.number("grouser_height", "m", Range::positive(), "height of the bars above the tread").optional();
-  schema.number("grouser_thickness", "m", Range::positive(), "thickness of the bars, square to them").optional();
+  schema.integer("grousers", Range::closed(0, 1000), "number of straight bars across the tread")
+      .by_default("0");
+  schema.number("grouser_height", "m", Range::positive(), "height of the bars above the tread")
+      .optional();
+  schema
+      .number("grouser_thickness", "m", Range::positive(), "thickness of the bars, square to them")
+      .optional();
   schema
       .number("grouser_angle", "degrees", Range::closed(-60, 60),
               "skew of the bars against the axle; > 0: the end at +y runs ahead")
       .by_default(0.0);
-  schema.numbers("axle", 3, "m", Range::any(), "axle centre at the start: x y z").by_default(std::vector<double>{0, 0, 0});
+  schema.numbers("axle", 3, "m", Range::any(), "axle centre at the start: x y z")
+      .by_default(std::vector<double>{0, 0, 0});
   return schema;
 }
 
-RigidWheel::RigidWheel(const Options& options) : RigidWheel(parameters_from(options), options.subject()) {}
+RigidWheel::RigidWheel(const Options& options)
+    : RigidWheel(parameters_from(options), options.subject()) {}
 
 RigidWheel::RigidWheel(const RigidWheelParameters& parameters, const std::string& where)
-    : WheelHub({parameters.mass, parameters.axle_inertia, parameters.diametral_inertia}, parameters.axle_centre,
-               "rigid wheel"),
+    : WheelHub({parameters.mass, parameters.axle_inertia, parameters.diametral_inertia},
+               parameters.axle_centre, "rigid wheel"),
       parameters_(parameters) {
   check(parameters, where);
   surface_ = make_wheel_mesh(parameters.geometry, where);
@@ -105,7 +123,9 @@ RigidWheel::RigidWheel(const RigidWheelParameters& parameters, const std::string
   place_nodes();
 }
 
-double RigidWheel::lowest_point() const { return centre().z() - parameters_.geometry.depth_below_centre(axle()); }
+double RigidWheel::lowest_point() const {
+  return centre().z() - parameters_.geometry.depth_below_centre(axle());
+}
 
 double RigidWheel::stable_time_step() const { return std::numeric_limits<double>::infinity(); }
 
@@ -152,7 +172,8 @@ void RigidWheel::restore(const std::vector<double>& state) {
   const std::vector<double> mine = fingerprint();
   if (state.size() != this->state().size() || !std::equal(mine.begin(), mine.end(), state.begin()))
     throw Error(
-        "rigid wheel: the saved state belongs to another wheel; restart with the dimensions, mass and inertia of the first "
+        "rigid wheel: the saved state belongs to another wheel; restart with the dimensions, mass "
+        "and inertia of the first "
         "run");
   const double* forces = restore_hub(state.data() + mine.size());
   std::copy(forces, forces + surface_.f.size(), surface_.f.data());

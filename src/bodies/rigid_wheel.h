@@ -11,14 +11,15 @@ namespace furrow {
 /// Everything that makes a wheel.
 struct RigidWheelParameters {
   WheelGeometry geometry;
-  double mass = 0.0;                      ///< [kg] that moves with the axle centre
-  double axle_inertia = 0.0;              ///< [kg m^2] about the axle, C
-  double diametral_inertia = 0.0;         ///< [kg m^2] about any line across the axle through the centre, A
+  double mass = 0.0;          ///< [kg] that moves with the axle centre
+  double axle_inertia = 0.0;  ///< [kg m^2] about the axle, C
+  /// [kg m^2] about any line across the axle through the centre, A
+  double diametral_inertia = 0.0;
   Vector3 axle_centre = Vector3::Zero();  ///< [m] at the start
 };
 
-/// A hub (wheel_hub.h) that carries a rigid surface: nodes are placed from the reference mesh by the attitude, never accumulated;
-/// their velocity is that of n+1/2.
+/// A hub (wheel_hub.h) that carries a rigid surface: nodes are placed from the reference mesh by
+/// the attitude, never accumulated; their velocity is that of n+1/2.
 class RigidWheel : public WheelHub {
  public:
   /// The keys of a wheel. @param subject names the owner in errors
@@ -26,7 +27,8 @@ class RigidWheel : public WheelHub {
   /// @throws InputError for values that are each allowed and together impossible
   explicit RigidWheel(const Options& options);
   /// @param where names the wheel in errors
-  explicit RigidWheel(const RigidWheelParameters& parameters, const std::string& where = "rigid wheel");
+  explicit RigidWheel(const RigidWheelParameters& parameters,
+                      const std::string& where = "rigid wheel");
 
   const RigidWheelParameters& parameters() const { return parameters_; }
   double nominal_radius() const override { return parameters_.geometry.radius(); }

@@ -19,7 +19,8 @@ constexpr int angle_index(WheelHub::Coordinate coordinate) { return coordinate -
 
 /// Axes of the carrier in space: columns e_x, a, e_n.
 Matrix3 carrier(double yaw, double camber) {
-  return (Eigen::AngleAxisd(yaw, Vector3::UnitZ()) * Eigen::AngleAxisd(camber, Vector3::UnitX())).toRotationMatrix();
+  return (Eigen::AngleAxisd(yaw, Vector3::UnitZ()) * Eigen::AngleAxisd(camber, Vector3::UnitX()))
+      .toRotationMatrix();
 }
 
 /// Rates of spin, yaw and camber (rows) from the quasi-velocities w.
@@ -48,21 +49,25 @@ void WheelHub::release(Coordinate coordinate) {
 }
 
 void WheelHub::prescribe(Coordinate coordinate, double velocity) {
-  if (!std::isfinite(velocity)) throw StateError(fmt::format("{}: prescribed velocity is {}", name_, velocity));
+  if (!std::isfinite(velocity))
+    throw StateError(fmt::format("{}: prescribed velocity is {}", name_, velocity));
   motion_[coordinate] = Motion::prescribed;
   prescribed_[coordinate] = velocity;
 }
 
 void WheelHub::set_vertical_damping(double coefficient) {
   if (!(std::isfinite(coefficient) && coefficient >= 0.0))
-    throw Error(fmt::format("{}: vertical damping is {} N s/m; allowed: a number >= 0", name_, coefficient));
+    throw Error(fmt::format("{}: vertical damping is {} N s/m; allowed: a number >= 0", name_,
+                            coefficient));
   vertical_damping_ = coefficient;
 }
 
 void WheelHub::place(const Vector3& axle_centre, double yaw_angle, double camber_angle) {
-  if (!(axle_centre.allFinite() && std::isfinite(yaw_angle) && std::abs(camber_angle) < largest_camber))
-    throw Error(fmt::format("{}: cannot be placed at {} {} {} m with yaw {} and camber {} degrees", name_, axle_centre.x(),
-                            axle_centre.y(), axle_centre.z(), degrees(yaw_angle), degrees(camber_angle)));
+  if (!(axle_centre.allFinite() && std::isfinite(yaw_angle) &&
+        std::abs(camber_angle) < largest_camber))
+    throw Error(fmt::format("{}: cannot be placed at {} {} {} m with yaw {} and camber {} degrees",
+                            name_, axle_centre.x(), axle_centre.y(), axle_centre.z(),
+                            degrees(yaw_angle), degrees(camber_angle)));
   const Vector3 old_centre = centre_;
   const Matrix3 old_attitude = attitude();
   angles_ = {0.0, yaw_angle, camber_angle};
@@ -98,7 +103,8 @@ double WheelHub::rate(Coordinate coordinate) const {
 Vector3 WheelHub::axle() const { return carrier(angles_[1], angles_[2]).col(1); }
 
 Matrix3 WheelHub::attitude() const {
-  return carrier(angles_[1], angles_[2]) * Eigen::AngleAxisd(angles_[0], Vector3::UnitY()).toRotationMatrix();
+  return carrier(angles_[1], angles_[2]) *
+         Eigen::AngleAxisd(angles_[0], Vector3::UnitY()).toRotationMatrix();
 }
 
 void WheelHub::begin_interval() {
@@ -108,16 +114,20 @@ void WheelHub::begin_interval() {
 
 void WheelHub::end_interval() {
   if (interval_ > 0.0)
-    for (std::size_t c = 0; c < coordinates; ++c) constraint_[c] = constraint_impulse_[c] / interval_;
+    for (std::size_t c = 0; c < coordinates; ++c)
+      constraint_[c] = constraint_impulse_[c] / interval_;
   interval_ = -1.0;
 }
 
 void WheelHub::advance_hub(double dt, const Vector3& force, const Vector3& moment) {
-  if (!(std::isfinite(dt) && dt > 0.0)) throw StateError(fmt::format("{}: a step of {} s", name_, dt));
-  if (!(force.allFinite() && moment.allFinite() && load_.allFinite() && std::isfinite(axle_torque_)))
-    throw StateError(fmt::format("{}: not finite: force {} {} {} N, moment {} {} {} N m, load {} {} {} N, torque {} N m",
-                                 name_, force.x(), force.y(), force.z(), moment.x(), moment.y(), moment.z(), load_.x(),
-                                 load_.y(), load_.z(), axle_torque_));
+  if (!(std::isfinite(dt) && dt > 0.0))
+    throw StateError(fmt::format("{}: a step of {} s", name_, dt));
+  if (!(force.allFinite() && moment.allFinite() && load_.allFinite() &&
+        std::isfinite(axle_torque_)))
+    throw StateError(fmt::format(
+        "{}: not finite: force {} {} {} N, moment {} {} {} N m, load {} {} {} N, torque {} N m",
+        name_, force.x(), force.y(), force.z(), moment.x(), moment.y(), moment.z(), load_.x(),
+        load_.y(), load_.z(), axle_torque_));
   advance_translation(dt, force);
   advance_rotation(dt, moment);
   if (interval_ >= 0.0) {
@@ -125,19 +135,22 @@ void WheelHub::advance_hub(double dt, const Vector3& force, const Vector3& momen
     for (std::size_t c = 0; c < coordinates; ++c) constraint_impulse_[c] += dt * constraint_[c];
   }
   if (!(std::abs(angles_[2]) < largest_camber))
-    throw StateError(fmt::format("{}: fell over, its camber is {:.4g} degrees; hold the camber or guide the wheel", name_,
-                                 degrees(angles_[2])));
+    throw StateError(fmt::format(
+        "{}: fell over, its camber is {:.4g} degrees; hold the camber or guide the wheel", name_,
+        degrees(angles_[2])));
 }
 
 void WheelHub::advance_translation(double dt, const Vector3& force) {
   for (const Coordinate axis : {x, y, z}) {
     const double inertia = inertia_.mass / dt, damping = axis == z ? vertical_damping_ : 0.0;
     const double before = velocity_[axis], applied = force[axis] + load_[axis];
-    const double after = motion_[axis] == Motion::free
-                             ? ((inertia - 0.5 * damping) * before + applied) / (inertia + 0.5 * damping)
-                             : prescribed_[axis];
+    const double after =
+        motion_[axis] == Motion::free
+            ? ((inertia - 0.5 * damping) * before + applied) / (inertia + 0.5 * damping)
+            : prescribed_[axis];
     const double mean = 0.5 * (before + after);
-    constraint_[axis] = motion_[axis] == Motion::free ? 0.0 : inertia * (after - before) - applied + damping * mean;
+    constraint_[axis] =
+        motion_[axis] == Motion::free ? 0.0 : inertia * (after - before) - applied + damping * mean;
     given_work_ += force[axis] * mean * dt;
     load_work_ += load_[axis] * mean * dt;
     drive_work_ += constraint_[axis] * mean * dt;
@@ -147,8 +160,9 @@ void WheelHub::advance_translation(double dt, const Vector3& force) {
   }
 }
 
-// M (w1 - w0) + dt S (w0 + w1)/2 = dt (moment + D^T torques) at t_n,  D_c w1 = prescribed rates at t_n+1/2, where D are the rates
-// per w, with the gyroscopic S = k (e_n e_x^T - e_x e_n^T), k = C w_a - A w_n tan(camber), of (w0 + w1)/2. S does no work.
+// M (w1 - w0) + dt S (w0 + w1)/2 = dt (moment + D^T torques) at t_n,  D_c w1 = prescribed rates at
+// t_n+1/2, where D are the rates per w, with the gyroscopic S = k (e_n e_x^T - e_x e_n^T), k = C
+// w_a - A w_n tan(camber), of (w0 + w1)/2. S does no work.
 void WheelHub::advance_rotation(double dt, const Vector3& moment) {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -191,7 +205,8 @@ void WheelHub::advance_rotation(double dt, const Vector3& moment) {
   const Vector3 mean = 0.5 * (w_ + after), mean_rates = to_rates * mean;
   given_work_ += contact.dot(mean) * dt;
   drive_work_ += (torques.dot(mean_rates) + motor * mean_rates[0]) * dt;
-  for (const Coordinate angle : {spin, yaw, camber}) constraint_[angle] = torques[angle_index(angle)];
+  for (const Coordinate angle : {spin, yaw, camber})
+    constraint_[angle] = torques[angle_index(angle)];
   constraint_[spin] += motor;
 
   w_ = after;
@@ -204,8 +219,9 @@ void WheelHub::advance_rotation(double dt, const Vector3& moment) {
 }
 
 double WheelHub::hub_energy() const {
-  return 0.5 * (inertia_.mass * velocity_.squaredNorm() + inertia_.diametral * (w_[0] * w_[0] + w_[2] * w_[2]) +
-                inertia_.axial * w_[1] * w_[1]);
+  return 0.5 *
+         (inertia_.mass * velocity_.squaredNorm() +
+          inertia_.diametral * (w_[0] * w_[0] + w_[2] * w_[2]) + inertia_.axial * w_[1] * w_[1]);
 }
 
 Balance WheelHub::hub_balance() const {
@@ -220,12 +236,16 @@ Balance WheelHub::hub_balance() const {
 
 std::vector<double> WheelHub::hub_state() const {
   std::vector<double> state;
-  const auto add = [&](const auto& values) { state.insert(state.end(), values.data(), values.data() + values.size()); };
-  for (const Vector3& vector : {centre_, velocity_, angles_, w_, rates_, omega_, load_}) add(vector);
+  const auto add = [&](const auto& values) {
+    state.insert(state.end(), values.data(), values.data() + values.size());
+  };
+  for (const Vector3& vector : {centre_, velocity_, angles_, w_, rates_, omega_, load_})
+    add(vector);
   for (const Motion motion : motion_) state.push_back(static_cast<double>(motion));
   add(prescribed_);
   add(constraint_);
-  for (const double number : {axle_torque_, vertical_damping_, given_work_, load_work_, drive_work_, dissipated_})
+  for (const double number :
+       {axle_torque_, vertical_damping_, given_work_, load_work_, drive_work_, dissipated_})
     state.push_back(number);
   return state;
 }
@@ -235,11 +255,13 @@ const double* WheelHub::restore_hub(const double* next) {
     std::copy(next, next + values.size(), values.data());
     next += values.size();
   };
-  for (Vector3* vector : {&centre_, &velocity_, &angles_, &w_, &rates_, &omega_, &load_}) take(*vector);
+  for (Vector3* vector : {&centre_, &velocity_, &angles_, &w_, &rates_, &omega_, &load_})
+    take(*vector);
   for (Motion& motion : motion_) motion = static_cast<Motion>(*next++);
   take(prescribed_);
   take(constraint_);
-  for (double* number : {&axle_torque_, &vertical_damping_, &given_work_, &load_work_, &drive_work_, &dissipated_})
+  for (double* number :
+       {&axle_torque_, &vertical_damping_, &given_work_, &load_work_, &drive_work_, &dissipated_})
     *number = *next++;
   return next;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The axle of a wheel: a rigid body of revolution with six coordinates, each free, held or prescribed. Rigid wheels are one; tyres
-/// have one for a rim. A rig drives either through this class.
+/// The axle of a wheel: a rigid body of revolution with six coordinates, each free, held or
+/// prescribed. Rigid wheels are one; tyres have one for a rim. A rig drives either through this
+/// class.
 
 #include <array>
 #include <string>
@@ -17,19 +18,24 @@ struct HubInertia {
   double diametral = 0.0;  ///< [kg m^2] about any line across the axle through the centre, A
 };
 
-/// Attitude: R = Rz(yaw) Rx(camber) Ry(spin); the axle is a = R y. Coordinates q: x, y, z of the axle centre, spin, yaw, camber.
+/// Attitude: R = Rz(yaw) Rx(camber) Ry(spin); the axle is a = R y. Coordinates q: x, y, z of the
+/// axle centre, spin, yaw, camber.
 ///
-/// Rotation is integrated in the quasi-velocities w = (w_x, w_a, w_n) along the carrier's axes: e_x level and across the
-/// axle, a the axle, e_n = e_x x a (the carrier yaws and cambers with the axle but does not spin). In them the kinetic
-/// energy of a body of revolution has constant coefficients, T = (A w_x^2 + C w_a^2 + A w_n^2)/2, and
+/// Rotation is integrated in the quasi-velocities w = (w_x, w_a, w_n) along the carrier's axes: e_x
+/// level and across the axle, a the axle, e_n = e_x x a (the carrier yaws and cambers with the axle
+/// but does not spin). In them the kinetic energy of a body of revolution has constant
+/// coefficients, T = (A w_x^2 + C w_a^2 + A w_n^2)/2, and
 ///   w_x = d(camber)/dt,  w_a = d(spin)/dt + d(yaw)/dt sin(camber),  w_n = d(yaw)/dt cos(camber).
 ///
-/// One step is a leapfrog, as LIGGGHTS's velocity Verlet sees it: forces belong to t_n, velocities to t_n -+ dt/2:
+/// One step is a leapfrog, as LIGGGHTS's velocity Verlet sees it: forces belong to t_n, velocities
+/// to t_n -+ dt/2:
 ///   v_n+1/2 = v_n-1/2 + dt F_n/m,  q_n+1 = q_n + dt (dq/dt)_n+1/2,
 ///   (A, C, A) dw/dt + gyroscopic terms = moments of forces and constraints.
-/// All works are forces times the mean of the velocities before and after, which makes the energy balance exact to round-off.
+/// All works are forces times the mean of the velocities before and after, which makes the energy
+/// balance exact to round-off.
 ///
-/// Every coordinate is held until release() or prescribe() says otherwise. Holding a moving coordinate stops it within a step.
+/// Every coordinate is held until release() or prescribe() says otherwise. Holding a moving
+/// coordinate stops it within a step.
 class WheelHub : public Body {
  public:
   using Body::surface;
@@ -45,49 +51,63 @@ class WheelHub : public Body {
 
   /// Force at the axle centre, weight included: a hub knows no gravity of its own [N].
   void set_load(const Vector3& force) { load_ = force; }
-  /// Torque of a motor or brake between carrier and wheel, > 0 drives forward [N m]; of no effect while the spin is prescribed.
+  /// Torque of a motor or brake between carrier and wheel, > 0 drives forward [N m]; of no effect
+  /// while the spin is prescribed.
   void set_axle_torque(double torque) { axle_torque_ = torque; }
-  /// Viscous resistance to vertical motion, taken implicitly [N s/m]; its loss is part of the balance's dissipated_energy.
+  /// Viscous resistance to vertical motion, taken implicitly [N s/m]; its loss is part of the
+  /// balance's dissipated_energy.
   /// @throws Error for a negative coefficient
   void set_vertical_damping(double coefficient);
 
-  /// Sets the wheel down without motion [m, rad, rad]; spin 0. Meant for the start of a run: no work is counted.
+  /// Sets the wheel down without motion [m, rad, rad]; spin 0. Meant for the start of a run: no
+  /// work is counted.
   void place(const Vector3& axle_centre, double yaw, double camber);
-  /// Sets the velocities, of the whole wheel, as of a rigid body; work counted as drive work [m/s; spin, yaw, camber rates rad/s].
+  /// Sets the velocities, of the whole wheel, as of a rigid body; work counted as drive work [m/s;
+  /// spin, yaw, camber rates rad/s].
   void set_velocity(const Vector3& velocity, const Vector3& rates);
 
-  const Vector3& centre() const { return centre_; }           ///< [m] of the axle
-  const Vector3& velocity() const { return velocity_; }       ///< [m/s] half a step ago
-  double position(Coordinate coordinate) const;               ///< [m or rad] the spin is not wrapped at 2 pi
-  double rate(Coordinate coordinate) const;                   ///< [m/s or rad/s] half a step ago
-  Vector3 axle() const;                                       ///< unit vector, +y for an upright wheel that runs along x
+  const Vector3& centre() const { return centre_; }      ///< [m] of the axle
+  const Vector3& velocity() const { return velocity_; }  ///< [m/s] half a step ago
+  /// [m or rad] the spin is not wrapped at 2 pi
+  double position(Coordinate coordinate) const;
+  double rate(Coordinate coordinate) const;  ///< [m/s or rad/s] half a step ago
+  /// unit vector, +y for an upright wheel that runs along x
+  Vector3 axle() const;
   Matrix3 attitude() const;                                   ///< R
   const Vector3& angular_velocity() const { return omega_; }  ///< [rad/s] in space, half a step ago
   const Vector3& load() const { return load_; }               ///< [N]
   double axle_torque() const { return axle_torque_; }         ///< [N m] as set
-  /// Force [N] or torque [N m] with which whatever holds or prescribes a coordinate acts on the wheel, mean of the last step or interval;
-  /// for the spin of a free wheel this is the axle torque. Zero for other free coordinates.
+  /// Force [N] or torque [N m] with which whatever holds or prescribes a coordinate acts on the
+  /// wheel, mean of the last step or interval; for the spin of a free wheel this is the axle
+  /// torque. Zero for other free coordinates.
   double constraint(Coordinate coordinate) const { return constraint_[coordinate]; }
   void begin_interval() override;
   void end_interval() override;
 
-  virtual double nominal_radius() const = 0;  ///< [m] without load, grousers or ground: the rim speed's radius
-  virtual double lowest_point() const = 0;  ///< [m] z of the unloaded shape, without grousers: what a sinkage is counted to
-  /// Force [N] and moment about the axle centre [N m] of all that touches the wheel now; a half model's are those of the whole.
+  /// [m] without load, grousers or ground: the rim speed's radius
+  virtual double nominal_radius() const = 0;
+  /// [m] z of the unloaded shape, without grousers: what a sinkage is counted to
+  virtual double lowest_point() const = 0;
+  /// Force [N] and moment about the axle centre [N m] of all that touches the wheel now; a half
+  /// model's are those of the whole.
   struct Wrench {
     Vector3 force, moment;
   };
-  virtual Wrench ground_wrench() const { return {surface().total_force(), surface().total_moment(centre_)}; }
-  virtual double total_mass() const { return inertia_.mass; }  ///< [kg] of all that moves with the wheel
+  virtual Wrench ground_wrench() const {
+    return {surface().total_force(), surface().total_moment(centre_)};
+  }
+  /// [kg] of all that moves with the wheel
+  virtual double total_mass() const { return inertia_.mass; }
 
  protected:
   WheelHub(const HubInertia& inertia, const Vector3& centre, const std::string& name);
 
   /// One step of the hub. @throws StateError for what is not finite or a wheel that fell over
   void advance_hub(double dt, const Vector3& force, const Vector3& moment);
-  double hub_energy() const;                         ///< kinetic [J]
-  double given_work() const { return given_work_; }  ///< [J] of the forces and moments passed to advance_hub
-  Balance hub_balance() const;                       ///< without contact_work
+  double hub_energy() const;  ///< kinetic [J]
+  /// [J] of the forces and moments passed to advance_hub
+  double given_work() const { return given_work_; }
+  Balance hub_balance() const;  ///< without contact_work
   /// The hub has been put elsewhere: what moves with it follows as a rigid body, without velocity.
   virtual void follow_placement(const Vector3& old_centre, const Matrix3& old_attitude) = 0;
   virtual void follow_velocity() = 0;   ///< it has been given another motion
@@ -109,7 +129,7 @@ class WheelHub : public Body {
   Vector3 omega_ = Vector3::Zero();   // w_ in space, likewise [rad/s]
 
   std::array<Motion, coordinates> motion_;
-  std::array<double, coordinates> prescribed_{};  // [m/s or rad/s]
+  std::array<double, coordinates> prescribed_{};          // [m/s or rad/s]
   std::array<double, coordinates> constraint_{};          // [N or N m]
   std::array<double, coordinates> constraint_impulse_{};  // of the interval so far [N s or N m s]
   double interval_ = -1.0;                                // [s] so far; < 0 outside of one

@@ -12,7 +12,8 @@ struct Communicator::Handle {
 };
 
 Communicator::Communicator() : handle_(new Handle{MPI_COMM_NULL, 0, 1}) {}
-Communicator::Communicator(const void* mpi_comm) : handle_(new Handle{*static_cast<const MPI_Comm*>(mpi_comm), 0, 1}) {
+Communicator::Communicator(const void* mpi_comm)
+    : handle_(new Handle{*static_cast<const MPI_Comm*>(mpi_comm), 0, 1}) {
   MPI_Comm_rank(handle_->comm, &handle_->rank);
   MPI_Comm_size(handle_->comm, &handle_->size);
 }
@@ -28,7 +29,8 @@ int Communicator::size() const { return handle_->size; }
 
 void Communicator::sum(double* values, std::size_t count) const {
   if (size() == 1) return;
-  // Reduce and broadcast, not allreduce: replicated bodies must stay bitwise equal, and MPI does not promise that for allreduce.
+  // Reduce and broadcast, not allreduce: replicated bodies must stay bitwise equal, and MPI does
+  // not promise that for allreduce.
   const int n = static_cast<int>(count);
   MPI_Reduce(rank() == 0 ? MPI_IN_PLACE : values, values, n, MPI_DOUBLE, MPI_SUM, 0, handle_->comm);
   MPI_Bcast(values, n, MPI_DOUBLE, 0, handle_->comm);
@@ -46,10 +48,11 @@ double Communicator::max(double value) const {
 
 std::vector<double> Communicator::exchange(int other, const std::vector<double>& numbers) const {
   long mine = static_cast<long>(numbers.size()), theirs = 0;
-  MPI_Sendrecv(&mine, 1, MPI_LONG, other, 0, &theirs, 1, MPI_LONG, other, 0, handle_->comm, MPI_STATUS_IGNORE);
+  MPI_Sendrecv(&mine, 1, MPI_LONG, other, 0, &theirs, 1, MPI_LONG, other, 0, handle_->comm,
+               MPI_STATUS_IGNORE);
   std::vector<double> received(static_cast<std::size_t>(theirs));
-  MPI_Sendrecv(numbers.data(), static_cast<int>(mine), MPI_DOUBLE, other, 1, received.data(), static_cast<int>(theirs), MPI_DOUBLE,
-               other, 1, handle_->comm, MPI_STATUS_IGNORE);
+  MPI_Sendrecv(numbers.data(), static_cast<int>(mine), MPI_DOUBLE, other, 1, received.data(),
+               static_cast<int>(theirs), MPI_DOUBLE, other, 1, handle_->comm, MPI_STATUS_IGNORE);
   return received;
 }
 
@@ -60,7 +63,8 @@ std::vector<double> Communicator::gather(const std::vector<double>& numbers) con
   MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, handle_->comm);
   for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
   std::vector<double> all(static_cast<std::size_t>(starts.back() + counts.back()));
-  MPI_Allgatherv(numbers.data(), mine, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, handle_->comm);
+  MPI_Allgatherv(numbers.data(), mine, MPI_DOUBLE, all.data(), counts.data(), starts.data(),
+                 MPI_DOUBLE, handle_->comm);
   return all;
 }
 

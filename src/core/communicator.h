@@ -20,12 +20,14 @@ class Communicator {
 
   int rank() const;
   int size() const;
-  /// Sums the numbers of all ranks in place; every rank gets bitwise the same result, in rank order of the tree MPI uses.
+  /// Sums the numbers of all ranks in place; every rank gets bitwise the same result, in rank order
+  /// of the tree MPI uses.
   void sum(double* values, std::size_t count) const;
   double sum(double value) const;
   double max(double value) const;
   bool any(bool value) const;
-  /// Gives numbers to another rank and takes its own; both call it. Pairs in the same order on all ranks, or they wait for ever.
+  /// Gives numbers to another rank and takes its own; both call it. Pairs in the same order on all
+  /// ranks, or they wait for ever.
   std::vector<double> exchange(int other, const std::vector<double>& numbers) const;
   /// The numbers of all ranks, in rank order, on every rank.
   std::vector<double> gather(const std::vector<double>& numbers) const;

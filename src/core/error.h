@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Every refusal of the library is one of these exceptions; only coupling/ turns them into LIGGGHTS errors.
+/// Every refusal of the library is one of these exceptions; only coupling/ turns them into LIGGGHTS
+/// errors.
 
 #include <stdexcept>
 #include <string>
@@ -22,12 +23,14 @@ class InputError : public Error {
   /// @param remedy   what to do, or empty
   InputError(const std::string& where, const std::string& problem, const std::string& allowed,
              const std::string& remedy = "")
-      : Error(where + " " + problem + "; allowed: " + allowed + (remedy.empty() ? "" : "; " + remedy)) {}
+      : Error(where + " " + problem + "; allowed: " + allowed +
+              (remedy.empty() ? "" : "; " + remedy)) {}
   /// A whole message, for a reader that adds the place to an error it caught.
   explicit InputError(const std::string& message) : Error(message) {}
 };
 
-/// The computation reached a state that must not be continued: not a number, a folded element, an unstable step.
+/// The computation reached a state that must not be continued: not a number, a folded element, an
+/// unstable step.
 class StateError : public Error {
  public:
   using Error::Error;

@@ -82,7 +82,8 @@ std::string Key::allowed() const {
     case Kind::integer:
       return fmt::format("an integer {}", range.text());
     case Kind::numbers:
-      return fmt::format("{} numbers, each {}{}", count == 0 ? "a list of" : std::to_string(count), range.text(), unit_text);
+      return fmt::format("{} numbers, each {}{}", count == 0 ? "a list of" : std::to_string(count),
+                         range.text(), unit_text);
     case Kind::word:
       return fmt::format("one of: {}", fmt::join(words, ", "));
     case Kind::text:
@@ -98,17 +99,19 @@ Schema& Schema::declare(Key key) {
   return *this;
 }
 
-Schema& Schema::number(const std::string& name, const std::string& unit, Range range, const std::string& meaning) {
+Schema& Schema::number(const std::string& name, const std::string& unit, Range range,
+                       const std::string& meaning) {
   return declare({name, Key::Kind::number, unit, range, 1, {}, meaning});
 }
 Schema& Schema::integer(const std::string& name, Range range, const std::string& meaning) {
   return declare({name, Key::Kind::integer, "", range, 1, {}, meaning});
 }
-Schema& Schema::numbers(const std::string& name, std::size_t count, const std::string& unit, Range range,
-                        const std::string& meaning) {
+Schema& Schema::numbers(const std::string& name, std::size_t count, const std::string& unit,
+                        Range range, const std::string& meaning) {
   return declare({name, Key::Kind::numbers, unit, range, count, {}, meaning});
 }
-Schema& Schema::word(const std::string& name, std::vector<std::string> words, const std::string& meaning) {
+Schema& Schema::word(const std::string& name, std::vector<std::string> words,
+                     const std::string& meaning) {
   return declare({name, Key::Kind::word, "", {}, 1, std::move(words), meaning});
 }
 Schema& Schema::text(const std::string& name, const std::string& meaning) {
@@ -132,7 +135,8 @@ Schema& Schema::by_default(std::vector<double> values) {
 }
 
 const Key* Schema::find(const std::string& name) const {
-  const auto found = std::find_if(keys_.begin(), keys_.end(), [&](const Key& key) { return key.name == name; });
+  const auto found =
+      std::find_if(keys_.begin(), keys_.end(), [&](const Key& key) { return key.name == name; });
   return found == keys_.end() ? nullptr : &*found;
 }
 
@@ -141,9 +145,12 @@ Options Schema::read(const std::vector<std::string>& words) const {
   for (std::size_t i = 0; i < words.size();) {
     Entry entry{words[i++], {}};
     const Key* key = find(entry.key);
-    const std::size_t count = !key ? words.size() : key->count;  // an unknown key is refused below, with its name
-    while (i < words.size() && (count == 0 ? to_number(words[i]).has_value() : entry.values.size() < count)) {
-      if (key && find(words[i]) && key->kind != Key::Kind::text && key->kind != Key::Kind::word) break;
+    // an unknown key is refused below, with its name
+    const std::size_t count = !key ? words.size() : key->count;
+    while (i < words.size() &&
+           (count == 0 ? to_number(words[i]).has_value() : entry.values.size() < count)) {
+      if (key && find(words[i]) && key->kind != Key::Kind::text && key->kind != Key::Kind::word)
+        break;
       entry.values.push_back(words[i++]);
     }
     entries.push_back(std::move(entry));
@@ -156,10 +163,13 @@ Options Schema::read(const std::vector<Entry>& entries) const {
   options.subject_ = subject_;
   for (const Key& key : keys_) options.order_.push_back(key.name);
 
-  const auto accept = [&](const Key& key, const std::vector<std::string>& texts, bool given, const std::string& origin) {
+  const auto accept = [&](const Key& key, const std::vector<std::string>& texts, bool given,
+                          const std::string& origin) {
     const std::string where = after_origin(origin, options.where(key.name));
     if (key.count == 0 ? texts.empty() : texts.size() != key.count)
-      throw InputError(where, texts.empty() ? "has no value" : fmt::format("has {} value(s)", texts.size()), key.allowed());
+      throw InputError(
+          where, texts.empty() ? "has no value" : fmt::format("has {} value(s)", texts.size()),
+          key.allowed());
     Options::Value value{texts, {}, given, origin};
     if (key.kind == Key::Kind::word || key.kind == Key::Kind::flag) {
       if (std::find(key.words.begin(), key.words.end(), texts[0]) == key.words.end())
@@ -167,8 +177,11 @@ Options Schema::read(const std::vector<Entry>& entries) const {
     } else if (key.kind != Key::Kind::text) {
       for (const std::string& text : texts) {
         const std::optional<double> number = to_number(text);
-        if (!number) throw InputError(where, fmt::format("is '{}', which is not a number", text), key.allowed());
-        if (!key.range.contains(*number) || (key.kind == Key::Kind::integer && *number != std::round(*number)))
+        if (!number)
+          throw InputError(where, fmt::format("is '{}', which is not a number", text),
+                           key.allowed());
+        if (!key.range.contains(*number) ||
+            (key.kind == Key::Kind::integer && *number != std::round(*number)))
           throw InputError(where, fmt::format("is {}", text), key.allowed());
         value.numbers.push_back(*number);
       }
@@ -182,18 +195,21 @@ Options Schema::read(const std::vector<Entry>& entries) const {
       std::vector<std::string> names;
       for (const Key& known : keys_) names.push_back(known.name);
       const std::string near = nearest_key(keys_, entry.key);
-      throw InputError(after_origin(entry.origin, subject_), fmt::format("has no keyword '{}'", entry.key),
+      throw InputError(after_origin(entry.origin, subject_),
+                       fmt::format("has no keyword '{}'", entry.key),
                        fmt::format("{}", fmt::join(names, ", ")),
                        near.empty() ? "" : fmt::format("did you mean '{}'?", near));
     }
     if (options.given(entry.key))
-      throw InputError(after_origin(entry.origin, subject_ + ", keyword '" + entry.key + "'"), "is given twice",
-                       "each keyword once", "remove one of them");
+      throw InputError(after_origin(entry.origin, subject_ + ", keyword '" + entry.key + "'"),
+                       "is given twice", "each keyword once", "remove one of them");
     accept(*key, entry.values, true, entry.origin);
   }
   for (const Key& key : keys_) {
     if (options.given(key.name)) continue;
-    if (key.required) throw InputError(options.where(key.name), "is missing", key.allowed(), "it is: " + key.meaning);
+    if (key.required)
+      throw InputError(options.where(key.name), "is missing", key.allowed(),
+                       "it is: " + key.meaning);
     if (!key.default_values.empty()) accept(key, key.default_values, false, {});
   }
   return options;
@@ -202,8 +218,10 @@ Options Schema::read(const std::vector<Entry>& entries) const {
 std::string Schema::table() const {
   std::string text;
   for (const Key& key : keys_)
-    text += fmt::format("  {:<18} {:<42} {:<12} {}\n", key.name, key.allowed(),
-                        key.required ? "required" : fmt::format("{}", fmt::join(key.default_values, " ")), key.meaning);
+    text += fmt::format(
+        "  {:<18} {:<42} {:<12} {}\n", key.name, key.allowed(),
+        key.required ? "required" : fmt::format("{}", fmt::join(key.default_values, " ")),
+        key.meaning);
   return text;
 }
 
@@ -213,8 +231,12 @@ const Options::Value& Options::value(const std::string& key) const {
   return found->second;
 }
 double Options::number(const std::string& key) const { return value(key).numbers.at(0); }
-long Options::integer(const std::string& key) const { return static_cast<long>(value(key).numbers.at(0)); }
-const std::vector<double>& Options::numbers(const std::string& key) const { return value(key).numbers; }
+long Options::integer(const std::string& key) const {
+  return static_cast<long>(value(key).numbers.at(0));
+}
+const std::vector<double>& Options::numbers(const std::string& key) const {
+  return value(key).numbers;
+}
 const std::string& Options::word(const std::string& key) const { return value(key).texts.at(0); }
 bool Options::flag(const std::string& key) const { return value(key).texts.at(0) == "yes"; }
 bool Options::has(const std::string& key) const { return values_.count(key) > 0; }
@@ -224,7 +246,8 @@ bool Options::given(const std::string& key) const {
 }
 std::string Options::where(const std::string& key) const {
   const auto found = values_.find(key);
-  return after_origin(found == values_.end() ? "" : found->second.origin, subject_ + ", keyword '" + key + "'");
+  return after_origin(found == values_.end() ? "" : found->second.origin,
+                      subject_ + ", keyword '" + key + "'");
 }
 std::vector<Entry> Options::effective() const {
   std::vector<Entry> entries;

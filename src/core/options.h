@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Options are declared once: key, unit, range, meaning, default. Scripts, files, pages and errors all use that one declaration.
+/// Options are declared once: key, unit, range, meaning, default. Scripts, files, pages and errors
+/// all use that one declaration.
 
 #include <limits>
 #include <map>
@@ -19,10 +20,14 @@ struct Range {
 
   static Range any() { return {}; }
   static Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true, false}; }
-  static Range non_negative() { return {0.0, std::numeric_limits<double>::infinity(), false, false}; }
+  static Range non_negative() {
+    return {0.0, std::numeric_limits<double>::infinity(), false, false};
+  }
   static Range closed(double lower, double upper) { return {lower, upper, false, false}; }
   static Range open(double lower, double upper) { return {lower, upper, true, true}; }
-  static Range at_least(double lower) { return {lower, std::numeric_limits<double>::infinity(), false, false}; }
+  static Range at_least(double lower) {
+    return {lower, std::numeric_limits<double>::infinity(), false, false};
+  }
 
   bool contains(double value) const;  ///< false for NaN and infinities
   std::string text() const;           ///< "> 0", "in [0, 0.5)", "any number"
@@ -40,7 +45,8 @@ struct Key {
   std::vector<std::string> words;  ///< the admissible words
   std::string meaning;
   bool required = true;
-  std::vector<std::string> default_values = {};  ///< used when not required and not given; may be empty
+  /// used when not required and not given; may be empty
+  std::vector<std::string> default_values = {};
 
   std::string allowed() const;  ///< "a number > 0 [m]", "one of: towed, slip, torque"
 };
@@ -49,7 +55,8 @@ struct Key {
 struct Entry {
   std::string key;
   std::vector<std::string> values;
-  std::string origin = {};  ///< where it was written, "sand.yaml, line 12", for errors; empty when the reader says it
+  /// where it was written, "sand.yaml, line 12", for errors; empty when the reader says it
+  std::string origin = {};
 };
 
 class Options;
@@ -60,16 +67,21 @@ class Schema {
   /// @param subject names the owner in errors: "fix wheel/rigid", "law drucker_prager_cap"
   explicit Schema(std::string subject) : subject_(std::move(subject)) {}
 
-  // Each call declares a required key; optional_*() declares one with a default, or without one (then ask given()).
-  Schema& number(const std::string& name, const std::string& unit, Range range, const std::string& meaning);
+  // Each call declares a required key; optional_*() declares one with a default, or without one
+  // (then ask given()).
+  Schema& number(const std::string& name, const std::string& unit, Range range,
+                 const std::string& meaning);
   Schema& integer(const std::string& name, Range range, const std::string& meaning);
   Schema& numbers(const std::string& name, std::size_t count, const std::string& unit, Range range,
                   const std::string& meaning);
   Schema& word(const std::string& name, std::vector<std::string> words, const std::string& meaning);
   Schema& text(const std::string& name, const std::string& meaning);
-  Schema& flag(const std::string& name, const std::string& meaning);  ///< yes | no, "no" unless given
-  Schema& optional();                                                 ///< the key declared last may be left out
-  Schema& by_default(const std::string& value);                       ///< the same, and then has this value
+  /// yes | no, "no" unless given
+  Schema& flag(const std::string& name, const std::string& meaning);
+  /// the key declared last may be left out
+  Schema& optional();
+  /// the same, and then has this value
+  Schema& by_default(const std::string& value);
   Schema& by_default(double value);
   Schema& by_default(std::vector<double> values);
 
@@ -81,7 +93,8 @@ class Schema {
   Options read(const std::vector<std::string>& words) const;
   /// Reads entries as a file has them. @throws InputError
   Options read(const std::vector<Entry>& entries) const;
-  /// The table of keys for --help and for the pages: one line a key with unit, range, default and meaning.
+  /// The table of keys for --help and for the pages: one line a key with unit, range, default and
+  /// meaning.
   std::string table() const;
 
  private:
@@ -105,7 +118,8 @@ class Options {
   const std::string& subject() const { return subject_; }
   /// The effective values, defaults included, in the order of declaration: "key value ...".
   std::vector<Entry> effective() const;
-  /// "fix wheel/rigid, keyword 'mass'", after the key's origin if it has one; to build an InputError about a combination of keys.
+  /// "fix wheel/rigid, keyword 'mass'", after the key's origin if it has one; to build an
+  /// InputError about a combination of keys.
   std::string where(const std::string& key) const;
 
  private:

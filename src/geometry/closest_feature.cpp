@@ -5,19 +5,26 @@ namespace furrow {
 
 namespace {
 
-bool contains(const Vector3i& nodes, int node) { return nodes[0] == node || nodes[1] == node || nodes[2] == node; }
+bool contains(const Vector3i& nodes, int node) {
+  return nodes[0] == node || nodes[1] == node || nodes[2] == node;
+}
 
-bool share_node(const Vector3i& a, const Vector3i& b) { return contains(b, a[0]) || contains(b, a[1]) || contains(b, a[2]); }
+bool share_node(const Vector3i& a, const Vector3i& b) {
+  return contains(b, a[0]) || contains(b, a[1]) || contains(b, a[2]);
+}
 
-/// Every node of the feature on which this candidate's closest point lies belongs to the triangle other.
+/// Every node of the feature on which this candidate's closest point lies belongs to the triangle
+/// other.
 bool feature_belongs_to(const ContactCandidate& candidate, const ContactCandidate& other) {
   for (int j = 0; j < 3; ++j)
-    if (candidate.point.barycentric[j] > 0.0 && !contains(other.nodes, candidate.nodes[j])) return false;
+    if (candidate.point.barycentric[j] > 0.0 && !contains(other.nodes, candidate.nodes[j]))
+      return false;
   return true;
 }
 
 /// The surface comes nearer to the sphere's centre on other, which contains candidate's feature.
-bool is_owned_by(const ContactCandidate& candidate, const ContactCandidate& other, double tolerance) {
+bool is_owned_by(const ContactCandidate& candidate, const ContactCandidate& other,
+                 double tolerance) {
   if (candidate.point.feature_nodes() == 3 || !feature_belongs_to(candidate, other)) return false;
   const double difference = other.point.distance - candidate.point.distance;
   if (difference < -tolerance) return true;
@@ -28,7 +35,8 @@ bool is_owned_by(const ContactCandidate& candidate, const ContactCandidate& othe
 
 }  // namespace
 
-ClosestPoint closest_point_on_triangle(const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c) {
+ClosestPoint closest_point_on_triangle(const Vector3& p, const Vector3& a, const Vector3& b,
+                                       const Vector3& c) {
   const Vector3 ab = b - a, ac = c - a, ap = p - a;
   const auto at = [&](double wa, double wb, double wc) {
     ClosestPoint result;
@@ -76,24 +84,29 @@ void ContactSelection::select(std::vector<ContactCandidate>& candidates, double 
   const double tolerance = 1e-9 * radius;
 
   for (ContactCandidate& candidate : candidates)
-    candidate.owned = std::any_of(candidates.begin(), candidates.end(), [&](const ContactCandidate& other) {
-      return &other != &candidate && is_owned_by(candidate, other, tolerance);
-    });
-  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), [](const ContactCandidate& c) { return c.owned; }),
+    candidate.owned =
+        std::any_of(candidates.begin(), candidates.end(), [&](const ContactCandidate& other) {
+          return &other != &candidate && is_owned_by(candidate, other, tolerance);
+        });
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
+                                  [](const ContactCandidate& c) { return c.owned; }),
                    candidates.end());
   if (candidates.size() < 2) return;
 
-  std::sort(candidates.begin(), candidates.end(), [](const ContactCandidate& a, const ContactCandidate& b) {
-    return a.point.distance != b.point.distance ? a.point.distance < b.point.distance : a.triangle < b.triangle;
-  });
+  std::sort(candidates.begin(), candidates.end(),
+            [](const ContactCandidate& a, const ContactCandidate& b) {
+              return a.point.distance != b.point.distance ? a.point.distance < b.point.distance
+                                                          : a.triangle < b.triangle;
+            });
   auto kept = candidates.begin() + 1;
   for (const ContactCandidate& candidate : candidates) {
     if (&candidate == &candidates.front()) continue;
-    const bool same_surface = std::any_of(candidates.begin(), kept, [&](const ContactCandidate& deeper) {
-      return share_node(candidate.nodes, deeper.nodes) &&
-             candidate.point.separation.dot(deeper.point.separation) >
-                 merge_cosine_ * candidate.point.distance * deeper.point.distance;
-    });
+    const bool same_surface =
+        std::any_of(candidates.begin(), kept, [&](const ContactCandidate& deeper) {
+          return share_node(candidate.nodes, deeper.nodes) &&
+                 candidate.point.separation.dot(deeper.point.separation) >
+                     merge_cosine_ * candidate.point.distance * deeper.point.distance;
+        });
     if (!same_surface) *kept++ = candidate;
   }
   candidates.erase(kept, candidates.end());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Where a sphere touches a bending surface: closest points on triangles, and which of them are contacts.
+/// Where a sphere touches a bending surface: closest points on triangles, and which of them are
+/// contacts.
 
 #include <algorithm>
 #include <cmath>
@@ -12,17 +13,22 @@ namespace furrow {
 
 /// The point of a triangle that is closest to a given point.
 struct ClosestPoint {
-  Vector3 barycentric;  ///< sums to one; exactly zero for the nodes that the feature does not contain
-  Vector3 separation;   ///< from the closest point to the given point [m]
-  double distance;      ///< |separation| [m]
+  /// sums to one; exactly zero for the nodes that the feature does not contain
+  Vector3 barycentric;
+  Vector3 separation;  ///< from the closest point to the given point [m]
+  double distance;     ///< |separation| [m]
 
   /// Number of nodes that carry the feature: 1 corner, 2 edge, 3 face.
-  int feature_nodes() const { return (barycentric[0] > 0.0) + (barycentric[1] > 0.0) + (barycentric[2] > 0.0); }
+  int feature_nodes() const {
+    return (barycentric[0] > 0.0) + (barycentric[1] > 0.0) + (barycentric[2] > 0.0);
+  }
 };
 
 /// Closest point of the triangle (a, b, c) to p, for triangles of any shape.
-/// Walks through the Voronoi regions of corners and edges (C. Ericson, Real-Time Collision Detection, 2005, sec. 5.1.5).
-ClosestPoint closest_point_on_triangle(const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c);
+/// Walks through the Voronoi regions of corners and edges (C. Ericson, Real-Time Collision
+/// Detection, 2005, sec. 5.1.5).
+ClosestPoint closest_point_on_triangle(const Vector3& p, const Vector3& a, const Vector3& b,
+                                       const Vector3& c);
 
 /// One triangle within reach of a sphere, before it is known whether it is a contact of its own.
 struct ContactCandidate {
@@ -34,16 +40,21 @@ struct ContactCandidate {
 };
 
 /// Decides which candidates of one sphere are contacts:
-///  1. an edge or corner is no contact if a triangle that contains it has a closer point (the surface comes nearer there),
+///  1. an edge or corner is no contact if a triangle that contains it has a closer point (the
+///  surface comes nearer there),
 ///     and is counted once when several triangles report it at equal distance;
-///  2. of two contacts on triangles that share a node and whose normals differ by less than the merge angle, only the deeper
-///     one is kept: the facets stand for one smooth surface. A sharper valley keeps its two contacts.
+///  2. of two contacts on triangles that share a node and whose normals differ by less than the
+///  merge angle, only the deeper
+///     one is kept: the facets stand for one smooth surface. A sharper valley keeps its two
+///     contacts.
 /// Nothing depends on which edges were convex or flat at the start, so the surface may bend freely.
 class ContactSelection {
  public:
-  explicit ContactSelection(double merge_angle = radians(20.0)) : merge_cosine_(std::cos(merge_angle)) {}
+  explicit ContactSelection(double merge_angle = radians(20.0))
+      : merge_cosine_(std::cos(merge_angle)) {}
 
-  /// Keeps the contacts, deepest first, and removes the others. @param radius of the sphere [m], the scale of round-off
+  /// Keeps the contacts, deepest first, and removes the others. @param radius of the sphere [m],
+  /// the scale of round-off
   void select(std::vector<ContactCandidate>& candidates, double radius) const;
 
  private:

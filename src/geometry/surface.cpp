@@ -18,10 +18,12 @@ void Surface::resize(std::size_t nodes) {
   f.setZero(3, static_cast<Eigen::Index>(nodes));
 }
 
-// Weights of least squares on the edge vectors, C. Ericson, Real-Time Collision Detection (2005), section 3.4.
+// Weights of least squares on the edge vectors, C. Ericson, Real-Time Collision Detection (2005),
+// section 3.4.
 Vector3 Surface::barycentric(std::size_t triangle, const Vector3& point) const {
   const Vector3i& nodes = triangles[triangle];
-  const Vector3 a = x.col(nodes[0]), ab = x.col(nodes[1]) - a, ac = x.col(nodes[2]) - a, ap = point - a;
+  const Vector3 a = x.col(nodes[0]), ab = x.col(nodes[1]) - a, ac = x.col(nodes[2]) - a,
+                ap = point - a;
   const double bb = ab.dot(ab), bc = ab.dot(ac), cc = ac.dot(ac), pb = ap.dot(ab), pc = ap.dot(ac);
   const double gram = bb * cc - bc * bc;  // (2 area)^2
   if (!(gram > 0.0)) throw StateError(fmt::format("triangle {} has no area", triangle));
@@ -39,7 +41,8 @@ Vector3 Surface::total_force() const { return f.rowwise().sum(); }
 
 Vector3 Surface::total_moment(const Vector3& about) const {
   Vector3 moment = Vector3::Zero();
-  for (Eigen::Index node = 0; node < x.cols(); ++node) moment += (x.col(node) - about).cross(f.col(node));
+  for (Eigen::Index node = 0; node < x.cols(); ++node)
+    moment += (x.col(node) - about).cross(f.col(node));
   return moment;
 }
 
@@ -51,7 +54,8 @@ Vector3 Surface::area_vector(std::size_t triangle) const {
 
 double Surface::total_area() const {
   double area = 0.0;
-  for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle) area += area_vector(triangle).norm();
+  for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle)
+    area += area_vector(triangle).norm();
   return area;
 }
 
@@ -60,13 +64,15 @@ double Surface::minimum_angle() const {
   for (const Vector3i& nodes : triangles)
     for (int corner = 0; corner < 3; ++corner) {
       const Vector3 here = x.col(nodes[corner]);
-      const Vector3 a = x.col(nodes[(corner + 1) % 3]) - here, b = x.col(nodes[(corner + 2) % 3]) - here;
+      const Vector3 a = x.col(nodes[(corner + 1) % 3]) - here,
+                    b = x.col(nodes[(corner + 2) % 3]) - here;
       angle = std::min(angle, std::atan2(a.cross(b).norm(), a.dot(b)));
     }
   return angle;
 }
 
-// Divergence theorem, V = (1/3) sum of x . A; taken from the first node, so that a surface far from the origin loses no digits.
+// Divergence theorem, V = (1/3) sum of x . A; taken from the first node, so that a surface far from
+// the origin loses no digits.
 double Surface::enclosed_volume() const {
   if (triangles.empty()) return 0.0;
   const Vector3 origin = x.col(0);
@@ -90,7 +96,8 @@ void Surface::check_finite(const std::string& body) const {
     if (!position && v.col(node).allFinite()) continue;
     const Vector3 value = position ? x.col(node) : v.col(node);
     throw StateError(fmt::format("body '{}': the {} of node {} is not finite ({} {} {})", body,
-                                 position ? "position" : "velocity", node, value.x(), value.y(), value.z()));
+                                 position ? "position" : "velocity", node, value.x(), value.y(),
+                                 value.z()));
   }
 }
 

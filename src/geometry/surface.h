@@ -10,12 +10,14 @@
 
 namespace furrow {
 
-/// A triangulated surface with nodal position, velocity and force; SI units; replicated on every rank.
+/// A triangulated surface with nodal position, velocity and force; SI units; replicated on every
+/// rank.
 struct Surface {
   std::vector<Vector3i> triangles;  ///< node indices, outward by the right-hand rule
   Matrix3X x;                       ///< [m]   3 x nodes
   Matrix3X v;                       ///< [m/s] 3 x nodes
-  Matrix3X f;                       ///< [N]   3 x nodes, what others do to this body since the last clear_forces()
+  /// [N]   3 x nodes, what others do to this body since the last clear_forces()
+  Matrix3X f;
 
   std::size_t node_count() const { return static_cast<std::size_t>(x.cols()); }
   std::size_t triangle_count() const { return triangles.size(); }
@@ -23,11 +25,13 @@ struct Surface {
   void resize(std::size_t nodes);  ///< all three arrays, zeroed
   void clear_forces() { f.setZero(); }
 
-  /// Barycentric coordinates of the projection of point onto the plane of a triangle; negative ones lie outside of it.
+  /// Barycentric coordinates of the projection of point onto the plane of a triangle; negative ones
+  /// lie outside of it.
   /// @throws StateError when the triangle has no area
   Vector3 barycentric(std::size_t triangle, const Vector3& point) const;
-  /// Spreads a force over the three nodes with barycentric weights: keeps the force, and the moment of a point on the plane
-  /// of the triangle. A point at height d above it loses the moment d n x force: pass the contact point on the triangle.
+  /// Spreads a force over the three nodes with barycentric weights: keeps the force, and the moment
+  /// of a point on the plane of the triangle. A point at height d above it loses the moment d n x
+  /// force: pass the contact point on the triangle.
   void add_force(std::size_t triangle, const Vector3& point, const Vector3& force);
 
   Vector3 total_force() const;                       ///< [N]
@@ -35,8 +39,9 @@ struct Surface {
   Vector3 area_vector(std::size_t triangle) const;   ///< outward, length = area [m^2]
   double total_area() const;                         ///< [m^2]
   double enclosed_volume() const;                    ///< [m^3] of a closed surface
-  double minimum_angle() const;                      ///< [rad] the sharpest corner of all triangles: how near to a sliver
-  std::pair<Vector3, Vector3> bounds() const;        ///< lowest and highest corner
+  /// [rad] the sharpest corner of all triangles: how near to a sliver
+  double minimum_angle() const;
+  std::pair<Vector3, Vector3> bounds() const;  ///< lowest and highest corner
 
   /// Every edge is shared by exactly two triangles that run along it in opposite directions.
   bool is_closed() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Which triangles of a surface are near a point: bins over space, made anew when the surface has moved far enough.
+/// Which triangles of a surface are near a point: bins over space, made anew when the surface has
+/// moved far enough.
 
 #include <vector>
 
@@ -10,7 +11,8 @@ namespace furrow {
 
 class TriangleSearch {
  public:
-  /// Files every triangle under all bins within `reach` [m] of it. Bins cover the part of the surface inside [lower, upper].
+  /// Files every triangle under all bins within `reach` [m] of it. Bins cover the part of the
+  /// surface inside [lower, upper].
   TriangleSearch(const Surface& surface, double reach, const Vector3& lower, const Vector3& upper);
 
   const Vector3& lower() const { return lower_; }  ///< of the region that has bins
@@ -18,7 +20,8 @@ class TriangleSearch {
   bool covers(const Vector3& point) const {
     return (point.array() >= lower_.array()).all() && (point.array() <= upper_.array()).all();
   }
-  /// Triangles that may be within reach of a point of the region, as a range of triangle numbers; none outside.
+  /// Triangles that may be within reach of a point of the region, as a range of triangle numbers;
+  /// none outside.
   std::pair<const int*, const int*> near(const Vector3& point) const;
 
  private:
@@ -35,13 +38,16 @@ class TriangleSearch {
 class NodeTriangles {
  public:
   explicit NodeTriangles(const Surface& surface);
-  /// A direction to the outside at the feature that a closest point lies on: the triangle's normal, the sum of the two normals at an edge,
-  /// the sum weighted by angles at a corner. Its sign tells inside from outside of a closed surface at every feature
-  /// (J. A. Baerentzen, H. Aanaes, IEEE TVCG 11, 2005). Not of unit length.
+  /// A direction to the outside at the feature that a closest point lies on: the triangle's normal,
+  /// the sum of the two normals at an edge, the sum weighted by angles at a corner. Its sign tells
+  /// inside from outside of a closed surface at every feature (J. A. Baerentzen, H. Aanaes, IEEE
+  /// TVCG 11, 2005). Not of unit length.
   Vector3 outward(const Surface& surface, std::size_t triangle, const Vector3& barycentric) const;
-  /// Calls visit(unit normal) for every triangle that has the feature: the edge or corner of a closest point.
+  /// Calls visit(unit normal) for every triangle that has the feature: the edge or corner of a
+  /// closest point.
   template <class Visit>
-  void for_normals(const Surface& surface, std::size_t triangle, const Vector3& barycentric, Visit visit) const {
+  void for_normals(const Surface& surface, std::size_t triangle, const Vector3& barycentric,
+                   Visit visit) const {
     const Vector3i& own = surface.triangles[triangle];
     int carrier[3] = {-1, -1, -1}, found = 0;
     for (int c = 0; c < 3; ++c)
@@ -59,7 +65,8 @@ class NodeTriangles {
   std::vector<int> triangles_;
 };
 
-/// Whether a point is inside a closed surface, by counting the crossings of a ray. Visits every triangle.
+/// Whether a point is inside a closed surface, by counting the crossings of a ray. Visits every
+/// triangle.
 bool encloses(const Surface& surface, const Vector3& point);
 
 }  // namespace furrow

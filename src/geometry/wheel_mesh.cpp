@@ -28,38 +28,49 @@ void require_positive(double value, const char* what, const std::string& where) 
 void check(const WheelGeometry& wheel, const std::string& where) {
   require_positive(wheel.diameter, "diameter", where);
   require_positive(wheel.width, "width", where);
-  if (!(wheel.shoulder >= 0.0 && wheel.shoulder <= 0.5 * wheel.width && wheel.shoulder < wheel.radius()))
-    throw InputError(
-        where, fmt::format("has shoulder {} m", wheel.shoulder),
-        fmt::format("0 to half the width, {} m, and below the radius, {} m", 0.5 * wheel.width, wheel.radius()));
-  if (wheel.segments < 12) throw InputError(where, fmt::format("has {} segments", wheel.segments), "an integer >= 12");
+  if (!(wheel.shoulder >= 0.0 && wheel.shoulder <= 0.5 * wheel.width &&
+        wheel.shoulder < wheel.radius()))
+    throw InputError(where, fmt::format("has shoulder {} m", wheel.shoulder),
+                     fmt::format("0 to half the width, {} m, and below the radius, {} m",
+                                 0.5 * wheel.width, wheel.radius()));
+  if (wheel.segments < 12)
+    throw InputError(where, fmt::format("has {} segments", wheel.segments), "an integer >= 12");
   if (!(std::isfinite(wheel.element_size) && wheel.element_size >= 0.0))
     throw InputError(where, fmt::format("has element_size {} m", wheel.element_size),
                      "a number > 0, or 0 for one and a half facets");
 }
 
 void check(const Grousers& bars, const WheelGeometry& wheel, const std::string& where) {
-  if (bars.number < 0) throw InputError(where, fmt::format("has {} grousers", bars.number), "an integer >= 0");
+  if (bars.number < 0)
+    throw InputError(where, fmt::format("has {} grousers", bars.number), "an integer >= 0");
   if (bars.number == 0) return;
   require_positive(bars.height, "grouser_height", where);
   require_positive(bars.thickness, "grouser_thickness", where);
   if (!(std::abs(bars.angle) <= largest_skew))
-    throw InputError(where, fmt::format("has grouser_angle {} degrees", degrees(bars.angle)), "-60 to 60 degrees");
+    throw InputError(where, fmt::format("has grouser_angle {} degrees", degrees(bars.angle)),
+                     "-60 to 60 degrees");
   if (!(wheel.tread_width() > 0.0))
-    throw InputError(where, "has grousers but no flat tread to carry them",
-                     fmt::format("grousers on a shoulder below half the width, {} m", 0.5 * wheel.width),
-                     "reduce the shoulder");
-  const double along = bars.thickness / std::cos(bars.angle), pitch = 2.0 * pi * wheel.radius() / bars.number;
-  if (along >= pitch || along >= wheel.radius())
     throw InputError(
-        where,
-        fmt::format("has {} grousers that overlap: each takes {:.4g} m of the circumference, their pitch is {:.4g} m",
-                    bars.number, along, pitch),
-        "bars narrower than their pitch and than the radius", "reduce their number, thickness or angle");
+        where, "has grousers but no flat tread to carry them",
+        fmt::format("grousers on a shoulder below half the width, {} m", 0.5 * wheel.width),
+        "reduce the shoulder");
+  const double along = bars.thickness / std::cos(bars.angle),
+               pitch = 2.0 * pi * wheel.radius() / bars.number;
+  if (along >= pitch || along >= wheel.radius())
+    throw InputError(where,
+                     fmt::format("has {} grousers that overlap: each takes {:.4g} m of the "
+                                 "circumference, their pitch is {:.4g} m",
+                                 bars.number, along, pitch),
+                     "bars narrower than their pitch and than the radius",
+                     "reduce their number, thickness or angle");
 }
 
-int parts(double length, double size) { return std::max(1, static_cast<int>(std::ceil(length / size - 1e-9))); }
-int nearest_parts(double length, double size) { return std::max(1, static_cast<int>(std::lround(length / size))); }
+int parts(double length, double size) {
+  return std::max(1, static_cast<int>(std::ceil(length / size - 1e-9)));
+}
+int nearest_parts(double length, double size) {
+  return std::max(1, static_cast<int>(std::lround(length / size)));
+}
 
 /// The angles of the nodes around a ring, and which of its segments carry a bar.
 struct Circumference {
@@ -73,11 +84,13 @@ struct Circumference {
 
   int columns() const { return static_cast<int>(angles.size()); }
   bool under_bar(int column) const {
-    return std::any_of(bars.begin(), bars.end(), [&](const Bar& bar) { return column >= bar.first && column < bar.last; });
+    return std::any_of(bars.begin(), bars.end(),
+                       [&](const Bar& bar) { return column >= bar.first && column < bar.last; });
   }
 };
 
-/// Radius of the nodes that gives their polygon the area of the circle: R'^2 sum of sin(step) / 2 = pi R^2.
+/// Radius of the nodes that gives their polygon the area of the circle: R'^2 sum of sin(step) / 2 =
+/// pi R^2.
 double equal_area_radius(const std::vector<double>& angles, double radius) {
   double sines = 0.0;
   for (std::size_t i = 0; i < angles.size(); ++i)
@@ -92,7 +105,8 @@ Circumference plain_circumference(const WheelGeometry& wheel) {
   return around;
 }
 
-/// The bar is as wide as the chord between its edges, which depends on the node radius: a few passes settle both.
+/// The bar is as wide as the chord between its edges, which depends on the node radius: a few
+/// passes settle both.
 Circumference grouser_circumference(const WheelGeometry& wheel, double size) {
   const Grousers& bars = wheel.grousers;
   const double chord = bars.thickness / std::cos(bars.angle), pitch = 2.0 * pi / bars.number;
@@ -106,9 +120,11 @@ Circumference grouser_circumference(const WheelGeometry& wheel, double size) {
     for (int bar = 0; bar < bars.number; ++bar) {
       const double centre = bar * pitch;
       const int first = around.columns();
-      for (int i = 0; i < bar_parts; ++i) around.angles.push_back(centre - half + 2.0 * half * i / bar_parts);
+      for (int i = 0; i < bar_parts; ++i)
+        around.angles.push_back(centre - half + 2.0 * half * i / bar_parts);
       around.bars.push_back({first, around.columns(), centre});
-      for (int i = 0; i < gap_parts; ++i) around.angles.push_back(centre + half + gap * i / gap_parts);
+      for (int i = 0; i < gap_parts; ++i)
+        around.angles.push_back(centre + half + gap * i / gap_parts);
     }
     around.node_radius = equal_area_radius(around.angles, wheel.radius());
   }
@@ -132,8 +148,10 @@ class WheelMesh {
       levels_ = parts(bars.height, std::min(size, across_));
     }
     rows_ = wheel.tread_width() > 0.0 ? nearest_parts(wheel.tread_width(), across_) : 0;
-    shoulder_rows_ = wheel.shoulder > 0.0 ? std::max(2, nearest_parts(0.5 * pi * wheel.shoulder, across_)) : 0;
-    const double estimate = 2.0 * (2.0 * pi * wheel.radius() / size) * (rows_ + 2.0 * shoulder_rows_ + 4.0);
+    shoulder_rows_ =
+        wheel.shoulder > 0.0 ? std::max(2, nearest_parts(0.5 * pi * wheel.shoulder, across_)) : 0;
+    const double estimate =
+        2.0 * (2.0 * pi * wheel.radius() / size) * (rows_ + 2.0 * shoulder_rows_ + 4.0);
     if (!(estimate < largest_triangle_count))
       throw InputError(where, fmt::format("would have about {:.2g} triangles", estimate),
                        fmt::format("at most {}", largest_triangle_count),
@@ -148,7 +166,8 @@ class WheelMesh {
   Surface surface() const {
     Surface surface;
     surface.resize(points_.size());
-    for (std::size_t i = 0; i < points_.size(); ++i) surface.x.col(static_cast<Eigen::Index>(i)) = points_[i];
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      surface.x.col(static_cast<Eigen::Index>(i)) = points_[i];
     surface.triangles = triangles_;
     return surface;
   }
@@ -164,7 +183,9 @@ class WheelMesh {
     return static_cast<int>(points_.size()) - 1;
   }
 
-  double row_y(int row) const { return rows_ == 0 ? 0.0 : wheel_.tread_width() * (static_cast<double>(row) / rows_ - 0.5); }
+  double row_y(int row) const {
+    return rows_ == 0 ? 0.0 : wheel_.tread_width() * (static_cast<double>(row) / rows_ - 0.5);
+  }
   /// The grid of a ring is turned by the skew of the bars [rad].
   double turn(double y) const { return y * std::tan(wheel_.grousers.angle) / wheel_.radius(); }
   static Vector3 on_circle(double angle, double radius, double y) {
@@ -175,12 +196,14 @@ class WheelMesh {
   int tread_node(int i, int row) {
     const auto [found, fresh] = tread_nodes_.try_emplace({column(i), row}, -1);
     if (fresh)
-      found->second = add(on_circle(around_.angles[static_cast<std::size_t>(column(i))] + turn(row_y(row)),
-                                    around_.node_radius, row_y(row)));
+      found->second =
+          add(on_circle(around_.angles[static_cast<std::size_t>(column(i))] + turn(row_y(row)),
+                        around_.node_radius, row_y(row)));
     return found->second;
   }
 
-  /// A node of a bar: level 0 is the tread, the top is the tread moved outwards along the middle line of the bar.
+  /// A node of a bar: level 0 is the tread, the top is the tread moved outwards along the middle
+  /// line of the bar.
   int bar_node(int bar, int i, int row, int level) {
     if (level == 0) return tread_node(i, row);
     const auto [found, fresh] = bar_nodes_.try_emplace({bar, i, row, level}, -1);
@@ -197,8 +220,9 @@ class WheelMesh {
     return (points_[static_cast<std::size_t>(a)] - points_[static_cast<std::size_t>(b)]).norm();
   }
 
-  /// Two triangles of a quadrilateral given clockwise as seen from outside, cut along the shorter diagonal; of two equal
-  /// ones along ac where odd, so that cuts alternate. Without skew all quadrilaterals are plane: the cut changes no shape.
+  /// Two triangles of a quadrilateral given clockwise as seen from outside, cut along the shorter
+  /// diagonal; of two equal ones along ac where odd, so that cuts alternate. Without skew all
+  /// quadrilaterals are plane: the cut changes no shape.
   void quad(int a, int b, int c, int d, bool odd) {
     const double ac = distance(a, c), bd = distance(b, d);
     const bool cut_ac = std::abs(ac - bd) < 1e-6 * (ac + bd) ? odd : ac < bd;
@@ -215,8 +239,8 @@ class WheelMesh {
     for (int i = 0; i < around_.columns(); ++i) {
       if (around_.under_bar(i)) continue;
       for (int row = 0; row < rows_; ++row)
-        quad(tread_node(i, row), tread_node(i, row + 1), tread_node(i + 1, row + 1), tread_node(i + 1, row),
-             (i + row) % 2 != 0);
+        quad(tread_node(i, row), tread_node(i, row + 1), tread_node(i + 1, row + 1),
+             tread_node(i + 1, row), (i + row) % 2 != 0);
     }
   }
 
@@ -225,24 +249,28 @@ class WheelMesh {
     const auto at = [&](int i, int row, int level) { return bar_node(bar, i, row, level); };
     for (int row = 0; row < rows_; ++row) {
       for (int i = first; i < last; ++i)
-        quad(at(i, row, levels_), at(i, row + 1, levels_), at(i + 1, row + 1, levels_), at(i + 1, row, levels_),
-             (i + row) % 2 != 0);
+        quad(at(i, row, levels_), at(i, row + 1, levels_), at(i + 1, row + 1, levels_),
+             at(i + 1, row, levels_), (i + row) % 2 != 0);
       for (int level = 0; level < levels_; ++level) {
         const bool odd = (row + level) % 2 != 0;
-        quad(at(first, row, level), at(first, row + 1, level), at(first, row + 1, level + 1), at(first, row, level + 1),
-             odd);
-        quad(at(last, row, level), at(last, row, level + 1), at(last, row + 1, level + 1), at(last, row + 1, level), odd);
+        quad(at(first, row, level), at(first, row + 1, level), at(first, row + 1, level + 1),
+             at(first, row, level + 1), odd);
+        quad(at(last, row, level), at(last, row, level + 1), at(last, row + 1, level + 1),
+             at(last, row + 1, level), odd);
       }
     }
     for (int i = first; i < last; ++i)
       for (int level = 0; level < levels_; ++level) {
         const bool odd = (i + level) % 2 != 0;
-        quad(at(i, 0, level), at(i, 0, level + 1), at(i + 1, 0, level + 1), at(i + 1, 0, level), odd);
-        quad(at(i, rows_, level), at(i + 1, rows_, level), at(i + 1, rows_, level + 1), at(i, rows_, level + 1), odd);
+        quad(at(i, 0, level), at(i, 0, level + 1), at(i + 1, 0, level + 1), at(i + 1, 0, level),
+             odd);
+        quad(at(i, rows_, level), at(i + 1, rows_, level), at(i + 1, rows_, level + 1),
+             at(i, rows_, level + 1), odd);
       }
   }
 
-  /// The rings of one shoulder, outwards from the tread. @return the last one, where the side begins
+  /// The rings of one shoulder, outwards from the tread. @return the last one, where the side
+  /// begins
   Ring build_shoulder(int side) {
     const int edge_row = side > 0 ? rows_ : 0;
     const double edge_y = row_y(edge_row), scale = around_.node_radius / wheel_.radius();
@@ -258,7 +286,8 @@ class WheelMesh {
       for (const double angle : around_.angles)
         next.nodes.push_back(add(on_circle(angle + turn(edge_y), next.radius, next.y)));
       for (int i = 0; i < around_.columns(); ++i) {
-        const auto here = static_cast<std::size_t>(i), ahead = static_cast<std::size_t>(column(i + 1));
+        const auto here = static_cast<std::size_t>(i),
+                   ahead = static_cast<std::size_t>(column(i + 1));
         const bool odd = ((i + row) % 2 != 0) == (side > 0);
         if (side > 0)
           quad(ring.nodes[here], next.nodes[here], next.nodes[ahead], ring.nodes[ahead], odd);
@@ -272,7 +301,8 @@ class WheelMesh {
 
   /// The flat side: rings whose elements grow inwards, then a fan around the centre.
   void build_disc(Ring ring, int side) {
-    constexpr double growth = 1.5, flatness = 0.9;  // of the elements: size of the next ring, depth over size
+    // of the elements: size of the next ring, depth over size
+    constexpr double growth = 1.5, flatness = 0.9;
     constexpr int fan = 9;
     double size = 2.0 * pi * ring.radius / static_cast<double>(ring.nodes.size());
     while (ring.nodes.size() > fan) {
@@ -285,7 +315,8 @@ class WheelMesh {
       const Vector3 start = points_[static_cast<std::size_t>(ring.nodes[0])];
       const double phase = std::atan2(start.x(), start.z());
       for (int i = 0; i < count; ++i)
-        next.nodes.push_back(add(on_circle(phase + 2.0 * pi * (i + 0.5) / count, next.radius, next.y)));
+        next.nodes.push_back(
+            add(on_circle(phase + 2.0 * pi * (i + 0.5) / count, next.radius, next.y)));
       connect(ring, next, side);
       ring = std::move(next);
     }
@@ -294,19 +325,21 @@ class WheelMesh {
       add_on_side(ring.nodes[i], centre, ring.nodes[(i + 1) % ring.nodes.size()], side);
   }
 
-  /// Fills the strip between two rings of any numbers of nodes, always by the shorter of the two possible edges.
+  /// Fills the strip between two rings of any numbers of nodes, always by the shorter of the two
+  /// possible edges.
   void connect(const Ring& outer, const Ring& inner, int side) {
     const std::size_t outer_count = outer.nodes.size(), inner_count = inner.nodes.size();
     std::size_t first = 0;
     for (std::size_t k = 1; k < inner_count; ++k)
-      if (distance(outer.nodes[0], inner.nodes[k]) < distance(outer.nodes[0], inner.nodes[first])) first = k;
+      if (distance(outer.nodes[0], inner.nodes[k]) < distance(outer.nodes[0], inner.nodes[first]))
+        first = k;
     const auto outer_node = [&](std::size_t i) { return outer.nodes[i % outer_count]; };
     const auto inner_node = [&](std::size_t k) { return inner.nodes[(first + k) % inner_count]; };
     for (std::size_t i = 0, k = 0; i < outer_count || k < inner_count;) {
-      const double along_outer =
-          i < outer_count ? distance(outer_node(i + 1), inner_node(k)) : std::numeric_limits<double>::max();
-      const double along_inner =
-          k < inner_count ? distance(outer_node(i), inner_node(k + 1)) : std::numeric_limits<double>::max();
+      const double along_outer = i < outer_count ? distance(outer_node(i + 1), inner_node(k))
+                                                 : std::numeric_limits<double>::max();
+      const double along_inner = k < inner_count ? distance(outer_node(i), inner_node(k + 1))
+                                                 : std::numeric_limits<double>::max();
       if (along_outer <= along_inner) {
         add_on_side(outer_node(i), inner_node(k), outer_node(i + 1), side);
         ++i;
@@ -317,7 +350,8 @@ class WheelMesh {
     }
   }
 
-  /// a, b, c as they run clockwise seen from outside on the side y > 0; on the other side they are turned round.
+  /// a, b, c as they run clockwise seen from outside on the side y > 0; on the other side they are
+  /// turned round.
   void add_on_side(int a, int b, int c, int side) {
     if (side > 0)
       triangles_.push_back({a, c, b});
@@ -337,10 +371,12 @@ class WheelMesh {
 
 }  // namespace
 
-// Support function of the Minkowski sum of a cylinder (radius R - s, half width w/2 - s) and a ball of radius s.
+// Support function of the Minkowski sum of a cylinder (radius R - s, half width w/2 - s) and a ball
+// of radius s.
 double WheelGeometry::depth_below_centre(const Vector3& axle) const {
   const double up = std::min(1.0, std::abs(axle.z()));
-  return (radius() - shoulder) * std::sqrt(1.0 - up * up) + (0.5 * width - shoulder) * up + shoulder;
+  return (radius() - shoulder) * std::sqrt(1.0 - up * up) + (0.5 * width - shoulder) * up +
+         shoulder;
 }
 
 Surface make_wheel_mesh(const WheelGeometry& geometry, const std::string& where) {
@@ -349,9 +385,12 @@ Surface make_wheel_mesh(const WheelGeometry& geometry, const std::string& where)
   Surface surface = WheelMesh(geometry, where).surface();
   const double sharpest = surface.minimum_angle();
   if (sharpest < minimum_mesh_angle)
-    throw InputError(where, fmt::format("would have sliver triangles (sharpest corner {:.2g} degrees)", degrees(sharpest)),
+    throw InputError(where,
+                     fmt::format("would have sliver triangles (sharpest corner {:.2g} degrees)",
+                                 degrees(sharpest)),
                      fmt::format("corners of at least {:.0f} degrees", degrees(minimum_mesh_angle)),
-                     "give more segments, another element_size, or a shoulder neither far smaller than the facets nor close "
+                     "give more segments, another element_size, or a shoulder neither far smaller "
+                     "than the facets nor close "
                      "to the radius");
   return surface;
 }

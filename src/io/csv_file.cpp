@@ -28,7 +28,8 @@ std::vector<std::string> split(const std::string& line) {
   std::size_t begin = 0;
   for (std::size_t comma = 0; comma != std::string::npos; begin = comma + 1) {
     comma = line.find(',', begin);
-    cells.push_back(trimmed(line.substr(begin, comma == std::string::npos ? comma : comma - begin)));
+    cells.push_back(
+        trimmed(line.substr(begin, comma == std::string::npos ? comma : comma - begin)));
   }
   return cells;
 }
@@ -37,7 +38,8 @@ std::vector<std::string> split(const std::string& line) {
 
 CsvTable CsvTable::read(const std::string& path) {
   if (!std::filesystem::is_regular_file(path))
-    throw InputError(path, "does not exist or is not a file", "a table of comma-separated values", "check the path");
+    throw InputError(path, "does not exist or is not a file", "a table of comma-separated values",
+                     "check the path");
   CsvTable table;
   table.path_ = path;
   std::istringstream text(read_text_file(path));
@@ -51,19 +53,22 @@ CsvTable CsvTable::read(const std::string& path) {
       continue;
     }
     if (cells.size() != table.names_.size())
-      throw InputError(fmt::format("{}, line {}", path, number), fmt::format("has {} values", cells.size()),
+      throw InputError(fmt::format("{}, line {}", path, number),
+                       fmt::format("has {} values", cells.size()),
                        fmt::format("{}, as the line of names", table.names_.size()));
     table.cells_.push_back(std::move(cells));
     table.lines_.push_back(number);
   }
-  if (table.cells_.empty()) throw InputError(path, "has no rows", "a line of names and lines of values");
+  if (table.cells_.empty())
+    throw InputError(path, "has no rows", "a line of names and lines of values");
   return table;
 }
 
 std::vector<double> CsvTable::numbers(const std::string& name) const {
   const auto found = std::find(names_.begin(), names_.end(), name);
   if (found == names_.end())
-    throw InputError(path_, fmt::format("has no column '{}'", name), fmt::format("{}", fmt::join(names_, ", ")));
+    throw InputError(path_, fmt::format("has no column '{}'", name),
+                     fmt::format("{}", fmt::join(names_, ", ")));
   const auto column = static_cast<std::size_t>(found - names_.begin());
   std::vector<double> values;
   for (std::size_t row = 0; row < rows(); ++row) {
@@ -72,15 +77,16 @@ std::vector<double> CsvTable::numbers(const std::string& name) const {
     if (!cell.empty()) {
       const auto [stop, status] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
       if (status != std::errc{} || stop != cell.data() + cell.size() || !std::isfinite(value))
-        throw InputError(fmt::format("{}, line {}, column '{}'", path_, lines_[row], name), fmt::format("is '{}'", cell),
-                         "a finite number");
+        throw InputError(fmt::format("{}, line {}, column '{}'", path_, lines_[row], name),
+                         fmt::format("is '{}'", cell), "a finite number");
     }
     values.push_back(value);
   }
   return values;
 }
 
-std::string csv_text(const std::vector<std::string>& comments, const std::vector<std::string>& names,
+std::string csv_text(const std::vector<std::string>& comments,
+                     const std::vector<std::string>& names,
                      const std::vector<std::vector<double>>& columns) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);

@@ -15,7 +15,8 @@ class CsvTable {
 
   const std::vector<std::string>& names() const { return names_; }
   std::size_t rows() const { return cells_.size(); }
-  /// A column of numbers; an empty cell is NaN. @throws InputError for an unknown name, or a cell that is no finite number
+  /// A column of numbers; an empty cell is NaN. @throws InputError for an unknown name, or a cell
+  /// that is no finite number
   std::vector<double> numbers(const std::string& name) const;
 
  private:
@@ -26,7 +27,8 @@ class CsvTable {
 };
 
 /// Columns of equal length to text with all digits. `comments` are lines without '#'.
-std::string csv_text(const std::vector<std::string>& comments, const std::vector<std::string>& names,
+std::string csv_text(const std::vector<std::string>& comments,
+                     const std::vector<std::string>& names,
                      const std::vector<std::vector<double>>& columns);
 
 }  // namespace furrow

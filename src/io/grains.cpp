@@ -20,7 +20,8 @@ void Grains::resize(std::size_t grains) {
 Matrix3X Grains::displacement_from(const Grains& reference) const {
   std::unordered_map<std::int64_t, Eigen::Index> place;
   place.reserve(reference.size());
-  for (std::size_t i = 0; i < reference.size(); ++i) place.emplace(reference.id[i], Eigen::Index(i));
+  for (std::size_t i = 0; i < reference.size(); ++i)
+    place.emplace(reference.id[i], Eigen::Index(i));
 
   Matrix3X displacement(3, Eigen::Index(size()));
   for (std::size_t i = 0; i < size(); ++i) {
@@ -31,7 +32,8 @@ Matrix3X Grains::displacement_from(const Grains& reference) const {
     }
     Vector3 moved = x.col(Eigen::Index(i)) - reference.x.col(found->second);
     for (int axis = 0; axis < 3; ++axis)
-      if (reference.period[axis] > 0.0) moved[axis] = std::remainder(moved[axis], reference.period[axis]);
+      if (reference.period[axis] > 0.0)
+        moved[axis] = std::remainder(moved[axis], reference.period[axis]);
     displacement.col(Eigen::Index(i)) = moved;
   }
   return displacement;
@@ -40,15 +42,17 @@ Matrix3X Grains::displacement_from(const Grains& reference) const {
 void Grains::check() const {
   const auto count = Eigen::Index(size());
   if (x.cols() != count || v.cols() != count || radius.size() != count)
-    throw StateError(fmt::format("grains: {} ids, {} positions, {} velocities, {} radii; these must be as many", size(),
-                                 x.cols(), v.cols(), radius.size()));
+    throw StateError(
+        fmt::format("grains: {} ids, {} positions, {} velocities, {} radii; these must be as many",
+                    size(), x.cols(), v.cols(), radius.size()));
   std::unordered_map<std::int64_t, Eigen::Index> seen;
   seen.reserve(size());
   for (Eigen::Index i = 0; i < count; ++i) {
     if (!seen.emplace(id[std::size_t(i)], i).second)
       throw StateError(fmt::format("grains: id {} is there twice", id[std::size_t(i)]));
     if (!x.col(i).allFinite() || !v.col(i).allFinite() || !std::isfinite(radius[i]))
-      throw StateError(fmt::format("grains: position, velocity or radius of grain {} is not finite", id[std::size_t(i)]));
+      throw StateError(fmt::format("grains: position, velocity or radius of grain {} is not finite",
+                                   id[std::size_t(i)]));
   }
 }
 

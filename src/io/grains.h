@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Grains as the files keep them: what a picture, a table or a displacement needs of a bed of spheres.
+/// Grains as the files keep them: what a picture, a table or a displacement needs of a bed of
+/// spheres.
 
 #include <cstdint>
 #include <limits>
@@ -12,20 +13,23 @@ namespace furrow {
 
 /// The spheres of a bed at one instant, in any order; SI units.
 struct Grains {
-  std::vector<std::int64_t> id;      ///< the same grain has the same id at all times
-  Matrix3X x;                        ///< [m]   3 x grains, inside the box where it is periodic
-  Matrix3X v;                        ///< [m/s] 3 x grains
-  VectorX radius;                    ///< [m]
-  Vector3 period = Vector3::Zero();  ///< [m] length of the box along each periodic axis, 0 where it is not periodic
-  double bed_level = std::numeric_limits<double>::quiet_NaN();  ///< [m] height of the untouched bed's surface, where known
+  std::vector<std::int64_t> id;  ///< the same grain has the same id at all times
+  Matrix3X x;                    ///< [m]   3 x grains, inside the box where it is periodic
+  Matrix3X v;                    ///< [m/s] 3 x grains
+  VectorX radius;                ///< [m]
+  /// [m] length of the box along each periodic axis, 0 where it is not periodic
+  Vector3 period = Vector3::Zero();
+  /// [m] height of the untouched bed's surface, where known
+  double bed_level = std::numeric_limits<double>::quiet_NaN();
 
   std::size_t size() const { return id.size(); }
   void resize(std::size_t grains);  ///< all arrays, zeroed
 
-  /// How far every grain has moved since the reference was taken, 3 x grains [m]: matched by id, shortest way round a periodic
-  /// box. A grain that the reference lacks has moved by NaN.
+  /// How far every grain has moved since the reference was taken, 3 x grains [m]: matched by id,
+  /// shortest way round a periodic box. A grain that the reference lacks has moved by NaN.
   Matrix3X displacement_from(const Grains& reference) const;
-  /// @throws StateError when the arrays differ in length, an id is there twice, or a number is not finite
+  /// @throws StateError when the arrays differ in length, an id is there twice, or a number is not
+  /// finite
   void check() const;
 };
 

@@ -43,14 +43,17 @@ std::string hdf5_cause() {
   return cause;
 }
 
-[[noreturn]] void fail(const std::string& file, const std::string& action, const std::string& object) {
+[[noreturn]] void fail(const std::string& file, const std::string& action,
+                       const std::string& object) {
   const std::string cause = hdf5_cause();
-  throw Error(fmt::format("{}: cannot {}{}{}", file, action, object.empty() ? "" : " '" + object + "'",
+  throw Error(fmt::format("{}: cannot {}{}{}", file, action,
+                          object.empty() ? "" : " '" + object + "'",
                           cause.empty() ? "" : " (" + cause + ")"));
 }
 
 template <class T>
-T require(T result, const std::string& file, const std::string& action, const std::string& object = "") {
+T require(T result, const std::string& file, const std::string& action,
+          const std::string& object = "") {
   if (result < 0) fail(file, action, object);
   return result;
 }
@@ -83,30 +86,39 @@ hid_t memory_type<int>() {
 }
 
 template <class T>
-void write_dataset(Hdf5File& owner, hid_t file, const std::string& dataset, const T* values, const Shape& shape) {
+void write_dataset(Hdf5File& owner, hid_t file, const std::string& dataset, const T* values,
+                   const Shape& shape) {
   owner.remove(dataset);
   const Handle parents(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(parents, 1);
-  const Handle space(H5Screate_simple(int(shape.extent.size()), shape.extent.data(), nullptr), H5Sclose);
-  const Handle data(require(H5Dcreate2(file, dataset.c_str(), memory_type<T>(), space, parents, H5P_DEFAULT, H5P_DEFAULT),
+  const Handle space(H5Screate_simple(int(shape.extent.size()), shape.extent.data(), nullptr),
+                     H5Sclose);
+  const Handle data(require(H5Dcreate2(file, dataset.c_str(), memory_type<T>(), space, parents,
+                                       H5P_DEFAULT, H5P_DEFAULT),
                             owner.path(), "create", dataset),
                     H5Dclose);
   if (std::find(shape.extent.begin(), shape.extent.end(), 0u) != shape.extent.end()) return;
-  require(H5Dwrite(data, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values), owner.path(), "write", dataset);
+  require(H5Dwrite(data, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values), owner.path(),
+          "write", dataset);
 }
 
 /// Reads a dataset of the given rank; with rank 2 the second extent must be 3.
 template <class T>
-std::vector<T> read_dataset(const Hdf5File& owner, hid_t file, const std::string& dataset, int rank) {
-  const Handle data(require(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), owner.path(), "open dataset", dataset), H5Dclose);
+std::vector<T> read_dataset(const Hdf5File& owner, hid_t file, const std::string& dataset,
+                            int rank) {
+  const Handle data(
+      require(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), owner.path(), "open dataset", dataset),
+      H5Dclose);
   const Handle space(H5Dget_space(data), H5Sclose);
   hsize_t extent[2] = {0, 3};
-  if (H5Sget_simple_extent_ndims(space) != rank || H5Sget_simple_extent_dims(space, extent, nullptr) != rank ||
-      extent[1] != 3)
-    throw Error(fmt::format("{}: dataset '{}' must be {}", owner.path(), dataset, rank == 1 ? "one-dimensional" : "n x 3"));
+  if (H5Sget_simple_extent_ndims(space) != rank ||
+      H5Sget_simple_extent_dims(space, extent, nullptr) != rank || extent[1] != 3)
+    throw Error(fmt::format("{}: dataset '{}' must be {}", owner.path(), dataset,
+                            rank == 1 ? "one-dimensional" : "n x 3"));
   std::vector<T> values(extent[0] * (rank == 2 ? 3 : 1));
   if (!values.empty())
-    require(H5Dread(data, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), owner.path(), "read", dataset);
+    require(H5Dread(data, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+            owner.path(), "read", dataset);
   return values;
 }
 
@@ -117,10 +129,12 @@ Hdf5File::Hdf5File(const std::string& path, Mode mode) : path_(path), file_(-1) 
   if (mode == Mode::create) {
     const Handle properties(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-    file_ = require(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties, H5P_DEFAULT), path, "create the file");
+    file_ = require(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties, H5P_DEFAULT), path,
+                    "create the file");
   } else {
-    file_ = require(H5Fopen(path.c_str(), mode == Mode::edit ? H5F_ACC_RDWR : H5F_ACC_RDONLY, H5P_DEFAULT), path,
-                    "open as an HDF5 file");
+    file_ = require(
+        H5Fopen(path.c_str(), mode == Mode::edit ? H5F_ACC_RDWR : H5F_ACC_RDONLY, H5P_DEFAULT),
+        path, "open as an HDF5 file");
   }
 }
 
@@ -134,7 +148,8 @@ void Hdf5File::close() {
   const std::string cause = flushed < 0 ? hdf5_cause() : "";
   const herr_t closed = H5Fclose(file_);
   file_ = -1;
-  if (flushed < 0 || closed < 0) throw Error(fmt::format("{}: cannot write to the end ({})", path_, cause));
+  if (flushed < 0 || closed < 0)
+    throw Error(fmt::format("{}: cannot write to the end ({})", path_, cause));
 }
 
 bool Hdf5File::exists(const std::string& object) const {
@@ -146,13 +161,15 @@ bool Hdf5File::exists(const std::string& object) const {
 }
 
 std::vector<std::string> Hdf5File::members(const std::string& group) const {
-  const Handle handle(require(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), path_, "open group", group), H5Gclose);
+  const Handle handle(
+      require(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), path_, "open group", group), H5Gclose);
   std::vector<std::string> names;
   const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
     static_cast<std::vector<std::string>*>(list)->push_back(name);
     return 0;
   };
-  require(H5Literate(handle, H5_INDEX_CRT_ORDER, H5_ITER_INC, nullptr, collect, &names), path_, "list", group);
+  require(H5Literate(handle, H5_INDEX_CRT_ORDER, H5_ITER_INC, nullptr, collect, &names), path_,
+          "list", group);
   return names;
 }
 
@@ -163,33 +180,42 @@ void Hdf5File::create_group(const std::string& group) {
   const Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
   H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
   const Handle handle(
-      require(H5Gcreate2(file_, group.c_str(), H5P_DEFAULT, properties, H5P_DEFAULT), path_, "create group", group),
+      require(H5Gcreate2(file_, group.c_str(), H5P_DEFAULT, properties, H5P_DEFAULT), path_,
+              "create group", group),
       H5Gclose);
 }
 
 void Hdf5File::remove(const std::string& object) {
-  if (exists(object)) require(H5Ldelete(file_, object.c_str(), H5P_DEFAULT), path_, "replace", object);
+  if (exists(object))
+    require(H5Ldelete(file_, object.c_str(), H5P_DEFAULT), path_, "replace", object);
 }
 
-void Hdf5File::set_attribute(const std::string& object, const std::string& name, const std::string& text) {
-  const Handle owner(require(H5Oopen(file_, object.c_str(), H5P_DEFAULT), path_, "open", object), H5Oclose);
+void Hdf5File::set_attribute(const std::string& object, const std::string& name,
+                             const std::string& text) {
+  const Handle owner(require(H5Oopen(file_, object.c_str(), H5P_DEFAULT), path_, "open", object),
+                     H5Oclose);
   if (H5Aexists(owner, name.c_str()) > 0) H5Adelete(owner, name.c_str());
   const Handle type(text_type(text.size() + 1), H5Tclose);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle attribute(require(H5Acreate2(owner, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), path_,
-                                 "create attribute " + name + " of", object),
-                         H5Aclose);
-  require(H5Awrite(attribute, type, text.c_str()), path_, "write attribute " + name + " of", object);
+  const Handle attribute(
+      require(H5Acreate2(owner, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), path_,
+              "create attribute " + name + " of", object),
+      H5Aclose);
+  require(H5Awrite(attribute, type, text.c_str()), path_, "write attribute " + name + " of",
+          object);
 }
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, double number) {
-  const Handle owner(require(H5Oopen(file_, object.c_str(), H5P_DEFAULT), path_, "open", object), H5Oclose);
+  const Handle owner(require(H5Oopen(file_, object.c_str(), H5P_DEFAULT), path_, "open", object),
+                     H5Oclose);
   if (H5Aexists(owner, name.c_str()) > 0) H5Adelete(owner, name.c_str());
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle attribute(require(H5Acreate2(owner, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT), path_,
-                                 "create attribute " + name + " of", object),
-                         H5Aclose);
-  require(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &number), path_, "write attribute " + name + " of", object);
+  const Handle attribute(
+      require(H5Acreate2(owner, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT),
+              path_, "create attribute " + name + " of", object),
+      H5Aclose);
+  require(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &number), path_, "write attribute " + name + " of",
+          object);
 }
 
 bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
@@ -199,11 +225,13 @@ bool Hdf5File::has_attribute(const std::string& object, const std::string& name)
 std::string Hdf5File::text_attribute(const std::string& object, const std::string& name) const {
   const std::string action = "read attribute " + name + " of";
   const Handle attribute(
-      require(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_, action, object),
+      require(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_,
+              action, object),
       H5Aclose);
   const Handle type(H5Aget_type(attribute), H5Tclose);
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0)
-    throw Error(fmt::format("{}: attribute '{}' of '{}' is not a text of fixed length", path_, name, object));
+    throw Error(fmt::format("{}: attribute '{}' of '{}' is not a text of fixed length", path_, name,
+                            object));
   std::string text(H5Tget_size(type), '\0');
   require(H5Aread(attribute, type, text.data()), path_, action, object);
   text.resize(std::min(text.find('\0'), text.size()));
@@ -213,7 +241,8 @@ std::string Hdf5File::text_attribute(const std::string& object, const std::strin
 double Hdf5File::number_attribute(const std::string& object, const std::string& name) const {
   const std::string action = "read attribute " + name + " of";
   const Handle attribute(
-      require(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_, action, object),
+      require(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_,
+              action, object),
       H5Aclose);
   double number = 0.0;
   require(H5Aread(attribute, H5T_NATIVE_DOUBLE, &number), path_, action, object);
@@ -221,13 +250,15 @@ double Hdf5File::number_attribute(const std::string& object, const std::string& 
 }
 
 std::vector<std::string> Hdf5File::attributes(const std::string& object) const {
-  const Handle owner(require(H5Oopen(file_, object.c_str(), H5P_DEFAULT), path_, "open", object), H5Oclose);
+  const Handle owner(require(H5Oopen(file_, object.c_str(), H5P_DEFAULT), path_, "open", object),
+                     H5Oclose);
   std::vector<std::string> names;
   const auto collect = [](hid_t, const char* name, const H5A_info_t*, void* list) -> herr_t {
     static_cast<std::vector<std::string>*>(list)->push_back(name);
     return 0;
   };
-  require(H5Aiterate2(owner, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names), path_, "list attributes of", object);
+  require(H5Aiterate2(owner, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names), path_,
+          "list attributes of", object);
   return names;
 }
 
@@ -242,7 +273,8 @@ void Hdf5File::write(const std::string& dataset, const Matrix3X& columns) {
 }
 void Hdf5File::write(const std::string& dataset, const std::vector<Vector3i>& rows) {
   static_assert(sizeof(Vector3i) == 3 * sizeof(int), "rows of three integers are contiguous");
-  write_dataset(*this, file_, dataset, rows.empty() ? nullptr : rows.front().data(), {{rows.size(), 3}});
+  write_dataset(*this, file_, dataset, rows.empty() ? nullptr : rows.front().data(),
+                {{rows.size(), 3}});
 }
 
 void Hdf5File::write(const std::string& dataset, const std::string& text) {
@@ -252,13 +284,17 @@ void Hdf5File::write(const std::string& dataset, const std::string& text) {
   const Handle type(text_type(text.size() + 1), H5Tclose);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Handle data(
-      require(H5Dcreate2(file_, dataset.c_str(), type, space, parents, H5P_DEFAULT, H5P_DEFAULT), path_, "create", dataset),
+      require(H5Dcreate2(file_, dataset.c_str(), type, space, parents, H5P_DEFAULT, H5P_DEFAULT),
+              path_, "create", dataset),
       H5Dclose);
-  require(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), path_, "write", dataset);
+  require(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), path_, "write",
+          dataset);
 }
 
 std::string Hdf5File::read_text(const std::string& dataset) const {
-  const Handle data(require(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), path_, "open dataset", dataset), H5Dclose);
+  const Handle data(
+      require(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), path_, "open dataset", dataset),
+      H5Dclose);
   const Handle type(H5Dget_type(data), H5Tclose);
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0)
     throw Error(fmt::format("{}: dataset '{}' is not a text of fixed length", path_, dataset));
@@ -281,7 +317,8 @@ Matrix3X Hdf5File::read_columns(const std::string& dataset) const {
 std::vector<Vector3i> Hdf5File::read_triples(const std::string& dataset) const {
   const std::vector<int> values = read_dataset<int>(*this, file_, dataset, 2);
   std::vector<Vector3i> rows(values.size() / 3);
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    rows[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
   return rows;
 }
 
@@ -292,33 +329,42 @@ void Hdf5File::create_growing(const std::string& dataset, std::size_t chunk) {
   const hsize_t none = 0, any = H5S_UNLIMITED, chunk_length = chunk;
   H5Pset_chunk(layout, 1, &chunk_length);
   const Handle space(H5Screate_simple(1, &none, &any), H5Sclose);
-  const Handle data(require(H5Dcreate2(file_, dataset.c_str(), H5T_NATIVE_DOUBLE, space, parents, layout, H5P_DEFAULT),
+  const Handle data(require(H5Dcreate2(file_, dataset.c_str(), H5T_NATIVE_DOUBLE, space, parents,
+                                       layout, H5P_DEFAULT),
                             path_, "create", dataset),
                     H5Dclose);
 }
 
 void Hdf5File::append(const std::string& dataset, const std::vector<double>& values) {
   if (values.empty()) return;
-  const Handle data(require(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), path_, "open dataset", dataset), H5Dclose);
+  const Handle data(
+      require(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), path_, "open dataset", dataset),
+      H5Dclose);
   const hsize_t start = length(dataset), count = values.size(), end = start + count;
   require(H5Dset_extent(data, &end), path_, "extend", dataset);
   const Handle target(H5Dget_space(data), H5Sclose);
   const Handle source(H5Screate_simple(1, &count, nullptr), H5Sclose);
   H5Sselect_hyperslab(target, H5S_SELECT_SET, &start, nullptr, &count, nullptr);
-  require(H5Dwrite(data, H5T_NATIVE_DOUBLE, source, target, H5P_DEFAULT, values.data()), path_, "append to", dataset);
+  require(H5Dwrite(data, H5T_NATIVE_DOUBLE, source, target, H5P_DEFAULT, values.data()), path_,
+          "append to", dataset);
 }
 
 void Hdf5File::truncate(const std::string& dataset, std::size_t length) {
-  const Handle data(require(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), path_, "open dataset", dataset), H5Dclose);
+  const Handle data(
+      require(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), path_, "open dataset", dataset),
+      H5Dclose);
   const hsize_t end = length;
   require(H5Dset_extent(data, &end), path_, "shorten", dataset);
 }
 
 std::size_t Hdf5File::length(const std::string& dataset) const {
-  const Handle data(require(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), path_, "open dataset", dataset), H5Dclose);
+  const Handle data(
+      require(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), path_, "open dataset", dataset),
+      H5Dclose);
   const Handle space(H5Dget_space(data), H5Sclose);
   hsize_t extent = 0;
-  if (H5Sget_simple_extent_ndims(space) != 1 || H5Sget_simple_extent_dims(space, &extent, nullptr) != 1)
+  if (H5Sget_simple_extent_ndims(space) != 1 ||
+      H5Sget_simple_extent_dims(space, &extent, nullptr) != 1)
     throw Error(fmt::format("{}: dataset '{}' must be one-dimensional", path_, dataset));
   return extent;
 }

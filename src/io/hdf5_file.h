@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A thin layer over the HDF5 C library: handles that close themselves, and errors that name file and object.
-/// Paths inside a file are absolute ("/history/time"); missing groups on the way are made.
+/// A thin layer over the HDF5 C library: handles that close themselves, and errors that name file
+/// and object. Paths inside a file are absolute ("/history/time"); missing groups on the way are
+/// made.
 
 #include <cstdint>
 #include <string>
@@ -26,7 +27,8 @@ class Hdf5File {
 
   const std::string& path() const { return path_; }
   bool exists(const std::string& object) const;
-  std::vector<std::string> members(const std::string& group) const;  ///< names in the order they were made
+  /// names in the order they were made
+  std::vector<std::string> members(const std::string& group) const;
   void create_group(const std::string& group);
   void remove(const std::string& object);  ///< nothing happens when it is not there
 
@@ -36,14 +38,17 @@ class Hdf5File {
   bool has_attribute(const std::string& object, const std::string& name) const;
   std::string text_attribute(const std::string& object, const std::string& name) const;
   double number_attribute(const std::string& object, const std::string& name) const;
-  std::vector<std::string> attributes(const std::string& object) const;  ///< names in alphabetical order
+  /// names in alphabetical order
+  std::vector<std::string> attributes(const std::string& object) const;
 
-  // Whole datasets; write replaces. A 3 x n matrix is stored as n rows of 3, as HDF5 viewers and numpy expect.
+  // Whole datasets; write replaces. A 3 x n matrix is stored as n rows of 3, as HDF5 viewers and
+  // numpy expect.
   void write(const std::string& dataset, const std::vector<double>& values);
   void write(const std::string& dataset, const std::vector<std::int64_t>& values);
   void write(const std::string& dataset, const Matrix3X& columns);
   void write(const std::string& dataset, const std::vector<Vector3i>& rows);
-  void write(const std::string& dataset, const std::string& text);  ///< of any length; an attribute holds 64 KiB
+  /// of any length; an attribute holds 64 KiB
+  void write(const std::string& dataset, const std::string& text);
   std::string read_text(const std::string& dataset) const;
   std::vector<double> read_numbers(const std::string& dataset) const;         ///< 1-D
   std::vector<std::int64_t> read_integers(const std::string& dataset) const;  ///< 1-D

@@ -23,13 +23,19 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using NumberMember = std::pair<const char*, double Audit::*>;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 std::string dataset_of(const Channel& channel) { return "/history/" + channel.name; }
 
-std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+std::string utc_now() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
 
-std::string join_lines(const std::vector<std::string>& lines) { return fmt::format("{}", fmt::join(lines, "\n")); }
+std::string join_lines(const std::vector<std::string>& lines) {
+  return fmt::format("{}", fmt::join(lines, "\n"));
+}
 
 std::vector<std::string> split_lines(const std::string& text) {
   std::vector<std::string> lines;
@@ -47,28 +53,34 @@ const NumberMember audit_numbers[] = {
     {"force_imbalance", &Audit::force_imbalance},   {"force_scale", &Audit::force_scale},
     {"moment_imbalance", &Audit::moment_imbalance}, {"moment_scale", &Audit::moment_scale}};
 
-void write_grains(Hdf5File& file, const std::string& group, const Grains& grains, bool with_velocity) {
+void write_grains(Hdf5File& file, const std::string& group, const Grains& grains,
+                  bool with_velocity) {
   file.remove(group);
   file.create_group(group);
   file.write(group + "/id", grains.id);
   file.write(group + "/x", grains.x);
-  file.write(group + "/radius", std::vector<double>(grains.radius.data(), grains.radius.data() + grains.radius.size()));
+  file.write(group + "/radius", std::vector<double>(grains.radius.data(),
+                                                    grains.radius.data() + grains.radius.size()));
   if (with_velocity) file.write(group + "/v", grains.v);
-  file.write(group + "/period", std::vector<double>{grains.period.x(), grains.period.y(), grains.period.z()});
+  file.write(group + "/period",
+             std::vector<double>{grains.period.x(), grains.period.y(), grains.period.z()});
   file.set_attribute(group, "bed_level", grains.bed_level);
-  for (const char* length : {"x", "radius", "period"}) file.set_attribute(group + "/" + length, "unit", "m");
+  for (const char* length : {"x", "radius", "period"})
+    file.set_attribute(group + "/" + length, "unit", "m");
   if (with_velocity) file.set_attribute(group + "/v", "unit", "m/s");
 }
 
 Grains read_grains(const std::string& path, const std::string& group) {
   const Hdf5File file(path, Hdf5File::Mode::read);
-  if (!file.exists(group)) throw Error(fmt::format("{}: has no {}; the run kept no grains there", path, group));
+  if (!file.exists(group))
+    throw Error(fmt::format("{}: has no {}; the run kept no grains there", path, group));
   Grains grains;
   grains.id = file.read_integers(group + "/id");
   grains.x = file.read_columns(group + "/x");
   const std::vector<double> radius = file.read_numbers(group + "/radius");
   grains.radius = Eigen::Map<const VectorX>(radius.data(), Eigen::Index(radius.size()));
-  grains.v = file.exists(group + "/v") ? file.read_columns(group + "/v") : Matrix3X(Matrix3X::Zero(3, grains.x.cols()));
+  grains.v = file.exists(group + "/v") ? file.read_columns(group + "/v")
+                                       : Matrix3X(Matrix3X::Zero(3, grains.x.cols()));
   const std::vector<double> period = file.read_numbers(group + "/period");
   if (period.size() != 3) throw Error(fmt::format("{}: {}/period must be 3 numbers", path, group));
   grains.period = Vector3(period[0], period[1], period[2]);
@@ -84,11 +96,13 @@ History read_rows(const Hdf5File& file) {
   std::vector<std::vector<double>> columns;
   for (const std::string& name : file.members("/history")) {
     const std::string dataset = "/history/" + name;
-    channels.push_back({name, file.text_attribute(dataset, "unit"), file.text_attribute(dataset, "meaning")});
+    channels.push_back(
+        {name, file.text_attribute(dataset, "unit"), file.text_attribute(dataset, "meaning")});
     columns.push_back(file.read_numbers(dataset));
     if (columns.back().size() != columns.front().size())
-      throw Error(fmt::format("{}: {} has {} rows, {} has {}", file.path(), dataset, columns.back().size(),
-                              dataset_of(channels.front()), columns.front().size()));
+      throw Error(fmt::format("{}: {} has {} rows, {} has {}", file.path(), dataset,
+                              columns.back().size(), dataset_of(channels.front()),
+                              columns.front().size()));
   }
   History history(channels);
   std::vector<double> row(channels.size());
@@ -99,16 +113,21 @@ History read_rows(const Hdf5File& file) {
   return history;
 }
 
-void check_channels(const std::string& path, const std::vector<Channel>& found, const std::vector<Channel>& expected) {
-  const auto same = [](const Channel& a, const Channel& b) { return a.name == b.name && a.unit == b.unit; };
+void check_channels(const std::string& path, const std::vector<Channel>& found,
+                    const std::vector<Channel>& expected) {
+  const auto same = [](const Channel& a, const Channel& b) {
+    return a.name == b.name && a.unit == b.unit;
+  };
   if (std::equal(found.begin(), found.end(), expected.begin(), expected.end(), same)) return;
   const auto list = [](const std::vector<Channel>& channels) {
     std::vector<std::string> texts;
-    for (const Channel& channel : channels) texts.push_back(fmt::format("{} [{}]", channel.name, channel.unit));
+    for (const Channel& channel : channels)
+      texts.push_back(fmt::format("{} [{}]", channel.name, channel.unit));
     return fmt::format("{}", fmt::join(texts, ", "));
   };
   throw Error(
-      fmt::format("{}: cannot be continued: it has the channels {}; this run has {}; continue with the rig and the "
+      fmt::format("{}: cannot be continued: it has the channels {}; this run has {}; continue with "
+                  "the rig and the "
                   "wheel it was started with, or name another file",
                   path, list(found), list(expected)));
 }
@@ -121,12 +140,14 @@ void cut_at(const std::string& path, History& history, double time) {
     return;
   }
   const auto later = std::upper_bound(times.begin(), times.end(), time);
-  const std::size_t last = std::clamp<std::size_t>(std::size_t(later - times.begin()), 2, times.size()) - 1;
+  const std::size_t last =
+      std::clamp<std::size_t>(std::size_t(later - times.begin()), 2, times.size()) - 1;
   const double spacing = times[last] - times[last - 1];
   history.truncate_after(time + 1e-9 * spacing);
   if (history.size() == times.size() && time - times.back() > (1.0 - 1e-6) * spacing)
     throw Error(
-        fmt::format("{}: ends at t = {:.9g} s but the run continues from t = {:.9g} s: rows between are missing; "
+        fmt::format("{}: ends at t = {:.9g} s but the run continues from t = {:.9g} s: rows "
+                    "between are missing; "
                     "continue from an earlier checkpoint, or name another file",
                     path, times.back(), time));
 }
@@ -136,7 +157,8 @@ void cut_at(const std::string& path, History& history, double time) {
 HistoryFile::HistoryFile(std::string path, History history)
     : path_(std::move(path)), history_(std::move(history)), last_flush_(Clock::now()) {}
 
-HistoryFile HistoryFile::create(const std::string& path, const std::vector<Channel>& channels, const RunInfo& info) {
+HistoryFile HistoryFile::create(const std::string& path, const std::vector<Channel>& channels,
+                                const RunInfo& info) {
   if (channels.empty()) throw Error(fmt::format("{}: a history needs channels", path));
   replace_file(path, [&](const std::string& part) {
     Hdf5File file(part, Hdf5File::Mode::create);
@@ -158,7 +180,8 @@ HistoryFile HistoryFile::create(const std::string& path, const std::vector<Chann
   return HistoryFile(path, History(channels));
 }
 
-HistoryFile HistoryFile::resume(const std::string& path, const std::vector<Channel>& channels, double time) {
+HistoryFile HistoryFile::resume(const std::string& path, const std::vector<Channel>& channels,
+                                double time) {
   History history = read_history(path);
   check_channels(path, history.channels(), channels);
   cut_at(path, history, time);
@@ -166,8 +189,10 @@ HistoryFile HistoryFile::resume(const std::string& path, const std::vector<Chann
   HistoryFile file(path, std::move(history));
   file.flushed_rows_ = file.history_.size();
   file.replace_with([&](Hdf5File& content) {
-    for (const Channel& channel : channels) content.truncate(dataset_of(channel), file.flushed_rows_);
-    for (const char* ending : {"/grains/final", "/surface", "/audit", "/cost", "/warnings"}) content.remove(ending);
+    for (const Channel& channel : channels)
+      content.truncate(dataset_of(channel), file.flushed_rows_);
+    for (const char* ending : {"/grains/final", "/surface", "/audit", "/cost", "/warnings"})
+      content.remove(ending);
   });
   return file;
 }
@@ -186,7 +211,8 @@ void HistoryFile::replace_with(Change change) {
   replace_file(path_, [&](const std::string& part) {
     std::error_code failed;
     fs::copy_file(path_, part, fs::copy_options::overwrite_existing, failed);
-    if (failed) throw Error(fmt::format("{}: cannot be copied to {} ({})", path_, part, failed.message()));
+    if (failed)
+      throw Error(fmt::format("{}: cannot be copied to {} ({})", path_, part, failed.message()));
     Hdf5File file(part, Hdf5File::Mode::edit);
     change(file);
     file.close();
@@ -197,10 +223,11 @@ void HistoryFile::append(const std::vector<double>& row) {
   const std::vector<Channel>& channels = history_.channels();
   for (std::size_t i = 0; i < std::min(row.size(), channels.size()); ++i)
     if (!std::isfinite(row[i]))
-      throw StateError(fmt::format("{}: {} is {} at t = {:.9g} s", path_, channels[i].name, row[i], row[0]));
+      throw StateError(
+          fmt::format("{}: {} is {} at t = {:.9g} s", path_, channels[i].name, row[i], row[0]));
   if (!row.empty() && history_.size() > 0 && row[0] <= history_.at(history_.size() - 1, 0))
-    throw StateError(fmt::format("{}: a row of t = {:.9g} s follows one of t = {:.9g} s", path_, row[0],
-                                 history_.at(history_.size() - 1, 0)));
+    throw StateError(fmt::format("{}: a row of t = {:.9g} s follows one of t = {:.9g} s", path_,
+                                 row[0], history_.at(history_.size() - 1, 0)));
   history_.append(row);
   if (seconds_since(last_flush_) >= flush_interval_ &&
       (flush_interval_ == 0.0 || seconds_since(last_flush_) >= 100.0 * flush_duration_))
@@ -213,7 +240,8 @@ void HistoryFile::flush() {
     replace_with([&](Hdf5File& file) {
       std::vector<double> column(history_.size() - flushed_rows_);
       for (std::size_t j = 0; j < history_.channels().size(); ++j) {
-        for (std::size_t i = 0; i < column.size(); ++i) column[i] = history_.at(flushed_rows_ + i, j);
+        for (std::size_t i = 0; i < column.size(); ++i)
+          column[i] = history_.at(flushed_rows_ + i, j);
         file.append(dataset_of(history_.channels()[j]), column);
       }
     });
@@ -277,7 +305,8 @@ void HistoryFile::write_closing(const RunClosing& closing) {
   replace_with([&](Hdf5File& file) {
     file.remove("/audit");
     file.create_group("/audit");
-    for (const auto& [name, member] : audit_numbers) file.set_attribute("/audit", name, closing.audit.*member);
+    for (const auto& [name, member] : audit_numbers)
+      file.set_attribute("/audit", name, closing.audit.*member);
     std::vector<double> energies;
     std::vector<std::string> terms;
     for (const EnergyTerm& term : closing.audit.energies) {
@@ -300,11 +329,14 @@ void HistoryFile::write_closing(const RunClosing& closing) {
   });
 }
 
-History read_history(const std::string& path) { return read_rows(Hdf5File(path, Hdf5File::Mode::read)); }
+History read_history(const std::string& path) {
+  return read_rows(Hdf5File(path, Hdf5File::Mode::read));
+}
 
 RunInfo read_run_info(const std::string& path) {
   const Hdf5File file(path, Hdf5File::Mode::read);
-  if (!file.exists("/run")) throw Error(fmt::format("{}: has no /run; is it a results file of Furrow?", path));
+  if (!file.exists("/run"))
+    throw Error(fmt::format("{}: has no /run; is it a results file of Furrow?", path));
   RunInfo info;
   info.title = file.text_attribute("/run", "title");
   info.version = file.text_attribute("/run", "version");
@@ -315,12 +347,15 @@ RunInfo read_run_info(const std::string& path) {
   return info;
 }
 
-Grains read_reference_grains(const std::string& path) { return read_grains(path, "/grains/reference"); }
+Grains read_reference_grains(const std::string& path) {
+  return read_grains(path, "/grains/reference");
+}
 Grains read_final_grains(const std::string& path) { return read_grains(path, "/grains/final"); }
 
 Surface read_final_surface(const std::string& path) {
   const Hdf5File file(path, Hdf5File::Mode::read);
-  if (!file.exists("/surface")) throw Error(fmt::format("{}: has no /surface; the run kept none", path));
+  if (!file.exists("/surface"))
+    throw Error(fmt::format("{}: has no /surface; the run kept none", path));
   Surface surface;
   surface.triangles = file.read_triples("/surface/triangles");
   surface.x = file.read_columns("/surface/x");
@@ -331,17 +366,24 @@ Surface read_final_surface(const std::string& path) {
   return surface;
 }
 
-bool has_closing(const std::string& path) { return Hdf5File(path, Hdf5File::Mode::read).exists("/cost"); }
+bool has_closing(const std::string& path) {
+  return Hdf5File(path, Hdf5File::Mode::read).exists("/cost");
+}
 
 RunClosing read_closing(const std::string& path) {
   const Hdf5File file(path, Hdf5File::Mode::read);
-  if (!file.exists("/cost")) throw Error(fmt::format("{}: has no /cost; the run did not come to its end", path));
+  if (!file.exists("/cost"))
+    throw Error(fmt::format("{}: has no /cost; the run did not come to its end", path));
   RunClosing closing;
-  for (const auto& [name, member] : audit_numbers) closing.audit.*member = file.number_attribute("/audit", name);
+  for (const auto& [name, member] : audit_numbers)
+    closing.audit.*member = file.number_attribute("/audit", name);
   const std::vector<double> energies = file.read_numbers("/audit/energies");
-  const std::vector<std::string> terms = split_lines(file.text_attribute("/audit/energies", "terms"));
-  if (energies.size() != terms.size()) throw Error(fmt::format("{}: /audit/energies and its names differ in number", path));
-  for (std::size_t i = 0; i < terms.size(); ++i) closing.audit.energies.push_back({terms[i], energies[i]});
+  const std::vector<std::string> terms =
+      split_lines(file.text_attribute("/audit/energies", "terms"));
+  if (energies.size() != terms.size())
+    throw Error(fmt::format("{}: /audit/energies and its names differ in number", path));
+  for (std::size_t i = 0; i < terms.size(); ++i)
+    closing.audit.energies.push_back({terms[i], energies[i]});
   closing.cost.wall_time = file.number_attribute("/cost", "wall_time");
   closing.cost.simulated_time = file.number_attribute("/cost", "simulated_time");
   closing.cost.steps = std::lround(file.number_attribute("/cost", "steps"));

@@ -3,18 +3,20 @@
 /// The results file of a run, history.h5:
 ///
 ///   /run                 attributes title, version, script, started, ranks; text effective_input
-///   /history/<channel>   one dataset a channel, with attributes unit and meaning; all of one length
-///   /grains/reference    id, x, radius, period of the settled bed before the wheel touches it; attribute bed_level
-///   /grains/final        the same and v, at the end
-///   /surface             triangles, x of the wheel or tyre at the end
-///   /ground, /rut        continuum ground at the end: x, home, v, density, pressure, ...; what a moving ground has left behind
-///   /audit, /cost        numbers as attributes; /audit/energies [J] with its attribute terms, a name a line
-///   /warnings            text, a sentence a line
+///   /history/<channel>   one dataset a channel, with attributes unit and meaning; all of one
+///   length /grains/reference    id, x, radius, period of the settled bed before the wheel touches
+///   it; attribute bed_level /grains/final        the same and v, at the end /surface triangles, x
+///   of the wheel or tyre at the end /ground, /rut        continuum ground at the end: x, home, v,
+///   density, pressure, ...; what a moving ground has left behind /audit, /cost        numbers as
+///   attributes; /audit/energies [J] with its attribute terms, a name a line /warnings text, a
+///   sentence a line
 ///
-/// The file on disk is complete at every instant: rows are gathered in memory, and a flush appends them to a copy beside it
-/// ("history.part.h5") which then takes the file's name in one step. A run that is killed leaves the state of its last flush,
-/// and others may read while it runs. A flush comes by itself when five seconds have passed and at least a hundred times the
-/// duration of the last one, so that files cost less than one per cent of a run.
+/// The file on disk is complete at every instant: rows are gathered in memory, and a flush appends
+/// them to a copy beside it
+/// ("history.part.h5") which then takes the file's name in one step. A run that is killed leaves
+/// the state of its last flush, and others may read while it runs. A flush comes by itself when
+/// five seconds have passed and at least a hundred times the duration of the last one, so that
+/// files cost less than one per cent of a run.
 
 #include <chrono>
 #include <string>
@@ -32,14 +34,18 @@ namespace furrow {
 class HistoryFile {
  public:
   /// Starts a file; one that is there is replaced. @throws Error when it cannot be written
-  static HistoryFile create(const std::string& path, const std::vector<Channel>& channels, const RunInfo& info);
+  static HistoryFile create(const std::string& path, const std::vector<Channel>& channels,
+                            const RunInfo& info);
 
-  /// Continues the file of a run that was stopped. Time semantic of a restart: the checkpoint at time t holds the state after
-  /// the step that ended at t, and the row of that instant belongs to the part before. So every row with a time up to t is kept
-  /// (up to 1e-9 of the row spacing later, for rounding), later rows are dropped, and the next row appended must be later
-  /// than the last one kept. Call flush() with every checkpoint, or rows are missing at the seam.
-  /// @throws Error when the channels differ from the file's, or when rows are missing between the last one kept and t
-  static HistoryFile resume(const std::string& path, const std::vector<Channel>& channels, double time);
+  /// Continues the file of a run that was stopped. Time semantic of a restart: the checkpoint at
+  /// time t holds the state after the step that ended at t, and the row of that instant belongs to
+  /// the part before. So every row with a time up to t is kept (up to 1e-9 of the row spacing
+  /// later, for rounding), later rows are dropped, and the next row appended must be later than the
+  /// last one kept. Call flush() with every checkpoint, or rows are missing at the seam.
+  /// @throws Error when the channels differ from the file's, or when rows are missing between the
+  /// last one kept and t
+  static HistoryFile resume(const std::string& path, const std::vector<Channel>& channels,
+                            double time);
 
   HistoryFile(HistoryFile&&) = default;
   HistoryFile& operator=(HistoryFile&&) = default;
@@ -57,7 +63,8 @@ class HistoryFile {
   void write_ground(const GroundSnapshot& ground, const std::vector<RutPoint>& rut);
   void write_closing(const RunClosing& closing);
 
-  const History& history() const { return history_; }  ///< all rows, flushed or not, of this run and the parts before
+  /// all rows, flushed or not, of this run and the parts before
+  const History& history() const { return history_; }
   const std::string& path() const { return path_; }
   /// Seconds between flushes that come by themselves; 0: every row.
   void set_flush_interval(double seconds) { flush_interval_ = seconds; }

@@ -33,7 +33,8 @@ auto with_place(const std::string& place, Action action) {
 
 const YamlTree& text_of(const YamlTree& map, const std::string& key, const std::string& allowed) {
   const YamlTree* value = map.find(key);
-  if (!value) throw InputError(fmt::format("{}: keyword '{}'", map.origin, key), "is missing", allowed);
+  if (!value)
+    throw InputError(fmt::format("{}: keyword '{}'", map.origin, key), "is missing", allowed);
   if (value->kind != YamlTree::Kind::text)
     throw InputError(fmt::format("{}: keyword '{}'", value->origin, key), "is not a word", allowed);
   return *value;
@@ -51,8 +52,11 @@ YamlTree read_with_base(const std::string& path, int depth = 0) {
   YamlTree file = read_yaml(path);
   if (!file.find("base")) return file;
   const YamlTree& name = text_of(file, "base", "a file beside this one");
-  if (depth == 8) throw InputError(name.origin, "is the eighth base of a base", "fewer", "does a file have itself as base?");
-  YamlTree merged = read_with_base((std::filesystem::path(path).parent_path() / name.text).string(), depth + 1);
+  if (depth == 8)
+    throw InputError(name.origin, "is the eighth base of a base", "fewer",
+                     "does a file have itself as base?");
+  YamlTree merged =
+      read_with_base((std::filesystem::path(path).parent_path() / name.text).string(), depth + 1);
   merged.origin = file.origin;
   for (const auto& [key, value] : file.keys) {
     if (key == "base") continue;
@@ -71,8 +75,8 @@ YamlTree read_with_base(const std::string& path, int depth = 0) {
     old->second.origin = value.origin;
     for (const auto& change : value.keys) {
       auto& keys = old->second.keys;
-      const auto place =
-          std::find_if(keys.begin(), keys.end(), [&](const auto& pair) { return pair.first == change.first; });
+      const auto place = std::find_if(keys.begin(), keys.end(),
+                                      [&](const auto& pair) { return pair.first == change.first; });
       if (place == keys.end())
         keys.push_back(change);
       else
@@ -93,7 +97,8 @@ MaterialFile read_material_file(const std::string& path) {
   std::vector<std::string> law_names;
   for (const Law& law : laws()) law_names.push_back(law.name);
   const std::string one_of = fmt::format("one of: {}", fmt::join(law_names, ", "));
-  const YamlTree& law_map = file.map("law", "the section 'law' with the law's name as 'type', and its keys");
+  const YamlTree& law_map =
+      file.map("law", "the section 'law' with the law's name as 'type', and its keys");
   const YamlTree& type = text_of(law_map, "type", one_of);
   if (std::find(law_names.begin(), law_names.end(), type.text) == law_names.end())
     throw InputError(type.origin, fmt::format("has the unknown law '{}'", type.text), one_of,
@@ -108,8 +113,10 @@ MaterialFile read_material_file(const std::string& path) {
     }
     const std::vector<std::string> names = section_names(law);
     if (std::find(names.begin(), names.end(), key) == names.end())
-      throw InputError(value.origin, fmt::format("has the section '{}', which law {} does not have", key, law.name),
-                       fmt::format("title, base, {}", fmt::join(names, ", ")));
+      throw InputError(
+          value.origin,
+          fmt::format("has the section '{}', which law {} does not have", key, law.name),
+          fmt::format("title, base, {}", fmt::join(names, ", ")));
     if (value.kind != YamlTree::Kind::map)
       throw InputError(fmt::format("{}: '{}'", value.origin, key), "is not a section of keys",
                        "keys with values, indented below it");
@@ -117,24 +124,30 @@ MaterialFile read_material_file(const std::string& path) {
     if (key == "law") aside.push_back("type");
     result.sections[key] = entries_of(value, aside);
   }
-  // Section by section first, so that a missing key is reported with the line of its section; then the law as a whole.
+  // Section by section first, so that a missing key is reported with the line of its section; then
+  // the law as a whole.
   for (const SectionSchema& section : law.sections) {
     const YamlTree* map = file.find(section.name);
     YamlTree nothing;
     nothing.origin = path;
     if (!map) map = &nothing;
     const YamlTree* chosen = section.name == "law" ? nullptr : map->find("type");
-    const std::string name = chosen ? text_of(*map, "type", "a word").text : section.choices.front().type;
-    const SectionChoice choice = with_place(chosen ? chosen->origin : map->origin, [&] { return section.choice(name); });
+    const std::string name =
+        chosen ? text_of(*map, "type", "a word").text : section.choices.front().type;
+    const SectionChoice choice =
+        with_place(chosen ? chosen->origin : map->origin, [&] { return section.choice(name); });
     with_place(map->origin, [&] { return read_map(choice.schema, *map, {"type"}); });
   }
   with_place(path, [&] { return result.make(); });
   return result;
 }
 
-std::unique_ptr<Material> load_material(const std::string& path) { return read_material_file(path).make(); }
+std::unique_ptr<Material> load_material(const std::string& path) {
+  return read_material_file(path).make();
+}
 
-std::string material_file_text(const std::string& title, const std::string& law_name, const MaterialSections& sections) {
+std::string material_file_text(const std::string& title, const std::string& law_name,
+                               const MaterialSections& sections) {
   const Law& law = find_law(law_name);
   const MaterialOptions options = read_sections(law, sections);
   std::string text = fmt::format("title: {}\n", quoted(title));
@@ -149,8 +162,8 @@ std::string material_file_text(const std::string& title, const std::string& law_
       const bool list = key.kind == Key::Kind::numbers;
       const std::string value = fmt::format(list ? "[{}]" : "{}", fmt::join(entry.values, ", "));
       const std::string unit = key.unit.empty() ? "" : fmt::format("[{}] ", key.unit);
-      text += fmt::format("  {}: {}  # {}{}\n", entry.key, key.kind == Key::Kind::text ? quoted(value) : value, unit,
-                          key.meaning);
+      text += fmt::format("  {}: {}  # {}{}\n", entry.key,
+                          key.kind == Key::Kind::text ? quoted(value) : value, unit, key.meaning);
     }
   }
   return text;

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Material files (inputs/materials/*.yaml): a law and its values, read through the law's own declaration of keys.
+/// Material files (inputs/materials/*.yaml): a law and its values, read through the law's own
+/// declaration of keys.
 ///
 ///   title: McCormick Ranch sand           # optional
 ///   law:
 ///     type: drucker_prager_cap            # a name of furrow-point laws
 ///     density: 1900                       # the keys of the law
-///   hardening: { type: table, ... }       # the law's other sections, each with its `type` where it has several
-///   elasticity: { type: linear, ... }
+///   hardening: { type: table, ... }       # the law's other sections, each with its `type` where
+///   it has several elasticity: { type: linear, ... }
 ///
-/// A variant names another file and gives what differs: `base: fresh_snow.yaml` (beside this file). A section that is of
-/// another type than the base's replaces it whole.
+/// A variant names another file and gives what differs: `base: fresh_snow.yaml` (beside this file).
+/// A section that is of another type than the base's replaces it whole.
 
 #include <memory>
 #include <string>
@@ -36,8 +37,10 @@ MaterialFile read_material_file(const std::string& path);
 /// The law of a material file. @throws InputError
 std::unique_ptr<Material> load_material(const std::string& path);
 
-/// The effective values, defaults included, with unit and meaning as comments: a material file that gives the same law.
+/// The effective values, defaults included, with unit and meaning as comments: a material file that
+/// gives the same law.
 /// @throws InputError when the sections do not pass
-std::string material_file_text(const std::string& title, const std::string& law, const MaterialSections& sections);
+std::string material_file_text(const std::string& title, const std::string& law,
+                               const MaterialSections& sections);
 
 }  // namespace furrow

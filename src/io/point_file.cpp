@@ -34,10 +34,12 @@ Schema curve_schema() {
   Schema schema("curve of a fit");
   schema.text("title", "of plots and reports").optional();
   schema.text("data", "a table of comma-separated values, from the folder of this file");
-  schema.word("scale", {"linear", "log"}, "compare values, or their logarithms").by_default("linear");
+  schema.word("scale", {"linear", "log"}, "compare values, or their logarithms")
+      .by_default("linear");
   schema
       .number("deviation", "", Range::positive(),
-              "standard deviation of a measured value, of its logarithm with scale: log; from the scatter unless given")
+              "standard deviation of a measured value, of its logarithm with scale: log; from the "
+              "scatter unless given")
       .optional();
   return schema;
 }
@@ -61,7 +63,8 @@ std::string path_type_of(const YamlTree& map) {
   for (const std::string& name : names)
     if (name == type->text) return name;
   if (type->text != "table")
-    throw InputError(fmt::format("{}: path, keyword 'type'", type->origin), fmt::format("is '{}'", type->text), allowed);
+    throw InputError(fmt::format("{}: path, keyword 'type'", type->origin),
+                     fmt::format("is '{}'", type->text), allowed);
   return type->text;
 }
 
@@ -82,7 +85,8 @@ std::string flow_text(const Schema& schema, const Options& options, const std::s
   std::string text;
   for (const Entry& entry : options.effective()) {
     const bool list = schema.find(entry.key)->kind == Key::Kind::numbers;
-    text += fmt::format(list ? "{}{}: [{}]{}" : "{}{}: {}{}", indent, entry.key, fmt::join(entry.values, ", "), separator);
+    text += fmt::format(list ? "{}{}: [{}]{}" : "{}{}: {}{}", indent, entry.key,
+                        fmt::join(entry.values, ", "), separator);
   }
   return text;
 }
@@ -92,7 +96,9 @@ PointPath read_path(const YamlTree& map, std::string* effective) {
   if (type != "table") {
     const PathType& known = find_path_type(type);
     const Options options = read_map(known.schema, map, {"type"});
-    if (effective) *effective = fmt::format("path:\n  type: {}\n{}", type, flow_text(known.schema, options, "  ", "\n"));
+    if (effective)
+      *effective =
+          fmt::format("path:\n  type: {}\n{}", type, flow_text(known.schema, options, "  ", "\n"));
     return in_path(map, [&] { return known.build(options); });
   }
   const Schema path_schema = table_path_schema(), row_schema = table_row_schema();
@@ -100,22 +106,27 @@ PointPath read_path(const YamlTree& map, std::string* effective) {
   std::vector<Options> rows;
   std::string rows_text;
   for (const YamlTree& row :
-       map.list("rows", "a list of rows with strain_xx ... or stress_xx ... of the components that change").items) {
+       map.list("rows",
+                "a list of rows with strain_xx ... or stress_xx ... of the components that change")
+           .items) {
     rows.push_back(read_map(row_schema, row));
     std::string keys = flow_text(row_schema, rows.back(), "", ", ");
     if (!keys.empty()) keys.resize(keys.size() - 2);
     rows_text += fmt::format("    - {{{}}}\n", keys);
   }
   if (effective)
-    *effective = fmt::format("path:\n  type: table\n{}  rows:\n{}", flow_text(path_schema, options, "  ", "\n"), rows_text);
+    *effective = fmt::format("path:\n  type: table\n{}  rows:\n{}",
+                             flow_text(path_schema, options, "  ", "\n"), rows_text);
   return in_path(map, [&] { return table_path(options, rows); });
 }
 
 /// A map of one key and one text: {density: rho_kgm3}.
-std::pair<std::string, const YamlTree*> one_pair(const YamlTree& curve, const std::string& key, const std::string& meaning) {
+std::pair<std::string, const YamlTree*> one_pair(const YamlTree& curve, const std::string& key,
+                                                 const std::string& meaning) {
   const YamlTree& map = curve.map(key, meaning);
   if (map.keys.size() != 1 || map.keys.front().second.kind != YamlTree::Kind::text)
-    throw InputError(fmt::format("{}: '{}'", map.origin, key), "is not one key with one column", meaning);
+    throw InputError(fmt::format("{}: '{}'", map.origin, key), "is not one key with one column",
+                     meaning);
   return {map.keys.front().first, &map.keys.front().second};
 }
 
@@ -125,26 +136,33 @@ std::vector<double> column_of(const CsvTable& table, const YamlTree& name) {
 
 FitCurve read_curve(const std::string& file, const YamlTree& map, PointFit& fit) {
   const Options options = read_map(curve_schema(), map, {"path", "drive", "compare"});
-  const CsvTable table = in_path(map, [&] { return CsvTable::read(beside(file, options.word("data"))); });
+  const CsvTable table =
+      in_path(map, [&] { return CsvTable::read(beside(file, options.word("data"))); });
   FitCurve curve;
-  curve.name = options.given("title") ? options.word("title")
-                                      : std::filesystem::path(options.word("data")).parent_path().stem().string();
+  curve.name = options.given("title")
+                   ? options.word("title")
+                   : std::filesystem::path(options.word("data")).parent_path().stem().string();
   curve.relative = options.word("scale") == "log";
   curve.deviation = options.given("deviation") ? options.number("deviation") : 0.0;
 
-  const auto [target, driving] = one_pair(map, "drive", "{a list of targets of the path: a column of the data}");
-  const auto [channel, measured] = one_pair(map, "compare", "{a channel of the point: a column of the data}");
+  const auto [target, driving] =
+      one_pair(map, "drive", "{a list of targets of the path: a column of the data}");
+  const auto [channel, measured] =
+      one_pair(map, "compare", "{a channel of the point: a column of the data}");
   YamlTree path = map.map("path", "a path without the targets that the data give");
-  const PathType* type = path_type_of(path) == "table" ? nullptr : &find_path_type(path_type_of(path));
+  const PathType* type =
+      path_type_of(path) == "table" ? nullptr : &find_path_type(path_type_of(path));
   const Key* key = type ? type->schema.find(target) : nullptr;
   if (!key || key->kind != Key::Kind::numbers) {
     std::vector<std::string> lists;
     for (const Key& known : type ? type->schema.keys() : std::vector<Key>{})
       if (known.kind == Key::Kind::numbers) lists.push_back(known.name);
-    throw InputError(fmt::format("{}: 'drive'", driving->origin),
-                     fmt::format("names '{}', no list of targets of this path", target),
-                     lists.empty() ? "a path with a list of targets: hydrostatic, confined, triaxial, simple_shear"
-                                   : fmt::format("{}", fmt::join(lists, ", ")));
+    throw InputError(
+        fmt::format("{}: 'drive'", driving->origin),
+        fmt::format("names '{}', no list of targets of this path", target),
+        lists.empty()
+            ? "a path with a list of targets: hydrostatic, confined, triaxial, simple_shear"
+            : fmt::format("{}", fmt::join(lists, ", ")));
   }
   std::vector<double> driven = column_of(table, *driving);
   curve.measured = column_of(table, *measured);
@@ -153,7 +171,8 @@ FitCurve read_curve(const std::string& file, const YamlTree& map, PointFit& fit)
   targets.origin = driving->origin;
   for (const double value : driven) {
     if (std::isnan(value))
-      throw InputError(driving->origin, fmt::format("takes column '{}', which has an empty cell", driving->text),
+      throw InputError(driving->origin,
+                       fmt::format("takes column '{}', which has an empty cell", driving->text),
                        "a number in every row");
     YamlTree item;
     item.text = fmt::format("{:.17g}", value);
@@ -163,7 +182,8 @@ FitCurve read_curve(const std::string& file, const YamlTree& map, PointFit& fit)
   path.keys.emplace_back(target, targets);
   curve.path = read_path(path, nullptr);
   // Pieces before the driven ones (consolidation) have nothing to compare with.
-  curve.measured.insert(curve.measured.begin(), curve.path.segments.size() - driven.size(), std::nan(""));
+  curve.measured.insert(curve.measured.begin(), curve.path.segments.size() - driven.size(),
+                        std::nan(""));
   curve.channel = channel;
   in_path(*measured, [&] { return find_point_channel(*fit.material.make(), channel); });
   fit.driven.push_back(driven);
@@ -179,7 +199,8 @@ PointRun read_point_run(const std::string& path) {
   PointRun run;
   run.title = title_of(path, head);
   run.material = read_material_file(beside(path, head.word("material")));
-  run.path = read_path(file.map("path", "the section 'path' with its type and targets"), &run.path_text);
+  run.path =
+      read_path(file.map("path", "the section 'path' with its type and targets"), &run.path_text);
   return run;
 }
 
@@ -191,7 +212,8 @@ PointFit read_point_fit(const std::string& path) {
   fit.material = read_material_file(beside(path, head.word("material")));
   fit.problem.law = fit.material.law;
   fit.problem.sections = fit.material.sections;
-  for (const YamlTree& map : file.list("parameters", "a list of {name: section.key, start, lower, upper}").items) {
+  for (const YamlTree& map :
+       file.list("parameters", "a list of {name: section.key, start, lower, upper}").items) {
     const Options options = read_map(parameter_schema(), map);
     FitParameter parameter;
     parameter.name = options.word("name");
@@ -200,7 +222,8 @@ PointFit read_point_fit(const std::string& path) {
     if (options.given("upper")) parameter.upper = options.number("upper");
     fit.problem.parameters.push_back(parameter);
   }
-  for (const YamlTree& map : file.list("curves", "a list of curves with data, path, drive, compare").items)
+  for (const YamlTree& map :
+       file.list("curves", "a list of curves with data, path, drive, compare").items)
     fit.problem.curves.push_back(read_curve(path, map, fit));
   return fit;
 }
@@ -209,10 +232,12 @@ std::string path_tables() {
   std::string text;
   for (const PathType& type : path_types())
     text += fmt::format("path {}: {}\n{}\n", type.name, type.meaning, type.schema.table());
-  text += fmt::format("path table: any control of each component, row by row\n{}  rows: a list of\n{}\n",
-                      table_path_schema().table(), table_row_schema().table());
-  text += fmt::format("fit: parameters, a list of\n{}\nfit: curves, a list of path, drive, compare and\n{}",
-                      parameter_schema().table(), curve_schema().table());
+  text += fmt::format(
+      "path table: any control of each component, row by row\n{}  rows: a list of\n{}\n",
+      table_path_schema().table(), table_row_schema().table());
+  text += fmt::format(
+      "fit: parameters, a list of\n{}\nfit: curves, a list of path, drive, compare and\n{}",
+      parameter_schema().table(), curve_schema().table());
   return text;
 }
 

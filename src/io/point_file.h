@@ -2,10 +2,12 @@
 #pragma once
 /// Files of furrow-point: a path to drive (inputs/points/*.yaml), or curves to fit.
 ///
-///   title: Drained triaxial test on McCormick Ranch sand        material: ../materials/mccormick_sand.yaml
-///   path: { type: triaxial, confinement: 0.25e6, axial_strain: [0.1], steps: 200 }
+///   title: Drained triaxial test on McCormick Ranch sand        material:
+///   ../materials/mccormick_sand.yaml path: { type: triaxial, confinement: 0.25e6, axial_strain:
+///   [0.1], steps: 200 }
 ///
-/// A general path has `type: table` and `rows: [ {strain_zz: -0.1, stress_xx: -1e5}, ... ]`. A fit has, instead of `path`,
+/// A general path has `type: table` and `rows: [ {strain_zz: -0.1, stress_xx: -1e5}, ... ]`. A fit
+/// has, instead of `path`,
 ///   parameters: [ {name: law.d, lower: 1e3, upper: 1e5}, ... ]
 ///   curves:
 ///     - title: oedometer

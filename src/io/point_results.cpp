@@ -49,15 +49,19 @@ std::vector<double> column(const PointChannel& channel, const PointHistory& hist
 
 std::string run_text(const PointRun& run) {
   std::string title = run.title;
-  for (std::size_t at = 0; (at = title.find('\'', at)) != std::string::npos; at += 2) title.insert(at, 1, '\'');
+  for (std::size_t at = 0; (at = title.find('\'', at)) != std::string::npos; at += 2)
+    title.insert(at, 1, '\'');
   return fmt::format("title: '{}'\nmaterial: material.yaml\n{}", title, run.path_text);
 }
 
 }  // namespace
 
-void write_point_run(const std::string& folder, const PointRun& run, const Material& material, const PointHistory& history) {
+void write_point_run(const std::string& folder, const PointRun& run, const Material& material,
+                     const PointHistory& history) {
   make_folder(folder);
-  const auto in_folder = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
+  const auto in_folder = [&](const char* name) {
+    return (std::filesystem::path(folder) / name).string();
+  };
   write_text_file(in_folder("material.yaml"),
                   material_file_text(run.material.title, run.material.law, run.material.sections));
   write_text_file(in_folder("run.yaml"), run_text(run));
@@ -68,7 +72,8 @@ void write_point_run(const std::string& folder, const PointRun& run, const Mater
   for (const PointChannel& channel : channels) {
     names.push_back(channel.name);
     columns.push_back(column(channel, history));
-    comments.push_back(fmt::format("{}: {}", with_unit(channel.name, channel.unit), channel.meaning));
+    comments.push_back(
+        fmt::format("{}: {}", with_unit(channel.name, channel.unit), channel.meaning));
   }
   write_text_file(in_folder("point.csv"), csv_text(comments, names, columns));
 
@@ -76,8 +81,9 @@ void write_point_run(const std::string& folder, const PointRun& run, const Mater
     Hdf5File file(part, Hdf5File::Mode::create);
     file.create_group("/point");
     for (const auto& [name, value] :
-         {std::pair{"title", run.title}, std::pair{"law", material.name()}, std::pair{"material", run.material.title},
-          std::pair{"path", run.path.type}, std::pair{"version", version()}})
+         {std::pair{"title", run.title}, std::pair{"law", material.name()},
+          std::pair{"material", run.material.title}, std::pair{"path", run.path.type},
+          std::pair{"version", version()}})
       file.set_attribute("/point", name, value);
     for (std::size_t c = 0; c < channels.size(); ++c) {
       const std::string dataset = "/point/" + channels[c].name;
@@ -88,8 +94,10 @@ void write_point_run(const std::string& folder, const PointRun& run, const Mater
     file.create_group("/yield_surface");
     int number = 0;
     for (const PointRecord& record : history.records) {
-      const bool ends = record.segment == 0 || record.step == run.path.segments[std::size_t(record.segment) - 1].steps;
-      const std::vector<Vector2> line = ends ? material.yield_surface(record.state) : std::vector<Vector2>{};
+      const bool ends = record.segment == 0 ||
+                        record.step == run.path.segments[std::size_t(record.segment) - 1].steps;
+      const std::vector<Vector2> line =
+          ends ? material.yield_surface(record.state) : std::vector<Vector2>{};
       if (line.empty()) continue;
       std::vector<double> p, q;
       for (const Vector2& point : line) p.push_back(point.x()), q.push_back(point.y());
@@ -102,7 +110,8 @@ void write_point_run(const std::string& folder, const PointRun& run, const Mater
   });
 }
 
-std::string run_report(const PointRun& run, const Material& material, const PointHistory& history, const StepError* error) {
+std::string run_report(const PointRun& run, const Material& material, const PointHistory& history,
+                       const StepError* error) {
   const PointRecord& last = history.records.back();
   const Invariants end = invariants(stress_of(last.state));
   double most_p = end.p, most_q = end.q, most_density = 0.0;
@@ -113,43 +122,55 @@ std::string run_report(const PointRun& run, const Material& material, const Poin
     most_density = std::max(most_density, material.current_density(record.state));
   }
   const PointCost& cost = history.cost;
-  std::string text = fmt::format("{}\n  material      {} ({})\n  path          {}, {} segment(s), {} steps\n", run.title,
-                                 run.material.title, material.name(), run.path.type, run.path.segments.size(), cost.steps);
-  text += fmt::format("  reached       p = {}, q = {}, density {:.5g} kg/m3, volume strain {:.5g} (compression positive)\n",
-                      pascals(end.p), pascals(end.q), material.current_density(last.state),
-                      -std::log(last.state[field::volume_ratio]));
-  text += fmt::format("  stress        xx {}, yy {}, zz {}, xy {}, yz {}, xz {} (tension positive)\n",
-                      pascals(last.state[0]), pascals(last.state[1]), pascals(last.state[2]), pascals(last.state[3]),
-                      pascals(last.state[4]), pascals(last.state[5]));
+  std::string text = fmt::format(
+      "{}\n  material      {} ({})\n  path          {}, {} segment(s), {} steps\n", run.title,
+      run.material.title, material.name(), run.path.type, run.path.segments.size(), cost.steps);
+  text += fmt::format(
+      "  reached       p = {}, q = {}, density {:.5g} kg/m3, volume strain {:.5g} (compression "
+      "positive)\n",
+      pascals(end.p), pascals(end.q), material.current_density(last.state),
+      -std::log(last.state[field::volume_ratio]));
   text +=
-      fmt::format("  largest       p = {}, q = {}, density {:.5g} kg/m3\n", pascals(most_p), pascals(most_q), most_density);
+      fmt::format("  stress        xx {}, yy {}, zz {}, xy {}, yz {}, xz {} (tension positive)\n",
+                  pascals(last.state[0]), pascals(last.state[1]), pascals(last.state[2]),
+                  pascals(last.state[3]), pascals(last.state[4]), pascals(last.state[5]));
+  text += fmt::format("  largest       p = {}, q = {}, density {:.5g} kg/m3\n", pascals(most_p),
+                      pascals(most_q), most_density);
   std::vector<std::string> branches;
   for (std::size_t b = 0; b < branch_count; ++b)
     if (cost.updates.points[b] > 0)
-      branches.push_back(fmt::format("{} {}", to_string(static_cast<Branch>(b)), cost.updates.points[b]));
+      branches.push_back(
+          fmt::format("{} {}", to_string(static_cast<Branch>(b)), cost.updates.points[b]));
   text += fmt::format("  updates       {}\n", fmt::join(branches, ", "));
   if (cost.updates.beyond_data > 0)
-    text += fmt::format("  WARNING       {} updates were beyond the hardening data, by extrapolation\n",
-                        cost.updates.beyond_data);
-  if (cost.updates.beyond_ice > 0 && material.density() < ice_density)
     text +=
-        fmt::format("  WARNING       {} updates were denser than ice ({} kg/m3)\n", cost.updates.beyond_ice, ice_density);
+        fmt::format("  WARNING       {} updates were beyond the hardening data, by extrapolation\n",
+                    cost.updates.beyond_data);
+  if (cost.updates.beyond_ice > 0 && material.density() < ice_density)
+    text += fmt::format("  WARNING       {} updates were denser than ice ({} kg/m3)\n",
+                        cost.updates.beyond_ice, ice_density);
   text += fmt::format(
-      "  control       {} Newton iterations (most {} a step), {} step(s) cut, largest residual {:.1e} of the step's "
+      "  control       {} Newton iterations (most {} a step), {} step(s) cut, largest residual "
+      "{:.1e} of the step's "
       "stress\n",
       cost.newton_iterations, cost.most_newton_iterations, cost.cuts, cost.largest_residual);
-  if (!error) return text + "  step error    not known: with halved steps the path could not be followed\n";
+  if (!error)
+    return text + "  step error    not known: with halved steps the path could not be followed\n";
   text += fmt::format(
-      "  step error    p {}, q {}, volume strain {:.1e}: change at the segments' ends when every step is halved\n",
+      "  step error    p {}, q {}, volume strain {:.1e}: change at the segments' ends when every "
+      "step is halved\n",
       percent(error->p), percent(error->q), error->eps_vol);
   return text;
 }
 
 void write_point_fit(const std::string& folder, const PointFit& fit, const FitResult& result) {
   make_folder(folder);
-  const auto in_folder = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
+  const auto in_folder = [&](const char* name) {
+    return (std::filesystem::path(folder) / name).string();
+  };
   write_text_file(in_folder("material.yaml"),
-                  material_file_text(fit.material.title + ", fitted: " + fit.title, fit.material.law, result.sections));
+                  material_file_text(fit.material.title + ", fitted: " + fit.title,
+                                     fit.material.law, result.sections));
   write_text_file(in_folder("report.txt"), fit_report(fit, result));
 
   std::vector<double> number, driven, measured, start, fitted;
@@ -166,10 +187,12 @@ void write_point_fit(const std::string& folder, const PointFit& fit, const FitRe
   }
   std::vector<std::string> comments{fmt::format("{} (furrow {})", fit.title, version())};
   for (std::size_t c = 0; c < fit.problem.curves.size(); ++c)
-    comments.push_back(fmt::format("curve {}: {}; driven: {}; compared: {}", c, fit.problem.curves[c].name,
-                                   fit.driven_names[c], fit.problem.curves[c].channel));
-  write_text_file(in_folder("fit.csv"), csv_text(comments, {"curve", "driven", "measured", "start", "fitted"},
-                                                 {number, driven, measured, start, fitted}));
+    comments.push_back(fmt::format("curve {}: {}; driven: {}; compared: {}", c,
+                                   fit.problem.curves[c].name, fit.driven_names[c],
+                                   fit.problem.curves[c].channel));
+  write_text_file(in_folder("fit.csv"),
+                  csv_text(comments, {"curve", "driven", "measured", "start", "fitted"},
+                           {number, driven, measured, start, fitted}));
 
   const auto material = fit.material.make();
   replace_file(in_folder("fit.h5"), [&](const std::string& part) {
@@ -180,7 +203,8 @@ void write_point_fit(const std::string& folder, const PointFit& fit, const FitRe
       const FitCurve& curve = fit.problem.curves[c];
       const std::string group = fmt::format("/curves/{}", c);
       const auto part_of = [&](const std::vector<double>& all) {
-        return std::vector<double>(all.end() - static_cast<std::ptrdiff_t>(fit.driven[c].size()), all.end());
+        return std::vector<double>(all.end() - static_cast<std::ptrdiff_t>(fit.driven[c].size()),
+                                   all.end());
       };
       file.write(group + "/driven", fit.driven[c]);
       file.write(group + "/measured", part_of(curve.measured));
@@ -189,7 +213,8 @@ void write_point_fit(const std::string& folder, const PointFit& fit, const FitRe
       const PointChannel channel = find_point_channel(*material, curve.channel);
       for (const auto& [name, value] :
            {std::pair{"name", curve.name}, std::pair{"driven_by", fit.driven_names[c]},
-            std::pair{"compared", with_unit(channel.name, channel.unit)}, std::pair{"path", curve.path.type}})
+            std::pair{"compared", with_unit(channel.name, channel.unit)},
+            std::pair{"path", curve.path.type}})
         file.set_attribute(group, name, value);
       file.set_attribute(group, "relative", curve.relative ? 1.0 : 0.0);
       file.set_attribute(group, "deviation", curve.deviation);
@@ -201,8 +226,8 @@ void write_point_fit(const std::string& folder, const PointFit& fit, const FitRe
       file.set_attribute(group, "unit", p.unit);
       file.set_attribute(group, "remark", p.remark);
       for (const auto& [name, value] :
-           {std::pair{"start", p.start}, std::pair{"value", p.value}, std::pair{"deviation", p.deviation},
-            std::pair{"determined", p.determined ? 1.0 : 0.0}})
+           {std::pair{"start", p.start}, std::pair{"value", p.value},
+            std::pair{"deviation", p.deviation}, std::pair{"determined", p.determined ? 1.0 : 0.0}})
         file.set_attribute(group, name, value);
     }
     file.close();
@@ -210,27 +235,36 @@ void write_point_fit(const std::string& folder, const PointFit& fit, const FitRe
 }
 
 std::string fit_report(const PointFit& fit, const FitResult& result) {
-  std::string text =
-      fmt::format("{}\n  material      {} ({})\n  data          {} values of {} curve(s), {} parameters\n", fit.title,
-                  fit.material.title, fit.problem.law, result.data, fit.problem.curves.size(), result.parameters.size());
-  text += fmt::format("  residual      rms {:.4g} at the start, {:.4g} fitted; {} evaluations; {}\n", result.rms_start,
-                      result.rms, result.evaluations, result.end);
+  std::string text = fmt::format(
+      "{}\n  material      {} ({})\n  data          {} values of {} curve(s), {} parameters\n",
+      fit.title, fit.material.title, fit.problem.law, result.data, fit.problem.curves.size(),
+      result.parameters.size());
+  text +=
+      fmt::format("  residual      rms {:.4g} at the start, {:.4g} fitted; {} evaluations; {}\n",
+                  result.rms_start, result.rms, result.evaluations, result.end);
   if (!result.converged) text += "  WARNING       the fit did not converge\n";
-  text += fmt::format("\n  {:<24} {:>12} {:>12} {:>12} {:>8}\n", "parameter", "start", "fitted", "deviation", "");
+  text += fmt::format("\n  {:<24} {:>12} {:>12} {:>12} {:>8}\n", "parameter", "start", "fitted",
+                      "deviation", "");
   for (const FittedParameter& p : result.parameters) {
     const std::string relative =
-        p.value != 0.0 && std::isfinite(p.deviation) ? fmt::format("{:.2g} %", 100.0 * std::abs(p.deviation / p.value)) : "";
-    text +=
-        fmt::format("  {:<24} {:>12.6g} {:>12.6g} {:>12} {:>8}{}\n", with_unit(p.name, p.unit), p.start, p.value,
-                    std::isfinite(p.deviation) ? fmt::format("{:.3g}", p.deviation)
-                    : std::isnan(p.deviation)  ? "unknown"
-                                               : "infinite",
-                    relative, p.determined ? (p.remark.empty() ? "" : "  " + p.remark) : "  NOT DETERMINED: " + p.remark);
+        p.value != 0.0 && std::isfinite(p.deviation)
+            ? fmt::format("{:.2g} %", 100.0 * std::abs(p.deviation / p.value))
+            : "";
+    text += fmt::format(
+        "  {:<24} {:>12.6g} {:>12.6g} {:>12} {:>8}{}\n", with_unit(p.name, p.unit), p.start,
+        p.value,
+        std::isfinite(p.deviation) ? fmt::format("{:.3g}", p.deviation)
+        : std::isnan(p.deviation)  ? "unknown"
+                                   : "infinite",
+        relative,
+        p.determined ? (p.remark.empty() ? "" : "  " + p.remark) : "  NOT DETERMINED: " + p.remark);
   }
   const auto n = static_cast<Eigen::Index>(result.parameters.size());
   text += fmt::format(
       "\n  deviation: one standard deviation, linearised{}\n",
-      result.scatter == 1.0 ? "" : fmt::format("; scatter of the data from the residuals, {:.3g}", result.scatter));
+      result.scatter == 1.0
+          ? ""
+          : fmt::format("; scatter of the data from the residuals, {:.3g}", result.scatter));
   std::vector<std::string> values;
   for (Eigen::Index k = 0; k < result.singular_values.size(); ++k)
     values.push_back(fmt::format("{:.3g}", result.singular_values[k]));
@@ -239,16 +273,19 @@ std::string fit_report(const PointFit& fit, const FitResult& result) {
   std::vector<std::string> parts;
   for (Eigen::Index i = 0; i < n; ++i)
     if (std::abs(weakest[i]) > 0.1)
-      parts.push_back(fmt::format("{:+.2f} {}", weakest[i], result.parameters[std::size_t(i)].name));
+      parts.push_back(
+          fmt::format("{:+.2f} {}", weakest[i], result.parameters[std::size_t(i)].name));
   if (n > 1)
-    text += fmt::format("  the data say least about the combination {} (of {})\n", fmt::join(parts, " "),
-                        "logarithms, or values over their scale");
+    text += fmt::format("  the data say least about the combination {} (of {})\n",
+                        fmt::join(parts, " "), "logarithms, or values over their scale");
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < i; ++j)
       if (std::abs(result.correlation(i, j)) > 0.95)
-        text += fmt::format("  {} and {} are correlated by {:.4f}: the data fix them together better than each alone\n",
-                            result.parameters[std::size_t(j)].name, result.parameters[std::size_t(i)].name,
-                            result.correlation(i, j));
+        text += fmt::format(
+            "  {} and {} are correlated by {:.4f}: the data fix them together better than each "
+            "alone\n",
+            result.parameters[std::size_t(j)].name, result.parameters[std::size_t(i)].name,
+            result.correlation(i, j));
   return text;
 }
 

@@ -3,10 +3,13 @@
 /// What furrow-point leaves in a results folder.
 ///
 /// A run:  point.csv     every channel of every step
-///         point.h5      /point/<channel> with attributes unit, meaning; /point has title, law, material, path, version;
-///                       /yield_surface/<n>/p, q after the segment that is its attribute (0: the start)
+///         point.h5      /point/<channel> with attributes unit, meaning; /point has title, law,
+///         material, path, version;
+///                       /yield_surface/<n>/p, q after the segment that is its attribute (0: the
+///                       start)
 ///         material.yaml, run.yaml   the effective input: furrow-point run run.yaml repeats the run
-/// A fit:  fit.csv, fit.h5 (/curves/<n>/driven, measured, start, fitted), material.yaml with the fitted values, report.txt
+/// A fit:  fit.csv, fit.h5 (/curves/<n>/driven, measured, start, fitted), material.yaml with the
+/// fitted values, report.txt
 
 #include <string>
 
@@ -17,13 +20,15 @@
 namespace furrow {
 
 /// Writes all files of a run into the folder, which is made. @throws Error naming the file
-void write_point_run(const std::string& folder, const PointRun& run, const Material& material, const PointHistory& history);
+void write_point_run(const std::string& folder, const PointRun& run, const Material& material,
+                     const PointHistory& history);
 /// @throws Error naming the file
 void write_point_fit(const std::string& folder, const PointFit& fit, const FitResult& result);
 
 /// What a run reached: density, p, q, branches, limits met, cost and the error of the steps.
 /// @param error  null when the path with halved steps could not be followed
-std::string run_report(const PointRun& run, const Material& material, const PointHistory& history, const StepError* error);
+std::string run_report(const PointRun& run, const Material& material, const PointHistory& history,
+                       const StepError* error);
 /// Parameters with uncertainties, what is not determined, correlations.
 std::string fit_report(const PointFit& fit, const FitResult& result);
 

@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 
 void replace_file(const std::string& path, const std::function<void(const std::string&)>& write) {
   const fs::path target(path);
-  const fs::path part = target.parent_path() / (target.stem().string() + ".part" + target.extension().string());
+  const fs::path part =
+      target.parent_path() / (target.stem().string() + ".part" + target.extension().string());
   std::error_code ignored, failed;
   try {
     write(part.string());

@@ -13,12 +13,14 @@ void Audit::set_energies(std::vector<EnergyTerm> terms, double residual) {
   energies = std::move(terms);
   energy_residual = residual;
   energy_scale = 0.0;
-  for (const EnergyTerm& term : energies) energy_scale = std::max(energy_scale, std::abs(term.value));
+  for (const EnergyTerm& term : energies)
+    energy_scale = std::max(energy_scale, std::abs(term.value));
 }
 
 double peak_memory() {
   rusage usage{};
-  return getrusage(RUSAGE_SELF, &usage) == 0 ? 1024.0 * double(usage.ru_maxrss) : 0.0;  // Linux counts in KiB
+  // Linux counts in KiB
+  return getrusage(RUSAGE_SELF, &usage) == 0 ? 1024.0 * double(usage.ru_maxrss) : 0.0;
 }
 
 }  // namespace furrow

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a run says about itself: identity, audit and cost. The history file keeps it, the summary prints it.
+/// What a run says about itself: identity, audit and cost. The history file keeps it, the summary
+/// prints it.
 
 #include <string>
 #include <vector>
@@ -28,19 +29,23 @@ struct EnergyTerm {
 
 /// Conservation, as the run measured it.
 struct Audit {
-  std::vector<EnergyTerm> energies;  ///< [J] the terms of the energy balance, each with its sign in it
-  double energy_residual = 0.0;      ///< [J] what the terms do not account for
-  double energy_scale = 0.0;         ///< [J] the largest of the terms: the residual is judged against it
-  double force_imbalance = 0.0;      ///< [N] largest |sum of nodal forces + sum of grain wall forces| of any step
-  double force_scale = 0.0;          ///< [N] largest sum of |contact force| of any step
-  double moment_imbalance = 0.0;     ///< [N m] the same of moments
-  double moment_scale = 0.0;         ///< [N m]
+  /// [J] the terms of the energy balance, each with its sign in it
+  std::vector<EnergyTerm> energies;
+  double energy_residual = 0.0;  ///< [J] what the terms do not account for
+  /// [J] the largest of the terms: the residual is judged against it
+  double energy_scale = 0.0;
+  /// [N] largest |sum of nodal forces + sum of grain wall forces| of any step
+  double force_imbalance = 0.0;
+  double force_scale = 0.0;       ///< [N] largest sum of |contact force| of any step
+  double moment_imbalance = 0.0;  ///< [N m] the same of moments
+  double moment_scale = 0.0;      ///< [N m]
 
   /// The terms, their residual and their scale.
   void set_energies(std::vector<EnergyTerm> terms, double residual);
 };
 
-/// What a run took: the process that brought it to its end, counted from its restart if there was one. Zero where not measured.
+/// What a run took: the process that brought it to its end, counted from its restart if there was
+/// one. Zero where not measured.
 struct Cost {
   double wall_time = 0.0;       ///< [s] of the stepping
   double simulated_time = 0.0;  ///< [s]
@@ -49,8 +54,12 @@ struct Cost {
   int ranks = 1;
   double memory = 0.0;  ///< [byte] peak resident size, all ranks together
 
-  double particle_steps_per_second() const { return wall_time > 0.0 ? double(steps) * double(grains) / wall_time : 0.0; }
-  double simulated_per_wall_second() const { return wall_time > 0.0 ? simulated_time / wall_time : 0.0; }
+  double particle_steps_per_second() const {
+    return wall_time > 0.0 ? double(steps) * double(grains) / wall_time : 0.0;
+  }
+  double simulated_per_wall_second() const {
+    return wall_time > 0.0 ? simulated_time / wall_time : 0.0;
+  }
 };
 
 /// What the end of a run adds to its start.
@@ -60,7 +69,8 @@ struct RunClosing {
   std::vector<std::string> warnings;  ///< whole sentences; the summary repeats them
 };
 
-/// Peak resident memory of this process [byte]; 0 where the system does not tell. Sum it over the ranks for Cost::memory.
+/// Peak resident memory of this process [byte]; 0 where the system does not tell. Sum it over the
+/// ranks for Cost::memory.
 double peak_memory();
 
 }  // namespace furrow

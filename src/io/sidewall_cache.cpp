@@ -21,13 +21,18 @@ namespace {
 const char* const dataset = "/coefficients";
 
 /// Everything that a table depends on, numbers with all digits.
-std::string identity_of(const SidewallParameters& sidewall, double pressure, const SidewallTableGrid& grid) {
+std::string identity_of(const SidewallParameters& sidewall, double pressure,
+                        const SidewallTableGrid& grid) {
   std::string text = fmt::format(
-      "sidewall table 1 of furrow {}\nlength {}\nbending {}\ncurvature {}\nangles {} {}\nend springs {} {}\nstrip {} "
+      "sidewall table 1 of furrow {}\nlength {}\nbending {}\ncurvature {}\nangles {} {}\nend "
+      "springs {} {}\nstrip {} "
       "{}\npressure {}\n",
-      version(), sidewall.length, fmt::join(sidewall.bending, " "), fmt::join(sidewall.curvature, " "), sidewall.rim_angle,
-      sidewall.tread_angle, sidewall.rim_stiffness, sidewall.tread_stiffness, sidewall.bead_width, sidewall.taper, pressure);
-  for (const GridAxis& axis : grid.axes()) text += fmt::format("axis {} {} {}\n", axis.lower, axis.upper, axis.nodes);
+      version(), sidewall.length, fmt::join(sidewall.bending, " "),
+      fmt::join(sidewall.curvature, " "), sidewall.rim_angle, sidewall.tread_angle,
+      sidewall.rim_stiffness, sidewall.tread_stiffness, sidewall.bead_width, sidewall.taper,
+      pressure);
+  for (const GridAxis& axis : grid.axes())
+    text += fmt::format("axis {} {} {}\n", axis.lower, axis.upper, axis.nodes);
   return text;
 }
 
@@ -43,8 +48,10 @@ std::vector<double> kept(const fs::path& path, const std::string& identity) {
   return {};
 }
 
-/// Written beside under a name of this process alone, then renamed: whoever looks finds a whole file or none.
-void keep(const fs::path& path, const std::string& identity, const std::vector<double>& coefficients) {
+/// Written beside under a name of this process alone, then renamed: whoever looks finds a whole
+/// file or none.
+void keep(const fs::path& path, const std::string& identity,
+          const std::vector<double>& coefficients) {
   std::error_code failed;
   fs::create_directories(path.parent_path(), failed);
   if (failed) return;
@@ -70,8 +77,8 @@ const std::vector<std::string>& sidewall_kinds() {
   return kinds;
 }
 
-std::unique_ptr<SidewallTable> open_sidewall_table(const SidewallParameters& parameters, double pressure,
-                                                   const SidewallTableGrid& grid) {
+std::unique_ptr<SidewallTable> open_sidewall_table(const SidewallParameters& parameters,
+                                                   double pressure, const SidewallTableGrid& grid) {
   const std::string identity = identity_of(parameters, pressure, grid);
   const fs::path path = cache_folder() / fmt::format("sidewall-{}.h5", content_hash(identity));
   if (std::vector<double> coefficients = kept(path, identity); !coefficients.empty())
@@ -81,11 +88,13 @@ std::unique_ptr<SidewallTable> open_sidewall_table(const SidewallParameters& par
   return table;
 }
 
-std::unique_ptr<Sidewall> open_sidewall(const std::string& kind, const SidewallParameters& parameters, double pressure,
+std::unique_ptr<Sidewall> open_sidewall(const std::string& kind,
+                                        const SidewallParameters& parameters, double pressure,
                                         const SidewallTableGrid& grid) {
   if (kind == "table") return open_sidewall_table(parameters, pressure, grid);
   if (kind == "direct") return std::make_unique<SidewallDirect>(parameters, pressure);
-  throw InputError("sidewall", fmt::format("is '{}'", kind), fmt::format("one of: {}", fmt::join(sidewall_kinds(), ", ")));
+  throw InputError("sidewall", fmt::format("is '{}'", kind),
+                   fmt::format("one of: {}", fmt::join(sidewall_kinds(), ", ")));
 }
 
 }  // namespace furrow

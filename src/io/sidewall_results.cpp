@@ -33,7 +33,8 @@ Columns columns_of(const SidewallCurve& curve) {
   add("r", [&](std::size_t i) { return curve.ends[i].r; });
   add("phi", [&](std::size_t i) { return curve.ends[i].phi; });
   add("half_width", [&](std::size_t i) { return curve.half_width[i]; });
-  for (const auto& [suffix, responses] : {std::pair("", &curve.solved), std::pair("_table", &curve.looked_up)}) {
+  for (const auto& [suffix, responses] :
+       {std::pair("", &curve.solved), std::pair("_table", &curve.looked_up)}) {
     const std::string end = suffix;
     add("F_a" + end, [&, r = responses](std::size_t i) { return (*r)[i].on_tread[0]; });
     add("F_r" + end, [&, r = responses](std::size_t i) { return (*r)[i].on_tread[1]; });
@@ -84,10 +85,12 @@ void write_sidewall_survey(const std::string& folder, const SidewallSurvey& surv
     const Columns columns = columns_of(curve);
     write_text_file(
         folder + "/" + curve.name + ".csv",
-        csv_text({fmt::format("{}, {:g} Pa; SI units, per unit circumference of the tread; moved: {}", survey.tyre.title,
-                              survey.pressure, curve.meaning),
-                  "F_a, F_r, M on the tread; K = -dF; W potential; _table: looked up, else the chain's solution"},
-                 columns.names, columns.values));
+        csv_text(
+            {fmt::format("{}, {:g} Pa; SI units, per unit circumference of the tread; moved: {}",
+                         survey.tyre.title, survey.pressure, curve.meaning),
+             "F_a, F_r, M on the tread; K = -dF; W potential; _table: looked up, else the chain's "
+             "solution"},
+            columns.names, columns.values));
   }
 }
 
@@ -99,39 +102,46 @@ std::string sidewall_report(const SidewallSurvey& survey) {
   const double chord = std::hypot(survey.made.a, survey.made.r);
   const double width = tyre.bead_spacing + 2.0 * survey.shape.nodes.row(0).maxCoeff();
   const double first = angles[0], last = angles[angles.size() - 1];
-  const double tension = -(here.on_tread[0] * std::cos(last) + here.on_tread[1] * std::sin(last));  // of the last segment
+  const double tension = -(here.on_tread[0] * std::cos(last) +
+                           here.on_tread[1] * std::sin(last));  // of the last segment
   std::string text = fmt::format("{} at {:.4g} kPa\n", tyre.title, survey.pressure / 1e3);
   const auto line = [&](const std::string& name, const std::string& value) {
     text += fmt::format("  {:<13} {}\n", name, value);
   };
-  line("sidewall", fmt::format("{} segments, {:.4g} mm; chord {:.4g} mm, {:.3f} of the length", sidewall.segments(),
-                               1e3 * sidewall.length, 1e3 * chord, chord / sidewall.length));
-  line("section",
-       fmt::format("{:.4g} mm wide; the sidewall turns by {:.1f} degrees, from {:.1f} at the rim to {:.1f} at the tread",
-                   1e3 * width, degrees(last - first), degrees(first), degrees(last)));
-  line("tension",
-       fmt::format("{:.5g} N/m at the tread", tension) +
-           (survey.pressure > 0.0 ? fmt::format(", p rho with rho = {:.4g} mm", 1e3 * tension / survey.pressure) : ""));
-  line("on the tread", fmt::format("axial {:.5g} N/m, radial {:.5g} N/m, moment {:.4g} N m/m", here.on_tread[0],
-                                   here.on_tread[1], here.on_tread[2]));
+  line("sidewall", fmt::format("{} segments, {:.4g} mm; chord {:.4g} mm, {:.3f} of the length",
+                               sidewall.segments(), 1e3 * sidewall.length, 1e3 * chord,
+                               chord / sidewall.length));
+  line("section", fmt::format("{:.4g} mm wide; the sidewall turns by {:.1f} degrees, from {:.1f} "
+                              "at the rim to {:.1f} at the tread",
+                              1e3 * width, degrees(last - first), degrees(first), degrees(last)));
+  line("tension", fmt::format("{:.5g} N/m at the tread", tension) +
+                      (survey.pressure > 0.0 ? fmt::format(", p rho with rho = {:.4g} mm",
+                                                           1e3 * tension / survey.pressure)
+                                             : ""));
+  line("on the tread", fmt::format("axial {:.5g} N/m, radial {:.5g} N/m, moment {:.4g} N m/m",
+                                   here.on_tread[0], here.on_tread[1], here.on_tread[2]));
   const Vector3& on_rim = survey.shape.on_rim;
-  line("on the rim",
-       fmt::format("axial {:.5g} N/m, radial {:.5g} N/m, moment {:.4g} N m/m", on_rim[0], on_rim[1], on_rim[2]));
+  line("on the rim", fmt::format("axial {:.5g} N/m, radial {:.5g} N/m, moment {:.4g} N m/m",
+                                 on_rim[0], on_rim[1], on_rim[2]));
   const Matrix3& K = here.stiffness;
-  line("stiffness",
-       fmt::format("axial {:.5g}, radial {:.5g}, coupled {:.5g} and {:.5g} N/m per m; rotation {:.4g} N m/rad per m",
-                   K(0, 0), K(1, 1), K(0, 1), K(1, 0), K(2, 2)));
+  line("stiffness", fmt::format("axial {:.5g}, radial {:.5g}, coupled {:.5g} and {:.5g} N/m per m; "
+                                "rotation {:.4g} N m/rad per m",
+                                K(0, 0), K(1, 1), K(0, 1), K(1, 0), K(2, 2)));
   const SidewallTable::Accuracy& accuracy = survey.accuracy;
-  line("table", fmt::format("{} x {} x {} nodes; force differs by {:.2g} N/m rms, {:.2g} N/m at most, of {:.4g} N/m rms "
-                            "({} points, chords to 0.97)",
-                            survey.grid.chord_nodes, survey.grid.direction_nodes, survey.grid.rotation_nodes,
-                            accuracy.force_rms, accuracy.force_max, accuracy.force_scale, accuracy.points));
+  line("table",
+       fmt::format("{} x {} x {} nodes; force differs by {:.2g} N/m rms, {:.2g} N/m at most, of "
+                   "{:.4g} N/m rms "
+                   "({} points, chords to 0.97)",
+                   survey.grid.chord_nodes, survey.grid.direction_nodes, survey.grid.rotation_nodes,
+                   accuracy.force_rms, accuracy.force_max, accuracy.force_scale, accuracy.points));
   const SidewallCurve& curve = survey.curves.front();
-  text += fmt::format("\n  {:>14} {:>14} {:>14} {:>14} {:>14} {:>14}\n", "deflection, mm", "F_r, N/m", "table", "F_a, N/m",
-                      "table", "width, mm");
-  for (std::size_t i = 0; i < curve.moved.size(); i += std::max<std::size_t>(1, curve.moved.size() / 10))
-    text += fmt::format("  {:14.2f} {:14.3f} {:14.3f} {:14.3f} {:14.3f} {:14.2f}\n", 1e3 * curve.moved[i],
-                        curve.solved[i].on_tread[1], curve.looked_up[i].on_tread[1], curve.solved[i].on_tread[0],
+  text += fmt::format("\n  {:>14} {:>14} {:>14} {:>14} {:>14} {:>14}\n", "deflection, mm",
+                      "F_r, N/m", "table", "F_a, N/m", "table", "width, mm");
+  for (std::size_t i = 0; i < curve.moved.size();
+       i += std::max<std::size_t>(1, curve.moved.size() / 10))
+    text += fmt::format("  {:14.2f} {:14.3f} {:14.3f} {:14.3f} {:14.3f} {:14.2f}\n",
+                        1e3 * curve.moved[i], curve.solved[i].on_tread[1],
+                        curve.looked_up[i].on_tread[1], curve.solved[i].on_tread[0],
                         curve.looked_up[i].on_tread[0], 2e3 * curve.half_width[i]);
   return text + "\n";
 }

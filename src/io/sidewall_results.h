@@ -4,8 +4,8 @@
 ///
 ///   deflection.csv, lateral.csv, rotation.csv
 ///                 forces and stiffness, solved and looked up, along each motion of the tread edge
-///   sidewall.h5   the same as /<curve>/<column>; /profiles/<n>/A, R with the attribute deflection; / has title, pressure
-///   tyre.yaml     the effective tyre file
+///   sidewall.h5   the same as /<curve>/<column>; /profiles/<n>/A, R with the attribute deflection;
+///   / has title, pressure tyre.yaml     the effective tyre file
 
 #include <string>
 

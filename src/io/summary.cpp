@@ -24,7 +24,8 @@ std::string with_error(double value, double error) {
 
 std::string clock_text(double seconds) {
   return seconds < 60.0 ? fmt::format("{:.1f} s", seconds)
-                        : fmt::format("{} min {:02} s", static_cast<long>(seconds) / 60, std::lround(seconds) % 60);
+                        : fmt::format("{} min {:02} s", static_cast<long>(seconds) / 60,
+                                      std::lround(seconds) % 60);
 }
 
 std::string title_of(const std::string& name) {
@@ -35,15 +36,20 @@ std::string title_of(const std::string& name) {
 }
 
 std::string steady_table(const Resistance& r) {
-  std::string text = fmt::format("Steady values: {}\nWindow: {:.4g} s to {:.4g} s, {:.4g} m of travel ({})\n", r.verdict,
-                                 r.window.begin, r.window.end, r.window.distance, r.window.how);
+  std::string text =
+      fmt::format("Steady values: {}\nWindow: {:.4g} s to {:.4g} s, {:.4g} m of travel ({})\n",
+                  r.verdict, r.window.begin, r.window.end, r.window.distance, r.window.how);
   if (!r.window.warning.empty()) text += "  note: " + r.window.warning + "\n";
   text += "\n";
   for (const SteadyValue& v : r.values)
-    text += fmt::format("  {:<24} {:>24} {:<5}  {}\n", title_of(v.name), with_error(v.mean, v.standard_error), v.unit,
-                        v.steady ? fmt::format("steady, {:.0f} independent samples", v.independent_samples) : v.verdict);
+    text += fmt::format(
+        "  {:<24} {:>24} {:<5}  {}\n", title_of(v.name), with_error(v.mean, v.standard_error),
+        v.unit,
+        v.steady ? fmt::format("steady, {:.0f} independent samples", v.independent_samples)
+                 : v.verdict);
   text +=
-      "\n  ± is one standard error of the mean over time (block averages). It does not hold the influence of grain size, "
+      "\n  ± is one standard error of the mean over time (block averages). It does not hold the "
+      "influence of grain size, "
       "box or\n"
       "  packing: compare runs for that.\n";
   return text;
@@ -51,13 +57,15 @@ std::string steady_table(const Resistance& r) {
 
 std::string audit_text(const Audit& audit) {
   std::string text = "Audit\n";
-  for (const EnergyTerm& term : audit.energies) text += fmt::format("  {:<38} {:>14.6g} J\n", term.name, term.value);
-  text += fmt::format("  {:<38} {:>14.3g} J  ({:.1e} of the largest)\n", "not accounted for", audit.energy_residual,
-                      audit.energy_scale > 0.0 ? std::abs(audit.energy_residual) / audit.energy_scale : 0.0);
-  text += fmt::format("  {:<38} {:>14.3g} N  of {:.4g} N\n", "forces on nodes + on grains, largest", audit.force_imbalance,
-                      audit.force_scale);
-  text += fmt::format("  {:<38} {:>14.3g} N m of {:.4g} N m\n", "their moments, largest", audit.moment_imbalance,
-                      audit.moment_scale);
+  for (const EnergyTerm& term : audit.energies)
+    text += fmt::format("  {:<38} {:>14.6g} J\n", term.name, term.value);
+  text += fmt::format(
+      "  {:<38} {:>14.3g} J  ({:.1e} of the largest)\n", "not accounted for", audit.energy_residual,
+      audit.energy_scale > 0.0 ? std::abs(audit.energy_residual) / audit.energy_scale : 0.0);
+  text += fmt::format("  {:<38} {:>14.3g} N  of {:.4g} N\n", "forces on nodes + on grains, largest",
+                      audit.force_imbalance, audit.force_scale);
+  text += fmt::format("  {:<38} {:>14.3g} N m of {:.4g} N m\n", "their moments, largest",
+                      audit.moment_imbalance, audit.moment_scale);
   return text;
 }
 
@@ -65,8 +73,8 @@ std::string cost_text(const Cost& cost) {
   return fmt::format(
       "Cost\n  {} for {:.4g} s simulated ({:.3g} simulated seconds per wall second), {} steps\n"
       "  {} rank(s), {} grains, {:.2f} million grain steps per second, {:.0f} MB\n",
-      clock_text(cost.wall_time), cost.simulated_time, cost.simulated_per_wall_second(), cost.steps, cost.ranks, cost.grains,
-      1e-6 * cost.particle_steps_per_second(), 1e-6 * cost.memory);
+      clock_text(cost.wall_time), cost.simulated_time, cost.simulated_per_wall_second(), cost.steps,
+      cost.ranks, cost.grains, 1e-6 * cost.particle_steps_per_second(), 1e-6 * cost.memory);
 }
 
 nlohmann::ordered_json json_of(const SteadyValue& v) {
@@ -106,15 +114,20 @@ Summary summarise(const std::string& folder, const ResistanceOptions& options) {
 
 std::string summary_text(const Summary& s) {
   std::string text = fmt::format("{}\n{}\n\n", s.info.title, std::string(s.info.title.size(), '='));
-  if (!s.closed) text += "THE RUN DID NOT COME TO ITS END: what follows is what there was when it stopped.\n\n";
-  text += s.trouble.empty() ? steady_table(s.resistance) : fmt::format("No steady values: {}\n", s.trouble);
+  if (!s.closed)
+    text += "THE RUN DID NOT COME TO ITS END: what follows is what there was when it stopped.\n\n";
+  text += s.trouble.empty() ? steady_table(s.resistance)
+                            : fmt::format("No steady values: {}\n", s.trouble);
   if (s.closed) text += "\n" + audit_text(s.closing.audit) + "\n" + cost_text(s.closing.cost);
   for (const std::string& warning : s.closing.warnings) text += "\nWARNING: " + warning + "\n";
-  text += fmt::format("\nFurrow {}, script {}, started {}\n", s.info.version, s.info.script, s.info.started);
+  text += fmt::format("\nFurrow {}, script {}, started {}\n", s.info.version, s.info.script,
+                      s.info.started);
   text +=
-      "Signs: force_z carries the wheel; resistance coefficient = -force_x/force_z; drawbar pull > 0 pulls the vehicle "
+      "Signs: force_z carries the wheel; resistance coefficient = -force_x/force_z; drawbar pull > "
+      "0 pulls the vehicle "
       "forward;\n"
-      "slip > 0 when driving, (v_rim - v)/max(|v_rim|, |v|). Effective input: attribute effective_input of /run in "
+      "slip > 0 when driving, (v_rim - v)/max(|v_rim|, |v|). Effective input: attribute "
+      "effective_input of /run in "
       "history.h5.\n";
   return text;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// summary.txt for a person and summary.json for a program: what a run found, how sure it is, what it cost.
+/// summary.txt for a person and summary.json for a program: what a run found, how sure it is, what
+/// it cost.
 
 #include <string>
 
@@ -13,12 +14,14 @@ namespace furrow {
 struct Summary {
   RunInfo info;
   Resistance resistance;
-  std::string trouble;  ///< why there is no resistance ("the history ends before the cruise"); empty if there is
+  /// why there is no resistance ("the history ends before the cruise"); empty if there is
+  std::string trouble;
   RunClosing closing;
   bool closed = false;
 };
 
-/// Reads history.h5 of a results folder and evaluates it. A history that is too short is no error: the summary says so.
+/// Reads history.h5 of a results folder and evaluates it. A history that is too short is no error:
+/// the summary says so.
 /// @throws Error when the file is missing or cannot be read
 Summary summarise(const std::string& folder, const ResistanceOptions& options = {});
 

@@ -35,12 +35,14 @@ void soften(MaterialFile& file, double factor, const std::string& where) {
       entry.values[0] = fmt::format("{:.17g}", factor * std::stod(entry.values[0]));
       return;
     }
-  throw InputError(where, fmt::format("is {}, and {} has no Young's modulus E", factor, file.path), "1 for a law without E");
+  throw InputError(where, fmt::format("is {}, and {} has no Young's modulus E", factor, file.path),
+                   "1 for a law without E");
 }
 
 std::shared_ptr<const Material> load(const Options& options, const std::filesystem::path& path) {
   MaterialFile file = read_material_file(path.string());
-  if (options.number("soften") != 1.0) soften(file, options.number("soften"), options.where("soften"));
+  if (options.number("soften") != 1.0)
+    soften(file, options.number("soften"), options.where("soften"));
   return file.make();
 }
 
@@ -54,10 +56,12 @@ std::vector<GroundLayer> read_layers(const Options& options, const std::filesyst
     const bool last = n + 1 == parts.size();
     double thickness = options.number("depth");
     if (words.size() == 2) {
-      const auto [end, failed] = std::from_chars(words[1].data(), words[1].data() + words[1].size(), thickness);
+      const auto [end, failed] =
+          std::from_chars(words[1].data(), words[1].data() + words[1].size(), thickness);
       if (failed != std::errc() || end != words[1].data() + words[1].size() || !(thickness > 0.0))
-        throw InputError(where, fmt::format("has the layer '{}', whose thickness is no number > 0", parts[n]),
-                         "file:thickness in metres");
+        throw InputError(
+            where, fmt::format("has the layer '{}', whose thickness is no number > 0", parts[n]),
+            "file:thickness in metres");
     }
     if (words.size() > 2 || words[0].empty() || (words.size() == 1 && !last))
       throw InputError(where, fmt::format("has the layer '{}'", parts[n]),
@@ -68,7 +72,8 @@ std::vector<GroundLayer> read_layers(const Options& options, const std::filesyst
   return layers;
 }
 
-AxisLayout layout(const Options& options, double lower, double upper, double middle, const std::string& fine_key) {
+AxisLayout layout(const Options& options, double lower, double upper, double middle,
+                  const std::string& fine_key) {
   AxisLayout axis{lower, upper, options.number("cell"), lower, upper, options.number("growth")};
   if (!options.given(fine_key)) return axis;
   axis.fine_lower = std::max(lower, middle - 0.5 * options.number(fine_key));
@@ -78,11 +83,14 @@ AxisLayout layout(const Options& options, double lower, double upper, double mid
 
 /// The surface lies between two cells, and so does the top.
 AxisLayout vertical_layout(const Options& options) {
-  const double surface = options.number("surface"), depth = options.number("depth"), cell = options.number("cell");
-  const double fine = options.given("fine_depth") ? std::min(depth, options.number("fine_depth")) : depth;
+  const double surface = options.number("surface"), depth = options.number("depth"),
+               cell = options.number("cell");
+  const double fine =
+      options.given("fine_depth") ? std::min(depth, options.number("fine_depth")) : depth;
   const double own_cell = fine / std::max(1.0, std::round(fine / cell));
-  const double headroom = options.given("headroom") ? options.number("headroom")
-                                                    : std::max(least_headroom_cells * cell, headroom_of_depth * depth);
+  const double headroom = options.given("headroom")
+                              ? options.number("headroom")
+                              : std::max(least_headroom_cells * cell, headroom_of_depth * depth);
   const double top = surface + own_cell * std::ceil(headroom / own_cell - 1e-9);
   return {surface - depth, top, own_cell, surface - fine, top, options.number("growth")};
 }
@@ -91,29 +99,54 @@ AxisLayout vertical_layout(const Options& options) {
 
 Schema ground_schema(const std::string& subject) {
   Schema schema(subject);
-  schema.text("material", "material file, or layers from the top down: file:thickness,file:thickness,file");
+  schema.text("material",
+              "material file, or layers from the top down: file:thickness,file:thickness,file");
   schema.number("length", "m", Range::positive(), "along x");
   schema.number("width", "m", Range::positive(), "along y; of a half model, both halves");
   schema.number("depth", "m", Range::positive(), "of the ground");
   schema.number("cell", "m", Range::positive(), "edge of the cells, in the fine part");
-  schema.numbers("centre", 2, "m", Range::any(), "x y of the middle").by_default(std::vector<double>{0.0, 0.0});
+  schema.numbers("centre", 2, "m", Range::any(), "x y of the middle")
+      .by_default(std::vector<double>{0.0, 0.0});
   schema.number("surface", "m", Range::any(), "z of the undisturbed ground").by_default(0.0);
-  schema.number("headroom", "m", Range::positive(), "of the grid above the ground, for what is pushed up").optional();
-  schema.number("fine_length", "m", Range::positive(), "along x around the middle with cells of size `cell`").optional();
-  schema.number("fine_width", "m", Range::positive(), "along y around the middle with cells of size `cell`").optional();
-  schema.number("fine_depth", "m", Range::positive(), "below the surface with cells of size `cell`").optional();
-  schema.number("growth", "", Range::closed(1.0, 1.5), "of neighbouring cells outside of the fine part").by_default(1.15);
+  schema
+      .number("headroom", "m", Range::positive(),
+              "of the grid above the ground, for what is pushed up")
+      .optional();
+  schema
+      .number("fine_length", "m", Range::positive(),
+              "along x around the middle with cells of size `cell`")
+      .optional();
+  schema
+      .number("fine_width", "m", Range::positive(),
+              "along y around the middle with cells of size `cell`")
+      .optional();
+  schema.number("fine_depth", "m", Range::positive(), "below the surface with cells of size `cell`")
+      .optional();
+  schema
+      .number("growth", "", Range::closed(1.0, 1.5),
+              "of neighbouring cells outside of the fine part")
+      .by_default(1.15);
   schema.integer("particles", Range::closed(1, 8), "in a cell, in each direction").by_default("2");
   schema.flag("symmetry", "model the half y > centre only, mirrored at its plane");
-  schema.word("ends", face_kind_names(), "what holds the ground at both ends across x").by_default("smooth");
-  schema.word("sides", face_kind_names(), "what holds it at the sides across y").by_default("smooth");
+  schema.word("ends", face_kind_names(), "what holds the ground at both ends across x")
+      .by_default("smooth");
+  schema.word("sides", face_kind_names(), "what holds it at the sides across y")
+      .by_default("smooth");
   schema.word("base", face_kind_names(), "what it lies on").by_default("rough");
-  schema.number("gravity", "m/s^2", Range::non_negative(), "downwards").by_default(standard_gravity);
+  schema.number("gravity", "m/s^2", Range::non_negative(), "downwards")
+      .by_default(standard_gravity);
   schema.flag("weightless_start", "start without the stress of the ground's own weight");
   schema.flag("sheet", "carry triangles on the upper face, for grains that lie on the ground");
-  schema.number("cfl", "", Range::closed(0.01, 1.0), "step over shortest cell and wave speed").by_default(0.4);
-  schema.integer("cycle", Range::closed(1, 64), "most steps between two mappings of particles to the grid").by_default("16");
-  schema.number("soften", "", Range{0.0, 1.0, true, false}, "factor on Young's modulus, for longer steps").by_default(1.0);
+  schema.number("cfl", "", Range::closed(0.01, 1.0), "step over shortest cell and wave speed")
+      .by_default(0.4);
+  schema
+      .integer("cycle", Range::closed(1, 64),
+               "most steps between two mappings of particles to the grid")
+      .by_default("16");
+  schema
+      .number("soften", "", Range{0.0, 1.0, true, false},
+              "factor on Young's modulus, for longer steps")
+      .by_default(1.0);
   return schema;
 }
 
@@ -122,7 +155,8 @@ GroundParameters read_ground(const Options& options, const std::string& folder) 
   ground.layers = read_layers(options, folder);
   ground.surface = options.number("surface");
   const double x = options.numbers("centre")[0], y = options.numbers("centre")[1];
-  const double half_length = 0.5 * options.number("length"), half_width = 0.5 * options.number("width");
+  const double half_length = 0.5 * options.number("length"),
+               half_width = 0.5 * options.number("width");
   const bool half_model = options.flag("symmetry");
   ground.x = layout(options, x - half_length, x + half_length, x, "fine_length");
   ground.y = layout(options, half_model ? y : y - half_width, y + half_width, y, "fine_width");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Continuum ground from the keys of a script line: lengths, cells, faces, and the files of its materials.
+/// Continuum ground from the keys of a script line: lengths, cells, faces, and the files of its
+/// materials.
 
 #include "core/options.h"
 #include "mpm/terrain_parameters.h"

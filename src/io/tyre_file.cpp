@@ -20,8 +20,9 @@ Schema tyre_schema() {
   schema.number("bead_radius", "m", Range::positive(), "radius at which the sidewalls begin");
   schema.number("bead_spacing", "m", Range::positive(), "distance of the two beads along the axle");
   schema
-      .numbers("link", 2, "m", Range::any(),
-               "rigid arm from the tread's edge to the sidewall's end: axial (outwards) and radial part")
+      .numbers(
+          "link", 2, "m", Range::any(),
+          "rigid arm from the tread's edge to the sidewall's end: axial (outwards) and radial part")
       .by_default(std::vector<double>{0.0, 0.0});
   return schema;
 }
@@ -30,31 +31,39 @@ Schema tread_schema() {
   Schema schema("tread");
   schema.number("radius", "m", Range::positive(), "radius of the belts, without pressure");
   schema.number("half_width", "m", Range::positive(), "half the width of the tread");
-  schema.number("crown", "m", Range::non_negative(), "the radius at the edge is smaller by this").by_default(0.0);
-  schema.number("thickness", "m", Range::positive(), "of the equivalent shell, EI = E h^3/12 per unit width");
+  schema.number("crown", "m", Range::non_negative(), "the radius at the edge is smaller by this")
+      .by_default(0.0);
+  schema.number("thickness", "m", Range::positive(),
+                "of the equivalent shell, EI = E h^3/12 per unit width");
   schema.number("E1", "Pa", Range::positive(), "modulus along the circumference");
   schema.number("E2", "Pa", Range::positive(), "modulus across");
-  schema.number("nu12", "", Range::open(-1.0, 1.0), "Poisson's ratio: strain across for stress along");
+  schema.number("nu12", "", Range::open(-1.0, 1.0),
+                "Poisson's ratio: strain across for stress along");
   schema.number("G12", "Pa", Range::positive(), "shear modulus");
-  schema.number("areal_mass", "kg/m2", Range::positive(), "mass of the real tread per area, rubber and belts");
+  schema.number("areal_mass", "kg/m2", Range::positive(),
+                "mass of the real tread per area, rubber and belts");
   return schema;
 }
 
 Schema sidewall_schema() {
   Schema schema("sidewall");
   schema.number("length", "m", Range::positive(), "of the whole chain of equal segments");
-  schema.numbers("bending", 0, "N m", Range::non_negative(),
-                 "stiffness EI per width of each hinge, from bead to tread: one fewer than segments");
+  schema.numbers(
+      "bending", 0, "N m", Range::non_negative(),
+      "stiffness EI per width of each hinge, from bead to tread: one fewer than segments");
   schema.numbers("curvature", 0, "1/m", Range::any(), "stress-free curvature at each hinge");
   schema.number("rim_angle", "degree", Range::closed(-180.0, 180.0),
                 "of the first segment, from outwards to upwards, where the rim's spring is free");
   schema.number("tread_angle", "degree", Range::closed(-180.0, 180.0),
                 "of the last segment, where the tread's spring is free");
-  schema.number("rim_stiffness", "N m/rad/m", Range::non_negative(), "of the spring between rim and sidewall; 0: a pin");
-  schema.number("tread_stiffness", "N m/rad/m", Range::non_negative(), "of the spring between sidewall and tread; 0: a pin");
+  schema.number("rim_stiffness", "N m/rad/m", Range::non_negative(),
+                "of the spring between rim and sidewall; 0: a pin");
+  schema.number("tread_stiffness", "N m/rad/m", Range::non_negative(),
+                "of the spring between sidewall and tread; 0: a pin");
   schema
       .word("strip", {"sector", "even"},
-            "what the pressure acts on: a strip between two meridians, narrower at the rim, or of the tread's width")
+            "what the pressure acts on: a strip between two meridians, narrower at the rim, or of "
+            "the tread's width")
       .by_default("sector");
   return schema;
 }
@@ -78,8 +87,10 @@ TyreParameters read_tyre_file(const std::string& path) {
     return read_map(schema, file.map(schema.subject(), meaning));
   };
   const Options tyre = read(tyre_schema(), "the section 'tyre' with pressure and beads");
-  const Options tread = read(tread_schema(), "the section 'tread' with dimensions, stiffnesses and mass");
-  const Options sidewall = read(sidewall_schema(), "the section 'sidewall' with length, hinges and end springs");
+  const Options tread =
+      read(tread_schema(), "the section 'tread' with dimensions, stiffnesses and mass");
+  const Options sidewall =
+      read(sidewall_schema(), "the section 'sidewall' with length, hinges and end springs");
 
   TyreParameters result;
   const YamlTree* title = file.find("title");
@@ -90,9 +101,10 @@ TyreParameters read_tyre_file(const std::string& path) {
   result.bead_radius = tyre.number("bead_radius");
   result.bead_spacing = tyre.number("bead_spacing");
   result.link = {tyre.numbers("link")[0], tyre.numbers("link")[1]};
-  result.tread = {tread.number("radius"),    tread.number("half_width"), tread.number("crown"),
-                  tread.number("thickness"), tread.number("E1"),         tread.number("E2"),
-                  tread.number("nu12"),      tread.number("G12"),        tread.number("areal_mass")};
+  result.tread = {
+      tread.number("radius"),    tread.number("half_width"), tread.number("crown"),
+      tread.number("thickness"), tread.number("E1"),         tread.number("E2"),
+      tread.number("nu12"),      tread.number("G12"),        tread.number("areal_mass")};
   result.sidewall = {sidewall.number("length"),
                      sidewall.numbers("bending"),
                      sidewall.numbers("curvature"),
@@ -112,7 +124,9 @@ TyreParameters read_tyre_file(const std::string& path) {
 std::string tyre_file_text(const TyreParameters& tyre) {
   const TreadParameters& tread = tyre.tread;
   const SidewallParameters& sidewall = tyre.sidewall;
-  const auto list = [](const std::vector<double>& values) { return fmt::format("[{}]", fmt::join(values, ", ")); };
+  const auto list = [](const std::vector<double>& values) {
+    return fmt::format("[{}]", fmt::join(values, ", "));
+  };
   const std::map<std::string, std::map<std::string, std::string>> values = {
       {"tyre",
        {{"pressure", fmt::to_string(tyre.pressure)},

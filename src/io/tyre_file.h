@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Tyre files (inputs/tyres/*.yaml): sections tyre, tread and sidewall with the keys of tyre_schemas().
+/// Tyre files (inputs/tyres/*.yaml): sections tyre, tread and sidewall with the keys of
+/// tyre_schemas().
 ///
 ///   title: P235/75 R15                                  # optional
 ///   tyre:     {pressure: 241e3, bead_radius: 0.208, bead_spacing: 0.165}

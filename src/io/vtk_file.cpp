@@ -30,7 +30,8 @@ namespace fs = std::filesystem;
 
 /// A copy of the columns of a matrix as an array of n tuples.
 template <class Derived>
-vtkSmartPointer<vtkDoubleArray> array_of(const char* name, const Eigen::DenseBase<Derived>& columns) {
+vtkSmartPointer<vtkDoubleArray> array_of(const char* name,
+                                         const Eigen::DenseBase<Derived>& columns) {
   const auto components = Derived::RowsAtCompileTime == 3 ? Eigen::Index(3) : Eigen::Index(1);
   const Eigen::Index tuples = columns.size() / components;
   vtkSmartPointer<vtkDoubleArray> array = vtkSmartPointer<vtkDoubleArray>::New();
@@ -64,7 +65,8 @@ void write_poly_data(const std::string& path, vtkPolyData* data) {
     writer->EncodeAppendedDataOff();
     writer->SetCompressorTypeToZLib();
     std::error_code missing;
-    if (!writer->Write() || !fs::exists(part, missing)) throw Error(fmt::format("{}: cannot be written", path));
+    if (!writer->Write() || !fs::exists(part, missing))
+      throw Error(fmt::format("{}: cannot be written", path));
   });
 }
 
@@ -72,7 +74,8 @@ void write_poly_data(const std::string& path, vtkPolyData* data) {
 
 void write_vtp(const std::string& path, const Surface& surface) {
   vtkNew<vtkCellArray> triangles;
-  triangles->AllocateExact(vtkIdType(surface.triangle_count()), 3 * vtkIdType(surface.triangle_count()));
+  triangles->AllocateExact(vtkIdType(surface.triangle_count()),
+                           3 * vtkIdType(surface.triangle_count()));
   for (const Vector3i& triangle : surface.triangles) {
     const vtkIdType nodes[3] = {triangle[0], triangle[1], triangle[2]};
     triangles->InsertNextCell(3, nodes);
@@ -98,7 +101,8 @@ void write_vtp(const std::string& path, const Grains& grains, const Grains* refe
   data->GetPointData()->AddArray(id);
   data->GetPointData()->AddArray(array_of("radius", grains.radius));
   data->GetPointData()->AddArray(array_of("velocity", grains.v));
-  if (reference) data->GetPointData()->AddArray(array_of("displacement", grains.displacement_from(*reference)));
+  if (reference)
+    data->GetPointData()->AddArray(array_of("displacement", grains.displacement_from(*reference)));
   write_poly_data(path, data);
 }
 
@@ -108,18 +112,22 @@ void write_vtp(const std::string& path, const GroundSnapshot& ground) {
   data->SetVerts(vertices_of(ground.size()));
   data->GetPointData()->AddArray(array_of("displacement", Matrix3X(ground.x - ground.home)));
   data->GetPointData()->AddArray(array_of("velocity", ground.v));
-  for (const auto& [name, values] : {std::pair{"id", &ground.id}, std::pair{"layer", &ground.layer}, std::pair{"volume", &ground.volume},
-                                     std::pair{"density", &ground.density}, std::pair{"pressure", &ground.pressure},
-                                     std::pair{"mises", &ground.mises}, std::pair{"vertical_stress", &ground.vertical_stress},
-                                     std::pair{"compaction", &ground.compaction}})
-    data->GetPointData()->AddArray(array_of(name, Eigen::Map<const VectorX>(values->data(), Eigen::Index(values->size()))));
+  for (const auto& [name, values] :
+       {std::pair{"id", &ground.id}, std::pair{"layer", &ground.layer},
+        std::pair{"volume", &ground.volume}, std::pair{"density", &ground.density},
+        std::pair{"pressure", &ground.pressure}, std::pair{"mises", &ground.mises},
+        std::pair{"vertical_stress", &ground.vertical_stress},
+        std::pair{"compaction", &ground.compaction}})
+    data->GetPointData()->AddArray(
+        array_of(name, Eigen::Map<const VectorX>(values->data(), Eigen::Index(values->size()))));
   write_poly_data(path, data);
 }
 
 VtkSeries VtkSeries::create(const std::string& folder, const std::string& name) {
   std::error_code failed;
   fs::create_directories(folder, failed);
-  if (failed) throw Error(fmt::format("{}: the folder cannot be made ({})", folder, failed.message()));
+  if (failed)
+    throw Error(fmt::format("{}: the folder cannot be made ({})", folder, failed.message()));
   VtkSeries series(folder, name);
   series.write_pvd();
   return series;
@@ -128,8 +136,10 @@ VtkSeries VtkSeries::create(const std::string& folder, const std::string& name) 
 VtkSeries VtkSeries::resume(const std::string& folder, const std::string& name, double time) {
   VtkSeries series(folder, name);
   const std::string path = series.pvd();
-  if (!fs::exists(path)) throw Error(fmt::format("{}: is missing, the series cannot be continued", path));
-  const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(path.c_str()));
+  if (!fs::exists(path))
+    throw Error(fmt::format("{}: is missing, the series cannot be continued", path));
+  const auto root =
+      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(path.c_str()));
   vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
   if (!collection) throw Error(fmt::format("{}: is not a collection of ParaView", path));
   for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
@@ -154,8 +164,8 @@ std::vector<double> VtkSeries::times() const {
 
 std::string VtkSeries::next_file(double time) const {
   if (!frames_.empty() && time <= frames_.back().time)
-    throw StateError(
-        fmt::format("{}: a frame of t = {:.9g} s follows one of t = {:.9g} s", pvd(), time, frames_.back().time));
+    throw StateError(fmt::format("{}: a frame of t = {:.9g} s follows one of t = {:.9g} s", pvd(),
+                                 time, frames_.back().time));
   return fmt::format("{}_{:06d}.vtp", name_, frames_.size());
 }
 
@@ -183,9 +193,11 @@ void VtkSeries::add(double time, const GroundSnapshot& ground) {
 }
 
 void VtkSeries::write_pvd() const {
-  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
   for (const Frame& frame : frames_)
-    text += fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", frame.time, frame.file);
+    text += fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", frame.time,
+                        frame.file);
   text += "  </Collection>\n</VTKFile>\n";
   write_text_file(pvd(), text);
 }

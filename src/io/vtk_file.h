@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Surfaces, grains and continuum ground for ParaView: .vtp frames and the .pvd collection that orders them in time.
+/// Surfaces, grains and continuum ground for ParaView: .vtp frames and the .pvd collection that
+/// orders them in time.
 
 #include <string>
 #include <vector>
@@ -11,20 +12,26 @@
 
 namespace furrow {
 
-/// Triangles with point data velocity [m/s] and force [N]. Written beside and renamed: never half a file. @throws Error
+/// Triangles with point data velocity [m/s] and force [N]. Written beside and renamed: never half a
+/// file. @throws Error
 void write_vtp(const std::string& path, const Surface& surface);
-/// One vertex a grain with point data id, radius [m], velocity [m/s] and, with a reference, displacement [m]. @throws Error
+/// One vertex a grain with point data id, radius [m], velocity [m/s] and, with a reference,
+/// displacement [m]. @throws Error
 void write_vtp(const std::string& path, const Grains& grains, const Grains* reference = nullptr);
-/// One vertex a particle with the fields of GroundSnapshot and its displacement [m] from its home. @throws Error
+/// One vertex a particle with the fields of GroundSnapshot and its displacement [m] from its home.
+/// @throws Error
 void write_vtp(const std::string& path, const GroundSnapshot& ground);
 
-/// A series of frames: <folder>/<name>_000000.vtp, ... and <folder>/<name>.pvd, which lists only complete frames and is itself
-/// replaced in one step, so that a run that is killed leaves a valid series.
+/// A series of frames: <folder>/<name>_000000.vtp, ... and <folder>/<name>.pvd, which lists only
+/// complete frames and is itself replaced in one step, so that a run that is killed leaves a valid
+/// series.
 class VtkSeries {
  public:
-  /// Starts a series; the folder is made if need be, an older series of that name is replaced. @throws Error
+  /// Starts a series; the folder is made if need be, an older series of that name is replaced.
+  /// @throws Error
   static VtkSeries create(const std::string& folder, const std::string& name);
-  /// Continues after a restart: frames later than time are dropped from the list and written anew. @throws Error
+  /// Continues after a restart: frames later than time are dropped from the list and written anew.
+  /// @throws Error
   static VtkSeries resume(const std::string& folder, const std::string& name, double time);
 
   /// @throws Error when time is not later than the last frame's, or a file cannot be written
@@ -42,7 +49,8 @@ class VtkSeries {
     std::string file;  // relative to the folder
   };
 
-  VtkSeries(std::string folder, std::string name) : folder_(std::move(folder)), name_(std::move(name)) {}
+  VtkSeries(std::string folder, std::string name)
+      : folder_(std::move(folder)), name_(std::move(name)) {}
   std::string next_file(double time) const;
   void list(double time, const std::string& file);
   void write_pvd() const;

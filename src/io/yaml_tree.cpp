@@ -31,11 +31,12 @@ YamlTree tree_of(const YAML::Node& node, const std::string& path) {
     tree.kind = YamlTree::Kind::map;
     for (const auto& pair : node) {
       const std::string origin = fmt::format("{}, line {}", path, pair.first.Mark().line + 1);
-      if (!pair.first.IsScalar()) throw InputError(origin, "has a key that is not a word", "key: value");
+      if (!pair.first.IsScalar())
+        throw InputError(origin, "has a key that is not a word", "key: value");
       const std::string key = pair.first.Scalar();
       if (tree.find(key))
-        throw InputError(fmt::format("{}: keyword '{}'", origin, key), "is given twice", "each keyword once",
-                         "remove one of them");
+        throw InputError(fmt::format("{}: keyword '{}'", origin, key), "is given twice",
+                         "each keyword once", "remove one of them");
       if (pair.second.IsNull())
         throw InputError(fmt::format("{}: keyword '{}'", origin, key), "has no value", "key: value",
                          "write the value or remove the key");
@@ -60,7 +61,8 @@ const YamlTree& YamlTree::map(const std::string& key, const std::string& meaning
   const YamlTree* value = find(key);
   if (!value) throw InputError(origin, fmt::format("has no section '{}'", key), meaning);
   if (value->kind != Kind::map)
-    throw InputError(fmt::format("{}: '{}'", value->origin, key), "is not a section of keys", meaning);
+    throw InputError(fmt::format("{}: '{}'", value->origin, key), "is not a section of keys",
+                     meaning);
   return *value;
 }
 
@@ -68,8 +70,8 @@ const YamlTree& YamlTree::list(const std::string& key, const std::string& meanin
   const YamlTree* value = find(key);
   if (!value) throw InputError(origin, fmt::format("has no list '{}'", key), meaning);
   if (value->kind != Kind::list || value->items.empty())
-    throw InputError(fmt::format("{}: '{}'", value->origin, key), value->kind == Kind::list ? "is empty" : "is not a list",
-                     meaning);
+    throw InputError(fmt::format("{}: '{}'", value->origin, key),
+                     value->kind == Kind::list ? "is empty" : "is not a list", meaning);
   return *value;
 }
 
@@ -78,14 +80,17 @@ YamlTree read_yaml(const std::string& path) {
     throw InputError(path, "does not exist or is not a file", "a YAML file", "check the path");
   try {
     const YAML::Node node = YAML::LoadFile(path);
-    if (!node || node.IsNull()) throw InputError(path, "is empty", "a YAML file of keys and values");
+    if (!node || node.IsNull())
+      throw InputError(path, "is empty", "a YAML file of keys and values");
     YamlTree tree = tree_of(node, path);
-    if (tree.kind != YamlTree::Kind::map) throw InputError(tree.origin, "is not a map", "a YAML file of keys and values");
+    if (tree.kind != YamlTree::Kind::map)
+      throw InputError(tree.origin, "is not a map", "a YAML file of keys and values");
     tree.origin = path;
     return tree;
   } catch (const YAML::Exception& error) {
-    throw InputError(fmt::format("{}, line {}", path, error.mark.line + 1), fmt::format("is not YAML: {}", error.msg),
-                     "a YAML file of keys and values", "check indentation, colons and brackets");
+    throw InputError(fmt::format("{}, line {}", path, error.mark.line + 1),
+                     fmt::format("is not YAML: {}", error.msg), "a YAML file of keys and values",
+                     "check indentation, colons and brackets");
   }
 }
 
@@ -97,24 +102,28 @@ std::vector<Entry> entries_of(const YamlTree& map, const std::vector<std::string
     if (value.kind == YamlTree::Kind::text) entry.values.push_back(value.text);
     for (const YamlTree& item : value.items) {
       if (item.kind != YamlTree::Kind::text)
-        throw InputError(fmt::format("{}: keyword '{}'", item.origin, key), "is not a list of plain values", "[1, 2, 3]");
+        throw InputError(fmt::format("{}: keyword '{}'", item.origin, key),
+                         "is not a list of plain values", "[1, 2, 3]");
       entry.values.push_back(item.text);
     }
     if (value.kind == YamlTree::Kind::map)
-      throw InputError(fmt::format("{}: keyword '{}'", value.origin, key), "is a section", "a value or a list of values");
+      throw InputError(fmt::format("{}: keyword '{}'", value.origin, key), "is a section",
+                       "a value or a list of values");
     entries.push_back(std::move(entry));
   }
   return entries;
 }
 
-Options read_map(const Schema& schema, const YamlTree& map, const std::vector<std::string>& without) {
+Options read_map(const Schema& schema, const YamlTree& map,
+                 const std::vector<std::string>& without) {
   const std::vector<Entry> entries = entries_of(map, without);
   try {
     return schema.read(entries);
   } catch (const InputError& error) {
     const std::string text = error.what();
-    const bool has_place =
-        std::any_of(entries.begin(), entries.end(), [&](const Entry& e) { return text.rfind(e.origin + ":", 0) == 0; });
+    const bool has_place = std::any_of(entries.begin(), entries.end(), [&](const Entry& e) {
+      return text.rfind(e.origin + ":", 0) == 0;
+    });
     if (has_place) throw;
     throw InputError(map.origin + ": " + text);
   }

@@ -20,19 +20,24 @@ struct YamlTree {
   std::vector<YamlTree> items;
   std::vector<std::pair<std::string, YamlTree>> keys;
 
-  const YamlTree* find(const std::string& key) const;  ///< null when it is not there, or this is no map
-  /// The same, but it must be there and be a map (a list). @throws InputError saying what `meaning` is
+  /// null when it is not there, or this is no map
+  const YamlTree* find(const std::string& key) const;
+  /// The same, but it must be there and be a map (a list). @throws InputError saying what `meaning`
+  /// is
   const YamlTree& map(const std::string& key, const std::string& meaning) const;
   const YamlTree& list(const std::string& key, const std::string& meaning) const;
 };
 
-/// @throws InputError naming file and line: missing, empty, not YAML, no map at its top, a key given twice, an empty value
+/// @throws InputError naming file and line: missing, empty, not YAML, no map at its top, a key
+/// given twice, an empty value
 YamlTree read_yaml(const std::string& path);
 
-/// The entries of a map whose values are texts and lists of texts. @throws InputError for a deeper value
+/// The entries of a map whose values are texts and lists of texts. @throws InputError for a deeper
+/// value
 std::vector<Entry> entries_of(const YamlTree& map, const std::vector<std::string>& without = {});
 /// A map read by a schema; a missing key is reported with the map's line. @throws InputError
-Options read_map(const Schema& schema, const YamlTree& map, const std::vector<std::string>& without = {});
+Options read_map(const Schema& schema, const YamlTree& map,
+                 const std::vector<std::string>& without = {});
 /// @throws InputError when a map has a key that is not in `known`
 void refuse_other_keys(const YamlTree& map, const std::vector<std::string>& known);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The loop over a block: loads a few points, lets a law's kernel update them, turns the stress, stores, counts.
+/// The loop over a block: loads a few points, lets a law's kernel update them, turns the stress,
+/// stores, counts.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +12,8 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-/// What a kernel sees of lane_count points: the common state at the start of the step, to be replaced by that at its end.
+/// What a kernel sees of lane_count points: the common state at the start of the step, to be
+/// replaced by that at its end.
 struct Points {
   Symmetric stress;    ///< in the frame of the start of the step [Pa]
   Lanes stored = 0.0;  ///< energies of this step per current volume [J/m^3]
@@ -26,12 +28,14 @@ struct Points {
 };
 
 struct Step {
-  Lanes volume;               ///< det Delta F
-  Mask admissible;            ///< Delta F finite with positive determinant
-  bool total_energy = false;  ///< points.stored is the energy per reference volume, not the work of the step
+  Lanes volume;     ///< det Delta F
+  Mask admissible;  ///< Delta F finite with positive determinant
+  /// points.stored is the energy per reference volume, not the work of the step
+  bool total_energy = false;
 };
 
-/// Laws of rate form: the strain is the logarithm of the step's stretch, the stress is turned afterwards.
+/// Laws of rate form: the strain is the logarithm of the step's stretch, the stress is turned
+/// afterwards.
 template <class Kernel>
 auto step_points(const Kernel& kernel, const Tensor& h, Points& points)
     -> decltype(kernel.step(Symmetric{}, points), Step{}) {
@@ -59,18 +63,22 @@ struct Group {
   Group(const PointBlock& points, std::size_t start)
       : block(points),
         first(start),
-        lanes(points.size - start < lane_count ? static_cast<int>(points.size - start) : lane_count) {}
+        lanes(points.size - start < lane_count ? static_cast<int>(points.size - start)
+                                               : lane_count) {}
 
   /// Missing points are copies of the group's first.
   FURROW_INLINE Lanes load(const double* array) const {
     if (lanes == lane_count) return Lanes(array + first, stdx::element_aligned);
-    return Lanes([&](auto lane) { return array[first + static_cast<std::size_t>(int(lane) < lanes ? int(lane) : 0)]; });
+    return Lanes([&](auto lane) {
+      return array[first + static_cast<std::size_t>(int(lane) < lanes ? int(lane) : 0)];
+    });
   }
   FURROW_INLINE void store(double* array, const Lanes& value) const {
     if (lanes == lane_count) {
       value.copy_to(array + first, stdx::element_aligned);
     } else {
-      for (int lane = 0; lane < lanes; ++lane) array[first + static_cast<std::size_t>(lane)] = value[lane];
+      for (int lane = 0; lane < lanes; ++lane)
+        array[first + static_cast<std::size_t>(lane)] = value[lane];
     }
   }
   FURROW_INLINE std::size_t count(const Mask& mask) const {
@@ -88,20 +96,25 @@ struct Group {
   FURROW_INLINE Points load_points(int own_fields) const {
     Points points;
     double* const* state = block.state;
-    points.stress = {load(state[0]), load(state[1]), load(state[2]), load(state[3]), load(state[4]), load(state[5])};
-    for (int k = 0; k < own_fields; ++k) points.own[k] = load(state[field::own + static_cast<std::size_t>(k)]);
+    points.stress = {load(state[0]), load(state[1]), load(state[2]),
+                     load(state[3]), load(state[4]), load(state[5])};
+    for (int k = 0; k < own_fields; ++k)
+      points.own[k] = load(state[field::own + static_cast<std::size_t>(k)]);
     return points;
   }
 
-  /// Checks and stores the end of the step. False, with the cause in the result, when the states must not be continued.
-  FURROW_INLINE bool store_points(const Points& points, const Step& step, int own_fields, double density,
-                                  BlockResult& result) const {
+  /// Checks and stores the end of the step. False, with the cause in the result, when the states
+  /// must not be continued.
+  FURROW_INLINE bool store_points(const Points& points, const Step& step, int own_fields,
+                                  double density, BlockResult& result) const {
     double* const* state = block.state;
     const Symmetric& stress = points.stress;
     const Lanes ratio = load(state[field::volume_ratio]) * step.volume;
-    Lanes everything = contract(stress, stress) + ratio + points.stored + points.frozen + points.dissipated;
+    Lanes everything =
+        contract(stress, stress) + ratio + points.stored + points.frozen + points.dissipated;
     for (int k = 0; k < own_fields; ++k) everything += points.own[k];
-    const Mask good = step.admissible && !points.stopped && finite(everything) && ratio > Lanes(0.0);
+    const Mask good =
+        step.admissible && !points.stopped && finite(everything) && ratio > Lanes(0.0);
     if (!all(good)) {
       for (int lane = 0; lane < lanes; ++lane) {
         if (good[lane]) continue;
@@ -124,9 +137,11 @@ struct Group {
     } else {
       store(state[field::stored_energy], load(state[field::stored_energy]) + ratio * points.stored);
       store(state[field::frozen_energy], load(state[field::frozen_energy]) + ratio * points.frozen);
-      store(state[field::dissipated_energy], load(state[field::dissipated_energy]) + ratio * points.dissipated);
+      store(state[field::dissipated_energy],
+            load(state[field::dissipated_energy]) + ratio * points.dissipated);
     }
-    for (int k = 0; k < own_fields; ++k) store(state[field::own + static_cast<std::size_t>(k)], points.own[k]);
+    for (int k = 0; k < own_fields; ++k)
+      store(state[field::own + static_cast<std::size_t>(k)], points.own[k]);
 
     UpdateReport& report = result.report;
     std::size_t yielding = 0;
@@ -156,8 +171,8 @@ struct Group {
   }
 };
 
-/// Group by group. Kernel: `static constexpr int own_fields;` and either `void step(const Symmetric& strain, Points&) const`
-/// or `void hyperelastic_step(const Tensor& h, Points&) const`.
+/// Group by group. Kernel: `static constexpr int own_fields;` and either `void step(const
+/// Symmetric& strain, Points&) const` or `void hyperelastic_step(const Tensor& h, Points&) const`.
 template <class Kernel>
 BlockResult update_points(const Kernel& kernel, double density, const PointBlock& block) {
   static_assert(Kernel::own_fields <= 6, "enlarge Points::own");
@@ -171,9 +186,10 @@ BlockResult update_points(const Kernel& kernel, double density, const PointBlock
   return result;
 }
 
-/// The same in three passes over a few groups at a time, for kernels whose return mapping is dear: trial states of all points; then
-/// the points that yield alike are gathered, so that no lane waits for a neighbour on another surface (a group that yields as one is
-/// corrected at once); then stresses. Between the passes a point is a few numbers. Kernel has
+/// The same in three passes over a few groups at a time, for kernels whose return mapping is dear:
+/// trial states of all points; then the points that yield alike are gathered, so that no lane waits
+/// for a neighbour on another surface (a group that yields as one is corrected at once); then
+/// stresses. Between the passes a point is a few numbers. Kernel has
 ///   Prediction  the numbers of the trial, and which surface each point met; none once corrected
 ///   Numbers     the numbers of the end of the step
 ///   predict(strain, points, Numbers&) -> Prediction,   correct(surface, trial numbers) -> Numbers,
@@ -181,14 +197,16 @@ BlockResult update_points(const Kernel& kernel, double density, const PointBlock
 template <class Kernel>
 BlockResult update_gathered(const Kernel& kernel, double density, const PointBlock& block) {
   constexpr int most_groups = 8, size = most_groups * lane_count;
-  constexpr int inputs = Kernel::prediction_numbers, outputs = Kernel::return_numbers, surfaces = Kernel::surfaces_met;
+  constexpr int inputs = Kernel::prediction_numbers, outputs = Kernel::return_numbers,
+                surfaces = Kernel::surfaces_met;
   BlockResult result;
   Motion motions[most_groups];
   alignas(64) double in[inputs][size], out[outputs][size], flags[lane_count];
   int members[surfaces][size];
   for (std::size_t start = 0; start < block.size; start += size) {
     const std::size_t left = block.size - start;
-    const int groups = left < size ? static_cast<int>((left + lane_count - 1) / lane_count) : most_groups;
+    const int groups =
+        left < size ? static_cast<int>((left + lane_count - 1) / lane_count) : most_groups;
     int count[surfaces] = {};
     for (int g = 0; g < groups; ++g) {
       const Group group(block, start + static_cast<std::size_t>(g) * lane_count);
@@ -196,8 +214,10 @@ BlockResult update_gathered(const Kernel& kernel, double density, const PointBlo
       typename Kernel::Numbers end;
       const typename Kernel::Prediction prediction =
           kernel.predict(motions[g].strain, group.load_points(Kernel::own_fields), end);
-      for (int k = 0; k < inputs; ++k) prediction.numbers[k].copy_to(&in[k][g * lane_count], stdx::vector_aligned);
-      for (int k = 0; k < outputs; ++k) end.numbers[k].copy_to(&out[k][g * lane_count], stdx::vector_aligned);
+      for (int k = 0; k < inputs; ++k)
+        prediction.numbers[k].copy_to(&in[k][g * lane_count], stdx::vector_aligned);
+      for (int k = 0; k < outputs; ++k)
+        end.numbers[k].copy_to(&out[k][g * lane_count], stdx::vector_aligned);
       for (int surface = 0; surface < surfaces; ++surface) {
         if (!any(prediction.met[surface])) continue;
         select(prediction.met[surface], 1.0, 0.0).copy_to(flags, stdx::vector_aligned);
@@ -213,7 +233,8 @@ BlockResult update_gathered(const Kernel& kernel, double density, const PointBlo
         const int lanes = count[surface] - done < lane_count ? count[surface] - done : lane_count;
         Lanes numbers[inputs];
         for (int k = 0; k < inputs; ++k)
-          numbers[k] = Lanes([&](auto lane) { return in[k][list[int(lane) < lanes ? int(lane) : 0]]; });
+          numbers[k] =
+              Lanes([&](auto lane) { return in[k][list[int(lane) < lanes ? int(lane) : 0]]; });
         const typename Kernel::Numbers end = kernel.correct(surface, numbers);
         for (int k = 0; k < outputs; ++k) {
           end.numbers[k].copy_to(flags, stdx::vector_aligned);
@@ -225,12 +246,14 @@ BlockResult update_gathered(const Kernel& kernel, double density, const PointBlo
       const Group group(block, start + static_cast<std::size_t>(g) * lane_count);
       Points points = group.load_points(Kernel::own_fields);
       Lanes numbers[inputs], ends[outputs];
-      for (int k = 0; k < inputs; ++k) numbers[k] = Lanes(&in[k][g * lane_count], stdx::vector_aligned);
-      for (int k = 0; k < outputs; ++k) ends[k] = Lanes(&out[k][g * lane_count], stdx::vector_aligned);
+      for (int k = 0; k < inputs; ++k)
+        numbers[k] = Lanes(&in[k][g * lane_count], stdx::vector_aligned);
+      for (int k = 0; k < outputs; ++k)
+        ends[k] = Lanes(&out[k][g * lane_count], stdx::vector_aligned);
       kernel.finish(motions[g].strain, numbers, ends, points);
       points.stress = turned(points.stress, motions[g].rotation);
-      if (!group.store_points(points, {motions[g].volume, motions[g].admissible, false}, Kernel::own_fields, density,
-                              result))
+      if (!group.store_points(points, {motions[g].volume, motions[g].admissible, false},
+                              Kernel::own_fields, density, result))
         return result;
     }
   }

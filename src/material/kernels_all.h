@@ -10,7 +10,8 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-inline BlockResult update_crushable_foam(const CrushableFoamParameters& law, double density, const PointBlock& block) {
+inline BlockResult update_crushable_foam(const CrushableFoamParameters& law, double density,
+                                         const PointBlock& block) {
   if (law.flow_ratio < 1.0) return update_points(CrushableFoamKernel<true>{law}, density, block);
   return update_points(CrushableFoamKernel<false>{law}, density, block);
 }
@@ -19,15 +20,18 @@ inline BlockResult update_drucker_prager_cap(const DruckerPragerCapParameters& l
   if (law.flow_ratio < 1.0) return update_points(DruckerPragerCapKernel<true>{law}, density, block);
   return update_gathered(DruckerPragerCapKernel<false>{law}, density, block);
 }
-inline BlockResult update_elastic(const ElasticityParameters& elasticity, double density, const PointBlock& block) {
+inline BlockResult update_elastic(const ElasticityParameters& elasticity, double density,
+                                  const PointBlock& block) {
   return update_points(ElasticKernel{elasticity}, density, block);
 }
-inline BlockResult update_neo_hookean(const NeoHookeanParameters& law, double density, const PointBlock& block) {
+inline BlockResult update_neo_hookean(const NeoHookeanParameters& law, double density,
+                                      const PointBlock& block) {
   return update_points(NeoHookeanKernel{law}, density, block);
 }
 
 constexpr Kernels all_kernels(const char* instruction_set) {
-  return {instruction_set, lane_count, update_crushable_foam, update_drucker_prager_cap, update_elastic, update_neo_hookean};
+  return {instruction_set,           lane_count,     update_crushable_foam,
+          update_drucker_prager_cap, update_elastic, update_neo_hookean};
 }
 
 }  // namespace FURROW_ISA

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Finite strain, once for every law: from the displacement gradient H of a step to the logarithm of its stretch and its rotation.
+/// Finite strain, once for every law: from the displacement gradient H of a step to the logarithm
+/// of its stretch and its rotation.
 ///
-/// Delta F = I + H = R U,  C = U^2 = I + X  with  X = H + H^T + H^T H  (no cancellation when H is small).
-/// With Z = X (2I + X)^-1, so that C = (I + Z)(I - Z)^-1, and Y = Z^2:
+/// Delta F = I + H = R U,  C = U^2 = I + X  with  X = H + H^T + H^T H  (no cancellation when H is
+/// small). With Z = X (2I + X)^-1, so that C = (I + Z)(I - Z)^-1, and Y = Z^2:
 ///   ln U   = (1/2) ln C  = Z (I + Y/3 + Y^2/5 + ...)                                [atanh]
 ///   U^-1   = C^(-1/2)    = (I - Z)(I - Y)^(-1/2) = (I - Z)(I + Y/2 + 3 Y^2/8 + ...)
 ///   R      = Delta F U^-1
-/// For |X| <= 0.1 (Frobenius) |Z| <= 0.053 and seven terms leave a relative error below 1e-16; for |X| <= 0.004, which the steps of an
-/// explicit computation hardly ever exceed, three do. Larger stretches (a strain of more than 5 % in one step) take the eigenvalues of C
-/// instead, point by point.
+/// For |X| <= 0.1 (Frobenius) |Z| <= 0.053 and seven terms leave a relative error below 1e-16; for
+/// |X| <= 0.004, which the steps of an explicit computation hardly ever exceed, three do. Larger
+/// stretches (a strain of more than 5 % in one step) take the eigenvalues of C instead, point by
+/// point.
 
 #include "material/kernel_table.h"
 #include "simd/lanes.h"
@@ -22,7 +24,8 @@ inline namespace FURROW_ISA {
 FURROW_INLINE Lanes volume_change(const Tensor& h) {
   Lanes f[9];
   for (int k = 0; k < 9; ++k) f[k] = k % 4 == 0 ? h.m[k] + Lanes(1.0) : h.m[k];
-  return f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6]) + f[2] * (f[3] * f[7] - f[4] * f[6]);
+  return f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6]) +
+         f[2] * (f[3] * f[7] - f[4] * f[6]);
 }
 
 struct Motion {
@@ -37,13 +40,15 @@ FURROW_INLINE void find_motion(const Tensor& h, Motion& motion) {
   const auto column = [&](int i, int j) __attribute__((always_inline)) {
     return m[i] * m[j] + m[3 + i] * m[3 + j] + m[6 + i] * m[6 + j];
   };
-  const Symmetric x{m[0] + m[0] + column(0, 0), m[4] + m[4] + column(1, 1), m[8] + m[8] + column(2, 2),
-                    m[1] + m[3] + column(0, 1), m[5] + m[7] + column(1, 2), m[2] + m[6] + column(0, 2)};
+  const Symmetric x{m[0] + m[0] + column(0, 0), m[4] + m[4] + column(1, 1),
+                    m[8] + m[8] + column(2, 2), m[1] + m[3] + column(0, 1),
+                    m[5] + m[7] + column(1, 2), m[2] + m[6] + column(0, 2)};
   const Symmetric z = commuting_product(x, inverse(x.plus_identity(2.0)));
   const Symmetric y = commuting_product(z, z), y2 = commuting_product(y, y);
   const Lanes size = contract(x, x);
   constexpr double atanh_terms[7] = {1.0, 1.0 / 3, 1.0 / 5, 1.0 / 7, 1.0 / 9, 1.0 / 11, 1.0 / 13};
-  constexpr double root_terms[7] = {1.0, 1.0 / 2, 3.0 / 8, 5.0 / 16, 35.0 / 128, 63.0 / 256, 231.0 / 1024};
+  constexpr double root_terms[7] = {1.0,        1.0 / 2,    3.0 / 8,     5.0 / 16,
+                                    35.0 / 128, 63.0 / 256, 231.0 / 1024};
 
   const auto low = [&](const double* c) __attribute__((always_inline)) {  // c0 I + c1 Y + c2 Y^2
     return (y * Lanes(c[1]) + y2 * Lanes(c[2])).plus_identity(c[0]);
@@ -51,7 +56,8 @@ FURROW_INLINE void find_motion(const Tensor& h, Motion& motion) {
   Symmetric log_u_over_z = low(atanh_terms), root = low(root_terms);
   if (any(!(size <= Lanes(1.6e-5)))) {
     const Symmetric y3 = commuting_product(y2, y);
-    const auto rest = [&](const double* c) __attribute__((always_inline)) {  // c3 Y^3 + ... + c6 Y^6
+    // c3 Y^3 + ... + c6 Y^6
+    const auto rest = [&](const double* c) __attribute__((always_inline)) {
       const Symmetric high = y * Lanes(c[4]) + y2 * Lanes(c[5]) + y3 * Lanes(c[6]);
       return commuting_product(y3, high.plus_identity(c[3]));
     };
@@ -66,12 +72,14 @@ FURROW_INLINE void find_motion(const Tensor& h, Motion& motion) {
   if (any(large)) {
     for (int lane = 0; lane < lane_count; ++lane) {
       if (!large[lane]) continue;
-      const double entries[6] = {x.xx[lane], x.yy[lane], x.zz[lane], x.xy[lane], x.yz[lane], x.xz[lane]};
+      const double entries[6] = {x.xx[lane], x.yy[lane], x.zz[lane],
+                                 x.xy[lane], x.yz[lane], x.xz[lane]};
       double log_u[6] = {}, inv[6] = {};
       if (!large_stretch(entries, log_u, inv)) motion.admissible[lane] = false;
       Lanes* strain[6] = {&motion.strain.xx, &motion.strain.yy, &motion.strain.zz,
                           &motion.strain.xy, &motion.strain.yz, &motion.strain.xz};
-      Lanes* u[6] = {&inverse_u.xx, &inverse_u.yy, &inverse_u.zz, &inverse_u.xy, &inverse_u.yz, &inverse_u.xz};
+      Lanes* u[6] = {&inverse_u.xx, &inverse_u.yy, &inverse_u.zz,
+                     &inverse_u.xy, &inverse_u.yz, &inverse_u.xz};
       for (int k = 0; k < 6; ++k) (*strain[k])[lane] = log_u[k], (*u[k])[lane] = inv[k];
     }
   }

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Return mapping in the deviatoric plane for a yield measure t that depends on the Lode angle (K < 1) or not (K = 1).
+/// Return mapping in the deviatoric plane for a yield measure t that depends on the Lode angle (K <
+/// 1) or not (K = 1).
 ///
-///   t = q g,  g(theta) = a + b cos(3 theta),  a = (1 + 1/K)/2,  b = (1/K - 1)/2,  cos(3 theta) = (r/q)^3,  theta in [0, pi/3].
-/// Every flow rule in t used here is: plastic deviatoric strain = Lambda d(t^2/2)/ds, so that with m = 3 G Lambda the stress after the
-/// step is the one point where
+///   t = q g,  g(theta) = a + b cos(3 theta),  a = (1 + 1/K)/2,  b = (1/K - 1)/2,  cos(3 theta) =
+///   (r/q)^3,  theta in [0, pi/3].
+/// Every flow rule in t used here is: plastic deviatoric strain = Lambda d(t^2/2)/ds, so that with
+/// m = 3 G Lambda the stress after the step is the one point where
 ///   q + m d(t^2/2)/dq = q_tr  (vectors in the deviatoric plane),
-/// in polar components (1 + m g^2) sin(theta_tr - theta) = m g g' cos(theta_tr - theta),  q = q_tr / |(1 + m g^2, m g g')|.
-/// t^2/2 is convex for K >= 7/9, which makes it unique. K = 1: t = t_tr/(1 + m), a radial return.
+/// in polar components (1 + m g^2) sin(theta_tr - theta) = m g g' cos(theta_tr - theta),  q = q_tr
+/// / |(1 + m g^2, m g g')|. t^2/2 is convex for K >= 7/9, which makes it unique. K = 1: t = t_tr/(1
+/// + m), a radial return.
 
 #include "simd/root_solver.h"
 
@@ -30,13 +33,18 @@ class DeviatoricReturn<false> {
  public:
   FURROW_INLINE DeviatoricReturn(double /*flow_ratio*/, const Symmetric& trial)
       : q_(root(Lanes(1.5) * contract(trial, trial))) {}
-  FURROW_INLINE explicit DeviatoricReturn(const Lanes& t) : q_(t) {}  ///< of a trial known by its measure only
-  const Lanes& t() const { return q_; }                               ///< of the trial
-  FURROW_INLINE LodeReturn at(const Lanes& m, Lanes&, const Mask&) const { return {Lanes(1.0) + m, 1.0, 0.0, 1.0}; }
+  /// of a trial known by its measure only
+  FURROW_INLINE explicit DeviatoricReturn(const Lanes& t) : q_(t) {}
+  const Lanes& t() const { return q_; }  ///< of the trial
+  FURROW_INLINE LodeReturn at(const Lanes& m, Lanes&, const Mask&) const {
+    return {Lanes(1.0) + m, 1.0, 0.0, 1.0};
+  }
   /// m at which t falls to t_tr/shrink.
   Lanes multiplier(const Lanes& shrink, Lanes&, const Mask&) const { return shrink - Lanes(1.0); }
-  /// The deviator with measure t, in the direction of a return of the trial; lanes outside the mask keep the trial.
-  FURROW_INLINE Symmetric stress(const Symmetric& trial, const Lanes& t, const LodeReturn&, const Mask& yielding) const {
+  /// The deviator with measure t, in the direction of a return of the trial; lanes outside the mask
+  /// keep the trial.
+  FURROW_INLINE Symmetric stress(const Symmetric& trial, const Lanes& t, const LodeReturn&,
+                                 const Mask& yielding) const {
     return trial * select(yielding && q_ > Lanes(0.0), t / q_, 1.0);
   }
 
@@ -64,8 +72,10 @@ class DeviatoricReturn<true> {
     const Lanes theta = decreasing_root(
         [&](const Lanes& angle) -> ValueAndSlope {
           const Lanes g = gauge(angle), g1 = first(angle), g2 = second(angle);
-          const Lanes sine = sin_of(theta_ - angle), cosine = cos_of(theta_ - angle), f = v + w * g * g;
-          return {f * sine - w * g * g1 * cosine, w * g * g1 * sine - (f + w * (g1 * g1 + g * g2)) * cosine};
+          const Lanes sine = sin_of(theta_ - angle), cosine = cos_of(theta_ - angle),
+                      f = v + w * g * g;
+          return {f * sine - w * g * g1 * cosine,
+                  w * g * g1 * sine - (f + w * (g1 * g1 + g * g2)) * cosine};
         },
         select(turns, guess_, theta_), theta_, third, 1e-11, turns, iterations);
     guess_ = theta;
@@ -73,8 +83,8 @@ class DeviatoricReturn<true> {
     const Lanes radial = Lanes(1.0) + m * g * g, tangential = m * g * g1;
     // v^T (I + m H)^-1 v with v = (g^2, g g') and the Hessian H of t^2/2
     const Lanes vx = g * g, vy = g * g1, hyy = Lanes(1.0) + m * (g1 * g1 + g * g2 + g * g);
-    const Lanes form =
-        (vx * vx * hyy - Lanes(2.0) * vx * vy * tangential + vy * vy * radial) / (radial * hyy - tangential * tangential);
+    const Lanes form = (vx * vx * hyy - Lanes(2.0) * vx * vy * tangential + vy * vy * radial) /
+                       (radial * hyy - tangential * tangential);
     LodeReturn result;
     result.shrink = gauge(theta_) / g * root(radial * radial + tangential * tangential);
     result.slope = result.shrink * form / (g * g);
@@ -90,10 +100,13 @@ class DeviatoricReturn<true> {
           const LodeReturn there = at(m, iterations, active);
           return {shrink - there.shrink, -there.slope};
         },
-        shrink - Lanes(1.0), 0.0, most, Lanes(1e-15) * (most + Lanes(1.0)), active && shrink > Lanes(1.0), iterations);
+        shrink - Lanes(1.0), 0.0, most, Lanes(1e-15) * (most + Lanes(1.0)),
+        active && shrink > Lanes(1.0), iterations);
   }
-  Symmetric stress(const Symmetric& trial, const Lanes& t, const LodeReturn& back, const Mask& yielding) const {
-    // Unit deviator S (S:S = 1); dev(S^2) = (cos(3 theta) S - sin(3 theta) T)/sqrt(6) gives the direction T of growing theta.
+  Symmetric stress(const Symmetric& trial, const Lanes& t, const LodeReturn& back,
+                   const Mask& yielding) const {
+    // Unit deviator S (S:S = 1); dev(S^2) = (cos(3 theta) S - sin(3 theta) T)/sqrt(6) gives the
+    // direction T of growing theta.
     const Lanes size = select(yielding, t / back.gauge, q_);
     const Symmetric unit = trial * select(q_ > Lanes(0.0), Lanes(1.2247448713915890491) / q_, 0.0);
     const Lanes sin_3t = root(upper(Lanes(1.0) - cos_3t_ * cos_3t_, 0.0));
@@ -111,7 +124,9 @@ class DeviatoricReturn<true> {
   static Lanes cos_of(const Lanes& angle) {
     return each(angle, [](double x) { return __builtin_cos(x); });
   }
-  Lanes gauge(const Lanes& theta) const { return Lanes(a_) + Lanes(b_) * cos_of(Lanes(3.0) * theta); }
+  Lanes gauge(const Lanes& theta) const {
+    return Lanes(a_) + Lanes(b_) * cos_of(Lanes(3.0) * theta);
+  }
   Lanes first(const Lanes& theta) const { return Lanes(-3.0 * b_) * sin_of(Lanes(3.0) * theta); }
   Lanes second(const Lanes& theta) const { return Lanes(-9.0 * b_) * cos_of(Lanes(3.0) * theta); }
 

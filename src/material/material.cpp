@@ -17,7 +17,8 @@ namespace {
 
 /// One point seen as a block of one.
 struct SinglePoint {
-  SinglePoint(const Matrix3& gradient, VectorX& state, Branch* branch) : pointers(static_cast<std::size_t>(state.size())) {
+  SinglePoint(const Matrix3& gradient, VectorX& state, Branch* branch)
+      : pointers(static_cast<std::size_t>(state.size())) {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) entries[static_cast<std::size_t>(3 * i + j)] = gradient(i, j);
     for (std::size_t f = 0; f < pointers.size(); ++f) pointers[f] = state.data() + f;
@@ -34,7 +35,8 @@ struct SinglePoint {
 }  // namespace
 
 std::string to_string(Branch branch) {
-  static const std::array<const char*, branch_count> names{"elastic", "shear", "transition", "cap", "tension"};
+  static const std::array<const char*, branch_count> names{"elastic", "shear", "transition", "cap",
+                                                           "tension"};
   return names.at(static_cast<std::size_t>(branch));
 }
 
@@ -54,15 +56,18 @@ UpdateReport& UpdateReport::operator+=(const UpdateReport& other) {
   return *this;
 }
 
-Material::Material(std::string name, double density, std::vector<StateField> own_fields, double pressure)
+Material::Material(std::string name, double density, std::vector<StateField> own_fields,
+                   double pressure)
     : name_(std::move(name)), density_(density) {
   for (const char* component : {"xx", "yy", "zz", "xy", "yz", "xz"})
     fields_.push_back({fmt::format("stress_{}", component), "Pa", "Cauchy stress, tension positive",
                        component[0] == component[1] ? -pressure : 0.0});
   fields_.push_back({"volume_ratio", "", "J = V/V0; density = rho0/J", 1.0});
   fields_.push_back({"stored_energy", "J/m3", "elastic work per reference volume", 0.0});
-  fields_.push_back({"frozen_energy", "J/m3", "plastic work stored by compaction, per reference volume", 0.0});
-  fields_.push_back({"dissipated_energy", "J/m3", "plastic work turned into heat, per reference volume", 0.0});
+  fields_.push_back(
+      {"frozen_energy", "J/m3", "plastic work stored by compaction, per reference volume", 0.0});
+  fields_.push_back(
+      {"dissipated_energy", "J/m3", "plastic work turned into heat, per reference volume", 0.0});
   fields_.insert(fields_.end(), own_fields.begin(), own_fields.end());
 }
 
@@ -71,12 +76,14 @@ UpdateReport Material::checked(const BlockResult& result, const PointBlock& bloc
   const std::size_t i = result.failed_point;
   std::string step = "H =", old = "state at its start:";
   for (const double* h : block.gradient) step += fmt::format(" {:.6g}", h[i]);
-  for (std::size_t f = 0; f < fields_.size(); ++f) old += fmt::format(" {} {:.6g}", fields_[f].name, block.state[f][i]);
-  const char* cause = result.failure == Failure::folded ? "the deformation of the step is folded or not finite"
-                      : result.failure == Failure::table_ends
-                          ? "the hardening table ends (its rule beyond the table is 'stop')"
-                          : "the new state is not finite (numbers too large, or porous elasticity at its "
-                            "tensile limit)";
+  for (std::size_t f = 0; f < fields_.size(); ++f)
+    old += fmt::format(" {} {:.6g}", fields_[f].name, block.state[f][i]);
+  const char* cause =
+      result.failure == Failure::folded ? "the deformation of the step is folded or not finite"
+      : result.failure == Failure::table_ends
+          ? "the hardening table ends (its rule beyond the table is 'stop')"
+          : "the new state is not finite (numbers too large, or porous elasticity at its "
+            "tensile limit)";
   throw PointError(i, fmt::format("law {}: {}; {}; {}", name_, cause, step, old));
 }
 
@@ -88,19 +95,22 @@ std::size_t Material::field_index(const std::string& name) const {
 
 VectorX Material::initial_state() const {
   VectorX state(static_cast<Eigen::Index>(fields_.size()));
-  for (std::size_t f = 0; f < fields_.size(); ++f) state[static_cast<Eigen::Index>(f)] = fields_[f].initial;
+  for (std::size_t f = 0; f < fields_.size(); ++f)
+    state[static_cast<Eigen::Index>(f)] = fields_[f].initial;
   return state;
 }
 
 UpdateReport Material::update_point(const Matrix3& gradient, VectorX& state, Branch* branch) const {
   if (static_cast<std::size_t>(state.size()) != fields_.size())
-    throw Error(fmt::format("law {} keeps {} numbers a point, the state given has {}", name_, fields_.size(), state.size()));
+    throw Error(fmt::format("law {} keeps {} numbers a point, the state given has {}", name_,
+                            fields_.size(), state.size()));
   SinglePoint point(gradient, state, branch);
   return update_block(point.block);
 }
 
 Matrix6 Material::tangent(const Matrix3& gradient, const VectorX& state) const {
-  // Step near the cube root of the precision, so that truncation and rounding of the central difference are alike.
+  // Step near the cube root of the precision, so that truncation and rounding of the central
+  // difference are alike.
   constexpr double step = 2e-6;
   const double scale = std::clamp(gradient.norm(), 1e-4, 1.0);
   Matrix6 result;
@@ -116,19 +126,24 @@ Matrix6 Material::tangent(const Matrix3& gradient, const VectorX& state) const {
   return result;
 }
 
-double Material::wave_speed(const VectorX& state) const { return std::sqrt(moduli(state).wave() / current_density(state)); }
+double Material::wave_speed(const VectorX& state) const {
+  return std::sqrt(moduli(state).wave() / current_density(state));
+}
 
 double Material::largest_wave_speed(const PointBlock& block) const {
   VectorX state(static_cast<Eigen::Index>(fields_.size()));
   double largest = 0.0;
   for (std::size_t i = 0; i < block.size; ++i) {
-    for (std::size_t f = 0; f < fields_.size(); ++f) state[static_cast<Eigen::Index>(f)] = block.state[f][i];
+    for (std::size_t f = 0; f < fields_.size(); ++f)
+      state[static_cast<Eigen::Index>(f)] = block.state[f][i];
     largest = std::max(largest, wave_speed(state));
   }
   return largest;
 }
 
-double Material::yield_function(const VectorX&) const { return -std::numeric_limits<double>::infinity(); }
+double Material::yield_function(const VectorX&) const {
+  return -std::numeric_limits<double>::infinity();
+}
 
 std::vector<Vector2> Material::yield_surface(const VectorX&, std::size_t) const { return {}; }
 

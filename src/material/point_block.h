@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Plain data of a block of material points: shared by the laws (material.h) and their kernels (kernels_*.cpp).
+/// Plain data of a block of material points: shared by the laws (material.h) and their kernels
+/// (kernels_*.cpp).
 
 #include <array>
 #include <cstddef>
@@ -8,13 +9,15 @@
 
 namespace furrow {
 
-constexpr double ice_density = 917.0;  ///< [kg/m^3] limit of a snow's density, reported when met, never enforced
+/// [kg/m^3] limit of a snow's density, reported when met, never enforced
+constexpr double ice_density = 917.0;
 
 /// What a point did in its last step.
 enum class Branch : std::uint8_t { elastic, shear, transition, cap, tension };
 constexpr std::size_t branch_count = 5;
 
-/// Places of the fields that every law keeps first, in this order; the law's own fields follow from `own` on.
+/// Places of the fields that every law keeps first, in this order; the law's own fields follow from
+/// `own` on.
 namespace field {
 enum : std::size_t {
   stress = 0,         ///< six Cauchy stresses xx, yy, zz, xy, yz, xz [Pa]
@@ -26,12 +29,14 @@ enum : std::size_t {
 };
 }
 
-/// n points in structure-of-arrays layout, owned by the caller. Arrays may be unaligned; they must not overlap.
+/// n points in structure-of-arrays layout, owned by the caller. Arrays may be unaligned; they must
+/// not overlap.
 struct PointBlock {
   std::size_t size = 0;
-  std::array<const double*, 9> gradient{};  ///< H = Delta F - I of the step, row by row: xx, xy, xz, yx, ..., zz
-  double* const* state = nullptr;           ///< state[f] is the array of field f of state_fields()
-  std::uint8_t* branch = nullptr;           ///< Branch of each point, or null when nobody asks
+  /// H = Delta F - I of the step, row by row: xx, xy, xz, yx, ..., zz
+  std::array<const double*, 9> gradient{};
+  double* const* state = nullptr;  ///< state[f] is the array of field f of state_fields()
+  std::uint8_t* branch = nullptr;  ///< Branch of each point, or null when nobody asks
 };
 
 /// What happened in an update of many points.
@@ -39,9 +44,11 @@ struct UpdateReport {
   std::array<std::size_t, branch_count> points{};  ///< by Branch
   std::size_t iterations = 0;                      ///< of the return mapping, summed over points
   std::size_t most_iterations = 0;                 ///< of one point
-  std::size_t below_data = 0;   ///< points whose strength was extrapolated below the hardening data (loosened)
-  std::size_t beyond_data = 0;  ///< points whose strength was extrapolated beyond the hardening data (compacted)
-  std::size_t beyond_ice = 0;   ///< points denser than ice_density
+  /// points whose strength was extrapolated below the hardening data (loosened)
+  std::size_t below_data = 0;
+  /// points whose strength was extrapolated beyond the hardening data (compacted)
+  std::size_t beyond_data = 0;
+  std::size_t beyond_ice = 0;  ///< points denser than ice_density
 
   std::size_t size() const;
   UpdateReport& operator+=(const UpdateReport& other);

@@ -14,7 +14,8 @@
 
 namespace furrow {
 
-// ---- the table: to add a law, write its two files and one row here; tests/unit/material/conformance_test.cpp gets one line ----
+// ---- the table: to add a law, write its two files and one row here; -----------------------------
+// tests/unit/material/conformance_test.cpp gets one line ----
 const std::vector<Law>& laws() {
   static const std::vector<Law> table{
       DruckerPragerCap::law(),
@@ -57,8 +58,10 @@ const SectionChoice& SectionSchema::choice(const std::string& type) const {
 
 MaterialOptions read_sections(const Law& law, const MaterialSections& sections) {
   for (const auto& [name, entries] : sections)
-    if (std::none_of(law.sections.begin(), law.sections.end(), [&](const auto& known) { return known.name == name; }))
-      throw InputError(fmt::format("law {}", law.name), fmt::format("has no section '{}'", name), names_of(law.sections));
+    if (std::none_of(law.sections.begin(), law.sections.end(),
+                     [&](const auto& known) { return known.name == name; }))
+      throw InputError(fmt::format("law {}", law.name), fmt::format("has no section '{}'", name),
+                       names_of(law.sections));
   MaterialOptions result;
   for (const SectionSchema& section : law.sections) {
     std::string type = section.choices.front().type;
@@ -85,15 +88,16 @@ MaterialSections to_sections(const Law& law, const std::vector<Entry>& flat) {
   MaterialSections sections;
   std::vector<Entry> keys;
   std::map<std::string, std::string> types;
-  for (const SectionSchema& section : law.sections) types[section.name] = section.choices.front().type;
+  for (const SectionSchema& section : law.sections)
+    types[section.name] = section.choices.front().type;
   for (const Entry& entry : flat) {
     if (types.count(entry.key) == 0) {
       keys.push_back(entry);
       continue;
     }
     if (entry.values.size() != 1)
-      throw InputError(fmt::format("keyword '{}'", entry.key), fmt::format("has {} value(s)", entry.values.size()),
-                       "one word");
+      throw InputError(fmt::format("keyword '{}'", entry.key),
+                       fmt::format("has {} value(s)", entry.values.size()), "one word");
     types[entry.key] = entry.values.front();
     sections[entry.key].push_back({"type", entry.values});
   }
@@ -109,10 +113,12 @@ MaterialSections to_sections(const Law& law, const std::vector<Entry>& flat) {
       if (schema.find(bare)) owners.push_back(section.name);
     }
     if (owners.empty())
-      throw InputError(fmt::format("law {}", law.name), fmt::format("has no keyword '{}'", entry.key),
+      throw InputError(fmt::format("law {}", law.name),
+                       fmt::format("has no keyword '{}'", entry.key),
                        fmt::format("{}", fmt::join(known, ", ")));
     if (owners.size() > 1)
-      throw InputError(fmt::format("law {}, keyword '{}'", law.name, entry.key), "belongs to more than one section",
+      throw InputError(fmt::format("law {}, keyword '{}'", law.name, entry.key),
+                       "belongs to more than one section",
                        fmt::format("{}.{}", fmt::join(owners, "." + bare + ", "), bare));
     sections[owners.front()].push_back({bare, entry.values});
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The table of constitutive laws: names, meanings, declared options, creation. A new law adds one row (registry.cpp).
+/// The table of constitutive laws: names, meanings, declared options, creation. A new law adds one
+/// row (registry.cpp).
 
 #include <functional>
 #include <map>
@@ -13,7 +14,8 @@
 
 namespace furrow {
 
-/// One way to fill a section, chosen by the key `type`: "elasticity" with type "linear" or "porous".
+/// One way to fill a section, chosen by the key `type`: "elasticity" with type "linear" or
+/// "porous".
 struct SectionChoice {
   std::string type;     ///< "linear"; empty when the section has one form and no key `type`
   std::string meaning;  ///< one line
@@ -25,7 +27,8 @@ struct SectionSchema {
   std::string name;                    ///< "law", "elasticity", "hardening"
   std::vector<SectionChoice> choices;  ///< the first is taken when `type` is not given
 
-  const SectionChoice& choice(const std::string& type) const;  ///< @throws InputError listing the types
+  /// @throws InputError listing the types
+  const SectionChoice& choice(const std::string& type) const;
 };
 
 /// The values of a section that passed their schema.
@@ -35,7 +38,8 @@ struct SectionOptions {
 };
 using MaterialOptions = std::map<std::string, SectionOptions>;  ///< by section name
 
-/// What a file gives: entries by section; `type` is an entry among the others. The section "law" holds density and yield keys.
+/// What a file gives: entries by section; `type` is an entry among the others. The section "law"
+/// holds density and yield keys.
 using MaterialSections = std::map<std::string, std::vector<Entry>>;
 
 /// One row of the table.
@@ -53,8 +57,9 @@ const Law& find_law(const std::string& name);
 
 /// Checks the entries of every section against its schema. @throws InputError
 MaterialOptions read_sections(const Law& law, const MaterialSections& sections);
-/// Sorts a flat list into sections: "E 1e6 nu 0.3 hardening table ...". A section's name as a key chooses its type;
-/// "section.key" names a key that two sections share. @throws InputError for an unknown or ambiguous key
+/// Sorts a flat list into sections: "E 1e6 nu 0.3 hardening table ...". A section's name as a key
+/// chooses its type; "section.key" names a key that two sections share. @throws InputError for an
+/// unknown or ambiguous key
 MaterialSections to_sections(const Law& law, const std::vector<Entry>& flat);
 
 /// Creates a law from nested sections. @throws InputError

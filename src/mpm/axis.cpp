@@ -12,44 +12,53 @@ namespace furrow {
 
 namespace {
 
-constexpr double most_growth = 1.5;  // of neighbouring cells: beyond, waves are reflected by the grading
+// of neighbouring cells: beyond, waves are reflected by the grading
+constexpr double most_growth = 1.5;
 
-/// Ends of cells from `start` outwards over `distance`, growing by `growth`: the last cell is stretched to end there.
-std::vector<double> growing(double start, double distance, double cell, double growth, double sign) {
+/// Ends of cells from `start` outwards over `distance`, growing by `growth`: the last cell is
+/// stretched to end there.
+std::vector<double> growing(double start, double distance, double cell, double growth,
+                            double sign) {
   std::vector<double> lengths;
   double sum = 0.0;
   for (double length = cell * growth; sum < distance * (1.0 - 1e-9); length *= growth) {
     lengths.push_back(length);
     sum += length;
   }
-  // One cell less where that is nearer: the cells are then stretched by the same factor instead of shrunk.
+  // One cell less where that is nearer: the cells are then stretched by the same factor instead of
+  // shrunk.
   if (lengths.size() > 1 && distance - (sum - lengths.back()) < sum - distance) {
     sum -= lengths.back();
     lengths.pop_back();
   }
   std::vector<double> ends;
   double at = 0.0;
-  for (const double length : lengths) ends.push_back(start + sign * (at += length) * (distance / sum));
+  for (const double length : lengths)
+    ends.push_back(start + sign * (at += length) * (distance / sum));
   return ends;
 }
 
 }  // namespace
 
 Axis::Axis(const AxisLayout& layout, const std::string& where) {
-  const double lower = std::max(layout.lower, layout.fine_lower), upper = std::min(layout.upper, layout.fine_upper);
+  const double lower = std::max(layout.lower, layout.fine_lower),
+               upper = std::min(layout.upper, layout.fine_upper);
   if (!(layout.upper > layout.lower) || !(layout.cell > 0.0) || !(upper > lower))
-    throw InputError(where,
-                     fmt::format("has cells of {} m from {} to {} m, fine from {} to {} m", layout.cell, layout.lower,
-                                 layout.upper, layout.fine_lower, layout.fine_upper),
-                     "lower < upper, a cell > 0, and a fine stretch that is not empty");
+    throw InputError(
+        where,
+        fmt::format("has cells of {} m from {} to {} m, fine from {} to {} m", layout.cell,
+                    layout.lower, layout.upper, layout.fine_lower, layout.fine_upper),
+        "lower < upper, a cell > 0, and a fine stretch that is not empty");
   if (!(layout.growth >= 1.0 && layout.growth <= most_growth))
-    throw InputError(where, fmt::format("has cells that grow by {}", layout.growth), fmt::format("1 to {}", most_growth),
-                     "coarser steps reflect waves");
+    throw InputError(where, fmt::format("has cells that grow by {}", layout.growth),
+                     fmt::format("1 to {}", most_growth), "coarser steps reflect waves");
   const int fine = std::max(1, static_cast<int>(std::lround((upper - lower) / layout.cell)));
   const double cell = (upper - lower) / fine;
-  for (const double end : growing(lower, lower - layout.lower, cell, layout.growth, -1.0)) knot_.insert(knot_.begin(), end);
+  for (const double end : growing(lower, lower - layout.lower, cell, layout.growth, -1.0))
+    knot_.insert(knot_.begin(), end);
   for (int i = 0; i <= fine; ++i) knot_.push_back(lower + i * cell);
-  for (const double end : growing(upper, layout.upper - upper, cell, layout.growth, 1.0)) knot_.push_back(end);
+  for (const double end : growing(upper, layout.upper - upper, cell, layout.growth, 1.0))
+    knot_.push_back(end);
   knot_.front() = layout.lower;
   knot_.back() = layout.upper;
   first_ = knot_;
@@ -74,8 +83,8 @@ void Axis::tabulate() {
   uneven_.clear();
   for (int c = 0; c < n; ++c)
     uneven_.push_back(c == 0 || c == n - 1 ||
-                              std::max(std::abs(length(c - 1) - length(c)), std::abs(length(c + 1) - length(c))) >
-                                  1e-9 * length(c)
+                              std::max(std::abs(length(c - 1) - length(c)),
+                                       std::abs(length(c + 1) - length(c))) > 1e-9 * length(c)
                           ? 1
                           : 0);
   even_from_ = even_to_ = 0;
@@ -104,7 +113,8 @@ double Axis::extent(int i) const {
 
 int Axis::cell_of(double x) const {
   if (!(x >= lower() && x <= upper())) return -1;
-  const auto bin = std::min(static_cast<std::size_t>((x - lower()) * bins_per_length_), cell_of_bin_.size() - 1);
+  const auto bin =
+      std::min(static_cast<std::size_t>((x - lower()) * bins_per_length_), cell_of_bin_.size() - 1);
   int cell = cell_of_bin_[bin];
   while (cell + 1 < cells() && x >= knot(cell + 1)) ++cell;
   return cell;

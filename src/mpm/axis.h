@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// One direction of the background grid: quadratic B-splines on a graded knot vector with open ends.
+/// One direction of the background grid: quadratic B-splines on a graded knot vector with open
+/// ends.
 ///
-/// Knots t_0 = t_1 = t_2 < t_3 < ... < t_n = t_n+1 = t_n+2 bound the cells; node i is the B-spline of the knots t_i ... t_i+3 and sits at its
-/// Greville point (t_i+1 + t_i+2)/2. Then sum N_i = 1 and sum N_i x_i = x hold on any knots, so that linear fields, force and moment are
-/// carried exactly; at both ends the outermost node alone has a value, so that a wall is where the axis says it is.
-/// C. de Boor, A Practical Guide to Splines (1978), ch. IX.
+/// Knots t_0 = t_1 = t_2 < t_3 < ... < t_n = t_n+1 = t_n+2 bound the cells; node i is the B-spline
+/// of the knots t_i ... t_i+3 and sits at its Greville point (t_i+1 + t_i+2)/2. Then sum N_i = 1
+/// and sum N_i x_i = x hold on any knots, so that linear fields, force and moment are carried
+/// exactly; at both ends the outermost node alone has a value, so that a wall is where the axis
+/// says it is. C. de Boor, A Practical Guide to Splines (1978), ch. IX.
 
 #include <cstddef>
 #include <string>
@@ -15,25 +17,32 @@ namespace furrow {
 
 /// How the cells of an axis are laid out.
 struct AxisLayout {
-  double lower = 0.0, upper = 1.0;            ///< [m]
-  double cell = 0.1;                          ///< [m] in the fine stretch; adjusted to a whole number of cells there
+  double lower = 0.0, upper = 1.0;  ///< [m]
+  /// [m] in the fine stretch; adjusted to a whole number of cells there
+  double cell = 0.1;
   double fine_lower = 0.0, fine_upper = 1.0;  ///< [m] the fine stretch; outside of it cells grow
-  double growth = 1.0;                        ///< of neighbouring cells outside the fine stretch, >= 1
+  /// of neighbouring cells outside the fine stretch, >= 1
+  double growth = 1.0;
 };
 
-/// What a kernel needs of an axis (transfer_kernel.h): arrays over cells and nodes, owned by the axis.
+/// What a kernel needs of an axis (transfer_kernel.h): arrays over cells and nodes, owned by the
+/// axis.
 struct AxisView {
   int cells, bins;
-  double lower, bins_per_length;   ///< [m, 1/m]
-  double from, to;                 ///< where particles may be [m]: the axis, or this rank's part of it
-  const int* cell_of_bin;          ///< the cell that holds the lower end of a bin; bins are no longer than the shortest cell
-  const double* knot;              ///< cells + 1 distinct knots [m]
-  const double* left;              ///< N_0 = left (t_c+1 - x)^2 [1/m^2]
-  const double* right;             ///< N_2 = right (x - t_c)^2 [1/m^2]
-  const double* node;              ///< cells + 2 nodes [m]; cell c is served by c, c+1, c+2
-  int even_from, even_to;          ///< the longest run of cells that are not uneven, all of one length
+  double lower, bins_per_length;  ///< [m, 1/m]
+  /// where particles may be [m]: the axis, or this rank's part of it
+  double from, to;
+  /// the cell that holds the lower end of a bin; bins are no longer than the shortest cell
+  const int* cell_of_bin;
+  const double* knot;   ///< cells + 1 distinct knots [m]
+  const double* left;   ///< N_0 = left (t_c+1 - x)^2 [1/m^2]
+  const double* right;  ///< N_2 = right (x - t_c)^2 [1/m^2]
+  const double* node;   ///< cells + 2 nodes [m]; cell c is served by c, c+1, c+2
+  /// the longest run of cells that are not uneven, all of one length
+  int even_from, even_to;
   double even_start, even_length;  ///< where it begins, and that length [m]
-  const int* uneven;               ///< 1 for a cell at an end or next to a cell of another length (transfer.h)
+  /// 1 for a cell at an end or next to a cell of another length (transfer.h)
+  const int* uneven;
 };
 
 class Axis {
@@ -45,11 +54,13 @@ class Axis {
   int nodes() const { return cells() + 2; }
   double lower() const { return knot_.front(); }
   double upper() const { return knot_.back(); }
-  double knot(int cell) const { return knot_[static_cast<std::size_t>(cell)]; }  ///< lower end of a cell [m]
-  double length(int cell) const { return knot(cell + 1) - knot(cell); }          ///< [m]
-  double shortest() const { return shortest_; }                                  ///< [m] cell
-  double node(int i) const { return node_[static_cast<std::size_t>(i)]; }        ///< [m]
-  double extent(int i) const;                                                    ///< integral of the node's B-spline [m]
+  /// lower end of a cell [m]
+  double knot(int cell) const { return knot_[static_cast<std::size_t>(cell)]; }
+  double length(int cell) const { return knot(cell + 1) - knot(cell); }    ///< [m]
+  double shortest() const { return shortest_; }                            ///< [m] cell
+  double node(int i) const { return node_[static_cast<std::size_t>(i)]; }  ///< [m]
+  /// integral of the node's B-spline [m]
+  double extent(int i) const;
   bool uniform() const { return uniform_; }
   /// The cell that holds x; -1 outside.
   int cell_of(double x) const;
@@ -63,7 +74,8 @@ class Axis {
   void tabulate();
 
   std::vector<double> knot_, left_, right_, node_;
-  std::vector<double> first_;  // the knots before any shift: the same place, however it was reached, has the same bits
+  // the knots before any shift: the same place, however it was reached, has the same bits
+  std::vector<double> first_;
   int shifted_ = 0;
   std::vector<int> cell_of_bin_, uneven_;
   int even_from_ = 0, even_to_ = 0;

@@ -12,7 +12,8 @@ namespace furrow {
 namespace {
 
 struct FaceLoop {
-  int axis, plane, slow, fast;  // the directions along the face; x is slow whenever it is one of them
+  // the directions along the face; x is slow whenever it is one of them
+  int axis, plane, slow, fast;
 };
 
 FaceLoop loop_of(const Grid& grid, FacePlace face) {
@@ -52,8 +53,8 @@ FaceKind face_kind(const std::string& name) {
   return static_cast<FaceKind>(found - names.begin());
 }
 
-Faces::Faces(const Grid& grid, const std::array<FaceKind, face_count>& kinds, const std::array<int, 3>& particles_per_cell,
-             std::vector<WaveSpeeds> speeds_of_level)
+Faces::Faces(const Grid& grid, const std::array<FaceKind, face_count>& kinds,
+             const std::array<int, 3>& particles_per_cell, std::vector<WaveSpeeds> speeds_of_level)
     : kinds_(kinds), speeds_(std::move(speeds_of_level)) {
   impulse_.fill(Vector3::Zero());
   captured_ = true;
@@ -67,11 +68,13 @@ Faces::Faces(const Grid& grid, const std::array<FaceKind, face_count>& kinds, co
     far.plane = loop.plane;
     far.count[0] = grid.nodes(loop.slow);
     far.count[1] = grid.nodes(loop.fast);
-    // A node's mass is summed over particles: the midpoint rule for the integral of (1 - xi)^2 over the outermost cell.
+    // A node's mass is summed over particles: the midpoint rule for the integral of (1 - xi)^2 over
+    // the outermost cell.
     const double n = particles_per_cell[static_cast<std::size_t>(loop.axis)],
                  cell = axis.length(loop.plane == 0 ? 0 : axis.cells() - 1);
     far.inverse_extent = 1.0 / (cell * (1.0 / 3.0 - 1.0 / (12.0 * n * n)));
-    // A load in the middle of the top: the far field begins half a width away sideways, and a depth away downwards.
+    // A load in the middle of the top: the far field begins half a width away sideways, and a depth
+    // away downwards.
     far.inverse_length = (loop.axis == 2 ? 1.0 : 2.0) / (axis.upper() - axis.lower());
     far.hold.assign(static_cast<std::size_t>(3 * far.count[0] * far.count[1]), 0.0);
     far.displacement = far.hold;
@@ -83,13 +86,16 @@ void Faces::capture(Grid& grid, const PlaneRange& planes, const Vector3& gravity
   for (int f = 0; f < face_count; ++f) {
     if (kinds_[static_cast<std::size_t>(f)] != FaceKind::absorbing) continue;
     FarField& far = far_[static_cast<std::size_t>(f)];
-    for_face(grid, loop_of(grid, static_cast<FacePlace>(f)), planes, [&](std::size_t number, const Place& at) {
-      NodeSum& sum = grid.sum(at[0], at[1], at[2]);
-      double& mass = grid.motion(at[0], at[1], at[2]).mass;
-      for (int c = 0; c < 3; ++c) far.hold[3 * number + static_cast<std::size_t>(c)] = -sum.total[c] - mass * gravity[c];
-      sum = NodeSum{};  // held: not by another face again
-      mass = 0.0;
-    });
+    for_face(grid, loop_of(grid, static_cast<FacePlace>(f)), planes,
+             [&](std::size_t number, const Place& at) {
+               NodeSum& sum = grid.sum(at[0], at[1], at[2]);
+               double& mass = grid.motion(at[0], at[1], at[2]).mass;
+               for (int c = 0; c < 3; ++c)
+                 far.hold[3 * number + static_cast<std::size_t>(c)] =
+                     -sum.total[c] - mass * gravity[c];
+               sum = NodeSum{};  // held: not by another face again
+               mass = 0.0;
+             });
   }
 }
 
@@ -100,7 +106,8 @@ void Faces::apply(Grid& grid, const PlaneRange& planes, const PlaneRange& owned,
   for (int f = 0; f < face_count; ++f) constrain(grid, static_cast<FacePlace>(f), planes, owned);
 }
 
-void Faces::constrain(Grid& grid, FacePlace face, const PlaneRange& planes, const PlaneRange& owned) {
+void Faces::constrain(Grid& grid, FacePlace face, const PlaneRange& planes,
+                      const PlaneRange& owned) {
   if (kinds_[face] != FaceKind::smooth && kinds_[face] != FaceKind::rough) return;
   const FaceLoop loop = loop_of(grid, face);
   for_face(grid, loop, planes, [&](std::size_t, const Place& at) {
@@ -119,12 +126,15 @@ bool Faces::is_held(const Grid& grid, const std::array<int, 3>& at, int componen
     for (const bool upper : {false, true}) {
       const FaceKind kind = kinds_[2 * axis + (upper ? 1 : 0)];
       if (at[axis] != (upper ? grid.nodes(static_cast<int>(axis)) - 1 : 0)) continue;
-      if (kind == FaceKind::rough || (kind == FaceKind::smooth && static_cast<int>(axis) == component)) return true;
+      if (kind == FaceKind::rough ||
+          (kind == FaceKind::smooth && static_cast<int>(axis) == component))
+        return true;
     }
   return false;
 }
 
-void Faces::absorb(Grid& grid, FacePlace face, const PlaneRange& planes, const PlaneRange& owned, double dt) {
+void Faces::absorb(Grid& grid, FacePlace face, const PlaneRange& planes, const PlaneRange& owned,
+                   double dt) {
   FarField& far = far_[face];
   for_face(grid, loop_of(grid, face), planes, [&](std::size_t number, const Place& at) {
     NodeMotion& node = grid.motion(at[0], at[1], at[2]);
@@ -136,7 +146,8 @@ void Faces::absorb(Grid& grid, FacePlace face, const PlaneRange& planes, const P
       const std::size_t n = 3 * number + static_cast<std::size_t>(c);
       const double before = node.velocity[c];
       const double pull =
-          dt * (far.hold[n] / node.mass - speed * speed * far.inverse_extent * far.inverse_length * far.displacement[n]);
+          dt * (far.hold[n] / node.mass -
+                speed * speed * far.inverse_extent * far.inverse_length * far.displacement[n]);
       const double after = (before + pull) / (1.0 + dt * speed * far.inverse_extent);
       node.velocity[c] = after;
       far.displacement[n] += dt * after;
@@ -153,13 +164,17 @@ void Faces::shift_x(int cells) {
   for (FarField& far : far_) {
     if (far.hold.empty()) continue;
     if (far.axis == 0) throw Error("a face across x that absorbs cannot move");
-    // The two outermost rows of nodes at each end stay (their splines are those of the ends); rows between move. Fresh ground stands as
-    // that which entered last did at the start: its holding force, no displacement.
+    // The two outermost rows of nodes at each end stay (their splines are those of the ends); rows
+    // between move. Fresh ground stands as that which entered last did at the start: its holding
+    // force, no displacement.
     const long row = 3L * far.count[1], gone = row * cells;
-    const std::vector<double> hold(far.hold.end() - 3 * row, far.hold.end() - 2 * row), still(hold.size(), 0.0);
-    for (auto [values, fresh] : {std::pair{&far.hold, &hold}, std::pair{&far.displacement, &still}}) {
+    const std::vector<double> hold(far.hold.end() - 3 * row, far.hold.end() - 2 * row),
+        still(hold.size(), 0.0);
+    for (auto [values, fresh] :
+         {std::pair{&far.hold, &hold}, std::pair{&far.displacement, &still}}) {
       values->erase(values->begin() + 2 * row, values->begin() + 2 * row + gone);
-      for (int i = 0; i < cells; ++i) values->insert(values->end() - 2 * row, fresh->begin(), fresh->end());
+      for (int i = 0; i < cells; ++i)
+        values->insert(values->end() - 2 * row, fresh->begin(), fresh->end());
     }
   }
 }
@@ -192,7 +207,8 @@ void Faces::collect(const Communicator& ranks) {
 
 void Faces::save(std::vector<double>& state) const {
   state.insert(state.end(), {captured_ ? 1.0 : 0.0, work_});
-  for (const Vector3& impulse : impulse_) state.insert(state.end(), impulse.data(), impulse.data() + 3);
+  for (const Vector3& impulse : impulse_)
+    state.insert(state.end(), impulse.data(), impulse.data() + 3);
   for (const FarField& far : far_) {
     state.insert(state.end(), far.hold.begin(), far.hold.end());
     state.insert(state.end(), far.displacement.begin(), far.displacement.end());

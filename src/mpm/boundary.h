@@ -25,18 +25,20 @@ struct WaveSpeeds {
   double pressure, shear;
 };
 
-/// Absorbing faces stand for the far field as infinite elements do (J. Lysmer, R. L. Kuhlemeyer, J. Eng. Mech. 95, 1969; TR uses
-/// ABAQUS's): traction t = t_0 - rho c v - (rho c^2/L) u with c = c_p across the face and c_s along it, t_0 what held the ground at the
-/// start, u the displacement since, L the distance over which the far field gives way. The dashpot is quiet for plane waves, the spring
-/// holds statically. With a node's mass m and the extent l of its B-spline across the face, rho A = m/l. Taken implicitly.
+/// Absorbing faces stand for the far field as infinite elements do (J. Lysmer, R. L. Kuhlemeyer, J.
+/// Eng. Mech. 95, 1969; TR uses ABAQUS's): traction t = t_0 - rho c v - (rho c^2/L) u with c = c_p
+/// across the face and c_s along it, t_0 what held the ground at the start, u the displacement
+/// since, L the distance over which the far field gives way. The dashpot is quiet for plane waves,
+/// the spring holds statically. With a node's mass m and the extent l of its B-spline across the
+/// face, rho A = m/l. Taken implicitly.
 class Faces {
  public:
-  Faces(const Grid& grid, const std::array<FaceKind, face_count>& kinds, const std::array<int, 3>& particles_per_cell,
-        std::vector<WaveSpeeds> speeds_of_level);
+  Faces(const Grid& grid, const std::array<FaceKind, face_count>& kinds,
+        const std::array<int, 3>& particles_per_cell, std::vector<WaveSpeeds> speeds_of_level);
 
   FaceKind kind(FacePlace face) const { return kinds_[face]; }
-  /// Before anything else happens to the grid of the first step: its sums of momenta, and gravity [m/s^2], are what the held ground must
-  /// stand, and are used up.
+  /// Before anything else happens to the grid of the first step: its sums of momenta, and gravity
+  /// [m/s^2], are what the held ground must stand, and are used up.
   bool captured() const { return captured_; }
   void capture(Grid& grid, const PlaneRange& planes, const Vector3& gravity);
   /// Changes the velocities of nodes. Sums count the planes of `owned` only.
@@ -44,14 +46,16 @@ class Faces {
 
   /// Impulse that each face gave to the ground since the start, this rank's share [N s].
   const Vector3& impulse(FacePlace face) const { return impulse_[face]; }
-  double work() const { return work_; }  ///< of absorbing faces on the ground since the start, this rank's share [J]
+  /// of absorbing faces on the ground since the start, this rank's share [J]
+  double work() const { return work_; }
 
   void shift_x(int cells);  ///< the grid moved: face nodes keep their place in space
   /// Every rank takes the displacements of the rank that owns a plane.
   void synchronise(const Communicator& ranks, const PlaneRange& owned);
   void collect(const Communicator& ranks);  ///< impulses and work become those of all ranks
   void save(std::vector<double>& state) const;
-  /// @param keep_sums on one rank only: impulses and work are then counted once  @return what follows in the state
+  /// @param keep_sums on one rank only: impulses and work are then counted once  @return what
+  /// follows in the state
   const double* restore(const double* state, bool keep_sums);
   std::size_t state_length() const;
 
@@ -62,7 +66,8 @@ class Faces {
     std::vector<double> hold, displacement;  // three numbers a node [N], [m]
   };
   void constrain(Grid& grid, FacePlace face, const PlaneRange& planes, const PlaneRange& owned);
-  void absorb(Grid& grid, FacePlace face, const PlaneRange& planes, const PlaneRange& owned, double dt);
+  void absorb(Grid& grid, FacePlace face, const PlaneRange& planes, const PlaneRange& owned,
+              double dt);
   bool is_held(const Grid& grid, const std::array<int, 3>& at, int component) const;
 
   std::array<FaceKind, face_count> kinds_;

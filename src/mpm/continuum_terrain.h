@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Continuum ground by the explicit material point method, for any law of the material library and any surface that presses on it.
+/// Continuum ground by the explicit material point method, for any law of the material library and
+/// any surface that presses on it.
 
 #include <memory>
 #include <vector>
@@ -39,29 +40,37 @@ struct RutPoint {
   double density;  ///< mean over the depth [kg/m^3]
 };
 
-/// One step from t_n to t_n+1 (double precision throughout; velocities at half steps, as LIGGGHTS's leapfrog has them):
-///   forces of stress and contact -> grid, faces, nodes move, strain -> particles (transfer.h), the law with H.
+/// One step from t_n to t_n+1 (double precision throughout; velocities at half steps, as LIGGGHTS's
+/// leapfrog has them):
+///   forces of stress and contact -> grid, faces, nodes move, strain -> particles (transfer.h), the
+///   law with H.
 ///
-/// The grid moves with the ground for a cycle of m steps; then its velocity and displacement go to the particles and theirs to a fresh
-/// grid. Each such mapping smooths the velocity and takes kinetic energy (Balance::numerical_loss): with one at each step, 15 % of the
-/// work of a wheel on snow in 4 cm cells; with one in 16 steps, a third of that. In a cycle the weights are taken at the place that a
-/// particle passes half-way, x_ref = x + (m - 1)/2 dt v, so that strain is that of the mid-configuration, and they are found once a
-/// step: the law's new stress gives its force to the grid with the weights of the strain. Momentum is kept exactly, angular momentum
-/// exactly for m = 1 and else to second order in the turn of a cycle. m: at most GroundParameters::cycle, and no more steps than any
-/// particle needs for a twentieth of a cell, compacted as the particle is. Between, particles lag behind: phases() brings them up to
-/// date. What phases() changes of stresses is seen from the next cycle on.
+/// The grid moves with the ground for a cycle of m steps; then its velocity and displacement go to
+/// the particles and theirs to a fresh grid. Each such mapping smooths the velocity and takes
+/// kinetic energy (Balance::numerical_loss): with one at each step, 15 % of the work of a wheel on
+/// snow in 4 cm cells; with one in 16 steps, a third of that. In a cycle the weights are taken at
+/// the place that a particle passes half-way, x_ref = x + (m - 1)/2 dt v, so that strain is that of
+/// the mid-configuration, and they are found once a step: the law's new stress gives its force to
+/// the grid with the weights of the strain. Momentum is kept exactly, angular momentum exactly for
+/// m = 1 and else to second order in the turn of a cycle. m: at most GroundParameters::cycle, and
+/// no more steps than any particle needs for a twentieth of a cell, compacted as the particle is.
+/// Between, particles lag behind: phases() brings them up to date. What phases() changes of
+/// stresses is seen from the next cycle on.
 ///
-/// Particles are kept in the order of their cells. Each rank owns a slab of the ground (partition.h); every call is collective unless said
-/// otherwise, and bodies that touch it are replicated.
+/// Particles are kept in the order of their cells. Each rank owns a slab of the ground
+/// (partition.h); every call is collective unless said otherwise, and bodies that touch it are
+/// replicated.
 class MpmGround : public Body {
  public:
   /// @param where names the ground in errors  @throws InputError
-  MpmGround(const GroundParameters& parameters, const Communicator& ranks, const std::string& where = "continuum ground");
+  MpmGround(const GroundParameters& parameters, const Communicator& ranks,
+            const std::string& where = "continuum ground");
 
   double stable_time_step() const override;
   void advance(double dt) override;
   using Body::surface;
-  /// The sheet of a ground that carries grains; otherwise without triangles, as others press on the particles.
+  /// The sheet of a ground that carries grains; otherwise without triangles, as others press on the
+  /// particles.
   Surface& surface() override { return sheet_.surface(); }
   Balance balance() const override;
   std::vector<double> state() const override;
@@ -71,29 +80,36 @@ class MpmGround : public Body {
   const Grid& grid() const { return grid_; }
   const Faces& faces() const { return faces_; }
   const Communicator& ranks() const { return partition_.ranks(); }
-  Vector3 face_impulse(FacePlace face) const;                  ///< [N s] given to the ground since the start
-  double particle_count() const;                               ///< of all ranks
-  const UpdateReport& last_report() const { return report_; }  ///< of this rank's particles in the last step
+  /// [N s] given to the ground since the start
+  Vector3 face_impulse(FacePlace face) const;
+  double particle_count() const;  ///< of all ranks
+  /// of this rank's particles in the last step
+  const UpdateReport& last_report() const { return report_; }
 
-  // ---- this rank's particles; not collective ---------------------------------------------------------------------------------
+  // ---- this rank's particles; not collective ----------------------------------------------------
   std::vector<GroundPhase>& phases();
-  /// The same with places and velocities that may be those of the start of the cycle; the rest is of now.
+  /// The same with places and velocities that may be those of the start of the cycle; the rest is
+  /// of now.
   std::vector<GroundPhase>& lagging_phases() { return phases_; }
-  double lag() const { return lagging_ ? travel_ : 0.0; }  ///< by which places are behind at most [m]
+  /// by which places are behind at most [m]
+  double lag() const { return lagging_ ? travel_ : 0.0; }
   /// Where particles are and how they move.
   void probe(const std::vector<GroundPoint>& points, std::vector<GroundMotion>& motions);
   /// Changes whenever particles change their places in memory.
   unsigned long generation() const { return generation_; }
   /// [m/s] of this rank's particles, at the start of the cycle or pushed since.
   double largest_speed() const { return largest_speed_; }
-  /// A force on the ground during the next step [N], by the weights of a particle near the point where it acts [m].
+  /// A force on the ground during the next step [N], by the weights of a particle near the point
+  /// where it acts [m].
   void push(const GroundPoint& near, const Vector3& force, const Vector3& point);
 
-  // ---- moving ground ---------------------------------------------------------------------------------------------------------
-  /// The middle of the ground follows this x, cell by cell: ground is dropped behind and fresh ground added ahead.
+  // ---- moving ground ----------------------------------------------------------------------------
+  /// The middle of the ground follows this x, cell by cell: ground is dropped behind and fresh
+  /// ground added ahead.
   void follow(double x) { focus_ = x; }
-  const std::vector<RutPoint>& rut() const { return rut_; }  ///< this rank's share of what was dropped
-  double travelled() const;                                  ///< [m] of the grid since the start
+  /// this rank's share of what was dropped
+  const std::vector<RutPoint>& rut() const { return rut_; }
+  double travelled() const;  ///< [m] of the grid since the start
 
  private:
   struct Push {
@@ -119,7 +135,8 @@ class MpmGround : public Body {
   void drop_behind();
   void sort();
   void migrate();
-  double energy(std::size_t kind) const;  // of a field per reference volume, this rank's particles [J]
+  // of a field per reference volume, this rank's particles [J]
+  double energy(std::size_t kind) const;
   double internal_energy() const;
   GridView local_view();
   [[noreturn]] void report_outside(const GroundPhase& phase) const;

@@ -12,7 +12,9 @@ GroundSheet::GroundSheet(std::vector<double> ids, std::size_t rows, std::size_t 
   surface_.resize(ids_.size());
   reach_.setZero(3, surface_.x.cols());
   reach_.row(2).setOnes();
-  const auto node = [&](std::size_t column, std::size_t row) { return static_cast<int>(column * rows + row); };
+  const auto node = [&](std::size_t column, std::size_t row) {
+    return static_cast<int>(column * rows + row);
+  };
   for (std::size_t c = 0; c < columns; ++c)
     for (std::size_t r = 0; r < rows; ++r) {
       reach_(0, node(c, r)) = c == 0 ? -1.0 : c + 1 == columns ? 1.0 : 0.0;
@@ -46,8 +48,9 @@ void GroundSheet::find(const std::vector<GroundPhase>& phases) {
 Vector3 GroundSheet::lever(const std::vector<GroundPhase>& phases, const Seat& seat) const {
   const Particles& particles = phases[seat.phase].particles;
   const std::size_t p = seat.particle;
-  Vector3 half(particles.data(column::half_x)[p], particles.data(column::half_y)[p],
-               particles.data(column::half_z)[p] * particles.data(column::state + field::volume_ratio)[p]);
+  Vector3 half(
+      particles.data(column::half_x)[p], particles.data(column::half_y)[p],
+      particles.data(column::half_z)[p] * particles.data(column::state + field::volume_ratio)[p]);
   return half.cwiseProduct(reach_.col(seat.node));
 }
 

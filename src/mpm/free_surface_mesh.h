@@ -11,14 +11,16 @@ namespace furrow {
 
 struct GroundPhase;
 
-/// A node rides on a particle of the uppermost level, half a spacing (shrunk with its volume) above it; along the rim of the ground it is
-/// half a spacing further out as well, on the face of the grid. It has the ground's affine velocity
-/// there, and the force on it goes back to the grid as the force of a contact does: at the node, by the particle's own weights, so that
-/// force and moment are kept.
+/// A node rides on a particle of the uppermost level, half a spacing (shrunk with its volume) above
+/// it; along the rim of the ground it is half a spacing further out as well, on the face of the
+/// grid. It has the ground's affine velocity there, and the force on it goes back to the grid as
+/// the force of a contact does: at the node, by the particle's own weights, so that force and
+/// moment are kept.
 class GroundSheet {
  public:
   GroundSheet() = default;
-  /// @param ids of the uppermost particles, ascending: `columns` across x, in each of them `rows` along y
+  /// @param ids of the uppermost particles, ascending: `columns` across x, in each of them `rows`
+  /// along y
   GroundSheet(std::vector<double> ids, std::size_t rows, std::size_t columns);
 
   bool exists() const { return !ids_.empty(); }
@@ -38,7 +40,8 @@ class GroundSheet {
   void hand_over(const std::vector<GroundPhase>& phases, Push&& push) const {
     for (const Seat& seat : seats_)
       if (surface_.f.col(seat.node).squaredNorm() > 0.0)
-        push({seat.phase, seat.particle}, Vector3(surface_.f.col(seat.node)), point_of(phases, seat));
+        push({seat.phase, seat.particle}, Vector3(surface_.f.col(seat.node)),
+             point_of(phases, seat));
   }
 
  private:

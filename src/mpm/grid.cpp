@@ -13,7 +13,9 @@ Grid::Grid(Axis x, Axis y, Axis z) : axes_{std::move(x), std::move(y), std::move
   displacements_.resize(count);
 }
 
-double Grid::shortest_cell() const { return std::min({axis(0).shortest(), axis(1).shortest(), axis(2).shortest()}); }
+double Grid::shortest_cell() const {
+  return std::min({axis(0).shortest(), axis(1).shortest(), axis(2).shortest()});
+}
 
 std::size_t Grid::last(const PlaneRange& planes) const {
   return static_cast<std::size_t>(std::max(planes.from, planes.to)) * plane_size();
@@ -56,7 +58,8 @@ NodeTotals Grid::move(const PlaneRange& planes, const PlaneRange& owned, double 
 }
 
 void Grid::clear_displacement(const PlaneRange& planes) {
-  std::fill(displacements_.data() + first(planes), displacements_.data() + last(planes), NodeDisplacement{});
+  std::fill(displacements_.data() + first(planes), displacements_.data() + last(planes),
+            NodeDisplacement{});
 }
 
 GridView Grid::view() {

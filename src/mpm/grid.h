@@ -45,7 +45,9 @@ class Grid {
   const Axis& axis(int a) const { return axes_[static_cast<std::size_t>(a)]; }
   int nodes(int a) const { return axis(a).nodes(); }
   PlaneRange all_planes() const { return {0, nodes(0)}; }
-  std::size_t plane_size() const { return static_cast<std::size_t>(nodes(1)) * static_cast<std::size_t>(nodes(2)); }
+  std::size_t plane_size() const {
+    return static_cast<std::size_t>(nodes(1)) * static_cast<std::size_t>(nodes(2));
+  }
   double shortest_cell() const;  ///< [m]
 
   NodeSum& sum(int i, int j, int k) { return sums_[index(i, j, k)]; }
@@ -64,17 +66,21 @@ class Grid {
   void shift_x(int cells) { axes_[0].shift(cells); }
   GridView view();
 
-  /// Motion and displacement of some planes, zero elsewhere: eight numbers a node of the whole grid.
+  /// Motion and displacement of some planes, zero elsewhere: eight numbers a node of the whole
+  /// grid.
   std::vector<double> moving_state(const PlaneRange& planes) const;
   const double* restore_moving_state(const double* state);  ///< @return what follows
 
  private:
   std::size_t index(int i, int j, int k) const {
-    return (static_cast<std::size_t>(i) * static_cast<std::size_t>(nodes(1)) + static_cast<std::size_t>(j)) *
+    return (static_cast<std::size_t>(i) * static_cast<std::size_t>(nodes(1)) +
+            static_cast<std::size_t>(j)) *
                static_cast<std::size_t>(nodes(2)) +
            static_cast<std::size_t>(k);
   }
-  std::size_t first(const PlaneRange& planes) const { return static_cast<std::size_t>(planes.from) * plane_size(); }
+  std::size_t first(const PlaneRange& planes) const {
+    return static_cast<std::size_t>(planes.from) * plane_size();
+  }
   std::size_t last(const PlaneRange& planes) const;
 
   std::array<Axis, 3> axes_;

@@ -11,7 +11,8 @@ namespace furrow {
 
 namespace {
 
-constexpr double largest_strain = 1.0;  // of one level against the next: more is no ground but a void
+// of one level against the next: more is no ground but a void
+constexpr double largest_strain = 1.0;
 constexpr int bisections = 60;
 
 std::size_t layer_at(const GroundParameters& ground, double z) {
@@ -28,17 +29,22 @@ VectorX compressed(const Material& law, VectorX state, double strain) {
   return state;
 }
 
-/// The state after the confined compression that makes -sigma_zz equal to a stress that is not smaller than now.
+/// The state after the confined compression that makes -sigma_zz equal to a stress that is not
+/// smaller than now.
 VectorX loaded(const Material& law, const VectorX& state, double stress) {
-  const auto carried = [&](double strain) { return -compressed(law, state, strain)[field::stress + 2]; };
+  const auto carried = [&](double strain) {
+    return -compressed(law, state, strain)[field::stress + 2];
+  };
   if (-state[field::stress + 2] >= stress) return state;
   double low = 0.0, high = 1e-7;
   while (carried(high) < stress) {
     low = high;
     high *= 2.0;
     if (high > largest_strain)
-      throw InputError(fmt::format("law {}", law.name()), fmt::format("cannot carry {:.4g} Pa of its own weight", stress),
-                       "a law that stiffens in confined compression", "give the ground no gravity, or another law");
+      throw InputError(fmt::format("law {}", law.name()),
+                       fmt::format("cannot carry {:.4g} Pa of its own weight", stress),
+                       "a law that stiffens in confined compression",
+                       "give the ground no gravity, or another law");
   }
   for (int i = 0; i < bisections; ++i) {
     const double middle = 0.5 * (low + high);
@@ -58,7 +64,8 @@ void find_overburden(const GroundParameters& ground, std::vector<GroundLevel>& l
     const bool continues = n > 0 && levels[n - 1].layer == level.layer;
     level.state = continues ? levels[n - 1].state : law.initial_state();
     if (!ground.initial_stress) continue;
-    // Half of the level's own weight counts; its density depends little on the last increment of strain.
+    // Half of the level's own weight counts; its density depends little on the last increment of
+    // strain.
     const double pull = -ground.gravity.z();
     const double above = weight + pull * law.current_density(level.state) * level.half;
     level.state = loaded(law, level.state, above);

@@ -16,8 +16,9 @@ struct GroundLevel {
   VectorX state;  ///< of the law
 };
 
-/// Every level is compressed without sideways strain, each layer from its law's initial state, until its vertical stress carries what lies
-/// above: stress, density and hardening then belong together whatever the law. Without initial_stress the levels have the initial state.
+/// Every level is compressed without sideways strain, each layer from its law's initial state,
+/// until its vertical stress carries what lies above: stress, density and hardening then belong
+/// together whatever the law. Without initial_stress the levels have the initial state.
 /// @param levels  z and half, from the surface down; layer and state are filled in
 /// @throws InputError when a law cannot carry the weight
 void find_overburden(const GroundParameters& ground, std::vector<GroundLevel>& levels);

@@ -21,9 +21,11 @@ void MpmGround::sort() {
     start.assign(static_cast<std::size_t>(grid_.axis(0).cells()) * ny * nz + 1, 0);
     for (std::size_t p = 0; p < n; ++p) {
       const Vector3 x = phase.particles.position(p);
-      const int c[3] = {grid_.axis(0).cell_of(x[0]), grid_.axis(1).cell_of(x[1]), grid_.axis(2).cell_of(x[2])};
+      const int c[3] = {grid_.axis(0).cell_of(x[0]), grid_.axis(1).cell_of(x[1]),
+                        grid_.axis(2).cell_of(x[2])};
       if (c[0] < 0 || c[1] < 0 || c[2] < 0) report_outside(phase);
-      cell[p] = (static_cast<std::size_t>(c[0]) * ny + static_cast<std::size_t>(c[1])) * nz + static_cast<std::size_t>(c[2]);
+      cell[p] = (static_cast<std::size_t>(c[0]) * ny + static_cast<std::size_t>(c[1])) * nz +
+                static_cast<std::size_t>(c[2]);
       ++start[cell[p] + 1];
     }
     std::partial_sum(start.begin(), start.end(), start.begin());
@@ -62,14 +64,15 @@ void MpmGround::migrate() {
     phase.particles.reorder(staying);
     for (int r = 0; r < ranks().size(); ++r) {
       if (r == ranks().rank()) continue;
-      const std::vector<double> arriving = ranks().exchange(r, leaving[static_cast<std::size_t>(r)]);
+      const std::vector<double> arriving =
+          ranks().exchange(r, leaving[static_cast<std::size_t>(r)]);
       for (std::size_t n = 0; n < arriving.size(); n += phase.particles.record_length())
         phase.particles.unpack(arriving.data() + n);
     }
   }
 }
 
-// ---- moving ground --------------------------------------------------------------------------------------------------------------
+// ---- moving ground ------------------------------------------------------------------------------
 
 double MpmGround::travelled() const { return grid_.axis(0).lower() - start_; }
 
@@ -94,7 +97,8 @@ void MpmGround::move_window() {
 void MpmGround::drop_behind() {
   const Axis &x = grid_.axis(0), &y = grid_.axis(1);
   const double edge = x.knot(1);
-  std::vector<double> top(static_cast<std::size_t>(y.cells()), -std::numeric_limits<double>::infinity()),
+  std::vector<double> top(static_cast<std::size_t>(y.cells()),
+                          -std::numeric_limits<double>::infinity()),
       mass(top.size(), 0.0), volume(top.size(), 0.0);
   const double before = internal_energy(), heat_before = energy(field::dissipated_energy);
   std::vector<std::size_t> kept;
@@ -109,10 +113,12 @@ void MpmGround::drop_behind() {
       const auto row = static_cast<std::size_t>(y.cell_of(particles.data(column::y)[p]));
       const double ratio = particles.data(column::state + field::volume_ratio)[p],
                    reference = particles.data(column::volume)[p];
-      top[row] = std::max(top[row], particles.data(column::z)[p] + particles.data(column::half_z)[p] * ratio);
+      top[row] = std::max(top[row],
+                          particles.data(column::z)[p] + particles.data(column::half_z)[p] * ratio);
       mass[row] += phase.law->density() * reference;
       volume[row] += reference * ratio;
-      dropped_kinetic_ += 0.5 * phase.law->density() * reference * particles.velocity(p).squaredNorm();
+      dropped_kinetic_ +=
+          0.5 * phase.law->density() * reference * particles.velocity(p).squaredNorm();
     }
     phase.particles.reorder(kept);
   }
@@ -120,7 +126,8 @@ void MpmGround::drop_behind() {
   dropped_dissipated_ += heat_before - energy(field::dissipated_energy);
   for (std::size_t row = 0; row < top.size(); ++row)
     if (volume[row] > 0.0)
-      rut_.push_back({0.5 * (x.lower() + edge), y.knot(static_cast<int>(row)) + 0.5 * y.length(static_cast<int>(row)),
+      rut_.push_back({0.5 * (x.lower() + edge),
+                      y.knot(static_cast<int>(row)) + 0.5 * y.length(static_cast<int>(row)),
                       top[row], mass[row] / volume[row]});
 }
 

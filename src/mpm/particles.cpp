@@ -9,14 +9,15 @@ Particles::Particles(const Material& law) : state_fields_(law.state_fields().siz
   for (const char* name : {"x", "y", "z"}) columns_.push_back({name, 1, {}});
   columns_.push_back({"velocity", 4, {}});
   columns_.push_back({"affine", 12, {}});
-  for (const char* name : {"volume", "reference_x", "reference_y", "reference_z", "home_x", "home_y", "home_z", "half_x",
-                           "half_y", "half_z", "id"})
+  for (const char* name : {"volume", "reference_x", "reference_y", "reference_z", "home_x",
+                           "home_y", "home_z", "half_x", "half_y", "half_z", "id"})
     columns_.push_back({name, 1, {}});
   for (const StateField& field : law.state_fields()) columns_.push_back({field.name, 1, {}});
 }
 
 std::size_t Particles::add_column(const std::string& name, int components) {
-  columns_.push_back({name, components, std::vector<double>(size_ * static_cast<std::size_t>(components), 0.0)});
+  columns_.push_back(
+      {name, components, std::vector<double>(size_ * static_cast<std::size_t>(components), 0.0)});
   return columns_.size() - 1;
 }
 
@@ -38,12 +39,14 @@ std::size_t Particles::append(std::size_t count) {
 }
 
 void Particles::set_state(std::size_t i, const VectorX& state) {
-  for (std::size_t f = 0; f < state_fields_; ++f) data(column::state + f)[i] = state[static_cast<Eigen::Index>(f)];
+  for (std::size_t f = 0; f < state_fields_; ++f)
+    data(column::state + f)[i] = state[static_cast<Eigen::Index>(f)];
 }
 
 VectorX Particles::state(std::size_t i) const {
   VectorX state(static_cast<Eigen::Index>(state_fields_));
-  for (std::size_t f = 0; f < state_fields_; ++f) state[static_cast<Eigen::Index>(f)] = data(column::state + f)[i];
+  for (std::size_t f = 0; f < state_fields_; ++f)
+    state[static_cast<Eigen::Index>(f)] = data(column::state + f)[i];
   return state;
 }
 
@@ -51,7 +54,8 @@ void Particles::reorder(const std::vector<std::size_t>& order) {
   for (Column& c : columns_) {
     const auto n = static_cast<std::size_t>(c.components);
     scratch_.resize(order.size() * n);
-    for (std::size_t i = 0; i < order.size(); ++i) std::copy_n(c.values.data() + n * order[i], n, scratch_.data() + n * i);
+    for (std::size_t i = 0; i < order.size(); ++i)
+      std::copy_n(c.values.data() + n * order[i], n, scratch_.data() + n * i);
     c.values.swap(scratch_);
   }
   size_ = order.size();
@@ -83,7 +87,8 @@ ParticleView Particles::view(std::size_t first, std::size_t count) {
   view.affine = data(column::affine) + 12 * first;
   view.volume = data(column::volume) + first;
   view.volume_ratio = data(column::state + field::volume_ratio) + first;
-  for (std::size_t s = 0; s < 6; ++s) view.stress[s] = data(column::state + field::stress + s) + first;
+  for (std::size_t s = 0; s < 6; ++s)
+    view.stress[s] = data(column::state + field::stress + s) + first;
   return view;
 }
 

@@ -13,7 +13,8 @@
 
 namespace furrow {
 
-/// Columns every particle has; those of the law's state follow, then those that others keep with the particles.
+/// Columns every particle has; those of the law's state follow, then those that others keep with
+/// the particles.
 namespace column {
 enum : std::size_t {
   x,
@@ -48,11 +49,16 @@ class Particles {
   std::size_t record_length() const;  ///< numbers of one particle
   double* data(std::size_t column) { return columns_[column].values.data(); }
   const double* data(std::size_t column) const { return columns_[column].values.data(); }
-  Vector3 position(std::size_t i) const { return {data(column::x)[i], data(column::y)[i], data(column::z)[i]}; }
-  Vector3 reference(std::size_t i) const {
-    return {data(column::reference_x)[i], data(column::reference_y)[i], data(column::reference_z)[i]};
+  Vector3 position(std::size_t i) const {
+    return {data(column::x)[i], data(column::y)[i], data(column::z)[i]};
   }
-  Vector3 velocity(std::size_t i) const { return Eigen::Map<const Vector3>(data(column::velocity) + 4 * i); }
+  Vector3 reference(std::size_t i) const {
+    return {data(column::reference_x)[i], data(column::reference_y)[i],
+            data(column::reference_z)[i]};
+  }
+  Vector3 velocity(std::size_t i) const {
+    return Eigen::Map<const Vector3>(data(column::velocity) + 4 * i);
+  }
   Matrix3 affine(std::size_t i) const;
 
   /// Appends particles, all zero. @return the first
@@ -66,7 +72,8 @@ class Particles {
   void unpack(const double* record);                            ///< appends a particle
 
   ParticleView view(std::size_t first, std::size_t count);
-  /// State pointers of a block that begins at a particle; valid until the number of particles changes.
+  /// State pointers of a block that begins at a particle; valid until the number of particles
+  /// changes.
   void state_pointers(std::size_t first, std::vector<double*>& pointers);
 
  private:

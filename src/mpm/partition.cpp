@@ -21,7 +21,9 @@ void Partition::balance(const std::vector<double>& count) {
 }
 
 int Partition::owner(int cell) const {
-  return static_cast<int>(std::upper_bound(bounds_.begin() + 1, bounds_.end() - 1, cell) - bounds_.begin()) - 1;
+  return static_cast<int>(std::upper_bound(bounds_.begin() + 1, bounds_.end() - 1, cell) -
+                          bounds_.begin()) -
+         1;
 }
 
 PlaneRange Partition::reach(int rank) const {
@@ -33,7 +35,8 @@ PlaneRange Partition::reach(int rank) const {
 /// A plane belongs to the first rank that touches it.
 PlaneRange Partition::owned() const {
   PlaneRange mine = touched();
-  for (int r = 0; r < ranks_.rank(); ++r) mine.from = std::max(mine.from, std::min(mine.to, reach(r).to));
+  for (int r = 0; r < ranks_.rank(); ++r)
+    mine.from = std::max(mine.from, std::min(mine.to, reach(r).to));
   return mine;
 }
 
@@ -47,9 +50,11 @@ void Partition::sum_shared(Grid& grid) const {
   };
   const auto numbers = [&](const PlaneRange& planes) {
     const double* first = grid.plane_sums(planes.from);
-    return std::vector<double>(first, first + length * static_cast<std::size_t>(planes.to - planes.from));
+    return std::vector<double>(first,
+                               first + length * static_cast<std::size_t>(planes.to - planes.from));
   };
-  // All are sent before anything is added, then added in the order of the ranks: a node's sum does not depend on who makes it.
+  // All are sent before anything is added, then added in the order of the ranks: a node's sum does
+  // not depend on who makes it.
   std::vector<std::vector<double>> received(static_cast<std::size_t>(ranks_.size()));
   for (int r = 0; r < ranks_.size(); ++r) {
     const PlaneRange planes = shared(r);
@@ -70,7 +75,8 @@ void Partition::sum_shared(Grid& grid) const {
     }
     if (parts.size() == 1) continue;
     own = numbers({plane, plane + 1});
-    std::replace(parts.begin(), parts.end(), static_cast<const double*>(nullptr), static_cast<const double*>(own.data()));
+    std::replace(parts.begin(), parts.end(), static_cast<const double*>(nullptr),
+                 static_cast<const double*>(own.data()));
     double* sum = grid.plane_sums(plane);
     std::copy_n(parts[0], length, sum);
     for (std::size_t p = 1; p < parts.size(); ++p)

@@ -27,9 +27,11 @@ struct GroundParameters {
                                             FaceKind::smooth, FaceKind::rough,  FaceKind::free};
   std::array<int, 3> particles_per_cell = {2, 2, 2};  ///< in each direction
   Vector3 gravity = {0.0, 0.0, -standard_gravity};    ///< [m/s^2]
-  bool initial_stress = true;  ///< the weight of the ground is carried from the start, sideways as in confined compression
-  double cfl = 0.4;            ///< step over (shortest cell)/(wave speed + speed of the ground)
-  int cycle = 16;       ///< most steps for which the grid moves with the ground before particles are mapped to it anew
+  /// the weight of the ground is carried from the start, sideways as in confined compression
+  bool initial_stress = true;
+  double cfl = 0.4;  ///< step over (shortest cell)/(wave speed + speed of the ground)
+  /// most steps for which the grid moves with the ground before particles are mapped to it anew
+  int cycle = 16;
   bool sheet = false;   ///< carries triangles on its upper face, for grains
   bool window = false;  ///< the ground moves along x with what follow() names
 };

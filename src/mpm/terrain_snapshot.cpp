@@ -27,9 +27,10 @@ enum : std::size_t {
 /// Column of the law's compaction, or that of the volume ratio.
 std::size_t compaction_column(const Material& law) {
   const auto& fields = law.state_fields();
-  const auto found = std::find_if(fields.begin(), fields.end(), [](const StateField& f) { return f.name == "eps_vol_pl"; });
-  return column::state +
-         (found == fields.end() ? std::size_t(field::volume_ratio) : static_cast<std::size_t>(found - fields.begin()));
+  const auto found = std::find_if(fields.begin(), fields.end(),
+                                  [](const StateField& f) { return f.name == "eps_vol_pl"; });
+  return column::state + (found == fields.end() ? std::size_t(field::volume_ratio)
+                                                : static_cast<std::size_t>(found - fields.begin()));
 }
 
 }  // namespace
@@ -44,9 +45,11 @@ GroundSnapshot take_snapshot(MpmGround& ground) {
     for (std::size_t p = 0; p < particles.size(); ++p) {
       double r[length];
       Vector6 stress;
-      for (int s = 0; s < 6; ++s) stress[s] = particles.data(column::state + field::stress + static_cast<std::size_t>(s))[p];
+      for (int s = 0; s < 6; ++s)
+        stress[s] = particles.data(column::state + field::stress + static_cast<std::size_t>(s))[p];
       const Invariants invariant = invariants(stress);
-      const double ratio = particles.data(column::state + field::volume_ratio)[p], value = particles.data(compacted)[p];
+      const double ratio = particles.data(column::state + field::volume_ratio)[p],
+                   value = particles.data(compacted)[p];
       r[id] = particles.data(column::id)[p];
       for (std::size_t a = 0; a < 3; ++a) {
         r[x + a] = particles.data(column::x + a)[p];
@@ -67,11 +70,13 @@ GroundSnapshot take_snapshot(MpmGround& ground) {
   const std::size_t count = records.size() / length;
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t(0));
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return records[a * length] < records[b * length]; });
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return records[a * length] < records[b * length];
+  });
 
   GroundSnapshot snapshot;
-  for (Matrix3X* columns : {&snapshot.x, &snapshot.home, &snapshot.v}) columns->resize(3, static_cast<Eigen::Index>(count));
+  for (Matrix3X* columns : {&snapshot.x, &snapshot.home, &snapshot.v})
+    columns->resize(3, static_cast<Eigen::Index>(count));
   for (std::size_t n = 0; n < count; ++n) {
     const double* r = records.data() + order[n] * length;
     const auto column = static_cast<Eigen::Index>(n);
@@ -79,9 +84,11 @@ GroundSnapshot take_snapshot(MpmGround& ground) {
     snapshot.home.col(column) = Eigen::Map<const Vector3>(r + home);
     snapshot.v.col(column) = Eigen::Map<const Vector3>(r + v);
     for (auto [values, at] :
-         {std::pair{&snapshot.id, id}, std::pair{&snapshot.layer, layer}, std::pair{&snapshot.volume, volume},
-          std::pair{&snapshot.density, density}, std::pair{&snapshot.pressure, pressure}, std::pair{&snapshot.mises, mises},
-          std::pair{&snapshot.vertical_stress, vertical}, std::pair{&snapshot.compaction, compaction}})
+         {std::pair{&snapshot.id, id}, std::pair{&snapshot.layer, layer},
+          std::pair{&snapshot.volume, volume}, std::pair{&snapshot.density, density},
+          std::pair{&snapshot.pressure, pressure}, std::pair{&snapshot.mises, mises},
+          std::pair{&snapshot.vertical_stress, vertical},
+          std::pair{&snapshot.compaction, compaction}})
       values->push_back(r[at]);
   }
   return snapshot;
@@ -89,7 +96,8 @@ GroundSnapshot take_snapshot(MpmGround& ground) {
 
 std::vector<RutPoint> collect_rut(const MpmGround& ground) {
   std::vector<double> numbers;
-  for (const RutPoint& point : ground.rut()) numbers.insert(numbers.end(), {point.x, point.y, point.z, point.density});
+  for (const RutPoint& point : ground.rut())
+    numbers.insert(numbers.end(), {point.x, point.y, point.z, point.density});
   numbers = ground.ranks().gather(numbers);
   std::vector<RutPoint> rut;
   for (std::size_t n = 0; n < numbers.size(); n += 4)

@@ -12,28 +12,40 @@ namespace furrow {
 std::vector<double> MpmGround::fingerprint() const {
   std::vector<double> numbers = {static_cast<double>(phases_.size())};
   for (int a = 0; a < 3; ++a)
-    numbers.insert(numbers.end(), {static_cast<double>(grid_.axis(a).cells()), grid_.axis(a).shortest()});
+    numbers.insert(numbers.end(),
+                   {static_cast<double>(grid_.axis(a).cells()), grid_.axis(a).shortest()});
   for (const GroundPhase& phase : phases_)
-    numbers.insert(numbers.end(), {static_cast<double>(phase.particles.record_length()), phase.law->density()});
-  numbers.insert(numbers.end(),
-                 {static_cast<double>(faces_.state_length()), static_cast<double>(sheet_.surface().node_count())});
+    numbers.insert(numbers.end(),
+                   {static_cast<double>(phase.particles.record_length()), phase.law->density()});
+  numbers.insert(numbers.end(), {static_cast<double>(faces_.state_length()),
+                                 static_cast<double>(sheet_.surface().node_count())});
   return numbers;
 }
 
 std::vector<double> MpmGround::state() const {
   std::vector<double> state = fingerprint();
-  double sums[] = {totals_.kinetic_energy, totals_.momentum[0], totals_.momentum[1], totals_.momentum[2], initial_,
-                   stress_work_,           contact_work_,       gravity_work_,       dropped_kinetic_,    dropped_internal_,
+  double sums[] = {totals_.kinetic_energy,
+                   totals_.momentum[0],
+                   totals_.momentum[1],
+                   totals_.momentum[2],
+                   initial_,
+                   stress_work_,
+                   contact_work_,
+                   gravity_work_,
+                   dropped_kinetic_,
+                   dropped_internal_,
                    dropped_dissipated_};
   ranks().sum(sums, std::size(sums));
   state.insert(state.end(), std::begin(sums), std::end(sums));
-  state.insert(state.end(), {static_cast<double>(shifts_), focus_, next_id_, drift_, travel_, ranks().max(largest_speed_),
-                             static_cast<double>(steps_left_), lagging_ ? 1.0 : 0.0});
+  state.insert(state.end(), {static_cast<double>(shifts_), focus_, next_id_, drift_, travel_,
+                             ranks().max(largest_speed_), static_cast<double>(steps_left_),
+                             lagging_ ? 1.0 : 0.0});
   std::vector<double> nodes = grid_.moving_state(partition_.owned());
   ranks().sum(nodes.data(), nodes.size());
   state.insert(state.end(), nodes.begin(), nodes.end());
   std::vector<double> rut;
-  for (const RutPoint& point : rut_) rut.insert(rut.end(), {point.x, point.y, point.z, point.density});
+  for (const RutPoint& point : rut_)
+    rut.insert(rut.end(), {point.x, point.y, point.z, point.density});
   rut = ranks().gather(rut);
   state.push_back(static_cast<double>(rut.size()));
   state.insert(state.end(), rut.begin(), rut.end());
@@ -56,12 +68,14 @@ std::vector<double> MpmGround::state() const {
 void MpmGround::restore(const std::vector<double>& state) {
   const std::vector<double> mine = fingerprint();
   if (state.size() < mine.size() || !std::equal(mine.begin(), mine.end(), state.begin()))
-    throw Error(fmt::format(
-        "{}: the saved state belongs to other ground; restart with the materials, size and cells of the first run", where_));
+    throw Error(
+        fmt::format("{}: the saved state belongs to other ground; restart with the materials, size "
+                    "and cells of the first run",
+                    where_));
   const double* next = state.data() + mine.size();
-  for (double* sum :
-       {&totals_.kinetic_energy, &totals_.momentum[0], &totals_.momentum[1], &totals_.momentum[2], &initial_, &stress_work_,
-        &contact_work_, &gravity_work_, &dropped_kinetic_, &dropped_internal_, &dropped_dissipated_})
+  for (double* sum : {&totals_.kinetic_energy, &totals_.momentum[0], &totals_.momentum[1],
+                      &totals_.momentum[2], &initial_, &stress_work_, &contact_work_,
+                      &gravity_work_, &dropped_kinetic_, &dropped_internal_, &dropped_dissipated_})
     *sum = ranks().rank() == 0 ? *next++ : (++next, 0.0);
   const int shifts = static_cast<int>(*next++);
   grid_.shift_x(shifts - shifts_);
@@ -86,7 +100,8 @@ void MpmGround::restore(const std::vector<double>& state) {
     phase.particles.reorder({});
     const auto length = static_cast<std::size_t>(*next++);
     for (const double* end = next + length; next != end; next += phase.particles.record_length())
-      if (partition_.owner(grid_.axis(0).cell_of(next[0])) == ranks().rank()) phase.particles.unpack(next);
+      if (partition_.owner(grid_.axis(0).cell_of(next[0])) == ranks().rank())
+        phase.particles.unpack(next);
   }
   const double drift = drift_;
   if (ranks().size() > 1) sort();

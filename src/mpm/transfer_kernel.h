@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The transfers of transfer.h for one instruction set. Weights are found for a batch of particles at once, in loops the compiler
-/// vectorises over particles; the 27 nodes of a particle are then visited with the four numbers of a node as one vector.
+/// The transfers of transfer.h for one instruction set. Weights are found for a batch of particles
+/// at once, in loops the compiler vectorises over particles; the 27 nodes of a particle are then
+/// visited with the four numbers of a node as one vector.
 
 #include "mpm/transfer.h"
 
@@ -12,8 +13,10 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-typedef double Vector4 __attribute__((vector_size(32)));                         // the four numbers of a node
-typedef double Stored4 __attribute__((vector_size(32), aligned(8), may_alias));  // the same anywhere in memory
+// the four numbers of a node
+typedef double Vector4 __attribute__((vector_size(32)));
+// the same anywhere in memory
+typedef double Stored4 __attribute__((vector_size(32), aligned(8), may_alias));
 
 enum class Slope {
   moment,   // N d, for momentum and motion
@@ -46,30 +49,36 @@ int find_weights_by_table(const AxisView& axis, int a, double x, std::size_t p, 
     spread += moment[i] * d;
   }
   const double inverse = 1.0 / spread;
-  for (std::size_t i = 0; i < stencil; ++i) weights.slope[a][i][p] = kind == Slope::moment ? moment[i] : moment[i] * inverse;
+  for (std::size_t i = 0; i < stencil; ++i)
+    weights.slope[a][i][p] = kind == Slope::moment ? moment[i] : moment[i] * inverse;
   if (kind == Slope::moment) weights.inverse_spread[a][p] = inverse;
   return c;
 }
 
-inline std::size_t count_outside(const GridView& grid, const double* const* position, std::size_t count) {
+inline std::size_t count_outside(const GridView& grid, const double* const* position,
+                                 std::size_t count) {
   int outside = 0;
   for (std::size_t p = 0; p < count; ++p) {
     int inside = 1;
     for (int a = 0; a < 3; ++a)
-      inside &= static_cast<int>(position[a][p] >= grid.axis[a].from) & static_cast<int>(position[a][p] <= grid.axis[a].to);
+      inside &= static_cast<int>(position[a][p] >= grid.axis[a].from) &
+                static_cast<int>(position[a][p] <= grid.axis[a].to);
     outside += 1 - inside;
   }
   return static_cast<std::size_t>(outside);
 }
 
 template <Slope kind>
-void find_batch(const GridView& grid, const double* const* position, std::size_t count, Weights& weights) {
+void find_batch(const GridView& grid, const double* const* position, std::size_t count,
+                Weights& weights) {
   int cell[3][batch], apart[batch];
   for (int a = 0; a < 3; ++a) {
     const AxisView& axis = grid.axis[a];
     const double* x = position[a];
-    // Cells of one length: the splines are those of unit cells, D = h^2/4. No table, so that the compiler vectorises.
-    const double h = axis.even_length, per_length = 1.0 / h, inverse_spread = 4.0 * per_length * per_length,
+    // Cells of one length: the splines are those of unit cells, D = h^2/4. No table, so that the
+    // compiler vectorises.
+    const double h = axis.even_length, per_length = 1.0 / h,
+                 inverse_spread = 4.0 * per_length * per_length,
                  scale = kind == Slope::moment ? h : h * inverse_spread;
     int any = 0;
     for (std::size_t p = 0; p < count; ++p) {
@@ -94,7 +103,8 @@ void find_batch(const GridView& grid, const double* const* position, std::size_t
         if (apart[p]) cell[a][p] = find_weights_by_table<kind>(axis, a, x[p], p, weights);
   }
   const int ny = grid.axis[1].cells + 2, nz = grid.axis[2].cells + 2;
-  for (std::size_t p = 0; p < count; ++p) weights.first[p] = (cell[0][p] * ny + cell[1][p]) * nz + cell[2][p];
+  for (std::size_t p = 0; p < count; ++p)
+    weights.first[p] = (cell[0][p] * ny + cell[1][p]) * nz + cell[2][p];
 }
 
 /// Numbers from a node to the next along x and y.
@@ -110,10 +120,12 @@ struct CellSum {
   Vector4 node[stencil][stencil][stencil];
 
   /// Adds N_i base + sum_d (slope of N_i along d) flux_d.
-  [[gnu::always_inline]] void add(const Weights& weights, std::size_t p, const Vector4& base, const Vector4* flux) {
+  [[gnu::always_inline]] void add(const Weights& weights, std::size_t p, const Vector4& base,
+                                  const Vector4* flux) {
     Vector4 value_z[stencil];
 #pragma GCC unroll 3
-    for (std::size_t k = 0; k < stencil; ++k) value_z[k] = weights.value[2][k][p] * base + weights.slope[2][k][p] * flux[2];
+    for (std::size_t k = 0; k < stencil; ++k)
+      value_z[k] = weights.value[2][k][p] * base + weights.slope[2][k][p] * flux[2];
     add_rows(weights, p, value_z, flux);
   }
 
@@ -125,7 +137,8 @@ struct CellSum {
     add_rows(weights, p, value_z, flux);
   }
 
-  [[gnu::always_inline]] void give_to(const GridView& grid, const Strides& stride, int first) const {
+  [[gnu::always_inline]] void give_to(const GridView& grid, const Strides& stride,
+                                      int first) const {
     double* corner = grid.sums + 4 * static_cast<std::size_t>(first);
 #pragma GCC unroll 3
     for (std::size_t i = 0; i < stencil; ++i)
@@ -138,7 +151,8 @@ struct CellSum {
   }
 
  private:
-  [[gnu::always_inline]] void add_rows(const Weights& weights, std::size_t p, const Vector4* value_z, const Vector4* flux) {
+  [[gnu::always_inline]] void add_rows(const Weights& weights, std::size_t p,
+                                       const Vector4* value_z, const Vector4* flux) {
     Vector4 along_x[stencil], along_y[stencil];
 #pragma GCC unroll 3
     for (std::size_t k = 0; k < stencil; ++k) {
@@ -179,12 +193,15 @@ inline ParticleView part(const ParticleView& all, std::size_t first, std::size_t
 template <class Visit>
 void for_batches(const ParticleView& particles, Visit&& visit) {
   for (std::size_t first = 0; first < particles.size; first += batch)
-    visit(part(particles, first, particles.size - first < batch ? particles.size - first : batch), first);
+    visit(part(particles, first, particles.size - first < batch ? particles.size - first : batch),
+          first);
 }
 
-/// Calls add(sum, particle) for the particles in turn, and gives the sum of those of one cell to its nodes.
+/// Calls add(sum, particle) for the particles in turn, and gives the sum of those of one cell to
+/// its nodes.
 template <class Add>
-[[gnu::always_inline]] inline void for_cells(const GridView& grid, const Weights& weights, std::size_t count, Add&& add) {
+[[gnu::always_inline]] inline void for_cells(const GridView& grid, const Weights& weights,
+                                             std::size_t count, Add&& add) {
   const Strides stride(grid);
   for (std::size_t p = 0; p < count;) {
     const int first = weights.first[p];
@@ -205,7 +222,8 @@ inline std::size_t scatter_momentum(const GridView& grid, const ParticleView& al
     Weights weights;
     find_batch<Slope::moment>(grid, particles.reference, particles.size, weights);
     for_cells(
-        grid, weights, particles.size, [&](CellSum & sum, std::size_t p) __attribute__((always_inline)) {
+        grid, weights,
+        particles.size, [&](CellSum & sum, std::size_t p) __attribute__((always_inline)) {
           const double mass = density * particles.volume[p];
           const Stored4* affine = reinterpret_cast<const Stored4*>(particles.affine + 12 * p);
           Vector4 base = *reinterpret_cast<const Stored4*>(particles.velocity + 4 * p);
@@ -223,7 +241,8 @@ inline void find_weights(const GridView& grid, const ParticleView& all, Weights*
   });
 }
 
-inline void scatter_force(const GridView& grid, const ParticleView& all, const Weights* of_batches) {
+inline void scatter_force(const GridView& grid, const ParticleView& all,
+                          const Weights* of_batches) {
   for_batches(all, [&](const ParticleView& particles, std::size_t first) {
     const Weights& weights = of_batches[first / batch];
     alignas(64) double force[6][batch];  // -V sigma
@@ -231,16 +250,18 @@ inline void scatter_force(const GridView& grid, const ParticleView& all, const W
       for (std::size_t p = 0; p < particles.size; ++p)
         force[s][p] = -particles.volume[p] * particles.volume_ratio[p] * particles.stress[s][p];
     for_cells(
-        grid, weights, particles.size, [&](CellSum & sum, std::size_t p) __attribute__((always_inline)) {
-          const double xx = force[0][p], yy = force[1][p], zz = force[2][p], xy = force[3][p], yz = force[4][p],
-                       xz = force[5][p];
+        grid, weights,
+        particles.size, [&](CellSum & sum, std::size_t p) __attribute__((always_inline)) {
+          const double xx = force[0][p], yy = force[1][p], zz = force[2][p], xy = force[3][p],
+                       yz = force[4][p], xz = force[5][p];
           const Vector4 flux[3] = {{xx, xy, xz, 0.0}, {xy, yy, yz, 0.0}, {xz, yz, zz, 0.0}};
           sum.add(weights, p, flux);
         });
   });
 }
 
-inline void scatter_point_forces(const GridView& grid, const PointForce* forces, std::size_t count) {
+inline void scatter_point_forces(const GridView& grid, const PointForce* forces,
+                                 std::size_t count) {
   const Strides stride(grid);
   Weights weights;
   for (std::size_t n = 0; n < count; ++n) {
@@ -257,8 +278,9 @@ inline void scatter_point_forces(const GridView& grid, const PointForce* forces,
 }
 
 /// sum N_i q_i of a quantity of the nodes.
-[[gnu::always_inline]] inline void read_value(const double* nodes, const Strides& stride, const Weights& weights,
-                                              std::size_t p, Vector4& value) {
+[[gnu::always_inline]] inline void read_value(const double* nodes, const Strides& stride,
+                                              const Weights& weights, std::size_t p,
+                                              Vector4& value) {
   const double* corner = nodes + 4 * static_cast<std::size_t>(weights.first[p]);
   Vector4 total[stencil] = {};
 #pragma GCC unroll 3
@@ -273,12 +295,14 @@ inline void scatter_point_forces(const GridView& grid, const PointForce* forces,
 #pragma GCC unroll 3
     for (std::size_t k = 0; k < stencil; ++k) total[k] += weights.value[0][i][p] * sum[k];
   }
-  value = weights.value[2][0][p] * total[0] + weights.value[2][1][p] * total[1] + weights.value[2][2][p] * total[2];
+  value = weights.value[2][0][p] * total[0] + weights.value[2][1][p] * total[1] +
+          weights.value[2][2][p] * total[2];
 }
 
 /// sum N_i q_i, and sum (slope of N_i along d) q_i.
-[[gnu::always_inline]] inline void read_slopes(const double* nodes, const Strides& stride, const Weights& weights,
-                                               std::size_t p, Vector4& value, Vector4* slope) {
+[[gnu::always_inline]] inline void read_slopes(const double* nodes, const Strides& stride,
+                                               const Weights& weights, std::size_t p,
+                                               Vector4& value, Vector4* slope) {
   const double* corner = nodes + 4 * static_cast<std::size_t>(weights.first[p]);
   Vector4 total[stencil] = {}, along_x[stencil] = {}, along_y[stencil] = {};
 #pragma GCC unroll 3
@@ -314,8 +338,8 @@ inline void scatter_point_forces(const GridView& grid, const PointForce* forces,
   }
 }
 
-inline void gather_strain(const GridView& grid, const ParticleView& all, const Weights* of_batches, double dt,
-                          double* const* gradient) {
+inline void gather_strain(const GridView& grid, const ParticleView& all, const Weights* of_batches,
+                          double dt, double* const* gradient) {
   const Strides stride(grid);
   for_batches(all, [&](const ParticleView& particles, std::size_t first) {
     const Weights& weights = of_batches[first / batch];
@@ -333,12 +357,14 @@ inline void gather_strain(const GridView& grid, const ParticleView& all, const W
 
 inline double stress_work(const ParticleView& particles, const double* const* h) {
   const double* const* s = particles.stress;
-  constexpr std::size_t lanes = 8;  // sums side by side: the order of additions is part of the result
+  // sums side by side: the order of additions is part of the result
+  constexpr std::size_t lanes = 8;
   double work[lanes] = {};
   const auto of = [&](std::size_t p) {
     return particles.volume[p] * particles.volume_ratio[p] *
-           (s[0][p] * h[0][p] + s[1][p] * h[4][p] + s[2][p] * h[8][p] + s[3][p] * (h[1][p] + h[3][p]) +
-            s[4][p] * (h[5][p] + h[7][p]) + s[5][p] * (h[2][p] + h[6][p]));
+           (s[0][p] * h[0][p] + s[1][p] * h[4][p] + s[2][p] * h[8][p] +
+            s[3][p] * (h[1][p] + h[3][p]) + s[4][p] * (h[5][p] + h[7][p]) +
+            s[5][p] * (h[2][p] + h[6][p]));
   };
   const std::size_t whole = particles.size - particles.size % lanes;
   for (std::size_t p = 0; p < whole; p += lanes)
@@ -349,9 +375,11 @@ inline double stress_work(const ParticleView& particles, const double* const* h)
   return sum;
 }
 
-/// Velocity and C of a particle; C's fourth numbers would be slopes of the nodes' mass and must not come back to them: zero.
-[[gnu::always_inline]] inline void read_motion(const GridView& grid, const Strides& stride, const Weights& weights,
-                                               std::size_t p, Vector4& velocity, Vector4* affine) {
+/// Velocity and C of a particle; C's fourth numbers would be slopes of the nodes' mass and must not
+/// come back to them: zero.
+[[gnu::always_inline]] inline void read_motion(const GridView& grid, const Strides& stride,
+                                               const Weights& weights, std::size_t p,
+                                               Vector4& velocity, Vector4* affine) {
   read_slopes(grid.velocity, stride, weights, p, velocity, affine);
   for (int d = 0; d < 3; ++d) {
     const double inverse = weights.inverse_spread[d][p];

@@ -6,7 +6,8 @@
 
 namespace furrow {
 
-/// Runs a script of share/furrow, which lies beside the bin folder of this program, for a results folder.
+/// Runs a script of share/furrow, which lies beside the bin folder of this program, for a results
+/// folder.
 /// @throws Error when the script is missing or fails; the results stay
 void draw_figure(const std::string& script, const std::string& folder);
 

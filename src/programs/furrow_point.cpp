@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// furrow-point: drives one material point along a path, lists the laws, fits parameters to measured curves.
+/// furrow-point: drives one material point along a path, lists the laws, fits parameters to
+/// measured curves.
 
 #include <cstdio>
 #include <filesystem>
@@ -20,7 +21,9 @@
 namespace {
 
 std::string folder_for(const std::string& wish, const std::string& input) {
-  return wish.empty() ? (std::filesystem::path("results") / std::filesystem::path(input).stem()).string() : wish;
+  return wish.empty()
+             ? (std::filesystem::path("results") / std::filesystem::path(input).stem()).string()
+             : wish;
 }
 
 void run(const std::string& input, const std::string& output, bool plot) {
@@ -35,8 +38,8 @@ void run(const std::string& input, const std::string& output, bool plot) {
   } catch (const furrow::StateError&) {
     // The run itself stands; its report says that the error is not known.
   }
-  std::cout << furrow::run_report(run, *material, history, error ? &*error : nullptr) << "  results       " << folder
-            << '\n';
+  std::cout << furrow::run_report(run, *material, history, error ? &*error : nullptr)
+            << "  results       " << folder << '\n';
   if (plot) furrow::draw_figure("point_figures.py", folder);
 }
 
@@ -68,20 +71,26 @@ void list_laws(const std::string& name) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("One material point of a law: along a path, or fitted to measured curves.", "furrow-point");
+  CLI::App app("One material point of a law: along a path, or fitted to measured curves.",
+               "furrow-point");
   app.set_version_flag("--version", furrow::version());
   app.require_subcommand(1);
 
   std::string input, output, law;
   bool no_plot = false;
-  CLI::App* run_command = app.add_subcommand("run", "drive a point along the path of a file (inputs/points/*.yaml)");
-  CLI::App* fit_command = app.add_subcommand("fit", "fit parameters of a law to measured curves (inputs/points/fit_*.yaml)");
+  CLI::App* run_command =
+      app.add_subcommand("run", "drive a point along the path of a file (inputs/points/*.yaml)");
+  CLI::App* fit_command = app.add_subcommand(
+      "fit", "fit parameters of a law to measured curves (inputs/points/fit_*.yaml)");
   for (CLI::App* command : {run_command, fit_command}) {
-    command->add_option("file", input, "a YAML file; furrow-point paths lists its keys")->required();
-    command->add_option("-o,--output", output, "the results folder; results/<name of the file> unless given");
+    command->add_option("file", input, "a YAML file; furrow-point paths lists its keys")
+        ->required();
+    command->add_option("-o,--output", output,
+                        "the results folder; results/<name of the file> unless given");
     command->add_flag("--no-plot", no_plot, "no figure");
   }
-  CLI::App* laws_command = app.add_subcommand("laws", "list the laws with their keys, units, ranges and meanings");
+  CLI::App* laws_command =
+      app.add_subcommand("laws", "list the laws with their keys, units, ranges and meanings");
   laws_command->add_option("name", law, "only this law");
   CLI::App* paths_command = app.add_subcommand("paths", "list the paths and the keys of a fit");
   CLI11_PARSE(app, argc, argv);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// furrow-sidewall: the sidewall of a tyre file, solved and looked up: printed, tabulated and drawn.
+/// furrow-sidewall: the sidewall of a tyre file, solved and looked up: printed, tabulated and
+/// drawn.
 
 #include <filesystem>
 #include <iostream>
@@ -36,36 +37,44 @@ void run(const Wishes& wishes) {
   }
   const auto table = furrow::open_sidewall_table(tyre.sidewall, tyre.pressure, grid);
   const furrow::SidewallSurvey survey = furrow::survey_sidewall(tyre, tyre.pressure, *table);
-  const std::string folder = wishes.output.empty()
-                                 ? (std::filesystem::path("results") / std::filesystem::path(wishes.input).stem()).string()
-                                 : wishes.output;
+  const std::string folder =
+      wishes.output.empty()
+          ? (std::filesystem::path("results") / std::filesystem::path(wishes.input).stem()).string()
+          : wishes.output;
   furrow::write_sidewall_survey(folder, survey);
   std::cout << furrow::sidewall_report(survey) << "  results       " << folder << '\n';
   if (!wishes.no_plot) furrow::draw_figure("sidewall_figures.py", folder);
 }
 
 void list_keys() {
-  for (const auto& [section, schema] : furrow::tyre_schemas()) std::cout << section << ":\n" << schema.table() << '\n';
+  for (const auto& [section, schema] : furrow::tyre_schemas())
+    std::cout << section << ":\n" << schema.table() << '\n';
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("The sidewall of a tyre file: shape, forces and stiffness, solved and looked up.", "furrow-sidewall");
+  CLI::App app("The sidewall of a tyre file: shape, forces and stiffness, solved and looked up.",
+               "furrow-sidewall");
   app.set_version_flag("--version", furrow::version());
   app.require_subcommand(1);
 
   Wishes wishes;
-  CLI::App* run_command = app.add_subcommand("run", "survey the sidewall of a tyre file (inputs/tyres/*.yaml)");
-  run_command->add_option("file", wishes.input, "a tyre file; furrow-sidewall keys lists its keys")->required();
-  run_command->add_option("-p,--pressure", wishes.pressure, "inflation pressure [Pa] instead of the file's");
+  CLI::App* run_command =
+      app.add_subcommand("run", "survey the sidewall of a tyre file (inputs/tyres/*.yaml)");
+  run_command->add_option("file", wishes.input, "a tyre file; furrow-sidewall keys lists its keys")
+      ->required();
+  run_command->add_option("-p,--pressure", wishes.pressure,
+                          "inflation pressure [Pa] instead of the file's");
   run_command
       ->add_option("-n,--nodes", wishes.nodes,
                    "of the table along the chord; half and a quarter as many along its other axes")
       ->check(CLI::Range(6, 200));
-  run_command->add_option("-o,--output", wishes.output, "the results folder; results/<name of the file> unless given");
+  run_command->add_option("-o,--output", wishes.output,
+                          "the results folder; results/<name of the file> unless given");
   run_command->add_flag("--no-plot", wishes.no_plot, "no figure");
-  CLI::App* keys_command = app.add_subcommand("keys", "list the keys of a tyre file with units, ranges and meanings");
+  CLI::App* keys_command =
+      app.add_subcommand("keys", "list the keys of a tyre file with units, ranges and meanings");
   CLI11_PARSE(app, argc, argv);
 
   try {

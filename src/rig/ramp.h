@@ -7,8 +7,8 @@
 
 namespace furrow {
 
-/// S(u) = u^3 (10 - 15 u + 6 u^2), u = (t - start)/duration: value, first and second derivative are continuous (C2).
-/// A duration of 0 is a step at start.
+/// S(u) = u^3 (10 - 15 u + 6 u^2), u = (t - start)/duration: value, first and second derivative are
+/// continuous (C2). A duration of 0 is a step at start.
 struct Ramp {
   double start = 0.0;     ///< [s]
   double duration = 0.0;  ///< [s]
@@ -27,27 +27,32 @@ struct Ramp {
     return 30.0 * u * u * (1.0 - u) * (1.0 - u) / duration;
   }
 
-  /// Integral of the value from the start to time [s]: duration u^4 (5/2 - 3 u + u^2), and time - end after it.
+  /// Integral of the value from the start to time [s]: duration u^4 (5/2 - 3 u + u^2), and time -
+  /// end after it.
   double integral(double time) const {
     const double u = fraction(time);
     return duration * u * u * u * u * (2.5 - u * (3.0 - u)) + std::max(0.0, time - end());
   }
 
-  /// Mean of the value over [from, to], to > from, to round-off however short the interval is: three-point Gauss quadrature is
-  /// exact for this polynomial, where the difference of two integrals would lose digits.
+  /// Mean of the value over [from, to], to > from, to round-off however short the interval is:
+  /// three-point Gauss quadrature is exact for this polynomial, where the difference of two
+  /// integrals would lose digits.
   double mean(double from, double to) const {
     const double finish = std::clamp(end(), from, to);
     return (integrate(&Ramp::value, from, to) + (to - finish)) / (to - from);
   }
 
   /// Mean of the rate over [from, to], in the same way [1/s]; 0 for a step.
-  double mean_rate(double from, double to) const { return integrate(&Ramp::rate, from, to) / (to - from); }
+  double mean_rate(double from, double to) const {
+    return integrate(&Ramp::rate, from, to) / (to - from);
+  }
 
  private:
   /// Integral over the part of [from, to] that lies on the ramp.
   double integrate(double (Ramp::*function)(double) const, double from, double to) const {
     const double begin = std::clamp(start, from, to), finish = std::clamp(end(), from, to);
-    const double half = 0.5 * (finish - begin), middle = 0.5 * (begin + finish), offset = std::sqrt(0.6) * half;
+    const double half = 0.5 * (finish - begin), middle = 0.5 * (begin + finish),
+                 offset = std::sqrt(0.6) * half;
     if (half <= 0.0) return 0.0;
     return half / 9.0 *
            (5.0 * (this->*function)(middle - offset) + 8.0 * (this->*function)(middle) +

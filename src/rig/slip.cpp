@@ -11,7 +11,8 @@
 namespace furrow {
 
 const std::vector<std::string>& slip_definition_words() {
-  static const std::vector<std::string> words{"larger_speed", "rim_speed", "vehicle_speed"};  // order of SlipDefinition
+  // order of SlipDefinition
+  static const std::vector<std::string> words{"larger_speed", "rim_speed", "vehicle_speed"};
   return words;
 }
 
@@ -39,20 +40,23 @@ double slip(SlipDefinition definition, double rim, double vehicle) {
   if (definition == SlipDefinition::rim_speed) denominator = rim;
   if (definition == SlipDefinition::vehicle_speed) denominator = vehicle;
   if (!(std::abs(denominator) > 0.0))
-    throw StateError(fmt::format("slip {} is not defined at a rim speed of {} m/s and a vehicle speed of {} m/s",
-                                 slip_formula(definition), rim, vehicle));
+    throw StateError(
+        fmt::format("slip {} is not defined at a rim speed of {} m/s and a vehicle speed of {} m/s",
+                    slip_formula(definition), rim, vehicle));
   return (rim - vehicle) / denominator;
 }
 
 double rim_speed(SlipDefinition definition, double slip, double vehicle) {
   if (!(std::isfinite(vehicle) && vehicle > 0.0))
-    throw StateError(
-        fmt::format("a slip of {} sets no rim speed at a vehicle speed of {} m/s; allowed: a speed > 0", slip, vehicle));
+    throw StateError(fmt::format(
+        "a slip of {} sets no rim speed at a vehicle speed of {} m/s; allowed: a speed > 0", slip,
+        vehicle));
   const bool braking = slip < 0.0;
-  const bool by_vehicle =
-      definition == SlipDefinition::vehicle_speed || (definition == SlipDefinition::larger_speed && braking);
+  const bool by_vehicle = definition == SlipDefinition::vehicle_speed ||
+                          (definition == SlipDefinition::larger_speed && braking);
   if (!std::isfinite(slip) || (by_vehicle ? slip < -1.0 : slip >= 1.0))
-    throw StateError(fmt::format("no forward spin has a slip {} of {}; allowed: {}", slip_formula(definition), slip,
+    throw StateError(fmt::format("no forward spin has a slip {} of {}; allowed: {}",
+                                 slip_formula(definition), slip,
                                  definition == SlipDefinition::larger_speed ? "-1 <= slip < 1"
                                  : definition == SlipDefinition::rim_speed  ? "slip < 1"
                                                                             : "slip >= -1"));

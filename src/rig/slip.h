@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The definitions of slip. Driving is positive in all of them; v_rim = spin rate x radius, v = speed of the axle in the
-/// wheel plane.
+/// The definitions of slip. Driving is positive in all of them; v_rim = spin rate x radius, v =
+/// speed of the axle in the wheel plane.
 
 #include <string>
 #include <vector>
@@ -9,22 +9,28 @@
 namespace furrow {
 
 enum class SlipDefinition {
-  larger_speed,   ///< (v_rim - v)/max(|v_rim|, |v|): -1 locked, +1 spinning on the spot (CMU sand data; Furrow's own)
+  /// (v_rim - v)/max(|v_rim|, |v|): -1 locked, +1 spinning on the spot (CMU sand data; Furrow's
+  /// own)
+  larger_speed,
   rim_speed,      ///< (v_rim - v)/v_rim: the same for a driven wheel; -infinity locked (Wong)
   vehicle_speed,  ///< (v_rim - v)/v: the same for a braked wheel; +infinity on the spot (TR eq. 28)
 };
 
-const std::vector<std::string>& slip_definition_words();  ///< larger_speed, rim_speed, vehicle_speed
+/// larger_speed, rim_speed, vehicle_speed
+const std::vector<std::string>& slip_definition_words();
 SlipDefinition slip_definition(const std::string& word);  ///< @throws Error for another word
-std::string slip_formula(SlipDefinition definition);      ///< for tables: "(v_rim - v)/max(|v_rim|, |v|)"
+/// for tables: "(v_rim - v)/max(|v_rim|, |v|)"
+std::string slip_formula(SlipDefinition definition);
 
 /// Slip of a wheel from its speeds [m/s]. @throws StateError where the definition divides by zero
 double slip(SlipDefinition definition, double rim_speed, double vehicle_speed);
 /// Rim speed that gives a slip at a vehicle speed [m/s].
-/// @throws StateError for a vehicle speed <= 0, or for a slip that no forward spin has: allowed -1 <= larger_speed < 1,
+/// @throws StateError for a vehicle speed <= 0, or for a slip that no forward spin has: allowed -1
+/// <= larger_speed < 1,
 ///         rim_speed < 1, vehicle_speed >= -1
 double rim_speed(SlipDefinition definition, double slip, double vehicle_speed);
-/// The same motion in another definition. @throws StateError where either is singular: a locked wheel has no slip by rim speed
+/// The same motion in another definition. @throws StateError where either is singular: a locked
+/// wheel has no slip by rim speed
 double convert_slip(double slip, SlipDefinition from, SlipDefinition to);
 
 }  // namespace furrow

@@ -11,15 +11,18 @@ namespace furrow {
 
 namespace {
 
-constexpr double standstill = 1e-12;  // [m/s] below it, rim and axle both rest and the recorded slip is 0
+// [m/s] below it, rim and axle both rest and the recorded slip is 0
+constexpr double standstill = 1e-12;
 
 /// @throws InputError when key is missing (needed) or given (not needed)
-void expect_key(const Options& options, const std::string& key, bool needed, const std::string& context,
-                const std::string& allowed) {
+void expect_key(const Options& options, const std::string& key, bool needed,
+                const std::string& context, const std::string& allowed) {
   if (needed && !options.has(key))
-    throw InputError(options.where(key), "is missing " + context, allowed, fmt::format("add '{} <value>'", key));
+    throw InputError(options.where(key), "is missing " + context, allowed,
+                     fmt::format("add '{} <value>'", key));
   if (!needed && options.given(key))
-    throw InputError(options.where(key), "is given " + context, allowed, "remove it or change the mode");
+    throw InputError(options.where(key), "is given " + context, allowed,
+                     "remove it or change the mode");
 }
 
 }  // namespace
@@ -27,33 +30,47 @@ void expect_key(const Options& options, const std::string& key, bool needed, con
 Schema WheelRig::schema(const std::string& subject) {
   Schema schema(subject);
   schema
-      .number("load_mass", "kg", Range::positive(), "load as a mass: the ground carries load_mass x gravity, wheel included")
+      .number("load_mass", "kg", Range::positive(),
+              "load as a mass: the ground carries load_mass x gravity, wheel included")
       .optional();
   schema
       .number("load_force", "N", Range::positive(),
               "load as a force: what the ground carries at rest, weight of the wheel included")
       .optional();
-  schema.number("sinkage", "m", Range::any(), "instead of a load: the wheel is lowered to this sinkage and held there")
+  schema
+      .number("sinkage", "m", Range::any(),
+              "instead of a load: the wheel is lowered to this sinkage and held there")
       .optional();
   schema.number("speed", "m/s", Range::non_negative(), "speed of the axle along x in cruise");
-  schema.word("mode", {"towed", "slip", "torque"}, "free spin, prescribed slip, or prescribed axle torque");
+  schema.word("mode", {"towed", "slip", "torque"},
+              "free spin, prescribed slip, or prescribed axle torque");
   schema.number("slip", "", Range::any(), "slip in mode slip, driving positive").optional();
   schema
       .word("slip_definition", slip_definition_words(),
-            "slip by the larger of rim and vehicle speed, by rim speed, or by vehicle speed (speed in the wheel plane)")
+            "slip by the larger of rim and vehicle speed, by rim speed, or by vehicle speed (speed "
+            "in the wheel plane)")
       .by_default("larger_speed");
   schema.number("torque", "N m", Range::any(), "axle torque in mode torque; < 0 brakes").optional();
-  schema.number("slip_angle", "degrees", Range::open(-90, 90), "angle from the travel to the wheel plane about z")
+  schema
+      .number("slip_angle", "degrees", Range::open(-90, 90),
+              "angle from the travel to the wheel plane about z")
       .by_default(0.0);
-  schema.number("camber", "degrees", Range::closed(-45, 45), "roll of the wheel about its heading").by_default(0.0);
-  schema.number("start", "s", Range::non_negative(), "time at which the settling begins; the wheel is held until then")
+  schema.number("camber", "degrees", Range::closed(-45, 45), "roll of the wheel about its heading")
+      .by_default(0.0);
+  schema
+      .number("start", "s", Range::non_negative(),
+              "time at which the settling begins; the wheel is held until then")
       .by_default(0.0);
   schema.number("settle_time", "s", Range::positive(), "duration of the settling at standstill");
-  schema.number("load_ramp_time", "s", Range::non_negative(), "the load grows in this time; by default half of settle_time")
+  schema
+      .number("load_ramp_time", "s", Range::non_negative(),
+              "the load grows in this time; by default half of settle_time")
       .optional();
   schema.number("accelerate_time", "s", Range::positive(), "duration of the acceleration");
-  schema.number("ground_level", "m", Range::any(), "z of the undisturbed ground: datum of the sinkage");
-  schema.number("gravity", "m/s^2", Range::positive(), "acceleration of gravity").by_default(standard_gravity);
+  schema.number("ground_level", "m", Range::any(),
+                "z of the undisturbed ground: datum of the sinkage");
+  schema.number("gravity", "m/s^2", Range::positive(), "acceleration of gravity")
+      .by_default(standard_gravity);
   schema
       .number("damping", "N s/m", Range::non_negative(),
               "viscous resistance to the wheel's vertical motion, throughout; its loss is recorded")
@@ -64,19 +81,22 @@ Schema WheelRig::schema(const std::string& subject) {
 WheelRig::WheelRig(const Options& options, WheelHub& wheel) : wheel_(wheel) {
   ground_level_ = options.number("ground_level");
   const double settle_time = options.number("settle_time");
-  load_ramp_ = {options.number("start"),
-                options.has("load_ramp_time") ? options.number("load_ramp_time") : 0.5 * settle_time};
+  load_ramp_ = {options.number("start"), options.has("load_ramp_time")
+                                             ? options.number("load_ramp_time")
+                                             : 0.5 * settle_time};
   if (load_ramp_.duration > settle_time)
     throw InputError(options.where("load_ramp_time"), fmt::format("is {} s", load_ramp_.duration),
                      fmt::format("0 to settle_time, {} s", settle_time), "lengthen settle_time");
   speed_ramp_ = {load_ramp_.start + settle_time, options.number("accelerate_time")};
 
-  wheel_.place(wheel_.centre(), radians(options.number("slip_angle")), radians(options.number("camber")));
+  wheel_.place(wheel_.centre(), radians(options.number("slip_angle")),
+               radians(options.number("camber")));
   read_vertical(options);
   read_drive(options);
   wheel_.set_vertical_damping(options.number("damping"));
   wheel_.set_axle_torque(0.0);
-  for (const auto coordinate : {WheelHub::y, WheelHub::yaw, WheelHub::camber}) wheel_.hold(coordinate);
+  for (const auto coordinate : {WheelHub::y, WheelHub::yaw, WheelHub::camber})
+    wheel_.hold(coordinate);
 }
 
 void WheelRig::read_vertical(const Options& options) {
@@ -85,17 +105,18 @@ void WheelRig::read_vertical(const Options& options) {
   for (const char* key : {"load_mass", "load_force", "sinkage"})
     if (options.given(key)) given += (count++ ? " and " : "") + std::string(key);
   if (count != 1)
-    throw InputError(
-        options.subject(), count == 0 ? "has no load" : fmt::format("has {}", given),
-        "exactly one of load_mass [kg], load_force [N], sinkage [m]",
-        count == 0 ? "say what the ground carries, weight of the wheel included" : "keep the one that is meant");
+    throw InputError(options.subject(), count == 0 ? "has no load" : fmt::format("has {}", given),
+                     "exactly one of load_mass [kg], load_force [N], sinkage [m]",
+                     count == 0 ? "say what the ground carries, weight of the wheel included"
+                                : "keep the one that is meant");
   sinkage_prescribed_ = options.given("sinkage");
   if (options.given("load_mass")) load_ = options.number("load_mass") * options.number("gravity");
   if (options.given("load_force")) load_ = options.number("load_force");
   if (sinkage_prescribed_ && load_ramp_.duration == 0.0)
-    throw InputError(options.where("load_ramp_time"), "is 0 s with a prescribed sinkage", "a number > 0 [s]",
-                     "the wheel needs time to go down");
-  if (sinkage_prescribed_) lowering_ = ground_level_ - options.number("sinkage") - wheel_.lowest_point();
+    throw InputError(options.where("load_ramp_time"), "is 0 s with a prescribed sinkage",
+                     "a number > 0 [s]", "the wheel needs time to go down");
+  if (sinkage_prescribed_)
+    lowering_ = ground_level_ - options.number("sinkage") - wheel_.lowest_point();
 }
 
 void WheelRig::read_drive(const Options& options) {
@@ -105,30 +126,38 @@ void WheelRig::read_drive(const Options& options) {
   mode_ = mode == "towed" ? Mode::towed : mode == "slip" ? Mode::slip : Mode::torque;
   const std::string context = fmt::format("in mode {}", mode);
   expect_key(options, "slip", mode_ == Mode::slip, context, "a slip in mode slip, and only there");
-  expect_key(options, "slip_definition", mode_ == Mode::slip, context, "a slip_definition in mode slip, and only there");
-  expect_key(options, "torque", mode_ == Mode::torque, context, "a torque in mode torque, and only there");
+  expect_key(options, "slip_definition", mode_ == Mode::slip, context,
+             "a slip_definition in mode slip, and only there");
+  expect_key(options, "torque", mode_ == Mode::torque, context,
+             "a torque in mode torque, and only there");
   if (mode_ == Mode::torque) torque_ = options.number("torque");
   if (mode_ != Mode::slip) return;
   if (speed_ == 0.0)
     throw InputError(options.where("speed"), "is 0 m/s in mode slip", "a number > 0 [m/s]",
                      "give a speed, or drive a standing wheel with mode torque");
   try {
-    rim_speed_ = rim_speed(slip_definition(options.word("slip_definition")), options.number("slip"), plane_speed_);
+    rim_speed_ = rim_speed(slip_definition(options.word("slip_definition")), options.number("slip"),
+                           plane_speed_);
   } catch (const StateError&) {
-    throw InputError(options.where("slip"),
-                     fmt::format("is {} with slip_definition {}", options.number("slip"), options.word("slip_definition")),
-                     "-1 to below 1 by the larger speed, below 1 by rim speed, at least -1 by vehicle speed",
-                     "a wheel that spins on the spot or backwards needs mode torque");
+    throw InputError(
+        options.where("slip"),
+        fmt::format("is {} with slip_definition {}", options.number("slip"),
+                    options.word("slip_definition")),
+        "-1 to below 1 by the larger speed, below 1 by rim speed, at least -1 by vehicle speed",
+        "a wheel that spins on the spot or backwards needs mode torque");
   }
 }
 
 WheelRig::Phase WheelRig::phase(double time) const {
-  return time < speed_ramp_.start ? Phase::settle : time < speed_ramp_.end() ? Phase::accelerate : Phase::cruise;
+  return time < speed_ramp_.start   ? Phase::settle
+         : time < speed_ramp_.end() ? Phase::accelerate
+                                    : Phase::cruise;
 }
 
 void WheelRig::apply(double time, double dt) {
   drive_vertical(time, dt);
-  if (phase(time + 0.5 * dt) == Phase::settle) {  // by the middle of the step: safe against rounding of its ends
+  // by the middle of the step: safe against rounding of its ends
+  if (phase(time + 0.5 * dt) == Phase::settle) {
     wheel_.hold(WheelHub::x);
     wheel_.hold(WheelHub::spin);
   } else {
@@ -188,8 +217,10 @@ std::vector<Channel> WheelRig::channels() {
       {"moment_x", "N m", "moment of the ground on the wheel about the axle centre"},
       {"moment_y", "N m", "moment of the ground on the wheel about the axle centre"},
       {"moment_z", "N m", "moment of the ground on the wheel about the axle centre"},
-      {"drive_torque", "N m", "torque of the axle on the wheel, mean of the last step, > 0 drives forward"},
-      {"drawbar_pull", "N", "force of the axle on the vehicle along x, mean of the last step, > 0 pulls it forward"},
+      {"drive_torque", "N m",
+       "torque of the axle on the wheel, mean of the last step, > 0 drives forward"},
+      {"drawbar_pull", "N",
+       "force of the axle on the vehicle along x, mean of the last step, > 0 pulls it forward"},
       {"load", "N", "downward force on the wheel, its weight included, mean of the last step"},
       {"kinetic_energy", "J", "of the wheel"},
       {"contact_work", "J", "of the ground on the wheel, since the start"},

@@ -14,15 +14,20 @@
 namespace furrow {
 
 /// Phases, one after the other:
-///   settle      x, y and spin held, the load grows smoothly from 0 over load_ramp_time (or the wheel is lowered to its sinkage);
+///   settle      x, y and spin held, the load grows smoothly from 0 over load_ramp_time (or the
+///   wheel is lowered to its sinkage);
 ///               the spin is held so that every run starts to roll from the same, unturned wheel;
-///   accelerate  x follows speed x ramp; the spin is free (towed), follows the rim speed of the slip times the same ramp, so that
-///               the slip has its value from the first step (slip), or is driven by torque x ramp (torque);
+///   accelerate  x follows speed x ramp; the spin is free (towed), follows the rim speed of the
+///   slip times the same ramp, so that
+///               the slip has its value from the first step (slip), or is driven by torque x ramp
+///               (torque);
 ///   cruise      everything constant.
-/// y, yaw and camber are held throughout. Before `start` the wheel is held where it is. Travel is along +x.
+/// y, yaw and camber are held throughout. Before `start` the wheel is held where it is. Travel is
+/// along +x.
 ///
-/// The load is the whole vertical force on the ground at rest, weight of the wheel included: whatever the wheel's own mass times
-/// gravity lacks or exceeds is a constant force that the rig adds at the axle, without inertia.
+/// The load is the whole vertical force on the ground at rest, weight of the wheel included:
+/// whatever the wheel's own mass times gravity lacks or exceeds is a constant force that the rig
+/// adds at the axle, without inertia.
 ///
 /// All phases are functions of time alone: a rig restarts by being made again from the same input.
 class WheelRig {
@@ -33,7 +38,8 @@ class WheelRig {
   /// The keys of the rig. @param subject names the owner in errors
   static Schema schema(const std::string& subject = "wheel rig");
 
-  /// Takes hold of the wheel, which must outlive the rig, and turns it to its slip angle and camber.
+  /// Takes hold of the wheel, which must outlive the rig, and turns it to its slip angle and
+  /// camber.
   /// @throws InputError for keys that contradict each other
   WheelRig(const Options& options, WheelHub& wheel);
 
@@ -42,13 +48,16 @@ class WheelRig {
 
   /// What measure() returns, in its order.
   static std::vector<Channel> channels();
-  /// One row: state of the wheel and the forces now on its surface; call it when the forces of the step are known.
+  /// One row: state of the wheel and the forces now on its surface; call it when the forces of the
+  /// step are known.
   std::vector<double> measure(double time) const;
 
   Phase phase(double time) const;
   Mode mode() const { return mode_; }
-  double load() const { return load_; }                      ///< [N] full; 0 when the sinkage is prescribed
-  double target_rim_speed() const { return rim_speed_; }     ///< [m/s] in cruise; 0 unless slip is prescribed
+  /// [N] full; 0 when the sinkage is prescribed
+  double load() const { return load_; }
+  /// [m/s] in cruise; 0 unless slip is prescribed
+  double target_rim_speed() const { return rim_speed_; }
   double cruise_start() const { return speed_ramp_.end(); }  ///< [s]
 
  private:
@@ -60,14 +69,15 @@ class WheelRig {
   WheelHub& wheel_;
   Mode mode_ = Mode::towed;
   bool sinkage_prescribed_ = false;
-  double load_ = 0.0;            // [N]
-  double lowering_ = 0.0;        // [m] upwards from the first position to the prescribed sinkage
-  double speed_ = 0.0;           // [m/s]
-  double plane_speed_ = 0.0;     // [m/s] its component in the wheel plane, speed cos(slip angle)
-  double rim_speed_ = 0.0;       // [m/s]
-  double torque_ = 0.0;          // [N m]
-  double ground_level_ = 0.0;    // [m]
-  Ramp load_ramp_, speed_ramp_;  // the settling begins with the first, the acceleration with the second
+  double load_ = 0.0;          // [N]
+  double lowering_ = 0.0;      // [m] upwards from the first position to the prescribed sinkage
+  double speed_ = 0.0;         // [m/s]
+  double plane_speed_ = 0.0;   // [m/s] its component in the wheel plane, speed cos(slip angle)
+  double rim_speed_ = 0.0;     // [m/s]
+  double torque_ = 0.0;        // [N m]
+  double ground_level_ = 0.0;  // [m]
+  // the settling begins with the first, the acceleration with the second
+  Ramp load_ramp_, speed_ramp_;
 };
 
 }  // namespace furrow

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Dynamic relaxation with kinetic damping (P. A. Cundall 1976; M. R. Barnes 1999): a structure moves without damping until its
-/// kinetic energy has passed a peak, where the potential energy is lowest; then all motion is stopped and it starts again.
+/// Dynamic relaxation with kinetic damping (P. A. Cundall 1976; M. R. Barnes 1999): a structure
+/// moves without damping until its kinetic energy has passed a peak, where the potential energy is
+/// lowest; then all motion is stopped and it starts again.
 
 #include <cstddef>
 

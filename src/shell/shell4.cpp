@@ -16,8 +16,9 @@ namespace furrow {
 
 namespace {
 
-constexpr double same_shape = 1e-9;        // of the element's size
-constexpr double straightest_limit = 1.0;  // 1 + trace: a node turned by 120 degrees against its element
+constexpr double same_shape = 1e-9;  // of the element's size
+// 1 + trace: a node turned by 120 degrees against its element
+constexpr double straightest_limit = 1.0;
 constexpr double stability_reserve = 0.9;  // for stretch, pressure and the turning of the axes
 
 /// An element's stress-free axes in space, columns.
@@ -42,7 +43,9 @@ Vector3 corner_normal(const Matrix34& x, int k) {
 }
 
 double largest_eigenvalue(const Eigen::MatrixXd& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
 }
 
 /// Rotary inertia per mass of an element, and its highest frequency squared with it.
@@ -56,7 +59,8 @@ struct ElementDynamics {
         displacement.block<3, 3>(3 * i, 3 * j) = K.block<3, 3>(6 * i, 6 * j);
         turn.block<3, 3>(3 * i, 3 * j) = K.block<3, 3>(6 * i + 3, 6 * j + 3);
       }
-    inertia_per_mass = std::max(thickness * thickness / 12.0, largest_eigenvalue(turn) / largest_eigenvalue(displacement));
+    inertia_per_mass = std::max(thickness * thickness / 12.0,
+                                largest_eigenvalue(turn) / largest_eigenvalue(displacement));
     Eigen::Matrix<double, 24, 1> scale;
     for (int i = 0; i < 4; ++i) {
       scale.segment<3>(6 * i).setConstant(1.0 / std::sqrt(nodal_mass));
@@ -100,11 +104,13 @@ Shell4::Shell4(const Matrix3X& reference, std::vector<Quad> quads, const ShellSe
       mass_(VectorX::Zero(reference.cols())),
       inertia_(VectorX::Zero(reference.cols())) {
   const double nearest = std::cos(largest_kink);
-  std::vector<std::vector<std::pair<std::size_t, Vector3>>> around(static_cast<std::size_t>(reference.cols()));
+  std::vector<std::vector<std::pair<std::size_t, Vector3>>> around(
+      static_cast<std::size_t>(reference.cols()));
   for (std::size_t e = 0; e < quads_.size(); ++e) {
     const Matrix34 x = corners(reference, quads_[e]);
     for (int k = 0; k < 4; ++k)
-      around[static_cast<std::size_t>(quads_[e][static_cast<std::size_t>(k)])].emplace_back(e, corner_normal(x, k));
+      around[static_cast<std::size_t>(quads_[e][static_cast<std::size_t>(k)])].emplace_back(
+          e, corner_normal(x, k));
   }
 
   struct Prepared {
@@ -123,12 +129,14 @@ Shell4::Shell4(const Matrix3X& reference, std::vector<Quad> quads, const ShellSe
       p.shape.x = p.axes.transpose() * (x.colwise() - centre);
       p.shape.fibre = p.axes.transpose() * fibre(centre);
       const double across = p.shape.fibre.head<2>().norm();
-      if (!(across > 1e-6 * p.shape.fibre.norm())) throw StateError("has its fibre along its normal");
+      if (!(across > 1e-6 * p.shape.fibre.norm()))
+        throw StateError("has its fibre along its normal");
       p.shape.fibre << p.shape.fibre.head<2>() / across, 0.0;
       for (int k = 0; k < 4; ++k) {
         const Vector3 own = corner_normal(x, k);
         Vector3 sum = Vector3::Zero();
-        for (const auto& [other, normal] : around[static_cast<std::size_t>(quads_[e][static_cast<std::size_t>(k)])])
+        for (const auto& [other, normal] :
+             around[static_cast<std::size_t>(quads_[e][static_cast<std::size_t>(k)])])
           if (normal.dot(own) >= nearest) sum += normal;
         p.shape.director.col(k) = p.axes.transpose() * sum.normalized();
       }
@@ -167,7 +175,8 @@ Shell4::Shell4(const Matrix3X& reference, std::vector<Quad> quads, const ShellSe
     kind.p2 = -b[0] / (a[0] * b[1]);
     kind.q2 = 1.0 / b[1];
     kind.first = places_->element.size();
-    for (const std::size_t e : kind_members) places_->add(quads_[e], prepared[e].axes, static_cast<int>(e), true);
+    for (const std::size_t e : kind_members)
+      places_->add(quads_[e], prepared[e].axes, static_cast<int>(e), true);
     while (places_->element.size() % shell4_padding != 0) {
       const std::size_t e = kind_members.back();
       places_->add(quads_[e], prepared[e].axes, static_cast<int>(e), false);
@@ -189,11 +198,12 @@ Shell4::Shell4(const Matrix3X& reference, std::vector<Quad> quads, const ShellSe
 
 void Shell4::add_forces(ShellNodes& nodes, double pressure) {
   static const Shell4Kernel kernel = shell4_kernel();
-  const Shell4Result result = kernel(kinds_.data(), kinds_.size(), places_->view(), nodes.x.data(), nodes.rotation.data(),
-                                     pressure, nodes.force.data(), nodes.moment.data());
+  const Shell4Result result =
+      kernel(kinds_.data(), kinds_.size(), places_->view(), nodes.x.data(), nodes.rotation.data(),
+             pressure, nodes.force.data(), nodes.moment.data());
   if (!result.finite || !(result.straightest > straightest_limit))
-    throw StateError(
-        fmt::format("shell: element {} is folded or its nodes are not finite", places_->element[result.worst_place]));
+    throw StateError(fmt::format("shell: element {} is folded or its nodes are not finite",
+                                 places_->element[result.worst_place]));
   energy_ = result.energy;
   volume_ = result.volume;
 }
@@ -211,7 +221,8 @@ Eigen::SparseMatrix<double> Shell4::stiffness() const {
         for (int j = 0; j < 8; ++j) {
           const Matrix3 block = axes * K.block<3, 3>(3 * i, 3 * j) * axes.transpose();
           const int row = 6 * places_->node[static_cast<std::size_t>(i / 2)][place] + 3 * (i % 2),
-                    column = 6 * places_->node[static_cast<std::size_t>(j / 2)][place] + 3 * (j % 2);
+                    column =
+                        6 * places_->node[static_cast<std::size_t>(j / 2)][place] + 3 * (j % 2);
           for (int r = 0; r < 3; ++r)
             for (int c = 0; c < 3; ++c) entries.emplace_back(row + r, column + c, block(r, c));
         }

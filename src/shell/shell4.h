@@ -16,38 +16,49 @@ namespace furrow {
 
 struct Shell4Kind;
 
-/// Elements whose stress-free shapes agree share one stiffness matrix (a tyre has one for each row), which keeps the matrices in the
-/// fastest memory; elements are computed several at once (shell4_kernel.h has the equations).
+/// Elements whose stress-free shapes agree share one stiffness matrix (a tyre has one for each
+/// row), which keeps the matrices in the fastest memory; elements are computed several at once
+/// (shell4_kernel.h has the equations).
 ///
-/// Rotary inertia: real J = m h^2/12 would make turning of the nodes by far the fastest motion of a thin shell. An element's J is
-/// raised until no turn at fixed positions is faster than the fastest displacement without turns:
+/// Rotary inertia: real J = m h^2/12 would make turning of the nodes by far the fastest motion of a
+/// thin shell. An element's J is raised until no turn at fixed positions is faster than the fastest
+/// displacement without turns:
 ///   J = max(m h^2/12, m lambda_max(K_turn)/lambda_max(K_displacement)),
-/// of the order of m times a quarter of the element's area. It delays bending waves not much longer than an element.
+/// of the order of m times a quarter of the element's area. It delays bending waves not much longer
+/// than an element.
 class Shell4 {
  public:
   using Quad = std::array<int, 4>;  ///< nodes counter-clockwise seen from outside
 
   /// @param reference stress-free nodes [m]
-  /// @param fibre direction of the section's axis 1 at a point, e.g. the circumference; need not be tangent
-  /// @param largest_kink nodes where normals of elements differ by less share one normal: a smooth shell [rad]
+  /// @param fibre direction of the section's axis 1 at a point, e.g. the circumference; need not be
+  /// tangent
+  /// @param largest_kink nodes where normals of elements differ by less share one normal: a smooth
+  /// shell [rad]
   /// @throws StateError naming the element for a degenerate or folded one
   Shell4(const Matrix3X& reference, std::vector<Quad> quads, const ShellSection& section,
          const std::function<Vector3(const Vector3&)>& fibre, double largest_kink = radians(40.0));
   ~Shell4();
   Shell4(Shell4&&) noexcept;
 
-  /// Adds forces and moments of the shell, and those of a pressure on its inner side (outwards), to nodes.force and .moment.
-  /// @throws StateError naming an element that is folded: a node turned by 120 degrees against it, or a position that is no number
+  /// Adds forces and moments of the shell, and those of a pressure on its inner side (outwards), to
+  /// nodes.force and .moment.
+  /// @throws StateError naming an element that is folded: a node turned by 120 degrees against it,
+  /// or a position that is no number
   void add_forces(ShellNodes& nodes, double pressure);
 
   double energy() const { return energy_; }  ///< [J] elastic, at the last add_forces
-  double volume() const { return volume_; }  ///< [m^3] third of the integral of x . n dA; of a closed shell what it encloses
+  /// [m^3] third of the integral of x . n dA; of a closed shell what it encloses
+  double volume() const { return volume_; }
   const std::vector<Quad>& quads() const { return quads_; }
-  const VectorX& mass() const { return mass_; }               ///< [kg] a quarter of each element at its nodes
+  /// [kg] a quarter of each element at its nodes
+  const VectorX& mass() const { return mass_; }
   const VectorX& rotary_inertia() const { return inertia_; }  ///< [kg m^2] scaled, see above
-  double stable_time_step() const { return stable_step_; }    ///< [s] 2/omega of the stiffest element, stress-free
-  std::size_t kind_count() const;                             ///< distinct stiffness matrices
-  Eigen::SparseMatrix<double> stiffness() const;              ///< of the stress-free state, 6 a node: u then theta
+  /// [s] 2/omega of the stiffest element, stress-free
+  double stable_time_step() const { return stable_step_; }
+  std::size_t kind_count() const;  ///< distinct stiffness matrices
+  /// of the stress-free state, 6 a node: u then theta
+  Eigen::SparseMatrix<double> stiffness() const;
 
  private:
   struct Places;

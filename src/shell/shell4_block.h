@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a kernel of the shell works on, as plain data: this header is compiled with every instruction set (material/lanes.h says why).
+/// What a kernel of the shell works on, as plain data: this header is compiled with every
+/// instruction set (material/lanes.h says why).
 
 #include <cstddef>
 
@@ -11,13 +12,15 @@ constexpr std::size_t shell4_padding =
 
 /// Elements of one stress-free shape share its stiffness.
 struct Shell4Kind {
-  double stiffness[24][24];        ///< in the element's axes
-  double x[4][3];                  ///< stress-free nodes in the element's axes [m]
-  double p1, p2, q2;               ///< inverse of the stress-free medians (columns), rows (p1, p2) and (0, q2) [1/m]
+  double stiffness[24][24];  ///< in the element's axes
+  double x[4][3];            ///< stress-free nodes in the element's axes [m]
+  /// inverse of the stress-free medians (columns), rows (p1, p2) and (0, q2) [1/m]
+  double p1, p2, q2;
   std::size_t first = 0, end = 0;  ///< range of places, padded
 };
 
-/// Places of elements, sorted by kind; a place that only pads has the nodes of another and active = 0.
+/// Places of elements, sorted by kind; a place that only pads has the nodes of another and active =
+/// 0.
 struct Shell4Places {
   const int* node[4];
   const double* axes[9];  ///< stress-free element axes in space, axes[3 c + r]: row r of axis c
@@ -27,25 +30,29 @@ struct Shell4Places {
 struct Shell4Result {
   double energy = 0.0;  ///< [J]
   double volume = 0.0;  ///< [m^3] a third of the integral of x . n dA
-  /// smallest 1 + trace of a node's rotation relative to its element, 4 cos^2 of half the angle; 4 where nothing bends
+  /// smallest 1 + trace of a node's rotation relative to its element, 4 cos^2 of half the angle; 4
+  /// where nothing bends
   double straightest = 4.0;
   std::size_t worst_place = 0;
   bool finite = true;
 };
 
-/// Adds what the shell does to its nodes: -dU/dx [N], the moment conjugate to the nodal spin [N m], and the follower pressure.
+/// Adds what the shell does to its nodes: -dU/dx [N], the moment conjugate to the nodal spin [N m],
+/// and the follower pressure.
 /// @param x        3 numbers a node [m]
 /// @param rotation 9 numbers a node, column by column: from the stress-free state
-using Shell4Kernel = Shell4Result (*)(const Shell4Kind* kinds, std::size_t kind_count, const Shell4Places&, const double* x,
-                                      const double* rotation, double pressure, double* force, double* moment);
+using Shell4Kernel = Shell4Result (*)(const Shell4Kind* kinds, std::size_t kind_count,
+                                      const Shell4Places&, const double* x, const double* rotation,
+                                      double pressure, double* force, double* moment);
 
-Shell4Kernel shell4_kernel();  ///< the fastest that this processor runs, or the one of FURROW_ISA (material/kernels.h)
+/// the fastest that this processor runs, or the one of FURROW_ISA (material/kernels.h)
+Shell4Kernel shell4_kernel();
 
-Shell4Result shell4_forces_baseline(const Shell4Kind*, std::size_t, const Shell4Places&, const double*, const double*,
-                                    double, double*, double*);
-Shell4Result shell4_forces_avx2(const Shell4Kind*, std::size_t, const Shell4Places&, const double*, const double*, double,
-                                double*, double*);
-Shell4Result shell4_forces_avx512(const Shell4Kind*, std::size_t, const Shell4Places&, const double*, const double*, double,
-                                  double*, double*);
+Shell4Result shell4_forces_baseline(const Shell4Kind*, std::size_t, const Shell4Places&,
+                                    const double*, const double*, double, double*, double*);
+Shell4Result shell4_forces_avx2(const Shell4Kind*, std::size_t, const Shell4Places&, const double*,
+                                const double*, double, double*, double*);
+Shell4Result shell4_forces_avx512(const Shell4Kind*, std::size_t, const Shell4Places&,
+                                  const double*, const double*, double, double*, double*);
 
 }  // namespace furrow

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The co-rotational shell, several elements at once. Included by shell4_kernel_*.cpp only (material/lanes.h says why).
+/// The co-rotational shell, several elements at once. Included by shell4_kernel_*.cpp only
+/// (material/lanes.h says why).
 ///
-/// An element's axes e turn with its nodes: e_3 is normal to both medians, and the turn about e_3 is that of the polar decomposition
-/// of the medians' deformation, so the axes do not depend on where the numbering starts. In them
+/// An element's axes e turn with its nodes: e_3 is normal to both medians, and the turn about e_3
+/// is that of the polar decomposition of the medians' deformation, so the axes do not depend on
+/// where the numbering starts. In them
 ///   u_a     = e^T (x_a - c) - X_a,
-///   theta_a = 2 sin(angle/2) axis  of  T_a = e^T Q_a E   (E: stress-free axes, Q_a: rotation of the node)
-/// are small, whatever the shell does, and U = 1/2 u^T K u. Forces are the exact gradient of U, with the turning of the axes in it:
-/// they balance in force and moment, and a free shell keeps its energy (Nour-Omid & Rankin 1991).
+///   theta_a = 2 sin(angle/2) axis  of  T_a = e^T Q_a E   (E: stress-free axes, Q_a: rotation of
+///   the node)
+/// are small, whatever the shell does, and U = 1/2 u^T K u. Forces are the exact gradient of U,
+/// with the turning of the axes in it: they balance in force and moment, and a free shell keeps its
+/// energy (Nour-Omid & Rankin 1991).
 
 #include "shell/shell4_block.h"
 #include "simd/lanes.h"
@@ -18,10 +22,18 @@ inline namespace FURROW_ISA {
 struct Triple {
   Lanes x, y, z;
 };
-FURROW_INLINE Triple operator+(const Triple& a, const Triple& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-FURROW_INLINE Triple operator-(const Triple& a, const Triple& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-FURROW_INLINE Triple operator*(const Lanes& s, const Triple& a) { return {s * a.x, s * a.y, s * a.z}; }
-FURROW_INLINE Lanes dot(const Triple& a, const Triple& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+FURROW_INLINE Triple operator+(const Triple& a, const Triple& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+FURROW_INLINE Triple operator-(const Triple& a, const Triple& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+FURROW_INLINE Triple operator*(const Lanes& s, const Triple& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+FURROW_INLINE Lanes dot(const Triple& a, const Triple& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 FURROW_INLINE Triple cross(const Triple& a, const Triple& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
@@ -43,7 +55,8 @@ struct Frame {
     e3 = Lanes(1.0) / area * normal;
     const Triple t1 = Lanes(1.0) / length * a, t2 = cross(e3, t1);
     const Lanes bt1 = dot(b, t1), bt2 = dot(b, t2);
-    const Lanes even = length * kind.p1 + bt2 * kind.q2, odd = -(length * kind.p2 + bt1 * kind.q2);  // F11 + F22, F21 - F12
+    // F11 + F22, F21 - F12
+    const Lanes even = length * kind.p1 + bt2 * kind.q2, odd = -(length * kind.p2 + bt1 * kind.q2);
     trace = root(even * even + odd * odd);
     const Lanes c = even / trace, s = odd / trace;
     e1 = c * t1 + s * t2;
@@ -57,8 +70,10 @@ struct Frame {
   FURROW_INLINE Triple space(const Triple& v) const { return v.x * e1 + v.y * e2 + v.z * e3; }
 };
 
-inline Shell4Result shell4_forces(const Shell4Kind* kinds, std::size_t kind_count, const Shell4Places& places,
-                                  const double* x, const double* rotation, double pressure, double* force, double* moment) {
+inline Shell4Result shell4_forces(const Shell4Kind* kinds, std::size_t kind_count,
+                                  const Shell4Places& places, const double* x,
+                                  const double* rotation, double pressure, double* force,
+                                  double* moment) {
   constexpr double xi[4] = {-1, 1, 1, -1}, eta[4] = {-1, -1, 1, 1};
   Shell4Result result;
   Lanes energy = 0.0, volume = 0.0;
@@ -92,21 +107,23 @@ inline Shell4Result shell4_forces(const Shell4Kind* kinds, std::size_t kind_coun
         for (int c = 0; c < 3; ++c) {
           const Lanes E0 = load(places.axes[3 * c] + i), E1 = load(places.axes[3 * c + 1] + i),
                       E2 = load(places.axes[3 * c + 2] + i);
-          column[c] = frame.local(
-              {Q[0] * E0 + Q[3] * E1 + Q[6] * E2, Q[1] * E0 + Q[4] * E1 + Q[7] * E2, Q[2] * E0 + Q[5] * E1 + Q[8] * E2});
+          column[c] =
+              frame.local({Q[0] * E0 + Q[3] * E1 + Q[6] * E2, Q[1] * E0 + Q[4] * E1 + Q[7] * E2,
+                           Q[2] * E0 + Q[5] * E1 + Q[8] * E2});
         }
         const Lanes four_cos2 = Lanes(1.0) + column[0].x + column[1].y + column[2].z;
         straightest = lower(straightest, four_cos2);
         const Lanes two_cos = root(four_cos2), inverse = Lanes(1.0) / two_cos;
-        const Triple turn =
-            inverse * Triple{column[1].z - column[2].y, column[2].x - column[0].z, column[0].y - column[1].x};
+        const Triple turn = inverse * Triple{column[1].z - column[2].y, column[2].x - column[0].z,
+                                             column[0].y - column[1].x};
         cosine[n] = Lanes(0.5) * two_cos;
         half_turn[n] = Lanes(0.5) * turn;
         u[6 * n + 3] = turn.x;
         u[6 * n + 4] = turn.y;
         u[6 * n + 5] = turn.z;
       }
-      for (int row = 0; row < 24; row += 4) {  // four sums at once: their additions need not wait for each other
+      // four sums at once: their additions need not wait for each other
+      for (int row = 0; row < 24; row += 4) {
         Lanes sum0 = 0.0, sum1 = 0.0, sum2 = 0.0, sum3 = 0.0;
         for (int c = 0; c < 24; ++c) {
           sum0 += kind.stiffness[row][c] * u[c];
@@ -123,7 +140,8 @@ inline Shell4Result shell4_forces(const Shell4Kind* kinds, std::size_t kind_coun
       for (int row = 0; row < 24; ++row) twice += u[row] * f[row];
       energy += weight * (Lanes(0.5) * twice);
 
-      // From the gradient in u to forces and moments, with the moment that the axes' turning has to carry.
+      // From the gradient in u to forces and moments, with the moment that the axes' turning has to
+      // carry.
       Triple nodal[4], couple[4], carried = {0.0, 0.0, 0.0}, mean = {0.0, 0.0, 0.0};
       for (int n = 0; n < 4; ++n) {
         nodal[n] = {f[6 * n], f[6 * n + 1], f[6 * n + 2]};
@@ -133,17 +151,22 @@ inline Shell4Result shell4_forces(const Shell4Kind* kinds, std::size_t kind_coun
         mean = mean + Lanes(0.25) * nodal[n];
       }
       const Lanes per_area = Lanes(1.0) / frame.area, about3 = carried.z / frame.trace;
-      const Triple on_a = {-kind.p2 * about3, kind.p1 * about3, -per_area * (frame.b1 * carried.x + frame.b2 * carried.y)};
-      const Triple on_b = {-kind.q2 * about3, 0.0, per_area * (frame.a1 * carried.x + frame.a2 * carried.y)};
+      const Triple on_a = {-kind.p2 * about3, kind.p1 * about3,
+                           -per_area * (frame.b1 * carried.x + frame.b2 * carried.y)};
+      const Triple on_b = {-kind.q2 * about3, 0.0,
+                           per_area * (frame.a1 * carried.x + frame.a2 * carried.y)};
 
       const Triple A = Lanes(0.5) * a, B = Lanes(0.5) * b;
       const Triple C = Lanes(0.25) * (node[0] - node[1] + (node[2] - node[3]));
-      const Triple AB = cross(A, B), AC = Lanes(1.0 / 3.0) * cross(A, C), CB = Lanes(1.0 / 3.0) * cross(C, B);
+      const Triple AB = cross(A, B), AC = Lanes(1.0 / 3.0) * cross(A, C),
+                   CB = Lanes(1.0 / 3.0) * cross(C, B);
       for (int n = 0; n < 4; ++n) {
         const Triple push = AB + xi[n] * AC + eta[n] * CB;
         volume += weight * (dot(push, node[n]) * Lanes(1.0 / 3.0));
-        const Triple gradient = nodal[n] - mean - (Lanes(0.5 * xi[n]) * on_a + Lanes(0.5 * eta[n]) * on_b);
-        const Triple on_node = pressure * push - frame.space(gradient), turning = frame.space(couple[n]);
+        const Triple gradient =
+            nodal[n] - mean - (Lanes(0.5 * xi[n]) * on_a + Lanes(0.5 * eta[n]) * on_b);
+        const Triple on_node = pressure * push - frame.space(gradient),
+                     turning = frame.space(couple[n]);
         for (int lane = 0; lane < lane_count; ++lane) {
           if (!places.active[i + static_cast<std::size_t>(lane)]) continue;
           const int index = 3 * places.node[n][i + static_cast<std::size_t>(lane)];

@@ -4,8 +4,10 @@
 #include "shell/shell4_kernel.h"
 
 namespace furrow {
-Shell4Result shell4_forces_baseline(const Shell4Kind* kinds, std::size_t count, const Shell4Places& places, const double* x,
-                                    const double* rotation, double pressure, double* force, double* moment) {
+Shell4Result shell4_forces_baseline(const Shell4Kind* kinds, std::size_t count,
+                                    const Shell4Places& places, const double* x,
+                                    const double* rotation, double pressure, double* force,
+                                    double* moment) {
   return shell4_forces(kinds, count, places, x, rotation, pressure, force, moment);
 }
 }  // namespace furrow

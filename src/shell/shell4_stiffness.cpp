@@ -51,7 +51,8 @@ struct Axes {
     t1 = (fibre - fibre.dot(t3) * t3).normalized();
     t2 = t3.cross(t1);
     Eigen::Matrix2d jacobian;  // (alpha, i): a_alpha . t_i
-    jacobian << point.a.col(0).dot(t1), point.a.col(0).dot(t2), point.a.col(1).dot(t1), point.a.col(1).dot(t2);
+    jacobian << point.a.col(0).dot(t1), point.a.col(0).dot(t2), point.a.col(1).dot(t1),
+        point.a.col(1).dot(t2);
     inverse = jacobian.inverse();  // (i, alpha)
   }
 
@@ -70,8 +71,10 @@ void add_displacement(Eigen::Ref<Row24> row, const Vector3& a, const Eigen::Vect
 }
 
 /// a . (rotation x director), i.e. rotation . (director x a)
-void add_director(Eigen::Ref<Row24> row, const Shell4Shape& shape, const Vector3& a, const Eigen::Vector4d& weight) {
-  for (int k = 0; k < 4; ++k) row.segment<3>(6 * k + 3) += weight[k] * Vector3(shape.director.col(k)).cross(a).transpose();
+void add_director(Eigen::Ref<Row24> row, const Shell4Shape& shape, const Vector3& a,
+                  const Eigen::Vector4d& weight) {
+  for (int k = 0; k < 4; ++k)
+    row.segment<3>(6 * k + 3) += weight[k] * Vector3(shape.director.col(k)).cross(a).transpose();
 }
 
 Rows3 membrane_rows(const Point& p) {
@@ -163,7 +166,8 @@ Matrix24 shell4_stiffness(const Shell4Shape& shape, const ShellSection& section)
     modes(2, 3) = eta;
     modes = (middle_axes.area / axes.area * middle_map * modes).eval();
 
-    K += axes.area * (membrane.transpose() * section.membrane * membrane + bending.transpose() * section.bending * bending +
+    K += axes.area * (membrane.transpose() * section.membrane * membrane +
+                      bending.transpose() * section.bending * bending +
                       shear.transpose() * section.shear * shear);
     coupling += axes.area * modes.transpose() * section.membrane * membrane;
     enhanced += axes.area * modes.transpose() * section.membrane * modes;

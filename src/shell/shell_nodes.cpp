@@ -14,7 +14,8 @@ ShellNodes::ShellNodes(const Matrix3X& start)
       inertia(VectorX::Zero(start.cols())) {
   for (Matrix3X* m : {&v, &w, &force, &moment}) m->setZero(3, start.cols());
   for (Matrix3X* m : {&free_to_move, &free_to_turn}) m->setOnes(3, start.cols());
-  rotation.colwise() = Eigen::Map<const Eigen::Matrix<double, 9, 1>>(Matrix3::Identity().eval().data());
+  rotation.colwise() =
+      Eigen::Map<const Eigen::Matrix<double, 9, 1>>(Matrix3::Identity().eval().data());
 }
 
 void ShellNodes::hold(Eigen::Index node) {
@@ -43,15 +44,16 @@ void ShellNodes::drift(double dt) {
     // cos and sin(angle)/angle of half the turn, by series while it is small
     double cosine, sinc;
     if (squared < 1e-4) {
-      cosine = 1.0 - squared / 2.0 * (1.0 - squared / 12.0 * (1.0 - squared / 30.0 * (1.0 - squared / 56.0)));
+      cosine = 1.0 - squared / 2.0 *
+                         (1.0 - squared / 12.0 * (1.0 - squared / 30.0 * (1.0 - squared / 56.0)));
       sinc = 1.0 - squared / 6.0 * (1.0 - squared / 20.0 * (1.0 - squared / 42.0));
     } else {
       const double angle = std::sqrt(squared);
       cosine = std::cos(angle);
       sinc = std::sin(angle) / angle;
     }
-    Quaternion turned =
-        Quaternion(cosine, sinc * half.x(), sinc * half.y(), sinc * half.z()) * q[static_cast<std::size_t>(n)];
+    Quaternion turned = Quaternion(cosine, sinc * half.x(), sinc * half.y(), sinc * half.z()) *
+                        q[static_cast<std::size_t>(n)];
     turned.normalize();
     set_rotation(n, turned);
   }
@@ -64,7 +66,8 @@ void ShellNodes::stop() {
 
 double ShellNodes::kinetic_energy() const {
   double twice = 0.0;
-  for (Eigen::Index n = 0; n < count(); ++n) twice += mass[n] * v.col(n).squaredNorm() + inertia[n] * w.col(n).squaredNorm();
+  for (Eigen::Index n = 0; n < count(); ++n)
+    twice += mass[n] * v.col(n).squaredNorm() + inertia[n] * w.col(n).squaredNorm();
   return 0.5 * twice;
 }
 
@@ -76,8 +79,10 @@ double ShellNodes::largest_unbalanced(double length) const {
 std::vector<double> ShellNodes::state() const {
   std::vector<double> numbers;
   numbers.reserve(state_size());
-  for (const Matrix3X* m : {&x, &v, &w}) numbers.insert(numbers.end(), m->data(), m->data() + m->size());
-  for (const Quaternion& turn : q) numbers.insert(numbers.end(), turn.coeffs().data(), turn.coeffs().data() + 4);
+  for (const Matrix3X* m : {&x, &v, &w})
+    numbers.insert(numbers.end(), m->data(), m->data() + m->size());
+  for (const Quaternion& turn : q)
+    numbers.insert(numbers.end(), turn.coeffs().data(), turn.coeffs().data() + 4);
   return numbers;
 }
 

@@ -10,8 +10,9 @@ namespace furrow {
 
 using Matrix9X = Eigen::Matrix<double, 9, Eigen::Dynamic>;
 
-/// Leapfrog: velocities belong to half steps. Rotary inertia is the same about all axes, so a node's spin obeys J dw/dt = m.
-/// Works of forces held over a step are forces times the mean of the velocities before and after: exact for the kinetic energy.
+/// Leapfrog: velocities belong to half steps. Rotary inertia is the same about all axes, so a
+/// node's spin obeys J dw/dt = m. Works of forces held over a step are forces times the mean of the
+/// velocities before and after: exact for the kinetic energy.
 struct ShellNodes {
   explicit ShellNodes(const Matrix3X& start);
 

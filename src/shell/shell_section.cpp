@@ -14,10 +14,12 @@ OrthotropicLayer OrthotropicLayer::isotropic(double E, double nu, double thickne
   return {E, E, nu, G, G, G, thickness};
 }
 
-ShellSection::ShellSection(const OrthotropicLayer& layer, double mass) : thickness(layer.thickness), areal_mass(mass) {
+ShellSection::ShellSection(const OrthotropicLayer& layer, double mass)
+    : thickness(layer.thickness), areal_mass(mass) {
   const auto positive = [](double value, const char* name, const char* unit) {
     if (!(std::isfinite(value) && value > 0.0))
-      throw InputError("shell section", fmt::format("has {} = {} {}", name, value, unit), "a number > 0");
+      throw InputError("shell section", fmt::format("has {} = {} {}", name, value, unit),
+                       "a number > 0");
   };
   positive(layer.E1, "E1", "Pa");
   positive(layer.E2, "E2", "Pa");
@@ -28,8 +30,9 @@ ShellSection::ShellSection(const OrthotropicLayer& layer, double mass) : thickne
   positive(mass, "areal_mass", "kg/m^2");
   const double nu21 = layer.nu12 * layer.E2 / layer.E1, definite = 1.0 - layer.nu12 * nu21;
   if (!(definite > 0.0))
-    throw InputError("shell section", fmt::format("has nu12 = {}, which makes it indefinite", layer.nu12),
-                     fmt::format("below sqrt(E1/E2) = {:.4g} in size", std::sqrt(layer.E1 / layer.E2)));
+    throw InputError(
+        "shell section", fmt::format("has nu12 = {}, which makes it indefinite", layer.nu12),
+        fmt::format("below sqrt(E1/E2) = {:.4g} in size", std::sqrt(layer.E1 / layer.E2)));
   Matrix3 plane_stress = Matrix3::Zero();
   plane_stress(0, 0) = layer.E1 / definite;
   plane_stress(1, 1) = layer.E2 / definite;
@@ -37,7 +40,8 @@ ShellSection::ShellSection(const OrthotropicLayer& layer, double mass) : thickne
   plane_stress(2, 2) = layer.G12;
   membrane = layer.thickness * plane_stress;
   bending = std::pow(layer.thickness, 3) / 12.0 * plane_stress;
-  shear.diagonal() << 5.0 / 6.0 * layer.thickness * layer.G13, 5.0 / 6.0 * layer.thickness * layer.G23;
+  shear.diagonal() << 5.0 / 6.0 * layer.thickness * layer.G13,
+      5.0 / 6.0 * layer.thickness * layer.G23;
 }
 
 }  // namespace furrow

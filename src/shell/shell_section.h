@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The stiffness of a shell per unit of its width: what an element integrates instead of a thickness.
+/// The stiffness of a shell per unit of its width: what an element integrates instead of a
+/// thickness.
 
 #include "core/types.h"
 
@@ -17,7 +18,8 @@ struct OrthotropicLayer {
   static OrthotropicLayer isotropic(double E, double nu, double thickness);
 };
 
-/// Resultants of a plate in its material axes: N = A eps, M = D kappa, Q = S gamma, engineering shears.
+/// Resultants of a plate in its material axes: N = A eps, M = D kappa, Q = S gamma, engineering
+/// shears.
 struct ShellSection {
   Matrix3 membrane = Matrix3::Zero();               ///< A [N/m]
   Matrix3 bending = Matrix3::Zero();                ///< D [N m]

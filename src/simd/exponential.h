@@ -9,18 +9,32 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-/// exp(a) to about one unit in the last place: a = n ln 2 + r with |r| <= ln(2)/2 and the Taylor series of exp(r) to r^13 / 13!,
-/// whose rest is below 5e-18. Underflows to 0, overflows to infinity, keeps not-a-number.
+/// exp(a) to about one unit in the last place: a = n ln 2 + r with |r| <= ln(2)/2 and the Taylor
+/// series of exp(r) to r^13 / 13!, whose rest is below 5e-18. Underflows to 0, overflows to
+/// infinity, keeps not-a-number.
 FURROW_INLINE Lanes exponential(const Lanes& a) {
   using Integers = stdx::rebind_simd_t<std::int64_t, Lanes>;
-  constexpr double shift = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to the nearest integer, held in the last bits
+  // 1.5 * 2^52: adding it rounds to the nearest integer, held in the last bits
+  constexpr double shift = 6755399441055744.0;
   const Lanes bounded = upper(lower(a, 709.7), -708.3);
   const Lanes shifted = bounded * Lanes(1.4426950408889634) + Lanes(shift);
   const Lanes n = shifted - Lanes(shift);
-  const Lanes r = (bounded - n * Lanes(0.693147180369123816490)) - n * Lanes(1.90821492927058770002e-10);
-  constexpr double inverse_factorial[14] = {
-      1.0,        1.0,         1.0 / 2,      1.0 / 6,       1.0 / 24,       1.0 / 120,       1.0 / 720,
-      1.0 / 5040, 1.0 / 40320, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600, 1.0 / 6227020800.0};
+  const Lanes r =
+      (bounded - n * Lanes(0.693147180369123816490)) - n * Lanes(1.90821492927058770002e-10);
+  constexpr double inverse_factorial[14] = {1.0,
+                                            1.0,
+                                            1.0 / 2,
+                                            1.0 / 6,
+                                            1.0 / 24,
+                                            1.0 / 120,
+                                            1.0 / 720,
+                                            1.0 / 5040,
+                                            1.0 / 40320,
+                                            1.0 / 362880,
+                                            1.0 / 3628800,
+                                            1.0 / 39916800,
+                                            1.0 / 479001600,
+                                            1.0 / 6227020800.0};
   Lanes sum = inverse_factorial[13];
   for (int k = 12; k >= 0; --k) sum = sum * r + Lanes(inverse_factorial[k]);
   Integers bits;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Numbers for several points at once: one Lanes holds a value of each of lane_count neighbouring points.
+/// Numbers for several points at once: one Lanes holds a value of each of lane_count neighbouring
+/// points.
 ///
-/// Everything that a kernel is made of lives in the inline namespace FURROW_ISA, one for each instruction set that
-/// kernels_*.cpp compiles, so that the linker never mixes code of two instruction sets. Kernel headers are included by
-/// kernels_*.cpp only, and use no other header that holds code (no <vector>, no <string>, no Eigen).
+/// Everything that a kernel is made of lives in the inline namespace FURROW_ISA, one for each
+/// instruction set that kernels_*.cpp compiles, so that the linker never mixes code of two
+/// instruction sets. Kernel headers are included by kernels_*.cpp only, and use no other header
+/// that holds code (no <vector>, no <string>, no Eigen).
 
 #include <experimental/simd>
 
@@ -48,19 +50,24 @@ struct Symmetric {
   Lanes xx, yy, zz, xy, yz, xz;
 
   FURROW_INLINE Lanes trace() const { return xx + yy + zz; }
-  FURROW_INLINE Symmetric operator*(const Lanes& f) const { return {xx * f, yy * f, zz * f, xy * f, yz * f, xz * f}; }
+  FURROW_INLINE Symmetric operator*(const Lanes& f) const {
+    return {xx * f, yy * f, zz * f, xy * f, yz * f, xz * f};
+  }
   FURROW_INLINE Symmetric operator+(const Symmetric& b) const {
     return {xx + b.xx, yy + b.yy, zz + b.zz, xy + b.xy, yz + b.yz, xz + b.xz};
   }
   FURROW_INLINE Symmetric operator-(const Symmetric& b) const {
     return {xx - b.xx, yy - b.yy, zz - b.zz, xy - b.xy, yz - b.yz, xz - b.xz};
   }
-  FURROW_INLINE Symmetric plus_identity(const Lanes& f) const { return {xx + f, yy + f, zz + f, xy, yz, xz}; }
+  FURROW_INLINE Symmetric plus_identity(const Lanes& f) const {
+    return {xx + f, yy + f, zz + f, xy, yz, xz};
+  }
   FURROW_INLINE Symmetric deviator() const { return plus_identity(trace() * Lanes(-1.0 / 3.0)); }
 };
 
 FURROW_INLINE Lanes contract(const Symmetric& a, const Symmetric& b) {  // a : b
-  return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + Lanes(2.0) * (a.xy * b.xy + a.yz * b.yz + a.xz * b.xz);
+  return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz +
+         Lanes(2.0) * (a.xy * b.xy + a.yz * b.yz + a.xz * b.xz);
 }
 
 /// a b for tensors that commute, so that the product is symmetric.
@@ -71,11 +78,13 @@ FURROW_INLINE Symmetric commuting_product(const Symmetric& a, const Symmetric& b
 }
 
 FURROW_INLINE Lanes determinant(const Symmetric& a) {
-  return a.xx * (a.yy * a.zz - a.yz * a.yz) - a.xy * (a.xy * a.zz - a.yz * a.xz) + a.xz * (a.xy * a.yz - a.yy * a.xz);
+  return a.xx * (a.yy * a.zz - a.yz * a.yz) - a.xy * (a.xy * a.zz - a.yz * a.xz) +
+         a.xz * (a.xy * a.yz - a.yy * a.xz);
 }
 
 FURROW_INLINE Symmetric inverse(const Symmetric& a) {
-  const Lanes cxx = a.yy * a.zz - a.yz * a.yz, cxy = a.yz * a.xz - a.xy * a.zz, cxz = a.xy * a.yz - a.yy * a.xz;
+  const Lanes cxx = a.yy * a.zz - a.yz * a.yz, cxy = a.yz * a.xz - a.xy * a.zz,
+              cxz = a.xy * a.yz - a.yy * a.xz;
   const Lanes f = Lanes(1.0) / (a.xx * cxx + a.xy * cxy + a.xz * cxz);
   return {cxx * f, (a.xx * a.zz - a.xz * a.xz) * f, (a.xx * a.yy - a.xy * a.xy) * f,
           cxy * f, (a.xy * a.xz - a.xx * a.yz) * f, cxz * f};

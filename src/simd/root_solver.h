@@ -7,20 +7,22 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-constexpr int most_root_iterations = 200;  ///< never met: bisection alone needs 60 for any bracket of doubles used here
+/// never met: bisection alone needs 60 for any bracket of doubles used here
+constexpr int most_root_iterations = 200;
 
 struct ValueAndSlope {
   Lanes value, slope;
 };
 
-/// x in [low, high] with f(x) = 0, where f > 0 at low and f <= 0 at high (a jump of sign counts as a root). Newton's method; a step
-/// that leaves the bracket or does not halve the last one is replaced by bisection, so it ends for every f.
+/// x in [low, high] with f(x) = 0, where f > 0 at low and f <= 0 at high (a jump of sign counts as
+/// a root). Newton's method; a step that leaves the bracket or does not halve the last one is
+/// replaced by bisection, so it ends for every f.
 /// @param tolerance   on x
 /// @param active      lanes to solve; the others return x as given
 /// @param iterations  += evaluations of f, lane by lane
 template <class Function>
-FURROW_INLINE Lanes decreasing_root(Function&& f, Lanes x, Lanes low, Lanes high, const Lanes& tolerance, Mask active,
-                                    Lanes& iterations) {
+FURROW_INLINE Lanes decreasing_root(Function&& f, Lanes x, Lanes low, Lanes high,
+                                    const Lanes& tolerance, Mask active, Lanes& iterations) {
   Lanes last = high - low;
   for (int i = 0; i < most_root_iterations && any(active); ++i) {
     const ValueAndSlope at = f(x);
@@ -30,12 +32,13 @@ FURROW_INLINE Lanes decreasing_root(Function&& f, Lanes x, Lanes low, Lanes high
     stdx::where(active && !left, high) = x;
     Lanes step = -at.value / at.slope;
     const Lanes newton = x + step;
-    const Mask trusted = at.slope < Lanes(0.0) && finite(at.slope) && newton >= low && newton <= high &&
-                         magnitude(step) <= Lanes(0.5) * magnitude(last);
+    const Mask trusted = at.slope < Lanes(0.0) && finite(at.slope) && newton >= low &&
+                         newton <= high && magnitude(step) <= Lanes(0.5) * magnitude(last);
     step = select(trusted, step, Lanes(0.5) * (low + high) - x);
     stdx::where(active, x) = x + step;
     stdx::where(active, last) = step;
-    active = active && !(magnitude(step) <= tolerance || high - low <= tolerance || at.value == Lanes(0.0));
+    active = active &&
+             !(magnitude(step) <= tolerance || high - low <= tolerance || at.value == Lanes(0.0));
   }
   return x;
 }

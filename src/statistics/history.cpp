@@ -11,14 +11,15 @@ History::History(std::vector<Channel> channels) : channels_(std::move(channels))
 
 void History::append(const std::vector<double>& row) {
   if (row.size() != channels_.size())
-    throw Error(fmt::format("a history of {} channels cannot take a row of {} numbers", channels_.size(), row.size()));
+    throw Error(fmt::format("a history of {} channels cannot take a row of {} numbers",
+                            channels_.size(), row.size()));
   values_.insert(values_.end(), row.begin(), row.end());
 }
 
 double History::at(std::size_t row, std::size_t channel) const {
   if (row >= size() || channel >= channels_.size())
-    throw Error(fmt::format("the history has {} rows and {} channels, none at row {}, channel {}", size(), channels_.size(),
-                            row, channel));
+    throw Error(fmt::format("the history has {} rows and {} channels, none at row {}, channel {}",
+                            size(), channels_.size(), row, channel));
   return values_[row * channels_.size() + channel];
 }
 
@@ -28,13 +29,15 @@ std::size_t History::index(const std::string& name) const {
     if (channels_[i].name == name) return i;
     names += (i ? ", " : "") + channels_[i].name;
   }
-  throw Error(fmt::format("the history has no channel '{}'; it has {}", name, names.empty() ? "none" : names));
+  throw Error(fmt::format("the history has no channel '{}'; it has {}", name,
+                          names.empty() ? "none" : names));
 }
 
 std::vector<double> History::column(const std::string& name) const {
   const std::size_t channel = index(name);
   std::vector<double> values(size());
-  for (std::size_t row = 0; row < values.size(); ++row) values[row] = values_[row * channels_.size() + channel];
+  for (std::size_t row = 0; row < values.size(); ++row)
+    values[row] = values_[row * channels_.size() + channel];
   return values;
 }
 

@@ -23,10 +23,13 @@ class History {
 
   const std::vector<Channel>& channels() const { return channels_; }
   std::size_t size() const { return channels_.empty() ? 0 : values_.size() / channels_.size(); }
-  void append(const std::vector<double>& row);  ///< @throws Error when the length differs from channels()
+  /// @throws Error when the length differs from channels()
+  void append(const std::vector<double>& row);
   double at(std::size_t row, std::size_t channel) const;
-  std::vector<double> column(const std::string& name) const;  ///< @throws Error for an unknown channel
-  std::size_t index(const std::string& name) const;           ///< @throws Error for an unknown channel
+  /// @throws Error for an unknown channel
+  std::vector<double> column(const std::string& name) const;
+  /// @throws Error for an unknown channel
+  std::size_t index(const std::string& name) const;
   /// Drops every row later than time (a restart continues from there).
   void truncate_after(double time);
 

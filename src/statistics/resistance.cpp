@@ -13,38 +13,44 @@ namespace furrow {
 
 namespace {
 
-constexpr double least_coefficient = 0.1;  // of the vertical force, below which a force or a coefficient counts as small
+// of the vertical force, below which a force or a coefficient counts as small
+constexpr double least_coefficient = 0.1;
 
-std::vector<double> part_of(const History& history, const std::string& channel, const Window& window) {
+std::vector<double> part_of(const History& history, const std::string& channel,
+                            const Window& window) {
   const std::vector<double> column = history.column(channel);
   return {column.begin() + static_cast<std::ptrdiff_t>(window.first),
           column.begin() + static_cast<std::ptrdiff_t>(window.last)};
 }
 
-/// Spacing of rows [s]. @throws Error when one step between rows is longer than one and a half mean ones
+/// Spacing of rows [s]. @throws Error when one step between rows is longer than one and a half mean
+/// ones
 double spacing_of(const std::vector<double>& time) {
   const double spacing = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   for (std::size_t i = 1; i < time.size(); ++i)
     if (!(time[i] > time[i - 1] && time[i] - time[i - 1] < 1.5 * spacing))
-      throw Error(fmt::format(
-          "the rows of the history are not equally spaced: {} s is followed by {} s, the mean spacing is {:.3g} s; "
-          "rows are missing or were recorded with different intervals",
-          time[i - 1], time[i], spacing));
+      throw Error(
+          fmt::format("the rows of the history are not equally spaced: {} s is followed by {} s, "
+                      "the mean spacing is {:.3g} s; "
+                      "rows are missing or were recorded with different intervals",
+                      time[i - 1], time[i], spacing));
   return spacing;
 }
 
 }  // namespace
 
 const SteadyValue& Resistance::value(const std::string& name) const {
-  const auto found =
-      std::find_if(values.begin(), values.end(), [&](const SteadyValue& value) { return value.name == name; });
+  const auto found = std::find_if(values.begin(), values.end(),
+                                  [&](const SteadyValue& value) { return value.name == name; });
   if (found == values.end()) throw Error(fmt::format("no steady value '{}'", name));
   return *found;
 }
 
 std::vector<double> linearised_ratio(const std::vector<double>& a, const std::vector<double>& b) {
-  if (a.size() != b.size() || a.empty()) throw Error(fmt::format("a ratio of {} and {} values", a.size(), b.size()));
-  const double sum_a = std::accumulate(a.begin(), a.end(), 0.0), sum_b = std::accumulate(b.begin(), b.end(), 0.0);
+  if (a.size() != b.size() || a.empty())
+    throw Error(fmt::format("a ratio of {} and {} values", a.size(), b.size()));
+  const double sum_a = std::accumulate(a.begin(), a.end(), 0.0),
+               sum_b = std::accumulate(b.begin(), b.end(), 0.0);
   if (!(std::abs(sum_b) > 0.0)) throw StateError("a ratio to a quantity whose mean is zero");
   const double ratio = sum_a / sum_b, mean_b = sum_b / static_cast<double>(b.size());
   std::vector<double> series(a.size());
@@ -54,13 +60,15 @@ std::vector<double> linearised_ratio(const std::vector<double>& a, const std::ve
 
 Resistance measure_resistance(const History& history, const ResistanceOptions& options) {
   Resistance result;
-  result.window = select_window(history, options.window, {"sinkage", "force_x", "force_z", "drive_torque", "slip"});
+  result.window = select_window(history, options.window,
+                                {"sinkage", "force_x", "force_z", "drive_torque", "slip"});
   const Window& window = result.window;
   const double spacing = spacing_of(part_of(history, "time", window));
   const auto part = [&](const std::string& channel) { return part_of(history, channel, window); };
-  const auto add = [&](const std::string& name, const std::string& unit, const std::vector<double>& values,
-                       double reference) {
-    result.values.push_back(analyse_steady(name, unit, values, spacing, reference, options.criteria));
+  const auto add = [&](const std::string& name, const std::string& unit,
+                       const std::vector<double>& values, double reference) {
+    result.values.push_back(
+        analyse_steady(name, unit, values, spacing, reference, options.criteria));
   };
 
   const std::vector<double> force_z = part("force_z"), drawbar_pull = part("drawbar_pull");
@@ -77,13 +85,18 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
   add("slip", "", part("slip"), least_coefficient);
 
   std::string reason;
-  const auto because = [&](const std::string& text) { reason += (reason.empty() ? "" : "; ") + text; };
+  const auto because = [&](const std::string& text) {
+    reason += (reason.empty() ? "" : "; ") + text;
+  };
   if (!window.warning.empty()) because(window.warning);
   if (window.distance < options.shortest_distance)
-    because(fmt::format("the window is too short: the wheel travels {:.3g} m in it, {:.3g} m are needed", window.distance,
-                        options.shortest_distance));
+    because(fmt::format(
+        "the window is too short: the wheel travels {:.3g} m in it, {:.3g} m are needed",
+        window.distance, options.shortest_distance));
   for (const SteadyValue& value : result.values)
-    if (!value.steady) because(fmt::format("{}: {}", value.name, value.verdict.substr(std::string("not steady: ").size())));
+    if (!value.steady)
+      because(fmt::format("{}: {}", value.name,
+                          value.verdict.substr(std::string("not steady: ").size())));
   result.steady = reason.empty();
   result.verdict = result.steady ? "steady" : "not steady: " + reason;
   return result;

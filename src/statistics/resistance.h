@@ -12,13 +12,15 @@ namespace furrow {
 struct ResistanceOptions {
   WindowRequest window;
   SteadyCriteria criteria;
-  double shortest_distance = 0.0;  ///< [m] travel below which the window is too short: at least a contact length
+  /// [m] travel below which the window is too short: at least a contact length
+  double shortest_distance = 0.0;
 };
 
 /// Steady values of a wheel run over one window.
 struct Resistance {
   Window window;
-  /// sinkage [m], force_z [N], resistance_coefficient, drawbar_pull [N], drawbar_coefficient, drive_torque [N m], slip
+  /// sinkage [m], force_z [N], resistance_coefficient, drawbar_pull [N], drawbar_coefficient,
+  /// drive_torque [N m], slip
   std::vector<SteadyValue> values;
   bool steady = false;  ///< the window is good and every value is steady
   std::string verdict;  ///< "steady", or "not steady: " and what is not, and why
@@ -26,17 +28,20 @@ struct Resistance {
   const SteadyValue& value(const std::string& name) const;  ///< @throws Error for an unknown name
 };
 
-/// Ratio of the means of two series, r = sum a / sum b, with the error of its linearisation: the series r + (a_i - r b_i)/mean(b)
-/// has the mean r, and its blocks carry the correlation of a and b.
+/// Ratio of the means of two series, r = sum a / sum b, with the error of its linearisation: the
+/// series r + (a_i - r b_i)/mean(b) has the mean r, and its blocks carry the correlation of a and
+/// b.
 /// @throws Error when the lengths differ, StateError when the mean of b is zero
 std::vector<double> linearised_ratio(const std::vector<double>& a, const std::vector<double>& b);
 
-/// Needs the channels time, x, sinkage, force_x, force_z, drawbar_pull, drive_torque, slip (rig/wheel_rig.h) in equally
-/// spaced rows; phase if there is one. resistance_coefficient = -force_x/force_z and drawbar_coefficient =
-/// drawbar_pull/force_z, ratios of means. In a steady run drawbar pull and force_x agree; the first is what a load cell
-/// between vehicle and wheel sees, inertia included. Negligible drifts are measured against the value itself, and at least
+/// Needs the channels time, x, sinkage, force_x, force_z, drawbar_pull, drive_torque, slip
+/// (rig/wheel_rig.h) in equally spaced rows; phase if there is one. resistance_coefficient =
+/// -force_x/force_z and drawbar_coefficient = drawbar_pull/force_z, ratios of means. In a steady
+/// run drawbar pull and force_x agree; the first is what a load cell between vehicle and wheel
+/// sees, inertia included. Negligible drifts are measured against the value itself, and at least
 /// against a tenth of force_z for the pull, a tenth for the coefficients and the slip.
-/// @throws Error for a missing channel, a history that ends before the cruise, or rows that are missing
+/// @throws Error for a missing channel, a history that ends before the cruise, or rows that are
+/// missing
 Resistance measure_resistance(const History& history, const ResistanceOptions& options = {});
 
 }  // namespace furrow

@@ -20,14 +20,16 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Differences so small that they are rounding, not a signal: of a prescribed slip, of the torque of a free axle.
+/// Differences so small that they are rounding, not a signal: of a prescribed slip, of the torque
+/// of a free axle.
 bool is_constant(const std::vector<double>& values, double reference = 0.0) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return *high - *low <= std::max(1e-12, 1e-9 * std::max({std::abs(*high), std::abs(*low), reference}));
+  return *high - *low <=
+         std::max(1e-12, 1e-9 * std::max({std::abs(*high), std::abs(*low), reference}));
 }
 
-/// Two-sided 99 % quantile of Student's t, expansion of Cornish and Fisher about the normal one; within 4 % from 3 degrees
-/// on, 0.3 % from 6.
+/// Two-sided 99 % quantile of Student's t, expansion of Cornish and Fisher about the normal one;
+/// within 4 % from 3 degrees on, 0.3 % from 6.
 double student_t99(double freedom) {
   const double z = 2.5758293035489004, z2 = z * z, n = freedom;
   return z * (1.0 + (z2 + 1.0) / (4.0 * n) + ((5.0 * z2 + 16.0) * z2 + 3.0) / (96.0 * n * n) +
@@ -45,7 +47,8 @@ Blocking blocks_of(const std::vector<double>& values, std::size_t length) {
   std::vector<double> means(count);
   for (std::size_t block = 0; block < count; ++block) {
     const auto begin = values.begin() + static_cast<std::ptrdiff_t>(offset + block * length);
-    means[block] = std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(length), 0.0) / static_cast<double>(length);
+    means[block] = std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(length), 0.0) /
+                   static_cast<double>(length);
   }
   const double mean = mean_of(means);
   double squares = 0.0;
@@ -53,18 +56,23 @@ Blocking blocks_of(const std::vector<double>& values, std::size_t length) {
   return {std::sqrt(squares / static_cast<double>(count * (count - 1))), count, length};
 }
 
-/// Lengthens the blocks until length^3 > 2 n (error/error of single values)^4; the longest, two blocks, when none is long enough.
-/// The error of every length is itself noisy and, for swings, goes up and down: the largest of all lengths so far counts, in the
-/// condition and as the result, so that a chance dip neither ends the search nor passes for certainty.
+/// Lengthens the blocks until length^3 > 2 n (error/error of single values)^4; the longest, two
+/// blocks, when none is long enough. The error of every length is itself noisy and, for swings,
+/// goes up and down: the largest of all lengths so far counts, in the condition and as the result,
+/// so that a chance dip neither ends the search nor passes for certainty.
 Blocking block_average(const std::vector<double>& values) {
   const Blocking single = blocks_of(values, 1);
   Blocking blocking = single;
   double largest = 0.0;
-  for (std::size_t length = 1; values.size() / length >= 2; length = std::max(length + 1, length * 5 / 4)) {
+  for (std::size_t length = 1; values.size() / length >= 2;
+       length = std::max(length + 1, length * 5 / 4)) {
     blocking = blocks_of(values, length);
     largest = blocking.standard_error = std::max(largest, blocking.standard_error);
-    const double growth = single.standard_error > 0.0 ? blocking.standard_error / single.standard_error : 1.0;
-    if (std::pow(static_cast<double>(length), 3) > 2.0 * static_cast<double>(values.size()) * std::pow(growth, 4)) break;
+    const double growth =
+        single.standard_error > 0.0 ? blocking.standard_error / single.standard_error : 1.0;
+    if (std::pow(static_cast<double>(length), 3) >
+        2.0 * static_cast<double>(values.size()) * std::pow(growth, 4))
+      break;
   }
   return blocking;
 }
@@ -83,32 +91,42 @@ double slope_of(const std::vector<double>& values) {
 
 double half_difference(const std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  const auto early = static_cast<double>(middle - values.begin()), late = static_cast<double>(values.end() - middle);
-  return std::accumulate(middle, values.end(), 0.0) / late - std::accumulate(values.begin(), middle, 0.0) / early;
+  const auto early = static_cast<double>(middle - values.begin()),
+             late = static_cast<double>(values.end() - middle);
+  return std::accumulate(middle, values.end(), 0.0) / late -
+         std::accumulate(values.begin(), middle, 0.0) / early;
 }
 
 std::size_t first_row_of_cruise(const History& history) {
   const auto& channels = history.channels();
-  if (std::none_of(channels.begin(), channels.end(), [](const Channel& channel) { return channel.name == "phase"; }))
+  if (std::none_of(channels.begin(), channels.end(),
+                   [](const Channel& channel) { return channel.name == "phase"; }))
     return 0;
   const std::vector<double> phase = history.column("phase");
-  const auto first = std::find_if(phase.begin(), phase.end(), [](double value) { return value >= 2.0; });
+  const auto first =
+      std::find_if(phase.begin(), phase.end(), [](double value) { return value >= 2.0; });
   if (first == phase.end())
-    throw Error("the history ends before the cruise begins: run longer, or shorten settle_time and accelerate_time");
+    throw Error(
+        "the history ends before the cruise begins: run longer, or shorten settle_time and "
+        "accelerate_time");
   return static_cast<std::size_t>(first - phase.begin());
 }
 
 /// Rows whose value lies in [from, to] of a growing column.
-Window rows_between(const std::vector<double>& column, std::optional<double> from, std::optional<double> to,
-                    const char* what, const char* unit) {
+Window rows_between(const std::vector<double>& column, std::optional<double> from,
+                    std::optional<double> to, const char* what, const char* unit) {
   const double lowest = column.front(), highest = column.back();
-  const double begin = from.value_or(lowest), end = to.value_or(highest), slack = 1e-9 * (highest - lowest);
+  const double begin = from.value_or(lowest), end = to.value_or(highest),
+               slack = 1e-9 * (highest - lowest);
   if (!(begin >= lowest - slack && end <= highest + slack && begin < end))
-    throw InputError(fmt::format("the window by {}", what), fmt::format("is {} to {} {}", begin, end, unit),
-                     fmt::format("a part of {} to {} {}, the begin before the end", lowest, highest, unit));
+    throw InputError(
+        fmt::format("the window by {}", what), fmt::format("is {} to {} {}", begin, end, unit),
+        fmt::format("a part of {} to {} {}, the begin before the end", lowest, highest, unit));
   Window window;
-  window.first = static_cast<std::size_t>(std::lower_bound(column.begin(), column.end(), begin - slack) - column.begin());
-  window.last = static_cast<std::size_t>(std::upper_bound(column.begin(), column.end(), end + slack) - column.begin());
+  window.first = static_cast<std::size_t>(
+      std::lower_bound(column.begin(), column.end(), begin - slack) - column.begin());
+  window.last = static_cast<std::size_t>(
+      std::upper_bound(column.begin(), column.end(), end + slack) - column.begin());
   window.how = fmt::format("given by {}: {} to {} {}", what, begin, end, unit);
   return window;
 }
@@ -120,10 +138,12 @@ std::size_t mser_truncation(const std::vector<double>& values) {
   if (batches < 4) return 0;
   std::vector<double> means(batches);
   for (std::size_t i = 0; i < batches; ++i)
-    means[i] = std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(i * mser_batch),
-                               values.begin() + static_cast<std::ptrdiff_t>((i + 1) * mser_batch), 0.0) /
-               mser_batch;
-  // running mean and sum of squares from the end (B. P. Welford 1962), so that offsets lose no digits
+    means[i] =
+        std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(i * mser_batch),
+                        values.begin() + static_cast<std::ptrdiff_t>((i + 1) * mser_batch), 0.0) /
+        mser_batch;
+  // running mean and sum of squares from the end (B. P. Welford 1962), so that offsets lose no
+  // digits
   double mean = 0.0, squares = 0.0, best = 0.0;
   std::size_t best_batch = 0;
   for (std::size_t batch = batches; batch-- > 0;) {
@@ -141,19 +161,24 @@ std::size_t mser_truncation(const std::vector<double>& values) {
   return best_batch * mser_batch;
 }
 
-Window select_window(const History& history, const WindowRequest& request, const std::vector<std::string>& channels) {
-  if (history.size() < 2) throw Error(fmt::format("the history has {} rows: nothing to take a mean of", history.size()));
+Window select_window(const History& history, const WindowRequest& request,
+                     const std::vector<std::string>& channels) {
+  if (history.size() < 2)
+    throw Error(fmt::format("the history has {} rows: nothing to take a mean of", history.size()));
   const std::vector<double> time = history.column("time"), x = history.column("x");
-  const bool by_time = request.from_time || request.to_time, by_distance = request.from_distance || request.to_distance;
+  const bool by_time = request.from_time || request.to_time,
+             by_distance = request.from_distance || request.to_distance;
   if (by_time && by_distance)
-    throw InputError("the window", "is given by time and by distance", "one of them", "remove the other");
+    throw InputError("the window", "is given by time and by distance", "one of them",
+                     "remove the other");
 
   Window window;
   if (by_time) {
     window = rows_between(time, request.from_time, request.to_time, "time", "s");
   } else if (by_distance) {
     std::vector<double> travelled(x.size());
-    std::transform(x.begin(), x.end(), travelled.begin(), [&](double value) { return value - x.front(); });
+    std::transform(x.begin(), x.end(), travelled.begin(),
+                   [&](double value) { return value - x.front(); });
     window = rows_between(travelled, request.from_distance, request.to_distance, "distance", "m");
   } else {
     const std::size_t start = first_row_of_cruise(history), rows = history.size() - start;
@@ -171,22 +196,26 @@ Window select_window(const History& history, const WindowRequest& request, const
     window.automatic = true;
     window.how = fmt::format("cruise from {:.6g} s", time[start]);
     if (transient > 0)
-      window.how +=
-          fmt::format(", transient of {:.4g} s left out (MSER-5 on {})", time[window.first] - time[start], longest);
+      window.how += fmt::format(", transient of {:.4g} s left out (MSER-5 on {})",
+                                time[window.first] - time[start], longest);
     if (static_cast<double>(transient) > longest_transient * static_cast<double>(rows))
-      window.warning = fmt::format("the transient of {} fills nearly half of the cruise: run longer", longest);
+      window.warning =
+          fmt::format("the transient of {} fills nearly half of the cruise: run longer", longest);
   }
   if (window.rows() < 2)
-    throw Error(fmt::format("the window ({}) holds {} row(s): widen it or record more often", window.how, window.rows()));
+    throw Error(fmt::format("the window ({}) holds {} row(s): widen it or record more often",
+                            window.how, window.rows()));
   window.begin = time[window.first];
   window.end = time[window.last - 1];
   window.distance = x[window.last - 1] - x[window.first];
   return window;
 }
 
-SteadyValue analyse_steady(const std::string& name, const std::string& unit, const std::vector<double>& values,
-                           double spacing, double reference, const SteadyCriteria& criteria) {
-  if (values.size() < 2) throw Error(fmt::format("{}: {} value(s) have no standard error", name, values.size()));
+SteadyValue analyse_steady(const std::string& name, const std::string& unit,
+                           const std::vector<double>& values, double spacing, double reference,
+                           const SteadyCriteria& criteria) {
+  if (values.size() < 2)
+    throw Error(fmt::format("{}: {} value(s) have no standard error", name, values.size()));
   if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
     throw StateError(fmt::format("{}: a value of the window is not finite", name));
 
@@ -206,15 +235,17 @@ SteadyValue analyse_steady(const std::string& name, const std::string& unit, con
   result.standard_error = blocking.standard_error;
   result.blocks = blocking.blocks;
   result.block_duration = spacing * static_cast<double>(blocking.block_length);
-  const double inefficiency = squares > 0.0 ? n * (n - 1.0) / squares * result.standard_error * result.standard_error : 1.0;
+  const double inefficiency =
+      squares > 0.0 ? n * (n - 1.0) / squares * result.standard_error * result.standard_error : 1.0;
   result.independent_samples = n / inefficiency;
   result.correlation_time = 0.5 * inefficiency * spacing;
 
-  // a straight line through values with error e of their mean: its change over the window has the error sqrt(12) e, the
-  // difference of the halves 2 e
+  // a straight line through values with error e of their mean: its change over the window has the
+  // error sqrt(12) e, the difference of the halves 2 e
   const double slope = slope_of(values), middle = 0.5 * (n - 1.0);
   std::vector<double> detrended = values;
-  for (std::size_t i = 0; i < detrended.size(); ++i) detrended[i] -= slope * (static_cast<double>(i) - middle);
+  for (std::size_t i = 0; i < detrended.size(); ++i)
+    detrended[i] -= slope * (static_cast<double>(i) - middle);
   const Blocking residual = block_average(detrended);
   result.drift = slope * (n - 1.0);
   result.drift_error = std::sqrt(12.0) * residual.standard_error;
@@ -226,18 +257,23 @@ SteadyValue analyse_steady(const std::string& name, const std::string& unit, con
     result.verdict = "steady";
     return result;
   }
-  const double negligible = criteria.negligible_drift * std::max({reference, std::abs(result.mean), result.deviation});
+  const double negligible =
+      criteria.negligible_drift * std::max({reference, std::abs(result.mean), result.deviation});
   const double certain = student_t99(std::max(3.0, static_cast<double>(residual.blocks) - 2.0));
   std::string reason;
   const auto add = [&](const std::string& text) { reason += (reason.empty() ? "" : "; ") + text; };
   if (std::abs(result.drift) > negligible && std::abs(result.drift) > certain * result.drift_error)
-    add(fmt::format("it drifts by {:.3g} +- {:.2g} {} over the window", result.drift, result.drift_error, unit));
-  if (std::abs(result.halves_difference) > negligible && std::abs(result.halves_difference) > certain * result.halves_error)
-    add(fmt::format("its halves differ by {:.3g} +- {:.2g} {}", result.halves_difference, result.halves_error, unit));
+    add(fmt::format("it drifts by {:.3g} +- {:.2g} {} over the window", result.drift,
+                    result.drift_error, unit));
+  if (std::abs(result.halves_difference) > negligible &&
+      std::abs(result.halves_difference) > certain * result.halves_error)
+    add(fmt::format("its halves differ by {:.3g} +- {:.2g} {}", result.halves_difference,
+                    result.halves_error, unit));
   if (residual.blocks < criteria.fewest_blocks)
-    add(fmt::format(
-        "the window is too short: its fluctuations last so long that it holds only {} independent stretches, {} are needed",
-        residual.blocks, criteria.fewest_blocks));
+    add(
+        fmt::format("the window is too short: its fluctuations last so long that it holds only {} "
+                    "independent stretches, {} are needed",
+                    residual.blocks, criteria.fewest_blocks));
   result.steady = reason.empty();
   result.verdict = result.steady ? "steady" : "not steady: " + reason;
   return result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The steady part of a history: where it begins, the mean with its standard error, and whether it is steady at all.
+/// The steady part of a history: where it begins, the mean with its standard error, and whether it
+/// is steady at all.
 
 #include <optional>
 #include <string>
@@ -10,7 +11,8 @@
 
 namespace furrow {
 
-/// What the user asks for. Nothing given: from the start of the cruise, less the transient that is found.
+/// What the user asks for. Nothing given: from the start of the cruise, less the transient that is
+/// found.
 struct WindowRequest {
   std::optional<double> from_time, to_time;          ///< [s]
   std::optional<double> from_distance, to_distance;  ///< [m] travelled along x since the first row
@@ -22,26 +24,33 @@ struct Window {
   double begin = 0.0, end = 0.0;  ///< [s] of the first and the last row
   double distance = 0.0;          ///< [m] travelled along x in it
   bool automatic = false;         ///< the begin was found, not given
-  std::string how;                ///< in words: "cruise from 2.1 s, transient of 0.31 s left out (MSER-5)"
-  std::string warning;            ///< empty, or why the begin is in doubt
+  /// in words: "cruise from 2.1 s, transient of 0.31 s left out (MSER-5)"
+  std::string how;
+  std::string warning;  ///< empty, or why the begin is in doubt
 
   std::size_t rows() const { return last - first; }
 };
 
-/// MSER-5, K. P. White, Simulation 69 (1997) 323: with means of five values, the truncation d <= n/2 that minimises
-/// sum_{i >= d} (x_i - mean)^2 / (n - d)^2, the squared standard error that uncorrelated values would have.
-/// @return how many values to leave out; the values of the first half of the series when nothing less will do
+/// MSER-5, K. P. White, Simulation 69 (1997) 323: with means of five values, the truncation d <=
+/// n/2 that minimises sum_{i >= d} (x_i - mean)^2 / (n - d)^2, the squared standard error that
+/// uncorrelated values would have.
+/// @return how many values to leave out; the values of the first half of the series when nothing
+/// less will do
 std::size_t mser_truncation(const std::vector<double>& values);
 
-/// The rows that count. Automatic: from the start of the cruise (channel phase = 2; the first row where there is no such
-/// channel), less the longest transient of the named channels.
-/// @throws InputError for a request outside of the history, or by both time and distance; Error when no rows remain
-Window select_window(const History& history, const WindowRequest& request, const std::vector<std::string>& channels);
+/// The rows that count. Automatic: from the start of the cruise (channel phase = 2; the first row
+/// where there is no such channel), less the longest transient of the named channels.
+/// @throws InputError for a request outside of the history, or by both time and distance; Error
+/// when no rows remain
+Window select_window(const History& history, const WindowRequest& request,
+                     const std::vector<std::string>& channels);
 
 /// Limits of the verdict.
 struct SteadyCriteria {
-  double negligible_drift = 0.02;  ///< change over the window, of the reference, that is steady even when it is certain
-  std::size_t fewest_blocks = 6;   ///< independent stretches below which no verdict is given: about 40 correlation times
+  /// change over the window, of the reference, that is steady even when it is certain
+  double negligible_drift = 0.02;
+  /// independent stretches below which no verdict is given: about 40 correlation times
+  std::size_t fewest_blocks = 6;
 };
 
 /// One quantity over a window.
@@ -51,7 +60,8 @@ struct SteadyValue {
   double standard_error = 0.0;  ///< of the mean, from the blocks
   double deviation = 0.0;       ///< standard deviation of the rows
   double minimum = 0.0, maximum = 0.0;
-  double correlation_time = 0.0;     ///< [s] integrated autocorrelation time; half a row spacing for uncorrelated rows
+  /// [s] integrated autocorrelation time; half a row spacing for uncorrelated rows
+  double correlation_time = 0.0;
   double independent_samples = 0.0;  ///< deviation^2/standard_error^2
   std::size_t blocks = 0;            ///< whose means are uncorrelated
   double block_duration = 0.0;       ///< [s]
@@ -65,16 +75,18 @@ struct SteadyValue {
 
 /// Mean, error and verdict of equally spaced values.
 ///
-/// Standard error: from the means of blocks that are lengthened until they are as good as uncorrelated (H. Flyvbjerg,
-/// H. G. Petersen, J. Chem. Phys. 91 (1989) 461), that is until length^3 > 2 n (error/error of single values)^4, which
-/// balances the bias of short blocks against the scatter of few (R. M. Lee et al., Phys. Rev. E 83 (2011) 066706). The bias
-/// left is about -tau/(2 length).
-/// Steady: neither the straight line nor the two halves differ from a constant, at 99 % by Student's t with errors from the
-/// blocks of the detrended values, by more than the negligible drift; and there are enough blocks to tell.
+/// Standard error: from the means of blocks that are lengthened until they are as good as
+/// uncorrelated (H. Flyvbjerg, H. G. Petersen, J. Chem. Phys. 91 (1989) 461), that is until
+/// length^3 > 2 n (error/error of single values)^4, which balances the bias of short blocks against
+/// the scatter of few (R. M. Lee et al., Phys. Rev. E 83 (2011) 066706). The bias left is about
+/// -tau/(2 length). Steady: neither the straight line nor the two halves differ from a constant, at
+/// 99 % by Student's t with errors from the blocks of the detrended values, by more than the
+/// negligible drift; and there are enough blocks to tell.
 /// @param spacing of the rows [s]
 /// @param reference scale of a negligible drift; the larger of it, |mean| and the deviation counts
 /// @throws Error for fewer than two values, StateError for values that are not finite
-SteadyValue analyse_steady(const std::string& name, const std::string& unit, const std::vector<double>& values,
-                           double spacing, double reference = 0.0, const SteadyCriteria& criteria = {});
+SteadyValue analyse_steady(const std::string& name, const std::string& unit,
+                           const std::vector<double>& values, double spacing,
+                           double reference = 0.0, const SteadyCriteria& criteria = {});
 
 }  // namespace furrow

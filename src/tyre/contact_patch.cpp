@@ -27,7 +27,8 @@ ContactPatch contact_patch(const DarnellTyre& tyre, const RigidPlane& plane) {
   int inside = 0, lifted = 0;
   for (int j = 0; j <= rows; ++j) {
     const auto touches = [&](int i) { return plane.pressure()[tyre.tread_node(i, j)] > 0.0; };
-    int lowest = 0, first = 0, last = 0;  // node numbers around; the patch is narrower than half the tyre
+    // node numbers around; the patch is narrower than half the tyre
+    int lowest = 0, first = 0, last = 0;
     for (int i = 0; i < n; ++i)
       if (x(2, tyre.tread_node(i, j)) < x(2, tyre.tread_node(lowest, j))) lowest = i;
     bool any = false;
@@ -40,7 +41,8 @@ ContactPatch contact_patch(const DarnellTyre& tyre, const RigidPlane& plane) {
     lateral[static_cast<std::size_t>(j)] = x(1, tyre.tread_node(lowest, j));
     if (!any) continue;
     const auto end = [&](int touching, int step) {
-      const Vector3 a = x.col(tyre.tread_node(touching, j)), b = x.col(tyre.tread_node(touching + step, j)),
+      const Vector3 a = x.col(tyre.tread_node(touching, j)),
+                    b = x.col(tyre.tread_node(touching + step, j)),
                     c = x.col(tyre.tread_node(touching + 2 * step, j));
       const double s1 = (b - a).norm(), s2 = s1 + (c - b).norm();
       return beyond(s1, b.z() - floor, s2, c.z() - floor);

@@ -8,19 +8,22 @@
 namespace furrow {
 
 struct ContactPatch {
-  double length = 0.0;            ///< [m] longest line along the circumference
-  double width = 0.0;             ///< [m] between the outermost touching tread lines
-  double perimeter_area = 0.0;    ///< [m^2] inside the outline, gaps within included: what a print's outline encloses
+  double length = 0.0;  ///< [m] longest line along the circumference
+  double width = 0.0;   ///< [m] between the outermost touching tread lines
+  /// [m^2] inside the outline, gaps within included: what a print's outline encloses
+  double perimeter_area = 0.0;
   double nodal_area = 0.0;        ///< [m^2] sum of the shares of the touching nodes
   double largest_pressure = 0.0;  ///< [Pa] of a tread node
   double mean_pressure = 0.0;     ///< [Pa] vertical force over perimeter_area
   double force = 0.0;             ///< [N] vertical, whole tyre
-  double lifted_share = 0.0;      ///< of the nodes inside the outline, those that do not touch: a buckled middle
+  /// of the nodes inside the outline, those that do not touch: a buckled middle
+  double lifted_share = 0.0;
 };
 
-/// The outline ends, on each line of nodes around the tread, where the gap that grows as the square of the distance from the edge (a
-/// bent shell leaves the plane like that) fits the gaps of the first two free nodes; between the last node that touches and the next.
-/// Valid for an upright wheel. Call after plane.press_on(tyre.surface()).
+/// The outline ends, on each line of nodes around the tread, where the gap that grows as the square
+/// of the distance from the edge (a bent shell leaves the plane like that) fits the gaps of the
+/// first two free nodes; between the last node that touches and the next. Valid for an upright
+/// wheel. Call after plane.press_on(tyre.surface()).
 ContactPatch contact_patch(const DarnellTyre& tyre, const RigidPlane& plane);
 
 }  // namespace furrow

@@ -15,13 +15,16 @@ namespace furrow {
 
 namespace {
 
-constexpr double least_mass_share = 0.02;  // a rim lighter than this share of the tread would be moved by every wave in it
+// a rim lighter than this share of the tread would be moved by every wave in it
+constexpr double least_mass_share = 0.02;
 // The first part of a relaxation (DarnellTyre::settle).
 constexpr double approach_time = 0.12;         // [s]
 constexpr double approach_damping = 2000.0;    // [1/s] of the tread
 constexpr double approach_rim_damping = 60.0;  // [1/s]
-constexpr double wrinkle_damping = 200.0;      // [1/s] of the tread afterwards: wrinkles that snap must not swing
-constexpr double disturbance = 1e-3;           // [m/s] at the start, so that no unstable even shape is taken for rest
+// [1/s] of the tread afterwards: wrinkles that snap must not swing
+constexpr double wrinkle_damping = 200.0;
+// [m/s] at the start, so that no unstable even shape is taken for rest
+constexpr double disturbance = 1e-3;
 
 /// From 0 at 0 to 1 at 1 with continuous second derivative.
 double smooth_step(double u) {
@@ -29,7 +32,8 @@ double smooth_step(double u) {
   return u * u * u * (10.0 - u * (15.0 - 6.0 * u));
 }
 
-std::unique_ptr<Sidewall> make_sidewall(const TyreParameters& tyre, bool direct, const SidewallTableMaker& make_table) {
+std::unique_ptr<Sidewall> make_sidewall(const TyreParameters& tyre, bool direct,
+                                        const SidewallTableMaker& make_table) {
   if (direct) return std::make_unique<SidewallDirect>(tyre.sidewall, tyre.pressure);
   SidewallTableGrid grid;  // wrinkles turn the tread's edge further than a smooth shape does
   grid.rotation_min = radians(-105);
@@ -54,15 +58,20 @@ struct DarnellTyre::Mesh {
   Mesh(const TyreParameters& tyre, const DarnellTyreSettings& settings, const std::string& where) {
     check(tyre, where);
     const auto need = [&](bool good, const char* name, int value, const char* allowed) {
-      if (!good) throw InputError(fmt::format("{}, {}", where, name), fmt::format("is {}", value), allowed);
+      if (!good)
+        throw InputError(fmt::format("{}, {}", where, name), fmt::format("is {}", value), allowed);
     };
-    need(settings.across >= 2 && settings.across <= 200, "elements across", settings.across, "2 to 200");
-    need(settings.around >= 12 && settings.around <= 2000, "elements around", settings.around, "12 to 2000");
-    need(!settings.half || settings.across % 2 == 0, "elements across", settings.across, "an even number for a half model");
-    need(settings.sidewall_points >= 0 && settings.sidewall_points <= 50, "sidewall points", settings.sidewall_points,
-         "0 to 50");
+    need(settings.across >= 2 && settings.across <= 200, "elements across", settings.across,
+         "2 to 200");
+    need(settings.around >= 12 && settings.around <= 2000, "elements around", settings.around,
+         "12 to 2000");
+    need(!settings.half || settings.across % 2 == 0, "elements across", settings.across,
+         "an even number for a half model");
+    need(settings.sidewall_points >= 0 && settings.sidewall_points <= 50, "sidewall points",
+         settings.sidewall_points, "0 to 50");
     if (!(std::isfinite(settings.damping_rate) && settings.damping_rate >= 0.0))
-      throw InputError(where + ", damping rate", fmt::format("is {} 1/s", settings.damping_rate), "a number >= 0");
+      throw InputError(where + ", damping rate", fmt::format("is {} 1/s", settings.damping_rate),
+                       "a number >= 0");
     rows = settings.half ? settings.across / 2 : settings.across;
     const TreadParameters& tread = tyre.tread;
     x.resize(3, settings.around * (rows + 1));
@@ -70,19 +79,23 @@ struct DarnellTyre::Mesh {
     for (int i = 0; i < settings.around; ++i)
       for (int j = 0; j <= rows; ++j) {
         const double across = settings.half ? double(j) / rows : 2.0 * j / rows - 1.0;
-        const double angle = 2.0 * pi * i / settings.around, radius = tread.radius - tread.crown * across * across;
-        x.col(node(i, j)) << radius * std::sin(angle), tread.half_width * across, -radius * std::cos(angle);
-        if (j < rows) quads.push_back({node(i, j), node(i, j + 1), node(i + 1, j + 1), node(i + 1, j)});
+        const double angle = 2.0 * pi * i / settings.around,
+                     radius = tread.radius - tread.crown * across * across;
+        x.col(node(i, j)) << radius * std::sin(angle), tread.half_width * across,
+            -radius * std::cos(angle);
+        if (j < rows)
+          quads.push_back({node(i, j), node(i, j + 1), node(i + 1, j + 1), node(i + 1, j)});
       }
   }
 };
 
-DarnellTyre::DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& settings, const DarnellTyreHub& hub,
-                         const std::string& where, const SidewallTableMaker& make_table)
+DarnellTyre::DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& settings,
+                         const DarnellTyreHub& hub, const std::string& where,
+                         const SidewallTableMaker& make_table)
     : DarnellTyre(tyre, settings, hub, make_table, Mesh(tyre, settings, where)) {}
 
-DarnellTyre::DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& settings, const DarnellTyreHub& hub,
-                         const SidewallTableMaker& make_table, Mesh mesh)
+DarnellTyre::DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& settings,
+                         const DarnellTyreHub& hub, const SidewallTableMaker& make_table, Mesh mesh)
     : WheelHub(hub.inertia, hub.centre, "tyre"),
       tyre_(tyre),
       settings_(settings),
@@ -102,27 +115,34 @@ DarnellTyre::DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& 
     }
   const auto positive = [](double value, const char* name, const char* unit) {
     if (!(std::isfinite(value) && value > 0.0))
-      throw InputError(fmt::format("tyre, {}", name), fmt::format("is {} {}", value, unit), "a number > 0");
+      throw InputError(fmt::format("tyre, {}", name), fmt::format("is {} {}", value, unit),
+                       "a number > 0");
   };
   positive(hub.inertia.mass, "mass of the rim", "kg");
   positive(hub.inertia.axial, "inertia of the rim", "kg m^2");
   positive(hub.inertia.diametral, "diametral inertia of the rim", "kg m^2");
   const double band = share_ * nodes_.mass.sum();
   if (hub.inertia.mass < least_mass_share * band)
-    throw InputError("tyre, mass of the rim", fmt::format("is {} kg under a tread of {:.4g} kg", hub.inertia.mass, band),
+    throw InputError("tyre, mass of the rim",
+                     fmt::format("is {} kg under a tread of {:.4g} kg", hub.inertia.mass, band),
                      fmt::format("at least {:.3g} kg", least_mass_share * band));
 
-  const double edge_radius = tyre.tread.radius - tyre.tread.crown, width = 2.0 * pi * edge_radius / settings.around;
+  const double edge_radius = tyre.tread.radius - tyre.tread.crown,
+               width = 2.0 * pi * edge_radius / settings.around;
   for (const int side : {+1, -1}) {
     if (settings.half && side < 0) continue;
     std::vector<int> edge;
     for (int i = 0; i < settings.around; ++i) edge.push_back(tread_node(i, side > 0 ? rows_ : 0));
-    rings_.emplace_back(make_sidewall(tyre, settings.direct, make_table), tyre, side, std::move(edge), width);
+    rings_.emplace_back(make_sidewall(tyre, settings.direct, make_table), tyre, side,
+                        std::move(edge), width);
   }
 
-  // Surface: the tread's nodes, then rows of sidewall nodes, one ring after the other; triangles outward.
-  const int n = settings.around, points = settings.sidewall_points, tread_nodes = static_cast<int>(nodes_.count());
-  surface_.resize(static_cast<std::size_t>(tread_nodes + static_cast<int>(rings_.size()) * n * points));
+  // Surface: the tread's nodes, then rows of sidewall nodes, one ring after the other; triangles
+  // outward.
+  const int n = settings.around, points = settings.sidewall_points,
+            tread_nodes = static_cast<int>(nodes_.count());
+  surface_.resize(
+      static_cast<std::size_t>(tread_nodes + static_cast<int>(rings_.size()) * n * points));
   const auto add_quad = [&](int a, int b, int c, int d, bool other_diagonal) {
     if (other_diagonal) {
       surface_.triangles.emplace_back(a, b, d);
@@ -135,7 +155,8 @@ DarnellTyre::DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& 
   for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
     const Shell4::Quad& q = mesh.quads[e];
     add_quad(q[0], q[1], q[2], q[3],
-             settings.half || 2 * (static_cast<int>(e) % rows_) >= rows_);  // mirrored about the middle
+             // mirrored about the middle
+             settings.half || 2 * (static_cast<int>(e) % rows_) >= rows_);
   }
   for (std::size_t r = 0; r < rings_.size() && points > 0; ++r) {
     const int first = tread_nodes + static_cast<int>(r) * n * points;
@@ -152,8 +173,8 @@ DarnellTyre::DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& 
       }
   }
   damping_force_ = damping_moment_ = contact_ = Matrix3X::Zero(3, nodes_.count());
-  force_scale_ = std::max(pressure_, 1e3) * 2.0 * pi * tyre.tread.radius * 2.0 * tyre.tread.half_width / share_ /
-                 static_cast<double>(nodes_.count());
+  force_scale_ = std::max(pressure_, 1e3) * 2.0 * pi * tyre.tread.radius * 2.0 *
+                 tyre.tread.half_width / share_ / static_cast<double>(nodes_.count());
   stable_step_ = shell_.stable_time_step();
   compute_internal();
   zero_ = potential();
@@ -173,13 +194,16 @@ double DarnellTyre::lowest_point() const {
     const Vector3& at = reference_.col(n);
     const double radius = std::hypot(at.x(), at.z());
     for (const double side : {1.0, settings_.half ? -1.0 : 1.0}) {
-      lowest = std::min(lowest, side * at.y() * a.z() - radius * std::sqrt(std::max(0.0, 1.0 - a.z() * a.z())));
+      lowest = std::min(
+          lowest, side * at.y() * a.z() - radius * std::sqrt(std::max(0.0, 1.0 - a.z() * a.z())));
     }
   }
   return centre().z() + lowest;
 }
 
-double DarnellTyre::total_mass() const { return WheelHub::total_mass() + share_ * nodes_.mass.sum(); }
+double DarnellTyre::total_mass() const {
+  return WheelHub::total_mass() + share_ * nodes_.mass.sum();
+}
 
 WheelHub::Wrench DarnellTyre::ground_wrench() const {
   Wrench wrench = WheelHub::ground_wrench();
@@ -232,7 +256,8 @@ void DarnellTyre::add_damping() {
   Vector3 force = Vector3::Zero(), moment = Vector3::Zero();
   for (Eigen::Index n = 0; n < nodes_.count(); ++n) {
     const Vector3 at = nodes_.x.col(n), v = nodes_.v.col(n), w = nodes_.w.col(n);
-    const Vector3 f = -c * nodes_.mass[n] * (v - rigid_velocity(at)), m = -c * nodes_.inertia[n] * (w - angular_velocity());
+    const Vector3 f = -c * nodes_.mass[n] * (v - rigid_velocity(at)),
+                  m = -c * nodes_.inertia[n] * (w - angular_velocity());
     damping_force_.col(n) = f;
     damping_moment_.col(n) = m;
     force -= f;
@@ -261,7 +286,8 @@ void DarnellTyre::add_contact() {
         const Eigen::Index edge = ring.edge()[i];
         contact_.col(edge) += s * f;
         contact_on_rim_ += (1.0 - s) * f;
-        contact_moment_ += Vector3(surface_.x.col(node) - centre() - s * (nodes_.x.col(edge) - centre())).cross(f);
+        contact_moment_ +=
+            Vector3(surface_.x.col(node) - centre() - s * (nodes_.x.col(edge) - centre())).cross(f);
       }
   nodes_.force += contact_;
   mirror(contact_on_rim_, contact_moment_);
@@ -275,15 +301,18 @@ void DarnellTyre::advance(double dt) {
   const Vector3 V_before = velocity(), Omega_before = angular_velocity();
   nodes_.kick(dt);
   advance_hub(dt, rim_force_ + contact_on_rim_, rim_moment_ + contact_moment_);
-  const Vector3 V = 0.5 * (V_before + velocity()), Omega = 0.5 * (Omega_before + angular_velocity());
+  const Vector3 V = 0.5 * (V_before + velocity()),
+                Omega = 0.5 * (Omega_before + angular_velocity());
 
-  // Damping: its power on the tread and on the rim, which has the opposite sum of forces and moments.
+  // Damping: its power on the tread and on the rim, which has the opposite sum of forces and
+  // moments.
   Vector3 force = Vector3::Zero(), moment = Vector3::Zero();
   double power = 0.0;
   const Vector3 old_centre = centre() - dt * velocity();
   for (Eigen::Index n = 0; n < nodes_.count(); ++n) {
     const Vector3 f = damping_force_.col(n), m = damping_moment_.col(n);
-    power += f.dot(0.5 * (v_before.col(n) + nodes_.v.col(n))) + m.dot(0.5 * (w_before.col(n) + nodes_.w.col(n)));
+    power += f.dot(0.5 * (v_before.col(n) + nodes_.v.col(n))) +
+             m.dot(0.5 * (w_before.col(n) + nodes_.w.col(n)));
     force -= f;
     moment -= m + Vector3(nodes_.x.col(n) - old_centre).cross(f);
   }
@@ -313,7 +342,8 @@ void DarnellTyre::place_surface() {
         const double s = static_cast<double>(k) / points;
         const Eigen::Index edge = ring.edge()[i];
         const Vector3 arm = surface_.x.col(node) - centre() - s * (nodes_.x.col(edge) - centre());
-        surface_.v.col(node) = s * nodes_.v.col(edge) + (1.0 - s) * velocity() + angular_velocity().cross(arm);
+        surface_.v.col(node) =
+            s * nodes_.v.col(edge) + (1.0 - s) * velocity() + angular_velocity().cross(arm);
       }
   }
 }
@@ -339,7 +369,9 @@ void DarnellTyre::follow_velocity() {
   place_surface();
 }
 
-double DarnellTyre::kinetic_energy() const { return hub_energy() + share_ * nodes_.kinetic_energy(); }
+double DarnellTyre::kinetic_energy() const {
+  return hub_energy() + share_ * nodes_.kinetic_energy();
+}
 
 Balance DarnellTyre::balance() const {
   Balance balance = hub_balance();
@@ -366,7 +398,8 @@ Relaxation DarnellTyre::settle(RigidPlane* plane, const SettleOptions& options) 
   const double dt = stable_step_, approach = approach_time;
   const long approach_steps = std::lround(approach / dt);
   const bool follows_load = motion(z) == Motion::free && !options.axle_height;
-  const double rim_mass = share_ * nodes_.mass.sum();  // any will do; one like the tread's converges fastest
+  // any will do; one like the tread's converges fastest
+  const double rim_mass = share_ * nodes_.mass.sum();
   const double turn_length = std::sqrt(nodes_.inertia.sum() / nodes_.mass.sum());
   const Matrix3X outer = surface_.f;
   KineticDamping damping;
@@ -385,9 +418,11 @@ Relaxation DarnellTyre::settle(RigidPlane* plane, const SettleOptions& options) 
     if (result.steps == 0) first_unbalanced = unbalanced;
     const double time = static_cast<double>(result.steps) * dt;
     if (approaching) unbalanced -= first_unbalanced * (1.0 - smooth_step(time / approach));
-    result.residual = std::max(nodes_.largest_unbalanced(turn_length), 0.1 * std::abs(unbalanced)) / force_scale_;
+    result.residual =
+        std::max(nodes_.largest_unbalanced(turn_length), 0.1 * std::abs(unbalanced)) / force_scale_;
     const double carried = share_ * surface_.f.row(2).sum() + load().z();  // of the tyre as a whole
-    const bool whole = !follows_load || std::abs(carried) < options.tolerance * std::abs(load().z());
+    const bool whole =
+        !follows_load || std::abs(carried) < options.tolerance * std::abs(load().z());
     if (!approaching && whole && result.residual < options.tolerance) {
       result.converged = true;
       break;
@@ -396,7 +431,8 @@ Relaxation DarnellTyre::settle(RigidPlane* plane, const SettleOptions& options) 
     rim_velocity += dt * unbalanced / rim_mass;
     if (approaching) {
       if (options.axle_height) {
-        const double next = start_height + (*options.axle_height - start_height) * smooth_step((time + dt) / approach);
+        const double next = start_height + (*options.axle_height - start_height) *
+                                               smooth_step((time + dt) / approach);
         rim_velocity = (next - at.z()) / dt;
       }
       nodes_.v *= 1.0 - approach_damping * dt;
@@ -425,7 +461,8 @@ Relaxation DarnellTyre::settle(RigidPlane* plane, const SettleOptions& options) 
   place_surface();
   if (!result.converged)
     throw StateError(
-        fmt::format("tyre: not at rest after {} steps of relaxation; the largest unbalanced force is {:.3g} of the "
+        fmt::format("tyre: not at rest after {} steps of relaxation; the largest unbalanced force "
+                    "is {:.3g} of the "
                     "pressure's force on a node, asked for {:.3g}",
                     options.max_steps, result.residual, options.tolerance));
   return result;
@@ -435,10 +472,12 @@ double DarnellTyre::section_width() {
   double widest = 0.0;
   const RimPose pose = rim();
   for (SidewallRing& ring : rings_)
-    for (std::size_t i = 0; i < ring.stations(); i += std::max<std::size_t>(1, ring.stations() / 72)) {
+    for (std::size_t i = 0; i < ring.stations();
+         i += std::max<std::size_t>(1, ring.stations() / 72)) {
       const Matrix3X points = ring.profile(i, nodes_, pose);
       for (Eigen::Index k = 0; k < points.cols(); ++k)
-        widest = std::max(widest, ring.side() * (points.col(k) - centre()).dot(pose.attitude.col(1)));
+        widest =
+            std::max(widest, ring.side() * (points.col(k) - centre()).dot(pose.attitude.col(1)));
     }
   return 2.0 * widest;
 }
@@ -465,7 +504,8 @@ std::vector<double> DarnellTyre::fingerprint() const {
 
 std::vector<double> DarnellTyre::state() const {
   std::vector<double> state = fingerprint();
-  for (const std::vector<double>& part : {hub_state(), nodes_.state()}) state.insert(state.end(), part.begin(), part.end());
+  for (const std::vector<double>& part : {hub_state(), nodes_.state()})
+    state.insert(state.end(), part.begin(), part.end());
   state.insert(state.end(), {pressure_, zero_, stored_, contact_work_, inflation_work_, damped_});
   state.insert(state.end(), surface_.f.data(), surface_.f.data() + surface_.f.size());
   return state;
@@ -474,14 +514,17 @@ std::vector<double> DarnellTyre::state() const {
 void DarnellTyre::restore(const std::vector<double>& state) {
   const std::vector<double> mine = fingerprint();
   if (state.size() != this->state().size() || !std::equal(mine.begin(), mine.end(), state.begin()))
-    throw Error("tyre: the saved state belongs to another tyre; restart with the tyre file and mesh of the first run");
+    throw Error(
+        "tyre: the saved state belongs to another tyre; restart with the tyre file and mesh of the "
+        "first run");
   const double* next = nodes_.restore(restore_hub(state.data() + mine.size()));
   const double pressure = *next++;
   if (pressure != pressure_) {
     for (SidewallRing& ring : rings_) ring.set_pressure(pressure);
     pressure_ = pressure;
   }
-  for (double* number : {&zero_, &stored_, &contact_work_, &inflation_work_, &damped_}) *number = *next++;
+  for (double* number : {&zero_, &stored_, &contact_work_, &inflation_work_, &damped_})
+    *number = *next++;
   std::copy(next, next + surface_.f.size(), surface_.f.data());
   place_surface();
 }

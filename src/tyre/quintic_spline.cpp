@@ -18,7 +18,8 @@ struct Basis {
   std::array<double, 6> b, d, dd;
 
   Basis(double x, double per_step) {
-    const double x2 = x * x, x3 = x2 * x, x4 = x3 * x, x5 = x4 * x, y = 1.0 - x, y2 = y * y, y3 = y2 * y;
+    const double x2 = x * x, x3 = x2 * x, x4 = x3 * x, x5 = x4 * x, y = 1.0 - x, y2 = y * y,
+                 y3 = y2 * y;
     const double s = 1.0 / 120.0, s1 = s * per_step, s2 = s1 * per_step;
     b = {s * y3 * y2,
          s * (5.0 * x5 - 20.0 * x4 + 20.0 * x3 + 20.0 * x2 - 50.0 * x + 26.0),
@@ -41,17 +42,19 @@ struct Basis {
   }
 };
 
-/// Coefficients from values along one axis: B-spline values 1, 26, 66, 26, 1 over 120 at a node; the sixth difference of the
-/// coefficients is the jump of the fifth derivative at a node.
+/// Coefficients from values along one axis: B-spline values 1, 26, 66, 26, 1 over 120 at a node;
+/// the sixth difference of the coefficients is the jump of the fifth derivative at a node.
 Eigen::PartialPivLU<Eigen::MatrixXd> collocation(int nodes) {
   const int n = nodes + 4;
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
   for (int i = 0; i < nodes; ++i)
-    for (int k = 0; k < 5; ++k) matrix(i, i + k) = std::array<double, 5>{1.0, 26.0, 66.0, 26.0, 1.0}[std::size_t(k)] / 120.0;
+    for (int k = 0; k < 5; ++k)
+      matrix(i, i + k) = std::array<double, 5>{1.0, 26.0, 66.0, 26.0, 1.0}[std::size_t(k)] / 120.0;
   int row = nodes;
   for (const int node : {1, 2, nodes - 3, nodes - 2}) {
     for (int k = 0; k < 7; ++k)
-      matrix(row, node - 1 + k) = std::array<double, 7>{1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0}[std::size_t(k)] / 20.0;
+      matrix(row, node - 1 + k) =
+          std::array<double, 7>{1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0}[std::size_t(k)] / 20.0;
     ++row;
   }
   return matrix.lu();
@@ -59,27 +62,34 @@ Eigen::PartialPivLU<Eigen::MatrixXd> collocation(int nodes) {
 
 }  // namespace
 
-QuinticSpline3 QuinticSpline3::of(const std::array<GridAxis, 3>& axes, std::vector<double> coefficients) {
+QuinticSpline3 QuinticSpline3::of(const std::array<GridAxis, 3>& axes,
+                                  std::vector<double> coefficients) {
   QuinticSpline3 spline;
   std::size_t count = 1;
   for (std::size_t k = 0; k < 3; ++k) {
     if (axes[k].nodes < 6 || !(axes[k].upper > axes[k].lower))
-      throw StateError(fmt::format("spline: axis {} has {} nodes from {} to {}; it needs 6 at least, increasing", k + 1,
-                                   axes[k].nodes, axes[k].lower, axes[k].upper));
+      throw StateError(
+          fmt::format("spline: axis {} has {} nodes from {} to {}; it needs 6 at least, increasing",
+                      k + 1, axes[k].nodes, axes[k].lower, axes[k].upper));
     spline.per_step_[k] = 1.0 / axes[k].step();
     count *= static_cast<std::size_t>(axes[k].nodes + 4);
   }
   if (coefficients.size() != count)
-    throw StateError(fmt::format("spline: {} coefficients instead of {}", coefficients.size(), count));
+    throw StateError(
+        fmt::format("spline: {} coefficients instead of {}", coefficients.size(), count));
   spline.axes_ = axes;
   spline.stride_ = {(axes[1].nodes + 4) * (axes[2].nodes + 4), axes[2].nodes + 4, 1};
   spline.coefficients_ = std::move(coefficients);
   return spline;
 }
 
-QuinticSpline3 QuinticSpline3::through(const std::array<GridAxis, 3>& axes, const std::vector<double>& values) {
-  const int n[3] = {axes[0].nodes, axes[1].nodes, axes[2].nodes}, m[3] = {n[0] + 4, n[1] + 4, n[2] + 4};
-  const auto size = [](int a, int b, int c) { return static_cast<std::size_t>(a) * std::size_t(b) * std::size_t(c); };
+QuinticSpline3 QuinticSpline3::through(const std::array<GridAxis, 3>& axes,
+                                       const std::vector<double>& values) {
+  const int n[3] = {axes[0].nodes, axes[1].nodes, axes[2].nodes},
+            m[3] = {n[0] + 4, n[1] + 4, n[2] + 4};
+  const auto size = [](int a, int b, int c) {
+    return static_cast<std::size_t>(a) * std::size_t(b) * std::size_t(c);
+  };
   std::vector<double> coefficients(size(m[0], m[1], m[2]), 0.0);
   const QuinticSpline3 shape = of(axes, coefficients);  // checks the axes
   if (values.size() != size(n[0], n[1], n[2]) ||
@@ -90,7 +100,8 @@ QuinticSpline3 QuinticSpline3::through(const std::array<GridAxis, 3>& axes, cons
   };
   for (int i = 0; i < n[0]; ++i)
     for (int j = 0; j < n[1]; ++j)
-      for (int k = 0; k < n[2]; ++k) at(i, j, k) = values[static_cast<std::size_t>((i * n[1] + j) * n[2] + k)];
+      for (int k = 0; k < n[2]; ++k)
+        at(i, j, k) = values[static_cast<std::size_t>((i * n[1] + j) * n[2] + k)];
 
   // Along one axis after the other; lines that the others have not filled yet are zero and stay so
   for (int axis = 0; axis < 3; ++axis) {
@@ -122,9 +133,11 @@ void QuinticSpline3::evaluate(const Vector3& x, Value& value, bool with_hessian)
     inside[k] = steps - cell[k];
   }
   const Basis B0(inside[0], per_step_[0]), B1(inside[1], per_step_[1]), B2(inside[2], per_step_[2]);
-  const double* corner = coefficients_.data() + cell[0] * stride_[0] + cell[1] * stride_[1] + cell[2];
+  const double* corner =
+      coefficients_.data() + cell[0] * stride_[0] + cell[1] * stride_[1] + cell[2];
 
-  // Sums along axis 1, then 0, in rows of six coefficients along axis 2; indices count derivatives along axes 0 and 1
+  // Sums along axis 1, then 0, in rows of six coefficients along axis 2; indices count derivatives
+  // along axes 0 and 1
   using Row = std::array<double, 6>;
   Row s00{}, s10{}, s01{}, s20{}, s11{}, s02{};
   for (std::size_t i = 0; i < 6; ++i) {
@@ -147,7 +160,8 @@ void QuinticSpline3::evaluate(const Vector3& x, Value& value, bool with_hessian)
     }
   }
   const auto dot = [](const std::array<double, 6>& b, const Row& row) {
-    return b[0] * row[0] + b[1] * row[1] + b[2] * row[2] + b[3] * row[3] + b[4] * row[4] + b[5] * row[5];
+    return b[0] * row[0] + b[1] * row[1] + b[2] * row[2] + b[3] * row[3] + b[4] * row[4] +
+           b[5] * row[5];
   };
   value.f = dot(B2.b, s00);
   value.gradient = {dot(B2.b, s10), dot(B2.b, s01), dot(B2.d, s00)};

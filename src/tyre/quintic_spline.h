@@ -19,9 +19,9 @@ struct GridAxis {
   double node(int i) const { return lower + i * step(); }
 };
 
-/// Tensor product of B-splines of degree 5 with knots at the nodes, not-a-knot at the two nodes next to either end
-/// (C. de Boor, A Practical Guide to Splines): four times continuously differentiable. Error h^6 in the value, h^5 in the
-/// gradient, h^4 in the second derivatives.
+/// Tensor product of B-splines of degree 5 with knots at the nodes, not-a-knot at the two nodes
+/// next to either end (C. de Boor, A Practical Guide to Splines): four times continuously
+/// differentiable. Error h^6 in the value, h^5 in the gradient, h^4 in the second derivatives.
 class QuinticSpline3 {
  public:
   struct Value {
@@ -32,16 +32,18 @@ class QuinticSpline3 {
 
   QuinticSpline3() = default;
   /// @param values at the nodes, the last variable fastest; nodes0 * nodes1 * nodes2 of them
-  /// @throws StateError for fewer than 6 nodes along an axis, another number of values, or values that are not finite
-  static QuinticSpline3 through(const std::array<GridAxis, 3>& axes, const std::vector<double>& values);
+  /// @throws StateError for fewer than 6 nodes along an axis, another number of values, or values
+  /// that are not finite
+  static QuinticSpline3 through(const std::array<GridAxis, 3>& axes,
+                                const std::vector<double>& values);
   /// From coefficients() of another. @throws StateError for another number of them
   static QuinticSpline3 of(const std::array<GridAxis, 3>& axes, std::vector<double> coefficients);
 
   const std::array<GridAxis, 3>& axes() const { return axes_; }
   const std::vector<double>& coefficients() const { return coefficients_; }
 
-  /// At a point inside the grid; outside, the polynomial of the nearest cell goes on. The Hessian is left as it is unless
-  /// asked for.
+  /// At a point inside the grid; outside, the polynomial of the nearest cell goes on. The Hessian
+  /// is left as it is unless asked for.
   void evaluate(const Vector3& x, Value& value, bool with_hessian) const;
 
  private:

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a sidewall does to tread and rim: forces, stiffness and potential for a position of the tread edge, whichever way
-/// they are computed: SidewallDirect solves the chain, SidewallTable looks it up.
+/// What a sidewall does to tread and rim: forces, stiffness and potential for a position of the
+/// tread edge, whichever way they are computed: SidewallDirect solves the chain, SidewallTable
+/// looks it up.
 ///
-/// A sidewall is taken as a planar chain in the meridian plane (Shoop & Darnell; TR-01-16), as wide as its strip of the tread.
-/// All values are per unit circumference of the tread: a station that holds the width w of tread takes w times them. The
-/// pressure acts on the strip's own width omega = bead_width + taper r (tyre_parameters.h): even, as in a plane, or between
-/// two meridians, where it is narrower at the rim. Neglected: tension and shear along the circumference, that bending
+/// A sidewall is taken as a planar chain in the meridian plane (Shoop & Darnell; TR-01-16), as wide
+/// as its strip of the tread. All values are per unit circumference of the tread: a station that
+/// holds the width w of tread takes w times them. The pressure acts on the strip's own width omega
+/// = bead_width + taper r (tyre_parameters.h): even, as in a plane, or between two meridians, where
+/// it is narrower at the rim. Neglected: tension and shear along the circumference, that bending
 /// stiffness varies with the strip's width, the sidewall's mass.
 ///
-/// Pressure is a follower load with live normals. Let W = min over the chain's angles of (bending energy - p S), S the area
-/// between chain and chord, weighted by omega. On the tread act minus W's gradient and the tread's share of the pressure on
-/// the chord:
+/// Pressure is a follower load with live normals. Let W = min over the chain's angles of (bending
+/// energy - p S), S the area between chain and chord, weighted by omega. On the tread act minus W's
+/// gradient and the tread's share of the pressure on the chord:
 ///   F = -dW/d(a, r) + p (bead_width/2 + taper r/3) (r, -a),   M = -dW/dphi.
-/// So dF_a/dr - dF_r/da = p omega(r): the force alone is no gradient, but W is tabulated and the rest is exact.
+/// So dF_a/dr - dF_r/da = p omega(r): the force alone is no gradient, but W is tabulated and the
+/// rest is exact.
 
 #include <cstddef>
 
@@ -23,21 +26,25 @@ namespace furrow {
 
 /// Tread end of a sidewall, seen from its bead.
 struct SidewallEnd {
-  double a = 0.0;    ///< [m] axial, outwards
-  double r = 0.0;    ///< [m] radial, away from the axle
-  double phi = 0.0;  ///< [rad] rotation of the tread edge from where it was made, from +a towards +r
+  double a = 0.0;  ///< [m] axial, outwards
+  double r = 0.0;  ///< [m] radial, away from the axle
+  /// [rad] rotation of the tread edge from where it was made, from +a towards +r
+  double phi = 0.0;
 };
 
 struct SidewallResponse {
-  Vector3 force = Vector3::Zero();      ///< -dW/d(a, r, phi): on_tread without the pressure on the chord
-  Vector3 on_tread = Vector3::Zero();   ///< F_a, F_r [N/m], M [N m/m]; M turns from +a towards +r
-  Matrix3 stiffness = Matrix3::Zero();  ///< -d(on_tread)/d(a, r, phi); not symmetric in (a, r) by the pressure
-  double potential = 0.0;               ///< W [J/m]
+  /// -dW/d(a, r, phi): on_tread without the pressure on the chord
+  Vector3 force = Vector3::Zero();
+  Vector3 on_tread = Vector3::Zero();  ///< F_a, F_r [N/m], M [N m/m]; M turns from +a towards +r
+  /// -d(on_tread)/d(a, r, phi); not symmetric in (a, r) by the pressure
+  Matrix3 stiffness = Matrix3::Zero();
+  double potential = 0.0;  ///< W [J/m]
 };
 
 /// What the chain itself tells of an equilibrium.
 struct SidewallShape {
-  Eigen::Matrix2Xd nodes;            ///< from the bead (0, 0) to the tread end (a, r); N + 1 columns [m]
+  /// from the bead (0, 0) to the tread end (a, r); N + 1 columns [m]
+  Eigen::Matrix2Xd nodes;
   VectorX angles;                    ///< of the N segments [rad]
   Vector3 on_rim = Vector3::Zero();  ///< F_a, F_r [N/m], M [N m/m] at the bead
   double bending = 0.0;              ///< energy of hinges and end springs [J/m]
@@ -48,15 +55,18 @@ class Sidewall {
  public:
   virtual ~Sidewall() = default;
 
-  /// Responses of n stations. A direct solve starts a station from its own last solution, so a caller keeps their order.
+  /// Responses of n stations. A direct solve starts a station from its own last solution, so a
+  /// caller keeps their order.
   /// @param with_stiffness false leaves out the stiffness
   /// @throws StateError for an end that is not finite or cannot be reached, naming the station
-  virtual void evaluate(const SidewallEnd* ends, SidewallResponse* responses, std::size_t n, bool with_stiffness) = 0;
+  virtual void evaluate(const SidewallEnd* ends, SidewallResponse* responses, std::size_t n,
+                        bool with_stiffness) = 0;
 
-  virtual double pressure() const = 0;             ///< [Pa]
-  virtual void set_pressure(double pressure) = 0;  ///< from the next evaluation on; a table is made anew. @throws StateError
-  virtual SidewallShape shape(
-      const SidewallEnd& end) = 0;  ///< by the chain, also where forces are looked up. @throws StateError
+  virtual double pressure() const = 0;  ///< [Pa]
+  /// from the next evaluation on; a table is made anew. @throws StateError
+  virtual void set_pressure(double pressure) = 0;
+  virtual SidewallShape shape(const SidewallEnd& end) = 0;  ///< by the chain, also where forces are
+                                                            ///< looked up. @throws StateError
   /// The nodes of shape(), for pictures and for contact of the sidewall.
   void profile(const SidewallEnd& end, Eigen::Matrix2Xd& nodes) { nodes = shape(end).nodes; }
 };

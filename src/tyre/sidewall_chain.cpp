@@ -15,9 +15,11 @@ namespace {
 constexpr int max_iterations = 200;
 constexpr double step_limit = 0.3;            // [rad] of any segment in one step
 constexpr double gradient_tolerance = 1e-12;  // of the largest forces times lengths
-constexpr double rounding = 1e-13;            // of the functional's terms: a difference below is none
-constexpr double farthest_from_arc = 1.2;     // [rad] of any segment: a warm start that ends farther away is not trusted
-constexpr double shortest_chord = 0.02;       // of the length
+// of the functional's terms: a difference below is none
+constexpr double rounding = 1e-13;
+// [rad] of any segment: a warm start that ends farther away is not trusted
+constexpr double farthest_from_arc = 1.2;
+constexpr double shortest_chord = 0.02;  // of the length
 
 }  // namespace
 
@@ -26,32 +28,34 @@ SidewallChain::SidewallChain(const SidewallParameters& parameters)
   check(parameters_);
   hessian_.resize(n_, n_);
   factor_.resize(n_ - 2, n_ - 2);
-  for (VectorX* vector : {&cosine_, &sine_, &gradient_, &reflector_[0], &reflector_[1], &step_, &trial_, &work_})
+  for (VectorX* vector :
+       {&cosine_, &sine_, &gradient_, &reflector_[0], &reflector_[1], &step_, &trial_, &work_})
     vector->setZero(n_);
 }
 
 void SidewallChain::check_end(const SidewallEnd& end, double pressure) const {
   if (!std::isfinite(end.a) || !std::isfinite(end.r) || !std::isfinite(end.phi))
-    throw StateError(fmt::format("sidewall: its tread end is at a = {} m, r = {} m, phi = {} rad", end.a, end.r, end.phi));
+    throw StateError(fmt::format("sidewall: its tread end is at a = {} m, r = {} m, phi = {} rad",
+                                 end.a, end.r, end.phi));
   if (!(pressure >= 0.0) || !std::isfinite(pressure))
     throw StateError(fmt::format("sidewall: the pressure is {} Pa; it must be >= 0", pressure));
   const double chord = std::hypot(end.a, end.r), length = parameters_.length;
   if (chord >= length * (1.0 - 1e-9))
-    throw StateError(
-        fmt::format("sidewall: stretched past its length: its ends (a = {:.6g} m, r = {:.6g} m) are {:.6g} m "
-                    "apart, its length is {:.6g} m",
-                    end.a, end.r, chord, length));
+    throw StateError(fmt::format(
+        "sidewall: stretched past its length: its ends (a = {:.6g} m, r = {:.6g} m) are {:.6g} m "
+        "apart, its length is {:.6g} m",
+        end.a, end.r, chord, length));
   if (chord < shortest_chord * length)
-    throw StateError(
-        fmt::format("sidewall: the tread edge lies on the bead: they are {:.3g} m apart (a = {:.3g} m, r = "
-                    "{:.3g} m)",
-                    chord, end.a, end.r));
+    throw StateError(fmt::format(
+        "sidewall: the tread edge lies on the bead: they are {:.3g} m apart (a = {:.3g} m, r = "
+        "{:.3g} m)",
+        chord, end.a, end.r));
 }
 
 void SidewallChain::arc(const SidewallEnd& end, VectorX& angles) {
   check_end(end, 0.0);
-  // N chords of a circle, each turned by 2 alpha/N from the one before: chord/length = sin(alpha)/(N sin(alpha/N)), falling
-  // in alpha.
+  // N chords of a circle, each turned by 2 alpha/N from the one before: chord/length =
+  // sin(alpha)/(N sin(alpha/N)), falling in alpha.
   const double n = static_cast<double>(n_), share = std::hypot(end.a, end.r) / parameters_.length;
   double lower = 0.0, upper = pi;
   for (int i = 0; i < 60; ++i) {
@@ -60,7 +64,8 @@ void SidewallChain::arc(const SidewallEnd& end, VectorX& angles) {
   }
   const double direction = std::atan2(end.r, end.a), turn = (lower + upper) / n;
   angles.resize(n_);
-  for (Eigen::Index i = 0; i < n_; ++i) angles[i] = direction + (static_cast<double>(i) - 0.5 * (n - 1.0)) * turn;
+  for (Eigen::Index i = 0; i < n_; ++i)
+    angles[i] = direction + (static_cast<double>(i) - 0.5 * (n - 1.0)) * turn;
   restore_end(end, angles);
 }
 
@@ -69,9 +74,11 @@ bool SidewallChain::resembles_arc(const SidewallEnd& end, const VectorX& angles)
   const double n = static_cast<double>(n_), direction = std::atan2(end.r, end.a);
   // Half the angle of the arc, sin(alpha)/alpha = chord/length, within 0.05
   const double uu = 1.0 - std::hypot(end.a, end.r) / parameters_.length;
-  const double alpha = std::sqrt(6.0 * uu) * (1.0 + 0.15 * uu + 0.1325 * uu * uu), turn = 2.0 * alpha / n;
+  const double alpha = std::sqrt(6.0 * uu) * (1.0 + 0.15 * uu + 0.1325 * uu * uu),
+               turn = 2.0 * alpha / n;
   for (Eigen::Index i = 0; i < n_; ++i)
-    if (std::abs(angles[i] - direction - (static_cast<double>(i) - 0.5 * (n - 1.0)) * turn) > farthest_from_arc)
+    if (std::abs(angles[i] - direction - (static_cast<double>(i) - 0.5 * (n - 1.0)) * turn) >
+        farthest_from_arc)
       return false;
   return true;
 }
@@ -79,7 +86,8 @@ bool SidewallChain::resembles_arc(const SidewallEnd& end, const VectorX& angles)
 double SidewallChain::bending_energy(const VectorX& angles, double phi) const {
   const double L = segment(), rim = angles[0] - parameters_.rim_angle,
                tread = angles[n_ - 1] - parameters_.tread_angle - phi;
-  double energy = 0.5 * (parameters_.rim_stiffness * rim * rim + parameters_.tread_stiffness * tread * tread);
+  double energy =
+      0.5 * (parameters_.rim_stiffness * rim * rim + parameters_.tread_stiffness * tread * tread);
   for (Eigen::Index i = 0; i + 1 < n_; ++i) {
     const auto hinge = static_cast<std::size_t>(i);
     const double bend = angles[i + 1] - angles[i] - parameters_.curvature[hinge] * L;
@@ -95,7 +103,8 @@ VectorX SidewallChain::moments(const VectorX& angles, double phi) const {
   moments[n_] = -parameters_.tread_stiffness * (angles[n_ - 1] - parameters_.tread_angle - phi);
   for (Eigen::Index i = 0; i + 1 < n_; ++i) {
     const auto hinge = static_cast<std::size_t>(i);
-    moments[i + 1] = parameters_.bending[hinge] * ((angles[i + 1] - angles[i]) / L - parameters_.curvature[hinge]);
+    moments[i + 1] = parameters_.bending[hinge] *
+                     ((angles[i + 1] - angles[i]) / L - parameters_.curvature[hinge]);
   }
   return moments;
 }
@@ -144,8 +153,8 @@ double SidewallChain::functional(const VectorX& angles, double phi, double press
   return bending_energy(angles, phi) - pressure * G;
 }
 
-/// Newton's method with the shortest step; few and small where the angles nearly fit. False when it does not end.
-/// Leaves the cosines and sines of the angles.
+/// Newton's method with the shortest step; few and small where the angles nearly fit. False when it
+/// does not end. Leaves the cosines and sines of the angles.
 bool SidewallChain::restore_end(const SidewallEnd& end, VectorX& angles) {
   const double L = segment();
   for (int i = 0; i < 20; ++i) {
@@ -160,7 +169,8 @@ bool SidewallChain::restore_end(const SidewallEnd& end, VectorX& angles) {
     // J = L (-s; c), J J^T = L^2 (ss, -sc; -sc, cc)
     const double determinant = ss * cc - sc * sc;
     if (!(determinant > 1e-20)) return false;
-    const Vector2 y((cc * gap[0] + sc * gap[1]) / determinant, (sc * gap[0] + ss * gap[1]) / determinant);
+    const Vector2 y((cc * gap[0] + sc * gap[1]) / determinant,
+                    (sc * gap[0] + ss * gap[1]) / determinant);
     double largest = 0.0;
     for (Eigen::Index k = 0; k < n_; ++k) {
       const double change = -sine_[k] * y[0] + cosine_[k] * y[1];
@@ -173,10 +183,12 @@ bool SidewallChain::restore_end(const SidewallEnd& end, VectorX& angles) {
 }
 
 /// -p times gradient and Hessian of G with respect to the angles; sets gradient_ and hessian_.
-/// G is a sum over segments of g(x_i, x_(i+1)). Angle k moves the nodes beyond segment k by t_k = L (-sin, cos), so with p_j
-/// the node's gradient, D_j its own second derivatives and C_m those between nodes m and m + 1,
-///   dG/dtheta_k = t_k . P_k,  P_k = sum_(j>k) p_j;   d2G/(dtheta_k dtheta_m) = t_k . (T_m + C_m) t_m for k < m,
-///   T_m = sum over nodes and pairs beyond m;         d2G/dtheta_k^2 = t_k . T_k t_k - L (cos, sin) . P_k.
+/// G is a sum over segments of g(x_i, x_(i+1)). Angle k moves the nodes beyond segment k by t_k = L
+/// (-sin, cos), so with p_j the node's gradient, D_j its own second derivatives and C_m those
+/// between nodes m and m + 1,
+///   dG/dtheta_k = t_k . P_k,  P_k = sum_(j>k) p_j;   d2G/(dtheta_k dtheta_m) = t_k . (T_m + C_m)
+///   t_m for k < m, T_m = sum over nodes and pairs beyond m;         d2G/dtheta_k^2 = t_k . T_k t_k
+///   - L (cos, sin) . P_k.
 void SidewallChain::add_pressure(double pressure) {
   const double L = segment(), w0 = 0.5 * parameters_.bead_width, w1 = parameters_.taper / 6.0;
   double a1 = 0.0, r1 = 0.0;
@@ -190,9 +202,11 @@ void SidewallChain::add_pressure(double pressure) {
                  w0 * (a0 + a1) + w1 * (a0 * (r0 + 2.0 * r1) + a1 * (4.0 * r1 - r0)));
     T_ar += w0 + w1 * (4.0 * r1 - r0);
     T_rr += w1 * (2.0 * a0 + 4.0 * a1);
-    const double C_ar = w0 + w1 * (r0 + 2.0 * r1), C_ra = -w0 - w1 * (r1 + 2.0 * r0), C_rr = w1 * (a0 - a1);
+    const double C_ar = w0 + w1 * (r0 + 2.0 * r1), C_ra = -w0 - w1 * (r1 + 2.0 * r0),
+                 C_rr = w1 * (a0 - a1);
     gradient_[m] = -pressure * L * (c * P[1] - s * P[0]);
-    hessian_(m, m) = -pressure * (L * L * (c * c * T_rr - 2.0 * s * c * T_ar) - L * (c * P[0] + s * P[1]));
+    hessian_(m, m) =
+        -pressure * (L * L * (c * c * T_rr - 2.0 * s * c * T_ar) - L * (c * P[0] + s * P[1]));
     // (T + C) t_m
     const double y_a = L * c * (T_ar + C_ar), y_r = L * (-s * (T_ar + C_ra) + c * (T_rr + C_rr));
     for (Eigen::Index k = 0; k < m; ++k)
@@ -206,15 +220,16 @@ void SidewallChain::add_pressure(double pressure) {
   }
 }
 
-/// Gradient, QR of the constraint, multiplier, and the Lagrangian's Hessian in the axes of the QR. Uses the cosines and
-/// sines.
+/// Gradient, QR of the constraint, multiplier, and the Lagrangian's Hessian in the axes of the QR.
+/// Uses the cosines and sines.
 void SidewallChain::linearise(const VectorX& angles, double phi, double pressure) {
   const double L = segment();
   add_pressure(pressure);
   for (Eigen::Index i = 0; i + 1 < n_; ++i) {
     const auto hinge = static_cast<std::size_t>(i);
     const double stiffness = parameters_.bending[hinge] / L;
-    const double moment = stiffness * (angles[i + 1] - angles[i] - parameters_.curvature[hinge] * L);
+    const double moment =
+        stiffness * (angles[i + 1] - angles[i] - parameters_.curvature[hinge] * L);
     gradient_[i] -= moment;
     gradient_[i + 1] += moment;
     hessian_(i, i) += stiffness;
@@ -223,7 +238,8 @@ void SidewallChain::linearise(const VectorX& angles, double phi, double pressure
     hessian_(i + 1, i) -= stiffness;
   }
   gradient_[0] += parameters_.rim_stiffness * (angles[0] - parameters_.rim_angle);
-  gradient_[n_ - 1] += parameters_.tread_stiffness * (angles[n_ - 1] - parameters_.tread_angle - phi);
+  gradient_[n_ - 1] +=
+      parameters_.tread_stiffness * (angles[n_ - 1] - parameters_.tread_angle - phi);
   hessian_(0, 0) += parameters_.rim_stiffness;
   hessian_(n_ - 1, n_ - 1) += parameters_.tread_stiffness;
 
@@ -245,7 +261,8 @@ void SidewallChain::linearise(const VectorX& angles, double phi, double pressure
   reflect(gradient_, true);
   multiplier_[1] = gradient_[1] / triangle_(1, 1);
   multiplier_[0] = (gradient_[0] - triangle_(0, 1) * multiplier_[1]) / triangle_(0, 0);
-  for (Eigen::Index k = 0; k < n_; ++k) hessian_(k, k) += L * (multiplier_[0] * cosine_[k] + multiplier_[1] * sine_[k]);
+  for (Eigen::Index k = 0; k < n_; ++k)
+    hessian_(k, k) += L * (multiplier_[0] * cosine_[k] + multiplier_[1] * sine_[k]);
 
   // Q^T H Q, with P H P = H - 2 (v w^T + w v^T) + 4 (v.w) v v^T, w = H v
   for (const VectorX& v : reflector_) {
@@ -260,7 +277,8 @@ void SidewallChain::linearise(const VectorX& angles, double phi, double pressure
 
 /// Q x, or its transpose: Q = P0 P1.
 void SidewallChain::reflect(VectorX& vector, bool transpose) const {
-  for (const int i : {transpose ? 0 : 1, transpose ? 1 : 0}) vector -= 2.0 * reflector_[i].dot(vector) * reflector_[i];
+  for (const int i : {transpose ? 0 : 1, transpose ? 1 : 0})
+    vector -= 2.0 * reflector_[i].dot(vector) * reflector_[i];
 }
 
 /// Cholesky of the Hessian's free part plus a shift. False when it is not positive definite.
@@ -295,14 +313,16 @@ void SidewallChain::substitute(VectorX& reduced) const {
   }
 }
 
-/// Downhill to the nearest stable equilibrium; the last linearisation is the one there. False when there is none.
+/// Downhill to the nearest stable equilibrium; the last linearisation is the one there. False when
+/// there is none.
 bool SidewallChain::descend(const SidewallEnd& end, double pressure, VectorX& angles) {
   const double L = segment(), l = parameters_.length;
-  const double hinge = *std::max_element(parameters_.bending.begin(), parameters_.bending.end()) / L;
+  const double hinge =
+      *std::max_element(parameters_.bending.begin(), parameters_.bending.end()) / L;
   for (iterations_ = 0; iterations_ < max_iterations; ++iterations_) {
     linearise(angles, end.phi, pressure);
-    const double scale =
-        L * (multiplier_.norm() + pressure * l) + hinge + std::max(parameters_.rim_stiffness, parameters_.tread_stiffness);
+    const double scale = L * (multiplier_.norm() + pressure * l) + hinge +
+                         std::max(parameters_.rim_stiffness, parameters_.tread_stiffness);
     const double residual = gradient_.tail(n_ - 2).lpNorm<Eigen::Infinity>();
     if (!std::isfinite(residual)) return false;
     if (residual <= gradient_tolerance * scale) return factorise(0.0);
@@ -320,37 +340,43 @@ bool SidewallChain::descend(const SidewallEnd& end, double pressure, VectorX& an
     for (;; length *= 0.5) {
       if (length < 1e-8) return false;
       trial_ = angles + length * step_;
-      if (restore_end(end, trial_) && functional(trial_, end.phi, pressure) <= start + 1e-4 * length * slope + slack) break;
+      if (restore_end(end, trial_) &&
+          functional(trial_, end.phi, pressure) <= start + 1e-4 * length * slope + slack)
+        break;
     }
     angles = trial_;
   }
   return false;
 }
 
-SidewallResponse SidewallChain::solve(const SidewallEnd& end, double pressure, VectorX& angles, bool with_stiffness) {
+SidewallResponse SidewallChain::solve(const SidewallEnd& end, double pressure, VectorX& angles,
+                                      bool with_stiffness) {
   check_end(end, pressure);
-  bool found = angles.size() == n_ && angles.allFinite() && restore_end(end, angles) && descend(end, pressure, angles) &&
-               resembles_arc(end, angles);
+  bool found = angles.size() == n_ && angles.allFinite() && restore_end(end, angles) &&
+               descend(end, pressure, angles) && resembles_arc(end, angles);
   if (!found) {
     arc(end, angles);
     found = descend(end, pressure, angles);
   }
   if (!found)
     throw StateError(
-        fmt::format("sidewall: no stable equilibrium at a = {:.6g} m, r = {:.6g} m, phi = {:.6g} rad and {:.6g} Pa", end.a,
-                    end.r, end.phi, pressure));
+        fmt::format("sidewall: no stable equilibrium at a = {:.6g} m, r = {:.6g} m, phi = {:.6g} "
+                    "rad and {:.6g} Pa",
+                    end.a, end.r, end.phi, pressure));
 
   SidewallResponse response;
   const double k_tread = parameters_.tread_stiffness, a = end.a, r = end.r;
   const double omega = parameters_.bead_width + parameters_.taper * r;
-  const double share = 0.5 * parameters_.bead_width + parameters_.taper * r / 3.0;  // of the chord's pressure, at the tread
+  // of the chord's pressure, at the tread
+  const double share = 0.5 * parameters_.bead_width + parameters_.taper * r / 3.0;
   response.on_tread = {-multiplier_[0], -multiplier_[1] - pressure * a * omega,
                        k_tread * (angles[n_ - 1] - parameters_.tread_angle - end.phi)};
   response.force = response.on_tread - pressure * share * Vector3(r, -a, 0.0);
   response.potential = functional(angles, end.phi, pressure) + pressure * chord_share(a, r);
   if (!with_stiffness) return response;
 
-  // Linearised equilibrium, in the axes of the QR: H (y, z) + e dphi = (triangle dlambda, 0) with triangle^T y = d(a, r).
+  // Linearised equilibrium, in the axes of the QR: H (y, z) + e dphi = (triangle dlambda, 0) with
+  // triangle^T y = d(a, r).
   VectorX &e = step_, &change = trial_;
   e.setZero();
   e[n_ - 1] = -k_tread;  // d2E/(dtheta_N dphi)
@@ -363,7 +389,8 @@ SidewallResponse SidewallChain::solve(const SidewallEnd& end, double pressure, V
     change = -dphi * e - y[0] * hessian_.col(0) - y[1] * hessian_.col(1);
     substitute(change);
     change.head(2) = y;
-    const Vector2 force(hessian_.col(0).dot(change) + dphi * e[0], hessian_.col(1).dot(change) + dphi * e[1]);
+    const Vector2 force(hessian_.col(0).dot(change) + dphi * e[0],
+                        hessian_.col(1).dot(change) + dphi * e[1]);
     response.stiffness.col(j).head(2) = upper.solve(force);
     response.stiffness(2, j) = e.dot(change) + dphi * k_tread;
   }
@@ -372,7 +399,8 @@ SidewallResponse SidewallChain::solve(const SidewallEnd& end, double pressure, V
   return response;
 }
 
-/// On the rim acts what moving the whole chain costs: p times the change of G, less what acts on the tread.
+/// On the rim acts what moving the whole chain costs: p times the change of G, less what acts on
+/// the tread.
 SidewallShape SidewallChain::shape(const SidewallEnd& end, double pressure) {
   SidewallShape shape;
   const Vector3 on_tread = solve(end, pressure, shape.angles, false).on_tread;
@@ -381,7 +409,8 @@ SidewallShape SidewallChain::shape(const SidewallEnd& end, double pressure) {
   shape.area = area(shape.angles);
   double a_dr = 0.0;  // integral of a dr
   for (Eigen::Index i = 0; i < n_; ++i)
-    a_dr += 0.5 * (shape.nodes(0, i) + shape.nodes(0, i + 1)) * (shape.nodes(1, i + 1) - shape.nodes(1, i));
+    a_dr += 0.5 * (shape.nodes(0, i) + shape.nodes(0, i + 1)) *
+            (shape.nodes(1, i + 1) - shape.nodes(1, i));
   const double omega_0 = parameters_.bead_width, taper = parameters_.taper;
   shape.on_rim = {pressure * end.r * (omega_0 + 0.5 * taper * end.r) - on_tread[0],
                   pressure * (taper * a_dr - end.a * (omega_0 + taper * end.r)) - on_tread[1],

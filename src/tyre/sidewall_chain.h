@@ -1,24 +1,28 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The equilibrium of a sidewall: a planar chain of inextensible segments with bending springs under follower pressure.
+/// The equilibrium of a sidewall: a planar chain of inextensible segments with bending springs
+/// under follower pressure.
 
 #include "tyre/sidewall.h"
 #include "tyre/tyre_parameters.h"
 
 namespace furrow {
 
-/// Finds the angles theta of the N segments that make  Phi = E(theta, phi) - p G(theta)  least among chains to (a, r):
+/// Finds the angles theta of the N segments that make  Phi = E(theta, phi) - p G(theta)  least
+/// among chains to (a, r):
 ///   E = 1/2 sum EI/L (theta_(i+1) - theta_i - kappa_0 L)^2 + 1/2 k_rim (theta_1 - theta_rim)^2
-///       + 1/2 k_tread (theta_N - theta_tread - phi)^2,    G = integral of omega(r) a dr along the chain.
-/// The pressure's nodal forces are the gradient of p G at the inner nodes: for an even strip p/2 times the live normals of
-/// the two segments. W = Phi + p g with the chord's own  g = a r (bead_width/2 + taper r/3), so S = G - g.
+///       + 1/2 k_tread (theta_N - theta_tread - phi)^2,    G = integral of omega(r) a dr along the
+///       chain.
+/// The pressure's nodal forces are the gradient of p G at the inner nodes: for an even strip p/2
+/// times the live normals of the two segments. W = Phi + p g with the chord's own  g = a r
+/// (bead_width/2 + taper r/3), so S = G - g.
 ///
-/// Newton's method on the manifold of chains that end at (a, r): steps along its tangent plane (a 2-column QR of the
-/// constraint's gradient), modified Cholesky of the reduced Hessian, line search on Phi, and a step limit, so that a search
-/// goes downhill and never jumps over a ridge. What it ends at is a stable equilibrium: the reduced Hessian is positive
-/// definite there, or it is refused.
-/// The branch is the one that the circular arc relaxes to: the arc is the equilibrium without bending stiffness.
-/// An object is its own working space: one for each thread.
+/// Newton's method on the manifold of chains that end at (a, r): steps along its tangent plane (a
+/// 2-column QR of the constraint's gradient), modified Cholesky of the reduced Hessian, line search
+/// on Phi, and a step limit, so that a search goes downhill and never jumps over a ridge. What it
+/// ends at is a stable equilibrium: the reduced Hessian is positive definite there, or it is
+/// refused. The branch is the one that the circular arc relaxes to: the arc is the equilibrium
+/// without bending stiffness. An object is its own working space: one for each thread.
 class SidewallChain {
  public:
   /// @throws InputError for parameters that check() refuses
@@ -28,11 +32,13 @@ class SidewallChain {
 
   /// Equilibrium at an end.
   /// @param pressure >= 0 [Pa]
-  /// @param angles [rad] in: where to start from, such as the solution nearby, or empty for the arc; out: the solution.
-  /// Where a start
+  /// @param angles [rad] in: where to start from, such as the solution nearby, or empty for the
+  /// arc; out: the solution. Where a start
   ///        does not lead to a chain like the arc, the arc is taken
-  /// @throws StateError: an end that is not finite, beyond the length, or at the bead; no stable equilibrium found
-  SidewallResponse solve(const SidewallEnd& end, double pressure, VectorX& angles, bool with_stiffness = true);
+  /// @throws StateError: an end that is not finite, beyond the length, or at the bead; no stable
+  /// equilibrium found
+  SidewallResponse solve(const SidewallEnd& end, double pressure, VectorX& angles,
+                         bool with_stiffness = true);
 
   /// The inscribed arc that bulges outwards. @throws StateError as solve
   void arc(const SidewallEnd& end, VectorX& angles);
@@ -41,11 +47,14 @@ class SidewallChain {
   SidewallShape shape(const SidewallEnd& end, double pressure);
 
   // Of any angles, in equilibrium or not.
-  void nodes(const VectorX& angles, Eigen::Matrix2Xd& nodes) const;  ///< from (0, 0); N + 1 columns [m]
-  double bending_energy(const VectorX& angles, double phi) const;    ///< E [J/m]
-  double area(const VectorX& angles) const;                          ///< S between chain and chord, weighted by omega [m^2]
-  VectorX moments(const VectorX& angles, double phi) const;          ///< rim spring, N - 1 hinges, tread spring [N m/m]
-  int iterations() const { return iterations_; }                     ///< of the last solve
+  /// from (0, 0); N + 1 columns [m]
+  void nodes(const VectorX& angles, Eigen::Matrix2Xd& nodes) const;
+  double bending_energy(const VectorX& angles, double phi) const;  ///< E [J/m]
+  /// S between chain and chord, weighted by omega [m^2]
+  double area(const VectorX& angles) const;
+  /// rim spring, N - 1 hinges, tread spring [N m/m]
+  VectorX moments(const VectorX& angles, double phi) const;
+  int iterations() const { return iterations_; }  ///< of the last solve
 
  private:
   double segment() const { return parameters_.length / static_cast<double>(n_); }
@@ -68,11 +77,12 @@ class SidewallChain {
 
   // Working space of one linearisation
   VectorX cosine_, sine_;
-  VectorX gradient_;                  // dPhi/dtheta
-  Eigen::MatrixXd hessian_, factor_;  // of the Lagrangian, in the axes of the QR; Cholesky factor of its free part
-  VectorX reflector_[2];              // Q = P0 P1, P = I - 2 v v^T
-  Eigen::Matrix2d triangle_;          // J^T = Q [triangle; 0]
-  Vector2 multiplier_;                // dPhi/d(a, r)
+  VectorX gradient_;  // dPhi/dtheta
+  // of the Lagrangian, in the axes of the QR; Cholesky factor of its free part
+  Eigen::MatrixXd hessian_, factor_;
+  VectorX reflector_[2];      // Q = P0 P1, P = I - 2 v v^T
+  Eigen::Matrix2d triangle_;  // J^T = Q [triangle; 0]
+  Vector2 multiplier_;        // dPhi/d(a, r)
   VectorX step_, trial_, work_;
 };
 

@@ -9,7 +9,8 @@
 
 namespace furrow {
 
-SidewallDirect::SidewallDirect(const SidewallParameters& parameters, double pressure) : chain_(parameters) {
+SidewallDirect::SidewallDirect(const SidewallParameters& parameters, double pressure)
+    : chain_(parameters) {
   set_pressure(pressure);
 }
 
@@ -19,7 +20,8 @@ void SidewallDirect::set_pressure(double pressure) {
   pressure_ = pressure;
 }
 
-void SidewallDirect::evaluate(const SidewallEnd* ends, SidewallResponse* responses, std::size_t n, bool with_stiffness) {
+void SidewallDirect::evaluate(const SidewallEnd* ends, SidewallResponse* responses, std::size_t n,
+                              bool with_stiffness) {
   if (angles_.size() < n) angles_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     try {

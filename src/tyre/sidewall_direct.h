@@ -13,7 +13,8 @@ class SidewallDirect : public Sidewall {
   /// @throws InputError for bad parameters, StateError for a pressure < 0
   SidewallDirect(const SidewallParameters& parameters, double pressure);
 
-  void evaluate(const SidewallEnd* ends, SidewallResponse* responses, std::size_t n, bool with_stiffness) override;
+  void evaluate(const SidewallEnd* ends, SidewallResponse* responses, std::size_t n,
+                bool with_stiffness) override;
   double pressure() const override { return pressure_; }
   void set_pressure(double pressure) override;
   SidewallShape shape(const SidewallEnd& end) override { return chain_.shape(end, pressure_); }

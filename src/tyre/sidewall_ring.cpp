@@ -12,7 +12,8 @@ namespace furrow {
 
 namespace {
 
-/// Half the angle an arc turns by, from chord over length: sin(alpha)/alpha = share; alpha in (0, pi).
+/// Half the angle an arc turns by, from chord over length: sin(alpha)/alpha = share; alpha in (0,
+/// pi).
 double half_turn(double share) {
   if (share >= 1.0) return 0.0;
   double alpha = std::min(3.0, std::sqrt(6.0 * (1.0 - share) * (1.0 + 0.15 * (1.0 - share))));
@@ -26,8 +27,8 @@ double half_turn(double share) {
 
 }  // namespace
 
-SidewallRing::SidewallRing(std::unique_ptr<Sidewall> sidewall, const TyreParameters& tyre, int side, std::vector<int> edge,
-                           double width)
+SidewallRing::SidewallRing(std::unique_ptr<Sidewall> sidewall, const TyreParameters& tyre, int side,
+                           std::vector<int> edge, double width)
     : sidewall_(std::move(sidewall)),
       side_(side),
       edge_(std::move(edge)),
@@ -43,12 +44,15 @@ SidewallRing::SidewallRing(std::unique_ptr<Sidewall> sidewall, const TyreParamet
       axes_(edge_.size()) {
   for (Eigen::Index i = 0; i < bead_.cols(); ++i) {
     const double angle = 2.0 * pi * static_cast<double>(i) / static_cast<double>(bead_.cols());
-    bead_.col(i) << tyre.bead_radius * std::sin(angle), 0.5 * side_ * tyre.bead_spacing, -tyre.bead_radius * std::cos(angle);
-    link_.col(i) << tyre.link[1] * std::sin(angle), side_ * tyre.link[0], -tyre.link[1] * std::cos(angle);
+    bead_.col(i) << tyre.bead_radius * std::sin(angle), 0.5 * side_ * tyre.bead_spacing,
+        -tyre.bead_radius * std::cos(angle);
+    link_.col(i) << tyre.link[1] * std::sin(angle), side_ * tyre.link[0],
+        -tyre.link[1] * std::cos(angle);
   }
 }
 
-SidewallRing::Axes SidewallRing::axes(std::size_t station, const ShellNodes& nodes, const RimPose& rim) const {
+SidewallRing::Axes SidewallRing::axes(std::size_t station, const ShellNodes& nodes,
+                                      const RimPose& rim) const {
   const Eigen::Index node = edge_[station];
   Axes axes;
   axes.A = side_ * rim.attitude.col(1);
@@ -81,11 +85,13 @@ void SidewallRing::add_forces(ShellNodes& nodes, const RimPose& rim) {
     const SidewallEnd& end = s.end;
     const SidewallResponse& response = responses_[i];
     const Eigen::Index node = edge_[i];
-    const double F_a = width_ * response.force[0], F_r = width_ * response.force[1], M = width_ * response.force[2];
+    const double F_a = width_ * response.force[0], F_r = width_ * response.force[1],
+                 M = width_ * response.force[2];
     // d(phi) = (g_a d(g_r) - g_r d(g_a))/h^2, d(g) = d(theta) x g, and e_r turns with the node
     const double g_a = s.g.dot(s.A), g_r = s.g.dot(s.e_r), h2 = g_a * g_a + g_r * g_r;
     const Vector3 across = s.g - g_a * s.A - g_r * s.e_r;
-    on_end_.col(static_cast<Eigen::Index>(i)) = F_a * s.A + F_r * s.e_r + (M * g_a / (h2 * end.r)) * across;
+    on_end_.col(static_cast<Eigen::Index>(i)) =
+        F_a * s.A + F_r * s.e_r + (M * g_a / (h2 * end.r)) * across;
     nodes.moment.col(node) += (M / h2) * s.g.cross(g_a * s.e_r - g_r * s.A);
     potential_ += width_ * response.potential;
     largest_chord_ = std::max(largest_chord_, std::hypot(end.a, end.r) / length_);
@@ -98,11 +104,12 @@ void SidewallRing::add_forces(ShellNodes& nodes, const RimPose& rim) {
   }
 }
 
-/// Consistent forces of a pressure on bilinear quadrilaterals: end i, end i + 1, bead i + 1, bead i, and with links also node i, node
-/// i + 1, end i + 1, end i.
+/// Consistent forces of a pressure on bilinear quadrilaterals: end i, end i + 1, bead i + 1, bead
+/// i, and with links also node i, node i + 1, end i + 1, end i.
 void SidewallRing::add_pressure(const ShellNodes& nodes, const RimPose& rim) {
   constexpr double xi[4] = {-1, 1, 1, -1}, eta[4] = {-1, -1, 1, 1};
-  const double p = -side_ * sidewall_->pressure();  // in this order of nodes the normal is outwards at -y
+  // in this order of nodes the normal is outwards at -y
+  const double p = -side_ * sidewall_->pressure();
   volume_ = 0.0;
   const auto press = [&](const Vector3(&x)[4], Vector3(&force)[4]) {
     const Vector3 A = 0.25 * (x[1] + x[2] - x[0] - x[3]), B = 0.25 * (x[2] + x[3] - x[0] - x[1]),
@@ -141,19 +148,23 @@ Matrix3X SidewallRing::profile(std::size_t station, const ShellNodes& nodes, con
   sidewall_->profile(s.end, chain);
   Matrix3X points(3, chain.cols());
   for (Eigen::Index k = 0; k < chain.cols(); ++k)
-    points.col(k) = rim.centre + rim.attitude * bead(station) + chain(0, k) * s.A + chain(1, k) * s.e_r;
+    points.col(k) =
+        rim.centre + rim.attitude * bead(station) + chain(0, k) * s.A + chain(1, k) * s.e_r;
   return points;
 }
 
-void SidewallRing::arcs(int points, const ShellNodes& nodes, const RimPose& rim, Matrix3X& x, Eigen::Index first) const {
+void SidewallRing::arcs(int points, const ShellNodes& nodes, const RimPose& rim, Matrix3X& x,
+                        Eigen::Index first) const {
   for (std::size_t i = 0; i < stations(); ++i) {
     const Axes s = axes(i, nodes, rim);
-    const Vector3 start = rim.centre + rim.attitude * bead(i), along = nodes.x.col(edge_[i]) + s.arm - start;
+    const Vector3 start = rim.centre + rim.attitude * bead(i),
+                  along = nodes.x.col(edge_[i]) + s.arm - start;
     const double chord = along.norm(), alpha = half_turn(chord / length_);
     const Vector3 t = along / chord, out = (s.A - s.A.dot(t) * t).normalized();
     const double radius = alpha > 1e-6 ? 0.5 * chord / std::sin(alpha) : 0.0;
     for (int k = 0; k < points; ++k) {
-      const double at = static_cast<double>(k) / points, beta = alpha * (2.0 * at - 1.0);  // from -alpha at the bead
+      // from -alpha at the bead
+      const double at = static_cast<double>(k) / points, beta = alpha * (2.0 * at - 1.0);
       const double forward = radius > 0.0 ? radius * std::sin(beta) : chord * (at - 0.5);
       const double bulge = radius > 0.0 ? radius * (std::cos(beta) - std::cos(alpha)) : 0.0;
       x.col(first++) = start + (0.5 * chord + forward) * t + bulge * out;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// One side of a tyre: stations around it, each a sidewall in the plane through its bead point, the axle's direction and its tread node.
+/// One side of a tyre: stations around it, each a sidewall in the plane through its bead point, the
+/// axle's direction and its tread node.
 
 #include <memory>
 #include <vector>
@@ -17,29 +18,35 @@ struct RimPose {
   Matrix3 attitude = Matrix3::Identity();
 };
 
-/// Station i has its bead point B_i on the rim and holds the tread's node i by a strip of width w, its share of the tread's edge. The
-/// strip ends at the node or at the end of a link, a rigid arm s = Q s_0 on the node. In the rim's frame, with d from B_i to the
-/// strip's end and the outward axial unit vector A:
+/// Station i has its bead point B_i on the rim and holds the tread's node i by a strip of width w,
+/// its share of the tread's edge. The strip ends at the node or at the end of a link, a rigid arm s
+/// = Q s_0 on the node. In the rim's frame, with d from B_i to the strip's end and the outward
+/// axial unit vector A:
 ///   a = d . A,  r e_r = d - a A,  phi = angle of the tread's axial line Q A from A towards e_r.
-/// The strip's plane so tilts when the tread is wound against the rim, and its tension resists that.
+/// The strip's plane so tilts when the tread is wound against the rim, and its tension resists
+/// that.
 ///
-/// Its potential is w W(a, r, phi) (tyre/sidewall.h). The pressure on the chord, which Sidewall states for a strip of even width, is
-/// taken on the true surface instead: quadrilaterals between bead points, ends of links and tread nodes. With the tread they close the tyre's air,
-/// whose potential is -p V, so that forces have a potential as a whole, and act on rim and tread in balance.
+/// Its potential is w W(a, r, phi) (tyre/sidewall.h). The pressure on the chord, which Sidewall
+/// states for a strip of even width, is taken on the true surface instead: quadrilaterals between
+/// bead points, ends of links and tread nodes. With the tread they close the tyre's air, whose
+/// potential is -p V, so that forces have a potential as a whole, and act on rim and tread in
+/// balance.
 class SidewallRing {
  public:
   /// @param side +1 or -1: where its A points along the rim's y
   /// @param edge tread nodes in the order of their angles, from the lowest point towards +x
   /// @param width of a strip [m]
-  SidewallRing(std::unique_ptr<Sidewall> sidewall, const TyreParameters& tyre, int side, std::vector<int> edge,
-               double width);
+  SidewallRing(std::unique_ptr<Sidewall> sidewall, const TyreParameters& tyre, int side,
+               std::vector<int> edge, double width);
 
   /// Adds to nodes.force and .moment. @throws StateError naming side and station
   void add_forces(ShellNodes& nodes, const RimPose& rim);
 
   void set_pressure(double pressure) { sidewall_->set_pressure(pressure); }
-  double potential() const { return potential_; }          ///< [J] sum of w W, at the last add_forces
-  double volume() const { return volume_; }                ///< [m^3] the quadrilaterals' third of the integral of x . n dA
+  /// [J] sum of w W, at the last add_forces
+  double potential() const { return potential_; }
+  /// [m^3] the quadrilaterals' third of the integral of x . n dA
+  double volume() const { return volume_; }
   double largest_chord() const { return largest_chord_; }  ///< of the length
   const std::vector<SidewallEnd>& ends() const { return ends_; }
   const std::vector<int>& edge() const { return edge_; }
@@ -47,10 +54,13 @@ class SidewallRing {
   int side() const { return side_; }
   /// Points of the sidewall at a station by the chain, in space, from bead to tread.
   Matrix3X profile(std::size_t station, const ShellNodes& nodes, const RimPose& rim);
-  /// Points of the arc of the sidewall's length over its chord, the chain's shape without bending stiffness: cheap enough for contact
-  /// in every step. Point k of n, k = 0 at the bead; columns are added from first on.
-  void arcs(int points, const ShellNodes& nodes, const RimPose& rim, Matrix3X& x, Eigen::Index first) const;
-  Vector3 bead(std::size_t station) const { return bead_.col(static_cast<Eigen::Index>(station)); }  ///< in the rim's frame
+  /// Points of the arc of the sidewall's length over its chord, the chain's shape without bending
+  /// stiffness: cheap enough for contact in every step. Point k of n, k = 0 at the bead; columns
+  /// are added from first on.
+  void arcs(int points, const ShellNodes& nodes, const RimPose& rim, Matrix3X& x,
+            Eigen::Index first) const;
+  /// in the rim's frame
+  Vector3 bead(std::size_t station) const { return bead_.col(static_cast<Eigen::Index>(station)); }
 
  private:
   struct Axes {

@@ -23,7 +23,8 @@ Eigen::Matrix2Xd section(Sidewall& sidewall, const TyreParameters& tyre, const S
 
 }  // namespace
 
-SidewallSurvey survey_sidewall(const TyreParameters& tyre, double pressure, SidewallTable& table, int points) {
+SidewallSurvey survey_sidewall(const TyreParameters& tyre, double pressure, SidewallTable& table,
+                               int points) {
   check(tyre);
   if (points < 2) throw StateError("sidewall survey: a curve needs two points at least");
   SidewallDirect direct(tyre.sidewall, pressure);
@@ -37,11 +38,13 @@ SidewallSurvey survey_sidewall(const TyreParameters& tyre, double pressure, Side
   direct.evaluate(&survey.made, &survey.response, 1, true);
   survey.shape = direct.shape(survey.made);
 
-  const double l = tyre.sidewall.length, furthest = l * std::max(longest, 0.5 * (1.0 + chord.norm() / l));
+  const double l = tyre.sidewall.length,
+               furthest = l * std::max(longest, 0.5 * (1.0 + chord.norm() / l));
   const double a = chord[0], r = chord[1];
   const double highest = std::sqrt(furthest * furthest - a * a), lowest = std::min(r, shortest * l);
   const double sideways = std::sqrt(furthest * furthest - r * r) - std::abs(a);
-  const auto add = [&](const std::string& name, const std::string& meaning, double from, double to, auto end_at) {
+  const auto add = [&](const std::string& name, const std::string& meaning, double from, double to,
+                       auto end_at) {
     SidewallCurve curve{name, meaning, {}, {}, {}, {}, {}};
     for (int i = 0; i < points; ++i) {
       const double moved = from + (to - from) * i / (points - 1);
@@ -57,13 +60,16 @@ SidewallSurvey survey_sidewall(const TyreParameters& tyre, double pressure, Side
     }
     survey.curves.push_back(std::move(curve));
   };
-  add("deflection", "radial deflection of the tread edge [m]", r - highest, r - lowest, [&](double moved) {
-    return SidewallEnd{a, r - moved, 0.0};
-  });
-  add("lateral", "axial motion of the tread edge, outwards [m]", -sideways, sideways, [&](double moved) {
-    return SidewallEnd{a + moved, r, 0.0};
-  });
-  add("rotation", "rotation of the tread edge [rad]", std::max(radians(-45), table.grid().rotation_min),
+  add("deflection", "radial deflection of the tread edge [m]", r - highest, r - lowest,
+      [&](double moved) {
+        return SidewallEnd{a, r - moved, 0.0};
+      });
+  add("lateral", "axial motion of the tread edge, outwards [m]", -sideways, sideways,
+      [&](double moved) {
+        return SidewallEnd{a + moved, r, 0.0};
+      });
+  add("rotation", "rotation of the tread edge [rad]",
+      std::max(radians(-45), table.grid().rotation_min),
       std::min(radians(45), table.grid().rotation_max), [&](double moved) {
         return SidewallEnd{a, r, moved};
       });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// How a sidewall answers when its tread edge moves, solved and looked up side by side: what furrow-sidewall shows.
+/// How a sidewall answers when its tread edge moves, solved and looked up side by side: what
+/// furrow-sidewall shows.
 
 #include <string>
 #include <vector>
@@ -32,9 +33,11 @@ struct SidewallSurvey {
   SidewallTable::Accuracy accuracy;  ///< of all cells up to 0.97 of the length
 };
 
-/// Curves from a chord of a quarter of the length to one of 0.98 of it (or half-way to the length from where it was made).
+/// Curves from a chord of a quarter of the length to one of 0.98 of it (or half-way to the length
+/// from where it was made).
 /// @param points of each curve, at least 2
 /// @throws InputError, StateError as SidewallTable
-SidewallSurvey survey_sidewall(const TyreParameters& tyre, double pressure, SidewallTable& table, int points = 81);
+SidewallSurvey survey_sidewall(const TyreParameters& tyre, double pressure, SidewallTable& table,
+                               int points = 81);
 
 }  // namespace furrow

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A sidewall by lookup: its potential W at one pressure as a smooth table, and the forces as its exact gradient.
+/// A sidewall by lookup: its potential W at one pressure as a smooth table, and the forces as its
+/// exact gradient.
 ///
-/// W (tyre/sidewall.h) depends on the chord's length c and direction chi and on the tread's rotation phi. It is tabulated
-/// over (u, chi, phi) with u = sqrt(1 - c/l): W has a square root at the stretched chain, but is smooth in u. The spline is
-/// quintic, so forces are C3 and stiffness C2 in the interior, and around a closed path they do no work but the pressure's,
-/// p times the area that the tread end sweeps, whatever the size of the table.
+/// W (tyre/sidewall.h) depends on the chord's length c and direction chi and on the tread's
+/// rotation phi. It is tabulated over (u, chi, phi) with u = sqrt(1 - c/l): W has a square root at
+/// the stretched chain, but is smooth in u. The spline is quintic, so forces are C3 and stiffness
+/// C2 in the interior, and around a closed path they do no work but the pressure's, p times the
+/// area that the tread end sweeps, whatever the size of the table.
 
 #include <array>
 #include <vector>
@@ -17,9 +19,10 @@ namespace furrow {
 
 /// Where a table is valid, and how fine it is.
 struct SidewallTableGrid {
-  double chord_min = 0.2, chord_max = 0.999;                         ///< shares of the length
-  double direction_min = radians(30), direction_max = radians(150);  ///< chi [rad]: of the chord, from +a to +r
-  double rotation_min = radians(-60), rotation_max = radians(60);    ///< phi [rad]
+  double chord_min = 0.2, chord_max = 0.999;  ///< shares of the length
+  /// chi [rad]: of the chord, from +a to +r
+  double direction_min = radians(30), direction_max = radians(150);
+  double rotation_min = radians(-60), rotation_max = radians(60);  ///< phi [rad]
   int chord_nodes = 32, direction_nodes = 12, rotation_nodes = 8;
 
   std::array<GridAxis, 3> axes() const;  ///< over u, chi, phi
@@ -28,18 +31,21 @@ struct SidewallTableGrid {
 class SidewallTable : public Sidewall {
  public:
   /// Solves the chain at every node of the grid, and compares with it between the nodes.
-  /// @throws InputError for bad parameters; StateError for a pressure < 0, a bad grid, a node without stable
+  /// @throws InputError for bad parameters; StateError for a pressure < 0, a bad grid, a node
+  /// without stable
   ///         equilibrium, or forces that differ from the chain's by more than 0.5 % (rms)
-  SidewallTable(const SidewallParameters& parameters, double pressure, const SidewallTableGrid& grid = {});
+  SidewallTable(const SidewallParameters& parameters, double pressure,
+                const SidewallTableGrid& grid = {});
   /// With the coefficients() of an equal table, from a file. @throws as above
-  SidewallTable(const SidewallParameters& parameters, double pressure, const SidewallTableGrid& grid,
-                std::vector<double> coefficients);
+  SidewallTable(const SidewallParameters& parameters, double pressure,
+                const SidewallTableGrid& grid, std::vector<double> coefficients);
 
   const std::vector<double>& coefficients() const { return spline_.coefficients(); }
   const SidewallTableGrid& grid() const { return grid_; }
 
   /// @throws StateError for an end outside the grid, naming station, quantity and limits
-  void evaluate(const SidewallEnd* ends, SidewallResponse* responses, std::size_t n, bool with_stiffness) override;
+  void evaluate(const SidewallEnd* ends, SidewallResponse* responses, std::size_t n,
+                bool with_stiffness) override;
   double pressure() const override { return pressure_; }
   void set_pressure(double pressure) override;  ///< makes the table anew unless the pressure stays
   SidewallShape shape(const SidewallEnd& end) override { return chain_.shape(end, pressure_); }
@@ -52,7 +58,8 @@ class SidewallTable : public Sidewall {
     double force_scale = 0.0;                   ///< rms of the chain's force [N/m]
     double force_max_share = 0.0;               ///< largest error of a force over that force
   };
-  /// @param chord_limit leaves out chords above this share of the length, where forces grow without bound
+  /// @param chord_limit leaves out chords above this share of the length, where forces grow without
+  /// bound
   /// @param every takes one cell of so many
   Accuracy accuracy(double chord_limit, int every = 1);
 

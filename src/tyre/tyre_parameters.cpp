@@ -14,13 +14,15 @@ namespace {
 
 constexpr std::size_t fewest_segments = 4, most_segments = 1000;
 
-void need(bool fulfilled, const std::string& where, const std::string& problem, const std::string& allowed,
-          const std::string& remedy = "") {
+void need(bool fulfilled, const std::string& where, const std::string& problem,
+          const std::string& allowed, const std::string& remedy = "") {
   if (!fulfilled) throw InputError(where, problem, allowed, remedy);
 }
 
-void need_positive(double value, const std::string& where, const std::string& name, const std::string& unit) {
-  need(value > 0.0 && std::isfinite(value), where, fmt::format("{} is {} {}", name, value, unit), "a number > 0");
+void need_positive(double value, const std::string& where, const std::string& name,
+                   const std::string& unit) {
+  need(value > 0.0 && std::isfinite(value), where, fmt::format("{} is {} {}", name, value, unit),
+       "a number > 0");
 }
 
 /// Half the angle that an arc turns by, from its chord and length: chord/length = sin(alpha)/alpha.
@@ -38,31 +40,39 @@ double half_turn(double chord, double length) {
 void check(const SidewallParameters& sidewall, const std::string& where) {
   need_positive(sidewall.length, where, "length", "m");
   const std::size_t n = sidewall.segments();
-  need(n >= fewest_segments && n <= most_segments, where, fmt::format("has {} values of bending", n - 1),
-       fmt::format("{} to {}, one for each hinge between segments", fewest_segments - 1, most_segments - 1));
-  need(sidewall.curvature.size() == n - 1, where,
-       fmt::format("has {} values of curvature for {} of bending", sidewall.curvature.size(), n - 1),
-       "as many, one for each hinge");
+  need(n >= fewest_segments && n <= most_segments, where,
+       fmt::format("has {} values of bending", n - 1),
+       fmt::format("{} to {}, one for each hinge between segments", fewest_segments - 1,
+                   most_segments - 1));
+  need(
+      sidewall.curvature.size() == n - 1, where,
+      fmt::format("has {} values of curvature for {} of bending", sidewall.curvature.size(), n - 1),
+      "as many, one for each hinge");
   const double L = sidewall.length / static_cast<double>(n);
   for (const double bending : sidewall.bending)
-    need(bending >= 0.0 && std::isfinite(bending), where, fmt::format("bending is {} N m", bending), "numbers >= 0");
+    need(bending >= 0.0 && std::isfinite(bending), where, fmt::format("bending is {} N m", bending),
+         "numbers >= 0");
   for (const double curvature : sidewall.curvature)
-    need(std::abs(curvature) * L < pi, where, fmt::format("curvature {} 1/m folds a hinge", curvature),
+    need(std::abs(curvature) * L < pi, where,
+         fmt::format("curvature {} 1/m folds a hinge", curvature),
          fmt::format("below pi/L = {:.3g} 1/m", pi / L));
   for (const double angle : {sidewall.rim_angle, sidewall.tread_angle})
-    need(std::abs(angle) <= pi, where, fmt::format("an attachment angle is {} degrees", degrees(angle)),
+    need(std::abs(angle) <= pi, where,
+         fmt::format("an attachment angle is {} degrees", degrees(angle)),
          "from -180 to 180 degrees");
   for (const double stiffness : {sidewall.rim_stiffness, sidewall.tread_stiffness})
     need(stiffness >= 0.0 && std::isfinite(stiffness), where,
-         fmt::format("the stiffness of an end spring is {} N m/rad per m", stiffness), "a number >= 0");
+         fmt::format("the stiffness of an end spring is {} N m/rad per m", stiffness),
+         "a number >= 0");
   need(sidewall.bead_width > 0.0 && std::isfinite(sidewall.bead_width) && sidewall.taper >= 0.0 &&
            std::isfinite(sidewall.taper),
-       where, fmt::format("the strip's width is {} + {} r", sidewall.bead_width, sidewall.taper), "numbers > 0 and >= 0");
+       where, fmt::format("the strip's width is {} + {} r", sidewall.bead_width, sidewall.taper),
+       "numbers > 0 and >= 0");
 }
 
 void check(const TyreParameters& tyre, const std::string& where) {
-  need(tyre.pressure >= 0.0 && std::isfinite(tyre.pressure), where, fmt::format("pressure is {} Pa", tyre.pressure),
-       "a number >= 0");
+  need(tyre.pressure >= 0.0 && std::isfinite(tyre.pressure), where,
+       fmt::format("pressure is {} Pa", tyre.pressure), "a number >= 0");
   need_positive(tyre.bead_radius, where, "bead_radius", "m");
   need_positive(tyre.bead_spacing, where, "bead_spacing", "m");
   need(tyre.link.allFinite(), where, "the link is not finite", "two numbers [m]");
@@ -70,11 +80,13 @@ void check(const TyreParameters& tyre, const std::string& where) {
   need_positive(tread.radius, where, "the tread's radius", "m");
   need_positive(tread.half_width, where, "the tread's half_width", "m");
   need(tread.radius > tyre.bead_radius, where,
-       fmt::format("the tread, {:.4g} m from the axle, lies inside the rim ({:.4g} m)", tread.radius, tyre.bead_radius),
+       fmt::format("the tread, {:.4g} m from the axle, lies inside the rim ({:.4g} m)",
+                   tread.radius, tyre.bead_radius),
        "a tread outside the rim");
-  need(tread.crown >= 0.0 && tread.crown < tread.radius - tyre.bead_radius, where,
-       fmt::format("the tread's crown is {} m", tread.crown),
-       fmt::format("from 0 to below the section height, {:.4g} m", tread.radius - tyre.bead_radius));
+  need(
+      tread.crown >= 0.0 && tread.crown < tread.radius - tyre.bead_radius, where,
+      fmt::format("the tread's crown is {} m", tread.crown),
+      fmt::format("from 0 to below the section height, {:.4g} m", tread.radius - tyre.bead_radius));
   need_positive(tread.thickness, where, "the tread's thickness", "m");
   need_positive(tread.E1, where, "the tread's E1", "Pa");
   need_positive(tread.E2, where, "the tread's E2", "Pa");
@@ -88,18 +100,21 @@ void check(const TyreParameters& tyre, const std::string& where) {
   const Vector2 chord = tyre.sidewall_chord();
   const double distance = chord.norm(), length = tyre.sidewall.length;
   need(distance < length, where,
-       fmt::format(
-           "the sidewall is stretched past its length: bead and tread edge are {:.4g} m apart, its length is {:.4g} m",
-           distance, length),
-       "a sidewall longer than that", "mind whether length, radii and widths belong to the same points");
-  // Inflated, a sidewall is near an arc, which leaves the bead at this angle from the axial direction.
+       fmt::format("the sidewall is stretched past its length: bead and tread edge are {:.4g} m "
+                   "apart, its length is {:.4g} m",
+                   distance, length),
+       "a sidewall longer than that",
+       "mind whether length, radii and widths belong to the same points");
+  // Inflated, a sidewall is near an arc, which leaves the bead at this angle from the axial
+  // direction.
   const double leaves = std::atan2(chord[1], chord[0]) - half_turn(distance, length);
   need(leaves < 0.5 * pi, where,
-       fmt::format(
-           "the rim is wider than the tyre: with its beads {:.4g} m apart the inflated sidewalls lean inwards from the "
-           "beads on",
-           tyre.bead_spacing),
-       "a bead_spacing below the section width", "a wider tread, a longer sidewall, or a narrower rim");
+       fmt::format("the rim is wider than the tyre: with its beads {:.4g} m apart the inflated "
+                   "sidewalls lean inwards from the "
+                   "beads on",
+                   tyre.bead_spacing),
+       "a bead_spacing below the section width",
+       "a wider tread, a longer sidewall, or a narrower rim");
 }
 
 }  // namespace furrow

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Cost of the continuum ground: TR's rigid wheel (half model, moving ground) rolls over 0.20 m of snow; particle updates a second on one
-// core, by part, while rolling, and the sinkage and resistance of the stretch for orientation.
-//   build/tests/benchmarks/ground_update [cell in m] [metres of rolling] [material file] [cfl] [cycle]
+// Cost of the continuum ground: TR's rigid wheel (half model, moving ground) rolls over 0.20 m of
+// snow; particle updates a second on one core, by part, while rolling, and the sinkage and
+// resistance of the stretch for orientation.
+//   build/tests/benchmarks/ground_update [cell in m] [metres of rolling] [material file] [cfl]
+//   [cycle]
 // The environment variable FURROW_ISA = baseline | avx2 | avx512 selects the kernels.
 
 #include <ctime>
@@ -23,8 +25,10 @@ namespace {
 double seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 int run(int argc, char** argv) {
-  const double cell = argc > 1 ? std::atof(argv[1]) : 0.025, roll = argc > 2 ? std::atof(argv[2]) : 0.3;
-  const std::string material = argc > 3 ? argv[3] : FURROW_SOURCE_DIR "/inputs/materials/fresh_snow.yaml";
+  const double cell = argc > 1 ? std::atof(argv[1]) : 0.025,
+               roll = argc > 2 ? std::atof(argv[2]) : 0.3;
+  const std::string material =
+      argc > 3 ? argv[3] : FURROW_SOURCE_DIR "/inputs/materials/fresh_snow.yaml";
   const double depth = 0.20, half_length = 0.8, half_width = 0.4;
 
   GroundParameters ground;
@@ -47,8 +51,9 @@ int run(int argc, char** argv) {
   parameters.diametral_inertia = 1.5;
   parameters.axle_centre = {0.0, 0.0, depth + 0.37 + 0.005};
   RigidWheel wheel(parameters);
-  WheelRig rig(WheelRig::schema().read({"load_mass", "636", "speed", "2.2352", "mode", "slip", "slip", "0", "settle_time",
-                                        "0.3", "load_ramp_time", "0.3", "accelerate_time", "0.15", "ground_level",
+  WheelRig rig(WheelRig::schema().read({"load_mass", "636", "speed", "2.2352", "mode", "slip",
+                                        "slip", "0", "settle_time", "0.3", "load_ramp_time", "0.3",
+                                        "accelerate_time", "0.15", "ground_level",
                                         fmt::format("{}", depth), "damping", "3000"}),
                wheel);
   GroundContact contact(wheel, soil, ContactParameters{}, true, "contact");
@@ -79,21 +84,26 @@ int run(int argc, char** argv) {
       last = seconds();
       const Balance b = soil.balance();
       fmt::print(
-          "t {:.3f} x {:.3f} sinkage {:.4f} Fz {:.0f} Fx {:.0f} penetration {:.1e} contacts {} | E contact {:.1f} kin "
+          "t {:.3f} x {:.3f} sinkage {:.4f} Fz {:.0f} Fx {:.0f} penetration {:.1e} contacts {} | E "
+          "contact {:.1f} kin "
           "{:.2f} stored {:.2f} diss {:.2f} num {:.2f} "
           "resid {:.3f} | rate {:.2f} M/s\n",
-          time, wheel.centre().x(), depth - wheel.lowest_point(), contact.force().z(), contact.force().x(),
-          contact.penetration(), contact.contacts(), b.contact_work, b.kinetic_energy, b.stored_energy, b.dissipated_energy,
-          b.numerical_loss, b.residual(), updates / (last - start) * 1e-6);
+          time, wheel.centre().x(), depth - wheel.lowest_point(), contact.force().z(),
+          contact.force().x(), contact.penetration(), contact.contacts(), b.contact_work,
+          b.kinetic_energy, b.stored_energy, b.dissipated_energy, b.numerical_loss, b.residual(),
+          updates / (last - start) * 1e-6);
       std::fflush(stdout);
     }
   }
   const double wall = seconds() - start;
-  fmt::print("particles {:.0f}, sub-steps {}, step {:.2e} s, processor {:.1f} s, {:.2f} M updates/s\n",
-             soil.particle_count(), sub_steps, time / sub_steps, wall, updates / wall * 1e-6);
+  fmt::print(
+      "particles {:.0f}, sub-steps {}, step {:.2e} s, processor {:.1f} s, {:.2f} M updates/s\n",
+      soil.particle_count(), sub_steps, time / sub_steps, wall, updates / wall * 1e-6);
   const Balance b = soil.balance();
-  fmt::print("sinkage {:.4f} m, resistance coefficient {:.4f}, load {:.0f} N, numerical loss {:.1f} of {:.1f} J\n",
-             sinkage / count, -fx / fz, fz / count, b.numerical_loss, b.contact_work);
+  fmt::print(
+      "sinkage {:.4f} m, resistance coefficient {:.4f}, load {:.0f} N, numerical loss {:.1f} of "
+      "{:.1f} J\n",
+      sinkage / count, -fx / fz, fz / count, b.numerical_loss, b.contact_work);
   return 0;
 }
 

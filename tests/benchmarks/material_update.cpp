@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Cost of constitutive updates: blocks of 1e5 points, nanoseconds per point and as a multiple of the elastic update alone, with the
-// share of points in each branch. Every iteration starts from the same states, so that the mix of branches stays.
+// Cost of constitutive updates: blocks of 1e5 points, nanoseconds per point and as a multiple of
+// the elastic update alone, with the share of points in each branch. Every iteration starts from
+// the same states, so that the mix of branches stays.
 //   build/tests/benchmarks/material_update [--benchmark_filter=...]
 // The environment variable FURROW_ISA = baseline | avx2 | avx512 selects the kernels.
 
@@ -16,19 +17,24 @@ namespace {
 
 constexpr std::size_t point_count = 100000;
 
-/// Points with their own random states and steps of about the strain that an explicit wheel scene takes.
+/// Points with their own random states and steps of about the strain that an explicit wheel scene
+/// takes.
 class Points {
  public:
-  /// @param run  points in a row that are nearly alike, as sorted points of a ground are; 1: every point on its own
-  Points(const Material& law, double strain, double loosening, std::size_t run, unsigned seed) : run_(run) {
+  /// @param run  points in a row that are nearly alike, as sorted points of a ground are; 1: every
+  /// point on its own
+  Points(const Material& law, double strain, double loosening, std::size_t run, unsigned seed)
+      : run_(run) {
     std::mt19937 engine(seed);
     std::normal_distribution<double> normal;
     gradient_.assign(9, std::vector<double>(point_count));
     VectorX state = law.initial_state();
     state_.assign(static_cast<std::size_t>(state.size()), std::vector<double>(point_count));
-    for (std::size_t f = 0; f < state_.size(); ++f) state_[f].assign(point_count, state[static_cast<Eigen::Index>(f)]);
+    for (std::size_t f = 0; f < state_.size(); ++f)
+      state_[f].assign(point_count, state[static_cast<Eigen::Index>(f)]);
     bind();
-    // A history of compaction, shear and unloading, larger than the step measured, to spread the states over the surfaces.
+    // A history of compaction, shear and unloading, larger than the step measured, to spread the
+    // states over the surfaces.
     for (int step = 0; step < 6; ++step) {
       draw(engine, normal, step < 4 ? 10 * strain : strain, step < 4 ? -0.5 : loosening);
       law.update_block(block_);
@@ -37,7 +43,8 @@ class Points {
     start_ = state_;
   }
   void restore() {
-    for (std::size_t f = 0; f < state_.size(); ++f) std::copy(start_[f].begin(), start_[f].end(), state_[f].begin());
+    for (std::size_t f = 0; f < state_.size(); ++f)
+      std::copy(start_[f].begin(), start_[f].end(), state_[f].begin());
   }
   const PointBlock& block() const { return block_; }
 
@@ -49,7 +56,8 @@ class Points {
     for (std::size_t k = 0; k < 9; ++k) block_.gradient[k] = gradient_[k].data();
     block_.state = pointers_.data();
   }
-  void draw(std::mt19937& engine, std::normal_distribution<double>& normal, double strain, double mean) {
+  void draw(std::mt19937& engine, std::normal_distribution<double>& normal, double strain,
+            double mean) {
     for (std::size_t k = 0; k < 9; ++k) {
       double common = 0.0;
       for (std::size_t i = 0; i < point_count; ++i) {
@@ -71,11 +79,13 @@ std::unique_ptr<Material> make(const std::string& name, const MaterialSections& 
 }
 
 std::unique_ptr<Material> elastic() {
-  return make("elastic", {{"law", {{"density", {"200"}}}}, {"elasticity", {{"E", {"13.79e6"}}, {"nu", {"0.3"}}}}});
+  return make("elastic", {{"law", {{"density", {"200"}}}},
+                          {"elasticity", {{"E", {"13.79e6"}}, {"nu", {"0.3"}}}}});
 }
 
 /// Fresh snow, TR Tables 1 and 3.
-std::unique_ptr<Material> snow(const std::string& K, const std::string& alpha, const std::string& interpolation) {
+std::unique_ptr<Material> snow(const std::string& K, const std::string& alpha,
+                               const std::string& interpolation) {
   return make(
       "drucker_prager_cap",
       {{"law",
@@ -89,22 +99,34 @@ std::unique_ptr<Material> snow(const std::string& K, const std::string& alpha, c
        {"elasticity", {{"E", {"13.79e6"}}, {"nu", {"0.3"}}}},
        {"hardening",
         {{"type", {"table"}},
-         {"p", {"113.76", "5e4", "1e5", "2e5", "5e5", "1e6", "2e6", "2.8e6", "3.25e6", "6e6", "6e7"}},
-         {"eps_vol_pl", {"0", "0.593", "0.669", "0.806", "0.944", "1.083", "1.299", "1.455", "1.475", "1.50", "1.514"}},
+         {"p",
+          {"113.76", "5e4", "1e5", "2e5", "5e5", "1e6", "2e6", "2.8e6", "3.25e6", "6e6", "6e7"}},
+         {"eps_vol_pl",
+          {"0", "0.593", "0.669", "0.806", "0.944", "1.083", "1.299", "1.455", "1.475", "1.50",
+           "1.514"}},
          {"interpolation", {interpolation}},
          {"beyond", {"extrapolate"}}}}});
 }
 
 std::unique_ptr<Material> foam() {
-  return make(
-      "crushable_foam",
-      {{"law", {{"density", {"200"}}, {"pt", {"11.376"}}, {"sigma0", {"275.79"}}}},
-       {"elasticity", {{"type", {"porous"}}, {"kappa", {"0.005"}}, {"e0", {"3.5"}}, {"pt_el", {"113.76"}}, {"nu", {"0.3"}}}},
-       {"hardening",
-        {{"type", {"exponential"}}, {"pc0", {"113.76"}}, {"lambda", {"0.35"}}, {"kappa", {"0.005"}}, {"e0", {"3.5"}}}}});
+  return make("crushable_foam",
+              {{"law", {{"density", {"200"}}, {"pt", {"11.376"}}, {"sigma0", {"275.79"}}}},
+               {"elasticity",
+                {{"type", {"porous"}},
+                 {"kappa", {"0.005"}},
+                 {"e0", {"3.5"}},
+                 {"pt_el", {"113.76"}},
+                 {"nu", {"0.3"}}}},
+               {"hardening",
+                {{"type", {"exponential"}},
+                 {"pc0", {"113.76"}},
+                 {"lambda", {"0.35"}},
+                 {"kappa", {"0.005"}},
+                 {"e0", {"3.5"}}}}});
 }
 
-void measure(benchmark::State& timer, const Material& law, double strain, double loosening, std::size_t run = 1) {
+void measure(benchmark::State& timer, const Material& law, double strain, double loosening,
+             std::size_t run = 1) {
   Points points(law, strain, loosening, run, 1);
   UpdateReport report;
   for (auto _ : timer) {
@@ -116,24 +138,41 @@ void measure(benchmark::State& timer, const Material& law, double strain, double
   timer.SetLabel(kernels().instruction_set);
   timer.SetItemsProcessed(static_cast<std::int64_t>(timer.iterations() * point_count));
   timer.counters["ns_per_point"] = benchmark::Counter(
-      1e-9 * static_cast<double>(point_count), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+      1e-9 * static_cast<double>(point_count),
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   const auto share = [&](Branch branch) {
-    return 100.0 * static_cast<double>(report.points[static_cast<std::size_t>(branch)]) / static_cast<double>(point_count);
+    return 100.0 * static_cast<double>(report.points[static_cast<std::size_t>(branch)]) /
+           static_cast<double>(point_count);
   };
-  for (const Branch branch : {Branch::elastic, Branch::shear, Branch::transition, Branch::cap, Branch::tension})
+  for (const Branch branch :
+       {Branch::elastic, Branch::shear, Branch::transition, Branch::cap, Branch::tension})
     timer.counters["%" + to_string(branch)] = share(branch);
-  timer.counters["iterations"] = static_cast<double>(report.iterations) / static_cast<double>(point_count);
+  timer.counters["iterations"] =
+      static_cast<double>(report.iterations) / static_cast<double>(point_count);
 }
 
-// Steps of 1e-4, as an explicit scene takes them. Unless the name says so every point is on its own: the worst order for vectors.
+// Steps of 1e-4, as an explicit scene takes them. Unless the name says so every point is on its
+// own: the worst order for vectors.
 void BM_elastic(benchmark::State& timer) { measure(timer, *elastic(), 1e-4, 0.0); }
 void BM_cap_mixed(benchmark::State& timer) { measure(timer, *snow("1", "0", "linear"), 1e-4, 0.0); }
-void BM_cap_mixed_neighbours_alike(benchmark::State& timer) { measure(timer, *snow("1", "0", "linear"), 1e-4, 0.0, 64); }
-void BM_cap_mixed_transition(benchmark::State& timer) { measure(timer, *snow("1", "0.05", "linear"), 1e-4, 0.0); }
-void BM_cap_mixed_log_table(benchmark::State& timer) { measure(timer, *snow("1", "0", "log"), 1e-4, 0.0); }
-void BM_cap_all_compacting(benchmark::State& timer) { measure(timer, *snow("1", "0", "linear"), 1e-4, -1.0); }
-void BM_cap_mixed_large_steps(benchmark::State& timer) { measure(timer, *snow("1", "0", "linear"), 1e-2, 0.0); }
-void BM_cap_mixed_lode(benchmark::State& timer) { measure(timer, *snow("0.8", "0", "linear"), 1e-4, 0.0); }
+void BM_cap_mixed_neighbours_alike(benchmark::State& timer) {
+  measure(timer, *snow("1", "0", "linear"), 1e-4, 0.0, 64);
+}
+void BM_cap_mixed_transition(benchmark::State& timer) {
+  measure(timer, *snow("1", "0.05", "linear"), 1e-4, 0.0);
+}
+void BM_cap_mixed_log_table(benchmark::State& timer) {
+  measure(timer, *snow("1", "0", "log"), 1e-4, 0.0);
+}
+void BM_cap_all_compacting(benchmark::State& timer) {
+  measure(timer, *snow("1", "0", "linear"), 1e-4, -1.0);
+}
+void BM_cap_mixed_large_steps(benchmark::State& timer) {
+  measure(timer, *snow("1", "0", "linear"), 1e-2, 0.0);
+}
+void BM_cap_mixed_lode(benchmark::State& timer) {
+  measure(timer, *snow("0.8", "0", "linear"), 1e-4, 0.0);
+}
 void BM_foam_mixed(benchmark::State& timer) { measure(timer, *foam(), 1e-4, 0.0); }
 
 BENCHMARK(BM_elastic)->Unit(benchmark::kMillisecond);

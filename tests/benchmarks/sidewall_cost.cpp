@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Cost of a sidewall: microseconds for each station of a side, looked up and solved, with and without the stiffness; and of
-// making a table.
+// Cost of a sidewall: microseconds for each station of a side, looked up and solved, with and
+// without the stiffness; and of making a table.
 //   build/tests/benchmarks/sidewall_cost
-// The stations of a 6 x 72 tyre, both sides: the tread's edge dips into a contact patch and moves on with every evaluation,
-// as in rolling at 2 m/s with steps of 2e-5 s.
+// The stations of a 6 x 72 tyre, both sides: the tread's edge dips into a contact patch and moves
+// on with every evaluation, as in rolling at 2 m/s with steps of 2e-5 s.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,8 @@ TyreParameters tyre() { return read_tyre_file(FURROW_SOURCE_DIR "/inputs/tyres/p
 
 void place(std::vector<SidewallEnd>& ends, const Vector2& chord, double turned) {
   for (std::size_t i = 0; i < stations; ++i) {
-    const double angle = std::remainder(2.0 * pi * static_cast<double>(i % 72) / 72.0 + turned, 2.0 * pi);
+    const double angle =
+        std::remainder(2.0 * pi * static_cast<double>(i % 72) / 72.0 + turned, 2.0 * pi);
     const double dent = std::exp(-std::pow(angle / 0.35, 2));
     ends[i] = {chord[0] + 0.004 * dent, chord[1] - 0.05 * dent, 0.2 * dent};
   }
@@ -40,8 +41,8 @@ void measure(benchmark::State& timer, Sidewall& sidewall, bool with_stiffness) {
     sidewall.evaluate(ends.data(), responses.data(), stations, with_stiffness);
     benchmark::DoNotOptimize(responses.data());
   }
-  timer.counters["us_per_station"] =
-      benchmark::Counter(1e-6 * stations, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  timer.counters["us_per_station"] = benchmark::Counter(
+      1e-6 * stations, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void BM_table(benchmark::State& timer) {
@@ -61,8 +62,8 @@ void BM_direct_with_stiffness(benchmark::State& timer) {
   measure(timer, sidewall, true);
 }
 
-/// Nodes along the chord, half and a quarter as many along the other two axes; with the error that is bought, rms of all
-/// cells.
+/// Nodes along the chord, half and a quarter as many along the other two axes; with the error that
+/// is bought, rms of all cells.
 void BM_making_a_table(benchmark::State& timer) {
   const SidewallParameters sidewall = tyre().sidewall;
   SidewallTableGrid grid;
@@ -81,7 +82,13 @@ BENCHMARK(BM_table)->Unit(benchmark::kMicrosecond);
 BENCHMARK(BM_table_with_stiffness)->Unit(benchmark::kMicrosecond);
 BENCHMARK(BM_direct)->Unit(benchmark::kMicrosecond);
 BENCHMARK(BM_direct_with_stiffness)->Unit(benchmark::kMicrosecond);
-BENCHMARK(BM_making_a_table)->Arg(12)->Arg(16)->Arg(24)->Arg(32)->Arg(48)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_making_a_table)
+    ->Arg(12)
+    ->Arg(16)
+    ->Arg(24)
+    ->Arg(32)
+    ->Arg(48)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace furrow

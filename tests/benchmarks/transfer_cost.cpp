@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Cost of the transfers between particles and grid alone, nanoseconds a particle of CPU time: 50 x 16 x 8 cells with 8 particles each in the
-// order of their cells, as the ground keeps them, slightly displaced.
+// Cost of the transfers between particles and grid alone, nanoseconds a particle of CPU time: 50 x
+// 16 x 8 cells with 8 particles each in the order of their cells, as the ground keeps them,
+// slightly displaced.
 //   build/tests/benchmarks/transfer_cost
 // The environment variable FURROW_ISA = baseline | avx2 | avx512 selects the kernels.
 
@@ -18,7 +19,8 @@ namespace {
 class Scene {
  public:
   Scene()
-      : law_(make_material("elastic", std::vector<Entry>{{"density", {"200"}}, {"E", {"1e6"}}, {"nu", {"0.3"}}})),
+      : law_(make_material(
+            "elastic", std::vector<Entry>{{"density", {"200"}}, {"E", {"1e6"}}, {"nu", {"0.3"}}})),
         grid_(axis(50), axis(16), axis(8)),
         particles_(*law_) {
     std::mt19937 engine(1);
@@ -41,7 +43,9 @@ class Scene {
       g = store_.back().data();
     }
   }
-  static Axis axis(int cells) { return Axis({0.0, double(cells), 1.0, 0.0, double(cells), 1.0}, "axis"); }
+  static Axis axis(int cells) {
+    return Axis({0.0, double(cells), 1.0, 0.0, double(cells), 1.0}, "axis");
+  }
   void momentum() { kernels_.scatter_momentum(grid_.view(), view(), 200.0); }
   void weights() {
     for (std::size_t first = 0; first < size(); first += chunk)
@@ -61,7 +65,9 @@ class Scene {
 
  private:
   static constexpr std::size_t chunk = 1024;
-  ParticleView part(std::size_t first) { return particles_.view(first, std::min(chunk, size() - first)); }
+  ParticleView part(std::size_t first) {
+    return particles_.view(first, std::min(chunk, size() - first));
+  }
   ParticleView view() { return particles_.view(0, particles_.size()); }
 
   const TransferKernels& kernels_ = transfer_kernels();
@@ -75,7 +81,8 @@ class Scene {
 
 void report(benchmark::State& state, const Scene& scene) {
   state.counters["ns/particle"] = benchmark::Counter(
-      double(scene.size()) * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+      double(scene.size()) * 1e-9,
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 template <void (Scene::*part)()>
@@ -86,7 +93,9 @@ void run(benchmark::State& state) {
 }
 
 // At every step:
-BENCHMARK(run<&Scene::step>)->Name("weights, strain from grid, force to grid")->Unit(benchmark::kMillisecond);
+BENCHMARK(run<&Scene::step>)
+    ->Name("weights, strain from grid, force to grid")
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(run<&Scene::weights>)->Name("of that, weights")->Unit(benchmark::kMillisecond);
 // Once a cycle:
 BENCHMARK(run<&Scene::momentum>)->Name("momentum to grid")->Unit(benchmark::kMillisecond);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A bed that is renewed while nothing touches it must not notice: the copies, their contact histories and the seams are those of the
-// settled bed. The body flies over it, so slab after slab is taken out and put in again.
+// A bed that is renewed while nothing touches it must not notice: the copies, their contact
+// histories and the seams are those of the settled bed. The body flies over it, so slab after slab
+// is taken out and put in again.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,17 +17,24 @@ constexpr const char* hertz = "model hertz tangential history rolling_friction e
 constexpr double diameter = 0.008, length = 0.24, speed = 1.0, step = 4e-5;
 
 void make_bed(Scene& scene) {
-  scene.granular_box(Vector3(-length / 2, -0.04, -0.01), Vector3(length / 2, 0.04, 0.2), 0.003, "p f f");
+  scene.granular_box(Vector3(-length / 2, -0.04, -0.01), Vector3(length / 2, 0.04, 0.2), 0.003,
+                     "p f f");
   scene.contact_properties(5e6, 0.3, 0.3, 0.5);
-  scene.command("fix roll all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 0.1 0.1");
-  scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity 9.81 vector 0 0 -1", hertz, step));
+  scene.command(
+      "fix roll all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 0.1 0.1");
+  scene.commands(fmt::format(
+      "pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity 9.81 vector 0 0 -1",
+      hertz, step));
   for (const char* wall : {"yplane -0.03", "yplane 0.03", "zplane 0"})
-    scene.command(fmt::format("fix {0:.1}{1} all wall/gran {2} primitive type 1 {0}", wall, wall[7] == '-' ? 1 : 2, hertz));
+    scene.command(fmt::format("fix {0:.1}{1} all wall/gran {2} primitive type 1 {0}", wall,
+                              wall[7] == '-' ? 1 : 2, hertz));
   scene.commands(
-      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant 0.004\n"
+      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
+      "constant 0.004\n"
       "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
       "region fill block -0.12 0.12 -0.03 0.03 0 0.08 units box\n"
-      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once overlapcheck yes all_in no "
+      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once "
+      "overlapcheck yes all_in no "
       "particles_in_region 1000 region fill\n"
       "fix move all nve/sphere\nfix calm all viscous 0.05\nthermo 100000\nrun 24000\nunfix calm");
 }
@@ -41,10 +49,12 @@ double mean_height(Scene& scene) {
 TEST(BedWindow, RenewedSlabsFitWithoutAJolt) {
   Scene scene;
   make_bed(scene);
-  const double grains = scene.sum(scene.lammps().atom->nlocal), mass = scene.grain_mass(), height = mean_height(scene);
+  const double grains = scene.sum(scene.lammps().atom->nlocal), mass = scene.grain_mass(),
+               height = mean_height(scene);
   Surface sheet = make_sheet(2, 0.04, 0.18);
   const Matrix3X start = sheet.x;
-  scene.add_body("kite", std::make_unique<PrescribedBody>(sheet, [&](double time, Surface& surface) {
+  scene.add_body("kite",
+                 std::make_unique<PrescribedBody>(sheet, [&](double time, Surface& surface) {
                    surface.x = start;
                    surface.x.row(0).array() += speed * time;
                    surface.v.setZero();
@@ -58,10 +68,13 @@ TEST(BedWindow, RenewedSlabsFitWithoutAJolt) {
   scene.command("run 15000");  // 0.6 m, two and a half rounds
 
   const double renewed = scene.lammps().modify->find_fix_id("renew")->compute_vector(0);
-  const double fall = mass * 9.81 * 0.001 * diameter;  // energy of the bed falling by a thousandth of a grain
+  // energy of the bed falling by a thousandth of a grain
+  const double fall = mass * 9.81 * 0.001 * diameter;
   if (scene.rank() == 0)
-    fmt::print("  {} slabs renewed; largest kinetic energy {:.2g} J (the bed falling by d/1000: {:.2g} J); height changed by {:.2g} d\n",
-               renewed, liveliest, fall, (mean_height(scene) - height) / diameter);
+    fmt::print(
+        "  {} slabs renewed; largest kinetic energy {:.2g} J (the bed falling by d/1000: {:.2g} "
+        "J); height changed by {:.2g} d\n",
+        renewed, liveliest, fall, (mean_height(scene) - height) / diameter);
   else
     mean_height(scene);
   EXPECT_EQ(renewed, 20);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The periodic cell against closed forms: a cubic lattice of spheres has Hertz's stress, F/a^2 with F = 4/3 E* sqrt(R*) (d - a)^1.5 and
-// lattice constant a; a wanted stress is reached and held; lengths follow their rates.
+// The periodic cell against closed forms: a cubic lattice of spheres has Hertz's stress, F/a^2 with
+// F = 4/3 E* sqrt(R*) (d - a)^1.5 and lattice constant a; a wanted stress is reached and held;
+// lengths follow their rates.
 
 #include <cmath>
 
@@ -18,7 +19,8 @@ namespace {
 constexpr double d = 0.01, E = 1e7, nu = 0.3, edge = 0.04;
 
 double hertz_stress(double a) {
-  const double stiffness = E / (2.0 * (1.0 - nu * nu)), force = 4.0 / 3.0 * stiffness * std::sqrt(d / 4.0) * std::pow(d - a, 1.5);
+  const double stiffness = E / (2.0 * (1.0 - nu * nu)),
+               force = 4.0 / 3.0 * stiffness * std::sqrt(d / 4.0) * std::pow(d - a, 1.5);
   return force / (a * a);
 }
 
@@ -29,11 +31,15 @@ void make_lattice(Scene& scene) {
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j)
       for (int k = 0; k < 4; ++k)
-        scene.command(fmt::format("create_atoms 1 single {} {} {} units box", (i - 1.5) * d, (j - 1.5) * d, (k - 1.5) * d));
-  scene.commands(fmt::format("set group all diameter {} density 2500\nfix move all nve/sphere\nthermo 100000", d));
+        scene.command(fmt::format("create_atoms 1 single {} {} {} units box", (i - 1.5) * d,
+                                  (j - 1.5) * d, (k - 1.5) * d));
+  scene.commands(fmt::format(
+      "set group all diameter {} density 2500\nfix move all nve/sphere\nthermo 100000", d));
 }
 
-double entry(Scene& scene, int n) { return scene.lammps().modify->find_fix_id("cell")->compute_vector(n - 1); }
+double entry(Scene& scene, int n) {
+  return scene.lammps().modify->find_fix_id("cell")->compute_vector(n - 1);
+}
 
 TEST(CellServo, LatticeHasHertzStress) {
   Scene scene;
@@ -48,16 +54,20 @@ TEST(CellServo, LatticeHasHertzStress) {
     double area = 1.0;
     for (int m = 0; m < 3; ++m) area *= m == k ? 1.0 : edge / 4 * std::exp(-rates[m] * t);
     const double a = length / 4, expected = hertz_stress(a) * a * a / area;
-    EXPECT_NEAR(entry(scene, 4 + k) / expected, 1.0, 0.01) << "axis " << k;  // damping adds what the slow motion needs
+    // damping adds what the slow motion needs
+    EXPECT_NEAR(entry(scene, 4 + k) / expected, 1.0, 0.01) << "axis " << k;
   }
-  const double volume = entry(scene, 1) * entry(scene, 2) * entry(scene, 3), mass = 64 * M_PI / 6 * d * d * d * 2500;
+  const double volume = entry(scene, 1) * entry(scene, 2) * entry(scene, 3),
+               mass = 64 * M_PI / 6 * d * d * d * 2500;
   EXPECT_NEAR(entry(scene, 7) / (mass / volume), 1.0, 1e-12);
 }
 
 TEST(CellServo, ReachesAndHoldsAStress) {
   Scene scene;
   make_lattice(scene);
-  scene.command("fix cell all cell/servo stress_x 2e4 stress_y 2e4 stress_z 5e4 rate_limit 0.5 stiffness 5e6");
+  scene.command(
+      "fix cell all cell/servo stress_x 2e4 stress_y 2e4 stress_z 5e4 rate_limit 0.5 stiffness "
+      "5e6");
   scene.command("run 10000");
   EXPECT_NEAR(entry(scene, 4), 2e4, 40);
   EXPECT_NEAR(entry(scene, 5), 2e4, 40);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The hybrid: grains that lie on continuum ground. The sheet on top of the ground is one more mesh wall; the laws of motion are the
-// reference: what grains and ground gain in momentum is what gravity and the base give them, to rounding.
+// The hybrid: grains that lie on continuum ground. The sheet on top of the ground is one more mesh
+// wall; the laws of motion are the reference: what grains and ground gain in momentum is what
+// gravity and the base give them, to rounding.
 
 #include <cmath>
 
@@ -30,36 +31,43 @@ TEST(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
   Scene scene;
   scene.granular_box(Vector3(-0.041, -0.041, -0.01), Vector3(0.041, 0.041, 0.15), 0.002);
   scene.contact_properties(5e6, 0.3, 0.5, 0.0);  // walls without friction carry no weight
-  scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity {} vector 0 0 -1",
-                             hertz, step, gravity));
+  scene.commands(fmt::format(
+      "pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity {} vector 0 0 -1",
+      hertz, step, gravity));
   scene.command(
-      fmt::format("fix soil all terrain/continuum material {}/inputs/materials/rubber.yaml length {} width {} depth 0.03 "
+      fmt::format("fix soil all terrain/continuum material {}/inputs/materials/rubber.yaml length "
+                  "{} width {} depth 0.03 "
                   "surface 0.03 cell 0.01 "
                   "gravity {} sheet yes",
                   FURROW_SOURCE_DIR, side, side, gravity));
   scene.command("fix skin all mesh/body body soil type 2");
   scene.command(fmt::format("fix top all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
   for (const char* wall : {"x1", "x2", "y1", "y2"})
-    scene.command(fmt::format("fix {} all wall/gran {} primitive type 1 {}plane {}", wall, hertz, wall[0],
-                              wall[1] == '1' ? -side / 2 : side / 2));
+    scene.command(fmt::format("fix {} all wall/gran {} primitive type 1 {}plane {}", wall, hertz,
+                              wall[0], wall[1] == '1' ? -side / 2 : side / 2));
   scene.commands(
-      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant 0.005\n"
+      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
+      "constant 0.005\n"
       "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
       "region fill block -0.04 0.04 -0.04 0.04 0.035 0.1 units box\n"
-      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once overlapcheck yes all_in yes "
+      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once "
+      "overlapcheck yes all_in yes "
       "particles_in_region 120 region fill\n"
       "fix move all nve/sphere\nfix calm all viscous 0.03\nthermo 100000\nrun 15000\nunfix calm");
 
-  auto& ground =
-      static_cast<coupling::FixTerrainContinuum*>(scene.lammps().modify->find_fix_id(const_cast<char*>("soil")))->ground();
+  auto& ground = static_cast<coupling::FixTerrainContinuum*>(
+                     scene.lammps().modify->find_fix_id(const_cast<char*>("soil")))
+                     ->ground();
   const double before = upward_momentum(scene);
-  const Vector3 ground_before = ground.balance().momentum, base_before = ground.face_impulse(z_lower);
+  const Vector3 ground_before = ground.balance().momentum,
+                base_before = ground.face_impulse(z_lower);
   double impulse = 0.0;
   scene.at_end_of_step([&] { impulse += ground.surface().total_force().z() * step; });
   constexpr int steps = 2000;
   scene.command(fmt::format("run {}", steps));
 
-  // The sheet's forces are the grains': their momentum and weight (the wall acts one step ahead of the ground's).
+  // The sheet's forces are the grains': their momentum and weight (the wall acts one step ahead of
+  // the ground's).
   const double weight = scene.grain_mass() * gravity, time = steps * step;
   EXPECT_GT(weight, 1.0);
   const double grains_gain = upward_momentum(scene) - before;
@@ -72,7 +80,8 @@ TEST(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
   mass = scene.sum(mass);
   const double base = ground.face_impulse(z_lower).z() - base_before.z(),
                ground_gain = ground.balance().momentum.z() - ground_before.z();
-  EXPECT_NEAR(base, mass * gravity * time + ground_gain - impulse, 2e-3 * base);  // forces are one step older in the ground
+  // forces are one step older in the ground
+  EXPECT_NEAR(base, mass * gravity * time + ground_gain - impulse, 2e-3 * base);
   const coupling::MomentumAudit& audit = scene.world().audit(ground);
   EXPECT_GT(audit.force_scale, 0.0);
   EXPECT_LT(audit.force, 1e-10);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Half a tyre on half a ground is the whole tyre on the whole ground: let down and rolled over snow, all that is recorded agrees.
-// Where it is refused: bad_input/tyre_half_*.lig.
+// Half a tyre on half a ground is the whole tyre on the whole ground: let down and rolled over
+// snow, all that is recorded agrees. Where it is refused: bad_input/tyre_half_*.lig.
 
 #include <cmath>
 
@@ -16,26 +16,36 @@
 namespace furrow::test {
 namespace {
 
-// 40 kPa: belts of 4 x 36 do not wrinkle, so that there is one shape of equilibrium and it is symmetric.
+// 40 kPa: belts of 4 x 36 do not wrinkle, so that there is one shape of equilibrium and it is
+// symmetric.
 void make_tyre(Scene& scene, bool half) {
   scene.commands(
-      "units si\natom_style granular\natom_modify sort 0 0\nnewton off\ncommunicate single vel yes\nprocessors * 1 1\n"
-      "region box block -1 1 -1 1 -0.1 1.2 units box\ncreate_box 1 box\nneighbor 0.05 bin\ntimestep 5e-5\nthermo 100000");
-  scene.command(fmt::format("fix tyre all tyre/darnell file {}/inputs/tyres/p235_75r15.yaml pressure 4e4 mesh 4 36 half {} "
-                            "mass 20 inertia 0.6 axle 0 0 0.5",
-                            FURROW_SOURCE_DIR, half ? "yes" : "no"));
-  scene.command("fix rig all wheel/rig wheel tyre load_force 1500 speed 1 mode towed settle_time 0.1 accelerate_time 0.05 "
-                "ground_level 0.15 damping 2000");
+      "units si\natom_style granular\natom_modify sort 0 0\nnewton off\ncommunicate single vel "
+      "yes\nprocessors * 1 1\n"
+      "region box block -1 1 -1 1 -0.1 1.2 units box\ncreate_box 1 box\nneighbor 0.05 "
+      "bin\ntimestep 5e-5\nthermo 100000");
+  scene.command(
+      fmt::format("fix tyre all tyre/darnell file {}/inputs/tyres/p235_75r15.yaml pressure 4e4 "
+                  "mesh 4 36 half {} "
+                  "mass 20 inertia 0.6 axle 0 0 0.5",
+                  FURROW_SOURCE_DIR, half ? "yes" : "no"));
+  scene.command(
+      "fix rig all wheel/rig wheel tyre load_force 1500 speed 1 mode towed settle_time 0.1 "
+      "accelerate_time 0.05 "
+      "ground_level 0.15 damping 2000");
 }
 
 void make_ground(Scene& scene, bool half) {
-  scene.command(fmt::format("fix soil all terrain/continuum material {}/inputs/materials/fresh_snow.yaml length 0.8 width 0.48 "
-                            "depth 0.12 surface 0.15 cell 0.04 cycle 1 symmetry {}",
-                            FURROW_SOURCE_DIR, half ? "yes" : "no"));
+  scene.command(
+      fmt::format("fix soil all terrain/continuum material {}/inputs/materials/fresh_snow.yaml "
+                  "length 0.8 width 0.48 "
+                  "depth 0.12 surface 0.15 cell 0.04 cycle 1 symmetry {}",
+                  FURROW_SOURCE_DIR, half ? "yes" : "no"));
 }
 
 struct Outcome {
-  double x, height, spin, deflection, width, force_x, force_z, contact_force, friction, contact_work, ground_work, dissipated;
+  double x, height, spin, deflection, width, force_x, force_z, contact_force, friction,
+      contact_work, ground_work, dissipated;
 };
 
 Outcome roll(bool half) {
@@ -47,7 +57,8 @@ Outcome roll(bool half) {
   const auto find = [&](const char* id) { return scene.lammps().modify->find_fix_id(id); };
   auto* tyre_fix = dynamic_cast<coupling::FixTyreDarnell*>(find("tyre"));
   DarnellTyre& tyre = tyre_fix->tyre();
-  const Balance ground = dynamic_cast<coupling::FixTerrainContinuum*>(find("soil"))->ground().balance();
+  const Balance ground =
+      dynamic_cast<coupling::FixTerrainContinuum*>(find("soil"))->ground().balance();
   LAMMPS_NS::Fix* touch = find("touch");
   const double both = half ? 2.0 : 1.0;
   const WheelHub::Wrench wrench = tyre.ground_wrench();
@@ -68,7 +79,8 @@ Outcome roll(bool half) {
 
 void expect_alike(const Outcome& a, const Outcome& b, double share) {
   const auto alike = [&](const char* name, double Outcome::*value, double scale) {
-    fmt::print("  {}: {:.6g} {:.6g}, difference {:.1e} of {:.3g}\n", name, a.*value, b.*value, (a.*value - b.*value) / scale, scale);
+    fmt::print("  {}: {:.6g} {:.6g}, difference {:.1e} of {:.3g}\n", name, a.*value, b.*value,
+               (a.*value - b.*value) / scale, scale);
     EXPECT_NEAR(a.*value, b.*value, share * std::abs(scale)) << name;
   };
   alike("x", &Outcome::x, b.x);
@@ -85,10 +97,11 @@ void expect_alike(const Outcome& a, const Outcome& b, double share) {
   alike("dissipation", &Outcome::dissipated, b.dissipated);
 }
 
-/// This holds the wiring: what is halved, doubled and mirrored, where a fault is a factor of two. The mechanics agree to 1e-6 on one and the
-/// same half of ground (tests/verification/tyre/half_on_ground_test.cpp). What differs here is the ground's grid, whose splines end in the
-/// plane of symmetry of the half and go on in the whole: 1.4 % with cells of half the tread's half width (2.5 % in
-/// cycles, in which small differences live on).
+/// This holds the wiring: what is halved, doubled and mirrored, where a fault is a factor of two.
+/// The mechanics agree to 1e-6 on one and the same half of ground
+/// (tests/verification/tyre/half_on_ground_test.cpp). What differs here is the ground's grid, whose
+/// splines end in the plane of symmetry of the half and go on in the whole: 1.4 % with cells of
+/// half the tread's half width (2.5 % in cycles, in which small differences live on).
 TEST(HalfTyre, OnHalfAGroundIsTheWholeOnTheWhole) {
   const Outcome half = roll(true), whole = roll(false);
   EXPECT_GT(whole.spin, 0.2);

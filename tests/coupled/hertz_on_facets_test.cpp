@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A sphere held against a faceted sheet gives Hertz's force F = 4/3 E* sqrt(R) delta^(3/2) everywhere: on faces, over edges and
-// corners, on flat, convex and concave sheets, also when the sheet was flat at the start and bent afterwards, also with obtuse
-// triangles. Closed form: Hertz (1882), with E* = E/(2 (1 - nu^2)) for equal materials.
+// A sphere held against a faceted sheet gives Hertz's force F = 4/3 E* sqrt(R) delta^(3/2)
+// everywhere: on faces, over edges and corners, on flat, convex and concave sheets, also when the
+// sheet was flat at the start and bent afterwards, also with obtuse triangles. Closed form: Hertz
+// (1882), with E* = E/(2 (1 - nu^2)) for equal materials.
 
 #include <cmath>
 
@@ -14,22 +15,26 @@
 namespace furrow::test {
 namespace {
 
-constexpr double young = 5e6, poisson = 0.3, radius = 0.004, overlap = 4e-6, side = 0.2, height = 0.1;
+constexpr double young = 5e6, poisson = 0.3, radius = 0.004, overlap = 4e-6, side = 0.2,
+                 height = 0.1;
 constexpr int cells = 20;
 
 double hertz_force() {
-  return 4.0 / 3.0 * young / (2.0 * (1.0 - poisson * poisson)) * std::sqrt(radius) * std::pow(overlap, 1.5);
+  return 4.0 / 3.0 * young / (2.0 * (1.0 - poisson * poisson)) * std::sqrt(radius) *
+         std::pow(overlap, 1.5);
 }
 
-/// Cross-section of a sheet bent to a cylinder: z(x), curvature > 0 convex upwards, < 0 concave, 0 flat.
+/// Cross-section of a sheet bent to a cylinder: z(x), curvature > 0 convex upwards, < 0 concave, 0
+/// flat.
 double profile(double x, double curvature) {
   if (curvature == 0.0) return height;
   const double r = 1.0 / std::abs(curvature), sag = r - std::sqrt(r * r - x * x);
   return curvature > 0.0 ? height - sag : height + sag;
 }
 
-/// The path of a sphere's centre that keeps the overlap constant on a polygon of facets: parallel to the faces, about a convex
-/// edge, and turning where the two planes are equally deep in a concave one.
+/// The path of a sphere's centre that keeps the overlap constant on a polygon of facets: parallel
+/// to the faces, about a convex edge, and turning where the two planes are equally deep in a
+/// concave one.
 std::vector<Vector2> centre_path(double curvature, double step) {
   std::vector<Vector2> corner(cells + 1);
   for (int i = 0; i <= cells; ++i) {
@@ -40,15 +45,21 @@ std::vector<Vector2> centre_path(double curvature, double step) {
   std::vector<Vector2> path;
   for (std::size_t i = 2; i + 2 < corner.size(); ++i) {
     const Vector2 along = (corner[i + 1] - corner[i]).normalized(), normal(-along[1], along[0]);
-    const Vector2 before = (corner[i] - corner[i - 1]).normalized(), after = (corner[i + 2] - corner[i + 1]).normalized();
-    const auto turn = [](const Vector2& a, const Vector2& b) { return std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b)); };
+    const Vector2 before = (corner[i] - corner[i - 1]).normalized(),
+                  after = (corner[i + 2] - corner[i + 1]).normalized();
+    const auto turn = [](const Vector2& a, const Vector2& b) {
+      return std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b));
+    };
     const double in = turn(before, along), out = turn(along, after);  // positive: concave
     const double begin = in > 0 ? offset * std::tan(in / 2) : 0.0;
-    const double end = (corner[i + 1] - corner[i]).norm() - (out > 0 ? offset * std::tan(out / 2) : 0.0);
-    for (double s = begin; s < end; s += step) path.push_back(corner[i] + s * along + offset * normal);
+    const double end =
+        (corner[i + 1] - corner[i]).norm() - (out > 0 ? offset * std::tan(out / 2) : 0.0);
+    for (double s = begin; s < end; s += step)
+      path.push_back(corner[i] + s * along + offset * normal);
     for (double angle = 0.0; angle < -out; angle += step / offset)
-      path.push_back(corner[i + 1] + offset * Vector2(normal[0] * std::cos(angle) + along[0] * std::sin(angle),
-                                                      normal[1] * std::cos(angle) + along[1] * std::sin(angle)));
+      path.push_back(corner[i + 1] +
+                     offset * Vector2(normal[0] * std::cos(angle) + along[0] * std::sin(angle),
+                                      normal[1] * std::cos(angle) + along[1] * std::sin(angle)));
   }
   return path;
 }
@@ -65,11 +76,13 @@ class HertzOnFacets : public testing::TestWithParam<Case> {};
 TEST_P(HertzOnFacets, ForceIsHertzEverywhere) {
   const Case& c = GetParam();
   Surface start = make_sheet(cells, side, height);
-  const double shear = c.obtuse ? 1.5 : 0.0;  // of the sheet in its plane: angles beyond 120 degrees
+  // of the sheet in its plane: angles beyond 120 degrees
+  const double shear = c.obtuse ? 1.5 : 0.0;
   start.x.row(1) += shear * start.x.row(0);
   const Matrix3X flat = start.x;
   const auto bend = [&](Surface& surface) {
-    for (Eigen::Index n = 0; n < flat.cols(); ++n) surface.x(2, n) = profile(flat(0, n), c.curvature);
+    for (Eigen::Index n = 0; n < flat.cols(); ++n)
+      surface.x(2, n) = profile(flat(0, n), c.curvature);
   };
   if (!c.bent_after_start) bend(start);
 
@@ -77,7 +90,8 @@ TEST_P(HertzOnFacets, ForceIsHertzEverywhere) {
   scene.granular_box(Vector3(-0.11, -0.3, 0), Vector3(0.11, 0.3, 0.2), 0.0015);
   scene.contact_properties(young, poisson, 0.3, 0.0);
   scene.commands("pair_style gran model hertz tangential history\npair_coeff * *\ntimestep 1e-5");
-  scene.add_body("sheet", std::make_unique<PrescribedBody>(start, [&](double, Surface& surface) { bend(surface); }));
+  scene.add_body("sheet", std::make_unique<PrescribedBody>(
+                              start, [&](double, Surface& surface) { bend(surface); }));
   scene.commands(
       "fix skin all mesh/body body sheet type 1\n"
       "fix walls all wall/gran/body model hertz tangential history mesh n_meshes 1 meshes skin");
@@ -85,7 +99,8 @@ TEST_P(HertzOnFacets, ForceIsHertzEverywhere) {
   const auto lateral = [=](double x) {
     return shear * x + 0.0031 + 0.004 * std::sin(40.0 * x);
   };  // wanders over diagonals and corners
-  scene.command("create_atoms 1 single " + std::to_string(path[0][0]) + " " + std::to_string(lateral(path[0][0])) + " 0.15");
+  scene.command("create_atoms 1 single " + std::to_string(path[0][0]) + " " +
+                std::to_string(lateral(path[0][0])) + " 0.15");
   scene.command("set group all density 2500 diameter 0.008");
   std::size_t index = 0;
   scene.at_start_of_step([&] {
@@ -107,22 +122,25 @@ TEST_P(HertzOnFacets, ForceIsHertzEverywhere) {
     largest = std::max(largest, force.norm());
   });
   scene.command("run " + std::to_string(path.size() - 1));
-  audit = std::max(scene.world().audit(scene.world().find_body(scene.lammps(), "test", "sheet").body()).force,
-                   scene.world().audit(scene.world().find_body(scene.lammps(), "test", "sheet").body()).moment);
+  audit = std::max(
+      scene.world().audit(scene.world().find_body(scene.lammps(), "test", "sheet").body()).force,
+      scene.world().audit(scene.world().find_body(scene.lammps(), "test", "sheet").body()).moment);
   EXPECT_NEAR(smallest / hertz_force(), 1.0, 1e-3);
   EXPECT_NEAR(largest / hertz_force(), 1.0, 1e-3);
   EXPECT_LT(audit, 1e-10);
   if (scene.rank() == 0)
-    printf("%s: %zu positions, force over Hertz %.6f to %.6f, momentum defect %.1e\n", c.name, path.size(),
-           smallest / hertz_force(), largest / hertz_force(), audit);
+    printf("%s: %zu positions, force over Hertz %.6f to %.6f, momentum defect %.1e\n", c.name,
+           path.size(), smallest / hertz_force(), largest / hertz_force(), audit);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sheets, HertzOnFacets,
-                         testing::Values(Case{0.0, false, false, "flat"}, Case{5.0, false, false, "convex"},
+                         testing::Values(Case{0.0, false, false, "flat"},
+                                         Case{5.0, false, false, "convex"},
                                          Case{-5.0, false, false, "concave"},
                                          Case{5.0, true, false, "convex_bent_after_start"},
                                          Case{-5.0, true, false, "concave_bent_after_start"},
-                                         Case{0.0, false, true, "flat_obtuse"}, Case{5.0, true, true, "convex_obtuse_bent"},
+                                         Case{0.0, false, true, "flat_obtuse"},
+                                         Case{5.0, true, true, "convex_obtuse_bent"},
                                          Case{-5.0, true, true, "concave_obtuse_bent"}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A light, stiff, deforming body on grains: the exchange of forces once a LIGGGHTS step must stay stable and keep the balance of
-// energy. Statics and energy conservation are the references.
+// A light, stiff, deforming body on grains: the exchange of forces once a LIGGGHTS step must stay
+// stable and keep the balance of energy. Statics and energy conservation are the references.
 
 #include <cmath>
 
@@ -18,44 +18,52 @@ namespace {
 constexpr double gravity = 9.81, side = 0.08;
 constexpr const char* hertz = "model hertz tangential history";
 
-std::unique_ptr<Membrane> make_cover(double height, const MembraneMaterial& material, double pressure) {
+std::unique_ptr<Membrane> make_cover(double height, const MembraneMaterial& material,
+                                     double pressure) {
   const int cells = 10;
   Surface sheet = make_sheet(cells, side, height, true);
   std::vector<int> edge;
   for (Eigen::Index n = 0; n < sheet.x.cols(); ++n)
-    if (std::max(std::abs(sheet.x(0, n)), std::abs(sheet.x(1, n))) > side / 2 - 1e-9) edge.push_back(static_cast<int>(n));
+    if (std::max(std::abs(sheet.x(0, n)), std::abs(sheet.x(1, n))) > side / 2 - 1e-9)
+      edge.push_back(static_cast<int>(n));
   auto membrane = std::make_unique<Membrane>(sheet, material, edge);
   membrane->set_pressure(pressure);
   return membrane;
 }
 
-/// Frictionless side walls, a bed of 300 grains that falls onto a membrane which is blown up from below.
-void make_bed_on_membrane(Scene& scene, const MembraneMaterial& material, double pressure, double young, double step) {
-  scene.granular_box(Vector3(-side / 2 - 0.001, -side / 2 - 0.001, 0), Vector3(side / 2 + 0.001, side / 2 + 0.001, 0.2),
-                     0.002);
+/// Frictionless side walls, a bed of 300 grains that falls onto a membrane which is blown up from
+/// below.
+void make_bed_on_membrane(Scene& scene, const MembraneMaterial& material, double pressure,
+                          double young, double step) {
+  scene.granular_box(Vector3(-side / 2 - 0.001, -side / 2 - 0.001, 0),
+                     Vector3(side / 2 + 0.001, side / 2 + 0.001, 0.2), 0.002);
   scene.contact_properties(young, 0.3, 0.5, 0.0);
-  scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity {} vector 0 0 -1",
-                             hertz, step, gravity));
+  scene.commands(fmt::format(
+      "pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity {} vector 0 0 -1",
+      hertz, step, gravity));
   scene.add_body("cover", make_cover(0.03, material, pressure));
   scene.command("fix skin all mesh/body body cover type 2");
   scene.command(fmt::format("fix walls all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
   for (const char* wall : {"x1 all", "x2 all", "y1 all", "y2 all"}) {
     const std::string name = std::string(wall).substr(0, 2);
-    scene.command(fmt::format("fix {} wall/gran {} primitive type 1 {}plane {}", wall, hertz, name[0],
-                              name[1] == '1' ? -side / 2 : side / 2));
+    scene.command(fmt::format("fix {} wall/gran {} primitive type 1 {}plane {}", wall, hertz,
+                              name[0], name[1] == '1' ? -side / 2 : side / 2));
   }
   scene.commands(
-      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant 0.004\n"
+      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
+      "constant 0.004\n"
       "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
       "region fill block -0.04 0.04 -0.04 0.04 0.045 0.15 units box\n"
-      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once overlapcheck yes all_in yes "
+      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once "
+      "overlapcheck yes all_in yes "
       "particles_in_region 300 region fill\n"
       "fix move all nve/sphere\nthermo 100000");
 }
 
 TEST(MembraneOnBed, InflatedAgainstABedCarriesItsWeight) {
   Scene scene;
-  // 1 mm rubber, two sub-steps a LIGGGHTS step; twice the pressure of the bed, so that it bulges upwards.
+  // 1 mm rubber, two sub-steps a LIGGGHTS step; twice the pressure of the bed, so that it bulges
+  // upwards.
   make_bed_on_membrane(scene, {2e7, 0.3, 1e-3, 1000.0, 30.0}, 1000.0, 5e6, 2e-5);
   scene.command("fix calm all viscous 0.02");
   scene.command("run 50000");
@@ -68,15 +76,18 @@ TEST(MembraneOnBed, InflatedAgainstABedCarriesItsWeight) {
   };
   double sum = 0.0;
   int samples = 0;
-  auto& membrane = static_cast<Membrane&>(scene.world().find_body(scene.lammps(), "test", "cover").body());
+  auto& membrane =
+      static_cast<Membrane&>(scene.world().find_body(scene.lammps(), "test", "cover").body());
   scene.at_end_of_step([&] {
     sum += membrane.surface().total_force()[2];
     ++samples;
   });
   const double momentum_before = upward_momentum();
   scene.command("run 1000");
-  // Impulse of the membrane = weight x time + change of the bed's momentum: holds also while grains still tremble.
-  const double weight = scene.grain_mass() * gravity, momentum_rate = (upward_momentum() - momentum_before) / (1000 * 2e-5);
+  // Impulse of the membrane = weight x time + change of the bed's momentum: holds also while grains
+  // still tremble.
+  const double weight = scene.grain_mass() * gravity,
+               momentum_rate = (upward_momentum() - momentum_before) / (1000 * 2e-5);
   const double carried = -sum / samples / (weight + momentum_rate);
   EXPECT_GT(membrane.surface().x.row(2).maxCoeff(), 0.031);  // it does bulge
   EXPECT_NEAR(carried, 1.0, 1e-5);
@@ -85,15 +96,17 @@ TEST(MembraneOnBed, InflatedAgainstABedCarriesItsWeight) {
   EXPECT_LT(audit.force, 1e-10);
   EXPECT_LT(audit.moment, 1e-10);
   if (scene.rank() == 0)
-    fmt::print("  force on membrane over weight and momentum of the bed {:.7f}, bulge {:.2f} mm\n", carried,
-               1e3 * (membrane.surface().x.row(2).maxCoeff() - 0.03));
+    fmt::print("  force on membrane over weight and momentum of the bed {:.7f}, bulge {:.2f} mm\n",
+               carried, 1e3 * (membrane.surface().x.row(2).maxCoeff() - 0.03));
 }
 
-/// No damping in the membrane, elastic enough to throw the grains up again and again: 1e5 steps, works and energies must add up.
+/// No damping in the membrane, elastic enough to throw the grains up again and again: 1e5 steps,
+/// works and energies must add up.
 TEST(MembraneOnBed, BouncingKeepsTheEnergyBalanceOver1e5Steps) {
   Scene scene;
   make_bed_on_membrane(scene, {2e6, 0.3, 0.5e-3, 1000.0, 0.0}, 0.0, 5e6, 1e-5);
-  auto& membrane = static_cast<Membrane&>(scene.world().find_body(scene.lammps(), "test", "cover").body());
+  auto& membrane =
+      static_cast<Membrane&>(scene.world().find_body(scene.lammps(), "test", "cover").body());
   double worst = 0.0, throughput = 0.0, before = 0.0;
   scene.at_end_of_step([&] {
     const Balance balance = membrane.balance();
@@ -105,7 +118,8 @@ TEST(MembraneOnBed, BouncingKeepsTheEnergyBalanceOver1e5Steps) {
   EXPECT_GT(throughput, 10 * membrane.balance().stored_energy);  // many bounces, not one
   EXPECT_LT(worst, 0.01 * throughput);
   if (scene.rank() == 0)
-    fmt::print("  energy passed through the contact {:.3e} J, largest imbalance {:.1e} J\n", throughput, worst);
+    fmt::print("  energy passed through the contact {:.3e} J, largest imbalance {:.1e} J\n",
+               throughput, worst);
 }
 
 }  // namespace

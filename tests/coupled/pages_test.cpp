@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The pages beside the code say what the code declares: every keyword of a style has its row, with unit and default, and no
-// row describes a keyword that is gone.
+// The pages beside the code say what the code declares: every keyword of a style has its row, with
+// unit and default, and no row describes a keyword that is gone.
 
 #include <fstream>
 #include <map>
@@ -74,14 +74,16 @@ void expect_page_of(const std::string& page, const Schema& schema) {
     ASSERT_TRUE(rows.count(key.name)) << page << " has no row for " << key.name;
     const Row& row = rows[key.name];
     EXPECT_EQ(row.unit, key.unit) << page << ", " << key.name;
-    EXPECT_EQ(row.default_value, fmt::format("{}", fmt::join(key.default_values, " "))) << page << ", " << key.name;
+    EXPECT_EQ(row.default_value, fmt::format("{}", fmt::join(key.default_values, " ")))
+        << page << ", " << key.name;
     EXPECT_FALSE(row.meaning.empty()) << page << ", " << key.name;
     for (const std::string& word : key.words)
       EXPECT_NE(row.meaning.find('`' + word + '`'), std::string::npos) << page << ", " << word;
     rows.erase(key.name);
   }
   for (const auto& [name, row] : rows)
-    ADD_FAILURE() << page << " describes " << name << ", which " << schema.subject() << " does not have";
+    ADD_FAILURE() << page << " describes " << name << ", which " << schema.subject()
+                  << " does not have";
 }
 
 using namespace coupling;
@@ -93,8 +95,12 @@ TEST(Pages, WheelRig) { expect_page_of("fix_wheel_rig.md", FixWheelRig::schema()
 TEST(Pages, WheelHistory) { expect_page_of("fix_wheel_history.md", FixWheelHistory::schema()); }
 TEST(Pages, PlateRigid) { expect_page_of("fix_plate_rigid.md", FixPlateRigid::schema()); }
 TEST(Pages, MeshBody) { expect_page_of("fix_mesh_body.md", FixMeshBody::schema()); }
-TEST(Pages, TerrainContinuum) { expect_page_of("fix_terrain_continuum.md", FixTerrainContinuum::schema()); }
-TEST(Pages, TerrainHistory) { expect_page_of("fix_terrain_history.md", FixTerrainHistory::schema()); }
+TEST(Pages, TerrainContinuum) {
+  expect_page_of("fix_terrain_continuum.md", FixTerrainContinuum::schema());
+}
+TEST(Pages, TerrainHistory) {
+  expect_page_of("fix_terrain_history.md", FixTerrainHistory::schema());
+}
 TEST(Pages, ContactBodies) { expect_page_of("fix_contact_bodies.md", FixContactBodies::schema()); }
 TEST(Pages, CellServo) { expect_page_of("fix_cell_servo.md", FixCellServo::schema()); }
 TEST(Pages, LayerShear) { expect_page_of("fix_layer_shear.md", FixLayerShear::schema()); }

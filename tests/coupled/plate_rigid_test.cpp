@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A plate pushed onto a grain that is held: sinkage is speed times time, force and pressure are Hertz's (1882),
-// F = 4/3 E* sqrt(R) delta^(3/2), E* = E/(2 (1 - nu^2)), and the fix says so to LIGGGHTS.
+// A plate pushed onto a grain that is held: sinkage is speed times time, force and pressure are
+// Hertz's (1882), F = 4/3 E* sqrt(R) delta^(3/2), E* = E/(2 (1 - nu^2)), and the fix says so to
+// LIGGGHTS.
 
 #include <cmath>
 
@@ -14,7 +15,8 @@ namespace furrow::test {
 namespace {
 
 TEST(PlateRigid, GivesSinkageForceAndPressureOfAHeldGrain) {
-  constexpr double young = 5e6, poisson = 0.3, radius = 0.004, gap = 0.0005, speed = 0.01, duration = 0.1, size = 0.06;
+  constexpr double young = 5e6, poisson = 0.3, radius = 0.004, gap = 0.0005, speed = 0.01,
+                   duration = 0.1, size = 0.06;
   Scene scene;
   scene.granular_box(Vector3(-0.1, -0.1, 0.0), Vector3(0.1, 0.1, 0.2), 0.001);
   scene.contact_properties(young, poisson, 1.0, 0.0);  // elastic: no damping adds to Hertz's force
@@ -22,17 +24,20 @@ TEST(PlateRigid, GivesSinkageForceAndPressureOfAHeldGrain) {
       "create_atoms 1 single 0.011 0.007 0.05\n"
       "set group all diameter 0.008 density 2500\n"
       "pair_style gran model hertz tangential history\npair_coeff * *\ntimestep 1e-4\n"
-      "fix plate all plate/rigid size 0.06 thickness 0.01 elements 12 centre 0 0 0.0545 speed 0.01 accelerate_time 0 "
+      "fix plate all plate/rigid size 0.06 thickness 0.01 elements 12 centre 0 0 0.0545 speed 0.01 "
+      "accelerate_time 0 "
       "ground_level 0.0545\n"
       "fix skin all mesh/body body plate type 1\n"
       "fix face all wall/gran/body model hertz tangential history mesh n_meshes 1 meshes skin\n"
       "run 1000");
   LAMMPS_NS::Fix& plate = *scene.lammps().modify->find_fix_id("plate");
   const double overlap = speed * duration - gap;
-  const double force = 4.0 / 3.0 * young / (2.0 * (1.0 - poisson * poisson)) * std::sqrt(radius) * std::pow(overlap, 1.5);
+  const double force = 4.0 / 3.0 * young / (2.0 * (1.0 - poisson * poisson)) * std::sqrt(radius) *
+                       std::pow(overlap, 1.5);
   EXPECT_NEAR(plate.compute_vector(0), speed * duration, 1e-12);
   EXPECT_NEAR(plate.compute_vector(1), force, 1e-6 * force);
-  EXPECT_NEAR(plate.compute_vector(2), force / (M_PI / 4.0 * size * size), 1e-6 * force / (size * size));
+  EXPECT_NEAR(plate.compute_vector(2), force / (M_PI / 4.0 * size * size),
+              1e-6 * force / (size * size));
 }
 
 }  // namespace

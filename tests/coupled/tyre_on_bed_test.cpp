@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A deforming tyre on grains, on one and two ranks: forces on nodes and grains cancel in every step, the load is carried (impulse
-// theorem), the tyre's energy balance closes, and it rolls.
+// A deforming tyre on grains, on one and two ranks: forces on nodes and grains cancel in every
+// step, the load is carried (impulse theorem), the tyre's energy balance closes, and it rolls.
 
 #include <cmath>
 
@@ -24,15 +24,19 @@ constexpr double load = 1500.0, dt = 5e-5, damping = 500.0;
 void make_bed(Scene& scene) {
   scene.granular_box(Vector3(-0.45, -0.25, -0.02), Vector3(0.45, 0.25, 0.95), 0.008);
   scene.contact_properties(1e7, 0.3, 0.3, 0.6);
-  scene.commands(
-      fmt::format("pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity 9.81 vector 0 0 -1", hertz, dt));
+  scene.commands(fmt::format(
+      "pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity 9.81 vector 0 0 -1",
+      hertz, dt));
   for (const char* wall : {"xplane -0.4", "xplane 0.4", "yplane -0.16", "yplane 0.16", "zplane 0"})
-    scene.command(fmt::format("fix {0:.1}{1} all wall/gran {2} primitive type 1 {0}", wall, wall[7] == '-' ? 1 : 2, hertz));
+    scene.command(fmt::format("fix {0:.1}{1} all wall/gran {2} primitive type 1 {0}", wall,
+                              wall[7] == '-' ? 1 : 2, hertz));
   scene.commands(
-      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant 0.015\n"
+      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
+      "constant 0.015\n"
       "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
       "region fill block -0.4 0.4 -0.16 0.16 0 0.25 units box\n"
-      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once overlapcheck yes all_in yes "
+      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once "
+      "overlapcheck yes all_in yes "
       "particles_in_region 1300 region fill\n"
       "fix move all nve/sphere\nfix calm all viscous 0.5\nthermo 100000\nrun 8000\nunfix calm");
 }
@@ -48,19 +52,23 @@ TEST(TyreOnBed, KeepsMomentumAndEnergyWhileItDeformsAndRolls) {
   Scene scene;
   make_bed(scene);
   const double level = top_of(scene);
-  scene.command(fmt::format(
-      "fix tyre all tyre/darnell file {}/inputs/tyres/p235_75r15.yaml pressure 4e4 mesh 4 36 mass 20 inertia 0.6 "
-      "axle -0.05 0 {:.9f}",
-      FURROW_SOURCE_DIR, level + 0.3495));
   scene.command(
-      fmt::format("fix rig all wheel/rig wheel tyre load_force {} speed 0.4 mode towed settle_time 0.3 load_ramp_time 0.15 "
+      fmt::format("fix tyre all tyre/darnell file {}/inputs/tyres/p235_75r15.yaml pressure 4e4 "
+                  "mesh 4 36 mass 20 inertia 0.6 "
+                  "axle -0.05 0 {:.9f}",
+                  FURROW_SOURCE_DIR, level + 0.3495));
+  scene.command(
+      fmt::format("fix rig all wheel/rig wheel tyre load_force {} speed 0.4 mode towed settle_time "
+                  "0.3 load_ramp_time 0.15 "
                   "accelerate_time 0.1 ground_level {:.9f} damping {}",
                   load, level, damping));
   scene.command("fix skin all mesh/body body tyre type 2");
   scene.command(fmt::format("fix tread all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
-  DarnellTyre& tyre = dynamic_cast<coupling::FixTyreDarnell*>(scene.lammps().modify->find_fix_id("tyre"))->tyre();
+  DarnellTyre& tyre =
+      dynamic_cast<coupling::FixTyreDarnell*>(scene.lammps().modify->find_fix_id("tyre"))->tyre();
 
-  // Impulse theorem over part of the settling: sum of F dt = load T + change of momentum + damping x change of height
+  // Impulse theorem over part of the settling: sum of F dt = load T + change of momentum + damping
+  // x change of height
   double impulse = 0.0, time = 0.0, scale = 0.0, deflection = 0.0;
   const double energy_at_start = tyre.balance().residual();
   double worst = 0.0;
@@ -68,7 +76,8 @@ TEST(TyreOnBed, KeepsMomentumAndEnergyWhileItDeformsAndRolls) {
   scene.at_end_of_step([&] {
     const Balance balance = tyre.balance();
     worst = std::max(worst, std::abs(balance.residual() - energy_at_start));
-    scale = std::max({scale, std::abs(balance.load_work), std::abs(balance.contact_work), balance.kinetic_energy});
+    scale = std::max({scale, std::abs(balance.load_work), std::abs(balance.contact_work),
+                      balance.kinetic_energy});
     deflection = std::max(deflection, tyre.tread().x.row(2).minCoeff() - tyre.lowest_point());
     if (!counting) return;
     impulse += dt * tyre.surface().total_force().z();
@@ -80,7 +89,8 @@ TEST(TyreOnBed, KeepsMomentumAndEnergyWhileItDeformsAndRolls) {
   scene.command("run 1800");
   counting = false;
   // Velocities and forces belong to half a step apart: the sums are those of steps shifted by one.
-  const double expected = load * time + tyre.balance().momentum.z() - momentum + damping * (tyre.centre().z() - height);
+  const double expected =
+      load * time + tyre.balance().momentum.z() - momentum + damping * (tyre.centre().z() - height);
   EXPECT_NEAR(impulse / expected, 1.0, 2e-3);
 
   scene.command("run 6000");  // accelerates and rolls 8 cm
@@ -94,11 +104,12 @@ TEST(TyreOnBed, KeepsMomentumAndEnergyWhileItDeformsAndRolls) {
   EXPECT_LT(audit.moment, 1e-10);
   if (scene.rank() == 0)
     fmt::print(
-        "  deflection {:.1f} mm, impulse over expectation {:.6f}, momentum defect {:.1e} force {:.1e} moment, energy {:.1e} "
+        "  deflection {:.1f} mm, impulse over expectation {:.6f}, momentum defect {:.1e} force "
+        "{:.1e} moment, energy {:.1e} "
         "of "
         "{:.0f} J, rolled to x = {:.3f} m, spin {:.3f}\n",
-        1e3 * deflection, impulse / expected, audit.force, audit.moment, worst / scale, scale, tyre.centre().x(),
-        tyre.position(WheelHub::spin));
+        1e3 * deflection, impulse / expected, audit.force, audit.moment, worst / scale, scale,
+        tyre.centre().x(), tyre.position(WheelHub::spin));
 }
 
 }  // namespace

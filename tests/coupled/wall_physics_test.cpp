@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The mesh wall of a deforming body against statics and conservation: weight, a rolling sphere, a periodic moving sheet whose
-// triangles change rank, and the audit of nodal forces and moments in every step.
+// The mesh wall of a deforming body against statics and conservation: weight, a rolling sphere, a
+// periodic moving sheet whose triangles change rank, and the audit of nodal forces and moments in
+// every step.
 
 #include <cmath>
 
@@ -17,22 +18,28 @@ namespace {
 constexpr double gravity = 9.81, momentum_limit = 1e-10;
 
 void expect_small_audit(Scene& scene, const std::string& body) {
-  const coupling::MomentumAudit& audit = scene.world().audit(scene.world().find_body(scene.lammps(), "test", body).body());
+  const coupling::MomentumAudit& audit =
+      scene.world().audit(scene.world().find_body(scene.lammps(), "test", body).body());
   EXPECT_LT(audit.force, momentum_limit);
   EXPECT_LT(audit.moment, momentum_limit);
-  if (scene.rank() == 0) fmt::print("  largest momentum defect {:.1e}, moment defect {:.1e}\n", audit.force, audit.moment);
+  if (scene.rank() == 0)
+    fmt::print("  largest momentum defect {:.1e}, moment defect {:.1e}\n", audit.force,
+               audit.moment);
 }
 
 constexpr const char* hertz = "model hertz tangential history";
 
-/// 400 grains poured on a floor that first heaves in waves and then holds a bent shape. Check: statics, floor force = m g.
+/// 400 grains poured on a floor that first heaves in waves and then holds a bent shape. Check:
+/// statics, floor force = m g.
 TEST(WallPhysics, BedOnADeformingFloorWeighsItsWeight) {
   Scene scene;
   const double side = 0.08;
-  scene.granular_box(Vector3(-side / 2, -side / 2, 0), Vector3(side / 2, side / 2, 0.2), 0.002, "p p f");
+  scene.granular_box(Vector3(-side / 2, -side / 2, 0), Vector3(side / 2, side / 2, 0.2), 0.002,
+                     "p p f");
   scene.contact_properties(5e6, 0.3, 0.3, 0.5);
-  scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep 2e-5\nfix weight all gravity {} vector 0 0 -1",
-                             hertz, gravity));
+  scene.commands(fmt::format(
+      "pair_style gran {}\npair_coeff * *\ntimestep 2e-5\nfix weight all gravity {} vector 0 0 -1",
+      hertz, gravity));
   // Heave that fades to a fixed wave; both edges of the periodic sheet move alike.
   const Surface flat = make_sheet(8, side, 0.02);
   const auto heave = [=](double time, Surface& surface) {
@@ -40,17 +47,20 @@ TEST(WallPhysics, BedOnADeformingFloorWeighsItsWeight) {
     for (Eigen::Index n = 0; n < flat.x.cols(); ++n) {
       const double shape = std::sin(k * flat.x(0, n)) * std::cos(k * flat.x(1, n));
       surface.x(2, n) = 0.02 + 0.004 * shape * (1.0 + fade * std::sin(omega * time));
-      surface.v(2, n) = 0.004 * shape * fade * (omega * std::cos(omega * time) - 10.0 * std::sin(omega * time));
+      surface.v(2, n) =
+          0.004 * shape * fade * (omega * std::cos(omega * time) - 10.0 * std::sin(omega * time));
     }
   };
   scene.add_body("floor", std::make_unique<PrescribedBody>(flat, heave));
   scene.command("fix skin all mesh/body body floor type 2");
   scene.command(fmt::format("fix walls all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
   scene.commands(
-      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant 0.004\n"
+      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
+      "constant 0.004\n"
       "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
       "region fill block -0.04 0.04 -0.04 0.04 0.035 0.15 units box\n"
-      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once overlapcheck yes all_in no "
+      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once "
+      "overlapcheck yes all_in no "
       "particles_in_region 400 region fill\n"
       "fix move all nve/sphere\nfix calm all viscous 0.02\nthermo 100000");
   scene.command("run 60000");
@@ -64,28 +74,36 @@ TEST(WallPhysics, BedOnADeformingFloorWeighsItsWeight) {
   scene.command("run 500");
   const double weight = scene.grain_mass() * gravity;
   EXPECT_NEAR(-sum / samples / weight, 1.0, 1e-4);
-  if (scene.rank() == 0) fmt::print("  floor force over weight of the bed {:.6f}\n", -sum / samples / weight);
+  if (scene.rank() == 0)
+    fmt::print("  floor force over weight of the bed {:.6f}\n", -sum / samples / weight);
   expect_small_audit(scene, "floor");
 }
 
-/// A sphere that rolls without sliding over a flat sheet must not notice triangles: rolling on a plane is the exact solution.
+/// A sphere that rolls without sliding over a flat sheet must not notice triangles: rolling on a
+/// plane is the exact solution.
 TEST(WallPhysics, SphereRollsOverAFlatSheetAsOverAPlane) {
   Scene scene;
   scene.granular_box(Vector3(-0.11, -0.11, 0), Vector3(0.11, 0.11, 0.2), 0.0015);
   scene.contact_properties(5e6, 0.3, 0.3, 0.5);
-  scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep 1e-5\nfix weight all gravity {} vector 0 0 -1",
-                             hertz, gravity));
-  scene.add_body("sheet", std::make_unique<PrescribedBody>(make_sheet(20, 0.2, 0.1, true), [](double, Surface&) {}));
+  scene.commands(fmt::format(
+      "pair_style gran {}\npair_coeff * *\ntimestep 1e-5\nfix weight all gravity {} vector 0 0 -1",
+      hertz, gravity));
+  scene.add_body("sheet", std::make_unique<PrescribedBody>(make_sheet(20, 0.2, 0.1, true),
+                                                           [](double, Surface&) {}));
   scene.command("fix skin all mesh/body body sheet type 2");
   scene.command(fmt::format("fix walls all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
-  const double radius = 0.004, density = 2500.0, mass = density * 4.0 / 3.0 * pi * std::pow(radius, 3), speed = 0.3;
+  const double radius = 0.004, density = 2500.0,
+               mass = density * 4.0 / 3.0 * pi * std::pow(radius, 3), speed = 0.3;
   const double e_star = 5e6 / (2.0 * (1.0 - 0.09));
-  const double static_overlap = std::pow(mass * gravity / (4.0 / 3.0 * e_star * std::sqrt(radius)), 2.0 / 3.0);
-  scene.command(fmt::format("create_atoms 1 single -0.07 -0.0531 {:.17g}", 0.1 + radius - static_overlap));
+  const double static_overlap =
+      std::pow(mass * gravity / (4.0 / 3.0 * e_star * std::sqrt(radius)), 2.0 / 3.0);
+  scene.command(
+      fmt::format("create_atoms 1 single -0.07 -0.0531 {:.17g}", 0.1 + radius - static_overlap));
   scene.command("set group all density 2500 diameter 0.008");
   const Vector3 direction = Vector3(1.0, 0.77, 0.0).normalized();
   LAMMPS_NS::Atom& atom = *scene.lammps().atom;
-  const double arm = radius - 0.5 * static_overlap;  // LIGGGHTS's torque arm: rolling means zero slip there
+  // LIGGGHTS's torque arm: rolling means zero slip there
+  const double arm = radius - 0.5 * static_overlap;
   for (int i = 0; i < atom.nlocal; ++i)
     for (int k = 0; k < 3; ++k) {
       atom.v[i][k] = speed * direction[k];
@@ -114,7 +132,8 @@ TEST(WallPhysics, SphereRollsOverAFlatSheetAsOverAPlane) {
   const double weight = mass * gravity;
   if (scene.rank() == 0)
     fmt::print(
-        "  rolled 0.12 m over {:.0f} edges: normal force ripple {:.1e} of the weight, speed {:.9f} to {:.9f} of the start\n",
+        "  rolled 0.12 m over {:.0f} edges: normal force ripple {:.1e} of the weight, speed {:.9f} "
+        "to {:.9f} of the start\n",
         0.12 / 0.01 * 3, (highest - lowest) / weight, slowest / speed, fastest / speed);
   EXPECT_LT((highest - lowest) / weight, 1e-6);
   EXPECT_NEAR(slowest / speed, 1.0, 1e-6);
@@ -123,16 +142,19 @@ TEST(WallPhysics, SphereRollsOverAFlatSheetAsOverAPlane) {
   expect_small_audit(scene, "sheet");
 }
 
-/// A sheet that runs through a periodic box, four times its length, under a sphere held at constant overlap: the force stays
-/// Hertz's over every edge and over the seam, and triangles pass from rank to rank.
+/// A sheet that runs through a periodic box, four times its length, under a sphere held at constant
+/// overlap: the force stays Hertz's over every edge and over the seam, and triangles pass from rank
+/// to rank.
 TEST(WallPhysics, PeriodicSheetRunsUnderASphere) {
   Scene scene;
   const double side = 0.1, radius = 0.004, overlap = 4e-6, speed = 2.0;
-  scene.granular_box(Vector3(-side / 2, -side / 2, 0), Vector3(side / 2, side / 2, 0.2), 0.0015, "p p f");
+  scene.granular_box(Vector3(-side / 2, -side / 2, 0), Vector3(side / 2, side / 2, 0.2), 0.0015,
+                     "p p f");
   scene.contact_properties(5e6, 0.3, 0.3, 0.0);
   scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep 1e-5", hertz));
   const Surface start = make_sheet(10, side, 0.1);
-  scene.add_body("belt", std::make_unique<PrescribedBody>(start, [=](double time, Surface& surface) {
+  scene.add_body("belt",
+                 std::make_unique<PrescribedBody>(start, [=](double time, Surface& surface) {
                    surface.x.row(0) = start.x.row(0).array() + speed * time;
                    surface.x.row(1) = start.x.row(1).array() + 0.37 * speed * time;
                    surface.v.row(0).setConstant(speed);
@@ -142,7 +164,8 @@ TEST(WallPhysics, PeriodicSheetRunsUnderASphere) {
   scene.command(fmt::format("fix walls all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
   scene.command(fmt::format("create_atoms 1 single 0.0012 0.0007 {:.17g}", 0.1 + radius - overlap));
   scene.command("set group all density 2500 diameter 0.008");
-  const double expected = 4.0 / 3.0 * 5e6 / (2.0 * (1.0 - 0.09)) * std::sqrt(radius) * std::pow(overlap, 1.5);
+  const double expected =
+      4.0 / 3.0 * 5e6 / (2.0 * (1.0 - 0.09)) * std::sqrt(radius) * std::pow(overlap, 1.5);
   double lowest = 1e300, highest = 0.0;
   scene.at_end_of_step([&] {
     LAMMPS_NS::Atom& atom = *scene.lammps().atom;
@@ -155,7 +178,8 @@ TEST(WallPhysics, PeriodicSheetRunsUnderASphere) {
   scene.command("run 20000");
   EXPECT_NEAR(lowest / expected, 1.0, 1e-3);
   EXPECT_NEAR(highest / expected, 1.0, 1e-3);
-  if (scene.rank() == 0) fmt::print("  force over Hertz {:.6f} to {:.6f}\n", lowest / expected, highest / expected);
+  if (scene.rank() == 0)
+    fmt::print("  force over Hertz {:.6f} to {:.6f}\n", lowest / expected, highest / expected);
   expect_small_audit(scene, "belt");
 }
 

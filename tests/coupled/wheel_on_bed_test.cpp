@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A small wheel on a small bed: conservation laws of the coupled system. The load is carried (statics), the wheel's energy
-// balance closes to round-off, forces on nodes and grains cancel in every step, and slip is what was asked for.
+// A small wheel on a small bed: conservation laws of the coupled system. The load is carried
+// (statics), the wheel's energy balance closes to round-off, forces on nodes and grains cancel in
+// every step, and slip is what was asked for.
 
 #include <cmath>
 
@@ -25,14 +26,20 @@ void make_bed(Scene& scene) {
   scene.granular_box(Vector3(-0.13, -0.06, -0.01), Vector3(0.13, 0.06, 0.25), 0.003);
   scene.contact_properties(5e6, 0.3, 0.3, 0.5);
   scene.commands(
-      fmt::format("pair_style gran {}\npair_coeff * *\ntimestep 4e-5\nfix weight all gravity 9.81 vector 0 0 -1", hertz));
-  for (const char* wall : {"xplane -0.12", "xplane 0.12", "yplane -0.05", "yplane 0.05", "zplane 0"})
-    scene.command(fmt::format("fix {0:.1}{1} all wall/gran {2} primitive type 1 {0}", wall, wall[7] == '-' ? 1 : 2, hertz));
+      fmt::format("pair_style gran {}\npair_coeff * *\ntimestep 4e-5\nfix weight all gravity 9.81 "
+                  "vector 0 0 -1",
+                  hertz));
+  for (const char* wall :
+       {"xplane -0.12", "xplane 0.12", "yplane -0.05", "yplane 0.05", "zplane 0"})
+    scene.command(fmt::format("fix {0:.1}{1} all wall/gran {2} primitive type 1 {0}", wall,
+                              wall[7] == '-' ? 1 : 2, hertz));
   scene.commands(
-      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant 0.004\n"
+      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
+      "constant 0.004\n"
       "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
       "region fill block -0.12 0.12 -0.05 0.05 0 0.12 units box\n"
-      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once overlapcheck yes all_in yes "
+      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once "
+      "overlapcheck yes all_in yes "
       "particles_in_region 1500 region fill\n"
       "fix move all nve/sphere\nfix calm all viscous 0.02\nthermo 100000\nrun 12000\nunfix calm");
 }
@@ -46,7 +53,8 @@ double top_of(Scene& scene) {
 
 struct Outcome {
   double standing_force;  // mean vertical force while standing [N]
-  double expected_force;  // of the load and of what the wheel's momentum and the rig's damping took up in that time [N]
+  // of the load and of what the wheel's momentum and the rig's damping took up in that time [N]
+  double expected_force;
   double worst_slip_error;
   double energy_residual, energy_scale;
   double force_defect, moment_defect;
@@ -56,22 +64,28 @@ Outcome roll(Scene& scene, double slip) {
   make_bed(scene);
   const double level = top_of(scene);
   scene.command(
-      fmt::format("fix wheel all wheel/rigid diameter 0.1 width 0.05 shoulder 0.005 mass 0.5 inertia 6e-4 segments 48 axle "
+      fmt::format("fix wheel all wheel/rigid diameter 0.1 width 0.05 shoulder 0.005 mass 0.5 "
+                  "inertia 6e-4 segments 48 axle "
                   "-0.05 0 {:.9f}",
                   level + 0.052));
-  scene.command(fmt::format(
-      "fix rig all wheel/rig wheel wheel load_force {} speed 0.2 mode slip slip {} settle_time 0.4 load_ramp_time 0.1 "
-      "accelerate_time 0.1 ground_level {:.9f} damping 10",
-      load, slip, level));
+  scene.command(
+      fmt::format("fix rig all wheel/rig wheel wheel load_force {} speed 0.2 mode slip slip {} "
+                  "settle_time 0.4 load_ramp_time 0.1 "
+                  "accelerate_time 0.1 ground_level {:.9f} damping 10",
+                  load, slip, level));
   scene.command("fix skin all mesh/body body wheel type 2");
   scene.command(fmt::format("fix tread all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
-  const coupling::FixWheelRig& rig = *dynamic_cast<coupling::FixWheelRig*>(scene.lammps().modify->find_fix_id("rig"));
-  const RigidWheel& wheel = dynamic_cast<coupling::FixWheelRigid*>(scene.lammps().modify->find_fix_id("wheel"))->wheel();
+  const coupling::FixWheelRig& rig =
+      *dynamic_cast<coupling::FixWheelRig*>(scene.lammps().modify->find_fix_id("rig"));
+  const RigidWheel& wheel =
+      dynamic_cast<coupling::FixWheelRigid*>(scene.lammps().modify->find_fix_id("wheel"))->wheel();
 
   Outcome run{};
-  // Impulse theorem over the last part of the settling: sum of F dt = load T + m change of v + c change of z, exact for the leapfrog
-  // (the velocity at the end of a step does not yet know the force of that step).
-  double sum = 0.0, first_velocity = 0.0, first_height = 0.0, last_velocity = 0.0, last_height = 0.0;
+  // Impulse theorem over the last part of the settling: sum of F dt = load T + m change of v + c
+  // change of z, exact for the leapfrog (the velocity at the end of a step does not yet know the
+  // force of that step).
+  double sum = 0.0, first_velocity = 0.0, first_height = 0.0, last_velocity = 0.0,
+         last_height = 0.0;
   int samples = 0;
   scene.at_end_of_step([&] {
     const double time = scene.world().time();
@@ -85,16 +99,18 @@ Outcome roll(Scene& scene, double slip) {
       sum += wheel.surface().total_force()[2];
     }
     if (rig.rig().phase(time) == WheelRig::Phase::cruise) {
-      const double rim = wheel.rate(RigidWheel::spin) * wheel.parameters().geometry.radius(), v = wheel.velocity()[0];
-      run.worst_slip_error =
-          std::max(run.worst_slip_error, std::abs((rim - v) / std::max(std::abs(rim), std::abs(v)) - slip));
+      const double rim = wheel.rate(RigidWheel::spin) * wheel.parameters().geometry.radius(),
+                   v = wheel.velocity()[0];
+      run.worst_slip_error = std::max(
+          run.worst_slip_error, std::abs((rim - v) / std::max(std::abs(rim), std::abs(v)) - slip));
     }
   });
   scene.command("run 17500");
   const double duration = samples * scene.lammps().update->dt;
   run.standing_force = sum / samples;
-  run.expected_force =
-      load + (wheel_mass * (last_velocity - first_velocity) + damping * (last_height - first_height)) / duration;
+  run.expected_force = load + (wheel_mass * (last_velocity - first_velocity) +
+                               damping * (last_height - first_height)) /
+                                  duration;
   const Balance balance = wheel.balance();
   run.energy_residual = std::abs(balance.residual());
   run.energy_scale = std::max(std::abs(balance.contact_work), std::abs(balance.load_work));
@@ -108,7 +124,8 @@ TEST(WheelOnBed, CarriesItsLoadAndKeepsMomentumAndEnergy) {
   const Outcome run = roll(scene, 0.2);
   if (scene.rank() == 0)
     fmt::print(
-        "  standing: force over load {:.5f}, over load and momentum {:.8f}; slip error {:.1e}; energy residual over work "
+        "  standing: force over load {:.5f}, over load and momentum {:.8f}; slip error {:.1e}; "
+        "energy residual over work "
         "{:.1e}; momentum defect {:.1e}, moment defect {:.1e}\n",
         run.standing_force / load, run.standing_force / run.expected_force, run.worst_slip_error,
         run.energy_residual / run.energy_scale, run.force_defect, run.moment_defect);

@@ -37,7 +37,8 @@ Matrix6X solve_linear(const Shell4& shell, const ShellNodes& nodes, const Matrix
   const VectorX solution = factor.solve(right);
   Matrix6X displacement = Matrix6X::Zero(6, nodes.count());
   for (Eigen::Index i = 0; i < displacement.size(); ++i)
-    if (const int row = unknown[static_cast<std::size_t>(i)]; row >= 0) displacement.data()[i] = solution[row];
+    if (const int row = unknown[static_cast<std::size_t>(i)]; row >= 0)
+      displacement.data()[i] = solution[row];
   return displacement;
 }
 

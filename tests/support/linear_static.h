@@ -10,7 +10,8 @@ namespace furrow {
 /// @param load 6 numbers a node: forces [N], moments [N m]
 /// @returns 6 numbers a node: displacements [m], rotations [rad]
 /// @throws StateError when the shell is not supported
-Eigen::Matrix<double, 6, Eigen::Dynamic> solve_linear(const Shell4& shell, const ShellNodes& nodes,
-                                                      const Eigen::Matrix<double, 6, Eigen::Dynamic>& load);
+Eigen::Matrix<double, 6, Eigen::Dynamic> solve_linear(
+    const Shell4& shell, const ShellNodes& nodes,
+    const Eigen::Matrix<double, 6, Eigen::Dynamic>& load);
 
 }  // namespace furrow

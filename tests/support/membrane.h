@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A light elastic skin: constant-strain triangles without bending stiffness, for inflated covers and flexible walls.
+/// A light elastic skin: constant-strain triangles without bending stiffness, for inflated covers
+/// and flexible walls.
 
 #include <vector>
 
@@ -18,7 +19,8 @@ struct MembraneMaterial {
 };
 
 /// Plane-stress St Venant-Kirchhoff membrane, total Lagrangian, lumped mass, explicit.
-/// Second Piola-Kirchhoff stress S = E/(1 - nu^2) [(1 - nu) G + nu tr(G) I] of the in-plane Green strain G = (F^T F - I)/2.
+/// Second Piola-Kirchhoff stress S = E/(1 - nu^2) [(1 - nu) G + nu tr(G) I] of the in-plane Green
+/// strain G = (F^T F - I)/2.
 class Membrane : public Body {
  public:
   /// @param reference stress-free shape; its x is also the start
@@ -38,8 +40,9 @@ class Membrane : public Body {
 
  private:
   struct Element {
-    Eigen::Matrix<double, 2, 3> gradient;  // of the three shape functions in the element's own plane axes [1/m]
-    double volume;                         // reference area times thickness [m^3]
+    // of the three shape functions in the element's own plane axes [1/m]
+    Eigen::Matrix<double, 2, 3> gradient;
+    double volume;  // reference area times thickness [m^3]
   };
   void compute_forces();
 

@@ -16,11 +16,19 @@ SectionSchema elasticity_section() {
   linear.number("E", "Pa", Range::positive(), "Young's modulus");
   linear.number("nu", "", poisson, "Poisson's ratio");
   Schema porous("elasticity porous");
-  porous.number("kappa", "", Range::positive(), "logarithmic bulk modulus: slope of void ratio against ln p in unloading");
+  porous.number("kappa", "", Range::positive(),
+                "logarithmic bulk modulus: slope of void ratio against ln p in unloading");
   porous.number("e0", "", Range::positive(), "initial void ratio");
-  porous.number("p0", "Pa", Range::non_negative(), "initial pressure, where J_el = 1").by_default(0.0);
-  porous.number("pt_el", "Pa", Range::non_negative(), "tensile limit: the pressure stays above -pt_el").by_default(0.0);
-  porous.number("nu", "", poisson, "Poisson's ratio, with G from the bulk modulus at the start of a step").optional();
+  porous.number("p0", "Pa", Range::non_negative(), "initial pressure, where J_el = 1")
+      .by_default(0.0);
+  porous
+      .number("pt_el", "Pa", Range::non_negative(),
+              "tensile limit: the pressure stays above -pt_el")
+      .by_default(0.0);
+  porous
+      .number("nu", "", poisson,
+              "Poisson's ratio, with G from the bulk modulus at the start of a step")
+      .optional();
   porous.number("G", "Pa", Range::positive(), "constant shear modulus, instead of nu").optional();
   return {"elasticity",
           {{"linear", "constant Young's modulus and Poisson's ratio", linear},
@@ -40,9 +48,11 @@ ElasticityParameters make_elasticity(const SectionOptions& section) {
   e.p0 = o.number("p0");
   e.limit = o.number("pt_el");
   if (e.p0 + e.limit <= 0.0)
-    throw InputError(o.where("p0"), "and 'pt_el' are both 0: the bulk modulus would be 0", "p0 + pt_el > 0 [Pa]");
+    throw InputError(o.where("p0"), "and 'pt_el' are both 0: the bulk modulus would be 0",
+                     "p0 + pt_el > 0 [Pa]");
   if (o.has("nu") == o.has("G"))
-    throw InputError(o.subject(), o.has("nu") ? "has both 'nu' and 'G'" : "has neither 'nu' nor 'G'",
+    throw InputError(o.subject(),
+                     o.has("nu") ? "has both 'nu' and 'G'" : "has neither 'nu' nor 'G'",
                      "exactly one of nu, G");
   if (o.has("G")) {
     e.shear = o.number("G");
@@ -53,7 +63,9 @@ ElasticityParameters make_elasticity(const SectionOptions& section) {
   return e;
 }
 
-double initial_pressure(const ElasticityParameters& parameters) { return parameters.porous ? parameters.p0 : 0.0; }
+double initial_pressure(const ElasticityParameters& parameters) {
+  return parameters.porous ? parameters.p0 : 0.0;
+}
 
 ElasticModuli moduli_at(const ElasticityParameters& e, double p) {
   if (!e.porous) return {e.bulk, e.shear};
@@ -62,7 +74,8 @@ ElasticModuli moduli_at(const ElasticityParameters& e, double p) {
   return {bulk, e.shear_ratio > 0.0 ? e.shear_ratio * bulk : e.shear};
 }
 
-double largest_elastic_wave_speed(const ElasticityParameters& e, double density, const PointBlock& block) {
+double largest_elastic_wave_speed(const ElasticityParameters& e, double density,
+                                  const PointBlock& block) {
   const double* const volume = block.state[field::volume_ratio];
   double largest = 0.0;  // of modulus times J
   if (!e.porous) {

@@ -8,7 +8,8 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-/// The elastic response of a step, from pressure p_n. x is the elastic volumetric strain of the step, compression positive.
+/// The elastic response of a step, from pressure p_n. x is the elastic volumetric strain of the
+/// step, compression positive.
 struct ElasticStep {
   const ElasticityParameters& parameters;
   Lanes p_n;
@@ -22,12 +23,15 @@ struct ElasticStep {
       return;
     }
     const Lanes c = parameters.stiffness;
-    ratio = Lanes(1.0) - logarithm((p_n + parameters.limit) / Lanes(parameters.p0 + parameters.limit)) / c;
-    shear = parameters.shear_ratio > 0.0 ? Lanes(parameters.shear_ratio) * (p_n + parameters.limit) * c * ratio
-                                         : Lanes(parameters.shear);
+    ratio = Lanes(1.0) -
+            logarithm((p_n + parameters.limit) / Lanes(parameters.p0 + parameters.limit)) / c;
+    shear = parameters.shear_ratio > 0.0
+                ? Lanes(parameters.shear_ratio) * (p_n + parameters.limit) * c * ratio
+                : Lanes(parameters.shear);
   }
 
-  /// p(x), increasing. The largest exponent, exp(300), only bounds trial states of the return mapping.
+  /// p(x), increasing. The largest exponent, exp(300), only bounds trial states of the return
+  /// mapping.
   FURROW_INLINE Lanes pressure(const Lanes& x) const {
     if (!parameters.porous) return p_n + Lanes(parameters.bulk) * x;
     const Lanes exponent = Lanes(parameters.stiffness) * ratio * (Lanes(1.0) - exponential(-x));
@@ -44,8 +48,9 @@ struct ElasticStep {
     const Lanes exponent = logarithm((p + parameters.limit) / (p_n + parameters.limit));
     return -logarithm(Lanes(1.0) - exponent / (Lanes(parameters.stiffness) * ratio));
   }
-  /// Elastic work of the step per current volume, volumetric part, from p_n to p = pressure(x): the integral of p dx.
-  /// Exact for linear elasticity; porous: dx = dp / ((p + limit) c J_el) with the mean J_el, J_el(n+1) = J_el(n) exp(-x).
+  /// Elastic work of the step per current volume, volumetric part, from p_n to p = pressure(x): the
+  /// integral of p dx. Exact for linear elasticity; porous: dx = dp / ((p + limit) c J_el) with the
+  /// mean J_el, J_el(n+1) = J_el(n) exp(-x).
   FURROW_INLINE Lanes volumetric_work(const Lanes& x, const Lanes& p) const {
     if (!parameters.porous) return Lanes(0.5) * (p_n + p) * x;
     const Lanes mean_ratio = Lanes(0.5) * ratio * (Lanes(1.0) + exponential(-x));

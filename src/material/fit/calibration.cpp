@@ -17,9 +17,11 @@ namespace furrow {
 
 namespace {
 
-/// A direction with a singular value below this part of the largest cannot be told from the noise of the differences.
+/// A direction with a singular value below this part of the largest cannot be told from the noise
+/// of the differences.
 constexpr double least_singular_ratio = 1e-5;
-/// A parameter known no better than this (of ln, or of its scale) is not determined: a factor of e either way.
+/// A parameter known no better than this (of ln, or of its scale) is not determined: a factor of e
+/// either way.
 constexpr double most_deviation = 1.0;
 
 /// Residuals of all curves as a function of the parameters.
@@ -31,8 +33,8 @@ class Residuals {
     for (std::size_t i = 0; i < problem.parameters.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j)
         if (problem.parameters[j].name == problem.parameters[i].name)
-          throw InputError(fmt::format("parameter '{}'", problem.parameters[i].name), "is given twice",
-                           "each parameter once");
+          throw InputError(fmt::format("parameter '{}'", problem.parameters[i].name),
+                           "is given twice", "each parameter once");
       variables_.emplace_back(law, options, sections_, problem.parameters[i]);
     }
     const auto material = make_material(problem.law, problem.sections);
@@ -40,19 +42,22 @@ class Residuals {
       find_point_channel(*material, curve.channel);
       if (curve.measured.size() != curve.path.segments.size())
         throw InputError("curve " + curve.name,
-                         fmt::format("has {} values for {} segments", curve.measured.size(), curve.path.segments.size()),
+                         fmt::format("has {} values for {} segments", curve.measured.size(),
+                                     curve.path.segments.size()),
                          "a value for each segment");
       for (const double value : curve.measured) {
         if (std::isnan(value)) continue;
         if (curve.relative && value <= 0.0)
-          throw InputError("curve " + curve.name, fmt::format("has the value {} and is compared in logarithms", value),
+          throw InputError("curve " + curve.name,
+                           fmt::format("has the value {} and is compared in logarithms", value),
                            "values > 0", "use scale: linear");
         ++count_;
       }
     }
     if (variables_.empty()) throw InputError("fit", "has no parameter", "at least one");
     if (count_ < variables_.size())
-      throw InputError("fit", fmt::format("has {} parameters for {} data", variables_.size(), count_),
+      throw InputError("fit",
+                       fmt::format("has {} parameters for {} data", variables_.size(), count_),
                        "at least as many data as parameters");
   }
 
@@ -62,7 +67,8 @@ class Residuals {
   int evaluations() const { return evaluations_; }
   MaterialSections sections_at(const VectorX& z) const {
     MaterialSections sections = sections_;
-    for (std::size_t i = 0; i < variables_.size(); ++i) variables_[i].put(sections, z[static_cast<Eigen::Index>(i)]);
+    for (std::size_t i = 0; i < variables_.size(); ++i)
+      variables_[i].put(sections, z[static_cast<Eigen::Index>(i)]);
     return sections;
   }
   VectorX z_of_t(const VectorX& t) const {
@@ -71,7 +77,8 @@ class Residuals {
     return z;
   }
 
-  /// @throws StateError, InputError when the parameters are no material or the path cannot be followed
+  /// @throws StateError, InputError when the parameters are no material or the path cannot be
+  /// followed
   std::vector<std::vector<double>> curves_at(const VectorX& z) const {
     ++evaluations_;
     const auto material = make_material(problem_.law, sections_at(z));
@@ -81,7 +88,8 @@ class Residuals {
       const PointChannel channel = find_point_channel(*material, curve.channel);
       std::vector<double> values;
       for (const PointRecord& record : history.records)
-        if (record.segment > 0 && record.step == curve.path.segments[std::size_t(record.segment) - 1].steps) {
+        if (record.segment > 0 &&
+            record.step == curve.path.segments[std::size_t(record.segment) - 1].steps) {
           const double measured = curve.measured[values.size()];
           values.push_back(std::isnan(measured) ? measured : channel.value(record));
         }
@@ -100,15 +108,17 @@ class Residuals {
         const double model = curves[c][i], measured = curve.measured[i];
         if (std::isnan(measured)) continue;
         if (curve.relative && model <= 0.0)
-          throw StateError(fmt::format("curve {}: {} is {} at point {} and is compared in logarithms", curve.name,
-                                       curve.channel, model, i + 1));
+          throw StateError(
+              fmt::format("curve {}: {} is {} at point {} and is compared in logarithms",
+                          curve.name, curve.channel, model, i + 1));
         const double difference = curve.relative ? std::log(model / measured) : model - measured;
         r[row++] = difference / (curve.deviation > 0.0 ? curve.deviation : 1.0);
       }
     }
     return r;
   }
-  /// Derivative with respect to z by central differences, one-sided at a bound. False where a parameter can go neither way.
+  /// Derivative with respect to z by central differences, one-sided at a bound. False where a
+  /// parameter can go neither way.
   bool slope(const VectorX& z, Eigen::MatrixXd& jacobian) const {
     jacobian.resize(data(), parameters());
     for (Eigen::Index j = 0; j < z.size(); ++j) {
@@ -142,7 +152,9 @@ class Residuals {
 /// The interface of Eigen's Levenberg–Marquardt, in the unbounded variables t.
 struct Functor : Eigen::DenseFunctor<double> {
   Functor(const Residuals& r, double large_value)
-      : Eigen::DenseFunctor<double>(int(r.parameters()), int(r.data())), residuals(r), large(large_value) {}
+      : Eigen::DenseFunctor<double>(int(r.parameters()), int(r.data())),
+        residuals(r),
+        large(large_value) {}
 
   int operator()(const VectorX& t, VectorX& r) const {
     if (!residuals.try_at(residuals.z_of_t(t), r))
@@ -164,10 +176,12 @@ struct Functor : Eigen::DenseFunctor<double> {
 double rms(const VectorX& r) { return std::sqrt(r.squaredNorm() / double(r.size())); }
 
 /// Uncertainties at the solution, and what the data leave open.
-void judge(const FitProblem& problem, const Residuals& residuals, const VectorX& z, FitResult& result) {
+void judge(const FitProblem& problem, const Residuals& residuals, const VectorX& z,
+           FitResult& result) {
   const Eigen::Index n = residuals.parameters(), m = residuals.data();
   Eigen::MatrixXd jacobian;
-  if (!residuals.slope(z, jacobian)) throw StateError("fit: the curves cannot be computed on either side of the solution");
+  if (!residuals.slope(z, jacobian))
+    throw StateError("fit: the curves cannot be computed on either side of the solution");
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeThinU | Eigen::ComputeThinV);
   result.singular_values = svd.singularValues();
   result.directions = svd.matrixV();
@@ -175,7 +189,8 @@ void judge(const FitProblem& problem, const Residuals& residuals, const VectorX&
 
   bool all_known = true;
   for (const FitCurve& curve : problem.curves) all_known = all_known && curve.deviation > 0.0;
-  result.scatter = all_known || m == n ? 1.0 : std::sqrt(residuals.at(z).squaredNorm() / double(m - n));
+  result.scatter =
+      all_known || m == n ? 1.0 : std::sqrt(residuals.at(z).squaredNorm() / double(m - n));
   const bool no_scatter = !all_known && m == n;
 
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
@@ -190,16 +205,18 @@ void judge(const FitProblem& problem, const Residuals& residuals, const VectorX&
         if (std::abs(v[i]) > 0.1) partners.push_back(problem.parameters[std::size_t(i)].name);
       for (Eigen::Index i = 0; i < n; ++i)
         if (std::abs(v[i]) > 0.1)
-          open[std::size_t(i)] =
-              partners.size() == 1 ? "the curves do not depend on it"
-                                   : fmt::format("the curves depend only on a combination of {}", fmt::join(partners, ", "));
+          open[std::size_t(i)] = partners.size() == 1
+                                     ? "the curves do not depend on it"
+                                     : fmt::format("the curves depend only on a combination of {}",
+                                                   fmt::join(partners, ", "));
     }
   }
   result.correlation = Eigen::MatrixXd::Identity(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
       if (i != j && covariance(i, i) > 0.0 && covariance(j, j) > 0.0)
-        result.correlation(i, j) = covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
+        result.correlation(i, j) =
+            covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
 
   for (Eigen::Index i = 0; i < n; ++i) {
     const FitVariable& variable = residuals.variables()[std::size_t(i)];
@@ -209,17 +226,20 @@ void judge(const FitProblem& problem, const Residuals& residuals, const VectorX&
     p.start = variable.start();
     p.value = variable.value_of(z[i]);
     p.logarithmic = variable.logarithmic();
-    p.scaled_deviation =
-        !open[std::size_t(i)].empty() ? std::numeric_limits<double>::infinity() : std::sqrt(covariance(i, i));
+    p.scaled_deviation = !open[std::size_t(i)].empty() ? std::numeric_limits<double>::infinity()
+                                                       : std::sqrt(covariance(i, i));
     p.deviation = p.scaled_deviation * (p.logarithmic ? p.value : variable.scale());
     if (!open[std::size_t(i)].empty()) {
       p.determined = false;
       p.remark = open[std::size_t(i)];
     } else if (p.scaled_deviation > most_deviation) {
       p.determined = false;
-      p.remark = p.logarithmic ? "known to no better than a factor of e" : "known no better than its range or size";
+      p.remark = p.logarithmic ? "known to no better than a factor of e"
+                               : "known no better than its range or size";
     } else if (no_scatter) {
-      p.remark = "as many data as parameters: no scatter to judge by, unless the deviation of the data is given";
+      p.remark =
+          "as many data as parameters: no scatter to judge by, unless the deviation of the data is "
+          "given";
       p.scaled_deviation = p.deviation = std::numeric_limits<double>::quiet_NaN();
     }
     const std::string bound = variable.bound_met(z[i]);
@@ -236,7 +256,8 @@ void judge(const FitProblem& problem, const Residuals& residuals, const VectorX&
 FitResult fit_material(const FitProblem& problem) {
   const Residuals residuals(problem);
   VectorX t(residuals.parameters());
-  for (Eigen::Index i = 0; i < t.size(); ++i) t[i] = residuals.variables()[std::size_t(i)].start_t();
+  for (Eigen::Index i = 0; i < t.size(); ++i)
+    t[i] = residuals.variables()[std::size_t(i)].start_t();
   FitResult result;
   result.data = std::size_t(residuals.data());
   const VectorX at_start = residuals.at(residuals.z_of_t(t));  // throws with the cause
@@ -246,7 +267,8 @@ FitResult fit_material(const FitProblem& problem) {
 
   Functor functor(residuals, 1e3 * (at_start.lpNorm<Eigen::Infinity>() + 1.0));
   Eigen::LevenbergMarquardt<Functor> method(functor);
-  method.setFtol(1e-12);  // the curves themselves are known to the paths' tolerance, 1e-10 unless changed
+  // the curves themselves are known to the paths' tolerance, 1e-10 unless changed
+  method.setFtol(1e-12);
   method.setXtol(1e-9);
   method.setGtol(0.0);
   method.setMaxfev(400);

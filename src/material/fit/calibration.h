@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Adjusts parameters of a law to measured curves by least squares (Levenberg–Marquardt of MINPACK, as Eigen has it), and
-/// says how well the data determine each of them.
+/// Adjusts parameters of a law to measured curves by least squares (Levenberg–Marquardt of MINPACK,
+/// as Eigen has it), and says how well the data determine each of them.
 ///
-/// Residuals: r = (model - measured)/deviation, or ln(model/measured)/deviation for relative data. Positive parameters are
-/// fitted in their logarithm; bounds are kept by a smooth map. Uncertainties come from the Jacobian J of the residuals with
-/// respect to the scaled parameters z at the solution: covariance = s^2 (J^T J)^-1, with s^2 = sum r^2/(data - parameters)
-/// where the deviation of the data is not known, else s = 1. It is linear: true near the solution, for small errors.
+/// Residuals: r = (model - measured)/deviation, or ln(model/measured)/deviation for relative data.
+/// Positive parameters are fitted in their logarithm; bounds are kept by a smooth map.
+/// Uncertainties come from the Jacobian J of the residuals with respect to the scaled parameters z
+/// at the solution: covariance = s^2 (J^T J)^-1, with s^2 = sum r^2/(data - parameters) where the
+/// deviation of the data is not known, else s = 1. It is linear: true near the solution, for small
+/// errors.
 
 #include <limits>
 #include <optional>
@@ -22,9 +24,11 @@ namespace furrow {
 
 /// A value of a law that may change.
 struct FitParameter {
-  std::string name;             ///< "law.d", "elasticity.E", or one of a list: "hardening.p[2]", counted from 1
+  /// "law.d", "elasticity.E", or one of a list: "hardening.p[2]", counted from 1
+  std::string name;
   std::optional<double> start;  ///< else the material's value
-  double lower = -std::numeric_limits<double>::infinity();  ///< bounds besides the key's declared range
+  /// bounds besides the key's declared range
+  double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
 };
 
@@ -35,7 +39,8 @@ struct FitCurve {
   std::string channel;           ///< of point_channels(): what was measured
   std::vector<double> measured;  ///< at the end of each segment; NaN where there is none
   bool relative = false;         ///< compare logarithms
-  double deviation = 0.0;  ///< standard deviation of a value (of its logarithm when relative); 0: unknown, the same for all
+  /// standard deviation of a value (of its logarithm when relative); 0: unknown, the same for all
+  double deviation = 0.0;
 };
 
 struct FitProblem {
@@ -50,8 +55,9 @@ struct FittedParameter {
   std::string name, unit;
   double start = 0.0, value = 0.0;
   bool logarithmic = false;
-  double scaled_deviation = 0.0;  ///< standard deviation of z: of ln(value), or of value/scale; infinite when undetermined
-  double deviation = 0.0;         ///< standard deviation of the value, linearised
+  /// standard deviation of z: of ln(value), or of value/scale; infinite when undetermined
+  double scaled_deviation = 0.0;
+  double deviation = 0.0;  ///< standard deviation of the value, linearised
   bool determined = true;
   std::string remark;  ///< why it is not determined, or that it stands at a bound
 };
@@ -66,13 +72,15 @@ struct FitResult {
   double scatter = 1.0;               ///< s
   Eigen::MatrixXd correlation;        ///< of the determined part
   VectorX singular_values;            ///< of J, largest first
-  Eigen::MatrixXd directions;         ///< column k: the scaled parameters' direction of singular value k
+  /// column k: the scaled parameters' direction of singular value k
+  Eigen::MatrixXd directions;
   int evaluations = 0;
   std::string end;  ///< why the iteration ended
   bool converged = false;
 };
 
-/// @throws InputError for an unknown parameter or channel, fewer data than parameters, relative data that are not positive;
+/// @throws InputError for an unknown parameter or channel, fewer data than parameters, relative
+/// data that are not positive;
 ///         StateError when the curves cannot be computed at the start
 FitResult fit_material(const FitProblem& problem);
 

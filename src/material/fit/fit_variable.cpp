@@ -24,10 +24,13 @@ Place place_of(const std::string& name, const std::string& where) {
   Place place{name.substr(0, dot), dot == std::string::npos ? "" : name.substr(dot + 1), {}};
   if (place.key.empty() || place.key.back() != ']') return place;
   const std::size_t bracket = place.key.find('[');
-  const std::string digits =
-      bracket == std::string::npos ? "" : place.key.substr(bracket + 1, place.key.size() - bracket - 2);
-  const bool number = !digits.empty() && digits.size() < 7 && digits.find_first_not_of("0123456789") == std::string::npos;
-  if (!number || std::stoul(digits) == 0) throw InputError(where, "has no place in its list", "section.key[n], n from 1");
+  const std::string digits = bracket == std::string::npos
+                                 ? ""
+                                 : place.key.substr(bracket + 1, place.key.size() - bracket - 2);
+  const bool number = !digits.empty() && digits.size() < 7 &&
+                      digits.find_first_not_of("0123456789") == std::string::npos;
+  if (!number || std::stoul(digits) == 0)
+    throw InputError(where, "has no place in its list", "section.key[n], n from 1");
   place.index = std::stoul(digits) - 1;
   place.key.resize(bracket);
   return place;
@@ -37,7 +40,8 @@ const Key* key_of(const Law& law, const MaterialOptions& options, const Place& p
   const auto section = options.find(place.section);
   if (section == options.end() || !section->second.options.has(place.key)) return nullptr;
   for (const SectionSchema& candidate : law.sections)
-    if (candidate.name == place.section) return candidate.choice(section->second.type).schema.find(place.key);
+    if (candidate.name == place.section)
+      return candidate.choice(section->second.type).schema.find(place.key);
   return nullptr;
 }
 
@@ -78,8 +82,9 @@ FitVariable::FitVariable(const Law& law, const MaterialOptions& options, Materia
     throw InputError(where, fmt::format("has the bounds {} and {}", lower_, upper_),
                      "lower < upper, within " + key->range.text());
   if (!key->range.contains(start_) || start_ < lower_ || start_ > upper_)
-    throw InputError(where, fmt::format("starts at {}", start_),
-                     fmt::format("a start in [{}, {}], within {}", lower_, upper_, key->range.text()));
+    throw InputError(
+        where, fmt::format("starts at {}", start_),
+        fmt::format("a start in [{}, {}], within {}", lower_, upper_, key->range.text()));
   logarithmic_ = lower_ >= 0.0 && start_ > 0.0;
   if (!logarithmic_) {
     const bool interval = std::isfinite(lower_) && std::isfinite(upper_);
@@ -94,7 +99,8 @@ FitVariable::FitVariable(const Law& law, const MaterialOptions& options, Materia
   std::vector<Entry>& entries = sections[section_];
   Entry entry{key_, {}};
   for (const double value : values) entry.values.push_back(fmt::format("{:.17g}", value));
-  const auto found = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.key == key_; });
+  const auto found =
+      std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.key == key_; });
   if (found == entries.end())
     entries.push_back(entry);
   else
@@ -103,10 +109,13 @@ FitVariable::FitVariable(const Law& law, const MaterialOptions& options, Materia
 
 bool FitVariable::bounded() const { return std::isfinite(low_) && std::isfinite(high_); }
 
-double FitVariable::z_of(double value) const { return logarithmic_ ? std::log(value) : value / scale_; }
+double FitVariable::z_of(double value) const {
+  return logarithmic_ ? std::log(value) : value / scale_;
+}
 
 double FitVariable::value_of(double z) const {
-  return std::clamp(logarithmic_ ? std::exp(z) : z * scale_, lower_, upper_);  // rounding must not leave the range
+  // rounding must not leave the range
+  return std::clamp(logarithmic_ ? std::exp(z) : z * scale_, lower_, upper_);
 }
 
 double FitVariable::start_t() const {
@@ -118,7 +127,8 @@ double FitVariable::start_t() const {
 }
 
 double FitVariable::z_of_t(double t) const {
-  return bounded() ? low_ + (high_ - low_) * 0.5 * (1.0 + std::tanh(t)) : std::clamp(t, low_, high_);
+  return bounded() ? low_ + (high_ - low_) * 0.5 * (1.0 + std::tanh(t))
+                   : std::clamp(t, low_, high_);
 }
 
 void FitVariable::put(MaterialSections& sections, double z) const {

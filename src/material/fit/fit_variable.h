@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// One parameter of a fit: its place among a material's values, and the variables that the method and its judgement use.
+/// One parameter of a fit: its place among a material's values, and the variables that the method
+/// and its judgement use.
 ///
 ///   value  <->  z, scaled: ln(value) where only positive values are allowed, else value/scale
-///   z      <->  t, unbounded: z = low + (high - low)(1 + tanh t)/2 between two bounds, else z = t up to the one bound
+///   z      <->  t, unbounded: z = low + (high - low)(1 + tanh t)/2 between two bounds, else z = t
+///   up to the one bound
 
 #include <string>
 #include <utility>
@@ -16,9 +18,12 @@ namespace furrow {
 class FitVariable {
  public:
   /// @param options   the material's values
-  /// @param sections  the same as text; the parameter's key is written into them, so that put() finds it
-  /// @throws InputError for an unknown key, a list without place, bounds or a start outside the key's range
-  FitVariable(const Law& law, const MaterialOptions& options, MaterialSections& sections, const FitParameter& parameter);
+  /// @param sections  the same as text; the parameter's key is written into them, so that put()
+  /// finds it
+  /// @throws InputError for an unknown key, a list without place, bounds or a start outside the
+  /// key's range
+  FitVariable(const Law& law, const MaterialOptions& options, MaterialSections& sections,
+              const FitParameter& parameter);
 
   double start_t() const;
   double z_of_t(double t) const;

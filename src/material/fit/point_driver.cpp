@@ -23,7 +23,8 @@ bool is_diagonal(const Vector6& e) { return e.tail<3>().isZero(0.0); }
 
 Matrix3 exponential(const Vector6& e) {
   const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(to_matrix(e));
-  return eigen.eigenvectors() * eigen.eigenvalues().array().exp().matrix().asDiagonal() * eigen.eigenvectors().transpose();
+  return eigen.eigenvectors() * eigen.eigenvalues().array().exp().matrix().asDiagonal() *
+         eigen.eigenvectors().transpose();
 }
 
 Matrix3 deformation(Motion motion, const Vector6& e) {
@@ -35,7 +36,8 @@ Matrix3 deformation(Motion motion, const Vector6& e) {
   return f;
 }
 
-/// H = F_1 F_0^-1 - I. Without shears the exact difference of logarithms is used, so that small steps lose no digits.
+/// H = F_1 F_0^-1 - I. Without shears the exact difference of logarithms is used, so that small
+/// steps lose no digits.
 Matrix3 step_gradient(Motion motion, const Vector6& from, const Vector6& to) {
   if (is_diagonal(from) && is_diagonal(to)) {
     Matrix3 h = Matrix3::Zero();
@@ -50,7 +52,8 @@ Vector6 spatial_strain(Motion motion, const Vector6& e) {
   if (motion == Motion::stretch || is_diagonal(e)) return e;
   const Matrix3 f = deformation(motion, e);
   const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(f * f.transpose());
-  return to_vector6(eigen.eigenvectors() * (0.5 * eigen.eigenvalues().array().log()).matrix().asDiagonal() *
+  return to_vector6(eigen.eigenvectors() *
+                    (0.5 * eigen.eigenvalues().array().log()).matrix().asDiagonal() *
                     eigen.eigenvectors().transpose());
 }
 
@@ -68,7 +71,8 @@ class Stepper {
   /// Takes the controlled values to `target` over this step. @throws StateError
   void advance(const std::array<Control, 6>& control, const Vector6& target) {
     Vector6 start;
-    for (int c = 0; c < 6; ++c) start[c] = control[std::size_t(c)] == Control::strain ? variable_[c] : state_[c];
+    for (int c = 0; c < 6; ++c)
+      start[c] = control[std::size_t(c)] == Control::strain ? variable_[c] : state_[c];
     const std::string cause = advance_part(control, start, target, 0);
     if (!cause.empty()) throw StateError(cause);
     ++cost_.steps;
@@ -91,7 +95,8 @@ class Stepper {
     trial.variable = variable;
     trial.state = state_;
     try {
-      trial.report = material_.update_point(step_gradient(path_.motion, variable_, variable), trial.state, &trial.branch);
+      trial.report = material_.update_point(step_gradient(path_.motion, variable_, variable),
+                                            trial.state, &trial.branch);
     } catch (const StateError& error) {
       refusal = error.what();
       return false;
@@ -100,9 +105,11 @@ class Stepper {
   }
 
   /// One step of the solver; cut in halves where it fails. Empty when it succeeded, else the cause.
-  std::string advance_part(const std::array<Control, 6>& control, const Vector6& from, const Vector6& to, int depth) {
+  std::string advance_part(const std::array<Control, 6>& control, const Vector6& from,
+                           const Vector6& to, int depth) {
     std::string cause;
-    for (const bool follow : {true, false}) {  // first guess: on as before; second: unknown strains stay
+    // first guess: on as before; second: unknown strains stay
+    for (const bool follow : {true, false}) {
       Vector6 guess = follow ? Vector6(variable_ + last_change_ * std::pow(0.5, depth)) : variable_;
       cause = solve(control, to, guess);
       if (cause.empty()) return cause;
@@ -126,15 +133,16 @@ class Stepper {
     const auto n = static_cast<Eigen::Index>(unknown.size());
     const auto residual_of = [&](const Trial& trial) {
       VectorX r(n);
-      for (Eigen::Index i = 0; i < n; ++i) r[i] = trial.state[unknown[std::size_t(i)]] - target[unknown[std::size_t(i)]];
+      for (Eigen::Index i = 0; i < n; ++i)
+        r[i] = trial.state[unknown[std::size_t(i)]] - target[unknown[std::size_t(i)]];
       return r;
     };
     const double modulus = material_.moduli(state_).wave();
     double target_size = 0.0;
     for (const int c : unknown) target_size = std::max(target_size, std::abs(target[c]));
     const auto size_of = [&](const Trial& trial) {
-      const double stress =
-          std::max(stress_of(state_).lpNorm<Eigen::Infinity>(), stress_of(trial.state).lpNorm<Eigen::Infinity>());
+      const double stress = std::max(stress_of(state_).lpNorm<Eigen::Infinity>(),
+                                     stress_of(trial.state).lpNorm<Eigen::Infinity>());
       return std::max({stress, target_size, std::numeric_limits<double>::min()});
     };
     // Rounding of a deformation of order one shows in the stress as this much.
@@ -147,23 +155,29 @@ class Stepper {
     int iteration = 0;
     while (n > 0 && r.lpNorm<Eigen::Infinity>() > path_.tolerance * size_of(trial) + rounding) {
       if (++iteration > most_iterations)
-        return describe(unknown, target, trial, fmt::format("no convergence in {} Newton iterations", most_iterations));
+        return describe(unknown, target, trial,
+                        fmt::format("no convergence in {} Newton iterations", most_iterations));
       Eigen::MatrixXd jacobian(n, n);
       for (Eigen::Index j = 0; j < n; ++j) {
-        const double h = 1e-7;  // the stresses are known to about 1e-16 of a modulus: the derivative to 1e-9 of it
+        // the stresses are known to about 1e-16 of a modulus: the derivative to 1e-9 of it
+        const double h = 1e-7;
         Vector6 up = e, down = e;
         up[unknown[std::size_t(j)]] += h;
         down[unknown[std::size_t(j)]] -= h;
         Trial ahead, behind;
-        const bool has_ahead = update(up, ahead, refusal), has_behind = update(down, behind, refusal);
+        const bool has_ahead = update(up, ahead, refusal),
+                   has_behind = update(down, behind, refusal);
         if (!has_ahead && !has_behind) return refusal;
         const Trial& high = has_ahead ? ahead : trial;
         const Trial& low = has_behind ? behind : trial;
-        jacobian.col(j) = (residual_of(high) - residual_of(low)) / (h * (int(has_ahead) + int(has_behind)));
+        jacobian.col(j) =
+            (residual_of(high) - residual_of(low)) / (h * (int(has_ahead) + int(has_behind)));
       }
       Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(jacobian);
       factors.setThreshold(1e-13);
-      if (factors.rank() < n) return describe(unknown, target, trial, "the stiffness of the controlled components vanishes");
+      if (factors.rank() < n)
+        return describe(unknown, target, trial,
+                        "the stiffness of the controlled components vanishes");
       VectorX change = factors.solve(-r);
       const double longest = change.lpNorm<Eigen::Infinity>();
       if (!(longest < std::numeric_limits<double>::infinity()))
@@ -184,11 +198,14 @@ class Stepper {
           better = true;
         }
       }
-      if (!better) return describe(unknown, target, trial, "no step along Newton's direction comes nearer");
+      if (!better)
+        return describe(unknown, target, trial, "no step along Newton's direction comes nearer");
     }
     cost_.newton_iterations += iteration;
     cost_.most_newton_iterations = std::max(cost_.most_newton_iterations, iteration);
-    if (n > 0) cost_.largest_residual = std::max(cost_.largest_residual, r.lpNorm<Eigen::Infinity>() / size_of(trial));
+    if (n > 0)
+      cost_.largest_residual =
+          std::max(cost_.largest_residual, r.lpNorm<Eigen::Infinity>() / size_of(trial));
     cost_.updates += trial.report;
     last_change_ = trial.variable - variable_;
     variable_ = trial.variable;
@@ -197,14 +214,16 @@ class Stepper {
     return {};
   }
 
-  static std::string describe(const std::vector<int>& unknown, const Vector6& target, const Trial& trial,
-                              const std::string& cause) {
+  static std::string describe(const std::vector<int>& unknown, const Vector6& target,
+                              const Trial& trial, const std::string& cause) {
     std::string text;
     for (const int c : unknown)
-      text += fmt::format("{}stress_{} = {:.6g} Pa (nearest {:.6g})", text.empty() ? "" : ", ", components[std::size_t(c)],
-                          target[c], trial.state[c]);
-    return fmt::format("cannot reach {}: {} (beyond a strength, or while the point softens, control strains instead)", text,
-                       cause);
+      text += fmt::format("{}stress_{} = {:.6g} Pa (nearest {:.6g})", text.empty() ? "" : ", ",
+                          components[std::size_t(c)], target[c], trial.state[c]);
+    return fmt::format(
+        "cannot reach {}: {} (beyond a strength, or while the point softens, control strains "
+        "instead)",
+        text, cause);
   }
 
   const Material& material_;
@@ -219,12 +238,14 @@ class Stepper {
 }  // namespace
 
 PointHistory drive_point(const Material& material, const PointPath& path) {
-  if (path.segments.empty()) throw InputError("path " + path.type, "has no segment", "at least one target");
+  if (path.segments.empty())
+    throw InputError("path " + path.type, "has no segment", "at least one target");
   Stepper point(material, path);
   PointHistory history;
   const auto record = [&](int segment, int step) {
-    history.records.push_back(
-        {segment, step, point.variable(), spatial_strain(path.motion, point.variable()), point.state(), point.branch()});
+    history.records.push_back({segment, step, point.variable(),
+                               spatial_strain(path.motion, point.variable()), point.state(),
+                               point.branch()});
   };
   record(0, 0);
   Vector6 origin = Vector6::Zero();  // of strain targets
@@ -235,7 +256,8 @@ PointHistory drive_point(const Material& material, const PointPath& path) {
     for (int c = 0; c < 6; ++c) {
       const auto k = static_cast<std::size_t>(c);
       const bool strain = segment.control[k] == Control::strain;
-      if (path.strain_from_switch && strain && before[k] == Control::stress) origin[c] = point.variable()[c];
+      if (path.strain_from_switch && strain && before[k] == Control::stress)
+        origin[c] = point.variable()[c];
       from[c] = strain ? point.variable()[c] : point.state()[c];
       to[c] = segment.target[c] + (strain ? origin[c] : 0.0);
     }
@@ -248,9 +270,11 @@ PointHistory drive_point(const Material& material, const PointPath& path) {
         point.advance(segment.control, target);
       } catch (const StateError& error) {
         const Invariants now = invariants(stress_of(point.state()));
-        throw StateError(fmt::format(
-            "path {}, segment {}, step {} of {}: {}; the point stands at p = {:.6g} Pa, q = {:.6g} Pa, density {:.6g} kg/m3",
-            path.type, s + 1, step, segment.steps, error.what(), now.p, now.q, material.current_density(point.state())));
+        throw StateError(
+            fmt::format("path {}, segment {}, step {} of {}: {}; the point stands at p = {:.6g} "
+                        "Pa, q = {:.6g} Pa, density {:.6g} kg/m3",
+                        path.type, s + 1, step, segment.steps, error.what(), now.p, now.q,
+                        material.current_density(point.state())));
       }
       record(static_cast<int>(s) + 1, step);
     }
@@ -261,28 +285,35 @@ PointHistory drive_point(const Material& material, const PointPath& path) {
 
 std::vector<PointChannel> point_channels(const Material& material) {
   std::vector<PointChannel> channels;
-  const auto add = [&](const std::string& name, const std::string& unit, const std::string& meaning, auto value) {
+  const auto add = [&](const std::string& name, const std::string& unit, const std::string& meaning,
+                       auto value) {
     channels.push_back({name, unit, meaning, value});
   };
-  add("segment", "", "piece of the path, 0 at the start", [](const PointRecord& r) { return double(r.segment); });
+  add("segment", "", "piece of the path, 0 at the start",
+      [](const PointRecord& r) { return double(r.segment); });
   add("step", "", "in the segment", [](const PointRecord& r) { return double(r.step); });
-  add("axial_strain", "", "-(ln V)_zz, compression positive", [](const PointRecord& r) { return -r.strain[2]; });
-  add("axial_stress", "Pa", "-sigma_zz, compression positive", [](const PointRecord& r) { return -r.state[2]; });
+  add("axial_strain", "", "-(ln V)_zz, compression positive",
+      [](const PointRecord& r) { return -r.strain[2]; });
+  add("axial_stress", "Pa", "-sigma_zz, compression positive",
+      [](const PointRecord& r) { return -r.state[2]; });
   add("shear_strain", "", "the path's variable xz: gamma = dx/dz of level planes, or (ln U)_xz",
       [](const PointRecord& r) { return r.variable[5]; });
   add("shear_stress", "Pa", "sigma_xz", [](const PointRecord& r) { return r.state[5]; });
   add("eps_vol", "", "-ln J, compression positive",
       [](const PointRecord& r) { return -std::log(r.state[field::volume_ratio]); });
-  add("p", "Pa", "pressure, compression positive", [](const PointRecord& r) { return invariants(stress_of(r.state)).p; });
-  add("q", "Pa", "Mises stress", [](const PointRecord& r) { return invariants(stress_of(r.state)).q; });
-  add("density", "kg/m3", "rho0/J", [&material](const PointRecord& r) { return material.current_density(r.state); });
+  add("p", "Pa", "pressure, compression positive",
+      [](const PointRecord& r) { return invariants(stress_of(r.state)).p; });
+  add("q", "Pa", "Mises stress",
+      [](const PointRecord& r) { return invariants(stress_of(r.state)).q; });
+  add("density", "kg/m3", "rho0/J",
+      [&material](const PointRecord& r) { return material.current_density(r.state); });
   add("branch", "", "0 elastic, 1 shear, 2 transition, 3 cap, 4 tension: of the step",
       [](const PointRecord& r) { return double(r.branch); });
   add("yield_function", "Pa", "<= 0 inside; -inf for a law that never yields",
       [&material](const PointRecord& r) { return material.yield_function(r.state); });
   for (int c = 0; c < 6; ++c)
-    add(fmt::format("strain_{}", components[std::size_t(c)]), "", "component of ln V, tension positive",
-        [c](const PointRecord& r) { return r.strain[c]; });
+    add(fmt::format("strain_{}", components[std::size_t(c)]), "",
+        "component of ln V, tension positive", [c](const PointRecord& r) { return r.strain[c]; });
   const std::vector<StateField>& fields = material.state_fields();
   for (std::size_t f = 0; f < fields.size(); ++f)
     add(fields[f].name, fields[f].unit, fields[f].meaning,
@@ -310,15 +341,17 @@ StepError step_error(const Material& material, const PointPath& path, const Poin
   for (const PointRecord& record : history.records) {
     const Invariants a = invariants(stress_of(record.state));
     scale = std::max({scale, std::abs(a.p), a.q});
-    const bool ends = record.segment > 0 && record.step == path.segments[std::size_t(record.segment) - 1].steps;
+    const bool ends =
+        record.segment > 0 && record.step == path.segments[std::size_t(record.segment) - 1].steps;
     if (!ends) continue;
-    while (other.records[i].segment != record.segment || other.records[i].step != 2 * record.step) ++i;
+    while (other.records[i].segment != record.segment || other.records[i].step != 2 * record.step)
+      ++i;
     const PointRecord& fine = other.records[i];
     const Invariants b = invariants(stress_of(fine.state));
     error.p = std::max(error.p, std::abs(a.p - b.p));
     error.q = std::max(error.q, std::abs(a.q - b.q));
-    error.eps_vol =
-        std::max(error.eps_vol, std::abs(std::log(record.state[field::volume_ratio] / fine.state[field::volume_ratio])));
+    error.eps_vol = std::max(error.eps_vol, std::abs(std::log(record.state[field::volume_ratio] /
+                                                              fine.state[field::volume_ratio])));
   }
   error.p /= scale;
   error.q /= scale;

@@ -4,8 +4,9 @@
 ///
 /// Unknown are the deformation variables of the stress-controlled components. Each step solves
 ///   sigma_c(e) = target_c for these c,    |residual| <= tolerance * (largest stress of the step),
-/// (8 epsilon of the P-wave modulus is added for rounding) by Newton's method with a difference Jacobian and a line search;
-/// a step that fails is cut in halves, and the run stops with the cause when that does not help.
+/// (8 epsilon of the P-wave modulus is added for rounding) by Newton's method with a difference
+/// Jacobian and a line search; a step that fails is cut in halves, and the run stops with the cause
+/// when that does not help.
 
 #include <functional>
 #include <string>
@@ -32,9 +33,9 @@ struct PointCost {
   long cuts = 0;   ///< halvings of a step
   long newton_iterations = 0;
   int most_newton_iterations = 0;  ///< of one step or its part
-  double largest_residual =
-      0.0;               ///< of accepted steps: controlled stress minus target, relative to the step's largest stress
-  UpdateReport updates;  ///< accepted updates by branch, and limits that were met
+  double largest_residual = 0.0;   ///< of accepted steps: controlled stress minus target, relative
+                                   ///< to the step's largest stress
+  UpdateReport updates;            ///< accepted updates by branch, and limits that were met
 };
 
 struct PointHistory {
@@ -48,16 +49,19 @@ struct PointChannel {
   std::function<double(const PointRecord&)> value;
 };
 
-/// strain_xx ... , stress_xx ..., axial_strain, axial_stress, shear_strain, shear_stress, eps_vol, p, q, density, branch,
-/// yield_function, and what the law keeps. Axial is z and compression positive; shear is xz.
+/// strain_xx ... , stress_xx ..., axial_strain, axial_stress, shear_strain, shear_stress, eps_vol,
+/// p, q, density, branch, yield_function, and what the law keeps. Axial is z and compression
+/// positive; shear is xz.
 std::vector<PointChannel> point_channels(const Material& material);
 /// @throws InputError listing the names
 PointChannel find_point_channel(const Material& material, const std::string& name);
 
-/// @throws StateError naming segment and step when a target cannot be reached, with the nearest stress and the cause
+/// @throws StateError naming segment and step when a target cannot be reached, with the nearest
+/// stress and the cause
 PointHistory drive_point(const Material& material, const PointPath& path);
 
-/// What the size of the steps costs: the same path with every step halved, compared at the ends of the segments.
+/// What the size of the steps costs: the same path with every step halved, compared at the ends of
+/// the segments.
 struct StepError {
   double p = 0.0;        ///< largest change of p, relative to the largest p or q of the run
   double q = 0.0;        ///< the same of q

@@ -18,14 +18,16 @@ enum { xx, yy, zz, xy, yz, xz };
 Schema path_schema(const std::string& name) { return Schema("path " + name); }
 
 void add_common_keys(Schema& schema) {
-  schema.integer("steps", Range::closed(1, 1e7), "steps of each straight piece of the path").by_default("100");
+  schema.integer("steps", Range::closed(1, 1e7), "steps of each straight piece of the path")
+      .by_default("100");
   schema
       .number("tolerance", "", Range::closed(1e-13, 1e-3),
               "of controlled stresses, relative to the largest stress of the step")
       .by_default(1e-10);
 }
 
-PointPath path_of(const Options& options, const std::string& type, Motion motion = Motion::stretch) {
+PointPath path_of(const Options& options, const std::string& type,
+                  Motion motion = Motion::stretch) {
   PointPath path;
   path.type = type;
   path.motion = motion;
@@ -52,9 +54,11 @@ void set_normal(PathSegment& segment, Control control, double target) {
 /// Exactly one of two lists of targets is given; says which.
 bool first_of(const Options& o, const std::string& first, const std::string& second) {
   if (o.given(first) == o.given(second))
-    throw InputError(o.subject(),
-                     fmt::format(o.given(first) ? "has both '{}' and '{}'" : "has neither '{}' nor '{}'", first, second),
-                     fmt::format("exactly one of {}, {}", first, second));
+    throw InputError(
+        o.subject(),
+        fmt::format(o.given(first) ? "has both '{}' and '{}'" : "has neither '{}' nor '{}'", first,
+                    second),
+        fmt::format("exactly one of {}, {}", first, second));
   return o.given(first);
 }
 
@@ -72,7 +76,8 @@ PathType hydrostatic() {
   return {"hydrostatic", "isotropic compression and unloading", schema, [](const Options& o) {
             PointPath path = path_of(o, "hydrostatic");
             if (first_of(o, "pressure", "volume_strain")) {
-              for (const double p : o.numbers("pressure")) set_normal(next_segment(path, o), Control::stress, -p);
+              for (const double p : o.numbers("pressure"))
+                set_normal(next_segment(path, o), Control::stress, -p);
             } else {
               for (const double eps : o.numbers("volume_strain"))
                 set_normal(next_segment(path, o), Control::strain, -eps / 3.0);
@@ -83,7 +88,9 @@ PathType hydrostatic() {
 
 PathType confined() {
   Schema schema = path_schema("confined");
-  schema.numbers("stress", 0, "Pa", Range::any(), "targets of the axial stress sigma_1 = -sigma_zz, one after the other")
+  schema
+      .numbers("stress", 0, "Pa", Range::any(),
+               "targets of the axial stress sigma_1 = -sigma_zz, one after the other")
       .optional();
   schema
       .numbers("strain", 0, "", Range::open(-20.0, 20.0),
@@ -104,12 +111,15 @@ PathType triaxial() {
   schema.number("confinement", "Pa", Range::non_negative(),
                 "pressure of the first, isotropic piece; then kept as lateral stress");
   schema.numbers("axial_strain", 0, "", Range::open(-20.0, 20.0),
-                 "targets of the axial logarithmic strain added after the isotropic piece, compression positive");
+                 "targets of the axial logarithmic strain added after the isotropic piece, "
+                 "compression positive");
   add_common_keys(schema);
-  return {"triaxial", "isotropic consolidation, then axial strain at constant lateral stress", schema, [](const Options& o) {
+  return {"triaxial", "isotropic consolidation, then axial strain at constant lateral stress",
+          schema, [](const Options& o) {
             PointPath path = path_of(o, "triaxial");
             set_normal(next_segment(path, o), Control::stress, -o.number("confinement"));
-            for (const double strain : o.numbers("axial_strain")) set(next_segment(path, o), zz, Control::strain, -strain);
+            for (const double strain : o.numbers("axial_strain"))
+              set(next_segment(path, o), zz, Control::strain, -strain);
             return path;
           }};
 }
@@ -118,18 +128,24 @@ PathType simple_shear() {
   Schema schema = path_schema("simple_shear");
   schema.number("normal_stress", "Pa", Range::any(),
                 "-sigma_zz of the first piece; then kept (volume: free) or not (volume: fixed)");
-  schema.numbers("shear", 0, "", Range::any(), "targets of the shear gamma = dx/dz, one after the other");
+  schema.numbers("shear", 0, "", Range::any(),
+                 "targets of the shear gamma = dx/dz, one after the other");
   schema
       .word("consolidation", {"confined", "isotropic"},
             "of the first piece: no lateral strain, or all normal stresses equal")
       .by_default("confined");
-  schema.word("volume", {"free", "fixed"}, "while shearing: constant normal stress, or constant height").by_default("free");
+  schema
+      .word("volume", {"free", "fixed"},
+            "while shearing: constant normal stress, or constant height")
+      .by_default("free");
   add_common_keys(schema);
-  return {"simple_shear", "compression, then shear of level planes without lateral strain", schema, [](const Options& o) {
+  return {"simple_shear", "compression, then shear of level planes without lateral strain", schema,
+          [](const Options& o) {
             PointPath path = path_of(o, "simple_shear", Motion::shear);
             PathSegment& first = next_segment(path, o);
             set(first, zz, Control::stress, -o.number("normal_stress"));
-            if (o.word("consolidation") == "isotropic") set_normal(first, Control::stress, -o.number("normal_stress"));
+            if (o.word("consolidation") == "isotropic")
+              set_normal(first, Control::stress, -o.number("normal_stress"));
             for (const double gamma : o.numbers("shear")) {
               PathSegment& segment = next_segment(path, o);
               for (const int lateral : {xx, yy}) set(segment, lateral, Control::strain, 0.0);
@@ -143,23 +159,30 @@ PathType simple_shear() {
 PathType cyclic() {
   Schema schema = path_schema("cyclic");
   schema.number("upper", "Pa", Range::any(), "upper axial stress -sigma_zz of a cycle");
-  schema.number("lower", "Pa", Range::any(), "lower axial stress -sigma_zz of a cycle").by_default(0.0);
-  schema.integer("cycles", Range::closed(1, 100000), "number of cycles; the path ends at the lower stress");
-  schema.word("lateral", {"fixed", "free"}, "no lateral strain, or lateral stress kept at `confinement`")
+  schema.number("lower", "Pa", Range::any(), "lower axial stress -sigma_zz of a cycle")
+      .by_default(0.0);
+  schema.integer("cycles", Range::closed(1, 100000),
+                 "number of cycles; the path ends at the lower stress");
+  schema
+      .word("lateral", {"fixed", "free"},
+            "no lateral strain, or lateral stress kept at `confinement`")
       .by_default("fixed");
   schema
       .number("confinement", "Pa", Range::non_negative(),
               "lateral pressure with lateral: free, 0 unless given; an isotropic piece comes first")
       .optional();
   add_common_keys(schema);
-  return {"cyclic", "axial stress up and down, with or without lateral strain", schema, [](const Options& o) {
+  return {"cyclic", "axial stress up and down, with or without lateral strain", schema,
+          [](const Options& o) {
             if (o.number("upper") <= o.number("lower"))
-              throw InputError(o.where("upper"),
-                               fmt::format("is {}, not above lower = {}", o.number("upper"), o.number("lower")),
-                               "upper > lower");
+              throw InputError(
+                  o.where("upper"),
+                  fmt::format("is {}, not above lower = {}", o.number("upper"), o.number("lower")),
+                  "upper > lower");
             PointPath path = path_of(o, "cyclic");
             if (o.word("lateral") == "free") {
-              set_normal(next_segment(path, o), Control::stress, o.given("confinement") ? -o.number("confinement") : 0.0);
+              set_normal(next_segment(path, o), Control::stress,
+                         o.given("confinement") ? -o.number("confinement") : 0.0);
             } else if (o.given("confinement")) {
               throw InputError(o.where("confinement"), "is given, but the lateral strain is fixed",
                                "confinement only with lateral: free");
@@ -173,7 +196,8 @@ PathType cyclic() {
 
 PathType tension() {
   Schema schema = path_schema("tension");
-  schema.number("strain", "", Range::open(0.0, 20.0), "axial logarithmic strain at the end; hydrostatic: of each axis");
+  schema.number("strain", "", Range::open(0.0, 20.0),
+                "axial logarithmic strain at the end; hydrostatic: of each axis");
   schema
       .word("lateral", {"free", "fixed", "hydrostatic"},
             "no lateral stress, no lateral strain, or equal stretch of all axes")
@@ -185,7 +209,8 @@ PathType tension() {
             set(segment, zz, Control::strain, o.number("strain"));
             for (const int lateral : {xx, yy}) {
               if (o.word("lateral") == "free") set(segment, lateral, Control::stress, 0.0);
-              if (o.word("lateral") == "hydrostatic") set(segment, lateral, Control::strain, o.number("strain"));
+              if (o.word("lateral") == "hydrostatic")
+                set(segment, lateral, Control::strain, o.number("strain"));
             }
             return path;
           }};
@@ -194,7 +219,8 @@ PathType tension() {
 }  // namespace
 
 const std::vector<PathType>& path_types() {
-  static const std::vector<PathType> types{hydrostatic(), confined(), triaxial(), simple_shear(), cyclic(), tension()};
+  static const std::vector<PathType> types{hydrostatic(),  confined(), triaxial(),
+                                           simple_shear(), cyclic(),   tension()};
   return types;
 }
 
@@ -212,7 +238,8 @@ Schema table_path_schema() {
   Schema schema = path_schema("table");
   schema
       .word("motion", {"stretch", "shear"},
-            "strains are components of ln U without rotation, or stretches and shears of level planes")
+            "strains are components of ln U without rotation, or stretches and shears of level "
+            "planes")
       .by_default("stretch");
   add_common_keys(schema);
   return schema;
@@ -227,14 +254,16 @@ Schema table_row_schema() {
         .optional();
   for (const char* component : components)
     schema
-        .number(fmt::format("stress_{}", component), "Pa", Range::any(), "Cauchy stress at the row's end, tension positive")
+        .number(fmt::format("stress_{}", component), "Pa", Range::any(),
+                "Cauchy stress at the row's end, tension positive")
         .optional();
   schema.integer("steps", Range::closed(1, 1e7), "steps of this row; else the path's").optional();
   return schema;
 }
 
 PointPath table_path(const Options& options, const std::vector<Options>& rows) {
-  PointPath path = path_of(options, "table", options.word("motion") == "stretch" ? Motion::stretch : Motion::shear);
+  PointPath path = path_of(options, "table",
+                           options.word("motion") == "stretch" ? Motion::stretch : Motion::shear);
   path.strain_from_switch = false;
   for (const Options& row : rows) {
     PathSegment& segment = next_segment(path, options);

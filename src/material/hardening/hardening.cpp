@@ -17,12 +17,16 @@ SectionSchema hardening_section() {
                 "volumetric plastic strains of the strengths, compression positive, increasing");
   table.word("interpolation", {"linear", "log"}, "between rows: straight in p, or in ln p");
   table.word("beyond", {"extrapolate", "stop"}, "rule for strains beyond the last row");
-  table.word("below", {"extrapolate", "stop"}, "rule for strains below the first row: decay to zero strength, or stop")
+  table
+      .word("below", {"extrapolate", "stop"},
+            "rule for strains below the first row: decay to zero strength, or stop")
       .by_default("extrapolate");
   Schema exponential("hardening exponential");
-  exponential.number("pc0", "Pa", Range::positive(), "hydrostatic yield strength at zero volumetric plastic strain");
-  exponential.number("lambda", "", Range::positive(),
-                     "logarithmic hardening modulus: slope of void ratio against ln p in first loading");
+  exponential.number("pc0", "Pa", Range::positive(),
+                     "hydrostatic yield strength at zero volumetric plastic strain");
+  exponential.number(
+      "lambda", "", Range::positive(),
+      "logarithmic hardening modulus: slope of void ratio against ln p in first loading");
   exponential.number("kappa", "", Range::non_negative(),
                      "logarithmic bulk modulus: the same slope in unloading; below lambda");
   exponential.number("e0", "", Range::positive(), "initial void ratio");
@@ -37,10 +41,12 @@ HardeningParameters make_table(const Options& o) {
   const std::vector<double>&p = o.numbers("p"), &eps = o.numbers("eps_vol_pl");
   const std::size_t rows = p.size(), most = HardeningParameters::max_segments + 1;
   if (rows != eps.size())
-    throw InputError(o.where("eps_vol_pl"), fmt::format("has {} values for {} of 'p'", eps.size(), rows),
+    throw InputError(o.where("eps_vol_pl"),
+                     fmt::format("has {} values for {} of 'p'", eps.size(), rows),
                      "as many as of 'p'");
   if (rows < 2 || rows > most)
-    throw InputError(o.where("p"), fmt::format("has {} row(s)", rows), fmt::format("2 to {} rows", most));
+    throw InputError(o.where("p"), fmt::format("has {} row(s)", rows),
+                     fmt::format("2 to {} rows", most));
   HardeningParameters h;
   const bool log = o.word("interpolation") == "log";
   h.kind = log ? HardeningParameters::Kind::log_table : HardeningParameters::Kind::linear_table;
@@ -48,10 +54,10 @@ HardeningParameters make_table(const Options& o) {
   for (std::size_t k = 0; k + 1 < rows; ++k) {
     for (const auto& [key, column] : {std::pair{"p", &p}, std::pair{"eps_vol_pl", &eps}})
       if ((*column)[k + 1] <= (*column)[k])
-        throw InputError(
-            o.where(key),
-            fmt::format("does not increase: row {} is {}, row {} is {}", k + 1, (*column)[k], k + 2, (*column)[k + 1]),
-            "strictly increasing values", "sort the rows, remove equal ones");
+        throw InputError(o.where(key),
+                         fmt::format("does not increase: row {} is {}, row {} is {}", k + 1,
+                                     (*column)[k], k + 2, (*column)[k + 1]),
+                         "strictly increasing values", "sort the rows, remove equal ones");
     h.start[k] = eps[k];
     h.base[k] = log ? std::log(p[k]) : p[k];
     h.slope[k] = ((log ? std::log(p[k + 1]) : p[k + 1]) - h.base[k]) / (eps[k + 1] - eps[k]);
@@ -74,10 +80,13 @@ HardeningParameters make_exponential(const Options& o, double offset, bool inclu
   h.lambda = o.number("lambda");
   h.kappa = o.number("kappa");
   if (h.lambda <= h.kappa)
-    throw InputError(o.where("lambda"), fmt::format("is {}, not above kappa = {}", h.lambda, h.kappa), "lambda > kappa");
+    throw InputError(o.where("lambda"),
+                     fmt::format("is {}, not above kappa = {}", h.lambda, h.kappa),
+                     "lambda > kappa");
   h.first_value = h.scale - offset;
   if (h.first_value <= 0.0)
-    throw InputError(o.where("pc0"), fmt::format("is {} Pa, which includes the tensile strength", h.scale),
+    throw InputError(o.where("pc0"),
+                     fmt::format("is {} Pa, which includes the tensile strength", h.scale),
                      fmt::format("above {} Pa", offset));
   h.decay = h.scale * h.c / (h.lambda - h.kappa) / h.first_value;
   return h;
@@ -85,8 +94,10 @@ HardeningParameters make_exponential(const Options& o, double offset, bool inclu
 
 }  // namespace
 
-HardeningParameters make_hardening(const SectionOptions& section, double offset, bool includes_offset) {
-  return section.type == "table" ? make_table(section.options) : make_exponential(section.options, offset, includes_offset);
+HardeningParameters make_hardening(const SectionOptions& section, double offset,
+                                   bool includes_offset) {
+  return section.type == "table" ? make_table(section.options)
+                                 : make_exponential(section.options, offset, includes_offset);
 }
 
 double strength_at(const HardeningParameters& h, double eps) {

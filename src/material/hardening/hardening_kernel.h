@@ -8,7 +8,8 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-/// The hardening of a few points. Remembers the segments of the table last used: a step seldom leaves them.
+/// The hardening of a few points. Remembers the segments of the table last used: a step seldom
+/// leaves them.
 class Hardening {
  public:
   struct Strength {
@@ -19,14 +20,16 @@ class Hardening {
   explicit Hardening(const HardeningParameters& parameters) : h_(parameters) {}
 
   FURROW_INLINE Strength at(const Lanes& eps) {
-    Strength result = h_.kind == HardeningParameters::Kind::exponential ? by_formula(upper(eps, h_.first))
-                                                                        : by_table(upper(eps, h_.first));
+    Strength result = h_.kind == HardeningParameters::Kind::exponential
+                          ? by_formula(upper(eps, h_.first))
+                          : by_table(upper(eps, h_.first));
     const Mask below = eps < Lanes(h_.first);
     if (any(below)) {  // exp(-80) is a strength that no arithmetic sees next to the stiffness
       const Lanes exponent = Lanes(h_.decay) * (eps - Lanes(h_.first));
       const Lanes value = Lanes(h_.first_value) * exponential(upper(exponent, -80.0));
       result.value = select(below, value, result.value);
-      result.slope = select(below, select(exponent > Lanes(-80.0), value * Lanes(h_.decay), 0.0), result.slope);
+      result.slope = select(below, select(exponent > Lanes(-80.0), value * Lanes(h_.decay), 0.0),
+                            result.slope);
     }
     return result;
   }

@@ -13,10 +13,13 @@ namespace furrow {
 
 namespace {
 
-constexpr double skin_cells = 0.5;  // a search lasts until surface and ground have moved so many cells towards each other
+// a search lasts until surface and ground have moved so many cells towards each other
+constexpr double skin_cells = 0.5;
 constexpr double most_penetration = 0.5;  // of the shortest cell
-constexpr double correction = 0.2;        // of the penetration that an impulse takes away in one step (J. Baumgarte, 1972)
-/// What a particle remembers of a contact: tangential spring [m], slip [m], stiffness [N/m] as of the last search.
+// of the penetration that an impulse takes away in one step (J. Baumgarte, 1972)
+constexpr double correction = 0.2;
+/// What a particle remembers of a contact: tangential spring [m], slip [m], stiffness [N/m] as of
+/// the last search.
 enum Memory : std::size_t { spring, slip = 3, stiffness, memory_size };
 constexpr double mirror_tolerance = 1e-6;  // of the surface's size
 
@@ -26,7 +29,8 @@ std::vector<int> mirror_nodes(const Surface& surface, double plane, const std::s
   // Nodes in the order of x finds the image without comparing all with all.
   std::vector<int> order(surface.node_count());
   for (std::size_t n = 0; n < order.size(); ++n) order[n] = static_cast<int>(n);
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return surface.x(0, a) < surface.x(0, b); });
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return surface.x(0, a) < surface.x(0, b); });
   std::vector<int> mirror(surface.node_count(), -1);
   for (std::size_t n = 0; n < mirror.size(); ++n) {
     Vector3 image = surface.x.col(static_cast<Eigen::Index>(n));
@@ -36,13 +40,13 @@ std::vector<int> mirror_nodes(const Surface& surface, double plane, const std::s
     for (; at != order.end() && surface.x(0, *at) <= image.x() + tolerance; ++at)
       if ((surface.x.col(*at) - image).norm() <= tolerance) mirror[n] = *at;
     if (mirror[n] < 0)
-      throw InputError(
-          where,
-          fmt::format(
-              "needs a surface that is its own mirror image in the plane y = {:.4g} m of the half model; the node at "
-              "{:.4g} {:.4g} {:.4g} m has none",
-              plane, image.x(), 2.0 * plane - image.y(), image.z()),
-          "a wheel in the middle, without slip angle or camber", "or model the whole ground");
+      throw InputError(where,
+                       fmt::format("needs a surface that is its own mirror image in the plane y = "
+                                   "{:.4g} m of the half model; the node at "
+                                   "{:.4g} {:.4g} {:.4g} m has none",
+                                   plane, image.x(), 2.0 * plane - image.y(), image.z()),
+                       "a wheel in the middle, without slip angle or camber",
+                       "or model the whole ground");
   }
   return mirror;
 }
@@ -51,24 +55,32 @@ std::vector<int> mirror_nodes(const Surface& surface, double plane, const std::s
 
 Schema GroundContact::schema(const std::string& subject) {
   Schema schema(subject);
-  schema.word("enforcement", {"penalty", "impulse"}, "springs, or the impulse that stops the approach")
+  schema
+      .word("enforcement", {"penalty", "impulse"},
+            "springs, or the impulse that stops the approach")
       .by_default("penalty");
-  schema.word("surface", {"frictional", "rough", "smooth"}, "rough: no slip; smooth: no friction").by_default("frictional");
-  schema.number("friction", "", Range::non_negative(), "coefficient mu of a frictional surface").by_default(0.3);
+  schema.word("surface", {"frictional", "rough", "smooth"}, "rough: no slip; smooth: no friction")
+      .by_default("frictional");
+  schema.number("friction", "", Range::non_negative(), "coefficient mu of a frictional surface")
+      .by_default(0.3);
   schema
       .number("slip_length", "m", Range::non_negative(),
               "k of tau = mu sigma (1 - exp(-j/k)) with the slip j; 0: tau = mu sigma")
       .by_default(0.0);
-  schema.number("stiffness", "", Range::positive(), "spring of a particle over wave modulus x cube root of its volume")
+  schema
+      .number("stiffness", "", Range::positive(),
+              "spring of a particle over wave modulus x cube root of its volume")
       .by_default(0.4);
-  schema.number("damping", "", Range::closed(0.0, 1.0), "of spring and particle, of critical").by_default(0.1);
+  schema.number("damping", "", Range::closed(0.0, 1.0), "of spring and particle, of critical")
+      .by_default(0.1);
   return schema;
 }
 
 ContactParameters GroundContact::parameters_from(const Options& options) {
   ContactParameters p;
-  p.enforcement = options.word("enforcement") == "penalty" ? ContactParameters::Enforcement::penalty
-                                                           : ContactParameters::Enforcement::impulse;
+  p.enforcement = options.word("enforcement") == "penalty"
+                      ? ContactParameters::Enforcement::penalty
+                      : ContactParameters::Enforcement::impulse;
   const std::string& surface = options.word("surface");
   if (surface != "frictional" && options.given("friction"))
     throw InputError(options.where("friction"), fmt::format("is given with a {} surface", surface),
@@ -82,18 +94,25 @@ ContactParameters GroundContact::parameters_from(const Options& options) {
   return p;
 }
 
-GroundContact::GroundContact(Body& body, MpmGround& ground, const ContactParameters& parameters, bool half_model,
-                             const std::string& where)
-    : body_(body), ground_(ground), parameters_(parameters), where_(where), corners_(body.surface()) {
-  // A particle of mass rho d^3 on its spring s M d, d the spacing: omega dt = sqrt(s) c dt/d, and a leapfrog needs less than 2.
+GroundContact::GroundContact(Body& body, MpmGround& ground, const ContactParameters& parameters,
+                             bool half_model, const std::string& where)
+    : body_(body),
+      ground_(ground),
+      parameters_(parameters),
+      where_(where),
+      corners_(body.surface()) {
+  // A particle of mass rho d^3 on its spring s M d, d the spacing: omega dt = sqrt(s) c dt/d, and a
+  // leapfrog needs less than 2.
   const auto& per_cell = ground.parameters().particles_per_cell;
-  const double phase =
-      std::sqrt(parameters.stiffness) * ground.parameters().cfl * *std::max_element(per_cell.begin(), per_cell.end());
+  const double phase = std::sqrt(parameters.stiffness) * ground.parameters().cfl *
+                       *std::max_element(per_cell.begin(), per_cell.end());
   if (parameters.enforcement == ContactParameters::Enforcement::penalty && phase >= 2.0)
     throw InputError(
         where,
-        fmt::format("has a stiffness of {}, too stiff for steps of cfl {} with {} particles along a cell",
-                    parameters.stiffness, ground.parameters().cfl, *std::max_element(per_cell.begin(), per_cell.end())),
+        fmt::format(
+            "has a stiffness of {}, too stiff for steps of cfl {} with {} particles along a cell",
+            parameters.stiffness, ground.parameters().cfl,
+            *std::max_element(per_cell.begin(), per_cell.end())),
         "sqrt(stiffness) x cfl x particles below 2", "lower the stiffness, or the ground's cfl");
   if (half_model) mirror_ = mirror_nodes(body.surface(), ground.grid().axis(1).lower(), where);
   for (GroundPhase& layer : ground_.lagging_phases())
@@ -102,15 +121,17 @@ GroundContact::GroundContact(Body& body, MpmGround& ground, const ContactParamet
 
 std::vector<double> GroundContact::state() const {
   const Matrix3X& x = body_.surface().x;
-  const bool searched = searched_.cols() == x.cols(), fresh = searched && generation_ == ground_.generation();
+  const bool searched = searched_.cols() == x.cols(),
+             fresh = searched && generation_ == ground_.generation();
   std::vector<double> state = {deepest_, friction_loss_, damping_loss_, drift_, fresh ? 1.0 : 0.0};
   const Matrix3X& nodes = searched ? searched_ : x;
   state.insert(state.end(), nodes.data(), nodes.data() + nodes.size());
   return state;
 }
 
-/// Candidates are found again at the present places, but with the stiffnesses of the last search, and the next search comes when it
-/// would have come: a run that is restarted continues bit for bit.
+/// Candidates are found again at the present places, but with the stiffnesses of the last search,
+/// and the next search comes when it would have come: a run that is restarted continues bit for
+/// bit.
 void GroundContact::restore(const std::vector<double>& state) {
   constexpr std::size_t scalars = 5;
   const Matrix3X& x = body_.surface().x;
@@ -127,7 +148,9 @@ void GroundContact::restore(const std::vector<double>& state) {
 }
 
 bool GroundContact::is_stale() {
-  if (!started_ || generation_ != ground_.generation() || searched_.cols() != body_.surface().x.cols()) return true;
+  if (!started_ || generation_ != ground_.generation() ||
+      searched_.cols() != body_.surface().x.cols())
+    return true;
   moved_ = std::sqrt((body_.surface().x - searched_).colwise().squaredNorm().maxCoeff());
   return moved_ + drift_ > skin_;
 }
@@ -142,7 +165,8 @@ void GroundContact::search() {
   started_ = true;
 }
 
-/// Particles that can touch before surface and ground have moved by the skin, each with its triangles.
+/// Particles that can touch before surface and ground have moved by the skin, each with its
+/// triangles.
 void GroundContact::find_candidates(bool stiffness_anew) {
   const Surface& surface = body_.surface();
   const double cell = ground_.grid().shortest_cell();
@@ -158,12 +182,14 @@ void GroundContact::find_candidates(bool stiffness_anew) {
   const auto [low, high] = surface.bounds();
   for (const GroundPhase& phase : ground_.lagging_phases())
     for (std::size_t p = 0; p < phase.particles.size(); ++p) {
-      const Vector3 x = phase.particles.position(p),
-                    h(phase.particles.data(column::half_x)[p], phase.particles.data(column::half_y)[p],
-                      phase.particles.data(column::half_z)[p]);
+      const Vector3 x = phase.particles.position(p), h(phase.particles.data(column::half_x)[p],
+                                                       phase.particles.data(column::half_y)[p],
+                                                       phase.particles.data(column::half_z)[p]);
       if ((x.array() > low.array() - 4.0 * h.array() - skin_).all() &&
           (x.array() < high.array() + 4.0 * h.array() + skin_).all())
-        half = std::max(half, h.norm() * std::max(1.0, phase.particles.data(column::state + field::volume_ratio)[p]));
+        half = std::max(
+            half,
+            h.norm() * std::max(1.0, phase.particles.data(column::state + field::volume_ratio)[p]));
     }
   lag_ = ground_.lag();
   reach_ = half + skin_ + most_penetration * cell + lag_;
@@ -172,15 +198,17 @@ void GroundContact::find_candidates(bool stiffness_anew) {
   const TriangleSearch triangles(surface, reach_, lower, upper);
   for (std::size_t k = 0; k < ground_.lagging_phases().size(); ++k) {
     Particles& particles = ground_.lagging_phases()[k].particles;
-    const double *x = particles.data(column::x), *y = particles.data(column::y), *z = particles.data(column::z);
+    const double *x = particles.data(column::x), *y = particles.data(column::y),
+                 *z = particles.data(column::z);
     for (std::size_t p = 0; p < particles.size(); ++p) {
       const Vector3 point(x[p], y[p], z[p]);
       const auto [first, last] = triangles.near(point);
       const std::size_t begin = near_.size();
       for (const int* t = first; t != last; ++t) {
         const Vector3i& n = surface.triangles[static_cast<std::size_t>(*t)];
-        const double distance =
-            closest_point_on_triangle(point, surface.x.col(n[0]), surface.x.col(n[1]), surface.x.col(n[2])).distance;
+        const double distance = closest_point_on_triangle(point, surface.x.col(n[0]),
+                                                          surface.x.col(n[1]), surface.x.col(n[2]))
+                                    .distance;
         if (distance <= reach_) near_.push_back({distance, *t});
       }
       if (near_.size() == begin) continue;
@@ -188,9 +216,10 @@ void GroundContact::find_candidates(bool stiffness_anew) {
                 [](const Near& a, const Near& b) { return a.distance < b.distance; });
       candidates_.push_back({{k, p}, point, begin, near_.size()});
       if (stiffness_anew)
-        memory_of({k, p})[Memory::stiffness] = parameters_.stiffness *
-                                               ground_.lagging_phases()[k].law->moduli(particles.state(p)).wave() *
-                                               std::cbrt(particles.data(column::volume)[p]);
+        memory_of({k, p})[Memory::stiffness] =
+            parameters_.stiffness *
+            ground_.lagging_phases()[k].law->moduli(particles.state(p)).wave() *
+            std::cbrt(particles.data(column::volume)[p]);
     }
   }
 }
@@ -204,7 +233,8 @@ void GroundContact::refuse_departure() const {
     const double tolerance = mirror_tolerance * (high - low).norm();
     if (middle[a] < axis.lower() - tolerance || middle[a] > axis.upper() + tolerance)
       throw StateError(
-          fmt::format("the middle of the body is at {} = {:.4g} m, beyond the ground that reaches from {:.4g} to {:.4g} m; "
+          fmt::format("the middle of the body is at {} = {:.4g} m, beyond the ground that reaches "
+                      "from {:.4g} to {:.4g} m; "
                       "give the ground "
                       "more length, or let it move with the body",
                       a == 0 ? 'x' : 'y', middle[a], axis.lower(), axis.upper()));
@@ -218,19 +248,24 @@ void GroundContact::refuse_overlap() const {
   for (const GroundPhase& phase : ground_.lagging_phases())
     for (std::size_t p = 0; p < phase.particles.size(); ++p) {
       const Vector3 x = phase.particles.position(p);
-      if ((x.array() > low.array()).all() && (x.array() < high.array()).all() && encloses(surface, x))
+      if ((x.array() > low.array()).all() && (x.array() < high.array()).all() &&
+          encloses(surface, x))
         throw StateError(
-            fmt::format("the ground at {:.4g} {:.4g} {:.4g} m is inside of the body at the start; start above the ground",
+            fmt::format("the ground at {:.4g} {:.4g} {:.4g} m is inside of the body at the start; "
+                        "start above the ground",
                         x[0], x[1], x[2]));
     }
 }
 
 double* GroundContact::memory_of(const GroundPoint& at) {
-  return ground_.lagging_phases()[at.phase].particles.data(memory_[at.phase]) + memory_size * at.particle;
+  return ground_.lagging_phases()[at.phase].particles.data(memory_[at.phase]) +
+         memory_size * at.particle;
 }
 
 /// Spring and slip end with the contact.
-void GroundContact::forget(const GroundPoint& at) { std::fill_n(memory_of(at), Memory::stiffness, 0.0); }
+void GroundContact::forget(const GroundPoint& at) {
+  std::fill_n(memory_of(at), Memory::stiffness, 0.0);
+}
 
 /// A particle farther from the surface than this does not touch it [m].
 double GroundContact::touch_distance(const GroundPoint& at) const {
@@ -241,7 +276,8 @@ double GroundContact::touch_distance(const GroundPoint& at) const {
   return particles.data(column::state + field::volume_ratio)[p] * half.norm();
 }
 
-/// Candidates whose nearest triangle was so far away that it cannot have come near enough since are left out; they forget the contact.
+/// Candidates whose nearest triangle was so far away that it cannot have come near enough since are
+/// left out; they forget the contact.
 void GroundContact::choose_active() {
   active_.clear();
   points_.clear();
@@ -264,15 +300,17 @@ bool GroundContact::touch(const Candidate& candidate, const Vector3& x, Touch& t
   ClosestPoint closest{};
   closest.distance = std::numeric_limits<double>::infinity();
   touch.triangle = 0;
-  // What was farther by more than both have moved since is farther still. Of equally near triangles the first counts, in whatever order
-  // they come.
+  // What was farther by more than both have moved since is farther still. Of equally near triangles
+  // the first counts, in whatever order they come.
   const double approach = moved_ + (x - candidate.found).norm();
-  for (std::size_t n = candidate.first; n < candidate.last && near_[n].distance - approach <= closest.distance; ++n) {
+  for (std::size_t n = candidate.first;
+       n < candidate.last && near_[n].distance - approach <= closest.distance; ++n) {
     const auto t = static_cast<std::size_t>(near_[n].triangle);
     const Vector3i& node = surface.triangles[t];
-    const ClosestPoint point =
-        closest_point_on_triangle(x, surface.x.col(node[0]), surface.x.col(node[1]), surface.x.col(node[2]));
-    if (point.distance < closest.distance || (point.distance == closest.distance && t < touch.triangle)) {
+    const ClosestPoint point = closest_point_on_triangle(
+        x, surface.x.col(node[0]), surface.x.col(node[1]), surface.x.col(node[2]));
+    if (point.distance < closest.distance ||
+        (point.distance == closest.distance && t < touch.triangle)) {
       closest = point;
       touch.triangle = t;
     }
@@ -284,11 +322,13 @@ bool GroundContact::touch(const Candidate& candidate, const Vector3& x, Touch& t
   const double side = closest.separation.dot(outward) >= 0.0 ? 1.0 : -1.0;
   if (side > 0.0 && closest.distance > touch_distance(candidate.at)) return false;
   // Closer than rounding, the separation has no direction.
-  touch.normal =
-      closest.distance > 1e-9 * half.norm() ? Vector3(side / closest.distance * closest.separation) : outward.normalized();
+  touch.normal = closest.distance > 1e-9 * half.norm()
+                     ? Vector3(side / closest.distance * closest.separation)
+                     : outward.normalized();
   touch.gap = side * closest.distance - ratio * touch.normal.cwiseAbs().dot(half);
-  // Beside an edge, the direction of the nearest point is not the one that separates: of it and of the faces' normals, the one with the
-  // largest gap does (separating axes). Without, ground level with a plate is pushed away from the plate's edge.
+  // Beside an edge, the direction of the nearest point is not the one that separates: of it and of
+  // the faces' normals, the one with the largest gap does (separating axes). Without, ground level
+  // with a plate is pushed away from the plate's edge.
   if (side > 0.0 && closest.feature_nodes() < 3)
     corners_.for_normals(surface, touch.triangle, closest.barycentric, [&](const Vector3& normal) {
       const double gap = closest.separation.dot(normal) - ratio * normal.cwiseAbs().dot(half);
@@ -303,16 +343,20 @@ bool GroundContact::touch(const Candidate& candidate, const Vector3& x, Touch& t
 
 double GroundContact::friction_limit(double normal_force, double slip) const {
   if (normal_force <= 0.0 || parameters_.friction == 0.0) return 0.0;
-  const double mobilised = parameters_.slip_length > 0.0 ? -std::expm1(-slip / parameters_.slip_length) : 1.0;
+  const double mobilised =
+      parameters_.slip_length > 0.0 ? -std::expm1(-slip / parameters_.slip_length) : 1.0;
   return parameters_.friction * normal_force * mobilised;
 }
 
-/// @param velocity of the ground relative to the surface; @param memory tangential spring and slip of the particle
-Vector3 GroundContact::penalty_force(const Touch& touch, const Vector3& velocity, double mass, double stiffness, double dt,
-                                     double* memory) {
+/// @param velocity of the ground relative to the surface; @param memory tangential spring and slip
+/// of the particle
+Vector3 GroundContact::penalty_force(const Touch& touch, const Vector3& velocity, double mass,
+                                     double stiffness, double dt, double* memory) {
   const Vector3& n = touch.normal;
-  const double damping = 2.0 * parameters_.damping * std::sqrt(stiffness * mass), approach = -velocity.dot(n);
-  const double spring = -stiffness * touch.gap, normal_force = std::max(0.0, spring + damping * approach);
+  const double damping = 2.0 * parameters_.damping * std::sqrt(stiffness * mass),
+               approach = -velocity.dot(n);
+  const double spring = -stiffness * touch.gap,
+               normal_force = std::max(0.0, spring + damping * approach);
   step_damping_ += (normal_force - spring) * approach * dt;
   const Vector3 along = velocity + approach * n;
   Eigen::Map<Vector3> stretch(memory + Memory::spring);
@@ -320,7 +364,8 @@ Vector3 GroundContact::penalty_force(const Touch& touch, const Vector3& velocity
   stretch += dt * along;
   stretch -= stretch.dot(n) * n;
   Vector3 pull = -stiffness * stretch - damping * along;
-  // Under TR eq 26 the strength grows with the slip, which grows with every relative motion along the surface.
+  // Under TR eq 26 the strength grows with the slip, which grows with every relative motion along
+  // the surface.
   if (parameters_.slip_length > 0.0) slip += dt * along.norm();
   const double limit = friction_limit(normal_force, slip), size = pull.norm();
   if (size > limit) {
@@ -335,13 +380,15 @@ Vector3 GroundContact::penalty_force(const Touch& touch, const Vector3& velocity
   return normal_force * n + pull;
 }
 
-Vector3 GroundContact::impulse_force(const Touch& touch, const Vector3& velocity, double mass, double dt, double* memory) {
+Vector3 GroundContact::impulse_force(const Touch& touch, const Vector3& velocity, double mass,
+                                     double dt, double* memory) {
   const Vector3& n = touch.normal;
   const double approach = -velocity.dot(n),
                normal_force = std::max(0.0, mass * (approach - correction * touch.gap / dt) / dt);
   const Vector3 along = velocity + approach * n;
   memory[Memory::slip] += dt * along.norm();
-  const double limit = friction_limit(normal_force, memory[Memory::slip]), stopping = mass * along.norm() / dt;
+  const double limit = friction_limit(normal_force, memory[Memory::slip]),
+               stopping = mass * along.norm() / dt;
   const double size = std::min(limit, stopping);
   step_damping_ += normal_force * approach * dt;
   step_friction_ += size * along.norm() * dt;
@@ -365,14 +412,15 @@ void GroundContact::apply(double dt) {
     }
     const GroundPhase& phase = ground_.lagging_phases()[at.phase];
     double* memory = memory_of(at);
-    const double volume = phase.particles.data(column::volume)[at.particle], mass = phase.law->density() * volume,
-                 length = std::cbrt(volume);
+    const double volume = phase.particles.data(column::volume)[at.particle],
+                 mass = phase.law->density() * volume, length = std::cbrt(volume);
     Vector3 velocity = motions_[n].velocity_at(found.point);
     const Vector3i& nodes = surface.triangles[found.triangle];
     for (int c = 0; c < 3; ++c) velocity -= found.barycentric[c] * surface.v.col(nodes[c]);
-    const Vector3 force = parameters_.enforcement == ContactParameters::Enforcement::penalty
-                              ? penalty_force(found, velocity, mass, memory[Memory::stiffness], dt, memory)
-                              : impulse_force(found, velocity, mass, dt, memory);
+    const Vector3 force =
+        parameters_.enforcement == ContactParameters::Enforcement::penalty
+            ? penalty_force(found, velocity, mass, memory[Memory::stiffness], dt, memory)
+            : impulse_force(found, velocity, mass, dt, memory);
     ground_.push(at, force, found.point);
     for (int c = 0; c < 3; ++c) nodal_.col(nodes[c]) -= found.barycentric[c] * force;
     contacts_ += 1.0;
@@ -414,7 +462,8 @@ void GroundContact::collect() {
   deepest_ = std::max(deepest_, penetration_);
   if (penetration_ > most_penetration * ground_.grid().shortest_cell())
     throw StateError(
-        fmt::format("the surface is {:.3g} m inside the ground, more than half a cell: the contact's springs are too soft "
+        fmt::format("the surface is {:.3g} m inside the ground, more than half a cell: the "
+                    "contact's springs are too soft "
                     "for this load, or "
                     "the step is unstable; raise 'stiffness'",
                     penetration_));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a body's mesh wall costs: time per step with mesh/body + wall/gran/body over that with LIGGGHTS's own rigid moving mesh
-// (mesh/surface + move/mesh + wall/gran), same bed, same wheel, same motion. Two instances take turns, a few hundred steps each,
-// so that a noisy machine meets both alike; the ratio of each pair is taken and its median printed.
+// What a body's mesh wall costs: time per step with mesh/body + wall/gran/body over that with
+// LIGGGHTS's own rigid moving mesh (mesh/surface + move/mesh + wall/gran), same bed, same wheel,
+// same motion. Two instances take turns, a few hundred steps each, so that a noisy machine meets
+// both alike; the ratio of each pair is taken and its median printed.
 //
 //   build/tests/benchmarks/coupled/wall_cost [pairs] [steps]        or under mpirun -n 2
 //
@@ -65,10 +66,12 @@ double bed_level(Scene& scene) {
 
 double load_bed(Scene& scene) {
   scene.command("processors 1 * 1");
-  scene.command("bed " FURROW_SOURCE_DIR
-                "/inputs/beds/sand.lig length 0.8 width 0.32 depth 0.12 headroom 0.36 diameter 0.01 "
-                "density 2600 young 2e7 poisson 0.25 restitution 0.3 friction 0.6 rolling 0.15 pour_friction 0.3 step 4e-5 "
-                "seed 86028121");
+  scene.command(
+      "bed " FURROW_SOURCE_DIR
+      "/inputs/beds/sand.lig length 0.8 width 0.32 depth 0.12 headroom 0.36 diameter 0.01 "
+      "density 2600 young 2e7 poisson 0.25 restitution 0.3 friction 0.6 rolling 0.15 pour_friction "
+      "0.3 step 4e-5 "
+      "seed 86028121");
   scene.command("fix m4 all property/global coefficientFriction peratomtypepair 2 0.6 0.5 0.5 0.5");
   return bed_level(scene);
 }
@@ -85,15 +88,18 @@ void make_stock(Scene& scene) {
   scene.command(fmt::format("fix wheel all mesh/surface file {} type 2", stl));
   scene.command(fmt::format("fix walls all wall/gran {} mesh n_meshes 1 meshes wheel", contact));
   scene.command("fix move all nve/sphere");
-  scene.command(fmt::format("fix down all move/mesh mesh wheel linear {} 0 -{}", speed, sink_speed));
-  scene.command(fmt::format("fix turn all move/mesh mesh wheel rotate origin {} 0 {} axis 0 1 0 period {}", axle[0], axle[2],
-                            2 * M_PI * radius / speed));
+  scene.command(
+      fmt::format("fix down all move/mesh mesh wheel linear {} 0 -{}", speed, sink_speed));
+  scene.command(
+      fmt::format("fix turn all move/mesh mesh wheel rotate origin {} 0 {} axis 0 1 0 period {}",
+                  axle[0], axle[2], 2 * M_PI * radius / speed));
   scene.command(fmt::format("run {}", sink_steps));
   scene.commands("unfix turn\nunfix down");
   const double t = sink_steps * step;
   scene.command(fmt::format("fix roll all move/mesh mesh wheel linear {} 0 0", speed));
-  scene.command(fmt::format("fix turn all move/mesh mesh wheel rotate origin {} 0 {} axis 0 1 0 period {}",
-                            axle[0] + speed * t, axle[2] - sink_speed * t, 2 * M_PI * radius / speed));
+  scene.command(
+      fmt::format("fix turn all move/mesh mesh wheel rotate origin {} 0 {} axis 0 1 0 period {}",
+                  axle[0] + speed * t, axle[2] - sink_speed * t, 2 * M_PI * radius / speed));
   scene.command(fmt::format("run {}", warm_steps));
 }
 
@@ -102,10 +108,13 @@ void make_body(Scene& scene) {
   const Surface start = wheel_at_start(level);
   const Vector3 axle = start.x.rowwise().mean();
   const double sink_time = sink_steps * step, spin = speed / radius;
-  scene.add_body("wheel", std::make_unique<PrescribedBody>(start, [=](double time, Surface& surface) {
-                   const Vector3 centre = axle + Vector3(speed * time, 0.0, -sink_speed * std::min(time, sink_time));
+  scene.add_body("wheel",
+                 std::make_unique<PrescribedBody>(start, [=](double time, Surface& surface) {
+                   const Vector3 centre =
+                       axle + Vector3(speed * time, 0.0, -sink_speed * std::min(time, sink_time));
                    const Vector3 velocity(speed, 0.0, time < sink_time ? -sink_speed : 0.0);
-                   const furrow::Matrix3 turn = Eigen::AngleAxisd(spin * time, Vector3::UnitY()).toRotationMatrix();
+                   const furrow::Matrix3 turn =
+                       Eigen::AngleAxisd(spin * time, Vector3::UnitY()).toRotationMatrix();
                    for (Eigen::Index n = 0; n < surface.x.cols(); ++n) {
                      const Vector3 arm = turn * (start.x.col(n) - axle);
                      surface.x.col(n) = centre + arm;
@@ -113,7 +122,8 @@ void make_body(Scene& scene) {
                    }
                  }));
   scene.command("fix skin all mesh/body body wheel type 2");
-  scene.command(fmt::format("fix walls all wall/gran/body {} mesh n_meshes 1 meshes skin", contact));
+  scene.command(
+      fmt::format("fix walls all wall/gran/body {} mesh n_meshes 1 meshes skin", contact));
   scene.command("fix move all nve/sphere");
   scene.command(fmt::format("run {}", sink_steps + warm_steps));
 }
@@ -145,10 +155,12 @@ int main(int argc, char** argv) {
     std::sort(milliseconds.begin(), milliseconds.end());
     if (stock.rank() == 0)
       fmt::print(
-          "{} rank(s), {} grains, {} triangles: body wall over stock rigid mesh wall, time per step: median {:.3f} "
+          "{} rank(s), {} grains, {} triangles: body wall over stock rigid mesh wall, time per "
+          "step: median {:.3f} "
           "(min {:.3f}, max {:.3f}, {} pairs of {} steps); stock {:.2f} ms a step\n",
-          stock.ranks(), static_cast<long>(stock.lammps().atom->natoms), wheel_at_start(0.1).triangle_count(),
-          ratios[ratios.size() / 2], ratios.front(), ratios.back(), pairs, steps, milliseconds[milliseconds.size() / 2]);
+          stock.ranks(), static_cast<long>(stock.lammps().atom->natoms),
+          wheel_at_start(0.1).triangle_count(), ratios[ratios.size() / 2], ratios.front(),
+          ratios.back(), pairs, steps, milliseconds[milliseconds.size() / 2]);
   }
   MPI_Finalize();
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Every coupled test program runs under mpirun on the rank counts that its CMake line declares; rank 0 reports.
+// Every coupled test program runs under mpirun on the rank counts that its CMake line declares;
+// rank 0 reports.
 
 #include <gtest/gtest.h>
 #include <mpi.h>

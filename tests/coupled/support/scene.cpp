@@ -38,7 +38,8 @@ class FixTestBody : public coupling::FixBody {
 template <int Mask>
 class FixHook : public LAMMPS_NS::Fix {
  public:
-  FixHook(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg), action_(waiting_actions().at(arg[0])) {
+  FixHook(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+      : Fix(lammps, narg, arg), action_(waiting_actions().at(arg[0])) {
     nevery = 1;
   }
   int setmask() override { return Mask; }
@@ -49,11 +50,13 @@ class FixHook : public LAMMPS_NS::Fix {
   std::function<void()> action_;
 };
 
-/// A second instance in one process registers every contact model again and says so some 230 times on the terminal.
+/// A second instance in one process registers every contact model again and says so some 230 times
+/// on the terminal.
 template <class Action>
 auto silently(Action&& action) {
   std::fflush(nullptr);
-  const int nowhere = open("/dev/null", O_WRONLY), out = dup(STDOUT_FILENO), err = dup(STDERR_FILENO);
+  const int nowhere = open("/dev/null", O_WRONLY), out = dup(STDOUT_FILENO),
+            err = dup(STDERR_FILENO);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
   auto result = action();
@@ -91,9 +94,11 @@ Surface make_sheet(int n, double side, double z, bool alternate) {
 
 Scene::Scene() {
   const char* arguments[] = {"furrow", "-log", "none", "-screen", "/dev/null"};
-  lammps_ = silently([&] { return new LAMMPS_NS::LAMMPS(5, const_cast<char**>(arguments), MPI_COMM_WORLD); });
+  lammps_ = silently(
+      [&] { return new LAMMPS_NS::LAMMPS(5, const_cast<char**>(arguments), MPI_COMM_WORLD); });
   coupling::add_fix_style(*lammps_, "test/body", create<FixTestBody>);
-  coupling::add_fix_style(*lammps_, "test/start", create<FixHook<LAMMPS_NS::FixConst::INITIAL_INTEGRATE>>);
+  coupling::add_fix_style(*lammps_, "test/start",
+                          create<FixHook<LAMMPS_NS::FixConst::INITIAL_INTEGRATE>>);
   coupling::add_fix_style(*lammps_, "test/end", create<FixHook<LAMMPS_NS::FixConst::END_OF_STEP>>);
 }
 
@@ -164,11 +169,12 @@ double Scene::grain_kinetic_energy() const {
   return sum(energy);
 }
 
-void Scene::granular_box(const Vector3& lower, const Vector3& upper, double skin, const std::string& boundary) {
+void Scene::granular_box(const Vector3& lower, const Vector3& upper, double skin,
+                         const std::string& boundary) {
   commands("atom_style granular\natom_modify map array\nboundary " + boundary +
            "\nnewton off\ncommunicate single vel yes\nunits si");
-  command(fmt::format("region box block {} {} {} {} {} {} units box", lower[0], upper[0], lower[1], upper[1], lower[2],
-                      upper[2]));
+  command(fmt::format("region box block {} {} {} {} {} {} units box", lower[0], upper[0], lower[1],
+                      upper[1], lower[2], upper[2]));
   command("create_box 2 box");
   command(fmt::format("neighbor {} bin", skin));
   command("neigh_modify delay 0 check yes");
@@ -177,8 +183,12 @@ void Scene::granular_box(const Vector3& lower, const Vector3& upper, double skin
 void Scene::contact_properties(double young, double poisson, double restitution, double friction) {
   command(fmt::format("fix m1 all property/global youngsModulus peratomtype {0} {0}", young));
   command(fmt::format("fix m2 all property/global poissonsRatio peratomtype {0} {0}", poisson));
-  command(fmt::format("fix m3 all property/global coefficientRestitution peratomtypepair 2 {0} {0} {0} {0}", restitution));
-  command(fmt::format("fix m4 all property/global coefficientFriction peratomtypepair 2 {0} {0} {0} {0}", friction));
+  command(fmt::format(
+      "fix m3 all property/global coefficientRestitution peratomtypepair 2 {0} {0} {0} {0}",
+      restitution));
+  command(fmt::format(
+      "fix m4 all property/global coefficientFriction peratomtypepair 2 {0} {0} {0} {0}",
+      friction));
 }
 
 }  // namespace furrow::test

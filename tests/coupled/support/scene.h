@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A LIGGGHTS instance with Furrow's styles inside a test, and bodies that a test moves as it likes.
+/// A LIGGGHTS instance with Furrow's styles inside a test, and bodies that a test moves as it
+/// likes.
 
 #include <functional>
 #include <memory>
@@ -19,7 +20,8 @@ namespace furrow::test {
 class PrescribedBody : public Body {
  public:
   using Motion = std::function<void(double time, Surface&)>;  ///< sets x and v
-  PrescribedBody(Surface surface, Motion motion) : surface_(std::move(surface)), motion_(std::move(motion)) {}
+  PrescribedBody(Surface surface, Motion motion)
+      : surface_(std::move(surface)), motion_(std::move(motion)) {}
 
   double stable_time_step() const override { return std::numeric_limits<double>::infinity(); }
   void advance(double dt) override {
@@ -37,7 +39,8 @@ class PrescribedBody : public Body {
   double time_ = 0.0;
 };
 
-/// Square sheet of n x n cells, two triangles each, side length, in the plane z, normal up. Diagonals alternate if asked.
+/// Square sheet of n x n cells, two triangles each, side length, in the plane z, normal up.
+/// Diagonals alternate if asked.
 Surface make_sheet(int n, double side, double z, bool alternate = false);
 
 /// One run. Commands as in a script; screen output goes nowhere.
@@ -52,7 +55,8 @@ class Scene {
   void add_body(const std::string& id, std::unique_ptr<Body> body);
   /// Called at the end of every step.
   void at_end_of_step(std::function<void()> action);
-  /// Called at the start of every step, before the bodies advance (place for moving grains by hand).
+  /// Called at the start of every step, before the bodies advance (place for moving grains by
+  /// hand).
   void at_start_of_step(std::function<void()> action);
 
   LAMMPS_NS::LAMMPS& lammps() { return *lammps_; }
@@ -67,7 +71,8 @@ class Scene {
   double grain_kinetic_energy() const;
 
   /// Header of a granular scene in SI units: box corners, atom types, skin.
-  void granular_box(const Vector3& lower, const Vector3& upper, double skin, const std::string& boundary = "f f f");
+  void granular_box(const Vector3& lower, const Vector3& upper, double skin,
+                    const std::string& boundary = "f f f");
   /// Hertz contact properties alike for all types.
   void contact_properties(double young, double poisson, double restitution, double friction);
 

@@ -49,7 +49,8 @@ std::string refusal_of(World& world, double interval) {
 /// A mass on its own spring, by leapfrog.
 class Oscillator : public Probe {
  public:
-  Oscillator(double mass, double stiffness, double steps_in_one) : mass_(mass), stiffness_(stiffness) {
+  Oscillator(double mass, double stiffness, double steps_in_one)
+      : mass_(mass), stiffness_(stiffness) {
     surface().x(2, 0) = 1.0;
     stable = 1.0 / steps_in_one;
   }
@@ -62,8 +63,9 @@ class Oscillator : public Probe {
   double mass_, stiffness_;
 };
 
-/// A contact whose force is found once an interval, on a mass that takes sub-steps: the amplitude stays. Forces that are held over the
-/// sub-steps let it grow as exp(k T (1 - 1/n)/(4 m) t): here by e^10 and more.
+/// A contact whose force is found once an interval, on a mass that takes sub-steps: the amplitude
+/// stays. Forces that are held over the sub-steps let it grow as exp(k T (1 - 1/n)/(4 m) t): here
+/// by e^10 and more.
 TEST(World, ForcesOfOthersFeedNoEnergyIntoSubSteps) {
   constexpr double mass = 1.0, own = 0.3, contact = 0.1;
   constexpr int intervals = 500;
@@ -117,7 +119,8 @@ TEST(World, RefusesAndNamesTheBody) {
   EXPECT_THAT(refusal_of(world, 1.0), HasSubstr("body 'tyre': an element folded"));
   bad.refuse = false;
   bad.position = std::nan("");
-  EXPECT_THAT(refusal_of(world, 1.0), HasSubstr("body 'tyre': the position of node 0 is not finite"));
+  EXPECT_THAT(refusal_of(world, 1.0),
+              HasSubstr("body 'tyre': the position of node 0 is not finite"));
 }
 
 /// Pushes two bodies apart with a force that the test chooses step by step; remembers what it saw.

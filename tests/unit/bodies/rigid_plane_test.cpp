@@ -23,7 +23,8 @@ TEST(RigidPlane, ANodesShareOfTheAreaCarriesItsPressure) {
   Surface surface = plate_at(-1e-4);
   RigidPlane plane({0.0, 1e8, 0.0, 0.0, 1e8}, surface);
   plane.press_on(surface);
-  // Lower face of side^2 and, at its edge, half of the sides 0.02 m high (their own triangles' shares)
+  // Lower face of side^2 and, at its edge, half of the sides 0.02 m high (their own triangles'
+  // shares)
   const double lower = side * side, sides = 0.5 * 4.0 * side * 0.02;
   EXPECT_NEAR(plane.total_force().z(), 1e8 * 1e-4 * (lower + sides), 0.1 * 1e8 * 1e-4 * sides);
   EXPECT_NEAR(surface.total_force().z(), plane.total_force().z(), 1e-9);
@@ -49,7 +50,8 @@ TEST(RigidPlane, SticksAndSlides) {
   surface.clear_forces();
   plane.press_on(surface);
   EXPECT_NEAR(plane.total_force().x(), -0.5 * weight, 1e-9 * weight);
-  surface.x.row(0).array() -= 5e-5;  // back by the spring's stretch: free of force, at the new place
+  // back by the spring's stretch: free of force, at the new place
+  surface.x.row(0).array() -= 5e-5;
   surface.clear_forces();
   plane.press_on(surface);
   EXPECT_NEAR(plane.total_force().x(), 0.0, 1e-9 * weight);

@@ -32,7 +32,8 @@ TEST_P(PlateMesh, IsClosedWithTheExactAreaAndVolume) {
   const PlateGeometry geometry = plate(GetParam());
   const Surface surface = make_plate_mesh(geometry);
   EXPECT_TRUE(surface.is_closed());
-  EXPECT_NEAR(surface.enclosed_volume(), geometry.area() * geometry.thickness, 1e-12 * geometry.area());
+  EXPECT_NEAR(surface.enclosed_volume(), geometry.area() * geometry.thickness,
+              1e-12 * geometry.area());
   double lower = 0.0;
   for (std::size_t t = 0; t < surface.triangle_count(); ++t)
     if (surface.area_vector(t).z() < -1e-12) lower -= surface.area_vector(t).z();
@@ -42,18 +43,24 @@ TEST_P(PlateMesh, IsClosedWithTheExactAreaAndVolume) {
   EXPECT_GT(degrees(surface.minimum_angle()), 38.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, PlateMesh, ::testing::Values(PlateShape::circle, PlateShape::square),
-                         [](const auto& shape) { return shape.param == PlateShape::circle ? "circle" : "square"; });
+INSTANTIATE_TEST_SUITE_P(Shapes, PlateMesh,
+                         ::testing::Values(PlateShape::circle, PlateShape::square),
+                         [](const auto& shape) {
+                           return shape.param == PlateShape::circle ? "circle" : "square";
+                         });
 
 TEST(PlateMesh, RefusesShapesThatCannotBe) {
   PlateGeometry geometry = plate(PlateShape::circle);
   geometry.thickness = 1e-5;
-  EXPECT_THAT(message_of([&] { make_plate_mesh(geometry, "fix plate/rigid"); }), HasSubstr("makes slivers at the edge"));
+  EXPECT_THAT(message_of([&] { make_plate_mesh(geometry, "fix plate/rigid"); }),
+              HasSubstr("makes slivers at the edge"));
   geometry = plate(PlateShape::circle);
   geometry.elements = 7;
-  EXPECT_THAT(message_of([&] { make_plate_mesh(geometry, "fix plate/rigid"); }), HasSubstr("an even number"));
+  EXPECT_THAT(message_of([&] { make_plate_mesh(geometry, "fix plate/rigid"); }),
+              HasSubstr("an even number"));
   geometry.size = -1.0;
-  EXPECT_THAT(message_of([&] { make_plate_mesh(geometry, "fix plate/rigid"); }), HasSubstr("keyword 'size' is -1 m"));
+  EXPECT_THAT(message_of([&] { make_plate_mesh(geometry, "fix plate/rigid"); }),
+              HasSubstr("keyword 'size' is -1 m"));
 }
 
 // A force of 3 N over 100 steps of 1 mm/s: work 3 N x 1e-4 m, given back by the drive.
@@ -86,12 +93,14 @@ TEST(RigidPlate, ContinuesFromItsStateAndRefusesAnother) {
   EXPECT_EQ(first.state(), second.state());
 
   RigidPlate other(plate(PlateShape::square), Vector3::Zero());
-  EXPECT_THAT(message_of([&] { other.restore(first.state()); }), HasSubstr("belongs to another plate"));
+  EXPECT_THAT(message_of([&] { other.restore(first.state()); }),
+              HasSubstr("belongs to another plate"));
 }
 
 TEST(RigidPlate, StopsOnNotANumber) {
   RigidPlate body(plate(PlateShape::circle), Vector3::Zero());
-  EXPECT_THAT(message_of([&] { body.prescribe(std::nan("")); }), HasSubstr("prescribed velocity is nan"));
+  EXPECT_THAT(message_of([&] { body.prescribe(std::nan("")); }),
+              HasSubstr("prescribed velocity is nan"));
   body.surface().f(2, 0) = std::nan("");
   EXPECT_THAT(message_of([&] { body.advance(1e-3); }), HasSubstr("the force on it is nan"));
 }

@@ -50,12 +50,14 @@ std::string error_of(Function&& function) {
   return "no error";
 }
 
-constexpr std::array<RigidWheel::Coordinate, 6> all_coordinates{RigidWheel::x,    RigidWheel::y,   RigidWheel::z,
-                                                                RigidWheel::spin, RigidWheel::yaw, RigidWheel::camber};
+constexpr std::array<RigidWheel::Coordinate, 6> all_coordinates{
+    RigidWheel::x,    RigidWheel::y,   RigidWheel::z,
+    RigidWheel::spin, RigidWheel::yaw, RigidWheel::camber};
 
 TEST(RigidWheel, ReadsItsKeys) {
-  const RigidWheel wheel(RigidWheel::schema().read(Words{"diameter", "0.74", "width", "0.272", "shoulder", "0.051", "mass",
-                                                         "636", "inertia", "2.15", "axle", "1", "2", "3"}));
+  const RigidWheel wheel(
+      RigidWheel::schema().read(Words{"diameter", "0.74", "width", "0.272", "shoulder", "0.051",
+                                      "mass", "636", "inertia", "2.15", "axle", "1", "2", "3"}));
   EXPECT_DOUBLE_EQ(wheel.parameters().mass, 636.0);
   EXPECT_DOUBLE_EQ(wheel.parameters().axle_inertia, 2.15);
   EXPECT_DOUBLE_EQ(wheel.parameters().diametral_inertia, 0.5 * 2.15 + 636.0 * 0.272 * 0.272 / 12.0);
@@ -63,20 +65,26 @@ TEST(RigidWheel, ReadsItsKeys) {
   EXPECT_DOUBLE_EQ(wheel.lowest_point(), 3.0 - 0.37);
   EXPECT_TRUE(wheel.surface().is_closed());
   EXPECT_EQ(wheel.stable_time_step(), std::numeric_limits<double>::infinity());
-  for (const auto coordinate : all_coordinates) EXPECT_EQ(wheel.motion(coordinate), RigidWheel::Motion::held);
+  for (const auto coordinate : all_coordinates)
+    EXPECT_EQ(wheel.motion(coordinate), RigidWheel::Motion::held);
 }
 
 TEST(RigidWheel, RefusesWithKeywordAndRemedy) {
-  EXPECT_THAT(refusal_of({"mass", "-5"}), HasSubstr("fix wheel/rigid, keyword 'mass' is -5; allowed: a number > 0 [kg]"));
-  EXPECT_THAT(refusal_of({"inertia", "88"}), HasSubstr("keyword 'inertia' is 88 kg m^2; allowed: at most 87.0684 kg m^2"));
+  EXPECT_THAT(refusal_of({"mass", "-5"}),
+              HasSubstr("fix wheel/rigid, keyword 'mass' is -5; allowed: a number > 0 [kg]"));
+  EXPECT_THAT(refusal_of({"inertia", "88"}),
+              HasSubstr("keyword 'inertia' is 88 kg m^2; allowed: at most 87.0684 kg m^2"));
   EXPECT_THAT(refusal_of({"inertia_diametral", "1"}),
               HasSubstr("keyword 'inertia_diametral' is 1 kg m^2; allowed: at least half of"));
   EXPECT_THAT(refusal_of({"shoulder", "0.2"}), HasSubstr("has shoulder 0.2 m"));
-  EXPECT_THAT(refusal_of({"grousers", "6"}), HasSubstr("keyword 'grouser_height' is missing; allowed: a number > 0 [m]"));
-  EXPECT_THAT(refusal_of({"grousers", "6", "grouser_height", "0.02"}), HasSubstr("keyword 'grouser_thickness' is missing"));
+  EXPECT_THAT(refusal_of({"grousers", "6"}),
+              HasSubstr("keyword 'grouser_height' is missing; allowed: a number > 0 [m]"));
+  EXPECT_THAT(refusal_of({"grousers", "6", "grouser_height", "0.02"}),
+              HasSubstr("keyword 'grouser_thickness' is missing"));
   EXPECT_THAT(refusal_of({"grouser_height", "0.02"}),
               HasSubstr("keyword 'grouser_height' is given to a wheel without grousers"));
-  EXPECT_THAT(refusal_of({"segments", "8"}), HasSubstr("keyword 'segments' is 8; allowed: an integer in [12, 5000]"));
+  EXPECT_THAT(refusal_of({"segments", "8"}),
+              HasSubstr("keyword 'segments' is 8; allowed: an integer in [12, 5000]"));
 }
 
 TEST(RigidWheel, RefusesParametersThatAreNotNumbers) {
@@ -95,7 +103,8 @@ TEST(RigidWheel, FreeFallFollowsTheLeapfrogExactly) {
   const double g = standard_gravity, dt = 1e-3;
   wheel.set_load({0, 0, -3.0 * g});
   for (int i = 0; i < 1000; ++i) wheel.advance(dt);
-  EXPECT_NEAR(wheel.centre().z(), 0.5 - g * dt * dt * 1000 * 1001 / 2, 1e-12);  // sum of i dt g dt; g t^2/2 within dt t g/2
+  // sum of i dt g dt; g t^2/2 within dt t g/2
+  EXPECT_NEAR(wheel.centre().z(), 0.5 - g * dt * dt * 1000 * 1001 / 2, 1e-12);
   EXPECT_NEAR(wheel.velocity().z(), -g, 1e-12);
   EXPECT_EQ(wheel.centre().x(), 0.1);
   EXPECT_NEAR(wheel.balance().load_work / wheel.balance().kinetic_energy, 1.0, 1e-13);
@@ -121,7 +130,8 @@ TEST(RigidWheel, PositiveSpinRollsForward) {
   const Surface& surface = wheel.surface();
   for (Eigen::Index node = 0; node < surface.x.cols(); ++node) {
     const Vector3 arm = surface.x.col(node) - wheel.centre();
-    EXPECT_NEAR((surface.v.col(node) - Vector3(0.4 + 2.0 * arm.z(), 0.0, -2.0 * arm.x())).norm(), 0.0, 1e-14);
+    EXPECT_NEAR((surface.v.col(node) - Vector3(0.4 + 2.0 * arm.z(), 0.0, -2.0 * arm.x())).norm(),
+                0.0, 1e-14);
   }
 }
 
@@ -162,17 +172,21 @@ TEST(RigidWheel, NodesKeepTheShapeAfterManyTurns) {
   EXPECT_EQ((wheel.surface().x - start).norm(), 0.0);
 }
 
-// Steady precession: a couple M about the level line across the axle turns the axle at -M/(C d(spin)/dt) about the vertical.
+// Steady precession: a couple M about the level line across the axle turns the axle at -M/(C
+// d(spin)/dt) about the vertical.
 TEST(RigidWheel, AFastWheelPrecessesUnderACouple) {
   RigidWheel wheel(small_wheel());
-  for (const auto angle : {RigidWheel::spin, RigidWheel::yaw, RigidWheel::camber}) wheel.release(angle);
+  for (const auto angle : {RigidWheel::spin, RigidWheel::yaw, RigidWheel::camber})
+    wheel.release(angle);
   const double omega = 1000.0, couple = 3.0, dt = 1e-6, precession = -couple / (0.06 * omega);
   wheel.set_velocity(Vector3::Zero(), {omega, precession, 0.0});
   const int steps = 20000;
   for (int i = 0; i < steps; ++i) {
-    // forces level x arm on all nodes of the ring-symmetric mesh: no resultant, a pure couple along level
+    // forces level x arm on all nodes of the ring-symmetric mesh: no resultant, a pure couple along
+    // level
     Surface& surface = wheel.surface();
-    const Vector3 level(std::cos(wheel.position(RigidWheel::yaw)), std::sin(wheel.position(RigidWheel::yaw)), 0.0);
+    const Vector3 level(std::cos(wheel.position(RigidWheel::yaw)),
+                        std::sin(wheel.position(RigidWheel::yaw)), 0.0);
     for (Eigen::Index node = 0; node < surface.x.cols(); ++node)
       surface.f.col(node) = level.cross(Vector3(surface.x.col(node) - wheel.centre()));
     surface.f *= couple / surface.total_moment(wheel.centre()).dot(level);
@@ -182,12 +196,14 @@ TEST(RigidWheel, AFastWheelPrecessesUnderACouple) {
   EXPECT_NEAR(wheel.position(RigidWheel::camber), 0.0, 1e-9);
 }
 
-// A body of revolution left to itself keeps its angular momentum; the error falls with the square of the step.
+// A body of revolution left to itself keeps its angular momentum; the error falls with the square
+// of the step.
 TEST(RigidWheel, FreeRotationKeepsEnergyToRoundOffAndAngularMomentumToSecondOrder) {
   std::array<double, 3> error{};
   for (std::size_t level = 0; level < 3; ++level) {
     RigidWheel wheel(small_wheel());
-    for (const auto angle : {RigidWheel::spin, RigidWheel::yaw, RigidWheel::camber}) wheel.release(angle);
+    for (const auto angle : {RigidWheel::spin, RigidWheel::yaw, RigidWheel::camber})
+      wheel.release(angle);
     wheel.set_velocity(Vector3::Zero(), {20.0, 3.0, -2.0});
     const double energy = wheel.balance().kinetic_energy, dt = 5e-4 / (1 << level);
     // half-way through a step, where the velocities belong
@@ -208,7 +224,8 @@ TEST(RigidWheel, FreeRotationKeepsEnergyToRoundOffAndAngularMomentumToSecondOrde
   EXPECT_NEAR(std::log2(error[1] / error[2]), 2.0, 0.05);
 }
 
-/// Random forces over 1e5 steps; every work is counted, so that the balance closes to round-off whatever the modes are.
+/// Random forces over 1e5 steps; every work is counted, so that the balance closes to round-off
+/// whatever the modes are.
 void expect_closed_balance(const std::array<RigidWheel::Motion, 6>& motions) {
   RigidWheel wheel(small_wheel());
   std::mt19937 random(7);
@@ -239,11 +256,16 @@ void expect_closed_balance(const std::array<RigidWheel::Motion, 6>& motions) {
   EXPECT_GT(scale, 0.1);
 }
 
-constexpr auto F = RigidWheel::Motion::free, H = RigidWheel::Motion::held, P = RigidWheel::Motion::prescribed;
+constexpr auto F = RigidWheel::Motion::free, H = RigidWheel::Motion::held,
+               P = RigidWheel::Motion::prescribed;
 
-TEST(RigidWheel, BalanceClosesWithEveryCoordinateFree) { expect_closed_balance({F, F, F, F, F, H}); }
+TEST(RigidWheel, BalanceClosesWithEveryCoordinateFree) {
+  expect_closed_balance({F, F, F, F, F, H});
+}
 TEST(RigidWheel, BalanceClosesWithCamberFree) { expect_closed_balance({F, F, F, F, F, F}); }
-TEST(RigidWheel, BalanceClosesWithEveryCoordinatePrescribed) { expect_closed_balance({P, P, P, P, P, P}); }
+TEST(RigidWheel, BalanceClosesWithEveryCoordinatePrescribed) {
+  expect_closed_balance({P, P, P, P, P, P});
+}
 TEST(RigidWheel, BalanceClosesTowed) { expect_closed_balance({P, H, F, F, H, H}); }
 TEST(RigidWheel, BalanceClosesWithSlipPrescribed) { expect_closed_balance({P, H, F, P, H, H}); }
 TEST(RigidWheel, BalanceClosesWithFreeSpinInATurn) { expect_closed_balance({P, P, F, F, P, P}); }
@@ -267,7 +289,8 @@ TEST(RigidWheel, ContinuesBitwiseFromItsState) {
     wheel.surface().f.setConstant(0.01 * std::sin(0.1 * i));
     wheel.advance(1e-3);
   };
-  for (const auto coordinate : {RigidWheel::z, RigidWheel::spin, RigidWheel::camber}) one.release(coordinate);
+  for (const auto coordinate : {RigidWheel::z, RigidWheel::spin, RigidWheel::camber})
+    one.release(coordinate);
   one.prescribe(RigidWheel::x, 0.7);
   one.set_load({0, 0, -2.0});
   one.set_axle_torque(0.1);
@@ -295,14 +318,20 @@ TEST(RigidWheel, RefusesTheStateOfAnotherWheel) {
 TEST(RigidWheel, StopsOnStatesThatMustNotGoOn) {
   RigidWheel wheel(small_wheel());
   EXPECT_THAT(error_of([&] { wheel.advance(0.0); }), HasSubstr("a step of 0 s"));
-  EXPECT_THAT(error_of([&] { wheel.prescribe(RigidWheel::x, std::nan("")); }), HasSubstr("prescribed velocity is nan"));
-  EXPECT_THAT(error_of([&] { wheel.set_velocity({0, 0, std::nan("")}, Vector3::Zero()); }), HasSubstr("is not finite"));
+  EXPECT_THAT(error_of([&] { wheel.prescribe(RigidWheel::x, std::nan("")); }),
+              HasSubstr("prescribed velocity is nan"));
+  EXPECT_THAT(error_of([&] {
+                wheel.set_velocity({0, 0, std::nan("")}, Vector3::Zero());
+              }),
+              HasSubstr("is not finite"));
   EXPECT_THAT(error_of([&] { wheel.place({0, 0, 0}, 0.0, 1.55); }), HasSubstr("cannot be placed"));
   wheel.surface().f(2, 5) = std::nan("");
-  EXPECT_THAT(error_of([&] { wheel.advance(1e-3); }), HasSubstr("rigid wheel: not finite: force 0 0 nan N"));
+  EXPECT_THAT(error_of([&] { wheel.advance(1e-3); }),
+              HasSubstr("rigid wheel: not finite: force 0 0 nan N"));
   wheel.surface().clear_forces();
   wheel.prescribe(RigidWheel::camber, 2000.0);
-  EXPECT_THAT(error_of([&] { wheel.advance(1e-3); }), HasSubstr("fell over, its camber is 114.6 degrees"));
+  EXPECT_THAT(error_of([&] { wheel.advance(1e-3); }),
+              HasSubstr("fell over, its camber is 114.6 degrees"));
 }
 
 }  // namespace

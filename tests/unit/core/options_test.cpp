@@ -17,7 +17,8 @@ Schema wheel_schema() {
   schema.number("shoulder", "m", Range::non_negative(), "shoulder radius").by_default(0.0);
   schema.integer("segments", Range::closed(8, 1000), "segments").by_default("64");
   schema.word("mode", {"towed", "slip"}, "mode").optional();
-  schema.numbers("axle", 3, "m", Range::any(), "axle centre").by_default(std::vector<double>{0, 0, 0});
+  schema.numbers("axle", 3, "m", Range::any(), "axle centre")
+      .by_default(std::vector<double>{0, 0, 0});
   schema.numbers("table", 0, "Pa", Range::any(), "a list").optional();
   return schema;
 }
@@ -32,8 +33,8 @@ std::string message_of(const Words& words) {
 }
 
 TEST(Options, ReadsGivenValuesAndDefaults) {
-  const Options options =
-      wheel_schema().read(Words{"axle", "1", "-2", "3e-1", "diameter", "0.74", "table", "1", "2", "mode", "slip"});
+  const Options options = wheel_schema().read(
+      Words{"axle", "1", "-2", "3e-1", "diameter", "0.74", "table", "1", "2", "mode", "slip"});
   EXPECT_DOUBLE_EQ(options.number("diameter"), 0.74);
   EXPECT_DOUBLE_EQ(options.number("shoulder"), 0.0);
   EXPECT_EQ(options.integer("segments"), 64);
@@ -46,17 +47,21 @@ TEST(Options, ReadsGivenValuesAndDefaults) {
 }
 
 TEST(Options, RefusesWithKeywordAllowedAndRemedy) {
-  EXPECT_THAT(message_of({"diametre", "1"}), HasSubstr("no keyword 'diametre'; allowed: diameter, shoulder"));
+  EXPECT_THAT(message_of({"diametre", "1"}),
+              HasSubstr("no keyword 'diametre'; allowed: diameter, shoulder"));
   EXPECT_THAT(message_of({"diametre", "1"}), HasSubstr("did you mean 'diameter'?"));
-  EXPECT_THAT(message_of({"diameter", "-1"}), HasSubstr("keyword 'diameter' is -1; allowed: a number > 0 [m]"));
+  EXPECT_THAT(message_of({"diameter", "-1"}),
+              HasSubstr("keyword 'diameter' is -1; allowed: a number > 0 [m]"));
   EXPECT_THAT(message_of({"diameter", "nan"}), HasSubstr("is nan; allowed"));
   EXPECT_THAT(message_of({"diameter", "1e999"}), HasSubstr("not a number"));
   EXPECT_THAT(message_of({"diameter", "1,5"}), HasSubstr("which is not a number"));
   EXPECT_THAT(message_of({"diameter"}), HasSubstr("has no value"));
-  EXPECT_THAT(message_of({"diameter", "shoulder", "1"}), HasSubstr("keyword 'diameter' has no value"));
+  EXPECT_THAT(message_of({"diameter", "shoulder", "1"}),
+              HasSubstr("keyword 'diameter' has no value"));
   EXPECT_THAT(message_of({"shoulder", "0.1"}), HasSubstr("keyword 'diameter' is missing"));
   EXPECT_THAT(message_of({"diameter", "1", "diameter", "2"}), HasSubstr("given twice"));
-  EXPECT_THAT(message_of({"diameter", "1", "segments", "9.5"}), HasSubstr("an integer in [8, 1000]"));
+  EXPECT_THAT(message_of({"diameter", "1", "segments", "9.5"}),
+              HasSubstr("an integer in [8, 1000]"));
   EXPECT_THAT(message_of({"diameter", "1", "mode", "free"}), HasSubstr("one of: towed, slip"));
   EXPECT_THAT(message_of({"diameter", "1", "axle", "1", "2"}), HasSubstr("3 numbers"));
   EXPECT_THAT(message_of({"diameter", "1", "table"}), HasSubstr("has no value"));
@@ -83,9 +88,11 @@ TEST(Options, EntriesOfAFileTellTheirLine) {
               HasSubstr("wheel.yaml, line 3: fix wheel/rigid, keyword 'diameter' is -1"));
   EXPECT_THAT(message({{"diametre", {"1"}, "wheel.yaml, line 4"}}),
               HasSubstr("wheel.yaml, line 4: fix wheel/rigid has no keyword"));
-  EXPECT_THAT(message({{"diameter", {"1"}, "wheel.yaml, line 3"}, {"diameter", {"2"}, "wheel.yaml, line 9"}}),
+  EXPECT_THAT(message({{"diameter", {"1"}, "wheel.yaml, line 3"},
+                       {"diameter", {"2"}, "wheel.yaml, line 9"}}),
               HasSubstr("wheel.yaml, line 9: fix wheel/rigid, keyword 'diameter' is given twice"));
-  const Options options = wheel_schema().read(std::vector<Entry>{{"diameter", {"1"}, "wheel.yaml, line 3"}});
+  const Options options =
+      wheel_schema().read(std::vector<Entry>{{"diameter", {"1"}, "wheel.yaml, line 3"}});
   EXPECT_EQ(options.where("diameter"), "wheel.yaml, line 3: fix wheel/rigid, keyword 'diameter'");
   EXPECT_EQ(options.where("shoulder"), "fix wheel/rigid, keyword 'shoulder'");
 }

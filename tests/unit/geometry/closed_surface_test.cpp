@@ -39,14 +39,16 @@ TEST(ClosedSurface, MissingTriangleIsAnOpenEdge) {
   Surface surface = tetrahedron();
   surface.triangles.pop_back();
   EXPECT_THAT([&] { check_closed(surface, "soil"); },
-              ThrowsMessage<StateError>(AllOf(HasSubstr("body 'soil': its surface is not closed"),
-                                              HasSubstr("the edge of nodes 1 and 2 belongs to one triangle"))));
+              ThrowsMessage<StateError>(
+                  AllOf(HasSubstr("body 'soil': its surface is not closed"),
+                        HasSubstr("the edge of nodes 1 and 2 belongs to one triangle"))));
 }
 
 TEST(ClosedSurface, TurnedTriangleIsNamed) {
   Surface surface = tetrahedron();
   std::swap(surface.triangles[3][0], surface.triangles[3][1]);
-  EXPECT_THAT([&] { check_closed(surface, "soil"); }, ThrowsMessage<StateError>(HasSubstr("turned inside out")));
+  EXPECT_THAT([&] { check_closed(surface, "soil"); },
+              ThrowsMessage<StateError>(HasSubstr("turned inside out")));
 }
 
 TEST(ClosedSurface, FinOnASolidIsRefused) {
@@ -57,7 +59,8 @@ TEST(ClosedSurface, FinOnASolidIsRefused) {
 }
 
 TEST(ClosedSurface, NothingIsNotClosed) {
-  EXPECT_THAT([] { check_closed(Surface(), "soil"); }, ThrowsMessage<StateError>(HasSubstr("there are no triangles")));
+  EXPECT_THAT([] { check_closed(Surface(), "soil"); },
+              ThrowsMessage<StateError>(HasSubstr("there are no triangles")));
 }
 
 }  // namespace

@@ -8,7 +8,8 @@
 namespace furrow {
 namespace {
 
-/// Independent answer: the smallest of the distances to the plane's foot (if inside) and to the three edges.
+/// Independent answer: the smallest of the distances to the plane's foot (if inside) and to the
+/// three edges.
 double brute_force_distance(const Vector3& p, const std::array<Vector3, 3>& t) {
   const Vector3 n = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
   const Vector3 foot = p - n * n.dot(p - t[0]);
@@ -27,7 +28,9 @@ double brute_force_distance(const Vector3& p, const std::array<Vector3, 3>& t) {
 TEST(ClosestPoint, AgreesWithBruteForceForTrianglesOfAnyShape) {
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  const auto random = [&] { return Vector3(uniform(generator), uniform(generator), uniform(generator)); };
+  const auto random = [&] {
+    return Vector3(uniform(generator), uniform(generator), uniform(generator));
+  };
   for (int i = 0; i < 20000; ++i) {
     std::array<Vector3, 3> t{random(), random(), random()};
     if (i % 3 == 0) t[2] = 0.5 * (t[0] + t[1]) + 0.02 * random();  // very obtuse
@@ -65,7 +68,8 @@ TEST(ContactSelection, RidgeIsOneContactOnTheEdge) {
 }
 
 TEST(ContactSelection, ShallowValleyIsOneContactASharpOneIsTwo) {
-  std::vector<ContactCandidate> shallow = candidates_over_edge(radians(10), Vector3(-0.03, 0.0, 0.2));
+  std::vector<ContactCandidate> shallow =
+      candidates_over_edge(radians(10), Vector3(-0.03, 0.0, 0.2));
   ContactSelection().select(shallow, 0.25);
   ASSERT_EQ(shallow.size(), 1u);
   EXPECT_EQ(shallow[0].triangle, 0);  // the deeper one

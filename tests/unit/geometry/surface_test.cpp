@@ -62,9 +62,10 @@ TEST(Surface, ForcesKeepForceAndMomentToRoundOff) {
   for (int i = 0; i < 1000; ++i) {
     const auto triangle = static_cast<std::size_t>(i % 4);
     const Vector3i nodes = surface.triangles[triangle];
-    const double beta = unit(random), gamma = unit(random);  // also outside of the triangle, on its plane
-    const Vector3 point =
-        (1.0 - beta - gamma) * surface.x.col(nodes[0]) + beta * surface.x.col(nodes[1]) + gamma * surface.x.col(nodes[2]);
+    // also outside of the triangle, on its plane
+    const double beta = unit(random), gamma = unit(random);
+    const Vector3 point = (1.0 - beta - gamma) * surface.x.col(nodes[0]) +
+                          beta * surface.x.col(nodes[1]) + gamma * surface.x.col(nodes[2]);
     const Vector3 applied(unit(random), unit(random), unit(random));
     surface.add_force(triangle, point, applied);
     force += applied;
@@ -114,7 +115,8 @@ TEST(Surface, ClosedMeansEveryEdgeTwiceInOppositeDirections) {
   EXPECT_FALSE(flipped.is_closed());
 
   Surface doubled = tetrahedron();
-  doubled.triangles.insert(doubled.triangles.end(), doubled.triangles.begin(), doubled.triangles.begin() + 4);
+  doubled.triangles.insert(doubled.triangles.end(), doubled.triangles.begin(),
+                           doubled.triangles.begin() + 4);
   EXPECT_FALSE(doubled.is_closed());
 
   Surface degenerate = tetrahedron();
@@ -130,7 +132,8 @@ TEST(Surface, NotANumberIsReportedWithBodyAndNode) {
   EXPECT_THAT(state_error_of([&] { surface.check_finite("wheel"); }),
               HasSubstr("body 'wheel': the velocity of node 2 is not finite (0 nan 0)"));
   surface.x(0, 1) = std::numeric_limits<double>::infinity();
-  EXPECT_THAT(state_error_of([&] { surface.check_finite("wheel"); }), HasSubstr("the position of node 1 is not finite"));
+  EXPECT_THAT(state_error_of([&] { surface.check_finite("wheel"); }),
+              HasSubstr("the position of node 1 is not finite"));
 }
 
 }  // namespace

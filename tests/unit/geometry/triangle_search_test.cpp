@@ -23,14 +23,17 @@ Surface disc() {
 
 double distance_to(const Surface& surface, int t, const Vector3& point) {
   const Vector3i& n = surface.triangles[static_cast<std::size_t>(t)];
-  return closest_point_on_triangle(point, surface.x.col(n[0]), surface.x.col(n[1]), surface.x.col(n[2])).distance;
+  return closest_point_on_triangle(point, surface.x.col(n[0]), surface.x.col(n[1]),
+                                   surface.x.col(n[2]))
+      .distance;
 }
 
 std::vector<Vector3> random_points(std::size_t count, double half) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(-half, half);
   std::vector<Vector3> points;
-  for (std::size_t n = 0; n < count; ++n) points.emplace_back(place(random), place(random), place(random));
+  for (std::size_t n = 0; n < count; ++n)
+    points.emplace_back(place(random), place(random), place(random));
   return points;
 }
 
@@ -79,7 +82,8 @@ TEST(TriangleSearch, WorksOnAFlatRegion) {
     }
 }
 
-/// The direction at the nearest feature tells inside from outside everywhere, as the crossings of a ray do.
+/// The direction at the nearest feature tells inside from outside everywhere, as the crossings of a
+/// ray do.
 TEST(NodeTriangles, OutwardAgreesWithEncloses) {
   const Surface surface = disc();
   const NodeTriangles corners(surface);
@@ -90,13 +94,15 @@ TEST(NodeTriangles, OutwardAgreesWithEncloses) {
     std::size_t triangle = 0;
     for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
       const Vector3i& n = surface.triangles[t];
-      const ClosestPoint one = closest_point_on_triangle(point, surface.x.col(n[0]), surface.x.col(n[1]), surface.x.col(n[2]));
+      const ClosestPoint one = closest_point_on_triangle(point, surface.x.col(n[0]),
+                                                         surface.x.col(n[1]), surface.x.col(n[2]));
       if (one.distance < closest.distance) {
         closest = one;
         triangle = t;
       }
     }
-    const bool is_inside = closest.separation.dot(corners.outward(surface, triangle, closest.barycentric)) < 0.0;
+    const bool is_inside =
+        closest.separation.dot(corners.outward(surface, triangle, closest.barycentric)) < 0.0;
     EXPECT_EQ(is_inside, encloses(surface, point)) << point.transpose();
     inside += is_inside ? 1 : 0;
     ++features[closest.feature_nodes()];

@@ -41,18 +41,22 @@ double true_volume(const WheelGeometry& w) {
 }
 double true_area(const WheelGeometry& w) {
   const double s = w.shoulder, inner = w.radius() - s;
-  return 2.0 * pi * w.radius() * w.tread_width() + 4.0 * pi * s * (0.5 * pi * inner + s) + 2.0 * pi * inner * inner;
+  return 2.0 * pi * w.radius() * w.tread_width() + 4.0 * pi * s * (0.5 * pi * inner + s) +
+         2.0 * pi * inner * inner;
 }
 
-/// Integral of z^2 + x^2 over the enclosed volume: the moment of inertia about the axle at unit density.
+/// Integral of z^2 + x^2 over the enclosed volume: the moment of inertia about the axle at unit
+/// density.
 double axial_moment(const Surface& surface) {
   double moment = 0.0;
   for (const Vector3i& nodes : surface.triangles) {
-    const Vector3 a = surface.x.col(nodes[0]), b = surface.x.col(nodes[1]), c = surface.x.col(nodes[2]);
+    const Vector3 a = surface.x.col(nodes[0]), b = surface.x.col(nodes[1]),
+                  c = surface.x.col(nodes[2]);
     const double volume = a.dot(b.cross(c)) / 6.0;  // of the tetrahedron with the origin
     for (const int axis : {0, 2}) {
       const double sum = a[axis] + b[axis] + c[axis];
-      moment += volume / 20.0 * (a[axis] * a[axis] + b[axis] * b[axis] + c[axis] * c[axis] + sum * sum);
+      moment +=
+          volume / 20.0 * (a[axis] * a[axis] + b[axis] * b[axis] + c[axis] * c[axis] + sum * sum);
     }
   }
   return moment;
@@ -125,16 +129,19 @@ TEST(WheelMesh, AFlatWheelHasTheVolumeOfTheCylinderAtAnyNumberOfSegments) {
 TEST(WheelMesh, VolumeAreaAndInertiaOfTheRoundedWheelConvergeWithSecondOrder) {
   std::array<double, 3> volume_error{}, area_error{}, inertia_error{};
   const double s = tr_wheel().shoulder, r = tr_wheel().radius();
-  // pi/2 times the integral of radius^4 along the axle, shoulder by the binomials of (r - s) + s cos
+  // pi/2 times the integral of radius^4 along the axle, shoulder by the binomials of (r - s) + s
+  // cos
   const double c1 = pi / 4, c2 = 2.0 / 3.0, c3 = 3 * pi / 16, c4 = 8.0 / 15.0,
                d = r - s;  // integrals of cos^(k+1) over a quarter
-  const double quarter = s * (std::pow(d, 4) + 4 * std::pow(d, 3) * s * c1 + 6 * d * d * s * s * c2 +
-                              4 * d * std::pow(s, 3) * c3 + std::pow(s, 4) * c4);
+  const double quarter =
+      s * (std::pow(d, 4) + 4 * std::pow(d, 3) * s * c1 + 6 * d * d * s * s * c2 +
+           4 * d * std::pow(s, 3) * c3 + std::pow(s, 4) * c4);
   const double inertia = 0.5 * pi * (std::pow(r, 4) * tr_wheel().tread_width() + 2.0 * quarter);
   for (std::size_t level = 0; level < 3; ++level) {
     WheelGeometry wheel = tr_wheel();
     wheel.segments = 48 << level;
-    wheel.element_size = 0.5 * pi * wheel.shoulder / (2 << level);  // 2, 4, 8 elements over a shoulder
+    // 2, 4, 8 elements over a shoulder
+    wheel.element_size = 0.5 * pi * wheel.shoulder / (2 << level);
     const Surface surface = make_wheel_mesh(wheel);
     volume_error[level] = std::abs(surface.enclosed_volume() / true_volume(wheel) - 1.0);
     area_error[level] = std::abs(surface.total_area() / true_area(wheel) - 1.0);
@@ -142,7 +149,8 @@ TEST(WheelMesh, VolumeAreaAndInertiaOfTheRoundedWheelConvergeWithSecondOrder) {
   }
   for (const auto& error : {volume_error, area_error, inertia_error}) {
     EXPECT_LT(error[2], 1e-3);
-    for (int level = 0; level < 2; ++level) EXPECT_NEAR(std::log2(error[level] / error[level + 1]), 2.0, 0.1);
+    for (int level = 0; level < 2; ++level)
+      EXPECT_NEAR(std::log2(error[level] / error[level + 1]), 2.0, 0.1);
   }
 }
 
@@ -185,11 +193,13 @@ TEST(WheelMesh, EveryGrouserStandsOutByItsHeightAndIsAsThickAsAsked) {
     highest = std::max(highest, x.z());
     widest = std::max(widest, 2.0 * std::abs(x.x()));
   }
-  EXPECT_NEAR(highest - wheel.radius(), wheel.grousers.height, 1e-4);  // within the sag of the tread under the bar
+  // within the sag of the tread under the bar
+  EXPECT_NEAR(highest - wheel.radius(), wheel.grousers.height, 1e-4);
   EXPECT_NEAR(widest, wheel.grousers.thickness, 1e-12);
 }
 
-// A skewed bar takes thickness/cos(angle) of the circumference; its edge gains x = y tan(angle) around the tread.
+// A skewed bar takes thickness/cos(angle) of the circumference; its edge gains x = y tan(angle)
+// around the tread.
 TEST(WheelMesh, SkewedGrousersFollowTheirLine) {
   for (const double angle : {radians(20.0), radians(-35.0)}) {
     const WheelGeometry wheel = grouser_wheel(angle);
@@ -212,12 +222,13 @@ TEST(WheelMesh, SkewedGrousersFollowTheirLine) {
   }
 }
 
-// The twisted facets between two rings of a skewed wheel bulge: an error of the order of facet length times ring spacing.
+// The twisted facets between two rings of a skewed wheel bulge: an error of the order of facet
+// length times ring spacing.
 TEST(WheelMesh, TheVolumeOfSkewedGrousersConvergesWithSecondOrder) {
   const double angle = radians(30.0);
   WheelGeometry wheel = grouser_wheel(angle);
-  const double prisms =
-      wheel.grousers.number * wheel.grousers.height * wheel.grousers.thickness / std::cos(angle) * wheel.width;
+  const double prisms = wheel.grousers.number * wheel.grousers.height * wheel.grousers.thickness /
+                        std::cos(angle) * wheel.width;
   std::array<double, 4> error{};
   for (std::size_t level = 0; level < 4; ++level) {
     wheel.segments = 60 << level;  // 2, 4, 8, 16 facets between two bars
@@ -231,8 +242,9 @@ TEST(WheelMesh, TheVolumeOfSkewedGrousersConvergesWithSecondOrder) {
 TEST(WheelMesh, GrousersOfManyShapesAreSound) {
   WheelGeometry wheel = tr_wheel();
   for (const Grousers& bars :
-       {Grousers{18, 0.02, 0.005, radians(15)}, Grousers{18, 0.05, 0.05, radians(-15)}, Grousers{1, 0.02, 0.05, 0.0},
-        Grousers{60, 0.01, 0.02, 0.0}, Grousers{12, 0.03, 0.02, radians(45)}}) {
+       {Grousers{18, 0.02, 0.005, radians(15)}, Grousers{18, 0.05, 0.05, radians(-15)},
+        Grousers{1, 0.02, 0.05, 0.0}, Grousers{60, 0.01, 0.02, 0.0},
+        Grousers{12, 0.03, 0.02, radians(45)}}) {
     wheel.grousers = bars;
     expect_sound(make_wheel_mesh(wheel));
   }
@@ -257,14 +269,15 @@ TEST(WheelMesh, DepthBelowTheCentreIsThatOfTheTrueShape) {
 TEST(WheelMesh, RefusesImpossibleShapes) {
   WheelGeometry wheel = tr_wheel();
   wheel.diameter = -1;
-  EXPECT_THAT(refusal_of(wheel), HasSubstr("fix wheel/rigid has diameter -1 m; allowed: a number > 0"));
+  EXPECT_THAT(refusal_of(wheel),
+              HasSubstr("fix wheel/rigid has diameter -1 m; allowed: a number > 0"));
   wheel = tr_wheel();
   wheel.width = std::nan("");
   EXPECT_THAT(refusal_of(wheel), HasSubstr("has width nan m"));
   wheel = tr_wheel();
   wheel.shoulder = 0.14;
-  EXPECT_THAT(refusal_of(wheel),
-              HasSubstr("has shoulder 0.14 m; allowed: 0 to half the width, 0.136 m, and below the radius, 0.37 m"));
+  EXPECT_THAT(refusal_of(wheel), HasSubstr("has shoulder 0.14 m; allowed: 0 to half the width, "
+                                           "0.136 m, and below the radius, 0.37 m"));
   wheel.diameter = 0.25;
   wheel.shoulder = 0.13;
   EXPECT_THAT(refusal_of(wheel), HasSubstr("below the radius, 0.125 m"));
@@ -275,7 +288,8 @@ TEST(WheelMesh, RefusesImpossibleShapes) {
   wheel.element_size = -0.1;
   EXPECT_THAT(refusal_of(wheel), HasSubstr("has element_size -0.1 m"));
   wheel.element_size = 1e-6;
-  EXPECT_THAT(refusal_of(wheel), HasSubstr("triangles; allowed: at most 500000; give fewer segments"));
+  EXPECT_THAT(refusal_of(wheel),
+              HasSubstr("triangles; allowed: at most 500000; give fewer segments"));
   wheel = tr_wheel();
   wheel.shoulder = 0.001;
   EXPECT_THAT(refusal_of(wheel), HasSubstr("would have sliver triangles"));
@@ -292,11 +306,12 @@ TEST(WheelMesh, RefusesImpossibleGrousers) {
   wheel.grousers.thickness = 0.0;
   EXPECT_THAT(refusal_of(wheel), HasSubstr("has grouser_thickness 0 m"));
   wheel = grouser_wheel(radians(61.0));
-  EXPECT_THAT(refusal_of(wheel), HasSubstr("has grouser_angle 61 degrees; allowed: -60 to 60 degrees"));
+  EXPECT_THAT(refusal_of(wheel),
+              HasSubstr("has grouser_angle 61 degrees; allowed: -60 to 60 degrees"));
   wheel = grouser_wheel();
   wheel.grousers.thickness = 0.016;
-  EXPECT_THAT(refusal_of(wheel),
-              HasSubstr("has 24 grousers that overlap: each takes 0.016 m of the circumference, their pitch is 0.01518 m"));
+  EXPECT_THAT(refusal_of(wheel), HasSubstr("has 24 grousers that overlap: each takes 0.016 m of "
+                                           "the circumference, their pitch is 0.01518 m"));
   wheel.grousers.thickness = 0.010;
   wheel.grousers.angle = radians(50.0);  // 0.010 m fits, 0.010 m / cos(50 degrees) does not
   EXPECT_THAT(refusal_of(wheel), HasSubstr("overlap"));

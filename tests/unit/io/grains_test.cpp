@@ -58,7 +58,8 @@ TEST(Grains, CheckNamesWhatIsWrong) {
   EXPECT_THAT(message_of([&] { lost.check(); }), HasSubstr("of grain 3 is not finite"));
   Grains uneven = three_grains();
   uneven.radius.resize(2);
-  EXPECT_THAT(message_of([&] { uneven.check(); }), HasSubstr("3 ids, 3 positions, 3 velocities, 2 radii"));
+  EXPECT_THAT(message_of([&] { uneven.check(); }),
+              HasSubstr("3 ids, 3 positions, 3 velocities, 2 radii"));
   EXPECT_EQ(message_of([&] { three_grains().check(); }), "no error");
 }
 

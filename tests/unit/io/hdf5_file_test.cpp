@@ -71,7 +71,8 @@ TEST(Hdf5File, GrowsAndShrinksAcrossChunks) {
   const Scratch scratch;
   Hdf5File file(scratch.path("grow.h5"), Mode::create);
   file.create_group("/history");
-  for (const char* name : {"/history/time", "/history/load", "/history/angle"}) file.create_growing(name, 4);
+  for (const char* name : {"/history/time", "/history/load", "/history/angle"})
+    file.create_growing(name, 4);
   std::vector<double> expected;
   for (int i = 0; i < 5; ++i) {
     file.append("/history/time", {3.0 * i, 3.0 * i + 1.0, 3.0 * i + 2.0});
@@ -83,27 +84,36 @@ TEST(Hdf5File, GrowsAndShrinksAcrossChunks) {
   EXPECT_THAT(file.read_numbers("/history/time"), ElementsAre(0, 1, 2, 3, 4, 5, -1));
   EXPECT_EQ(file.length("/history/time"), 7u);
   EXPECT_EQ(file.length("/history/load"), 0u);
-  EXPECT_THAT(file.members("/history"), ElementsAre("time", "load", "angle"));  // in the order they were made
+  // in the order they were made
+  EXPECT_THAT(file.members("/history"), ElementsAre("time", "load", "angle"));
 }
 
 TEST(Hdf5File, ErrorsNameFileObjectAndCause) {
   const Scratch scratch;
-  const std::string missing = scratch.path("missing.h5"), text = scratch.path("text.h5"), good = scratch.path("good.h5");
+  const std::string missing = scratch.path("missing.h5"), text = scratch.path("text.h5"),
+                    good = scratch.path("good.h5");
   EXPECT_THAT(message_of([&] { Hdf5File(missing, Mode::read); }),
-              AllOf(HasSubstr(missing + ": cannot open as an HDF5 file"), HasSubstr("No such file or directory")));
+              AllOf(HasSubstr(missing + ": cannot open as an HDF5 file"),
+                    HasSubstr("No such file or directory")));
   std::ofstream(text) << "time sinkage\n";
-  EXPECT_THAT(message_of([&] { Hdf5File(text, Mode::read); }), HasSubstr(text + ": cannot open as an HDF5 file"));
+  EXPECT_THAT(message_of([&] { Hdf5File(text, Mode::read); }),
+              HasSubstr(text + ": cannot open as an HDF5 file"));
   EXPECT_THAT(message_of([&] { Hdf5File(scratch.path("no/such/folder.h5"), Mode::create); }),
               HasSubstr("cannot create the file"));
 
   Hdf5File file(good, Mode::create);
   file.write("/x", Matrix3X::Zero(3, 4));
   file.set_attribute("/x", "number", 1.0);
-  EXPECT_THAT(message_of([&] { file.read_numbers("/none"); }), HasSubstr(good + ": cannot open dataset '/none'"));
-  EXPECT_THAT(message_of([&] { file.read_numbers("/x"); }), HasSubstr(good + ": dataset '/x' must be one-dimensional"));
-  EXPECT_THAT(message_of([&] { file.text_attribute("/x", "unit"); }), HasSubstr("cannot read attribute unit of '/x'"));
-  EXPECT_THAT(message_of([&] { file.text_attribute("/x", "number"); }), HasSubstr("'number' of '/x' is not a text"));
-  EXPECT_THAT(message_of([&] { file.append("/x", {1.0}); }), HasSubstr("dataset '/x' must be one-dimensional"));
+  EXPECT_THAT(message_of([&] { file.read_numbers("/none"); }),
+              HasSubstr(good + ": cannot open dataset '/none'"));
+  EXPECT_THAT(message_of([&] { file.read_numbers("/x"); }),
+              HasSubstr(good + ": dataset '/x' must be one-dimensional"));
+  EXPECT_THAT(message_of([&] { file.text_attribute("/x", "unit"); }),
+              HasSubstr("cannot read attribute unit of '/x'"));
+  EXPECT_THAT(message_of([&] { file.text_attribute("/x", "number"); }),
+              HasSubstr("'number' of '/x' is not a text"));
+  EXPECT_THAT(message_of([&] { file.append("/x", {1.0}); }),
+              HasSubstr("dataset '/x' must be one-dimensional"));
 }
 
 }  // namespace

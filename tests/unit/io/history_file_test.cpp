@@ -18,9 +18,10 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const std::vector<Channel> channels = {{"time", "s", "simulated time"},
-                                       {"sinkage", "m", "bed level minus lowest point of the wheel"},
-                                       {"force_x", "N", "force of the ground on the wheel along x"}};
+const std::vector<Channel> channels = {
+    {"time", "s", "simulated time"},
+    {"sinkage", "m", "bed level minus lowest point of the wheel"},
+    {"force_x", "N", "force of the ground on the wheel along x"}};
 
 std::vector<double> row(int i) { return {0.001 * i, 0.01 * std::sin(0.1 * i), -5.0 + 0.25 * i}; }
 
@@ -31,7 +32,8 @@ void append_rows(HistoryFile& file, int from, int to) {
 void expect_rows(const History& history, int count) {
   ASSERT_EQ(history.size(), std::size_t(count));
   for (int i = 0; i < count; ++i)
-    for (std::size_t j = 0; j < channels.size(); ++j) EXPECT_EQ(history.at(std::size_t(i), j), row(i)[j]);
+    for (std::size_t j = 0; j < channels.size(); ++j)
+      EXPECT_EQ(history.at(std::size_t(i), j), row(i)[j]);
 }
 
 TEST(HistoryFile, RowsChannelsAndRunComeBack) {
@@ -60,7 +62,8 @@ TEST(HistoryFile, RowsChannelsAndRunComeBack) {
   EXPECT_EQ(back.script, info.script);
   EXPECT_EQ(back.effective_input, info.effective_input);
   EXPECT_EQ(back.ranks, 2);
-  EXPECT_THAT(back.started, ::testing::MatchesRegex("[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}Z"));
+  EXPECT_THAT(back.started,
+              ::testing::MatchesRegex("[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}Z"));
 }
 
 TEST(HistoryFile, AKilledRunLeavesItsLastFlush) {
@@ -150,13 +153,14 @@ TEST(HistoryFile, RefusesToContinueWithAGapOrOtherChannels) {
   }
   EXPECT_EQ(message_of([&] { HistoryFile::resume(path, channels, 0.0109); }), "no error");
   EXPECT_THAT(message_of([&] { HistoryFile::resume(path, channels, 0.011); }),
-              AllOf(HasSubstr("ends at t = 0.01 s but the run continues from t = 0.011 s: rows between are missing"),
+              AllOf(HasSubstr("ends at t = 0.01 s but the run continues from t = 0.011 s: rows "
+                              "between are missing"),
                     HasSubstr("continue from an earlier checkpoint")));
   std::vector<Channel> other = channels;
   other[2] = {"torque", "N m", "torque"};
-  EXPECT_THAT(
-      message_of([&] { HistoryFile::resume(path, other, 0.005); }),
-      HasSubstr("has the channels time [s], sinkage [m], force_x [N]; this run has time [s], sinkage [m], torque [N m]"));
+  EXPECT_THAT(message_of([&] { HistoryFile::resume(path, other, 0.005); }),
+              HasSubstr("has the channels time [s], sinkage [m], force_x [N]; this run has time "
+                        "[s], sinkage [m], torque [N m]"));
   expect_rows(read_history(path), 11);  // a refusal leaves the file as it was
 }
 
@@ -164,7 +168,10 @@ TEST(HistoryFile, RefusesRowsThatAreNotFiniteOrNotLater) {
   const Scratch scratch;
   HistoryFile file = HistoryFile::create(scratch.path("history.h5"), channels, {});
   append_rows(file, 0, 3);
-  EXPECT_THAT(message_of([&] { file.append({0.003, std::nan(""), 1.0}); }), HasSubstr("sinkage is nan at t = 0.003 s"));
+  EXPECT_THAT(message_of([&] {
+                file.append({0.003, std::nan(""), 1.0});
+              }),
+              HasSubstr("sinkage is nan at t = 0.003 s"));
   EXPECT_THAT(message_of([&] {
                 file.append({0.002, 0.0, 1.0});
               }),
@@ -203,7 +210,8 @@ TEST(HistoryFile, GrainsSurfaceAuditAndCostComeBack) {
     file.write_reference(grains);
     append_rows(file, 0, 5);
     EXPECT_FALSE(has_closing(path));
-    EXPECT_THAT(message_of([&] { read_closing(path); }), HasSubstr("the run did not come to its end"));
+    EXPECT_THAT(message_of([&] { read_closing(path); }),
+                HasSubstr("the run did not come to its end"));
     file.write_final(grains, surface);
     file.write_closing(closing);
   }
@@ -232,11 +240,14 @@ TEST(HistoryFile, GrainsSurfaceAuditAndCostComeBack) {
 TEST(HistoryFile, MissingAndForeignFilesAreNamed) {
   const Scratch scratch;
   const std::string path = scratch.path("history.h5");
-  EXPECT_THAT(message_of([&] { read_history(path); }), HasSubstr(path + ": cannot open as an HDF5 file"));
+  EXPECT_THAT(message_of([&] { read_history(path); }),
+              HasSubstr(path + ": cannot open as an HDF5 file"));
   Hdf5File(path, Hdf5File::Mode::create).close();
-  EXPECT_THAT(message_of([&] { read_history(path); }), HasSubstr("has no /history; is it a results file of Furrow?"));
+  EXPECT_THAT(message_of([&] { read_history(path); }),
+              HasSubstr("has no /history; is it a results file of Furrow?"));
   EXPECT_THAT(message_of([&] { read_run_info(path); }), HasSubstr("has no /run"));
-  EXPECT_THAT(message_of([&] { read_final_surface(path); }), HasSubstr("has no /surface; the run kept none"));
+  EXPECT_THAT(message_of([&] { read_final_surface(path); }),
+              HasSubstr("has no /surface; the run kept none"));
 }
 
 }  // namespace

@@ -69,7 +69,8 @@ TEST_F(MaterialFileTest, EffectiveValuesReadBackAsTheSameLaw) {
   const MaterialFile first = read_material_file(file(with(sand, "Sand", "\"Shoop's sand: # 1\"")));
   EXPECT_EQ(first.title, "Shoop's sand: # 1");
   const std::string text = material_file_text("it's: # sand", first.law, first.sections);
-  EXPECT_THAT(text, AllOf(HasSubstr("alpha: 0"), HasSubstr("beta: 14.56  # [degree] slope of the shear line"),
+  EXPECT_THAT(text, AllOf(HasSubstr("alpha: 0"),
+                          HasSubstr("beta: 14.56  # [degree] slope of the shear line"),
                           HasSubstr("p: [0.138e6, 0.172e6, 0.434e6]  # [Pa]")));
   const MaterialFile second = read_material_file(file(text, "written.yaml"));
   EXPECT_EQ(second.title, "it's: # sand");
@@ -78,18 +79,21 @@ TEST_F(MaterialFileTest, EffectiveValuesReadBackAsTheSameLaw) {
 
 TEST_F(MaterialFileTest, AVariantGivesOnlyWhatDiffers) {
   file(sand);
-  const MaterialFile variant = read_material_file(file("base: sand.yaml\nlaw: {d: 5e3}\n", "variant.yaml"));
+  const MaterialFile variant =
+      read_material_file(file("base: sand.yaml\nlaw: {d: 5e3}\n", "variant.yaml"));
   const MaterialFile base = read_material_file(file(sand));
   EXPECT_EQ(variant.title, "Sand");
   EXPECT_EQ(material_file_text("", variant.law, variant.sections),
             with(material_file_text("", base.law, base.sections), "d: 1.194e6", "d: 5e3"));
   // A section of another type replaces the base's whole: no table keys are left in it.
-  const MaterialFile other = read_material_file(
-      file("base: variant.yaml\ntitle: other\nhardening: {type: exponential, pc0: 1e5, lambda: 0.1, kappa: 0, e0: 0.5}\n",
-           "other.yaml"));
+  const MaterialFile other =
+      read_material_file(file("base: variant.yaml\ntitle: other\nhardening: {type: exponential, "
+                              "pc0: 1e5, lambda: 0.1, kappa: 0, e0: 0.5}\n",
+                              "other.yaml"));
   EXPECT_EQ(other.title, "other");
   const std::string text = material_file_text("", other.law, other.sections);
-  EXPECT_THAT(text, AllOf(HasSubstr("d: 5e3"), HasSubstr("pc0: 1e5"), ::testing::Not(HasSubstr("interpolation"))));
+  EXPECT_THAT(text, AllOf(HasSubstr("d: 5e3"), HasSubstr("pc0: 1e5"),
+                          ::testing::Not(HasSubstr("interpolation"))));
 }
 
 /// Each message says file, line and key, what is allowed, and what to do where that is not plain.
@@ -106,38 +110,50 @@ TEST_F(MaterialFileTest, BadFilesAreRefusedWithTheirPlace) {
       {"law: elastic\n", "sand.yaml, line 1: 'law' is not a section of keys"},
       {with(sand, "drucker_prager_cap", "drucker_prager"),
        "sand.yaml, line 3 has the unknown law 'drucker_prager'; allowed: one of: "},
-      {with(sand, "  type: drucker_prager_cap\n", ""), "sand.yaml, line 2: keyword 'type' is missing"},
+      {with(sand, "  type: drucker_prager_cap\n", ""),
+       "sand.yaml, line 2: keyword 'type' is missing"},
       {with(sand, "  d: 1.194e6\n", ""),
-       "sand.yaml, line 2: law drucker_prager_cap, keyword 'd' is missing; allowed: a number >= 0 [Pa]; it is: cohesion"},
+       "sand.yaml, line 2: law drucker_prager_cap, keyword 'd' is missing; allowed: a number >= 0 "
+       "[Pa]; it is: cohesion"},
       {with(sand, "K: 1", "K: 0.77"),
-       "sand.yaml, line 8: law drucker_prager_cap, keyword 'K' is 0.77; allowed: a number in [0.778, 1]"},
+       "sand.yaml, line 8: law drucker_prager_cap, keyword 'K' is 0.77; allowed: a number in "
+       "[0.778, 1]"},
       {with(sand, "d: 1.194e6", "d: -1"),
        "sand.yaml, line 5: law drucker_prager_cap, keyword 'd' is -1; allowed: a number >= 0 [Pa]"},
       {with(sand, "d: 1.194e6", "d: soft"),
        "sand.yaml, line 5: law drucker_prager_cap, keyword 'd' is 'soft', which is not a number"},
-      {with(sand, "d: 1.194e6", "d: nan"), "sand.yaml, line 5: law drucker_prager_cap, keyword 'd' is nan"},
+      {with(sand, "d: 1.194e6", "d: nan"),
+       "sand.yaml, line 5: law drucker_prager_cap, keyword 'd' is nan"},
       {with(sand, "d: 1.194e6", "d: .nan"),
        "sand.yaml, line 5: law drucker_prager_cap, keyword 'd' is '.nan', which is not a number"},
-      {with(sand, "d: 1.194e6", "d: inf"), "sand.yaml, line 5: law drucker_prager_cap, keyword 'd' is inf"},
+      {with(sand, "d: 1.194e6", "d: inf"),
+       "sand.yaml, line 5: law drucker_prager_cap, keyword 'd' is inf"},
       {with(sand, "d: 1.194e6", "d:"), "sand.yaml, line 5: keyword 'd' has no value"},
-      {with(sand, "d: 1.194e6", "d: [1, 2]"), "sand.yaml, line 5: law drucker_prager_cap, keyword 'd' has 2 value(s)"},
-      {with(sand, "d: 1.194e6", "d: {a: 2}"), "sand.yaml, line 5: keyword 'd' is a section; allowed: a value or a list"},
+      {with(sand, "d: 1.194e6", "d: [1, 2]"),
+       "sand.yaml, line 5: law drucker_prager_cap, keyword 'd' has 2 value(s)"},
+      {with(sand, "d: 1.194e6", "d: {a: 2}"),
+       "sand.yaml, line 5: keyword 'd' is a section; allowed: a value or a list"},
       {with(sand, "  K: 1\n", "  K: 1\n  d: 5\n"), "sand.yaml, line 9: keyword 'd' is given twice"},
       {with(sand, "  beta: 14.56", "  betta: 14.56"),
-       "sand.yaml, line 6: law drucker_prager_cap has no keyword 'betta'; allowed: density, d, beta"},
+       "sand.yaml, line 6: law drucker_prager_cap has no keyword 'betta'; allowed: density, d, "
+       "beta"},
       {with(sand, "  beta: 14.56", "  betta: 14.56"), "did you mean 'beta'?"},
       {with(sand, "elasticity:", "elastisity:"),
-       "sand.yaml, line 9 has the section 'elastisity', which law drucker_prager_cap does not have"},
+       "sand.yaml, line 9 has the section 'elastisity', which law drucker_prager_cap does not "
+       "have"},
       {with(sand, "elasticity: {type: linear, E: 689e6, nu: 0.25}\n", ""),
        "sand.yaml: elasticity linear, keyword 'E' is missing"},
       {with(sand, "nu: 0.25", "nu: 0.5"),
        "sand.yaml, line 9: elasticity linear, keyword 'nu' is 0.5; allowed: a number in (-1, 0.5)"},
       {with(sand, "type: table", "type: spline"),
-       "sand.yaml, line 11: section 'hardening', keyword 'type' is 'spline'; allowed: one of: table, exponential"},
+       "sand.yaml, line 11: section 'hardening', keyword 'type' is 'spline'; allowed: one of: "
+       "table, exponential"},
       {with(sand, "interpolation: linear", "interpolation: cubic"),
-       "sand.yaml, line 14: hardening table, keyword 'interpolation' is 'cubic'; allowed: one of: linear, log"},
+       "sand.yaml, line 14: hardening table, keyword 'interpolation' is 'cubic'; allowed: one of: "
+       "linear, log"},
       {with(sand, "0.172e6, 0.434e6", "0.434e6, 0.172e6"),
-       "sand.yaml, line 12: hardening table, keyword 'p' does not increase: row 2 is 434000, row 3 is 172000"},
+       "sand.yaml, line 12: hardening table, keyword 'p' does not increase: row 2 is 434000, row 3 "
+       "is 172000"},
       {with(sand, "0.005, 0.01", "0.005, 0.005"),
        "sand.yaml, line 13: hardening table, keyword 'eps_vol_pl' does not increase"},
       {with(sand, "0.005, 0.01", "0.005"),
@@ -146,7 +162,8 @@ TEST_F(MaterialFileTest, BadFilesAreRefusedWithTheirPlace) {
        "sand.yaml, line 13: keyword 'eps_vol_pl' is not a list of plain values"},
       {with(sand, "[0, 0.005, 0.01]", "[0, , 0.01]"), "sand.yaml, line 13"},
       {with(sand, "  K: 1\n", "  K: 1\n  eps_vol_pl_0: 0.5\n"),
-       "sand.yaml, line 9: law drucker_prager_cap, keyword 'eps_vol_pl_0' is 0.5, outside the hardening data"},
+       "sand.yaml, line 9: law drucker_prager_cap, keyword 'eps_vol_pl_0' is 0.5, outside the "
+       "hardening data"},
       {"base: nothing.yaml\n", "nothing.yaml does not exist"},
       {"base: sand.yaml\n", "eighth base of a base"},
   };
@@ -167,8 +184,10 @@ TEST(CsvFile, ReadsNumbersAndNamesWhatIsWrong) {
   EXPECT_TRUE(std::isnan(table.numbers("rho")[0]));
   EXPECT_THAT(message_of([&] { table.numbers("name"); }),
               HasSubstr("a.csv, line 3, column 'name' is 'a'; allowed: a finite number"));
-  EXPECT_THAT(message_of([&] { table.numbers("q"); }), HasSubstr("has no column 'q'; allowed: p_Pa, name, rho"));
-  EXPECT_THAT(message_of([&] { read("a,b\n1,2\n3\n"); }), HasSubstr("a.csv, line 3 has 1 values; allowed: 2"));
+  EXPECT_THAT(message_of([&] { table.numbers("q"); }),
+              HasSubstr("has no column 'q'; allowed: p_Pa, name, rho"));
+  EXPECT_THAT(message_of([&] { read("a,b\n1,2\n3\n"); }),
+              HasSubstr("a.csv, line 3 has 1 values; allowed: 2"));
   EXPECT_THAT(message_of([&] { read("a,b\n"); }), HasSubstr("has no rows"));
   const CsvTable back = read(csv_text({"x: of y"}, {"x", "y"}, {{0.1, 1.0 / 3.0}, {-1e-300, 4}}));
   EXPECT_EQ(back.numbers("x"), (std::vector<double>{0.1, 1.0 / 3.0}));

@@ -40,11 +40,15 @@ TEST_F(PointFileTest, EffectivePathReadsBackAsTheSamePath) {
   for (const std::string path :
        {"{type: hydrostatic, pressure: [1e4, 0]}", "{type: confined, strain: [0.1]}",
         "{type: triaxial, confinement: 1e3, axial_strain: [0.1, 0]}",
-        "{type: simple_shear, normal_stress: 1e3, shear: [0.2]}", "{type: cyclic, upper: 1e4, cycles: 2}",
+        "{type: simple_shear, normal_stress: 1e3, shear: [0.2]}",
+        "{type: cyclic, upper: 1e4, cycles: 2}",
         "{type: tension, strain: 0.01, lateral: hydrostatic}",
-        "{type: table, steps: 7, rows: [{stress_zz: -1e3}, {strain_xz: 0.1, stress_zz: 0, steps: 3}]}"}) {
-    const PointRun first = read_point_run(file("run.yaml", "material: ground.yaml\npath: " + path + "\n"));
-    const PointRun second = read_point_run(file("again.yaml", "material: ground.yaml\n" + first.path_text));
+        "{type: table, steps: 7, rows: [{stress_zz: -1e3}, {strain_xz: 0.1, stress_zz: 0, steps: "
+        "3}]}"}) {
+    const PointRun first =
+        read_point_run(file("run.yaml", "material: ground.yaml\npath: " + path + "\n"));
+    const PointRun second =
+        read_point_run(file("again.yaml", "material: ground.yaml\n" + first.path_text));
     EXPECT_EQ(first.path_text, second.path_text);
     ASSERT_EQ(first.path.segments.size(), second.path.segments.size()) << path;
     for (std::size_t s = 0; s < first.path.segments.size(); ++s) {
@@ -66,8 +70,10 @@ TEST_F(PointFileTest, BadRunsAreRefusedWithTheirPlace) {
        "run.yaml, line 2: path, keyword 'type' is missing; allowed: one of: hydrostatic, confined"},
       {head + "path: {type: confine}\n", "run.yaml, line 2: path, keyword 'type' is 'confine'"},
       {head + "path:\n  type: confined\n",
-       "run.yaml, line 2: path confined has neither 'stress' nor 'strain'; allowed: exactly one of stress, strain"},
-      {head + "path:\n  type: confined\n  stress: [1]\n  strain: [1]\n", "path confined has both 'stress' and 'strain'"},
+       "run.yaml, line 2: path confined has neither 'stress' nor 'strain'; allowed: exactly one of "
+       "stress, strain"},
+      {head + "path:\n  type: confined\n  stress: [1]\n  strain: [1]\n",
+       "path confined has both 'stress' and 'strain'"},
       {head + "path:\n  type: triaxial\n  confinement: -1\n  axial_strain: [0.1]\n",
        "run.yaml, line 4: path triaxial, keyword 'confinement' is -1; allowed: a number >= 0 [Pa]"},
       {head + "path:\n  type: confined\n  strain: [0.1]\n  steps: 0\n",
@@ -75,13 +81,16 @@ TEST_F(PointFileTest, BadRunsAreRefusedWithTheirPlace) {
       {head + "path:\n  type: cyclic\n  upper: 1\n  lower: 2\n  cycles: 1\n",
        "run.yaml, line 4: path cyclic, keyword 'upper' is 1, not above lower = 2"},
       {head + "path:\n  type: cyclic\n  upper: 1\n  cycles: 1\n  confinement: 3\n",
-       "run.yaml, line 6: path cyclic, keyword 'confinement' is given, but the lateral strain is fixed"},
+       "run.yaml, line 6: path cyclic, keyword 'confinement' is given, but the lateral strain is "
+       "fixed"},
       {head + "path: {type: table}\n", "run.yaml, line 2 has no list 'rows'"},
       {head + "path:\n  type: table\n  rows: []\n", "run.yaml, line 4: 'rows' is empty"},
       {head + "path:\n  type: table\n  rows:\n    - {strain_zz: 1, stress_zz: 1}\n",
-       "run.yaml, line 5: row of path table, keyword 'stress_zz' controls a component whose strain is given too"},
+       "run.yaml, line 5: row of path table, keyword 'stress_zz' controls a component whose strain "
+       "is given too"},
   };
-  for (const auto& [text, message] : cases) EXPECT_THAT(run_refusal(text), HasSubstr(message)) << text;
+  for (const auto& [text, message] : cases)
+    EXPECT_THAT(run_refusal(text), HasSubstr(message)) << text;
 }
 
 TEST_F(PointFileTest, BadFitsAreRefusedWithTheirPlace) {
@@ -89,28 +98,43 @@ TEST_F(PointFileTest, BadFitsAreRefusedWithTheirPlace) {
     return "material: ground.yaml\nparameters: " + parameters + "\ncurves:\n  - {" + curve + "}\n";
   };
   const std::string e = "[{name: elasticity.E}]";
-  const std::string curve = "data: data.csv, path: {type: confined}, drive: {stress: sigma_Pa}, compare: {density: rho}";
+  const std::string curve =
+      "data: data.csv, path: {type: confined}, drive: {stress: sigma_Pa}, compare: {density: rho}";
   EXPECT_EQ(read_point_fit(file("fit.yaml", fit(e, curve))).problem.curves.at(0).measured,
             (std::vector<double>{1008, 1017}));
   const std::vector<std::pair<std::string, std::string>> cases = {
       {fit("[]", curve), "fit.yaml, line 2: 'parameters' is empty"},
-      {fit("[{lower: 1}]", curve), "fit.yaml, line 2: parameter of a fit, keyword 'name' is missing"},
-      {fit(e, "data: none.csv, path: {type: confined}, drive: {stress: sigma_Pa}, compare: {density: rho}"),
+      {fit("[{lower: 1}]", curve),
+       "fit.yaml, line 2: parameter of a fit, keyword 'name' is missing"},
+      {fit(e,
+           "data: none.csv, path: {type: confined}, drive: {stress: sigma_Pa}, compare: {density: "
+           "rho}"),
        "none.csv does not exist"},
-      {fit(e, "data: data.csv, path: {type: confined}, drive: {stress: sigma}, compare: {density: rho}"),
+      {fit(e,
+           "data: data.csv, path: {type: confined}, drive: {stress: sigma}, compare: {density: "
+           "rho}"),
        "has no column 'sigma'; allowed: sigma_Pa, rho, hole"},
-      {fit(e, "data: data.csv, path: {type: confined}, drive: {steps: sigma_Pa}, compare: {density: rho}"),
-       "fit.yaml, line 4: 'drive' names 'steps', no list of targets of this path; allowed: stress, strain"},
-      {fit(e, "data: data.csv, path: {type: confined}, drive: {stress: hole}, compare: {density: rho}"),
+      {fit(e,
+           "data: data.csv, path: {type: confined}, drive: {steps: sigma_Pa}, compare: {density: "
+           "rho}"),
+       "fit.yaml, line 4: 'drive' names 'steps', no list of targets of this path; allowed: stress, "
+       "strain"},
+      {fit(e,
+           "data: data.csv, path: {type: confined}, drive: {stress: hole}, compare: {density: "
+           "rho}"),
        "which has an empty cell"},
-      {fit(e, "data: data.csv, path: {type: confined}, drive: {stress: sigma_Pa}, compare: {colour: rho}"),
+      {fit(e,
+           "data: data.csv, path: {type: confined}, drive: {stress: sigma_Pa}, compare: {colour: "
+           "rho}"),
        "fit.yaml, line 4: law elastic has no channel 'colour'"},
       {fit(e, "data: data.csv, path: {type: confined}, drive: {stress: sigma_Pa}"),
        "fit.yaml, line 4 has no section 'compare'"},
       {fit(e, curve + ", scale: square"),
-       "fit.yaml, line 4: curve of a fit, keyword 'scale' is 'square'; allowed: one of: linear, log"},
+       "fit.yaml, line 4: curve of a fit, keyword 'scale' is 'square'; allowed: one of: linear, "
+       "log"},
   };
-  for (const auto& [text, message] : cases) EXPECT_THAT(fit_refusal(text), HasSubstr(message)) << text;
+  for (const auto& [text, message] : cases)
+    EXPECT_THAT(fit_refusal(text), HasSubstr(message)) << text;
 }
 
 }  // namespace

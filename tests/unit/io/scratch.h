@@ -11,7 +11,9 @@ namespace furrow {
 
 class Scratch {
  public:
-  Scratch() : folder_(std::filesystem::temp_directory_path() / ("furrow_test_" + std::to_string(getpid()))) {
+  Scratch()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("furrow_test_" + std::to_string(getpid()))) {
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }

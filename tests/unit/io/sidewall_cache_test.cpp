@@ -30,11 +30,13 @@ class SidewallCacheTest : public ::testing::Test {
   std::vector<std::string> files() const {
     std::vector<std::string> names;
     if (std::filesystem::exists(cache_folder()))
-      for (const auto& entry : std::filesystem::directory_iterator(cache_folder())) names.push_back(entry.path().string());
+      for (const auto& entry : std::filesystem::directory_iterator(cache_folder()))
+        names.push_back(entry.path().string());
     return names;
   }
 
-  const SidewallParameters sidewall_ = read_tyre_file(FURROW_SOURCE_DIR "/inputs/tyres/p235_75r15.yaml").sidewall;
+  const SidewallParameters sidewall_ =
+      read_tyre_file(FURROW_SOURCE_DIR "/inputs/tyres/p235_75r15.yaml").sidewall;
   Scratch scratch_;
   std::string before_;
 };

@@ -53,9 +53,11 @@ TEST_F(TyreFileTest, BadFilesAreRefusedWithTheirPlace) {
     std::string from, to, message;
   };
   const std::vector<Case> cases = {
-      {"pressure: 241e3", "pressure: -241e3", "tyre.yaml, line 5: tyre, keyword 'pressure' is -241"},
+      {"pressure: 241e3", "pressure: -241e3",
+       "tyre.yaml, line 5: tyre, keyword 'pressure' is -241"},
       {"pressure: 241e3", "pressure: nan", "keyword 'pressure' is nan"},
-      {"bead_radius: 0.208", "rim_radius: 0.208", "tyre has no keyword 'rim_radius'; allowed: pressure, bead_radius"},
+      {"bead_radius: 0.208", "rim_radius: 0.208",
+       "tyre has no keyword 'rim_radius'; allowed: pressure, bead_radius"},
       {"tread:\n", "band:\n", "'band'"},
       {"nu12: 0.3 ", "nu12: 1.5 ", "tread, keyword 'nu12' is 1.5; allowed: a number in (-1, 1)"},
       {"E1: 3.62e10", "E1: 1e8", "nu12 = 0.3 makes its stiffness indefinite"},
@@ -68,11 +70,14 @@ TEST_F(TyreFileTest, BadFilesAreRefusedWithTheirPlace) {
       {", 17.54]", "]", "has 8 values of curvature for 9 of bending"},
       {", 17.54]", ", 300]", "curvature 300 1/m folds a hinge"},
       {"[1.5,  0.15,", "[1.5,  -0.15,", "keyword 'bending' is -0.15"},
-      {"rim_stiffness: 50 ", "rim_stiffness: -1 ", "keyword 'rim_stiffness' is -1; allowed: a number >= 0"},
+      {"rim_stiffness: 50 ", "rim_stiffness: -1 ",
+       "keyword 'rim_stiffness' is -1; allowed: a number >= 0"},
       {"rim_angle: 23 ", "rim_angle: 230 ", "keyword 'rim_angle' is 230"},
   };
-  for (const Case& bad : cases) EXPECT_THAT(refusal(bad.from, bad.to), HasSubstr(bad.message)) << bad.to;
-  EXPECT_THAT(message_of([&] { read_tyre_file(scratch_.path("absent.yaml")); }), HasSubstr("does not exist"));
+  for (const Case& bad : cases)
+    EXPECT_THAT(refusal(bad.from, bad.to), HasSubstr(bad.message)) << bad.to;
+  EXPECT_THAT(message_of([&] { read_tyre_file(scratch_.path("absent.yaml")); }),
+              HasSubstr("does not exist"));
 }
 
 }  // namespace

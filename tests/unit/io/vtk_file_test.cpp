@@ -47,7 +47,9 @@ vtkSmartPointer<vtkPolyData> read(const std::string& path) {
   return reader->GetOutput();
 }
 
-Vector3 tuple(vtkDataArray* array, vtkIdType i) { return Eigen::Map<const Vector3>(array->GetTuple3(i)); }
+Vector3 tuple(vtkDataArray* array, vtkIdType i) {
+  return Eigen::Map<const Vector3>(array->GetTuple3(i));
+}
 
 TEST(VtkFile, SurfaceComesBackExactly) {
   const Scratch scratch;
@@ -93,7 +95,8 @@ TEST(VtkFile, NoHalfFilesAndErrorsNameThePath) {
   EXPECT_FALSE(std::filesystem::exists(scratch.path("surface.part.vtp")));
   vtkObject::GlobalWarningDisplayOff();
   const std::string path = scratch.path("no/such/folder.vtp");
-  EXPECT_THAT(message_of([&] { write_vtp(path, tetrahedron()); }), HasSubstr(path + ": cannot be written"));
+  EXPECT_THAT(message_of([&] { write_vtp(path, tetrahedron()); }),
+              HasSubstr(path + ": cannot be written"));
   vtkObject::GlobalWarningDisplayOn();
 }
 
@@ -102,7 +105,8 @@ TEST(VtkSeries, ListsFramesAndContinuesAfterARestart) {
   const std::string folder = scratch.path("vtk");
   {
     VtkSeries series = VtkSeries::create(folder, "wheel");
-    EXPECT_THAT(read_text_file(series.pvd()), HasSubstr("</VTKFile>"));  // valid before the first frame
+    // valid before the first frame
+    EXPECT_THAT(read_text_file(series.pvd()), HasSubstr("</VTKFile>"));
     for (double time : {0.0, 0.1, 0.2, 0.3}) series.add(time, tetrahedron());
     EXPECT_THAT(message_of([&] { series.add(0.3, tetrahedron()); }),
                 HasSubstr("a frame of t = 0.3 s follows one of t = 0.3 s"));
@@ -120,8 +124,10 @@ TEST(VtkSeries, RefusesToContinueWhatIsNotThere) {
   const Scratch scratch;
   EXPECT_THAT(message_of([&] { VtkSeries::resume(scratch.folder(), "wheel", 0.0); }),
               HasSubstr("wheel.pvd: is missing, the series cannot be continued"));
-  write_text_file(scratch.path("wheel.pvd"), "<VTKFile><Collection><DataSet file=\"a.vtp\"/></Collection></VTKFile>");
-  EXPECT_THAT(message_of([&] { VtkSeries::resume(scratch.folder(), "wheel", 0.0); }), HasSubstr("frame 0 lacks 'timestep'"));
+  write_text_file(scratch.path("wheel.pvd"),
+                  "<VTKFile><Collection><DataSet file=\"a.vtp\"/></Collection></VTKFile>");
+  EXPECT_THAT(message_of([&] { VtkSeries::resume(scratch.folder(), "wheel", 0.0); }),
+              HasSubstr("frame 0 lacks 'timestep'"));
 }
 
 }  // namespace

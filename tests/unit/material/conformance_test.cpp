@@ -16,16 +16,20 @@ using testing_paths::law_of;
 using testing_paths::stretch;
 
 const std::string snow_table =
-    " hardening table p 113.76 5e4 1e6 6e7 eps_vol_pl 0 0.593 1.083 1.514 beyond extrapolate interpolation ";
+    " hardening table p 113.76 5e4 1e6 6e7 eps_vol_pl 0 0.593 1.083 1.514 beyond extrapolate "
+    "interpolation ";
 
 std::vector<std::string> laws_under_test() {
   return {
-      "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.02 eps_vol_pl_0 0.3 elasticity linear E 13.79e6 nu 0.3" +
+      "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.02 eps_vol_pl_0 0.3 elasticity linear E "
+      "13.79e6 nu 0.3" +
           snow_table + "linear",
-      "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.3 alpha 0.05 K 0.8 tension 2e3 eps_vol_pl_0 0.3 "
+      "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.3 alpha 0.05 K 0.8 tension 2e3 "
+      "eps_vol_pl_0 0.3 "
       "elasticity porous kappa 0.005 e0 3.5 p0 10 pt_el 1.5e4 nu 0.3" +
           snow_table + "log",
-      "crushable_foam density 200 pt 11.376 sigma0 275.79 K 0.9 elasticity porous elasticity.kappa 0.005 elasticity.e0 3.5 "
+      "crushable_foam density 200 pt 11.376 sigma0 275.79 K 0.9 elasticity porous elasticity.kappa "
+      "0.005 elasticity.e0 3.5 "
       "pt_el 113.76 nu 0.3 "
       "hardening exponential pc0 113.76 lambda 0.35 hardening.kappa 0.005 hardening.e0 3.5",
       "elastic density 1600 elasticity linear E 5e6 nu 0.2",
@@ -46,8 +50,9 @@ class Conformance : public ::testing::TestWithParam<std::string> {
     return h;
   }
   Matrix3 random_rotation() {
-    return Eigen::AngleAxisd(2 * normal_(engine_),
-                             Vector3(normal_(engine_), normal_(engine_), normal_(engine_)).normalized())
+    return Eigen::AngleAxisd(
+               2 * normal_(engine_),
+               Vector3(normal_(engine_), normal_(engine_), normal_(engine_)).normalized())
         .toRotationMatrix();
   }
   /// The strain at which this law's stress is about its strength, or 1e-3.
@@ -57,7 +62,8 @@ class Conformance : public ::testing::TestWithParam<std::string> {
   /// A state somewhere on the way, after steps of mixed kind.
   VectorX some_state() {
     VectorX state = law_->initial_state();
-    for (int step = 0; step < 10; ++step) law_->update_point(random_gradient(strain_scale(state)), state);
+    for (int step = 0; step < 10; ++step)
+      law_->update_point(random_gradient(strain_scale(state)), state);
     return state;
   }
   /// The same state seen from a turned frame.
@@ -65,7 +71,8 @@ class Conformance : public ::testing::TestWithParam<std::string> {
     VectorX result = state;
     result.segment<6>(field::stress) = to_vector6(Q * to_matrix(stress_of(state)) * Q.transpose());
     if (law_->name() == "neo_hookean")
-      result.segment<6>(field::own) = to_vector6(Q * to_matrix(state.segment<6>(field::own)) * Q.transpose());
+      result.segment<6>(field::own) =
+          to_vector6(Q * to_matrix(state.segment<6>(field::own)) * Q.transpose());
     return result;
   }
 };
@@ -73,7 +80,8 @@ class Conformance : public ::testing::TestWithParam<std::string> {
 TEST(ConformanceSuite, EveryRegisteredLawTakesPart) {
   std::set<std::string> tested;
   for (const std::string& text : laws_under_test()) tested.insert(text.substr(0, text.find(' ')));
-  for (const Law& law : laws()) EXPECT_TRUE(tested.count(law.name)) << law.name << " is not in laws_under_test()";
+  for (const Law& law : laws())
+    EXPECT_TRUE(tested.count(law.name)) << law.name << " is not in laws_under_test()";
 }
 
 TEST_P(Conformance, StateIsDescribed) {
@@ -81,7 +89,8 @@ TEST_P(Conformance, StateIsDescribed) {
   for (const StateField& field : law_->state_fields()) {
     EXPECT_TRUE(names.insert(field.name).second) << field.name << " twice";
     EXPECT_FALSE(field.meaning.empty()) << field.name;
-    EXPECT_EQ(law_->initial_state()[static_cast<Eigen::Index>(law_->field_index(field.name))], field.initial);
+    EXPECT_EQ(law_->initial_state()[static_cast<Eigen::Index>(law_->field_index(field.name))],
+              field.initial);
   }
   EXPECT_EQ(law_->field_index("stress_xz"), field::stress + 5);
   EXPECT_EQ(law_->field_index("volume_ratio"), field::volume_ratio);
@@ -103,14 +112,17 @@ TEST_P(Conformance, FirstStepHasTheElasticModuli) {
   const double strain = 1e-3 * strain_scale(start);
   for (const double sign : {1.0, -1.0}) {
     VectorX volume = start, shear = start;
-    law_->update_point(stretch((Vector6() << 1, 1, 1, 0, 0, 0).finished() * (sign * strain / 3)), volume);
-    law_->update_point(stretch((Vector6() << 0, 0, 0, 0.5, 0, 0).finished() * (sign * strain)), shear);
+    law_->update_point(stretch((Vector6() << 1, 1, 1, 0, 0, 0).finished() * (sign * strain / 3)),
+                       volume);
+    law_->update_point(stretch((Vector6() << 0, 0, 0, 0.5, 0, 0).finished() * (sign * strain)),
+                       shear);
     const double p0 = invariants(stress_of(start)).p;
     if (sign > 0 && volume[field::dissipated_energy] != 0.0) continue;  // yields at once in tension
     EXPECT_NEAR((p0 - invariants(stress_of(volume)).p) / (sign * strain * moduli.bulk), 1.0, 1e-2);
     EXPECT_NEAR(shear[3] / (sign * strain * moduli.shear), 1.0, 1e-2);
   }
-  EXPECT_NEAR(law_->wave_speed(start), std::sqrt((moduli.bulk + 4 * moduli.shear / 3) / law_->density()),
+  EXPECT_NEAR(law_->wave_speed(start),
+              std::sqrt((moduli.bulk + 4 * moduli.shear / 3) / law_->density()),
               1e-12 * law_->wave_speed(start));
 }
 
@@ -122,8 +134,10 @@ TEST_P(Conformance, TurnedFrameGivesTurnedStress) {
     VectorX here = start, there = turned(start, Q);
     law_->update_point(h, here);
     law_->update_point(Q * h * Q.transpose(), there);
-    EXPECT_LT((stress_of(there) - stress_of(turned(here, Q))).norm(), 1e-9 * law_->stress_scale(here));
-    EXPECT_NEAR(there[field::dissipated_energy], here[field::dissipated_energy], 1e-9 * law_->stress_scale(here));
+    EXPECT_LT((stress_of(there) - stress_of(turned(here, Q))).norm(),
+              1e-9 * law_->stress_scale(here));
+    EXPECT_NEAR(there[field::dissipated_energy], here[field::dissipated_energy],
+                1e-9 * law_->stress_scale(here));
   }
 }
 
@@ -135,7 +149,8 @@ TEST_P(Conformance, SuperposedRotationOnlyTurnsTheStress) {
     VectorX plain = start, rotated = start;
     law_->update_point(h, plain);
     law_->update_point(Q * (Matrix3::Identity() + h) - Matrix3::Identity(), rotated);
-    EXPECT_LT((stress_of(rotated) - stress_of(turned(plain, Q))).norm(), 1e-9 * law_->stress_scale(plain));
+    EXPECT_LT((stress_of(rotated) - stress_of(turned(plain, Q))).norm(),
+              1e-9 * law_->stress_scale(plain));
   }
 }
 
@@ -146,25 +161,29 @@ TEST_P(Conformance, ManyTurnsOfRigidSpinKeepTheStress) {
   double angle = 0.0;
   for (int step = 1; step <= 1000; ++step) {  // 50 turns; see elastic_test.cpp for the uneven steps
     const double next = step < 1000 ? angle + 0.1 * pi * (1 + 0.5 * std::sin(step)) : 100 * pi;
-    law_->update_point(Eigen::AngleAxisd(next - angle, axis).toRotationMatrix() - Matrix3::Identity(), state);
+    law_->update_point(
+        Eigen::AngleAxisd(next - angle, axis).toRotationMatrix() - Matrix3::Identity(), state);
     angle = next;
   }
   // The rotations given are rigid to 1e-16 only: what they strain, the stiffness turns into stress.
   const double input_error = 1e-14 * law_->moduli(start).wave();
-  EXPECT_LT((stress_of(state) - stress_of(start)).norm(), 1e-10 * law_->stress_scale(start) + input_error);
+  EXPECT_LT((stress_of(state) - stress_of(start)).norm(),
+            1e-10 * law_->stress_scale(start) + input_error);
 }
 
 TEST_P(Conformance, BlocksOfAnySizeAndAlignmentAgreeWithSinglePoints) {
   constexpr std::size_t n = 37;
   const std::size_t fields = law_->state_fields().size();
-  std::vector<std::vector<double>> gradient(9, std::vector<double>(n + 1)), state(fields, std::vector<double>(n + 1, -7.0));
+  std::vector<std::vector<double>> gradient(9, std::vector<double>(n + 1)),
+      state(fields, std::vector<double>(n + 1, -7.0));
   std::vector<VectorX> expected;
   UpdateReport sum;
   std::vector<Branch> branches(n);
   for (std::size_t i = 0; i < n; ++i) {
     VectorX point = some_state();
     for (std::size_t f = 0; f < fields; ++f) state[f][i + 1] = point[static_cast<Eigen::Index>(f)];
-    const Matrix3 h = random_gradient(i == 5 ? 0.3 : strain_scale(point));  // one point strains much
+    // one point strains much
+    const Matrix3 h = random_gradient(i == 5 ? 0.3 : strain_scale(point));
     for (std::size_t k = 0; k < 9; ++k)
       gradient[k][i + 1] = h(static_cast<Eigen::Index>(k / 3), static_cast<Eigen::Index>(k % 3));
     sum += law_->update_point(h, point, &branches[i]);
@@ -185,7 +204,8 @@ TEST_P(Conformance, BlocksOfAnySizeAndAlignmentAgreeWithSinglePoints) {
   for (std::size_t i = 0; i < n; ++i) {
     EXPECT_EQ(found[i], static_cast<std::uint8_t>(branches[i]));
     for (std::size_t f = 0; f < fields; ++f)
-      EXPECT_NEAR(state[f][i + 1], expected[i][static_cast<Eigen::Index>(f)], 1e-11 * (1 + law_->stress_scale(expected[i])))
+      EXPECT_NEAR(state[f][i + 1], expected[i][static_cast<Eigen::Index>(f)],
+                  1e-11 * (1 + law_->stress_scale(expected[i])))
           << law_->state_fields()[f].name << " of point " << i;
   }
   for (std::size_t f = 0; f < fields; ++f) EXPECT_EQ(state[f][0], -7.0) << "wrote before the array";
@@ -194,7 +214,8 @@ TEST_P(Conformance, BlocksOfAnySizeAndAlignmentAgreeWithSinglePoints) {
   EXPECT_NEAR(law_->largest_wave_speed(block) / fastest, 1.0, 1e-12);
 }
 
-/// The work of the stress goes into the three energies, but for an error of second order in the step.
+/// The work of the stress goes into the three energies, but for an error of second order in the
+/// step.
 TEST_P(Conformance, WorkIsAccountedFor) {
   const VectorX start = law_->initial_state();
   std::array<double, 2> miss{};
@@ -206,17 +227,21 @@ TEST_P(Conformance, WorkIsAccountedFor) {
     const double size = 20 * strain_scale(start);
     for (int step = 0; step < steps; ++step) {
       const double phase = (step + 0.5) / steps;
-      const Vector6 rate =
-          size * (Vector6() << -1, -0.3 * phase, -1.5 + 3 * phase * phase, 0.5, 0, 0.4 * std::cos(4 * phase)).finished() /
-          steps;
+      const Vector6 rate = size *
+                           (Vector6() << -1, -0.3 * phase, -1.5 + 3 * phase * phase, 0.5, 0,
+                            0.4 * std::cos(4 * phase))
+                               .finished() /
+                           steps;
       const Vector6 before = stress_of(state);
       const double old_volume = state[field::volume_ratio];
       law_->update_point(stretch(rate), state);
-      const double power =
-          (0.5 * (before + stress_of(state))).cwiseProduct((Vector6() << 1, 1, 1, 2, 2, 2).finished()).dot(rate);
+      const double power = (0.5 * (before + stress_of(state)))
+                               .cwiseProduct((Vector6() << 1, 1, 1, 2, 2, 2).finished())
+                               .dot(rate);
       work += 0.5 * (old_volume + state[field::volume_ratio]) * power;
     }
-    const double energy = state[field::stored_energy] + state[field::frozen_energy] + state[field::dissipated_energy];
+    const double energy =
+        state[field::stored_energy] + state[field::frozen_energy] + state[field::dissipated_energy];
     const double before = start[field::stored_energy];
     miss[level] = std::abs(work - (energy - before));
     total = std::max(total, std::abs(work));
@@ -238,19 +263,22 @@ TEST_P(Conformance, TangentPredictsTheNextStress) {
     law_->update_point(h, base);
     law_->update_point(h + to_matrix(change), moved);
     const double reached = law_->moduli(start).wave() * change.norm();
-    EXPECT_LT((stress_of(moved) - stress_of(base) - tangent * change).norm(), 2e-2 * reached) << "trial " << trial;
+    EXPECT_LT((stress_of(moved) - stress_of(base) - tangent * change).norm(), 2e-2 * reached)
+        << "trial " << trial;
   }
 }
 
-/// The bound for the explicit time step: no direction of an elastic point is stiffer than the wave modulus, but for the stress that the
-/// waves ride on. Laws that yield are asked at rest (flow that is not associated need not keep the bound, see wave_speed()).
+/// The bound for the explicit time step: no direction of an elastic point is stiffer than the wave
+/// modulus, but for the stress that the waves ride on. Laws that yield are asked at rest (flow that
+/// is not associated need not keep the bound, see wave_speed()).
 TEST_P(Conformance, WaveModulusBoundsTheElasticTangent) {
   const bool yields = std::isfinite(law_->yield_function(law_->initial_state()));
   for (int trial = 0; trial < 20; ++trial) {
     const VectorX state = yields ? law_->initial_state() : some_state();
     const Matrix6 tangent = law_->tangent(Matrix3::Zero(), state);
     const double stress = stress_of(state).cwiseAbs().maxCoeff();
-    for (int k = 0; k < 3; ++k) EXPECT_LE(tangent(k, k), 1.001 * law_->moduli(state).wave() + 2 * stress);
+    for (int k = 0; k < 3; ++k)
+      EXPECT_LE(tangent(k, k), 1.001 * law_->moduli(state).wave() + 2 * stress);
   }
 }
 
@@ -270,7 +298,8 @@ TEST_P(Conformance, YieldSurfaceIsWhereTheYieldFunctionVanishes) {
     EXPECT_GE(p, line[i - 1][0]);
     VectorX on = state;  // triaxial compression
     on.segment<6>(field::stress) << -p + q / 3, -p + q / 3, -p - 2 * q / 3, 0, 0, 0;
-    EXPECT_NEAR(law_->yield_function(on) / law_->stress_scale(state), 0.0, 1e-7) << "p " << p << " q " << q;
+    EXPECT_NEAR(law_->yield_function(on) / law_->stress_scale(state), 0.0, 1e-7)
+        << "p " << p << " q " << q;
   }
 }
 
@@ -286,8 +315,8 @@ TEST_P(Conformance, AFoldedOrUndefinedStepStopsWithItsCause) {
       ADD_FAILURE() << "accepted";
     } catch (const PointError& error) {
       EXPECT_EQ(error.point, 0u);
-      EXPECT_THAT(error.what(),
-                  ::testing::AllOf(::testing::HasSubstr(law_->name()), ::testing::HasSubstr("folded or not finite")));
+      EXPECT_THAT(error.what(), ::testing::AllOf(::testing::HasSubstr(law_->name()),
+                                                 ::testing::HasSubstr("folded or not finite")));
     }
   }
   VectorX state = law_->initial_state();
@@ -309,9 +338,11 @@ TEST_P(Conformance, ReportsIceDensityWithoutEnforcingIt) {
   EXPECT_GT(law_->current_density(state), 917.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, Conformance, ::testing::ValuesIn(laws_under_test()), [](const auto& law) {
-  return law.param.substr(0, law.param.find(' ')) + "_" + std::to_string(law.index);
-});
+INSTANTIATE_TEST_SUITE_P(Laws, Conformance, ::testing::ValuesIn(laws_under_test()),
+                         [](const auto& law) {
+                           return law.param.substr(0, law.param.find(' ')) + "_" +
+                                  std::to_string(law.index);
+                         });
 
 }  // namespace
 }  // namespace furrow

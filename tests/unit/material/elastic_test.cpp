@@ -11,9 +11,11 @@ namespace furrow {
 namespace {
 
 std::unique_ptr<Material> linear_elastic(double young, double nu) {
-  return make_material("elastic",
-                       MaterialSections{{"law", {{"density", {"1600"}}}},
-                                        {"elasticity", {{"E", {std::to_string(young)}}, {"nu", {std::to_string(nu)}}}}});
+  return make_material(
+      "elastic",
+      MaterialSections{
+          {"law", {{"density", {"1600"}}}},
+          {"elasticity", {{"E", {std::to_string(young)}}, {"nu", {std::to_string(nu)}}}}});
 }
 
 /// A pure stretch of many sizes in one step: the logarithm of the stretch is exact, by hand.
@@ -27,12 +29,14 @@ TEST(Elastic, StressIsHookesLawOfTheLogarithmicStrain) {
     EXPECT_NEAR(state[2] / strain, 1.2e6, 1.2e6 * 1e-12);
     EXPECT_NEAR(state[0] / strain, 0.4e6, 0.4e6 * 1e-12);
     EXPECT_NEAR(state[field::volume_ratio], std::exp(strain), 1e-14);
-    EXPECT_NEAR(state[field::stored_energy], std::exp(strain) * 0.6e6 * strain * strain, 0.6e6 * strain * strain * 1e-11);
+    EXPECT_NEAR(state[field::stored_energy], std::exp(strain) * 0.6e6 * strain * strain,
+                0.6e6 * strain * strain * 1e-11);
   }
 }
 
-/// A rotation written in doubles is rigid to 1e-16 only, which the law rightly takes as strain: the angle of the steps varies, so
-/// that this error of the input does not add up always in one direction.
+/// A rotation written in doubles is rigid to 1e-16 only, which the law rightly takes as strain: the
+/// angle of the steps varies, so that this error of the input does not add up always in one
+/// direction.
 TEST(Elastic, ThousandTurnsOfRigidSpinKeepTheStress) {
   const auto law = linear_elastic(1e6, 0.25);
   VectorX state = law->initial_state();
@@ -44,7 +48,8 @@ TEST(Elastic, ThousandTurnsOfRigidSpinKeepTheStress) {
   double angle = 0.0;
   for (int step = 1; step <= 20000; ++step) {
     const double next = step < 20000 ? angle + 0.1 * pi * (1.0 + 0.5 * std::sin(step)) : 2000 * pi;
-    const Matrix3 spin = Eigen::AngleAxisd(next - angle, axis).toRotationMatrix() - Matrix3::Identity();
+    const Matrix3 spin =
+        Eigen::AngleAxisd(next - angle, axis).toRotationMatrix() - Matrix3::Identity();
     law->update_point(spin, state);
     angle = next;
   }

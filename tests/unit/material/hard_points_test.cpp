@@ -13,7 +13,9 @@ namespace {
 using testing_paths::law_of;
 using testing_paths::stretch;
 
-Vector6 strain_of(double xx, double yy, double zz, double xz = 0) { return (Vector6() << xx, yy, zz, 0, 0, xz).finished(); }
+Vector6 strain_of(double xx, double yy, double zz, double xz = 0) {
+  return (Vector6() << xx, yy, zz, 0, 0, xz).finished();
+}
 
 std::string snow(const std::string& more, const std::string& interpolation = "linear",
                  const std::string& beyond = "extrapolate") {
@@ -23,14 +25,16 @@ std::string snow(const std::string& more, const std::string& interpolation = "li
          interpolation + " beyond " + beyond + " beta 22.53 " + more;
 }
 
-/// Takes the steps; after each the state must be finite, on or inside its surface, and no heat may be negative.
+/// Takes the steps; after each the state must be finite, on or inside its surface, and no heat may
+/// be negative.
 Branch take(const Material& law, VectorX& state, const std::vector<Vector6>& strains) {
   Branch branch{};
   for (const Vector6& strain : strains) {
     const double heat = state[field::dissipated_energy];
     const UpdateReport report = law.update_point(stretch(strain), state, &branch);
     EXPECT_TRUE(state.allFinite());
-    EXPECT_LE(law.yield_function(state), 1e-8 * law.stress_scale(state)) << "after strain " << strain.transpose();
+    EXPECT_LE(law.yield_function(state), 1e-8 * law.stress_scale(state))
+        << "after strain " << strain.transpose();
     EXPECT_GE(state[field::dissipated_energy] - heat, -1e-14 * law.stress_scale(state))
         << "after strain " << strain.transpose();
     EXPECT_LT(report.most_iterations, 200u);
@@ -46,22 +50,26 @@ TEST(HardPoints, NearlyZeroStrength) {
     const auto law = law_of(snow("R 0.02 d " + d));
     VectorX state = law->initial_state();
     take(*law, state,
-         {strain_of(0, 0, -1e-5), strain_of(0, 0, -1e-2), strain_of(1e-3, 0, 0, 0.01), strain_of(0.01, 0.01, 0.01),
-          strain_of(0, 0, -0.2), strain_of(0, 0, 0, 0.1), strain_of(0.3, 0.3, 0.3), strain_of(-0.3, -0.3, -0.3)});
+         {strain_of(0, 0, -1e-5), strain_of(0, 0, -1e-2), strain_of(1e-3, 0, 0, 0.01),
+          strain_of(0.01, 0.01, 0.01), strain_of(0, 0, -0.2), strain_of(0, 0, 0, 0.1),
+          strain_of(0.3, 0.3, 0.3), strain_of(-0.3, -0.3, -0.3)});
   }
 }
 
 TEST(HardPoints, EccentricityOfOneTenThousandth) {
-  for (const std::string more : {"R 1e-4 d 5e3", "R 1e-4 d 5e3 alpha 0.05", "R 1e-4 d 5e3 K 0.778"}) {
+  for (const std::string more :
+       {"R 1e-4 d 5e3", "R 1e-4 d 5e3 alpha 0.05", "R 1e-4 d 5e3 K 0.778"}) {
     const auto law = law_of(snow(more));
     VectorX state = law->initial_state();
     for (int step = 0; step < 200; ++step) take(*law, state, {strain_of(0, 0, -5e-3)});
     EXPECT_NEAR(eps_of(state), 1.0, 0.15);
-    take(*law, state, {strain_of(0, 0, 1e-3), strain_of(0, 0, -2e-3), strain_of(-1e-2, -1e-2, 0, 0.02)});
+    take(*law, state,
+         {strain_of(0, 0, 1e-3), strain_of(0, 0, -2e-3), strain_of(-1e-2, -1e-2, 0, 0.02)});
   }
 }
 
-/// The corner between cap and shear line (alpha 0) and the transition (alpha 0.05): sheared at constant volume the state ends at pa.
+/// The corner between cap and shear line (alpha 0) and the transition (alpha 0.05): sheared at
+/// constant volume the state ends at pa.
 TEST(HardPoints, CapCornerAndTransition) {
   for (const std::string alpha : {"0", "0.05"}) {
     const auto law = law_of(snow("R 0.1 d 5e3 eps_vol_pl_0 0.7 alpha " + alpha));
@@ -74,7 +82,8 @@ TEST(HardPoints, CapCornerAndTransition) {
       const Invariants end = invariants(stress_of(state));
       const double pa = cap.pa(eps_of(state));
       EXPECT_NEAR(end.p / pa, 1.0, 1e-3) << "p0 " << p0 << " alpha " << alpha;
-      EXPECT_NEAR(end.q / (A * (5e3 + pa * tan_beta)), 1.0, 1e-4) << "p0 " << p0 << " alpha " << alpha;
+      EXPECT_NEAR(end.q / (A * (5e3 + pa * tan_beta)), 1.0, 1e-4)
+          << "p0 " << p0 << " alpha " << alpha;
     }
   }
 }
@@ -86,7 +95,8 @@ TEST(HardPoints, ApexInTension) {
   EXPECT_EQ(take(*law, state, {strain_of(0.01, 0.01, 0.01)}), Branch::tension);
   EXPECT_NEAR(invariants(stress_of(state)).p, -apex, 1e-9 * apex);
   EXPECT_NEAR(invariants(stress_of(state)).q, 0.0, 1e-9 * apex);
-  take(*law, state, {strain_of(0.1, 0.05, 0.2, 0.1), strain_of(0, 0, 0, 0.5), strain_of(-0.2, -0.1, -0.3)});
+  take(*law, state,
+       {strain_of(0.1, 0.05, 0.2, 0.1), strain_of(0, 0, 0, 0.5), strain_of(-0.2, -0.1, -0.3)});
 }
 
 TEST(HardPoints, TensionCutOff) {
@@ -103,12 +113,14 @@ TEST(HardPoints, TensionCutOff) {
 TEST(HardPoints, CompactionToATenthOfTheVolume) {
   for (const std::string interpolation : {"linear", "log"}) {
     const auto law = law_of(
-        "drucker_prager_cap density 90 d 5e3 beta 22.53 R 0.02 elasticity linear E 13.79e6 nu 0.3 hardening table "
+        "drucker_prager_cap density 90 d 5e3 beta 22.53 R 0.02 elasticity linear E 13.79e6 nu 0.3 "
+        "hardening table "
         "p 113.76 5e4 1e6 6e7 eps_vol_pl 0 0.593 1.083 2.4 beyond extrapolate interpolation " +
         interpolation);
     VectorX state = law->initial_state();
     UpdateReport report;
-    for (int step = 0; step < 230; ++step) report += law->update_point(stretch(strain_of(0, 0, -0.01)), state);
+    for (int step = 0; step < 230; ++step)
+      report += law->update_point(stretch(strain_of(0, 0, -0.01)), state);
     EXPECT_NEAR(state[field::volume_ratio], std::exp(-2.3), 1e-12);
     EXPECT_NEAR(law->current_density(state), 90 * std::exp(2.3), 1e-9);
     EXPECT_LE(law->yield_function(state), 1e-8 * law->stress_scale(state));
@@ -117,7 +129,8 @@ TEST(HardPoints, CompactionToATenthOfTheVolume) {
   }
 }
 
-/// Unloading and reloading is elastic and comes back to where it left; further loading goes on as if it had not happened.
+/// Unloading and reloading is elastic and comes back to where it left; further loading goes on as
+/// if it had not happened.
 TEST(HardPoints, LoadUnloadReload) {
   const auto law = law_of(snow("R 0.02 d 5e3"));
   VectorX straight = law->initial_state(), cycled = straight;
@@ -135,22 +148,26 @@ TEST(HardPoints, LoadUnloadReload) {
 }
 
 TEST(HardPoints, JumpsOfOneHalf) {
-  for (const std::string more : {"R 0.02 d 5e3", "R 1e-4 d 0", "R 1 d 1e5 alpha 0.05", "R 0.02 d 5e3 K 0.8 tension 0"}) {
+  for (const std::string more :
+       {"R 0.02 d 5e3", "R 1e-4 d 0", "R 1 d 1e5 alpha 0.05", "R 0.02 d 5e3 K 0.8 tension 0"}) {
     const auto law = law_of(snow(more));
     const double jump = 0.5;
-    for (const Vector6& first : {strain_of(-jump, 0, 0), strain_of(-jump, -jump, -jump), strain_of(jump, jump, jump),
-                                 strain_of(0, 0, 0, jump), strain_of(jump, -jump, 0), strain_of(0, 0, jump)}) {
+    for (const Vector6& first :
+         {strain_of(-jump, 0, 0), strain_of(-jump, -jump, -jump), strain_of(jump, jump, jump),
+          strain_of(0, 0, 0, jump), strain_of(jump, -jump, 0), strain_of(0, 0, jump)}) {
       VectorX state = law->initial_state();
       take(*law, state,
-           {first, strain_of(0, -jump, 0), strain_of(jump, 0, -jump, jump), strain_of(jump, jump, jump),
-            strain_of(-jump, -jump, -jump)});
+           {first, strain_of(0, -jump, 0), strain_of(jump, 0, -jump, jump),
+            strain_of(jump, jump, jump), strain_of(-jump, -jump, -jump)});
     }
   }
 }
 
-/// Hydrostatic compression lands on the hardening curve whatever it is made of, in one step or in many.
+/// Hydrostatic compression lands on the hardening curve whatever it is made of, in one step or in
+/// many.
 TEST(HardPoints, HydrostaticCurveIsTheHardeningLaw) {
-  const auto linear = law_of(snow("R 0.02 d 5e3")), logarithmic = law_of(snow("R 0.02 d 5e3", "log"));
+  const auto linear = law_of(snow("R 0.02 d 5e3")),
+             logarithmic = law_of(snow("R 0.02 d 5e3", "log"));
   const auto exponential = law_of(
       "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.02 elasticity linear E 13.79e6 nu 0.3 "
       "hardening exponential pc0 113.76 lambda 0.35 kappa 0.005 e0 3.5");
@@ -161,7 +178,8 @@ TEST(HardPoints, HydrostaticCurveIsTheHardeningLaw) {
       const double eps = eps_of(state), J = std::exp(-eps);
       double strength = 0;
       if (law == &linear) strength = eps < 0.593 ? 113.76 + (5e4 - 113.76) * eps / 0.593 : 0;
-      if (law == &logarithmic) strength = eps < 0.593 ? 113.76 * std::pow(5e4 / 113.76, eps / 0.593) : 0;
+      if (law == &logarithmic)
+        strength = eps < 0.593 ? 113.76 * std::pow(5e4 / 113.76, eps / 0.593) : 0;
       if (law == &exponential) strength = 113.76 * std::exp(4.5 * (1 - J) / (0.35 - 0.005 * J));
       if (strength > 0) {
         EXPECT_NEAR(invariants(stress_of(state)).p / strength, 1.0, 1e-11);
@@ -175,23 +193,30 @@ TEST(HardPoints, BeyondTheTableExtrapolatesAndSaysSoOrStops) {
   const auto stopping = law_of(snow("R 0.02 d 5e3", "linear", "stop"));
   VectorX first = going->initial_state(), second = first;
   UpdateReport report;
-  for (int step = 0; step < 14; ++step) report += going->update_point(stretch(strain_of(0, 0, -0.1)), first);
+  for (int step = 0; step < 14; ++step)
+    report += going->update_point(stretch(strain_of(0, 0, -0.1)), first);
   EXPECT_EQ(report.beyond_data, 0u);
-  for (int step = 0; step < 14; ++step) stopping->update_point(stretch(strain_of(0, 0, -0.1)), second);
+  for (int step = 0; step < 14; ++step)
+    stopping->update_point(stretch(strain_of(0, 0, -0.1)), second);
   EXPECT_EQ(first, second);
   report = UpdateReport();
-  for (int step = 0; step < 20; ++step) report += going->update_point(stretch(strain_of(0, 0, -0.5)), first);
+  for (int step = 0; step < 20; ++step)
+    report += going->update_point(stretch(strain_of(0, 0, -0.5)), first);
   EXPECT_GT(report.beyond_data, 0u);
   EXPECT_GT(report.beyond_ice, 0u);
   try {
-    for (int step = 0; step < 20; ++step) stopping->update_point(stretch(strain_of(0, 0, -0.5)), second);
+    for (int step = 0; step < 20; ++step)
+      stopping->update_point(stretch(strain_of(0, 0, -0.5)), second);
     ADD_FAILURE() << "went beyond the table";
   } catch (const StateError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("the hardening table ends (its rule beyond the table is 'stop')"));
+    EXPECT_THAT(
+        error.what(),
+        ::testing::HasSubstr("the hardening table ends (its rule beyond the table is 'stop')"));
   }
 }
 
-/// Where (16) loosens faster than friction, plastic work is negative; frozen energy pays for it, and heat is never negative.
+/// Where (16) loosens faster than friction, plastic work is negative; frozen energy pays for it,
+/// and heat is never negative.
 TEST(HardPoints, SofteningGivesBackFrozenEnergy) {
   const auto law = law_of(snow("R 0.02 d 0 eps_vol_pl_0 0.7"));
   VectorX state = law->initial_state();

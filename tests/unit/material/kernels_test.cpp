@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The kernels of every instruction set that this processor runs give the same results, and the finite-strain kinematics agree with
-// eigenvalues.
+// The kernels of every instruction set that this processor runs give the same results, and the
+// finite-strain kinematics agree with eigenvalues.
 
 #include "material/kernels.h"
 
@@ -20,9 +20,12 @@ using testing_paths::law_of;
 
 TEST(Kernels, InstructionSetsAgree) {
   const std::string snow =
-      "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.05 eps_vol_pl_0 0.3 elasticity linear E 13.79e6 nu 0.3 "
-      "hardening table p 113.76 5e4 1e6 6e7 eps_vol_pl 0 0.593 1.083 1.514 beyond extrapolate interpolation ";
-  for (const std::string& text : {snow + "linear", snow + "log alpha 0.05", snow + "linear K 0.8"}) {
+      "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.05 eps_vol_pl_0 0.3 elasticity linear E "
+      "13.79e6 nu 0.3 "
+      "hardening table p 113.76 5e4 1e6 6e7 eps_vol_pl 0 0.593 1.083 1.514 beyond extrapolate "
+      "interpolation ";
+  for (const std::string& text :
+       {snow + "linear", snow + "log alpha 0.05", snow + "linear K 0.8"}) {
     const auto law = law_of(text);
     const auto& cap = static_cast<const DruckerPragerCap&>(*law);
     constexpr std::size_t n = 1003;
@@ -31,7 +34,8 @@ TEST(Kernels, InstructionSetsAgree) {
     for (const Kernels* kernels : available_kernels()) {
       std::mt19937 engine(3);
       std::normal_distribution<double> normal;
-      std::vector<std::vector<double>> state(fields, std::vector<double>(n)), gradient(9, std::vector<double>(n));
+      std::vector<std::vector<double>> state(fields, std::vector<double>(n)),
+          gradient(9, std::vector<double>(n));
       std::vector<double*> pointers;
       for (std::size_t f = 0; f < fields; ++f) {
         std::fill(state[f].begin(), state[f].end(), law->state_fields()[f].initial);
@@ -44,24 +48,28 @@ TEST(Kernels, InstructionSetsAgree) {
       for (int step = 0; step < 8; ++step) {
         for (std::size_t i = 0; i < n; ++i)
           for (std::size_t k = 0; k < 9; ++k)
-            gradient[k][i] = (i % 7 == 0 ? 3e-2 : 1e-3) * (normal(engine) - (k % 4 == 0 ? 0.5 : 0.0));
+            gradient[k][i] =
+                (i % 7 == 0 ? 3e-2 : 1e-3) * (normal(engine) - (k % 4 == 0 ? 0.5 : 0.0));
         EXPECT_EQ(kernels->drucker_prager_cap(cap.parameters(), 200, block).failure, Failure::none)
             << kernels->instruction_set;
       }
       results.push_back(state);
     }
     std::string tested;
-    for (const Kernels* kernels : available_kernels()) tested += std::string(" ") + kernels->instruction_set;
+    for (const Kernels* kernels : available_kernels())
+      tested += std::string(" ") + kernels->instruction_set;
     RecordProperty("instruction_sets", tested);
     for (const auto& result : results)
       for (std::size_t f = 0; f < fields; ++f)
         for (std::size_t i = 0; i < n; ++i)
-          ASSERT_NEAR(result[f][i], results[0][f][i], 1e-7 * (f < 6 ? 1e5 : 1 + std::abs(results[0][f][i])))
+          ASSERT_NEAR(result[f][i], results[0][f][i],
+                      1e-7 * (f < 6 ? 1e5 : 1 + std::abs(results[0][f][i])))
               << law->state_fields()[f].name;
   }
 }
 
-/// ln U and R of any step, by eigenvalues of F^T F, through an elastic law: sigma = R (C : ln U) R^T.
+/// ln U and R of any step, by eigenvalues of F^T F, through an elastic law: sigma = R (C : ln U)
+/// R^T.
 TEST(Kinematics, LogarithmicStrainAndRotationOfAnyStep) {
   const auto law = law_of("elastic density 1 elasticity linear E 2.5 nu 0.25");  // K = 5/3, G = 1
   std::mt19937 engine(5);
@@ -76,15 +84,20 @@ TEST(Kinematics, LogarithmicStrainAndRotationOfAnyStep) {
       law->update_point(h, state);
       const Eigen::JacobiSVD<Matrix3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
       const Matrix3 R = svd.matrixU() * svd.matrixV().transpose();
-      const Matrix3 log_u =
-          svd.matrixV() * svd.singularValues().array().log().matrix().asDiagonal() * svd.matrixV().transpose();
-      const Matrix3 expected = R * ((5.0 / 3 - 2.0 / 3) * log_u.trace() * Matrix3::Identity() + 2 * log_u) * R.transpose();
-      // The singular values themselves are known to 1e-16 only, so the reference for tiny steps is the linear strain.
+      const Matrix3 log_u = svd.matrixV() *
+                            svd.singularValues().array().log().matrix().asDiagonal() *
+                            svd.matrixV().transpose();
+      const Matrix3 expected =
+          R * ((5.0 / 3 - 2.0 / 3) * log_u.trace() * Matrix3::Identity() + 2 * log_u) *
+          R.transpose();
+      // The singular values themselves are known to 1e-16 only, so the reference for tiny steps is
+      // the linear strain.
       const double error = (to_matrix(stress_of(state)) - expected).norm();
       ASSERT_LT(error, 2e-14 + 1e-12 * size) << size;
       if (size == 1e-9) {
         const Matrix3 e = 0.5 * (h + h.transpose());
-        ASSERT_LT((to_matrix(stress_of(state)) - e.trace() * Matrix3::Identity() - 2 * e).norm(), 1e-16);
+        ASSERT_LT((to_matrix(stress_of(state)) - e.trace() * Matrix3::Identity() - 2 * e).norm(),
+                  1e-16);
       }
       ASSERT_NEAR(state[field::volume_ratio], F.determinant(), 1e-14);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Paths for tests: laws from short lists of keys, steps of given logarithmic strain, components held at given stress.
+/// Paths for tests: laws from short lists of keys, steps of given logarithmic strain, components
+/// held at given stress.
 
 #include <cmath>
 #include <memory>
@@ -19,7 +20,9 @@ inline std::unique_ptr<Material> law_of(const std::string& text) {
   std::string law, word;
   words >> law;
   std::vector<Entry> entries;
-  const auto is_value = [](const std::string& w) { return std::string("0123456789+-.").find(w[0]) != std::string::npos; };
+  const auto is_value = [](const std::string& w) {
+    return std::string("0123456789+-.").find(w[0]) != std::string::npos;
+  };
   while (words >> word) {
     if (!entries.empty() && (is_value(word) || entries.back().values.empty())) {
       entries.back().values.push_back(word);
@@ -30,11 +33,15 @@ inline std::unique_ptr<Material> law_of(const std::string& text) {
   return make_material(law, entries);
 }
 
-/// McCormick Ranch sand, TR Tables 4 and 5. The density, not given there, only enters through inertia.
+/// McCormick Ranch sand, TR Tables 4 and 5. The density, not given there, only enters through
+/// inertia.
 inline std::string mccormick_sand(const std::string& more = "") {
-  return "drucker_prager_cap density 1800 d 1.194e6 beta 14.56 R 0.1 eps_vol_pl_0 0.001 elasticity linear E 689e6 nu 0.25 "
-         "hardening table p 0.138e6 0.172e6 0.434e6 0.896e6 1.655e6 2.758e6 4.137e6 6.895e6 13.447e6 "
-         "eps_vol_pl 0 0.005 0.01 0.02 0.03 0.04 0.05 0.06 0.1 interpolation linear beyond extrapolate " +
+  return "drucker_prager_cap density 1800 d 1.194e6 beta 14.56 R 0.1 eps_vol_pl_0 0.001 elasticity "
+         "linear E 689e6 nu 0.25 "
+         "hardening table p 0.138e6 0.172e6 0.434e6 0.896e6 1.655e6 2.758e6 4.137e6 6.895e6 "
+         "13.447e6 "
+         "eps_vol_pl 0 0.005 0.01 0.02 0.03 0.04 0.05 0.06 0.1 interpolation linear beyond "
+         "extrapolate " +
          more;
 }
 
@@ -46,10 +53,12 @@ inline Matrix3 stretch(const Vector6& strain) {
   return sum;
 }
 
-/// One step with the components of `strain`, except that the normal components marked in `held` take whatever keeps their stress at
-/// `target` (Newton's method on the law's tangent). Returns the strain increment.
-inline Vector6 mixed_step(const Material& law, VectorX& state, Vector6 strain, const std::array<bool, 3>& held,
-                          const Vector3& target, double tolerance) {
+/// One step with the components of `strain`, except that the normal components marked in `held`
+/// take whatever keeps their stress at `target` (Newton's method on the law's tangent). Returns the
+/// strain increment.
+inline Vector6 mixed_step(const Material& law, VectorX& state, Vector6 strain,
+                          const std::array<bool, 3>& held, const Vector3& target,
+                          double tolerance) {
   std::vector<int> free;
   for (int i = 0; i < 3; ++i)
     if (held[static_cast<std::size_t>(i)]) free.push_back(i);
@@ -78,7 +87,8 @@ inline Vector6 mixed_step(const Material& law, VectorX& state, Vector6 strain, c
     const Eigen::VectorXd change = jacobian.partialPivLu().solve(-r);
     for (double part = 1.0; part > 1e-6; part *= 0.5) {  // shorten a step that does not help
       Vector6 trial = strain;
-      for (Eigen::Index i = 0; i < n; ++i) trial[free[static_cast<std::size_t>(i)]] += part * change[i];
+      for (Eigen::Index i = 0; i < n; ++i)
+        trial[free[static_cast<std::size_t>(i)]] += part * change[i];
       const Eigen::VectorXd better = residual(trial, result);
       if (better.norm() < r.norm() || part < 2e-6) {
         strain = trial;
@@ -87,7 +97,8 @@ inline Vector6 mixed_step(const Material& law, VectorX& state, Vector6 strain, c
       }
     }
   }
-  if (r.norm() > tolerance) throw std::runtime_error("mixed_step does not converge, residual " + std::to_string(r.norm()));
+  if (r.norm() > tolerance)
+    throw std::runtime_error("mixed_step does not converge, residual " + std::to_string(r.norm()));
   residual(strain, result);
   state = result;
   return strain;

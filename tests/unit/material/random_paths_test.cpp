@@ -17,8 +17,12 @@ using testing_paths::stretch;
 class Dice {
  public:
   explicit Dice(unsigned seed) : engine_(seed) {}
-  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  double decades(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine_);
+  }
+  double decades(double low, double high) {
+    return std::exp(between(std::log(low), std::log(high)));
+  }
   bool chance(double probability) { return between(0, 1) < probability; }
   double normal() { return std::normal_distribution<double>()(engine_); }
 
@@ -27,16 +31,19 @@ class Dice {
 };
 
 std::string random_elasticity(Dice& dice, double young, double tensile) {
-  if (dice.chance(0.7)) return fmt::format(" elasticity linear E {} nu {}", young, dice.between(0, 0.48));
+  if (dice.chance(0.7))
+    return fmt::format(" elasticity linear E {} nu {}", young, dice.between(0, 0.48));
   const double pt = tensile * dice.between(1.01, 3) + 1.0;
-  return fmt::format(" elasticity porous elasticity.kappa {} elasticity.e0 {} elasticity.p0 0 pt_el {} nu {}",
-                     dice.decades(1e-3, 0.05), dice.between(0.2, 5), pt, dice.between(0, 0.45));
+  return fmt::format(
+      " elasticity porous elasticity.kappa {} elasticity.e0 {} elasticity.p0 0 pt_el {} nu {}",
+      dice.decades(1e-3, 0.05), dice.between(0.2, 5), pt, dice.between(0, 0.45));
 }
 
 std::string random_hardening(Dice& dice, double p_first) {
   if (dice.chance(0.3))
-    return fmt::format(" hardening exponential pc0 {} lambda {} hardening.kappa {} hardening.e0 {}", p_first,
-                       dice.between(0.1, 0.5), dice.between(0.001, 0.05), dice.between(0.2, 5));
+    return fmt::format(" hardening exponential pc0 {} lambda {} hardening.kappa {} hardening.e0 {}",
+                       p_first, dice.between(0.1, 0.5), dice.between(0.001, 0.05),
+                       dice.between(0.2, 5));
   const int rows = 2 + static_cast<int>(dice.between(0, 12));
   std::string p, eps;
   double strength = p_first, strain = 0;
@@ -44,29 +51,31 @@ std::string random_hardening(Dice& dice, double p_first) {
     p += fmt::format(" {}", strength);
     eps += fmt::format(" {}", strain);
     const double rise = dice.decades(1e-3, 0.4);
-    strain +=
-        k + 2 == rows ? 0.4 : rise;  // a flat end: exp() beyond the table must not leave the range of pressures on earth
+    strain += k + 2 == rows ? 0.4 : rise;  // a flat end: exp() beyond the table must not leave the
+                                           // range of pressures on earth
     strength *= k + 2 == rows ? 2.0 : dice.decades(1.05, 10);
   }
-  return fmt::format(" hardening table p{} eps_vol_pl{} interpolation {} beyond extrapolate", p, eps,
-                     dice.chance(0.5) ? "log" : "linear");
+  return fmt::format(" hardening table p{} eps_vol_pl{} interpolation {} beyond extrapolate", p,
+                     eps, dice.chance(0.5) ? "log" : "linear");
 }
 
 std::string random_cap(Dice& dice) {
   const double young = dice.decades(1e5, 1e9), pb = young * dice.decades(1e-5, 1e-2);
-  const double d = dice.chance(0.2) ? 0.0 : pb * dice.decades(1e-4, 1e2), beta = dice.between(1, 65),
-               R = dice.decades(1e-4, 2);
+  const double d = dice.chance(0.2) ? 0.0 : pb * dice.decades(1e-4, 1e2),
+               beta = dice.between(1, 65), R = dice.decades(1e-4, 2);
   const double tan_beta = std::tan(radians(beta));
-  std::string law =
-      fmt::format("drucker_prager_cap density 300 d {} beta {} R {} K {} alpha {}", d, beta, R,
-                  dice.chance(0.5) ? 1.0 : dice.between(0.778, 1), dice.chance(0.5) ? 0.0 : dice.between(0, 0.1));
+  std::string law = fmt::format("drucker_prager_cap density 300 d {} beta {} R {} K {} alpha {}", d,
+                                beta, R, dice.chance(0.5) ? 1.0 : dice.between(0.778, 1),
+                                dice.chance(0.5) ? 0.0 : dice.between(0, 0.1));
   if (dice.chance(0.3)) law += fmt::format(" tension {}", d / tan_beta * dice.between(0, 0.99));
   return law + random_elasticity(dice, young, d / tan_beta) + random_hardening(dice, pb);
 }
 
 std::string random_foam(Dice& dice) {
-  const double young = dice.decades(1e5, 1e9), pc = young * dice.decades(1e-5, 1e-2), pt = pc * dice.decades(1e-4, 1);
-  return fmt::format("crushable_foam density 300 pt {} sigma0 {} K {} ", pt, 3 * pc * dice.between(0.05, 0.95),
+  const double young = dice.decades(1e5, 1e9), pc = young * dice.decades(1e-5, 1e-2),
+               pt = pc * dice.decades(1e-4, 1);
+  return fmt::format("crushable_foam density 300 pt {} sigma0 {} K {} ", pt,
+                     3 * pc * dice.between(0.05, 0.95),
                      dice.chance(0.5) ? 1.0 : dice.between(0.778, 1)) +
          random_elasticity(dice, young, pt) + random_hardening(dice, pc);
 }
@@ -89,7 +98,8 @@ void run_path(Dice& dice, const std::string& text, Tally& tally) {
     if (dice.chance(0.2)) strain.head<3>().setConstant(dice.chance(0.7) ? -1.0 : 1.0);
     strain *= (dice.chance(0.1) ? 0.5 : dice.decades(1e-6, 0.1)) / strain.norm();
     const Vector3 axis = Vector3(dice.normal(), dice.normal(), dice.normal()).normalized();
-    const Matrix3 turn = Eigen::AngleAxisd(dice.chance(0.3) ? dice.between(0, 0.3) : 0.0, axis).toRotationMatrix();
+    const Matrix3 turn =
+        Eigen::AngleAxisd(dice.chance(0.3) ? dice.between(0, 0.3) : 0.0, axis).toRotationMatrix();
     const Matrix3 gradient = turn * (Matrix3::Identity() + stretch(strain)) - Matrix3::Identity();
     const double dissipated = state[field::dissipated_energy];
     UpdateReport report;
@@ -101,16 +111,17 @@ void run_path(Dice& dice, const std::string& text, Tally& tally) {
     const double scale = law->stress_scale(state);
     const double excess = law->yield_function(state) / scale;
     tally.worst_yield = std::max(tally.worst_yield, excess);
-    ASSERT_LE(excess, 1e-8) << text << "\nstep " << step << " strain " << strain.transpose() << "\nstate "
-                            << state.transpose();
+    ASSERT_LE(excess, 1e-8) << text << "\nstep " << step << " strain " << strain.transpose()
+                            << "\nstate " << state.transpose();
     const double heat = state[field::dissipated_energy] - dissipated;
     tally.worst_dissipation = std::min(tally.worst_dissipation, heat / scale);
-    ASSERT_GE(heat, -1e-14 * scale) << text << "\nstep " << step << " strain " << strain.transpose() << "\nstate "
-                                    << state.transpose();
+    ASSERT_GE(heat, -1e-14 * scale) << text << "\nstep " << step << " strain " << strain.transpose()
+                                    << "\nstate " << state.transpose();
     // K < 1 solves for the Lode angle inside the other two equations, and counts every evaluation.
     const bool plain = text.find(" K 1 ") != std::string::npos;
     tally.most_plain = std::max(tally.most_plain, plain ? report.most_iterations : 0);
-    ASSERT_LT(report.most_iterations, plain ? 300u : 1000u) << text << "\nstep " << step << " strain " << strain.transpose();
+    ASSERT_LT(report.most_iterations, plain ? 300u : 1000u)
+        << text << "\nstep " << step << " strain " << strain.transpose();
   }
 }
 
@@ -125,12 +136,14 @@ TEST(RandomPaths, TenThousandStayOnTheSurfaceAndDissipate) {
     const auto& points = tally.report.points;
     const double yielding = static_cast<double>(tally.steps - points[0]);
     fmt::print(
-        "{}: {} steps: elastic {} shear {} transition {} cap {} tension {}; iterations mean {:.2f} most {}, with K = 1 {}; "
+        "{}: {} steps: elastic {} shear {} transition {} cap {} tension {}; iterations mean {:.2f} "
+        "most {}, with K = 1 {}; "
         "yield {:.2e} heat {:.2e}\n",
         foam ? "foam" : "cap", tally.steps, points[0], points[1], points[2], points[3], points[4],
-        static_cast<double>(tally.report.iterations) / yielding, tally.report.most_iterations, tally.most_plain,
-        tally.worst_yield, tally.worst_dissipation);
-    for (const std::size_t branch : foam ? std::vector<std::size_t>{0, 3, 4} : std::vector<std::size_t>{0, 1, 2, 3, 4})
+        static_cast<double>(tally.report.iterations) / yielding, tally.report.most_iterations,
+        tally.most_plain, tally.worst_yield, tally.worst_dissipation);
+    for (const std::size_t branch :
+         foam ? std::vector<std::size_t>{0, 3, 4} : std::vector<std::size_t>{0, 1, 2, 3, 4})
       EXPECT_GT(points[branch], 500u) << "hardly met: " << to_string(static_cast<Branch>(branch));
   }
 }

@@ -16,7 +16,8 @@ using ::testing::HasSubstr;
 using testing_paths::law_of;
 
 const std::string elastic = " elasticity linear E 13.79e6 nu 0.3";
-const std::string table = " hardening table p 1e3 5e4 1e6 eps_vol_pl 0 0.5 1 interpolation linear beyond stop";
+const std::string table =
+    " hardening table p 1e3 5e4 1e6 eps_vol_pl 0 0.5 1 interpolation linear beyond stop";
 const std::string yield = "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.02";
 
 std::string message_of(const std::string& text) {
@@ -36,61 +37,82 @@ struct Refusal {
 class BadParameters : public ::testing::TestWithParam<Refusal> {};
 
 TEST_P(BadParameters, AreRefusedWithTheirMessage) {
-  for (const std::string& part : GetParam().message) EXPECT_THAT(message_of(GetParam().text), HasSubstr(part));
+  for (const std::string& part : GetParam().message)
+    EXPECT_THAT(message_of(GetParam().text), HasSubstr(part));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Registry, BadParameters,
     ::testing::Values(
-        Refusal{"mud density 1", {"unknown law 'mud'", "drucker_prager_cap, crushable_foam, elastic, neo_hookean"}},
+        Refusal{"mud density 1",
+                {"unknown law 'mud'", "drucker_prager_cap, crushable_foam, elastic, neo_hookean"}},
         Refusal{"drucker_prager_cap density 200 beta 22.53 R 0.02" + elastic + table,
                 {"law drucker_prager_cap, keyword 'd' is missing", "cohesion"}},
         Refusal{yield + " K 0.7" + elastic + table, {"keyword 'K' is 0.7", "in [0.778, 1]"}},
         Refusal{"drucker_prager_cap density 200 d 5e3 beta 95 R 0.02" + elastic + table,
                 {"keyword 'beta' is 95", "(0, 80] [degree]"}},
-        Refusal{yield + " alpha 0.95" + elastic + table,
-                {"keyword 'alpha' is 0.95", "wider than the shear strength", "below cos(beta) = 0.92"}},
+        Refusal{
+            yield + " alpha 0.95" + elastic + table,
+            {"keyword 'alpha' is 0.95", "wider than the shear strength", "below cos(beta) = 0.92"}},
         Refusal{yield + " tension 2e4" + elastic + table,
                 {"keyword 'tension' is 20000 Pa, beyond the apex", "at most d/tan(beta) = 12053"}},
         Refusal{yield + " eps_vol_pl_0 2" + elastic + table,
                 {"keyword 'eps_vol_pl_0' is 2, outside the hardening data", "in [0, 1]"}},
-        Refusal{yield + " colour 2" + elastic + table, {"has no keyword 'colour'", "density, d, beta"}},
+        Refusal{yield + " colour 2" + elastic + table,
+                {"has no keyword 'colour'", "density, d, beta"}},
         Refusal{yield + " d 1" + elastic + table, {"keyword 'd' is given twice"}},
-        Refusal{yield + " elasticity linear E stiff nu 0.3" + table, {"elasticity linear, keyword 'E'"}},
-        Refusal{yield + " elasticity linear E 1e6 nu 0.5" + table, {"keyword 'nu' is 0.5", "(-1, 0.5)"}},
+        Refusal{yield + " elasticity linear E stiff nu 0.3" + table,
+                {"elasticity linear, keyword 'E'"}},
+        Refusal{yield + " elasticity linear E 1e6 nu 0.5" + table,
+                {"keyword 'nu' is 0.5", "(-1, 0.5)"}},
         Refusal{yield + " elasticity rubber" + table,
                 {"section 'elasticity', keyword 'type' is 'rubber'", "linear, porous"}},
-        Refusal{yield + " elasticity porous kappa 0.01 e0 1 nu 0.3" + table, {"'pt_el' are both 0", "p0 + pt_el > 0"}},
+        Refusal{yield + " elasticity porous kappa 0.01 e0 1 nu 0.3" + table,
+                {"'pt_el' are both 0", "p0 + pt_el > 0"}},
         Refusal{yield + " elasticity porous kappa 0.01 e0 1 pt_el 1e5 nu 0.3 G 1e6" + table,
                 {"has both 'nu' and 'G'", "exactly one"}},
-        Refusal{yield + " elasticity porous kappa 0.01 e0 1 pt_el 1e5" + table, {"has neither 'nu' nor 'G'", "exactly one"}},
+        Refusal{yield + " elasticity porous kappa 0.01 e0 1 pt_el 1e5" + table,
+                {"has neither 'nu' nor 'G'", "exactly one"}},
         Refusal{yield + " elasticity porous kappa 0.01 e0 1 pt_el 1e2 nu 0.3" + table,
                 {"keyword 'pt_el' is 100 Pa", "above the tensile strength, 12053"}},
-        Refusal{yield + elastic + " hardening table p 1e3 5e4 5e4 eps_vol_pl 0 0.5 1 interpolation linear beyond stop",
-                {"keyword 'p' does not increase: row 2 is 50000, row 3 is 50000", "strictly increasing"}},
-        Refusal{yield + elastic + " hardening table p 1e3 5e4 6e4 eps_vol_pl 0 0.5 0.4 interpolation linear beyond stop",
+        Refusal{yield + elastic +
+                    " hardening table p 1e3 5e4 5e4 eps_vol_pl 0 0.5 1 interpolation linear beyond "
+                    "stop",
+                {"keyword 'p' does not increase: row 2 is 50000, row 3 is 50000",
+                 "strictly increasing"}},
+        Refusal{yield + elastic +
+                    " hardening table p 1e3 5e4 6e4 eps_vol_pl 0 0.5 0.4 interpolation linear "
+                    "beyond stop",
                 {"keyword 'eps_vol_pl' does not increase: row 2 is 0.5, row 3 is 0.4"}},
-        Refusal{yield + elastic + " hardening table p 1e3 5e4 eps_vol_pl 0 0.5 1 interpolation linear beyond stop",
-                {"keyword 'eps_vol_pl' has 3 values for 2 of 'p'"}},
-        Refusal{yield + elastic + " hardening table p 1e3 eps_vol_pl 0 interpolation linear beyond stop",
+        Refusal{
+            yield + elastic +
+                " hardening table p 1e3 5e4 eps_vol_pl 0 0.5 1 interpolation linear beyond stop",
+            {"keyword 'eps_vol_pl' has 3 values for 2 of 'p'"}},
+        Refusal{yield + elastic +
+                    " hardening table p 1e3 eps_vol_pl 0 interpolation linear beyond stop",
                 {"has 1 row(s)", "2 to 64 rows"}},
         Refusal{yield + elastic + " hardening table p 1e3 5e4 eps_vol_pl 0 1 interpolation linear",
                 {"keyword 'beyond' is missing", "extrapolate, stop"}},
-        Refusal{yield + elastic + " hardening table p 0 5e4 eps_vol_pl 0 1 interpolation linear beyond stop",
+        Refusal{yield + elastic +
+                    " hardening table p 0 5e4 eps_vol_pl 0 1 interpolation linear beyond stop",
                 {"keyword 'p' is 0", "each > 0 [Pa]"}},
         Refusal{yield + elastic + " hardening exponential pc0 100 lambda 0.1 kappa 0.2 e0 1",
                 {"keyword 'lambda' is 0.1, not above kappa = 0.2"}},
-        Refusal{yield + " elasticity porous kappa 0.01 e0 1 pt_el 1e5 nu 0.3 hardening exponential pc0 100 lambda 0.1",
-                {"keyword 'kappa' belongs to more than one section", "elasticity.kappa, hardening.kappa"}},
+        Refusal{yield + " elasticity porous kappa 0.01 e0 1 pt_el 1e5 nu 0.3 hardening exponential "
+                        "pc0 100 lambda 0.1",
+                {"keyword 'kappa' belongs to more than one section",
+                 "elasticity.kappa, hardening.kappa"}},
         Refusal{"crushable_foam density 200 pt 11 sigma0 400" + elastic +
                     " hardening exponential pc0 100 lambda 0.1 kappa 0.01 e0 1",
                 {"keyword 'sigma0' is 400", "below 3 pc0 = 300 Pa"}},
-        Refusal{"crushable_foam density 200 pt 11 sigma0 200 pc0_reading pc0_plus_pt" + elastic + table,
-                {"with a hardening table"}},
+        Refusal{
+            "crushable_foam density 200 pt 11 sigma0 200 pc0_reading pc0_plus_pt" + elastic + table,
+            {"with a hardening table"}},
         Refusal{"crushable_foam density 200 pt 110 sigma0 200 pc0_reading pc0_plus_pt" + elastic +
                     " hardening exponential pc0 100 lambda 0.1 kappa 0.01 e0 1",
                 {"keyword 'pc0' is 100 Pa, which includes the tensile strength", "above 110 Pa"}},
-        Refusal{"elastic density 0" + elastic, {"law elastic, keyword 'density' is 0", "> 0 [kg/m3]"}},
+        Refusal{"elastic density 0" + elastic,
+                {"law elastic, keyword 'density' is 0", "> 0 [kg/m3]"}},
         Refusal{"neo_hookean density 1100 G 1e6", {"keyword 'bulk' is missing"}}));
 
 TEST(Registry, RefusesAnUnknownSection) {
@@ -98,22 +120,24 @@ TEST(Registry, RefusesAnUnknownSection) {
     make_material("elastic", MaterialSections{{"hardening", {}}});
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("law elastic has no section 'hardening'"), HasSubstr("law, elasticity")));
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("law elastic has no section 'hardening'"),
+                                    HasSubstr("law, elasticity")));
   }
 }
 
 TEST(Registry, FlatListAndSectionsMakeTheSameLaw) {
   const auto flat = law_of(yield + elastic + table);
-  const auto nested =
-      make_material("drucker_prager_cap",
-                    MaterialSections{{"law", {{"density", {"200"}}, {"d", {"5e3"}}, {"beta", {"22.53"}}, {"R", {"0.02"}}}},
-                                     {"elasticity", {{"type", {"linear"}}, {"E", {"13.79e6"}}, {"nu", {"0.3"}}}},
-                                     {"hardening",
-                                      {{"type", {"table"}},
-                                       {"p", {"1e3", "5e4", "1e6"}},
-                                       {"eps_vol_pl", {"0", "0.5", "1"}},
-                                       {"interpolation", {"linear"}},
-                                       {"beyond", {"stop"}}}}});
+  const auto nested = make_material(
+      "drucker_prager_cap",
+      MaterialSections{
+          {"law", {{"density", {"200"}}, {"d", {"5e3"}}, {"beta", {"22.53"}}, {"R", {"0.02"}}}},
+          {"elasticity", {{"type", {"linear"}}, {"E", {"13.79e6"}}, {"nu", {"0.3"}}}},
+          {"hardening",
+           {{"type", {"table"}},
+            {"p", {"1e3", "5e4", "1e6"}},
+            {"eps_vol_pl", {"0", "0.5", "1"}},
+            {"interpolation", {"linear"}},
+            {"beyond", {"stop"}}}}});
   Matrix3 h = Matrix3::Zero();
   h(2, 2) = -0.1;
   VectorX a = flat->initial_state(), b = nested->initial_state();
@@ -128,7 +152,8 @@ TEST(Registry, ListsNamesMeaningsAndSchemas) {
     EXPECT_EQ(law.sections.front().name, "law");
     for (const SectionSchema& section : law.sections)
       for (const SectionChoice& choice : section.choices)
-        for (const Key& key : choice.schema.keys()) EXPECT_GT(key.meaning.size(), 3u) << law.name << ", " << key.name;
+        for (const Key& key : choice.schema.keys())
+          EXPECT_GT(key.meaning.size(), 3u) << law.name << ", " << key.name;
   }
 }
 

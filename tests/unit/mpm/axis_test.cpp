@@ -36,7 +36,8 @@ const AxisLayout graded_layout{-1.0, 2.0, 0.05, 0.2, 0.7, 1.25};
 class BothAxes : public ::testing::TestWithParam<AxisLayout> {};
 INSTANTIATE_TEST_SUITE_P(Axis, BothAxes, ::testing::Values(uniform_layout, graded_layout));
 
-/// The middle spline too is a B-spline: on its own knots it must be what Cox and de Boor's recursion gives.
+/// The middle spline too is a B-spline: on its own knots it must be what Cox and de Boor's
+/// recursion gives.
 double cox_de_boor(const std::vector<double>& t, std::size_t i, int degree, double x) {
   if (degree == 0) return x >= t[i] && x < t[i + 1] ? 1.0 : 0.0;
   const auto k = static_cast<std::size_t>(degree);
@@ -53,7 +54,8 @@ TEST_P(BothAxes, SplinesAreThoseOfCoxAndDeBoorOnOpenKnots) {
   for (double x = axis.lower() + 1e-3; x < axis.upper(); x += 0.00731) {
     const Splines s = splines_at(axis, x);
     for (int i = 0; i < 3; ++i)
-      EXPECT_NEAR(s.value[i], cox_de_boor(knots, static_cast<std::size_t>(s.cell + i), 2, x), 1e-13) << x;
+      EXPECT_NEAR(s.value[i], cox_de_boor(knots, static_cast<std::size_t>(s.cell + i), 2, x), 1e-13)
+          << x;
   }
 }
 
@@ -83,17 +85,21 @@ TEST_P(BothAxes, EndsBelongToTheOutermostNode) {
 TEST_P(BothAxes, ExtentIsTheIntegralOfTheSpline) {
   const Axis axis(GetParam(), "x axis");
   std::vector<double> integral(static_cast<std::size_t>(axis.nodes()), 0.0);
-  const double point = std::sqrt(0.6), weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};  // Gauss: exact to the fifth power
+  // Gauss: exact to the fifth power
+  const double point = std::sqrt(0.6), weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
   for (int c = 0; c < axis.cells(); ++c)
     for (int g = 0; g < 3; ++g) {
-      const Splines s = splines_at(axis, axis.knot(c) + 0.5 * axis.length(c) * (1.0 + (g - 1) * point));
-      for (int i = 0; i < 3; ++i) integral[static_cast<std::size_t>(c + i)] += weight[g] * axis.length(c) * s.value[i];
+      const Splines s =
+          splines_at(axis, axis.knot(c) + 0.5 * axis.length(c) * (1.0 + (g - 1) * point));
+      for (int i = 0; i < 3; ++i)
+        integral[static_cast<std::size_t>(c + i)] += weight[g] * axis.length(c) * s.value[i];
     }
   for (int i = 0; i < axis.nodes(); ++i)
     EXPECT_NEAR(axis.extent(i), integral[static_cast<std::size_t>(i)], 1e-14) << "node " << i;
 }
 
-/// The kernels find a cell through bins and at most one step further: right for every x, ends and knots included.
+/// The kernels find a cell through bins and at most one step further: right for every x, ends and
+/// knots included.
 TEST_P(BothAxes, BinsFindTheCell) {
   const Axis axis(GetParam(), "x axis");
   const AxisView view = axis.view();
@@ -123,8 +129,10 @@ TEST(Axis, CellsGrowOutsideOfTheFineStretchOnly) {
     if (middle > 0.2 && middle < 0.7) {
       EXPECT_NEAR(axis.length(c), 0.05, 1e-12);
     } else if (c > 0 && c + 1 < axis.cells()) {
-      const double growth = middle < 0.2 ? axis.length(c) / axis.length(c + 1) : axis.length(c) / axis.length(c - 1);
-      // All cells outside are stretched by one factor to end where the axis ends: the first step differs, later ones do not.
+      const double growth =
+          middle < 0.2 ? axis.length(c) / axis.length(c + 1) : axis.length(c) / axis.length(c - 1);
+      // All cells outside are stretched by one factor to end where the axis ends: the first step
+      // differs, later ones do not.
       const bool first = std::abs(middle - 0.45) < 0.25 + 0.05;
       if (first) {
         EXPECT_NEAR(growth, 1.25, 0.25);
@@ -176,10 +184,13 @@ TEST(Axis, RefusesLayoutsWithoutSense) {
     }
     return "no error";
   };
-  EXPECT_THAT(refusal({1.0, 0.0, 0.1, 0.0, 1.0, 1.0}), HasSubstr("soil, x axis has cells of 0.1 m from 1 to 0 m"));
-  EXPECT_THAT(refusal({0.0, 1.0, -0.1, 0.0, 1.0, 1.0}), HasSubstr("allowed: lower < upper, a cell > 0"));
+  EXPECT_THAT(refusal({1.0, 0.0, 0.1, 0.0, 1.0, 1.0}),
+              HasSubstr("soil, x axis has cells of 0.1 m from 1 to 0 m"));
+  EXPECT_THAT(refusal({0.0, 1.0, -0.1, 0.0, 1.0, 1.0}),
+              HasSubstr("allowed: lower < upper, a cell > 0"));
   EXPECT_THAT(refusal({0.0, 1.0, std::nan(""), 0.0, 1.0, 1.0}), HasSubstr("cells of nan m"));
-  EXPECT_THAT(refusal({0.0, 1.0, 0.1, 2.0, 3.0, 1.0}), HasSubstr("a fine stretch that is not empty"));
+  EXPECT_THAT(refusal({0.0, 1.0, 0.1, 2.0, 3.0, 1.0}),
+              HasSubstr("a fine stretch that is not empty"));
   EXPECT_THAT(refusal({0.0, 1.0, 0.1, 0.0, 0.5, 0.9}), HasSubstr("grow by 0.9; allowed: 1 to 1.5"));
   EXPECT_THAT(refusal({0.0, 1.0, 0.1, 0.0, 0.5, 2.0}), HasSubstr("coarser steps reflect waves"));
 }

@@ -14,7 +14,9 @@ using testing_ground::even;
 constexpr double mass = 2.0, dt = 1e-3;
 const Vector3 weightless = Vector3::Zero();
 
-Grid small_grid() { return Grid(Axis(even(0, 4, 1), "x"), Axis(even(0, 3, 1), "y"), Axis(even(0, 2, 1), "z")); }
+Grid small_grid() {
+  return Grid(Axis(even(0, 4, 1), "x"), Axis(even(0, 3, 1), "y"), Axis(even(0, 2, 1), "z"));
+}
 
 template <class Visit>
 void for_nodes(Grid& grid, Visit visit) {
@@ -82,14 +84,16 @@ TEST(Faces, SmoothStopsWhatIsAcrossAndRoughStopsAll) {
     }
 }
 
-/// v' = (v - dt c^2/(l L) u)/(1 + dt c/l) with u the displacement before: dashpot and spring of one node across the face, taken implicitly.
+/// v' = (v - dt c^2/(l L) u)/(1 + dt c/l) with u the displacement before: dashpot and spring of one
+/// node across the face, taken implicitly.
 TEST(Faces, AbsorbingIsDashpotAndSpring) {
   Grid grid = small_grid();
   Faces faces(grid, only(x_upper, FaceKind::absorbing), {2, 2, 2}, speeds(grid));
   EXPECT_FALSE(faces.captured());
   faces.capture(grid, grid.all_planes(), weightless);  // nothing to hold
   EXPECT_TRUE(faces.captured());
-  const double extent = 0.3125, length = 0.5 * 4.0;  // [m] (0.75^2 + 0.25^2)/2 of the spline at two particles a cell
+  // [m] (0.75^2 + 0.25^2)/2 of the spline at two particles a cell
+  const double extent = 0.3125, length = 0.5 * 4.0;
   Vector3 u = Vector3::Zero(), v(1.0, 2.0, 3.0);
   double work = 0.0;
   for (int step = 0; step < 3; ++step) {
@@ -98,7 +102,8 @@ TEST(Faces, AbsorbingIsDashpotAndSpring) {
     Vector3 after;
     for (int c = 0; c < 3; ++c) {
       const double speed = c == 0 ? 300.0 : 150.0;
-      after[c] = (v[c] - dt * speed * speed / (extent * length) * u[c]) / (1.0 + dt * speed / extent);
+      after[c] =
+          (v[c] - dt * speed * speed / (extent * length) * u[c]) / (1.0 + dt * speed / extent);
     }
     u += dt * after;
     EXPECT_LT((Eigen::Map<const Vector3>(grid.motion(5, 2, 1).velocity) - after).norm(), 1e-14);
@@ -126,7 +131,8 @@ TEST(Faces, ForcesOfTheStartAreHeld) {
       give_velocity(grid, dt * pull / mass);
       faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);
       for_nodes(grid, [&](const NodeMotion& n, int i, int j, int k) {
-        const bool held = i == grid.nodes(0) - 1 || (count > 1 && j == grid.nodes(1) - 1) || (count > 2 && k == 0);
+        const bool held = i == grid.nodes(0) - 1 || (count > 1 && j == grid.nodes(1) - 1) ||
+                          (count > 2 && k == 0);
         const Vector3 expected = held ? Vector3(0, 0, 0) : Vector3(dt * pull / mass);
         EXPECT_LT((Eigen::Map<const Vector3>(n.velocity) - expected).norm(), 1e-14)
             << count << " faces, node " << i << " " << j << " " << k;
@@ -135,7 +141,8 @@ TEST(Faces, ForcesOfTheStartAreHeld) {
   }
 }
 
-/// A node that a wall holds does not move, so the far field that meets the wall there does no work on it and holds nothing.
+/// A node that a wall holds does not move, so the far field that meets the wall there does no work
+/// on it and holds nothing.
 TEST(Faces, AbsorbingLeavesToWallsWhatTheyHold) {
   Grid grid = small_grid();
   std::array<FaceKind, face_count> kinds = only(x_upper, FaceKind::absorbing);
@@ -168,7 +175,8 @@ TEST(Faces, AbsorbingLeavesToWallsWhatTheyHold) {
   for (int step = 0; step < 2; ++step)
     for (int d = 0; d < 3; ++d) {
       const double speed = d == 0 ? c : cs,
-                   after = (v[d] - dt * speed * speed / (extent * length) * u[d]) / (1.0 + dt * speed / extent);
+                   after = (v[d] - dt * speed * speed / (extent * length) * u[d]) /
+                           (1.0 + dt * speed / extent);
       u[d] += dt * after;
       const int rows = d == 1 ? grid.nodes(1) - 1 : grid.nodes(1);
       work += rows * (grid.nodes(2) - 1) * mass * (after - v[d]) * after;
@@ -199,15 +207,19 @@ TEST(Faces, StateIsRestoredAndMovesWithTheGrid) {
   EXPECT_EQ(other.impulse(y_upper), Vector3::Zero());
   EXPECT_EQ(other.work(), 0.0);
 
-  // Rows between the ends move by one; the one that enters has no displacement. Displacements are the last numbers of the state.
+  // Rows between the ends move by one; the one that enters has no displacement. Displacements are
+  // the last numbers of the state.
   faces.shift_x(1);
   std::vector<double> moved;
   faces.save(moved);
-  const auto row = static_cast<std::size_t>(3 * grid.nodes(2)), rows = static_cast<std::size_t>(grid.nodes(0));
+  const auto row = static_cast<std::size_t>(3 * grid.nodes(2)),
+             rows = static_cast<std::size_t>(grid.nodes(0));
   const double* before = saved.data() + saved.size() - rows * row;
   const double* after = moved.data() + moved.size() - rows * row;
   for (std::size_t r = 0; r < rows; ++r) {
-    const double expected = r < 2 || r + 2 >= rows ? before[r * row] : r + 3 < rows ? before[(r + 1) * row] : 0.0;
+    const double expected = r < 2 || r + 2 >= rows ? before[r * row]
+                            : r + 3 < rows         ? before[(r + 1) * row]
+                                                   : 0.0;
     EXPECT_EQ(after[r * row], expected) << "row " << r;
   }
   Faces across(grid, only(x_upper, FaceKind::absorbing), {2, 2, 2}, speeds(grid));

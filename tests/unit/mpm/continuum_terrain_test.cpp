@@ -25,7 +25,8 @@ GroundParameters snow_bed(const std::string& law = snow()) {
   return parameters;
 }
 
-/// A plate that is pushed into a bed, with all that a restart must carry: friction, absorbing faces, sorting.
+/// A plate that is pushed into a bed, with all that a restart must carry: friction, absorbing
+/// faces, sorting.
 struct Scene {
   explicit Scene(const GroundParameters& parameters)
       : ground(parameters, Communicator()),
@@ -81,9 +82,11 @@ TEST(GroundRestart, ContinuesBitForBitOnAGradedGrid) {
 /// Porous elasticity: the stiffness of the contact follows the modulus.
 TEST(GroundRestart, ContinuesBitForBitWithPorousElasticity) {
   expect_exact_restart(
-      snow_bed("crushable_foam density 200 pt 2000 sigma0 5000 K 1 pc0_reading pc0 elasticity porous elasticity.kappa 0.005 "
+      snow_bed("crushable_foam density 200 pt 2000 sigma0 5000 K 1 pc0_reading pc0 elasticity "
+               "porous elasticity.kappa 0.005 "
                "elasticity.e0 3.5 nu 0.3 "
-               "pt_el 5000 hardening exponential pc0 5000 lambda 0.35 hardening.kappa 0.005 hardening.e0 3.5"));
+               "pt_el 5000 hardening exponential pc0 5000 lambda 0.35 hardening.kappa 0.005 "
+               "hardening.e0 3.5"));
 }
 
 TEST(GroundRestart, RefusesTheStateOfOtherGround) {
@@ -95,12 +98,14 @@ TEST(GroundRestart, RefusesTheStateOfOtherGround) {
     wider.restore(ground.state());
     FAIL();
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("continuum ground: the saved state belongs to other ground"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("continuum ground: the saved state belongs to other ground"));
   }
   EXPECT_THROW(wider.restore({}), Error);
 }
 
-/// Ground that follows a wheel: fresh ground ahead, what is behind is dropped and leaves its profile; nothing moves by that.
+/// Ground that follows a wheel: fresh ground ahead, what is behind is dropped and leaves its
+/// profile; nothing moves by that.
 TEST(MovingGround, DropsBehindAndAddsAhead) {
   GroundParameters parameters = snow_bed();
   set_faces(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
@@ -109,12 +114,15 @@ TEST(MovingGround, DropsBehindAndAddsAhead) {
   const double particles = ground.particle_count(), mass = sums_of(ground).mass;
   ground.advance(1e-5);
   ground.follow(0.3);
-  for (int step = 0; step < parameters.cycle; ++step) ground.advance(1e-5);  // at the end of a cycle
-  EXPECT_NEAR(ground.travelled(), 0.275, 1e-12);                             // by whole cells, one behind what it follows
+  // at the end of a cycle
+  for (int step = 0; step < parameters.cycle; ++step) ground.advance(1e-5);
+  // by whole cells, one behind what it follows
+  EXPECT_NEAR(ground.travelled(), 0.275, 1e-12);
   EXPECT_EQ(ground.particle_count(), particles);
   EXPECT_NEAR(sums_of(ground).mass / mass, 1.0, 1e-12);
   EXPECT_NEAR(sums_of(ground).centre.x(), 0.275, 1e-6);
-  ASSERT_EQ(ground.rut().size(), 11u * 8u);  // columns dropped times cells across, the new ones of the gap included
+  // columns dropped times cells across, the new ones of the gap included
+  ASSERT_EQ(ground.rut().size(), 11u * 8u);
   for (const RutPoint& point : ground.rut()) {
     EXPECT_NEAR(point.z, depth, 1e-3);
     EXPECT_NEAR(point.density, 200.0, 1.0);
@@ -143,7 +151,8 @@ TEST(MovingGround, RefusesGradedAndAbsorbingFacesAlongItsWay) {
 }
 
 TEST(Ground, StableStepIsTheCourantNumberOfTheShortestCell) {
-  GroundParameters parameters = box(law_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
+  GroundParameters parameters =
+      box(law_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
   parameters.z = even(0, 0.2, 0.025);
   parameters.cfl = 0.3;
   MpmGround ground(parameters, Communicator());
@@ -154,22 +163,24 @@ TEST(Ground, StableStepIsTheCourantNumberOfTheShortestCell) {
 }
 
 TEST(Ground, StopsWhenParticlesLeaveTheGrid) {
-  GroundParameters parameters = box(law_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
+  GroundParameters parameters =
+      box(law_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
   MpmGround ground(parameters, Communicator());
   set_motion(ground, {10.0, 0, 0});  // all faces are free
   try {
     for (int n = 0; n < 1000; ++n) ground.advance(1e-4);
     FAIL();
   } catch (const StateError& error) {
-    EXPECT_THAT(
-        error.what(),
-        HasSubstr("outside of the grid (x 0 to 0.2, y 0 to 0.2, z 0 to 0.2 m): give the ground more headroom or size"));
+    EXPECT_THAT(error.what(), HasSubstr("outside of the grid (x 0 to 0.2, y 0 to 0.2, z 0 to 0.2 "
+                                        "m): give the ground more headroom or size"));
   }
 }
 
-/// A particle close to a wall that moves towards it is stopped there, whatever the cycle; its half-way place would be beyond.
+/// A particle close to a wall that moves towards it is stopped there, whatever the cycle; its
+/// half-way place would be beyond.
 TEST(Ground, AParticleThatMeetsAWallStaysInside) {
-  GroundParameters parameters = box(law_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
+  GroundParameters parameters =
+      box(law_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
   set_faces(parameters, {"smooth", "free", "smooth", "smooth", "smooth", "free"});
   MpmGround ground(parameters, Communicator());
   ground.phases()[0].particles.data(column::x)[0] = 1e-6;
@@ -179,15 +190,15 @@ TEST(Ground, AParticleThatMeetsAWallStaysInside) {
 }
 
 TEST(Ground, RefusesASurfaceInsideACell) {
-  GroundParameters parameters = box(law_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
+  GroundParameters parameters =
+      box(law_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
   parameters.z = even(0, 0.32, 0.05);  // becomes six cells of 5.3 cm
   try {
     MpmGround ground(parameters, Communicator(), "fix soil");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(
-        error.what(),
-        HasSubstr("fix soil has its surface at z = 0.2 m, inside of a cell; allowed: the height of an end of a cell"));
+    EXPECT_THAT(error.what(), HasSubstr("fix soil has its surface at z = 0.2 m, inside of a cell; "
+                                        "allowed: the height of an end of a cell"));
   }
 }
 
@@ -208,14 +219,16 @@ TEST(Ground, ALawsRefusalNamesTheParticle) {
   Particles& particles = ground.phases()[0].particles;
   const std::size_t broken = particles.size() - 5;
   // What only the law reads: others are not touched by it.
-  particles.data(column::state + parameters.layers[0].law->field_index("eps_vol_pl"))[broken] = std::nan("");
+  particles.data(column::state + parameters.layers[0].law->field_index("eps_vol_pl"))[broken] =
+      std::nan("");
   const Vector3 x = particles.position(broken);
   set_motion(ground, Vector3::Zero(), Vector3(0.0, 0.0, -10.0).asDiagonal());  // all yield
   try {
     ground.advance(1e-5);
     ADD_FAILURE() << "accepted";
   } catch (const StateError& error) {
-    EXPECT_THAT(error.what(), HasSubstr(fmt::format("the particle at {:.4g} {:.4g} {:.4g} m: law", x[0], x[1], x[2])));
+    EXPECT_THAT(error.what(), HasSubstr(fmt::format("the particle at {:.4g} {:.4g} {:.4g} m: law",
+                                                    x[0], x[1], x[2])));
   }
 }
 

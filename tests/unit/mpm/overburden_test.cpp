@@ -30,20 +30,23 @@ std::vector<GroundLevel> levels_down(double depth, int count) {
   return levels;
 }
 
-/// sigma_zz = -rho g depth, sigma_xx = nu/(1 - nu) sigma_zz, for ground that is hardly compressed by its weight.
+/// sigma_zz = -rho g depth, sigma_xx = nu/(1 - nu) sigma_zz, for ground that is hardly compressed
+/// by its weight.
 TEST(Overburden, ElasticGroundCarriesItsWeight) {
   const double rho = 1800.0, nu = 0.3;
   auto levels = levels_down(2.0, 20);
   find_overburden(deep({{law_of(elastic(1e9, nu, rho)), 2.0}}), levels);
   for (const GroundLevel& level : levels) {
     const double stress = rho * standard_gravity * level.z;
-    EXPECT_NEAR(level.state[field::stress + 2] / stress, 1.0, 1e-4);  // of the density's change, rho g z/M
+    // of the density's change, rho g z/M
+    EXPECT_NEAR(level.state[field::stress + 2] / stress, 1.0, 1e-4);
     EXPECT_NEAR(level.state[field::stress] / level.state[field::stress + 2], nu / (1.0 - nu), 1e-4);
     EXPECT_EQ(level.state[field::stress + 5], 0.0);
   }
 }
 
-/// Snow compacts under its weight: equilibrium holds with the density it has then, sum over what lies above of rho(z) g dz.
+/// Snow compacts under its weight: equilibrium holds with the density it has then, sum over what
+/// lies above of rho(z) g dz.
 TEST(Overburden, SnowIsInEquilibriumAtItsCompactedDensity) {
   const auto law = law_of(snow());
   auto levels = levels_down(2.0, 40);
@@ -60,11 +63,13 @@ TEST(Overburden, SnowIsInEquilibriumAtItsCompactedDensity) {
 TEST(Overburden, LayersLieOnOneAnother) {
   const auto light = law_of(elastic(1e8, 0.3, 200)), heavy = law_of(elastic(1e9, 0.2, 2000));
   auto levels = levels_down(1.0, 10);
-  find_overburden(deep({{light, 0.3}, {heavy, 0.1}}), levels);  // the lowest reaches the base whatever its thickness
+  // the lowest reaches the base whatever its thickness
+  find_overburden(deep({{light, 0.3}, {heavy, 0.1}}), levels);
   for (const GroundLevel& level : levels) {
     const double depth = -level.z;
     EXPECT_EQ(level.layer, depth < 0.3 ? 0u : 1u) << depth;
-    const double stress = standard_gravity * (depth < 0.3 ? 200 * depth : 200 * 0.3 + 2000 * (depth - 0.3));
+    const double stress =
+        standard_gravity * (depth < 0.3 ? 200 * depth : 200 * 0.3 + 2000 * (depth - 0.3));
     EXPECT_NEAR(-level.state[field::stress + 2] / stress, 1.0, 1e-3) << depth;
   }
 }
@@ -86,7 +91,9 @@ TEST(Overburden, RefusesALawThatCannotCarryTheWeight) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("law elastic cannot carry"));
-    EXPECT_THAT(error.what(), HasSubstr("Pa of its own weight; allowed: a law that stiffens in confined compression"));
+    EXPECT_THAT(
+        error.what(),
+        HasSubstr("Pa of its own weight; allowed: a law that stiffens in confined compression"));
   }
 }
 

@@ -18,8 +18,10 @@ void number(Particles& particles) {
   for (std::size_t p = 0; p < particles.size(); ++p) {
     particles.data(column::x)[p] = 100.0 * double(p);
     particles.data(column::home_z)[p] = 100.0 * double(p) + 1.0;
-    for (std::size_t c = 0; c < 4; ++c) particles.data(column::velocity)[4 * p + c] = 100.0 * double(p) + 2.0 + double(c);
-    for (std::size_t c = 0; c < 12; ++c) particles.data(column::affine)[12 * p + c] = 100.0 * double(p) + 10.0 + double(c);
+    for (std::size_t c = 0; c < 4; ++c)
+      particles.data(column::velocity)[4 * p + c] = 100.0 * double(p) + 2.0 + double(c);
+    for (std::size_t c = 0; c < 12; ++c)
+      particles.data(column::affine)[12 * p + c] = 100.0 * double(p) + 10.0 + double(c);
   }
 }
 
@@ -31,7 +33,8 @@ TEST(Particles, StartWithZeroAndTakeTheStateOfTheLaw) {
   EXPECT_EQ(particles.size(), 5u);
   particles.set_state(4, law->initial_state());
   EXPECT_EQ(particles.state(4), law->initial_state());
-  EXPECT_EQ(particles.state(3), VectorX::Zero(static_cast<Eigen::Index>(law->state_fields().size())));
+  EXPECT_EQ(particles.state(3),
+            VectorX::Zero(static_cast<Eigen::Index>(law->state_fields().size())));
   EXPECT_EQ(particles.position(4), Vector3::Zero());
 }
 

@@ -24,7 +24,8 @@ std::string refusal_of(Action action) {
 }
 
 MpmGround block(double y_lower = -0.1) {
-  GroundParameters p = box(law_of(elastic(1e6, 0.2, 500)), {-0.1, y_lower, -0.1}, {0.1, 0.1, 0.0}, 0.025);
+  GroundParameters p =
+      box(law_of(elastic(1e6, 0.2, 500)), {-0.1, y_lower, -0.1}, {0.1, 0.1, 0.0}, 0.025);
   p.z = even(-0.1, 0.1, 0.025);
   return MpmGround(p, Communicator());
 }
@@ -66,7 +67,8 @@ TEST(GroundContact, RefusesASpringTooStiffForTheStep) {
               HasSubstr("sqrt(stiffness) x cfl x particles below 2"));
 }
 
-/// gap = height of the plate above the particles' faces: spring force k gap of every particle under it.
+/// gap = height of the plate above the particles' faces: spring force k gap of every particle under
+/// it.
 TEST(GroundContact, SpringsPushByTheirPenetration) {
   MpmGround ground = block();
   const double depth = 1e-4, stiffness = 0.4 * (1e6 * 0.8 / (1.2 * 0.6)) * 0.0125;  // 0.4 M V^(1/3)
@@ -91,9 +93,12 @@ TEST(GroundContact, HalfAModelIsMirrored) {
   mirrored.apply(1e-5);
   EXPECT_EQ(full.contacts(), mirrored.contacts());
   EXPECT_LT((full.force() - mirrored.force()).norm(), 1e-9 * full.force().norm());
-  // The plate's diagonals are not mirrored, so that nodes may share a force otherwise; its moment is the same.
-  EXPECT_LT((one.surface().total_moment(Vector3::Zero()) - other.surface().total_moment(Vector3::Zero())).norm(),
-            1e-9 * full.force().norm());
+  // The plate's diagonals are not mirrored, so that nodes may share a force otherwise; its moment
+  // is the same.
+  EXPECT_LT(
+      (one.surface().total_moment(Vector3::Zero()) - other.surface().total_moment(Vector3::Zero()))
+          .norm(),
+      1e-9 * full.force().norm());
 }
 
 TEST(GroundContact, RefusesWhatCannotBe) {
@@ -107,7 +112,8 @@ TEST(GroundContact, RefusesWhatCannotBe) {
               HasSubstr("is inside of the body at the start; start above the ground"));
   RigidPlate away({PlateShape::square, 0.1, 0.05, 4}, {0.3, 0.05, 0.01});
   GroundContact departed(away, ground, ContactParameters{}, false, "foot");
-  EXPECT_THAT(refusal_of([&] { departed.apply(1e-5); }), HasSubstr("the middle of the body is at x = 0.3 m"));
+  EXPECT_THAT(refusal_of([&] { departed.apply(1e-5); }),
+              HasSubstr("the middle of the body is at x = 0.3 m"));
   GroundContact one(inside, ground, ContactParameters{}, false, "foot");
   EXPECT_THAT(refusal_of([&] { one.restore({1.0}); }),
               HasSubstr("foot: the saved state belongs to a contact of another surface"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Pieces of ground for tests: boxes of one cell length, bodies carved out of them, their sums, and scenes to run.
+/// Pieces of ground for tests: boxes of one cell length, bodies carved out of them, their sums, and
+/// scenes to run.
 
 #include <cmath>
 #include <functional>
@@ -15,7 +16,9 @@
 
 namespace furrow::testing_ground {
 
-inline std::shared_ptr<const Material> law_of(const std::string& text) { return testing_paths::law_of(text); }
+inline std::shared_ptr<const Material> law_of(const std::string& text) {
+  return testing_paths::law_of(text);
+}
 
 inline std::string elastic(double E, double nu, double density) {
   std::ostringstream text;
@@ -26,16 +29,20 @@ inline std::string elastic(double E, double nu, double density) {
 
 /// Fresh snow of TR Tables 1 and 3 (inputs/materials/fresh_snow.yaml).
 inline std::string snow() {
-  return "drucker_prager_cap density 200 d 5e3 beta 22.53 R 2.2e-2 eps_vol_pl_0 0.001 elasticity linear E 13.79e6 nu 0.3 "
+  return "drucker_prager_cap density 200 d 5e3 beta 22.53 R 2.2e-2 eps_vol_pl_0 0.001 elasticity "
+         "linear E 13.79e6 nu 0.3 "
          "hardening table p 113.76 5e4 1e5 2e5 5e5 1e6 2e6 2.8e6 3.25e6 "
-         "eps_vol_pl 0 0.6419 0.7178 0.8544 0.9933 1.1314 1.3481 1.5041 1.5228 interpolation linear beyond extrapolate";
+         "eps_vol_pl 0 0.6419 0.7178 0.8544 0.9933 1.1314 1.3481 1.5041 1.5228 interpolation "
+         "linear beyond extrapolate";
 }
 
-inline AxisLayout even(double lower, double upper, double cell) { return {lower, upper, cell, lower, upper, 1.0}; }
+inline AxisLayout even(double lower, double upper, double cell) {
+  return {lower, upper, cell, lower, upper, 1.0};
+}
 
 /// Weightless ground that fills a box up to its top; every face is free.
-inline GroundParameters box(const std::shared_ptr<const Material>& law, const Vector3& lower, const Vector3& upper,
-                            double cell) {
+inline GroundParameters box(const std::shared_ptr<const Material>& law, const Vector3& lower,
+                            const Vector3& upper, double cell) {
   GroundParameters ground;
   ground.x = even(lower.x(), upper.x(), cell);
   ground.y = even(lower.y(), upper.y(), cell);
@@ -74,8 +81,10 @@ void carve(MpmGround& ground, Keep keep) {
 inline void set_motion(MpmGround& ground, const Vector3& v, const Matrix3& W = Matrix3::Zero(),
                        const Vector3& about = Vector3::Zero()) {
   for_particles(ground, [&](Particles& particles, std::size_t p) {
-    Eigen::Map<Vector3>(particles.data(column::velocity) + 4 * p) = v + W * (particles.position(p) - about);
-    for (int d = 0; d < 3; ++d) Eigen::Map<Vector3>(particles.data(column::affine) + 12 * p + 4 * d) = W.col(d);
+    Eigen::Map<Vector3>(particles.data(column::velocity) + 4 * p) =
+        v + W * (particles.position(p) - about);
+    for (int d = 0; d < 3; ++d)
+      Eigen::Map<Vector3>(particles.data(column::affine) + 12 * p + 4 * d) = W.col(d);
   });
 }
 
@@ -103,7 +112,8 @@ inline Sums sums_of(MpmGround& ground) {
       sums.mass += m;
       sums.centre += m * x;
       sums.momentum += m * v;
-      sums.angular += m * (x.cross(v) + Vector3(B(2, 1) - B(1, 2), B(0, 2) - B(2, 0), B(1, 0) - B(0, 1)));
+      sums.angular +=
+          m * (x.cross(v) + Vector3(B(2, 1) - B(1, 2), B(0, 2) - B(2, 0), B(1, 0) - B(0, 1)));
       sums.kinetic += 0.5 * m * (v.squaredNorm() + (C * D.asDiagonal() * C.transpose()).trace());
     }
   sums.centre /= sums.mass;
@@ -116,7 +126,8 @@ double mean_of(MpmGround& ground, std::size_t state_field, Where where) {
   double sum = 0.0, volume = 0.0;
   for_particles(ground, [&](Particles& particles, std::size_t p) {
     if (!where(particles.position(p))) return;
-    const double v = particles.data(column::volume)[p] * particles.data(column::state + field::volume_ratio)[p];
+    const double v =
+        particles.data(column::volume)[p] * particles.data(column::state + field::volume_ratio)[p];
     sum += v * particles.data(column::state + state_field)[p];
     volume += v;
   });

@@ -15,7 +15,8 @@ namespace {
 
 using testing_ground::even;
 
-/// Particles at random places with random motion and stress in a grid that is graded along two axes.
+/// Particles at random places with random motion and stress in a grid that is graded along two
+/// axes.
 struct Cloud {
   explicit Cloud(std::size_t count)
       : grid(Axis({0.0, 1.0, 0.1, 0.3, 0.6, 1.3}, "x"), Axis(even(-0.5, 0.5, 0.125), "y"),
@@ -29,7 +30,8 @@ struct Cloud {
     std::uniform_real_distribution<double> unit(0.0, 1.0), sign(-1.0, 1.0);
     const double lower[3] = {0.0, -0.5, 0.0}, size[3] = {1.0, 1.0, 0.8};
     for (int a = 0; a < 3; ++a)
-      for (std::size_t p = 0; p < count; ++p) position[a].push_back(lower[a] + size[a] * (0.001 + 0.998 * unit(random)));
+      for (std::size_t p = 0; p < count; ++p)
+        position[a].push_back(lower[a] + size[a] * (0.001 + 0.998 * unit(random)));
     for (std::size_t p = 0; p < count; ++p) {
       volume[p] = 1e-6 * (1.0 + unit(random));
       ratio[p] = 0.3 + unit(random);
@@ -65,9 +67,12 @@ struct Cloud {
   void for_nodes(Visit visit) {
     for (int i = 0; i < grid.nodes(0); ++i)
       for (int j = 0; j < grid.nodes(1); ++j)
-        for (int k = 0; k < grid.nodes(2); ++k) visit(grid.sum(i, j, k), grid.motion(i, j, k), node_place(i, j, k));
+        for (int k = 0; k < grid.nodes(2); ++k)
+          visit(grid.sum(i, j, k), grid.motion(i, j, k), node_place(i, j, k));
   }
-  std::size_t give_momentum() { return transfer_kernels().scatter_momentum(grid.view(), view(), rho); }
+  std::size_t give_momentum() {
+    return transfer_kernels().scatter_momentum(grid.view(), view(), rho);
+  }
   void find_weights(const TransferKernels& kernels = transfer_kernels()) {
     weights.resize(batches(volume.size()));
     kernels.find_weights(grid.view(), view(), weights.data());
@@ -92,7 +97,8 @@ struct Cloud {
 
 std::vector<double> numbers_of(Grid& grid) {
   const double* first = grid.plane_sums(0);
-  return std::vector<double>(first, first + 4 * grid.plane_size() * static_cast<std::size_t>(grid.nodes(0)));
+  return std::vector<double>(
+      first, first + 4 * grid.plane_size() * static_cast<std::size_t>(grid.nodes(0)));
 }
 
 constexpr double rho = Cloud::rho, dt = 1e-3;
@@ -139,19 +145,21 @@ TEST(Transfer, AllInstructionSetsAgree) {
     for (const double value : reference) largest = std::max(largest, std::abs(value));
     for (std::size_t n = 0; n < nodes.size(); ++n)
       ASSERT_NEAR(nodes[n], reference[n], 1e-13 * largest) << table->instruction_set;
-    // A node that hardly any mass reaches has a large velocity with a large relative error; what particles take of it is small again.
+    // A node that hardly any mass reaches has a large velocity with a large relative error; what
+    // particles take of it is small again.
     for (std::size_t n = 0; n < after.size(); ++n)
       ASSERT_NEAR(after[n], moved[n], 1e-9 * (1.0 + std::abs(moved[n]))) << table->instruction_set;
   }
 }
 
-/// Mass, linear and angular momentum of the nodes are those of the particles: sum over nodes of x_i x p_i equals the sum over particles of
-/// m (x x v + axial vector of C D), D = sum N_i d_i d_i^T.
+/// Mass, linear and angular momentum of the nodes are those of the particles: sum over nodes of x_i
+/// x p_i equals the sum over particles of m (x x v + axial vector of C D), D = sum N_i d_i d_i^T.
 TEST(Transfer, ToTheGridKeepsMassAndMomenta) {
   Cloud cloud(2000);
   ASSERT_EQ(cloud.give_momentum(), 0u);
   double mass = 0.0, nodes_mass = 0.0;
-  Vector3 momentum = Vector3::Zero(), angular = momentum, nodes_momentum = momentum, nodes_angular = momentum;
+  Vector3 momentum = Vector3::Zero(), angular = momentum, nodes_momentum = momentum,
+          nodes_angular = momentum;
   cloud.for_nodes([&](const NodeSum& node, const NodeMotion&, const Vector3& x) {
     const Vector3 p = Eigen::Map<const Vector3>(node.total);
     nodes_mass += node.mass;
@@ -177,7 +185,8 @@ TEST(Transfer, ToTheGridKeepsMassAndMomenta) {
     };
     double w[3][3], d[3][3];
     for (int a = 0; a < 3; ++a) axis_weights(a, w[a], d[a]);
-    const Matrix3 C = Eigen::Map<const Eigen::Matrix<double, 4, 3>>(&cloud.affine[12 * p]).topRows<3>();
+    const Matrix3 C =
+        Eigen::Map<const Eigen::Matrix<double, 4, 3>>(&cloud.affine[12 * p]).topRows<3>();
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         for (int k = 0; k < 3; ++k) {
@@ -208,23 +217,28 @@ TEST(Transfer, ForcesOfStressHaveNoSum) {
   EXPECT_LT(moment.norm(), 1e-14 * size);
 }
 
-/// The nodes' velocity field, linear in x, comes back as v and C on any knots, next to the walls too.
+/// The nodes' velocity field, linear in x, comes back as v and C on any knots, next to the walls
+/// too.
 TEST(Transfer, FromTheGridReadsLinearFieldsExactly) {
   Cloud cloud(2000);
   Matrix3 L;
   L << 1.0, -2.0, 0.5, 0.3, -0.7, 2.0, -1.5, 0.2, 0.9;
   const Vector3 v0(0.3, -0.1, 0.7);
-  cloud.for_nodes([&](NodeSum&, NodeMotion& node, const Vector3& x) { Eigen::Map<Vector3>(node.velocity) = v0 + L * x; });
+  cloud.for_nodes([&](NodeSum&, NodeMotion& node, const Vector3& x) {
+    Eigen::Map<Vector3>(node.velocity) = v0 + L * x;
+  });
   cloud.grid.move(cloud.grid.all_planes(), cloud.grid.all_planes(), dt);
   cloud.take_strain(dt);
   cloud.take_motion();
   for (std::size_t p = 0; p < cloud.volume.size(); ++p) {
-    const Vector3 x = cloud.place(p), v = v0 + L * x, now(cloud.moved[0][p], cloud.moved[1][p], cloud.moved[2][p]);
+    const Vector3 x = cloud.place(p), v = v0 + L * x,
+                  now(cloud.moved[0][p], cloud.moved[1][p], cloud.moved[2][p]);
     PointMotion point{{x[0], x[1], x[2]}, {}, {}, {}};
     transfer_kernels().probe(cloud.grid.view(), &point, 1);
     EXPECT_LT((Eigen::Map<const Vector3>(point.velocity) - v).norm(), 1e-13);
     EXPECT_LT((Eigen::Map<const Vector3>(point.displacement) - dt * v).norm(), 1e-15);
-    EXPECT_LT((Eigen::Map<const Eigen::Matrix<double, 4, 3>>(point.affine).topRows<3>() - L).norm(), 1e-10);
+    EXPECT_LT((Eigen::Map<const Eigen::Matrix<double, 4, 3>>(point.affine).topRows<3>() - L).norm(),
+              1e-10);
     EXPECT_LT((Eigen::Map<const Vector3>(&cloud.velocity[4 * p]) - v).norm(), 1e-13);
     EXPECT_LT((now - (x + dt * v)).norm(), 1e-15);
     for (int row = 0; row < 3; ++row)
@@ -233,7 +247,8 @@ TEST(Transfer, FromTheGridReadsLinearFieldsExactly) {
   }
 }
 
-/// sum_i f_i . v_i = - sum_p V sigma : C for any stress and any nodal velocity: what the stress takes from the grid is its work.
+/// sum_i f_i . v_i = - sum_p V sigma : C for any stress and any nodal velocity: what the stress
+/// takes from the grid is its work.
 TEST(Transfer, ForceAndVelocityGradientAreAdjoint) {
   Cloud cloud(2000);
   cloud.give_force();
@@ -249,11 +264,13 @@ TEST(Transfer, ForceAndVelocityGradientAreAdjoint) {
     }
   });
   cloud.take_strain(dt);
-  EXPECT_NEAR(transfer_kernels().stress_work(cloud.view(), cloud.gradients), -dt * power, 1e-13 * dt * size);
+  EXPECT_NEAR(transfer_kernels().stress_work(cloud.view(), cloud.gradients), -dt * power,
+              1e-13 * dt * size);
 }
 
-/// A uniform stress in evenly filled cells pulls at the nodes of the boundary only, with what the traction makes there: on graded knots
-/// and next to walls too. (With N_i D^-1 d_i everywhere the node next to a wall is pulled by 39 % of the traction.)
+/// A uniform stress in evenly filled cells pulls at the nodes of the boundary only, with what the
+/// traction makes there: on graded knots and next to walls too. (With N_i D^-1 d_i everywhere the
+/// node next to a wall is pulled by 39 % of the traction.)
 TEST(Transfer, UniformStressIsInEquilibrium) {
   Cloud cloud(0);
   const double sigma[6] = {-1e5, -2e5, -3e5, 4e4, -5e4, 6e4};
@@ -265,7 +282,8 @@ TEST(Transfer, UniformStressIsInEquilibrium) {
           double volume = 1.0;
           for (int a = 0; a < 3; ++a) {
             const Axis& axis = cloud.grid.axis(a);
-            cloud.position[a].push_back(axis.knot(at[a]) + (0.25 + 0.5 * half[a]) * axis.length(at[a]));
+            cloud.position[a].push_back(axis.knot(at[a]) +
+                                        (0.25 + 0.5 * half[a]) * axis.length(at[a]));
             volume *= 0.5 * axis.length(at[a]);
           }
           cloud.volume.push_back(volume);
@@ -284,10 +302,12 @@ TEST(Transfer, UniformStressIsInEquilibrium) {
         }
         if (k + 1 == cloud.grid.nodes(2) && inside(0, i) && inside(1, j)) {
           const double area = cloud.grid.axis(0).extent(i) * cloud.grid.axis(1).extent(j);
-          top = std::max(top, std::abs(node.total[2] + sigma[2] * area) / (std::abs(sigma[2]) * area));
+          top = std::max(top,
+                         std::abs(node.total[2] + sigma[2] * area) / (std::abs(sigma[2]) * area));
         }
       }
-  EXPECT_LT(top, 0.2);  // two points a cell integrate the splines along the face with that error; their sum is exact
+  // two points a cell integrate the splines along the face with that error; their sum is exact
+  EXPECT_LT(top, 0.2);
 }
 
 /// A force beside a particle acts where it is said to act: force and moment.
@@ -313,31 +333,36 @@ TEST(Transfer, CountsWhatIsOutsideAndLeavesItsBatchAlone) {
     cloud.position[0][70] = bad;
     EXPECT_EQ(cloud.give_momentum(), 1u) << bad;
     double mass = 0.0, others = 0.0;
-    cloud.for_nodes([&](const NodeSum& sum, const NodeMotion&, const Vector3&) { mass += sum.mass; });
+    cloud.for_nodes(
+        [&](const NodeSum& sum, const NodeMotion&, const Vector3&) { mass += sum.mass; });
     for (std::size_t p = 0; p < cloud.volume.size(); ++p)
       if (p < 64 || p >= 128) others += rho * cloud.volume[p];
     EXPECT_NEAR(mass, others, 1e-12 * others);
   }
 }
 
-/// Without forces, particles to grid and back leave the nodes their mass and never make kinetic energy. Heavy particles: mass must not
-/// mix with velocity on the way.
+/// Without forces, particles to grid and back leave the nodes their mass and never make kinetic
+/// energy. Heavy particles: mass must not mix with velocity on the way.
 TEST(Transfer, KeepsNodalMassAndNeverMakesKineticEnergy) {
   Cloud cloud(3000);
   for (double& volume : cloud.volume) volume *= 1e4;
   std::fill(cloud.affine.begin(), cloud.affine.end(), 0.0);
   double before = 0.0;
   for (std::size_t p = 0; p < cloud.volume.size(); ++p)
-    before += 0.5 * rho * cloud.volume[p] * Eigen::Map<const Vector3>(&cloud.velocity[4 * p]).squaredNorm();
+    before += 0.5 * rho * cloud.volume[p] *
+              Eigen::Map<const Vector3>(&cloud.velocity[4 * p]).squaredNorm();
   std::vector<double> first_masses;
   for (int step = 0; step < 20; ++step) {
     ASSERT_EQ(cloud.give_momentum(), 0u);
     std::vector<double> masses;
-    cloud.for_nodes([&](const NodeSum& node, const NodeMotion&, const Vector3&) { masses.push_back(node.mass); });
+    cloud.for_nodes([&](const NodeSum& node, const NodeMotion&, const Vector3&) {
+      masses.push_back(node.mass);
+    });
     if (step == 0) first_masses = masses;
     ASSERT_EQ(masses, first_masses);
     cloud.grid.start(cloud.grid.all_planes());
-    const double after = cloud.grid.move(cloud.grid.all_planes(), cloud.grid.all_planes(), 0.0).kinetic_energy;
+    const double after =
+        cloud.grid.move(cloud.grid.all_planes(), cloud.grid.all_planes(), 0.0).kinetic_energy;
     cloud.take_motion();
     EXPECT_LE(after, before * (1.0 + 1e-14));
     before = after;

@@ -24,7 +24,8 @@ TEST(Ramp, ValueAndRateAndIntegralAreDerivativesOfEachOther) {
   const double h = 1e-5;
   for (double time = 0.3; time < 3.0; time += 0.1) {
     EXPECT_NEAR((ramp.value(time + h) - ramp.value(time - h)) / (2 * h), ramp.rate(time), 1e-8);
-    EXPECT_NEAR((ramp.integral(time + h) - ramp.integral(time - h)) / (2 * h), ramp.value(time), 1e-9);
+    EXPECT_NEAR((ramp.integral(time + h) - ramp.integral(time - h)) / (2 * h), ramp.value(time),
+                1e-9);
   }
   // the second derivative vanishes at both ends
   EXPECT_NEAR(ramp.rate(0.5 + h) / h, 0.0, 1e-3);
@@ -40,9 +41,15 @@ TEST(Ramp, IntegralIsHalfTheDurationThenGrowsWithTime) {
 
 TEST(Ramp, MeansAgreeWithTheClosedFormAlsoAcrossTheEnds) {
   const Ramp ramp{1.0, 3.0};
-  for (const auto& [from, to] :
-       {std::pair{0.0, 0.5}, {0.0, 2.0}, {1.5, 2.5}, {0.5, 6.0}, {3.5, 5.0}, {5.0, 6.0}, {0.9999, 1.0001}}) {
-    EXPECT_NEAR(ramp.mean(from, to), (ramp.integral(to) - ramp.integral(from)) / (to - from), 1e-12);
+  for (const auto& [from, to] : {std::pair{0.0, 0.5},
+                                 {0.0, 2.0},
+                                 {1.5, 2.5},
+                                 {0.5, 6.0},
+                                 {3.5, 5.0},
+                                 {5.0, 6.0},
+                                 {0.9999, 1.0001}}) {
+    EXPECT_NEAR(ramp.mean(from, to), (ramp.integral(to) - ramp.integral(from)) / (to - from),
+                1e-12);
     EXPECT_NEAR(ramp.mean_rate(from, to), (ramp.value(to) - ramp.value(from)) / (to - from), 1e-12);
   }
   EXPECT_EQ(ramp.mean(7.0, 7.1), 1.0);

@@ -26,8 +26,8 @@ std::string error_of(Function&& function) {
 
 // The rim speeds of the CMU tests at 10 mm/s and the slips printed with them.
 TEST(Slip, ByTheLargerSpeedGivesTheSlipsOfTheSandTests) {
-  const std::vector<std::pair<double, double>> rim_and_slip{{0, -1.0}, {3, -0.7}, {5, -0.5},  {8, -0.2},
-                                                            {10, 0.0}, {20, 0.5}, {40, 0.75}, {100, 0.9}};
+  const std::vector<std::pair<double, double>> rim_and_slip{
+      {0, -1.0}, {3, -0.7}, {5, -0.5}, {8, -0.2}, {10, 0.0}, {20, 0.5}, {40, 0.75}, {100, 0.9}};
   for (const auto& [rim, expected] : rim_and_slip) {
     EXPECT_NEAR(slip(larger, rim, 10.0), expected, 1e-15);
     EXPECT_NEAR(rim_speed(larger, expected, 10.0), rim, 1e-13);
@@ -53,20 +53,27 @@ TEST(Slip, ConversionsGoRoundWithoutLoss) {
 TEST(Slip, SingularCasesAreRefused) {
   EXPECT_THAT(error_of([] { slip(larger, 0.0, 0.0); }),
               HasSubstr("not defined at a rim speed of 0 m/s and a vehicle speed of 0 m/s"));
-  EXPECT_THAT(error_of([] { slip(by_rim, 0.0, 1.0); }), HasSubstr("slip (v_rim - v)/v_rim is not defined"));
-  EXPECT_THAT(error_of([] { slip(by_vehicle, 1.0, 0.0); }), HasSubstr("slip (v_rim - v)/v is not defined"));
-  EXPECT_THAT(error_of([] { rim_speed(larger, 0.2, 0.0); }), HasSubstr("vehicle speed of 0 m/s; allowed: a speed > 0"));
-  EXPECT_THAT(error_of([] { rim_speed(larger, 1.0, 1.0); }), HasSubstr("of 1; allowed: -1 <= slip < 1"));
+  EXPECT_THAT(error_of([] { slip(by_rim, 0.0, 1.0); }),
+              HasSubstr("slip (v_rim - v)/v_rim is not defined"));
+  EXPECT_THAT(error_of([] { slip(by_vehicle, 1.0, 0.0); }),
+              HasSubstr("slip (v_rim - v)/v is not defined"));
+  EXPECT_THAT(error_of([] { rim_speed(larger, 0.2, 0.0); }),
+              HasSubstr("vehicle speed of 0 m/s; allowed: a speed > 0"));
+  EXPECT_THAT(error_of([] { rim_speed(larger, 1.0, 1.0); }),
+              HasSubstr("of 1; allowed: -1 <= slip < 1"));
   EXPECT_THAT(error_of([] { rim_speed(larger, -1.1, 1.0); }), HasSubstr("allowed: -1 <= slip < 1"));
   EXPECT_THAT(error_of([] { rim_speed(by_rim, 1.0, 1.0); }), HasSubstr("allowed: slip < 1"));
   EXPECT_THAT(error_of([] { rim_speed(by_vehicle, -1.5, 1.0); }), HasSubstr("allowed: slip >= -1"));
-  EXPECT_THAT(error_of([] { rim_speed(by_vehicle, std::nan(""), 1.0); }), HasSubstr("no forward spin"));
-  EXPECT_THAT(error_of([] { convert_slip(-1.0, larger, by_rim); }), HasSubstr("is not defined at a rim speed of 0"));
+  EXPECT_THAT(error_of([] { rim_speed(by_vehicle, std::nan(""), 1.0); }),
+              HasSubstr("no forward spin"));
+  EXPECT_THAT(error_of([] { convert_slip(-1.0, larger, by_rim); }),
+              HasSubstr("is not defined at a rim speed of 0"));
 }
 
 TEST(Slip, WordsNameTheDefinitions) {
   for (const auto definition : {larger, by_rim, by_vehicle})
-    EXPECT_EQ(slip_definition(slip_definition_words()[static_cast<std::size_t>(definition)]), definition);
+    EXPECT_EQ(slip_definition(slip_definition_words()[static_cast<std::size_t>(definition)]),
+              definition);
   EXPECT_EQ(slip_definition("vehicle_speed"), by_vehicle);
   EXPECT_EQ(slip_formula(by_vehicle), "(v_rim - v)/v");
   EXPECT_THAT(error_of([] { slip_definition("skid"); }), HasSubstr("no slip definition 'skid'"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A small wheel and a floor with friction, for tests of the rig whose result is known in closed form.
+/// A small wheel and a floor with friction, for tests of the rig whose result is known in closed
+/// form.
 
 #include <algorithm>
 #include <cmath>

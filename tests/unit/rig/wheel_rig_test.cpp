@@ -48,7 +48,9 @@ struct CruiseMean {
     for (std::size_t i = 0; i < row.size(); ++i) sums[i] += row[i];
     ++rows;
   }
-  double of(const std::string& name) const { return sums[channel(name)] / static_cast<double>(rows); }
+  double of(const std::string& name) const {
+    return sums[channel(name)] / static_cast<double>(rows);
+  }
 };
 
 TEST(WheelRig, ChannelsAndRowsAgree) {
@@ -61,7 +63,8 @@ TEST(WheelRig, ChannelsAndRowsAgree) {
 
 TEST(WheelRig, PhasesFollowTheClock) {
   RigidWheel wheel = make_wheel();
-  const WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed", "start", "1"});
+  const WheelRig rig =
+      make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed", "start", "1"});
   EXPECT_EQ(rig.phase(0.5), WheelRig::Phase::settle);
   EXPECT_EQ(rig.phase(1.19), WheelRig::Phase::settle);
   EXPECT_EQ(rig.phase(1.21), WheelRig::Phase::accelerate);
@@ -71,16 +74,21 @@ TEST(WheelRig, PhasesFollowTheClock) {
 
 TEST(WheelRig, TheLoadIsAMassOrAForceWheelIncluded) {
   RigidWheel wheel = make_wheel();
-  EXPECT_DOUBLE_EQ(make_rig(wheel, {"load_mass", "5", "speed", "1", "mode", "towed"}).load(), 5.0 * 9.80665);
-  EXPECT_DOUBLE_EQ(make_rig(wheel, {"load_mass", "5", "gravity", "1.62", "speed", "1", "mode", "towed"}).load(), 5.0 * 1.62);
-  EXPECT_DOUBLE_EQ(make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed"}).load(), 60.0);
+  EXPECT_DOUBLE_EQ(make_rig(wheel, {"load_mass", "5", "speed", "1", "mode", "towed"}).load(),
+                   5.0 * 9.80665);
+  EXPECT_DOUBLE_EQ(
+      make_rig(wheel, {"load_mass", "5", "gravity", "1.62", "speed", "1", "mode", "towed"}).load(),
+      5.0 * 1.62);
+  EXPECT_DOUBLE_EQ(make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed"}).load(),
+                   60.0);
 }
 
-// Without ground: the impulse of the ramped load is momentum, z'(t) = -(W/m) times the integral of the ramp.
+// Without ground: the impulse of the ramped load is momentum, z'(t) = -(W/m) times the integral of
+// the ramp.
 TEST(WheelRig, WithoutGroundTheLoadFallsFreely) {
   RigidWheel wheel = make_wheel();
-  WheelRig rig =
-      make_rig(wheel, {"load_force", "60", "speed", "0", "mode", "towed", "load_ramp_time", "0.1", "start", "0.05"});
+  WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "0", "mode", "towed",
+                                  "load_ramp_time", "0.1", "start", "0.05"});
   const Ramp ramp{0.05, 0.1};
   run(rig, wheel, 0.3, 1e-4, nullptr, [&](const std::vector<double>& row) {
     ASSERT_NEAR(row[channel("velocity_z")], -60.0 / 3.0 * ramp.integral(row[0]), 60.0 / 3.0 * 1e-4);
@@ -90,13 +98,16 @@ TEST(WheelRig, WithoutGroundTheLoadFallsFreely) {
 
 TEST(WheelRig, UntilItsStartTheWheelIsHeld) {
   RigidWheel wheel = make_wheel();
-  WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed", "start", "0.5"});
-  run(rig, wheel, 0.5, 1e-3, nullptr, [](const std::vector<double>& row) { ASSERT_EQ(row[channel("z")], 0.2); });
+  WheelRig rig =
+      make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed", "start", "0.5"});
+  run(rig, wheel, 0.5, 1e-3, nullptr,
+      [](const std::vector<double>& row) { ASSERT_EQ(row[channel("z")], 0.2); });
 }
 
 TEST(WheelRig, ThePrescribedSinkageIsReachedAndKept) {
   RigidWheel wheel = make_wheel(0.25);
-  WheelRig rig = make_rig(wheel, {"sinkage", "0.03", "speed", "1", "mode", "towed", "ground_level", "0.02"});
+  WheelRig rig =
+      make_rig(wheel, {"sinkage", "0.03", "speed", "1", "mode", "towed", "ground_level", "0.02"});
   double last = -1.0;
   run(rig, wheel, 0.6, 1e-4, nullptr, [&](const std::vector<double>& row) {
     ASSERT_GE(row[channel("sinkage")], last - 1e-15);
@@ -112,8 +123,8 @@ TEST(WheelRig, PrescribedSlipIsExactFromTheFirstRollingStep) {
   for (const double target : {-1.0, -0.5, 0.0, 0.25, 0.9})
     for (const double angle : {0.0, 20.0}) {
       RigidWheel wheel = make_wheel();
-      WheelRig rig = make_rig(wheel, {"sinkage", "0", "speed", "0.8", "mode", "slip", "slip", std::to_string(target),
-                                      "slip_angle", std::to_string(angle)});
+      WheelRig rig = make_rig(wheel, {"sinkage", "0", "speed", "0.8", "mode", "slip", "slip",
+                                      std::to_string(target), "slip_angle", std::to_string(angle)});
       const Ramp ramp{0.2, 0.2};
       run(rig, wheel, 0.6, 1e-4, nullptr, [&](const std::vector<double>& row) {
         if (row[0] > 0.2005) {
@@ -122,7 +133,9 @@ TEST(WheelRig, PrescribedSlipIsExactFromTheFirstRollingStep) {
         ASSERT_NEAR(row[channel("x")], 0.8 * ramp.integral(row[0]), 1e-13);
       });
       EXPECT_NEAR(wheel.rate(RigidWheel::x), 0.8, 1e-15);
-      EXPECT_NEAR(wheel.axle().dot(Vector3(-std::sin(radians(angle)), std::cos(radians(angle)), 0.0)), 1.0, 1e-14);
+      EXPECT_NEAR(
+          wheel.axle().dot(Vector3(-std::sin(radians(angle)), std::cos(radians(angle)), 0.0)), 1.0,
+          1e-14);
     }
 }
 
@@ -153,22 +166,26 @@ TEST(WheelRig, ATorqueSpinsTheWheelUpByItsInertia) {
 TEST(WheelRig, OnAFloorTheWheelCarriesItsLoad) {
   RigidWheel wheel = make_wheel(0.2005);
   const Floor floor;
-  WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "0", "mode", "towed", "damping", "600"});
+  WheelRig rig =
+      make_rig(wheel, {"load_force", "60", "speed", "0", "mode", "towed", "damping", "600"});
   std::vector<double> last;
   run(rig, wheel, 0.8, 4e-5, &floor, [&](const std::vector<double>& row) { last = row; });
   EXPECT_NEAR(last[channel("force_z")], 60.0, 1e-6);
   EXPECT_NEAR(last[channel("load")], 60.0, 1e-12);
   EXPECT_GT(last[channel("damping_loss")], 0.0);
   // the energy that left with the damper is what the load gave and the floor does not hold
-  EXPECT_NEAR(last[channel("contact_work")] + last[channel("load_work")] - last[channel("damping_loss")],
-              last[channel("kinetic_energy")], 1e-12);
+  EXPECT_NEAR(
+      last[channel("contact_work")] + last[channel("load_work")] - last[channel("damping_loss")],
+      last[channel("kinetic_energy")], 1e-12);
 }
 
-// No axle torque: in steady rolling the moment about the axle, and so the friction, vanishes; the wheel rolls at its own speed.
+// No axle torque: in steady rolling the moment about the axle, and so the friction, vanishes; the
+// wheel rolls at its own speed.
 TEST(WheelRig, ATowedWheelRollsFreelyOnAFrictionalFloor) {
   RigidWheel wheel = make_wheel(0.2003);
   const Floor floor;
-  WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed", "damping", "600"});
+  WheelRig rig =
+      make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed", "damping", "600"});
   CruiseMean mean;
   mean.after = 0.6;
   run(rig, wheel, 1.2, 4e-5, &floor, std::ref(mean));
@@ -180,13 +197,14 @@ TEST(WheelRig, ATowedWheelRollsFreelyOnAFrictionalFloor) {
   EXPECT_NEAR(mean.of("velocity_x"), 1.0, 1e-12);
 }
 
-// Coulomb: a wheel that slides over all of its contact pulls mu N, against the sliding; its drive supplies mu N r.
+// Coulomb: a wheel that slides over all of its contact pulls mu N, against the sliding; its drive
+// supplies mu N r.
 TEST(WheelRig, ASlidingWheelPullsItsFrictionForce) {
   for (const double slip : {-1.0, 0.5}) {
     RigidWheel wheel = make_wheel(0.2003);
     const Floor floor;
-    WheelRig rig =
-        make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "slip", "slip", std::to_string(slip), "damping", "600"});
+    WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "slip", "slip",
+                                    std::to_string(slip), "damping", "600"});
     CruiseMean mean;
     mean.after = 0.6;
     run(rig, wheel, 1.2, 4e-5, &floor, std::ref(mean));
@@ -200,7 +218,8 @@ TEST(WheelRig, ASlidingWheelPullsItsFrictionForce) {
 TEST(WheelRig, ADrivenWheelTurnsItsTorqueIntoPull) {
   RigidWheel wheel = make_wheel(0.2003);
   const Floor floor;
-  WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "torque", "torque", "2", "damping", "600"});
+  WheelRig rig = make_rig(
+      wheel, {"load_force", "60", "speed", "1", "mode", "torque", "torque", "2", "damping", "600"});
   CruiseMean mean;
   mean.after = 0.6;
   run(rig, wheel, 1.2, 4e-5, &floor, std::ref(mean));
@@ -212,8 +231,8 @@ TEST(WheelRig, ADrivenWheelTurnsItsTorqueIntoPull) {
 TEST(WheelRig, TheEnergyBalanceClosesOverAWholeRun) {
   RigidWheel wheel = make_wheel(0.2003);
   const Floor floor;
-  WheelRig rig =
-      make_rig(wheel, {"load_mass", "6", "speed", "1", "mode", "slip", "slip", "0.3", "damping", "100", "slip_angle", "10"});
+  WheelRig rig = make_rig(wheel, {"load_mass", "6", "speed", "1", "mode", "slip", "slip", "0.3",
+                                  "damping", "100", "slip_angle", "10"});
   std::vector<double> last;
   run(rig, wheel, 0.8, 4e-5, &floor, [&](const std::vector<double>& row) { last = row; });
   const double drive = last[channel("drive_work")];
@@ -222,12 +241,13 @@ TEST(WheelRig, TheEnergyBalanceClosesOverAWholeRun) {
   // friction against the sliding of the tread, v - v_rim x heading
   const double rim = rig.target_rim_speed(), heading = radians(10.0);
   EXPECT_NEAR(rim, std::cos(heading) / 0.7, 1e-15);
-  EXPECT_NEAR(last[channel("force_y")] / last[channel("force_x")], rim * std::sin(heading) / (rim * std::cos(heading) - 1.0),
-              0.02);
+  EXPECT_NEAR(last[channel("force_y")] / last[channel("force_x")],
+              rim * std::sin(heading) / (rim * std::cos(heading) - 1.0), 0.02);
 }
 
 TEST(WheelRig, ARigMadeAgainContinuesBitwise) {
-  const Words words{"load_mass", "6", "speed", "1", "mode", "towed", "damping", "100", "slip_angle", "10"};
+  const Words words{"load_mass", "6",       "speed", "1",          "mode",
+                    "towed",     "damping", "100",   "slip_angle", "10"};
   const Floor floor;
   RigidWheel one = make_wheel(0.2003), other = make_wheel(0.2003);
   WheelRig first = make_rig(one, words);
@@ -250,7 +270,8 @@ TEST(WheelRig, ARigMadeAgainContinuesBitwise) {
 
 TEST(WheelRig, RefusesContradictionsWithKeywordAndRemedy) {
   EXPECT_THAT(refusal_of({"speed", "1", "mode", "towed"}),
-              HasSubstr("fix wheel/rig has no load; allowed: exactly one of load_mass [kg], load_force [N], sinkage [m]; "
+              HasSubstr("fix wheel/rig has no load; allowed: exactly one of load_mass [kg], "
+                        "load_force [N], sinkage [m]; "
                         "say what the ground carries"));
   EXPECT_THAT(refusal_of({"load_mass", "5", "load_force", "60", "speed", "1", "mode", "towed"}),
               HasSubstr("has load_mass and load_force; allowed: exactly one"));
@@ -258,33 +279,39 @@ TEST(WheelRig, RefusesContradictionsWithKeywordAndRemedy) {
               HasSubstr("has load_mass and sinkage"));
   EXPECT_THAT(refusal_of({"load_force", "-60", "speed", "1", "mode", "towed"}),
               HasSubstr("keyword 'load_force' is -60; allowed: a number > 0 [N]"));
-  EXPECT_THAT(refusal_of({"load_mass", "0", "speed", "1", "mode", "towed"}), HasSubstr("keyword 'load_mass' is 0"));
+  EXPECT_THAT(refusal_of({"load_mass", "0", "speed", "1", "mode", "towed"}),
+              HasSubstr("keyword 'load_mass' is 0"));
   EXPECT_THAT(refusal_of({"load_force", "60", "speed", "-1", "mode", "towed"}),
               HasSubstr("keyword 'speed' is -1; allowed: a number >= 0 [m/s]"));
   EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "skid"}),
               HasSubstr("keyword 'mode' is 'skid'; allowed: one of: towed, slip, torque"));
   EXPECT_THAT(refusal_of({"load_force", "60", "speed", "0", "mode", "slip", "slip", "0.2"}),
-              HasSubstr("keyword 'speed' is 0 m/s in mode slip; allowed: a number > 0 [m/s]; give a speed, or drive a "
+              HasSubstr("keyword 'speed' is 0 m/s in mode slip; allowed: a number > 0 [m/s]; give "
+                        "a speed, or drive a "
                         "standing wheel with mode torque"));
   EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "slip"}),
               HasSubstr("keyword 'slip' is missing in mode slip"));
   EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "slip", "0.2"}),
-              HasSubstr("keyword 'slip' is given in mode towed; allowed: a slip in mode slip, and only there; remove it or "
+              HasSubstr("keyword 'slip' is given in mode towed; allowed: a slip in mode slip, and "
+                        "only there; remove it or "
                         "change the mode"));
-  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "slip_definition", "rim_speed"}),
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "slip_definition",
+                          "rim_speed"}),
               HasSubstr("keyword 'slip_definition' is given in mode towed"));
   EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "torque"}),
               HasSubstr("keyword 'torque' is missing in mode torque"));
   EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "torque", "5"}),
               HasSubstr("keyword 'torque' is given in mode towed"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "slip", "slip", "1"}),
+              HasSubstr("keyword 'slip' is 1 with slip_definition larger_speed; allowed: -1 to "
+                        "below 1 by the larger speed"));
+  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "slip", "slip", "-1.2",
+                          "slip_definition", "vehicle_speed"}),
+              HasSubstr("keyword 'slip' is -1.2 with slip_definition vehicle_speed"));
   EXPECT_THAT(
-      refusal_of({"load_force", "60", "speed", "1", "mode", "slip", "slip", "1"}),
-      HasSubstr("keyword 'slip' is 1 with slip_definition larger_speed; allowed: -1 to below 1 by the larger speed"));
-  EXPECT_THAT(
-      refusal_of({"load_force", "60", "speed", "1", "mode", "slip", "slip", "-1.2", "slip_definition", "vehicle_speed"}),
-      HasSubstr("keyword 'slip' is -1.2 with slip_definition vehicle_speed"));
-  EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "load_ramp_time", "0.3"}),
-              HasSubstr("keyword 'load_ramp_time' is 0.3 s; allowed: 0 to settle_time, 0.2 s; lengthen settle_time"));
+      refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "load_ramp_time", "0.3"}),
+      HasSubstr("keyword 'load_ramp_time' is 0.3 s; allowed: 0 to settle_time, 0.2 s; lengthen "
+                "settle_time"));
   EXPECT_THAT(refusal_of({"sinkage", "0.1", "speed", "1", "mode", "towed", "load_ramp_time", "0"}),
               HasSubstr("keyword 'load_ramp_time' is 0 s with a prescribed sinkage"));
   EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "settle_time", "0"}),

@@ -47,9 +47,12 @@ TEST(History, TruncationKeepsTheRowAtTheTime) {
 
 TEST(History, RefusesWrongRowsAndNames) {
   History history = three_rows();
-  EXPECT_THAT(error_of([&] { history.append({1.0}); }), HasSubstr("a history of 2 channels cannot take a row of 1 numbers"));
-  EXPECT_THAT(error_of([&] { history.column("torque"); }), HasSubstr("no channel 'torque'; it has time, force"));
-  EXPECT_THAT(error_of([&] { history.at(3, 0); }), HasSubstr("has 3 rows and 2 channels, none at row 3, channel 0"));
+  EXPECT_THAT(error_of([&] { history.append({1.0}); }),
+              HasSubstr("a history of 2 channels cannot take a row of 1 numbers"));
+  EXPECT_THAT(error_of([&] { history.column("torque"); }),
+              HasSubstr("no channel 'torque'; it has time, force"));
+  EXPECT_THAT(error_of([&] { history.at(3, 0); }),
+              HasSubstr("has 3 rows and 2 channels, none at row 3, channel 0"));
   EXPECT_THAT(error_of([] { History().index("time"); }), HasSubstr("it has none"));
 }
 

@@ -15,7 +15,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A synthetic run: force_z = 100 (1 + noise), force_x = -0.2 force_z + own noise, both AR(1); 10 s of cruise at 1 m/s.
+/// A synthetic run: force_z = 100 (1 + noise), force_x = -0.2 force_z + own noise, both AR(1); 10 s
+/// of cruise at 1 m/s.
 struct SyntheticRun {
   unsigned seed = 1;
   double sinkage_drift = 0.0;  // [m] over the cruise
@@ -42,8 +43,10 @@ struct SyntheticRun {
       if (time > skipped_from && time < skipped_to) continue;
       const double force_z = 100.0 * (1.0 + vertical), force_x = -0.2 * force_z + own;
       const double phase = time < 1.0 ? 0.0 : time < 2.0 ? 1.0 : 2.0;
-      const double sinkage = 0.03 + 1e-4 * normal(random) + sinkage_drift * std::max(0.0, time - 2.0) / 10.0;
-      result.append({time, phase, std::max(0.0, time - 1.5), sinkage, force_x, force_z, force_x, 0.0, -0.05});
+      const double sinkage =
+          0.03 + 1e-4 * normal(random) + sinkage_drift * std::max(0.0, time - 2.0) / 10.0;
+      result.append(
+          {time, phase, std::max(0.0, time - 1.5), sinkage, force_x, force_z, force_x, 0.0, -0.05});
     }
     return result;
   }
@@ -62,7 +65,8 @@ std::string error_of(Function&& function) {
 TEST(Resistance, FindsItsChannelsInTheRecordOfTheRig) {
   const History record(WheelRig::channels()), synthetic = SyntheticRun().history();
   for (const Channel& channel : synthetic.channels()) {
-    const std::size_t index = record.index(channel.name);  // throws for a name that the rig does not know
+    // throws for a name that the rig does not know
+    const std::size_t index = record.index(channel.name);
     EXPECT_EQ(record.channels()[index].unit, channel.unit);
   }
 }
@@ -82,13 +86,14 @@ TEST(Resistance, IsTheRatioOfTheMeansWithItsError) {
   EXPECT_EQ(result.value("drawbar_pull").unit, "N");
 }
 
-// From the rig to the figure: a locked wheel dragged over a floor of friction mu has the resistance coefficient mu.
+// From the rig to the figure: a locked wheel dragged over a floor of friction mu has the resistance
+// coefficient mu.
 TEST(Resistance, OfALockedWheelIsTheFriction) {
   RigidWheel wheel = make_wheel(0.2003);
   const Floor floor;
-  WheelRig rig(WheelRig::schema().read(std::vector<std::string>{"load_force", "60", "speed", "1", "mode", "slip", "slip",
-                                                                "-1", "settle_time", "0.1", "accelerate_time", "0.1",
-                                                                "ground_level", "0", "damping", "600"}),
+  WheelRig rig(WheelRig::schema().read(std::vector<std::string>{
+                   "load_force", "60", "speed", "1", "mode", "slip", "slip", "-1", "settle_time",
+                   "0.1", "accelerate_time", "0.1", "ground_level", "0", "damping", "600"}),
                wheel);
   History history(WheelRig::channels());
   run(rig, wheel, 0.8, 4e-5, &floor, [&](const std::vector<double>& row) { history.append(row); });
@@ -102,8 +107,9 @@ TEST(Resistance, OfALockedWheelIsTheFriction) {
   EXPECT_NEAR(result.value("drive_torque").mean, -floor.friction * 60.0 * 0.2, 0.05);
 }
 
-// The noise that both forces share does not enter their ratio: its error is that of the own noise alone, over the mean load.
-// own: deviation 0.3/sqrt(1 - 0.81), inefficiency (1 + 0.9)/(1 - 0.9) = 19.
+// The noise that both forces share does not enter their ratio: its error is that of the own noise
+// alone, over the mean load. own: deviation 0.3/sqrt(1 - 0.81), inefficiency (1 + 0.9)/(1 - 0.9)
+// = 19.
 TEST(Resistance, ErrorOfTheRatioIsThatOfItsScatterOverManyRuns) {
   double squares = 0.0, errors = 0.0, expected = 0.0;
   const int runs = 200;
@@ -117,7 +123,8 @@ TEST(Resistance, ErrorOfTheRatioIsThatOfItsScatterOverManyRuns) {
     expected += 0.09 / 0.19 * 19.0 / static_cast<double>(result.window.rows()) / 1e4 / runs;
   }
   EXPECT_NEAR(std::sqrt(errors / expected), 1.0, 0.1);
-  EXPECT_NEAR(std::sqrt(squares / expected), 1.0, 0.15);  // a deviation from 200 runs is known within 5 %
+  // a deviation from 200 runs is known within 5 %
+  EXPECT_NEAR(std::sqrt(squares / expected), 1.0, 0.15);
 }
 
 TEST(Resistance, ADriftingSinkageMakesTheRunNotSteady) {
@@ -154,17 +161,25 @@ TEST(Resistance, RefusesHistoriesWithGapsOrWithoutCruise) {
   SyntheticRun gap;
   gap.skipped_from = 8.0;
   gap.skipped_to = 9.0;
-  EXPECT_THAT(error_of([&] { measure_resistance(gap.history()); }), HasSubstr("rows of the history are not equally spaced"));
+  EXPECT_THAT(error_of([&] { measure_resistance(gap.history()); }),
+              HasSubstr("rows of the history are not equally spaced"));
   SyntheticRun early;
   early.end = 1.5;
-  EXPECT_THAT(error_of([&] { measure_resistance(early.history()); }), HasSubstr("ends before the cruise begins"));
-  EXPECT_THAT(error_of([] { measure_resistance(History({{"time", "s", ""}})); }), HasSubstr("the history has 0 rows"));
+  EXPECT_THAT(error_of([&] { measure_resistance(early.history()); }),
+              HasSubstr("ends before the cruise begins"));
+  EXPECT_THAT(error_of([] {
+                measure_resistance(History({{"time", "s", ""}}));
+              }),
+              HasSubstr("the history has 0 rows"));
   EXPECT_THAT(error_of([] { measure_resistance(SyntheticRun().history()).value("mass"); }),
               HasSubstr("no steady value 'mass'"));
 }
 
 TEST(Resistance, ARatioNeedsADenominator) {
-  EXPECT_THAT(error_of([] { linearised_ratio({1.0, 2.0}, {1.0}); }), HasSubstr("a ratio of 2 and 1 values"));
+  EXPECT_THAT(error_of([] {
+                linearised_ratio({1.0, 2.0}, {1.0});
+              }),
+              HasSubstr("a ratio of 2 and 1 values"));
   EXPECT_THAT(error_of([] {
                 linearised_ratio({1.0, 2.0}, {1.0, -1.0});
               }),

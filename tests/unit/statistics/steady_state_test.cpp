@@ -14,7 +14,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// x_i = phi x_{i-1} + sqrt(1 - phi^2) noise: unit variance, integrated autocorrelation time (1 + phi)/(1 - phi)/2 rows.
+/// x_i = phi x_{i-1} + sqrt(1 - phi^2) noise: unit variance, integrated autocorrelation time (1 +
+/// phi)/(1 - phi)/2 rows.
 std::vector<double> autoregressive(double phi, std::size_t rows, unsigned seed, double mean = 0.0) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -37,17 +38,20 @@ std::string error_of(Function&& function) {
   return "no error";
 }
 
-// The mean of n correlated values has the variance 2 tau/n: bars of two errors hold it in 95 % of the runs, but for the
-// scatter of the error itself. Over 1000 seeds the share has a standard error of 0.7 %.
+// The mean of n correlated values has the variance 2 tau/n: bars of two errors hold it in 95 % of
+// the runs, but for the scatter of the error itself. Over 1000 seeds the share has a standard error
+// of 0.7 %.
 TEST(SteadyState, ErrorBarsOfCorrelatedSignalsCoverTheTruth) {
   for (const double phi : {0.0, 0.5, 0.9, 0.97}) {
     const int seeds = 1000;
     const std::size_t rows = 5000;
-    const double tau = 0.5 * (1.0 + phi) / (1.0 - phi), truth = std::sqrt(2.0 * tau / static_cast<double>(rows));
+    const double tau = 0.5 * (1.0 + phi) / (1.0 - phi),
+                 truth = std::sqrt(2.0 * tau / static_cast<double>(rows));
     int covered = 0;
     double error = 0.0, time = 0.0;
     for (int seed = 0; seed < seeds; ++seed) {
-      const SteadyValue value = analyse_steady("x", "", autoregressive(phi, rows, static_cast<unsigned>(seed)), 0.1, 1.0);
+      const SteadyValue value =
+          analyse_steady("x", "", autoregressive(phi, rows, static_cast<unsigned>(seed)), 0.1, 1.0);
       covered += std::abs(value.mean) < 2.0 * value.standard_error;
       error += value.standard_error / seeds;
       time += value.correlation_time / seeds;
@@ -63,7 +67,9 @@ TEST(SteadyState, SteadySignalsAreCalledSteady) {
   int steady = 0;
   const int seeds = 500;
   for (int seed = 0; seed < seeds; ++seed)
-    steady += analyse_steady("x", "", autoregressive(0.9, 4000, static_cast<unsigned>(seed), 5.0), 0.1).steady;
+    steady +=
+        analyse_steady("x", "", autoregressive(0.9, 4000, static_cast<unsigned>(seed), 5.0), 0.1)
+            .steady;
   EXPECT_GE(steady, 0.97 * seeds);  // two tests at 99 %
 }
 
@@ -72,7 +78,8 @@ TEST(SteadyState, DriftsAreFoundAndSaidInWords) {
   const int seeds = 200;
   for (int seed = 0; seed < seeds; ++seed) {
     std::vector<double> values = autoregressive(0.9, 4000, static_cast<unsigned>(seed), 10.0);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] += 2.0 * static_cast<double>(i) / 4000.0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] += 2.0 * static_cast<double>(i) / 4000.0;
     const SteadyValue value = analyse_steady("x", "N", values, 0.1);
     found += !value.steady;
     if (seed == 0) {
@@ -85,12 +92,14 @@ TEST(SteadyState, DriftsAreFoundAndSaidInWords) {
   EXPECT_GE(found, 0.98 * seeds);
 }
 
-// The slope of a line has the error sqrt(12) of the mean's, the difference of the halves twice of it: checked by its scatter.
+// The slope of a line has the error sqrt(12) of the mean's, the difference of the halves twice of
+// it: checked by its scatter.
 TEST(SteadyState, ErrorsOfDriftAndHalvesAreThoseOfTheirScatter) {
   const int seeds = 1000;
   double drift = 0.0, drift_error = 0.0, halves = 0.0, halves_error = 0.0;
   for (int seed = 0; seed < seeds; ++seed) {
-    const SteadyValue value = analyse_steady("x", "", autoregressive(0.8, 4000, static_cast<unsigned>(seed)), 1.0, 1.0);
+    const SteadyValue value =
+        analyse_steady("x", "", autoregressive(0.8, 4000, static_cast<unsigned>(seed)), 1.0, 1.0);
     drift += value.drift * value.drift;
     drift_error += value.drift_error * value.drift_error;
     halves += value.halves_difference * value.halves_difference;
@@ -100,8 +109,9 @@ TEST(SteadyState, ErrorsOfDriftAndHalvesAreThoseOfTheirScatter) {
   EXPECT_NEAR(std::sqrt(halves_error / halves), 1.0, 0.1);
 }
 
-// A towed wheel's slip: swings on top of slow wandering. At a block length of one swing the block means hardly scatter; that dip is
-// no certainty about the slow part. The share of means within two errors of the truth, zero (two thirds if the dip counted).
+// A towed wheel's slip: swings on top of slow wandering. At a block length of one swing the block
+// means hardly scatter; that dip is no certainty about the slow part. The share of means within two
+// errors of the truth, zero (two thirds if the dip counted).
 TEST(SteadyState, SwingsDoNotHideSlowWandering) {
   const int seeds = 500;
   int covered = 0;
@@ -115,7 +125,8 @@ TEST(SteadyState, SwingsDoNotHideSlowWandering) {
   EXPECT_GE(covered, 0.90 * seeds);
 }
 
-// The ripple of grousers: its incomplete period is an error of the mean that the bars must hold, whatever the phase.
+// The ripple of grousers: its incomplete period is an error of the mean that the bars must hold,
+// whatever the phase.
 TEST(SteadyState, PeriodicRipplesAreSteadyAndTheirErrorIsNotUnderstated) {
   int covered = 0, steady = 0;
   const int phases = 100;
@@ -159,12 +170,16 @@ TEST(SteadyState, AWindowOfAFewCorrelationTimesIsTooShort) {
   int refused = 0;
   const int seeds = 100;
   for (int seed = 0; seed < seeds; ++seed)
-    refused += !analyse_steady("x", "", autoregressive(0.999, 2000, static_cast<unsigned>(seed), 1.0), 0.1).steady;
+    refused +=
+        !analyse_steady("x", "", autoregressive(0.999, 2000, static_cast<unsigned>(seed), 1.0), 0.1)
+             .steady;
   EXPECT_GE(refused, 0.9 * seeds);  // two correlation times
   const SteadyValue few = analyse_steady("x", "", {1.0, 2.0, 1.5, 1.2}, 0.1);
   EXPECT_FALSE(few.steady);
-  EXPECT_THAT(few.verdict, HasSubstr("the window is too short: its fluctuations last so long that it holds only 2 "
-                                     "independent stretches, 6 are needed"));
+  EXPECT_THAT(
+      few.verdict,
+      HasSubstr("the window is too short: its fluctuations last so long that it holds only 2 "
+                "independent stretches, 6 are needed"));
 }
 
 TEST(SteadyState, ReportsSpreadAndExtremes) {
@@ -192,7 +207,8 @@ TEST(SteadyState, MserLeavesOutADecayingTransientAndNoMore) {
   for (int seed = 0; seed < seeds; ++seed) {
     std::vector<double> values = autoregressive(0.5, 2000, static_cast<unsigned>(seed));
     without += static_cast<double>(mser_truncation(values)) / seeds;
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] += 20.0 * std::exp(-static_cast<double>(i) / 50.0);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] += 20.0 * std::exp(-static_cast<double>(i) / 50.0);
     const std::size_t left_out = mser_truncation(values);
     truncation += static_cast<double>(left_out) / seeds;
     EXPECT_GE(left_out, 100u);  // there the transient is still 2.7 deviations
@@ -210,7 +226,8 @@ TEST(SteadyState, MserStopsAtHalfOfASignalThatNeverSettles) {
   EXPECT_EQ(mser_truncation(values), 500u);
 }
 
-/// 1 s settle, 1 s accelerate, 8 s cruise at 2 m/s; rows every 0.01 s; a force that decays into noise.
+/// 1 s settle, 1 s accelerate, 8 s cruise at 2 m/s; rows every 0.01 s; a force that decays into
+/// noise.
 History rolling(double transient_time, double end = 10.0) {
   History history({{"time", "s", ""}, {"phase", "", ""}, {"x", "m", ""}, {"force", "N", ""}});
   std::mt19937 random(5);
@@ -238,7 +255,8 @@ TEST(Window, BeginsWithTheCruiseLessTheTransient) {
 
 TEST(Window, RoundingIsNoTransient) {
   History history({{"time", "s", ""}, {"x", "m", ""}, {"slip", "", ""}});
-  for (int i = 0; i < 1000; ++i) history.append({0.01 * i, 0.02 * i, 1e-16 * i});  // a slip of 0, rounded
+  // a slip of 0, rounded
+  for (int i = 0; i < 1000; ++i) history.append({0.01 * i, 0.02 * i, 1e-16 * i});
   const Window window = select_window(history, {}, {"slip"});
   EXPECT_EQ(window.first, 0u);
   EXPECT_EQ(window.warning, "");
@@ -275,7 +293,8 @@ TEST(Window, RefusesWhatTheHistoryDoesNotHold) {
               HasSubstr("the window by time is 11 to 10 s; allowed: a part of 0 to 10 s"));
   request.from_time = 5.0;
   request.to_time = 4.0;
-  EXPECT_THAT(error_of([&] { select_window(rolling(0.2), request, {}); }), HasSubstr("the begin before the end"));
+  EXPECT_THAT(error_of([&] { select_window(rolling(0.2), request, {}); }),
+              HasSubstr("the begin before the end"));
   request.to_time.reset();
   request.from_distance = 1.0;
   EXPECT_THAT(error_of([&] { select_window(rolling(0.2), request, {}); }),
@@ -283,7 +302,8 @@ TEST(Window, RefusesWhatTheHistoryDoesNotHold) {
   WindowRequest narrow;
   narrow.from_time = 4.001;
   narrow.to_time = 4.002;
-  EXPECT_THAT(error_of([&] { select_window(rolling(0.2), narrow, {}); }), HasSubstr("holds 0 row(s): widen it"));
+  EXPECT_THAT(error_of([&] { select_window(rolling(0.2), narrow, {}); }),
+              HasSubstr("holds 0 row(s): widen it"));
   EXPECT_THAT(error_of([&] { select_window(rolling(0.2, 1.5), {}, {"force"}); }),
               HasSubstr("the history ends before the cruise begins"));
   EXPECT_THAT(error_of([&] {

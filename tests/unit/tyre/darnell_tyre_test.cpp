@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The tyre as a body: conservation laws in free flight, rest on a plane, half and whole, table and chain, contact on the sidewalls,
-// restarts, refusals.
+// The tyre as a body: conservation laws in free flight, rest on a plane, half and whole, table and
+// chain, contact on the sidewalls, restarts, refusals.
 
 #include "tyre/darnell_tyre.h"
 
@@ -19,7 +19,8 @@ namespace {
 using testing::HasSubstr;
 
 TyreParameters p235(double pressure) {
-  TyreParameters tyre = read_tyre_file(std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/p235_75r15.yaml");
+  TyreParameters tyre =
+      read_tyre_file(std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/p235_75r15.yaml");
   tyre.pressure = pressure;
   return tyre;
 }
@@ -55,7 +56,8 @@ std::pair<Vector3, Vector3> momenta(const DarnellTyre& tyre) {
   const ShellNodes& tread = tyre.tread();
   Vector3 linear = rim.inertia.mass * tyre.velocity(), angular = tyre.centre().cross(linear);
   const Vector3 a = tyre.axle(), omega = tyre.angular_velocity();
-  angular += rim.inertia.diametral * omega + (rim.inertia.axial - rim.inertia.diametral) * omega.dot(a) * a;
+  angular += rim.inertia.diametral * omega +
+             (rim.inertia.axial - rim.inertia.diametral) * omega.dot(a) * a;
   linear += tread.v * tread.mass;
   angular += tread.w * tread.inertia;
   for (Eigen::Index n = 0; n < tread.count(); ++n)
@@ -69,7 +71,8 @@ TEST(DarnellTyre, FliesAndSpinsWithoutLosingAnything) {
   settings.damping_rate = 0.0;
   DarnellTyre tyre(p235(1.5e5), settings, rim);
   tyre.settle(nullptr, {1e-6});
-  for (const auto coordinate : {WheelHub::x, WheelHub::y, WheelHub::z, WheelHub::spin}) tyre.release(coordinate);
+  for (const auto coordinate : {WheelHub::x, WheelHub::y, WheelHub::z, WheelHub::spin})
+    tyre.release(coordinate);
   tyre.set_velocity({1.0, 0.0, 2.0}, {2.0 * pi * 10.0, 0.0, 0.0});
   const double dt = tyre.stable_time_step(), start = tyre.balance().residual();
   const auto [p0, L0] = momenta(tyre);
@@ -80,10 +83,12 @@ TEST(DarnellTyre, FliesAndSpinsWithoutLosingAnything) {
     worst = std::max(worst, std::abs(tyre.balance().residual() - start));
   }
   const auto [p1, L1] = momenta(tyre);
-  EXPECT_NEAR(tyre.position(WheelHub::spin), 2.0 * pi * 10.0, 0.2);  // the tread grows a little and slows the rim
+  // the tread grows a little and slows the rim
+  EXPECT_NEAR(tyre.position(WheelHub::spin), 2.0 * pi * 10.0, 0.2);
   EXPECT_LT((p1 - p0).norm(), 1e-10 * p0.norm());
   EXPECT_LT(worst, 1e-4 * tyre.balance().kinetic_energy);
-  // angular momentum about y of the still shape: the x, z motion carries none but m x v, which is kept too
+  // angular momentum about y of the still shape: the x, z motion carries none but m x v, which is
+  // kept too
   EXPECT_NEAR(L1.y() / L0.y(), 1.0, 1e-6);
 }
 
@@ -131,8 +136,9 @@ TEST(DarnellTyre, PressedByDeflectionOrByLoad) {
   EXPECT_NEAR(0.4 - by_load.centre().z(), 0.025, 1e-4);
 }
 
-/// Without a disturbance the whole tyre stays symmetric, and the half is its half: inflated dynamically, then dropped on a plane. At
-/// rest under load they differ by up to 3 %, because the whole tyre's shoulders may buckle unevenly.
+/// Without a disturbance the whole tyre stays symmetric, and the half is its half: inflated
+/// dynamically, then dropped on a plane. At rest under load they differ by up to 3 %, because the
+/// whole tyre's shoulders may buckle unevenly.
 TEST(DarnellTyre, HalfAndWholeAgree) {
   double height[2], width[2], energy[2], force[2];
   for (const bool half : {false, true}) {
@@ -178,27 +184,32 @@ TEST(DarnellTyre, TableAndChainAgree) {
   EXPECT_NEAR(deflection[1] / deflection[0], 1.0, 2e-3);
 }
 
-/// Forces on sidewall nodes: whole force and moment arrive at rim and tread, and their power is that of the velocities shown.
+/// Forces on sidewall nodes: whole force and moment arrive at rim and tread, and their power is
+/// that of the velocities shown.
 TEST(DarnellTyre, SidewallContactKeepsForceMomentAndPower) {
   DarnellTyreSettings settings = coarse();
   settings.damping_rate = 0.0;
   DarnellTyre tyre(p235(1.5e5), settings, rim);
   tyre.settle(nullptr, {1e-6});
-  for (const auto coordinate : {WheelHub::x, WheelHub::y, WheelHub::z, WheelHub::spin}) tyre.release(coordinate);
+  for (const auto coordinate : {WheelHub::x, WheelHub::y, WheelHub::z, WheelHub::spin})
+    tyre.release(coordinate);
   tyre.set_velocity({3.0, 0.0, 0.0}, {8.0, 0.0, 0.0});
   Surface& surface = tyre.surface();
   const Eigen::Index first = tyre.tread().count(), node = first + 4 * 7 + 2;
   EXPECT_EQ(static_cast<Eigen::Index>(surface.node_count()), first + 2 * 36 * 4);
   for (std::size_t t = 0; t < surface.triangle_count(); ++t) {  // outward everywhere
     const Vector3i& n = surface.triangles[t];
-    const Vector3 middle = (surface.x.col(n[0]) + surface.x.col(n[1]) + surface.x.col(n[2])) / 3.0 - tyre.centre();
+    const Vector3 middle =
+        (surface.x.col(n[0]) + surface.x.col(n[1]) + surface.x.col(n[2])) / 3.0 - tyre.centre();
     const double radius = std::hypot(middle.x(), middle.z());
-    const Vector3 from_ring(middle.x() * (1.0 - 0.28 / radius), middle.y(), middle.z() * (1.0 - 0.28 / radius));
+    const Vector3 from_ring(middle.x() * (1.0 - 0.28 / radius), middle.y(),
+                            middle.z() * (1.0 - 0.28 / radius));
     EXPECT_GT(surface.area_vector(t).dot(from_ring), 0.0) << t;
   }
   const Vector3 f(0.4, -0.25, 0.7), at = surface.x.col(node);
   const auto [p0, L0] = momenta(tyre);
-  const double before = tyre.balance().contact_work, power = f.dot(surface.v.col(node)), dt = 0.2 * tyre.stable_time_step();
+  const double before = tyre.balance().contact_work, power = f.dot(surface.v.col(node)),
+               dt = 0.2 * tyre.stable_time_step();
   surface.f.col(node) = f;
   tyre.advance(dt);
   const auto [p1, L1] = momenta(tyre);
@@ -243,32 +254,44 @@ TEST(DarnellTyre, PlacementCarriesTheInflatedShapeAlong) {
   const Matrix3X before = tyre.tread().x.colwise() - tyre.centre();
   const double stored = tyre.balance().stored_energy, width = tyre.section_width();
   tyre.place({1.0, 2.0, 3.0}, radians(30), radians(10));
-  EXPECT_LT((tyre.tread().x - ((tyre.attitude() * before).colwise() + Vector3(1, 2, 3))).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((tyre.tread().x - ((tyre.attitude() * before).colwise() + Vector3(1, 2, 3)))
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-12);
   EXPECT_NEAR(tyre.balance().stored_energy, stored, 1e-9 * std::abs(stored));
   EXPECT_NEAR(tyre.section_width(), width, 1e-6);
   EXPECT_LT((tyre.rim_force() - tyre.attitude() * force_before).norm(), 1e-6);
 }
 
 TEST(DarnellTyre, RefusesWhatCannotBe) {
-  const auto refusal = [](const std::function<void(TyreParameters&, DarnellTyreSettings&, DarnellTyreHub&)>& change) {
+  const auto refusal = [](const std::function<void(TyreParameters&, DarnellTyreSettings&,
+                                                   DarnellTyreHub&)>& change) {
     TyreParameters tyre = p235(1.5e5);
     DarnellTyreSettings settings = coarse();
     DarnellTyreHub hub = rim;
     change(tyre, settings, hub);
     return error_of([&] { DarnellTyre(tyre, settings, hub); });
   };
-  EXPECT_THAT(refusal([](auto& t, auto&, auto&) { t.pressure = -1.0; }), HasSubstr("pressure is -1 Pa"));
-  EXPECT_THAT(refusal([](auto& t, auto&, auto&) { t.bead_spacing = 0.298; }), HasSubstr("the rim is wider than the tyre"));
-  EXPECT_THAT(refusal([](auto& t, auto&, auto&) { t.sidewall.length = 0.13; }), HasSubstr("stretched past its length"));
-  EXPECT_THAT(refusal([](auto&, auto& s, auto&) { s.around = 6; }), HasSubstr("elements around is 6; allowed: 12 to 2000"));
+  EXPECT_THAT(refusal([](auto& t, auto&, auto&) { t.pressure = -1.0; }),
+              HasSubstr("pressure is -1 Pa"));
+  EXPECT_THAT(refusal([](auto& t, auto&, auto&) { t.bead_spacing = 0.298; }),
+              HasSubstr("the rim is wider than the tyre"));
+  EXPECT_THAT(refusal([](auto& t, auto&, auto&) { t.sidewall.length = 0.13; }),
+              HasSubstr("stretched past its length"));
+  EXPECT_THAT(refusal([](auto&, auto& s, auto&) { s.around = 6; }),
+              HasSubstr("elements around is 6; allowed: 12 to 2000"));
   EXPECT_THAT(refusal([](auto&, auto& s, auto&) { s.half = true, s.across = 5; }),
               HasSubstr("an even number for a half model"));
-  EXPECT_THAT(refusal([](auto&, auto& s, auto&) { s.damping_rate = -1.0; }), HasSubstr("damping rate is -1 1/s"));
-  EXPECT_THAT(refusal([](auto&, auto&, auto& h) { h.inertia.mass = 0.0; }), HasSubstr("mass of the rim is 0 kg"));
-  EXPECT_THAT(refusal([](auto&, auto&, auto& h) { h.inertia.mass = 0.01; }), HasSubstr("under a tread of"));
+  EXPECT_THAT(refusal([](auto&, auto& s, auto&) { s.damping_rate = -1.0; }),
+              HasSubstr("damping rate is -1 1/s"));
+  EXPECT_THAT(refusal([](auto&, auto&, auto& h) { h.inertia.mass = 0.0; }),
+              HasSubstr("mass of the rim is 0 kg"));
+  EXPECT_THAT(refusal([](auto&, auto&, auto& h) { h.inertia.mass = 0.01; }),
+              HasSubstr("under a tread of"));
 }
 
-/// The rim is pulled away from the tread until a sidewall is straight: the error says what and where.
+/// The rim is pulled away from the tread until a sidewall is straight: the error says what and
+/// where.
 TEST(DarnellTyre, AStretchedSidewallStopsTheRun) {
   DarnellTyreSettings settings = coarse();
   settings.direct = true;

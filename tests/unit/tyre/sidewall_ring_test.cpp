@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A ring of sidewalls: its forces on the tread are the gradient of its potential, and with the rim's reaction they balance.
+// A ring of sidewalls: its forces on the tread are the gradient of its potential, and with the
+// rim's reaction they balance.
 
 #include "tyre/sidewall_ring.h"
 
@@ -11,12 +12,15 @@
 namespace furrow {
 namespace {
 
-TyreParameters tyre() { return read_tyre_file(std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/p235_75r15.yaml"); }
+TyreParameters tyre() {
+  return read_tyre_file(std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/p235_75r15.yaml");
+}
 
 /// Edge nodes of 12 stations, a little displaced and turned, on a rim that stands askew.
 struct Ring {
   static constexpr int n = 12;
-  RimPose rim{Vector3(0.3, -0.2, 0.5), Quaternion(Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized())).toRotationMatrix()};
+  RimPose rim{Vector3(0.3, -0.2, 0.5),
+              Quaternion(Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized())).toRotationMatrix()};
   ShellNodes nodes{Matrix3X::Zero(3, n)};
   TyreParameters parameters = tyre();
   double pressure = 2e5;
@@ -26,16 +30,19 @@ struct Ring {
     std::srand(3);
     for (Eigen::Index i = 0; i < n; ++i) {
       const double angle = 2.0 * pi * static_cast<double>(i) / n, radius = parameters.tread.radius;
-      const Vector3 at(radius * std::sin(angle), side * parameters.tread.half_width, -radius * std::cos(angle));
+      const Vector3 at(radius * std::sin(angle), side * parameters.tread.half_width,
+                       -radius * std::cos(angle));
       nodes.x.col(i) = rim.centre + rim.attitude * (at + 0.008 * Vector3::Random());
       const Vector3 turn = 0.2 * Vector3::Random();
-      nodes.set_rotation(i, Quaternion(rim.attitude) * Quaternion(Eigen::AngleAxisd(turn.norm(), turn.normalized())));
+      nodes.set_rotation(i, Quaternion(rim.attitude) *
+                                Quaternion(Eigen::AngleAxisd(turn.norm(), turn.normalized())));
     }
   }
   SidewallRing make(int side) const {
     std::vector<int> edge;
     for (int i = 0; i < n; ++i) edge.push_back(i);
-    return SidewallRing(std::make_unique<SidewallDirect>(parameters.sidewall, pressure), parameters, side, edge, 0.18);
+    return SidewallRing(std::make_unique<SidewallDirect>(parameters.sidewall, pressure), parameters,
+                        side, edge, 0.18);
   }
   void compute(SidewallRing& ring) {
     nodes.force.setZero();
@@ -45,13 +52,14 @@ struct Ring {
 };
 
 TEST(SidewallRing, ForcesAreTheGradientOfThePotential) {
-  for (const auto& [side, link] :
-       {std::pair{1, Vector2(0, 0)}, std::pair{-1, Vector2(0, 0)}, std::pair{1, Vector2(-0.012, 0.005)}}) {
+  for (const auto& [side, link] : {std::pair{1, Vector2(0, 0)}, std::pair{-1, Vector2(0, 0)},
+                                   std::pair{1, Vector2(-0.012, 0.005)}}) {
     Ring model(side, link);
     SidewallRing ring = model.make(side);
     model.compute(ring);
     const Matrix3X force = model.nodes.force, moment = model.nodes.moment;
-    // the pressure's potential is -p V of a closed surface: a cap of triangles from the tread's edge to a fixed point closes it
+    // the pressure's potential is -p V of a closed surface: a cap of triangles from the tread's
+    // edge to a fixed point closes it
     const Vector3 apex = model.rim.centre;
     const auto cap = [&](const Matrix3X& x) {
       double volume = 0.0;
@@ -71,8 +79,8 @@ TEST(SidewallRing, ForcesAreTheGradientOfThePotential) {
           if (k < 3)
             moved.nodes.x(k, i) += h;
           else
-            moved.nodes.set_rotation(
-                i, Quaternion(Eigen::AngleAxisd(h, Vector3::Unit(k - 3))) * moved.nodes.q[static_cast<std::size_t>(i)]);
+            moved.nodes.set_rotation(i, Quaternion(Eigen::AngleAxisd(h, Vector3::Unit(k - 3))) *
+                                            moved.nodes.q[static_cast<std::size_t>(i)]);
           SidewallRing other = moved.make(side);
           moved.compute(other);
           value[sign] = model.pressure * (other.volume() + cap(moved.nodes.x)) - other.potential();
@@ -81,12 +89,14 @@ TEST(SidewallRing, ForcesAreTheGradientOfThePotential) {
         // the pressure on the cap: a third of each triangle's at its nodes
         double expected = k < 3 ? force(k, i) : moment(k - 3, i);
         if (k < 3) {
-          const Vector3 before = model.nodes.x.col((i + Ring::n - 1) % Ring::n), here = model.nodes.x.col(i),
-                        after = model.nodes.x.col((i + 1) % Ring::n);
-          const Vector3 area = 0.5 * ((here - apex).cross(before - apex) + (after - apex).cross(here - apex));
+          const Vector3 before = model.nodes.x.col((i + Ring::n - 1) % Ring::n),
+                        here = model.nodes.x.col(i), after = model.nodes.x.col((i + 1) % Ring::n);
+          const Vector3 area =
+              0.5 * ((here - apex).cross(before - apex) + (after - apex).cross(here - apex));
           expected += -side * model.pressure * area[k] / 3.0;
         }
-        EXPECT_NEAR(numeric, expected, 2e-5 * force.cwiseAbs().maxCoeff()) << side << " node " << i << " component " << k;
+        EXPECT_NEAR(numeric, expected, 2e-5 * force.cwiseAbs().maxCoeff())
+            << side << " node " << i << " component " << k;
       }
   }
 }
@@ -106,7 +116,8 @@ TEST(SidewallRing, ForcesDoNotDependOnWhereTheWheelStands) {
     moved.nodes.set_rotation(i, Quaternion(turn) * model.nodes.q[static_cast<std::size_t>(i)]);
   SidewallRing other = moved.make(1);
   moved.compute(other);
-  EXPECT_LT((moved.nodes.force - turn * force).cwiseAbs().maxCoeff(), 1e-8 * force.cwiseAbs().maxCoeff());
+  EXPECT_LT((moved.nodes.force - turn * force).cwiseAbs().maxCoeff(),
+            1e-8 * force.cwiseAbs().maxCoeff());
 }
 
 TEST(SidewallRing, ArcsEndAtBeadAndTreadAndHaveTheSidewallsLength) {
@@ -119,10 +130,13 @@ TEST(SidewallRing, ArcsEndAtBeadAndTreadAndHaveTheSidewallsLength) {
     double length = 0.0;
     for (int k = 0; k < points; ++k)
       length +=
-          ((k + 1 < points ? Vector3(x.col(i * points + k + 1)) : Vector3(model.nodes.x.col(i))) - x.col(i * points + k))
+          ((k + 1 < points ? Vector3(x.col(i * points + k + 1)) : Vector3(model.nodes.x.col(i))) -
+           x.col(i * points + k))
               .norm();
     EXPECT_NEAR(length, model.parameters.sidewall.length, 1e-4 * length);
-    EXPECT_LT((x.col(i * points) - model.rim.centre - model.rim.attitude * ring.bead(static_cast<std::size_t>(i))).norm(),
+    EXPECT_LT((x.col(i * points) - model.rim.centre -
+               model.rim.attitude * ring.bead(static_cast<std::size_t>(i)))
+                  .norm(),
               1e-12);
   }
 }

@@ -30,8 +30,11 @@ SidewallResponse at(Sidewall& sidewall, const SidewallEnd& end, bool with_stiffn
   return response;
 }
 
-const std::vector<SidewallEnd> ends = {
-    {-0.004, 0.1395, 0.0}, {-0.004, 0.155, 0.05}, {0.02, 0.1, -0.2}, {-0.03, 0.07, 0.3}, {0.02, 0.05, 0.1}};
+const std::vector<SidewallEnd> ends = {{-0.004, 0.1395, 0.0},
+                                       {-0.004, 0.155, 0.05},
+                                       {0.02, 0.1, -0.2},
+                                       {-0.03, 0.07, 0.3},
+                                       {0.02, 0.05, 0.1}};
 
 TEST(SidewallTable, ForcesAndStiffnessAreExactDerivativesOfItsPotential) {
   for (const auto& make : {tr_sidewall, tr_sector}) {
@@ -40,12 +43,15 @@ TEST(SidewallTable, ForcesAndStiffnessAreExactDerivativesOfItsPotential) {
     for (const SidewallEnd& end : ends) {
       const auto response = [&](const SidewallEnd& e) { return at(table, e); };
       const SidewallResponse here = response(end);
-      EXPECT_LT((here.force + gradient_by_differences(response, end, 2e-5)).norm(), 1e-7 * here.on_tread.norm());
+      EXPECT_LT((here.force + gradient_by_differences(response, end, 2e-5)).norm(),
+                1e-7 * here.on_tread.norm());
       const double share = sidewall.bead_width / 2 + sidewall.taper * end.r / 3;
       EXPECT_LT((here.on_tread - here.force - 103e3 * share * Vector3(end.r, -end.a, 0.0)).norm(),
                 1e-12 * here.on_tread.norm());
-      EXPECT_LT((here.stiffness - stiffness_by_differences(response, end, 2e-5)).norm(), 1e-6 * here.stiffness.norm());
-      EXPECT_LT((at(table, end, false).on_tread - here.on_tread).norm(), 1e-13 * here.on_tread.norm());
+      EXPECT_LT((here.stiffness - stiffness_by_differences(response, end, 2e-5)).norm(),
+                1e-6 * here.stiffness.norm());
+      EXPECT_LT((at(table, end, false).on_tread - here.on_tread).norm(),
+                1e-13 * here.on_tread.norm());
     }
   }
 }
@@ -90,8 +96,10 @@ TEST(SidewallTable, WhatCannotBeIsRefused) {
               HasSubstr("the chord over the length is 0.9994, the table goes from 0.2 to 0.999"));
   EXPECT_THAT(refusal({0.0, 0.17, 0.0}), HasSubstr("the chord over the length is 1.056"));
   EXPECT_THAT(refusal({0.0, 0.03, 0.0}), HasSubstr("the chord over the length is 0.1863"));
-  EXPECT_THAT(refusal({0.1, 0.05, 0.0}), HasSubstr("the chord's direction is 26.57 degrees, the table goes from 30 to 150"));
-  EXPECT_THAT(refusal({0.0, 0.1, 1.1}), HasSubstr("the tread's rotation is 63.03 degrees, the table goes from -60 to 60"));
+  EXPECT_THAT(refusal({0.1, 0.05, 0.0}),
+              HasSubstr("the chord's direction is 26.57 degrees, the table goes from 30 to 150"));
+  EXPECT_THAT(refusal({0.0, 0.1, 1.1}),
+              HasSubstr("the tread's rotation is 63.03 degrees, the table goes from -60 to 60"));
   EXPECT_THAT(refusal({nan, 0.1, 0.0}), HasSubstr("the chord over the length is nan"));
   EXPECT_THAT(refusal({0.0, 0.1, nan}), HasSubstr("the tread's rotation is nan"));
   EXPECT_THAT(message_of([&] { table.set_pressure(-1.0); }), HasSubstr("the pressure is -1 Pa"));
@@ -100,10 +108,12 @@ TEST(SidewallTable, WhatCannotBeIsRefused) {
               HasSubstr("its forces differ from the chain's by"));
   SidewallTableGrid grid;
   grid.chord_max = 1.2;
-  EXPECT_THAT(message_of([&] { SidewallTable(tr_sidewall(1.0, 1.0), 1e5, grid); }), HasSubstr("chords from 0.2 to 1.2"));
+  EXPECT_THAT(message_of([&] { SidewallTable(tr_sidewall(1.0, 1.0), 1e5, grid); }),
+              HasSubstr("chords from 0.2 to 1.2"));
   grid = {};
   grid.rotation_nodes = 4;
-  EXPECT_THAT(message_of([&] { SidewallTable(tr_sidewall(1.0, 1.0), 1e5, grid); }), HasSubstr("axis 3 has 4 nodes"));
+  EXPECT_THAT(message_of([&] { SidewallTable(tr_sidewall(1.0, 1.0), 1e5, grid); }),
+              HasSubstr("axis 3 has 4 nodes"));
 }
 
 }  // namespace

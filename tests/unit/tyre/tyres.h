@@ -7,7 +7,8 @@
 
 namespace furrow {
 
-/// 235/75 R15, TR Table 8 (inputs/tyres/p235_75r15.yaml), with end springs of one's choice [N m/rad per m].
+/// 235/75 R15, TR Table 8 (inputs/tyres/p235_75r15.yaml), with end springs of one's choice [N m/rad
+/// per m].
 inline SidewallParameters tr_sidewall(double rim_stiffness, double tread_stiffness) {
   SidewallParameters sidewall;
   sidewall.length = 0.161;
@@ -29,7 +30,8 @@ inline SidewallParameters tr_sector(double rim_stiffness, double tread_stiffness
 }
 
 /// N equal segments of one bending stiffness and curvature, pinned at both ends.
-inline SidewallParameters uniform_sidewall(int segments, double length, double bending, double curvature) {
+inline SidewallParameters uniform_sidewall(int segments, double length, double bending,
+                                           double curvature) {
   SidewallParameters sidewall;
   sidewall.length = length;
   sidewall.bending.assign(static_cast<std::size_t>(segments - 1), bending);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Laws against closed forms: facts.md section 3 (cap), TR eq 12-18, Simo and Hughes (rubber), and against their own step size.
+// Laws against closed forms: facts.md section 3 (cap), TR eq 12-18, Simo and Hughes (rubber), and
+// against their own step size.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -23,16 +24,19 @@ Vector6 strain_of(double xx, double yy, double zz, double xy = 0, double yz = 0,
 /// Fresh snow with a cap of eccentricity R, TR Tables 1 and 3.
 std::string snow(double R, const std::string& more = "") {
   return fmt::format(
-      "drucker_prager_cap density 200 d 5e3 beta 22.53 R {} eps_vol_pl_0 0.001 elasticity linear E 13.79e6 nu 0.3 "
+      "drucker_prager_cap density 200 d 5e3 beta 22.53 R {} eps_vol_pl_0 0.001 elasticity linear E "
+      "13.79e6 nu 0.3 "
       "hardening table p 113.76 5e4 1e5 2e5 5e5 1e6 2e6 2.8e6 3.25e6 6e6 6e7 "
-      "eps_vol_pl 0 0.593 0.669 0.806 0.944 1.083 1.299 1.455 1.475 1.50 1.514 interpolation linear beyond extrapolate {}",
+      "eps_vol_pl 0 0.593 0.669 0.806 0.944 1.083 1.299 1.455 1.475 1.50 1.514 interpolation "
+      "linear beyond extrapolate {}",
       R, more);
 }
 
 /// eps_v = p/K + H^-1(p) - eps_0 for any number of steps.
 TEST(CapClosedForm, HydrostaticCompression) {
   const double K = 689e6 / 1.5;
-  const std::vector<double> pb{0.138e6, 0.172e6, 0.434e6, 0.896e6, 1.655e6, 2.758e6, 4.137e6, 6.895e6, 13.447e6};
+  const std::vector<double> pb{0.138e6, 0.172e6, 0.434e6, 0.896e6, 1.655e6,
+                               2.758e6, 4.137e6, 6.895e6, 13.447e6};
   const std::vector<double> eps{0, 0.005, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.1};
   const auto law = law_of(mccormick_sand());
   for (const int steps : {1, 3, 50}) {
@@ -44,7 +48,8 @@ TEST(CapClosedForm, HydrostaticCompression) {
       std::size_t k = 0;
       while (k + 2 < pb.size() && p > pb[k + 1]) ++k;
       const double inverse = eps[k] + (p - pb[k]) / (pb[k + 1] - pb[k]) * (eps[k + 1] - eps[k]);
-      EXPECT_NEAR((p / K + inverse - 0.001) / strain, 1.0, 1e-12) << steps << " steps to " << strain;
+      EXPECT_NEAR((p / K + inverse - 0.001) / strain, 1.0, 1e-12)
+          << steps << " steps to " << strain;
     }
   }
 }
@@ -61,24 +66,29 @@ TEST(CapClosedForm, FirstYieldOfMcCormickSandIsAt0144Megapascal) {
   }
 }
 
-/// The state on the cap in confined compression (facts 3): pa = (pb - R d)/(1 + R tan(beta)), Q = d + pa tan(beta),
-/// y = 1/sqrt(1 + 2.25 R^2), q = y Q, p = pa + 1.5 R^2 y Q. It neglects elastic strain, so it holds for R small and p << E.
+/// The state on the cap in confined compression (facts 3): pa = (pb - R d)/(1 + R tan(beta)), Q = d
+/// + pa tan(beta), y = 1/sqrt(1 + 2.25 R^2), q = y Q, p = pa + 1.5 R^2 y Q. It neglects elastic
+/// strain, so it holds for R small and p << E.
 TEST(CapClosedForm, ConfinedCompressionOnTheCap) {
   const double tan_beta = std::tan(radians(22.53)), d = 5e3;
   for (const double R : {1.1e-4, 1e-3, 5e-3}) {
     const auto law = law_of(snow(R));
     VectorX state = law->initial_state();
     const int steps = 4000;
-    for (int step = 0; step < steps; ++step) law->update_point(stretch(strain_of(0, 0, -0.8 / steps)), state);
-    const double pb = static_cast<const DruckerPragerCap&>(*law).pb(state[DruckerPragerCap::eps_vol_pl]);
-    const double pa = (pb - R * d) / (1 + R * tan_beta), Q = d + pa * tan_beta, y = 1 / std::sqrt(1 + 2.25 * R * R);
+    for (int step = 0; step < steps; ++step)
+      law->update_point(stretch(strain_of(0, 0, -0.8 / steps)), state);
+    const double pb =
+        static_cast<const DruckerPragerCap&>(*law).pb(state[DruckerPragerCap::eps_vol_pl]);
+    const double pa = (pb - R * d) / (1 + R * tan_beta), Q = d + pa * tan_beta,
+                 y = 1 / std::sqrt(1 + 2.25 * R * R);
     const double q = y * Q, p = pa + 1.5 * R * R * y * Q;
     EXPECT_NEAR(-state[2] / (p + 2 * q / 3), 1.0, 1e-3) << "sigma1, R " << R;
     EXPECT_NEAR(-state[0] / (p - q / 3), 1.0, 1e-3) << "sigma3, R " << R;
   }
 }
 
-/// q = (d + sigma_c tan(beta))/(1 - tan(beta)/3) after triaxial compression at lateral stress sigma_c, with p = pa.
+/// q = (d + sigma_c tan(beta))/(1 - tan(beta)/3) after triaxial compression at lateral stress
+/// sigma_c, with p = pa.
 TEST(CapClosedForm, TriaxialCompressionEndsInTheCriticalState) {
   const double tan_beta = std::tan(radians(14.56));
   const auto law = law_of(mccormick_sand());
@@ -86,34 +96,42 @@ TEST(CapClosedForm, TriaxialCompressionEndsInTheCriticalState) {
        {std::pair{0.25e6, 1.37826e6}, std::pair{1e6, 1.59153e6}, std::pair{4e6, 2.44459e6}}) {
     VectorX state = law->initial_state();
     for (int step = 1; step <= 20; ++step)
-      mixed_step(*law, state, Vector6::Zero(), {true, true, true}, Vector3::Constant(-pressure * step / 20),
-                 1e-7 * pressure);
+      mixed_step(*law, state, Vector6::Zero(), {true, true, true},
+                 Vector3::Constant(-pressure * step / 20), 1e-7 * pressure);
     for (int step = 0; step < 300; ++step)
-      mixed_step(*law, state, strain_of(0, 0, -2e-3), {true, true, false}, Vector3::Constant(-pressure), 1e-8 * pressure);
+      mixed_step(*law, state, strain_of(0, 0, -2e-3), {true, true, false},
+                 Vector3::Constant(-pressure), 1e-8 * pressure);
     const Invariants end = invariants(stress_of(state));
     EXPECT_NEAR(end.q / ((1.194e6 + pressure * tan_beta) / (1 - tan_beta / 3)), 1.0, 1e-6);
     EXPECT_NEAR(end.q / known, 1.0, 4e-6);  // six digits are known
-    EXPECT_NEAR(static_cast<const DruckerPragerCap&>(*law).pa(state[DruckerPragerCap::eps_vol_pl]) / end.p, 1.0, 1e-6);
+    EXPECT_NEAR(
+        static_cast<const DruckerPragerCap&>(*law).pa(state[DruckerPragerCap::eps_vol_pl]) / end.p,
+        1.0, 1e-6);
   }
 }
 
-/// With K < 1 the strength in triaxial extension is K times that in compression at the same p (t = q/K there).
+/// With K < 1 the strength in triaxial extension is K times that in compression at the same p (t =
+/// q/K there).
 TEST(CapClosedForm, FlowStressRatioInExtension) {
   const auto law = law_of(mccormick_sand("K 0.8"));
   const double tan_beta = std::tan(radians(14.56)), pressure = 1e6;
   VectorX state = law->initial_state();
   for (int step = 1; step <= 20; ++step)
-    mixed_step(*law, state, Vector6::Zero(), {true, true, true}, Vector3::Constant(-pressure * step / 20), 1e-7 * pressure);
+    mixed_step(*law, state, Vector6::Zero(), {true, true, true},
+               Vector3::Constant(-pressure * step / 20), 1e-7 * pressure);
   for (int step = 0; step < 300; ++step)
-    mixed_step(*law, state, strain_of(0, 0, 2e-3), {true, true, false}, Vector3::Constant(-pressure), 1e-8 * pressure);
+    mixed_step(*law, state, strain_of(0, 0, 2e-3), {true, true, false},
+               Vector3::Constant(-pressure), 1e-8 * pressure);
   // p = sigma_c - q/3 and q/K = d + p tan(beta)
   const double q = (1.194e6 + pressure * tan_beta) / (1 / 0.8 + tan_beta / 3);
   EXPECT_NEAR(invariants(stress_of(state)).q / q, 1.0, 1e-6);
 }
 
-/// Differences of results with n, 2n, 4n steps fall by 2 each time: backward Euler is of first order.
+/// Differences of results with n, 2n, 4n steps fall by 2 each time: backward Euler is of first
+/// order.
 TEST(StepSize, ConvergesAtFirstOrder) {
-  for (const std::string& text : {mccormick_sand(), mccormick_sand("alpha 0.05"), mccormick_sand("K 0.8"), snow(0.02)}) {
+  for (const std::string& text :
+       {mccormick_sand(), mccormick_sand("alpha 0.05"), mccormick_sand("K 0.8"), snow(0.02)}) {
     const auto law = law_of(text);
     std::array<Vector6, 4> ends;
     for (std::size_t level = 0; level < ends.size(); ++level) {
@@ -122,26 +140,29 @@ TEST(StepSize, ConvergesAtFirstOrder) {
       // Shear and compaction at a turning rate: the path is not radial.
       for (int step = 0; step < steps; ++step) {
         const double middle = (step + 0.5) / steps;
-        const Vector6 rate =
-            strain_of(-0.004 * (1 + middle), 0.002 * middle, -0.004 * std::cos(3 * middle), 0.003 * middle, 0, 0.003);
+        const Vector6 rate = strain_of(-0.004 * (1 + middle), 0.002 * middle,
+                                       -0.004 * std::cos(3 * middle), 0.003 * middle, 0, 0.003);
         law->update_point(stretch(rate / steps), state);
       }
       ends[level] = stress_of(state);
     }
-    const double first = (ends[1] - ends[0]).norm(), second = (ends[2] - ends[1]).norm(), third = (ends[3] - ends[2]).norm();
+    const double first = (ends[1] - ends[0]).norm(), second = (ends[2] - ends[1]).norm(),
+                 third = (ends[3] - ends[2]).norm();
     EXPECT_NEAR(std::log2(first / second), 1.0, 0.15) << text;
     EXPECT_NEAR(std::log2(second / third), 1.0, 0.15) << text;
     EXPECT_LT(third, 2e-4 * ends[3].norm()) << text;
   }
 }
 
-/// Radial paths: the result does not depend on how the path is split, to the accuracy of the return mapping.
+/// Radial paths: the result does not depend on how the path is split, to the accuracy of the return
+/// mapping.
 TEST(StepSize, SplittingDoesNotMatterOnRadialPaths) {
   struct Case {
     std::string law;
     Vector6 strain;
   };
-  // Hydrostatic on the cap; pure tension to the apex; uniaxial compression of the foam, whose flow (18) is radial there.
+  // Hydrostatic on the cap; pure tension to the apex; uniaxial compression of the foam, whose flow
+  // (18) is radial there.
   const std::string foam =
       "crushable_foam density 200 pt 11.376 sigma0 275.79 elasticity linear E 1e6 nu 0 "
       "hardening exponential pc0 113.76 lambda 0.35 kappa 0.005 e0 3.5";
@@ -158,13 +179,15 @@ TEST(StepSize, SplittingDoesNotMatterOnRadialPaths) {
       ends.push_back(state);
     }
     for (const VectorX& end : ends) {
-      EXPECT_LT((stress_of(end) - stress_of(ends[0])).norm(), 1e-10 * law->stress_scale(end)) << c.law;
+      EXPECT_LT((stress_of(end) - stress_of(ends[0])).norm(), 1e-10 * law->stress_scale(end))
+          << c.law;
       EXPECT_NEAR(end[field::own], ends[0][field::own], 1e-12) << c.law;
     }
   }
 }
 
-/// Uneven splittings of the same proportional path agree within the first-order error of the coarse one.
+/// Uneven splittings of the same proportional path agree within the first-order error of the coarse
+/// one.
 TEST(StepSize, LargeStepsAgreeWithTinySteps) {
   const auto law = law_of(mccormick_sand());
   VectorX coarse = law->initial_state(), fine = coarse;
@@ -174,7 +197,7 @@ TEST(StepSize, LargeStepsAgreeWithTinySteps) {
   EXPECT_LT((stress_of(coarse) - stress_of(fine)).norm(), 1e-4 * stress_of(fine).norm());
 }
 
-// ---- foam --------------------------------------------------------------------------------------------------------------
+// ---- foam ---------------------------------------------------------------------------------------
 
 const std::string stiff_foam =
     "crushable_foam density 200 pt 11.376 sigma0 275.79 elasticity linear E 1e7 nu 0.3 "
@@ -193,21 +216,23 @@ TEST(FoamClosedForm, AspectOfTheEllipseFromTheUniaxialStrength) {
   EXPECT_NEAR(other->yield_function(end), 0.0, 1e-10 * 275.79);
 }
 
-/// Uniaxial compression: the first yield is at sigma0, and by flow (18) there is no lateral plastic strain, so the lateral strain is
-/// elastic: nu sigma/E.
+/// Uniaxial compression: the first yield is at sigma0, and by flow (18) there is no lateral plastic
+/// strain, so the lateral strain is elastic: nu sigma/E.
 TEST(FoamClosedForm, UniaxialCompressionHasNoLateralPlasticStrain) {
   const auto law = law_of(stiff_foam);
   VectorX state = law->initial_state();
   double lateral = 0;
   for (int step = 0; step < 100; ++step)
-    lateral += mixed_step(*law, state, step == 0 ? strain_of(6e-6, 6e-6, -2e-5) : strain_of(0, 0, -2e-3),
-                          {true, true, false}, Vector3::Zero(), 1e-6)[0];
+    lateral +=
+        mixed_step(*law, state, step == 0 ? strain_of(6e-6, 6e-6, -2e-5) : strain_of(0, 0, -2e-3),
+                   {true, true, false}, Vector3::Zero(), 1e-6)[0];
   EXPECT_GT(-state[2], 275.79);
   EXPECT_NEAR(lateral, 0.3 * -state[2] / 1e7, 1e-9);
   EXPECT_NEAR(state[CrushableFoam::eps_vol_pl], 2e-5 + 99 * 2e-3 + state[2] / 1e7, 1e-9);
 }
 
-/// Confined compression without Poisson's ratio is uniaxial stress too: q = 3 p = sigma_1 on the ellipse at pc(eps - sigma_1/E), which is
+/// Confined compression without Poisson's ratio is uniaxial stress too: q = 3 p = sigma_1 on the
+/// ellipse at pc(eps - sigma_1/E), which is
 ///   (1 + 9/M^2) p^2 - (pc - pt) p - pc pt = 0.
 TEST(FoamClosedForm, ConfinedCompressionHasNoLateralStress) {
   const double E = 1e7, pt = 11.376;
@@ -218,10 +243,13 @@ TEST(FoamClosedForm, ConfinedCompressionHasNoLateralStress) {
   VectorX state = law->initial_state();
   for (const double strain : {0.1, 0.3, 0.6, 0.9}) {  // 221, 270, 364, 492 kg/m3
     const double before = std::log(state[field::volume_ratio]);
-    for (int step = 0; step < 10; ++step) law->update_point(stretch(strain_of(0, 0, -(strain + before) / 10)), state);
+    for (int step = 0; step < 10; ++step)
+      law->update_point(stretch(strain_of(0, 0, -(strain + before) / 10)), state);
     const double sigma1 = -state[2], J_pl = std::exp(sigma1 / E - strain);
-    const double pc = (113.76 + pt) * std::exp(4.5 * (1 - J_pl) / (0.35 - 0.005 * J_pl)) - pt, half = 0.5 * (pc - pt);
-    EXPECT_NEAR(sigma1 / (3 * (half + std::sqrt(half * half + a * pc * pt)) / a), 1.0, 1e-10) << strain;
+    const double pc = (113.76 + pt) * std::exp(4.5 * (1 - J_pl) / (0.35 - 0.005 * J_pl)) - pt,
+                 half = 0.5 * (pc - pt);
+    EXPECT_NEAR(sigma1 / (3 * (half + std::sqrt(half * half + a * pc * pt)) / a), 1.0, 1e-10)
+        << strain;
     EXPECT_NEAR(state[0] / sigma1, 0.0, 1e-10) << strain;
   }
 }
@@ -231,19 +259,22 @@ TEST(FoamClosedForm, HydrostaticStrengths) {
   const auto law = law_of(stiff_foam);
   for (const double strain : {-0.3, 0.05}) {
     VectorX state = law->initial_state();
-    for (int step = 0; step < 10; ++step) law->update_point(stretch(strain_of(1, 1, 1) * (strain / 30)), state);
+    for (int step = 0; step < 10; ++step)
+      law->update_point(stretch(strain_of(1, 1, 1) * (strain / 30)), state);
     const double eps = state[CrushableFoam::eps_vol_pl], J_pl = std::exp(-eps);
-    const double pc = (113.76 + 11.376) * std::exp(4.5 * (1 - J_pl) / (0.35 - 0.005 * J_pl)) - 11.376;
+    const double pc =
+        (113.76 + 11.376) * std::exp(4.5 * (1 - J_pl) / (0.35 - 0.005 * J_pl)) - 11.376;
     EXPECT_NEAR(invariants(stress_of(state)).p / (strain < 0 ? pc : -11.376), 1.0, 1e-10);
     EXPECT_NEAR(eps + invariants(stress_of(state)).p / (1e7 / 1.2), -strain, 1e-12);
   }
 }
 
-// ---- porous elasticity, rubber -----------------------------------------------------------------------------------------
+// ---- porous elasticity, rubber ------------------------------------------------------------------
 
 /// kappa/(1 + e0) ln((p0 + pt)/(p + pt)) = J_el - 1, in steps of any size, and back.
 TEST(PorousClosedForm, PressureFollowsTheLogarithm) {
-  const auto law = law_of("elastic density 200 elasticity porous kappa 0.05 e0 3.5 p0 100 pt_el 50 G 1e4");
+  const auto law =
+      law_of("elastic density 200 elasticity porous kappa 0.05 e0 3.5 p0 100 pt_el 50 G 1e4");
   for (const double J : {0.98, 0.9, 1.01}) {
     const double expected = 150 * std::exp(4.5 / 0.05 * (1 - J)) - 50;
     for (const int steps : {1, 30}) {
@@ -258,7 +289,8 @@ TEST(PorousClosedForm, PressureFollowsTheLogarithm) {
   }
 }
 
-/// sigma = (mu/J) J^(-2/3) dev b + (K/2)(J - 1/J) I for a simple shear and a uniaxial stretch, and energy = work.
+/// sigma = (mu/J) J^(-2/3) dev b + (K/2)(J - 1/J) I for a simple shear and a uniaxial stretch, and
+/// energy = work.
 TEST(RubberClosedForm, SimpleShearStretchAndEnergy) {
   const double mu = 1e6, K = 5e6;
   const auto law = law_of("neo_hookean density 1100 G 1e6 bulk 5e6");
@@ -277,12 +309,14 @@ TEST(RubberClosedForm, SimpleShearStretchAndEnergy) {
   double work = 0;
   const double stretch_end = 1.8;
   for (int step = 0; step < steps; ++step) {
-    const double from = 1 + (stretch_end - 1) * step / steps, to = 1 + (stretch_end - 1) * (step + 1) / steps;
+    const double from = 1 + (stretch_end - 1) * step / steps,
+                 to = 1 + (stretch_end - 1) * (step + 1) / steps;
     const double before = state[0];
     Matrix3 h = Matrix3::Zero();
     h(0, 0) = to / from - 1;
     law->update_point(h, state);
-    work += 0.5 * (before + state[0]) * (to - from);  // first Piola-Kirchhoff stress = Cauchy stress at constant section
+    // first Piola-Kirchhoff stress = Cauchy stress at constant section
+    work += 0.5 * (before + state[0]) * (to - from);
   }
   const double J = stretch_end, iso = std::pow(J, -2.0 / 3);
   const double sigma = mu / J * iso * (J * J - (J * J + 2) / 3) + 0.5 * K * (J - 1 / J);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// McCormick Ranch sand (TR Tables 4, 5) along the paths of issue 3: the implicit update of src/material against an independent explicit
-// integration of the same rate equations (rate_reference.h), to 1e-6. The update is of first order in the step, so two step sizes are
+// McCormick Ranch sand (TR Tables 4, 5) along the paths of issue 3: the implicit update of
+// src/material against an independent explicit integration of the same rate equations
+// (rate_reference.h), to 1e-6. The update is of first order in the step, so two step sizes are
 // extrapolated to zero (Richardson) where the path is not radial.
 
 #include <fmt/format.h>
@@ -39,7 +40,8 @@ Matrix3 flow(const Matrix3& L, double dt) {
 }
 
 /// Stress and eps_vol_pl after every leg, by the law with `steps` steps a leg.
-std::vector<Eigen::Matrix<double, 7, 1>> run(const Material& law, const std::vector<Leg>& legs, int steps) {
+std::vector<Eigen::Matrix<double, 7, 1>> run(const Material& law, const std::vector<Leg>& legs,
+                                             int steps) {
   VectorX state = law.initial_state();
   std::vector<Eigen::Matrix<double, 7, 1>> ends;
   for (const Leg& leg : legs) {
@@ -54,18 +56,21 @@ std::vector<Eigen::Matrix<double, 7, 1>> run(const Material& law, const std::vec
         law.update_point(flow(L, dt), state);
         continue;
       }
-      // Newton's method on the held components; L of the last step is the first guess, the tangent of the first iteration is kept.
+      // Newton's method on the held components; L of the last step is the first guess, the tangent
+      // of the first iteration is kept.
       const auto n = static_cast<Eigen::Index>(free.size());
       VectorX next;
       const auto residual = [&](const Matrix3& velocity) {
         next = state;
         law.update_point(flow(velocity, dt), next);
         Eigen::VectorXd r(n);
-        for (Eigen::Index i = 0; i < n; ++i) r[i] = next[free[std::size_t(i)]] - target[free[std::size_t(i)]];
+        for (Eigen::Index i = 0; i < n; ++i)
+          r[i] = next[free[std::size_t(i)]] - target[free[std::size_t(i)]];
         return r;
       };
       Eigen::VectorXd r = residual(L);
-      for (int iteration = 0; iteration < 40 && r.norm() > 1e-8 * (1e5 + target.norm()); ++iteration) {
+      for (int iteration = 0; iteration < 40 && r.norm() > 1e-8 * (1e5 + target.norm());
+           ++iteration) {
         Eigen::MatrixXd jacobian(n, n);
         const double h = 1e-5;
         for (Eigen::Index j = 0; j < n; ++j) {
@@ -74,10 +79,12 @@ std::vector<Eigen::Matrix<double, 7, 1>> run(const Material& law, const std::vec
           jacobian.col(j) = (residual(up) - r) / h;
         }
         const Eigen::VectorXd change = jacobian.partialPivLu().solve(-r);
-        for (Eigen::Index j = 0; j < n; ++j) L(free[std::size_t(j)], free[std::size_t(j)]) += change[j];
+        for (Eigen::Index j = 0; j < n; ++j)
+          L(free[std::size_t(j)], free[std::size_t(j)]) += change[j];
         r = residual(L);
       }
-      if (r.norm() > 1e-7 * (1e5 + target.norm())) throw std::runtime_error("a held stress does not converge");
+      if (r.norm() > 1e-7 * (1e5 + target.norm()))
+        throw std::runtime_error("a held stress does not converge");
       state = next;
     }
     Eigen::Matrix<double, 7, 1> end;
@@ -101,7 +108,8 @@ std::vector<Eigen::Matrix<double, 7, 1>> run_reference(const std::vector<Leg>& l
   return ends;
 }
 
-/// Compares leg by leg; stresses on the scale of the largest stress component, eps_vol_pl on its own.
+/// Compares leg by leg; stresses on the scale of the largest stress component, eps_vol_pl on its
+/// own.
 void expect_agreement(const std::vector<Leg>& legs, int steps, bool extrapolate, double tolerance) {
   const auto law = law_of(mccormick_sand());
   const auto expected = run_reference(legs);
@@ -116,17 +124,20 @@ void expect_agreement(const std::vector<Leg>& legs, int steps, bool extrapolate,
     const double stress = (found[i] - expected[i]).head<6>().cwiseAbs().maxCoeff() / scale;
     const double strain = std::abs(found[i][6] - expected[i][6]) / expected[i][6];
     worst = std::max({worst, stress, strain});
-    EXPECT_LT(stress, tolerance) << "leg " << i << ": " << found[i].transpose() << "\nexpected " << expected[i].transpose();
+    EXPECT_LT(stress, tolerance) << "leg " << i << ": " << found[i].transpose() << "\nexpected "
+                                 << expected[i].transpose();
     EXPECT_LT(strain, tolerance) << "leg " << i;
   }
   fmt::print("worst difference {:.2e}\n", worst);
 }
 
 TEST(McCormickSand, ConfinedToEightMegapascalAndUnloaded) {
-  // sigma1 = 8 MPa at an axial strain of 0.0707; the legs stop on the way, unload (elastic, then into extension) and reload.
+  // sigma1 = 8 MPa at an axial strain of 0.0707; the legs stop on the way, unload (elastic, then
+  // into extension) and reload.
   const std::array<bool, 3> none{};
-  const std::vector<Leg> legs{{axial(-1), none, 0.002},  {axial(-1), none, 0.008}, {axial(-1), none, 0.02},
-                              {axial(-1), none, 0.0407}, {axial(1), none, 0.004},  {axial(1), none, 0.006}};
+  const std::vector<Leg> legs{{axial(-1), none, 0.002}, {axial(-1), none, 0.008},
+                              {axial(-1), none, 0.02},  {axial(-1), none, 0.0407},
+                              {axial(1), none, 0.004},  {axial(1), none, 0.006}};
   expect_agreement(legs, 20000, true, 1e-6);
   EXPECT_NEAR(run_reference(legs)[3][2], -8e6, 0.15e6);
 }
@@ -134,8 +145,9 @@ TEST(McCormickSand, ConfinedToEightMegapascalAndUnloaded) {
 TEST(McCormickSand, Hydrostatic) {
   const Matrix3 L = -Matrix3::Identity() / 3;
   const std::array<bool, 3> none{};
-  expect_agreement({{L, none, 0.0002}, {L, none, 0.005}, {L, none, 0.02}, {L, none, 0.04}, {-L, none, 0.005}}, 50, false,
-                   1e-9);
+  expect_agreement(
+      {{L, none, 0.0002}, {L, none, 0.005}, {L, none, 0.02}, {L, none, 0.04}, {-L, none, 0.005}},
+      50, false, 1e-9);
 }
 
 class Triaxial : public ::testing::TestWithParam<std::tuple<double, double>> {};
@@ -158,16 +170,17 @@ TEST_P(Triaxial, CompressionAtConstantLateralStress) {
               1e-6);  // q at the critical state
 }
 // Volume strains that give 0.25, 1 and 4 MPa: p/K + H^-1(p) - eps_0.
-INSTANTIATE_TEST_SUITE_P(Pressures, Triaxial,
-                         ::testing::Values(std::tuple{0.25e6,
-                                                      0.25e6 / (689e6 / 1.5) + 0.005 + 0.078 / 0.262 * 0.005 - 0.001},
-                                           std::tuple{1e6, 1e6 / (689e6 / 1.5) + 0.02 + 0.104 / 0.759 * 0.01 - 0.001},
-                                           std::tuple{4e6, 4e6 / (689e6 / 1.5) + 0.04 + 1.242 / 1.379 * 0.01 - 0.001}));
+INSTANTIATE_TEST_SUITE_P(
+    Pressures, Triaxial,
+    ::testing::Values(std::tuple{0.25e6,
+                                 0.25e6 / (689e6 / 1.5) + 0.005 + 0.078 / 0.262 * 0.005 - 0.001},
+                      std::tuple{1e6, 1e6 / (689e6 / 1.5) + 0.02 + 0.104 / 0.759 * 0.01 - 0.001},
+                      std::tuple{4e6, 4e6 / (689e6 / 1.5) + 0.04 + 1.242 / 1.379 * 0.01 - 0.001}));
 
 class SimpleShear : public ::testing::TestWithParam<std::tuple<double, double>> {};
 
-/// Consolidated hydrostatically, then sheared (v_x = rate z) at constant vertical stress without lateral strain; the axes of stress turn
-/// and the Jaumann rate matters.
+/// Consolidated hydrostatically, then sheared (v_x = rate z) at constant vertical stress without
+/// lateral strain; the axes of stress turn and the Jaumann rate matters.
 TEST_P(SimpleShear, AtConstantVerticalStress) {
   const auto [pressure, volume_strain] = GetParam();
   Matrix3 shear = Matrix3::Zero();
@@ -183,8 +196,10 @@ TEST_P(SimpleShear, AtConstantVerticalStress) {
   expect_agreement(legs, 3000, true, 1e-6);
 }
 INSTANTIATE_TEST_SUITE_P(Pressures, SimpleShear,
-                         ::testing::Values(std::tuple{0.5e6, 0.5e6 / (689e6 / 1.5) + 0.01 + 0.066 / 0.462 * 0.01 - 0.001},
-                                           std::tuple{2e6, 2e6 / (689e6 / 1.5) + 0.03 + 0.345 / 1.103 * 0.01 - 0.001}));
+                         ::testing::Values(std::tuple{0.5e6, 0.5e6 / (689e6 / 1.5) + 0.01 +
+                                                                 0.066 / 0.462 * 0.01 - 0.001},
+                                           std::tuple{2e6, 2e6 / (689e6 / 1.5) + 0.03 +
+                                                               0.345 / 1.103 * 0.01 - 0.001}));
 
 }  // namespace
 }  // namespace furrow

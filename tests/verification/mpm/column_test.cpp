@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A column that a plate compresses between smooth walls: every particle must follow the law in confined compression.
+// A column that a plate compresses between smooth walls: every particle must follow the law in
+// confined compression.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -50,17 +51,21 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 class Column : public ::testing::TestWithParam<Case> {};
 
 std::string foam() {
-  return "crushable_foam density 200 pt 11.376 sigma0 275.79 K 1 pc0_reading pc0 elasticity porous elasticity.kappa 0.005 "
+  return "crushable_foam density 200 pt 11.376 sigma0 275.79 K 1 pc0_reading pc0 elasticity porous "
+         "elasticity.kappa 0.005 "
          "elasticity.e0 3.5 nu 0.3 "
-         "pt_el 22.752 hardening exponential pc0 113.76 lambda 0.35 hardening.kappa 0.005 hardening.e0 3.5";
+         "pt_el 22.752 hardening exponential pc0 113.76 lambda 0.35 hardening.kappa 0.005 "
+         "hardening.e0 3.5";
 }
 
-// The foam of TR snaps when a wave unloads it (porous kappa 0.005): mapping at each step damps the waves. In cycles of 16 steps the
-// lateral stress is off by 5 %.
+// The foam of TR snaps when a wave unloads it (porous kappa 0.005): mapping at each step damps the
+// waves. In cycles of 16 steps the lateral stress is off by 5 %.
 INSTANTIATE_TEST_SUITE_P(Laws, Column,
                          ::testing::Values(Case{"elastic", elastic(1e6, 0.3, 1000), 0.1, 0.05},
-                                           Case{"cap_snow", snow(), 0.5, 0.3}, Case{"crushable_foam", foam(), 0.5, 0.2, 1},
-                                           Case{"mccormick_sand", testing_paths::mccormick_sand(), 0.03, 0.15}),
+                                           Case{"cap_snow", snow(), 0.5, 0.3},
+                                           Case{"crushable_foam", foam(), 0.5, 0.2, 1},
+                                           Case{"mccormick_sand", testing_paths::mccormick_sand(),
+                                                0.03, 0.15}),
                          [](const auto& one) { return std::string(one.param.name); });
 
 TEST_P(Column, FollowsTheLawInConfinedCompression) {
@@ -112,36 +117,42 @@ TEST_P(Column, FollowsTheLawInConfinedCompression) {
     worst_side = std::max(worst_side, std::abs(state[0] / reference.stress(J, 0) - 1.0));
     skew = std::max(skew, std::abs(state[5] / expected));
   });
-  // Mass is kept, so the mean density is that of the height that the plate leaves; its spring gives way by the penetration.
-  const double mean = mean_volume_ratio(), left = (plate.centre().z() + contact.penetration()) / height;
+  // Mass is kept, so the mean density is that of the height that the plate leaves; its spring gives
+  // way by the penetration.
+  const double mean = mean_volume_ratio(),
+               left = (plate.centre().z() + contact.penetration()) / height;
   RecordProperty("worst_axial", fmt::format("{:.2e}", worst));
   RecordProperty("worst_lateral", fmt::format("{:.2e}", worst_side));
   RecordProperty("force_over_law", fmt::format("{:.4f}", force / expected_force));
   RecordProperty("mean_volume_ratio", fmt::format("{:.5f}, height {:.5f}", mean, left));
   RecordProperty("deepest_penetration", fmt::format("{:.2e}", contact.deepest_penetration()));
   const Balance b = ground.balance();
-  RecordProperty(
-      "energies",
-      fmt::format("contact {:.4g} stored {:.4g} dissipated {:.4g} kinetic {:.2g} numerical {:.2g} residual {:.2g}",
-                  b.contact_work, b.stored_energy, b.dissipated_energy, b.kinetic_energy, b.numerical_loss, b.residual()));
+  RecordProperty("energies", fmt::format("contact {:.4g} stored {:.4g} dissipated {:.4g} kinetic "
+                                         "{:.2g} numerical {:.2g} residual {:.2g}",
+                                         b.contact_work, b.stored_energy, b.dissipated_energy,
+                                         b.kinetic_energy, b.numerical_loss, b.residual()));
   EXPECT_LT(worst, 1e-3);
   EXPECT_LT(worst_side, 1e-3);
   EXPECT_LT(skew, 1e-9);
   EXPECT_NEAR(mean / left, 1.0, 2e-3);
-  EXPECT_NEAR(force / expected_force, 1.0,
-              0.03);  // the particles under the lid are not strained as those below: one layer of ten
+  EXPECT_NEAR(
+      force / expected_force, 1.0,
+      0.03);  // the particles under the lid are not strained as those below: one layer of ten
   EXPECT_LT(std::abs(b.residual()), 1e-3 * b.contact_work);
 }
 
 /// Force of a lid at a given height on an elastic column, over the closed form A M ln(height left).
 double force_at_given_height(double cell, double stiffness) {
-  const double height = 0.2, E = 1e6, nu = 0.3, M = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)), strain = 0.05, speed = 0.1;
-  GroundParameters parameters = box(law_of(elastic(E, nu, 1000)), {0, 0, 0}, {cell, cell, height}, cell);
+  const double height = 0.2, E = 1e6, nu = 0.3, M = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)),
+               strain = 0.05, speed = 0.1;
+  GroundParameters parameters =
+      box(law_of(elastic(E, nu, 1000)), {0, 0, 0}, {cell, cell, height}, cell);
   parameters.z = even(0, height + 2 * cell, cell);
   parameters.surface = height;
   set_faces(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
   MpmGround ground(parameters, Communicator());
-  RigidPlate plate({PlateShape::square, 6 * cell, 2 * cell, 3}, {0.5 * cell, 0.5 * cell, height + 1e-6});
+  RigidPlate plate({PlateShape::square, 6 * cell, 2 * cell, 3},
+                   {0.5 * cell, 0.5 * cell, height + 1e-6});
   ContactParameters lid;
   lid.friction = 0.0;
   lid.stiffness = stiffness;
@@ -163,13 +174,15 @@ double force_at_given_height(double cell, double stiffness) {
   return sum / expected;
 }
 
-/// The lid's spring gives way by a length that shrinks with the cell: the offset between particles and surface converges away, order 1.
+/// The lid's spring gives way by a length that shrinks with the cell: the offset between particles
+/// and surface converges away, order 1.
 TEST(Lid, OffsetOfTheContactConvergesAway) {
   const double coarse = force_at_given_height(0.04, 0.4), medium = force_at_given_height(0.02, 0.4),
                fine = force_at_given_height(0.01, 0.4);
-  RecordProperty("force_over_closed_form", fmt::format("{:.4f} {:.4f} {:.4f}", coarse, medium, fine));
-  RecordProperty("orders",
-                 fmt::format("{:.2f} {:.2f}", std::log2((1 - coarse) / (1 - medium)), std::log2((1 - medium) / (1 - fine))));
+  RecordProperty("force_over_closed_form",
+                 fmt::format("{:.4f} {:.4f} {:.4f}", coarse, medium, fine));
+  RecordProperty("orders", fmt::format("{:.2f} {:.2f}", std::log2((1 - coarse) / (1 - medium)),
+                                       std::log2((1 - medium) / (1 - fine))));
   EXPECT_GT(std::log2((1 - coarse) / (1 - medium)), 0.7);
   EXPECT_GT(std::log2((1 - medium) / (1 - fine)), 0.7);
   EXPECT_LT(1 - fine, 0.08);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Contact of surfaces with ground: Coulomb's law and TR eq 26 on an incline, momentum and its moment on both sides, energies.
+// Contact of surfaces with ground: Coulomb's law and TR eq 26 on an incline, momentum and its
+// moment on both sides, energies.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -26,7 +27,8 @@ struct Incline {
   }
   static GroundParameters block(double slope) {
     const double cell = 0.025;
-    GroundParameters p = box(law_of(elastic(1e6, 0.2, 1000)), {-0.4, 0, -0.05}, {0.4, 0.1, 0.1}, cell);
+    GroundParameters p =
+        box(law_of(elastic(1e6, 0.2, 1000)), {-0.4, 0, -0.05}, {0.4, 0.1, 0.1}, cell);
     p.z = even(-0.05, 0.15, cell);
     p.surface = 0.1;
     set_faces(p, {"free", "free", "smooth", "smooth", "free", "free"});
@@ -54,10 +56,14 @@ struct Incline {
 };
 
 class Enforcements : public ::testing::TestWithParam<Enforcement> {};
-INSTANTIATE_TEST_SUITE_P(Contact, Enforcements, ::testing::Values(Enforcement::penalty, Enforcement::impulse),
-                         [](const auto& one) { return one.param == Enforcement::penalty ? "penalty" : "impulse"; });
+INSTANTIATE_TEST_SUITE_P(Contact, Enforcements,
+                         ::testing::Values(Enforcement::penalty, Enforcement::impulse),
+                         [](const auto& one) {
+                           return one.param == Enforcement::penalty ? "penalty" : "impulse";
+                         });
 
-/// a = g (sin(slope) - mu cos(slope)); every particle slides, so the friction is mu times the normal force, exactly.
+/// a = g (sin(slope) - mu cos(slope)); every particle slides, so the friction is mu times the
+/// normal force, exactly.
 TEST_P(Enforcements, SlidesAsCoulombSays) {
   ContactParameters parameters;
   parameters.enforcement = GetParam();
@@ -72,12 +78,13 @@ TEST_P(Enforcements, SlidesAsCoulombSays) {
   EXPECT_NEAR(incline.friction_impulse / incline.normal_impulse, 0.3, 0.006);
   // mu N s
   const double loss = 0.3 * incline.mass * standard_gravity * std::cos(slope) * incline.moved();
-  RecordProperty("friction_loss_over_closed_form", fmt::format("{:.4f}", incline.contact.friction_loss() / loss));
+  RecordProperty("friction_loss_over_closed_form",
+                 fmt::format("{:.4f}", incline.contact.friction_loss() / loss));
   EXPECT_NEAR(incline.contact.friction_loss() / loss, 1.0, 0.03);
 }
 
-/// Below the angle of friction it does not slide once the first bounce is over. Springs hold it; impulses take away the velocity of each
-/// particle anew in every step and let it creep.
+/// Below the angle of friction it does not slide once the first bounce is over. Springs hold it;
+/// impulses take away the velocity of each particle anew in every step and let it creep.
 TEST_P(Enforcements, SticksBelowTheAngleOfFriction) {
   ContactParameters parameters;
   parameters.enforcement = GetParam();
@@ -90,24 +97,28 @@ TEST_P(Enforcements, SticksBelowTheAngleOfFriction) {
   incline.run(duration);
   const double free = 0.5 * standard_gravity * std::sin(slope) * duration * duration;
   RecordProperty("crept_over_free_fall", fmt::format("{:.2e}", (incline.moved() - at_half) / free));
-  EXPECT_LT(std::abs(incline.moved() - at_half), (GetParam() == Enforcement::penalty ? 1e-3 : 2e-2) * free);
+  EXPECT_LT(std::abs(incline.moved() - at_half),
+            (GetParam() == Enforcement::penalty ? 1e-3 : 2e-2) * free);
   EXPECT_NEAR(incline.friction_impulse / incline.normal_impulse, 0.2, 0.02);
 }
 
-/// tau = mu sigma (1 - exp(-j/k)), TR eq 26: the distance slid solves s'' = g sin - mu g cos (1 - exp(-s/k)).
+/// tau = mu sigma (1 - exp(-j/k)), TR eq 26: the distance slid solves s'' = g sin - mu g cos (1 -
+/// exp(-s/k)).
 TEST_P(Enforcements, SlidesAsEquation26Says) {
   ContactParameters parameters;
   parameters.enforcement = GetParam();
   parameters.friction = 0.8;
   parameters.slip_length = 0.05;
-  parameters.damping = 1.0;  // the block is put on the plate with its whole weight: a bounce would begin the slip anew
+  // the block is put on the plate with its whole weight: a bounce would begin the slip anew
+  parameters.damping = 1.0;
   const double slope = std::atan(0.5), duration = 0.2;
   Incline incline(slope, parameters);
   incline.run(duration);
   double s = 0.0, v = 0.0;
   const double dt = 1e-6;
   for (double t = 0.0; t < incline.time; t += dt) {
-    v += dt * standard_gravity * (std::sin(slope) - 0.8 * std::cos(slope) * (1.0 - std::exp(-s / 0.05)));
+    v += dt * standard_gravity *
+         (std::sin(slope) - 0.8 * std::cos(slope) * (1.0 - std::exp(-s / 0.05)));
     s += dt * v;
   }
   RecordProperty("distance_over_closed_form", fmt::format("{:.4f}", incline.moved() / s));
@@ -117,22 +128,28 @@ TEST_P(Enforcements, SlidesAsEquation26Says) {
 TEST_P(Enforcements, RoughDoesNotSlideAndSmoothDoesNotHold) {
   ContactParameters parameters;
   parameters.enforcement = GetParam();
-  const double slope = std::atan(1.5), duration = 0.1, free = 0.5 * standard_gravity * std::sin(slope) * duration * duration;
+  const double slope = std::atan(1.5), duration = 0.1,
+               free = 0.5 * standard_gravity * std::sin(slope) * duration * duration;
   parameters.friction = std::numeric_limits<double>::infinity();
   Incline rough(slope, parameters);
   rough.run(duration);
-  EXPECT_LT(rough.moved(), (GetParam() == Enforcement::penalty ? 0.1 : 0.2) * free);  // shear of the block; creep
+  // shear of the block; creep
+  EXPECT_LT(rough.moved(), (GetParam() == Enforcement::penalty ? 0.1 : 0.2) * free);
   parameters.friction = 0.0;
   Incline smooth(slope, parameters);
   smooth.run(duration);
-  EXPECT_NEAR(smooth.moved() / (0.5 * standard_gravity * std::sin(slope) * smooth.time * smooth.time), 1.0, 0.01);
+  EXPECT_NEAR(
+      smooth.moved() / (0.5 * standard_gravity * std::sin(slope) * smooth.time * smooth.time), 1.0,
+      0.01);
   EXPECT_EQ(smooth.contact.friction_loss(), 0.0);
 }
 
-/// A plate hits a free block off its middle: what the block gains in momentum and angular momentum, the plate's nodes lose, to rounding;
-/// in cycles, angular momentum to second order in what the block turns and vibrates in one (mpm_ground.h).
+/// A plate hits a free block off its middle: what the block gains in momentum and angular momentum,
+/// the plate's nodes lose, to rounding; in cycles, angular momentum to second order in what the
+/// block turns and vibrates in one (mpm_ground.h).
 void hit_block(ContactParameters::Enforcement enforcement, int cycle, double angular_tolerance) {
-  GroundParameters p = box(law_of(elastic(1e6, 0.2, 500)), {-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3}, 0.05);
+  GroundParameters p =
+      box(law_of(elastic(1e6, 0.2, 500)), {-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3}, 0.05);
   p.cycle = cycle;
   MpmGround ground(p, Communicator());
   carve(ground, [](const Vector3& x) { return x.cwiseAbs().maxCoeff() < 0.1; });
@@ -164,7 +181,8 @@ TEST_P(Enforcements, ForceAndMomentAreEqualOnBothSides) {
   hit_block(GetParam(), GroundParameters().cycle, 2e-3);
 }
 
-/// A plate in a bed of snow, pressed in and pulled out: momentum against all impulses; energies against all works.
+/// A plate in a bed of snow, pressed in and pulled out: momentum against all impulses; energies
+/// against all works.
 TEST_P(Enforcements, MomentumAndEnergyOfAPressedBedAreAccountedFor) {
   GroundParameters p = box(law_of(snow()), {-0.15, 0, 0}, {0.15, 0.15, 0.1}, 0.025);
   p.z = even(0, 0.15, 0.025);
@@ -191,7 +209,8 @@ TEST_P(Enforcements, MomentumAndEnergyOfAPressedBedAreAccountedFor) {
     impulse += dt * mass * p.gravity;
     pressed = std::max(pressed, contact.force().z());
     const Balance b = ground.balance();
-    // Mapping only takes. Within a cycle the works of an explicit step are off by what comes back in the next.
+    // Mapping only takes. Within a cycle the works of an explicit step are off by what comes back
+    // in the next.
     EXPECT_GE(b.numerical_loss, loss - 5e-3 * b.contact_work - 1e-9);
     loss = std::max(loss, b.numerical_loss);
     Vector3 faces = Vector3::Zero();
@@ -200,14 +219,15 @@ TEST_P(Enforcements, MomentumAndEnergyOfAPressedBedAreAccountedFor) {
   }
   EXPECT_LT(most, 1e-12 * pressed * time);
   const Balance b = ground.balance();
-  RecordProperty(
-      "energies",
-      fmt::format("contact {:.4g}, stored {:.4g}, dissipated {:.4g}, kinetic {:.2g}, numerical {:.3g}, residual {:.2g} J",
-                  b.contact_work, b.stored_energy, b.dissipated_energy, b.kinetic_energy, b.numerical_loss, b.residual()));
+  RecordProperty("energies", fmt::format("contact {:.4g}, stored {:.4g}, dissipated {:.4g}, "
+                                         "kinetic {:.2g}, numerical {:.3g}, residual {:.2g} J",
+                                         b.contact_work, b.stored_energy, b.dissipated_energy,
+                                         b.kinetic_energy, b.numerical_loss, b.residual()));
   RecordProperty("peak_force", fmt::format("{:.1f}", pressed));
   EXPECT_LT(std::abs(b.residual()), 5e-3 * b.contact_work);
   EXPECT_GE(b.numerical_loss, 0.0);
-  // What the transfers take of the kinetic energy of the sharp edge of the plug, per step: with the speed it vanishes.
+  // What the transfers take of the kinetic energy of the sharp edge of the plug, per step: with the
+  // speed it vanishes.
   EXPECT_LT(b.numerical_loss, 0.2 * b.contact_work);
 }
 

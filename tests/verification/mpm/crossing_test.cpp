@@ -15,10 +15,11 @@ struct Noise {
   double rms, worst;  // of the axial stress in the middle of the bar, over the stress
 };
 
-/// A bar under constant axial pressure, held sideways, flies along itself through cells: its stress should stay uniform.
+/// A bar under constant axial pressure, held sideways, flies along itself through cells: its stress
+/// should stay uniform.
 Noise noise_of(double strain, double speed) {
-  const double cell = 0.05, E = 1e6, nu = 0.3, M = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)), pressure = M * strain,
-               half = 0.5;
+  const double cell = 0.05, E = 1e6, nu = 0.3, M = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)),
+               pressure = M * strain, half = 0.5;
   GroundParameters p = box(law_of(elastic(E, nu, 1000)), {-1, 0, 0}, {2, cell, cell}, cell);
   set_faces(p, {"free", "free", "smooth", "smooth", "smooth", "smooth"});
   MpmGround ground(p, Communicator());
@@ -53,13 +54,14 @@ Noise noise_of(double strain, double speed) {
   return {std::sqrt(square / count), worst};
 }
 
-/// At rest a uniform stress stays to rounding of the ends; through eight cells at 1 m/s the noise is that of the quadratic spline.
+/// At rest a uniform stress stays to rounding of the ends; through eight cells at 1 m/s the noise
+/// is that of the quadratic spline.
 TEST(CellCrossing, NoiseIsSmall) {
-  const Noise rest = noise_of(0.001, 0.0), small = noise_of(0.001, 1.0), large = noise_of(0.05, 1.0);
-  RecordProperty(
-      "noise",
-      fmt::format("at rest rms {:.1e}; moving, strain 0.1 %: rms {:.2e} worst {:.2e}; strain 5 %: rms {:.2e} worst {:.2e}",
-                  rest.rms, small.rms, small.worst, large.rms, large.worst));
+  const Noise rest = noise_of(0.001, 0.0), small = noise_of(0.001, 1.0),
+              large = noise_of(0.05, 1.0);
+  RecordProperty("noise", fmt::format("at rest rms {:.1e}; moving, strain 0.1 %: rms {:.2e} worst "
+                                      "{:.2e}; strain 5 %: rms {:.2e} worst {:.2e}",
+                                      rest.rms, small.rms, small.worst, large.rms, large.worst));
   EXPECT_LT(rest.rms, 0.01);
   EXPECT_LT(small.rms, 0.03);
   EXPECT_LT(large.rms, 0.03);

@@ -17,7 +17,8 @@ struct Punch {
   double penetration;  // of the springs over d
 };
 
-/// A smooth circular punch of radius a on a quarter of ground `size` a wide and deep; cells grow away from it.
+/// A smooth circular punch of radius a on a quarter of ground `size` a wide and deep; cells grow
+/// away from it.
 Punch punch_force(double cells_per_radius, double size, const char* far) {
   const double a = 0.1, E = 1e6, nu = 0.3, d = 1e-4, cell = a / cells_per_radius, reach = 1.5 * a;
   GroundParameters p;
@@ -25,7 +26,8 @@ Punch punch_force(double cells_per_radius, double size, const char* far) {
   p.gravity.setZero();
   p.initial_stress = false;
   p.x = p.y = {0.0, size * a, cell, 0.0, reach, 1.25};
-  p.z = {-size * a, 2 * cell, cell, -reach, 2 * cell, 1.25};  // a whole number of cells down from the surface
+  // a whole number of cells down from the surface
+  p.z = {-size * a, 2 * cell, cell, -reach, 2 * cell, 1.25};
   p.surface = 0.0;
   p.cfl = 0.35;
   set_faces(p, {"smooth", far, "smooth", far, far, "free"});
@@ -53,28 +55,33 @@ Punch punch_force(double cells_per_radius, double size, const char* far) {
   return {4.0 * sum / count / (2.0 * a * E / (1 - nu * nu) * d), contact.penetration() / d};
 }
 
-/// F = 2 a E d/(1 - nu^2) (J. Boussinesq; K. L. Johnson, Contact Mechanics, eq 3.36). The particles beside the edge make the punch wider by
-/// up to half a particle, its springs give way by a tenth of d. Ground that ends at walls and a rough base is stiffer; absorbing
-/// faces stand for the rest of the half-space.
+/// F = 2 a E d/(1 - nu^2) (J. Boussinesq; K. L. Johnson, Contact Mechanics, eq 3.36). The particles
+/// beside the edge make the punch wider by up to half a particle, its springs give way by a tenth
+/// of d. Ground that ends at walls and a rough base is stiffer; absorbing faces stand for the rest
+/// of the half-space.
 TEST(Punch, PressesIntoTheHalfSpace) {
   const Punch wide = punch_force(4, 8, "absorbing"), narrow = punch_force(4, 4, "absorbing"),
               boxed = punch_force(4, 4, "rough");
-  RecordProperty("force", fmt::format("ground of 8 a {:.4f}, of 4 a {:.4f}, in a rough box of 4 a {:.4f}", wide.force,
-                                      narrow.force, boxed.force));
+  RecordProperty("force",
+                 fmt::format("ground of 8 a {:.4f}, of 4 a {:.4f}, in a rough box of 4 a {:.4f}",
+                             wide.force, narrow.force, boxed.force));
   RecordProperty("penetration", fmt::format("{:.3f}", wide.penetration));
   EXPECT_NEAR(wide.force, 1.0, 0.1);
   EXPECT_LT(std::abs(wide.force - 1.0), std::abs(narrow.force - 1.0));
   EXPECT_LT(std::abs(narrow.force - 1.0), 0.6 * std::abs(boxed.force - 1.0));
 }
 
-/// Mean pressure over c under a strip of half-width 1/2 m on weightless cohesive ground (Mises in plane strain: d = sqrt(3) c; E/c = 1000),
-/// at a settlement of 0.04 half-widths. One cell in plane strain, half a model.
+/// Mean pressure over c under a strip of half-width 1/2 m on weightless cohesive ground (Mises in
+/// plane strain: d = sqrt(3) c; E/c = 1000), at a settlement of 0.04 half-widths. One cell in plane
+/// strain, half a model.
 double bearing_factor(int cells_per_half_width) {
-  const double b = 0.5, c = 1e4, E = 1e7, cell = b / cells_per_half_width, settlement = 0.04 * b, speed = 0.04;
-  const auto law = law_of(fmt::format(
-      "drucker_prager_cap density 2000 d {} beta 0.001 R 0.1 elasticity linear E {} nu 0.3 hardening table p 1e9 2e9 "
-      "eps_vol_pl 0 1 interpolation linear beyond extrapolate",
-      std::sqrt(3.0) * c, E));
+  const double b = 0.5, c = 1e4, E = 1e7, cell = b / cells_per_half_width, settlement = 0.04 * b,
+               speed = 0.04;
+  const auto law =
+      law_of(fmt::format("drucker_prager_cap density 2000 d {} beta 0.001 R 0.1 elasticity linear "
+                         "E {} nu 0.3 hardening table p 1e9 2e9 "
+                         "eps_vol_pl 0 1 interpolation linear beyond extrapolate",
+                         std::sqrt(3.0) * c, E));
   GroundParameters p = box(law, {0, 0, -2.4 * b}, {4.4 * b, cell, 0}, cell);
   p.z = even(-2.4 * b, 2 * cell, cell);
   set_faces(p, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
@@ -101,11 +108,14 @@ double bearing_factor(int cells_per_half_width) {
   return sum / count / (b * cell * c);
 }
 
-/// L. Prandtl (1920): q = (2 + pi) c. The answer comes from above, with about the first order of the cell: the singular edge of the strip.
+/// L. Prandtl (1920): q = (2 + pi) c. The answer comes from above, with about the first order of
+/// the cell: the singular edge of the strip.
 TEST(StripFooting, ConvergesToPrandtl) {
-  const double prandtl = 2.0 + pi, coarse = bearing_factor(5), fine = bearing_factor(10), extrapolated = 2 * fine - coarse;
-  RecordProperty("bearing_factor", fmt::format("b/5 {:.3f}, b/10 {:.3f}, first order to zero {:.3f}; Prandtl {:.3f}", coarse,
-                                               fine, extrapolated, prandtl));
+  const double prandtl = 2.0 + pi, coarse = bearing_factor(5), fine = bearing_factor(10),
+               extrapolated = 2 * fine - coarse;
+  RecordProperty("bearing_factor",
+                 fmt::format("b/5 {:.3f}, b/10 {:.3f}, first order to zero {:.3f}; Prandtl {:.3f}",
+                             coarse, fine, extrapolated, prandtl));
   EXPECT_GT(coarse, fine);
   EXPECT_GT(fine, prandtl);
   EXPECT_LT(fine, 1.16 * prandtl);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A block that touches nothing: conservation of momentum, angular momentum and energy, and its shape.
+// A block that touches nothing: conservation of momentum, angular momentum and energy, and its
+// shape.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,7 +16,8 @@ constexpr double cell = 0.05;
 
 /// A cube of side 0.2 m in the middle of a grid of 1 m.
 MpmGround cube(double E, double cfl = 0.4, int cycle = GroundParameters().cycle) {
-  GroundParameters parameters = box(law_of(elastic(E, 0.3, 500)), {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, cell);
+  GroundParameters parameters =
+      box(law_of(elastic(E, 0.3, 500)), {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, cell);
   parameters.cfl = cfl;
   parameters.cycle = cycle;
   MpmGround ground(parameters, Communicator());
@@ -41,13 +43,17 @@ TEST(FreeFlight, IsExact) {
   EXPECT_NEAR(after.kinetic / before.kinetic, 1.0, 1e-12);
   EXPECT_NEAR(after.mass / before.mass, 1.0, 1e-15);
   for_particles(ground, [&](Particles& particles, std::size_t p) {
-    for (std::size_t s = 0; s < 6; ++s) EXPECT_LT(std::abs(particles.data(column::state + s)[p]), 1e-6);  // of 1 MPa
+    // of 1 MPa
+    for (std::size_t s = 0; s < 6; ++s)
+      EXPECT_LT(std::abs(particles.data(column::state + s)[p]), 1e-6);
   });
 }
 
-/// Free fall: z = z_0 - g t^2/2 as leapfrog has it, z_0 - g dt^2 n(n + 1)/2; the weight's work is the kinetic energy.
+/// Free fall: z = z_0 - g t^2/2 as leapfrog has it, z_0 - g dt^2 n(n + 1)/2; the weight's work is
+/// the kinetic energy.
 TEST(FreeFlight, FallsUnderGravity) {
-  GroundParameters parameters = box(law_of(elastic(1e6, 0.3, 500)), {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, cell);
+  GroundParameters parameters =
+      box(law_of(elastic(1e6, 0.3, 500)), {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, cell);
   parameters.gravity = {0.0, 0.0, -standard_gravity};
   MpmGround ground(parameters, Communicator());
   carve(ground, [](const Vector3& x) { return x.cwiseAbs().maxCoeff() < 0.1; });
@@ -55,12 +61,14 @@ TEST(FreeFlight, FallsUnderGravity) {
   const double dt = 2e-4;
   const int steps = 1000;
   for (int n = 0; n < steps; ++n) ground.advance(dt);
-  const double fallen = 0.5 * standard_gravity * dt * dt * steps * (steps + 1.0), speed = standard_gravity * dt * steps;
+  const double fallen = 0.5 * standard_gravity * dt * dt * steps * (steps + 1.0),
+               speed = standard_gravity * dt * steps;
   EXPECT_NEAR(before.centre.z() - sums_of(ground).centre.z(), fallen, 1e-12);
   const Balance balance = ground.balance();
   EXPECT_NEAR(balance.momentum.z(), -before.mass * speed, 1e-10);
   EXPECT_NEAR(balance.load_work, before.mass * standard_gravity * fallen, 1e-9 * balance.load_work);
-  EXPECT_NEAR(balance.kinetic_energy, 0.5 * before.mass * speed * speed, 1e-9 * balance.kinetic_energy);
+  EXPECT_NEAR(balance.kinetic_energy, 0.5 * before.mass * speed * speed,
+              1e-9 * balance.kinetic_energy);
   EXPECT_LT(std::abs(balance.residual()), 1e-10 * balance.load_work);
 }
 
@@ -74,8 +82,11 @@ Spin spin_five_turns(double speed, int cycle) {
   const Vector3 omega = speed * Vector3(20.0, 10.0, 30.0), v(0.1, 0.0, -0.2);
   set_motion(ground, v, spin(omega));
   std::vector<Vector3> home;
-  for_particles(ground, [&](Particles& particles, std::size_t p) { particles.data(column::home_x)[p] = double(p); });
-  for_particles(ground, [&](Particles& particles, std::size_t p) { home.push_back(particles.position(p)); });
+  for_particles(ground, [&](Particles& particles, std::size_t p) {
+    particles.data(column::home_x)[p] = double(p);
+  });
+  for_particles(
+      ground, [&](Particles& particles, std::size_t p) { home.push_back(particles.position(p)); });
   const Sums before = sums_of(ground);
   Spin result;
   double time = 0.0;
@@ -84,19 +95,23 @@ Spin spin_five_turns(double speed, int cycle) {
     ground.advance(dt);
     time += dt;
     const Sums now = sums_of(ground);
-    result.momentum = std::max(result.momentum, (now.momentum - before.momentum).norm() / before.momentum.norm());
-    result.angular = std::max(result.angular, (now.angular - before.angular).norm() / before.angular.norm());
+    result.momentum =
+        std::max(result.momentum, (now.momentum - before.momentum).norm() / before.momentum.norm());
+    result.angular =
+        std::max(result.angular, (now.angular - before.angular).norm() / before.angular.norm());
   }
   const Balance balance = ground.balance();
   result.energy = 1.0 - (balance.kinetic_energy + balance.stored_energy) / before.kinetic;
-  // Distances between particles: elongation by the centrifugal stress rho omega^2 a^2/2 over E is 1e-4.
+  // Distances between particles: elongation by the centrifugal stress rho omega^2 a^2/2 over E is
+  // 1e-4.
   std::vector<Vector3> now(home.size());
   for_particles(ground, [&](Particles& particles, std::size_t p) {
     now[static_cast<std::size_t>(particles.data(column::home_x)[p])] = particles.position(p);
   });
   for (std::size_t a = 0; a < now.size(); ++a)
     for (std::size_t b = a + 1; b < now.size(); b += 17)
-      result.strain = std::max(result.strain, std::abs((now[a] - now[b]).norm() / (home[a] - home[b]).norm() - 1.0));
+      result.strain = std::max(
+          result.strain, std::abs((now[a] - now[b]).norm() / (home[a] - home[b]).norm() - 1.0));
   return result;
 }
 
@@ -111,12 +126,13 @@ TEST(RigidRotation, KeepsMomentaEnergyAndShape) {
   EXPECT_LT(spin.strain, 2e-3);
 }
 
-/// In cycles momentum is kept to rounding still, and angular momentum to second order in the turn of a cycle: the body that spins
-/// faster has shorter cycles, as many a turn, and loses as much.
+/// In cycles momentum is kept to rounding still, and angular momentum to second order in the turn
+/// of a cycle: the body that spins faster has shorter cycles, as many a turn, and loses as much.
 TEST(RigidRotation, LosesLittleInCycles) {
   for (const double speed : {1.0, 0.5}) {
     const Spin spin = spin_five_turns(speed, GroundParameters().cycle);
-    RecordProperty(fmt::format("angular_lost_at_{}", speed == 1.0 ? "full" : "half"), fmt::format("{:.2e}", spin.angular));
+    RecordProperty(fmt::format("angular_lost_at_{}", speed == 1.0 ? "full" : "half"),
+                   fmt::format("{:.2e}", spin.angular));
     EXPECT_LT(spin.momentum, 1e-12);
     EXPECT_LT(spin.angular, 0.02);
     EXPECT_NEAR(spin.energy, 0.0, 0.04);
@@ -142,7 +158,8 @@ TEST(FreeVibration, KeepsMomentaAndNeverGainsEnergy) {
     ground.advance(dt);
     time += dt;
     const Balance b = ground.balance();
-    EXPECT_LE(b.kinetic_energy + b.stored_energy, 1.02 * first);  // a leapfrog's energies are half a step apart
+    // a leapfrog's energies are half a step apart
+    EXPECT_LE(b.kinetic_energy + b.stored_energy, 1.02 * first);
   }
   const Sums after = sums_of(ground);
   const Balance end = ground.balance();
@@ -150,7 +167,8 @@ TEST(FreeVibration, KeepsMomentaAndNeverGainsEnergy) {
   EXPECT_LT((after.angular - before.angular).norm(), 1e-12 * before.mass);
   EXPECT_LT(std::abs(end.residual() - start.residual()), 1e-3 * first);
   EXPECT_GE(end.numerical_loss - start.numerical_loss, 0.0);
-  RecordProperty("energy_kept", fmt::format("{:.4f}", (end.kinetic_energy + end.stored_energy) / first));
+  RecordProperty("energy_kept",
+                 fmt::format("{:.4f}", (end.kinetic_energy + end.stored_energy) / first));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What users will do to a ground, coarse and short: each case ends with finite numbers and its energies accounted for, or stops with its cause.
+// What users will do to a ground, coarse and short: each case ends with finite numbers and its
+// energies accounted for, or stops with its cause.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -37,7 +38,8 @@ RigidWheelParameters tr_wheel(double height) {
   return p;
 }
 
-/// TR's wheel on 0.2 m of ground, half model; after a millimetre of free fall it carries its weight.
+/// TR's wheel on 0.2 m of ground, half model; after a millimetre of free fall it carries its
+/// weight.
 struct Scene {
   explicit Scene(const Bed& bed, double height = 1e-3)
       : ground(parameters(bed), Communicator()),
@@ -83,9 +85,10 @@ struct Scene {
   void expect_sound(const char* name) {
     const Balance b = ground.balance();
     ::testing::Test::RecordProperty(
-        name,
-        fmt::format("sinkage {:.4f} m, contact work {:.1f} J, numerical {:.1f} J, imbalance {:.1e}, penetration {:.1e} m",
-                    sinkage(), b.contact_work, b.numerical_loss, imbalance(), contact.deepest_penetration()));
+        name, fmt::format("sinkage {:.4f} m, contact work {:.1f} J, numerical {:.1f} J, imbalance "
+                          "{:.1e}, penetration {:.1e} m",
+                          sinkage(), b.contact_work, b.numerical_loss, imbalance(),
+                          contact.deepest_penetration()));
     EXPECT_TRUE(std::isfinite(b.kinetic_energy + b.stored_energy + b.dissipated_energy));
     EXPECT_LT(imbalance(), 0.05);
     EXPECT_GE(b.numerical_loss, -0.01 * b.contact_work);
@@ -173,7 +176,8 @@ TEST(HardCase, UnloadingAndASecondPassInTheSameRut) {
 TEST(HardCase, StiffCrustOnSoftSnow) {
   Bed bed;
   bed.crust =
-      "drucker_prager_cap density 400 d 1e5 beta 40 R 0.02 eps_vol_pl_0 0.001 elasticity linear E 1e8 nu 0.2 "
+      "drucker_prager_cap density 400 d 1e5 beta 40 R 0.02 eps_vol_pl_0 0.001 elasticity linear E "
+      "1e8 nu 0.2 "
       "hardening table p 4e5 2e6 eps_vol_pl 0 0.5 interpolation linear beyond extrapolate";
   Scene scene(bed);
   scene.run(0.12);
@@ -190,7 +194,10 @@ TEST(HardCase, WheelThatLeavesTheGroundStopsTheRun) {
     FAIL() << "no error";
   } catch (const StateError& error) {
     EXPECT_THAT(error.what(), HasSubstr("contact 'contact': the middle of the body is at x = 0.1"));
-    EXPECT_THAT(error.what(), HasSubstr("beyond the ground that reaches from -0.6 to 0.1 m; give the ground more length"));
+    EXPECT_THAT(
+        error.what(),
+        HasSubstr(
+            "beyond the ground that reaches from -0.6 to 0.1 m; give the ground more length"));
   }
 }
 
@@ -203,7 +210,8 @@ void compact_by_90_percent(double stiffness) {
   p.surface = height;
   set_faces(p, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
   MpmGround ground(p, Communicator());
-  RigidPlate plate({PlateShape::square, 6 * cell, 2 * cell, 3}, {0.5 * cell, 0.5 * cell, height + 1e-5});
+  RigidPlate plate({PlateShape::square, 6 * cell, 2 * cell, 3},
+                   {0.5 * cell, 0.5 * cell, height + 1e-5});
   ContactParameters lid;
   lid.stiffness = stiffness;
   GroundContact contact(plate, ground, lid, false, "lid");
@@ -217,8 +225,9 @@ void compact_by_90_percent(double stiffness) {
   }
   EXPECT_GT(ground.last_report().beyond_ice, 0u);
   const Balance b = ground.balance();
-  ::testing::Test::RecordProperty("energies", fmt::format("contact {:.4g}, residual {:.2g}, numerical {:.2g} J",
-                                                          b.contact_work, b.residual(), b.numerical_loss));
+  ::testing::Test::RecordProperty(
+      "energies", fmt::format("contact {:.4g}, residual {:.2g}, numerical {:.2g} J", b.contact_work,
+                              b.residual(), b.numerical_loss));
   EXPECT_LT(std::abs(b.residual()), 0.01 * b.contact_work);
   for_particles(ground, [](Particles& particles, std::size_t n) {
     const double J = particles.data(column::state + field::volume_ratio)[n];
@@ -229,7 +238,8 @@ void compact_by_90_percent(double stiffness) {
 
 TEST(HardCase, CompactionBy90Percent) { compact_by_90_percent(4.0); }
 
-/// The contact's springs are made for the snow's elasticity; ice at tens of megapascals presses through them.
+/// The contact's springs are made for the snow's elasticity; ice at tens of megapascals presses
+/// through them.
 TEST(HardCase, CompactionBy90PercentUnderASoftLidStopsWithItsCause) {
   try {
     compact_by_90_percent(0.4);

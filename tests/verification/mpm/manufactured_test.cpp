@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A motion in all directions that a body force is made for: the whole chain of particles, grid, walls and law against its closed form.
+// A motion in all directions that a body force is made for: the whole chain of particles, grid,
+// walls and law against its closed form.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,17 +17,21 @@ constexpr double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 +
 const double c_p = std::sqrt((lambda + 2 * mu) / rho), omega = pi * c_p;
 const Vector3 amplitude(1e-5, -0.5e-5, 0.3e-5);  // [m]
 
-/// u = (1 - cos(omega t)) U(x), U_x = a sin(pi x) cos(pi y) cos(pi z) and so on round: smooth walls hold what they must of it.
+/// u = (1 - cos(omega t)) U(x), U_x = a sin(pi x) cos(pi y) cos(pi z) and so on round: smooth walls
+/// hold what they must of it.
 Vector3 shape(const Vector3& x) {
   const Vector3 s = (pi * x).array().sin(), c = (pi * x).array().cos();
-  return amplitude.cwiseProduct(Vector3(s[0] * c[1] * c[2], c[0] * s[1] * c[2], c[0] * c[1] * s[2]));
+  return amplitude.cwiseProduct(
+      Vector3(s[0] * c[1] * c[2], c[0] * s[1] * c[2], c[0] * c[1] * s[2]));
 }
 
 /// b = u'' - div(sigma)/rho [m/s^2], div(sigma) = (lambda + mu) grad(div u) + mu laplace(u).
 Vector3 body_force(const Vector3& x, double t) {
   const Vector3 s = (pi * x).array().sin(), c = (pi * x).array().cos(), U = shape(x);
-  const Vector3 grad_div = -pi * pi * amplitude.sum() * Vector3(s[0] * c[1] * c[2], c[0] * s[1] * c[2], c[0] * c[1] * s[2]);
-  const Vector3 divergence = (1 - std::cos(omega * t)) * ((lambda + mu) * grad_div - 3 * pi * pi * mu * U);
+  const Vector3 grad_div = -pi * pi * amplitude.sum() *
+                           Vector3(s[0] * c[1] * c[2], c[0] * s[1] * c[2], c[0] * c[1] * s[2]);
+  const Vector3 divergence =
+      (1 - std::cos(omega * t)) * ((lambda + mu) * grad_div - 3 * pi * pi * mu * U);
   return omega * omega * std::cos(omega * t) * U - divergence / rho;
 }
 
@@ -59,7 +64,8 @@ double error_of(int cells) {
 TEST(ManufacturedSolution, ConvergesInSecondOrder) {
   const double coarse = error_of(4), middle = error_of(8), fine = error_of(16);
   const double first = std::log2(coarse / middle), second = std::log2(middle / fine);
-  RecordProperty("errors", fmt::format("{:.2e} {:.2e} {:.2e}, orders {:.2f} {:.2f}", coarse, middle, fine, first, second));
+  RecordProperty("errors", fmt::format("{:.2e} {:.2e} {:.2e}, orders {:.2f} {:.2f}", coarse, middle,
+                                       fine, first, second));
   EXPECT_LT(fine, 0.03);
   EXPECT_GT(first, 1.7);
   EXPECT_GT(second, 1.7);

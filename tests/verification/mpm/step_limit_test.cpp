@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The largest stable step of the ground, against the closed form of a lone particle that breathes (coupling/fix_terrain_continuum.md).
+// The largest stable step of the ground, against the closed form of a lone particle that breathes
+// (coupling/fix_terrain_continuum.md).
 
 #include <gtest/gtest.h>
 
@@ -12,8 +13,9 @@ using namespace testing_ground;
 
 constexpr double h = 0.1, E = 1e6, density = 200.0;
 
-/// Largest rate of strain after some steps, over that at the start, of a single particle whose nodes start with v_i = a d_i. With
-/// G_i = N_i d_i/D this is a mode of vibration: H = a dt I, f_i = -V 3 K a N_i d_i/D, omega^2 = 3 K/(rho D), D = h^2/4.
+/// Largest rate of strain after some steps, over that at the start, of a single particle whose
+/// nodes start with v_i = a d_i. With G_i = N_i d_i/D this is a mode of vibration: H = a dt I, f_i
+/// = -V 3 K a N_i d_i/D, omega^2 = 3 K/(rho D), D = h^2/4.
 double growth(double nu, double step_over_limit) {
   GroundParameters parameters = box(law_of(elastic(E, nu, density)), {0, 0, 0}, {0.6, 0.6, 0.6}, h);
   parameters.cycle = 64;
@@ -48,7 +50,8 @@ TEST(StepLimit, ALoneParticleIsStableUpToTheClosedForm) {
 /// The program's own step keeps below it.
 TEST(StepLimit, TheStepOfTheProgramIsBelow) {
   for (const double nu : {0.0, 0.3, 0.45}) {
-    const MpmGround ground(box(law_of(elastic(E, nu, density)), {0, 0, 0}, {0.6, 0.6, 0.6}, h), Communicator());
+    const MpmGround ground(box(law_of(elastic(E, nu, density)), {0, 0, 0}, {0.6, 0.6, 0.6}, h),
+                           Communicator());
     const double bulk = E / (3.0 * (1.0 - 2.0 * nu));
     EXPECT_LT(ground.stable_time_step(), 0.8 * h / std::sqrt(3.0 * bulk / density)) << nu;
   }

@@ -12,7 +12,8 @@ namespace {
 using namespace testing_ground;
 
 constexpr double E = 1e7, nu = 0.25, rho = 1600.0;
-const double wave_modulus = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)), shear_modulus = E / (2 * (1 + nu));
+const double wave_modulus = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)),
+             shear_modulus = E / (2 * (1 + nu));
 const double c_p = std::sqrt(wave_modulus / rho), c_s = std::sqrt(shear_modulus / rho);
 
 /// A bar along x between smooth walls, one cell thick: plane waves.
@@ -22,7 +23,8 @@ GroundParameters bar(double length, double cell) {
   return ground;
 }
 
-/// Standing wave between smooth walls: velocity s sin(kx) cos(kct), k = pi/length, from a start without strain.
+/// Standing wave between smooth walls: velocity s sin(kx) cos(kct), k = pi/length, from a start
+/// without strain.
 /// @return L2 error of the velocity after a whole period, relative
 double standing_wave_error(double cell) {
   const double k = pi, speed = 1e-4;  // strains of 1e-6: linear
@@ -37,19 +39,22 @@ double standing_wave_error(double cell) {
   for (int n = 0; n < steps; ++n) ground.advance(period / steps);
   double square = 0.0, count = 0.0;
   for_particles(ground, [&](Particles& particles, std::size_t p) {
-    const double error = particles.velocity(p).x() / speed - std::sin(k * particles.position(p).x());
+    const double error =
+        particles.velocity(p).x() / speed - std::sin(k * particles.position(p).x());
     square += error * error;
     count += 0.5;  // mean square of the sine
   });
   return std::sqrt(square / count);
 }
 
-/// The transfers take 0.024 (kh)^4 of the amplitude in a step: third order at a given Courant number. Splines and leapfrog are of second.
+/// The transfers take 0.024 (kh)^4 of the amplitude in a step: third order at a given Courant
+/// number. Splines and leapfrog are of second.
 TEST(StandingWave, ConvergesToTheClosedForm) {
   const double coarse = standing_wave_error(1.0 / 8), medium = standing_wave_error(1.0 / 16),
                fine = standing_wave_error(1.0 / 32);
   RecordProperty("errors", fmt::format("{:.2e} {:.2e} {:.2e}", coarse, medium, fine));
-  RecordProperty("orders", fmt::format("{:.2f} {:.2f}", std::log2(coarse / medium), std::log2(medium / fine)));
+  RecordProperty(
+      "orders", fmt::format("{:.2f} {:.2f}", std::log2(coarse / medium), std::log2(medium / fine)));
   EXPECT_GT(std::log2(coarse / medium), 2.0);
   EXPECT_GT(std::log2(medium / fine), 2.0);
   EXPECT_LT(fine, 5e-4);
@@ -120,9 +125,10 @@ double reflection(const char* end, double cell) {
   return largest_speed_left(ground) / pulse_speed;
 }
 
-/// With sigma = -rho c v - (rho c^2/L) u at the face, an arriving displacement f comes back as g with g' = -(c/2L)(f + g): the dashpot
-/// alone would be quiet, the spring that holds statically reflects what is longer than L. For a harmonic wave |R| = 1/sqrt(1 + 4 k^2 L^2):
-/// 8 % for a wave as long as L, half the length of the ground.
+/// With sigma = -rho c v - (rho c^2/L) u at the face, an arriving displacement f comes back as g
+/// with g' = -(c/2L)(f + g): the dashpot alone would be quiet, the spring that holds statically
+/// reflects what is longer than L. For a harmonic wave |R| = 1/sqrt(1 + 4 k^2 L^2): 8 % for a wave
+/// as long as L, half the length of the ground.
 TEST(AbsorbingFace, ReflectsAsItsSpringSays) {
   const double length = 0.5 * bar_length;
   double f = 0.0, g = 0.0, expected = 0.0;
@@ -133,20 +139,24 @@ TEST(AbsorbingFace, ReflectsAsItsSpringSays) {
     g += ds * slope;
     expected = std::max(expected, std::abs(slope));
   }
-  const double coarse = reflection("absorbing", 1.0 / 32), fine = reflection("absorbing", 1.0 / 128);
-  RecordProperty("reflection", fmt::format("{:.4f} {:.4f}, closed form {:.4f}", coarse, fine, expected));
+  const double coarse = reflection("absorbing", 1.0 / 32),
+               fine = reflection("absorbing", 1.0 / 128);
+  RecordProperty("reflection",
+                 fmt::format("{:.4f} {:.4f}, closed form {:.4f}", coarse, fine, expected));
   EXPECT_NEAR(coarse, expected, 0.005);  // 1/128: 0.0014
   EXPECT_LT(std::abs(fine - expected), std::abs(coarse - expected));
   EXPECT_GT(reflection("smooth", 1.0 / 16), 0.85);  // against a wall and a free end
   EXPECT_GT(reflection("free", 1.0 / 16), 0.85);
 }
 
-/// Energy in a square of 2 x 2 m after a round wave has gone through its absorbing sides, from 0 to 45 degrees from their normals, less
-/// what is left in the same square of ground three times as wide: the square root is a mean amplitude reflected.
+/// Energy in a square of 2 x 2 m after a round wave has gone through its absorbing sides, from 0 to
+/// 45 degrees from their normals, less what is left in the same square of ground three times as
+/// wide: the square root is a mean amplitude reflected.
 TEST(AbsorbingFace, LetsObliqueWavesPass) {
   const double cell = 1.0 / 12;
   const auto energy_left = [&](double half, const char* side) {
-    GroundParameters parameters = box(law_of(elastic(E, nu, rho)), {-half, -half, 0}, {half, half, cell}, cell);
+    GroundParameters parameters =
+        box(law_of(elastic(E, nu, rho)), {-half, -half, 0}, {half, half, cell}, cell);
     set_faces(parameters, {side, side, side, side, "smooth", "smooth"});
     parameters.particles_per_cell = {2, 2, 1};
     MpmGround ground(parameters, Communicator());
@@ -157,13 +167,14 @@ TEST(AbsorbingFace, LetsObliqueWavesPass) {
         const Vector3 x = particles.position(p);
         if (std::max(std::abs(x.x()), std::abs(x.y())) > 1.0) return;
         const double v = particles.data(column::volume)[p];
-        sum +=
-            v * (0.5 * rho * particles.velocity(p).squaredNorm() + particles.data(column::state + field::stored_energy)[p]);
+        sum += v * (0.5 * rho * particles.velocity(p).squaredNorm() +
+                    particles.data(column::state + field::stored_energy)[p]);
       });
       return sum;
     };
     for_particles(ground, [&](Particles& particles, std::size_t p) {
-      // u = grad of a Gaussian potential: a pressure wave in all directions, without a displacement that stays.
+      // u = grad of a Gaussian potential: a pressure wave in all directions, without a displacement
+      // that stays.
       const Vector3 x = particles.position(p);
       const double r2 = (x.x() * x.x() + x.y() * x.y()) / 0.04, e = 1e-4 * std::exp(-r2);
       for (int a = 0; a < 2; ++a) {
@@ -180,12 +191,14 @@ TEST(AbsorbingFace, LetsObliqueWavesPass) {
   };
   const double absorbing = energy_left(1.0, "absorbing"), open = energy_left(3.0, "smooth"),
                wall = energy_left(1.0, "smooth");
-  RecordProperty("energy_left", fmt::format("absorbing {:.4f}, wide ground {:.5f}, walls {:.3f}", absorbing, open, wall));
+  RecordProperty("energy_left", fmt::format("absorbing {:.4f}, wide ground {:.5f}, walls {:.3f}",
+                                            absorbing, open, wall));
   RecordProperty("mean_reflection", fmt::format("{:.3f}", std::sqrt((absorbing - open) / wall)));
   EXPECT_LT(std::sqrt((absorbing - open) / wall), 0.15);
 }
 
-/// How far ground under its own weight moves, held by absorbing faces all around, over the settlement that its weight would cause.
+/// How far ground under its own weight moves, held by absorbing faces all around, over the
+/// settlement that its weight would cause.
 double unrest(double cell) {
   GroundParameters parameters = box(law_of(elastic(E, nu, rho)), {0, 0, -0.4}, {0.8, 0.4, 0}, cell);
   parameters.z = even(-0.4, 0.2, cell);
@@ -203,7 +216,8 @@ double unrest(double cell) {
   return moved / (rho * standard_gravity * 0.4 * 0.4 / (2 * wave_modulus));
 }
 
-/// Ground stays where it is: what moves is the quadrature error of the outermost splines, and vanishes with the cell.
+/// Ground stays where it is: what moves is the quadrature error of the outermost splines, and
+/// vanishes with the cell.
 TEST(AbsorbingFace, HoldsGroundAtRest) {
   const double coarse = unrest(0.1), fine = unrest(0.05);
   RecordProperty("moved_over_settlement", fmt::format("{:.2e} {:.2e}", coarse, fine));
@@ -211,10 +225,12 @@ TEST(AbsorbingFace, HoldsGroundAtRest) {
   EXPECT_LT(fine, coarse / 1.7);
 }
 
-/// A pressure on a column: the base gives way by p L/M, L the column's height, and the column is compressed by p H/M on top of it.
+/// A pressure on a column: the base gives way by p L/M, L the column's height, and the column is
+/// compressed by p H/M on top of it.
 TEST(AbsorbingFace, GivesWayAsItsSpringSays) {
   const double height = 1.0, pressure = 100.0, cell = 0.1;
-  GroundParameters parameters = box(law_of(elastic(E, nu, rho)), {0, 0, 0}, {cell, cell, height}, cell);
+  GroundParameters parameters =
+      box(law_of(elastic(E, nu, rho)), {0, 0, 0}, {cell, cell, height}, cell);
   set_faces(parameters, {"smooth", "smooth", "smooth", "smooth", "absorbing", "free"});
   parameters.z = even(0, height + 2 * cell, cell);
   parameters.surface = height;
@@ -226,7 +242,8 @@ TEST(AbsorbingFace, GivesWayAsItsSpringSays) {
     const Particles& particles = ground.phases()[0].particles;
     for (std::size_t p = 0; p < particles.size(); ++p)
       if (particles.data(column::home_z)[p] > height - 0.5 * cell)
-        ground.push({0, p}, {0, 0, -pressure * cell * cell / 4}, particles.position(p) + Vector3(0, 0, 0.25 * cell));
+        ground.push({0, p}, {0, 0, -pressure * cell * cell / 4},
+                    particles.position(p) + Vector3(0, 0, 0.25 * cell));
     ground.advance(dt);
     time += dt;
   }
@@ -251,14 +268,16 @@ TEST(GradedGrid, LetsWavesPass) {
     MpmGround ground(parameters, Communicator());
     const Axis& x = ground.grid().axis(0);
     start_pulse(ground, 1.0, pulse_width, pulse_speed);
-    run(ground, 1.6 / c_p);  // the front is in the coarse part, echoes of the grading would be on their way back
+    // the front is in the coarse part, echoes of the grading would be on their way back
+    run(ground, 1.6 / c_p);
     double back = 0.0;
     for_particles(ground, [&](Particles& particles, std::size_t p) {
       const double at = particles.position(p).x();
       if (at > 1.0 && at < 1.9) back = std::max(back, std::abs(particles.velocity(p).x()));
     });
-    RecordProperty(fmt::format("reflected_{:.0f}", 100 * growth),
-                   fmt::format("{:.4f}, longest cell {:.3f}", back / pulse_speed, x.length(x.cells() - 1)));
+    RecordProperty(
+        fmt::format("reflected_{:.0f}", 100 * growth),
+        fmt::format("{:.4f}, longest cell {:.3f}", back / pulse_speed, x.length(x.cells() - 1)));
     EXPECT_LT(back / pulse_speed, growth < 1.2 ? 0.01 : 0.03);
   }
 }

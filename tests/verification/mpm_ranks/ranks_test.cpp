@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The same answer on every number of ranks. Each rank runs the scene alone too and compares; run under mpirun (tests/CMakeLists.txt).
+// The same answer on every number of ranks. Each rank runs the scene alone too and compares; run
+// under mpirun (tests/CMakeLists.txt).
 
 #include <gtest/gtest.h>
 #define OMPI_SKIP_MPICXX
@@ -21,7 +22,8 @@ Communicator world_ranks() {
   return Communicator(&all);
 }
 
-/// A plate pressed into snow beside the middle of a bed with absorbing sides, then shaken: particles change cells and ranks.
+/// A plate pressed into snow beside the middle of a bed with absorbing sides, then shaken:
+/// particles change cells and ranks.
 struct Scene {
   Scene(const Communicator& ranks, bool window)
       : ground(parameters(window), ranks),
@@ -38,7 +40,8 @@ struct Scene {
     p.gravity = {0, 0, -standard_gravity};
     p.initial_stress = true;
     p.window = window;
-    set_faces(p, {window ? "smooth" : "absorbing", window ? "smooth" : "absorbing", "smooth", "absorbing", "rough", "free"});
+    set_faces(p, {window ? "smooth" : "absorbing", window ? "smooth" : "absorbing", "smooth",
+                  "absorbing", "rough", "free"});
     return p;
   }
   void run(int intervals) {
@@ -67,7 +70,8 @@ std::vector<double> sorted_particles(MpmGround& ground) {
   constexpr std::size_t record = 14;
   std::vector<std::size_t> order(all.size() / record);
   for (std::size_t n = 0; n < order.size(); ++n) order[n] = n;
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return all[record * a] < all[record * b]; });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return all[record * a] < all[record * b]; });
   std::vector<double> sorted;
   for (const std::size_t n : order)
     sorted.insert(sorted.end(), all.begin() + static_cast<long>(record * n),
@@ -84,11 +88,13 @@ void compare(Scene& many, Scene& one) {
   ASSERT_EQ(a.size(), b.size());
   const double scales[14] = {1, 0.1, 0.1, 0.1, 1, 1, 1, 1e5, 1e5, 1e5, 1e5, 1e5, 1e5, 1};
   double worst = 0.0;
-  for (std::size_t n = 0; n < a.size(); ++n) worst = std::max(worst, std::abs(a[n] - b[n]) / scales[n % 14]);
+  for (std::size_t n = 0; n < a.size(); ++n)
+    worst = std::max(worst, std::abs(a[n] - b[n]) / scales[n % 14]);
   EXPECT_LE(worst, 1e-9);
   EXPECT_EQ(many.contact.contacts(), one.contact.contacts());
   const double force = one.contact.force().norm();
-  for (int c = 0; c < 3; ++c) expect_near(many.contact.force()[c], one.contact.force()[c], force, "contact force");
+  for (int c = 0; c < 3; ++c)
+    expect_near(many.contact.force()[c], one.contact.force()[c], force, "contact force");
   expect_near(many.contact.friction_loss(), one.contact.friction_loss(), 1.0, "friction loss");
   const Balance m = many.ground.balance(), o = one.ground.balance();
   expect_near(m.kinetic_energy, o.kinetic_energy, o.contact_work, "kinetic energy");
@@ -100,7 +106,8 @@ void compare(Scene& many, Scene& one) {
   for (int f = 0; f < face_count; ++f) {
     const Vector3 i = many.ground.face_impulse(static_cast<FacePlace>(f)),
                   j = one.ground.face_impulse(static_cast<FacePlace>(f));
-    EXPECT_LE((i - j).norm(), 1e-9 * one.ground.face_impulse(z_lower).norm()) << "impulse of face " << f;
+    EXPECT_LE((i - j).norm(), 1e-9 * one.ground.face_impulse(z_lower).norm())
+        << "impulse of face " << f;
   }
 }
 
@@ -122,7 +129,8 @@ TEST_P(Windows, GiveTheAnswerOfOne) {
 
 /// A run of one rank goes on with all of them, and the other way round.
 TEST_P(Windows, TakeOverTheStateOfOne) {
-  Scene many(world_ranks(), GetParam()), one(Communicator(), GetParam()), back(Communicator(), GetParam());
+  Scene many(world_ranks(), GetParam()), one(Communicator(), GetParam()),
+      back(Communicator(), GetParam());
   one.run(12);
   many.plate.restore(one.plate.state());
   many.ground.restore(one.ground.state());
@@ -148,7 +156,8 @@ TEST(Slabs, CoverAllCellsAndOwnEveryPlaneOnce) {
   for (std::size_t c = 3; c < 9; ++c) count[c] = 100.0;  // all ground in some cells
   partition.balance(count);
   std::vector<double> planes(22, 0.0), cells(20, 0.0);
-  for (int p = partition.owned().from; p < partition.owned().to; ++p) planes[static_cast<std::size_t>(p)] += 1.0;
+  for (int p = partition.owned().from; p < partition.owned().to; ++p)
+    planes[static_cast<std::size_t>(p)] += 1.0;
   double mine = 0.0;
   for (int c = 0; c < 20; ++c)
     if (partition.owner(c) == ranks.rank()) mine += count[static_cast<std::size_t>(c)];
@@ -166,7 +175,8 @@ TEST(Communicator, ExchangesAndGathersNumbersOfAnyCount) {
     EXPECT_EQ(theirs, std::vector<double>(static_cast<std::size_t>(other) + 1, other + 0.5));
   }
   std::vector<double> expected;
-  for (int r = 0; r < ranks.size(); ++r) expected.insert(expected.end(), static_cast<std::size_t>(r) + 1, r + 0.5);
+  for (int r = 0; r < ranks.size(); ++r)
+    expected.insert(expected.end(), static_cast<std::size_t>(r) + 1, r + 0.5);
   EXPECT_EQ(ranks.gather(mine), expected);
 }
 

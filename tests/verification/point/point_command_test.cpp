@@ -30,7 +30,8 @@ Outcome furrow_point(const std::string& arguments) {
   FILE* pipe = popen((std::string(FURROW_POINT) + " " + arguments + " 2>&1").c_str(), "r");
   Outcome outcome{-1, ""};
   char buffer[4096];
-  while (const std::size_t size = fread(buffer, 1, sizeof buffer, pipe)) outcome.text.append(buffer, size);
+  while (const std::size_t size = fread(buffer, 1, sizeof buffer, pipe))
+    outcome.text.append(buffer, size);
   outcome.status = WEXITSTATUS(pclose(pipe));
   return outcome;
 }
@@ -48,13 +49,15 @@ TEST(PointCommand, RunLeavesReadableResultsThatAgree) {
   const std::string folder = scratch.path("triaxial");
   const Outcome outcome = furrow_point("run " + points + "mccormick_triaxial.yaml -o " + folder);
   ASSERT_EQ(outcome.status, 0) << outcome.text;
-  EXPECT_THAT(outcome.text, AllOf(HasSubstr("reached       p = 1.531 MPa, q = 1.592 MPa"), HasSubstr("step error"),
-                                  HasSubstr("updates       elastic ")));
+  EXPECT_THAT(outcome.text, AllOf(HasSubstr("reached       p = 1.531 MPa, q = 1.592 MPa"),
+                                  HasSubstr("step error"), HasSubstr("updates       elastic ")));
   const CsvTable csv = CsvTable::read(folder + "/point.csv");
   EXPECT_EQ(csv.rows(), 801u);
-  EXPECT_NEAR(csv.numbers("q").back(), 1.59153e6, 10.0);  // (d + sigma_c tan(beta))/(1 - tan(beta)/3)
+  // (d + sigma_c tan(beta))/(1 - tan(beta)/3)
+  EXPECT_NEAR(csv.numbers("q").back(), 1.59153e6, 10.0);
   const Hdf5File h5(folder + "/point.h5", Hdf5File::Mode::read);
-  for (const std::string& name : csv.names()) EXPECT_EQ(h5.read_numbers("/point/" + name), csv.numbers(name)) << name;
+  for (const std::string& name : csv.names())
+    EXPECT_EQ(h5.read_numbers("/point/" + name), csv.numbers(name)) << name;
   EXPECT_EQ(h5.text_attribute("/point/q", "unit"), "Pa");
   EXPECT_EQ(h5.members("/yield_surface").size(), 3u);
   expect_png(folder + "/point.png");
@@ -62,9 +65,13 @@ TEST(PointCommand, RunLeavesReadableResultsThatAgree) {
 
 TEST(PointCommand, TheEffectiveInputRepeatsTheRun) {
   const Scratch scratch;
-  ASSERT_EQ(furrow_point("run --no-plot " + points + "snow_rut.yaml -o " + scratch.path("a")).status, 0);
-  ASSERT_EQ(furrow_point("run --no-plot " + scratch.path("a/run.yaml") + " -o " + scratch.path("b")).status, 0);
-  EXPECT_EQ(read_text_file(scratch.path("a/point.csv")), read_text_file(scratch.path("b/point.csv")));
+  ASSERT_EQ(
+      furrow_point("run --no-plot " + points + "snow_rut.yaml -o " + scratch.path("a")).status, 0);
+  ASSERT_EQ(furrow_point("run --no-plot " + scratch.path("a/run.yaml") + " -o " + scratch.path("b"))
+                .status,
+            0);
+  EXPECT_EQ(read_text_file(scratch.path("a/point.csv")),
+            read_text_file(scratch.path("b/point.csv")));
   EXPECT_FALSE(std::filesystem::exists(scratch.path("a/point.png")));
 }
 
@@ -74,8 +81,8 @@ TEST(PointCommand, AllShippedInputsRun) {
   for (const auto& entry : std::filesystem::directory_iterator(points)) {
     const Scratch scratch;
     const bool fit = entry.path().stem().string().rfind("fit_", 0) == 0;
-    const Outcome outcome =
-        furrow_point((fit ? "fit --no-plot " : "run --no-plot ") + entry.path().string() + " -o " + scratch.path("r"));
+    const Outcome outcome = furrow_point((fit ? "fit --no-plot " : "run --no-plot ") +
+                                         entry.path().string() + " -o " + scratch.path("r"));
     EXPECT_EQ(outcome.status, 0) << entry.path() << outcome.text;
     EXPECT_THAT(outcome.text, ::testing::Not(HasSubstr("nan")));
     ++(fit ? fits : runs);
@@ -89,19 +96,22 @@ TEST(PointCommand, FitReportsWhatTheDataDetermine) {
   const std::string folder = scratch.path("fit");
   const Outcome outcome = furrow_point("fit " + points + "fit_mccormick.yaml -o " + folder);
   ASSERT_EQ(outcome.status, 0) << outcome.text;
-  EXPECT_THAT(
-      outcome.text,
-      AllOf(HasSubstr("NOT DETERMINED: the curves depend only on a combination of hardening.lambda, hardening.e0"),
-            HasSubstr("singular values of the scaled Jacobian"), HasSubstr("scatter of the data from the residuals")));
+  EXPECT_THAT(outcome.text, AllOf(HasSubstr("NOT DETERMINED: the curves depend only on a "
+                                            "combination of hardening.lambda, hardening.e0"),
+                                  HasSubstr("singular values of the scaled Jacobian"),
+                                  HasSubstr("scatter of the data from the residuals")));
   EXPECT_THAT(outcome.text, HasSubstr(read_text_file(folder + "/report.txt")));
   EXPECT_EQ(CsvTable::read(folder + "/fit.csv").numbers("measured"),
-            CsvTable::read(points + "../validation/mccormick_ranch_sand/reference.csv").numbers("eps_vol_pl"));
+            CsvTable::read(points + "../validation/mccormick_ranch_sand/reference.csv")
+                .numbers("eps_vol_pl"));
   const Hdf5File h5(folder + "/fit.h5", Hdf5File::Mode::read);
-  EXPECT_EQ(h5.read_numbers("/curves/0/fitted"), CsvTable::read(folder + "/fit.csv").numbers("fitted"));
+  EXPECT_EQ(h5.read_numbers("/curves/0/fitted"),
+            CsvTable::read(folder + "/fit.csv").numbers("fitted"));
   // The fitted material is a material file with the fitted values.
   const MaterialFile fitted = read_material_file(folder + "/material.yaml");
   const MaterialOptions options = read_sections(find_law(fitted.law), fitted.sections);
-  EXPECT_DOUBLE_EQ(options.at("hardening").options.number("pc0"), h5.number_attribute("/parameters/hardening.pc0", "value"));
+  EXPECT_DOUBLE_EQ(options.at("hardening").options.number("pc0"),
+                   h5.number_attribute("/parameters/hardening.pc0", "value"));
   expect_png(folder + "/fit.png");
 }
 
@@ -111,9 +121,11 @@ TEST(PointCommand, ListsLawsAndPathsFromTheirDeclarations) {
   for (const Law& law : laws()) {
     EXPECT_THAT(all.text, HasSubstr(law.name + ": " + law.meaning));
     for (const SectionSchema& section : law.sections)
-      for (const SectionChoice& choice : section.choices) EXPECT_THAT(all.text, HasSubstr(choice.schema.table()));
+      for (const SectionChoice& choice : section.choices)
+        EXPECT_THAT(all.text, HasSubstr(choice.schema.table()));
   }
-  EXPECT_THAT(furrow_point("laws elastic").text, AllOf(HasSubstr("Young's modulus"), ::testing::Not(HasSubstr("cohesion"))));
+  EXPECT_THAT(furrow_point("laws elastic").text,
+              AllOf(HasSubstr("Young's modulus"), ::testing::Not(HasSubstr("cohesion"))));
   EXPECT_THAT(furrow_point("paths").text,
               AllOf(HasSubstr("path triaxial: "), HasSubstr("strain_xx"), HasSubstr("deviation")));
   EXPECT_THAT(furrow_point("--version").text, HasSubstr(version()));
@@ -131,7 +143,8 @@ TEST(PointCommand, FailuresHaveTheirMessageAndStatus) {
     EXPECT_NE(outcome.status, 0) << arguments;
     EXPECT_THAT(outcome.text, HasSubstr(message));
   };
-  const std::string snow = "material: " + std::string(FURROW_SOURCE_DIR) + "/inputs/materials/fresh_snow.yaml\n";
+  const std::string snow =
+      "material: " + std::string(FURROW_SOURCE_DIR) + "/inputs/materials/fresh_snow.yaml\n";
   expect_failure("", "subcommand");
   expect_failure("run", "file is required");
   expect_failure("run absent.yaml", "furrow-point: absent.yaml does not exist or is not a file");

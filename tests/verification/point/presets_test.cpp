@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Every preset of inputs/materials against its source: TR is S. A. Shoop, ERDC/CRREL TR-01-16 (2001).
+/// Every preset of inputs/materials against its source: TR is S. A. Shoop, ERDC/CRREL TR-01-16
+/// (2001).
 
 #include <cmath>
 #include <filesystem>
@@ -17,14 +18,18 @@ namespace {
 
 const std::string inputs = std::string(FURROW_SOURCE_DIR) + "/inputs";
 
-MaterialFile file_of(const std::string& name) { return read_material_file(inputs + "/materials/" + name + ".yaml"); }
+MaterialFile file_of(const std::string& name) {
+  return read_material_file(inputs + "/materials/" + name + ".yaml");
+}
 
 MaterialOptions options_of(const std::string& name) {
   const MaterialFile file = file_of(name);
   return read_sections(find_law(file.law), file.sections);
 }
 
-CsvTable reference(const std::string& name) { return CsvTable::read(inputs + "/validation/" + name + "/reference.csv"); }
+CsvTable reference(const std::string& name) {
+  return CsvTable::read(inputs + "/validation/" + name + "/reference.csv");
+}
 
 PointHistory oedometer(const Material& snow, const std::vector<double>& stresses) {
   PointPath path;
@@ -38,7 +43,8 @@ PointHistory oedometer(const Material& snow, const std::vector<double>& stresses
   return drive_point(snow, path);
 }
 
-/// Root mean square of ln(rho/rho_measured) in confined compression, over the stresses of TR Table 2.
+/// Root mean square of ln(rho/rho_measured) in confined compression, over the stresses of TR
+/// Table 2.
 double oedometer_error(const std::string& preset) {
   const CsvTable data = reference("snow_oedometer");
   const std::vector<double> rho = data.numbers("rho_kgm3");
@@ -46,7 +52,9 @@ double oedometer_error(const std::string& preset) {
   const PointHistory history = oedometer(*snow, data.numbers("sigma1_Pa"));
   double sum = 0.0;
   for (std::size_t i = 0; i < rho.size(); ++i)
-    sum += std::pow(std::log(snow->current_density(history.records[200 * (i + 1)].state) / rho[i]), 2) / double(rho.size());
+    sum += std::pow(std::log(snow->current_density(history.records[200 * (i + 1)].state) / rho[i]),
+                    2) /
+           double(rho.size());
   return std::sqrt(sum);
 }
 
@@ -75,13 +83,15 @@ TEST(Presets, McCormickSandIsTRTables4And5) {
   EXPECT_EQ(elasticity.number("E"), 689e6);
   EXPECT_EQ(elasticity.number("nu"), 0.25);
   EXPECT_EQ(hardening.numbers("p"), reference("mccormick_ranch_sand").numbers("p_Pa"));
-  EXPECT_EQ(hardening.numbers("eps_vol_pl"), reference("mccormick_ranch_sand").numbers("eps_vol_pl"));
+  EXPECT_EQ(hardening.numbers("eps_vol_pl"),
+            reference("mccormick_ranch_sand").numbers("eps_vol_pl"));
   const auto made = file_of("mccormick_sand").make();
   EXPECT_NEAR(made->yield_surface(made->initial_state()).back().x(), 0.1448e6,
               1.0);  // first yield in hydrostatic compression
 }
 
-/// inputs/laboratory/identify made both laws from these grains' tests: they follow the oedometer that they were made with.
+/// inputs/laboratory/identify made both laws from these grains' tests: they follow the oedometer
+/// that they were made with.
 TEST(Presets, DrySandFollowsTheOedometerOfItsGrains) {
   const CsvTable grains = CsvTable::read(inputs + "/validation/grains/sand_dry_oedometer.csv");
   const std::vector<double> rho = grains.numbers("rho_kgm3");
@@ -89,7 +99,8 @@ TEST(Presets, DrySandFollowsTheOedometerOfItsGrains) {
     const auto sand = file_of(name).make();
     const PointHistory history = oedometer(*sand, grains.numbers("sigma1_Pa"));
     for (std::size_t i = 0; i < rho.size(); ++i)
-      EXPECT_NEAR(sand->current_density(history.records[200 * (i + 1)].state) / rho[i], 1.0, 1.5e-3) << name << ", row " << i;
+      EXPECT_NEAR(sand->current_density(history.records[200 * (i + 1)].state) / rho[i], 1.0, 1.5e-3)
+          << name << ", row " << i;
   }
 }
 
@@ -104,7 +115,8 @@ TEST(Presets, SnowAsPrintedIsTRTable3) {
   EXPECT_EQ(snow.at("law").options.number("eps_vol_pl_0"), 0.001);
   EXPECT_GE(snow.at("law").options.number("d"), 5e3);
   EXPECT_LE(snow.at("law").options.number("d"), 30e3);
-  // The trap of the reference density: the printed strains are ln(rho/210), to their three decimals.
+  // The trap of the reference density: the printed strains are ln(rho/210), to their three
+  // decimals.
   const std::vector<double> rho = table.numbers("rho_kgm3"), eps = table.numbers("eps_vol_pl");
   for (std::size_t i = 0; i < rho.size(); ++i)
     if (!std::isnan(rho[i])) {
@@ -126,27 +138,31 @@ TEST(Presets, FreshSnowCountsTable3From200) {
     }
   }
   EXPECT_EQ(eps.front(), 0.0);
-  EXPECT_NEAR(eps.back(), std::log(ice_density / 200.0), 5.1e-5);  // never denser than ice by plastic strain
+  EXPECT_NEAR(eps.back(), std::log(ice_density / 200.0),
+              5.1e-5);  // never denser than ice by plastic strain
   EXPECT_EQ(options_of("fresh_snow_log").at("hardening").options.word("interpolation"), "log");
   EXPECT_EQ(hardening.word("interpolation"), "linear");
 }
 
 TEST(Presets, OtherReadingsOfTable3) {
   const std::vector<double> sigma1 = options_of("fresh_snow").at("hardening").options.numbers("p");
-  for (const auto& [name, share] : {std::pair{"fresh_snow_p_third", 1.0 / 3.0}, std::pair{"fresh_snow_p_0413", 0.413}}) {
+  for (const auto& [name, share] :
+       {std::pair{"fresh_snow_p_third", 1.0 / 3.0}, std::pair{"fresh_snow_p_0413", 0.413}}) {
     const std::vector<double> p = options_of(name).at("hardening").options.numbers("p");
     ASSERT_EQ(p.size(), sigma1.size());
     EXPECT_EQ(p.front(), 113.76);
     for (std::size_t i = 1; i < p.size(); ++i) EXPECT_NEAR(p[i] / (share * sigma1[i]), 1.0, 1e-5);
   }
-  const double sin_phi = std::sin(radians(22.53));  // read as the friction angle, matched in triaxial compression
+  const double sin_phi =
+      std::sin(radians(22.53));  // read as the friction angle, matched in triaxial compression
   EXPECT_NEAR(degrees(std::atan(6.0 * sin_phi / (3.0 - sin_phi))),
               options_of("fresh_snow_beta_41").at("law").options.number("beta"), 0.05);
   EXPECT_EQ(options_of("fresh_snow_d_30").at("law").options.number("d"), 30e3);
   EXPECT_EQ(options_of("fresh_snow_d_30").at("law").options.number("R"), 1.1e-4);
 }
 
-/// The inverted table follows the measured densities to 0.1 %: the closed form neglects only elastic flow on the cap.
+/// The inverted table follows the measured densities to 0.1 %: the closed form neglects only
+/// elastic flow on the cap.
 TEST(Presets, InvertedTableFollowsTheOedometer) {
   EXPECT_LT(oedometer_error("fresh_snow_abele_gow"), 1e-3);
   EXPECT_LT(oedometer_error("fresh_snow_abele_gow_log"), 1e-3);
@@ -160,7 +176,8 @@ TEST(Presets, SigmaOneIsTheReadingNearestToTheOedometer) {
   EXPECT_GT(oedometer_error("fresh_snow_p_third"), oedometer_error("fresh_snow_p_0413"));
 }
 
-/// The inverted table is the closed form of confined compression on the cap, solved for p_b and the plastic strain.
+/// The inverted table is the closed form of confined compression on the cap, solved for p_b and the
+/// plastic strain.
 TEST(Presets, InvertedTableIsTheClosedForm) {
   const Options hardening = options_of("fresh_snow_abele_gow").at("hardening").options;
   const CsvTable data = reference("snow_oedometer");
@@ -169,9 +186,11 @@ TEST(Presets, InvertedTableIsTheClosedForm) {
                y = 1.0 / std::sqrt(1.0 + 2.25 * R * R);
   for (std::size_t i = 0; i < rho.size(); ++i) {
     const double share = (1.5 * R * R + 2.0 / 3.0) * y;
-    const double pa = (sigma1[i] - share * d) / (1.0 + share * tan_beta), p = pa + 1.5 * R * R * y * (d + pa * tan_beta);
+    const double pa = (sigma1[i] - share * d) / (1.0 + share * tan_beta),
+                 p = pa + 1.5 * R * R * y * (d + pa * tan_beta);
     EXPECT_NEAR(hardening.numbers("p")[i + 1] / (pa * (1.0 + R * tan_beta) + R * d), 1.0, 1e-6);
-    EXPECT_NEAR(hardening.numbers("eps_vol_pl")[i + 1], std::log(rho[i] / 200.0) - p / K + 0.001, 1e-5);
+    EXPECT_NEAR(hardening.numbers("eps_vol_pl")[i + 1], std::log(rho[i] / 200.0) - p / K + 0.001,
+                1e-5);
   }
 }
 
@@ -181,7 +200,8 @@ TEST(Presets, FoamHasBothReadings) {
   const auto aspect = [&](double pc0) {
     return sigma0 / std::sqrt(pt * pc0 + sigma0 * (pc0 - pt) / 3.0 - sigma0 * sigma0 / 9.0);
   };
-  const auto first = file_of("fresh_snow_foam").make(), second = file_of("fresh_snow_foam_sum").make();
+  const auto first = file_of("fresh_snow_foam").make(),
+             second = file_of("fresh_snow_foam_sum").make();
   const auto& one = dynamic_cast<const CrushableFoam&>(*first);
   const auto& two = dynamic_cast<const CrushableFoam&>(*second);
   EXPECT_NEAR(one.parameters().M, 5.807, 5e-4);
@@ -192,7 +212,8 @@ TEST(Presets, FoamHasBothReadings) {
   const MaterialOptions foam = options_of("fresh_snow_foam");
   EXPECT_EQ(foam.at("hardening").options.number("lambda"), 0.35);
   EXPECT_EQ(foam.at("hardening").options.number("kappa"), 0.005);
-  EXPECT_EQ(foam.at("hardening").options.number("e0"), 900.0 / 200.0 - 1.0);  // TR: voids against ice of 900 kg/m3
+  EXPECT_EQ(foam.at("hardening").options.number("e0"),
+            900.0 / 200.0 - 1.0);  // TR: voids against ice of 900 kg/m3
   EXPECT_EQ(foam.at("elasticity").options.number("kappa"), 0.005);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The shell against closed forms and conservation laws: patch tests, rigid turns, the exact gradient, pressure on a ring, inextensional
-// bending, a strip rolled up, free vibration.
+// The shell against closed forms and conservation laws: patch tests, rigid turns, the exact
+// gradient, pressure on a ring, inextensional bending, a strip rolled up, free vibration.
 
 #include <cmath>
 
@@ -34,7 +34,8 @@ ShellModel ring(double R, double width, int n, int m, const ShellSection& sectio
     }
   // The sense must make outward normals: checked by the volume below.
   for (Shell4::Quad& quad : quads) {
-    const Vector3 normal = Vector3(x.col(quad[1]) - x.col(quad[0])).cross(Vector3(x.col(quad[3]) - x.col(quad[0])));
+    const Vector3 normal =
+        Vector3(x.col(quad[1]) - x.col(quad[0])).cross(Vector3(x.col(quad[3]) - x.col(quad[0])));
     if (normal.dot(Vector3(x(0, quad[0]), 0.0, x(2, quad[0]))) < 0.0) std::swap(quad[1], quad[3]);
   }
   return ShellModel(x, quads, section, around_y);
@@ -46,11 +47,14 @@ ShellModel patch(const ShellSection& section) {
   x << 0, 0.24, 0.24, 0, 0.04, 0.18, 0.16, 0.08,  //
       0, 0, 0.12, 0.12, 0.02, 0.03, 0.08, 0.08,   //
       0, 0, 0, 0, 0, 0, 0, 0;
-  return ShellModel(x, {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}}, section, along_x);
+  return ShellModel(x, {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}},
+                    section, along_x);
 }
 
-/// Prescribes u and theta at the outer nodes as in a linear field and finds the inner ones; returns the largest error there.
-double patch_error(const ShellSection& section, const std::function<Eigen::Matrix<double, 6, 1>(const Vector3&)>& field) {
+/// Prescribes u and theta at the outer nodes as in a linear field and finds the inner ones; returns
+/// the largest error there.
+double patch_error(const ShellSection& section,
+                   const std::function<Eigen::Matrix<double, 6, 1>(const Vector3&)>& field) {
   ShellModel model = patch(section);
   const Eigen::SparseMatrix<double> K = model.shell.stiffness();
   Matrix6X exact(6, 8), outer = Matrix6X::Zero(6, 8);
@@ -86,7 +90,8 @@ TEST(Shell4, PatchTestOfBendingAndTwist) {
                           [&](const Vector3& x) {
                             const double kxx = k == 0, kyy = k == 1, kxy = k == 2;
                             Eigen::Matrix<double, 6, 1> u = Eigen::Matrix<double, 6, 1>::Zero();
-                            u[2] = 1e-3 * (0.5 * kxx * x.x() * x.x() + 0.5 * kyy * x.y() * x.y() + kxy * x.x() * x.y());
+                            u[2] = 1e-3 * (0.5 * kxx * x.x() * x.x() + 0.5 * kyy * x.y() * x.y() +
+                                           kxy * x.x() * x.y());
                             u[3] = 1e-3 * (kyy * x.y() + kxy * x.x());
                             u[4] = -1e-3 * (kxx * x.x() + kxy * x.y());
                             return u;
@@ -95,8 +100,9 @@ TEST(Shell4, PatchTestOfBendingAndTwist) {
         << k;
 }
 
-/// Constant transverse shear: w = gamma x without rotation is no equilibrium of a plate (it needs a moment), so the field is the
-/// thick plate's whose moment is carried at the nodes: only forces of the shear at the inner nodes must vanish for a constant one.
+/// Constant transverse shear: w = gamma x without rotation is no equilibrium of a plate (it needs a
+/// moment), so the field is the thick plate's whose moment is carried at the nodes: only forces of
+/// the shear at the inner nodes must vanish for a constant one.
 TEST(Shell4, PatchTestOfTransverseShear) {
   const ShellSection section(OrthotropicLayer::isotropic(1e6, 0.25, 0.05), 1.0);
   ShellModel model = patch(section);
@@ -114,7 +120,8 @@ TEST(Shell4, OnlySixMotionsAreFreeOfEnergy) {
       1, 1, [](double s, double t) { return Vector3(s + 0.1 * t, t - 0.2 * s * t, 0.15 * s * t); },
       ShellSection(OrthotropicLayer::isotropic(1e6, 0.3, 0.05), 1.0), along_x);
   const Eigen::MatrixXd K = Eigen::MatrixXd(model.shell.stiffness());
-  const VectorX eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues();
+  const VectorX eigenvalues =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues();
   EXPECT_LT(std::abs(eigenvalues[5]), 1e-9 * eigenvalues[23]);
   EXPECT_GT(eigenvalues[6], 1e-6 * eigenvalues[23]);
 }
@@ -139,7 +146,8 @@ TEST(Shell4, ForcesAreTheGradientOfTheEnergy) {
   const Matrix3X force = nodes.force, moment = nodes.moment;
   EXPECT_LT(force.rowwise().sum().norm(), 1e-12 * force.norm());
   Vector3 total = moment.rowwise().sum();
-  for (Eigen::Index n = 0; n < nodes.count(); ++n) total += Vector3(nodes.x.col(n)).cross(Vector3(force.col(n)));
+  for (Eigen::Index n = 0; n < nodes.count(); ++n)
+    total += Vector3(nodes.x.col(n)).cross(Vector3(force.col(n)));
   EXPECT_LT(total.norm(), 1e-12 * force.norm());
   const double step = 1e-6;
   double worst = 0.0;
@@ -152,14 +160,16 @@ TEST(Shell4, ForcesAreTheGradientOfTheEnergy) {
         if (k < 3)
           moved.x(k, n) += h;
         else
-          moved.set_rotation(n,
-                             Quaternion(Eigen::AngleAxisd(h, Vector3::Unit(k - 3))) * moved.q[static_cast<std::size_t>(n)]);
+          moved.set_rotation(n, Quaternion(Eigen::AngleAxisd(h, Vector3::Unit(k - 3))) *
+                                    moved.q[static_cast<std::size_t>(n)]);
         model.shell.add_forces(moved, 0.0);
         energy[side] = model.shell.energy();
       }
-      const double gradient = (energy[1] - energy[0]) / (2.0 * step), analytic = -(k < 3 ? force(k, n) : moment(k - 3, n));
-      worst = std::max(worst,
-                       std::abs(gradient - analytic) / (k < 3 ? force.cwiseAbs().maxCoeff() : moment.cwiseAbs().maxCoeff()));
+      const double gradient = (energy[1] - energy[0]) / (2.0 * step),
+                   analytic = -(k < 3 ? force(k, n) : moment(k - 3, n));
+      worst =
+          std::max(worst, std::abs(gradient - analytic) /
+                              (k < 3 ? force.cwiseAbs().maxCoeff() : moment.cwiseAbs().maxCoeff()));
     }
   EXPECT_LT(worst, 1e-7);
 }
@@ -169,9 +179,10 @@ TEST(Shell4, PressureIsTheGradientOfTheVolume) {
   Matrix3X x(3, 8);
   x << 0, 1, 1, 0, 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1;
   x += 0.1 * Matrix3X::Random(3, 8);
-  ShellModel box(x, {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}},
-                 ShellSection(OrthotropicLayer::isotropic(1e6, 0.3, 0.01), 1.0),
-                 [](const Vector3&) { return Vector3(1, 2, 3); });
+  ShellModel box(
+      x, {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}},
+      ShellSection(OrthotropicLayer::isotropic(1e6, 0.3, 0.01), 1.0),
+      [](const Vector3&) { return Vector3(1, 2, 3); });
   box.compute(1000.0);
   const Matrix3X force = box.nodes.force;
   EXPECT_LT(force.rowwise().sum().norm(), 1e-12 * force.norm());
@@ -186,11 +197,13 @@ TEST(Shell4, PressureIsTheGradientOfTheVolume) {
         box.shell.add_forces(moved, 0.0);
         potential[side] = 1000.0 * box.shell.volume() - box.shell.energy();
       }
-      EXPECT_NEAR((potential[1] - potential[0]) / (2 * step), force(k, n), 1e-6 * force.cwiseAbs().maxCoeff());
+      EXPECT_NEAR((potential[1] - potential[0]) / (2 * step), force(k, n),
+                  1e-6 * force.cwiseAbs().maxCoeff());
     }
 }
 
-/// A thousand turns about a slanting axis, as the motion of a rolling tyre makes them: no strain, no energy, no force.
+/// A thousand turns about a slanting axis, as the motion of a rolling tyre makes them: no strain,
+/// no energy, no force.
 TEST(Shell4, ManyTurnsWithoutStrain) {
   ShellModel model = ring(0.3475, 0.157, 36, 3, ShellSection(belt(), 19.6));
   ShellNodes& nodes = model.nodes;
@@ -203,7 +216,8 @@ TEST(Shell4, ManyTurnsWithoutStrain) {
   for (int i = 1; i <= turns * steps_a_turn; ++i) {
     nodes.drift(step);  // turns the nodes by their spin; positions are set below
     if (i % 997 != 0) continue;
-    const Matrix3 turned = Eigen::AngleAxisd(std::fmod(i * step, 2.0 * pi), axis).toRotationMatrix();
+    const Matrix3 turned =
+        Eigen::AngleAxisd(std::fmod(i * step, 2.0 * pi), axis).toRotationMatrix();
     nodes.x = (turned * (start.colwise() - centre)).colwise() + centre;
     model.compute();
     largest = std::max(largest, model.shell.energy());
@@ -216,7 +230,8 @@ TEST(Shell4, ManyTurnsWithoutStrain) {
   fmt::print("  {} turns: energy {:.1e} J, largest force {:.1e} N\n", turns, largest, force);
 }
 
-/// A narrow ring under pressure: T = p R, radial growth p R^2/(E1 h); polygon and tension of the ring in equilibrium.
+/// A narrow ring under pressure: T = p R, radial growth p R^2/(E1 h); polygon and tension of the
+/// ring in equilibrium.
 TEST(Shell4, PressureOnARingGivesTensionPR) {
   const double R = 0.3475, width = 0.05, p = 241e3;
   for (const int n : {36, 72, 144}) {
@@ -233,18 +248,22 @@ TEST(Shell4, PressureOnARingGivesTensionPR) {
     };
     const double a = radial_force(0.0), b = radial_force(1e-3), growth = 1e-3 * a / (a - b);
     EXPECT_NEAR(radial_force(growth) / a, 0.0, 1e-6);
-    // Closed form of a membrane free to contract sideways; held in width here, so the plane-strain stiffness.
+    // Closed form of a membrane free to contract sideways; held in width here, so the plane-strain
+    // stiffness.
     const double stiffness = 3.62e10 * 1.11e-3 / (1.0 - 0.3 * 0.3 * 1.98 / 3.62);
-    const double exact = p * R / stiffness / (1.0 - p * R / stiffness);  // p R (1 + g) = stiffness g
+    // p R (1 + g) = stiffness g
+    const double exact = p * R / stiffness / (1.0 - p * R / stiffness);
     EXPECT_NEAR(growth / exact, 1.0, 1.5 * std::pow(2.0 * pi / n, 2)) << n;
     fmt::print("  {} elements: growth / (p R / E h) = {:.5f}\n", n, growth / exact);
   }
 }
 
-/// A thin ring pulled at two opposite points: growth of the loaded diameter P R^3/EI (pi/4 - 2/pi), inextensional.
+/// A thin ring pulled at two opposite points: growth of the loaded diameter P R^3/EI (pi/4 - 2/pi),
+/// inextensional.
 TEST(Shell4, InextensionalBendingOfARing) {
   const double R = 1.0, width = 0.1, h = 0.005, E = 1e9;
-  ShellModel model = ring(R, width, 64, 2, ShellSection(OrthotropicLayer::isotropic(E, 0.0, h), 1.0));
+  ShellModel model =
+      ring(R, width, 64, 2, ShellSection(OrthotropicLayer::isotropic(E, 0.0, h), 1.0));
   const double tiny = 1e-6;
   // A quarter would do; the whole ring with supports that take no force
   model.symmetry(0, [&](const Vector3& x) { return std::abs(x.x()) < tiny; });
@@ -257,12 +276,14 @@ TEST(Shell4, InextensionalBendingOfARing) {
     model.load(2, model.nearest({0, width * (0.5 * j - 0.5), -R})) = -P * share[j];
   }
   const Matrix6X u = model.solve();
-  const double EI = E * width * h * h * h / 12.0, exact = P * R * R * R / EI * (pi / 4.0 - 2.0 / pi);
+  const double EI = E * width * h * h * h / 12.0,
+               exact = P * R * R * R / EI * (pi / 4.0 - 2.0 / pi);
   EXPECT_NEAR(2.0 * u(2, model.nearest({0, 0, R})) / exact, 1.0, 5e-3);
 }
 
-/// A cantilever strip with an end moment 2 pi EI/L rolls up into a circle: finite rotations. Its nodes are put on that circle; what is
-/// left over as force must vanish with the square of the element's turn.
+/// A cantilever strip with an end moment 2 pi EI/L rolls up into a circle: finite rotations. Its
+/// nodes are put on that circle; what is left over as force must vanish with the square of the
+/// element's turn.
 TEST(Shell4, StripRolledIntoACircleIsInEquilibrium) {
   const double L = 1.0, width = 0.05, E = 1e9, h = 0.002, R = L / (2.0 * pi);
   double before = 0.0;
@@ -278,17 +299,20 @@ TEST(Shell4, StripRolledIntoACircleIsInEquilibrium) {
       nodes.x.col(i) << radius * std::sin(angle), nodes.x(1, i), radius * (1.0 - std::cos(angle));
       nodes.set_rotation(i, Quaternion(Eigen::AngleAxisd(-angle, Vector3::UnitY())));
     }
-    // rotations at the ends are those of tangents to the circle; the first chord is half a step ahead
+    // rotations at the ends are those of tangents to the circle; the first chord is half a step
+    // ahead
     model.compute();
     const double moment = E * width * h * h * h / 12.0 / R;
     double inner = 0.0;
     for (Eigen::Index i = 0; i < nodes.count(); ++i) {
       const double at_end = i % (n + 1) == 0 || i % (n + 1) == n;
       if (!at_end)
-        inner = std::max({inner, nodes.moment.col(i).cwiseAbs().maxCoeff(), nodes.force.col(i).cwiseAbs().maxCoeff() * L});
+        inner = std::max({inner, nodes.moment.col(i).cwiseAbs().maxCoeff(),
+                          nodes.force.col(i).cwiseAbs().maxCoeff() * L});
     }
     EXPECT_LT(inner, 1e-9 * moment * n);
-    const double end = 2.0 * nodes.moment.col(n).norm(), error = std::abs(end / moment - 1.0);  // both end nodes
+    // both end nodes
+    const double end = 2.0 * nodes.moment.col(n).norm(), error = std::abs(end / moment - 1.0);
     if (before > 0.0) {
       EXPECT_LT(error, 0.3 * before);
     }
@@ -298,8 +322,9 @@ TEST(Shell4, StripRolledIntoACircleIsInEquilibrium) {
   EXPECT_LT(before, 2e-3);
 }
 
-/// Free vibration and tumbling with large displacements. Momentum and angular momentum stay to round-off. The energy at full steps
-/// swings with the square of the step, as the leapfrog has it, and does not drift.
+/// Free vibration and tumbling with large displacements. Momentum and angular momentum stay to
+/// round-off. The energy at full steps swings with the square of the step, as the leapfrog has it,
+/// and does not drift.
 TEST(Shell4, FreeMotionKeepsEnergyAndMomentum) {
   double swing_before = 0.0;
   for (const double share : {0.8, 0.2}) {
@@ -307,8 +332,10 @@ TEST(Shell4, FreeMotionKeepsEnergyAndMomentum) {
     ShellNodes& nodes = model.nodes;
     for (Eigen::Index n = 0; n < nodes.count(); ++n) {
       const double angle = std::atan2(nodes.x(0, n), -nodes.x(2, n));
-      nodes.v.col(n) = Vector3(2, 1, 0) + Vector3(0, 20, 0).cross(Vector3(nodes.x.col(n)));  // flies and rolls,
-      nodes.v.col(n) += 3.0 * std::cos(2.0 * angle) * Vector3(nodes.x.col(n)).normalized();  // and ovalises by centimetres
+      // flies and rolls,
+      nodes.v.col(n) = Vector3(2, 1, 0) + Vector3(0, 20, 0).cross(Vector3(nodes.x.col(n)));
+      // and ovalises by centimetres
+      nodes.v.col(n) += 3.0 * std::cos(2.0 * angle) * Vector3(nodes.x.col(n)).normalized();
       nodes.w.col(n) << 0, 20, 0;
     }
     const auto momentum = [&] { return Vector3(nodes.v * nodes.mass); };
@@ -332,7 +359,8 @@ TEST(Shell4, FreeMotionKeepsEnergyAndMomentum) {
       swing = std::max(swing, std::abs(total - first));
       (2 * i < steps ? early : late) += (total - first) / (0.5 * static_cast<double>(steps));
       elastic = std::max(elastic, model.shell.energy());
-      deflection = std::max(deflection, std::abs((nodes.x.col(0) - nodes.x.col(nodes.count() / 2)).norm() - 0.695));
+      deflection = std::max(
+          deflection, std::abs((nodes.x.col(0) - nodes.x.col(nodes.count() / 2)).norm() - 0.695));
     }
     EXPECT_GT(deflection, 0.02);
     EXPECT_LT(std::abs(late - early), 2e-3 * elastic);
@@ -343,8 +371,10 @@ TEST(Shell4, FreeMotionKeepsEnergyAndMomentum) {
     swing_before = swing;
     EXPECT_LT((momentum() - p0).norm(), 1e-10 * p0.norm());
     EXPECT_LT((angular() - L0).norm(), 1e-10 * L0.norm());
-    fmt::print("  {} of the stable step: energy swings by {:.1e}, drifts by {:.1e} of the elastic; ovalised by {:.3f} m\n",
-               share, swing / elastic, std::abs(late - early) / elastic, deflection);
+    fmt::print(
+        "  {} of the stable step: energy swings by {:.1e}, drifts by {:.1e} of the elastic; "
+        "ovalised by {:.3f} m\n",
+        share, swing / elastic, std::abs(late - early) / elastic, deflection);
   }
 }
 

@@ -27,7 +27,8 @@ struct ShellModel {
   void symmetry(int axis, const std::function<bool(const Vector3&)>& pick) {
     for (Eigen::Index n = 0; n < nodes.count(); ++n)
       if (pick(nodes.x.col(n)))
-        for (int k = 0; k < 3; ++k) (k == axis ? nodes.free_to_move : nodes.free_to_turn)(k, n) = 0.0;
+        for (int k = 0; k < 3; ++k)
+          (k == axis ? nodes.free_to_move : nodes.free_to_turn)(k, n) = 0.0;
   }
   Eigen::Index nearest(const Vector3& point) const {
     Eigen::Index best = 0;
@@ -42,8 +43,10 @@ struct ShellModel {
   }
 };
 
-/// (n + 1) x (m + 1) nodes of map(s, t), s and t from 0 to 1; quads run s first, so the normal is map_s x map_t.
-inline ShellModel mapped_shell(int n, int m, const std::function<Vector3(double, double)>& map, const ShellSection& section,
+/// (n + 1) x (m + 1) nodes of map(s, t), s and t from 0 to 1; quads run s first, so the normal is
+/// map_s x map_t.
+inline ShellModel mapped_shell(int n, int m, const std::function<Vector3(double, double)>& map,
+                               const ShellSection& section,
                                const std::function<Vector3(const Vector3&)>& fibre) {
   Matrix3X x(3, (n + 1) * (m + 1));
   std::vector<Shell4::Quad> quads;
@@ -51,7 +54,8 @@ inline ShellModel mapped_shell(int n, int m, const std::function<Vector3(double,
   for (int j = 0; j <= m; ++j)
     for (int i = 0; i <= n; ++i) x.col(node(i, j)) = map(double(i) / n, double(j) / m);
   for (int j = 0; j < m; ++j)
-    for (int i = 0; i < n; ++i) quads.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
+    for (int i = 0; i < n; ++i)
+      quads.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
   return ShellModel(x, std::move(quads), section, fibre);
 }
 

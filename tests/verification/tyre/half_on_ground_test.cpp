@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Half a tyre on half a ground against the whole tyre on the same half a ground: the same arithmetic in another order.
+// Half a tyre on half a ground against the whole tyre on the same half a ground: the same
+// arithmetic in another order.
 
 #include <cmath>
 
@@ -16,9 +17,11 @@ struct Outcome {
   double height, spin, force_x, force_z, width, friction, work, dissipated;
 };
 
-/// Inflated without a disturbance, so that the whole tyre stays symmetric, dropped on snow and pulled along with friction.
+/// Inflated without a disturbance, so that the whole tyre stays symmetric, dropped on snow and
+/// pulled along with friction.
 Outcome drop_and_pull(bool half) {
-  TyreParameters parameters = read_tyre_file(std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/p235_75r15.yaml");
+  TyreParameters parameters =
+      read_tyre_file(std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/p235_75r15.yaml");
   parameters.pressure = 4e4;
   DarnellTyreSettings settings;
   settings.across = 4;
@@ -29,7 +32,8 @@ Outcome drop_and_pull(bool half) {
   const double dt = 0.9 * tyre.stable_time_step();
   for (int i = 0; i < 1500; ++i) tyre.advance(dt);
 
-  GroundParameters snow = testing_ground::box(testing_ground::law_of(testing_ground::snow()), {-0.3, 0.0, -0.12}, {0.5, 0.2, 0.0}, 0.04);
+  GroundParameters snow = testing_ground::box(testing_ground::law_of(testing_ground::snow()),
+                                              {-0.3, 0.0, -0.12}, {0.5, 0.2, 0.0}, 0.04);
   snow.z = testing_ground::even(-0.12, 0.12, 0.04);
   testing_ground::set_faces(snow, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
   MpmGround ground(snow, Communicator());
@@ -50,8 +54,14 @@ Outcome drop_and_pull(bool half) {
   }
   const WheelHub::Wrench wrench = tyre.ground_wrench();
   const double both = half ? 2.0 : 1.0;
-  return {tyre.centre().z(),      tyre.position(WheelHub::spin),  wrench.force.x(), wrench.force.z(), tyre.section_width(),
-          both * contact.friction_loss(), ground.balance().contact_work, ground.balance().dissipated_energy};
+  return {tyre.centre().z(),
+          tyre.position(WheelHub::spin),
+          wrench.force.x(),
+          wrench.force.z(),
+          tyre.section_width(),
+          both * contact.friction_loss(),
+          ground.balance().contact_work,
+          ground.balance().dissipated_energy};
 }
 
 TEST(HalfTyre, OnHalfAGroundIsTheWholeOnHalfAGround) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where a thin belt is at its limit: little air under much load, a crowned tread, a tread that buckles inside its shoulder. The tyre
-// comes to rest or says why not; what is tested are balances and orders that hold for any tyre.
+// Where a thin belt is at its limit: little air under much load, a crowned tread, a tread that
+// buckles inside its shoulder. The tyre comes to rest or says why not; what is tested are balances
+// and orders that hold for any tyre.
 
 #include <cmath>
 #include <functional>
@@ -22,12 +23,15 @@ using ::testing::HasSubstr;
 struct Rest {
   double deflection, width, chord, residual, tilt;
   ContactPatch patch;
-  std::vector<double> lines;  // [Pa] mean pressure of the tread's lines from the middle to the edge, in the middle of the print
+  // [Pa] mean pressure of the tread's lines from the middle to the edge, in the middle of the print
+  std::vector<double> lines;
 };
 
 /// At rest on a smooth plane; half model. @param edit changes the tyre file's parameters
-Rest press(double pressure, double load, int across, int around, const std::function<void(TyreParameters&)>& edit = {}) {
-  TyreParameters parameters = read_tyre_file(std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/p235_75r15.yaml");
+Rest press(double pressure, double load, int across, int around,
+           const std::function<void(TyreParameters&)>& edit = {}) {
+  TyreParameters parameters =
+      read_tyre_file(std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/p235_75r15.yaml");
   parameters.pressure = pressure;
   if (edit) edit(parameters);
   DarnellTyreSettings settings;
@@ -51,12 +55,17 @@ Rest press(double pressure, double load, int across, int around, const std::func
     for (int i = -1; i <= 1; ++i) sum += plane.pressure()[tyre.tread_node(i, j)];
     lines.push_back(sum / 3.0);
   }
-  return {-tyre.centre().z(), tyre.section_width(), tyre.largest_sidewall_chord(), result.residual, tyre.ground_wrench().moment.y(),
-          contact_patch(tyre, plane), lines};
+  return {-tyre.centre().z(),
+          tyre.section_width(),
+          tyre.largest_sidewall_chord(),
+          result.residual,
+          tyre.ground_wrench().moment.y(),
+          contact_patch(tyre, plane),
+          lines};
 }
 
-/// 69 kPa under 5 kN: half of the way from tread to rim is used. The print carries the air's pressure and what sidewalls and belts add; the
-/// profile bulges.
+/// 69 kPa under 5 kN: half of the way from tread to rim is used. The print carries the air's
+/// pressure and what sidewalls and belts add; the profile bulges.
 TEST(HardCases, LittleAirUnderMuchLoad) {
   constexpr double little = 69e3, load = 5000.0;
   const Rest rest = press(little, load, 4, 36), full = press(241e3, load, 4, 36);
@@ -70,7 +79,8 @@ TEST(HardCases, LittleAirUnderMuchLoad) {
   EXPECT_LT(rest.chord, 1.0);
 }
 
-/// The tread comes down on the rim: the chain has no table there, and the error says where and what was left.
+/// The tread comes down on the rim: the chain has no table there, and the error says where and what
+/// was left.
 TEST(HardCases, BottomedIsRefused) {
   try {
     press(69e3, 9000.0, 4, 36);
@@ -81,11 +91,13 @@ TEST(HardCases, BottomedIsRefused) {
   }
 }
 
-/// A crowned tread touches with its middle. Under its full load the barrel, which is curved both ways, snaps through: the middle of the
-/// print lifts, the tread carries at the front and the rear of it, and the tyre comes to rest all the same.
+/// A crowned tread touches with its middle. Under its full load the barrel, which is curved both
+/// ways, snaps through: the middle of the print lifts, the tread carries at the front and the rear
+/// of it, and the tyre comes to rest all the same.
 TEST(HardCases, CrownedTread) {
   const auto crown = [](TyreParameters& tyre) { tyre.tread.crown = 0.01; };
-  const Rest light = press(103e3, 600.0, 6, 72, crown), heavy = press(103e3, 6227.0, 6, 72, crown), flat = press(103e3, 6227.0, 6, 72);
+  const Rest light = press(103e3, 600.0, 6, 72, crown), heavy = press(103e3, 6227.0, 6, 72, crown),
+             flat = press(103e3, 6227.0, 6, 72);
   EXPECT_GT(light.lines.front(), 103e3);
   EXPECT_EQ(light.lines[2] + light.lines[3], 0.0);
   EXPECT_EQ(light.patch.lifted_share, 0.0);
@@ -101,13 +113,14 @@ TEST(HardCases, CrownedTread) {
   }
 }
 
-/// A sidewall that is held stiffly to the tread's edge presses the edge down and buckles the belt inside of it, as TR Figs 52 and 53 show:
-/// the shoulder carries much more than the air's pressure, the line of nodes inside of it much less, the middle the air's pressure.
+/// A sidewall that is held stiffly to the tread's edge presses the edge down and buckles the belt
+/// inside of it, as TR Figs 52 and 53 show: the shoulder carries much more than the air's pressure,
+/// the line of nodes inside of it much less, the middle the air's pressure.
 TEST(HardCases, BucklesInsideTheShoulder) {
   constexpr double pressure = 207e3;
-  const Rest pinned = press(pressure, 6627.0, 6, 72), held = press(pressure, 6627.0, 6, 72, [](TyreParameters& tyre) {
-    tyre.sidewall.tread_stiffness = 50.0;
-  });
+  const Rest pinned = press(pressure, 6627.0, 6, 72),
+             held = press(pressure, 6627.0, 6, 72,
+                          [](TyreParameters&tyre) { tyre.sidewall.tread_stiffness = 50.0; });
   EXPECT_NEAR(held.patch.force, 6627.0, 8.0);
   EXPECT_LT(held.residual, 1e-3);
   EXPECT_LT(held.lines[2], 0.7 * pressure);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A tyre that rolls on a rigid plane, driven by the rig: TR's shells failed near one turn. References: conservation of energy, the
-// inextensible belt's rolling radius, the load, statics of a driven wheel.
+// A tyre that rolls on a rigid plane, driven by the rig: TR's shells failed near one turn.
+// References: conservation of energy, the inextensible belt's rolling radius, the load, statics of
+// a driven wheel.
 
 #include <cmath>
 
@@ -15,12 +16,14 @@ namespace furrow {
 namespace {
 
 struct Outcome {
-  double turns, rolling_radius, force_x, force_z, worst_energy, energy_scale, deflection, damping_power;
+  double turns, rolling_radius, force_x, force_z, worst_energy, energy_scale, deflection,
+      damping_power;
 };
 
 /// 4 x 36, half model, on a plane with friction; means over the last turn.
 Outcome roll(const std::string& mode, double value, double speed, double time) {
-  TyreParameters parameters = read_tyre_file(std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/p235_75r15.yaml");
+  TyreParameters parameters =
+      read_tyre_file(std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/p235_75r15.yaml");
   DarnellTyreSettings settings;
   settings.across = 4;
   settings.around = 36;
@@ -32,9 +35,20 @@ Outcome roll(const std::string& mode, double value, double speed, double time) {
   road.height = tyre.tread().x.row(2).minCoeff() - 1e-4;
   road.friction = 0.8;
   RigidPlane plane(road, tyre.surface());
-  std::vector<std::string> words{
-      "load_force",      "6227", "speed",        fmt::to_string(speed),       "mode",    mode,  "settle_time", "0.25",
-      "accelerate_time", "0.25", "ground_level", fmt::to_string(road.height), "damping", "3000"};
+  std::vector<std::string> words{"load_force",
+                                 "6227",
+                                 "speed",
+                                 fmt::to_string(speed),
+                                 "mode",
+                                 mode,
+                                 "settle_time",
+                                 "0.25",
+                                 "accelerate_time",
+                                 "0.25",
+                                 "ground_level",
+                                 fmt::to_string(road.height),
+                                 "damping",
+                                 "3000"};
   if (!mode.empty() && mode != "towed")
     words.insert(words.end(), {mode == "slip" ? "slip" : "torque", fmt::to_string(value)});
   WheelRig rig(WheelRig::schema().read(words), tyre);
@@ -51,10 +65,12 @@ Outcome roll(const std::string& mode, double value, double speed, double time) {
     tyre.advance(dt);
     const Balance balance = tyre.balance();
     run.worst_energy = std::max(run.worst_energy, std::abs(balance.residual() - start));
-    run.energy_scale = std::max({run.energy_scale, balance.kinetic_energy, std::abs(balance.load_work)});
+    run.energy_scale =
+        std::max({run.energy_scale, balance.kinetic_energy, std::abs(balance.load_work)});
     if (static_cast<double>(i) * dt < average_from) continue;
     if (counted == 0.0)
-      from_x = tyre.centre().x(), from_spin = tyre.position(WheelHub::spin), from_damped = balance.dissipated_energy;
+      from_x = tyre.centre().x(), from_spin = tyre.position(WheelHub::spin),
+      from_damped = balance.dissipated_energy;
     run.force_x += force.x() * dt;
     run.force_z += force.z() * dt;
     run.deflection += (tyre.nominal_radius() - (tyre.centre().z() - road.height)) * dt;
@@ -72,13 +88,16 @@ Outcome roll(const std::string& mode, double value, double speed, double time) {
 TEST(RollingTyre, ManyTurns) {
   const Outcome run = roll("towed", 0.0, 6.0, 2.4);
   fmt::print(
-      "  {:.1f} turns, rolling radius {:.4f} m, drag {:.1f} N, load {:.1f} N, damping takes {:.1f} W, energy off by {:.1e} "
+      "  {:.1f} turns, rolling radius {:.4f} m, drag {:.1f} N, load {:.1f} N, damping takes {:.1f} "
+      "W, energy off by {:.1e} "
       "of {:.0f} J\n",
-      run.turns, run.rolling_radius, -run.force_x, run.force_z, run.damping_power, run.worst_energy, run.energy_scale);
+      run.turns, run.rolling_radius, -run.force_x, run.force_z, run.damping_power, run.worst_energy,
+      run.energy_scale);
   EXPECT_GT(run.turns, 5.0);
   EXPECT_NEAR(run.force_z, 6227.0, 0.005 * 6227.0);
   EXPECT_LT(run.worst_energy, 1e-3 * run.energy_scale);
-  // The belt hardly stretches: in a turn it lays down its own length, not that of the loaded radius.
+  // The belt hardly stretches: in a turn it lays down its own length, not that of the loaded
+  // radius.
   EXPECT_NEAR(run.rolling_radius, 0.3475, 0.004);
   EXPECT_GT(run.deflection, 0.02);
   // What the drag takes, the damping turns into heat (free spin, steady).

@@ -31,11 +31,13 @@ const std::string tyres = std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/";
 class SidewallCommand : public ::testing::Test {
  protected:
   Outcome run(const std::string& arguments) {
-    const std::string command = "FURROW_CACHE=" + scratch_.path("cache") + " " + FURROW_SIDEWALL + " " + arguments + " 2>&1";
+    const std::string command = "FURROW_CACHE=" + scratch_.path("cache") + " " + FURROW_SIDEWALL +
+                                " " + arguments + " 2>&1";
     FILE* pipe = popen(command.c_str(), "r");
     Outcome outcome{-1, ""};
     char buffer[4096];
-    while (const std::size_t size = fread(buffer, 1, sizeof buffer, pipe)) outcome.text.append(buffer, size);
+    while (const std::size_t size = fread(buffer, 1, sizeof buffer, pipe))
+      outcome.text.append(buffer, size);
     outcome.status = WEXITSTATUS(pclose(pipe));
     return outcome;
   }
@@ -46,21 +48,26 @@ TEST_F(SidewallCommand, RunPrintsTabulatesAndDraws) {
   const std::string folder = scratch_.path("tr");
   const Outcome outcome = run("run " + tyres + "p235_75r15.yaml -o " + folder);
   ASSERT_EQ(outcome.status, 0) << outcome.text;
-  EXPECT_THAT(outcome.text, AllOf(HasSubstr("P235/75 R15 at 241 kPa"), HasSubstr("10 segments, 161 mm; chord 139.6 mm"),
-                                  HasSubstr("32 x 12 x 8 nodes"), HasSubstr("results       " + folder)));
+  EXPECT_THAT(
+      outcome.text,
+      AllOf(HasSubstr("P235/75 R15 at 241 kPa"), HasSubstr("10 segments, 161 mm; chord 139.6 mm"),
+            HasSubstr("32 x 12 x 8 nodes"), HasSubstr("results       " + folder)));
   const Hdf5File h5(folder + "/sidewall.h5", Hdf5File::Mode::read);
   EXPECT_EQ(h5.number_attribute("/", "pressure"), 241e3);
   for (const std::string name : {"deflection", "lateral", "rotation"}) {
     const CsvTable csv = CsvTable::read(folder + "/" + name + ".csv");
     EXPECT_EQ(csv.rows(), 81u);
-    for (const std::string& column : csv.names()) EXPECT_EQ(h5.read_numbers("/" + name + "/" + column), csv.numbers(column));
+    for (const std::string& column : csv.names())
+      EXPECT_EQ(h5.read_numbers("/" + name + "/" + column), csv.numbers(column));
     const std::vector<double> solved = csv.numbers("F_r"), looked_up = csv.numbers("F_r_table");
-    for (std::size_t i = 0; i < solved.size(); ++i) EXPECT_NEAR(looked_up[i], solved[i], 1e-4 * std::abs(solved[i]) + 0.1);
+    for (std::size_t i = 0; i < solved.size(); ++i)
+      EXPECT_NEAR(looked_up[i], solved[i], 1e-4 * std::abs(solved[i]) + 0.1);
     // The column K_rr is minus the slope of F_r where r moves
     const std::vector<double> K = csv.numbers("K_rr"), r = csv.numbers("r");
     if (name != "deflection") continue;
     for (std::size_t i = 30; i + 1 < r.size(); ++i)
-      EXPECT_NEAR(-(solved[i + 1] - solved[i - 1]) / (r[i + 1] - r[i - 1]), K[i], 0.005 * std::abs(K[i]) + 1e-3 * K[30]);
+      EXPECT_NEAR(-(solved[i + 1] - solved[i - 1]) / (r[i + 1] - r[i - 1]), K[i],
+                  0.005 * std::abs(K[i]) + 1e-3 * K[30]);
   }
   EXPECT_EQ(h5.members("/profiles").size(), 6u);
   const std::vector<double> R = h5.read_numbers("/profiles/0/R");
@@ -73,15 +80,20 @@ TEST_F(SidewallCommand, RunPrintsTabulatesAndDraws) {
 
 TEST_F(SidewallCommand, TheEffectiveTyreRepeatsTheRun) {
   for (const char* name : {"p235_75r15.yaml", "generic_195_65r15.yaml"}) {
-    ASSERT_EQ(run("run --no-plot -p 150e3 " + tyres + name + " -o " + scratch_.path("a")).status, 0);
-    ASSERT_EQ(run("run --no-plot " + scratch_.path("a/tyre.yaml") + " -o " + scratch_.path("b")).status, 0);
-    EXPECT_EQ(read_text_file(scratch_.path("a/deflection.csv")), read_text_file(scratch_.path("b/deflection.csv")));
+    ASSERT_EQ(run("run --no-plot -p 150e3 " + tyres + name + " -o " + scratch_.path("a")).status,
+              0);
+    ASSERT_EQ(
+        run("run --no-plot " + scratch_.path("a/tyre.yaml") + " -o " + scratch_.path("b")).status,
+        0);
+    EXPECT_EQ(read_text_file(scratch_.path("a/deflection.csv")),
+              read_text_file(scratch_.path("b/deflection.csv")));
     EXPECT_FALSE(std::filesystem::exists(scratch_.path("a/sidewall.png")));
   }
 }
 
 TEST_F(SidewallCommand, KeysAreListed) {
-  EXPECT_THAT(run("keys").text, AllOf(HasSubstr("bead_spacing"), HasSubstr("tread_stiffness"), HasSubstr("N m/rad/m")));
+  EXPECT_THAT(run("keys").text, AllOf(HasSubstr("bead_spacing"), HasSubstr("tread_stiffness"),
+                                      HasSubstr("N m/rad/m")));
 }
 
 TEST_F(SidewallCommand, FailuresSayWhatIsWrong) {
@@ -99,8 +111,9 @@ TEST_F(SidewallCommand, FailuresSayWhatIsWrong) {
   TyreParameters tyre = read_tyre_file(tyres + "p235_75r15.yaml");
   tyre.sidewall.rim_stiffness = tyre.sidewall.tread_stiffness = 100.0;
   write_text_file(scratch_.path("stiff.yaml"), tyre_file_text(tyre));
-  expect_failure("run --no-plot -p 2e4 " + scratch_.path("stiff.yaml") + " -o " + scratch_.path("x"),
-                 "the chain snaps through");
+  expect_failure(
+      "run --no-plot -p 2e4 " + scratch_.path("stiff.yaml") + " -o " + scratch_.path("x"),
+      "the chain snaps through");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The sidewall against what does not come from it: the membrane, the elastica in closed form, the inflated band as an
-/// ordinary differential equation, and TR's geometry of the inflated 235/75 R15.
+/// The sidewall against what does not come from it: the membrane, the elastica in closed form, the
+/// inflated band as an ordinary differential equation, and TR's geometry of the inflated 235/75
+/// R15.
 
 #include <cmath>
 #include <functional>
@@ -34,19 +35,24 @@ SidewallParameters sector_of(const TyreParameters& tyre) {
   return sidewall;
 }
 
-TyreParameters tr_tyre() { return read_tyre_file(FURROW_SOURCE_DIR "/inputs/tyres/p235_75r15.yaml"); }
+TyreParameters tr_tyre() {
+  return read_tyre_file(FURROW_SOURCE_DIR "/inputs/tyres/p235_75r15.yaml");
+}
 
 /// Observed order of the last two of errors at N, 2 N, 4 N, ...
-double order(const std::vector<double>& errors) { return std::log2(errors[errors.size() - 2] / errors.back()); }
+double order(const std::vector<double>& errors) {
+  return std::log2(errors[errors.size() - 2] / errors.back());
+}
 
-/// Without bending stiffness a chain is an arc: the tension is p times the radius. Of a polygon it is the inner radius,
-/// exactly.
+/// Without bending stiffness a chain is an arc: the tension is p times the radius. Of a polygon it
+/// is the inner radius, exactly.
 TEST(Sidewall, MembraneTensionIsPressureTimesRadius) {
   const double p = 241e3, length = 0.161;
   const SidewallEnd end{-0.004, 0.1395, 0.0};
   const double chord = std::hypot(end.a, end.r);
   double alpha = 0.9;  // sin(alpha)/alpha = chord/length
-  for (int i = 0; i < 50; ++i) alpha -= (std::sin(alpha) - alpha * chord / length) / (std::cos(alpha) - chord / length);
+  for (int i = 0; i < 50; ++i)
+    alpha -= (std::sin(alpha) - alpha * chord / length) / (std::cos(alpha) - chord / length);
   const double radius = 0.5 * length / alpha;
   std::vector<double> errors;
   for (const int n : {10, 20, 40, 80}) {
@@ -57,7 +63,8 @@ TEST(Sidewall, MembraneTensionIsPressureTimesRadius) {
     for (int i = 0; i + 1 < n; ++i) EXPECT_NEAR(angles[i + 1] - angles[i], turn, 1e-9);
     // What the tread takes: the last segment's tension and half its pressure
     const double t = angles[n - 1], tension = p * 0.5 * L / std::tan(0.5 * turn);
-    const Vector2 expected = -tension * Vector2(std::cos(t), std::sin(t)) + 0.5 * p * L * Vector2(std::sin(t), -std::cos(t));
+    const Vector2 expected = -tension * Vector2(std::cos(t), std::sin(t)) +
+                             0.5 * p * L * Vector2(std::sin(t), -std::cos(t));
     EXPECT_LT((response.on_tread.head<2>() - expected).norm(), 1e-9 * tension);
     errors.push_back(std::abs(tension / (p * radius) - 1.0));
   }
@@ -65,9 +72,10 @@ TEST(Sidewall, MembraneTensionIsPressureTimesRadius) {
   EXPECT_NEAR(order(errors), 2.0, 0.02);
 }
 
-/// Between two meridians, without bending stiffness, the tension T is constant and the curvature p R/(R_tread T): with theta
-/// the angle of the cord from the axle's direction,  cos theta_1 - cos theta_2 = p (R_2^2 - R_1^2)/(2 R_tread T)  (the
-/// natural shape of a radial tyre; J. F. Purdy, Mathematics Underlying the Design of Pneumatic Tires, 1963).
+/// Between two meridians, without bending stiffness, the tension T is constant and the curvature p
+/// R/(R_tread T): with theta the angle of the cord from the axle's direction,  cos theta_1 - cos
+/// theta_2 = p (R_2^2 - R_1^2)/(2 R_tread T)  (the natural shape of a radial tyre; J. F. Purdy,
+/// Mathematics Underlying the Design of Pneumatic Tires, 1963).
 TEST(Sidewall, SectorMembraneHasTheNaturalShape) {
   const double p = 241e3, length = 0.161, R_bead = 0.208, R_tread = 0.3475;
   std::vector<double> tensions, shapes;
@@ -86,7 +94,9 @@ TEST(Sidewall, SectorMembraneHasTheNaturalShape) {
       least = std::min(least, T), largest = std::max(largest, T), mean += T / (n - 1);
     }
     tensions.push_back((largest - least) / mean);
-    const auto middle = [&](Eigen::Index i) { return R_bead + 0.5 * (shape.nodes(1, i) + shape.nodes(1, i + 1)); };
+    const auto middle = [&](Eigen::Index i) {
+      return R_bead + 0.5 * (shape.nodes(1, i) + shape.nodes(1, i + 1));
+    };
     const double R1 = middle(0), R2 = middle(n - 1);
     shapes.push_back(std::abs((std::cos(shape.angles[0]) - std::cos(shape.angles[n - 1])) /
                                   (p * (R2 * R2 - R1 * R1) / (2.0 * R_tread * mean)) -
@@ -98,21 +108,24 @@ TEST(Sidewall, SectorMembraneHasTheNaturalShape) {
   EXPECT_NEAR(order(shapes), 2.0, 0.1);
 }
 
-/// Euler's elastica with pinned ends: with k = sin(half the difference of the end slopes/2), complete elliptic integrals K
-/// and E,
-///   chord/l = 2 E/K - 1,  P = EI (2 K/l)^2,  rise = k l/K.   (A. E. H. Love, Mathematical Theory of Elasticity, 4th ed.,
-///   art. 263)
+/// Euler's elastica with pinned ends: with k = sin(half the difference of the end slopes/2),
+/// complete elliptic integrals K and E,
+///   chord/l = 2 E/K - 1,  P = EI (2 K/l)^2,  rise = k l/K.   (A. E. H. Love, Mathematical Theory
+///   of Elasticity, 4th ed., art. 263)
 TEST(Sidewall, WithoutPressureItIsTheElastica) {
   const double l = 0.16, EI = 0.5;
   for (const double slope : {20.0, 60.0, 100.0}) {  // [degrees] at either end, against the chord
-    const double k = std::sin(0.5 * radians(slope)), K = std::comp_ellint_1(k), E = std::comp_ellint_2(k);
-    const double chord = l * (2.0 * E / K - 1.0), P = EI * std::pow(2.0 * K / l, 2), rise = k * l / K;
+    const double k = std::sin(0.5 * radians(slope)), K = std::comp_ellint_1(k),
+                 E = std::comp_ellint_2(k);
+    const double chord = l * (2.0 * E / K - 1.0), P = EI * std::pow(2.0 * K / l, 2),
+                 rise = k * l / K;
     std::vector<double> force_errors, rise_errors;
     for (const int n : {10, 20, 40, 80}) {
       SidewallChain chain(uniform(n, l, EI, 0.0));
       VectorX angles;
       Eigen::Matrix2Xd nodes;
-      const SidewallResponse response = chain.solve({0.3 * chord, std::sqrt(0.91) * chord, 0.0}, 0.0, angles);
+      const SidewallResponse response =
+          chain.solve({0.3 * chord, std::sqrt(0.91) * chord, 0.0}, 0.0, angles);
       chain.nodes(angles, nodes);
       const Vector2 along(0.3, std::sqrt(0.91)), outwards(along[1], -along[0]);
       EXPECT_NEAR(response.on_tread.head<2>().dot(outwards), 0.0, 1e-8 * P);
@@ -127,9 +140,12 @@ TEST(Sidewall, WithoutPressureItIsTheElastica) {
   }
 }
 
-/// The inflated band as a differential equation, with the force n of the part below on the part above,
-///   x' = t = (cos theta, sin theta),  theta' = kappa_0 + M/EI,  M' = t x n,  n' = p omega(r) (sin theta, -cos theta),
-/// integrated by Runge and Kutta from M(0) = k_rim (theta - theta_rim); theta(0) and n(0) are found by Newton's method.
+/// The inflated band as a differential equation, with the force n of the part below on the part
+/// above,
+///   x' = t = (cos theta, sin theta),  theta' = kappa_0 + M/EI,  M' = t x n,  n' = p omega(r) (sin
+///   theta, -cos theta),
+/// integrated by Runge and Kutta from M(0) = k_rim (theta - theta_rim); theta(0) and n(0) are found
+/// by Newton's method.
 struct Band {
   std::function<double(double)> bending, curvature;  // EI(s), kappa_0(s)
   double length, rim_angle, tread_angle, rim_stiffness, tread_stiffness, bead_width, taper;
@@ -149,8 +165,8 @@ struct Band {
     const double h = length / steps;
     for (int i = 0; i < steps; ++i) {
       const double s = i * h;
-      const State k1 = slope(s, y), k2 = slope(s + 0.5 * h, y + 0.5 * h * k1), k3 = slope(s + 0.5 * h, y + 0.5 * h * k2),
-                  k4 = slope(s + h, y + h * k3);
+      const State k1 = slope(s, y), k2 = slope(s + 0.5 * h, y + 0.5 * h * k1),
+                  k3 = slope(s + 0.5 * h, y + 0.5 * h * k2), k4 = slope(s + h, y + h * k3);
       y += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
     }
     return y;
@@ -159,7 +175,8 @@ struct Band {
   Vector3 misfit(const Vector3& start, const SidewallEnd& end, double p) const {
     const State y = integrate(start, p);
     // moments of 1 N m/m count like lengths of 1 mm
-    return {y[0] - end.a, y[1] - end.r, 1e-3 * (y[3] + tread_stiffness * (y[2] - tread_angle - end.phi))};
+    return {y[0] - end.a, y[1] - end.r,
+            1e-3 * (y[3] + tread_stiffness * (y[2] - tread_angle - end.phi))};
   }
 
   struct Forces {
@@ -181,8 +198,8 @@ struct Band {
   }
 };
 
-/// The chain of a band: hinges between segments take the band's values there. An end spring acts on the middle of the end
-/// segment, so the half segment before it is put in series with the spring.
+/// The chain of a band: hinges between segments take the band's values there. An end spring acts on
+/// the middle of the end segment, so the half segment before it is put in series with the spring.
 SidewallParameters chain_of(const Band& band, int segments) {
   SidewallParameters sidewall;
   sidewall.length = band.length;
@@ -191,7 +208,9 @@ SidewallParameters chain_of(const Band& band, int segments) {
     sidewall.bending.push_back(band.bending(i * L));
     sidewall.curvature.push_back(band.curvature(i * L));
   }
-  const auto with_half_segment = [&](double k, double s) { return 1.0 / (1.0 / k + 0.5 * L / band.bending(s)); };
+  const auto with_half_segment = [&](double k, double s) {
+    return 1.0 / (1.0 / k + 0.5 * L / band.bending(s));
+  };
   const double half = 0.5 * L;
   sidewall.rim_angle = band.rim_angle + half * band.curvature(0.5 * half);
   sidewall.tread_angle = band.tread_angle - half * band.curvature(band.length - 0.5 * half);
@@ -213,8 +232,10 @@ TEST(Sidewall, ChainsOfMoreSegmentsConvergeToTheInflatedBand) {
             1.0,
             0.0};
   for (const bool sector : {false, true})
-    for (const double p : {0.0, 2e3, 8e3})  // shooting along stiffly stretched bands has no digits left
-      for (const SidewallEnd& end : {SidewallEnd{-0.004, 0.1395, 0.0}, SidewallEnd{0.01, 0.09, 0.2}}) {
+    for (const double p :
+         {0.0, 2e3, 8e3})  // shooting along stiffly stretched bands has no digits left
+      for (const SidewallEnd& end :
+           {SidewallEnd{-0.004, 0.1395, 0.0}, SidewallEnd{0.01, 0.09, 0.2}}) {
         if (sector) band.bead_width = 0.6, band.taper = 2.9;
         Band::Forces reference;
         std::vector<double> on_tread, on_rim;
@@ -228,7 +249,8 @@ TEST(Sidewall, ChainsOfMoreSegmentsConvergeToTheInflatedBand) {
             continue;
           }
           on_tread.push_back((tread - reference.on_tread).norm() / reference.on_tread.norm());
-          on_rim.push_back((shape.on_rim.head<2>() - reference.on_rim).norm() / reference.on_rim.norm());
+          on_rim.push_back((shape.on_rim.head<2>() - reference.on_rim).norm() /
+                           reference.on_rim.norm());
         }
         EXPECT_LT(on_tread.back(), 2e-3) << "p " << p << ", r " << end.r;
         EXPECT_NEAR(order(on_tread), 2.0, 0.15) << "p " << p << ", r " << end.r;
@@ -236,9 +258,9 @@ TEST(Sidewall, ChainsOfMoreSegmentsConvergeToTheInflatedBand) {
       }
 }
 
-/// TR's inflated section is 22.9 cm wide and its sidewall turns by 97 to 101 degrees: so it does here within 1 % and 3
-/// degrees, if it ends at the diameter of the belts. With the diameter that TR prints for its end, 72.5 cm, it would be
-/// nearly straight.
+/// TR's inflated section is 22.9 cm wide and its sidewall turns by 97 to 101 degrees: so it does
+/// here within 1 % and 3 degrees, if it ends at the diameter of the belts. With the diameter that
+/// TR prints for its end, 72.5 cm, it would be nearly straight.
 TEST(Sidewall, InflatedSectionIsThatOfTR) {
   const TyreParameters tyre = tr_tyre();
   const Vector2 chord = tyre.sidewall_chord();
@@ -258,13 +280,16 @@ TEST(Sidewall, InflatedSectionIsThatOfTR) {
 /// Random ends of the useful range: chords from 0.3 to 0.97 of the length.
 TEST(Sidewall, TableFollowsTheChain) {
   const TyreParameters tyre = tr_tyre();
-  for (const auto& [p, sidewall] : {std::pair(103e3, tyre.sidewall), std::pair(241e3, tyre.sidewall),
-                                    std::pair(103e3, sector_of(tyre)), std::pair(241e3, sector_of(tyre))}) {
+  for (const auto& [p, sidewall] :
+       {std::pair(103e3, tyre.sidewall), std::pair(241e3, tyre.sidewall),
+        std::pair(103e3, sector_of(tyre)), std::pair(241e3, sector_of(tyre))}) {
     SidewallTable table(sidewall, p);
     SidewallChain chain(sidewall);
     std::mt19937 engine(11);
-    std::uniform_real_distribution<double> share(0.3, 0.97), direction(radians(45), radians(135)), phi(-0.8, 0.8);
-    double squares = 0.0, largest = 0.0, largest_moment = 0.0, largest_stiffness = 0.0, force_squares = 0.0;
+    std::uniform_real_distribution<double> share(0.3, 0.97), direction(radians(45), radians(135)),
+        phi(-0.8, 0.8);
+    double squares = 0.0, largest = 0.0, largest_moment = 0.0, largest_stiffness = 0.0,
+           force_squares = 0.0;
     const int n = 3000;
     for (int i = 0; i < n; ++i) {
       const double c = tyre.sidewall.length * share(engine), chi = direction(engine);
@@ -277,9 +302,11 @@ TEST(Sidewall, TableFollowsTheChain) {
       squares += error * error;
       force_squares += solved.on_tread.head<2>().squaredNorm();
       largest = std::max(largest, error);
-      largest_moment = std::max(largest_moment, std::abs(looked_up.on_tread[2] - solved.on_tread[2]));
+      largest_moment =
+          std::max(largest_moment, std::abs(looked_up.on_tread[2] - solved.on_tread[2]));
       largest_stiffness =
-          std::max(largest_stiffness, (looked_up.stiffness - solved.stiffness).norm() / solved.stiffness.norm());
+          std::max(largest_stiffness,
+                   (looked_up.stiffness - solved.stiffness).norm() / solved.stiffness.norm());
     }
     const double rms = std::sqrt(squares / n), scale = std::sqrt(force_squares / n);
     const std::string name = (sidewall.taper > 0.0 ? "sector_" : "even_") + std::to_string(int(p));
@@ -292,8 +319,8 @@ TEST(Sidewall, TableFollowsTheChain) {
   }
 }
 
-/// Halved steps along the chord divide the table's error by more and more, up to 2^5, the order of a quintic spline's
-/// gradient.
+/// Halved steps along the chord divide the table's error by more and more, up to 2^5, the order of
+/// a quintic spline's gradient.
 TEST(Sidewall, FinerTablesConverge) {
   const SidewallParameters sidewall = tr_tyre().sidewall;
   std::vector<double> errors;
@@ -310,8 +337,9 @@ TEST(Sidewall, FinerTablesConverge) {
   EXPECT_LT(errors[2], 1e-2);  // [N/m]
 }
 
-/// Around a closed path the sidewall does the work of the pressure on the volume swept, p times it, and no other: also a
-/// coarse table. The volume, per circumference of the tread, is the integral of omega(r) da dr.
+/// Around a closed path the sidewall does the work of the pressure on the volume swept, p times it,
+/// and no other: also a coarse table. The volume, per circumference of the tread, is the integral
+/// of omega(r) da dr.
 TEST(Sidewall, WorkAroundALoopIsThePressureTimesTheVolumeSwept) {
   const SidewallParameters sidewall = sector_of(tr_tyre());
   const double p = 103e3;
@@ -327,13 +355,15 @@ TEST(Sidewall, WorkAroundALoopIsThePressureTimesTheVolumeSwept) {
       const double t = 2.0 * pi * i / n, dt = 2.0 * pi / n;
       const SidewallEnd end{0.03 * std::sin(t), 0.1 + 0.04 * std::cos(t) + 0.01 * std::sin(2 * t),
                             0.5 * std::sin(2 * t + 1)};
-      const Vector3 motion(0.03 * std::cos(t), -0.04 * std::sin(t) + 0.02 * std::cos(2 * t), std::cos(2 * t + 1));
+      const Vector3 motion(0.03 * std::cos(t), -0.04 * std::sin(t) + 0.02 * std::cos(2 * t),
+                           std::cos(2 * t + 1));
       SidewallResponse response;
       any->evaluate(&end, &response, 1, false);
       work += response.on_tread.dot(motion) * dt;
       turnover += std::abs(response.on_tread.dot(motion)) * dt;
       // Green: around the loop, with omega dr = d(bead_width r + taper r^2/2)
-      volume += (sidewall.bead_width * end.r + 0.5 * sidewall.taper * end.r * end.r) * motion[0] * dt;
+      volume +=
+          (sidewall.bead_width * end.r + 0.5 * sidewall.taper * end.r * end.r) * motion[0] * dt;
     }
     EXPECT_GT(std::abs(volume), 3e-3);  // [m^2]
     EXPECT_NEAR(work, p * volume, 1e-12 * turnover);

@@ -31,16 +31,19 @@ std::unique_ptr<Material> create(const MaterialOptions& sections) {
     throw InputError("hardening table, keyword 'eps_vol_pl'", "does not contain 0",
                      "a table around eps_vol_pl = 0, where pc0 is read");
   const double pc0 = strength_at(law.hardening, 0.0), sigma0 = o.number("sigma0");
-  const double square =
-      law.pt * pc0 + sigma0 * (pc0 - law.pt) / 3.0 - sigma0 * sigma0 / 9.0;  // = (3 pc0 - sigma0)(sigma0 + 3 pt)/9
+  const double square = law.pt * pc0 + sigma0 * (pc0 - law.pt) / 3.0 -
+                        sigma0 * sigma0 / 9.0;  // = (3 pc0 - sigma0)(sigma0 + 3 pt)/9
   if (square <= 0.0)
-    throw InputError(o.where("sigma0"),
-                     fmt::format("is {}, which no ellipse through pc0 = {:.6g} Pa and pt reaches", sigma0, pc0),
-                     fmt::format("below 3 pc0 = {:.6g} Pa", 3.0 * pc0));
+    throw InputError(
+        o.where("sigma0"),
+        fmt::format("is {}, which no ellipse through pc0 = {:.6g} Pa and pt reaches", sigma0, pc0),
+        fmt::format("below 3 pc0 = {:.6g} Pa", 3.0 * pc0));
   law.M = sigma0 / std::sqrt(square);
   if (law.elasticity.porous && law.elasticity.limit <= law.pt)
-    throw InputError("elasticity porous, keyword 'pt_el'", fmt::format("is {} Pa", law.elasticity.limit),
-                     fmt::format("above pt = {} Pa", law.pt), "the pressure could not reach the tensile strength");
+    throw InputError("elasticity porous, keyword 'pt_el'",
+                     fmt::format("is {} Pa", law.elasticity.limit),
+                     fmt::format("above pt = {} Pa", law.pt),
+                     "the pressure could not reach the tensile strength");
   return std::make_unique<CrushableFoam>(o.number("density"), law);
 }
 
@@ -50,9 +53,15 @@ Law CrushableFoam::law() {
   Schema schema("law crushable_foam");
   schema.number("density", "kg/m3", Range::positive(), "mass density at the start");
   schema.number("pt", "Pa", Range::positive(), "yield strength in hydrostatic tension, constant");
-  schema.number("sigma0", "Pa", Range::positive(), "initial yield strength in uniaxial compression, below 3 pc0");
-  schema.number("K", "", Range::closed(0.778, 1.0), "flow stress ratio, triaxial extension to compression").by_default(1.0);
-  schema.word("pc0_reading", {"pc0", "pc0_plus_pt"}, "what pc0 of exponential hardening is: pc0, or pc0 + pt")
+  schema.number("sigma0", "Pa", Range::positive(),
+                "initial yield strength in uniaxial compression, below 3 pc0");
+  schema
+      .number("K", "", Range::closed(0.778, 1.0),
+              "flow stress ratio, triaxial extension to compression")
+      .by_default(1.0);
+  schema
+      .word("pc0_reading", {"pc0", "pc0_plus_pt"},
+            "what pc0 of exponential hardening is: pc0, or pc0 + pt")
       .by_default("pc0");
   return {"crushable_foam",
           "snow and foams: ellipse hardening by compaction (ABAQUS, TR eq 17-18)",
@@ -61,7 +70,8 @@ Law CrushableFoam::law() {
 }
 
 CrushableFoam::CrushableFoam(double density, const CrushableFoamParameters& parameters)
-    : Material("crushable_foam", density, {{"eps_vol_pl", "", "volumetric plastic strain, compression positive", 0.0}},
+    : Material("crushable_foam", density,
+               {{"eps_vol_pl", "", "volumetric plastic strain, compression positive", 0.0}},
                initial_pressure(parameters.elasticity)),
       parameters_(parameters) {}
 

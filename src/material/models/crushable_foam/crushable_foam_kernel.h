@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Kernel of the crushable foam law: implicit (backward Euler) return mapping. Equations (17), (18): crushable_foam.h.
+/// Kernel of the crushable foam law: implicit (backward Euler) return mapping. Equations (17),
+/// (18): crushable_foam.h.
 ///
-/// Flow (18) is along (9/2 p, q): De = 4.5 Lambda p, deviatoric plastic strain = Lambda q. So the deviator shrinks radially,
+/// Flow (18) is along (9/2 p, q): De = 4.5 Lambda p, deviatoric plastic strain = Lambda q. So the
+/// deviator shrinks radially,
 ///   q = q_tr/(1 + 3 G Lambda) = q_tr |p|/(|p| + (2/3) G |De|),
-/// p keeps the sign of the trial, and the unknown |De| runs from 0 to the value that brings p to 0, where q vanishes too: that
-/// point is inside the ellipse because pt > 0 and pc > 0, so the root is bracketed.
+/// p keeps the sign of the trial, and the unknown |De| runs from 0 to the value that brings p to 0,
+/// where q vanishes too: that point is inside the ellipse because pt > 0 and pc > 0, so the root is
+/// bracketed.
 
 #include "material/block_update.h"
 #include "material/models/crushable_foam/crushable_foam_parameters.h"
@@ -37,8 +40,8 @@ struct CrushableFoamKernel {
       return root(square(pressure - Lanes(0.5) * (pc - law.pt)) + square(measure * (1.0 / law.M))) -
              Lanes(0.5) * (pc + law.pt);
     };
-    const Mask yielding =
-        excess(p_trial, t_trial, pc_old) > Lanes(1e-13) * (pc_old + law.pt) + Lanes(1e-15) * magnitude(p_trial);
+    const Mask yielding = excess(p_trial, t_trial, pc_old) >
+                          Lanes(1e-13) * (pc_old + law.pt) + Lanes(1e-15) * magnitude(p_trial);
 
     Lanes p = p_trial, shrink = 1.0, compaction = 0.0;
     if (any(yielding)) {
@@ -48,7 +51,8 @@ struct CrushableFoamKernel {
         const Hardening::Strength pc = hardening.at(eps_old + sign * y);
         const Lanes x = dv - sign * y;
         pressure = sign * upper(sign * elastic.pressure(x), 0.0);
-        const Lanes k = Lanes(2.0 / 3.0) * elastic.shear, bulk = elastic.bulk(x, pressure), size = magnitude(pressure);
+        const Lanes k = Lanes(2.0 / 3.0) * elastic.shear, bulk = elastic.bulk(x, pressure),
+                    size = magnitude(pressure);
         const Lanes sum = upper(size + k * y, 1e-290);
         measure = t_trial * size / sum;
         const Lanes measure_slope = -t_trial * k * (y * bulk + size) / (sum * sum);
@@ -56,16 +60,17 @@ struct CrushableFoamKernel {
         a = Lanes(0.5) * (pc.value + law.pt);
         const Lanes dpc = Lanes(0.5) * sign * pc.slope;
         const Lanes distance = root(square(pressure - c) + square(measure * (1.0 / law.M)));
-        const Lanes along = (pressure - c) * (-sign * bulk - dpc) + measure * measure_slope * (1.0 / (law.M * law.M));
+        const Lanes along = (pressure - c) * (-sign * bulk - dpc) +
+                            measure * measure_slope * (1.0 / (law.M * law.M));
         return {distance - a, along / upper(distance, 1e-290) - dpc};
       };
       const Lanes high = sign * (dv - elastic.strain(0.0));
-      const Lanes y =
-          decreasing_root(balance, 0.0, 0.0, high, Lanes(1e-15) * high, yielding && high > Lanes(0.0), points.iterations);
+      const Lanes y = decreasing_root(balance, 0.0, 0.0, high, Lanes(1e-15) * high,
+                                      yielding && high > Lanes(0.0), points.iterations);
       const Lanes solution = select(yielding, upper(y, 0.0), 0.0);
       balance(solution);
-      // Rounding is removed by placing the stress on the ellipse: along the ray from its centre, or at constant p when the root
-      // could not be resolved (p_tr next to zero).
+      // Rounding is removed by placing the stress on the ellipse: along the ray from its centre, or
+      // at constant p when the root could not be resolved (p_tr next to zero).
       const Lanes distance = root(square(pressure - c) + square(measure * (1.0 / law.M)));
       const Mask near = magnitude(distance - a) <= Lanes(1e-6) * a;
       const Lanes ray = sign * upper(sign * (c + (pressure - c) * a / distance), 0.0);
@@ -74,13 +79,15 @@ struct CrushableFoamKernel {
       stdx::where(yielding, p) = select(near, ray, pressure);
       stdx::where(yielding && t_trial > Lanes(0.0), shrink) = t / t_trial;
       stdx::where(yielding, compaction) = sign * solution;
-      stdx::where(yielding, points.branch) = select(sign > Lanes(0.0), double(Branch::cap), double(Branch::tension));
+      stdx::where(yielding, points.branch) =
+          select(sign > Lanes(0.0), double(Branch::cap), double(Branch::tension));
     }
     const Symmetric s = s_trial * shrink;
     const Lanes elastic_strain = dv - compaction, half_compliance = Lanes(0.5) / elastic.shear;
-    points.stored =
-        elastic.volumetric_work(elastic_strain, p) + contract(s + s_old, s - s_old) * half_compliance * Lanes(0.5);
-    points.dissipated = p * compaction + select(yielding, contract(s, s_trial - s) * half_compliance, 0.0);
+    points.stored = elastic.volumetric_work(elastic_strain, p) +
+                    contract(s + s_old, s - s_old) * half_compliance * Lanes(0.5);
+    points.dissipated =
+        p * compaction + select(yielding, contract(s, s_trial - s) * half_compliance, 0.0);
     points.own[0] = eps_old + compaction;
     points.stress = s.plus_identity(-p);
     points.below_data = hardening.below(points.own[0]);

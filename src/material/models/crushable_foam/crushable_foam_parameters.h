@@ -10,8 +10,9 @@ namespace furrow {
 struct CrushableFoamParameters {
   ElasticityParameters elasticity;
   HardeningParameters hardening;
-  double pt = 0.0;          ///< yield strength in hydrostatic tension [Pa], constant
-  double M = 1.0;           ///< aspect of the ellipse: its half-height in t over its half-width in p
+  double pt = 0.0;  ///< yield strength in hydrostatic tension [Pa], constant
+  /// aspect of the ellipse: its half-height in t over its half-width in p
+  double M = 1.0;
   double flow_ratio = 1.0;  ///< K
 };
 

@@ -30,18 +30,23 @@ std::unique_ptr<Material> create(const MaterialOptions& sections) {
   law.A = law.B + law.alpha;
   law.flow_ratio = o.number("K");
   if (law.B <= 0.0)
-    throw InputError(o.where("alpha"),
-                     fmt::format("is {}: the transition would be wider than the shear strength", law.alpha),
-                     fmt::format("below cos(beta) = {:.4g}", std::cos(beta)), "0.01 to 0.05 is usual");
+    throw InputError(
+        o.where("alpha"),
+        fmt::format("is {}: the transition would be wider than the shear strength", law.alpha),
+        fmt::format("below cos(beta) = {:.4g}", std::cos(beta)), "0.01 to 0.05 is usual");
   const double apex = law.d / law.tan_beta;
   law.cutoff = o.has("tension") ? o.number("tension") : apex;
   if (law.cutoff > apex * (1.0 + 1e-12))
-    throw InputError(o.where("tension"), fmt::format("is {} Pa, beyond the apex of the shear line", law.cutoff),
-                     fmt::format("at most d/tan(beta) = {:.6g} Pa", apex), "leave it out to cut at the apex");
-  const double lowest = std::max(law.cutoff, law.R * law.d / (1.0 + law.R * law.tan_beta));  // p and pa stay above -lowest
+    throw InputError(
+        o.where("tension"), fmt::format("is {} Pa, beyond the apex of the shear line", law.cutoff),
+        fmt::format("at most d/tan(beta) = {:.6g} Pa", apex), "leave it out to cut at the apex");
+  const double lowest = std::max(
+      law.cutoff, law.R * law.d / (1.0 + law.R * law.tan_beta));  // p and pa stay above -lowest
   if (law.elasticity.porous && law.elasticity.limit <= lowest)
-    throw InputError("elasticity porous, keyword 'pt_el'", fmt::format("is {} Pa", law.elasticity.limit),
-                     fmt::format("above the tensile strength, {:.6g} Pa", lowest), "raise it, or lower the tension cut-off");
+    throw InputError("elasticity porous, keyword 'pt_el'",
+                     fmt::format("is {} Pa", law.elasticity.limit),
+                     fmt::format("above the tensile strength, {:.6g} Pa", lowest),
+                     "raise it, or lower the tension cut-off");
   check_initial(law.hardening, o, "eps_vol_pl_0");
   return std::make_unique<DruckerPragerCap>(o.number("density"), law, o.number("eps_vol_pl_0"));
 }
@@ -52,13 +57,21 @@ Law DruckerPragerCap::law() {
   Schema schema("law drucker_prager_cap");
   schema.number("density", "kg/m3", Range::positive(), "mass density at the start");
   schema.number("d", "Pa", Range::non_negative(), "cohesion: t at p = 0 on the shear line");
-  schema.number("beta", "degree", Range{0.0, 80.0, true, false}, "slope of the shear line in the p-t plane");
-  schema.number("R", "", Range::positive(), "eccentricity of the cap: its half-width in p over R is its height");
-  schema.number("alpha", "", Range{0.0, 1.0, false, true}, "size of the transition between shear line and cap")
-      .by_default(0.0);
-  schema.number("K", "", Range::closed(0.778, 1.0), "flow stress ratio, triaxial extension to compression").by_default(1.0);
+  schema.number("beta", "degree", Range{0.0, 80.0, true, false},
+                "slope of the shear line in the p-t plane");
+  schema.number("R", "", Range::positive(),
+                "eccentricity of the cap: its half-width in p over R is its height");
   schema
-      .number("eps_vol_pl_0", "", Range::any(), "initial volumetric plastic strain, compression positive: positions the cap")
+      .number("alpha", "", Range{0.0, 1.0, false, true},
+              "size of the transition between shear line and cap")
+      .by_default(0.0);
+  schema
+      .number("K", "", Range::closed(0.778, 1.0),
+              "flow stress ratio, triaxial extension to compression")
+      .by_default(1.0);
+  schema
+      .number("eps_vol_pl_0", "", Range::any(),
+              "initial volumetric plastic strain, compression positive: positions the cap")
       .by_default(0.0);
   schema
       .number("tension", "Pa", Range::non_negative(),
@@ -70,10 +83,12 @@ Law DruckerPragerCap::law() {
           create};
 }
 
-DruckerPragerCap::DruckerPragerCap(double density, const DruckerPragerCapParameters& parameters, double eps_vol_pl_0)
-    : Material("drucker_prager_cap", density,
-               {{"eps_vol_pl", "", "volumetric plastic strain, compression positive", eps_vol_pl_0}},
-               initial_pressure(parameters.elasticity)),
+DruckerPragerCap::DruckerPragerCap(double density, const DruckerPragerCapParameters& parameters,
+                                   double eps_vol_pl_0)
+    : Material(
+          "drucker_prager_cap", density,
+          {{"eps_vol_pl", "", "volumetric plastic strain, compression positive", eps_vol_pl_0}},
+          initial_pressure(parameters.elasticity)),
       parameters_(parameters) {}
 
 UpdateReport DruckerPragerCap::update_block(const PointBlock& block) const {
@@ -95,8 +110,10 @@ double DruckerPragerCap::pa(double eps) const {
 }
 
 double DruckerPragerCap::shear_strength(double p, double eps) const {
-  const double top = pa(eps), Q = parameters_.d + top * parameters_.tan_beta, radius = parameters_.alpha * Q, D = top - p;
-  if (D < radius * parameters_.sin_beta) return parameters_.B * Q + std::sqrt(radius * radius - D * D);
+  const double top = pa(eps), Q = parameters_.d + top * parameters_.tan_beta,
+               radius = parameters_.alpha * Q, D = top - p;
+  if (D < radius * parameters_.sin_beta)
+    return parameters_.B * Q + std::sqrt(radius * radius - D * D);
   return parameters_.d + p * parameters_.tan_beta;
 }
 
@@ -112,7 +129,8 @@ double DruckerPragerCap::yield_function(const VectorX& state) const {
   const double t = yield_measure(stress, parameters_.flow_ratio), eps = state[eps_vol_pl];
   const double top = pa(eps), Q = parameters_.d + top * parameters_.tan_beta, D = stress.p - top;
   const double cut = -stress.p - parameters_.cutoff;
-  if (D >= 0.0) return std::max(cut, std::hypot(D, parameters_.R * t / parameters_.A) - parameters_.R * Q);
+  if (D >= 0.0)
+    return std::max(cut, std::hypot(D, parameters_.R * t / parameters_.A) - parameters_.R * Q);
   return std::max(cut, t - shear_strength(stress.p, eps));
 }
 
@@ -121,12 +139,15 @@ double DruckerPragerCap::stress_scale(const VectorX& state) const {
   return std::max(parameters_.d + stress, 1e-8 * moduli(state).wave());
 }
 
-std::vector<Vector2> DruckerPragerCap::yield_surface(const VectorX& state, std::size_t points) const {
-  const double eps = state[eps_vol_pl], tip = pb(eps), start = -parameters_.cutoff, top = std::max(pa(eps), start);
+std::vector<Vector2> DruckerPragerCap::yield_surface(const VectorX& state,
+                                                     std::size_t points) const {
+  const double eps = state[eps_vol_pl], tip = pb(eps), start = -parameters_.cutoff,
+               top = std::max(pa(eps), start);
   std::vector<Vector2> line;
   if (parameters_.cutoff < parameters_.d / parameters_.tan_beta) line.emplace_back(start, 0.0);
   const std::size_t half = std::max<std::size_t>(points / 2, 2);
-  for (std::size_t i = 0; i < half; ++i) {  // straight to the top, denser near it where the transition is
+  // straight to the top, denser near it where the transition is
+  for (std::size_t i = 0; i < half; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(half);
     const double p = i == 0 ? start : top - (top - start) * (1.0 - share) * (1.0 - share);
     line.emplace_back(p, strength(p, eps));

@@ -13,9 +13,10 @@ struct DruckerPragerCapParameters {
   double d = 0.0;         ///< cohesion in the p-t plane [Pa]
   double tan_beta = 0.0;  ///< slope of the shear line
   double sin_beta = 0.0;
-  double R = 0.0;           ///< eccentricity of the cap
-  double alpha = 0.0;       ///< size of the transition
-  double A = 1.0;           ///< 1 + alpha - alpha/cos(beta): top of the cap is t = A (d + pa tan(beta))
+  double R = 0.0;      ///< eccentricity of the cap
+  double alpha = 0.0;  ///< size of the transition
+  /// 1 + alpha - alpha/cos(beta): top of the cap is t = A (d + pa tan(beta))
+  double A = 1.0;
   double B = 1.0;           ///< 1 - alpha/cos(beta): height of the transition's centre
   double flow_ratio = 1.0;  ///< K
   double cutoff = 1e300;    ///< tension cut-off: p >= -cutoff [Pa]

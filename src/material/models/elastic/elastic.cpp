@@ -12,7 +12,8 @@ Law Elastic::law() {
           "elastic ground, linear or porous",
           {{"law", {{"", "", schema}}}, elasticity_section()},
           [](const MaterialOptions& o) -> std::unique_ptr<Material> {
-            return std::make_unique<Elastic>(o.at("law").options.number("density"), make_elasticity(o.at("elasticity")));
+            return std::make_unique<Elastic>(o.at("law").options.number("density"),
+                                             make_elasticity(o.at("elasticity")));
           }};
 }
 
@@ -23,7 +24,9 @@ UpdateReport Elastic::update_block(const PointBlock& block) const {
   return checked(kernels().elastic(elasticity_, density(), block), block);
 }
 
-ElasticModuli Elastic::moduli(const VectorX& state) const { return moduli_at(elasticity_, invariants(stress_of(state)).p); }
+ElasticModuli Elastic::moduli(const VectorX& state) const {
+  return moduli_at(elasticity_, invariants(stress_of(state)).p);
+}
 
 double Elastic::largest_wave_speed(const PointBlock& block) const {
   return largest_elastic_wave_speed(elasticity_, density(), block);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Elastic ground: linear or porous elasticity and nothing else. Rate form (hypoelastic) under finite strain.
+/// Elastic ground: linear or porous elasticity and nothing else. Rate form (hypoelastic) under
+/// finite strain.
 
 #include "material/elasticity/elasticity.h"
 #include "material/material.h"

@@ -18,7 +18,8 @@ struct ElasticKernel {
     const Lanes p = elastic.pressure(x);
     const Symmetric change = strain.deviator() * (Lanes(2.0) * elastic.shear);
     const Symmetric s = points.stress.plus_identity(elastic.p_n) + change;
-    points.stored = elastic.volumetric_work(x, p) + contract(s - change * Lanes(0.5), strain.deviator());
+    points.stored =
+        elastic.volumetric_work(x, p) + contract(s - change * Lanes(0.5), strain.deviator());
     points.stress = s.plus_identity(-p);
   }
 };

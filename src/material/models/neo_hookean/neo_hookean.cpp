@@ -18,19 +18,20 @@ Law NeoHookean::law() {
           {{"law", {{"", "", schema}}}},
           [](const MaterialOptions& sections) -> std::unique_ptr<Material> {
             const Options& o = sections.at("law").options;
-            return std::make_unique<NeoHookean>(o.number("density"), NeoHookeanParameters{o.number("G"), o.number("bulk")});
+            return std::make_unique<NeoHookean>(
+                o.number("density"), NeoHookeanParameters{o.number("G"), o.number("bulk")});
           }};
 }
 
 NeoHookean::NeoHookean(double density, const NeoHookeanParameters& parameters)
-    : Material(
-          "neo_hookean", density,
-          [] {
-            std::vector<StateField> fields;
-            for (const char* component : {"xx", "yy", "zz", "xy", "yz", "xz"})
-              fields.push_back({std::string("b_minus_i_") + component, "", "left Cauchy-Green tensor minus identity", 0.0});
-            return fields;
-          }()),
+    : Material("neo_hookean", density,
+               [] {
+                 std::vector<StateField> fields;
+                 for (const char* component : {"xx", "yy", "zz", "xy", "yz", "xz"})
+                   fields.push_back({std::string("b_minus_i_") + component, "",
+                                     "left Cauchy-Green tensor minus identity", 0.0});
+                 return fields;
+               }()),
       parameters_(parameters) {}
 
 UpdateReport NeoHookean::update_block(const PointBlock& block) const {
@@ -38,7 +39,8 @@ UpdateReport NeoHookean::update_block(const PointBlock& block) const {
 }
 
 ElasticModuli NeoHookean::moduli(const VectorX& state) const {
-  // Along the axis of the largest principal stretch, with lambda^2 <= 1 + |b - I|: acoustic tensor of W, each term bounded above.
+  // Along the axis of the largest principal stretch, with lambda^2 <= 1 + |b - I|: acoustic tensor
+  // of W, each term bounded above.
   const double J = state[field::volume_ratio];
   const double stretch = 1.0 + state.segment<6>(b_minus_identity).cwiseAbs().sum();
   const double bulk = 0.5 * parameters_.bulk * (J + 1.0 / J);

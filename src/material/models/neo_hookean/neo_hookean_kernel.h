@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Kernel of the neo-Hookean law: b_{n+1} = Delta F b_n Delta F^T, stress from b. Equations: neo_hookean.h.
+/// Kernel of the neo-Hookean law: b_{n+1} = Delta F b_n Delta F^T, stress from b. Equations:
+/// neo_hookean.h.
 
 #include "material/block_update.h"
 #include "simd/exponential.h"
@@ -22,19 +23,22 @@ struct NeoHookeanKernel {
     Lanes a[9];
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        a[3 * i + j] = h.m[3 * i] * columns[j] + h.m[3 * i + 1] * columns[3 + j] + h.m[3 * i + 2] * columns[6 + j];
+        a[3 * i + j] = h.m[3 * i] * columns[j] + h.m[3 * i + 1] * columns[3 + j] +
+                       h.m[3 * i + 2] * columns[6 + j];
     const auto change = [&](int i, int j) {
       return a[3 * i + j] + a[3 * j + i] + a[3 * i] * h.m[3 * j] + a[3 * i + 1] * h.m[3 * j + 1] +
              a[3 * i + 2] * h.m[3 * j + 2];
     };
-    const Symmetric n = c + Symmetric{change(0, 0), change(1, 1), change(2, 2), change(0, 1), change(1, 2), change(0, 2)};
+    const Symmetric n = c + Symmetric{change(0, 0), change(1, 1), change(2, 2),
+                                      change(0, 1), change(1, 2), change(0, 2)};
     const Lanes trace = n.trace();
     // J^2 - 1 = det(I + n) - 1 without cancellation
     const Lanes excess = trace + Lanes(0.5) * (trace * trace - contract(n, n)) + determinant(n);
     const Lanes log_square = each(excess, [](double x) { return __builtin_log1p(x); });  // 2 ln J
     const Lanes J = root(Lanes(1.0) + excess);
     const Lanes isochoric = exponential(log_square * Lanes(-1.0 / 3.0));  // J^(-2/3)
-    points.stress = (n.deviator() * (Lanes(law.shear) * isochoric / J)).plus_identity(Lanes(0.5 * law.bulk) * excess / J);
+    points.stress = (n.deviator() * (Lanes(law.shear) * isochoric / J))
+                        .plus_identity(Lanes(0.5 * law.bulk) * excess / J);
     points.stored = Lanes(0.5 * law.shear) * (isochoric * (trace + Lanes(3.0)) - Lanes(3.0)) +
                     Lanes(0.25 * law.bulk) * (excess - log_square);
     own[0] = n.xx, own[1] = n.yy, own[2] = n.zz, own[3] = n.xy, own[4] = n.yz, own[5] = n.xz;
