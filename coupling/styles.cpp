@@ -29,20 +29,20 @@ namespace {
 template <class FixStyle>
 LAMMPS_NS::Fix* create_fix(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) {
   FixStyle* fix = nullptr;
-  guarded(*lammps->error, [&] { fix = new FixStyle(lammps, narg, arg); });
+  with_collective_errors(*lammps->error, [&] { fix = new FixStyle(lammps, narg, arg); });
   return fix;
 }
 
 template <class Command>
 void run_command(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg) {
-  guarded(*lammps->error, [&] { Command(lammps).command(narg, arg); });
+  with_collective_errors(*lammps->error, [&] { Command(lammps).command(narg, arg); });
 }
 
 }  // namespace
 
 void add_styles(LAMMPS_NS::LAMMPS& lammps) {
-  guarded(*lammps.error, [&] { check_library(lammps); });
-  add_fix_style(lammps, "furrow/world", create_fix<FixWorld>);
+  with_collective_errors(*lammps.error, [&] { check_library(lammps); });
+  add_fix_style(lammps, "furrow/system", create_fix<FixCoupledSystem>);
   add_fix_style(lammps, "plate/rigid", create_fix<FixPlateRigid>);
   add_fix_style(lammps, "wheel/rigid", create_fix<FixWheelRigid>);
   add_fix_style(lammps, "tyre/darnell", create_fix<FixTyreDarnell>);

@@ -8,7 +8,7 @@
 
 namespace furrow::coupling {
 
-inline std::vector<std::string> words_after_style(int narg, char** arg) {
+inline std::vector<std::string> args_after_style(int narg, char** arg) {
   return {arg + std::min(narg, 3), arg + narg};
 }
 

@@ -4,11 +4,11 @@
 
 namespace furrow::coupling {
 
-class ResultsKeeper {
+class FlushesOnError {
  public:
-  virtual ~ResultsKeeper() = default;
+  virtual ~FlushesOnError() = default;
   /// Called on rank 0, once, while the run is being stopped. May throw.
-  virtual void keep_results() = 0;
+  virtual void flush_results() = 0;
 };
 
 }  // namespace furrow::coupling

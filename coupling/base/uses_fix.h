@@ -13,18 +13,18 @@
 namespace furrow::coupling {
 
 /// A fix that works with another one as long as it lives.
-class Dependent {
+class UsesFix {
  public:
-  virtual ~Dependent() = default;
-  virtual bool needs(LAMMPS_NS::Fix& other) const = 0;
+  virtual ~UsesFix() = default;
+  virtual bool uses(LAMMPS_NS::Fix& other) const = 0;
 };
 
 /// For pre_delete(true), that is for unfix and for a second fix of the same id. @throws StateError
 /// when another fix needs this one
-inline void refuse_if_needed(LAMMPS_NS::Modify& modify, LAMMPS_NS::Fix& fix) {
+inline void forbid_removal_while_used(LAMMPS_NS::Modify& modify, LAMMPS_NS::Fix& fix) {
   for (int i = 0; i < modify.nfix; ++i) {
-    const auto* dependent = dynamic_cast<const Dependent*>(modify.fix[i]);
-    if (dependent && dependent->needs(fix))
+    const auto* user = dynamic_cast<const UsesFix*>(modify.fix[i]);
+    if (user && user->uses(fix))
       throw StateError(fmt::format(
           "fix {}: cannot be removed or replaced while fix {} uses it; write 'unfix {}' before",
           fix.id, modify.fix[i]->id, modify.fix[i]->id));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/bodies/fix_body.h"
 
+#include <fmt/format.h>
+
 #include "comm.h"
 #include "coupling/base/uses_fix.h"
 #include "coupling/liggghts/errors.h"
@@ -17,29 +19,35 @@ FixBody::FixBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, std::unique_pt
 FixBody::~FixBody() = default;
 
 /// Not in the constructor: LIGGGHTS cannot make one fix while it makes another.
-void FixBody::post_create() { FixWorld::of(*lmp).add(*body_, id); }
+void FixBody::post_create() { FixCoupledSystem::of(*lmp).add(*body_, id); }
 
 void FixBody::pre_delete(bool unfixflag) {
   if (!unfixflag) return;
-  guarded(*error, [&] { refuse_if_needed(*modify, *this); });
-  FixWorld::of(*lmp).remove(*body_);
+  with_collective_errors(*error, [&] { forbid_removal_while_used(*modify, *this); });
+  FixCoupledSystem::of(*lmp).remove(*body_);
 }
 
+/// Collective where a body is spread over the ranks.
 void FixBody::write_restart(FILE* file) {
-  std::vector<double> state = body_->state();  // collective where a body is spread over the ranks
-  if (comm->me != 0) return;
-  state.insert(state.begin(), static_cast<double>(state.size()));
-  write_record(file, state);
+  with_collective_errors(*error, [&] {
+    Checkpoint state(owner());
+    body_->checkpoint(state);
+    if (comm->me == 0) write_record(file, state);
+  });
 }
 
 void FixBody::restart(char* buffer) {
-  const auto* numbers = reinterpret_cast<const double*>(buffer);
-  state_as_made_ = body_->state();
-  guarded(*error, [&] {
-    body_->restore(
-        std::vector<double>(numbers + 1, numbers + 1 + static_cast<std::size_t>(numbers[0])));
+  with_collective_errors(*error, [&] {
+    Checkpoint made(owner());
+    body_->checkpoint(made);
+    state_as_made_ = made.reread();
+    Checkpoint state = read_record(owner(), buffer);
+    body_->checkpoint(state);
+    state.finish();
   });
 }
+
+std::string FixBody::owner() const { return fmt::format("fix {} {}", id, style); }
 
 int FixBody::getCreateMeshTriCount() { return static_cast<int>(body_->surface().triangle_count()); }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What every fix that makes a body has in common: a place in the world, its state in restart
+/// What every fix that makes a body has in common: a place in the system, its state in restart
 /// files, its triangles for mesh/body.
 
 #include <memory>
+#include <optional>
 
 #include "coupling/bodies/fix_coupled_system.h"
 
@@ -16,8 +17,8 @@ class FixBody : public LAMMPS_NS::Fix, public BodyFix {
   ~FixBody() override;
 
   Body& body() override { return *body_; }
-  /// The body as its fix line made it, before a restart file moved it on; empty without a restart.
-  const std::vector<double>& state_as_made() const { return state_as_made_; }
+  /// The body as its fix line made it, before a checkpoint moved it on; nothing without one.
+  const std::optional<Checkpoint>& state_as_made() const { return state_as_made_; }
 
   int setmask() override { return 0; }
   void post_create() override;
@@ -28,8 +29,10 @@ class FixBody : public LAMMPS_NS::Fix, public BodyFix {
   double* getCreateMeshTriNode(const int i) override;
 
  private:
+  std::string owner() const;  ///< for errors about checkpoints
+
   std::unique_ptr<Body> body_;
-  std::vector<double> state_as_made_;
+  std::optional<Checkpoint> state_as_made_;
 };
 
 }  // namespace furrow::coupling

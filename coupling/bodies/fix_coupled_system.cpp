@@ -16,29 +16,29 @@ namespace furrow::coupling {
 
 namespace {
 
-constexpr char world_id[] = "furrow_world";
+constexpr char system_id[] = "furrow_system";
 // of the force scale: round-off of the sums, nothing else
 constexpr double momentum_tolerance = 1e-10;
 
 }  // namespace
 
-FixWorld::FixWorld(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+FixCoupledSystem::FixCoupledSystem(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : Fix(lammps, narg, arg), communicator_(&world), grain_forces_(*lammps) {
   restart_global = 1;
   nevery = 1;
 }
 
-FixWorld& FixWorld::of(LAMMPS_NS::LAMMPS& lammps) {
-  if (LAMMPS_NS::Fix* existing = lammps.modify->find_fix_id(world_id))
-    return dynamic_cast<FixWorld&>(*existing);
-  std::string words[] = {world_id, "all", "furrow/world"};
+FixCoupledSystem& FixCoupledSystem::of(LAMMPS_NS::LAMMPS& lammps) {
+  if (LAMMPS_NS::Fix* existing = lammps.modify->find_fix_id(system_id))
+    return dynamic_cast<FixCoupledSystem&>(*existing);
+  std::string words[] = {system_id, "all", "furrow/system"};
   char* arguments[] = {words[0].data(), words[1].data(), words[2].data()};
   lammps.modify->add_fix(3, arguments);
   return of(lammps);
 }
 
-BodyFix& FixWorld::find_body(LAMMPS_NS::LAMMPS& lammps, const std::string& where,
-                             const std::string& fix_id) {
+BodyFix& FixCoupledSystem::find_body(LAMMPS_NS::LAMMPS& lammps, const std::string& where,
+                                     const std::string& fix_id) {
   auto* found = dynamic_cast<BodyFix*>(lammps.modify->find_fix_id(fix_id.c_str()));
   if (found) return *found;
   std::string known;
@@ -50,43 +50,46 @@ BodyFix& FixWorld::find_body(LAMMPS_NS::LAMMPS& lammps, const std::string& where
                    "write the fix that makes the body (such as wheel/rigid) before this line");
 }
 
-void FixWorld::add(Body& body, const std::string& name) {
-  world_.add(body, name);
+void FixCoupledSystem::add(Body& body, const std::string& name) {
+  system_.add(body, name);
   members_.push_back({&body, name, {}, {}});
 }
 
-void FixWorld::remove(Body& body) {
-  world_.remove(body);
+void FixCoupledSystem::remove(Body& body) {
+  system_.remove(body);
   members_.erase(std::remove_if(members_.begin(), members_.end(),
                                 [&](const Member& m) { return m.body == &body; }),
                  members_.end());
 }
 
-void FixWorld::remove(Driver& driver) {
-  drivers_.erase(std::remove(drivers_.begin(), drivers_.end(), &driver), drivers_.end());
+void FixCoupledSystem::remove(MotionController& controller) {
+  controllers_.erase(std::remove(controllers_.begin(), controllers_.end(), &controller),
+                     controllers_.end());
 }
 
-FixWorld::Member& FixWorld::member(const Body& body) {
+FixCoupledSystem::Member& FixCoupledSystem::member(const Body& body) {
   return *std::find_if(members_.begin(), members_.end(),
                        [&](const Member& m) { return m.body == &body; });
 }
-ContactLedger& FixWorld::ledger(const Body& body) { return member(body).ledger; }
-const Vector3& FixWorld::moment_reference(const Body& body) { return member(body).reference; }
-const MomentumAudit& FixWorld::audit(const Body& body) { return member(body).audit; }
-double FixWorld::contact_count(const Body& body) { return member(body).contacts; }
+ContactLedger& FixCoupledSystem::ledger(const Body& body) { return member(body).ledger; }
+const Vector3& FixCoupledSystem::moment_reference(const Body& body) {
+  return member(body).reference;
+}
+const MomentumAudit& FixCoupledSystem::audit(const Body& body) { return member(body).audit; }
+double FixCoupledSystem::contact_count(const Body& body) { return member(body).contacts; }
 
-int FixWorld::setmask() {
+int FixCoupledSystem::setmask() {
   using namespace LAMMPS_NS::FixConst;
   return PRE_INITIAL_INTEGRATE | INITIAL_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE |
          END_OF_STEP;  // PRE_FORCE: for setup_pre_force
 }
 
 /// Before the first neighbour lists: a position that is no number would crash them.
-void FixWorld::init() {
-  guarded_alone(*error, [&] { check_grains_finite(*lmp); });
+void FixCoupledSystem::init() {
+  with_local_errors(*error, [&] { check_grains_finite(*lmp); });
 }
 
-void FixWorld::setup_pre_force(int) {
+void FixCoupledSystem::setup_pre_force(int) {
   for (Member& m : members_)
     if (resumed_ && m.resumed_forces.cols() == 0) m.resumed_forces = m.body->surface().f;
   clear_forces();
@@ -94,39 +97,39 @@ void FixWorld::setup_pre_force(int) {
 
 /// The forces of the last step before the checkpoint, in place of those that the set-up has made of
 /// full-step velocities.
-void FixWorld::pre_initial_integrate() {
+void FixCoupledSystem::pre_initial_integrate() {
   if (!resumed_) return;
   resumed_ = false;
   clear_forces();
   grain_forces_.put_back();
   for (Member& m : members_) m.body->surface().f = m.resumed_forces;
-  world_.restore_shown_forces(resumed_shown_);
+  system_.restore_published_contact_forces(resumed_contact_forces_);
   summed_ = true;
 }
 
-void FixWorld::initial_integrate(int) {
-  guarded(*error, [&] {
+void FixCoupledSystem::initial_integrate(int) {
+  with_collective_errors(*error, [&] {
     if (!summed_) sum_forces();  // the forces of the set-up, made after this fix had its turn
-    for (Driver* driver : drivers_) driver->apply(time_, update->dt);
-    world_.advance(update->dt);
+    for (MotionController* controller : controllers_) controller->apply(time_, update->dt);
+    system_.advance(update->dt);
     time_ += update->dt;
     clear_forces();
   });
 }
 
-void FixWorld::final_integrate() {
-  guarded(*error, [&] {
+void FixCoupledSystem::final_integrate() {
+  with_collective_errors(*error, [&] {
     sum_forces();
-    world_.show_interaction_forces();
+    system_.publish_contact_forces();
   });
 }
 
-void FixWorld::end_of_step() {
-  guarded_alone(*error, [&] { check_velocities_finite(*lmp); });
+void FixCoupledSystem::end_of_step() {
+  with_local_errors(*error, [&] { check_velocities_finite(*lmp); });
 }
 
-void FixWorld::clear_forces() {
-  world_.clear_forces();
+void FixCoupledSystem::clear_forces() {
+  system_.clear_forces();
   for (Member& m : members_) {
     const Surface& surface = m.body->surface();
     m.ledger = {};
@@ -136,7 +139,7 @@ void FixWorld::clear_forces() {
 }
 
 /// One sum over ranks for all bodies: nodal forces and ledgers side by side.
-void FixWorld::sum_forces() {
+void FixCoupledSystem::sum_forces() {
   summed_ = true;
   if (communicator_.size() > 1) {
     buffer_.clear();
@@ -167,7 +170,7 @@ void FixWorld::sum_forces() {
   for (Member& m : members_) check_momentum(m);
 }
 
-void FixWorld::check_momentum(Member& m) const {
+void FixCoupledSystem::check_momentum(Member& m) const {
   m.contacts = m.ledger.contacts;
   if (m.ledger.force_scale == 0.0) return;
   const Surface& surface = m.body->surface();
@@ -197,7 +200,7 @@ void FixWorld::check_momentum(Member& m) const {
 /// the last step; LIGGGHTS would write the histories as they were when the neighbour lists were
 /// made. After a run (command write_restart) it brings them up to date itself, moves grains between
 /// ranks without their forces, and a further run in this process computes them anew as well.
-void FixWorld::write_restart(FILE* file) {
+void FixCoupledSystem::write_restart(FILE* file) {
   const bool in_run = update->whichflag == 1;
   if (in_run) {
     grain_forces_.store();
@@ -206,16 +209,31 @@ void FixWorld::write_restart(FILE* file) {
         modify->fix[i]->setup_pre_exchange();
   }
   if (communicator_.rank() != 0) return;
-  std::vector<double> state = world_.shown_forces();
-  state.insert(state.begin(), {time_, in_run ? 1.0 : 0.0, static_cast<double>(state.size())});
-  write_record(file, state);
+  with_local_errors(*error, [&] {
+    Checkpoint state(style);
+    checkpoint(state, in_run, system_.published_contact_forces());
+    write_record(file, state);
+  });
 }
 
-void FixWorld::restart(char* buffer) {
-  const auto* state = reinterpret_cast<const double*>(buffer);
-  time_ = state[0];
-  resumed_ = state[1] != 0.0;
-  resumed_shown_.assign(state + 3, state + 3 + static_cast<std::size_t>(state[2]));
+void FixCoupledSystem::restart(char* buffer) {
+  with_collective_errors(*error, [&] {
+    Checkpoint state = read_record(style, buffer);
+    checkpoint(state, false, {});
+    state.finish();
+  });
+}
+
+/// @param in_run, contact_forces to be saved; what is read goes to resumed_,
+/// resumed_contact_forces_
+void FixCoupledSystem::checkpoint(Checkpoint& state, bool in_run,
+                                  std::vector<double> contact_forces) {
+  state.value("time", time_);
+  state.value("in_run", in_run);
+  state.values("contact_forces", contact_forces);
+  if (state.saving()) return;
+  resumed_ = in_run;
+  resumed_contact_forces_ = std::move(contact_forces);
 }
 
 }  // namespace furrow::coupling

@@ -22,9 +22,9 @@ class BodyFix {
 };
 
 /// Something that sets loads and prescribed motions before every step: a rig.
-class Driver {
+class MotionController {
  public:
-  virtual ~Driver() = default;
+  virtual ~MotionController() = default;
   virtual void apply(double time, double dt) = 0;
 };
 
@@ -55,22 +55,22 @@ struct MomentumAudit {
   double lever_gap = 0.0;
 };
 
-class FixWorld : public LAMMPS_NS::Fix {
+class FixCoupledSystem : public LAMMPS_NS::Fix {
  public:
-  FixWorld(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
+  FixCoupledSystem(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
 
-  /// The world of a LIGGGHTS instance; made on first use.
-  static FixWorld& of(LAMMPS_NS::LAMMPS& lammps);
+  /// The system of a LIGGGHTS instance; made on first use.
+  static FixCoupledSystem& of(LAMMPS_NS::LAMMPS& lammps);
   /// The body of a fix. @throws InputError when there is none of that id
   static BodyFix& find_body(LAMMPS_NS::LAMMPS& lammps, const std::string& where,
                             const std::string& fix_id);
 
   void add(Body& body, const std::string& name);
   void remove(Body& body);
-  void add(Driver& driver) { drivers_.push_back(&driver); }
-  void remove(Driver& driver);
-  void add(Interaction& interaction, const std::string& name) { world_.add(interaction, name); }
-  void remove(Interaction& interaction) { world_.remove(interaction); }
+  void add(MotionController& controller) { controllers_.push_back(&controller); }
+  void remove(MotionController& controller);
+  void add(Contact& contact, const std::string& name) { system_.add(contact, name); }
+  void remove(Contact& contact) { system_.remove(contact); }
 
   ContactLedger& ledger(const Body& body);
   /// Where moments of this step are taken about: the middle of the body's nodes.
@@ -103,18 +103,20 @@ class FixWorld : public LAMMPS_NS::Fix {
     Matrix3X resumed_forces = {};  // nodal, as the restart file brought them
   };
   Member& member(const Body& body);
+  void checkpoint(Checkpoint& state, bool in_run, std::vector<double> contact_forces);
   void clear_forces();
   void sum_forces();
   void check_momentum(Member& member) const;
 
   Communicator communicator_;
-  World world_;
+  CoupledSystem system_;
   std::vector<Member> members_;
-  std::vector<Driver*> drivers_;
+  std::vector<MotionController*> controllers_;
   std::vector<double> buffer_;
   GrainForces grain_forces_;
   double time_ = 0.0;
-  std::vector<double> resumed_shown_;  // forces of interactions, as the restart file brought them
+  std::vector<double>
+      resumed_contact_forces_;  // forces of contacts, as the restart file brought them
   bool summed_ = false;
   // continues a checkpoint written in the middle of a run, and has not made a step yet
   bool resumed_ = false;

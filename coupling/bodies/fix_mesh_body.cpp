@@ -149,19 +149,19 @@ Schema FixMeshBody::schema() {
 }
 
 FixMeshBody::Arguments::Arguments(LAMMPS_NS::LAMMPS& lammps, int narg, char** arg)
-    : options(schema().read(words_after_style(narg, arg))),
-      body(FixWorld::find_body(lammps, options.where("body"), options.word("body")).body()),
+    : options(schema().read(args_after_style(narg, arg))),
+      body(FixCoupledSystem::find_body(lammps, options.where("body"), options.text("body")).body()),
       words{arg[0],
             arg[1],
             "mesh/surface",
             "fix",
-            options.word("body"),
+            options.text("body"),
             "type",
             std::to_string(options.integer("type"))} {
   for (std::string& word : words) pointers.push_back(word.data());
   if (body.half_model())
     throw InputError(options.where("body"),
-                     fmt::format("is '{}', which is a half model", options.word("body")),
+                     fmt::format("is '{}', which is a half model", options.text("body")),
                      "a whole body", "grains have no plane of symmetry: give the body 'half no'");
   // LIGGGHTS would read properties beyond their end
   if (options.integer("type") > lammps.atom->ntypes)
@@ -182,7 +182,7 @@ FixMeshBody::FixMeshBody(LAMMPS_NS::LAMMPS* lammps, Arguments arguments)
   restart_global = 0;  // the body keeps its own state
 }
 
-bool FixMeshBody::needs(LAMMPS_NS::Fix& other) const {
+bool FixMeshBody::uses(LAMMPS_NS::Fix& other) const {
   auto* owner = dynamic_cast<BodyFix*>(&other);
   return owner && &owner->body() == &body_;
 }
@@ -205,14 +205,14 @@ void FixMeshBody::check_inside_box() const {
 }
 
 void FixMeshBody::setup_pre_force(int vflag) {
-  guarded(*error, [&] { check_inside_box(); });
+  with_collective_errors(*error, [&] { check_inside_box(); });
   FixMeshSurface::setup_pre_force(vflag);
   body_mesh_->follow_surface();
   body_mesh_->remember_rebuild();
 }
 
 void FixMeshBody::initial_integrate(int) {
-  guarded(*error, [&] { check_inside_box(); });
+  with_collective_errors(*error, [&] { check_inside_box(); });
   body_mesh_->follow_surface();
 }
 

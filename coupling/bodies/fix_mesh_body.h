@@ -54,7 +54,7 @@ class BodyMesh : public LAMMPS_NS::TriMesh {
   Vector3 reach_lower_, reach_upper_;  // box around all grains at the last rebuild, with a margin
 };
 
-class FixMeshBody : public LAMMPS_NS::FixMeshSurface, public Described, public Dependent {
+class FixMeshBody : public LAMMPS_NS::FixMeshSurface, public HasOptions, public UsesFix {
  public:
   FixMeshBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
@@ -63,7 +63,7 @@ class FixMeshBody : public LAMMPS_NS::FixMeshSurface, public Described, public D
   BodyMesh& body_mesh() { return *body_mesh_; }
   const Options& options() const override { return options_; }
 
-  bool needs(LAMMPS_NS::Fix& other) const override;
+  bool uses(LAMMPS_NS::Fix& other) const override;
   int setmask() override;
   void setup_pre_force(int vflag) override;
   void initial_integrate(int vflag) override;

@@ -18,7 +18,7 @@ Schema FixPlateRigid::schema() {
 }
 
 FixPlateRigid::FixPlateRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixPlateRigid(lammps, narg, arg, schema().read(words_after_style(narg, arg))) {}
+    : FixPlateRigid(lammps, narg, arg, schema().read(args_after_style(narg, arg))) {}
 
 FixPlateRigid::FixPlateRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg,
                              const Options& options)
@@ -35,11 +35,11 @@ FixPlateRigid::FixPlateRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg,
 
 void FixPlateRigid::post_create() {
   FixBody::post_create();
-  FixWorld::of(*lmp).add(static_cast<Driver&>(*this));
+  FixCoupledSystem::of(*lmp).add(static_cast<MotionController&>(*this));
 }
 
 void FixPlateRigid::pre_delete(bool unfixflag) {
-  if (unfixflag) FixWorld::of(*lmp).remove(static_cast<Driver&>(*this));
+  if (unfixflag) FixCoupledSystem::of(*lmp).remove(static_cast<MotionController&>(*this));
   FixBody::pre_delete(unfixflag);
 }
 

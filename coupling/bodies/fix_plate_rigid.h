@@ -9,7 +9,7 @@
 
 namespace furrow::coupling {
 
-class FixPlateRigid : public FixBody, public Driver, public Described {
+class FixPlateRigid : public FixBody, public MotionController, public HasOptions {
  public:
   FixPlateRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();

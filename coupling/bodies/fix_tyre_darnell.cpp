@@ -21,7 +21,7 @@ namespace furrow::coupling {
 
 namespace {
 
-constexpr int most_sub_steps = 4;  // in a step on grains, shown to be quiet: fix_tyre_darnell.md
+constexpr int max_sub_steps = 4;  // in a step on grains, shown to be quiet: fix_tyre_darnell.md
 
 int whole_number(const Options& options, const char* key, double value) {
   if (value != std::floor(value) || std::abs(value) > 1e6)
@@ -32,7 +32,7 @@ int whole_number(const Options& options, const char* key, double value) {
 /// Read, made and inflated.
 std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   const std::filesystem::path path =
-      std::filesystem::path(script_folder(lammps)) / options.word("file");
+      std::filesystem::path(script_folder(lammps)) / options.text("file");
   TyreParameters parameters = read_tyre_file(path.string());
   if (options.has("pressure")) parameters.pressure = options.number("pressure");
 
@@ -40,7 +40,7 @@ std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& op
   settings.across = whole_number(options, "mesh", options.numbers("mesh")[0]);
   settings.around = whole_number(options, "mesh", options.numbers("mesh")[1]);
   settings.half = options.flag("half");
-  settings.direct = options.word("sidewall") == "direct";
+  settings.direct = options.text("sidewall") == "direct";
   settings.sidewall_points = static_cast<int>(options.integer("sidewall_rows"));
   settings.damping_rate = options.number("damping");
 
@@ -77,8 +77,8 @@ Schema FixTyreDarnell::schema() {
       .by_default(std::vector<double>{6, 72});
   schema.flag("half", "only the half y >= 0, mirrored");
   schema
-      .word("sidewall", {"table", "direct"},
-            "sidewall forces looked up, or solved at every station and step")
+      .choice("sidewall", {"table", "direct"},
+              "sidewall forces looked up, or solved at every station and step")
       .by_default("table");
   schema
       .integer("sidewall_rows", Range::closed(0, 50),
@@ -101,7 +101,7 @@ Schema FixTyreDarnell::schema() {
 }
 
 FixTyreDarnell::FixTyreDarnell(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixTyreDarnell(lammps, narg, arg, schema().read(words_after_style(narg, arg))) {}
+    : FixTyreDarnell(lammps, narg, arg, schema().read(args_after_style(narg, arg))) {}
 
 FixTyreDarnell::FixTyreDarnell(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg,
                                const Options& options)
@@ -120,14 +120,14 @@ void FixTyreDarnell::init() {
   bool on_grains = false;
   for (int i = 0; i < modify->nfix; ++i) {
     auto* mesh = dynamic_cast<FixMeshBody*>(modify->fix[i]);
-    on_grains |= mesh && mesh->needs(*this);
+    on_grains |= mesh && mesh->uses(*this);
   }
-  if (on_grains && update->dt > most_sub_steps * stable && comm->me == 0)
+  if (on_grains && update->dt > max_sub_steps * stable && comm->me == 0)
     error->warning(FLERR,
                    fmt::format("fix tyre/darnell '{}': the time step {:.3g} s is more than {} of "
                                "the tyre's own, {:.3g} s; grain forces come once a "
                                "step and may shake the tread: choose a step of at most {:.2g} s",
-                               id, update->dt, most_sub_steps, stable, most_sub_steps * stable)
+                               id, update->dt, max_sub_steps, stable, max_sub_steps * stable)
                        .c_str());
 }
 

@@ -9,7 +9,7 @@
 
 namespace furrow::coupling {
 
-class FixWheelHub : public FixBody, public Described {
+class FixWheelHub : public FixBody, public HasOptions {
  public:
   /// @param options as they took effect
   FixWheelHub(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, std::unique_ptr<WheelHub> hub,

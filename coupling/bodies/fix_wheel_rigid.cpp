@@ -6,7 +6,7 @@
 namespace furrow::coupling {
 
 FixWheelRigid::FixWheelRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixWheelRigid(lammps, narg, arg, schema().read(words_after_style(narg, arg))) {}
+    : FixWheelRigid(lammps, narg, arg, schema().read(args_after_style(narg, arg))) {}
 
 FixWheelRigid::FixWheelRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg,
                              const Options& options)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// fix contact/bodies: contact between a body and continuum ground. See fix_contact_bodies.md.
+/// fix contact/bodies: contact between a body and continuum ground. See fix_contact_continuum.md.
 
 #include <memory>
 
@@ -13,15 +13,15 @@ namespace furrow::coupling {
 
 class FixTerrainContinuum;
 
-class FixContactBodies : public LAMMPS_NS::Fix, public Described, public Dependent {
+class FixContactBodies : public LAMMPS_NS::Fix, public HasOptions, public UsesFix {
  public:
   FixContactBodies(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
 
-  const GroundContact& contact() const { return *contact_; }
+  const TerrainContact& contact() const { return *contact_; }
   const Options& options() const override { return options_; }
-  bool needs(LAMMPS_NS::Fix& other) const override {
-    return &other == body_fix_ || &other == ground_fix_;
+  bool uses(LAMMPS_NS::Fix& other) const override {
+    return &other == body_fix_ || &other == terrain_fix_;
   }
 
   int setmask() override { return 0; }
@@ -33,8 +33,8 @@ class FixContactBodies : public LAMMPS_NS::Fix, public Described, public Depende
 
  private:
   Options options_;
-  LAMMPS_NS::Fix *body_fix_, *ground_fix_;
-  std::unique_ptr<GroundContact> contact_;
+  LAMMPS_NS::Fix *body_fix_, *terrain_fix_;
+  std::unique_ptr<TerrainContact> contact_;
   bool half_body_ = false;
 };
 

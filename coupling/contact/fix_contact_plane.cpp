@@ -4,13 +4,14 @@
 #include "comm.h"
 #include "coupling/bodies/fix_coupled_system.h"
 #include "coupling/base/restart_record.h"
+#include "coupling/liggghts/errors.h"
 #include "coupling/base/args.h"
 #include "modify.h"
 
 namespace furrow::coupling {
 
-struct FixContactPlane::Contact : public Interaction {
-  Contact(Body& touching, const RigidPlaneParameters& parameters)
+struct FixContactPlane::PlaneContact : public Contact {
+  PlaneContact(Body& touching, const RigidPlaneParameters& parameters)
       : body(touching), plane(parameters, touching.surface()) {}
   void apply(double) override { plane.press_on(body.surface()); }
 
@@ -34,16 +35,17 @@ Schema FixContactPlane::schema() {
 }
 
 FixContactPlane::FixContactPlane(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : Fix(lammps, narg, arg), options_(schema().read(words_after_style(narg, arg))) {
-  Body& body = FixWorld::find_body(*lammps, options_.where("body"), options_.word("body")).body();
-  body_fix_ = lammps->modify->find_fix_id(options_.word("body").c_str());
+    : Fix(lammps, narg, arg), options_(schema().read(args_after_style(narg, arg))) {
+  Body& body =
+      FixCoupledSystem::find_body(*lammps, options_.where("body"), options_.text("body")).body();
+  body_fix_ = lammps->modify->find_fix_id(options_.text("body").c_str());
   RigidPlaneParameters plane;
   plane.height = options_.number("level");
   plane.friction = options_.number("friction");
   plane.stiffness = options_.number("stiffness");
   plane.tangential_stiffness = options_.number("tangential_stiffness");
   plane.damping = options_.number("damping");
-  contact_ = std::make_unique<Contact>(body, plane);
+  contact_ = std::make_unique<PlaneContact>(body, plane);
   restart_global = 1;
   vector_flag = 1;
   size_vector = 5;
@@ -53,20 +55,26 @@ FixContactPlane::FixContactPlane(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg
 
 FixContactPlane::~FixContactPlane() = default;
 
-void FixContactPlane::post_create() { FixWorld::of(*lmp).add(*contact_, id); }
+void FixContactPlane::post_create() { FixCoupledSystem::of(*lmp).add(*contact_, id); }
 
 void FixContactPlane::pre_delete(bool unfixflag) {
-  if (unfixflag) FixWorld::of(*lmp).remove(*contact_);
+  if (unfixflag) FixCoupledSystem::of(*lmp).remove(*contact_);
 }
 
 /// Where nodes stick.
 void FixContactPlane::write_restart(FILE* file) {
   if (comm->me != 0) return;
-  write_record(file, contact_->plane.state());
+  Checkpoint state(style);
+  contact_->plane.checkpoint(state);
+  with_local_errors(*error, [&] { write_record(file, state); });
 }
 
 void FixContactPlane::restart(char* buffer) {
-  contact_->plane.restore(reinterpret_cast<const double*>(buffer));
+  with_collective_errors(*error, [&] {
+    Checkpoint state = read_record(style, buffer);
+    contact_->plane.checkpoint(state);
+    state.finish();
+  });
 }
 
 double FixContactPlane::compute_vector(int n) {

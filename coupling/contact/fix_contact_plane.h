@@ -11,14 +11,14 @@
 
 namespace furrow::coupling {
 
-class FixContactPlane : public LAMMPS_NS::Fix, public Described, public Dependent {
+class FixContactPlane : public LAMMPS_NS::Fix, public HasOptions, public UsesFix {
  public:
   FixContactPlane(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   ~FixContactPlane() override;
   static Schema schema();
 
   const Options& options() const override { return options_; }
-  bool needs(LAMMPS_NS::Fix& other) const override { return &other == body_fix_; }
+  bool uses(LAMMPS_NS::Fix& other) const override { return &other == body_fix_; }
 
   int setmask() override { return 0; }
   void post_create() override;
@@ -30,10 +30,10 @@ class FixContactPlane : public LAMMPS_NS::Fix, public Described, public Dependen
   double compute_vector(int n) override;
 
  private:
-  struct Contact;
+  struct PlaneContact;
   Options options_;
   LAMMPS_NS::Fix* body_fix_;
-  std::unique_ptr<Contact> contact_;
+  std::unique_ptr<PlaneContact> contact_;
 };
 
 }  // namespace furrow::coupling

@@ -45,24 +45,25 @@ FixWallGranBody::FixWallGranBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg
 
 void FixWallGranBody::init() {
   FixWallGran::init();
-  guarded(*error, [&] { check_time_step(*lmp, fmt::format("fix wall/gran/body '{}'", id)); });
+  with_collective_errors(
+      *error, [&] { check_time_step(*lmp, fmt::format("fix wall/gran/body '{}'", id)); });
 }
 
 void FixWallGranBody::setup(int vflag) {
-  starting_ = FixWorld::of(*lmp).time() == 0.0;
+  starting_ = FixCoupledSystem::of(*lmp).time() == 0.0;
   for (int m = 0; m < n_FixMesh_; ++m)
     if (auto* mesh_fix = dynamic_cast<FixMeshBody*>(FixMesh_list_[m])) {
-      const auto [check, fresh] = ground_checks_.try_emplace(
+      const auto [check, fresh] = grain_bed_checks_.try_emplace(
           m, *lmp, fmt::format("fix wall/gran/body '{}', mesh '{}'", id, mesh_fix->id));
       if (fresh) check->second.start(mesh_fix->body().surface());
     }
   FixWallGran::setup(vflag);
-  if (starting_) guarded(*error, [&] { refuse_deep_start(); });
+  if (starting_) with_collective_errors(*error, [&] { refuse_deep_start(); });
   starting_ = false;
 }
 
 void FixWallGranBody::refuse_deep_start() {
-  const double deepest = FixWorld::of(*lmp).communicator().max(deepest_);
+  const double deepest = FixCoupledSystem::of(*lmp).communicator().max(deepest_);
   if (deepest > deepest_start)
     throw StateError(
         fmt::format("fix wall/gran/body '{}': a body starts inside the bed: a grain overlaps it by "
@@ -95,13 +96,13 @@ void FixWallGranBody::post_force_body(FixMeshBody& mesh_fix, int mesh_number) {
   if (history) history->markAllContacts();
   atom_type_wall_ = mesh_fix.atomTypeWall();
 
-  const auto check = ground_checks_.find(mesh_number);
-  check_ = check == ground_checks_.end() ? nullptr : &check->second;
+  const auto check = grain_bed_checks_.find(mesh_number);
+  check_ = check == grain_bed_checks_.end() ? nullptr : &check->second;
   collect_candidates(mesh_fix);
   // Not in the order in which LIGGGHTS happens to hold its triangles: sums, and so restarts, are
   // the same to the last bit.
   std::sort(touched_.begin(), touched_.end());
-  FixWorld& bodies = FixWorld::of(*lmp);
+  FixCoupledSystem& bodies = FixCoupledSystem::of(*lmp);
   ContactLedger& ledger = bodies.ledger(mesh_fix.body());
   const Vector3 moment_reference = bodies.moment_reference(mesh_fix.body());
   for (const int grain : touched_) {
@@ -168,7 +169,7 @@ double* FixWallGranBody::history_of(LAMMPS_NS::FixContactHistoryMesh& history, c
   history.handleContact(grain, contact.triangle, values, touching, false);
   if (known || dnum_ == 0) return values;
 
-  int best_slot = -1, most_shared = 0;
+  int best_slot = -1, max_shared = 0;
   for (int j = 0; j < slots; ++j) {
     const int other = history.partner(grain, j);
     if (other < 0 || other == contact.triangle || contact_seen(history, grain, j)) continue;
@@ -176,8 +177,8 @@ double* FixWallGranBody::history_of(LAMMPS_NS::FixContactHistoryMesh& history, c
         mesh.welded(mesh.body_surface().triangles[static_cast<std::size_t>(other)]);
     int shared = 0;
     for (int k = 0; k < 3; ++k) shared += (nodes.array() == contact.nodes[k]).any();
-    if (shared > most_shared) {
-      most_shared = shared;
+    if (shared > max_shared) {
+      max_shared = shared;
       best_slot = j;
     }
   }
@@ -221,7 +222,7 @@ void FixWallGranBody::apply(FixMeshBody& mesh_fix, int mesh_number, int grain,
   const Vector3 contact_torque = grain_torque - torque_before;
 
   if (!contact_force.allFinite())
-    guarded_alone(*error, [&] {
+    with_local_errors(*error, [&] {
       throw StateError(
           fmt::format("fix wall/gran/body '{}': the force between grain {} and triangle {} is not "
                       "finite at step {}; the "

@@ -47,9 +47,10 @@ class FixWallGranBody : public LAMMPS_NS::FixWallGran {
   std::vector<ContactCandidate> of_grain_;
   // in the set-up of the first run: deep contacts are counted, not computed
   bool starting_ = false;
-  double deepest_ = 0.0;                      // largest overlap over radius in the last call
-  std::map<int, GroundCheck> ground_checks_;  // of each mesh of a body, by its place in the list
-  GroundCheck* check_ = nullptr;              // of the mesh at work
+  double deepest_ = 0.0;  // largest overlap over radius in the last call
+  std::map<int, GrainBedCheck>
+      grain_bed_checks_;            // of each mesh of a body, by its place in the list
+  GrainBedCheck* check_ = nullptr;  // of the mesh at work
 };
 
 }  // namespace furrow::coupling

@@ -16,8 +16,8 @@ namespace {
 
 /// The wheel of that fix id, if no other rig has it.
 FixWheelHub& find_free_wheel(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
-  const std::string where = options.where("wheel"), &id = options.word("wheel");
-  auto* wheel = dynamic_cast<FixWheelHub*>(&FixWorld::find_body(lammps, where, id));
+  const std::string where = options.where("wheel"), &id = options.text("wheel");
+  auto* wheel = dynamic_cast<FixWheelHub*>(&FixCoupledSystem::find_body(lammps, where, id));
   if (!wheel)
     throw InputError(where, fmt::format("is '{}', which is a body but no wheel", id),
                      "the id of a fix wheel/rigid or tyre/darnell");
@@ -36,11 +36,14 @@ FixWheelHub& find_free_wheel(LAMMPS_NS::LAMMPS& lammps, const Options& options) 
 /// the state it had.
 WheelRig make_rig(const Options& options, FixWheelHub& wheel_fix) {
   WheelHub& wheel = wheel_fix.hub();
-  if (wheel_fix.state_as_made().empty()) return WheelRig(options, wheel);
-  const std::vector<double> now = wheel.state();
-  wheel.restore(wheel_fix.state_as_made());
+  if (!wheel_fix.state_as_made()) return WheelRig(options, wheel);
+  Checkpoint now("wheel");
+  wheel.checkpoint(now);
+  Checkpoint as_made = *wheel_fix.state_as_made();
+  wheel.checkpoint(as_made);
   WheelRig rig(options, wheel);
-  wheel.restore(now);
+  Checkpoint again = now.reread();
+  wheel.checkpoint(again);
   wheel.set_vertical_damping(options.number("damping"));
   return rig;
 }
@@ -55,18 +58,20 @@ Schema FixWheelRig::schema() {
 
 FixWheelRig::FixWheelRig(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : Fix(lammps, narg, arg),
-      options_(schema().read(words_after_style(narg, arg))),
+      options_(schema().read(args_after_style(narg, arg))),
       wheel_fix_(find_free_wheel(*lammps, options_)),
       rig_(make_rig(options_, wheel_fix_)) {}
 
-bool FixWheelRig::needs(LAMMPS_NS::Fix& other) const { return &other == &wheel_fix_; }
+bool FixWheelRig::uses(LAMMPS_NS::Fix& other) const { return &other == &wheel_fix_; }
 
-void FixWheelRig::post_create() { FixWorld::of(*lmp).add(static_cast<Driver&>(*this)); }
+void FixWheelRig::post_create() {
+  FixCoupledSystem::of(*lmp).add(static_cast<MotionController&>(*this));
+}
 
 void FixWheelRig::pre_delete(bool unfixflag) {
   if (!unfixflag) return;
-  guarded(*error, [&] { refuse_if_needed(*modify, *this); });
-  FixWorld::of(*lmp).remove(static_cast<Driver&>(*this));
+  with_collective_errors(*error, [&] { forbid_removal_while_used(*modify, *this); });
+  FixCoupledSystem::of(*lmp).remove(static_cast<MotionController&>(*this));
 }
 
 }  // namespace furrow::coupling

@@ -12,7 +12,10 @@ namespace furrow::coupling {
 
 class FixWheelHub;
 
-class FixWheelRig : public LAMMPS_NS::Fix, public Driver, public Described, public Dependent {
+class FixWheelRig : public LAMMPS_NS::Fix,
+                    public MotionController,
+                    public HasOptions,
+                    public UsesFix {
  public:
   FixWheelRig(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
@@ -20,7 +23,7 @@ class FixWheelRig : public LAMMPS_NS::Fix, public Driver, public Described, publ
   void post_create() override;
   void pre_delete(bool unfixflag) override;
   int setmask() override { return 0; }
-  bool needs(LAMMPS_NS::Fix& other) const override;
+  bool uses(LAMMPS_NS::Fix& other) const override;
   void apply(double time, double dt) override { rig_.apply(time, dt); }
 
   const WheelRig& rig() const { return rig_; }

@@ -63,7 +63,7 @@ Schema FixCellServo::schema() {
 
 FixCellServo::FixCellServo(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : Fix(lammps, narg, arg),
-      options_(schema().read(words_after_style(narg, arg))),
+      options_(schema().read(args_after_style(narg, arg))),
       rate_limit_(options_.number("rate_limit")),
       stiffness_(options_.number("stiffness")),
       response_time_(options_.number("response_time")),
@@ -133,7 +133,8 @@ void FixCellServo::init() {
   grain_density_ = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
   mean_diameter_ = sums[3] > 0.0 ? sums[2] / sums[3] : 0.0;
   modify->compute[modify->find_compute(pressure_id)]->addstep(update->ntimestep + 1);
-  guarded(*error, [&] { check_time_step(*lmp, fmt::format("fix cell/servo '{}'", id)); });
+  with_collective_errors(*error,
+                         [&] { check_time_step(*lmp, fmt::format("fix cell/servo '{}'", id)); });
 }
 
 /// The box moves before the grains: forces of this step belong to the new box.
@@ -185,7 +186,7 @@ void FixCellServo::measure() {
   pressure.addstep(update->ntimestep + 1);
   for (const double stress : stress_)
     if (!std::isfinite(stress))
-      guarded(*error, [&] {
+      with_collective_errors(*error, [&] {
         throw StateError(fmt::format("fix cell/servo '{}': the stress is not finite at step {}", id,
                                      update->ntimestep));
       });

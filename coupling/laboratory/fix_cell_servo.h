@@ -10,7 +10,7 @@
 
 namespace furrow::coupling {
 
-class FixCellServo : public LAMMPS_NS::Fix, public Described {
+class FixCellServo : public LAMMPS_NS::Fix, public HasOptions {
  public:
   FixCellServo(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();

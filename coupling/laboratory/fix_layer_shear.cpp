@@ -29,7 +29,7 @@ Schema FixLayerShear::schema() {
 
 FixLayerShear::FixLayerShear(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : Fix(lammps, narg, arg),
-      options_(schema().read(words_after_style(narg, arg))),
+      options_(schema().read(args_after_style(narg, arg))),
       speed_(options_.number("speed")),
       accelerate_time_(options_.number("accelerate_time")) {
   vector_flag = 1;
@@ -53,7 +53,7 @@ void FixLayerShear::init() {
       sums[1] += 1.0;
     }
   ranks.sum(sums, 2);
-  guarded(*error, [&] {
+  with_collective_errors(*error, [&] {
     if (sums[1] == 0.0)
       throw InputError(fmt::format("fix layer/shear '{}'", id), "has no grains in its group",
                        "a group with grains",

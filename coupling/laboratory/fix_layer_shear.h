@@ -10,7 +10,7 @@
 
 namespace furrow::coupling {
 
-class FixLayerShear : public LAMMPS_NS::Fix, public Described {
+class FixLayerShear : public LAMMPS_NS::Fix, public HasOptions {
  public:
   FixLayerShear(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();

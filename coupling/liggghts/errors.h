@@ -10,7 +10,7 @@ namespace furrow::coupling {
 
 /// Runs an action that all ranks run alike.
 template <class Action>
-void guarded(LAMMPS_NS::Error& error, Action&& action) {
+void with_collective_errors(LAMMPS_NS::Error& error, Action&& action) {
   try {
     action();
   } catch (const std::exception& exception) {
@@ -20,7 +20,7 @@ void guarded(LAMMPS_NS::Error& error, Action&& action) {
 
 /// Runs an action that may fail on this rank alone: the other ranks are aborted.
 template <class Action>
-void guarded_alone(LAMMPS_NS::Error& error, Action&& action) {
+void with_local_errors(LAMMPS_NS::Error& error, Action&& action) {
   try {
     action();
   } catch (const std::exception& exception) {

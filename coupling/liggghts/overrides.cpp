@@ -49,10 +49,10 @@ void print_error(LAMMPS_NS::LAMMPS& lammps, const std::string& text, const char*
 
 /// Whatever cannot be saved now is lost: the run ends with the error that stopped it, not with this
 /// one.
-void keep_results(const LAMMPS_NS::LAMMPS& lammps) {
+void flush_results(const LAMMPS_NS::LAMMPS& lammps) {
   for (int i = 0; lammps.modify && i < lammps.modify->nfix; ++i) try {
-      if (auto* keeper = dynamic_cast<furrow::coupling::ResultsKeeper*>(lammps.modify->fix[i]))
-        keeper->keep_results();
+      if (auto* keeper = dynamic_cast<furrow::coupling::FlushesOnError*>(lammps.modify->fix[i]))
+        keeper->flush_results();
     } catch (const std::exception& loss) {
       std::fprintf(stderr, "Results of fix %s are lost: %s\n", lammps.modify->fix[i]->id,
                    loss.what());
@@ -86,7 +86,7 @@ bool all_arrive(MPI_Comm ranks) {
   MPI_Comm_rank(lammps.world, &rank);
   if (rank == 0) {
     print_error(lammps, text, file, line);
-    keep_results(lammps);
+    flush_results(lammps);
   }
   delete lammps.output;
   if (lammps.logfile) std::fclose(lammps.logfile);
@@ -131,7 +131,7 @@ FURROW_EXPORTED void Error::one(const char* file, int line, const char* text) {
   MPI_Comm_rank(world, &rank);
   if (rank == 0) {
     print_error(*lmp, text, file, line);
-    keep_results(*lmp);
+    flush_results(*lmp);
   } else {
     std::fprintf(stderr, "\nERROR on rank %d: %s\n", rank, text);
     if (line > 0) std::fprintf(stderr, "  (LIGGGHTS, %s:%d)\n", file, line);

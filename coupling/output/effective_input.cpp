@@ -15,7 +15,7 @@ std::string effective_input(LAMMPS_NS::LAMMPS& lammps) {
   text << "# styles with their effective values\n";
   for (int i = 0; i < lammps.modify->nfix; ++i) {
     const LAMMPS_NS::Fix& fix = *lammps.modify->fix[i];
-    const auto* described = dynamic_cast<const Described*>(&fix);
+    const auto* described = dynamic_cast<const HasOptions*>(&fix);
     if (!described) continue;
     text << "fix " << fix.id << ' ' << lammps.group->names[fix.igroup] << ' ' << fix.style;
     for (const Entry& entry : described->options().effective()) {

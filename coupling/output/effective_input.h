@@ -11,9 +11,9 @@
 namespace furrow::coupling {
 
 /// A style that can say what its options became.
-class Described {
+class HasOptions {
  public:
-  virtual ~Described() = default;
+  virtual ~HasOptions() = default;
   virtual const Options& options() const = 0;
 };
 

@@ -22,7 +22,7 @@ void FixHistory::add_keys(Schema& schema, const char* frames) {
 }
 
 FixHistory::FixHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema)
-    : Fix(lammps, narg, arg), options_(schema.read(words_after_style(narg, arg))) {
+    : Fix(lammps, narg, arg), options_(schema.read(args_after_style(narg, arg))) {
   nevery = 1;
   restart_global = 1;
 }
@@ -31,7 +31,7 @@ int FixHistory::setmask() {
   return LAMMPS_NS::FixConst::END_OF_STEP | LAMMPS_NS::FixConst::POST_RUN;
 }
 
-double FixHistory::time() const { return FixWorld::of(*lmp).time(); }
+double FixHistory::time() const { return FixCoupledSystem::of(*lmp).time(); }
 
 double FixHistory::wall_time() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
@@ -49,7 +49,7 @@ RunInfo FixHistory::run_info(const std::string& title) const {
 // Rank 0 alone writes, so it may fail alone.
 
 void FixHistory::setup(int) {
-  guarded_alone(*error, [&] {
+  with_local_errors(*error, [&] {
     if (opened_) return;
     opened_ = true;
     started_ = std::chrono::steady_clock::now();
@@ -61,27 +61,40 @@ void FixHistory::setup(int) {
 }
 
 void FixHistory::end_of_step() {
-  guarded_alone(*error, [&] {
+  with_local_errors(*error, [&] {
     if (update->ntimestep % options_.integer("every") == 0) record();
     if (draws() && update->ntimestep % options_.integer("vtk") == 0) write_frame();
   });
 }
 
 void FixHistory::post_run() {
-  guarded_alone(*error, [&] { close(); });
+  with_local_errors(*error, [&] { close(); });
 }
 
-void FixHistory::keep_results() {
+void FixHistory::flush_results() {
   if (file_) file_->flush();
 }
 
 /// A checkpoint: the rows up to it must be in the file, or a continued run would find a gap.
 void FixHistory::write_restart(FILE* checkpoint) {
   if (comm->me != 0) return;
-  guarded_alone(*error, [&] { keep_results(); });
-  write_record(checkpoint, {time()});
+  with_local_errors(*error, [&] {
+    flush_results();
+    Checkpoint state(style);
+    double now = time();
+    state.value("time", now);
+    write_record(checkpoint, state);
+  });
 }
 
-void FixHistory::restart(char* buffer) { resume_time_ = *reinterpret_cast<const double*>(buffer); }
+void FixHistory::restart(char* buffer) {
+  with_collective_errors(*error, [&] {
+    Checkpoint state = read_record(style, buffer);
+    double saved = 0.0;
+    state.value("time", saved);
+    state.finish();
+    resume_time_ = saved;
+  });
+}
 
 }  // namespace furrow::coupling

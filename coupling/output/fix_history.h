@@ -14,7 +14,7 @@
 
 namespace furrow::coupling {
 
-class FixHistory : public LAMMPS_NS::Fix, public Described, public Dependent, public ResultsKeeper {
+class FixHistory : public LAMMPS_NS::Fix, public HasOptions, public UsesFix, public FlushesOnError {
  public:
   int setmask() override;
   /// Files are made when the first run starts: by then every style of the scene is known.
@@ -26,7 +26,7 @@ class FixHistory : public LAMMPS_NS::Fix, public Described, public Dependent, pu
   void restart(char* buffer) override;
   const Options& options() const override { return options_; }
   /// An error ends the run: the rows since the last flush are still worth having.
-  void keep_results() override;
+  void flush_results() override;
 
  protected:
   /// @param schema with the keys of add_keys()

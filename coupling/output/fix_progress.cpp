@@ -32,7 +32,7 @@ Schema FixProgress::schema() {
 
 FixProgress::FixProgress(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : Fix(lammps, narg, arg),
-      options_(schema().read(words_after_style(narg, arg))),
+      options_(schema().read(args_after_style(narg, arg))),
       interval_(options_.number("every")) {
   nevery = 10;  // looking at the clock is cheap, but not free
 }
@@ -57,7 +57,7 @@ void FixProgress::print(Clock::time_point now) const {
   const double left = done > 0.0 ? elapsed * (all - done) / done : 0.0;
   const std::string line =
       fmt::format("[{}] {:5.1f} %  elapsed {}  left {}  {:.1f} M grain steps/s\n",
-                  options_.word("label"), 100.0 * done / all, clock_text(elapsed), clock_text(left),
+                  options_.text("label"), 100.0 * done / all, clock_text(elapsed), clock_text(left),
                   elapsed > 0.0 ? 1e-6 * done * static_cast<double>(atom->natoms) / elapsed : 0.0);
   if (screen) {
     std::fputs(line.c_str(), screen);

@@ -9,7 +9,7 @@
 
 namespace furrow::coupling {
 
-class FixProgress : public LAMMPS_NS::Fix, public Described {
+class FixProgress : public LAMMPS_NS::Fix, public HasOptions {
  public:
   FixProgress(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();

@@ -14,12 +14,12 @@ namespace furrow::coupling {
 
 namespace {
 
-FixTerrainContinuum& find_ground(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
+FixTerrainContinuum& find_terrain(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   auto* ground = dynamic_cast<FixTerrainContinuum*>(
-      lammps.modify->find_fix_id(options.word("ground").c_str()));
+      lammps.modify->find_fix_id(options.text("ground").c_str()));
   if (!ground)
     throw InputError(options.where("ground"),
-                     fmt::format("is '{}', and there is no such ground", options.word("ground")),
+                     fmt::format("is '{}', and there is no such ground", options.text("ground")),
                      "the id of a fix terrain/continuum",
                      "write the fix terrain/continuum before this line");
   return *ground;
@@ -53,13 +53,13 @@ Schema FixTerrainHistory::schema() {
 }
 
 FixTerrainHistory::FixTerrainHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixHistory(lammps, narg, arg, schema()), ground_fix_(find_ground(*lammps, options())) {}
+    : FixHistory(lammps, narg, arg, schema()), terrain_fix_(find_terrain(*lammps, options())) {}
 
-bool FixTerrainHistory::needs(LAMMPS_NS::Fix& other) const { return &other == &ground_fix_; }
+bool FixTerrainHistory::uses(LAMMPS_NS::Fix& other) const { return &other == &terrain_fix_; }
 
 void FixTerrainHistory::open(std::optional<double> resume_time) {
   if (comm->me != 0) return;
-  const std::string& folder = options().word("folder");
+  const std::string& folder = options().text("folder");
   const std::string path = folder + "/ground.h5", frames = folder + "/vtk";
   if (resume_time) {
     file_ = HistoryFile::resume(path, channels(), *resume_time);
@@ -72,17 +72,17 @@ void FixTerrainHistory::open(std::optional<double> resume_time) {
 }
 
 void FixTerrainHistory::record() {
-  const MpmGround& ground = ground_fix_.ground();
-  const Balance balance = ground.balance();
+  const ContinuumTerrain& ground = terrain_fix_.ground();
+  const EnergyBudget budget = ground.energy_budget();
   const std::vector<double> row = {time(),
                                    ground.particle_count(),
-                                   balance.kinetic_energy,
-                                   balance.stored_energy,
-                                   balance.dissipated_energy,
-                                   balance.contact_work,
-                                   balance.load_work,
-                                   balance.numerical_loss,
-                                   balance.residual(),
+                                   budget.kinetic_energy,
+                                   budget.stored_energy,
+                                   budget.dissipated_energy,
+                                   budget.contact_work,
+                                   budget.load_work,
+                                   budget.numerical_loss,
+                                   budget.residual(),
                                    ground.face_impulse(z_lower).z(),
                                    ground.travelled(),
                                    ground.stable_time_step()};
@@ -90,27 +90,27 @@ void FixTerrainHistory::record() {
 }
 
 void FixTerrainHistory::write_frame() {
-  const GroundSnapshot snapshot = take_snapshot(ground_fix_.ground());
+  const TerrainSnapshot snapshot = take_snapshot(terrain_fix_.ground());
   if (frames_) frames_->add(time(), snapshot);
 }
 
 void FixTerrainHistory::close() {
-  MpmGround& ground = ground_fix_.ground();
-  const Balance balance = ground.balance();
-  const GroundSnapshot snapshot = take_snapshot(ground);
+  ContinuumTerrain& ground = terrain_fix_.ground();
+  const EnergyBudget budget = ground.energy_budget();
+  const TerrainSnapshot snapshot = take_snapshot(ground);
   const std::vector<RutPoint> rut = collect_rut(ground);
   if (!file_) return;
   RunClosing end;
-  end.audit.set_energies({{"work of contacts on the ground", balance.contact_work},
-                          {"work of gravity and absorbing faces", balance.load_work},
-                          {"kinetic energy", -balance.kinetic_energy},
-                          {"stored energy", -balance.stored_energy},
-                          {"plastic dissipation", -balance.dissipated_energy},
-                          {"numerical loss", -balance.numerical_loss}},
-                         balance.residual());
+  end.audit.set_energies({{"work of contacts on the ground", budget.contact_work},
+                          {"work of gravity and absorbing faces", budget.load_work},
+                          {"kinetic energy", -budget.kinetic_energy},
+                          {"stored energy", -budget.stored_energy},
+                          {"plastic dissipation", -budget.dissipated_energy},
+                          {"numerical loss", -budget.numerical_loss}},
+                         budget.residual());
   end.cost.wall_time = wall_time();
   end.cost.ranks = comm->nprocs;
-  file_->write_ground(snapshot, rut);
+  file_->write_terrain(snapshot, rut);
   file_->write_closing(end);
   file_->flush();
 }

@@ -13,7 +13,7 @@ class FixTerrainHistory : public FixHistory {
  public:
   FixTerrainHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
-  bool needs(LAMMPS_NS::Fix& other) const override;
+  bool uses(LAMMPS_NS::Fix& other) const override;
 
  private:
   void open(std::optional<double> resume_time) override;
@@ -21,7 +21,7 @@ class FixTerrainHistory : public FixHistory {
   void write_frame() override;
   void close() override;
 
-  FixTerrainContinuum& ground_fix_;
+  FixTerrainContinuum& terrain_fix_;
   std::optional<VtkSeries> frames_;  // rank 0 only
 };
 

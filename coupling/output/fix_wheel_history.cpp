@@ -19,10 +19,10 @@ namespace furrow::coupling {
 namespace {
 
 FixWheelRig& find_rig(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
-  auto* rig = dynamic_cast<FixWheelRig*>(lammps.modify->find_fix_id(options.word("rig").c_str()));
+  auto* rig = dynamic_cast<FixWheelRig*>(lammps.modify->find_fix_id(options.text("rig").c_str()));
   if (!rig)
     throw InputError(options.where("rig"),
-                     fmt::format("is '{}', and there is no such rig", options.word("rig")),
+                     fmt::format("is '{}', and there is no such rig", options.text("rig")),
                      "the id of a fix wheel/rig", "write the fix wheel/rig before this line");
   return *rig;
 }
@@ -40,18 +40,18 @@ Schema FixWheelHistory::schema() {
 FixWheelHistory::FixWheelHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixHistory(lammps, narg, arg, schema()), rig_fix_(find_rig(*lammps, options())) {}
 
-bool FixWheelHistory::needs(LAMMPS_NS::Fix& other) const { return &other == &rig_fix_; }
+bool FixWheelHistory::uses(LAMMPS_NS::Fix& other) const { return &other == &rig_fix_; }
 
-FixWorld& FixWheelHistory::bodies() { return FixWorld::of(*lmp); }
+FixCoupledSystem& FixWheelHistory::bodies() { return FixCoupledSystem::of(*lmp); }
 
 void FixWheelHistory::open(std::optional<double> resume_time) {
   first_step_ = update->ntimestep;
   first_time_ = time();
-  first_energy_ = rig_fix_.wheel_fix().hub().balance().residual();
+  first_energy_ = rig_fix_.wheel_fix().hub().energy_budget().residual();
   const double ground_level = rig_fix_.options().number("ground_level");
   Grains now = gather_grains(*lmp, ground_level);
   if (comm->me != 0) return;
-  const std::string& folder = options().word("folder");
+  const std::string& folder = options().text("folder");
   const std::string path = folder + "/history.h5", frames = folder + "/vtk";
   if (resume_time) {
     file_ = HistoryFile::resume(path, WheelRig::channels(), *resume_time);
@@ -66,7 +66,7 @@ void FixWheelHistory::open(std::optional<double> resume_time) {
     return;
   }
   make_results_folder(options());
-  file_ = HistoryFile::create(path, WheelRig::channels(), run_info(options().word("title")));
+  file_ = HistoryFile::create(path, WheelRig::channels(), run_info(options().text("title")));
   reference_ = std::move(now);
   if (reference_.size() > 0) file_->write_reference(reference_);
   if (draws()) {
@@ -93,7 +93,7 @@ void FixWheelHistory::close() {
   file_->write_final(grains, rig_fix_.wheel_fix().hub().surface());
   file_->write_closing(end);
   file_->flush();
-  const std::string& folder = options().word("folder");
+  const std::string& folder = options().text("folder");
   const Summary summary = summarise(folder);
   write_summary(folder, summary);
   if (screen) fmt::print(screen, "\n{}\n", summary_text(summary));
@@ -101,16 +101,16 @@ void FixWheelHistory::close() {
 
 RunClosing FixWheelHistory::closing() {
   const WheelHub& wheel = rig_fix_.wheel_fix().hub();
-  const Balance balance = wheel.balance();
+  const EnergyBudget budget = wheel.energy_budget();
   const MomentumAudit& momentum = bodies().audit(wheel);
   RunClosing end;
-  end.audit.set_energies({{"work of the ground on the wheel", balance.contact_work},
-                          {"work of the load", balance.load_work},
-                          {"work of the drive", balance.drive_work},
-                          {"kinetic energy of the wheel", -balance.kinetic_energy},
-                          {"stored in the wheel", -balance.stored_energy},
-                          {"loss in the wheel and the rig's damping", -balance.dissipated_energy}},
-                         balance.residual() - first_energy_);
+  end.audit.set_energies({{"work of the ground on the wheel", budget.contact_work},
+                          {"work of the load", budget.load_work},
+                          {"work of the drive", budget.drive_work},
+                          {"kinetic energy of the wheel", -budget.kinetic_energy},
+                          {"stored in the wheel", -budget.stored_energy},
+                          {"loss in the wheel and the rig's damping", -budget.dissipated_energy}},
+                         budget.residual() - first_energy_);
   end.audit.force_imbalance = momentum.force_imbalance;
   end.audit.force_scale = momentum.force_scale;
   end.audit.moment_imbalance = momentum.moment_imbalance;

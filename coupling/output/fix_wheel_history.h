@@ -8,13 +8,13 @@
 namespace furrow::coupling {
 
 class FixWheelRig;
-class FixWorld;
+class FixCoupledSystem;
 
 class FixWheelHistory : public FixHistory {
  public:
   FixWheelHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
-  bool needs(LAMMPS_NS::Fix& other) const override;
+  bool uses(LAMMPS_NS::Fix& other) const override;
 
  private:
   void open(std::optional<double> resume_time) override;
@@ -22,7 +22,7 @@ class FixWheelHistory : public FixHistory {
   void write_frame() override;
   void close() override;
   RunClosing closing();
-  FixWorld& bodies();
+  FixCoupledSystem& bodies();
 
   FixWheelRig& rig_fix_;
 

@@ -14,7 +14,7 @@ namespace furrow::coupling {
 
 /// Makes the folder of the keyword 'folder' if need be. @throws InputError
 inline void make_results_folder(const Options& options) {
-  const std::string& folder = options.word("folder");
+  const std::string& folder = options.text("folder");
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   if (failed)

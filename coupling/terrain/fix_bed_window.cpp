@@ -48,8 +48,9 @@ Schema FixBedWindow::schema() {
 
 FixBedWindow::FixBedWindow(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : Fix(lammps, narg, arg),
-      options_(schema().read(words_after_style(narg, arg))),
-      body_(FixWorld::find_body(*lammps, options_.where("body"), options_.word("body")).body()),
+      options_(schema().read(args_after_style(narg, arg))),
+      body_(FixCoupledSystem::find_body(*lammps, options_.where("body"), options_.text("body"))
+                .body()),
       behind_(options_.number("behind")),
       slabs_(options_.integer("slabs")) {
   if (!domain->xperiodic)
@@ -73,7 +74,7 @@ FixBedWindow::FixBedWindow(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
   extvector = 0;
 }
 
-bool FixBedWindow::needs(LAMMPS_NS::Fix& other) const {
+bool FixBedWindow::uses(LAMMPS_NS::Fix& other) const {
   auto* owner = dynamic_cast<BodyFix*>(&other);
   return owner && &owner->body() == &body_;
 }
@@ -87,7 +88,7 @@ int FixBedWindow::setmask() {
 /// only after that.
 void FixBedWindow::init() {
   const LAMMPS_NS::Fix* history = modify->find_fix_style_strict("contacthistory", 0);
-  guarded(*error, [&] {
+  with_collective_errors(*error, [&] {
     if (history && place_of_fix(*modify, history) > place_of_fix(*modify, this))
       throw InputError("fix bed/window", "comes before the pair style was set up",
                        "bed/window after a run", "write 'run 0' before this line");
@@ -98,7 +99,7 @@ void FixBedWindow::init() {
 void FixBedWindow::setup_pre_neighbor() {
   if (remembered_) return;
   remembered_ = true;
-  guarded(*error, [&] { remember_bed(); });
+  with_collective_errors(*error, [&] { remember_bed(); });
   next_ = static_cast<long>(
       std::floor((body_.surface().x.row(0).mean() - behind_ - domain->boxlo[0]) / slab_length_));
 }
@@ -186,7 +187,7 @@ void FixBedWindow::initial_integrate(int) {
 void FixBedWindow::pre_exchange() {
   if (!due_) return;
   due_ = false;
-  guarded(*error, [&] { renew(next_++); });
+  with_collective_errors(*error, [&] { renew(next_++); });
 }
 
 void FixBedWindow::renew(long slab) {
@@ -246,7 +247,7 @@ void FixBedWindow::take_out(long slab, const std::vector<std::size_t>& fresh) {
     }
     atom->avec->copy(atom->nlocal - 1, i, 1);
     --atom->nlocal;
-    --balance_;
+    --inserted_minus_removed_;
   }
 }
 
@@ -288,7 +289,7 @@ void FixBedWindow::put_in(const std::vector<std::size_t>& grains, int rut) {
       buffer.insert(buffer.end(), rest.begin(), rest.end());
     }
     atom->avec->unpack_exchange(buffer.data());
-    ++balance_;
+    ++inserted_minus_removed_;
   }
 }
 
@@ -303,7 +304,7 @@ void FixBedWindow::post_force(int) {
 double FixBedWindow::compute_vector(int n) {
   if (n == 0) return static_cast<double>(renewed_);
   if (n == 1) return static_cast<double>(atom->natoms);
-  return Communicator(&world).sum(static_cast<double>(balance_));
+  return Communicator(&world).sum(static_cast<double>(inserted_minus_removed_));
 }
 
 }  // namespace furrow::coupling

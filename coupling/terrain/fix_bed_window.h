@@ -12,7 +12,7 @@
 
 namespace furrow::coupling {
 
-class FixBedWindow : public LAMMPS_NS::Fix, public Described, public Dependent {
+class FixBedWindow : public LAMMPS_NS::Fix, public HasOptions, public UsesFix {
  public:
   FixBedWindow(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
@@ -28,7 +28,7 @@ class FixBedWindow : public LAMMPS_NS::Fix, public Described, public Dependent {
   /// f_id[1]: slabs renewed; [2]: grains now; [3]: grains put in less grains taken out since the
   /// start
   double compute_vector(int n) override;
-  bool needs(LAMMPS_NS::Fix& other) const override;
+  bool uses(LAMMPS_NS::Fix& other) const override;
   const Options& options() const override { return options_; }
 
  private:
@@ -43,7 +43,7 @@ class FixBedWindow : public LAMMPS_NS::Fix, public Described, public Dependent {
   Options options_;
   Body& body_;
   double behind_;
-  long slabs_, next_ = 0, renewed_ = 0, balance_ = 0;
+  long slabs_, next_ = 0, renewed_ = 0, inserted_minus_removed_ = 0;
   double slab_length_ = 0.0;
   bool due_ = false, remembered_ = false;
 

@@ -20,11 +20,11 @@ namespace furrow::coupling {
 namespace {
 
 constexpr long check_every = 100;      // steps between looks at the energy
-constexpr double least_energy = 1e-3;  // [J/kg] of the ground, its weight lifted by 0.1 mm: below
+constexpr double energy_floor = 1e-3;  // [J/kg] of the ground, its weight lifted by 0.1 mm: below
                                        // it an imbalance does not matter
 
-GroundParameters parameters(const Options& options, const LAMMPS_NS::LAMMPS& lammps) {
-  GroundParameters ground = read_ground(options, script_folder(lammps));
+TerrainParameters parameters(const Options& options, const LAMMPS_NS::LAMMPS& lammps) {
+  TerrainParameters ground = read_terrain(options, script_folder(lammps));
   ground.window = options.given("follow");
   return ground;
 }
@@ -32,7 +32,7 @@ GroundParameters parameters(const Options& options, const LAMMPS_NS::LAMMPS& lam
 }  // namespace
 
 Schema FixTerrainContinuum::schema() {
-  Schema schema = ground_schema("fix terrain/continuum");
+  Schema schema = terrain_schema("fix terrain/continuum");
   schema.text("follow", "id of the body that the ground moves along with").optional();
   schema
       .number("energy_tolerance", "", Range::positive(),
@@ -42,18 +42,19 @@ Schema FixTerrainContinuum::schema() {
 }
 
 FixTerrainContinuum::FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixTerrainContinuum(lammps, narg, arg, schema().read(words_after_style(narg, arg))) {}
+    : FixTerrainContinuum(lammps, narg, arg, schema().read(args_after_style(narg, arg))) {}
 
 FixTerrainContinuum::FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg,
                                          const Options& options)
     : FixBody(lammps, narg, arg,
-              std::make_unique<MpmGround>(parameters(options, *lammps),
-                                          Communicator(&lammps->world), options.subject())),
+              std::make_unique<ContinuumTerrain>(parameters(options, *lammps),
+                                                 Communicator(&lammps->world), options.subject())),
       options_(options) {
   if (options_.given("follow")) {
     followed_ =
-        &FixWorld::find_body(*lammps, options_.where("follow"), options_.word("follow")).body();
-    followed_fix_ = lammps->modify->find_fix_id(options_.word("follow").c_str());
+        &FixCoupledSystem::find_body(*lammps, options_.where("follow"), options_.text("follow"))
+             .body();
+    followed_fix_ = lammps->modify->find_fix_id(options_.text("follow").c_str());
   }
   vector_flag = 1;
   size_vector = 10;
@@ -63,11 +64,11 @@ FixTerrainContinuum::FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, ch
   report();
 }
 
-bool FixTerrainContinuum::needs(LAMMPS_NS::Fix& other) const { return &other == followed_fix_; }
+bool FixTerrainContinuum::uses(LAMMPS_NS::Fix& other) const { return &other == followed_fix_; }
 int FixTerrainContinuum::setmask() { return LAMMPS_NS::FixConst::END_OF_STEP; }
 
 void FixTerrainContinuum::report() const {
-  const MpmGround& soil = const_cast<FixTerrainContinuum*>(this)->ground();
+  const ContinuumTerrain& soil = const_cast<FixTerrainContinuum*>(this)->ground();
   const double particles = soil.particle_count(), step = soil.stable_time_step();
   if (comm->me != 0 || !screen) return;
   const Grid& grid = soil.grid();
@@ -87,12 +88,12 @@ void FixTerrainContinuum::report() const {
 
 void FixTerrainContinuum::post_create() {
   FixBody::post_create();
-  FixWorld::of(*lmp).add(static_cast<Driver&>(*this));
+  FixCoupledSystem::of(*lmp).add(static_cast<MotionController&>(*this));
 }
 
 void FixTerrainContinuum::pre_delete(bool unfixflag) {
   FixBody::pre_delete(unfixflag);
-  if (unfixflag) FixWorld::of(*lmp).remove(static_cast<Driver&>(*this));
+  if (unfixflag) FixCoupledSystem::of(*lmp).remove(static_cast<MotionController&>(*this));
 }
 
 void FixTerrainContinuum::apply(double, double) {
@@ -100,21 +101,21 @@ void FixTerrainContinuum::apply(double, double) {
 }
 
 void FixTerrainContinuum::end_of_step() {
-  if (update->ntimestep % check_every == 0) guarded(*error, [&] { check_energy(); });
+  if (update->ntimestep % check_every == 0) with_collective_errors(*error, [&] { check_energy(); });
 }
 
 void FixTerrainContinuum::check_energy() {
-  const Balance balance = ground().balance();
+  const EnergyBudget budget = ground().energy_budget();
   double mass = 0.0;
-  for (const GroundPhase& phase : ground().lagging_phases())
-    for (std::size_t p = 0; p < phase.particles.size(); ++p)
-      mass += phase.law->density() * phase.particles.data(column::volume)[p];
+  for (const ParticleGroup& group : ground().unsynchronised_groups())
+    for (std::size_t p = 0; p < group.particles.size(); ++p)
+      mass += group.material->density() * group.particles.data(column::volume)[p];
   mass = ground().ranks().sum(mass);
-  const double scale = std::max({std::abs(balance.contact_work), std::abs(balance.load_work),
-                                 std::abs(balance.dissipated_energy),
-                                 std::abs(balance.kinetic_energy), least_energy * mass});
-  const double limit = options_.number("energy_tolerance") * scale, residual = balance.residual();
-  if (!(std::abs(residual) <= limit) || !(balance.numerical_loss >= -limit))
+  const double scale = std::max({std::abs(budget.contact_work), std::abs(budget.load_work),
+                                 std::abs(budget.dissipated_energy),
+                                 std::abs(budget.kinetic_energy), energy_floor * mass});
+  const double limit = options_.number("energy_tolerance") * scale, residual = budget.residual();
+  if (!(std::abs(residual) <= limit) || !(budget.numerical_loss >= -limit))
     throw StateError(
         fmt::format("fix {}: the energy of the ground does not balance at step {}: {:.4g} J are "
                     "missing between work and state, the "
@@ -122,7 +123,7 @@ void FixTerrainContinuum::check_energy() {
                     "is unstable or the load too sudden: "
                     "lower "
                     "cfl, or the LIGGGHTS step",
-                    id, update->ntimestep, residual, balance.numerical_loss, limit));
+                    id, update->ntimestep, residual, budget.numerical_loss, limit));
 }
 
 double FixTerrainContinuum::compute_vector(int n) {
@@ -136,15 +137,15 @@ double FixTerrainContinuum::compute_vector(int n) {
     default:
       break;
   }
-  const Balance balance = ground().balance();
+  const EnergyBudget budget = ground().energy_budget();
   const double values[] = {0.0,
-                           balance.kinetic_energy,
-                           balance.stored_energy,
-                           balance.dissipated_energy,
-                           balance.contact_work,
-                           balance.load_work,
-                           balance.numerical_loss,
-                           balance.residual()};
+                           budget.kinetic_energy,
+                           budget.stored_energy,
+                           budget.dissipated_energy,
+                           budget.contact_work,
+                           budget.load_work,
+                           budget.numerical_loss,
+                           budget.residual()};
   return values[n];
 }
 

@@ -9,15 +9,18 @@
 
 namespace furrow::coupling {
 
-class FixTerrainContinuum : public FixBody, public Driver, public Described, public Dependent {
+class FixTerrainContinuum : public FixBody,
+                            public MotionController,
+                            public HasOptions,
+                            public UsesFix {
  public:
   FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
 
-  MpmGround& ground() { return static_cast<MpmGround&>(body()); }
+  ContinuumTerrain& ground() { return static_cast<ContinuumTerrain&>(body()); }
   bool half_model() const { return options_.flag("symmetry"); }
   const Options& options() const override { return options_; }
-  bool needs(LAMMPS_NS::Fix& other) const override;
+  bool uses(LAMMPS_NS::Fix& other) const override;
 
   int setmask() override;
   void post_create() override;

@@ -22,15 +22,15 @@ constexpr long every = 200;  // steps between looks
 
 }  // namespace
 
-void GroundCheck::warn(bool& done, const std::string& text) {
+void GrainBedCheck::warn(bool& done, const std::string& text) {
   if (done) return;
   done = true;
   if (lammps_.comm->me == 0)
-    lammps_.error->warning("ground_check.cpp", __LINE__,
+    lammps_.error->warning("grain_bed_check.cpp", __LINE__,
                            fmt::format("{}: {}", where_, text).c_str());
 }
 
-void GroundCheck::start(const Surface& surface) {
+void GrainBedCheck::start(const Surface& surface) {
   const LAMMPS_NS::Atom& atom = *lammps_.atom;
   const Communicator ranks(&lammps_.world);
   double sums[3] = {0.0, 0.0, 0.0};  // diameters, densities, count
@@ -57,18 +57,18 @@ void GroundCheck::start(const Surface& surface) {
   const double width = upper[1] - lower[1],
                bed = lammps_.domain->yperiodic ? lammps_.domain->prd[1] : highest - lowest;
   bool once = false, once_more = false;
-  if (width < GroundLimits::grains_per_width * mean_diameter_)
+  if (width < GrainBedLimits::grains_per_width * mean_diameter_)
     warn(once, fmt::format("the body is {:.3g} grains wide (recommended: at least {:g}); use "
                            "smaller grains, or compare two sizes",
-                           width / mean_diameter_, GroundLimits::grains_per_width));
-  if (bed < GroundLimits::bed_widths * width)
+                           width / mean_diameter_, GrainBedLimits::grains_per_width));
+  if (bed < GrainBedLimits::bed_widths * width)
     warn(once_more, fmt::format("the bed is {:.3g} bodies wide (recommended: at least {:g}); its "
                                 "walls hold the ground together",
-                                bed / width, GroundLimits::bed_widths));
+                                bed / width, GrainBedLimits::bed_widths));
 }
 
-void GroundCheck::contact(double overlap, double radius, const Vector3& point,
-                          const Vector3& force) {
+void GrainBedCheck::contact(double overlap, double radius, const Vector3& point,
+                            const Vector3& force) {
   if (mean_diameter_ == 0.0 || steps_ % every != 0) return;
   if (!looks_) {
     looks_ = true;
@@ -80,7 +80,7 @@ void GroundCheck::contact(double overlap, double radius, const Vector3& point,
   force_ += force;
 }
 
-void GroundCheck::finish_step(const Surface& surface) {
+void GrainBedCheck::finish_step(const Surface& surface) {
   if (mean_diameter_ == 0.0 || steps_++ % every != 0) return;
   const Communicator ranks(&lammps_.world);
   const double infinity = std::numeric_limits<double>::infinity();
@@ -95,23 +95,23 @@ void GroundCheck::finish_step(const Surface& surface) {
   force_.setZero();
   looks_ = false;
 
-  if (elastic_ && deepest > GroundLimits::overlap)
+  if (elastic_ && deepest > GrainBedLimits::overlap)
     warn(warned_overlap_,
          fmt::format("a grain overlaps the body by {:.3g} of its diameter (recommended: at most "
                      "{:g}); the grains are too "
                      "soft for this load: raise youngsModulus and settle the bed anew",
-                     deepest, GroundLimits::overlap));
+                     deepest, GrainBedLimits::overlap));
   // Fewer than a handful of grains carry no pressure.
   const double area = extent[0] * extent[1], force = std::abs(sum[2]);
   if (!(area > 9.0 * mean_diameter_ * mean_diameter_) || !(force > 0.0)) return;
   const double speed = surface.v.rowwise().mean().norm();
   const double number =
       speed / std::sqrt(area) * mean_diameter_ * std::sqrt(density_ * area / force);
-  if (number > GroundLimits::inertial_number)
+  if (number > GrainBedLimits::inertial_number)
     warn(warned_inertia_, fmt::format("the inertial number under the body is {:.3g} (shown to be "
                                       "without influence: up to {:g}); the motion is "
                                       "not slow for these grains: compare with a slower run",
-                                      number, GroundLimits::inertial_number));
+                                      number, GrainBedLimits::inertial_number));
 }
 
 }  // namespace furrow::coupling

@@ -11,7 +11,7 @@
 namespace furrow::coupling {
 
 /// Limits with the study that shows them: inputs/validation/grains/README.md.
-struct GroundLimits {
+struct GrainBedLimits {
   static constexpr double overlap = 0.05;  ///< of a grain's diameter, elastic contacts
   /// speed / length x diameter x sqrt(grain density / pressure) under a body
   static constexpr double inertial_number = 0.05;
@@ -20,10 +20,10 @@ struct GroundLimits {
 };
 
 /// Watches the contact of one body with grains; each kind of warning comes once a run.
-class GroundCheck {
+class GrainBedCheck {
  public:
   /// @param where names the wall in messages
-  GroundCheck(LAMMPS_NS::LAMMPS& lammps, std::string where)
+  GrainBedCheck(LAMMPS_NS::LAMMPS& lammps, std::string where)
       : lammps_(lammps), where_(std::move(where)) {}
 
   /// Size of grains and bed against the body's width. Collective.

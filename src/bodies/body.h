@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What every solver offers to the world: rigid wheel, tyre, continuum ground.
+/// What every solver offers to the system: rigid wheel, tyre, continuum ground.
 
 #include <string>
-#include <vector>
 
+#include "core/checkpoint.h"
 #include "geometry/surface.h"
 #include "core/types.h"
 
 namespace furrow {
 
 /// Momentum and energy of a body, for the audit. Works are accumulated from the start of the run.
-struct Balance {
+struct EnergyBudget {
   Vector3 momentum = Vector3::Zero();  ///< [kg m/s]
   double kinetic_energy = 0.0;         ///< [J]
   double stored_energy = 0.0;          ///< [J] elastic
@@ -40,22 +40,20 @@ class Body {
   virtual double stable_time_step() const = 0;
   /// One step under surface().f (held constant) and the body's own loads. @throws StateError
   virtual void advance(double dt) = 0;
-  /// Around the steps that make up an interval of the world: what a body reports of "the last step"
-  /// then is the interval's mean.
+  /// Around the steps that make up an interval of the system: what a body reports of "the last
+  /// step" then is the interval's mean.
   virtual void begin_interval() {}
   virtual void end_interval() {}
   virtual Surface& surface() = 0;
   const Surface& surface() const { return const_cast<Body*>(this)->surface(); }
-  virtual Balance balance() const = 0;
+  virtual EnergyBudget energy_budget() const = 0;
   /// True when the surface is the half y >= 0 of a body that is its own mirror image in y = 0;
   /// loads and balance are those of the whole.
   virtual bool half_model() const { return false; }
 
-  /// Everything needed to continue exactly, as numbers; restore() of another build or another scene
-  /// is refused.
-  virtual std::vector<double> state() const = 0;
-  /// @throws Error when the numbers do not belong to a body like this one
-  virtual void restore(const std::vector<double>& state) = 0;
+  /// Saves everything needed to continue exactly, or brings it back. Collective for a body that is
+  /// spread over the ranks. @throws Error when the saved state belongs to another body
+  virtual void checkpoint(Checkpoint& state) = 0;
 };
 
 }  // namespace furrow

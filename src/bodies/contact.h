@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What acts between two bodies of a world: a contact.
+/// What acts between two bodies of a coupled system: a contact.
 
 namespace furrow {
 
-class Interaction {
+class Contact {
  public:
-  virtual ~Interaction() = default;
+  virtual ~Contact() = default;
   /// Finds the forces at the present positions and adds them to both bodies, before they advance by
   /// dt [s].
   /// @throws StateError

@@ -10,53 +10,51 @@
 
 namespace furrow {
 
-class World {
+class CoupledSystem {
  public:
-  /// The body is not owned; it must outlive the world or be removed.
+  /// The body is not owned; it must outlive the system or be removed.
   void add(Body& body, const std::string& name) { members_.push_back({&body, name}); }
   void remove(const Body& body);
-  void add(Interaction& interaction, const std::string& name) {
-    interactions_.push_back({&interaction, name});
-  }
-  void remove(const Interaction& interaction);
+  void add(Contact& contact, const std::string& name) { contacts_.push_back({&contact, name}); }
+  void remove(const Contact& contact);
 
   /// Advances every body by an interval [s] in equal sub-steps no longer than the smallest stable
   /// step of any body now. Surface forces act as one impulse, force times interval, in the first
   /// sub-step: their kick is centred on the time they belong to (r-RESPA: M. Tuckerman, B. J.
   /// Berne, G. J. Martyna, J. Chem. Phys. 97, 1990 (1992)). Held over n sub-steps they would lag,
-  /// and a spring k on a mass m gain energy at the rate k interval/(2 m) (1 - 1/n). Interactions
+  /// and a spring k on a mass m gain energy at the rate k interval/(2 m) (1 - 1/n). Contacts
   /// are found anew in every sub-step. Returns their number.
   /// @throws StateError naming the body when its stable step vanishes, its state is not finite or
   /// its own advance() refuses
   int advance(double interval);
 
   void clear_forces();  ///< of all surfaces
-  /// Adds the interactions' forces, their mean over the last interval, to the surfaces for whoever
+  /// Adds the contacts' forces, their mean over the last interval, to the surfaces for whoever
   /// reads them; the next advance() takes them away again.
-  void show_interaction_forces();
-  /// Those mean forces of all bodies one after the other, three numbers a node, if they are shown
-  /// now; for restart files.
-  std::vector<double> shown_forces() const;
+  void publish_contact_forces();
+  /// Those mean forces of all bodies one after the other, three numbers a node, if they are
+  /// published now; for checkpoints.
+  std::vector<double> published_contact_forces() const;
   /// @throws Error when their number does not fit
-  void restore_shown_forces(const std::vector<double>& forces);
+  void restore_published_contact_forces(const std::vector<double>& forces);
 
  private:
   struct Member {
     Body* body;
     std::string name;
-    // [N] of others; mean of the interactions over the last interval
-    Matrix3X given = {}, interaction = {};
+    // [N] of others; mean of the contacts over the last interval
+    Matrix3X external_force = {}, contact_force = {};
   };
   struct Named {
-    Interaction* interaction;
+    Contact* contact;
     std::string name;
   };
-  void apply_interactions(double dt);
+  void apply_contacts(double dt);
   void advance_bodies(double dt);
 
   std::vector<Member> members_;
-  std::vector<Named> interactions_;
-  bool shown_ = false;
+  std::vector<Named> contacts_;
+  bool published_ = false;
 };
 
 }  // namespace furrow

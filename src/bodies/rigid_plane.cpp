@@ -60,18 +60,13 @@ void RigidPlane::press_on(Surface& surface) {
   }
 }
 
-std::vector<double> RigidPlane::state() const {
-  std::vector<double> numbers(anchor_.data(), anchor_.data() + anchor_.size());
-  numbers.insert(numbers.end(), sticking_.begin(), sticking_.end());
-  numbers.insert(numbers.end(), area_.data(), area_.data() + area_.size());
-  return numbers;
-}
-
-void RigidPlane::restore(const double* numbers) {
-  std::copy(numbers, numbers + anchor_.size(), anchor_.data());
-  numbers += anchor_.size();
-  for (unsigned char& sticking : sticking_) sticking = *numbers++ != 0.0;
-  std::copy(numbers, numbers + area_.size(), area_.data());
+void RigidPlane::checkpoint(Checkpoint& state) {
+  state.values("anchor", anchor_);
+  std::vector<double> sticking(sticking_.begin(), sticking_.end());
+  state.values("sticking", sticking.data(), sticking.size());
+  std::transform(sticking.begin(), sticking.end(), sticking_.begin(),
+                 [](double number) { return static_cast<unsigned char>(number != 0.0); });
+  state.values("area", area_);
 }
 
 }  // namespace furrow

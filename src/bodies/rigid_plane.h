@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/checkpoint.h"
 #include "geometry/surface.h"
 
 namespace furrow {
@@ -38,8 +39,7 @@ class RigidPlane {
   double stored_energy() const { return stored_; }
   void set_height(double height) { parameters_.height = height; }
   const RigidPlaneParameters& parameters() const { return parameters_; }
-  std::vector<double> state() const;                        ///< where nodes stick, and their areas
-  void restore(const double* state);                        ///< as many numbers
+  void checkpoint(Checkpoint& state);                       ///< where nodes stick, and their areas
   void forget() { sticking_.assign(sticking_.size(), 0); }  ///< all nodes stick anew where they are
 
  private:

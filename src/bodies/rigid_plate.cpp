@@ -16,18 +16,18 @@ constexpr double minimum_plate_angle = radians(5.0);
 
 /// A flat face: points of the plane, triangles counter-clockwise, and the nodes of its edge in that
 /// sense.
-struct Face {
+struct Disc {
   std::vector<Eigen::Vector2d> points;
   std::vector<Vector3i> triangles;
   std::vector<int> edge;
 };
 
 /// Rings of 6 k nodes around one in the middle: all triangles are nearly equilateral.
-Face disc(double radius, int rings) {
+Disc disc(double radius, int rings) {
   // Regular n-gon of the circle's area: n/2 R'^2 sin(2 pi/n) = pi R^2.
   const double n = 6.0 * rings,
                outer = radius * std::sqrt(2.0 * M_PI / (n * std::sin(2.0 * M_PI / n)));
-  Face face;
+  Disc face;
   const auto first_of = [](int ring) { return ring == 0 ? 0 : 1 + 3 * ring * (ring - 1); };
   const auto node = [&](int ring, int i) {
     return first_of(ring) + (ring == 0 ? 0 : i % (6 * ring));
@@ -51,8 +51,8 @@ Face disc(double radius, int rings) {
   return face;
 }
 
-Face square(double side, int elements) {
-  Face face;
+Disc square(double side, int elements) {
+  Disc face;
   const auto node = [&](int i, int j) { return j * (elements + 1) + i; };
   for (int j = 0; j <= elements; ++j)
     for (int i = 0; i <= elements; ++i)
@@ -72,7 +72,7 @@ Face square(double side, int elements) {
 
 PlateGeometry geometry_from(const Options& options) {
   PlateGeometry plate;
-  plate.shape = options.word("shape") == "circle" ? PlateShape::circle : PlateShape::square;
+  plate.shape = options.text("shape") == "circle" ? PlateShape::circle : PlateShape::square;
   plate.size = options.number("size");
   plate.thickness = options.number("thickness");
   plate.elements = static_cast<int>(options.integer("elements"));
@@ -101,7 +101,7 @@ Surface make_plate_mesh(const PlateGeometry& plate, const std::string& where) {
     throw InputError(fmt::format("{}, keyword 'elements'", where),
                      fmt::format("is {}", plate.elements),
                      circle ? "an even number, at least 2" : "at least 2");
-  const Face face =
+  const Disc face =
       circle ? disc(0.5 * plate.size, plate.elements / 2) : square(plate.size, plate.elements);
 
   Surface surface;
@@ -132,7 +132,7 @@ Surface make_plate_mesh(const PlateGeometry& plate, const std::string& where) {
 
 Schema RigidPlate::schema(const std::string& subject) {
   Schema schema(subject);
-  schema.word("shape", {"circle", "square"}, "outline of the plate").by_default("circle");
+  schema.choice("shape", {"circle", "square"}, "outline of the plate").by_default("circle");
   schema.number("size", "m", Range::positive(), "diameter of a circle, side of a square");
   schema.number("thickness", "m", Range::positive(), "height of the plate's edge");
   schema.integer("elements", Range::closed(2, 400), "triangles across the plate; even for a circle")
@@ -175,40 +175,23 @@ void RigidPlate::place_nodes() {
   surface_.v.colwise() = Vector3(0.0, 0.0, velocity_);
 }
 
-Balance RigidPlate::balance() const {
-  Balance balance;
-  balance.contact_work = contact_work_;
-  balance.drive_work = -contact_work_;
-  return balance;
+EnergyBudget RigidPlate::energy_budget() const {
+  EnergyBudget budget;
+  budget.contact_work = contact_work_;
+  budget.drive_work = -contact_work_;
+  return budget;
 }
 
-std::vector<double> RigidPlate::state() const {
-  std::vector<double> state = {static_cast<double>(geometry_.shape),
-                               geometry_.size,
-                               geometry_.thickness,
-                               static_cast<double>(geometry_.elements),
-                               centre_.x(),
-                               centre_.y(),
-                               centre_.z(),
-                               velocity_,
-                               contact_work_};
-  state.insert(state.end(), surface_.f.data(), surface_.f.data() + surface_.f.size());
-  return state;
-}
-
-void RigidPlate::restore(const std::vector<double>& state) {
-  const std::vector<double> mine = this->state();
-  constexpr long shape_numbers = 4, scalars = 9;
-  if (state.size() != mine.size() ||
-      !std::equal(mine.begin(), mine.begin() + shape_numbers, state.begin()))
-    throw Error(
-        "rigid plate: the saved state belongs to another plate; restart with the shape, size and "
-        "elements of the first run");
-  centre_ = {state[4], state[5], state[6]};
-  velocity_ = state[7];
-  contact_work_ = state[8];
-  std::copy(state.begin() + scalars, state.end(), surface_.f.data());
-  place_nodes();
+void RigidPlate::checkpoint(Checkpoint& state) {
+  state.match("shape", static_cast<int>(geometry_.shape));
+  state.match("size", geometry_.size);
+  state.match("thickness", geometry_.thickness);
+  state.match("elements", geometry_.elements);
+  state.values("centre", centre_);
+  state.value("velocity", velocity_);
+  state.value("contact_work", contact_work_);
+  state.values("nodal_force", surface_.f);
+  if (!state.saving()) place_nodes();
 }
 
 }  // namespace furrow

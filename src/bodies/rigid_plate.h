@@ -51,9 +51,8 @@ class RigidPlate : public Body {
   void advance(double dt) override;
   using Body::surface;
   Surface& surface() override { return surface_; }
-  Balance balance() const override;
-  std::vector<double> state() const override;
-  void restore(const std::vector<double>& state) override;
+  EnergyBudget energy_budget() const override;
+  void checkpoint(Checkpoint& state) override;
 
  private:
   void place_nodes();

@@ -144,40 +144,28 @@ void RigidWheel::place_nodes() {
   }
 }
 
-Balance RigidWheel::balance() const {
-  Balance balance = hub_balance();
-  balance.contact_work = given_work();
-  return balance;
+EnergyBudget RigidWheel::energy_budget() const {
+  EnergyBudget budget = hub_budget();
+  budget.contact_work = given_work();
+  return budget;
 }
 
-std::vector<double> RigidWheel::fingerprint() const {
+void RigidWheel::checkpoint(Checkpoint& state) {
   const WheelGeometry& shape = parameters_.geometry;
-  const Grousers& bars = shape.grousers;
-  const auto number = [](auto count) { return static_cast<double>(count); };
-  // clang-format off
-  return {shape.diameter, shape.width, shape.shoulder, number(bars.number), bars.height, bars.thickness, bars.angle,
-          parameters_.mass, parameters_.axle_inertia, parameters_.diametral_inertia, number(surface_.node_count())};
-  // clang-format on
-}
-
-std::vector<double> RigidWheel::state() const {
-  std::vector<double> state = fingerprint();
-  const std::vector<double> hub = hub_state();
-  state.insert(state.end(), hub.begin(), hub.end());
-  state.insert(state.end(), surface_.f.data(), surface_.f.data() + surface_.f.size());
-  return state;
-}
-
-void RigidWheel::restore(const std::vector<double>& state) {
-  const std::vector<double> mine = fingerprint();
-  if (state.size() != this->state().size() || !std::equal(mine.begin(), mine.end(), state.begin()))
-    throw Error(
-        "rigid wheel: the saved state belongs to another wheel; restart with the dimensions, mass "
-        "and inertia of the first "
-        "run");
-  const double* forces = restore_hub(state.data() + mine.size());
-  std::copy(forces, forces + surface_.f.size(), surface_.f.data());
-  place_nodes();
+  state.match("diameter", shape.diameter);
+  state.match("width", shape.width);
+  state.match("shoulder", shape.shoulder);
+  state.match("grousers", shape.grousers.number);
+  state.match("grouser_height", shape.grousers.height);
+  state.match("grouser_thickness", shape.grousers.thickness);
+  state.match("grouser_angle", shape.grousers.angle);
+  state.match("mass", parameters_.mass);
+  state.match("inertia", parameters_.axle_inertia);
+  state.match("inertia_diametral", parameters_.diametral_inertia);
+  state.match("nodes", surface_.node_count());
+  checkpoint_hub(state);
+  state.values("nodal_force", surface_.f);
+  if (!state.saving()) place_nodes();
 }
 
 }  // namespace furrow

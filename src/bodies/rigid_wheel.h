@@ -38,15 +38,13 @@ class RigidWheel : public WheelHub {
   void advance(double dt) override;
   using Body::surface;
   Surface& surface() override { return surface_; }
-  Balance balance() const override;
-  std::vector<double> state() const override;
-  void restore(const std::vector<double>& state) override;
+  EnergyBudget energy_budget() const override;
+  void checkpoint(Checkpoint& state) override;
 
  private:
   void follow_placement(const Vector3&, const Matrix3&) override { place_nodes(); }
   void follow_velocity() override { place_nodes(); }
   void place_nodes();
-  std::vector<double> fingerprint() const;
 
   RigidWheelParameters parameters_;
   Matrix3X reference_;  // nodes about the axle centre, unturned

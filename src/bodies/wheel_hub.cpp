@@ -224,46 +224,33 @@ double WheelHub::hub_energy() const {
           inertia_.diametral * (w_[0] * w_[0] + w_[2] * w_[2]) + inertia_.axial * w_[1] * w_[1]);
 }
 
-Balance WheelHub::hub_balance() const {
-  Balance balance;
-  balance.momentum = inertia_.mass * velocity_;
-  balance.kinetic_energy = hub_energy();
-  balance.dissipated_energy = dissipated_;
-  balance.load_work = load_work_;
-  balance.drive_work = drive_work_;
-  return balance;
+EnergyBudget WheelHub::hub_budget() const {
+  EnergyBudget budget;
+  budget.momentum = inertia_.mass * velocity_;
+  budget.kinetic_energy = hub_energy();
+  budget.dissipated_energy = dissipated_;
+  budget.load_work = load_work_;
+  budget.drive_work = drive_work_;
+  return budget;
 }
 
-std::vector<double> WheelHub::hub_state() const {
-  std::vector<double> state;
-  const auto add = [&](const auto& values) {
-    state.insert(state.end(), values.data(), values.data() + values.size());
-  };
-  for (const Vector3& vector : {centre_, velocity_, angles_, w_, rates_, omega_, load_})
-    add(vector);
-  for (const Motion motion : motion_) state.push_back(static_cast<double>(motion));
-  add(prescribed_);
-  add(constraint_);
-  for (const double number :
-       {axle_torque_, vertical_damping_, given_work_, load_work_, drive_work_, dissipated_})
-    state.push_back(number);
-  return state;
-}
-
-const double* WheelHub::restore_hub(const double* next) {
-  const auto take = [&](auto& values) {
-    std::copy(next, next + values.size(), values.data());
-    next += values.size();
-  };
-  for (Vector3* vector : {&centre_, &velocity_, &angles_, &w_, &rates_, &omega_, &load_})
-    take(*vector);
-  for (Motion& motion : motion_) motion = static_cast<Motion>(*next++);
-  take(prescribed_);
-  take(constraint_);
-  for (double* number :
-       {&axle_torque_, &vertical_damping_, &given_work_, &load_work_, &drive_work_, &dissipated_})
-    *number = *next++;
-  return next;
+void WheelHub::checkpoint_hub(Checkpoint& state) {
+  state.values("centre", centre_);
+  state.values("velocity", velocity_);
+  state.values("angles", angles_);
+  state.values("quasi_velocities", w_);
+  state.values("rates", rates_);
+  state.values("angular_velocity", omega_);
+  state.values("load", load_);
+  for (Motion& motion : motion_) state.value("motion", motion);
+  state.values("prescribed", prescribed_);
+  state.values("constraint", constraint_);
+  state.value("axle_torque", axle_torque_);
+  state.value("vertical_damping", vertical_damping_);
+  state.value("given_work", given_work_);
+  state.value("load_work", load_work_);
+  state.value("drive_work", drive_work_);
+  state.value("dissipated", dissipated_);
 }
 
 }  // namespace furrow

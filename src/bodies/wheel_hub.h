@@ -107,14 +107,13 @@ class WheelHub : public Body {
   double hub_energy() const;  ///< kinetic [J]
   /// [J] of the forces and moments passed to advance_hub
   double given_work() const { return given_work_; }
-  Balance hub_balance() const;  ///< without contact_work
+  EnergyBudget hub_budget() const;  ///< without contact_work
   /// The hub has been put elsewhere: what moves with it follows as a rigid body, without velocity.
   virtual void follow_placement(const Vector3& old_centre, const Matrix3& old_attitude) = 0;
   virtual void follow_velocity() = 0;   ///< it has been given another motion
   void rest_at(const Vector3& centre);  ///< for a relaxation: the hub alone, without velocity
   virtual double kinetic_energy() const { return hub_energy(); }
-  std::vector<double> hub_state() const;
-  const double* restore_hub(const double* numbers);  ///< returns the first number it did not need
+  void checkpoint_hub(Checkpoint& state);
 
  private:
   void advance_translation(double dt, const Vector3& force);

@@ -85,7 +85,7 @@ std::string Key::allowed() const {
       return fmt::format("{} numbers, each {}{}", count == 0 ? "a list of" : std::to_string(count),
                          range.text(), unit_text);
     case Kind::word:
-      return fmt::format("one of: {}", fmt::join(words, ", "));
+      return fmt::format("one of: {}", fmt::join(choices, ", "));
     case Kind::text:
       return "a word";
     case Kind::flag:
@@ -110,9 +110,9 @@ Schema& Schema::numbers(const std::string& name, std::size_t count, const std::s
                         Range range, const std::string& meaning) {
   return declare({name, Key::Kind::numbers, unit, range, count, {}, meaning});
 }
-Schema& Schema::word(const std::string& name, std::vector<std::string> words,
-                     const std::string& meaning) {
-  return declare({name, Key::Kind::word, "", {}, 1, std::move(words), meaning});
+Schema& Schema::choice(const std::string& name, std::vector<std::string> choices,
+                       const std::string& meaning) {
+  return declare({name, Key::Kind::word, "", {}, 1, std::move(choices), meaning});
 }
 Schema& Schema::text(const std::string& name, const std::string& meaning) {
   return declare({name, Key::Kind::text, "", {}, 1, {}, meaning});
@@ -140,18 +140,18 @@ const Key* Schema::find(const std::string& name) const {
   return found == keys_.end() ? nullptr : &*found;
 }
 
-Options Schema::read(const std::vector<std::string>& words) const {
+Options Schema::read(const std::vector<std::string>& choices) const {
   std::vector<Entry> entries;
-  for (std::size_t i = 0; i < words.size();) {
-    Entry entry{words[i++], {}};
+  for (std::size_t i = 0; i < choices.size();) {
+    Entry entry{choices[i++], {}};
     const Key* key = find(entry.key);
     // an unknown key is refused below, with its name
-    const std::size_t count = !key ? words.size() : key->count;
-    while (i < words.size() &&
-           (count == 0 ? to_number(words[i]).has_value() : entry.values.size() < count)) {
-      if (key && find(words[i]) && key->kind != Key::Kind::text && key->kind != Key::Kind::word)
+    const std::size_t count = !key ? choices.size() : key->count;
+    while (i < choices.size() &&
+           (count == 0 ? to_number(choices[i]).has_value() : entry.values.size() < count)) {
+      if (key && find(choices[i]) && key->kind != Key::Kind::text && key->kind != Key::Kind::word)
         break;
-      entry.values.push_back(words[i++]);
+      entry.values.push_back(choices[i++]);
     }
     entries.push_back(std::move(entry));
   }
@@ -172,7 +172,7 @@ Options Schema::read(const std::vector<Entry>& entries) const {
           key.allowed());
     Options::Value value{texts, {}, given, origin};
     if (key.kind == Key::Kind::word || key.kind == Key::Kind::flag) {
-      if (std::find(key.words.begin(), key.words.end(), texts[0]) == key.words.end())
+      if (std::find(key.choices.begin(), key.choices.end(), texts[0]) == key.choices.end())
         throw InputError(where, fmt::format("is '{}'", texts[0]), key.allowed());
     } else if (key.kind != Key::Kind::text) {
       for (const std::string& text : texts) {
@@ -237,7 +237,7 @@ long Options::integer(const std::string& key) const {
 const std::vector<double>& Options::numbers(const std::string& key) const {
   return value(key).numbers;
 }
-const std::string& Options::word(const std::string& key) const { return value(key).texts.at(0); }
+const std::string& Options::text(const std::string& key) const { return value(key).texts.at(0); }
 bool Options::flag(const std::string& key) const { return value(key).texts.at(0) == "yes"; }
 bool Options::has(const std::string& key) const { return values_.count(key) > 0; }
 bool Options::given(const std::string& key) const {

@@ -39,10 +39,10 @@ struct Key {
 
   std::string name;
   Kind kind = Kind::number;
-  std::string unit;                ///< "" for words, texts and pure numbers
-  Range range;                     ///< of every number
-  std::size_t count = 1;           ///< values that follow; 0 (numbers only): as many as there are
-  std::vector<std::string> words;  ///< the admissible words
+  std::string unit;                  ///< "" for words, texts and pure numbers
+  Range range;                       ///< of every number
+  std::size_t count = 1;             ///< values that follow; 0 (numbers only): as many as there are
+  std::vector<std::string> choices;  ///< the admissible words
   std::string meaning;
   bool required = true;
   /// used when not required and not given; may be empty
@@ -74,7 +74,8 @@ class Schema {
   Schema& integer(const std::string& name, Range range, const std::string& meaning);
   Schema& numbers(const std::string& name, std::size_t count, const std::string& unit, Range range,
                   const std::string& meaning);
-  Schema& word(const std::string& name, std::vector<std::string> words, const std::string& meaning);
+  Schema& choice(const std::string& name, std::vector<std::string> choices,
+                 const std::string& meaning);
   Schema& text(const std::string& name, const std::string& meaning);
   /// yes | no, "no" unless given
   Schema& flag(const std::string& name, const std::string& meaning);
@@ -90,7 +91,7 @@ class Schema {
   const Key* find(const std::string& name) const;
 
   /// Reads "key value(s) key value(s) ..." as a script line has it. @throws InputError
-  Options read(const std::vector<std::string>& words) const;
+  Options read(const std::vector<std::string>& choices) const;
   /// Reads entries as a file has them. @throws InputError
   Options read(const std::vector<Entry>& entries) const;
   /// The table of keys for --help and for the pages: one line a key with unit, range, default and
@@ -110,7 +111,7 @@ class Options {
   double number(const std::string& key) const;
   long integer(const std::string& key) const;
   const std::vector<double>& numbers(const std::string& key) const;
-  const std::string& word(const std::string& key) const;  ///< also for text
+  const std::string& text(const std::string& key) const;  ///< also for text
   bool flag(const std::string& key) const;
   bool given(const std::string& key) const;  ///< the user wrote it
   bool has(const std::string& key) const;    ///< given, or has a default

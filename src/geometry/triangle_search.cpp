@@ -9,7 +9,7 @@ namespace furrow {
 
 namespace {
 
-constexpr int most_bins = 200;  // in one direction
+constexpr int max_bins = 200;  // in one direction
 
 }  // namespace
 
@@ -24,7 +24,7 @@ TriangleSearch::TriangleSearch(const Surface& surface, double reach, const Vecto
   }
   const double edge =
       std::sqrt(surface.total_area() / static_cast<double>(surface.triangle_count()));
-  const double length = std::max({reach, edge, (upper_ - lower_).maxCoeff() / most_bins});
+  const double length = std::max({reach, edge, (upper_ - lower_).maxCoeff() / max_bins});
   per_length_ = 1.0 / length;
   for (int a = 0; a < 3; ++a)
     count_[a] = 1 + static_cast<int>((upper_[a] - lower_[a]) * per_length_);

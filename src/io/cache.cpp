@@ -13,8 +13,8 @@ namespace fs = std::filesystem;
 fs::path cache_folder() {
   if (const char* chosen = std::getenv("FURROW_CACHE")) return chosen;
   if (const char* cache = std::getenv("XDG_CACHE_HOME")) return fs::path(cache) / "furrow";
-  const char* home = std::getenv("HOME");
-  return fs::path(home ? home : ".") / ".cache" / "furrow";
+  const char* initial_position = std::getenv("HOME");
+  return fs::path(initial_position ? initial_position : ".") / ".cache" / "furrow";
 }
 
 std::string content_hash(const std::string& text) {

@@ -269,7 +269,7 @@ void HistoryFile::write_final(const Grains& grains, const Surface& surface) {
   });
 }
 
-void HistoryFile::write_ground(const GroundSnapshot& ground, const std::vector<RutPoint>& rut) {
+void HistoryFile::write_terrain(const TerrainSnapshot& ground, const std::vector<RutPoint>& rut) {
   replace_with([&](Hdf5File& file) {
     for (const char* group : {"/ground", "/rut"}) {
       file.remove(group);
@@ -281,7 +281,7 @@ void HistoryFile::write_ground(const GroundSnapshot& ground, const std::vector<R
     };
     write("/ground/id", ground.id, "");
     write("/ground/x", ground.x, "m");
-    write("/ground/home", ground.home, "m");
+    write("/ground/home", ground.initial_position, "m");
     write("/ground/v", ground.v, "m/s");
     write("/ground/layer", ground.layer, "");
     write("/ground/volume", ground.volume, "m^3");

@@ -60,7 +60,7 @@ class HistoryFile {
   void write_reference(const Grains& grains);
   void write_final(const Grains& grains, const Surface& surface);  ///< either may be empty
   /// The ground and, where it moved, the rut it left: /ground/<field>, /rut/{x,density}
-  void write_ground(const GroundSnapshot& ground, const std::vector<RutPoint>& rut);
+  void write_terrain(const TerrainSnapshot& ground, const std::vector<RutPoint>& rut);
   void write_closing(const RunClosing& closing);
 
   /// all rows, flushed or not, of this run and the parts before

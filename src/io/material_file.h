@@ -26,10 +26,10 @@ namespace furrow {
 struct MaterialFile {
   std::string path;
   std::string title;  ///< the file's, or its name without folder and ending
-  std::string law;
+  std::string material;
   MaterialSections sections;
 
-  std::unique_ptr<Material> make() const { return make_material(law, sections); }
+  std::unique_ptr<Material> make() const { return make_material(material, sections); }
 };
 
 /// @throws InputError naming file, line and key, what is allowed and what to do
@@ -40,7 +40,7 @@ std::unique_ptr<Material> load_material(const std::string& path);
 /// The effective values, defaults included, with unit and meaning as comments: a material file that
 /// gives the same law.
 /// @throws InputError when the sections do not pass
-std::string material_file_text(const std::string& title, const std::string& law,
+std::string material_file_text(const std::string& title, const std::string& material,
                                const MaterialSections& sections);
 
 }  // namespace furrow

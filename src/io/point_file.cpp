@@ -34,7 +34,7 @@ Schema curve_schema() {
   Schema schema("curve of a fit");
   schema.text("title", "of plots and reports").optional();
   schema.text("data", "a table of comma-separated values, from the folder of this file");
-  schema.word("scale", {"linear", "log"}, "compare values, or their logarithms")
+  schema.choice("scale", {"linear", "log"}, "compare values, or their logarithms")
       .by_default("linear");
   schema
       .number("deviation", "", Range::positive(),
@@ -49,7 +49,7 @@ std::string beside(const std::string& file, const std::string& name) {
 }
 
 std::string title_of(const std::string& path, const Options& head) {
-  return head.given("title") ? head.word("title") : std::filesystem::path(path).stem().string();
+  return head.given("title") ? head.text("title") : std::filesystem::path(path).stem().string();
 }
 
 std::string path_type_of(const YamlTree& map) {
@@ -137,12 +137,12 @@ std::vector<double> column_of(const CsvTable& table, const YamlTree& name) {
 FitCurve read_curve(const std::string& file, const YamlTree& map, PointFit& fit) {
   const Options options = read_map(curve_schema(), map, {"path", "drive", "compare"});
   const CsvTable table =
-      in_path(map, [&] { return CsvTable::read(beside(file, options.word("data"))); });
+      in_path(map, [&] { return CsvTable::read(beside(file, options.text("data"))); });
   FitCurve curve;
   curve.name = options.given("title")
-                   ? options.word("title")
-                   : std::filesystem::path(options.word("data")).parent_path().stem().string();
-  curve.relative = options.word("scale") == "log";
+                   ? options.text("title")
+                   : std::filesystem::path(options.text("data")).parent_path().stem().string();
+  curve.relative = options.text("scale") == "log";
   curve.deviation = options.given("deviation") ? options.number("deviation") : 0.0;
 
   const auto [target, driving] =
@@ -198,7 +198,7 @@ PointRun read_point_run(const std::string& path) {
   const Options head = read_map(head_schema("run"), file, {"path"});
   PointRun run;
   run.title = title_of(path, head);
-  run.material = read_material_file(beside(path, head.word("material")));
+  run.material = read_material_file(beside(path, head.text("material")));
   run.path =
       read_path(file.map("path", "the section 'path' with its type and targets"), &run.path_text);
   return run;
@@ -209,14 +209,14 @@ PointFit read_point_fit(const std::string& path) {
   const Options head = read_map(head_schema("fit"), file, {"parameters", "curves"});
   PointFit fit;
   fit.title = title_of(path, head);
-  fit.material = read_material_file(beside(path, head.word("material")));
-  fit.problem.law = fit.material.law;
+  fit.material = read_material_file(beside(path, head.text("material")));
+  fit.problem.material = fit.material.material;
   fit.problem.sections = fit.material.sections;
   for (const YamlTree& map :
        file.list("parameters", "a list of {name: section.key, start, lower, upper}").items) {
     const Options options = read_map(parameter_schema(), map);
     FitParameter parameter;
-    parameter.name = options.word("name");
+    parameter.name = options.text("name");
     if (options.given("start")) parameter.start = options.number("start");
     if (options.given("lower")) parameter.lower = options.number("lower");
     if (options.given("upper")) parameter.upper = options.number("upper");

@@ -62,8 +62,9 @@ void write_point_run(const std::string& folder, const PointRun& run, const Mater
   const auto in_folder = [&](const char* name) {
     return (std::filesystem::path(folder) / name).string();
   };
-  write_text_file(in_folder("material.yaml"),
-                  material_file_text(run.material.title, run.material.law, run.material.sections));
+  write_text_file(
+      in_folder("material.yaml"),
+      material_file_text(run.material.title, run.material.material, run.material.sections));
   write_text_file(in_folder("run.yaml"), run_text(run));
 
   const std::vector<PointChannel> channels = point_channels(material);
@@ -114,12 +115,12 @@ std::string run_report(const PointRun& run, const Material& material, const Poin
                        const StepError* error) {
   const PointRecord& last = history.records.back();
   const Invariants end = invariants(stress_of(last.state));
-  double most_p = end.p, most_q = end.q, most_density = 0.0;
+  double max_p = end.p, max_q = end.q, max_density = 0.0;
   for (const PointRecord& record : history.records) {
     const Invariants now = invariants(stress_of(record.state));
-    most_p = std::max(most_p, now.p);
-    most_q = std::max(most_q, now.q);
-    most_density = std::max(most_density, material.current_density(record.state));
+    max_p = std::max(max_p, now.p);
+    max_q = std::max(max_q, now.q);
+    max_density = std::max(max_density, material.current_density(record.state));
   }
   const PointCost& cost = history.cost;
   std::string text = fmt::format(
@@ -134,8 +135,8 @@ std::string run_report(const PointRun& run, const Material& material, const Poin
       fmt::format("  stress        xx {}, yy {}, zz {}, xy {}, yz {}, xz {} (tension positive)\n",
                   pascals(last.state[0]), pascals(last.state[1]), pascals(last.state[2]),
                   pascals(last.state[3]), pascals(last.state[4]), pascals(last.state[5]));
-  text += fmt::format("  largest       p = {}, q = {}, density {:.5g} kg/m3\n", pascals(most_p),
-                      pascals(most_q), most_density);
+  text += fmt::format("  largest       p = {}, q = {}, density {:.5g} kg/m3\n", pascals(max_p),
+                      pascals(max_q), max_density);
   std::vector<std::string> branches;
   for (std::size_t b = 0; b < branch_count; ++b)
     if (cost.updates.points[b] > 0)
@@ -153,7 +154,7 @@ std::string run_report(const PointRun& run, const Material& material, const Poin
       "  control       {} Newton iterations (most {} a step), {} step(s) cut, largest residual "
       "{:.1e} of the step's "
       "stress\n",
-      cost.newton_iterations, cost.most_newton_iterations, cost.cuts, cost.largest_residual);
+      cost.newton_iterations, cost.max_newton_iterations, cost.cuts, cost.largest_residual);
   if (!error)
     return text + "  step error    not known: with halved steps the path could not be followed\n";
   text += fmt::format(
@@ -170,7 +171,7 @@ void write_point_fit(const std::string& folder, const PointFit& fit, const FitRe
   };
   write_text_file(in_folder("material.yaml"),
                   material_file_text(fit.material.title + ", fitted: " + fit.title,
-                                     fit.material.law, result.sections));
+                                     fit.material.material, result.sections));
   write_text_file(in_folder("report.txt"), fit_report(fit, result));
 
   std::vector<double> number, driven, measured, start, fitted;
@@ -237,7 +238,7 @@ void write_point_fit(const std::string& folder, const PointFit& fit, const FitRe
 std::string fit_report(const PointFit& fit, const FitResult& result) {
   std::string text = fmt::format(
       "{}\n  material      {} ({})\n  data          {} values of {} curve(s), {} parameters\n",
-      fit.title, fit.material.title, fit.problem.law, result.data, fit.problem.curves.size(),
+      fit.title, fit.material.title, fit.problem.material, result.data, fit.problem.curves.size(),
       result.parameters.size());
   text +=
       fmt::format("  residual      rms {:.4g} at the start, {:.4g} fitted; {} evaluations; {}\n",

@@ -15,7 +15,7 @@ namespace furrow {
 
 namespace {
 
-constexpr double least_headroom_cells = 6.0;
+constexpr double min_headroom_cells = 6.0;
 constexpr double headroom_of_depth = 1.0;  // what a wheel pushes up beside and before it
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -47,10 +47,10 @@ std::shared_ptr<const Material> load(const Options& options, const std::filesyst
 }
 
 /// "crust.yaml:0.03,snow.yaml": from the top, each but the last with its thickness.
-std::vector<GroundLayer> read_layers(const Options& options, const std::filesystem::path& folder) {
-  std::vector<GroundLayer> layers;
+std::vector<TerrainLayer> read_layers(const Options& options, const std::filesystem::path& folder) {
+  std::vector<TerrainLayer> layers;
   const std::string where = options.where("material");
-  const std::vector<std::string> parts = split(options.word("material"), ',');
+  const std::vector<std::string> parts = split(options.text("material"), ',');
   for (std::size_t n = 0; n < parts.size(); ++n) {
     const std::vector<std::string> words = split(parts[n], ':');
     const bool last = n + 1 == parts.size();
@@ -90,14 +90,14 @@ AxisLayout vertical_layout(const Options& options) {
   const double own_cell = fine / std::max(1.0, std::round(fine / cell));
   const double headroom = options.given("headroom")
                               ? options.number("headroom")
-                              : std::max(least_headroom_cells * cell, headroom_of_depth * depth);
+                              : std::max(min_headroom_cells * cell, headroom_of_depth * depth);
   const double top = surface + own_cell * std::ceil(headroom / own_cell - 1e-9);
   return {surface - depth, top, own_cell, surface - fine, top, options.number("growth")};
 }
 
 }  // namespace
 
-Schema ground_schema(const std::string& subject) {
+Schema terrain_schema(const std::string& subject) {
   Schema schema(subject);
   schema.text("material",
               "material file, or layers from the top down: file:thickness,file:thickness,file");
@@ -128,11 +128,11 @@ Schema ground_schema(const std::string& subject) {
       .by_default(1.15);
   schema.integer("particles", Range::closed(1, 8), "in a cell, in each direction").by_default("2");
   schema.flag("symmetry", "model the half y > centre only, mirrored at its plane");
-  schema.word("ends", face_kind_names(), "what holds the ground at both ends across x")
+  schema.choice("ends", boundary_kind_names(), "what holds the ground at both ends across x")
       .by_default("smooth");
-  schema.word("sides", face_kind_names(), "what holds it at the sides across y")
+  schema.choice("sides", boundary_kind_names(), "what holds it at the sides across y")
       .by_default("smooth");
-  schema.word("base", face_kind_names(), "what it lies on").by_default("rough");
+  schema.choice("base", boundary_kind_names(), "what it lies on").by_default("rough");
   schema.number("gravity", "m/s^2", Range::non_negative(), "downwards")
       .by_default(standard_gravity);
   schema.flag("weightless_start", "start without the stress of the ground's own weight");
@@ -150,8 +150,8 @@ Schema ground_schema(const std::string& subject) {
   return schema;
 }
 
-GroundParameters read_ground(const Options& options, const std::string& folder) {
-  GroundParameters ground;
+TerrainParameters read_terrain(const Options& options, const std::string& folder) {
+  TerrainParameters ground;
   ground.layers = read_layers(options, folder);
   ground.surface = options.number("surface");
   const double x = options.numbers("centre")[0], y = options.numbers("centre")[1];
@@ -161,16 +161,18 @@ GroundParameters read_ground(const Options& options, const std::string& folder) 
   ground.x = layout(options, x - half_length, x + half_length, x, "fine_length");
   ground.y = layout(options, half_model ? y : y - half_width, y + half_width, y, "fine_width");
   ground.z = vertical_layout(options);
-  const FaceKind ends = face_kind(options.word("ends")), sides = face_kind(options.word("sides")),
-                 base = face_kind(options.word("base"));
-  ground.faces = {ends, ends, half_model ? FaceKind::smooth : sides, sides, base, FaceKind::free};
+  const BoundaryKind ends = boundary_kind(options.text("ends")),
+                     sides = boundary_kind(options.text("sides")),
+                     base = boundary_kind(options.text("base"));
+  ground.faces = {ends,  ends, half_model ? BoundaryKind::smooth : sides,
+                  sides, base, BoundaryKind::free};
   const int particles = static_cast<int>(options.integer("particles"));
   ground.particles_per_cell = {particles, particles, particles};
   ground.gravity = {0.0, 0.0, -options.number("gravity")};
   ground.initial_stress = !options.flag("weightless_start");
   ground.sheet = options.flag("sheet");
   ground.cfl = options.number("cfl");
-  ground.cycle = static_cast<int>(options.integer("cycle"));
+  ground.remap_interval = static_cast<int>(options.integer("cycle"));
   return ground;
 }
 

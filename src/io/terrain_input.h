@@ -9,9 +9,9 @@
 namespace furrow {
 
 /// The keys of continuum ground. @param subject names the owner in errors
-Schema ground_schema(const std::string& subject = "continuum ground");
+Schema terrain_schema(const std::string& subject = "continuum ground");
 /// Reads the material files and lays out the grid. @throws InputError
 /// @param folder from which relative paths of material files are found
-GroundParameters read_ground(const Options& options, const std::string& folder = "");
+TerrainParameters read_terrain(const Options& options, const std::string& folder = "");
 
 }  // namespace furrow

@@ -61,9 +61,10 @@ Schema sidewall_schema() {
   schema.number("tread_stiffness", "N m/rad/m", Range::non_negative(),
                 "of the spring between sidewall and tread; 0: a pin");
   schema
-      .word("strip", {"sector", "even"},
-            "what the pressure acts on: a strip between two meridians, narrower at the rim, or of "
-            "the tread's width")
+      .choice(
+          "strip", {"sector", "even"},
+          "what the pressure acts on: a strip between two meridians, narrower at the rim, or of "
+          "the tread's width")
       .by_default("sector");
   return schema;
 }
@@ -112,7 +113,7 @@ TyreParameters read_tyre_file(const std::string& path) {
                      radians(sidewall.number("tread_angle")),
                      sidewall.number("rim_stiffness"),
                      sidewall.number("tread_stiffness")};
-  if (sidewall.word("strip") == "sector") {
+  if (sidewall.text("strip") == "sector") {
     const double edge = result.tread.radius - result.tread.crown;
     result.sidewall.bead_width = result.bead_radius / edge;
     result.sidewall.taper = 1.0 / edge;

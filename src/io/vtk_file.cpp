@@ -106,11 +106,12 @@ void write_vtp(const std::string& path, const Grains& grains, const Grains* refe
   write_poly_data(path, data);
 }
 
-void write_vtp(const std::string& path, const GroundSnapshot& ground) {
+void write_vtp(const std::string& path, const TerrainSnapshot& ground) {
   vtkNew<vtkPolyData> data;
   data->SetPoints(points_of(ground.x));
   data->SetVerts(vertices_of(ground.size()));
-  data->GetPointData()->AddArray(array_of("displacement", Matrix3X(ground.x - ground.home)));
+  data->GetPointData()->AddArray(
+      array_of("displacement", Matrix3X(ground.x - ground.initial_position)));
   data->GetPointData()->AddArray(array_of("velocity", ground.v));
   for (const auto& [name, values] :
        {std::pair{"id", &ground.id}, std::pair{"layer", &ground.layer},
@@ -186,7 +187,7 @@ void VtkSeries::add(double time, const Grains& grains, const Grains* reference) 
   list(time, file);
 }
 
-void VtkSeries::add(double time, const GroundSnapshot& ground) {
+void VtkSeries::add(double time, const TerrainSnapshot& ground) {
   const std::string file = next_file(time);
   write_vtp((fs::path(folder_) / file).string(), ground);
   list(time, file);

@@ -18,9 +18,9 @@ void write_vtp(const std::string& path, const Surface& surface);
 /// One vertex a grain with point data id, radius [m], velocity [m/s] and, with a reference,
 /// displacement [m]. @throws Error
 void write_vtp(const std::string& path, const Grains& grains, const Grains* reference = nullptr);
-/// One vertex a particle with the fields of GroundSnapshot and its displacement [m] from its home.
+/// One vertex a particle with the fields of TerrainSnapshot and its displacement [m] from its home.
 /// @throws Error
-void write_vtp(const std::string& path, const GroundSnapshot& ground);
+void write_vtp(const std::string& path, const TerrainSnapshot& ground);
 
 /// A series of frames: <folder>/<name>_000000.vtp, ... and <folder>/<name>.pvd, which lists only
 /// complete frames and is itself replaced in one step, so that a run that is killed leaves a valid
@@ -37,7 +37,7 @@ class VtkSeries {
   /// @throws Error when time is not later than the last frame's, or a file cannot be written
   void add(double time, const Surface& surface);
   void add(double time, const Grains& grains, const Grains* reference = nullptr);
-  void add(double time, const GroundSnapshot& ground);
+  void add(double time, const TerrainSnapshot& ground);
 
   std::size_t size() const { return frames_.size(); }
   std::string pvd() const;            ///< path of the collection

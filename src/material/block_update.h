@@ -42,7 +42,7 @@ auto step_points(const Kernel& kernel, const Tensor& h, Points& points)
   Motion motion;
   find_motion(h, motion);
   kernel.step(motion.strain, points);
-  points.stress = turned(points.stress, motion.rotation);
+  points.stress = rotated(points.stress, motion.rotation);
   return {motion.volume, motion.admissible, false};
 }
 /// Hyperelastic laws: they carry their deformation with them.
@@ -93,26 +93,26 @@ struct Group {
     for (std::size_t k = 0; k < 9; ++k) h.m[k] = load(block.gradient[k]);
     return h;
   }
-  FURROW_INLINE Points load_points(int own_fields) const {
+  FURROW_INLINE Points load_points(int internal_variables) const {
     Points points;
     double* const* state = block.state;
     points.stress = {load(state[0]), load(state[1]), load(state[2]),
                      load(state[3]), load(state[4]), load(state[5])};
-    for (int k = 0; k < own_fields; ++k)
+    for (int k = 0; k < internal_variables; ++k)
       points.own[k] = load(state[field::own + static_cast<std::size_t>(k)]);
     return points;
   }
 
   /// Checks and stores the end of the step. False, with the cause in the result, when the states
   /// must not be continued.
-  FURROW_INLINE bool store_points(const Points& points, const Step& step, int own_fields,
+  FURROW_INLINE bool store_points(const Points& points, const Step& step, int internal_variables,
                                   double density, BlockResult& result) const {
     double* const* state = block.state;
     const Symmetric& stress = points.stress;
     const Lanes ratio = load(state[field::volume_ratio]) * step.volume;
     Lanes everything =
         contract(stress, stress) + ratio + points.stored + points.frozen + points.dissipated;
-    for (int k = 0; k < own_fields; ++k) everything += points.own[k];
+    for (int k = 0; k < internal_variables; ++k) everything += points.own[k];
     const Mask good =
         step.admissible && !points.stopped && finite(everything) && ratio > Lanes(0.0);
     if (!all(good)) {
@@ -140,7 +140,7 @@ struct Group {
       store(state[field::dissipated_energy],
             load(state[field::dissipated_energy]) + ratio * points.dissipated);
     }
-    for (int k = 0; k < own_fields; ++k)
+    for (int k = 0; k < internal_variables; ++k)
       store(state[field::own + static_cast<std::size_t>(k)], points.own[k]);
 
     UpdateReport& report = result.report;
@@ -157,7 +157,7 @@ struct Group {
       for (int lane = 0; lane < lanes; ++lane) {
         const std::size_t iterations = static_cast<std::size_t>(each[lane]);
         report.iterations += iterations;
-        if (iterations > report.most_iterations) report.most_iterations = iterations;
+        if (iterations > report.max_iterations) report.max_iterations = iterations;
       }
     }
     report.below_data += count(points.below_data);
@@ -171,17 +171,17 @@ struct Group {
   }
 };
 
-/// Group by group. Kernel: `static constexpr int own_fields;` and either `void step(const
+/// Group by group. Kernel: `static constexpr int internal_variables;` and either `void step(const
 /// Symmetric& strain, Points&) const` or `void hyperelastic_step(const Tensor& h, Points&) const`.
 template <class Kernel>
 BlockResult update_points(const Kernel& kernel, double density, const PointBlock& block) {
-  static_assert(Kernel::own_fields <= 6, "enlarge Points::own");
+  static_assert(Kernel::internal_variables <= 6, "enlarge Points::own");
   BlockResult result;
   for (std::size_t first = 0; first < block.size; first += lane_count) {
     const Group group(block, first);
-    Points points = group.load_points(Kernel::own_fields);
+    Points points = group.load_points(Kernel::internal_variables);
     const Step step = step_points(kernel, group.load_gradient(), points);
-    if (!group.store_points(points, step, Kernel::own_fields, density, result)) break;
+    if (!group.store_points(points, step, Kernel::internal_variables, density, result)) break;
   }
   return result;
 }
@@ -196,24 +196,24 @@ BlockResult update_points(const Kernel& kernel, double density, const PointBlock
 ///   finish(strain, trial numbers, end numbers, points).
 template <class Kernel>
 BlockResult update_gathered(const Kernel& kernel, double density, const PointBlock& block) {
-  constexpr int most_groups = 8, size = most_groups * lane_count;
+  constexpr int max_groups = 8, size = max_groups * lane_count;
   constexpr int inputs = Kernel::prediction_numbers, outputs = Kernel::return_numbers,
                 surfaces = Kernel::surfaces_met;
   BlockResult result;
-  Motion motions[most_groups];
+  Motion motions[max_groups];
   alignas(64) double in[inputs][size], out[outputs][size], flags[lane_count];
   int members[surfaces][size];
   for (std::size_t start = 0; start < block.size; start += size) {
     const std::size_t left = block.size - start;
     const int groups =
-        left < size ? static_cast<int>((left + lane_count - 1) / lane_count) : most_groups;
+        left < size ? static_cast<int>((left + lane_count - 1) / lane_count) : max_groups;
     int count[surfaces] = {};
     for (int g = 0; g < groups; ++g) {
       const Group group(block, start + static_cast<std::size_t>(g) * lane_count);
       find_motion(group.load_gradient(), motions[g]);
       typename Kernel::Numbers end;
       const typename Kernel::Prediction prediction =
-          kernel.predict(motions[g].strain, group.load_points(Kernel::own_fields), end);
+          kernel.predict(motions[g].strain, group.load_points(Kernel::internal_variables), end);
       for (int k = 0; k < inputs; ++k)
         prediction.numbers[k].copy_to(&in[k][g * lane_count], stdx::vector_aligned);
       for (int k = 0; k < outputs; ++k)
@@ -244,16 +244,16 @@ BlockResult update_gathered(const Kernel& kernel, double density, const PointBlo
     }
     for (int g = 0; g < groups; ++g) {
       const Group group(block, start + static_cast<std::size_t>(g) * lane_count);
-      Points points = group.load_points(Kernel::own_fields);
+      Points points = group.load_points(Kernel::internal_variables);
       Lanes numbers[inputs], ends[outputs];
       for (int k = 0; k < inputs; ++k)
         numbers[k] = Lanes(&in[k][g * lane_count], stdx::vector_aligned);
       for (int k = 0; k < outputs; ++k)
         ends[k] = Lanes(&out[k][g * lane_count], stdx::vector_aligned);
       kernel.finish(motions[g].strain, numbers, ends, points);
-      points.stress = turned(points.stress, motions[g].rotation);
+      points.stress = rotated(points.stress, motions[g].rotation);
       if (!group.store_points(points, {motions[g].volume, motions[g].admissible, false},
-                              Kernel::own_fields, density, result))
+                              Kernel::internal_variables, density, result))
         return result;
     }
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The table of block updates that kernels_*.cpp fill, one for each instruction set. Plain data
-/// only: this header is compiled with every instruction set (lanes.h says why that matters).
+/// only: this header is compiled with every instruction set (simd/lanes.h says why that matters).
 
 #include "material/models/crushable_foam/crushable_foam_parameters.h"
 #include "material/models/drucker_prager_cap/drucker_prager_cap_parameters.h"

@@ -10,23 +10,25 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-inline BlockResult update_crushable_foam(const CrushableFoamParameters& law, double density,
+inline BlockResult update_crushable_foam(const CrushableFoamParameters& parameters, double density,
                                          const PointBlock& block) {
-  if (law.flow_ratio < 1.0) return update_points(CrushableFoamKernel<true>{law}, density, block);
-  return update_points(CrushableFoamKernel<false>{law}, density, block);
+  if (parameters.flow_ratio < 1.0)
+    return update_points(CrushableFoamKernel<true>{parameters}, density, block);
+  return update_points(CrushableFoamKernel<false>{parameters}, density, block);
 }
-inline BlockResult update_drucker_prager_cap(const DruckerPragerCapParameters& law, double density,
-                                             const PointBlock& block) {
-  if (law.flow_ratio < 1.0) return update_points(DruckerPragerCapKernel<true>{law}, density, block);
-  return update_gathered(DruckerPragerCapKernel<false>{law}, density, block);
+inline BlockResult update_drucker_prager_cap(const DruckerPragerCapParameters& parameters,
+                                             double density, const PointBlock& block) {
+  if (parameters.flow_ratio < 1.0)
+    return update_points(DruckerPragerCapKernel<true>{parameters}, density, block);
+  return update_gathered(DruckerPragerCapKernel<false>{parameters}, density, block);
 }
 inline BlockResult update_elastic(const ElasticityParameters& elasticity, double density,
                                   const PointBlock& block) {
   return update_points(ElasticKernel{elasticity}, density, block);
 }
-inline BlockResult update_neo_hookean(const NeoHookeanParameters& law, double density,
+inline BlockResult update_neo_hookean(const NeoHookeanParameters& parameters, double density,
                                       const PointBlock& block) {
-  return update_points(NeoHookeanKernel{law}, density, block);
+  return update_points(NeoHookeanKernel{parameters}, density, block);
 }
 
 constexpr Kernels all_kernels(const char* instruction_set) {

@@ -32,7 +32,7 @@ template <>
 class DeviatoricReturn<false> {
  public:
   FURROW_INLINE DeviatoricReturn(double /*flow_ratio*/, const Symmetric& trial)
-      : q_(root(Lanes(1.5) * contract(trial, trial))) {}
+      : q_(sqrt(Lanes(1.5) * contract(trial, trial))) {}
   /// of a trial known by its measure only
   FURROW_INLINE explicit DeviatoricReturn(const Lanes& t) : q_(t) {}
   const Lanes& t() const { return q_; }  ///< of the trial
@@ -57,10 +57,10 @@ class DeviatoricReturn<true> {
  public:
   DeviatoricReturn(double flow_ratio, const Symmetric& trial)
       : a_(0.5 * (1.0 + 1.0 / flow_ratio)), b_(0.5 * (1.0 / flow_ratio - 1.0)) {
-    q_ = root(Lanes(1.5) * contract(trial, trial));
+    q_ = sqrt(Lanes(1.5) * contract(trial, trial));
     const Symmetric unit = trial * select(q_ > Lanes(0.0), Lanes(1.0) / q_, 0.0);
-    cos_3t_ = lower(upper(Lanes(13.5) * determinant(unit), -1.0), 1.0);
-    theta_ = each(cos_3t_, [](double c) { return __builtin_acos(c) / 3.0; });
+    cos_3t_ = min(max(Lanes(13.5) * determinant(unit), -1.0), 1.0);
+    theta_ = per_lane(cos_3t_, [](double c) { return __builtin_acos(c) / 3.0; });
     guess_ = theta_;
     t_ = q_ * gauge(theta_);
   }
@@ -86,7 +86,7 @@ class DeviatoricReturn<true> {
     const Lanes form = (vx * vx * hyy - Lanes(2.0) * vx * vy * tangential + vy * vy * radial) /
                        (radial * hyy - tangential * tangential);
     LodeReturn result;
-    result.shrink = gauge(theta_) / g * root(radial * radial + tangential * tangential);
+    result.shrink = gauge(theta_) / g * sqrt(radial * radial + tangential * tangential);
     result.slope = result.shrink * form / (g * g);
     result.turn = theta - theta_;
     result.gauge = g;
@@ -94,7 +94,7 @@ class DeviatoricReturn<true> {
   }
   Lanes multiplier(const Lanes& shrink, Lanes& iterations, const Mask& active) const {
     // h is close to 1 + m g^2 with g between 1 and 1/K
-    const Lanes most = upper(shrink - Lanes(1.0), 0.0) * Lanes(4.0) + Lanes(1e-300);
+    const Lanes most = max(shrink - Lanes(1.0), 0.0) * Lanes(4.0) + Lanes(1e-300);
     return decreasing_root(
         [&](const Lanes& m) -> ValueAndSlope {
           const LodeReturn there = at(m, iterations, active);
@@ -109,7 +109,7 @@ class DeviatoricReturn<true> {
     // direction T of growing theta.
     const Lanes size = select(yielding, t / back.gauge, q_);
     const Symmetric unit = trial * select(q_ > Lanes(0.0), Lanes(1.2247448713915890491) / q_, 0.0);
-    const Lanes sin_3t = root(upper(Lanes(1.0) - cos_3t_ * cos_3t_, 0.0));
+    const Lanes sin_3t = sqrt(max(Lanes(1.0) - cos_3t_ * cos_3t_, 0.0));
     const Mask turned = yielding && sin_3t > Lanes(1e-12);
     const Lanes along = select(turned, sin_of(back.turn) / sin_3t, 0.0);
     const Symmetric bend = commuting_product(unit, unit).deviator() * Lanes(2.4494897427831780982);
@@ -119,10 +119,10 @@ class DeviatoricReturn<true> {
 
  private:
   static Lanes sin_of(const Lanes& angle) {
-    return each(angle, [](double x) { return __builtin_sin(x); });
+    return per_lane(angle, [](double x) { return __builtin_sin(x); });
   }
   static Lanes cos_of(const Lanes& angle) {
-    return each(angle, [](double x) { return __builtin_cos(x); });
+    return per_lane(angle, [](double x) { return __builtin_cos(x); });
   }
   Lanes gauge(const Lanes& theta) const {
     return Lanes(a_) + Lanes(b_) * cos_of(Lanes(3.0) * theta);

@@ -49,14 +49,14 @@ std::size_t UpdateReport::size() const {
 UpdateReport& UpdateReport::operator+=(const UpdateReport& other) {
   for (std::size_t b = 0; b < branch_count; ++b) points[b] += other.points[b];
   iterations += other.iterations;
-  most_iterations = std::max(most_iterations, other.most_iterations);
+  max_iterations = std::max(max_iterations, other.max_iterations);
   below_data += other.below_data;
   beyond_data += other.beyond_data;
   beyond_ice += other.beyond_ice;
   return *this;
 }
 
-Material::Material(std::string name, double density, std::vector<StateField> own_fields,
+Material::Material(std::string name, double density, std::vector<StateField> internal_variables,
                    double pressure)
     : name_(std::move(name)), density_(density) {
   for (const char* component : {"xx", "yy", "zz", "xy", "yz", "xz"})
@@ -68,7 +68,7 @@ Material::Material(std::string name, double density, std::vector<StateField> own
       {"frozen_energy", "J/m3", "plastic work stored by compaction, per reference volume", 0.0});
   fields_.push_back(
       {"dissipated_energy", "J/m3", "plastic work turned into heat, per reference volume", 0.0});
-  fields_.insert(fields_.end(), own_fields.begin(), own_fields.end());
+  fields_.insert(fields_.end(), internal_variables.begin(), internal_variables.end());
 }
 
 UpdateReport Material::checked(const BlockResult& result, const PointBlock& block) const {

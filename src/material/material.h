@@ -108,9 +108,9 @@ class Material {
   virtual std::vector<Vector2> yield_surface(const VectorX& state, std::size_t points = 200) const;
 
  protected:
-  /// @param own_fields  what the law keeps after the common fields
+  /// @param internal_variables  what the law keeps after the common fields
   /// @param pressure    at the start of a run [Pa]
-  Material(std::string name, double density, std::vector<StateField> own_fields,
+  Material(std::string name, double density, std::vector<StateField> internal_variables,
            double pressure = 0.0);
   /// The report of a kernel's update, or its failure. @throws StateError
   UpdateReport checked(const BlockResult& result, const PointBlock& block) const;

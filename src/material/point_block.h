@@ -43,7 +43,7 @@ struct PointBlock {
 struct UpdateReport {
   std::array<std::size_t, branch_count> points{};  ///< by Branch
   std::size_t iterations = 0;                      ///< of the return mapping, summed over points
-  std::size_t most_iterations = 0;                 ///< of one point
+  std::size_t max_iterations = 0;                  ///< of one point
   /// points whose strength was extrapolated below the hardening data (loosened)
   std::size_t below_data = 0;
   /// points whose strength was extrapolated beyond the hardening data (compacted)

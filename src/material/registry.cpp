@@ -16,8 +16,8 @@ namespace furrow {
 
 // ---- the table: to add a law, write its two files and one row here; -----------------------------
 // tests/unit/material/conformance_test.cpp gets one line ----
-const std::vector<Law>& laws() {
-  static const std::vector<Law> table{
+const std::vector<MaterialModel>& material_models() {
+  static const std::vector<MaterialModel> table{
       DruckerPragerCap::law(),
       CrushableFoam::law(),
       Elastic::law(),
@@ -37,10 +37,11 @@ std::string names_of(const Items& items) {
 
 }  // namespace
 
-const Law& find_law(const std::string& name) {
-  for (const Law& law : laws())
+const MaterialModel& find_material_model(const std::string& name) {
+  for (const MaterialModel& law : material_models())
     if (law.name == name) return law;
-  throw InputError("material", fmt::format("has the unknown law '{}'", name), names_of(laws()));
+  throw InputError("material", fmt::format("has the unknown law '{}'", name),
+                   names_of(material_models()));
 }
 
 const SectionChoice& SectionSchema::choice(const std::string& type) const {
@@ -56,7 +57,7 @@ const SectionChoice& SectionSchema::choice(const std::string& type) const {
                    fmt::format("one of: {}", fmt::join(types, ", ")));
 }
 
-MaterialOptions read_sections(const Law& law, const MaterialSections& sections) {
+MaterialOptions read_sections(const MaterialModel& law, const MaterialSections& sections) {
   for (const auto& [name, entries] : sections)
     if (std::none_of(law.sections.begin(), law.sections.end(),
                      [&](const auto& known) { return known.name == name; }))
@@ -84,7 +85,7 @@ MaterialOptions read_sections(const Law& law, const MaterialSections& sections) 
   return result;
 }
 
-MaterialSections to_sections(const Law& law, const std::vector<Entry>& flat) {
+MaterialSections to_sections(const MaterialModel& law, const std::vector<Entry>& flat) {
   MaterialSections sections;
   std::vector<Entry> keys;
   std::map<std::string, std::string> types;
@@ -126,12 +127,12 @@ MaterialSections to_sections(const Law& law, const std::vector<Entry>& flat) {
 }
 
 std::unique_ptr<Material> make_material(const std::string& name, const MaterialSections& sections) {
-  const Law& law = find_law(name);
+  const MaterialModel& law = find_material_model(name);
   return law.create(read_sections(law, sections));
 }
 
 std::unique_ptr<Material> make_material(const std::string& name, const std::vector<Entry>& flat) {
-  return make_material(name, to_sections(find_law(name), flat));
+  return make_material(name, to_sections(find_material_model(name), flat));
 }
 
 }  // namespace furrow

@@ -43,7 +43,7 @@ using MaterialOptions = std::map<std::string, SectionOptions>;  ///< by section 
 using MaterialSections = std::map<std::string, std::vector<Entry>>;
 
 /// One row of the table.
-struct Law {
+struct MaterialModel {
   std::string name;     ///< "drucker_prager_cap"
   std::string meaning;  ///< one line
   std::vector<SectionSchema> sections;
@@ -51,16 +51,16 @@ struct Law {
 };
 
 /// All laws, in the order of the page that lists them.
-const std::vector<Law>& laws();
+const std::vector<MaterialModel>& material_models();
 /// @throws InputError listing the names
-const Law& find_law(const std::string& name);
+const MaterialModel& find_material_model(const std::string& name);
 
 /// Checks the entries of every section against its schema. @throws InputError
-MaterialOptions read_sections(const Law& law, const MaterialSections& sections);
+MaterialOptions read_sections(const MaterialModel& law, const MaterialSections& sections);
 /// Sorts a flat list into sections: "E 1e6 nu 0.3 hardening table ...". A section's name as a key
 /// chooses its type; "section.key" names a key that two sections share. @throws InputError for an
 /// unknown or ambiguous key
-MaterialSections to_sections(const Law& law, const std::vector<Entry>& flat);
+MaterialSections to_sections(const MaterialModel& law, const std::vector<Entry>& flat);
 
 /// Creates a law from nested sections. @throws InputError
 std::unique_ptr<Material> make_material(const std::string& name, const MaterialSections& sections);

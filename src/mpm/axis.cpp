@@ -13,7 +13,7 @@ namespace furrow {
 namespace {
 
 // of neighbouring cells: beyond, waves are reflected by the grading
-constexpr double most_growth = 1.5;
+constexpr double max_growth = 1.5;
 
 /// Ends of cells from `start` outwards over `distance`, growing by `growth`: the last cell is
 /// stretched to end there.
@@ -49,9 +49,9 @@ Axis::Axis(const AxisLayout& layout, const std::string& where) {
         fmt::format("has cells of {} m from {} to {} m, fine from {} to {} m", layout.cell,
                     layout.lower, layout.upper, layout.fine_lower, layout.fine_upper),
         "lower < upper, a cell > 0, and a fine stretch that is not empty");
-  if (!(layout.growth >= 1.0 && layout.growth <= most_growth))
+  if (!(layout.growth >= 1.0 && layout.growth <= max_growth))
     throw InputError(where, fmt::format("has cells that grow by {}", layout.growth),
-                     fmt::format("1 to {}", most_growth), "coarser steps reflect waves");
+                     fmt::format("1 to {}", max_growth), "coarser steps reflect waves");
   const int fine = std::max(1, static_cast<int>(std::lround((upper - lower) / layout.cell)));
   const double cell = (upper - lower) / fine;
   for (const double end : growing(lower, lower - layout.lower, cell, layout.growth, -1.0))

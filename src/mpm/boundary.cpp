@@ -16,7 +16,7 @@ struct FaceLoop {
   int axis, plane, slow, fast;
 };
 
-FaceLoop loop_of(const Grid& grid, FacePlace face) {
+FaceLoop loop_of(const Grid& grid, Face face) {
   const int axis = face / 2;
   return {axis, face % 2 == 0 ? 0 : grid.nodes(axis) - 1, axis == 0 ? 1 : 0, axis == 2 ? 1 : 2};
 }
@@ -41,27 +41,28 @@ void for_face(const Grid& grid, const FaceLoop& loop, const PlaneRange& planes, 
 
 }  // namespace
 
-const std::vector<std::string>& face_kind_names() {
+const std::vector<std::string>& boundary_kind_names() {
   static const std::vector<std::string> names = {"free", "smooth", "rough", "absorbing"};
   return names;
 }
 
-FaceKind face_kind(const std::string& name) {
-  const auto& names = face_kind_names();
+BoundaryKind boundary_kind(const std::string& name) {
+  const auto& names = boundary_kind_names();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) throw Error(fmt::format("there is no face of kind '{}'", name));
-  return static_cast<FaceKind>(found - names.begin());
+  return static_cast<BoundaryKind>(found - names.begin());
 }
 
-Faces::Faces(const Grid& grid, const std::array<FaceKind, face_count>& kinds,
-             const std::array<int, 3>& particles_per_cell, std::vector<WaveSpeeds> speeds_of_level)
+Boundary::Boundary(const Grid& grid, const std::array<BoundaryKind, face_count>& kinds,
+                   const std::array<int, 3>& particles_per_cell,
+                   std::vector<WaveSpeeds> speeds_of_level)
     : kinds_(kinds), speeds_(std::move(speeds_of_level)) {
   impulse_.fill(Vector3::Zero());
   captured_ = true;
   for (int f = 0; f < face_count; ++f) {
-    if (kinds_[static_cast<std::size_t>(f)] != FaceKind::absorbing) continue;
+    if (kinds_[static_cast<std::size_t>(f)] != BoundaryKind::absorbing) continue;
     captured_ = false;
-    const FaceLoop loop = loop_of(grid, static_cast<FacePlace>(f));
+    const FaceLoop loop = loop_of(grid, static_cast<Face>(f));
     const Axis& axis = grid.axis(loop.axis);
     FarField& far = far_[static_cast<std::size_t>(f)];
     far.axis = loop.axis;
@@ -81,12 +82,12 @@ Faces::Faces(const Grid& grid, const std::array<FaceKind, face_count>& kinds,
   }
 }
 
-void Faces::capture(Grid& grid, const PlaneRange& planes, const Vector3& gravity) {
+void Boundary::capture(Grid& grid, const PlaneRange& planes, const Vector3& gravity) {
   captured_ = true;
   for (int f = 0; f < face_count; ++f) {
-    if (kinds_[static_cast<std::size_t>(f)] != FaceKind::absorbing) continue;
+    if (kinds_[static_cast<std::size_t>(f)] != BoundaryKind::absorbing) continue;
     FarField& far = far_[static_cast<std::size_t>(f)];
-    for_face(grid, loop_of(grid, static_cast<FacePlace>(f)), planes,
+    for_face(grid, loop_of(grid, static_cast<Face>(f)), planes,
              [&](std::size_t number, const Place& at) {
                NodeSum& sum = grid.sum(at[0], at[1], at[2]);
                double& mass = grid.motion(at[0], at[1], at[2]).mass;
@@ -99,21 +100,20 @@ void Faces::capture(Grid& grid, const PlaneRange& planes, const Vector3& gravity
   }
 }
 
-void Faces::apply(Grid& grid, const PlaneRange& planes, const PlaneRange& owned, double dt) {
+void Boundary::apply(Grid& grid, const PlaneRange& planes, const PlaneRange& owned, double dt) {
   for (int f = 0; f < face_count; ++f)
-    if (kinds_[static_cast<std::size_t>(f)] == FaceKind::absorbing)
-      absorb(grid, static_cast<FacePlace>(f), planes, owned, dt);
-  for (int f = 0; f < face_count; ++f) constrain(grid, static_cast<FacePlace>(f), planes, owned);
+    if (kinds_[static_cast<std::size_t>(f)] == BoundaryKind::absorbing)
+      absorb(grid, static_cast<Face>(f), planes, owned, dt);
+  for (int f = 0; f < face_count; ++f) constrain(grid, static_cast<Face>(f), planes, owned);
 }
 
-void Faces::constrain(Grid& grid, FacePlace face, const PlaneRange& planes,
-                      const PlaneRange& owned) {
-  if (kinds_[face] != FaceKind::smooth && kinds_[face] != FaceKind::rough) return;
+void Boundary::constrain(Grid& grid, Face face, const PlaneRange& planes, const PlaneRange& owned) {
+  if (kinds_[face] != BoundaryKind::smooth && kinds_[face] != BoundaryKind::rough) return;
   const FaceLoop loop = loop_of(grid, face);
   for_face(grid, loop, planes, [&](std::size_t, const Place& at) {
     NodeMotion& node = grid.motion(at[0], at[1], at[2]);
     for (int c = 0; c < 3; ++c) {
-      if (kinds_[face] == FaceKind::smooth && c != loop.axis) continue;
+      if (kinds_[face] == BoundaryKind::smooth && c != loop.axis) continue;
       if (owned.contains(at[0])) impulse_[face][c] -= node.mass * node.velocity[c];
       node.velocity[c] = 0.0;
     }
@@ -121,20 +121,20 @@ void Faces::constrain(Grid& grid, FacePlace face, const PlaneRange& planes,
 }
 
 /// Whether a smooth or rough face holds a component of a node's velocity.
-bool Faces::is_held(const Grid& grid, const std::array<int, 3>& at, int component) const {
+bool Boundary::is_held(const Grid& grid, const std::array<int, 3>& at, int component) const {
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (const bool upper : {false, true}) {
-      const FaceKind kind = kinds_[2 * axis + (upper ? 1 : 0)];
+      const BoundaryKind kind = kinds_[2 * axis + (upper ? 1 : 0)];
       if (at[axis] != (upper ? grid.nodes(static_cast<int>(axis)) - 1 : 0)) continue;
-      if (kind == FaceKind::rough ||
-          (kind == FaceKind::smooth && static_cast<int>(axis) == component))
+      if (kind == BoundaryKind::rough ||
+          (kind == BoundaryKind::smooth && static_cast<int>(axis) == component))
         return true;
     }
   return false;
 }
 
-void Faces::absorb(Grid& grid, FacePlace face, const PlaneRange& planes, const PlaneRange& owned,
-                   double dt) {
+void Boundary::absorb(Grid& grid, Face face, const PlaneRange& planes, const PlaneRange& owned,
+                      double dt) {
   FarField& far = far_[face];
   for_face(grid, loop_of(grid, face), planes, [&](std::size_t number, const Place& at) {
     NodeMotion& node = grid.motion(at[0], at[1], at[2]);
@@ -160,7 +160,7 @@ void Faces::absorb(Grid& grid, FacePlace face, const PlaneRange& planes, const P
   });
 }
 
-void Faces::shift_x(int cells) {
+void Boundary::shift_x(int cells) {
   for (FarField& far : far_) {
     if (far.hold.empty()) continue;
     if (far.axis == 0) throw Error("a face across x that absorbs cannot move");
@@ -179,7 +179,7 @@ void Faces::shift_x(int cells) {
   }
 }
 
-void Faces::synchronise(const Communicator& ranks, const PlaneRange& owned) {
+void Boundary::synchronise(const Communicator& ranks, const PlaneRange& owned) {
   if (ranks.size() == 1) return;
   for (FarField& far : far_) {
     if (far.hold.empty()) continue;
@@ -194,44 +194,24 @@ void Faces::synchronise(const Communicator& ranks, const PlaneRange& owned) {
   }
 }
 
-std::size_t Faces::state_length() const {
-  std::size_t length = 2 + 3 * face_count;
-  for (const FarField& far : far_) length += far.hold.size() + far.displacement.size();
-  return length;
-}
-
-void Faces::collect(const Communicator& ranks) {
+void Boundary::collect(const Communicator& ranks) {
   for (Vector3& impulse : impulse_) ranks.sum(impulse.data(), 3);
   work_ = ranks.sum(work_);
 }
 
-void Faces::save(std::vector<double>& state) const {
-  state.insert(state.end(), {captured_ ? 1.0 : 0.0, work_});
-  for (const Vector3& impulse : impulse_)
-    state.insert(state.end(), impulse.data(), impulse.data() + 3);
-  for (const FarField& far : far_) {
-    state.insert(state.end(), far.hold.begin(), far.hold.end());
-    state.insert(state.end(), far.displacement.begin(), far.displacement.end());
-  }
-}
-
-const double* Faces::restore(const double* state, bool keep_sums) {
-  captured_ = *state++ != 0.0;
-  work_ = *state++;
-  for (Vector3& impulse : impulse_) {
-    impulse = Eigen::Map<const Vector3>(state);
-    state += 3;
-  }
-  if (!keep_sums) {
+void Boundary::checkpoint(Checkpoint& state, bool keep_sums) {
+  state.value("captured", captured_);
+  state.value("work", work_);
+  for (Vector3& impulse : impulse_) state.values("impulse", impulse);
+  if (!state.saving() && !keep_sums) {
     work_ = 0.0;
     impulse_.fill(Vector3::Zero());
   }
-  for (FarField& far : far_)
-    for (std::vector<double>* values : {&far.hold, &far.displacement}) {
-      std::copy_n(state, values->size(), values->begin());
-      state += values->size();
-    }
-  return state;
+  for (FarField& far : far_) {
+    if (far.hold.empty()) continue;
+    state.values("holding_force", far.hold.data(), far.hold.size());
+    state.values("far_displacement", far.displacement.data(), far.displacement.size());
+  }
 }
 
 }  // namespace furrow

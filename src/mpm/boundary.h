@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/checkpoint.h"
 #include "core/communicator.h"
 #include "core/types.h"
 #include "mpm/grid.h"
@@ -13,12 +14,12 @@
 namespace furrow {
 
 /// free: nothing; smooth: no velocity across (a symmetry plane too); rough: no velocity;
-/// absorbing: the rest of the half-space, see Faces.
-enum class FaceKind { free, smooth, rough, absorbing };
-enum FacePlace { x_lower, x_upper, y_lower, y_upper, z_lower, z_upper };
+/// absorbing: the rest of the half-space, see Boundary.
+enum class BoundaryKind { free, smooth, rough, absorbing };
+enum Face { x_lower, x_upper, y_lower, y_upper, z_lower, z_upper };
 constexpr int face_count = 6;
-const std::vector<std::string>& face_kind_names();  ///< in the order of FaceKind
-FaceKind face_kind(const std::string& name);        ///< @throws Error
+const std::vector<std::string>& boundary_kind_names();  ///< in the order of BoundaryKind
+BoundaryKind boundary_kind(const std::string& name);    ///< @throws Error
 
 /// Elastic wave speeds [m/s] of the undisturbed ground at a height.
 struct WaveSpeeds {
@@ -31,12 +32,12 @@ struct WaveSpeeds {
 /// since, L the distance over which the far field gives way. The dashpot is quiet for plane waves,
 /// the spring holds statically. With a node's mass m and the extent l of its B-spline across the
 /// face, rho A = m/l. Taken implicitly.
-class Faces {
+class Boundary {
  public:
-  Faces(const Grid& grid, const std::array<FaceKind, face_count>& kinds,
-        const std::array<int, 3>& particles_per_cell, std::vector<WaveSpeeds> speeds_of_level);
+  Boundary(const Grid& grid, const std::array<BoundaryKind, face_count>& kinds,
+           const std::array<int, 3>& particles_per_cell, std::vector<WaveSpeeds> speeds_of_level);
 
-  FaceKind kind(FacePlace face) const { return kinds_[face]; }
+  BoundaryKind kind(Face face) const { return kinds_[face]; }
   /// Before anything else happens to the grid of the first step: its sums of momenta, and gravity
   /// [m/s^2], are what the held ground must stand, and are used up.
   bool captured() const { return captured_; }
@@ -45,7 +46,7 @@ class Faces {
   void apply(Grid& grid, const PlaneRange& planes, const PlaneRange& owned, double dt);
 
   /// Impulse that each face gave to the ground since the start, this rank's share [N s].
-  const Vector3& impulse(FacePlace face) const { return impulse_[face]; }
+  const Vector3& impulse(Face face) const { return impulse_[face]; }
   /// of absorbing faces on the ground since the start, this rank's share [J]
   double work() const { return work_; }
 
@@ -53,11 +54,8 @@ class Faces {
   /// Every rank takes the displacements of the rank that owns a plane.
   void synchronise(const Communicator& ranks, const PlaneRange& owned);
   void collect(const Communicator& ranks);  ///< impulses and work become those of all ranks
-  void save(std::vector<double>& state) const;
-  /// @param keep_sums on one rank only: impulses and work are then counted once  @return what
-  /// follows in the state
-  const double* restore(const double* state, bool keep_sums);
-  std::size_t state_length() const;
+  /// @param keep_sums on one rank only: restored impulses and work are then counted once
+  void checkpoint(Checkpoint& state, bool keep_sums);
 
  private:
   struct FarField {
@@ -65,12 +63,11 @@ class Faces {
     double inverse_extent = 0.0, inverse_length = 0.0;
     std::vector<double> hold, displacement;  // three numbers a node [N], [m]
   };
-  void constrain(Grid& grid, FacePlace face, const PlaneRange& planes, const PlaneRange& owned);
-  void absorb(Grid& grid, FacePlace face, const PlaneRange& planes, const PlaneRange& owned,
-              double dt);
+  void constrain(Grid& grid, Face face, const PlaneRange& planes, const PlaneRange& owned);
+  void absorb(Grid& grid, Face face, const PlaneRange& planes, const PlaneRange& owned, double dt);
   bool is_held(const Grid& grid, const std::array<int, 3>& at, int component) const;
 
-  std::array<FaceKind, face_count> kinds_;
+  std::array<BoundaryKind, face_count> kinds_;
   std::vector<WaveSpeeds> speeds_;
   std::array<FarField, face_count> far_;
   std::array<Vector3, face_count> impulse_;

@@ -7,7 +7,7 @@
 
 namespace furrow {
 
-GroundSheet::GroundSheet(std::vector<double> ids, std::size_t rows, std::size_t columns)
+FreeSurfaceMesh::FreeSurfaceMesh(std::vector<double> ids, std::size_t rows, std::size_t columns)
     : ids_(std::move(ids)), numbers_(6 * ids_.size()) {
   surface_.resize(ids_.size());
   reach_.setZero(3, surface_.x.cols());
@@ -34,43 +34,49 @@ GroundSheet::GroundSheet(std::vector<double> ids, std::size_t rows, std::size_t 
     }
 }
 
-void GroundSheet::find(const std::vector<GroundPhase>& phases) {
-  seats_.clear();
-  for (std::size_t k = 0; k < phases.size(); ++k) {
-    const double* id = phases[k].particles.data(column::id);
-    for (std::size_t p = 0; p < phases[k].particles.size(); ++p) {
+void FreeSurfaceMesh::relocate(const std::vector<ParticleGroup>& groups) {
+  attachments_.clear();
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const double* id = groups[k].particles.data(column::id);
+    for (std::size_t p = 0; p < groups[k].particles.size(); ++p) {
       const auto found = std::lower_bound(ids_.begin(), ids_.end(), id[p]);
-      if (found != ids_.end() && *found == id[p]) seats_.push_back({found - ids_.begin(), k, p});
+      if (found != ids_.end() && *found == id[p])
+        attachments_.push_back({found - ids_.begin(), k, p});
     }
   }
 }
 
-Vector3 GroundSheet::lever(const std::vector<GroundPhase>& phases, const Seat& seat) const {
-  const Particles& particles = phases[seat.phase].particles;
-  const std::size_t p = seat.particle;
+Vector3 FreeSurfaceMesh::offset(const std::vector<ParticleGroup>& groups,
+                                const NodeAttachment& attachment) const {
+  const Particles& particles = groups[attachment.group].particles;
+  const std::size_t p = attachment.particle;
   Vector3 half(
       particles.data(column::half_x)[p], particles.data(column::half_y)[p],
       particles.data(column::half_z)[p] * particles.data(column::state + field::volume_ratio)[p]);
-  return half.cwiseProduct(reach_.col(seat.node));
+  return half.cwiseProduct(reach_.col(attachment.node));
 }
 
-Vector3 GroundSheet::point_of(const std::vector<GroundPhase>& phases, const Seat& seat) const {
-  return phases[seat.phase].particles.position(seat.particle) + lever(phases, seat);
+Vector3 FreeSurfaceMesh::point_of(const std::vector<ParticleGroup>& groups,
+                                  const NodeAttachment& attachment) const {
+  return groups[attachment.group].particles.position(attachment.particle) +
+         offset(groups, attachment);
 }
 
-void GroundSheet::place(const std::vector<GroundPhase>& phases) {
+void FreeSurfaceMesh::pack(const std::vector<ParticleGroup>& groups) {
   std::fill(numbers_.begin(), numbers_.end(), 0.0);
-  for (const Seat& seat : seats_) {
-    const Particles& particles = phases[seat.phase].particles;
-    const Vector3 arm = lever(phases, seat), x = particles.position(seat.particle) + arm,
-                  v = particles.velocity(seat.particle) + particles.affine(seat.particle) * arm;
-    double* numbers = numbers_.data() + 6 * seat.node;
+  for (const NodeAttachment& attachment : attachments_) {
+    const Particles& particles = groups[attachment.group].particles;
+    const Vector3 arm = offset(groups, attachment),
+                  x = particles.position(attachment.particle) + arm,
+                  v = particles.velocity(attachment.particle) +
+                      particles.affine(attachment.particle) * arm;
+    double* numbers = numbers_.data() + 6 * attachment.node;
     std::copy_n(x.data(), 3, numbers);
     std::copy_n(v.data(), 3, numbers + 3);
   }
 }
 
-void GroundSheet::take() {
+void FreeSurfaceMesh::unpack() {
   for (Eigen::Index n = 0; n < surface_.x.cols(); ++n) {
     surface_.x.col(n) = Eigen::Map<const Vector3>(numbers_.data() + 6 * n);
     surface_.v.col(n) = Eigen::Map<const Vector3>(numbers_.data() + 6 * n + 3);

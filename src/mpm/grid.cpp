@@ -69,23 +69,25 @@ GridView Grid::view() {
           displacements_.front().u};
 }
 
-std::vector<double> Grid::moving_state(const PlaneRange& planes) const {
-  std::vector<double> state(8 * motions_.size(), 0.0);
-  for (std::size_t n = first(planes), end = last(planes); n < end; ++n) {
-    std::copy_n(motions_[n].velocity, 3, state.data() + 8 * n);
-    state[8 * n + 3] = motions_[n].mass;
-    std::copy_n(displacements_[n].u, 4, state.data() + 8 * n + 4);
+void Grid::checkpoint(Checkpoint& state, const Communicator& ranks, const PlaneRange& owned) {
+  constexpr std::size_t length = 8;  // of a node: velocity, mass, displacement
+  std::vector<double> numbers(length * motions_.size(), 0.0);
+  if (state.saving()) {
+    for (std::size_t n = first(owned); n < last(owned); ++n) {
+      std::copy_n(motions_[n].velocity, 3, numbers.data() + length * n);
+      numbers[length * n + 3] = motions_[n].mass;
+      std::copy_n(displacements_[n].u, 4, numbers.data() + length * n + 4);
+    }
+    ranks.sum(numbers.data(), numbers.size());
   }
-  return state;
-}
-
-const double* Grid::restore_moving_state(const double* state) {
-  for (std::size_t n = 0; n < motions_.size(); ++n, state += 8) {
-    std::copy_n(state, 3, motions_[n].velocity);
-    motions_[n].mass = state[3];
-    std::copy_n(state + 4, 4, displacements_[n].u);
+  state.values("nodes", numbers.data(), numbers.size());
+  if (state.saving()) return;
+  for (std::size_t n = 0; n < motions_.size(); ++n) {
+    const double* node = numbers.data() + length * n;
+    std::copy_n(node, 3, motions_[n].velocity);
+    motions_[n].mass = node[3];
+    std::copy_n(node + 4, 4, displacements_[n].u);
   }
-  return state;
 }
 
 }  // namespace furrow

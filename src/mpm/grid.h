@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/checkpoint.h"
+#include "core/communicator.h"
 #include "core/types.h"
 #include "mpm/axis.h"
 #include "mpm/transfer.h"
@@ -66,10 +68,8 @@ class Grid {
   void shift_x(int cells) { axes_[0].shift(cells); }
   GridView view();
 
-  /// Motion and displacement of some planes, zero elsewhere: eight numbers a node of the whole
-  /// grid.
-  std::vector<double> moving_state(const PlaneRange& planes) const;
-  const double* restore_moving_state(const double* state);  ///< @return what follows
+  /// Motion and displacement of all nodes, as of the rank that owns their plane. Collective.
+  void checkpoint(Checkpoint& state, const Communicator& ranks, const PlaneRange& owned);
 
  private:
   std::size_t index(int i, int j, int k) const {

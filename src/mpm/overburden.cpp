@@ -15,25 +15,25 @@ namespace {
 constexpr double largest_strain = 1.0;
 constexpr int bisections = 60;
 
-std::size_t layer_at(const GroundParameters& ground, double z) {
+std::size_t layer_at(const TerrainParameters& ground, double z) {
   double bottom = ground.surface;
   for (std::size_t n = 0; n + 1 < ground.layers.size(); ++n)
     if (z > (bottom -= ground.layers[n].thickness)) return n;
   return ground.layers.size() - 1;
 }
 
-VectorX compressed(const Material& law, VectorX state, double strain) {
+VectorX compressed(const Material& material, VectorX state, double strain) {
   Matrix3 gradient = Matrix3::Zero();
   gradient(2, 2) = std::expm1(-strain);
-  law.update_point(gradient, state);
+  material.update_point(gradient, state);
   return state;
 }
 
 /// The state after the confined compression that makes -sigma_zz equal to a stress that is not
 /// smaller than now.
-VectorX loaded(const Material& law, const VectorX& state, double stress) {
+VectorX loaded(const Material& material, const VectorX& state, double stress) {
   const auto carried = [&](double strain) {
-    return -compressed(law, state, strain)[field::stress + 2];
+    return -compressed(material, state, strain)[field::stress + 2];
   };
   if (-state[field::stress + 2] >= stress) return state;
   double low = 0.0, high = 1e-7;
@@ -41,7 +41,7 @@ VectorX loaded(const Material& law, const VectorX& state, double stress) {
     low = high;
     high *= 2.0;
     if (high > largest_strain)
-      throw InputError(fmt::format("law {}", law.name()),
+      throw InputError(fmt::format("law {}", material.name()),
                        fmt::format("cannot carry {:.4g} Pa of its own weight", stress),
                        "a law that stiffens in confined compression",
                        "give the ground no gravity, or another law");
@@ -50,26 +50,26 @@ VectorX loaded(const Material& law, const VectorX& state, double stress) {
     const double middle = 0.5 * (low + high);
     (carried(middle) < stress ? low : high) = middle;
   }
-  return compressed(law, state, high);
+  return compressed(material, state, high);
 }
 
 }  // namespace
 
-void find_overburden(const GroundParameters& ground, std::vector<GroundLevel>& levels) {
+void find_overburden(const TerrainParameters& ground, std::vector<ParticleLevel>& levels) {
   double weight = 0.0;  // of all that lies above [Pa]
   for (std::size_t n = 0; n < levels.size(); ++n) {
-    GroundLevel& level = levels[n];
+    ParticleLevel& level = levels[n];
     level.layer = layer_at(ground, level.z);
-    const Material& law = *ground.layers[level.layer].law;
+    const Material& material = *ground.layers[level.layer].material;
     const bool continues = n > 0 && levels[n - 1].layer == level.layer;
-    level.state = continues ? levels[n - 1].state : law.initial_state();
+    level.state = continues ? levels[n - 1].state : material.initial_state();
     if (!ground.initial_stress) continue;
     // Half of the level's own weight counts; its density depends little on the last increment of
     // strain.
     const double pull = -ground.gravity.z();
-    const double above = weight + pull * law.current_density(level.state) * level.half;
-    level.state = loaded(law, level.state, above);
-    weight += 2.0 * pull * law.current_density(level.state) * level.half;
+    const double above = weight + pull * material.current_density(level.state) * level.half;
+    level.state = loaded(material, level.state, above);
+    weight += 2.0 * pull * material.current_density(level.state) * level.half;
   }
 }
 

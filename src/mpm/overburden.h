@@ -9,7 +9,7 @@
 namespace furrow {
 
 /// One level of particles, from the surface down.
-struct GroundLevel {
+struct ParticleLevel {
   double z = 0.0;     ///< [m]
   double half = 0.0;  ///< half the height of ground that it stands for [m]
   std::size_t layer = 0;
@@ -21,6 +21,6 @@ struct GroundLevel {
 /// together whatever the law. Without initial_stress the levels have the initial state.
 /// @param levels  z and half, from the surface down; layer and state are filled in
 /// @throws InputError when a law cannot carry the weight
-void find_overburden(const GroundParameters& ground, std::vector<GroundLevel>& levels);
+void find_overburden(const TerrainParameters& ground, std::vector<ParticleLevel>& levels);
 
 }  // namespace furrow

@@ -8,22 +8,22 @@
 
 namespace furrow {
 
-void MpmGround::sort() {
+void ContinuumTerrain::sort() {
   drift_ = 0.0;
   ++generation_;
   migrate();
   const std::size_t ny = static_cast<std::size_t>(grid_.axis(1).cells()),
                     nz = static_cast<std::size_t>(grid_.axis(2).cells());
   std::vector<std::size_t> cell, start, order;
-  for (GroundPhase& phase : phases_) {
-    const std::size_t n = phase.particles.size();
+  for (ParticleGroup& group : groups_) {
+    const std::size_t n = group.particles.size();
     cell.resize(n);
     start.assign(static_cast<std::size_t>(grid_.axis(0).cells()) * ny * nz + 1, 0);
     for (std::size_t p = 0; p < n; ++p) {
-      const Vector3 x = phase.particles.position(p);
+      const Vector3 x = group.particles.position(p);
       const int c[3] = {grid_.axis(0).cell_of(x[0]), grid_.axis(1).cell_of(x[1]),
                         grid_.axis(2).cell_of(x[2])};
-      if (c[0] < 0 || c[1] < 0 || c[2] < 0) report_outside(phase);
+      if (c[0] < 0 || c[1] < 0 || c[2] < 0) report_outside(group);
       cell[p] = (static_cast<std::size_t>(c[0]) * ny + static_cast<std::size_t>(c[1])) * nz +
                 static_cast<std::size_t>(c[2]);
       ++start[cell[p] + 1];
@@ -31,60 +31,60 @@ void MpmGround::sort() {
     std::partial_sum(start.begin(), start.end(), start.begin());
     order.resize(n);
     for (std::size_t p = 0; p < n; ++p) order[start[cell[p]]++] = p;
-    phase.particles.reorder(order);
+    group.particles.reorder(order);
   }
-  if (sheet_.exists()) sheet_.find(phases_);
+  if (free_surface_.exists()) free_surface_.relocate(groups_);
 }
 
 /// Balances the slabs and sends every particle to the owner of its cell.
-void MpmGround::migrate() {
+void ContinuumTerrain::migrate() {
   if (ranks().size() == 1) return;
   const Axis& x = grid_.axis(0);
   std::vector<double> count(static_cast<std::size_t>(x.cells()), 0.0);
-  for (const GroundPhase& phase : phases_)
-    for (std::size_t p = 0; p < phase.particles.size(); ++p) {
-      const int cell = x.cell_of(phase.particles.data(column::x)[p]);
-      if (cell < 0) report_outside(phase);
+  for (const ParticleGroup& group : groups_)
+    for (std::size_t p = 0; p < group.particles.size(); ++p) {
+      const int cell = x.cell_of(group.particles.data(column::x)[p]);
+      if (cell < 0) report_outside(group);
       ++count[static_cast<std::size_t>(cell)];
     }
   ranks().sum(count.data(), count.size());
-  faces_.synchronise(ranks(), partition_.owned());
-  partition_.balance(count);
+  boundary_.synchronise(ranks(), partition_.owned());
+  partition_.rebalance(count);
   std::vector<std::size_t> staying;
-  for (GroundPhase& phase : phases_) {
+  for (ParticleGroup& group : groups_) {
     std::vector<std::vector<double>> leaving(static_cast<std::size_t>(ranks().size()));
     staying.clear();
-    for (std::size_t p = 0; p < phase.particles.size(); ++p) {
-      const int owner = partition_.owner(x.cell_of(phase.particles.data(column::x)[p]));
+    for (std::size_t p = 0; p < group.particles.size(); ++p) {
+      const int owner = partition_.owner(x.cell_of(group.particles.data(column::x)[p]));
       if (owner == ranks().rank())
         staying.push_back(p);
       else
-        phase.particles.pack(p, leaving[static_cast<std::size_t>(owner)]);
+        group.particles.pack(p, leaving[static_cast<std::size_t>(owner)]);
     }
-    phase.particles.reorder(staying);
+    group.particles.reorder(staying);
     for (int r = 0; r < ranks().size(); ++r) {
       if (r == ranks().rank()) continue;
       const std::vector<double> arriving =
           ranks().exchange(r, leaving[static_cast<std::size_t>(r)]);
-      for (std::size_t n = 0; n < arriving.size(); n += phase.particles.record_length())
-        phase.particles.unpack(arriving.data() + n);
+      for (std::size_t n = 0; n < arriving.size(); n += group.particles.record_length())
+        group.particles.unpack(arriving.data() + n);
     }
   }
 }
 
 // ---- moving ground ------------------------------------------------------------------------------
 
-double MpmGround::travelled() const { return grid_.axis(0).lower() - start_; }
+double ContinuumTerrain::travelled() const { return grid_.axis(0).lower() - start_; }
 
-void MpmGround::move_window() {
+void ContinuumTerrain::move_window() {
   if (!parameters_.window) return;
   const Axis& x = grid_.axis(0);
   bool moved = false;
   while (focus_ > 0.5 * (x.lower() + x.upper()) + x.length(0)) {
-    drop_behind();
-    if (!moved) faces_.synchronise(ranks(), partition_.owned());  // rows go over from rank to rank
+    remove_behind();
+    if (!moved) boundary_.synchronise(ranks(), partition_.owned());  // rows go over from rank to rank
     grid_.shift_x(1);
-    faces_.shift_x(1);
+    boundary_.shift_x(1);
     ++shifts_;
     const double before = internal_energy();
     add_column(x.cells() - 1);
@@ -94,7 +94,7 @@ void MpmGround::move_window() {
   if (moved) sort();
 }
 
-void MpmGround::drop_behind() {
+void ContinuumTerrain::remove_behind() {
   const Axis &x = grid_.axis(0), &y = grid_.axis(1);
   const double edge = x.knot(1);
   std::vector<double> top(static_cast<std::size_t>(y.cells()),
@@ -102,8 +102,8 @@ void MpmGround::drop_behind() {
       mass(top.size(), 0.0), volume(top.size(), 0.0);
   const double before = internal_energy(), heat_before = energy(field::dissipated_energy);
   std::vector<std::size_t> kept;
-  for (GroundPhase& phase : phases_) {
-    const Particles& particles = phase.particles;
+  for (ParticleGroup& group : groups_) {
+    const Particles& particles = group.particles;
     kept.clear();
     for (std::size_t p = 0; p < particles.size(); ++p) {
       if (particles.data(column::x)[p] >= edge) {
@@ -115,12 +115,12 @@ void MpmGround::drop_behind() {
                    reference = particles.data(column::volume)[p];
       top[row] = std::max(top[row],
                           particles.data(column::z)[p] + particles.data(column::half_z)[p] * ratio);
-      mass[row] += phase.law->density() * reference;
+      mass[row] += group.material->density() * reference;
       volume[row] += reference * ratio;
       dropped_kinetic_ +=
-          0.5 * phase.law->density() * reference * particles.velocity(p).squaredNorm();
+          0.5 * group.material->density() * reference * particles.velocity(p).squaredNorm();
     }
-    phase.particles.reorder(kept);
+    group.particles.reorder(kept);
   }
   dropped_internal_ += before - internal_energy();
   dropped_dissipated_ += heat_before - energy(field::dissipated_energy);

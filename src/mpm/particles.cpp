@@ -5,14 +5,14 @@
 
 namespace furrow {
 
-Particles::Particles(const Material& law) : state_fields_(law.state_fields().size()) {
+Particles::Particles(const Material& material) : state_fields_(material.state_fields().size()) {
   for (const char* name : {"x", "y", "z"}) columns_.push_back({name, 1, {}});
   columns_.push_back({"velocity", 4, {}});
   columns_.push_back({"affine", 12, {}});
   for (const char* name : {"volume", "reference_x", "reference_y", "reference_z", "home_x",
                            "home_y", "home_z", "half_x", "half_y", "half_z", "id"})
     columns_.push_back({name, 1, {}});
-  for (const StateField& field : law.state_fields()) columns_.push_back({field.name, 1, {}});
+  for (const StateField& field : material.state_fields()) columns_.push_back({field.name, 1, {}});
 }
 
 std::size_t Particles::add_column(const std::string& name, int components) {
@@ -80,7 +80,7 @@ ParticleView Particles::view(std::size_t first, std::size_t count) {
   ParticleView view;
   view.size = count;
   for (std::size_t a = 0; a < 3; ++a) {
-    view.reference[a] = data(column::reference_x + a) + first;
+    view.reference[a] = data(column::shape_x + a) + first;
     view.position[a] = data(column::x + a) + first;
   }
   view.velocity = data(column::velocity) + 4 * first;

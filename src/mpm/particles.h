@@ -23,12 +23,12 @@ enum : std::size_t {
   velocity,  ///< [m/s] four numbers, the last is unused
   affine,    ///< C [1/s], three columns of four numbers
   volume,    ///< in the reference configuration [m^3]
-  reference_x,
-  reference_y,
-  reference_z,  ///< position where the weights are taken (mpm_ground.h) [m]
-  home_x,
-  home_y,
-  home_z,  ///< position at the start [m]
+  shape_x,
+  shape_y,
+  shape_z,  ///< position where the weights are taken (continuum_terrain.h) [m]
+  initial_x,
+  initial_y,
+  initial_z,  ///< position at the start [m]
   half_x,
   half_y,
   half_z,  ///< half the spacing of the particles at the start [m]
@@ -39,7 +39,7 @@ enum : std::size_t {
 
 class Particles {
  public:
-  explicit Particles(const Material& law);
+  explicit Particles(const Material& material);
 
   /// Keeps a number of values with every particle, zero at first. @return the column
   std::size_t add_column(const std::string& name, int components);
@@ -52,9 +52,8 @@ class Particles {
   Vector3 position(std::size_t i) const {
     return {data(column::x)[i], data(column::y)[i], data(column::z)[i]};
   }
-  Vector3 reference(std::size_t i) const {
-    return {data(column::reference_x)[i], data(column::reference_y)[i],
-            data(column::reference_z)[i]};
+  Vector3 shape_position(std::size_t i) const {
+    return {data(column::shape_x)[i], data(column::shape_y)[i], data(column::shape_z)[i]};
   }
   Vector3 velocity(std::size_t i) const {
     return Eigen::Map<const Vector3>(data(column::velocity) + 4 * i);

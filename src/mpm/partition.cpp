@@ -6,7 +6,7 @@
 
 namespace furrow {
 
-void Partition::balance(const std::vector<double>& count) {
+void Partition::rebalance(const std::vector<double>& count) {
   const int cells = static_cast<int>(count.size()), size = ranks_.size();
   const double all = std::accumulate(count.begin(), count.end(), 0.0);
   bounds_ = {0};

@@ -16,7 +16,7 @@ class Partition {
 
   /// Slabs of nearly equal numbers of particles. @param count particles of all ranks in every cell
   /// across x; the same on all ranks
-  void balance(const std::vector<double>& count);
+  void rebalance(const std::vector<double>& count);
   int owner(int cell) const;
   const Communicator& ranks() const { return ranks_; }
   /// Cells where this rank's particles may be between two sortings: its slab and one cell on each

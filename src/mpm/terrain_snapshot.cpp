@@ -12,8 +12,8 @@ namespace {
 enum : std::size_t {
   id,
   x,
-  home = x + 3,
-  v = home + 3,
+  initial_position = x + 3,
+  v = initial_position + 3,
   layer = v + 3,
   volume,
   density,
@@ -25,8 +25,8 @@ enum : std::size_t {
 };
 
 /// Column of the law's compaction, or that of the volume ratio.
-std::size_t compaction_column(const Material& law) {
-  const auto& fields = law.state_fields();
+std::size_t compaction_column(const Material& material) {
+  const auto& fields = material.state_fields();
   const auto found = std::find_if(fields.begin(), fields.end(),
                                   [](const StateField& f) { return f.name == "eps_vol_pl"; });
   return column::state + (found == fields.end() ? std::size_t(field::volume_ratio)
@@ -35,13 +35,13 @@ std::size_t compaction_column(const Material& law) {
 
 }  // namespace
 
-GroundSnapshot take_snapshot(MpmGround& ground) {
+TerrainSnapshot take_snapshot(ContinuumTerrain& ground) {
   std::vector<double> records;
-  const std::vector<GroundPhase>& phases = ground.phases();
-  for (std::size_t k = 0; k < phases.size(); ++k) {
-    const GroundPhase& phase = phases[k];
-    const Particles& particles = phase.particles;
-    const std::size_t compacted = compaction_column(*phase.law);
+  const std::vector<ParticleGroup>& groups = ground.groups();
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const ParticleGroup& group = groups[k];
+    const Particles& particles = group.particles;
+    const std::size_t compacted = compaction_column(*group.material);
     for (std::size_t p = 0; p < particles.size(); ++p) {
       double r[length];
       Vector6 stress;
@@ -53,12 +53,12 @@ GroundSnapshot take_snapshot(MpmGround& ground) {
       r[id] = particles.data(column::id)[p];
       for (std::size_t a = 0; a < 3; ++a) {
         r[x + a] = particles.data(column::x + a)[p];
-        r[home + a] = particles.data(column::home_x + a)[p];
+        r[initial_position + a] = particles.data(column::initial_x + a)[p];
         r[v + a] = particles.data(column::velocity)[4 * p + a];
       }
       r[layer] = static_cast<double>(k);
       r[volume] = particles.data(column::volume)[p] * ratio;
-      r[density] = phase.law->density() / ratio;
+      r[density] = group.material->density() / ratio;
       r[pressure] = invariant.p;
       r[mises] = invariant.q;
       r[vertical] = stress[2];
@@ -74,14 +74,14 @@ GroundSnapshot take_snapshot(MpmGround& ground) {
     return records[a * length] < records[b * length];
   });
 
-  GroundSnapshot snapshot;
-  for (Matrix3X* columns : {&snapshot.x, &snapshot.home, &snapshot.v})
+  TerrainSnapshot snapshot;
+  for (Matrix3X* columns : {&snapshot.x, &snapshot.initial_position, &snapshot.v})
     columns->resize(3, static_cast<Eigen::Index>(count));
   for (std::size_t n = 0; n < count; ++n) {
     const double* r = records.data() + order[n] * length;
     const auto column = static_cast<Eigen::Index>(n);
     snapshot.x.col(column) = Eigen::Map<const Vector3>(r + x);
-    snapshot.home.col(column) = Eigen::Map<const Vector3>(r + home);
+    snapshot.initial_position.col(column) = Eigen::Map<const Vector3>(r + initial_position);
     snapshot.v.col(column) = Eigen::Map<const Vector3>(r + v);
     for (auto [values, at] :
          {std::pair{&snapshot.id, id}, std::pair{&snapshot.layer, layer},
@@ -94,7 +94,7 @@ GroundSnapshot take_snapshot(MpmGround& ground) {
   return snapshot;
 }
 
-std::vector<RutPoint> collect_rut(const MpmGround& ground) {
+std::vector<RutPoint> collect_rut(const ContinuumTerrain& ground) {
   std::vector<double> numbers;
   for (const RutPoint& point : ground.rut())
     numbers.insert(numbers.end(), {point.x, point.y, point.z, point.density});

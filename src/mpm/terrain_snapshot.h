@@ -12,9 +12,9 @@
 namespace furrow {
 
 /// Particles of all ranks and layers in the order of their ids.
-struct GroundSnapshot {
+struct TerrainSnapshot {
   std::vector<double> id;
-  Matrix3X x, home, v;                  ///< position now and at the start [m], velocity [m/s]
+  Matrix3X x, initial_position, v;      ///< position now and at the start [m], velocity [m/s]
   std::vector<double> layer;            ///< 0 on top
   std::vector<double> volume, density;  ///< now [m^3], [kg/m^3]
   std::vector<double> pressure, mises;  ///< p (compression positive) and q [Pa]
@@ -24,8 +24,8 @@ struct GroundSnapshot {
 };
 
 /// Collective; every rank gets all.
-GroundSnapshot take_snapshot(MpmGround& ground);
+TerrainSnapshot take_snapshot(ContinuumTerrain& ground);
 /// What the moving ground dropped, of all ranks. Collective.
-std::vector<RutPoint> collect_rut(const MpmGround& ground);
+std::vector<RutPoint> collect_rut(const ContinuumTerrain& ground);
 
 }  // namespace furrow

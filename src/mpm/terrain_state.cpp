@@ -1,119 +1,115 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Continuum ground as numbers, for restarts.
-#include <algorithm>
-
-#include <fmt/format.h>
-
-#include "core/error.h"
+// Checkpoints of continuum terrain.
 #include "mpm/continuum_terrain.h"
 
 namespace furrow {
 
-std::vector<double> MpmGround::fingerprint() const {
-  std::vector<double> numbers = {static_cast<double>(phases_.size())};
-  for (int a = 0; a < 3; ++a)
-    numbers.insert(numbers.end(),
-                   {static_cast<double>(grid_.axis(a).cells()), grid_.axis(a).shortest()});
-  for (const GroundPhase& phase : phases_)
-    numbers.insert(numbers.end(),
-                   {static_cast<double>(phase.particles.record_length()), phase.law->density()});
-  numbers.insert(numbers.end(), {static_cast<double>(faces_.state_length()),
-                                 static_cast<double>(sheet_.surface().node_count())});
-  return numbers;
+/// Sums of all ranks are saved, and go to rank 0 when they are restored.
+void ContinuumTerrain::checkpoint_totals(Checkpoint& state) {
+  double* totals[] = {&totals_.kinetic_energy,
+                      &totals_.momentum[0],
+                      &totals_.momentum[1],
+                      &totals_.momentum[2],
+                      &initial_,
+                      &stress_work_,
+                      &contact_work_,
+                      &gravity_work_,
+                      &dropped_kinetic_,
+                      &dropped_internal_,
+                      &dropped_dissipated_};
+  std::vector<double> sums;
+  for (const double* total : totals) sums.push_back(*total);
+  if (state.saving()) ranks().sum(sums.data(), sums.size());
+  state.values("totals", sums.data(), sums.size());
+  if (state.saving()) return;
+  for (std::size_t n = 0; n < sums.size(); ++n) *totals[n] = ranks().rank() == 0 ? sums[n] : 0.0;
 }
 
-std::vector<double> MpmGround::state() const {
-  std::vector<double> state = fingerprint();
-  double sums[] = {totals_.kinetic_energy,
-                   totals_.momentum[0],
-                   totals_.momentum[1],
-                   totals_.momentum[2],
-                   initial_,
-                   stress_work_,
-                   contact_work_,
-                   gravity_work_,
-                   dropped_kinetic_,
-                   dropped_internal_,
-                   dropped_dissipated_};
-  ranks().sum(sums, std::size(sums));
-  state.insert(state.end(), std::begin(sums), std::end(sums));
-  state.insert(state.end(), {static_cast<double>(shifts_), focus_, next_id_, drift_, travel_,
-                             ranks().max(largest_speed_), static_cast<double>(steps_left_),
-                             lagging_ ? 1.0 : 0.0});
-  std::vector<double> nodes = grid_.moving_state(partition_.owned());
-  ranks().sum(nodes.data(), nodes.size());
-  state.insert(state.end(), nodes.begin(), nodes.end());
+void ContinuumTerrain::checkpoint_rut(Checkpoint& state) {
   std::vector<double> rut;
   for (const RutPoint& point : rut_)
     rut.insert(rut.end(), {point.x, point.y, point.z, point.density});
-  rut = ranks().gather(rut);
-  state.push_back(static_cast<double>(rut.size()));
-  state.insert(state.end(), rut.begin(), rut.end());
-  const Matrix3X& f = sheet_.surface().f;
-  state.insert(state.end(), f.data(), f.data() + f.size());
-  Faces faces = faces_;
-  faces.synchronise(ranks(), partition_.owned());
-  faces.collect(ranks());
-  faces.save(state);
-  for (const GroundPhase& phase : phases_) {
-    std::vector<double> records;
-    for (std::size_t p = 0; p < phase.particles.size(); ++p) phase.particles.pack(p, records);
-    records = ranks().gather(records);
-    state.push_back(static_cast<double>(records.size()));
-    state.insert(state.end(), records.begin(), records.end());
-  }
-  return state;
+  if (state.saving()) rut = ranks().gather(rut);
+  state.values("rut", rut);
+  if (state.saving()) return;
+  rut_.clear();
+  if (ranks().rank() != 0) return;
+  for (std::size_t n = 0; n + 3 < rut.size(); n += 4)
+    rut_.push_back({rut[n], rut[n + 1], rut[n + 2], rut[n + 3]});
 }
 
-void MpmGround::restore(const std::vector<double>& state) {
-  const std::vector<double> mine = fingerprint();
-  if (state.size() < mine.size() || !std::equal(mine.begin(), mine.end(), state.begin()))
-    throw Error(
-        fmt::format("{}: the saved state belongs to other ground; restart with the materials, size "
-                    "and cells of the first run",
-                    where_));
-  const double* next = state.data() + mine.size();
-  for (double* sum : {&totals_.kinetic_energy, &totals_.momentum[0], &totals_.momentum[1],
-                      &totals_.momentum[2], &initial_, &stress_work_, &contact_work_,
-                      &gravity_work_, &dropped_kinetic_, &dropped_internal_, &dropped_dissipated_})
-    *sum = ranks().rank() == 0 ? *next++ : (++next, 0.0);
-  const int shifts = static_cast<int>(*next++);
+/// Records of Particles::pack(), of all ranks.
+void ContinuumTerrain::checkpoint_particles(Checkpoint& state) {
+  for (ParticleGroup& group : groups_) {
+    const std::size_t length = group.particles.record_length();
+    std::vector<double> records;
+    if (state.saving()) {
+      for (std::size_t p = 0; p < group.particles.size(); ++p) group.particles.pack(p, records);
+      records = ranks().gather(records);
+    }
+    state.values("particles", records);
+    if (state.saving()) continue;
+    group.particles.reorder({});
+    for (const double *next = records.data(), *end = next + records.size(); next != end;
+         next += length)
+      if (partition_.owner(grid_.axis(0).cell_of(next[0])) == ranks().rank())
+        group.particles.unpack(next);
+  }
+}
+
+void ContinuumTerrain::checkpoint(Checkpoint& state) {
+  for (int a = 0; a < 3; ++a) {
+    state.match("cells", grid_.axis(a).cells());
+    state.match("shortest_cell", grid_.axis(a).shortest());
+  }
+  state.match("layers", groups_.size());
+  for (const ParticleGroup& group : groups_) {
+    state.match("numbers_of_a_particle", group.particles.record_length());
+    state.match("density", group.material->density());
+  }
+  state.match("surface_nodes", free_surface_.surface().node_count());
+  checkpoint_totals(state);
+  int shifts = shifts_;
+  state.value("shifts", shifts);
   grid_.shift_x(shifts - shifts_);
   shifts_ = shifts;
-  focus_ = *next++;
-  next_id_ = *next++;
-  drift_ = *next++;
-  travel_ = *next++;
-  largest_speed_ = *next++;
-  steps_left_ = static_cast<int>(*next++);
-  lagging_ = *next++ != 0.0;
-  next = grid_.restore_moving_state(next);
-  const auto rut_end = static_cast<std::size_t>(*next++);
-  rut_.clear();
-  for (std::size_t n = 0; n < rut_end; n += 4, next += 4)
-    if (ranks().rank() == 0) rut_.push_back({next[0], next[1], next[2], next[3]});
-  Matrix3X& f = sheet_.surface().f;
-  std::copy_n(next, f.size(), f.data());
-  next += f.size();
-  next = faces_.restore(next, ranks().rank() == 0);
-  for (GroundPhase& phase : phases_) {
-    phase.particles.reorder({});
-    const auto length = static_cast<std::size_t>(*next++);
-    for (const double* end = next + length; next != end; next += phase.particles.record_length())
-      if (partition_.owner(grid_.axis(0).cell_of(next[0])) == ranks().rank())
-        phase.particles.unpack(next);
+  state.value("focus", focus_);
+  state.value("next_id", next_id_);
+  state.value("drift", drift_);
+  state.value("travel", travel_);
+  double largest_speed = ranks().max(largest_speed_);
+  state.value("largest_speed", largest_speed);
+  if (!state.saving()) largest_speed_ = largest_speed;
+  state.value("steps_to_remap", steps_left_);
+  state.value("unsynchronised", unsynchronised_);
+  grid_.checkpoint(state, ranks(), partition_.owned());
+  checkpoint_rut(state);
+  state.values("free_surface_force", free_surface_.surface().f);
+  if (state.saving()) {
+    Boundary boundary = boundary_;
+    boundary.synchronise(ranks(), partition_.owned());
+    boundary.collect(ranks());
+    boundary.checkpoint(state, true);
+  } else {
+    boundary_.checkpoint(state, ranks().rank() == 0);
   }
+  checkpoint_particles(state);
+  if (!state.saving()) resume();
+}
+
+/// What follows from the restored particles and nodes.
+void ContinuumTerrain::resume() {
   const double drift = drift_;
   if (ranks().size() > 1) sort();
   drift_ = drift;
   ++generation_;
-  if (in_cycle()) {
+  if (remap_pending()) {
     grid_.clear_sums(partition_.touched());
-    give_forces();
+    scatter_stress_forces();
   }
-  if (!sheet_.exists()) return;
-  sheet_.find(phases_);
-  move_sheet();
+  if (!free_surface_.exists()) return;
+  free_surface_.relocate(groups_);
+  update_free_surface();
 }
 
 }  // namespace furrow

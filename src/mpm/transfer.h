@@ -2,7 +2,7 @@
 #pragma once
 /// Particles to grid and back: the affine particle-in-cell transfer, the force of the stress and
 /// the strain. Plain data only: this header is compiled with every instruction set
-/// (material/lanes.h says why that matters).
+/// (simd/lanes.h says why that matters).
 ///
 /// With N_i the B-splines of a particle's 27 nodes, d_i = x_i - x_p and D = sum N_i d_i d_i^T
 /// (diagonal for a product grid):
@@ -19,7 +19,7 @@
 /// directions, G_i = grad N_i.
 ///
 /// All weights are taken at a particle's reference position, which stays while the grid moves with
-/// the ground (mpm_ground.h).
+/// the ground (continuum_terrain.h).
 
 #include <cstddef>
 

@@ -54,7 +54,7 @@ int fit(const std::string& input, const std::string& output, bool plot) {
 }
 
 void list_laws(const std::string& name) {
-  for (const furrow::Law& law : furrow::laws()) {
+  for (const furrow::MaterialModel& law : furrow::material_models()) {
     if (!name.empty() && law.name != name) continue;
     std::cout << law.name << ": " << law.meaning << '\n';
     for (const furrow::SectionSchema& section : law.sections)
@@ -99,7 +99,7 @@ int main(int argc, char** argv) {
     if (*run_command) run(input, output, !no_plot);
     if (*fit_command) return fit(input, output, !no_plot);
     if (*laws_command) {
-      if (!law.empty()) furrow::find_law(law);
+      if (!law.empty()) furrow::find_material_model(law);
       list_laws(law);
     }
     if (*paths_command) std::cout << furrow::path_tables();

@@ -42,13 +42,14 @@ Schema WheelRig::schema(const std::string& subject) {
               "instead of a load: the wheel is lowered to this sinkage and held there")
       .optional();
   schema.number("speed", "m/s", Range::non_negative(), "speed of the axle along x in cruise");
-  schema.word("mode", {"towed", "slip", "torque"},
-              "free spin, prescribed slip, or prescribed axle torque");
+  schema.choice("mode", {"towed", "slip", "torque"},
+                "free spin, prescribed slip, or prescribed axle torque");
   schema.number("slip", "", Range::any(), "slip in mode slip, driving positive").optional();
   schema
-      .word("slip_definition", slip_definition_words(),
-            "slip by the larger of rim and vehicle speed, by rim speed, or by vehicle speed (speed "
-            "in the wheel plane)")
+      .choice(
+          "slip_definition", slip_definition_words(),
+          "slip by the larger of rim and vehicle speed, by rim speed, or by vehicle speed (speed "
+          "in the wheel plane)")
       .by_default("larger_speed");
   schema.number("torque", "N m", Range::any(), "axle torque in mode torque; < 0 brakes").optional();
   schema
@@ -122,7 +123,7 @@ void WheelRig::read_vertical(const Options& options) {
 void WheelRig::read_drive(const Options& options) {
   speed_ = options.number("speed");
   plane_speed_ = speed_ * std::cos(radians(options.number("slip_angle")));
-  const std::string& mode = options.word("mode");
+  const std::string& mode = options.text("mode");
   mode_ = mode == "towed" ? Mode::towed : mode == "slip" ? Mode::slip : Mode::torque;
   const std::string context = fmt::format("in mode {}", mode);
   expect_key(options, "slip", mode_ == Mode::slip, context, "a slip in mode slip, and only there");
@@ -136,28 +137,28 @@ void WheelRig::read_drive(const Options& options) {
     throw InputError(options.where("speed"), "is 0 m/s in mode slip", "a number > 0 [m/s]",
                      "give a speed, or drive a standing wheel with mode torque");
   try {
-    rim_speed_ = rim_speed(slip_definition(options.word("slip_definition")), options.number("slip"),
+    rim_speed_ = rim_speed(slip_definition(options.text("slip_definition")), options.number("slip"),
                            plane_speed_);
   } catch (const StateError&) {
     throw InputError(
         options.where("slip"),
         fmt::format("is {} with slip_definition {}", options.number("slip"),
-                    options.word("slip_definition")),
+                    options.text("slip_definition")),
         "-1 to below 1 by the larger speed, below 1 by rim speed, at least -1 by vehicle speed",
         "a wheel that spins on the spot or backwards needs mode torque");
   }
 }
 
-WheelRig::Phase WheelRig::phase(double time) const {
-  return time < speed_ramp_.start   ? Phase::settle
-         : time < speed_ramp_.end() ? Phase::accelerate
-                                    : Phase::cruise;
+WheelRig::Stage WheelRig::stage(double time) const {
+  return time < speed_ramp_.start   ? Stage::settle
+         : time < speed_ramp_.end() ? Stage::accelerate
+                                    : Stage::cruise;
 }
 
 void WheelRig::apply(double time, double dt) {
   drive_vertical(time, dt);
   // by the middle of the step: safe against rounding of its ends
-  if (phase(time + 0.5 * dt) == Phase::settle) {
+  if (stage(time + 0.5 * dt) == Stage::settle) {
     wheel_.hold(WheelHub::x);
     wheel_.hold(WheelHub::spin);
   } else {
@@ -233,7 +234,7 @@ std::vector<Channel> WheelRig::channels() {
 std::vector<double> WheelRig::measure(double time) const {
   const Vector3 &centre = wheel_.centre(), &velocity = wheel_.velocity();
   const auto [force, moment] = wheel_.ground_wrench();
-  const Balance balance = wheel_.balance();
+  const EnergyBudget budget = wheel_.energy_budget();
 
   const double yaw = wheel_.position(WheelHub::yaw), spin_rate = wheel_.rate(WheelHub::spin);
   const double rim = spin_rate * wheel_.nominal_radius();
@@ -241,7 +242,7 @@ std::vector<double> WheelRig::measure(double time) const {
   const bool at_rest = std::abs(rim) < standstill && std::abs(along) < standstill;
 
   return {time,
-          static_cast<double>(phase(time)),
+          static_cast<double>(stage(time)),
           centre.x(),
           centre.y(),
           centre.z(),
@@ -261,11 +262,11 @@ std::vector<double> WheelRig::measure(double time) const {
           wheel_.constraint(WheelHub::spin),
           -wheel_.constraint(WheelHub::x),
           -wheel_.load().z() - wheel_.constraint(WheelHub::z),
-          balance.kinetic_energy,
-          balance.contact_work,
-          balance.load_work,
-          balance.drive_work,
-          balance.dissipated_energy};
+          budget.kinetic_energy,
+          budget.contact_work,
+          budget.load_work,
+          budget.drive_work,
+          budget.dissipated_energy};
 }
 
 }  // namespace furrow

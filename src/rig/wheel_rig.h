@@ -32,7 +32,7 @@ namespace furrow {
 /// All phases are functions of time alone: a rig restarts by being made again from the same input.
 class WheelRig {
  public:
-  enum class Phase { settle = 0, accelerate = 1, cruise = 2 };
+  enum class Stage { settle = 0, accelerate = 1, cruise = 2 };
   enum class Mode { towed, slip, torque };
 
   /// The keys of the rig. @param subject names the owner in errors
@@ -52,7 +52,7 @@ class WheelRig {
   /// step are known.
   std::vector<double> measure(double time) const;
 
-  Phase phase(double time) const;
+  Stage stage(double time) const;
   Mode mode() const { return mode_; }
   /// [N] full; 0 when the sinkage is prescribed
   double load() const { return load_; }

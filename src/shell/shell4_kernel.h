@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The co-rotational shell, several elements at once. Included by shell4_kernel_*.cpp only
-/// (material/lanes.h says why).
+/// (simd/lanes.h says why).
 ///
 /// An element's axes e turn with its nodes: e_3 is normal to both medians, and the turn about e_3
 /// is that of the polar decomposition of the medians' deformation, so the axes do not depend on
@@ -50,14 +50,14 @@ struct Frame {
 
   FURROW_INLINE Frame(const Triple& a, const Triple& b, const Shell4Kind& kind) {
     const Triple normal = cross(a, b);
-    area = root(dot(normal, normal));
-    const Lanes length = root(dot(a, a));
+    area = sqrt(dot(normal, normal));
+    const Lanes length = sqrt(dot(a, a));
     e3 = Lanes(1.0) / area * normal;
     const Triple t1 = Lanes(1.0) / length * a, t2 = cross(e3, t1);
     const Lanes bt1 = dot(b, t1), bt2 = dot(b, t2);
     // F11 + F22, F21 - F12
     const Lanes even = length * kind.p1 + bt2 * kind.q2, odd = -(length * kind.p2 + bt1 * kind.q2);
-    trace = root(even * even + odd * odd);
+    trace = sqrt(even * even + odd * odd);
     const Lanes c = even / trace, s = odd / trace;
     e1 = c * t1 + s * t2;
     e2 = c * t2 - s * t1;
@@ -112,8 +112,8 @@ inline Shell4Result shell4_forces(const Shell4Kind* kinds, std::size_t kind_coun
                            Q[2] * E0 + Q[5] * E1 + Q[8] * E2});
         }
         const Lanes four_cos2 = Lanes(1.0) + column[0].x + column[1].y + column[2].z;
-        straightest = lower(straightest, four_cos2);
-        const Lanes two_cos = root(four_cos2), inverse = Lanes(1.0) / two_cos;
+        straightest = min(straightest, four_cos2);
+        const Lanes two_cos = sqrt(four_cos2), inverse = Lanes(1.0) / two_cos;
         const Triple turn = inverse * Triple{column[1].z - column[2].y, column[2].x - column[0].z,
                                              column[0].y - column[1].x};
         cosine[n] = Lanes(0.5) * two_cos;

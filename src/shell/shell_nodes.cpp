@@ -76,27 +76,15 @@ double ShellNodes::largest_unbalanced(double length) const {
                   moment.cwiseProduct(free_to_turn).cwiseAbs().maxCoeff() / length);
 }
 
-std::vector<double> ShellNodes::state() const {
-  std::vector<double> numbers;
-  numbers.reserve(state_size());
-  for (const Matrix3X* m : {&x, &v, &w})
-    numbers.insert(numbers.end(), m->data(), m->data() + m->size());
-  for (const Quaternion& turn : q)
-    numbers.insert(numbers.end(), turn.coeffs().data(), turn.coeffs().data() + 4);
-  return numbers;
-}
-
-const double* ShellNodes::restore(const double* next) {
-  for (Matrix3X* m : {&x, &v, &w}) {
-    std::copy(next, next + m->size(), m->data());
-    next += m->size();
+void ShellNodes::checkpoint(Checkpoint& state) {
+  state.values("position", x);
+  state.values("velocity", v);
+  state.values("angular_velocity", w);
+  for (Eigen::Index n = 0; n < count(); ++n) {
+    Quaternion turn = q[static_cast<std::size_t>(n)];
+    state.values("rotation", turn.coeffs().data(), 4);
+    if (!state.saving()) set_rotation(n, turn);
   }
-  for (Eigen::Index n = 0; n < count(); ++n, next += 4) {
-    Quaternion turn;
-    std::copy(next, next + 4, turn.coeffs().data());
-    set_rotation(n, turn);
-  }
-  return next;
 }
 
 }  // namespace furrow

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/checkpoint.h"
 #include "core/types.h"
 
 namespace furrow {
@@ -37,9 +38,7 @@ struct ShellNodes {
   double largest_unbalanced(double length) const;
   void set_rotation(Eigen::Index node, const Quaternion& rotation);
 
-  std::vector<double> state() const;
-  const double* restore(const double* numbers);  ///< returns the first number it did not need
-  std::size_t state_size() const { return 13 * static_cast<std::size_t>(count()); }
+  void checkpoint(Checkpoint& state);
 };
 
 }  // namespace furrow

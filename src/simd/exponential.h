@@ -16,7 +16,7 @@ FURROW_INLINE Lanes exponential(const Lanes& a) {
   using Integers = stdx::rebind_simd_t<std::int64_t, Lanes>;
   // 1.5 * 2^52: adding it rounds to the nearest integer, held in the last bits
   constexpr double shift = 6755399441055744.0;
-  const Lanes bounded = upper(lower(a, 709.7), -708.3);
+  const Lanes bounded = max(min(a, 709.7), -708.3);
   const Lanes shifted = bounded * Lanes(1.4426950408889634) + Lanes(shift);
   const Lanes n = shifted - Lanes(shift);
   const Lanes r =
@@ -50,7 +50,7 @@ FURROW_INLINE Lanes exponential(const Lanes& a) {
 }
 
 inline Lanes logarithm(const Lanes& a) {
-  return each(a, [](double x) { return __builtin_log(x); });
+  return per_lane(a, [](double x) { return __builtin_log(x); });
 }
 
 }  // namespace FURROW_ISA

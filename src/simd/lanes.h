@@ -32,16 +32,16 @@ FURROW_INLINE Lanes select(const Mask& mask, const Lanes& yes, const Lanes& no) 
 }
 FURROW_INLINE bool any(const Mask& mask) { return stdx::any_of(mask); }
 FURROW_INLINE bool all(const Mask& mask) { return stdx::all_of(mask); }
-FURROW_INLINE Lanes lower(const Lanes& a, const Lanes& b) { return stdx::min(a, b); }
-FURROW_INLINE Lanes upper(const Lanes& a, const Lanes& b) { return stdx::max(a, b); }
+FURROW_INLINE Lanes min(const Lanes& a, const Lanes& b) { return stdx::min(a, b); }
+FURROW_INLINE Lanes max(const Lanes& a, const Lanes& b) { return stdx::max(a, b); }
 FURROW_INLINE Lanes square(const Lanes& a) { return a * a; }
-FURROW_INLINE Lanes root(const Lanes& a) { return stdx::sqrt(a); }
-FURROW_INLINE Lanes magnitude(const Lanes& a) { return stdx::abs(a); }
+FURROW_INLINE Lanes sqrt(const Lanes& a) { return stdx::sqrt(a); }
+FURROW_INLINE Lanes abs(const Lanes& a) { return stdx::abs(a); }
 FURROW_INLINE Mask finite(const Lanes& a) { return a - a == Lanes(0.0); }
 
 /// A function of one number, lane by lane: for the rare and the dear.
 template <class Function>
-FURROW_INLINE Lanes each(const Lanes& a, Function function) {
+FURROW_INLINE Lanes per_lane(const Lanes& a, Function function) {
   return Lanes([&](auto lane) { return function(static_cast<double>(a[lane])); });
 }
 
@@ -96,7 +96,7 @@ struct Tensor {
 };
 
 /// r a r^T
-FURROW_INLINE Symmetric turned(const Symmetric& a, const Tensor& r) {
+FURROW_INLINE Symmetric rotated(const Symmetric& a, const Tensor& r) {
   const Lanes* m = r.m;
   Lanes b[9];  // r a
   for (int i = 0; i < 3; ++i) {

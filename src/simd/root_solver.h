@@ -8,7 +8,7 @@ namespace furrow {
 inline namespace FURROW_ISA {
 
 /// never met: bisection alone needs 60 for any bracket of doubles used here
-constexpr int most_root_iterations = 200;
+constexpr int max_root_iterations = 200;
 
 struct ValueAndSlope {
   Lanes value, slope;
@@ -24,7 +24,7 @@ template <class Function>
 FURROW_INLINE Lanes decreasing_root(Function&& f, Lanes x, Lanes low, Lanes high,
                                     const Lanes& tolerance, Mask active, Lanes& iterations) {
   Lanes last = high - low;
-  for (int i = 0; i < most_root_iterations && any(active); ++i) {
+  for (int i = 0; i < max_root_iterations && any(active); ++i) {
     const ValueAndSlope at = f(x);
     stdx::where(active, iterations) += 1.0;
     const Mask left = at.value > Lanes(0.0);
@@ -33,12 +33,12 @@ FURROW_INLINE Lanes decreasing_root(Function&& f, Lanes x, Lanes low, Lanes high
     Lanes step = -at.value / at.slope;
     const Lanes newton = x + step;
     const Mask trusted = at.slope < Lanes(0.0) && finite(at.slope) && newton >= low &&
-                         newton <= high && magnitude(step) <= Lanes(0.5) * magnitude(last);
+                         newton <= high && abs(step) <= Lanes(0.5) * abs(last);
     step = select(trusted, step, Lanes(0.5) * (low + high) - x);
     stdx::where(active, x) = x + step;
     stdx::where(active, last) = step;
-    active = active &&
-             !(magnitude(step) <= tolerance || high - low <= tolerance || at.value == Lanes(0.0));
+    active =
+        active && !(abs(step) <= tolerance || high - low <= tolerance || at.value == Lanes(0.0));
   }
   return x;
 }

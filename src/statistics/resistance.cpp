@@ -14,7 +14,7 @@ namespace furrow {
 namespace {
 
 // of the vertical force, below which a force or a coefficient counts as small
-constexpr double least_coefficient = 0.1;
+constexpr double min_coefficient = 0.1;
 
 std::vector<double> part_of(const History& history, const std::string& channel,
                             const Window& window) {
@@ -77,12 +77,12 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
 
   add("sinkage", "m", part("sinkage"), 0.0);
   add("force_z", "N", force_z, 0.0);
-  const double small_force = least_coefficient * std::abs(result.values.back().mean);
-  add("resistance_coefficient", "", linearised_ratio(resistance, force_z), least_coefficient);
+  const double small_force = min_coefficient * std::abs(result.values.back().mean);
+  add("resistance_coefficient", "", linearised_ratio(resistance, force_z), min_coefficient);
   add("drawbar_pull", "N", drawbar_pull, small_force);
-  add("drawbar_coefficient", "", linearised_ratio(drawbar_pull, force_z), least_coefficient);
+  add("drawbar_coefficient", "", linearised_ratio(drawbar_pull, force_z), min_coefficient);
   add("drive_torque", "N m", part("drive_torque"), 0.0);
-  add("slip", "", part("slip"), least_coefficient);
+  add("slip", "", part("slip"), min_coefficient);
 
   std::string reason;
   const auto because = [&](const std::string& text) {

@@ -269,11 +269,11 @@ SteadyValue analyse_steady(const std::string& name, const std::string& unit,
       std::abs(result.halves_difference) > certain * result.halves_error)
     add(fmt::format("its halves differ by {:.3g} +- {:.2g} {}", result.halves_difference,
                     result.halves_error, unit));
-  if (residual.blocks < criteria.fewest_blocks)
+  if (residual.blocks < criteria.min_blocks)
     add(
         fmt::format("the window is too short: its fluctuations last so long that it holds only {} "
                     "independent stretches, {} are needed",
-                    residual.blocks, criteria.fewest_blocks));
+                    residual.blocks, criteria.min_blocks));
   result.steady = reason.empty();
   result.verdict = result.steady ? "steady" : "not steady: " + reason;
   return result;

@@ -50,7 +50,7 @@ struct SteadyCriteria {
   /// change over the window, of the reference, that is steady even when it is certain
   double negligible_drift = 0.02;
   /// independent stretches below which no verdict is given: about 40 correlation times
-  std::size_t fewest_blocks = 6;
+  std::size_t min_blocks = 6;
 };
 
 /// One quantity over a window.

@@ -16,7 +16,7 @@ namespace furrow {
 namespace {
 
 // a rim lighter than this share of the tread would be moved by every wave in it
-constexpr double least_mass_share = 0.02;
+constexpr double min_mass_share = 0.02;
 // The first part of a relaxation (DarnellTyre::settle).
 constexpr double approach_time = 0.12;         // [s]
 constexpr double approach_damping = 2000.0;    // [1/s] of the tread
@@ -122,10 +122,10 @@ DarnellTyre::DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& 
   positive(hub.inertia.axial, "inertia of the rim", "kg m^2");
   positive(hub.inertia.diametral, "diametral inertia of the rim", "kg m^2");
   const double band = share_ * nodes_.mass.sum();
-  if (hub.inertia.mass < least_mass_share * band)
+  if (hub.inertia.mass < min_mass_share * band)
     throw InputError("tyre, mass of the rim",
                      fmt::format("is {} kg under a tread of {:.4g} kg", hub.inertia.mass, band),
-                     fmt::format("at least {:.3g} kg", least_mass_share * band));
+                     fmt::format("at least {:.3g} kg", min_mass_share * band));
 
   const double edge_radius = tyre.tread.radius - tyre.tread.crown,
                width = 2.0 * pi * edge_radius / settings.around;
@@ -373,17 +373,17 @@ double DarnellTyre::kinetic_energy() const {
   return hub_energy() + share_ * nodes_.kinetic_energy();
 }
 
-Balance DarnellTyre::balance() const {
-  Balance balance = hub_balance();
+EnergyBudget DarnellTyre::energy_budget() const {
+  EnergyBudget budget = hub_budget();
   Vector3 momentum = nodes_.v * nodes_.mass, none = Vector3::Zero();
   mirror(momentum, none);
-  balance.momentum += momentum;
-  balance.kinetic_energy = kinetic_energy();
-  balance.stored_energy = stored_;
-  balance.dissipated_energy += damped_;
-  balance.contact_work = contact_work_;
-  balance.load_work += inflation_work_;
-  return balance;
+  budget.momentum += momentum;
+  budget.kinetic_energy = kinetic_energy();
+  budget.stored_energy = stored_;
+  budget.dissipated_energy += damped_;
+  budget.contact_work = contact_work_;
+  budget.load_work += inflation_work_;
+  return budget;
 }
 
 /// Small velocities without pattern, the same in every run.
@@ -488,45 +488,33 @@ double DarnellTyre::largest_sidewall_chord() const {
   return largest;
 }
 
-std::vector<double> DarnellTyre::fingerprint() const {
+void DarnellTyre::checkpoint(Checkpoint& state) {
   const TreadParameters& tread = tyre_.tread;
-  return {double(settings_.across),
-          double(settings_.around),
-          double(settings_.half),
-          double(settings_.sidewall_points),
-          tread.radius,
-          tread.half_width,
-          tread.thickness,
-          tread.E1,
-          tread.E2,
-          tyre_.sidewall.length};
-}
-
-std::vector<double> DarnellTyre::state() const {
-  std::vector<double> state = fingerprint();
-  for (const std::vector<double>& part : {hub_state(), nodes_.state()})
-    state.insert(state.end(), part.begin(), part.end());
-  state.insert(state.end(), {pressure_, zero_, stored_, contact_work_, inflation_work_, damped_});
-  state.insert(state.end(), surface_.f.data(), surface_.f.data() + surface_.f.size());
-  return state;
-}
-
-void DarnellTyre::restore(const std::vector<double>& state) {
-  const std::vector<double> mine = fingerprint();
-  if (state.size() != this->state().size() || !std::equal(mine.begin(), mine.end(), state.begin()))
-    throw Error(
-        "tyre: the saved state belongs to another tyre; restart with the tyre file and mesh of the "
-        "first run");
-  const double* next = nodes_.restore(restore_hub(state.data() + mine.size()));
-  const double pressure = *next++;
+  state.match("across", settings_.across);
+  state.match("around", settings_.around);
+  state.match("half", settings_.half);
+  state.match("sidewall_points", settings_.sidewall_points);
+  state.match("tread_radius", tread.radius);
+  state.match("tread_half_width", tread.half_width);
+  state.match("tread_thickness", tread.thickness);
+  state.match("E1", tread.E1);
+  state.match("E2", tread.E2);
+  state.match("sidewall_length", tyre_.sidewall.length);
+  checkpoint_hub(state);
+  nodes_.checkpoint(state);
+  double pressure = pressure_;
+  state.value("pressure", pressure);
   if (pressure != pressure_) {
     for (SidewallRing& ring : rings_) ring.set_pressure(pressure);
     pressure_ = pressure;
   }
-  for (double* number : {&zero_, &stored_, &contact_work_, &inflation_work_, &damped_})
-    *number = *next++;
-  std::copy(next, next + surface_.f.size(), surface_.f.data());
-  place_surface();
+  state.value("zero_of_energy", zero_);
+  state.value("stored", stored_);
+  state.value("contact_work", contact_work_);
+  state.value("inflation_work", inflation_work_);
+  state.value("damped", damped_);
+  state.values("nodal_force", surface_.f);
+  if (!state.saving()) place_surface();
 }
 
 }  // namespace furrow

@@ -89,10 +89,9 @@ class DarnellTyre : public WheelHub {
   void advance(double dt) override;
   using Body::surface;
   Surface& surface() override { return surface_; }
-  Balance balance() const override;
+  EnergyBudget energy_budget() const override;
   bool half_model() const override { return settings_.half; }
-  std::vector<double> state() const override;
-  void restore(const std::vector<double>& state) override;
+  void checkpoint(Checkpoint& state) override;
 
   /// Brings the tyre to rest under its pressure and its load (if z is free) on a plane, which may
   /// be null: dynamic relaxation. First the load, or the way of the axle, is applied gradually
@@ -133,7 +132,6 @@ class DarnellTyre : public WheelHub {
   void follow_placement(const Vector3& old_centre, const Matrix3& old_attitude) override;
   void follow_velocity() override;
   double kinetic_energy() const override;
-  std::vector<double> fingerprint() const;
   Vector3 rigid_velocity(const Vector3& at) const {
     return velocity() + angular_velocity().cross(at - centre());
   }

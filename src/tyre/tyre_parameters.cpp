@@ -12,7 +12,7 @@ namespace furrow {
 
 namespace {
 
-constexpr std::size_t fewest_segments = 4, most_segments = 1000;
+constexpr std::size_t min_segments = 4, max_segments = 1000;
 
 void need(bool fulfilled, const std::string& where, const std::string& problem,
           const std::string& allowed, const std::string& remedy = "") {
@@ -40,10 +40,10 @@ double half_turn(double chord, double length) {
 void check(const SidewallParameters& sidewall, const std::string& where) {
   need_positive(sidewall.length, where, "length", "m");
   const std::size_t n = sidewall.segments();
-  need(n >= fewest_segments && n <= most_segments, where,
+  need(n >= min_segments && n <= max_segments, where,
        fmt::format("has {} values of bending", n - 1),
-       fmt::format("{} to {}, one for each hinge between segments", fewest_segments - 1,
-                   most_segments - 1));
+       fmt::format("{} to {}, one for each hinge between segments", min_segments - 1,
+                   max_segments - 1));
   need(
       sidewall.curvature.size() == n - 1, where,
       fmt::format("has {} values of curvature for {} of bending", sidewall.curvature.size(), n - 1),

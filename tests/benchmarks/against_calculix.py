@@ -4,7 +4,7 @@
 
 CalculiX (Debian package calculix-ccx): *DYNAMIC, EXPLICIT, 24 x 24 x 24 C3D8R with Mises plasticity, a block that its lid
 compresses; element updates a second from the difference of a long and a short run, so that reading and writing do not count.
-Furrow: build/tests/benchmarks/ground_update, whose particle carries what a one-point brick carries; the cap law.
+Furrow: build/tests/benchmarks/ground_update, whose particle carries what a one-point brick carries; the cap material.
 
     tests/benchmarks/against_calculix.py build/tests/benchmarks/ground_update [pairs]
 """

@@ -31,16 +31,16 @@ int run(int argc, char** argv) {
       argc > 3 ? argv[3] : FURROW_SOURCE_DIR "/inputs/materials/fresh_snow.yaml";
   const double depth = 0.20, half_length = 0.8, half_width = 0.4;
 
-  GroundParameters ground;
+  TerrainParameters ground;
   ground.layers = {{std::shared_ptr<const Material>(load_material(material)), depth}};
   ground.surface = depth;
   ground.x = {-half_length, half_length, cell, -half_length, half_length, 1.0};
   ground.y = {0.0, half_width, cell, 0.0, half_width, 1.0};
   ground.z = {0.0, depth + 6 * cell, cell, 0.0, depth + 6 * cell, 1.0};
   ground.window = true;
-  if (argc > 5) ground.cycle = std::atoi(argv[5]);
+  if (argc > 5) ground.remap_interval = std::atoi(argv[5]);
   if (argc > 4) ground.cfl = std::atof(argv[4]);
-  MpmGround soil(ground, Communicator());
+  ContinuumTerrain soil(ground, Communicator());
 
   RigidWheelParameters parameters;
   parameters.geometry.diameter = 0.74;
@@ -56,11 +56,11 @@ int run(int argc, char** argv) {
                                         "accelerate_time", "0.15", "ground_level",
                                         fmt::format("{}", depth), "damping", "3000"}),
                wheel);
-  GroundContact contact(wheel, soil, ContactParameters{}, true, "contact");
-  World world;
-  world.add(wheel, "wheel");
-  world.add(soil, "ground");
-  world.add(contact, "contact");
+  TerrainContact contact(wheel, soil, ContactParameters{}, true, "contact");
+  CoupledSystem system;
+  system.add(wheel, "wheel");
+  system.add(soil, "ground");
+  system.add(contact, "contact");
 
   const double interval = 2e-4;
   double time = 0.0, updates = 0.0, start = seconds(), last = start;
@@ -70,7 +70,7 @@ int run(int argc, char** argv) {
   for (long step = 0; time < end; ++step) {
     rig.apply(time, interval);
     soil.follow(wheel.centre().x());
-    const int n = world.advance(interval);
+    const int n = system.advance(interval);
     time += interval;
     sub_steps += n;
     updates += n * soil.particle_count();
@@ -82,7 +82,7 @@ int run(int argc, char** argv) {
     }
     if (seconds() - last > 5.0) {
       last = seconds();
-      const Balance b = soil.balance();
+      const EnergyBudget b = soil.energy_budget();
       fmt::print(
           "t {:.3f} x {:.3f} sinkage {:.4f} Fz {:.0f} Fx {:.0f} penetration {:.1e} contacts {} | E "
           "contact {:.1f} kin "
@@ -99,7 +99,7 @@ int run(int argc, char** argv) {
   fmt::print(
       "particles {:.0f}, sub-steps {}, step {:.2e} s, processor {:.1f} s, {:.2f} M updates/s\n",
       soil.particle_count(), sub_steps, time / sub_steps, wall, updates / wall * 1e-6);
-  const Balance b = soil.balance();
+  const EnergyBudget b = soil.energy_budget();
   fmt::print(
       "sinkage {:.4f} m, resistance coefficient {:.4f}, load {:.0f} N, numerical loss {:.1f} of "
       "{:.1f} J\n",

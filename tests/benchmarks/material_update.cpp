@@ -23,12 +23,12 @@ class Points {
  public:
   /// @param run  points in a row that are nearly alike, as sorted points of a ground are; 1: every
   /// point on its own
-  Points(const Material& law, double strain, double loosening, std::size_t run, unsigned seed)
+  Points(const Material& material, double strain, double loosening, std::size_t run, unsigned seed)
       : run_(run) {
     std::mt19937 engine(seed);
     std::normal_distribution<double> normal;
     gradient_.assign(9, std::vector<double>(point_count));
-    VectorX state = law.initial_state();
+    VectorX state = material.initial_state();
     state_.assign(static_cast<std::size_t>(state.size()), std::vector<double>(point_count));
     for (std::size_t f = 0; f < state_.size(); ++f)
       state_[f].assign(point_count, state[static_cast<Eigen::Index>(f)]);
@@ -37,7 +37,7 @@ class Points {
     // states over the surfaces.
     for (int step = 0; step < 6; ++step) {
       draw(engine, normal, step < 4 ? 10 * strain : strain, step < 4 ? -0.5 : loosening);
-      law.update_block(block_);
+      material.update_block(block_);
     }
     draw(engine, normal, strain, loosening);
     start_ = state_;
@@ -125,15 +125,15 @@ std::unique_ptr<Material> foam() {
                  {"e0", {"3.5"}}}}});
 }
 
-void measure(benchmark::State& timer, const Material& law, double strain, double loosening,
+void measure(benchmark::State& timer, const Material& material, double strain, double loosening,
              std::size_t run = 1) {
-  Points points(law, strain, loosening, run, 1);
+  Points points(material, strain, loosening, run, 1);
   UpdateReport report;
   for (auto _ : timer) {
     timer.PauseTiming();
     points.restore();
     timer.ResumeTiming();
-    report = law.update_block(points.block());
+    report = material.update_block(points.block());
   }
   timer.SetLabel(kernels().instruction_set);
   timer.SetItemsProcessed(static_cast<std::int64_t>(timer.iterations() * point_count));

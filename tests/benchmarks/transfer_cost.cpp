@@ -19,10 +19,10 @@ namespace {
 class Scene {
  public:
   Scene()
-      : law_(make_material(
+      : material_(make_material(
             "elastic", std::vector<Entry>{{"density", {"200"}}, {"E", {"1e6"}}, {"nu", {"0.3"}}})),
         grid_(axis(50), axis(16), axis(8)),
-        particles_(*law_) {
+        particles_(*material_) {
     std::mt19937 engine(1);
     std::uniform_real_distribution<double> shake(-0.2, 0.2);
     for (int i = 0; i < 50; ++i)
@@ -34,9 +34,9 @@ class Scene {
             particles_.data(column::y)[p] = j + 0.25 + 0.5 * ((n >> 1) & 1) + shake(engine);
             particles_.data(column::z)[p] = k + 0.25 + 0.5 * ((n >> 2) & 1) + shake(engine);
             for (std::size_t a = 0; a < 3; ++a)
-              particles_.data(column::reference_x + a)[p] = particles_.data(column::x + a)[p];
+              particles_.data(column::shape_x + a)[p] = particles_.data(column::x + a)[p];
             particles_.data(column::volume)[p] = 0.125;
-            particles_.set_state(p, law_->initial_state());
+            particles_.set_state(p, material_->initial_state());
           }
     for (double*& g : gradient_) {
       store_.emplace_back(chunk);
@@ -71,7 +71,7 @@ class Scene {
   ParticleView view() { return particles_.view(0, particles_.size()); }
 
   const TransferKernels& kernels_ = transfer_kernels();
-  std::unique_ptr<Material> law_;
+  std::unique_ptr<Material> material_;
   Grid grid_;
   Particles particles_;
   std::vector<std::vector<double>> store_;

@@ -59,7 +59,7 @@ TEST(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
                      scene.lammps().modify->find_fix_id(const_cast<char*>("soil")))
                      ->ground();
   const double before = upward_momentum(scene);
-  const Vector3 ground_before = ground.balance().momentum,
+  const Vector3 ground_before = ground.energy_budget().momentum,
                 base_before = ground.face_impulse(z_lower);
   double impulse = 0.0;
   scene.at_end_of_step([&] { impulse += ground.surface().total_force().z() * step; });
@@ -74,12 +74,12 @@ TEST(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
   EXPECT_NEAR(-impulse, weight * time + grains_gain, 1e-3 * weight * time);
   // What the base gave carries the ground, its grains and their change of momentum.
   double mass = 0.0;
-  for (const GroundPhase& phase : ground.lagging_phases())
+  for (const ParticleGroup& phase : ground.unsynchronised_groups())
     for (std::size_t p = 0; p < phase.particles.size(); ++p)
-      mass += phase.law->density() * phase.particles.data(column::volume)[p];
+      mass += phase.material->density() * phase.particles.data(column::volume)[p];
   mass = scene.sum(mass);
   const double base = ground.face_impulse(z_lower).z() - base_before.z(),
-               ground_gain = ground.balance().momentum.z() - ground_before.z();
+               ground_gain = ground.energy_budget().momentum.z() - ground_before.z();
   // forces are one step older in the ground
   EXPECT_NEAR(base, mass * gravity * time + ground_gain - impulse, 2e-3 * base);
   const coupling::MomentumAudit& audit = scene.world().audit(ground);

@@ -35,7 +35,7 @@ void make_tyre(Scene& scene, bool half) {
       "ground_level 0.15 damping 2000");
 }
 
-void make_ground(Scene& scene, bool half) {
+void make_terrain(Scene& scene, bool half) {
   scene.command(
       fmt::format("fix soil all terrain/continuum material {}/inputs/materials/fresh_snow.yaml "
                   "length 0.8 width 0.48 "
@@ -51,14 +51,14 @@ struct Outcome {
 Outcome roll(bool half) {
   Scene scene;
   make_tyre(scene, half);
-  make_ground(scene, half);
+  make_terrain(scene, half);
   scene.command("fix touch all contact/bodies body tyre ground soil friction 0.3");
   scene.command("run 4500");  // 0.1 m
   const auto find = [&](const char* id) { return scene.lammps().modify->find_fix_id(id); };
   auto* tyre_fix = dynamic_cast<coupling::FixTyreDarnell*>(find("tyre"));
   DarnellTyre& tyre = tyre_fix->tyre();
-  const Balance ground =
-      dynamic_cast<coupling::FixTerrainContinuum*>(find("soil"))->ground().balance();
+  const EnergyBudget ground =
+      dynamic_cast<coupling::FixTerrainContinuum*>(find("soil"))->ground().energy_budget();
   LAMMPS_NS::Fix* touch = find("touch");
   const double both = half ? 2.0 : 1.0;
   const WheelHub::Wrench wrench = tyre.ground_wrench();
@@ -72,7 +72,7 @@ Outcome roll(bool half) {
           wrench.force.z(),
           touch->compute_vector(2),
           touch->compute_vector(7),
-          tyre.balance().contact_work,
+          tyre.energy_budget().contact_work,
           both * ground.contact_work,
           both * ground.dissipated_energy};
 }

@@ -79,8 +79,8 @@ TEST_P(HardCase, LosesNothing) {
 
   const RigidWheel& wheel =
       dynamic_cast<coupling::FixWheelRigid*>(scene.lammps().modify->find_fix_id("wheel"))->wheel();
-  const Balance balance = wheel.balance();
-  const double scale = std::max(std::abs(balance.contact_work), std::abs(balance.load_work)),
+  const EnergyBudget budget = wheel.energy_budget();
+  const double scale = std::max(std::abs(budget.contact_work), std::abs(budget.load_work)),
                energy = scene.grain_kinetic_energy();
   const coupling::MomentumAudit audit = scene.world().audit(wheel);
   const double left = scene.sum(scene.lammps().atom->nlocal);
@@ -88,16 +88,16 @@ TEST_P(HardCase, LosesNothing) {
     fmt::print(
         "  {}: {} grains, sinkage {:.1f} mm, energy residual {:.1e}, momentum defect {:.1e}, "
         "kinetic energy of grains {:.1e} J\n",
-        c.name, left, 1e3 * (level + 0.05 - wheel.centre()[2]),
-        std::abs(balance.residual()) / scale, audit.force, energy);
+        c.name, left, 1e3 * (level + 0.05 - wheel.centre()[2]), std::abs(budget.residual()) / scale,
+        audit.force, energy);
   EXPECT_EQ(left, grains);
   EXPECT_TRUE(std::isfinite(energy));
   EXPECT_NEAR(scene.grain_mass(), mass, 1e-12 * mass);
-  EXPECT_LT(std::abs(balance.residual()) / scale, 1e-9);
+  EXPECT_LT(std::abs(budget.residual()) / scale, 1e-9);
   EXPECT_LT(audit.force, 1e-10);
   // The wheel and gravity are the only sources: grains cannot hold more than what the wheel gave
   // and what they could fall.
-  EXPECT_LT(energy, std::abs(balance.contact_work) + mass * 9.81 * level);
+  EXPECT_LT(energy, std::abs(budget.contact_work) + mass * 9.81 * level);
 }
 
 INSTANTIATE_TEST_SUITE_P(

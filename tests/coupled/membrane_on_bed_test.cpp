@@ -109,13 +109,13 @@ TEST(MembraneOnBed, BouncingKeepsTheEnergyBalanceOver1e5Steps) {
       static_cast<Membrane&>(scene.world().find_body(scene.lammps(), "test", "cover").body());
   double worst = 0.0, throughput = 0.0, before = 0.0;
   scene.at_end_of_step([&] {
-    const Balance balance = membrane.balance();
-    throughput += std::abs(balance.contact_work - before);
-    before = balance.contact_work;
-    worst = std::max(worst, std::abs(balance.residual()));
+    const EnergyBudget budget = membrane.energy_budget();
+    throughput += std::abs(budget.contact_work - before);
+    before = budget.contact_work;
+    worst = std::max(worst, std::abs(budget.residual()));
   });
   scene.command("run 100000");
-  EXPECT_GT(throughput, 10 * membrane.balance().stored_energy);  // many bounces, not one
+  EXPECT_GT(throughput, 10 * membrane.energy_budget().stored_energy);  // many bounces, not one
   EXPECT_LT(worst, 0.01 * throughput);
   if (scene.rank() == 0)
     fmt::print("  energy passed through the contact {:.3e} J, largest imbalance {:.1e} J\n",

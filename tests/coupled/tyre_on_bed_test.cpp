@@ -70,27 +70,27 @@ TEST(TyreOnBed, KeepsMomentumAndEnergyWhileItDeformsAndRolls) {
   // Impulse theorem over part of the settling: sum of F dt = load T + change of momentum + damping
   // x change of height
   double impulse = 0.0, time = 0.0, scale = 0.0, deflection = 0.0;
-  const double energy_at_start = tyre.balance().residual();
+  const double energy_at_start = tyre.energy_budget().residual();
   double worst = 0.0;
   bool counting = false;
   scene.at_end_of_step([&] {
-    const Balance balance = tyre.balance();
-    worst = std::max(worst, std::abs(balance.residual() - energy_at_start));
-    scale = std::max({scale, std::abs(balance.load_work), std::abs(balance.contact_work),
-                      balance.kinetic_energy});
+    const EnergyBudget budget = tyre.energy_budget();
+    worst = std::max(worst, std::abs(budget.residual() - energy_at_start));
+    scale = std::max(
+        {scale, std::abs(budget.load_work), std::abs(budget.contact_work), budget.kinetic_energy});
     deflection = std::max(deflection, tyre.tread().x.row(2).minCoeff() - tyre.lowest_point());
     if (!counting) return;
     impulse += dt * tyre.surface().total_force().z();
     time += dt;
   });
   scene.command("run 4000");
-  const double momentum = tyre.balance().momentum.z(), height = tyre.centre().z();
+  const double momentum = tyre.energy_budget().momentum.z(), height = tyre.centre().z();
   counting = true;
   scene.command("run 1800");
   counting = false;
   // Velocities and forces belong to half a step apart: the sums are those of steps shifted by one.
-  const double expected =
-      load * time + tyre.balance().momentum.z() - momentum + damping * (tyre.centre().z() - height);
+  const double expected = load * time + tyre.energy_budget().momentum.z() - momentum +
+                          damping * (tyre.centre().z() - height);
   EXPECT_NEAR(impulse / expected, 1.0, 2e-3);
 
   scene.command("run 6000");  // accelerates and rolls 8 cm

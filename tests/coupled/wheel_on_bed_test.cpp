@@ -98,7 +98,7 @@ Outcome roll(Scene& scene, double slip) {
       }
       sum += wheel.surface().total_force()[2];
     }
-    if (rig.rig().phase(time) == WheelRig::Phase::cruise) {
+    if (rig.rig().stage(time) == WheelRig::Stage::cruise) {
       const double rim = wheel.rate(RigidWheel::spin) * wheel.parameters().geometry.radius(),
                    v = wheel.velocity()[0];
       run.worst_slip_error = std::max(
@@ -111,9 +111,9 @@ Outcome roll(Scene& scene, double slip) {
   run.expected_force = load + (wheel_mass * (last_velocity - first_velocity) +
                                damping * (last_height - first_height)) /
                                   duration;
-  const Balance balance = wheel.balance();
-  run.energy_residual = std::abs(balance.residual());
-  run.energy_scale = std::max(std::abs(balance.contact_work), std::abs(balance.load_work));
+  const EnergyBudget budget = wheel.energy_budget();
+  run.energy_residual = std::abs(budget.residual());
+  run.energy_scale = std::max(std::abs(budget.contact_work), std::abs(budget.load_work));
   run.force_defect = scene.world().audit(wheel).force;
   run.moment_defect = scene.world().audit(wheel).moment;
   return run;

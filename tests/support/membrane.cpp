@@ -111,38 +111,26 @@ void Membrane::advance(double dt) {
   surface_.check_finite("membrane");
 }
 
-Balance Membrane::balance() const {
-  Balance balance;
+EnergyBudget Membrane::energy_budget() const {
+  EnergyBudget budget;
   for (Eigen::Index n = 0; n < surface_.x.cols(); ++n) {
-    balance.momentum += mass_[n] * surface_.v.col(n);
-    balance.kinetic_energy += 0.5 * mass_[n] * surface_.v.col(n).squaredNorm();
+    budget.momentum += mass_[n] * surface_.v.col(n);
+    budget.kinetic_energy += 0.5 * mass_[n] * surface_.v.col(n).squaredNorm();
   }
-  balance.stored_energy = elastic_energy_;
-  balance.dissipated_energy = damped_;
-  balance.contact_work = contact_work_;
-  balance.load_work = pressure_work_;
-  return balance;
+  budget.stored_energy = elastic_energy_;
+  budget.dissipated_energy = damped_;
+  budget.contact_work = contact_work_;
+  budget.load_work = pressure_work_;
+  return budget;
 }
 
-std::vector<double> Membrane::state() const {
-  std::vector<double> state(surface_.x.data(), surface_.x.data() + surface_.x.size());
-  state.insert(state.end(), surface_.v.data(), surface_.v.data() + surface_.v.size());
-  state.insert(state.end(), {pressure_, contact_work_, pressure_work_, damped_});
-  return state;
-}
-
-void Membrane::restore(const std::vector<double>& state) {
-  const auto size = static_cast<std::size_t>(surface_.x.size());
-  if (state.size() != 2 * size + 4)
-    throw Error(fmt::format("membrane: the saved state has {} numbers, this membrane needs {}",
-                            state.size(), 2 * size + 4));
-  std::copy_n(state.begin(), size, surface_.x.data());
-  std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(size), size, surface_.v.data());
-  const double* rest = state.data() + 2 * size;
-  pressure_ = rest[0];
-  contact_work_ = rest[1];
-  pressure_work_ = rest[2];
-  damped_ = rest[3];
+void Membrane::checkpoint(Checkpoint& state) {
+  state.values("position", surface_.x);
+  state.values("velocity", surface_.v);
+  state.value("pressure", pressure_);
+  state.value("contact_work", contact_work_);
+  state.value("pressure_work", pressure_work_);
+  state.value("damped", damped_);
 }
 
 }  // namespace furrow

@@ -34,9 +34,8 @@ class Membrane : public Body {
   double stable_time_step() const override;
   void advance(double dt) override;
   Surface& surface() override { return surface_; }
-  Balance balance() const override;
-  std::vector<double> state() const override;
-  void restore(const std::vector<double>& state) override;
+  EnergyBudget energy_budget() const override;
+  void checkpoint(Checkpoint& state) override;
 
  private:
   struct Element {

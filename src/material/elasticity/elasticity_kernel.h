@@ -35,7 +35,7 @@ struct ElasticStep {
   FURROW_INLINE Lanes pressure(const Lanes& x) const {
     if (!parameters.porous) return p_n + Lanes(parameters.bulk) * x;
     const Lanes exponent = Lanes(parameters.stiffness) * ratio * (Lanes(1.0) - exponential(-x));
-    return (p_n + parameters.limit) * exponential(lower(exponent, 300.0)) - parameters.limit;
+    return (p_n + parameters.limit) * exponential(min(exponent, 300.0)) - parameters.limit;
   }
   /// dp/dx at p = pressure(x)
   FURROW_INLINE Lanes bulk(const Lanes& x, const Lanes& p) const {

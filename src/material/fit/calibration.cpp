@@ -19,25 +19,25 @@ namespace {
 
 /// A direction with a singular value below this part of the largest cannot be told from the noise
 /// of the differences.
-constexpr double least_singular_ratio = 1e-5;
+constexpr double min_singular_ratio = 1e-5;
 /// A parameter known no better than this (of ln, or of its scale) is not determined: a factor of e
 /// either way.
-constexpr double most_deviation = 1.0;
+constexpr double max_deviation = 1.0;
 
 /// Residuals of all curves as a function of the parameters.
 class Residuals {
  public:
   explicit Residuals(const FitProblem& problem) : problem_(problem), sections_(problem.sections) {
-    const Law& law = find_law(problem.law);
-    const MaterialOptions options = read_sections(law, problem.sections);
+    const MaterialModel& model = find_material_model(problem.material);
+    const MaterialOptions options = read_sections(model, problem.sections);
     for (std::size_t i = 0; i < problem.parameters.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j)
         if (problem.parameters[j].name == problem.parameters[i].name)
           throw InputError(fmt::format("parameter '{}'", problem.parameters[i].name),
                            "is given twice", "each parameter once");
-      variables_.emplace_back(law, options, sections_, problem.parameters[i]);
+      variables_.emplace_back(model, options, sections_, problem.parameters[i]);
     }
-    const auto material = make_material(problem.law, problem.sections);
+    const auto material = make_material(problem.material, problem.sections);
     for (const FitCurve& curve : problem.curves) {
       find_point_channel(*material, curve.channel);
       if (curve.measured.size() != curve.path.segments.size())
@@ -81,7 +81,7 @@ class Residuals {
   /// followed
   std::vector<std::vector<double>> curves_at(const VectorX& z) const {
     ++evaluations_;
-    const auto material = make_material(problem_.law, sections_at(z));
+    const auto material = make_material(problem_.material, sections_at(z));
     std::vector<std::vector<double>> curves;
     for (const FitCurve& curve : problem_.curves) {
       const PointHistory history = drive_point(*material, curve.path);
@@ -197,7 +197,7 @@ void judge(const FitProblem& problem, const Residuals& residuals, const VectorX&
   std::vector<std::string> open(static_cast<std::size_t>(n));  // why a parameter is not determined
   for (Eigen::Index k = 0; k < n; ++k) {
     const VectorX v = svd.matrixV().col(k);
-    if (largest > 0.0 && result.singular_values[k] > least_singular_ratio * largest) {
+    if (largest > 0.0 && result.singular_values[k] > min_singular_ratio * largest) {
       covariance += v * v.transpose() * std::pow(result.scatter / result.singular_values[k], 2);
     } else {
       std::vector<std::string> partners;
@@ -232,7 +232,7 @@ void judge(const FitProblem& problem, const Residuals& residuals, const VectorX&
     if (!open[std::size_t(i)].empty()) {
       p.determined = false;
       p.remark = open[std::size_t(i)];
-    } else if (p.scaled_deviation > most_deviation) {
+    } else if (p.scaled_deviation > max_deviation) {
       p.determined = false;
       p.remark = p.logarithmic ? "known to no better than a factor of e"
                                : "known no better than its range or size";

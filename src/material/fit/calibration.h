@@ -44,7 +44,7 @@ struct FitCurve {
 };
 
 struct FitProblem {
-  std::string law;
+  std::string material;
   MaterialSections sections;
   std::vector<FitParameter> parameters;
   std::vector<FitCurve> curves;

@@ -22,8 +22,8 @@ class FitVariable {
   /// finds it
   /// @throws InputError for an unknown key, a list without place, bounds or a start outside the
   /// key's range
-  FitVariable(const Law& law, const MaterialOptions& options, MaterialSections& sections,
-              const FitParameter& parameter);
+  FitVariable(const MaterialModel& material, const MaterialOptions& options,
+              MaterialSections& sections, const FitParameter& parameter);
 
   double start_t() const;
   double z_of_t(double t) const;

@@ -81,7 +81,7 @@ class Stepper {
   void turn() { last_change_.setZero(); }
 
  private:
-  static constexpr int most_iterations = 40, most_halvings = 10;
+  static constexpr int max_iterations = 40, max_halvings = 10;
 
   struct Trial {
     Vector6 variable = Vector6::Zero();
@@ -115,7 +115,7 @@ class Stepper {
       if (cause.empty()) return cause;
       if (last_change_.isZero(0.0)) break;
     }
-    if (depth == most_halvings) return cause;
+    if (depth == max_halvings) return cause;
     ++cost_.cuts;
     const Vector6 middle = 0.5 * (from + to);
     const std::string first = advance_part(control, from, middle, depth + 1);
@@ -154,9 +154,9 @@ class Stepper {
     VectorX r = residual_of(trial);
     int iteration = 0;
     while (n > 0 && r.lpNorm<Eigen::Infinity>() > path_.tolerance * size_of(trial) + rounding) {
-      if (++iteration > most_iterations)
+      if (++iteration > max_iterations)
         return describe(unknown, target, trial,
-                        fmt::format("no convergence in {} Newton iterations", most_iterations));
+                        fmt::format("no convergence in {} Newton iterations", max_iterations));
       Eigen::MatrixXd jacobian(n, n);
       for (Eigen::Index j = 0; j < n; ++j) {
         // the stresses are known to about 1e-16 of a modulus: the derivative to 1e-9 of it
@@ -202,7 +202,7 @@ class Stepper {
         return describe(unknown, target, trial, "no step along Newton's direction comes nearer");
     }
     cost_.newton_iterations += iteration;
-    cost_.most_newton_iterations = std::max(cost_.most_newton_iterations, iteration);
+    cost_.max_newton_iterations = std::max(cost_.max_newton_iterations, iteration);
     if (n > 0)
       cost_.largest_residual =
           std::max(cost_.largest_residual, r.lpNorm<Eigen::Infinity>() / size_of(trial));

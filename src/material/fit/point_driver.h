@@ -32,10 +32,10 @@ struct PointCost {
   long steps = 0;  ///< of the path
   long cuts = 0;   ///< halvings of a step
   long newton_iterations = 0;
-  int most_newton_iterations = 0;  ///< of one step or its part
-  double largest_residual = 0.0;   ///< of accepted steps: controlled stress minus target, relative
-                                   ///< to the step's largest stress
-  UpdateReport updates;            ///< accepted updates by branch, and limits that were met
+  int max_newton_iterations = 0;  ///< of one step or its part
+  double largest_residual = 0.0;  ///< of accepted steps: controlled stress minus target, relative
+                                  ///< to the step's largest stress
+  UpdateReport updates;           ///< accepted updates by branch, and limits that were met
 };
 
 struct PointHistory {

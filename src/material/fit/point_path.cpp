@@ -131,12 +131,12 @@ PathType simple_shear() {
   schema.numbers("shear", 0, "", Range::any(),
                  "targets of the shear gamma = dx/dz, one after the other");
   schema
-      .word("consolidation", {"confined", "isotropic"},
-            "of the first piece: no lateral strain, or all normal stresses equal")
+      .choice("consolidation", {"confined", "isotropic"},
+              "of the first piece: no lateral strain, or all normal stresses equal")
       .by_default("confined");
   schema
-      .word("volume", {"free", "fixed"},
-            "while shearing: constant normal stress, or constant height")
+      .choice("volume", {"free", "fixed"},
+              "while shearing: constant normal stress, or constant height")
       .by_default("free");
   add_common_keys(schema);
   return {"simple_shear", "compression, then shear of level planes without lateral strain", schema,
@@ -144,12 +144,12 @@ PathType simple_shear() {
             PointPath path = path_of(o, "simple_shear", Motion::shear);
             PathSegment& first = next_segment(path, o);
             set(first, zz, Control::stress, -o.number("normal_stress"));
-            if (o.word("consolidation") == "isotropic")
+            if (o.text("consolidation") == "isotropic")
               set_normal(first, Control::stress, -o.number("normal_stress"));
             for (const double gamma : o.numbers("shear")) {
               PathSegment& segment = next_segment(path, o);
               for (const int lateral : {xx, yy}) set(segment, lateral, Control::strain, 0.0);
-              if (o.word("volume") == "fixed") set(segment, zz, Control::strain, 0.0);
+              if (o.text("volume") == "fixed") set(segment, zz, Control::strain, 0.0);
               set(segment, xz, Control::strain, gamma);
             }
             return path;
@@ -164,8 +164,8 @@ PathType cyclic() {
   schema.integer("cycles", Range::closed(1, 100000),
                  "number of cycles; the path ends at the lower stress");
   schema
-      .word("lateral", {"fixed", "free"},
-            "no lateral strain, or lateral stress kept at `confinement`")
+      .choice("lateral", {"fixed", "free"},
+              "no lateral strain, or lateral stress kept at `confinement`")
       .by_default("fixed");
   schema
       .number("confinement", "Pa", Range::non_negative(),
@@ -180,7 +180,7 @@ PathType cyclic() {
                   fmt::format("is {}, not above lower = {}", o.number("upper"), o.number("lower")),
                   "upper > lower");
             PointPath path = path_of(o, "cyclic");
-            if (o.word("lateral") == "free") {
+            if (o.text("lateral") == "free") {
               set_normal(next_segment(path, o), Control::stress,
                          o.given("confinement") ? -o.number("confinement") : 0.0);
             } else if (o.given("confinement")) {
@@ -199,8 +199,8 @@ PathType tension() {
   schema.number("strain", "", Range::open(0.0, 20.0),
                 "axial logarithmic strain at the end; hydrostatic: of each axis");
   schema
-      .word("lateral", {"free", "fixed", "hydrostatic"},
-            "no lateral stress, no lateral strain, or equal stretch of all axes")
+      .choice("lateral", {"free", "fixed", "hydrostatic"},
+              "no lateral stress, no lateral strain, or equal stretch of all axes")
       .by_default("free");
   add_common_keys(schema);
   return {"tension", "pulling along one axis or all", schema, [](const Options& o) {
@@ -208,8 +208,8 @@ PathType tension() {
             PathSegment& segment = next_segment(path, o);
             set(segment, zz, Control::strain, o.number("strain"));
             for (const int lateral : {xx, yy}) {
-              if (o.word("lateral") == "free") set(segment, lateral, Control::stress, 0.0);
-              if (o.word("lateral") == "hydrostatic")
+              if (o.text("lateral") == "free") set(segment, lateral, Control::stress, 0.0);
+              if (o.text("lateral") == "hydrostatic")
                 set(segment, lateral, Control::strain, o.number("strain"));
             }
             return path;
@@ -237,9 +237,9 @@ const PathType& find_path_type(const std::string& name) {
 Schema table_path_schema() {
   Schema schema = path_schema("table");
   schema
-      .word("motion", {"stretch", "shear"},
-            "strains are components of ln U without rotation, or stretches and shears of level "
-            "planes")
+      .choice("motion", {"stretch", "shear"},
+              "strains are components of ln U without rotation, or stretches and shears of level "
+              "planes")
       .by_default("stretch");
   add_common_keys(schema);
   return schema;
@@ -263,7 +263,7 @@ Schema table_row_schema() {
 
 PointPath table_path(const Options& options, const std::vector<Options>& rows) {
   PointPath path = path_of(options, "table",
-                           options.word("motion") == "stretch" ? Motion::stretch : Motion::shear);
+                           options.text("motion") == "stretch" ? Motion::stretch : Motion::shear);
   path.strain_from_switch = false;
   for (const Options& row : rows) {
     PathSegment& segment = next_segment(path, options);

@@ -15,11 +15,11 @@ SectionSchema hardening_section() {
   table.numbers("p", 0, "Pa", Range::positive(), "hydrostatic yield strengths p_b, increasing");
   table.numbers("eps_vol_pl", 0, "", Range::any(),
                 "volumetric plastic strains of the strengths, compression positive, increasing");
-  table.word("interpolation", {"linear", "log"}, "between rows: straight in p, or in ln p");
-  table.word("beyond", {"extrapolate", "stop"}, "rule for strains beyond the last row");
+  table.choice("interpolation", {"linear", "log"}, "between rows: straight in p, or in ln p");
+  table.choice("beyond", {"extrapolate", "stop"}, "rule for strains beyond the last row");
   table
-      .word("below", {"extrapolate", "stop"},
-            "rule for strains below the first row: decay to zero strength, or stop")
+      .choice("below", {"extrapolate", "stop"},
+              "rule for strains below the first row: decay to zero strength, or stop")
       .by_default("extrapolate");
   Schema exponential("hardening exponential");
   exponential.number("pc0", "Pa", Range::positive(),
@@ -48,7 +48,7 @@ HardeningParameters make_table(const Options& o) {
     throw InputError(o.where("p"), fmt::format("has {} row(s)", rows),
                      fmt::format("2 to {} rows", most));
   HardeningParameters h;
-  const bool log = o.word("interpolation") == "log";
+  const bool log = o.text("interpolation") == "log";
   h.kind = log ? HardeningParameters::Kind::log_table : HardeningParameters::Kind::linear_table;
   h.segments = static_cast<int>(rows) - 1;
   for (std::size_t k = 0; k + 1 < rows; ++k) {
@@ -66,8 +66,8 @@ HardeningParameters make_table(const Options& o) {
   h.last = eps.back();
   h.first_value = p.front();
   h.decay = log ? h.slope[0] : h.slope[0] / p.front();
-  h.stop_beyond = o.word("beyond") == "stop";
-  h.stop_below = o.word("below") == "stop";
+  h.stop_beyond = o.text("beyond") == "stop";
+  h.stop_below = o.text("below") == "stop";
   return h;
 }
 

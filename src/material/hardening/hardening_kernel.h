@@ -21,12 +21,12 @@ class Hardening {
 
   FURROW_INLINE Strength at(const Lanes& eps) {
     Strength result = h_.kind == HardeningParameters::Kind::exponential
-                          ? by_formula(upper(eps, h_.first))
-                          : by_table(upper(eps, h_.first));
+                          ? by_formula(max(eps, h_.first))
+                          : by_table(max(eps, h_.first));
     const Mask below = eps < Lanes(h_.first);
     if (any(below)) {  // exp(-80) is a strength that no arithmetic sees next to the stiffness
       const Lanes exponent = Lanes(h_.decay) * (eps - Lanes(h_.first));
-      const Lanes value = Lanes(h_.first_value) * exponential(upper(exponent, -80.0));
+      const Lanes value = Lanes(h_.first_value) * exponential(max(exponent, -80.0));
       result.value = select(below, value, result.value);
       result.slope = select(below, select(exponent > Lanes(-80.0), value * Lanes(h_.decay), 0.0),
                             result.slope);
@@ -61,7 +61,7 @@ class Hardening {
     for (int k = 1; k < h_.segments; ++k) {
       const Lanes start = h_.start[k];
       const Mask in = eps >= start;
-      to_ = select(in, to_, lower(to_, start));
+      to_ = select(in, to_, min(to_, start));
       start_ = select(in, start, start_);
       base_ = select(in, h_.base[k], base_);
       slope_ = select(in, h_.slope[k], slope_);

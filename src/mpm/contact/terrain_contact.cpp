@@ -15,7 +15,7 @@ namespace {
 
 // a search lasts until surface and ground have moved so many cells towards each other
 constexpr double skin_cells = 0.5;
-constexpr double most_penetration = 0.5;  // of the shortest cell
+constexpr double max_penetration = 0.5;  // of the shortest cell
 // of the penetration that an impulse takes away in one step (J. Baumgarte, 1972)
 constexpr double correction = 0.2;
 /// What a particle remembers of a contact: tangential spring [m], slip [m], stiffness [N/m] as of
@@ -53,13 +53,13 @@ std::vector<int> mirror_nodes(const Surface& surface, double plane, const std::s
 
 }  // namespace
 
-Schema GroundContact::schema(const std::string& subject) {
+Schema TerrainContact::schema(const std::string& subject) {
   Schema schema(subject);
   schema
-      .word("enforcement", {"penalty", "impulse"},
-            "springs, or the impulse that stops the approach")
+      .choice("enforcement", {"penalty", "impulse"},
+              "springs, or the impulse that stops the approach")
       .by_default("penalty");
-  schema.word("surface", {"frictional", "rough", "smooth"}, "rough: no slip; smooth: no friction")
+  schema.choice("surface", {"frictional", "rough", "smooth"}, "rough: no slip; smooth: no friction")
       .by_default("frictional");
   schema.number("friction", "", Range::non_negative(), "coefficient mu of a frictional surface")
       .by_default(0.3);
@@ -76,12 +76,12 @@ Schema GroundContact::schema(const std::string& subject) {
   return schema;
 }
 
-ContactParameters GroundContact::parameters_from(const Options& options) {
+ContactParameters TerrainContact::parameters_from(const Options& options) {
   ContactParameters p;
-  p.enforcement = options.word("enforcement") == "penalty"
+  p.enforcement = options.text("enforcement") == "penalty"
                       ? ContactParameters::Enforcement::penalty
                       : ContactParameters::Enforcement::impulse;
-  const std::string& surface = options.word("surface");
+  const std::string& surface = options.text("surface");
   if (surface != "frictional" && options.given("friction"))
     throw InputError(options.where("friction"), fmt::format("is given with a {} surface", surface),
                      "friction with surface frictional only");
@@ -94,8 +94,9 @@ ContactParameters GroundContact::parameters_from(const Options& options) {
   return p;
 }
 
-GroundContact::GroundContact(Body& body, MpmGround& ground, const ContactParameters& parameters,
-                             bool half_model, const std::string& where)
+TerrainContact::TerrainContact(Body& body, ContinuumTerrain& ground,
+                               const ContactParameters& parameters, bool half_model,
+                               const std::string& where)
     : body_(body),
       ground_(ground),
       parameters_(parameters),
@@ -104,9 +105,9 @@ GroundContact::GroundContact(Body& body, MpmGround& ground, const ContactParamet
   // A particle of mass rho d^3 on its spring s M d, d the spacing: omega dt = sqrt(s) c dt/d, and a
   // leapfrog needs less than 2.
   const auto& per_cell = ground.parameters().particles_per_cell;
-  const double phase = std::sqrt(parameters.stiffness) * ground.parameters().cfl *
+  const double group = std::sqrt(parameters.stiffness) * ground.parameters().cfl *
                        *std::max_element(per_cell.begin(), per_cell.end());
-  if (parameters.enforcement == ContactParameters::Enforcement::penalty && phase >= 2.0)
+  if (parameters.enforcement == ContactParameters::Enforcement::penalty && group >= 2.0)
     throw InputError(
         where,
         fmt::format(
@@ -115,39 +116,33 @@ GroundContact::GroundContact(Body& body, MpmGround& ground, const ContactParamet
             *std::max_element(per_cell.begin(), per_cell.end())),
         "sqrt(stiffness) x cfl x particles below 2", "lower the stiffness, or the ground's cfl");
   if (half_model) mirror_ = mirror_nodes(body.surface(), ground.grid().axis(1).lower(), where);
-  for (GroundPhase& layer : ground_.lagging_phases())
+  for (ParticleGroup& layer : ground_.unsynchronised_groups())
     memory_.push_back(layer.particles.add_column("contact " + where, memory_size));
-}
-
-std::vector<double> GroundContact::state() const {
-  const Matrix3X& x = body_.surface().x;
-  const bool searched = searched_.cols() == x.cols(),
-             fresh = searched && generation_ == ground_.generation();
-  std::vector<double> state = {deepest_, friction_loss_, damping_loss_, drift_, fresh ? 1.0 : 0.0};
-  const Matrix3X& nodes = searched ? searched_ : x;
-  state.insert(state.end(), nodes.data(), nodes.data() + nodes.size());
-  return state;
 }
 
 /// Candidates are found again at the present places, but with the stiffnesses of the last search,
 /// and the next search comes when it would have come: a run that is restarted continues bit for
 /// bit.
-void GroundContact::restore(const std::vector<double>& state) {
-  constexpr std::size_t scalars = 5;
+void TerrainContact::checkpoint(Checkpoint& state) {
   const Matrix3X& x = body_.surface().x;
-  if (state.size() != scalars + static_cast<std::size_t>(x.size()))
-    throw Error(fmt::format("{}: the saved state belongs to a contact of another surface", where_));
-  find_candidates(false);
-  deepest_ = state[0];
-  friction_loss_ = state[1];
-  damping_loss_ = state[2];
-  drift_ = state[3];
-  generation_ = ground_.generation() - (state[4] != 0.0 ? 0 : 1);
-  searched_ = Eigen::Map<const Matrix3X>(state.data() + scalars, 3, x.cols());
+  state.match("surface_nodes", x.cols());
+  const bool searched = searched_.cols() == x.cols();
+  bool fresh = searched && generation_ == ground_.generation();
+  Matrix3X nodes = searched ? searched_ : x;
+  if (!state.saving()) find_candidates(false);
+  state.value("deepest_penetration", deepest_);
+  state.value("friction_loss", friction_loss_);
+  state.value("damping_loss", damping_loss_);
+  state.value("drift", drift_);
+  state.value("searched_since_sorting", fresh);
+  state.values("searched_nodes", nodes);
+  if (state.saving()) return;
+  generation_ = ground_.generation() - (fresh ? 0 : 1);
+  searched_ = nodes;
   started_ = true;
 }
 
-bool GroundContact::is_stale() {
+bool TerrainContact::is_stale() {
   if (!started_ || generation_ != ground_.generation() ||
       searched_.cols() != body_.surface().x.cols())
     return true;
@@ -155,7 +150,7 @@ bool GroundContact::is_stale() {
   return moved_ + drift_ > skin_;
 }
 
-void GroundContact::search() {
+void TerrainContact::search() {
   refuse_departure();
   find_candidates(true);
   searched_ = body_.surface().x;
@@ -167,37 +162,37 @@ void GroundContact::search() {
 
 /// Particles that can touch before surface and ground have moved by the skin, each with its
 /// triangles.
-void GroundContact::find_candidates(bool stiffness_anew) {
+void TerrainContact::find_candidates(bool stiffness_anew) {
   const Surface& surface = body_.surface();
   const double cell = ground_.grid().shortest_cell();
   skin_ = skin_cells * cell;
   double half = 0.0;
   Vector3 lower = Vector3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
-  for (const GroundPhase& phase : ground_.lagging_phases())
-    for (std::size_t p = 0; p < phase.particles.size(); ++p) {
-      const Vector3 x = phase.particles.position(p);
+  for (const ParticleGroup& group : ground_.unsynchronised_groups())
+    for (std::size_t p = 0; p < group.particles.size(); ++p) {
+      const Vector3 x = group.particles.position(p);
       lower = lower.cwiseMin(x);
       upper = upper.cwiseMax(x);
     }
   const auto [low, high] = surface.bounds();
-  for (const GroundPhase& phase : ground_.lagging_phases())
-    for (std::size_t p = 0; p < phase.particles.size(); ++p) {
-      const Vector3 x = phase.particles.position(p), h(phase.particles.data(column::half_x)[p],
-                                                       phase.particles.data(column::half_y)[p],
-                                                       phase.particles.data(column::half_z)[p]);
+  for (const ParticleGroup& group : ground_.unsynchronised_groups())
+    for (std::size_t p = 0; p < group.particles.size(); ++p) {
+      const Vector3 x = group.particles.position(p), h(group.particles.data(column::half_x)[p],
+                                                       group.particles.data(column::half_y)[p],
+                                                       group.particles.data(column::half_z)[p]);
       if ((x.array() > low.array() - 4.0 * h.array() - skin_).all() &&
           (x.array() < high.array() + 4.0 * h.array() + skin_).all())
         half = std::max(
             half,
-            h.norm() * std::max(1.0, phase.particles.data(column::state + field::volume_ratio)[p]));
+            h.norm() * std::max(1.0, group.particles.data(column::state + field::volume_ratio)[p]));
     }
-  lag_ = ground_.lag();
-  reach_ = half + skin_ + most_penetration * cell + lag_;
+  staleness_ = ground_.staleness();
+  reach_ = half + skin_ + max_penetration * cell + staleness_;
   candidates_.clear();
   near_.clear();
   const TriangleSearch triangles(surface, reach_, lower, upper);
-  for (std::size_t k = 0; k < ground_.lagging_phases().size(); ++k) {
-    Particles& particles = ground_.lagging_phases()[k].particles;
+  for (std::size_t k = 0; k < ground_.unsynchronised_groups().size(); ++k) {
+    Particles& particles = ground_.unsynchronised_groups()[k].particles;
     const double *x = particles.data(column::x), *y = particles.data(column::y),
                  *z = particles.data(column::z);
     for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -218,13 +213,13 @@ void GroundContact::find_candidates(bool stiffness_anew) {
       if (stiffness_anew)
         memory_of({k, p})[Memory::stiffness] =
             parameters_.stiffness *
-            ground_.lagging_phases()[k].law->moduli(particles.state(p)).wave() *
+            ground_.unsynchronised_groups()[k].material->moduli(particles.state(p)).wave() *
             std::cbrt(particles.data(column::volume)[p]);
     }
   }
 }
 
-void GroundContact::refuse_departure() const {
+void TerrainContact::refuse_departure() const {
   const auto [low, high] = body_.surface().bounds();
   const Vector3 middle = 0.5 * (low + high);
   for (int a = 0; a < 2; ++a) {
@@ -241,13 +236,13 @@ void GroundContact::refuse_departure() const {
   }
 }
 
-void GroundContact::refuse_overlap() const {
+void TerrainContact::refuse_overlap() const {
   const Surface& surface = body_.surface();
   if (!surface.is_closed()) return;
   const auto [low, high] = surface.bounds();
-  for (const GroundPhase& phase : ground_.lagging_phases())
-    for (std::size_t p = 0; p < phase.particles.size(); ++p) {
-      const Vector3 x = phase.particles.position(p);
+  for (const ParticleGroup& group : ground_.unsynchronised_groups())
+    for (std::size_t p = 0; p < group.particles.size(); ++p) {
+      const Vector3 x = group.particles.position(p);
       if ((x.array() > low.array()).all() && (x.array() < high.array()).all() &&
           encloses(surface, x))
         throw StateError(
@@ -257,19 +252,19 @@ void GroundContact::refuse_overlap() const {
     }
 }
 
-double* GroundContact::memory_of(const GroundPoint& at) {
-  return ground_.lagging_phases()[at.phase].particles.data(memory_[at.phase]) +
+double* TerrainContact::memory_of(const ParticleIndex& at) {
+  return ground_.unsynchronised_groups()[at.group].particles.data(memory_[at.group]) +
          memory_size * at.particle;
 }
 
 /// Spring and slip end with the contact.
-void GroundContact::forget(const GroundPoint& at) {
+void TerrainContact::forget(const ParticleIndex& at) {
   std::fill_n(memory_of(at), Memory::stiffness, 0.0);
 }
 
 /// A particle farther from the surface than this does not touch it [m].
-double GroundContact::touch_distance(const GroundPoint& at) const {
-  const Particles& particles = ground_.lagging_phases()[at.phase].particles;
+double TerrainContact::touch_distance(const ParticleIndex& at) const {
+  const Particles& particles = ground_.unsynchronised_groups()[at.group].particles;
   const std::size_t p = at.particle;
   const Vector3 half(particles.data(column::half_x)[p], particles.data(column::half_y)[p],
                      particles.data(column::half_z)[p]);
@@ -278,12 +273,13 @@ double GroundContact::touch_distance(const GroundPoint& at) const {
 
 /// Candidates whose nearest triangle was so far away that it cannot have come near enough since are
 /// left out; they forget the contact.
-void GroundContact::choose_active() {
+void TerrainContact::choose_active() {
   active_.clear();
   points_.clear();
   for (std::size_t n = 0; n < candidates_.size(); ++n) {
     const Candidate& candidate = candidates_[n];
-    if (near_[candidate.first].distance - moved_ - drift_ - lag_ > touch_distance(candidate.at)) {
+    if (near_[candidate.first].distance - moved_ - drift_ - staleness_ >
+        touch_distance(candidate.at)) {
       forget(candidate.at);
       continue;
     }
@@ -293,9 +289,9 @@ void GroundContact::choose_active() {
 }
 
 /// @param x where the particle is
-bool GroundContact::touch(const Candidate& candidate, const Vector3& x, Touch& touch) const {
+bool TerrainContact::touch(const Candidate& candidate, const Vector3& x, Touch& touch) const {
   const Surface& surface = body_.surface();
-  const Particles& particles = ground_.lagging_phases()[candidate.at.phase].particles;
+  const Particles& particles = ground_.unsynchronised_groups()[candidate.at.group].particles;
   const std::size_t p = candidate.at.particle;
   ClosestPoint closest{};
   closest.distance = std::numeric_limits<double>::infinity();
@@ -341,7 +337,7 @@ bool GroundContact::touch(const Candidate& candidate, const Vector3& x, Touch& t
   return touch.gap < 0.0;
 }
 
-double GroundContact::friction_limit(double normal_force, double slip) const {
+double TerrainContact::friction_limit(double normal_force, double slip) const {
   if (normal_force <= 0.0 || parameters_.friction == 0.0) return 0.0;
   const double mobilised =
       parameters_.slip_length > 0.0 ? -std::expm1(-slip / parameters_.slip_length) : 1.0;
@@ -350,8 +346,8 @@ double GroundContact::friction_limit(double normal_force, double slip) const {
 
 /// @param velocity of the ground relative to the surface; @param memory tangential spring and slip
 /// of the particle
-Vector3 GroundContact::penalty_force(const Touch& touch, const Vector3& velocity, double mass,
-                                     double stiffness, double dt, double* memory) {
+Vector3 TerrainContact::penalty_force(const Touch& touch, const Vector3& velocity, double mass,
+                                      double stiffness, double dt, double* memory) {
   const Vector3& n = touch.normal;
   const double damping = 2.0 * parameters_.damping * std::sqrt(stiffness * mass),
                approach = -velocity.dot(n);
@@ -380,8 +376,8 @@ Vector3 GroundContact::penalty_force(const Touch& touch, const Vector3& velocity
   return normal_force * n + pull;
 }
 
-Vector3 GroundContact::impulse_force(const Touch& touch, const Vector3& velocity, double mass,
-                                     double dt, double* memory) {
+Vector3 TerrainContact::impulse_force(const Touch& touch, const Vector3& velocity, double mass,
+                                      double dt, double* memory) {
   const Vector3& n = touch.normal;
   const double approach = -velocity.dot(n),
                normal_force = std::max(0.0, mass * (approach - correction * touch.gap / dt) / dt);
@@ -395,7 +391,7 @@ Vector3 GroundContact::impulse_force(const Touch& touch, const Vector3& velocity
   return normal_force * n - (stopping > 0.0 ? mass / dt * size / stopping : 0.0) * along;
 }
 
-void GroundContact::apply(double dt) {
+void TerrainContact::apply(double dt) {
   if (is_stale()) search();
   drift_ += ground_.largest_speed() * dt;
   const Surface& surface = body_.surface();
@@ -404,16 +400,16 @@ void GroundContact::apply(double dt) {
   choose_active();
   ground_.probe(points_, motions_);
   for (std::size_t n = 0; n < active_.size(); ++n) {
-    const GroundPoint& at = points_[n];
+    const ParticleIndex& at = points_[n];
     Touch found;
     if (!touch(candidates_[active_[n]], motions_[n].position, found)) {
       forget(at);
       continue;
     }
-    const GroundPhase& phase = ground_.lagging_phases()[at.phase];
+    const ParticleGroup& group = ground_.unsynchronised_groups()[at.group];
     double* memory = memory_of(at);
-    const double volume = phase.particles.data(column::volume)[at.particle],
-                 mass = phase.law->density() * volume, length = std::cbrt(volume);
+    const double volume = group.particles.data(column::volume)[at.particle],
+                 mass = group.material->density() * volume, length = std::cbrt(volume);
     Vector3 velocity = motions_[n].velocity_at(found.point);
     const Vector3i& nodes = surface.triangles[found.triangle];
     for (int c = 0; c < 3; ++c) velocity -= found.barycentric[c] * surface.v.col(nodes[c]);
@@ -421,7 +417,7 @@ void GroundContact::apply(double dt) {
         parameters_.enforcement == ContactParameters::Enforcement::penalty
             ? penalty_force(found, velocity, mass, memory[Memory::stiffness], dt, memory)
             : impulse_force(found, velocity, mass, dt, memory);
-    ground_.push(at, force, found.point);
+    ground_.add_point_force(at, force, found.point);
     for (int c = 0; c < 3; ++c) nodal_.col(nodes[c]) -= found.barycentric[c] * force;
     contacts_ += 1.0;
     area_ += length * length;
@@ -431,7 +427,7 @@ void GroundContact::apply(double dt) {
 }
 
 /// Sums over ranks, adds the other half of a half model and gives the forces to the body.
-void GroundContact::collect() {
+void TerrainContact::collect() {
   const Communicator& ranks = ground_.ranks();
   if (ranks.size() > 1) {
     buffer_.assign(nodal_.data(), nodal_.data() + nodal_.size());
@@ -460,7 +456,7 @@ void GroundContact::collect() {
   friction_loss_ += step_friction_;
   damping_loss_ += step_damping_;
   deepest_ = std::max(deepest_, penetration_);
-  if (penetration_ > most_penetration * ground_.grid().shortest_cell())
+  if (penetration_ > max_penetration * ground_.grid().shortest_cell())
     throw StateError(
         fmt::format("the surface is {:.3g} m inside the ground, more than half a cell: the "
                     "contact's springs are too soft "

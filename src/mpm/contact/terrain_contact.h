@@ -39,7 +39,7 @@ struct ContactParameters {
 ///
 /// Half models: with a ground that ends in a symmetry plane y = y_lower, the surface is whole and
 /// takes the mirrored forces as well.
-class GroundContact : public Interaction {
+class TerrainContact : public Contact {
  public:
   /// The keys of a contact. @param subject names the owner in errors
   static Schema schema(const std::string& subject = "contact with ground");
@@ -48,8 +48,8 @@ class GroundContact : public Interaction {
   /// Body and ground must outlive the contact. @param half_model the ground's lower y face is a
   /// plane of symmetry
   /// @throws InputError when a half model's surface is not its own mirror image
-  GroundContact(Body& body, MpmGround& ground, const ContactParameters& parameters, bool half_model,
-                const std::string& where);
+  TerrainContact(Body& body, ContinuumTerrain& ground, const ContactParameters& parameters,
+                 bool half_model, const std::string& where);
 
   void apply(double dt) override;
 
@@ -65,8 +65,7 @@ class GroundContact : public Interaction {
 
   /// Sums since the start, and when the candidates were found; what particles carry of a contact is
   /// part of the ground's state. Its length depends on the surface only.
-  std::vector<double> state() const;
-  void restore(const std::vector<double>& state);  ///< after body and ground
+  void checkpoint(Checkpoint& state);  ///< restored after body and terrain
 
  private:
   struct Near {
@@ -74,7 +73,7 @@ class GroundContact : public Interaction {
     int triangle;
   };
   struct Candidate {
-    GroundPoint at;
+    ParticleIndex at;
     Vector3 found;            // where the particle was when the candidates were found
     std::size_t first, last;  // its triangles in near_, the nearest first
   };
@@ -88,9 +87,9 @@ class GroundContact : public Interaction {
   void find_candidates(bool stiffness_anew);
   void refuse_overlap() const;
   void refuse_departure() const;
-  double* memory_of(const GroundPoint& at);
-  void forget(const GroundPoint& at);
-  double touch_distance(const GroundPoint& at) const;
+  double* memory_of(const ParticleIndex& at);
+  void forget(const ParticleIndex& at);
+  double touch_distance(const ParticleIndex& at) const;
   void choose_active();
   bool touch(const Candidate& candidate, const Vector3& x, Touch& touch) const;
   Vector3 penalty_force(const Touch& touch, const Vector3& velocity, double mass, double stiffness,
@@ -101,7 +100,7 @@ class GroundContact : public Interaction {
   void collect();
 
   Body& body_;
-  MpmGround& ground_;
+  ContinuumTerrain& ground_;
   ContactParameters parameters_;
   std::string where_;
   NodeTriangles corners_;
@@ -111,13 +110,13 @@ class GroundContact : public Interaction {
 
   std::vector<Candidate> candidates_;
   std::vector<Near> near_;
-  std::vector<std::size_t> active_;  // candidates that may have come close enough by now
-  std::vector<GroundPoint> points_;  // their particles
-  std::vector<GroundMotion> motions_;
+  std::vector<std::size_t> active_;    // candidates that may have come close enough by now
+  std::vector<ParticleIndex> points_;  // their particles
+  std::vector<ParticleMotion> motions_;
   Matrix3X searched_;  // nodes when the candidates were found
   unsigned long generation_ = 0;
-  // [m] of the last search; lag_: by which its places were behind
-  double reach_ = 0.0, skin_ = 0.0, lag_ = 0.0;
+  // [m] of the last search; staleness_: by which its places were behind
+  double reach_ = 0.0, skin_ = 0.0, staleness_ = 0.0;
   // [m] of the surface and of the ground since the last search
   double moved_ = 0.0, drift_ = 0.0;
   bool started_ = false;

@@ -29,9 +29,8 @@ class PrescribedBody : public Body {
     motion_(time_, surface_);
   }
   Surface& surface() override { return surface_; }
-  Balance balance() const override { return {}; }
-  std::vector<double> state() const override { return {time_}; }
-  void restore(const std::vector<double>& state) override { time_ = state.at(0); }
+  EnergyBudget energy_budget() const override { return {}; }
+  void checkpoint(Checkpoint& state) override { state.value("time", time_); }
 
  private:
   Surface surface_;
@@ -60,7 +59,7 @@ class Scene {
   void at_start_of_step(std::function<void()> action);
 
   LAMMPS_NS::LAMMPS& lammps() { return *lammps_; }
-  coupling::FixWorld& world() { return coupling::FixWorld::of(*lammps_); }
+  coupling::FixCoupledSystem& world() { return coupling::FixCoupledSystem::of(*lammps_); }
   int rank() const;
   int ranks() const;
   double sum(double value) const;

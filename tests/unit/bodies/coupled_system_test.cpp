@@ -25,9 +25,8 @@ class Probe : public Body {
     surface_.x(0, 0) = position;
   }
   Surface& surface() override { return surface_; }
-  Balance balance() const override { return {}; }
-  std::vector<double> state() const override { return {}; }
-  void restore(const std::vector<double>&) override {}
+  EnergyBudget energy_budget() const override { return {}; }
+  void checkpoint(Checkpoint&) override {}
 
   double stable = std::numeric_limits<double>::infinity(), time = 0.0, position = 0.0;
   int steps = 0;
@@ -37,9 +36,9 @@ class Probe : public Body {
   Surface surface_;
 };
 
-std::string refusal_of(World& world, double interval) {
+std::string refusal_of(CoupledSystem& system, double interval) {
   try {
-    world.advance(interval);
+    system.advance(interval);
   } catch (const StateError& error) {
     return error.what();
   }
@@ -66,17 +65,17 @@ class Oscillator : public Probe {
 /// A contact whose force is found once an interval, on a mass that takes sub-steps: the amplitude
 /// stays. Forces that are held over the sub-steps let it grow as exp(k T (1 - 1/n)/(4 m) t): here
 /// by e^10 and more.
-TEST(World, ForcesOfOthersFeedNoEnergyIntoSubSteps) {
+TEST(CoupledSystem, ForcesOfOthersFeedNoEnergyIntoSubSteps) {
   constexpr double mass = 1.0, own = 0.3, contact = 0.1;
   constexpr int intervals = 500;
   for (const int sub_steps : {1, 2, 7, 40}) {
     Oscillator body(mass, own, sub_steps);
-    World world;
-    world.add(body, "tread");
+    CoupledSystem system;
+    system.add(body, "tread");
     double largest = 0.0;
     for (int i = 0; i < intervals; ++i) {
       body.surface().f(2, 0) = -contact * body.surface().x(2, 0);
-      EXPECT_EQ(world.advance(1.0), sub_steps);
+      EXPECT_EQ(system.advance(1.0), sub_steps);
       if (i > intervals / 2) largest = std::max(largest, std::abs(body.surface().x(2, 0)));
     }
     EXPECT_NEAR(largest, 1.0, 0.1) << sub_steps << " sub-steps";
@@ -84,47 +83,47 @@ TEST(World, ForcesOfOthersFeedNoEnergyIntoSubSteps) {
   }
 }
 
-TEST(World, SubStepsAreEqualAndFollowTheSmallestStableStep) {
+TEST(CoupledSystem, SubStepsAreEqualAndFollowTheSmallestStableStep) {
   Probe rigid, soft;
   soft.stable = 0.3;
-  World world;
-  world.add(rigid, "rigid");
-  EXPECT_EQ(world.advance(1.0), 1);
-  world.add(soft, "soft");
-  EXPECT_EQ(world.advance(1.0), 4);  // 0.25 s each
+  CoupledSystem system;
+  system.add(rigid, "rigid");
+  EXPECT_EQ(system.advance(1.0), 1);
+  system.add(soft, "soft");
+  EXPECT_EQ(system.advance(1.0), 4);  // 0.25 s each
   EXPECT_EQ(soft.steps, 4);
   EXPECT_EQ(rigid.steps, 5);
   EXPECT_DOUBLE_EQ(soft.time, 1.0);
   EXPECT_DOUBLE_EQ(rigid.time, 2.0);
   soft.stable = 0.25;
-  EXPECT_EQ(world.advance(1.0), 4);  // exactly the stable step is allowed
-  world.remove(soft);
-  EXPECT_EQ(world.advance(1.0), 1);
+  EXPECT_EQ(system.advance(1.0), 4);  // exactly the stable step is allowed
+  system.remove(soft);
+  EXPECT_EQ(system.advance(1.0), 1);
   EXPECT_EQ(soft.steps, 8);
 }
 
-TEST(World, RefusesAndNamesTheBody) {
+TEST(CoupledSystem, RefusesAndNamesTheBody) {
   Probe good, bad;
-  World world;
-  world.add(good, "soil");
-  world.add(bad, "tyre");
-  EXPECT_THAT(refusal_of(world, 0.0), HasSubstr("cannot advance by 0 s"));
-  EXPECT_THAT(refusal_of(world, std::nan("")), HasSubstr("cannot advance by nan s"));
+  CoupledSystem system;
+  system.add(good, "soil");
+  system.add(bad, "tyre");
+  EXPECT_THAT(refusal_of(system, 0.0), HasSubstr("cannot advance by 0 s"));
+  EXPECT_THAT(refusal_of(system, std::nan("")), HasSubstr("cannot advance by nan s"));
   bad.stable = 1e-9;
-  EXPECT_THAT(refusal_of(world, 1.0), HasSubstr("body 'tyre': its stable time step is 1e-09 s"));
+  EXPECT_THAT(refusal_of(system, 1.0), HasSubstr("body 'tyre': its stable time step is 1e-09 s"));
   bad.stable = std::nan("");
-  EXPECT_THAT(refusal_of(world, 1.0), HasSubstr("body 'tyre': its stable time step is nan s"));
+  EXPECT_THAT(refusal_of(system, 1.0), HasSubstr("body 'tyre': its stable time step is nan s"));
   bad.stable = 1.0;
   bad.refuse = true;
-  EXPECT_THAT(refusal_of(world, 1.0), HasSubstr("body 'tyre': an element folded"));
+  EXPECT_THAT(refusal_of(system, 1.0), HasSubstr("body 'tyre': an element folded"));
   bad.refuse = false;
   bad.position = std::nan("");
-  EXPECT_THAT(refusal_of(world, 1.0),
+  EXPECT_THAT(refusal_of(system, 1.0),
               HasSubstr("body 'tyre': the position of node 0 is not finite"));
 }
 
 /// Pushes two bodies apart with a force that the test chooses step by step; remembers what it saw.
-class Spring : public Interaction {
+class Spring : public Contact {
  public:
   Spring(Body& one, Body& two) : one_(one), two_(two) {}
   void apply(double dt) override {
@@ -152,17 +151,17 @@ class Mass : public Probe {
   double impulse = 0.0;
 };
 
-TEST(World, InteractionsAreFoundInEverySubStepAndForcesOfOthersActInTheFirst) {
+TEST(CoupledSystem, InteractionsAreFoundInEverySubStepAndForcesOfOthersActInTheFirst) {
   Mass wheel, ground;
   wheel.stable = 0.25;
   Spring contact(wheel, ground);
   contact.forces = {1.0, 2.0, 4.0, 8.0};
-  World world;
-  world.add(wheel, "wheel");
-  world.add(ground, "ground");
-  world.add(contact, "contact");
+  CoupledSystem system;
+  system.add(wheel, "wheel");
+  system.add(ground, "ground");
+  system.add(contact, "contact");
   wheel.surface().f(0, 0) = 100.0;  // of others
-  ASSERT_EQ(world.advance(1.0), 4);
+  ASSERT_EQ(system.advance(1.0), 4);
   EXPECT_EQ(contact.seen, (std::vector<double>{400.0, 0.0, 0.0, 0.0}));
   EXPECT_EQ(contact.steps, std::vector<double>(4, 0.25));
   EXPECT_DOUBLE_EQ(wheel.impulse, 100.0 + 0.25 * 15.0);
@@ -170,70 +169,71 @@ TEST(World, InteractionsAreFoundInEverySubStepAndForcesOfOthersActInTheFirst) {
   EXPECT_DOUBLE_EQ(wheel.surface().f(0, 0), 100.0);
 }
 
-TEST(World, ShowsTheMeanOfTheInteractionsUntilTheNextAdvance) {
+TEST(CoupledSystem, ShowsTheMeanOfTheInteractionsUntilTheNextAdvance) {
   Mass wheel, ground;
   wheel.stable = 0.5;
   Spring contact(wheel, ground);
   contact.forces = {1.0, 3.0, 5.0, 5.0};
-  World world;
-  world.add(wheel, "wheel");
-  world.add(ground, "ground");
-  world.add(contact, "contact");
+  CoupledSystem system;
+  system.add(wheel, "wheel");
+  system.add(ground, "ground");
+  system.add(contact, "contact");
   wheel.surface().f(0, 0) = 10.0;
-  world.advance(1.0);
-  EXPECT_TRUE(world.shown_forces().empty());
-  world.show_interaction_forces();
-  world.show_interaction_forces();  // once is enough
+  system.advance(1.0);
+  EXPECT_TRUE(system.published_contact_forces().empty());
+  system.publish_contact_forces();
+  system.publish_contact_forces();  // once is enough
   EXPECT_DOUBLE_EQ(wheel.surface().f(0, 0), 12.0);
   EXPECT_DOUBLE_EQ(ground.surface().f(0, 0), -2.0);
-  EXPECT_EQ(world.shown_forces(), (std::vector<double>{2.0, 0.0, 0.0, -2.0, 0.0, 0.0}));
-  world.advance(1.0);  // takes them away again
+  EXPECT_EQ(system.published_contact_forces(),
+            (std::vector<double>{2.0, 0.0, 0.0, -2.0, 0.0, 0.0}));
+  system.advance(1.0);  // takes them away again
   EXPECT_EQ(contact.seen[2], 20.0);
   EXPECT_EQ(contact.seen[3], 0.0);
   EXPECT_DOUBLE_EQ(wheel.impulse, 10.0 + 2.0 + 10.0 + 5.0);
-  world.show_interaction_forces();
-  world.clear_forces();
-  EXPECT_TRUE(world.shown_forces().empty());
+  system.publish_contact_forces();
+  system.clear_forces();
+  EXPECT_TRUE(system.published_contact_forces().empty());
   EXPECT_DOUBLE_EQ(wheel.surface().f(0, 0), 0.0);
 }
 
-TEST(World, ShownForcesAreRestored) {
+TEST(CoupledSystem, ShownForcesAreRestored) {
   const auto second_impulse = [](bool restart) {
     Mass wheel, ground;
     Spring contact(wheel, ground);
     contact.forces = {3.0, 4.0};
-    World first, second;
-    for (World* world : {&first, &second}) {
-      world->add(wheel, "wheel");
-      world->add(ground, "ground");
-      world->add(contact, "contact");
+    CoupledSystem first, second;
+    for (CoupledSystem* system : {&first, &second}) {
+      system->add(wheel, "wheel");
+      system->add(ground, "ground");
+      system->add(contact, "contact");
     }
     first.advance(1.0);
-    first.show_interaction_forces();
-    World& next = restart ? second : first;
-    if (restart) next.restore_shown_forces(first.shown_forces());
+    first.publish_contact_forces();
+    CoupledSystem& next = restart ? second : first;
+    if (restart) next.restore_published_contact_forces(first.published_contact_forces());
     next.advance(1.0);
     return wheel.impulse;
   };
   EXPECT_DOUBLE_EQ(second_impulse(true), second_impulse(false));
   Mass wheel;
-  World world;
-  world.add(wheel, "wheel");
-  EXPECT_THROW(world.restore_shown_forces({1.0, 2.0}), Error);
-  EXPECT_NO_THROW(world.restore_shown_forces({}));
+  CoupledSystem system;
+  system.add(wheel, "wheel");
+  EXPECT_THROW(system.restore_published_contact_forces({1.0, 2.0}), Error);
+  EXPECT_NO_THROW(system.restore_published_contact_forces({}));
 }
 
-TEST(World, NamesTheContactThatRefuses) {
+TEST(CoupledSystem, NamesTheContactThatRefuses) {
   Mass wheel, ground;
   Spring contact(wheel, ground);
-  World world;
-  world.add(wheel, "wheel");
-  world.add(ground, "ground");
-  world.add(contact, "touch");
+  CoupledSystem system;
+  system.add(wheel, "wheel");
+  system.add(ground, "ground");
+  system.add(contact, "touch");
   contact.refuse = true;
-  EXPECT_THAT(refusal_of(world, 1.0), HasSubstr("contact 'touch': the spring broke"));
-  world.remove(contact);
-  EXPECT_EQ(world.advance(1.0), 1);
+  EXPECT_THAT(refusal_of(system, 1.0), HasSubstr("contact 'touch': the spring broke"));
+  system.remove(contact);
+  EXPECT_EQ(system.advance(1.0), 1);
 }
 
 }  // namespace

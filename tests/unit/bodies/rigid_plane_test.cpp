@@ -7,6 +7,7 @@
 
 #include "bodies/rigid_plate.h"
 #include "core/error.h"
+#include "tests/support/checkpoints.h"
 
 namespace furrow {
 namespace {
@@ -78,8 +79,7 @@ TEST(RigidPlane, ContinuesFromItsState) {
   moved.x *= 1.1;  // another shape, whose areas must not count
   moved.x.row(2) = surface.x.row(2);
   RigidPlane other(parameters, moved);
-  const std::vector<double> state = plane.state();
-  other.restore(state.data());
+  test::hand_over(plane, other);
   plane.press_on(surface);
   other.press_on(surface);
   EXPECT_EQ(plane.total_force(), other.total_force());

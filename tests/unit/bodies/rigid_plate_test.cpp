@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "tests/support/checkpoints.h"
 
 namespace furrow {
 namespace {
@@ -75,8 +76,8 @@ TEST(RigidPlate, GoesDownAtItsSpeedAndAccountsForTheWork) {
   EXPECT_NEAR(body.centre().z(), 0.3 - 1e-4, 1e-13);
   EXPECT_NEAR(body.surface().bounds().first.z(), 0.3 - 1e-4, 1e-13);
   EXPECT_DOUBLE_EQ(body.surface().v(2, 7), -1e-3);
-  EXPECT_NEAR(body.balance().contact_work, -3e-4, 1e-15);
-  EXPECT_NEAR(body.balance().residual(), 0.0, 1e-18);
+  EXPECT_NEAR(body.energy_budget().contact_work, -3e-4, 1e-15);
+  EXPECT_NEAR(body.energy_budget().residual(), 0.0, 1e-18);
   EXPECT_NEAR(body.mean_pressure(), 3.0 / (0.08 * 0.08), 1e-10);
 }
 
@@ -86,15 +87,15 @@ TEST(RigidPlate, ContinuesFromItsStateAndRefusesAnother) {
   first.surface().f(2, 0) = 1.0;
   first.advance(1e-3);
   RigidPlate second(plate(PlateShape::circle), Vector3::Zero());
-  second.restore(first.state());
+  test::hand_over(first, second);
   first.advance(1e-3);
   second.advance(1e-3);
   EXPECT_EQ(first.surface().x, second.surface().x);
-  EXPECT_EQ(first.state(), second.state());
+  EXPECT_EQ(test::state_of(first), test::state_of(second));
 
   RigidPlate other(plate(PlateShape::square), Vector3::Zero());
-  EXPECT_THAT(message_of([&] { other.restore(first.state()); }),
-              HasSubstr("belongs to another plate"));
+  EXPECT_THAT(message_of([&] { test::hand_over(first, other); }),
+              HasSubstr("shape is 1, and was 0 when the checkpoint was written"));
 }
 
 TEST(RigidPlate, StopsOnNotANumber) {

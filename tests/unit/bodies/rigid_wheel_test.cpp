@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "tests/support/checkpoints.h"
 
 namespace furrow {
 namespace {
@@ -107,7 +108,7 @@ TEST(RigidWheel, FreeFallFollowsTheLeapfrogExactly) {
   EXPECT_NEAR(wheel.centre().z(), 0.5 - g * dt * dt * 1000 * 1001 / 2, 1e-12);
   EXPECT_NEAR(wheel.velocity().z(), -g, 1e-12);
   EXPECT_EQ(wheel.centre().x(), 0.1);
-  EXPECT_NEAR(wheel.balance().load_work / wheel.balance().kinetic_energy, 1.0, 1e-13);
+  EXPECT_NEAR(wheel.energy_budget().load_work / wheel.energy_budget().kinetic_energy, 1.0, 1e-13);
 }
 
 TEST(RigidWheel, ATorqueSpinsItUpByTorqueOverInertia) {
@@ -119,7 +120,7 @@ TEST(RigidWheel, ATorqueSpinsItUpByTorqueOverInertia) {
   EXPECT_NEAR(wheel.rate(RigidWheel::spin), 0.3 / 0.06, 1e-12);
   EXPECT_NEAR(wheel.position(RigidWheel::spin), 0.3 / 0.06 * dt * dt * 1000 * 1001 / 2, 1e-12);
   EXPECT_DOUBLE_EQ(wheel.constraint(RigidWheel::spin), 0.3);
-  EXPECT_NEAR(wheel.balance().drive_work, 0.5 * 0.06 * 25.0, 1e-12);
+  EXPECT_NEAR(wheel.energy_budget().drive_work, 0.5 * 0.06 * 25.0, 1e-12);
 }
 
 TEST(RigidWheel, PositiveSpinRollsForward) {
@@ -148,7 +149,7 @@ TEST(RigidWheel, AHeldWheelReportsTheForcesThatHoldIt) {
   EXPECT_NEAR(wheel.constraint(RigidWheel::spin), -moment.y(), 1e-12);
   EXPECT_NEAR(wheel.constraint(RigidWheel::yaw), -moment.z(), 1e-12);
   EXPECT_NEAR(wheel.constraint(RigidWheel::camber), -moment.x(), 1e-12);
-  EXPECT_EQ(wheel.balance().drive_work, 0.0);
+  EXPECT_EQ(wheel.energy_budget().drive_work, 0.0);
   EXPECT_EQ(wheel.centre(), small_wheel().axle_centre);
 }
 
@@ -205,7 +206,7 @@ TEST(RigidWheel, FreeRotationKeepsEnergyToRoundOffAndAngularMomentumToSecondOrde
     for (const auto angle : {RigidWheel::spin, RigidWheel::yaw, RigidWheel::camber})
       wheel.release(angle);
     wheel.set_velocity(Vector3::Zero(), {20.0, 3.0, -2.0});
-    const double energy = wheel.balance().kinetic_energy, dt = 5e-4 / (1 << level);
+    const double energy = wheel.energy_budget().kinetic_energy, dt = 5e-4 / (1 << level);
     // half-way through a step, where the velocities belong
     const auto step = [&] {
       const Vector3 before = wheel.axle();
@@ -217,7 +218,7 @@ TEST(RigidWheel, FreeRotationKeepsEnergyToRoundOffAndAngularMomentumToSecondOrde
     Vector3 momentum = start;
     for (int i = 0; i < 4000 << level; ++i) momentum = step();  // 2 s, six turns
     error[level] = (momentum - start).norm() / start.norm();
-    EXPECT_NEAR(wheel.balance().kinetic_energy / energy, 1.0, 1e-12);
+    EXPECT_NEAR(wheel.energy_budget().kinetic_energy / energy, 1.0, 1e-12);
   }
   EXPECT_LT(error[0], 1e-5);
   EXPECT_NEAR(std::log2(error[0] / error[1]), 2.0, 0.05);
@@ -234,7 +235,7 @@ void expect_closed_balance(const std::array<RigidWheel::Motion, 6>& motions) {
     if (motions[i] == RigidWheel::Motion::free) wheel.release(all_coordinates[i]);
   wheel.set_vertical_damping(2.0);
   wheel.set_velocity({0.3, -0.1, 0.2}, {4.0, 0.5, -0.3});
-  const double start = wheel.balance().residual();
+  const double start = wheel.energy_budget().residual();
   double scale = 0.0, work = 0.0;
   for (int step = 0; step < 100000; ++step) {
     for (std::size_t i = 0; i < 6; ++i)
@@ -248,11 +249,11 @@ void expect_closed_balance(const std::array<RigidWheel::Motion, 6>& motions) {
     wheel.set_axle_torque(normal(random));
     const double before = work;
     wheel.advance(1e-4);
-    const Balance balance = wheel.balance();
-    work = balance.contact_work + balance.load_work + balance.drive_work;
-    scale += std::abs(work - before) + balance.kinetic_energy * 1e-3;
+    const EnergyBudget budget = wheel.energy_budget();
+    work = budget.contact_work + budget.load_work + budget.drive_work;
+    scale += std::abs(work - before) + budget.kinetic_energy * 1e-3;
   }
-  EXPECT_NEAR(wheel.balance().residual(), start, 1e-13 * std::max(scale, 1.0));
+  EXPECT_NEAR(wheel.energy_budget().residual(), start, 1e-13 * std::max(scale, 1.0));
   EXPECT_GT(scale, 0.1);
 }
 
@@ -278,7 +279,7 @@ TEST(RigidWheel, VerticalDampingDecaysAndLosesWhatItDissipates) {
   wheel.set_vertical_damping(6.0);  // rate c/m = 2/s
   for (int i = 0; i < 1000; ++i) wheel.advance(1e-3);
   EXPECT_NEAR(wheel.velocity().z(), std::exp(-2.0), 1e-7);
-  EXPECT_NEAR(wheel.balance().dissipated_energy, 1.5 * (1.0 - std::exp(-4.0)), 1e-6);
+  EXPECT_NEAR(wheel.energy_budget().dissipated_energy, 1.5 * (1.0 - std::exp(-4.0)), 1e-6);
   EXPECT_THAT(error_of([&] { wheel.set_vertical_damping(-1.0); }),
               HasSubstr("vertical damping is -1 N s/m; allowed: a number >= 0"));
 }
@@ -295,24 +296,23 @@ TEST(RigidWheel, ContinuesBitwiseFromItsState) {
   one.set_load({0, 0, -2.0});
   one.set_axle_torque(0.1);
   for (int i = 0; i < 100; ++i) step(one, i);
-  other.restore(one.state());
+  test::hand_over(one, other);
   EXPECT_EQ(one.surface().x, other.surface().x);
   EXPECT_EQ(one.surface().v, other.surface().v);
   for (int i = 100; i < 200; ++i) {
     step(one, i);
     step(other, i);
   }
-  EXPECT_EQ(one.state(), other.state());
+  EXPECT_EQ(test::state_of(one), test::state_of(other));
   EXPECT_EQ(one.surface().x, other.surface().x);
 }
 
 TEST(RigidWheel, RefusesTheStateOfAnotherWheel) {
   RigidWheelParameters heavier = small_wheel();
   heavier.mass = 4.0;
-  RigidWheel wheel(small_wheel());
-  EXPECT_THAT(error_of([&] { wheel.restore(RigidWheel(heavier).state()); }),
-              HasSubstr("the saved state belongs to another wheel"));
-  EXPECT_THAT(error_of([&] { wheel.restore({1.0, 2.0}); }), HasSubstr("belongs to another wheel"));
+  RigidWheel wheel(small_wheel()), other(heavier);
+  EXPECT_THAT(error_of([&] { test::hand_over(other, wheel); }),
+              HasSubstr("and was 4 when the checkpoint was written"));
 }
 
 TEST(RigidWheel, StopsOnStatesThatMustNotGoOn) {

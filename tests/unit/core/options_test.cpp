@@ -16,7 +16,7 @@ Schema wheel_schema() {
   schema.number("diameter", "m", Range::positive(), "outer diameter");
   schema.number("shoulder", "m", Range::non_negative(), "shoulder radius").by_default(0.0);
   schema.integer("segments", Range::closed(8, 1000), "segments").by_default("64");
-  schema.word("mode", {"towed", "slip"}, "mode").optional();
+  schema.choice("mode", {"towed", "slip"}, "mode").optional();
   schema.numbers("axle", 3, "m", Range::any(), "axle centre")
       .by_default(std::vector<double>{0, 0, 0});
   schema.numbers("table", 0, "Pa", Range::any(), "a list").optional();
@@ -38,7 +38,7 @@ TEST(Options, ReadsGivenValuesAndDefaults) {
   EXPECT_DOUBLE_EQ(options.number("diameter"), 0.74);
   EXPECT_DOUBLE_EQ(options.number("shoulder"), 0.0);
   EXPECT_EQ(options.integer("segments"), 64);
-  EXPECT_EQ(options.word("mode"), "slip");
+  EXPECT_EQ(options.text("mode"), "slip");
   EXPECT_EQ(options.numbers("axle"), (std::vector<double>{1, -2, 0.3}));
   EXPECT_EQ(options.numbers("table"), (std::vector<double>{1, 2}));
   EXPECT_FALSE(options.given("shoulder"));

@@ -20,12 +20,12 @@ std::unique_ptr<Material> linear_elastic(double young, double nu) {
 
 /// A pure stretch of many sizes in one step: the logarithm of the stretch is exact, by hand.
 TEST(Elastic, StressIsHookesLawOfTheLogarithmicStrain) {
-  const auto law = linear_elastic(1e6, 0.25);  // K = 2/3 MPa, G = 0.4 MPa
+  const auto material = linear_elastic(1e6, 0.25);  // K = 2/3 MPa, G = 0.4 MPa
   for (const double strain : {1e-12, 1e-6, 1e-3, 0.04, 0.06, 0.5, -1e-6, -0.04, -0.06, -0.5}) {
-    VectorX state = law->initial_state();
+    VectorX state = material->initial_state();
     Matrix3 gradient = Matrix3::Zero();
     gradient(2, 2) = std::expm1(strain);
-    law->update_point(gradient, state);
+    material->update_point(gradient, state);
     EXPECT_NEAR(state[2] / strain, 1.2e6, 1.2e6 * 1e-12);
     EXPECT_NEAR(state[0] / strain, 0.4e6, 0.4e6 * 1e-12);
     EXPECT_NEAR(state[field::volume_ratio], std::exp(strain), 1e-14);
@@ -38,11 +38,11 @@ TEST(Elastic, StressIsHookesLawOfTheLogarithmicStrain) {
 /// angle of the steps varies, so that this error of the input does not add up always in one
 /// direction.
 TEST(Elastic, ThousandTurnsOfRigidSpinKeepTheStress) {
-  const auto law = linear_elastic(1e6, 0.25);
-  VectorX state = law->initial_state();
+  const auto material = linear_elastic(1e6, 0.25);
+  VectorX state = material->initial_state();
   Matrix3 gradient;
   gradient << 1e-3, 4e-4, 0, 2e-4, -3e-3, 1e-4, 0, 5e-4, -2e-3;
-  law->update_point(gradient, state);
+  material->update_point(gradient, state);
   const Vector6 before = stress_of(state);
   const Vector3 axis = Vector3(1, 2, -0.5).normalized();
   double angle = 0.0;
@@ -50,7 +50,7 @@ TEST(Elastic, ThousandTurnsOfRigidSpinKeepTheStress) {
     const double next = step < 20000 ? angle + 0.1 * pi * (1.0 + 0.5 * std::sin(step)) : 2000 * pi;
     const Matrix3 spin =
         Eigen::AngleAxisd(next - angle, axis).toRotationMatrix() - Matrix3::Identity();
-    law->update_point(spin, state);
+    material->update_point(spin, state);
     angle = next;
   }
   EXPECT_LT((stress_of(state) - before).norm(), 1e-10 * before.norm());
@@ -58,12 +58,12 @@ TEST(Elastic, ThousandTurnsOfRigidSpinKeepTheStress) {
 }
 
 TEST(Elastic, RefusesAFoldedStepWithItsCause) {
-  const auto law = linear_elastic(1e6, 0.25);
-  VectorX state = law->initial_state();
+  const auto material = linear_elastic(1e6, 0.25);
+  VectorX state = material->initial_state();
   Matrix3 gradient = Matrix3::Zero();
   gradient(0, 0) = -1.5;
   try {
-    law->update_point(gradient, state);
+    material->update_point(gradient, state);
     FAIL() << "a folded step was accepted";
   } catch (const StateError& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("folded"));

@@ -16,7 +16,7 @@
 namespace furrow {
 namespace {
 
-using testing_paths::law_of;
+using testing_paths::material_of;
 
 TEST(Kernels, InstructionSetsAgree) {
   const std::string snow =
@@ -26,10 +26,10 @@ TEST(Kernels, InstructionSetsAgree) {
       "interpolation ";
   for (const std::string& text :
        {snow + "linear", snow + "log alpha 0.05", snow + "linear K 0.8"}) {
-    const auto law = law_of(text);
-    const auto& cap = static_cast<const DruckerPragerCap&>(*law);
+    const auto material = material_of(text);
+    const auto& cap = static_cast<const DruckerPragerCap&>(*material);
     constexpr std::size_t n = 1003;
-    const std::size_t fields = law->state_fields().size();
+    const std::size_t fields = material->state_fields().size();
     std::vector<std::vector<std::vector<double>>> results;
     for (const Kernels* kernels : available_kernels()) {
       std::mt19937 engine(3);
@@ -38,7 +38,7 @@ TEST(Kernels, InstructionSetsAgree) {
           gradient(9, std::vector<double>(n));
       std::vector<double*> pointers;
       for (std::size_t f = 0; f < fields; ++f) {
-        std::fill(state[f].begin(), state[f].end(), law->state_fields()[f].initial);
+        std::fill(state[f].begin(), state[f].end(), material->state_fields()[f].initial);
         pointers.push_back(state[f].data());
       }
       PointBlock block;
@@ -64,14 +64,15 @@ TEST(Kernels, InstructionSetsAgree) {
         for (std::size_t i = 0; i < n; ++i)
           ASSERT_NEAR(result[f][i], results[0][f][i],
                       1e-7 * (f < 6 ? 1e5 : 1 + std::abs(results[0][f][i])))
-              << law->state_fields()[f].name;
+              << material->state_fields()[f].name;
   }
 }
 
 /// ln U and R of any step, by eigenvalues of F^T F, through an elastic law: sigma = R (C : ln U)
 /// R^T.
 TEST(Kinematics, LogarithmicStrainAndRotationOfAnyStep) {
-  const auto law = law_of("elastic density 1 elasticity linear E 2.5 nu 0.25");  // K = 5/3, G = 1
+  const auto material =
+      material_of("elastic density 1 elasticity linear E 2.5 nu 0.25");  // K = 5/3, G = 1
   std::mt19937 engine(5);
   std::normal_distribution<double> normal;
   for (const double size : {1e-9, 1e-5, 1e-2, 0.02, 0.03, 0.1, 0.3}) {
@@ -80,8 +81,8 @@ TEST(Kinematics, LogarithmicStrainAndRotationOfAnyStep) {
       for (int k = 0; k < 9; ++k) h(k) = size * normal(engine);
       const Matrix3 F = Matrix3::Identity() + h;
       if (F.determinant() < 0.05) continue;
-      VectorX state = law->initial_state();
-      law->update_point(h, state);
+      VectorX state = material->initial_state();
+      material->update_point(h, state);
       const Eigen::JacobiSVD<Matrix3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
       const Matrix3 R = svd.matrixU() * svd.matrixV().transpose();
       const Matrix3 log_u = svd.matrixV() *

@@ -15,10 +15,10 @@
 namespace furrow::testing_paths {
 
 /// "law key value value key value ...": numbers follow the key they belong to.
-inline std::unique_ptr<Material> law_of(const std::string& text) {
+inline std::unique_ptr<Material> material_of(const std::string& text) {
   std::istringstream words(text);
-  std::string law, word;
-  words >> law;
+  std::string material, word;
+  words >> material;
   std::vector<Entry> entries;
   const auto is_value = [](const std::string& w) {
     return std::string("0123456789+-.").find(w[0]) != std::string::npos;
@@ -30,7 +30,7 @@ inline std::unique_ptr<Material> law_of(const std::string& text) {
       entries.push_back({word, {}});
     }
   }
-  return make_material(law, entries);
+  return make_material(material, entries);
 }
 
 /// McCormick Ranch sand, TR Tables 4 and 5. The density, not given there, only enters through
@@ -56,7 +56,7 @@ inline Matrix3 stretch(const Vector6& strain) {
 /// One step with the components of `strain`, except that the normal components marked in `held`
 /// take whatever keeps their stress at `target` (Newton's method on the law's tangent). Returns the
 /// strain increment.
-inline Vector6 mixed_step(const Material& law, VectorX& state, Vector6 strain,
+inline Vector6 mixed_step(const Material& material, VectorX& state, Vector6 strain,
                           const std::array<bool, 3>& held, const Vector3& target,
                           double tolerance) {
   std::vector<int> free;
@@ -65,7 +65,7 @@ inline Vector6 mixed_step(const Material& law, VectorX& state, Vector6 strain,
   const auto n = static_cast<Eigen::Index>(free.size());
   const auto residual = [&](const Vector6& e, VectorX& result) {
     result = state;
-    law.update_point(stretch(e), result);
+    material.update_point(stretch(e), result);
     Eigen::VectorXd r(n);
     for (Eigen::Index i = 0; i < n; ++i)
       r[i] = result[free[static_cast<std::size_t>(i)]] - target[free[static_cast<std::size_t>(i)]];

@@ -11,7 +11,7 @@
 namespace furrow {
 namespace {
 
-using testing_paths::law_of;
+using testing_paths::material_of;
 using testing_paths::stretch;
 
 class Dice {
@@ -64,11 +64,13 @@ std::string random_cap(Dice& dice) {
   const double d = dice.chance(0.2) ? 0.0 : pb * dice.decades(1e-4, 1e2),
                beta = dice.between(1, 65), R = dice.decades(1e-4, 2);
   const double tan_beta = std::tan(radians(beta));
-  std::string law = fmt::format("drucker_prager_cap density 300 d {} beta {} R {} K {} alpha {}", d,
-                                beta, R, dice.chance(0.5) ? 1.0 : dice.between(0.778, 1),
-                                dice.chance(0.5) ? 0.0 : dice.between(0, 0.1));
-  if (dice.chance(0.3)) law += fmt::format(" tension {}", d / tan_beta * dice.between(0, 0.99));
-  return law + random_elasticity(dice, young, d / tan_beta) + random_hardening(dice, pb);
+  std::string material =
+      fmt::format("drucker_prager_cap density 300 d {} beta {} R {} K {} alpha {}", d, beta, R,
+                  dice.chance(0.5) ? 1.0 : dice.between(0.778, 1),
+                  dice.chance(0.5) ? 0.0 : dice.between(0, 0.1));
+  if (dice.chance(0.3))
+    material += fmt::format(" tension {}", d / tan_beta * dice.between(0, 0.99));
+  return material + random_elasticity(dice, young, d / tan_beta) + random_hardening(dice, pb);
 }
 
 std::string random_foam(Dice& dice) {
@@ -83,13 +85,13 @@ std::string random_foam(Dice& dice) {
 struct Tally {
   UpdateReport report;
   double worst_yield = 0, worst_dissipation = 0;
-  std::size_t steps = 0, most_plain = 0;
+  std::size_t steps = 0, max_plain = 0;
 };
 
 /// One path of mixed steps, from 1e-6 to jumps of 0.5 of strain, each turned at random.
 void run_path(Dice& dice, const std::string& text, Tally& tally) {
-  const auto law = law_of(text);
-  VectorX state = law->initial_state();
+  const auto material = material_of(text);
+  VectorX state = material->initial_state();
   for (int step = 0; step < 12; ++step) {
     Vector6 strain;
     for (int k = 0; k < 6; ++k) strain[k] = dice.normal();
@@ -103,13 +105,13 @@ void run_path(Dice& dice, const std::string& text, Tally& tally) {
     const Matrix3 gradient = turn * (Matrix3::Identity() + stretch(strain)) - Matrix3::Identity();
     const double dissipated = state[field::dissipated_energy];
     UpdateReport report;
-    ASSERT_NO_THROW(report = law->update_point(gradient, state))
+    ASSERT_NO_THROW(report = material->update_point(gradient, state))
         << text << "\nstep " << step << " strain " << strain.transpose();
     tally.report += report;
     ++tally.steps;
     ASSERT_TRUE(state.allFinite()) << text;
-    const double scale = law->stress_scale(state);
-    const double excess = law->yield_function(state) / scale;
+    const double scale = material->stress_scale(state);
+    const double excess = material->yield_function(state) / scale;
     tally.worst_yield = std::max(tally.worst_yield, excess);
     ASSERT_LE(excess, 1e-8) << text << "\nstep " << step << " strain " << strain.transpose()
                             << "\nstate " << state.transpose();
@@ -119,8 +121,8 @@ void run_path(Dice& dice, const std::string& text, Tally& tally) {
                                     << "\nstate " << state.transpose();
     // K < 1 solves for the Lode angle inside the other two equations, and counts every evaluation.
     const bool plain = text.find(" K 1 ") != std::string::npos;
-    tally.most_plain = std::max(tally.most_plain, plain ? report.most_iterations : 0);
-    ASSERT_LT(report.most_iterations, plain ? 300u : 1000u)
+    tally.max_plain = std::max(tally.max_plain, plain ? report.max_iterations : 0);
+    ASSERT_LT(report.max_iterations, plain ? 300u : 1000u)
         << text << "\nstep " << step << " strain " << strain.transpose();
   }
 }
@@ -140,8 +142,8 @@ TEST(RandomPaths, TenThousandStayOnTheSurfaceAndDissipate) {
         "most {}, with K = 1 {}; "
         "yield {:.2e} heat {:.2e}\n",
         foam ? "foam" : "cap", tally.steps, points[0], points[1], points[2], points[3], points[4],
-        static_cast<double>(tally.report.iterations) / yielding, tally.report.most_iterations,
-        tally.most_plain, tally.worst_yield, tally.worst_dissipation);
+        static_cast<double>(tally.report.iterations) / yielding, tally.report.max_iterations,
+        tally.max_plain, tally.worst_yield, tally.worst_dissipation);
     for (const std::size_t branch :
          foam ? std::vector<std::size_t>{0, 3, 4} : std::vector<std::size_t>{0, 1, 2, 3, 4})
       EXPECT_GT(points[branch], 500u) << "hardly met: " << to_string(static_cast<Branch>(branch));

@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using testing_paths::law_of;
+using testing_paths::material_of;
 
 const std::string elastic = " elasticity linear E 13.79e6 nu 0.3";
 const std::string table =
@@ -22,7 +22,7 @@ const std::string yield = "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.0
 
 std::string message_of(const std::string& text) {
   try {
-    law_of(text);
+    material_of(text);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -126,7 +126,7 @@ TEST(Registry, RefusesAnUnknownSection) {
 }
 
 TEST(Registry, FlatListAndSectionsMakeTheSameLaw) {
-  const auto flat = law_of(yield + elastic + table);
+  const auto flat = material_of(yield + elastic + table);
   const auto nested = make_material(
       "drucker_prager_cap",
       MaterialSections{
@@ -147,13 +147,13 @@ TEST(Registry, FlatListAndSectionsMakeTheSameLaw) {
 }
 
 TEST(Registry, ListsNamesMeaningsAndSchemas) {
-  for (const Law& law : laws()) {
-    EXPECT_FALSE(law.meaning.empty());
-    EXPECT_EQ(law.sections.front().name, "law");
-    for (const SectionSchema& section : law.sections)
+  for (const MaterialModel& material : material_models()) {
+    EXPECT_FALSE(material.meaning.empty());
+    EXPECT_EQ(material.sections.front().name, "law");
+    for (const SectionSchema& section : material.sections)
       for (const SectionChoice& choice : section.choices)
         for (const Key& key : choice.schema.keys())
-          EXPECT_GT(key.meaning.size(), 3u) << law.name << ", " << key.name;
+          EXPECT_GT(key.meaning.size(), 3u) << material.name << ", " << key.name;
   }
 }
 

@@ -9,7 +9,7 @@
 namespace furrow {
 namespace {
 
-using testing_ground::even;
+using testing_terrain::even;
 
 constexpr double mass = 2.0, dt = 1e-3;
 const Vector3 weightless = Vector3::Zero();
@@ -41,9 +41,9 @@ void give_sums(Grid& grid, const Vector3& force) {
       }
 }
 
-std::array<FaceKind, face_count> only(FacePlace face, FaceKind kind) {
-  std::array<FaceKind, face_count> kinds;
-  kinds.fill(FaceKind::free);
+std::array<BoundaryKind, face_count> only(Face face, BoundaryKind kind) {
+  std::array<BoundaryKind, face_count> kinds;
+  kinds.fill(BoundaryKind::free);
   kinds[face] = kind;
   return kinds;
 }
@@ -52,19 +52,19 @@ std::vector<WaveSpeeds> speeds(const Grid& grid) {
   return std::vector<WaveSpeeds>(static_cast<std::size_t>(grid.nodes(2)), {300.0, 150.0});
 }
 
-TEST(Faces, NamesFollowTheKinds) {
-  EXPECT_EQ(face_kind("free"), FaceKind::free);
-  EXPECT_EQ(face_kind("absorbing"), FaceKind::absorbing);
-  EXPECT_THROW(face_kind("sticky"), Error);
+TEST(Boundary, NamesFollowTheKinds) {
+  EXPECT_EQ(boundary_kind("free"), BoundaryKind::free);
+  EXPECT_EQ(boundary_kind("absorbing"), BoundaryKind::absorbing);
+  EXPECT_THROW(boundary_kind("sticky"), Error);
 }
 
-TEST(Faces, SmoothStopsWhatIsAcrossAndRoughStopsAll) {
+TEST(Boundary, SmoothStopsWhatIsAcrossAndRoughStopsAll) {
   const Vector3 v(1.0, 2.0, 3.0);
   for (int face = 0; face < face_count; ++face)
-    for (const FaceKind kind : {FaceKind::smooth, FaceKind::rough}) {
+    for (const BoundaryKind kind : {BoundaryKind::smooth, BoundaryKind::rough}) {
       Grid grid = small_grid();
       give_velocity(grid, v);
-      Faces faces(grid, only(static_cast<FacePlace>(face), kind), {2, 2, 2}, speeds(grid));
+      Boundary faces(grid, only(static_cast<Face>(face), kind), {2, 2, 2}, speeds(grid));
       EXPECT_TRUE(faces.captured());
       faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);
       const int axis = face / 2, plane = face % 2 == 0 ? 0 : grid.nodes(axis) - 1;
@@ -73,22 +73,22 @@ TEST(Faces, SmoothStopsWhatIsAcrossAndRoughStopsAll) {
         const int at[3] = {i, j, k};
         Vector3 after = v;
         if (at[axis] == plane) {
-          if (kind == FaceKind::rough) after.setZero();
+          if (kind == BoundaryKind::rough) after.setZero();
           after[axis] = 0.0;
           expected += mass * (after - v);
         }
         EXPECT_EQ(Vector3(Eigen::Map<const Vector3>(n.velocity)), after);
       });
-      EXPECT_LT((faces.impulse(static_cast<FacePlace>(face)) - expected).norm(), 1e-12);
+      EXPECT_LT((faces.impulse(static_cast<Face>(face)) - expected).norm(), 1e-12);
       EXPECT_EQ(faces.work(), 0.0);
     }
 }
 
 /// v' = (v - dt c^2/(l L) u)/(1 + dt c/l) with u the displacement before: dashpot and spring of one
 /// node across the face, taken implicitly.
-TEST(Faces, AbsorbingIsDashpotAndSpring) {
+TEST(Boundary, AbsorbingIsDashpotAndSpring) {
   Grid grid = small_grid();
-  Faces faces(grid, only(x_upper, FaceKind::absorbing), {2, 2, 2}, speeds(grid));
+  Boundary faces(grid, only(x_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
   EXPECT_FALSE(faces.captured());
   faces.capture(grid, grid.all_planes(), weightless);  // nothing to hold
   EXPECT_TRUE(faces.captured());
@@ -115,14 +115,14 @@ TEST(Faces, AbsorbingIsDashpotAndSpring) {
 }
 
 /// What held the ground at the start is held on: a node on several faces is held once.
-TEST(Faces, ForcesOfTheStartAreHeld) {
+TEST(Boundary, ForcesOfTheStartAreHeld) {
   for (const int count : {1, 2, 3}) {
-    std::array<FaceKind, face_count> kinds;
-    kinds.fill(FaceKind::free);
-    const FacePlace places[3] = {x_upper, y_upper, z_lower};
-    for (int n = 0; n < count; ++n) kinds[places[n]] = FaceKind::absorbing;
+    std::array<BoundaryKind, face_count> kinds;
+    kinds.fill(BoundaryKind::free);
+    const Face places[3] = {x_upper, y_upper, z_lower};
+    for (int n = 0; n < count; ++n) kinds[places[n]] = BoundaryKind::absorbing;
     Grid grid = small_grid();
-    Faces faces(grid, kinds, {2, 2, 2}, speeds(grid));
+    Boundary faces(grid, kinds, {2, 2, 2}, speeds(grid));
     const Vector3 pull(10.0, -20.0, 30.0);  // [N] on every node
     const Vector3 gravity(0.0, 1.0, -9.0), stress = pull - mass * gravity;
     give_sums(grid, stress);
@@ -143,12 +143,12 @@ TEST(Faces, ForcesOfTheStartAreHeld) {
 
 /// A node that a wall holds does not move, so the far field that meets the wall there does no work
 /// on it and holds nothing.
-TEST(Faces, AbsorbingLeavesToWallsWhatTheyHold) {
+TEST(Boundary, AbsorbingLeavesToWallsWhatTheyHold) {
   Grid grid = small_grid();
-  std::array<FaceKind, face_count> kinds = only(x_upper, FaceKind::absorbing);
-  kinds[z_lower] = FaceKind::rough;
-  kinds[y_lower] = FaceKind::smooth;
-  Faces faces(grid, kinds, {2, 2, 2}, speeds(grid));
+  std::array<BoundaryKind, face_count> kinds = only(x_upper, BoundaryKind::absorbing);
+  kinds[z_lower] = BoundaryKind::rough;
+  kinds[y_lower] = BoundaryKind::smooth;
+  Boundary faces(grid, kinds, {2, 2, 2}, speeds(grid));
   faces.capture(grid, grid.all_planes(), weightless);
   const Vector3 v(1.0, 2.0, 3.0);
   double work = 0.0;
@@ -184,9 +184,29 @@ TEST(Faces, AbsorbingLeavesToWallsWhatTheyHold) {
   EXPECT_NEAR(faces.work(), work, 1e-12 * std::abs(work));
 }
 
-TEST(Faces, StateIsRestoredAndMovesWithTheGrid) {
+std::vector<char> state_of(Boundary& boundary) {
+  Checkpoint state("boundary");
+  boundary.checkpoint(state, true);
+  return state.bytes();
+}
+
+void restore(Boundary& boundary, const std::vector<char>& bytes, bool keep_sums) {
+  Checkpoint state("boundary", bytes.data(), bytes.size());
+  boundary.checkpoint(state, keep_sums);
+  state.finish();
+}
+
+/// Of the last values that were saved.
+std::vector<double> last_numbers(const std::vector<char>& bytes, std::size_t count) {
+  std::vector<double> numbers(count);
+  const std::size_t size = count * sizeof(double);
+  std::memcpy(numbers.data(), bytes.data() + bytes.size() - size, size);
+  return numbers;
+}
+
+TEST(Boundary, StateIsRestoredAndMovesWithTheGrid) {
   Grid grid = small_grid();
-  Faces faces(grid, only(y_upper, FaceKind::absorbing), {2, 2, 2}, speeds(grid));
+  Boundary faces(grid, only(y_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
   give_velocity(grid, {1, 2, 3});
   faces.capture(grid, grid.all_planes(), weightless);
   for_nodes(grid, [&](NodeMotion& n, int i, int, int) {
@@ -194,35 +214,31 @@ TEST(Faces, StateIsRestoredAndMovesWithTheGrid) {
     n.mass = mass;
   });
   faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);
-  std::vector<double> saved;
-  faces.save(saved);
-  EXPECT_EQ(saved.size(), faces.state_length());
+  const std::vector<char> saved = state_of(faces);
 
-  Faces other(grid, only(y_upper, FaceKind::absorbing), {2, 2, 2}, speeds(grid));
-  EXPECT_EQ(other.restore(saved.data(), true), saved.data() + saved.size());
-  std::vector<double> again;
-  other.save(again);
-  EXPECT_EQ(again, saved);
-  other.restore(saved.data(), false);
+  Boundary other(grid, only(y_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
+  restore(other, saved, true);
+  EXPECT_EQ(state_of(other), saved);
+  restore(other, saved, false);
   EXPECT_EQ(other.impulse(y_upper), Vector3::Zero());
   EXPECT_EQ(other.work(), 0.0);
 
+  const auto row = static_cast<std::size_t>(3 * grid.nodes(2)),
+             rows = static_cast<std::size_t>(grid.nodes(0));
   // Rows between the ends move by one; the one that enters has no displacement. Displacements are
   // the last numbers of the state.
   faces.shift_x(1);
-  std::vector<double> moved;
-  faces.save(moved);
-  const auto row = static_cast<std::size_t>(3 * grid.nodes(2)),
-             rows = static_cast<std::size_t>(grid.nodes(0));
-  const double* before = saved.data() + saved.size() - rows * row;
-  const double* after = moved.data() + moved.size() - rows * row;
+  const std::vector<double> before_move = last_numbers(saved, row * rows),
+                            after_move = last_numbers(state_of(faces), row * rows);
+  const double* before = before_move.data();
+  const double* after = after_move.data();
   for (std::size_t r = 0; r < rows; ++r) {
     const double expected = r < 2 || r + 2 >= rows ? before[r * row]
                             : r + 3 < rows         ? before[(r + 1) * row]
                                                    : 0.0;
     EXPECT_EQ(after[r * row], expected) << "row " << r;
   }
-  Faces across(grid, only(x_upper, FaceKind::absorbing), {2, 2, 2}, speeds(grid));
+  Boundary across(grid, only(x_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
   EXPECT_THROW(across.shift_x(1), Error);
 }
 

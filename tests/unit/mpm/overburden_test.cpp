@@ -10,19 +10,19 @@ namespace furrow {
 namespace {
 
 using ::testing::HasSubstr;
-using testing_ground::elastic;
-using testing_ground::law_of;
-using testing_ground::snow;
+using testing_terrain::elastic;
+using testing_terrain::material_of;
+using testing_terrain::snow;
 
-GroundParameters deep(std::vector<GroundLayer> layers) {
-  GroundParameters ground;
+TerrainParameters deep(std::vector<TerrainLayer> layers) {
+  TerrainParameters ground;
   ground.surface = 0.0;
   ground.layers = std::move(layers);
   return ground;
 }
 
-std::vector<GroundLevel> levels_down(double depth, int count) {
-  std::vector<GroundLevel> levels(static_cast<std::size_t>(count));
+std::vector<ParticleLevel> levels_down(double depth, int count) {
+  std::vector<ParticleLevel> levels(static_cast<std::size_t>(count));
   for (std::size_t n = 0; n < levels.size(); ++n) {
     levels[n].half = 0.5 * depth / count;
     levels[n].z = -(2.0 * double(n) + 1.0) * levels[n].half;
@@ -35,8 +35,8 @@ std::vector<GroundLevel> levels_down(double depth, int count) {
 TEST(Overburden, ElasticGroundCarriesItsWeight) {
   const double rho = 1800.0, nu = 0.3;
   auto levels = levels_down(2.0, 20);
-  find_overburden(deep({{law_of(elastic(1e9, nu, rho)), 2.0}}), levels);
-  for (const GroundLevel& level : levels) {
+  find_overburden(deep({{material_of(elastic(1e9, nu, rho)), 2.0}}), levels);
+  for (const ParticleLevel& level : levels) {
     const double stress = rho * standard_gravity * level.z;
     // of the density's change, rho g z/M
     EXPECT_NEAR(level.state[field::stress + 2] / stress, 1.0, 1e-4);
@@ -48,24 +48,26 @@ TEST(Overburden, ElasticGroundCarriesItsWeight) {
 /// Snow compacts under its weight: equilibrium holds with the density it has then, sum over what
 /// lies above of rho(z) g dz.
 TEST(Overburden, SnowIsInEquilibriumAtItsCompactedDensity) {
-  const auto law = law_of(snow());
+  const auto material = material_of(snow());
   auto levels = levels_down(2.0, 40);
-  find_overburden(deep({{law, 2.0}}), levels);
+  find_overburden(deep({{material, 2.0}}), levels);
   double above = 0.0;
-  for (const GroundLevel& level : levels) {
-    const double own = 2.0 * level.half * standard_gravity * law->current_density(level.state);
+  for (const ParticleLevel& level : levels) {
+    const double own = 2.0 * level.half * standard_gravity * material->current_density(level.state);
     EXPECT_NEAR(-level.state[field::stress + 2] / (above + 0.5 * own), 1.0, 1e-3);
     above += own;
   }
-  EXPECT_GT(law->current_density(levels.back().state), law->current_density(levels.front().state));
+  EXPECT_GT(material->current_density(levels.back().state),
+            material->current_density(levels.front().state));
 }
 
 TEST(Overburden, LayersLieOnOneAnother) {
-  const auto light = law_of(elastic(1e8, 0.3, 200)), heavy = law_of(elastic(1e9, 0.2, 2000));
+  const auto light = material_of(elastic(1e8, 0.3, 200)),
+             heavy = material_of(elastic(1e9, 0.2, 2000));
   auto levels = levels_down(1.0, 10);
   // the lowest reaches the base whatever its thickness
   find_overburden(deep({{light, 0.3}, {heavy, 0.1}}), levels);
-  for (const GroundLevel& level : levels) {
+  for (const ParticleLevel& level : levels) {
     const double depth = -level.z;
     EXPECT_EQ(level.layer, depth < 0.3 ? 0u : 1u) << depth;
     const double stress =
@@ -75,19 +77,19 @@ TEST(Overburden, LayersLieOnOneAnother) {
 }
 
 TEST(Overburden, NothingWithoutInitialStress) {
-  const auto law = law_of(snow());
-  auto ground = deep({{law, 1.0}});
+  const auto material = material_of(snow());
+  auto ground = deep({{material, 1.0}});
   ground.initial_stress = false;
   auto levels = levels_down(1.0, 4);
   find_overburden(ground, levels);
-  for (const GroundLevel& level : levels) EXPECT_EQ(level.state, law->initial_state());
+  for (const ParticleLevel& level : levels) EXPECT_EQ(level.state, material->initial_state());
 }
 
 TEST(Overburden, RefusesALawThatCannotCarryTheWeight) {
-  const auto law = law_of(elastic(1e3, 0.3, 5000));  // 1.3 kPa against 50 kPa a metre
+  const auto material = material_of(elastic(1e3, 0.3, 5000));  // 1.3 kPa against 50 kPa a metre
   auto levels = levels_down(2.0, 4);
   try {
-    find_overburden(deep({{law, 2.0}}), levels);
+    find_overburden(deep({{material, 2.0}}), levels);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("law elastic cannot carry"));

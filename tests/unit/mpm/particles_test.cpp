@@ -8,16 +8,16 @@
 namespace furrow {
 namespace {
 
-using testing_ground::elastic;
-using testing_ground::law_of;
-using testing_ground::snow;
+using testing_terrain::elastic;
+using testing_terrain::material_of;
+using testing_terrain::snow;
 
 /// Every number of every particle tells column, component and particle.
 void number(Particles& particles) {
   std::vector<double> record;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     particles.data(column::x)[p] = 100.0 * double(p);
-    particles.data(column::home_z)[p] = 100.0 * double(p) + 1.0;
+    particles.data(column::initial_z)[p] = 100.0 * double(p) + 1.0;
     for (std::size_t c = 0; c < 4; ++c)
       particles.data(column::velocity)[4 * p + c] = 100.0 * double(p) + 2.0 + double(c);
     for (std::size_t c = 0; c < 12; ++c)
@@ -26,21 +26,21 @@ void number(Particles& particles) {
 }
 
 TEST(Particles, StartWithZeroAndTakeTheStateOfTheLaw) {
-  const auto law = law_of(snow());
-  Particles particles(*law);
+  const auto material = material_of(snow());
+  Particles particles(*material);
   EXPECT_EQ(particles.append(3), 0u);
   EXPECT_EQ(particles.append(2), 3u);
   EXPECT_EQ(particles.size(), 5u);
-  particles.set_state(4, law->initial_state());
-  EXPECT_EQ(particles.state(4), law->initial_state());
+  particles.set_state(4, material->initial_state());
+  EXPECT_EQ(particles.state(4), material->initial_state());
   EXPECT_EQ(particles.state(3),
-            VectorX::Zero(static_cast<Eigen::Index>(law->state_fields().size())));
+            VectorX::Zero(static_cast<Eigen::Index>(material->state_fields().size())));
   EXPECT_EQ(particles.position(4), Vector3::Zero());
 }
 
 TEST(Particles, AffineIsReadColumnByColumn) {
-  const auto law = law_of(elastic(1e6, 0.3, 1000));
-  Particles particles(*law);
+  const auto material = material_of(elastic(1e6, 0.3, 1000));
+  Particles particles(*material);
   particles.append(2);
   number(particles);
   Matrix3 expected;
@@ -50,8 +50,8 @@ TEST(Particles, AffineIsReadColumnByColumn) {
 }
 
 TEST(Particles, ReorderMovesAllColumnsAndDropsTheRest) {
-  const auto law = law_of(elastic(1e6, 0.3, 1000));
-  Particles particles(*law);
+  const auto material = material_of(elastic(1e6, 0.3, 1000));
+  Particles particles(*material);
   particles.append(4);
   const std::size_t memory = particles.add_column("memory", 2);
   number(particles);
@@ -60,7 +60,7 @@ TEST(Particles, ReorderMovesAllColumnsAndDropsTheRest) {
   ASSERT_EQ(particles.size(), 3u);
   EXPECT_EQ(particles.position(0).x(), 300.0);
   EXPECT_EQ(particles.position(1).x(), 0.0);
-  EXPECT_EQ(particles.data(column::home_z)[2], 201.0);
+  EXPECT_EQ(particles.data(column::initial_z)[2], 201.0);
   EXPECT_EQ(particles.affine(0)(0, 0), 310.0);
   EXPECT_EQ(particles.data(memory)[1], 3.0);
   EXPECT_EQ(particles.data(memory)[5], 2.0);
@@ -69,8 +69,8 @@ TEST(Particles, ReorderMovesAllColumnsAndDropsTheRest) {
 }
 
 TEST(Particles, AColumnAddedLateIsZeroAndTravelsWithTheParticle) {
-  const auto law = law_of(elastic(1e6, 0.3, 1000));
-  Particles particles(*law);
+  const auto material = material_of(elastic(1e6, 0.3, 1000));
+  Particles particles(*material);
   particles.append(3);
   const std::size_t before = particles.record_length(), memory = particles.add_column("memory", 4);
   EXPECT_EQ(particles.record_length(), before + 4);
@@ -82,11 +82,11 @@ TEST(Particles, AColumnAddedLateIsZeroAndTravelsWithTheParticle) {
 }
 
 TEST(Particles, PackAndUnpackAreInverse) {
-  const auto law = law_of(snow());
-  Particles from(*law), to(*law);
+  const auto material = material_of(snow());
+  Particles from(*material), to(*material);
   from.append(3);
   number(from);
-  from.set_state(1, law->initial_state());
+  from.set_state(1, material->initial_state());
   std::vector<double> buffer;
   from.pack(1, buffer);
   from.pack(2, buffer);
@@ -98,7 +98,7 @@ TEST(Particles, PackAndUnpackAreInverse) {
   to.pack(0, again);
   to.pack(1, again);
   EXPECT_EQ(again, buffer);
-  EXPECT_EQ(to.state(0), law->initial_state());
+  EXPECT_EQ(to.state(0), material->initial_state());
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 TEST(Partition, OneRankHasEverything) {
   Partition partition(Communicator(), 7);
-  partition.balance(std::vector<double>(7, 3.0));
+  partition.rebalance(std::vector<double>(7, 3.0));
   for (int cell = 0; cell < 7; ++cell) EXPECT_EQ(partition.owner(cell), 0);
   EXPECT_EQ(partition.first_cell(), 0);
   EXPECT_EQ(partition.last_cell(), 6);
@@ -21,7 +21,7 @@ TEST(Partition, OneRankHasEverything) {
 
 TEST(Partition, BalanceOfNothingIsStillEverything) {
   Partition partition(Communicator(), 4);
-  partition.balance(std::vector<double>(4, 0.0));
+  partition.rebalance(std::vector<double>(4, 0.0));
   EXPECT_EQ(partition.owner(3), 0);
   EXPECT_EQ(partition.last_cell(), 3);
 }

@@ -6,12 +6,13 @@
 #include "bodies/rigid_plate.h"
 #include "core/error.h"
 #include "terrain_scene.h"
+#include "tests/support/checkpoints.h"
 
 namespace furrow {
 namespace {
 
 using ::testing::HasSubstr;
-using namespace testing_ground;
+using namespace testing_terrain;
 
 template <class Action>
 std::string refusal_of(Action action) {
@@ -23,16 +24,16 @@ std::string refusal_of(Action action) {
   return "no error";
 }
 
-MpmGround block(double y_lower = -0.1) {
-  GroundParameters p =
-      box(law_of(elastic(1e6, 0.2, 500)), {-0.1, y_lower, -0.1}, {0.1, 0.1, 0.0}, 0.025);
+ContinuumTerrain block(double y_lower = -0.1) {
+  TerrainParameters p =
+      box(material_of(elastic(1e6, 0.2, 500)), {-0.1, y_lower, -0.1}, {0.1, 0.1, 0.0}, 0.025);
   p.z = even(-0.1, 0.1, 0.025);
-  return MpmGround(p, Communicator());
+  return ContinuumTerrain(p, Communicator());
 }
 
-TEST(GroundContact, ReadsItsKeys) {
+TEST(TerrainContact, ReadsItsKeys) {
   const auto read = [](const std::vector<std::string>& words) {
-    return GroundContact::parameters_from(GroundContact::schema().read(words));
+    return TerrainContact::parameters_from(TerrainContact::schema().read(words));
   };
   EXPECT_EQ(read({}).friction, 0.3);
   EXPECT_EQ(read({"surface", "smooth"}).friction, 0.0);
@@ -48,32 +49,32 @@ TEST(GroundContact, ReadsItsKeys) {
 }
 
 /// Ground level with a plate's lower face is not touched by it, under the plate or beside its edge.
-TEST(GroundContact, LevelPlateJustTouchesNothing) {
-  MpmGround ground = block();
+TEST(TerrainContact, LevelPlateJustTouchesNothing) {
+  ContinuumTerrain ground = block();
   RigidPlate plate({PlateShape::circle, 0.11, 0.05, 4}, {0.003, 0.004, 1e-9});
-  GroundContact contact(plate, ground, ContactParameters{}, false, "foot");
+  TerrainContact contact(plate, ground, ContactParameters{}, false, "foot");
   contact.apply(1e-5);
   EXPECT_EQ(contact.contacts(), 0.0);
   EXPECT_EQ(contact.force(), Vector3::Zero());
 }
 
 /// A spring that the step cannot follow makes energy from nothing.
-TEST(GroundContact, RefusesASpringTooStiffForTheStep) {
-  MpmGround ground = block();
+TEST(TerrainContact, RefusesASpringTooStiffForTheStep) {
+  ContinuumTerrain ground = block();
   RigidPlate plate({PlateShape::circle, 0.11, 0.05, 4}, {0.0, 0.0, 0.01});
   ContactParameters stiff;
   stiff.stiffness = 1.01 * std::pow(2.0 / (2.0 * ground.parameters().cfl), 2);
-  EXPECT_THAT(refusal_of([&] { GroundContact(plate, ground, stiff, false, "foot"); }),
+  EXPECT_THAT(refusal_of([&] { TerrainContact(plate, ground, stiff, false, "foot"); }),
               HasSubstr("sqrt(stiffness) x cfl x particles below 2"));
 }
 
 /// gap = height of the plate above the particles' faces: spring force k gap of every particle under
 /// it.
-TEST(GroundContact, SpringsPushByTheirPenetration) {
-  MpmGround ground = block();
+TEST(TerrainContact, SpringsPushByTheirPenetration) {
+  ContinuumTerrain ground = block();
   const double depth = 1e-4, stiffness = 0.4 * (1e6 * 0.8 / (1.2 * 0.6)) * 0.0125;  // 0.4 M V^(1/3)
   RigidPlate plate({PlateShape::square, 0.1, 0.05, 4}, {0, 0, -depth});
-  GroundContact contact(plate, ground, ContactParameters{}, false, "foot");
+  TerrainContact contact(plate, ground, ContactParameters{}, false, "foot");
   contact.apply(1e-5);
   EXPECT_EQ(contact.contacts(), 64.0);
   EXPECT_NEAR(contact.penetration(), depth, 1e-12);
@@ -83,11 +84,11 @@ TEST(GroundContact, SpringsPushByTheirPenetration) {
 }
 
 /// Half a model gives the whole plate's force, without sideways force or moment about x.
-TEST(GroundContact, HalfAModelIsMirrored) {
-  MpmGround whole = block(), half = block(0.0);
+TEST(TerrainContact, HalfAModelIsMirrored) {
+  ContinuumTerrain whole = block(), half = block(0.0);
   RigidPlate one({PlateShape::square, 0.1, 0.05, 4}, {0.01, 0, -1e-4}),
       other({PlateShape::square, 0.1, 0.05, 4}, {0.01, 0, -1e-4});
-  GroundContact full(one, whole, ContactParameters{}, false, "whole"),
+  TerrainContact full(one, whole, ContactParameters{}, false, "whole"),
       mirrored(other, half, ContactParameters{}, true, "half");
   full.apply(1e-5);
   mirrored.apply(1e-5);
@@ -101,22 +102,23 @@ TEST(GroundContact, HalfAModelIsMirrored) {
       1e-9 * full.force().norm());
 }
 
-TEST(GroundContact, RefusesWhatCannotBe) {
-  MpmGround ground = block(0.0);
+TEST(TerrainContact, RefusesWhatCannotBe) {
+  ContinuumTerrain ground = block(0.0);
   RigidPlate aside({PlateShape::square, 0.05, 0.05, 4}, {0, 0.01, 0.01});
-  EXPECT_THAT(refusal_of([&] { GroundContact(aside, ground, ContactParameters{}, true, "foot"); }),
+  EXPECT_THAT(refusal_of([&] { TerrainContact(aside, ground, ContactParameters{}, true, "foot"); }),
               HasSubstr("foot needs a surface that is its own mirror image in the plane y = 0 m"));
   RigidPlate inside({PlateShape::square, 0.1, 0.05, 4}, {0, 0.05, -0.08});
-  GroundContact overlap(inside, ground, ContactParameters{}, false, "foot");
+  TerrainContact overlap(inside, ground, ContactParameters{}, false, "foot");
   EXPECT_THAT(refusal_of([&] { overlap.apply(1e-5); }),
               HasSubstr("is inside of the body at the start; start above the ground"));
   RigidPlate away({PlateShape::square, 0.1, 0.05, 4}, {0.3, 0.05, 0.01});
-  GroundContact departed(away, ground, ContactParameters{}, false, "foot");
+  TerrainContact departed(away, ground, ContactParameters{}, false, "foot");
   EXPECT_THAT(refusal_of([&] { departed.apply(1e-5); }),
               HasSubstr("the middle of the body is at x = 0.3 m"));
-  GroundContact one(inside, ground, ContactParameters{}, false, "foot");
-  EXPECT_THAT(refusal_of([&] { one.restore({1.0}); }),
-              HasSubstr("foot: the saved state belongs to a contact of another surface"));
+  RigidPlate finer({PlateShape::square, 0.1, 0.05, 8}, {0, 0.05, 0.01});
+  TerrainContact one(away, ground, ContactParameters{}, false, "foot"),
+      other(finer, ground, ContactParameters{}, false, "foot");
+  EXPECT_THAT(refusal_of([&] { test::hand_over(one, other); }), HasSubstr("surface_nodes is"));
 }
 
 }  // namespace

@@ -14,10 +14,10 @@
 #include "mpm/continuum_terrain.h"
 #include "../material/paths.h"
 
-namespace furrow::testing_ground {
+namespace furrow::testing_terrain {
 
-inline std::shared_ptr<const Material> law_of(const std::string& text) {
-  return testing_paths::law_of(text);
+inline std::shared_ptr<const Material> material_of(const std::string& text) {
+  return testing_paths::material_of(text);
 }
 
 inline std::string elastic(double E, double nu, double density) {
@@ -41,45 +41,45 @@ inline AxisLayout even(double lower, double upper, double cell) {
 }
 
 /// Weightless ground that fills a box up to its top; every face is free.
-inline GroundParameters box(const std::shared_ptr<const Material>& law, const Vector3& lower,
-                            const Vector3& upper, double cell) {
-  GroundParameters ground;
+inline TerrainParameters box(const std::shared_ptr<const Material>& material, const Vector3& lower,
+                             const Vector3& upper, double cell) {
+  TerrainParameters ground;
   ground.x = even(lower.x(), upper.x(), cell);
   ground.y = even(lower.y(), upper.y(), cell);
   ground.z = even(lower.z(), upper.z(), cell);
   ground.surface = upper.z();
-  ground.layers = {{law, upper.z() - lower.z()}};
-  ground.faces.fill(FaceKind::free);
+  ground.layers = {{material, upper.z() - lower.z()}};
+  ground.faces.fill(BoundaryKind::free);
   ground.gravity.setZero();
   ground.initial_stress = false;
   return ground;
 }
 
-inline void set_faces(GroundParameters& ground, const std::array<const char*, face_count>& kinds) {
-  for (std::size_t f = 0; f < face_count; ++f) ground.faces[f] = face_kind(kinds[f]);
+inline void set_faces(TerrainParameters& ground, const std::array<const char*, face_count>& kinds) {
+  for (std::size_t f = 0; f < face_count; ++f) ground.faces[f] = boundary_kind(kinds[f]);
 }
 
 /// Calls visit(particles, index) for all particles of this rank.
 template <class Visit>
-void for_particles(MpmGround& ground, Visit visit) {
-  for (GroundPhase& phase : ground.phases())
-    for (std::size_t p = 0; p < phase.particles.size(); ++p) visit(phase.particles, p);
+void for_particles(ContinuumTerrain& ground, Visit visit) {
+  for (ParticleGroup& group : ground.groups())
+    for (std::size_t p = 0; p < group.particles.size(); ++p) visit(group.particles, p);
 }
 
 /// Drops all particles but those whose position passes.
 template <class Keep>
-void carve(MpmGround& ground, Keep keep) {
-  for (GroundPhase& phase : ground.phases()) {
+void carve(ContinuumTerrain& ground, Keep keep) {
+  for (ParticleGroup& group : ground.groups()) {
     std::vector<std::size_t> kept;
-    for (std::size_t p = 0; p < phase.particles.size(); ++p)
-      if (keep(phase.particles.position(p))) kept.push_back(p);
-    phase.particles.reorder(kept);
+    for (std::size_t p = 0; p < group.particles.size(); ++p)
+      if (keep(group.particles.position(p))) kept.push_back(p);
+    group.particles.reorder(kept);
   }
 }
 
 /// Gives every particle the velocity v + W (x - about).
-inline void set_motion(MpmGround& ground, const Vector3& v, const Matrix3& W = Matrix3::Zero(),
-                       const Vector3& about = Vector3::Zero()) {
+inline void set_motion(ContinuumTerrain& ground, const Vector3& v,
+                       const Matrix3& W = Matrix3::Zero(), const Vector3& about = Vector3::Zero()) {
   for_particles(ground, [&](Particles& particles, std::size_t p) {
     Eigen::Map<Vector3>(particles.data(column::velocity) + 4 * p) =
         v + W * (particles.position(p) - about);
@@ -100,15 +100,15 @@ struct Sums {
 };
 
 /// Of this rank's particles; the affine velocity counts with D = cell^2/4 of a uniform grid inside.
-inline Sums sums_of(MpmGround& ground) {
+inline Sums sums_of(ContinuumTerrain& ground) {
   Sums sums;
   Vector3 D;
   for (int a = 0; a < 3; ++a) D[a] = 0.25 * std::pow(ground.grid().axis(a).shortest(), 2);
-  for (GroundPhase& phase : ground.phases())
-    for (std::size_t p = 0; p < phase.particles.size(); ++p) {
-      const double m = phase.law->density() * phase.particles.data(column::volume)[p];
-      const Vector3 x = phase.particles.position(p), v = phase.particles.velocity(p);
-      const Matrix3 C = phase.particles.affine(p), B = C * D.asDiagonal();
+  for (ParticleGroup& group : ground.groups())
+    for (std::size_t p = 0; p < group.particles.size(); ++p) {
+      const double m = group.material->density() * group.particles.data(column::volume)[p];
+      const Vector3 x = group.particles.position(p), v = group.particles.velocity(p);
+      const Matrix3 C = group.particles.affine(p), B = C * D.asDiagonal();
       sums.mass += m;
       sums.centre += m * x;
       sums.momentum += m * v;
@@ -122,7 +122,7 @@ inline Sums sums_of(MpmGround& ground) {
 
 /// Volume average of a state field over the particles that pass.
 template <class Where>
-double mean_of(MpmGround& ground, std::size_t state_field, Where where) {
+double mean_of(ContinuumTerrain& ground, std::size_t state_field, Where where) {
   double sum = 0.0, volume = 0.0;
   for_particles(ground, [&](Particles& particles, std::size_t p) {
     if (!where(particles.position(p))) return;
@@ -134,4 +134,4 @@ double mean_of(MpmGround& ground, std::size_t state_field, Where where) {
   return sum / volume;
 }
 
-}  // namespace furrow::testing_ground
+}  // namespace furrow::testing_terrain

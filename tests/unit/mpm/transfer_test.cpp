@@ -13,7 +13,7 @@
 namespace furrow {
 namespace {
 
-using testing_ground::even;
+using testing_terrain::even;
 
 /// Particles at random places with random motion and stress in a grid that is graded along two
 /// axes.

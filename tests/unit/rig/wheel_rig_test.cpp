@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "wheel_on_floor.h"
+#include "tests/support/checkpoints.h"
 
 namespace furrow {
 namespace {
@@ -65,10 +66,10 @@ TEST(WheelRig, PhasesFollowTheClock) {
   RigidWheel wheel = make_wheel();
   const WheelRig rig =
       make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed", "start", "1"});
-  EXPECT_EQ(rig.phase(0.5), WheelRig::Phase::settle);
-  EXPECT_EQ(rig.phase(1.19), WheelRig::Phase::settle);
-  EXPECT_EQ(rig.phase(1.21), WheelRig::Phase::accelerate);
-  EXPECT_EQ(rig.phase(1.41), WheelRig::Phase::cruise);
+  EXPECT_EQ(rig.stage(0.5), WheelRig::Stage::settle);
+  EXPECT_EQ(rig.stage(1.19), WheelRig::Stage::settle);
+  EXPECT_EQ(rig.stage(1.21), WheelRig::Stage::accelerate);
+  EXPECT_EQ(rig.stage(1.41), WheelRig::Stage::cruise);
   EXPECT_DOUBLE_EQ(rig.cruise_start(), 1.4);
 }
 
@@ -237,7 +238,7 @@ TEST(WheelRig, TheEnergyBalanceClosesOverAWholeRun) {
   run(rig, wheel, 0.8, 4e-5, &floor, [&](const std::vector<double>& row) { last = row; });
   const double drive = last[channel("drive_work")];
   EXPECT_GT(std::abs(drive), 1.0);
-  EXPECT_NEAR(wheel.balance().residual(), 0.0, 1e-12 * std::abs(drive));
+  EXPECT_NEAR(wheel.energy_budget().residual(), 0.0, 1e-12 * std::abs(drive));
   // friction against the sliding of the tread, v - v_rim x heading
   const double rim = rig.target_rim_speed(), heading = radians(10.0);
   EXPECT_NEAR(rim, std::cos(heading) / 0.7, 1e-15);
@@ -259,13 +260,13 @@ TEST(WheelRig, ARigMadeAgainContinuesBitwise) {
   };
   for (long i = 0; i < 3000; ++i) step(first, one, i);
   WheelRig second = make_rig(other, words);
-  other.restore(one.state());
+  test::hand_over(one, other);
   for (long i = 3000; i < 5000; ++i) {
     step(first, one, i);
     step(second, other, i);
   }
   EXPECT_EQ(first.measure(0.5), second.measure(0.5));
-  EXPECT_EQ(one.state(), other.state());
+  EXPECT_EQ(test::state_of(one), test::state_of(other));
 }
 
 TEST(WheelRig, RefusesContradictionsWithKeywordAndRemedy) {

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "rig/wheel_rig.h"
-#include "wheel_on_floor.h"
+#include "tests/unit/rig/wheel_on_floor.h"
 
 namespace furrow {
 namespace {

@@ -13,7 +13,7 @@
 namespace furrow {
 namespace {
 
-using testing_paths::law_of;
+using testing_paths::material_of;
 using testing_paths::mccormick_sand;
 using testing_paths::stretch;
 
@@ -40,9 +40,9 @@ Matrix3 flow(const Matrix3& L, double dt) {
 }
 
 /// Stress and eps_vol_pl after every leg, by the law with `steps` steps a leg.
-std::vector<Eigen::Matrix<double, 7, 1>> run(const Material& law, const std::vector<Leg>& legs,
+std::vector<Eigen::Matrix<double, 7, 1>> run(const Material& material, const std::vector<Leg>& legs,
                                              int steps) {
-  VectorX state = law.initial_state();
+  VectorX state = material.initial_state();
   std::vector<Eigen::Matrix<double, 7, 1>> ends;
   for (const Leg& leg : legs) {
     const double dt = leg.duration / steps;
@@ -53,7 +53,7 @@ std::vector<Eigen::Matrix<double, 7, 1>> run(const Material& law, const std::vec
       for (int i = 0; i < 3; ++i)
         if (leg.held[static_cast<std::size_t>(i)]) free.push_back(i);
       if (free.empty()) {
-        law.update_point(flow(L, dt), state);
+        material.update_point(flow(L, dt), state);
         continue;
       }
       // Newton's method on the held components; L of the last step is the first guess, the tangent
@@ -62,7 +62,7 @@ std::vector<Eigen::Matrix<double, 7, 1>> run(const Material& law, const std::vec
       VectorX next;
       const auto residual = [&](const Matrix3& velocity) {
         next = state;
-        law.update_point(flow(velocity, dt), next);
+        material.update_point(flow(velocity, dt), next);
         Eigen::VectorXd r(n);
         for (Eigen::Index i = 0; i < n; ++i)
           r[i] = next[free[std::size_t(i)]] - target[free[std::size_t(i)]];
@@ -88,16 +88,16 @@ std::vector<Eigen::Matrix<double, 7, 1>> run(const Material& law, const std::vec
       state = next;
     }
     Eigen::Matrix<double, 7, 1> end;
-    end << stress_of(state), state[law.field_index("eps_vol_pl")];
+    end << stress_of(state), state[material.field_index("eps_vol_pl")];
     ends.push_back(end);
   }
   return ends;
 }
 
 std::vector<Eigen::Matrix<double, 7, 1>> run_reference(const std::vector<Leg>& legs) {
-  const reference::CapRates law{reference::Sand{}};
-  reference::Integrator integrator(law, reference_tolerance);
-  reference::State y = law.initial();
+  const reference::CapRates material{reference::Sand{}};
+  reference::Integrator integrator(material, reference_tolerance);
+  reference::State y = material.initial();
   std::vector<Eigen::Matrix<double, 7, 1>> ends;
   for (const Leg& leg : legs) {
     y = integrator.advance(y, {leg.L, leg.held}, leg.duration);
@@ -111,11 +111,11 @@ std::vector<Eigen::Matrix<double, 7, 1>> run_reference(const std::vector<Leg>& l
 /// Compares leg by leg; stresses on the scale of the largest stress component, eps_vol_pl on its
 /// own.
 void expect_agreement(const std::vector<Leg>& legs, int steps, bool extrapolate, double tolerance) {
-  const auto law = law_of(mccormick_sand());
+  const auto material = material_of(mccormick_sand());
   const auto expected = run_reference(legs);
-  auto found = run(*law, legs, steps);
+  auto found = run(*material, legs, steps);
   if (extrapolate) {
-    const auto finer = run(*law, legs, 2 * steps);
+    const auto finer = run(*material, legs, 2 * steps);
     for (std::size_t i = 0; i < legs.size(); ++i) found[i] = 2 * finer[i] - found[i];
   }
   double worst = 0;

@@ -121,7 +121,8 @@ struct Control {
 /// stress level of 1 MPa.
 class Integrator {
  public:
-  Integrator(const CapRates& law, double tolerance) : law_(law), tolerance_(tolerance) {}
+  Integrator(const CapRates& material, double tolerance)
+      : material_(material), tolerance_(tolerance) {}
 
   State advance(State y, const Control& control, double duration) {
     double time = 0, h = std::min(step_, duration);
@@ -129,7 +130,7 @@ class Integrator {
       h = std::min(h, duration - time);
       if (plastic_) {
         double multiplier = 0;
-        law_.rate(y, gradient(y, control, true), true, &multiplier);
+        material_.rate(y, gradient(y, control, true), true, &multiplier);
         if (multiplier < 0) plastic_ = false;
       }
       State error;
@@ -141,11 +142,11 @@ class Integrator {
           throw std::runtime_error("reference integration cannot meet its tolerance");
         continue;
       }
-      if (!plastic_ && law_.yield(next) > 0) {  // the end of the elastic part: bisection
+      if (!plastic_ && material_.yield(next) > 0) {  // the end of the elastic part: bisection
         double low = 0, high = h;
         for (int i = 0; i < 100; ++i) {
           const double middle = 0.5 * (low + high);
-          (law_.yield(try_step(y, control, middle, false, error)) > 0 ? high : low) = middle;
+          (material_.yield(try_step(y, control, middle, false, error)) > 0 ? high : low) = middle;
         }
         y = try_step(y, control, low, false, error);
         time += low;
@@ -172,13 +173,13 @@ class Integrator {
     const auto n = static_cast<Eigen::Index>(free.size());
     Eigen::MatrixXd columns(n, n);
     Eigen::VectorXd base(n);
-    const Matrix3 given = law_.rate(y, L, plastic).sigma;
+    const Matrix3 given = material_.rate(y, L, plastic).sigma;
     for (Eigen::Index i = 0; i < n; ++i)
       base[i] = given(free[std::size_t(i)], free[std::size_t(i)]);
     for (Eigen::Index j = 0; j < n; ++j) {
       Matrix3 unit = Matrix3::Zero();
       unit(free[std::size_t(j)], free[std::size_t(j)]) = 1;
-      const Matrix3 response = law_.rate(y, L + unit, plastic).sigma - given;
+      const Matrix3 response = material_.rate(y, L + unit, plastic).sigma - given;
       for (Eigen::Index i = 0; i < n; ++i)
         columns(i, j) = response(free[std::size_t(i)], free[std::size_t(i)]);
     }
@@ -206,7 +207,7 @@ class Integrator {
       State stage = y;
       for (int j = 0; j < i; ++j) stage = stage + k[std::size_t(j)] * (h * a[i][j]);
       if (i == 6) result = stage;
-      k[std::size_t(i)] = law_.rate(stage, gradient(stage, control, plastic), plastic);
+      k[std::size_t(i)] = material_.rate(stage, gradient(stage, control, plastic), plastic);
     }
     State other = y;
     for (int i = 0; i < 7; ++i) other = other + k[std::size_t(i)] * (h * fourth[i]);
@@ -214,7 +215,7 @@ class Integrator {
     return result;
   }
 
-  const CapRates& law_;
+  const CapRates& material_;
   double tolerance_, step_ = 1e-4;
   bool plastic_ = false;
 };

@@ -11,18 +11,18 @@
 namespace furrow {
 namespace {
 
-using namespace testing_ground;
+using namespace testing_terrain;
 
 /// The law in confined compression: states at small steps of logarithmic strain.
 class Confined {
  public:
-  Confined(const Material& law, double strain, int steps) : step_(strain / steps) {
-    VectorX state = law.initial_state();
+  Confined(const Material& material, double strain, int steps) : step_(strain / steps) {
+    VectorX state = material.initial_state();
     Matrix3 gradient = Matrix3::Zero();
     gradient(2, 2) = std::expm1(-step_);
     states_.push_back(state);
     for (int n = 0; n < steps; ++n) {
-      law.update_point(gradient, state);
+      material.update_point(gradient, state);
       states_.push_back(state);
     }
   }
@@ -40,10 +40,10 @@ class Confined {
 
 struct Case {
   const char* name;
-  std::string law;
+  std::string material;
   double strain;  // engineering, of the column
   double speed;   // [m/s] of the plate
-  int cycle = GroundParameters().cycle;
+  int remap_interval = TerrainParameters().remap_interval;
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -70,24 +70,24 @@ INSTANTIATE_TEST_SUITE_P(Laws, Column,
 
 TEST_P(Column, FollowsTheLawInConfinedCompression) {
   const double cell = 0.02, height = 0.2;
-  const auto law = law_of(GetParam().law);
-  GroundParameters parameters = box(law, {0, 0, 0}, {2 * cell, 2 * cell, height}, cell);
+  const auto material = material_of(GetParam().material);
+  TerrainParameters parameters = box(material, {0, 0, 0}, {2 * cell, 2 * cell, height}, cell);
   parameters.z = even(0, height + 2 * cell, cell);
   parameters.surface = height;
-  parameters.cycle = GetParam().cycle;
+  parameters.remap_interval = GetParam().remap_interval;
   set_faces(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
-  MpmGround ground(parameters, Communicator());
+  ContinuumTerrain ground(parameters, Communicator());
   PlateGeometry geometry{PlateShape::square, 6 * cell, 2 * cell, 3};
   RigidPlate plate(geometry, {cell, cell, height + 1e-5});
   ContactParameters smooth;
   smooth.friction = 0.0;
-  GroundContact contact(plate, ground, smooth, false, "lid");
-  World world;
-  world.add(plate, "plate");
-  world.add(ground, "ground");
-  world.add(contact, "lid");
+  TerrainContact contact(plate, ground, smooth, false, "lid");
+  CoupledSystem system;
+  system.add(plate, "plate");
+  system.add(ground, "ground");
+  system.add(contact, "lid");
   const double end = GetParam().strain * height;
-  const Confined reference(*law, -std::log(1.0 - GetParam().strain) * 1.5, 60000);
+  const Confined reference(*material, -std::log(1.0 - GetParam().strain) * 1.5, 60000);
   const auto mean_volume_ratio = [&] {
     double sum = 0.0, volume = 0.0;
     for_particles(ground, [&](Particles& particles, std::size_t p) {
@@ -101,7 +101,7 @@ TEST_P(Column, FollowsTheLawInConfinedCompression) {
   const double interval = 0.01 * end / GetParam().speed;
   while (height - plate.centre().z() < end) {
     plate.prescribe(-GetParam().speed * std::min(1.0, time / (20 * interval)));
-    world.advance(interval);
+    system.advance(interval);
     time += interval;
     if (height - plate.centre().z() > 0.97 * end) {
       force += contact.force().z();
@@ -126,7 +126,7 @@ TEST_P(Column, FollowsTheLawInConfinedCompression) {
   RecordProperty("force_over_law", fmt::format("{:.4f}", force / expected_force));
   RecordProperty("mean_volume_ratio", fmt::format("{:.5f}, height {:.5f}", mean, left));
   RecordProperty("deepest_penetration", fmt::format("{:.2e}", contact.deepest_penetration()));
-  const Balance b = ground.balance();
+  const EnergyBudget b = ground.energy_budget();
   RecordProperty("energies", fmt::format("contact {:.4g} stored {:.4g} dissipated {:.4g} kinetic "
                                          "{:.2g} numerical {:.2g} residual {:.2g}",
                                          b.contact_work, b.stored_energy, b.dissipated_energy,
@@ -145,27 +145,27 @@ TEST_P(Column, FollowsTheLawInConfinedCompression) {
 double force_at_given_height(double cell, double stiffness) {
   const double height = 0.2, E = 1e6, nu = 0.3, M = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)),
                strain = 0.05, speed = 0.1;
-  GroundParameters parameters =
-      box(law_of(elastic(E, nu, 1000)), {0, 0, 0}, {cell, cell, height}, cell);
+  TerrainParameters parameters =
+      box(material_of(elastic(E, nu, 1000)), {0, 0, 0}, {cell, cell, height}, cell);
   parameters.z = even(0, height + 2 * cell, cell);
   parameters.surface = height;
   set_faces(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
-  MpmGround ground(parameters, Communicator());
+  ContinuumTerrain ground(parameters, Communicator());
   RigidPlate plate({PlateShape::square, 6 * cell, 2 * cell, 3},
                    {0.5 * cell, 0.5 * cell, height + 1e-6});
   ContactParameters lid;
   lid.friction = 0.0;
   lid.stiffness = stiffness;
-  GroundContact contact(plate, ground, lid, false, "lid");
-  World world;
-  world.add(plate, "plate");
-  world.add(ground, "ground");
-  world.add(contact, "lid");
+  TerrainContact contact(plate, ground, lid, false, "lid");
+  CoupledSystem system;
+  system.add(plate, "plate");
+  system.add(ground, "ground");
+  system.add(contact, "lid");
   double time = 0.0, sum = 0.0, expected = 0.0;
   const double interval = 2e-4;
   while (height - plate.centre().z() < strain * height) {
     plate.prescribe(-speed * std::min(1.0, time / 0.02));
-    world.advance(interval);
+    system.advance(interval);
     time += interval;
     if (height - plate.centre().z() < 0.9 * strain * height) continue;
     sum += contact.force().z();

@@ -11,7 +11,7 @@
 namespace furrow {
 namespace {
 
-using namespace testing_ground;
+using namespace testing_terrain;
 
 using Enforcement = ContactParameters::Enforcement;
 
@@ -25,10 +25,10 @@ struct Incline {
     mass = sums_of(ground).mass;
     start = sums_of(ground).centre.x();
   }
-  static GroundParameters block(double slope) {
+  static TerrainParameters block(double slope) {
     const double cell = 0.025;
-    GroundParameters p =
-        box(law_of(elastic(1e6, 0.2, 1000)), {-0.4, 0, -0.05}, {0.4, 0.1, 0.1}, cell);
+    TerrainParameters p =
+        box(material_of(elastic(1e6, 0.2, 1000)), {-0.4, 0, -0.05}, {0.4, 0.1, 0.1}, cell);
     p.z = even(-0.05, 0.15, cell);
     p.surface = 0.1;
     set_faces(p, {"free", "free", "smooth", "smooth", "free", "free"});
@@ -49,9 +49,9 @@ struct Incline {
   }
   double moved() { return sums_of(ground).centre.x() - start; }
 
-  MpmGround ground;
+  ContinuumTerrain ground;
   RigidPlate plate;
-  GroundContact contact;
+  TerrainContact contact;
   double time = 0.0, mass, start, normal_impulse = 0.0, friction_impulse = 0.0;
 };
 
@@ -146,18 +146,19 @@ TEST_P(Enforcements, RoughDoesNotSlideAndSmoothDoesNotHold) {
 
 /// A plate hits a free block off its middle: what the block gains in momentum and angular momentum,
 /// the plate's nodes lose, to rounding; in cycles, angular momentum to second order in what the
-/// block turns and vibrates in one (mpm_ground.h).
-void hit_block(ContactParameters::Enforcement enforcement, int cycle, double angular_tolerance) {
-  GroundParameters p =
-      box(law_of(elastic(1e6, 0.2, 500)), {-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3}, 0.05);
-  p.cycle = cycle;
-  MpmGround ground(p, Communicator());
+/// block turns and vibrates in one (continuum_terrain.h).
+void hit_block(ContactParameters::Enforcement enforcement, int remap_interval,
+               double angular_tolerance) {
+  TerrainParameters p =
+      box(material_of(elastic(1e6, 0.2, 500)), {-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3}, 0.05);
+  p.remap_interval = remap_interval;
+  ContinuumTerrain ground(p, Communicator());
   carve(ground, [](const Vector3& x) { return x.cwiseAbs().maxCoeff() < 0.1; });
   set_motion(ground, {0.3, 0.2, 0.0}, spin({1.0, 2.0, -3.0}));
   RigidPlate plate({PlateShape::circle, 0.12, 0.05, 4}, {0.05, 0.03, 0.1 + 1e-4});
   ContactParameters parameters;
   parameters.enforcement = enforcement;
-  GroundContact contact(plate, ground, parameters, false, "plate");
+  TerrainContact contact(plate, ground, parameters, false, "plate");
   const Sums before = sums_of(ground);
   Vector3 impulse = Vector3::Zero(), moment = impulse;
   for (int n = 0; n < 300; ++n) {
@@ -178,22 +179,22 @@ void hit_block(ContactParameters::Enforcement enforcement, int cycle, double ang
 
 TEST_P(Enforcements, ForceAndMomentAreEqualOnBothSides) {
   hit_block(GetParam(), 1, 1e-11);
-  hit_block(GetParam(), GroundParameters().cycle, 2e-3);
+  hit_block(GetParam(), TerrainParameters().remap_interval, 2e-3);
 }
 
 /// A plate in a bed of snow, pressed in and pulled out: momentum against all impulses; energies
 /// against all works.
 TEST_P(Enforcements, MomentumAndEnergyOfAPressedBedAreAccountedFor) {
-  GroundParameters p = box(law_of(snow()), {-0.15, 0, 0}, {0.15, 0.15, 0.1}, 0.025);
+  TerrainParameters p = box(material_of(snow()), {-0.15, 0, 0}, {0.15, 0.15, 0.1}, 0.025);
   p.z = even(0, 0.15, 0.025);
   p.gravity = {0, 0, -standard_gravity};
   p.initial_stress = true;
   set_faces(p, {"absorbing", "absorbing", "smooth", "absorbing", "rough", "free"});
-  MpmGround ground(p, Communicator());
+  ContinuumTerrain ground(p, Communicator());
   RigidPlate plate({PlateShape::square, 0.15, 0.05, 4}, {0.02, 0, 0.1 + 1e-4});
   ContactParameters parameters;
   parameters.enforcement = GetParam();
-  GroundContact contact(plate, ground, parameters, false, "plate");
+  TerrainContact contact(plate, ground, parameters, false, "plate");
   const double mass = sums_of(ground).mass;
   Vector3 impulse = Vector3::Zero();
   double time = 0.0, most = 0.0, pressed = 0.0, loss = 0.0;
@@ -208,17 +209,17 @@ TEST_P(Enforcements, MomentumAndEnergyOfAPressedBedAreAccountedFor) {
     time += dt;
     impulse += dt * mass * p.gravity;
     pressed = std::max(pressed, contact.force().z());
-    const Balance b = ground.balance();
+    const EnergyBudget b = ground.energy_budget();
     // Mapping only takes. Within a cycle the works of an explicit step are off by what comes back
     // in the next.
     EXPECT_GE(b.numerical_loss, loss - 5e-3 * b.contact_work - 1e-9);
     loss = std::max(loss, b.numerical_loss);
     Vector3 faces = Vector3::Zero();
-    for (int f = 0; f < face_count; ++f) faces += ground.face_impulse(static_cast<FacePlace>(f));
+    for (int f = 0; f < face_count; ++f) faces += ground.face_impulse(static_cast<Face>(f));
     most = std::max(most, (b.momentum - impulse - faces).norm());
   }
   EXPECT_LT(most, 1e-12 * pressed * time);
-  const Balance b = ground.balance();
+  const EnergyBudget b = ground.energy_budget();
   RecordProperty("energies", fmt::format("contact {:.4g}, stored {:.4g}, dissipated {:.4g}, "
                                          "kinetic {:.2g}, numerical {:.3g}, residual {:.2g} J",
                                          b.contact_work, b.stored_energy, b.dissipated_energy,

@@ -9,7 +9,7 @@
 namespace furrow {
 namespace {
 
-using namespace testing_ground;
+using namespace testing_terrain;
 
 struct Noise {
   double rms, worst;  // of the axial stress in the middle of the bar, over the stress
@@ -20,9 +20,9 @@ struct Noise {
 Noise noise_of(double strain, double speed) {
   const double cell = 0.05, E = 1e6, nu = 0.3, M = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)),
                pressure = M * strain, half = 0.5;
-  GroundParameters p = box(law_of(elastic(E, nu, 1000)), {-1, 0, 0}, {2, cell, cell}, cell);
+  TerrainParameters p = box(material_of(elastic(E, nu, 1000)), {-1, 0, 0}, {2, cell, cell}, cell);
   set_faces(p, {"free", "free", "smooth", "smooth", "smooth", "smooth"});
-  MpmGround ground(p, Communicator());
+  ContinuumTerrain ground(p, Communicator());
   carve(ground, [half](const Vector3& x) { return std::abs(x.x()) < half; });
   for_particles(ground, [&](Particles& particles, std::size_t n) {
     VectorX state = particles.state(n);
@@ -34,17 +34,17 @@ Noise noise_of(double strain, double speed) {
   double time = 0.0, square = 0.0, worst = 0.0, count = 0.0;
   while (time < 0.4) {
     const double dt = ground.stable_time_step();
-    Particles& particles = ground.phases()[0].particles;
+    Particles& particles = ground.groups()[0].particles;
     for (std::size_t n = 0; n < particles.size(); ++n) {
-      const double home = particles.data(column::home_x)[n], side = home > 0 ? 1.0 : -1.0;
+      const double home = particles.data(column::initial_x)[n], side = home > 0 ? 1.0 : -1.0;
       if (std::abs(home) > half - 0.5 * cell)
-        ground.push({0, n}, {-side * pressure * cell * cell / 4, 0, 0},
-                    particles.position(n) + Vector3(side * 0.25 * cell, 0, 0));
+        ground.add_point_force({0, n}, {-side * pressure * cell * cell / 4, 0, 0},
+                               particles.position(n) + Vector3(side * 0.25 * cell, 0, 0));
     }
     ground.advance(dt);
     time += dt;
     for (std::size_t n = 0; n < particles.size(); ++n) {
-      if (std::abs(particles.data(column::home_x)[n]) > 0.5 * half) continue;
+      if (std::abs(particles.data(column::initial_x)[n]) > 0.5 * half) continue;
       const double error = particles.data(column::state)[n] / -pressure - 1.0;
       square += error * error;
       worst = std::max(worst, std::abs(error));

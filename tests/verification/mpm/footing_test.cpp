@@ -10,7 +10,7 @@
 namespace furrow {
 namespace {
 
-using namespace testing_ground;
+using namespace testing_terrain;
 
 struct Punch {
   double force;        // over 2 a E* d
@@ -21,8 +21,8 @@ struct Punch {
 /// away from it.
 Punch punch_force(double cells_per_radius, double size, const char* far) {
   const double a = 0.1, E = 1e6, nu = 0.3, d = 1e-4, cell = a / cells_per_radius, reach = 1.5 * a;
-  GroundParameters p;
-  p.layers = {{law_of(elastic(E, nu, 1000)), size * a}};
+  TerrainParameters p;
+  p.layers = {{material_of(elastic(E, nu, 1000)), size * a}};
   p.gravity.setZero();
   p.initial_stress = false;
   p.x = p.y = {0.0, size * a, cell, 0.0, reach, 1.25};
@@ -31,22 +31,22 @@ Punch punch_force(double cells_per_radius, double size, const char* far) {
   p.surface = 0.0;
   p.cfl = 0.35;
   set_faces(p, {"smooth", far, "smooth", far, far, "free"});
-  MpmGround ground(p, Communicator());
+  ContinuumTerrain ground(p, Communicator());
   RigidPlate plate({PlateShape::circle, 2 * a, 0.5 * a, 12}, {0, 0, 1e-9});
   ContactParameters smooth;
   smooth.friction = 0.0;
   smooth.stiffness = 2.0;
   smooth.damping = 0.5;
-  GroundContact contact(plate, ground, smooth, false, "punch");
-  World world;
-  world.add(plate, "punch");
-  world.add(ground, "ground");
-  world.add(contact, "punch");
+  TerrainContact contact(plate, ground, smooth, false, "punch");
+  CoupledSystem system;
+  system.add(plate, "punch");
+  system.add(ground, "ground");
+  system.add(contact, "punch");
   const double ramp = 0.08, hold = 0.16, interval = 5e-4;
   double time = 0.0, sum = 0.0, count = 0.0;
   while (time < hold) {
     plate.prescribe(time < ramp ? -(d + 1e-9) / ramp : 0.0);
-    world.advance(interval);
+    system.advance(interval);
     time += interval;
     if (time < 0.75 * hold) continue;
     sum += contact.force().z();
@@ -77,29 +77,29 @@ TEST(Punch, PressesIntoTheHalfSpace) {
 double bearing_factor(int cells_per_half_width) {
   const double b = 0.5, c = 1e4, E = 1e7, cell = b / cells_per_half_width, settlement = 0.04 * b,
                speed = 0.04;
-  const auto law =
-      law_of(fmt::format("drucker_prager_cap density 2000 d {} beta 0.001 R 0.1 elasticity linear "
-                         "E {} nu 0.3 hardening table p 1e9 2e9 "
-                         "eps_vol_pl 0 1 interpolation linear beyond extrapolate",
-                         std::sqrt(3.0) * c, E));
-  GroundParameters p = box(law, {0, 0, -2.4 * b}, {4.4 * b, cell, 0}, cell);
+  const auto material = material_of(
+      fmt::format("drucker_prager_cap density 2000 d {} beta 0.001 R 0.1 elasticity linear "
+                  "E {} nu 0.3 hardening table p 1e9 2e9 "
+                  "eps_vol_pl 0 1 interpolation linear beyond extrapolate",
+                  std::sqrt(3.0) * c, E));
+  TerrainParameters p = box(material, {0, 0, -2.4 * b}, {4.4 * b, cell, 0}, cell);
   p.z = even(-2.4 * b, 2 * cell, cell);
   set_faces(p, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
   p.particles_per_cell = {2, 1, 2};
   p.cfl = 0.8;
-  MpmGround ground(p, Communicator());
+  ContinuumTerrain ground(p, Communicator());
   RigidPlate plate({PlateShape::square, 2 * b, 0.3, 4}, {0, 0.5 * cell, 1e-6});
   ContactParameters rough;
   rough.friction = std::numeric_limits<double>::infinity();
-  GroundContact contact(plate, ground, rough, false, "strip");
-  World world;
-  world.add(plate, "strip");
-  world.add(ground, "ground");
-  world.add(contact, "strip");
+  TerrainContact contact(plate, ground, rough, false, "strip");
+  CoupledSystem system;
+  system.add(plate, "strip");
+  system.add(ground, "ground");
+  system.add(contact, "strip");
   double time = 0.0, sum = 0.0, count = 0.0;
   while (-plate.centre().z() < settlement) {
     plate.prescribe(-speed * std::min(1.0, time / 0.1));
-    world.advance(2e-3);
+    system.advance(2e-3);
     time += 2e-3;
     if (-plate.centre().z() < 0.95 * settlement) continue;
     sum += contact.force().z();

@@ -10,24 +10,25 @@
 namespace furrow {
 namespace {
 
-using namespace testing_ground;
+using namespace testing_terrain;
 
 constexpr double cell = 0.05;
 
 /// A cube of side 0.2 m in the middle of a grid of 1 m.
-MpmGround cube(double E, double cfl = 0.4, int cycle = GroundParameters().cycle) {
-  GroundParameters parameters =
-      box(law_of(elastic(E, 0.3, 500)), {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, cell);
+ContinuumTerrain cube(double E, double cfl = 0.4,
+                      int remap_interval = TerrainParameters().remap_interval) {
+  TerrainParameters parameters =
+      box(material_of(elastic(E, 0.3, 500)), {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, cell);
   parameters.cfl = cfl;
-  parameters.cycle = cycle;
-  MpmGround ground(parameters, Communicator());
+  parameters.remap_interval = remap_interval;
+  ContinuumTerrain ground(parameters, Communicator());
   carve(ground, [](const Vector3& x) { return x.cwiseAbs().maxCoeff() < 0.1; });
   return ground;
 }
 
 /// Straight flight through many cells: nothing changes but the place.
 TEST(FreeFlight, IsExact) {
-  MpmGround ground = cube(1e6);
+  ContinuumTerrain ground = cube(1e6);
   const Vector3 v(3.0, -2.0, 1.0);
   set_motion(ground, v);
   const Sums before = sums_of(ground);
@@ -52,10 +53,10 @@ TEST(FreeFlight, IsExact) {
 /// Free fall: z = z_0 - g t^2/2 as leapfrog has it, z_0 - g dt^2 n(n + 1)/2; the weight's work is
 /// the kinetic energy.
 TEST(FreeFlight, FallsUnderGravity) {
-  GroundParameters parameters =
-      box(law_of(elastic(1e6, 0.3, 500)), {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, cell);
+  TerrainParameters parameters =
+      box(material_of(elastic(1e6, 0.3, 500)), {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, cell);
   parameters.gravity = {0.0, 0.0, -standard_gravity};
-  MpmGround ground(parameters, Communicator());
+  ContinuumTerrain ground(parameters, Communicator());
   carve(ground, [](const Vector3& x) { return x.cwiseAbs().maxCoeff() < 0.1; });
   const Sums before = sums_of(ground);
   const double dt = 2e-4;
@@ -64,12 +65,12 @@ TEST(FreeFlight, FallsUnderGravity) {
   const double fallen = 0.5 * standard_gravity * dt * dt * steps * (steps + 1.0),
                speed = standard_gravity * dt * steps;
   EXPECT_NEAR(before.centre.z() - sums_of(ground).centre.z(), fallen, 1e-12);
-  const Balance balance = ground.balance();
-  EXPECT_NEAR(balance.momentum.z(), -before.mass * speed, 1e-10);
-  EXPECT_NEAR(balance.load_work, before.mass * standard_gravity * fallen, 1e-9 * balance.load_work);
-  EXPECT_NEAR(balance.kinetic_energy, 0.5 * before.mass * speed * speed,
-              1e-9 * balance.kinetic_energy);
-  EXPECT_LT(std::abs(balance.residual()), 1e-10 * balance.load_work);
+  const EnergyBudget budget = ground.energy_budget();
+  EXPECT_NEAR(budget.momentum.z(), -before.mass * speed, 1e-10);
+  EXPECT_NEAR(budget.load_work, before.mass * standard_gravity * fallen, 1e-9 * budget.load_work);
+  EXPECT_NEAR(budget.kinetic_energy, 0.5 * before.mass * speed * speed,
+              1e-9 * budget.kinetic_energy);
+  EXPECT_LT(std::abs(budget.residual()), 1e-10 * budget.load_work);
 }
 
 /// What a spin about a slanted axis loses and how much the body is strained, over five turns.
@@ -77,13 +78,13 @@ struct Spin {
   double momentum = 0.0, angular = 0.0, energy = 0.0, strain = 0.0;  // relative
 };
 
-Spin spin_five_turns(double speed, int cycle) {
-  MpmGround ground = cube(1e7, 0.4, cycle);
+Spin spin_five_turns(double speed, int remap_interval) {
+  ContinuumTerrain ground = cube(1e7, 0.4, remap_interval);
   const Vector3 omega = speed * Vector3(20.0, 10.0, 30.0), v(0.1, 0.0, -0.2);
   set_motion(ground, v, spin(omega));
   std::vector<Vector3> home;
   for_particles(ground, [&](Particles& particles, std::size_t p) {
-    particles.data(column::home_x)[p] = double(p);
+    particles.data(column::initial_x)[p] = double(p);
   });
   for_particles(
       ground, [&](Particles& particles, std::size_t p) { home.push_back(particles.position(p)); });
@@ -100,13 +101,13 @@ Spin spin_five_turns(double speed, int cycle) {
     result.angular =
         std::max(result.angular, (now.angular - before.angular).norm() / before.angular.norm());
   }
-  const Balance balance = ground.balance();
-  result.energy = 1.0 - (balance.kinetic_energy + balance.stored_energy) / before.kinetic;
+  const EnergyBudget budget = ground.energy_budget();
+  result.energy = 1.0 - (budget.kinetic_energy + budget.stored_energy) / before.kinetic;
   // Distances between particles: elongation by the centrifugal stress rho omega^2 a^2/2 over E is
   // 1e-4.
   std::vector<Vector3> now(home.size());
   for_particles(ground, [&](Particles& particles, std::size_t p) {
-    now[static_cast<std::size_t>(particles.data(column::home_x)[p])] = particles.position(p);
+    now[static_cast<std::size_t>(particles.data(column::initial_x)[p])] = particles.position(p);
   });
   for (std::size_t a = 0; a < now.size(); ++a)
     for (std::size_t b = a + 1; b < now.size(); b += 17)
@@ -130,7 +131,7 @@ TEST(RigidRotation, KeepsMomentaEnergyAndShape) {
 /// of a cycle: the body that spins faster has shorter cycles, as many a turn, and loses as much.
 TEST(RigidRotation, LosesLittleInCycles) {
   for (const double speed : {1.0, 0.5}) {
-    const Spin spin = spin_five_turns(speed, GroundParameters().cycle);
+    const Spin spin = spin_five_turns(speed, TerrainParameters().remap_interval);
     RecordProperty(fmt::format("angular_lost_at_{}", speed == 1.0 ? "full" : "half"),
                    fmt::format("{:.2e}", spin.angular));
     EXPECT_LT(spin.momentum, 1e-12);
@@ -142,7 +143,7 @@ TEST(RigidRotation, LosesLittleInCycles) {
 
 /// Under its own vibrations a free block keeps its momenta to rounding, and never gains energy.
 TEST(FreeVibration, KeepsMomentaAndNeverGainsEnergy) {
-  MpmGround ground = cube(1e6, 0.1);
+  ContinuumTerrain ground = cube(1e6, 0.1);
   for_particles(ground, [](Particles& particles, std::size_t p) {
     const Vector3 x = particles.position(p);
     Eigen::Map<Vector3>(particles.data(column::velocity) + 4 * p) =
@@ -150,19 +151,19 @@ TEST(FreeVibration, KeepsMomentaAndNeverGainsEnergy) {
   });
   const Sums before = sums_of(ground);
   ground.advance(1e-6);  // the balance counts from here
-  const Balance start = ground.balance();
+  const EnergyBudget start = ground.energy_budget();
   const double first = start.kinetic_energy + start.stored_energy;
   double time = 0.0;
   while (time < 0.05) {
     const double dt = ground.stable_time_step();
     ground.advance(dt);
     time += dt;
-    const Balance b = ground.balance();
+    const EnergyBudget b = ground.energy_budget();
     // a leapfrog's energies are half a step apart
     EXPECT_LE(b.kinetic_energy + b.stored_energy, 1.02 * first);
   }
   const Sums after = sums_of(ground);
-  const Balance end = ground.balance();
+  const EnergyBudget end = ground.energy_budget();
   EXPECT_LT((after.momentum - before.momentum).norm(), 1e-12 * before.mass);
   EXPECT_LT((after.angular - before.angular).norm(), 1e-12 * before.mass);
   EXPECT_LT(std::abs(end.residual() - start.residual()), 1e-3 * first);

@@ -14,12 +14,12 @@ namespace furrow {
 namespace {
 
 using ::testing::HasSubstr;
-using namespace testing_ground;
+using namespace testing_terrain;
 
 constexpr double depth = 0.2, weight = 636.0 * standard_gravity;
 
 struct Bed {
-  std::string law = snow();
+  std::string material = snow();
   std::string crust;  // a layer of 5 cm on top, unless empty
   double cell = depth / 3;
   double friction = 0.3;
@@ -45,17 +45,18 @@ struct Scene {
       : ground(parameters(bed), Communicator()),
         wheel(tr_wheel(height)),
         contact(wheel, ground, contact_parameters(bed), true, "contact") {
-    world.add(wheel, "wheel");
-    world.add(ground, "ground");
-    world.add(contact, "contact");
+    system.add(wheel, "wheel");
+    system.add(ground, "ground");
+    system.add(contact, "contact");
     wheel.release(WheelHub::z);
     wheel.set_load({0, 0, -weight});
     wheel.set_vertical_damping(3000.0);
   }
-  static GroundParameters parameters(const Bed& bed) {
-    GroundParameters p;
-    p.layers = {{law_of(bed.law), depth}};
-    if (!bed.crust.empty()) p.layers = {{law_of(bed.crust), 0.05}, {law_of(bed.law), depth}};
+  static TerrainParameters parameters(const Bed& bed) {
+    TerrainParameters p;
+    p.layers = {{material_of(bed.material), depth}};
+    if (!bed.crust.empty())
+      p.layers = {{material_of(bed.crust), 0.05}, {material_of(bed.material), depth}};
     p.surface = depth;
     p.x = even(-0.6, bed.length, bed.cell);
     p.y = even(0.0, 0.4, bed.cell);
@@ -68,7 +69,7 @@ struct Scene {
     return p;
   }
   void run(double duration) {
-    for (const double end = time + duration; time < end; time += 5e-4) world.advance(5e-4);
+    for (const double end = time + duration; time < end; time += 5e-4) system.advance(5e-4);
   }
   /// Rolls at a speed: spin as of rolling times `spin`.
   void roll(double speed, double spin, double duration) {
@@ -79,11 +80,11 @@ struct Scene {
   double sinkage() const { return depth - wheel.lowest_point(); }
   /// Energy that is not accounted for, of the work done on the ground.
   double imbalance() {
-    const Balance b = ground.balance();
+    const EnergyBudget b = ground.energy_budget();
     return std::abs(b.residual()) / (std::abs(b.contact_work) + std::abs(b.load_work));
   }
   void expect_sound(const char* name) {
-    const Balance b = ground.balance();
+    const EnergyBudget b = ground.energy_budget();
     ::testing::Test::RecordProperty(
         name, fmt::format("sinkage {:.4f} m, contact work {:.1f} J, numerical {:.1f} J, imbalance "
                           "{:.1e}, penetration {:.1e} m",
@@ -95,10 +96,10 @@ struct Scene {
     EXPECT_GT(sinkage(), 0.0);
     EXPECT_LT(sinkage(), depth);
   }
-  MpmGround ground;
+  ContinuumTerrain ground;
   RigidWheel wheel;
-  GroundContact contact;
-  World world;
+  TerrainContact contact;
+  CoupledSystem system;
   double time = 0.0;
 };
 
@@ -129,9 +130,10 @@ TEST(HardCase, LockedWheelDragged) {
 
 TEST(HardCase, SnowOf47PascalInitialStrength) {
   Bed bed;
-  bed.law = snow();
-  bed.law.replace(bed.law.find("113.76"), 6, "47.0");
-  bed.law.replace(bed.law.find("R 2.2e-2"), 8, "R 9.0e-3");  // leaves p_a >= 0 at the start
+  bed.material = snow();
+  bed.material.replace(bed.material.find("113.76"), 6, "47.0");
+  bed.material.replace(bed.material.find("R 2.2e-2"), 8,
+                       "R 9.0e-3");  // leaves p_a >= 0 at the start
   Scene scene(bed);
   scene.run(0.12);
   scene.roll(2.2, 1.0, 0.1);
@@ -204,27 +206,27 @@ TEST(HardCase, WheelThatLeavesTheGroundStopsTheRun) {
 /// Compacted to a tenth of its height: denser than ice, which is reported and not clamped.
 void compact_by_90_percent(double stiffness) {
   const double cell = 0.02, height = 0.2;
-  const auto law = law_of(snow());
-  GroundParameters p = box(law, {0, 0, 0}, {cell, cell, height}, cell);
+  const auto material = material_of(snow());
+  TerrainParameters p = box(material, {0, 0, 0}, {cell, cell, height}, cell);
   p.z = even(0, height + 2 * cell, cell);
   p.surface = height;
   set_faces(p, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
-  MpmGround ground(p, Communicator());
+  ContinuumTerrain ground(p, Communicator());
   RigidPlate plate({PlateShape::square, 6 * cell, 2 * cell, 3},
                    {0.5 * cell, 0.5 * cell, height + 1e-5});
   ContactParameters lid;
   lid.stiffness = stiffness;
-  GroundContact contact(plate, ground, lid, false, "lid");
-  World world;
-  world.add(plate, "plate");
-  world.add(ground, "ground");
-  world.add(contact, "lid");
+  TerrainContact contact(plate, ground, lid, false, "lid");
+  CoupledSystem system;
+  system.add(plate, "plate");
+  system.add(ground, "ground");
+  system.add(contact, "lid");
   while (plate.centre().z() > 0.1 * height) {
     plate.prescribe(-std::min(1.0, 20 * plate.centre().z()));
-    world.advance(1e-4);
+    system.advance(1e-4);
   }
   EXPECT_GT(ground.last_report().beyond_ice, 0u);
-  const Balance b = ground.balance();
+  const EnergyBudget b = ground.energy_budget();
   ::testing::Test::RecordProperty(
       "energies", fmt::format("contact {:.4g}, residual {:.2g}, numerical {:.2g} J", b.contact_work,
                               b.residual(), b.numerical_loss));

@@ -10,7 +10,7 @@
 namespace furrow {
 namespace {
 
-using namespace testing_ground;
+using namespace testing_terrain;
 
 constexpr double E = 1e6, nu = 0.3, rho = 1000.0, pi = 3.14159265358979323846;
 constexpr double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
@@ -38,22 +38,22 @@ Vector3 body_force(const Vector3& x, double t) {
 /// Root mean square of the error of the displacement over that of the displacement.
 double error_of(int cells) {
   const double cell = 1.0 / cells;
-  GroundParameters parameters = box(law_of(elastic(E, nu, rho)), {0, 0, 0}, {1, 1, 1}, cell);
-  parameters.faces.fill(FaceKind::smooth);
-  MpmGround ground(parameters, Communicator());
+  TerrainParameters parameters = box(material_of(elastic(E, nu, rho)), {0, 0, 0}, {1, 1, 1}, cell);
+  parameters.faces.fill(BoundaryKind::smooth);
+  ContinuumTerrain ground(parameters, Communicator());
   const double end = 1.5 * pi / omega, dt = end / std::ceil(end / (0.4 * cell / c_p));
   for (double t = 0.0; t < end - 0.5 * dt; t += dt) {
-    const Particles& particles = ground.phases()[0].particles;
+    const Particles& particles = ground.groups()[0].particles;
     for (std::size_t p = 0; p < particles.size(); ++p) {
       const Vector3 x = particles.position(p);
-      ground.push({0, p}, rho * particles.data(column::volume)[p] * body_force(x, t), x);
+      ground.add_point_force({0, p}, rho * particles.data(column::volume)[p] * body_force(x, t), x);
     }
     ground.advance(dt);
   }
   double error = 0.0, size = 0.0;
   for_particles(ground, [&](Particles& particles, std::size_t p) {
-    const Vector3 home(particles.data(column::home_x)[p], particles.data(column::home_y)[p],
-                       particles.data(column::home_z)[p]),
+    const Vector3 home(particles.data(column::initial_x)[p], particles.data(column::initial_y)[p],
+                       particles.data(column::initial_z)[p]),
         expected = (1 - std::cos(omega * end)) * shape(home);
     error += (particles.position(p) - home - expected).squaredNorm();
     size += expected.squaredNorm();

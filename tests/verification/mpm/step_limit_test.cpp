@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The largest stable step of the ground, against the closed form of a lone particle that breathes
-// (coupling/fix_terrain_continuum.md).
+// (coupling/terrain/fix_terrain_continuum.md).
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace furrow {
 namespace {
 
-using namespace testing_ground;
+using namespace testing_terrain;
 
 constexpr double h = 0.1, E = 1e6, density = 200.0;
 
@@ -17,9 +17,10 @@ constexpr double h = 0.1, E = 1e6, density = 200.0;
 /// nodes start with v_i = a d_i. With G_i = N_i d_i/D this is a mode of vibration: H = a dt I, f_i
 /// = -V 3 K a N_i d_i/D, omega^2 = 3 K/(rho D), D = h^2/4.
 double growth(double nu, double step_over_limit) {
-  GroundParameters parameters = box(law_of(elastic(E, nu, density)), {0, 0, 0}, {0.6, 0.6, 0.6}, h);
-  parameters.cycle = 64;
-  MpmGround ground(parameters, Communicator());
+  TerrainParameters parameters =
+      box(material_of(elastic(E, nu, density)), {0, 0, 0}, {0.6, 0.6, 0.6}, h);
+  parameters.remap_interval = 64;
+  ContinuumTerrain ground(parameters, Communicator());
   bool found = false;
   carve(ground, [&](const Vector3& x) {
     const bool keep = !found && (x - Vector3(0.33, 0.33, 0.33)).norm() < 0.05;
@@ -33,7 +34,7 @@ double growth(double nu, double step_over_limit) {
   double most = 0.0;
   for (int step = 0; step < 50; ++step) {
     ground.advance(step_over_limit * limit);
-    std::vector<GroundMotion> motion;
+    std::vector<ParticleMotion> motion;
     ground.probe({{0, 0}}, motion);
     most = std::max(most, motion[0].affine.cwiseAbs().maxCoeff());
   }
@@ -50,8 +51,8 @@ TEST(StepLimit, ALoneParticleIsStableUpToTheClosedForm) {
 /// The program's own step keeps below it.
 TEST(StepLimit, TheStepOfTheProgramIsBelow) {
   for (const double nu : {0.0, 0.3, 0.45}) {
-    const MpmGround ground(box(law_of(elastic(E, nu, density)), {0, 0, 0}, {0.6, 0.6, 0.6}, h),
-                           Communicator());
+    const ContinuumTerrain ground(
+        box(material_of(elastic(E, nu, density)), {0, 0, 0}, {0.6, 0.6, 0.6}, h), Communicator());
     const double bulk = E / (3.0 * (1.0 - 2.0 * nu));
     EXPECT_LT(ground.stable_time_step(), 0.8 * h / std::sqrt(3.0 * bulk / density)) << nu;
   }

@@ -9,7 +9,7 @@
 namespace furrow {
 namespace {
 
-using namespace testing_ground;
+using namespace testing_terrain;
 
 constexpr double E = 1e7, nu = 0.25, rho = 1600.0;
 const double wave_modulus = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)),
@@ -17,8 +17,9 @@ const double wave_modulus = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)),
 const double c_p = std::sqrt(wave_modulus / rho), c_s = std::sqrt(shear_modulus / rho);
 
 /// A bar along x between smooth walls, one cell thick: plane waves.
-GroundParameters bar(double length, double cell) {
-  GroundParameters ground = box(law_of(elastic(E, nu, rho)), {0, 0, 0}, {length, cell, cell}, cell);
+TerrainParameters bar(double length, double cell) {
+  TerrainParameters ground =
+      box(material_of(elastic(E, nu, rho)), {0, 0, 0}, {length, cell, cell}, cell);
   set_faces(ground, {"smooth", "smooth", "smooth", "smooth", "smooth", "smooth"});
   return ground;
 }
@@ -28,7 +29,7 @@ GroundParameters bar(double length, double cell) {
 /// @return L2 error of the velocity after a whole period, relative
 double standing_wave_error(double cell) {
   const double k = pi, speed = 1e-4;  // strains of 1e-6: linear
-  MpmGround ground(bar(1.0, cell), Communicator());
+  ContinuumTerrain ground(bar(1.0, cell), Communicator());
   for_particles(ground, [&](Particles& particles, std::size_t p) {
     const double x = particles.position(p).x();
     particles.data(column::velocity)[4 * p] = speed * std::sin(k * x);
@@ -61,7 +62,7 @@ TEST(StandingWave, ConvergesToTheClosedForm) {
 }
 
 /// A wave to the right, v = s exp(-((x - at)/width)^2), sigma = -rho c v.
-void start_pulse(MpmGround& ground, double at, double width, double speed) {
+void start_pulse(ContinuumTerrain& ground, double at, double width, double speed) {
   for_particles(ground, [&](Particles& particles, std::size_t p) {
     const double s = (particles.position(p).x() - at) / width, v = speed * std::exp(-s * s);
     particles.data(column::velocity)[4 * p] = v;
@@ -73,7 +74,7 @@ void start_pulse(MpmGround& ground, double at, double width, double speed) {
   });
 }
 
-void run(MpmGround& ground, double duration) {
+void run(ContinuumTerrain& ground, double duration) {
   double time = 0.0;
   while (time < duration) {
     const double dt = std::min(ground.stable_time_step(), duration - time + 1e-12);
@@ -83,7 +84,7 @@ void run(MpmGround& ground, double duration) {
 }
 
 double measured_speed(double cell) {
-  MpmGround ground(bar(4.0, cell), Communicator());
+  ContinuumTerrain ground(bar(4.0, cell), Communicator());
   start_pulse(ground, 1.0, 0.25, 1e-4);
   const auto centre = [&] {
     double sum = 0.0, first = 0.0;
@@ -106,7 +107,7 @@ TEST(PressureWave, TravelsWithTheSpeedOfTheWaveModulus) {
   EXPECT_NEAR(fine / c_p, 1.0, 5e-4);
 }
 
-double largest_speed_left(MpmGround& ground) {
+double largest_speed_left(ContinuumTerrain& ground) {
   double largest = 0.0;
   for_particles(ground, [&](Particles& particles, std::size_t p) {
     largest = std::max(largest, std::abs(particles.velocity(p).x()));
@@ -117,9 +118,9 @@ double largest_speed_left(MpmGround& ground) {
 constexpr double bar_length = 2.0, pulse_width = 0.2, pulse_speed = 1e-4;
 
 double reflection(const char* end, double cell) {
-  GroundParameters parameters = bar(bar_length, cell);
-  parameters.faces[x_upper] = face_kind(end);
-  MpmGround ground(parameters, Communicator());
+  TerrainParameters parameters = bar(bar_length, cell);
+  parameters.faces[x_upper] = boundary_kind(end);
+  ContinuumTerrain ground(parameters, Communicator());
   start_pulse(ground, 1.0, pulse_width, pulse_speed);
   run(ground, 1.8 / c_p);
   return largest_speed_left(ground) / pulse_speed;
@@ -155,11 +156,11 @@ TEST(AbsorbingFace, ReflectsAsItsSpringSays) {
 TEST(AbsorbingFace, LetsObliqueWavesPass) {
   const double cell = 1.0 / 12;
   const auto energy_left = [&](double half, const char* side) {
-    GroundParameters parameters =
-        box(law_of(elastic(E, nu, rho)), {-half, -half, 0}, {half, half, cell}, cell);
+    TerrainParameters parameters =
+        box(material_of(elastic(E, nu, rho)), {-half, -half, 0}, {half, half, cell}, cell);
     set_faces(parameters, {side, side, side, side, "smooth", "smooth"});
     parameters.particles_per_cell = {2, 2, 1};
-    MpmGround ground(parameters, Communicator());
+    ContinuumTerrain ground(parameters, Communicator());
     double start = 0.0, end = 0.0;
     const auto energy = [&] {
       double sum = 0.0;
@@ -200,17 +201,18 @@ TEST(AbsorbingFace, LetsObliqueWavesPass) {
 /// How far ground under its own weight moves, held by absorbing faces all around, over the
 /// settlement that its weight would cause.
 double unrest(double cell) {
-  GroundParameters parameters = box(law_of(elastic(E, nu, rho)), {0, 0, -0.4}, {0.8, 0.4, 0}, cell);
+  TerrainParameters parameters =
+      box(material_of(elastic(E, nu, rho)), {0, 0, -0.4}, {0.8, 0.4, 0}, cell);
   parameters.z = even(-0.4, 0.2, cell);
   parameters.gravity = {0, 0, -standard_gravity};
   parameters.initial_stress = true;
   set_faces(parameters, {"absorbing", "absorbing", "absorbing", "absorbing", "absorbing", "free"});
-  MpmGround ground(parameters, Communicator());
+  ContinuumTerrain ground(parameters, Communicator());
   run(ground, 0.2);
   double moved = 0.0;
   for_particles(ground, [&](Particles& particles, std::size_t p) {
-    const Vector3 home(particles.data(column::home_x)[p], particles.data(column::home_y)[p],
-                       particles.data(column::home_z)[p]);
+    const Vector3 home(particles.data(column::initial_x)[p], particles.data(column::initial_y)[p],
+                       particles.data(column::initial_z)[p]);
     moved = std::max(moved, (particles.position(p) - home).norm());
   });
   return moved / (rho * standard_gravity * 0.4 * 0.4 / (2 * wave_modulus));
@@ -229,27 +231,27 @@ TEST(AbsorbingFace, HoldsGroundAtRest) {
 /// compressed by p H/M on top of it.
 TEST(AbsorbingFace, GivesWayAsItsSpringSays) {
   const double height = 1.0, pressure = 100.0, cell = 0.1;
-  GroundParameters parameters =
-      box(law_of(elastic(E, nu, rho)), {0, 0, 0}, {cell, cell, height}, cell);
+  TerrainParameters parameters =
+      box(material_of(elastic(E, nu, rho)), {0, 0, 0}, {cell, cell, height}, cell);
   set_faces(parameters, {"smooth", "smooth", "smooth", "smooth", "absorbing", "free"});
   parameters.z = even(0, height + 2 * cell, cell);
   parameters.surface = height;
-  MpmGround ground(parameters, Communicator());
-  const double length = height + 2 * cell;  // of the grid: Faces
+  ContinuumTerrain ground(parameters, Communicator());
+  const double length = height + 2 * cell;  // of the grid: Boundary
   double time = 0.0;
   while (time < 0.3) {
     const double dt = ground.stable_time_step();
-    const Particles& particles = ground.phases()[0].particles;
+    const Particles& particles = ground.groups()[0].particles;
     for (std::size_t p = 0; p < particles.size(); ++p)
-      if (particles.data(column::home_z)[p] > height - 0.5 * cell)
-        ground.push({0, p}, {0, 0, -pressure * cell * cell / 4},
-                    particles.position(p) + Vector3(0, 0, 0.25 * cell));
+      if (particles.data(column::initial_z)[p] > height - 0.5 * cell)
+        ground.add_point_force({0, p}, {0, 0, -pressure * cell * cell / 4},
+                               particles.position(p) + Vector3(0, 0, 0.25 * cell));
     ground.advance(dt);
     time += dt;
   }
   double top = 0.0, bottom = 0.0;
   for_particles(ground, [&](Particles& particles, std::size_t p) {
-    const double home = particles.data(column::home_z)[p], u = particles.position(p).z() - home;
+    const double home = particles.data(column::initial_z)[p], u = particles.position(p).z() - home;
     if (home > height - 0.5 * cell) top = u;
     if (home < 0.5 * cell) bottom = u;
   });
@@ -261,11 +263,11 @@ TEST(AbsorbingFace, GivesWayAsItsSpringSays) {
 TEST(GradedGrid, LetsWavesPass) {
   for (const double growth : {1.15, 1.3}) {
     const double cell = 1.0 / 64;
-    GroundParameters parameters = bar(4.0, cell);
+    TerrainParameters parameters = bar(4.0, cell);
     parameters.x = {0.0, 4.0, cell, 0.0, 2.0, growth};
     parameters.y = parameters.z = even(0, 1.0 / 16, 1.0 / 16);
     parameters.surface = 1.0 / 16;
-    MpmGround ground(parameters, Communicator());
+    ContinuumTerrain ground(parameters, Communicator());
     const Axis& x = ground.grid().axis(0);
     start_pulse(ground, 1.0, pulse_width, pulse_speed);
     // the front is in the coarse part, echoes of the grading would be on their way back

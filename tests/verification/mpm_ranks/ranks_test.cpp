@@ -11,11 +11,12 @@
 #include "../../unit/mpm/terrain_scene.h"
 #include "bodies/rigid_plate.h"
 #include "core/error.h"
+#include "tests/support/checkpoints.h"
 
 namespace furrow {
 namespace {
 
-using namespace testing_ground;
+using namespace testing_terrain;
 
 Communicator world_ranks() {
   MPI_Comm all = MPI_COMM_WORLD;
@@ -29,13 +30,13 @@ struct Scene {
       : ground(parameters(window), ranks),
         plate({PlateShape::square, 0.1, 0.05, 4}, {0.03, 0.0, 0.1 + 1e-4}),
         contact(plate, ground, ContactParameters{}, true, "foot") {
-    world.add(plate, "plate");
-    world.add(ground, "ground");
-    world.add(contact, "foot");
+    system.add(plate, "plate");
+    system.add(ground, "ground");
+    system.add(contact, "foot");
   }
-  static GroundParameters parameters(bool window) {
+  static TerrainParameters parameters(bool window) {
     const double cell = 0.02;
-    GroundParameters p = box(law_of(snow()), {-0.2, 0.0, 0}, {0.2, 0.1, 0.1}, cell);
+    TerrainParameters p = box(material_of(snow()), {-0.2, 0.0, 0}, {0.2, 0.1, 0.1}, cell);
     p.z = even(0, 0.14, cell);
     p.gravity = {0, 0, -standard_gravity};
     p.initial_stress = true;
@@ -48,18 +49,18 @@ struct Scene {
     for (int n = 0; n < intervals; ++n) {
       plate.prescribe(-2.0);
       if (ground.parameters().window) ground.follow(plate.centre().x() + 0.002 * ++steps);
-      world.advance(2e-4);
+      system.advance(2e-4);
     }
   }
-  MpmGround ground;
+  ContinuumTerrain ground;
   RigidPlate plate;
-  GroundContact contact;
-  World world;
+  TerrainContact contact;
+  CoupledSystem system;
   int steps = 0;
 };
 
 /// Places and stresses of all particles by number.
-std::vector<double> sorted_particles(MpmGround& ground) {
+std::vector<double> sorted_particles(ContinuumTerrain& ground) {
   std::vector<double> mine;
   for_particles(ground, [&](Particles& particles, std::size_t p) {
     const Vector3 x = particles.position(p), v = particles.velocity(p);
@@ -96,7 +97,7 @@ void compare(Scene& many, Scene& one) {
   for (int c = 0; c < 3; ++c)
     expect_near(many.contact.force()[c], one.contact.force()[c], force, "contact force");
   expect_near(many.contact.friction_loss(), one.contact.friction_loss(), 1.0, "friction loss");
-  const Balance m = many.ground.balance(), o = one.ground.balance();
+  const EnergyBudget m = many.ground.energy_budget(), o = one.ground.energy_budget();
   expect_near(m.kinetic_energy, o.kinetic_energy, o.contact_work, "kinetic energy");
   expect_near(m.stored_energy, o.stored_energy, o.contact_work, "stored energy");
   expect_near(m.dissipated_energy, o.dissipated_energy, o.contact_work, "dissipated energy");
@@ -104,8 +105,8 @@ void compare(Scene& many, Scene& one) {
   expect_near(m.load_work, o.load_work, o.contact_work, "load work");
   expect_near(m.numerical_loss, o.numerical_loss, o.contact_work, "numerical loss");
   for (int f = 0; f < face_count; ++f) {
-    const Vector3 i = many.ground.face_impulse(static_cast<FacePlace>(f)),
-                  j = one.ground.face_impulse(static_cast<FacePlace>(f));
+    const Vector3 i = many.ground.face_impulse(static_cast<Face>(f)),
+                  j = one.ground.face_impulse(static_cast<Face>(f));
     EXPECT_LE((i - j).norm(), 1e-9 * one.ground.face_impulse(z_lower).norm())
         << "impulse of face " << f;
   }
@@ -132,17 +133,16 @@ TEST_P(Windows, TakeOverTheStateOfOne) {
   Scene many(world_ranks(), GetParam()), one(Communicator(), GetParam()),
       back(Communicator(), GetParam());
   one.run(12);
-  many.plate.restore(one.plate.state());
-  many.ground.restore(one.ground.state());
-  many.contact.restore(one.contact.state());
+  test::hand_over(one.plate, many.plate);
+  test::hand_over(one.ground, many.ground);
+  test::hand_over(one.contact, many.contact);
   many.steps = one.steps;
   one.run(12);
   many.run(12);
   compare(many, one);
-  const std::vector<double> state = many.ground.state();  // collective
-  back.plate.restore(many.plate.state());
-  back.ground.restore(state);
-  back.contact.restore(many.contact.state());
+  test::hand_over(many.plate, back.plate);
+  test::hand_over(many.ground, back.ground);  // collective
+  test::hand_over(many.contact, back.contact);
   back.steps = many.steps;
   back.run(6);
   one.run(6);
@@ -154,7 +154,7 @@ TEST(Slabs, CoverAllCellsAndOwnEveryPlaneOnce) {
   Partition partition(ranks, 20);
   std::vector<double> count(20, 0.0);
   for (std::size_t c = 3; c < 9; ++c) count[c] = 100.0;  // all ground in some cells
-  partition.balance(count);
+  partition.rebalance(count);
   std::vector<double> planes(22, 0.0), cells(20, 0.0);
   for (int p = partition.owned().from; p < partition.owned().to; ++p)
     planes[static_cast<std::size_t>(p)] += 1.0;

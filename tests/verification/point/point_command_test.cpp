@@ -109,7 +109,8 @@ TEST(PointCommand, FitReportsWhatTheDataDetermine) {
             CsvTable::read(folder + "/fit.csv").numbers("fitted"));
   // The fitted material is a material file with the fitted values.
   const MaterialFile fitted = read_material_file(folder + "/material.yaml");
-  const MaterialOptions options = read_sections(find_law(fitted.law), fitted.sections);
+  const MaterialOptions options =
+      read_sections(find_material_model(fitted.material), fitted.sections);
   EXPECT_DOUBLE_EQ(options.at("hardening").options.number("pc0"),
                    h5.number_attribute("/parameters/hardening.pc0", "value"));
   expect_png(folder + "/fit.png");
@@ -118,9 +119,9 @@ TEST(PointCommand, FitReportsWhatTheDataDetermine) {
 TEST(PointCommand, ListsLawsAndPathsFromTheirDeclarations) {
   const Outcome all = furrow_point("laws");
   EXPECT_EQ(all.status, 0);
-  for (const Law& law : laws()) {
-    EXPECT_THAT(all.text, HasSubstr(law.name + ": " + law.meaning));
-    for (const SectionSchema& section : law.sections)
+  for (const MaterialModel& material : material_models()) {
+    EXPECT_THAT(all.text, HasSubstr(material.name + ": " + material.meaning));
+    for (const SectionSchema& section : material.sections)
       for (const SectionChoice& choice : section.choices)
         EXPECT_THAT(all.text, HasSubstr(choice.schema.table()));
   }

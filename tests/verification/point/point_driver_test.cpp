@@ -173,7 +173,7 @@ TEST(PointDriver, LargeStepsOnSoftSnowAreSolved) {
                   snow->current_density(fine.records.back().state),
               1.0, 1e-4);
   EXPECT_LE(coarse.cost.largest_residual, 1.1e-10);
-  EXPECT_LE(coarse.cost.most_newton_iterations, 40);
+  EXPECT_LE(coarse.cost.max_newton_iterations, 40);
 }
 
 /// The step error it reports is that of a run with every step halved; first order of the law: it

@@ -24,7 +24,7 @@ MaterialFile file_of(const std::string& name) {
 
 MaterialOptions options_of(const std::string& name) {
   const MaterialFile file = file_of(name);
-  return read_sections(find_law(file.law), file.sections);
+  return read_sections(find_material_model(file.material), file.sections);
 }
 
 CsvTable reference(const std::string& name) {
@@ -63,7 +63,7 @@ TEST(Presets, AllAreRead) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(inputs + "/materials")) {
     const MaterialFile file = read_material_file(entry.path().string());
-    EXPECT_EQ(material_file_text(file.title, file.law, file.sections).find("title: "), 0u);
+    EXPECT_EQ(material_file_text(file.title, file.material, file.sections).find("title: "), 0u);
     EXPECT_GT(file.make()->density(), 0.0);
     ++count;
   }
@@ -72,14 +72,14 @@ TEST(Presets, AllAreRead) {
 
 TEST(Presets, McCormickSandIsTRTables4And5) {
   const MaterialOptions sand = options_of("mccormick_sand");
-  const Options &law = sand.at("law").options, &elasticity = sand.at("elasticity").options,
+  const Options &material = sand.at("law").options, &elasticity = sand.at("elasticity").options,
                 &hardening = sand.at("hardening").options;
-  EXPECT_EQ(law.number("d"), 1.194e6);
-  EXPECT_EQ(law.number("beta"), 14.56);
-  EXPECT_EQ(law.number("R"), 0.1);
-  EXPECT_EQ(law.number("K"), 1.0);
-  EXPECT_EQ(law.number("alpha"), 0.0);
-  EXPECT_EQ(law.number("eps_vol_pl_0"), 0.001);
+  EXPECT_EQ(material.number("d"), 1.194e6);
+  EXPECT_EQ(material.number("beta"), 14.56);
+  EXPECT_EQ(material.number("R"), 0.1);
+  EXPECT_EQ(material.number("K"), 1.0);
+  EXPECT_EQ(material.number("alpha"), 0.0);
+  EXPECT_EQ(material.number("eps_vol_pl_0"), 0.001);
   EXPECT_EQ(elasticity.number("E"), 689e6);
   EXPECT_EQ(elasticity.number("nu"), 0.25);
   EXPECT_EQ(hardening.numbers("p"), reference("mccormick_ranch_sand").numbers("p_Pa"));
@@ -140,8 +140,8 @@ TEST(Presets, FreshSnowCountsTable3From200) {
   EXPECT_EQ(eps.front(), 0.0);
   EXPECT_NEAR(eps.back(), std::log(ice_density / 200.0),
               5.1e-5);  // never denser than ice by plastic strain
-  EXPECT_EQ(options_of("fresh_snow_log").at("hardening").options.word("interpolation"), "log");
-  EXPECT_EQ(hardening.word("interpolation"), "linear");
+  EXPECT_EQ(options_of("fresh_snow_log").at("hardening").options.text("interpolation"), "log");
+  EXPECT_EQ(hardening.text("interpolation"), "linear");
 }
 
 TEST(Presets, OtherReadingsOfTable3) {

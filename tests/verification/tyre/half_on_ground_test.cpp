@@ -32,25 +32,26 @@ Outcome drop_and_pull(bool half) {
   const double dt = 0.9 * tyre.stable_time_step();
   for (int i = 0; i < 1500; ++i) tyre.advance(dt);
 
-  GroundParameters snow = testing_ground::box(testing_ground::law_of(testing_ground::snow()),
-                                              {-0.3, 0.0, -0.12}, {0.5, 0.2, 0.0}, 0.04);
-  snow.z = testing_ground::even(-0.12, 0.12, 0.04);
-  testing_ground::set_faces(snow, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
-  MpmGround ground(snow, Communicator());
-  GroundContact contact(tyre, ground, ContactParameters{}, !half, "contact");
-  World world;
-  world.add(tyre, "tyre");
-  world.add(ground, "ground");
-  world.add(contact, "contact");
+  TerrainParameters snow =
+      testing_terrain::box(testing_terrain::material_of(testing_terrain::snow()),
+                           {-0.3, 0.0, -0.12}, {0.5, 0.2, 0.0}, 0.04);
+  snow.z = testing_terrain::even(-0.12, 0.12, 0.04);
+  testing_terrain::set_faces(snow, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
+  ContinuumTerrain ground(snow, Communicator());
+  TerrainContact contact(tyre, ground, ContactParameters{}, !half, "contact");
+  CoupledSystem system;
+  system.add(tyre, "tyre");
+  system.add(ground, "ground");
+  system.add(contact, "contact");
   tyre.release(WheelHub::z);
   tyre.release(WheelHub::spin);
   tyre.prescribe(WheelHub::x, 3.0);
   tyre.set_load({0.0, 0.0, -1500.0});
   tyre.set_velocity({3.0, 0.0, -2.0}, {4.0, 0.0, 0.0});
   for (int i = 0; i < 600; ++i) {
-    world.clear_forces();
-    world.advance(5e-5);
-    world.show_interaction_forces();
+    system.clear_forces();
+    system.advance(5e-5);
+    system.publish_contact_forces();
   }
   const WheelHub::Wrench wrench = tyre.ground_wrench();
   const double both = half ? 2.0 : 1.0;
@@ -60,8 +61,8 @@ Outcome drop_and_pull(bool half) {
           wrench.force.z(),
           tyre.section_width(),
           both * contact.friction_loss(),
-          ground.balance().contact_work,
-          ground.balance().dissipated_energy};
+          ground.energy_budget().contact_work,
+          ground.energy_budget().dissipated_energy};
 }
 
 TEST(HalfTyre, OnHalfAGroundIsTheWholeOnHalfAGround) {

@@ -52,7 +52,7 @@ Outcome roll(const std::string& mode, double value, double speed, double time) {
   if (!mode.empty() && mode != "towed")
     words.insert(words.end(), {mode == "slip" ? "slip" : "torque", fmt::to_string(value)});
   WheelRig rig(WheelRig::schema().read(words), tyre);
-  const double dt = tyre.stable_time_step(), start = tyre.balance().residual(),
+  const double dt = tyre.stable_time_step(), start = tyre.energy_budget().residual(),
                average_from = time - 2.0 * pi * 0.3475 / speed;
   Outcome run{};
   double from_x = 0.0, from_spin = 0.0, from_damped = 0.0, counted = 0.0;
@@ -63,14 +63,14 @@ Outcome roll(const std::string& mode, double value, double speed, double time) {
     plane.press_on(tyre.surface());
     const Vector3 force = tyre.ground_wrench().force;
     tyre.advance(dt);
-    const Balance balance = tyre.balance();
-    run.worst_energy = std::max(run.worst_energy, std::abs(balance.residual() - start));
+    const EnergyBudget budget = tyre.energy_budget();
+    run.worst_energy = std::max(run.worst_energy, std::abs(budget.residual() - start));
     run.energy_scale =
-        std::max({run.energy_scale, balance.kinetic_energy, std::abs(balance.load_work)});
+        std::max({run.energy_scale, budget.kinetic_energy, std::abs(budget.load_work)});
     if (static_cast<double>(i) * dt < average_from) continue;
     if (counted == 0.0)
       from_x = tyre.centre().x(), from_spin = tyre.position(WheelHub::spin),
-      from_damped = balance.dissipated_energy;
+      from_damped = budget.dissipated_energy;
     run.force_x += force.x() * dt;
     run.force_z += force.z() * dt;
     run.deflection += (tyre.nominal_radius() - (tyre.centre().z() - road.height)) * dt;
@@ -79,7 +79,7 @@ Outcome roll(const std::string& mode, double value, double speed, double time) {
   run.force_x /= counted;
   run.force_z /= counted;
   run.deflection /= counted;
-  run.damping_power = (tyre.balance().dissipated_energy - from_damped) / counted;
+  run.damping_power = (tyre.energy_budget().dissipated_energy - from_damped) / counted;
   run.turns = tyre.position(WheelHub::spin) / (2.0 * pi);
   run.rolling_radius = (tyre.centre().x() - from_x) / (tyre.position(WheelHub::spin) - from_spin);
   return run;

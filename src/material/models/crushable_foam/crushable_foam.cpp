@@ -21,7 +21,7 @@ std::unique_ptr<Material> create(const MaterialOptions& sections) {
   law.elasticity = make_elasticity(sections.at("elasticity"));
   law.pt = o.number("pt");
   law.flow_ratio = o.number("K");
-  const bool includes_pt = o.word("pc0_reading") == "pc0_plus_pt";
+  const bool includes_pt = o.text("pc0_reading") == "pc0_plus_pt";
   const SectionOptions& hardening = sections.at("hardening");
   if (includes_pt && hardening.type != "exponential")
     throw InputError(o.where("pc0_reading"), "is pc0_plus_pt, with a hardening table",
@@ -49,7 +49,7 @@ std::unique_ptr<Material> create(const MaterialOptions& sections) {
 
 }  // namespace
 
-Law CrushableFoam::law() {
+MaterialModel CrushableFoam::law() {
   Schema schema("law crushable_foam");
   schema.number("density", "kg/m3", Range::positive(), "mass density at the start");
   schema.number("pt", "Pa", Range::positive(), "yield strength in hydrostatic tension, constant");
@@ -60,8 +60,8 @@ Law CrushableFoam::law() {
               "flow stress ratio, triaxial extension to compression")
       .by_default(1.0);
   schema
-      .word("pc0_reading", {"pc0", "pc0_plus_pt"},
-            "what pc0 of exponential hardening is: pc0, or pc0 + pt")
+      .choice("pc0_reading", {"pc0", "pc0_plus_pt"},
+              "what pc0 of exponential hardening is: pc0, or pc0 + pt")
       .by_default("pc0");
   return {"crushable_foam",
           "snow and foams: ellipse hardening by compaction (ABAQUS, TR eq 17-18)",

@@ -23,7 +23,7 @@ class CrushableFoam : public Material {
  public:
   enum : std::size_t { eps_vol_pl = field::own };
 
-  static Law law();
+  static MaterialModel law();
   CrushableFoam(double density, const CrushableFoamParameters& parameters);
 
   UpdateReport update_block(const PointBlock& block) const override;

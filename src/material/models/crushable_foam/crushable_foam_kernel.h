@@ -21,61 +21,62 @@ inline namespace FURROW_ISA {
 
 template <bool lode_dependent>
 struct CrushableFoamKernel {
-  static constexpr int own_fields = 1;  // eps_vol_pl
-  const CrushableFoamParameters& law;
+  static constexpr int internal_variables = 1;  // eps_vol_pl
+  const CrushableFoamParameters& parameters;
 
   FURROW_INLINE void step(const Symmetric& strain, Points& points) const {
-    const ElasticStep elastic(law.elasticity, points.stress.trace() * Lanes(-1.0 / 3.0));
+    const ElasticStep elastic(parameters.elasticity, points.stress.trace() * Lanes(-1.0 / 3.0));
     const Lanes dv = -strain.trace();
     const Lanes p_trial = elastic.pressure(dv);
     const Symmetric s_old = points.stress.plus_identity(elastic.p_n);
     const Symmetric s_trial = s_old + strain.deviator() * (Lanes(2.0) * elastic.shear);
-    const Lanes t_trial = DeviatoricReturn<lode_dependent>(law.flow_ratio, s_trial).t();
+    const Lanes t_trial = DeviatoricReturn<lode_dependent>(parameters.flow_ratio, s_trial).t();
     const Lanes eps_old = points.own[0];
-    Hardening hardening(law.hardening);
+    Hardening hardening(parameters.hardening);
     const Lanes pc_old = hardening.at(eps_old).value;
 
     // Ellipse: centre (c, 0), half-width a.
     const auto excess = [&](const Lanes& pressure, const Lanes& measure, const Lanes& pc) {
-      return root(square(pressure - Lanes(0.5) * (pc - law.pt)) + square(measure * (1.0 / law.M))) -
-             Lanes(0.5) * (pc + law.pt);
+      return sqrt(square(pressure - Lanes(0.5) * (pc - parameters.pt)) +
+                  square(measure * (1.0 / parameters.M))) -
+             Lanes(0.5) * (pc + parameters.pt);
     };
     const Mask yielding = excess(p_trial, t_trial, pc_old) >
-                          Lanes(1e-13) * (pc_old + law.pt) + Lanes(1e-15) * magnitude(p_trial);
+                          Lanes(1e-13) * (pc_old + parameters.pt) + Lanes(1e-15) * abs(p_trial);
 
     Lanes p = p_trial, shrink = 1.0, compaction = 0.0;
     if (any(yielding)) {
       const Lanes sign = select(p_trial < Lanes(0.0), -1.0, 1.0);
       Lanes pressure = p_trial, measure = t_trial, c = 0.0, a = 0.0;
-      const auto balance = [&](const Lanes& y) -> ValueAndSlope {
+      const auto budget = [&](const Lanes& y) -> ValueAndSlope {
         const Hardening::Strength pc = hardening.at(eps_old + sign * y);
         const Lanes x = dv - sign * y;
-        pressure = sign * upper(sign * elastic.pressure(x), 0.0);
+        pressure = sign * max(sign * elastic.pressure(x), 0.0);
         const Lanes k = Lanes(2.0 / 3.0) * elastic.shear, bulk = elastic.bulk(x, pressure),
-                    size = magnitude(pressure);
-        const Lanes sum = upper(size + k * y, 1e-290);
+                    size = abs(pressure);
+        const Lanes sum = max(size + k * y, 1e-290);
         measure = t_trial * size / sum;
         const Lanes measure_slope = -t_trial * k * (y * bulk + size) / (sum * sum);
-        c = Lanes(0.5) * (pc.value - law.pt);
-        a = Lanes(0.5) * (pc.value + law.pt);
+        c = Lanes(0.5) * (pc.value - parameters.pt);
+        a = Lanes(0.5) * (pc.value + parameters.pt);
         const Lanes dpc = Lanes(0.5) * sign * pc.slope;
-        const Lanes distance = root(square(pressure - c) + square(measure * (1.0 / law.M)));
+        const Lanes distance = sqrt(square(pressure - c) + square(measure * (1.0 / parameters.M)));
         const Lanes along = (pressure - c) * (-sign * bulk - dpc) +
-                            measure * measure_slope * (1.0 / (law.M * law.M));
-        return {distance - a, along / upper(distance, 1e-290) - dpc};
+                            measure * measure_slope * (1.0 / (parameters.M * parameters.M));
+        return {distance - a, along / max(distance, 1e-290) - dpc};
       };
       const Lanes high = sign * (dv - elastic.strain(0.0));
-      const Lanes y = decreasing_root(balance, 0.0, 0.0, high, Lanes(1e-15) * high,
+      const Lanes y = decreasing_root(budget, 0.0, 0.0, high, Lanes(1e-15) * high,
                                       yielding && high > Lanes(0.0), points.iterations);
-      const Lanes solution = select(yielding, upper(y, 0.0), 0.0);
-      balance(solution);
+      const Lanes solution = select(yielding, max(y, 0.0), 0.0);
+      budget(solution);
       // Rounding is removed by placing the stress on the ellipse: along the ray from its centre, or
       // at constant p when the root could not be resolved (p_tr next to zero).
-      const Lanes distance = root(square(pressure - c) + square(measure * (1.0 / law.M)));
-      const Mask near = magnitude(distance - a) <= Lanes(1e-6) * a;
-      const Lanes ray = sign * upper(sign * (c + (pressure - c) * a / distance), 0.0);
-      const Lanes leg = Lanes(law.M) * root(upper(a * a - square(pressure - c), 0.0));
-      const Lanes t = select(near, measure * a / distance, lower(leg, t_trial));
+      const Lanes distance = sqrt(square(pressure - c) + square(measure * (1.0 / parameters.M)));
+      const Mask near = abs(distance - a) <= Lanes(1e-6) * a;
+      const Lanes ray = sign * max(sign * (c + (pressure - c) * a / distance), 0.0);
+      const Lanes leg = Lanes(parameters.M) * sqrt(max(a * a - square(pressure - c), 0.0));
+      const Lanes t = select(near, measure * a / distance, min(leg, t_trial));
       stdx::where(yielding, p) = select(near, ray, pressure);
       stdx::where(yielding && t_trial > Lanes(0.0), shrink) = t / t_trial;
       stdx::where(yielding, compaction) = sign * solution;

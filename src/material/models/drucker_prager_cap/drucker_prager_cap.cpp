@@ -53,7 +53,7 @@ std::unique_ptr<Material> create(const MaterialOptions& sections) {
 
 }  // namespace
 
-Law DruckerPragerCap::law() {
+MaterialModel DruckerPragerCap::law() {
   Schema schema("law drucker_prager_cap");
   schema.number("density", "kg/m3", Range::positive(), "mass density at the start");
   schema.number("d", "Pa", Range::non_negative(), "cohesion: t at p = 0 on the shear line");

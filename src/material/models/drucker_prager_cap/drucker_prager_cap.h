@@ -30,7 +30,7 @@ class DruckerPragerCap : public Material {
   /// Places of the law's own fields.
   enum : std::size_t { eps_vol_pl = field::own };
 
-  static Law law();
+  static MaterialModel law();
   /// @param eps_vol_pl_0  initial volumetric plastic strain: positions the cap
   DruckerPragerCap(double density, const DruckerPragerCapParameters& parameters,
                    double eps_vol_pl_0);

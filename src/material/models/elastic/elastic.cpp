@@ -5,7 +5,7 @@
 
 namespace furrow {
 
-Law Elastic::law() {
+MaterialModel Elastic::law() {
   Schema schema("law elastic");
   schema.number("density", "kg/m3", Range::positive(), "mass density at the start");
   return {"elastic",

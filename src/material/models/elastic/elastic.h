@@ -11,7 +11,7 @@ namespace furrow {
 
 class Elastic : public Material {
  public:
-  static Law law();
+  static MaterialModel law();
   Elastic(double density, const ElasticityParameters& elasticity);
 
   UpdateReport update_block(const PointBlock& block) const override;

@@ -9,7 +9,7 @@ namespace furrow {
 inline namespace FURROW_ISA {
 
 struct ElasticKernel {
-  static constexpr int own_fields = 0;
+  static constexpr int internal_variables = 0;
   const ElasticityParameters& elasticity;
 
   FURROW_INLINE void step(const Symmetric& strain, Points& points) const {

@@ -8,7 +8,7 @@
 
 namespace furrow {
 
-Law NeoHookean::law() {
+MaterialModel NeoHookean::law() {
   Schema schema("law neo_hookean");
   schema.number("density", "kg/m3", Range::positive(), "mass density at the start");
   schema.number("G", "Pa", Range::positive(), "shear modulus mu at small strain");

@@ -18,7 +18,7 @@ class NeoHookean : public Material {
  public:
   enum : std::size_t { b_minus_identity = field::own };  ///< six fields xx, yy, zz, xy, yz, xz
 
-  static Law law();
+  static MaterialModel law();
   NeoHookean(double density, const NeoHookeanParameters& parameters);
 
   UpdateReport update_block(const PointBlock& block) const override;

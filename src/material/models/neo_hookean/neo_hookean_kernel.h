@@ -11,8 +11,8 @@ namespace furrow {
 inline namespace FURROW_ISA {
 
 struct NeoHookeanKernel {
-  static constexpr int own_fields = 6;  // b - I: xx, yy, zz, xy, yz, xz
-  const NeoHookeanParameters& law;
+  static constexpr int internal_variables = 6;  // b - I: xx, yy, zz, xy, yz, xz
+  const NeoHookeanParameters& parameters;
 
   /// The new stress in the final frame and the stored energy, from b - I at the start of the step.
   void hyperelastic_step(const Tensor& h, Points& points) const {
@@ -34,13 +34,15 @@ struct NeoHookeanKernel {
     const Lanes trace = n.trace();
     // J^2 - 1 = det(I + n) - 1 without cancellation
     const Lanes excess = trace + Lanes(0.5) * (trace * trace - contract(n, n)) + determinant(n);
-    const Lanes log_square = each(excess, [](double x) { return __builtin_log1p(x); });  // 2 ln J
-    const Lanes J = root(Lanes(1.0) + excess);
+    const Lanes log_square =
+        per_lane(excess, [](double x) { return __builtin_log1p(x); });  // 2 ln J
+    const Lanes J = sqrt(Lanes(1.0) + excess);
     const Lanes isochoric = exponential(log_square * Lanes(-1.0 / 3.0));  // J^(-2/3)
-    points.stress = (n.deviator() * (Lanes(law.shear) * isochoric / J))
-                        .plus_identity(Lanes(0.5 * law.bulk) * excess / J);
-    points.stored = Lanes(0.5 * law.shear) * (isochoric * (trace + Lanes(3.0)) - Lanes(3.0)) +
-                    Lanes(0.25 * law.bulk) * (excess - log_square);
+    points.stress = (n.deviator() * (Lanes(parameters.shear) * isochoric / J))
+                        .plus_identity(Lanes(0.5 * parameters.bulk) * excess / J);
+    points.stored =
+        Lanes(0.5 * parameters.shear) * (isochoric * (trace + Lanes(3.0)) - Lanes(3.0)) +
+        Lanes(0.25 * parameters.bulk) * (excess - log_square);
     own[0] = n.xx, own[1] = n.yy, own[2] = n.zz, own[3] = n.xy, own[4] = n.yz, own[5] = n.xz;
   }
 };

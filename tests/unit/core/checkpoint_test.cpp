@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is saved comes back bit for bit; what is damaged, foreign or of another scene is refused.
+#include "core/checkpoint.h"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace furrow {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+enum class Colour { red, green };
+
+struct Part {
+  double mass = 1.0;
+  double length = 0.5;
+  std::int64_t count = 0;
+  bool moving = false;
+  Colour colour = Colour::red;
+  std::string name;
+  std::vector<double> numbers;
+  Vector3 place = Vector3::Zero();
+
+  void checkpoint(Checkpoint& state) {
+    state.match("mass", mass);
+    state.value("length", length);
+    state.value("count", count);
+    state.value("moving", moving);
+    state.value("colour", colour);
+    state.value("name", name);
+    state.values("numbers", numbers);
+    state.values("place", place);
+  }
+};
+
+Part some_part() {
+  Part part;
+  part.length = std::numeric_limits<double>::denorm_min();
+  part.count = std::int64_t{1} << 60;
+  part.moving = true;
+  part.colour = Colour::green;
+  part.name = "a name\nof two lines";
+  part.numbers = {-0.0, 1.0 / 3.0, std::numeric_limits<double>::infinity()};
+  part.place = {1, 2, 3};
+  return part;
+}
+
+std::vector<char> saved(Part part = some_part()) {
+  Checkpoint state("part");
+  part.checkpoint(state);
+  return state.bytes();
+}
+
+void restore(Part& part, const std::vector<char>& bytes) {
+  Checkpoint state("part", bytes.data(), bytes.size());
+  part.checkpoint(state);
+  state.finish();
+}
+
+std::string refusal_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+TEST(Checkpoint, BringsBackEveryBit) {
+  Part part;
+  restore(part, saved());
+  EXPECT_EQ(saved(part), saved());
+  EXPECT_TRUE(std::signbit(part.numbers.at(0)));
+  EXPECT_EQ(part.name, "a name\nof two lines");
+  EXPECT_EQ(part.colour, Colour::green);
+}
+
+TEST(Checkpoint, NamesWhatMustNotHaveChanged) {
+  Part heavier;
+  heavier.mass = 2.0;
+  EXPECT_THAT(refusal_of([&] { restore(heavier, saved()); }),
+              AllOf(HasSubstr("part: mass is 2, and was 1 when the checkpoint was written"),
+                    HasSubstr("continue with the input and the program of the first run")));
+}
+
+TEST(Checkpoint, RefusesAnyAlteredByte) {
+  const std::vector<char> whole = saved();
+  for (std::size_t n = 0; n < whole.size(); ++n) {
+    std::vector<char> altered = whole;
+    altered[n] = static_cast<char>(altered[n] ^ 4);
+    Part part;
+    EXPECT_NE(refusal_of([&] { restore(part, altered); }), "not refused") << "byte " << n;
+  }
+}
+
+TEST(Checkpoint, RefusesEveryShorterLength) {
+  const std::vector<char> whole = saved();
+  for (std::size_t n = 0; n < whole.size(); ++n) {
+    Part part;
+    EXPECT_NE(refusal_of([&] {
+                restore(part, {whole.begin(), whole.begin() + static_cast<long>(n)});
+              }),
+              "not refused")
+        << "length " << n;
+  }
+}
+
+TEST(Checkpoint, RefusesAnotherLayoutByName) {
+  Checkpoint other("part");
+  double mass = 1.0, width = 2.0;
+  other.value("mass", mass);
+  other.value("width", width);
+  const std::vector<char> bytes = other.bytes();
+  Part part;
+  EXPECT_THAT(refusal_of([&] { restore(part, bytes); }),
+              HasSubstr("part: its part of the checkpoint has 'width' where 'length' is expected"));
+  Checkpoint read("part", bytes.data(), bytes.size());
+  read.value("mass", mass);
+  EXPECT_THAT(refusal_of([&] { read.finish(); }), HasSubstr("holds more than this program reads"));
+  Checkpoint again("part", bytes.data(), bytes.size());
+  Vector3 three;
+  EXPECT_THAT(refusal_of([&] { again.values("mass", three); }),
+              HasSubstr("has 1 numbers of 'mass' instead of 3"));
+}
+
+}  // namespace
+}  // namespace furrow
