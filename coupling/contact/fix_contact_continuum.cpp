@@ -14,7 +14,7 @@
 namespace furrow::coupling {
 
 Schema FixContactBodies::schema() {
-  Schema schema = TerrainContact::schema("fix contact/bodies");
+  Schema schema = ContactParameters::schema("fix contact/bodies");
   schema.text("body", "id of the fix of the wheel, tyre or plate");
   schema.text("ground", "id of the fix terrain/continuum");
   return schema;
@@ -52,7 +52,7 @@ FixContactBodies::FixContactBodies(LAMMPS_NS::LAMMPS* lammps, int narg, char** a
   // A half body mirrors what it is given itself; a whole one needs the forces of the other half as
   // well.
   contact_ = std::make_unique<TerrainContact>(
-      body, ground->ground(), TerrainContact::parameters_from(options_),
+      body, ground->ground(), ContactParameters::from(options_),
       ground->half_model() && !half_body_, fmt::format("fix {} contact/bodies", id));
   restart_global = 1;
   vector_flag = 1;

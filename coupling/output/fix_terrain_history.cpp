@@ -83,7 +83,7 @@ void FixTerrainHistory::record() {
                                    budget.load_work,
                                    budget.numerical_loss,
                                    budget.residual(),
-                                   ground.face_impulse(z_lower).z(),
+                                   ground.boundary_impulse(Face::z_lower).z(),
                                    ground.travelled(),
                                    ground.stable_time_step()};
   if (file_) file_->append(row);

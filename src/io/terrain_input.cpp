@@ -164,13 +164,13 @@ TerrainParameters read_terrain(const Options& options, const std::string& folder
   const BoundaryKind ends = boundary_kind(options.text("ends")),
                      sides = boundary_kind(options.text("sides")),
                      base = boundary_kind(options.text("base"));
-  ground.faces = {ends,  ends, half_model ? BoundaryKind::smooth : sides,
-                  sides, base, BoundaryKind::free};
+  ground.boundary = {ends,  ends, half_model ? BoundaryKind::smooth : sides,
+                     sides, base, BoundaryKind::free};
   const int particles = static_cast<int>(options.integer("particles"));
   ground.particles_per_cell = {particles, particles, particles};
   ground.gravity = {0.0, 0.0, -options.number("gravity")};
   ground.initial_stress = !options.flag("weightless_start");
-  ground.sheet = options.flag("sheet");
+  ground.surface_mesh = options.flag("sheet");
   ground.cfl = options.number("cfl");
   ground.remap_interval = static_cast<int>(options.integer("cycle"));
   return ground;

@@ -12,37 +12,36 @@ namespace furrow {
 
 namespace {
 
-// of neighbouring cells: beyond, waves are reflected by the grading
+// ratio of neighbouring cells: a coarser grading reflects waves
 constexpr double max_growth = 1.5;
 
-/// Ends of cells from `start` outwards over `distance`, growing by `growth`: the last cell is
-/// stretched to end there.
-std::vector<double> growing(double start, double distance, double cell, double growth,
-                            double sign) {
+/// Ends of the cells from `start` outwards over `distance` in the direction `sign`, each longer
+/// than the last by `growth`; all are stretched by one factor so that the last ends there.
+std::vector<double> growing_cells(double start, double distance, double cell, double growth,
+                                  double sign) {
   std::vector<double> lengths;
   double sum = 0.0;
   for (double length = cell * growth; sum < distance * (1.0 - 1e-9); length *= growth) {
     lengths.push_back(length);
     sum += length;
   }
-  // One cell less where that is nearer: the cells are then stretched by the same factor instead of
-  // shrunk.
+  // One cell less where that is nearer: the cells are then stretched instead of shrunk.
   if (lengths.size() > 1 && distance - (sum - lengths.back()) < sum - distance) {
     sum -= lengths.back();
     lengths.pop_back();
   }
   std::vector<double> ends;
-  double at = 0.0;
+  double end = 0.0;
   for (const double length : lengths)
-    ends.push_back(start + sign * (at += length) * (distance / sum));
+    ends.push_back(start + sign * (end += length) * (distance / sum));
   return ends;
 }
 
 }  // namespace
 
 Axis::Axis(const AxisLayout& layout, const std::string& where) {
-  const double lower = std::max(layout.lower, layout.fine_lower),
-               upper = std::min(layout.upper, layout.fine_upper);
+  const double lower = std::max(layout.lower, layout.fine_lower);
+  const double upper = std::min(layout.upper, layout.fine_upper);
   if (!(layout.upper > layout.lower) || !(layout.cell > 0.0) || !(upper > lower))
     throw InputError(
         where,
@@ -54,14 +53,14 @@ Axis::Axis(const AxisLayout& layout, const std::string& where) {
                      fmt::format("1 to {}", max_growth), "coarser steps reflect waves");
   const int fine = std::max(1, static_cast<int>(std::lround((upper - lower) / layout.cell)));
   const double cell = (upper - lower) / fine;
-  for (const double end : growing(lower, lower - layout.lower, cell, layout.growth, -1.0))
+  for (const double end : growing_cells(lower, lower - layout.lower, cell, layout.growth, -1.0))
     knot_.insert(knot_.begin(), end);
   for (int i = 0; i <= fine; ++i) knot_.push_back(lower + i * cell);
-  for (const double end : growing(upper, layout.upper - upper, cell, layout.growth, 1.0))
+  for (const double end : growing_cells(upper, layout.upper - upper, cell, layout.growth, 1.0))
     knot_.push_back(end);
   knot_.front() = layout.lower;
   knot_.back() = layout.upper;
-  first_ = knot_;
+  initial_knot_ = knot_;
   tabulate();
 }
 
@@ -80,19 +79,19 @@ void Axis::tabulate() {
     longest = std::max(longest, length(c));
   }
   for (int i = 0; i < n + 2; ++i) node_.push_back(0.5 * (at(i - 1) + at(i)));
-  uneven_.clear();
+  irregular_.clear();
   for (int c = 0; c < n; ++c)
-    uneven_.push_back(c == 0 || c == n - 1 ||
-                              std::max(std::abs(length(c - 1) - length(c)),
-                                       std::abs(length(c + 1) - length(c))) > 1e-9 * length(c)
-                          ? 1
-                          : 0);
-  even_from_ = even_to_ = 0;
+    irregular_.push_back(c == 0 || c == n - 1 ||
+                                 std::max(std::abs(length(c - 1) - length(c)),
+                                          std::abs(length(c + 1) - length(c))) > 1e-9 * length(c)
+                             ? 1
+                             : 0);
+  regular_from_ = regular_to_ = 0;
   for (int from = 0, c = 0; c <= n; ++c) {
-    if (c < n && uneven_[static_cast<std::size_t>(c)] == 0) continue;
-    if (c - from > even_to_ - even_from_) {
-      even_from_ = from;
-      even_to_ = c;
+    if (c < n && irregular_[static_cast<std::size_t>(c)] == 0) continue;
+    if (c - from > regular_to_ - regular_from_) {
+      regular_from_ = from;
+      regular_to_ = c;
     }
     from = c + 1;
   }
@@ -123,20 +122,21 @@ int Axis::cell_of(double x) const {
 AxisView Axis::view() const {
   AxisView view;
   view.cells = cells();
+  view.lower = lower();
+  view.particles_lower = lower();
+  view.particles_upper = upper();
   view.bins = static_cast<int>(cell_of_bin_.size());
-  view.lower = view.from = lower();
-  view.to = upper();
   view.bins_per_length = bins_per_length_;
   view.cell_of_bin = cell_of_bin_.data();
   view.knot = knot_.data();
   view.left = left_.data();
   view.right = right_.data();
   view.node = node_.data();
-  view.uneven = uneven_.data();
-  view.even_from = even_from_;
-  view.even_to = even_to_;
-  view.even_start = knot(even_from_);
-  view.even_length = length(even_from_);
+  view.irregular = irregular_.data();
+  view.regular_from = regular_from_;
+  view.regular_to = regular_to_;
+  view.regular_start = knot(regular_from_);
+  view.regular_length = length(regular_from_);
   return view;
 }
 
@@ -144,8 +144,8 @@ void Axis::shift(int count) {
   if (count == 0) return;
   if (!uniform_) throw Error("a graded axis cannot move by whole cells");
   shifted_ += count;
-  const double distance = shifted_ * ((first_.back() - first_.front()) / cells());
-  for (std::size_t i = 0; i < knot_.size(); ++i) knot_[i] = first_[i] + distance;
+  const double distance = shifted_ * ((initial_knot_.back() - initial_knot_.front()) / cells());
+  for (std::size_t i = 0; i < knot_.size(); ++i) knot_[i] = initial_knot_[i] + distance;
   tabulate();
 }
 

@@ -3,11 +3,11 @@
 /// One direction of the background grid: quadratic B-splines on a graded knot vector with open
 /// ends.
 ///
-/// Knots t_0 = t_1 = t_2 < t_3 < ... < t_n = t_n+1 = t_n+2 bound the cells; node i is the B-spline
-/// of the knots t_i ... t_i+3 and sits at its Greville point (t_i+1 + t_i+2)/2. Then sum N_i = 1
-/// and sum N_i x_i = x hold on any knots, so that linear fields, force and moment are carried
-/// exactly; at both ends the outermost node alone has a value, so that a wall is where the axis
-/// says it is. C. de Boor, A Practical Guide to Splines (1978), ch. IX.
+/// Knots t_0 = t_1 = t_2 < t_3 < ... < t_n = t_n+1 = t_n+2 bound the cells; node i carries the
+/// B-spline of the knots t_i ... t_i+3 and sits at its Greville point (t_i+1 + t_i+2)/2. Then
+/// sum N_i = 1 and sum N_i x_i = x hold on any knots, so that linear fields, force and moment are
+/// carried exactly; at both ends only the outermost node has a value, so that a wall is exactly at
+/// the end of the axis. C. de Boor, A Practical Guide to Splines (1978), ch. IX.
 
 #include <cstddef>
 #include <string>
@@ -17,37 +17,44 @@ namespace furrow {
 
 /// How the cells of an axis are laid out.
 struct AxisLayout {
-  double lower = 0.0, upper = 1.0;  ///< [m]
-  /// [m] in the fine stretch; adjusted to a whole number of cells there
+  double lower = 0.0;  ///< [m]
+  double upper = 1.0;  ///< [m]
+  /// length in the fine stretch [m]; adjusted to a whole number of cells there
   double cell = 0.1;
-  double fine_lower = 0.0, fine_upper = 1.0;  ///< [m] the fine stretch; outside of it cells grow
-  /// of neighbouring cells outside the fine stretch, >= 1
+  double fine_lower = 0.0;  ///< start of the fine stretch; outside of it cells grow [m]
+  double fine_upper = 1.0;  ///< its end [m]
+  /// ratio of the lengths of neighbouring cells outside the fine stretch, >= 1
   double growth = 1.0;
 };
 
-/// What a kernel needs of an axis (transfer_kernel.h): arrays over cells and nodes, owned by the
+/// What a kernel needs of an axis (transfer/weights.h): arrays over cells and nodes, owned by the
 /// axis.
 struct AxisView {
-  int cells, bins;
-  double lower, bins_per_length;  ///< [m, 1/m]
+  int cells;
+  double lower;  ///< [m]
   /// where particles may be [m]: the axis, or this rank's part of it
-  double from, to;
-  /// the cell that holds the lower end of a bin; bins are no longer than the shortest cell
-  const int* cell_of_bin;
-  const double* knot;   ///< cells + 1 distinct knots [m]
-  const double* left;   ///< N_0 = left (t_c+1 - x)^2 [1/m^2]
-  const double* right;  ///< N_2 = right (x - t_c)^2 [1/m^2]
-  const double* node;   ///< cells + 2 nodes [m]; cell c is served by c, c+1, c+2
-  /// the longest run of cells that are not uneven, all of one length
-  int even_from, even_to;
-  double even_start, even_length;  ///< where it begins, and that length [m]
-  /// 1 for a cell at an end or next to a cell of another length (transfer.h)
-  const int* uneven;
+  double particles_lower;
+  double particles_upper;
+  /// Table to find the cell of a position: bins of equal length, no longer than the shortest cell.
+  int bins;
+  double bins_per_length;  ///< [1/m]
+  const int* cell_of_bin;  ///< the cell that holds the lower end of a bin
+  const double* knot;      ///< cells + 1 distinct knots [m]
+  const double* left;      ///< N_0 = left (t_c+1 - x)^2 [1/m^2], for each cell
+  const double* right;     ///< N_2 = right (x - t_c)^2 [1/m^2], for each cell
+  const double* node;      ///< cells + 2 nodes [m]; cell c is served by c, c+1, c+2
+  /// 1 for a cell at an end or next to a cell of another length (transfer.h), else 0
+  const int* irregular;
+  /// The longest run of cells that are not irregular, all of one length.
+  int regular_from;
+  int regular_to;
+  double regular_start;   ///< its lower end [m]
+  double regular_length;  ///< of its cells [m]
 };
 
 class Axis {
  public:
-  /// @throws InputError naming `where` for lengths or growth without sense
+  /// @throws InputError naming `where` for lengths or growth that make no axis
   Axis(const AxisLayout& layout, const std::string& where);
 
   int cells() const { return static_cast<int>(knot_.size()) - 1; }
@@ -57,7 +64,7 @@ class Axis {
   /// lower end of a cell [m]
   double knot(int cell) const { return knot_[static_cast<std::size_t>(cell)]; }
   double length(int cell) const { return knot(cell + 1) - knot(cell); }    ///< [m]
-  double shortest() const { return shortest_; }                            ///< [m] cell
+  double shortest() const { return shortest_; }                            ///< length of a cell [m]
   double node(int i) const { return node_[static_cast<std::size_t>(i)]; }  ///< [m]
   /// integral of the node's B-spline [m]
   double extent(int i) const;
@@ -73,13 +80,19 @@ class Axis {
  private:
   void tabulate();
 
-  std::vector<double> knot_, left_, right_, node_;
-  // the knots before any shift: the same place, however it was reached, has the same bits
-  std::vector<double> first_;
-  int shifted_ = 0;
-  std::vector<int> cell_of_bin_, uneven_;
-  int even_from_ = 0, even_to_ = 0;
-  double shortest_ = 0.0, bins_per_length_ = 0.0;
+  std::vector<double> knot_;
+  std::vector<double> left_;
+  std::vector<double> right_;
+  std::vector<double> node_;
+  // Before any shift: a position then has the same bits whatever the shifts that led to it.
+  std::vector<double> initial_knot_;
+  int shifted_ = 0;  // in cells
+  std::vector<int> cell_of_bin_;
+  std::vector<int> irregular_;
+  int regular_from_ = 0;
+  int regular_to_ = 0;
+  double shortest_ = 0.0;         // [m]
+  double bins_per_length_ = 0.0;  // [1/m]
   bool uniform_ = true;
 };
 

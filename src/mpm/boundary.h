@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What the ground is held by at the six faces of its grid.
+/// Boundary conditions at the six faces of the grid.
 
 #include <array>
 #include <string>
@@ -9,70 +9,89 @@
 #include "core/checkpoint.h"
 #include "core/communicator.h"
 #include "core/types.h"
+#include "mpm/face.h"
 #include "mpm/grid.h"
 
 namespace furrow {
 
-/// free: nothing; smooth: no velocity across (a symmetry plane too); rough: no velocity;
-/// absorbing: the rest of the half-space, see Boundary.
+/// free: no traction; smooth: no velocity across the face (a plane of symmetry too); rough: no
+/// velocity; absorbing: the rest of the half-space, see Boundary.
 enum class BoundaryKind { free, smooth, rough, absorbing };
-enum Face { x_lower, x_upper, y_lower, y_upper, z_lower, z_upper };
-constexpr int face_count = 6;
 const std::vector<std::string>& boundary_kind_names();  ///< in the order of BoundaryKind
-BoundaryKind boundary_kind(const std::string& name);    ///< @throws Error
+BoundaryKind boundary_kind(const std::string& name);    ///< @throws Error for an unknown name
 
-/// Elastic wave speeds [m/s] of the undisturbed ground at a height.
+/// Elastic wave speeds of the undisturbed ground at one height.
 struct WaveSpeeds {
-  double pressure, shear;
+  double pressure;  ///< c_p [m/s]
+  double shear;     ///< c_s [m/s]
 };
 
-/// Absorbing faces stand for the far field as infinite elements do (J. Lysmer, R. L. Kuhlemeyer, J.
-/// Eng. Mech. 95, 1969; TR uses ABAQUS's): traction t = t_0 - rho c v - (rho c^2/L) u with c = c_p
-/// across the face and c_s along it, t_0 what held the ground at the start, u the displacement
-/// since, L the distance over which the far field gives way. The dashpot is quiet for plane waves,
-/// the spring holds statically. With a node's mass m and the extent l of its B-spline across the
-/// face, rho A = m/l. Taken implicitly.
+/// What holds the ground at the faces of its grid.
+///
+/// Absorbing faces stand for the far field (J. Lysmer, R. L. Kuhlemeyer, J. Eng. Mech. 95, 1969;
+/// [Shoop2001] has the infinite elements of ABAQUS there): traction
+///   t = t_0 - rho c v - (rho c^2/L) u
+/// with c = c_p across the face and c_s along it, t_0 the traction that held the ground at the
+/// start, u the displacement since then, and L the distance over which the far field gives way. The
+/// dashpot is quiet for plane waves, the spring holds statically. With a node's mass m and the
+/// extent l of its B-spline across the face, rho A = m/l. Integrated implicitly.
+///
+/// Plane ranges: `local` planes are those that this rank's particles reach; sums (impulse, work)
+/// count the `owned` planes only, so that their sum over the ranks counts each node once.
 class Boundary {
  public:
-  Boundary(const Grid& grid, const std::array<BoundaryKind, face_count>& kinds,
+  /// @param particles_per_cell  in each direction, of the undisturbed ground
+  /// @param speeds_of_level     one for each plane of nodes across z, from below
+  Boundary(const Grid& grid, const FaceArray<BoundaryKind>& kinds,
            const std::array<int, 3>& particles_per_cell, std::vector<WaveSpeeds> speeds_of_level);
 
   BoundaryKind kind(Face face) const { return kinds_[face]; }
-  /// Before anything else happens to the grid of the first step: its sums of momenta, and gravity
-  /// [m/s^2], are what the held ground must stand, and are used up.
-  bool captured() const { return captured_; }
-  void capture(Grid& grid, const PlaneRange& planes, const Vector3& gravity);
-  /// Changes the velocities of nodes. Sums count the planes of `owned` only.
-  void apply(Grid& grid, const PlaneRange& planes, const PlaneRange& owned, double dt);
 
-  /// Impulse that each face gave to the ground since the start, this rank's share [N s].
+  /// False until an absorbing face knows t_0.
+  bool has_initial_tractions() const { return has_initial_tractions_; }
+  /// Takes t_0 from the node sums (forces of the initial stress) and gravity [m/s^2] before the
+  /// first step; the sums and masses of the absorbing nodes are set to zero.
+  void capture_initial_tractions(Grid& grid, const PlaneRange& local, const Vector3& gravity);
+
+  /// Changes the velocities of the face nodes over a step dt [s].
+  void apply(Grid& grid, const PlaneRange& local, const PlaneRange& owned, double dt);
+
+  /// Impulse that a face gave to the ground since the start, this rank's share [N s].
   const Vector3& impulse(Face face) const { return impulse_[face]; }
-  /// of absorbing faces on the ground since the start, this rank's share [J]
+  /// Work of the absorbing faces on the ground since the start, this rank's share [J].
   double work() const { return work_; }
 
-  void shift_x(int cells);  ///< the grid moved: face nodes keep their place in space
-  /// Every rank takes the displacements of the rank that owns a plane.
+  /// The grid moved by whole cells along x: face nodes keep their place in space.
+  /// @throws Error when a face across x absorbs
+  void shift_x(int cells);
+  /// Every rank takes the displacements of the rank that owns a plane. Collective.
   void synchronise(const Communicator& ranks, const PlaneRange& owned);
-  void collect(const Communicator& ranks);  ///< impulses and work become those of all ranks
+  /// Impulses and work become those of all ranks. Collective.
+  void sum_over_ranks(const Communicator& ranks);
   /// @param keep_sums on one rank only: restored impulses and work are then counted once
   void checkpoint(Checkpoint& state, bool keep_sums);
 
  private:
+  /// An absorbing face; three numbers for each node, the nodes in the order of for_face().
   struct FarField {
-    int axis = 0, plane = 0, count[2] = {0, 0};  // nodes of the face: count[0] slow, count[1] fast
-    double inverse_extent = 0.0, inverse_length = 0.0;
-    std::vector<double> hold, displacement;  // three numbers a node [N], [m]
+    int axis = 0;
+    int plane = 0;                      // of nodes, along the axis
+    int nodes[2] = {0, 0};              // along the face: slow, fast
+    double inverse_extent = 0.0;        // 1/l [1/m]
+    double inverse_length = 0.0;        // 1/L [1/m]
+    std::vector<double> initial_force;  // t_0 A [N]
+    std::vector<double> displacement;   // u [m]
   };
-  void constrain(Grid& grid, Face face, const PlaneRange& planes, const PlaneRange& owned);
-  void absorb(Grid& grid, Face face, const PlaneRange& planes, const PlaneRange& owned, double dt);
-  bool is_held(const Grid& grid, const std::array<int, 3>& at, int component) const;
+  void constrain(Grid& grid, Face face, const PlaneRange& local, const PlaneRange& owned);
+  void absorb(Grid& grid, Face face, const PlaneRange& local, const PlaneRange& owned, double dt);
+  bool is_fixed(const Grid& grid, const std::array<int, 3>& node, int component) const;
 
-  std::array<BoundaryKind, face_count> kinds_;
+  FaceArray<BoundaryKind> kinds_;
   std::vector<WaveSpeeds> speeds_;
-  std::array<FarField, face_count> far_;
-  std::array<Vector3, face_count> impulse_;
+  FaceArray<FarField> far_field_;  // empty vectors unless the face absorbs
+  FaceArray<Vector3> impulse_;
   double work_ = 0.0;
-  bool captured_ = false;
+  bool has_initial_tractions_ = true;
 };
 
 }  // namespace furrow

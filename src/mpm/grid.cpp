@@ -25,7 +25,7 @@ void Grid::clear_sums(const PlaneRange& planes) {
   std::fill(sums_.data() + first(planes), sums_.data() + last(planes), NodeSum{});
 }
 
-void Grid::start(const PlaneRange& planes) {
+void Grid::compute_velocities(const PlaneRange& planes) {
   for (std::size_t n = first(planes), end = last(planes); n < end; ++n) {
     const NodeSum sum = std::exchange(sums_[n], NodeSum{});
     const double inverse = sum.mass > 0.0 ? 1.0 / sum.mass : 0.0;

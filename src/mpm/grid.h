@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The background grid on three axes: what particles give to its nodes, and how the nodes move.
+/// The background grid on three axes: sums of the particles at its nodes, and the motion of the
+/// nodes.
 
 #include <array>
 #include <cstddef>
@@ -14,7 +15,7 @@
 
 namespace furrow {
 
-/// What particles gave to a node.
+/// Sum of the particles at a node.
 struct alignas(32) NodeSum {
   double total[3];  ///< momentum [N s], or force [N]
   double mass;      ///< [kg]
@@ -22,11 +23,11 @@ struct alignas(32) NodeSum {
 
 struct alignas(32) NodeMotion {
   double velocity[3];  ///< [m/s]
-  double mass;         ///< [kg]; a node without has no velocity
+  double mass;         ///< [kg]; a node without mass has no velocity
 };
 
 struct alignas(32) NodeDisplacement {
-  double u[4];  ///< [m]; the fourth is unused
+  double u[4];  ///< since the grid was last cleared [m]; the fourth number is unused
 };
 
 struct NodeTotals {
@@ -57,15 +58,17 @@ class Grid {
   double* plane_sums(int i) { return sums_[index(i, 0, 0)].total; }  ///< four numbers a node
 
   void clear_sums(const PlaneRange& planes);
-  /// Velocity = momentum/mass. The sums are used up: zero.
-  void start(const PlaneRange& planes);
-  /// Velocity += dt (force/mass + gravity). The sums are used up: zero.
+  /// Takes the masses; velocity = momentum/mass. The sums are zero afterwards.
+  void compute_velocities(const PlaneRange& planes);
+  /// Velocity += dt (force/mass + gravity). The sums are zero afterwards.
   void accelerate(const PlaneRange& planes, double dt, const Vector3& gravity);
-  /// Displacement += dt velocity. @return of the planes of `owned`
+  /// Displacement += dt velocity. @return totals of the planes of `owned`
   NodeTotals move(const PlaneRange& planes, const PlaneRange& owned, double dt);
   void clear_displacement(const PlaneRange& planes);
 
+  /// The axis moves along x by whole cells; the numbers of the nodes stay where they are in memory.
   void shift_x(int cells) { axes_[0].shift(cells); }
+  /// Valid until the grid is shifted.
   GridView view();
 
   /// Motion and displacement of all nodes, as of the rank that owns their plane. Collective.

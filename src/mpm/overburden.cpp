@@ -11,15 +11,15 @@ namespace furrow {
 
 namespace {
 
-// of one level against the next: more is no ground but a void
-constexpr double largest_strain = 1.0;
+// logarithmic, of one level against the next: a material that needs more cannot carry the weight
+constexpr double max_strain = 1.0;
 constexpr int bisections = 60;
 
-std::size_t layer_at(const TerrainParameters& ground, double z) {
-  double bottom = ground.surface;
-  for (std::size_t n = 0; n + 1 < ground.layers.size(); ++n)
-    if (z > (bottom -= ground.layers[n].thickness)) return n;
-  return ground.layers.size() - 1;
+std::size_t layer_at(const TerrainParameters& parameters, double z) {
+  double bottom = parameters.surface;
+  for (std::size_t n = 0; n + 1 < parameters.layers.size(); ++n)
+    if (z > (bottom -= parameters.layers[n].thickness)) return n;
+  return parameters.layers.size() - 1;
 }
 
 VectorX compressed(const Material& material, VectorX state, double strain) {
@@ -29,8 +29,8 @@ VectorX compressed(const Material& material, VectorX state, double strain) {
   return state;
 }
 
-/// The state after the confined compression that makes -sigma_zz equal to a stress that is not
-/// smaller than now.
+/// The state after the confined compression that makes -sigma_zz equal to a stress [Pa], or the
+/// same state if it carries that already.
 VectorX loaded(const Material& material, const VectorX& state, double stress) {
   const auto carried = [&](double strain) {
     return -compressed(material, state, strain)[field::stress + 2];
@@ -40,7 +40,7 @@ VectorX loaded(const Material& material, const VectorX& state, double stress) {
   while (carried(high) < stress) {
     low = high;
     high *= 2.0;
-    if (high > largest_strain)
+    if (high > max_strain)
       throw InputError(fmt::format("law {}", material.name()),
                        fmt::format("cannot carry {:.4g} Pa of its own weight", stress),
                        "a law that stiffens in confined compression",
@@ -55,21 +55,21 @@ VectorX loaded(const Material& material, const VectorX& state, double stress) {
 
 }  // namespace
 
-void find_overburden(const TerrainParameters& ground, std::vector<ParticleLevel>& levels) {
+void find_overburden(const TerrainParameters& parameters, std::vector<ParticleLevel>& levels) {
   double weight = 0.0;  // of all that lies above [Pa]
   for (std::size_t n = 0; n < levels.size(); ++n) {
     ParticleLevel& level = levels[n];
-    level.layer = layer_at(ground, level.z);
-    const Material& material = *ground.layers[level.layer].material;
+    level.layer = layer_at(parameters, level.z);
+    const Material& material = *parameters.layers[level.layer].material;
     const bool continues = n > 0 && levels[n - 1].layer == level.layer;
     level.state = continues ? levels[n - 1].state : material.initial_state();
-    if (!ground.initial_stress) continue;
+    if (!parameters.initial_stress) continue;
     // Half of the level's own weight counts; its density depends little on the last increment of
     // strain.
-    const double pull = -ground.gravity.z();
-    const double above = weight + pull * material.current_density(level.state) * level.half;
+    const double g = -parameters.gravity.z();
+    const double above = weight + g * material.current_density(level.state) * level.half;
     level.state = loaded(material, level.state, above);
-    weight += 2.0 * pull * material.current_density(level.state) * level.half;
+    weight += 2.0 * g * material.current_density(level.state) * level.half;
   }
 }
 

@@ -13,14 +13,14 @@ struct ParticleLevel {
   double z = 0.0;     ///< [m]
   double half = 0.0;  ///< half the height of ground that it stands for [m]
   std::size_t layer = 0;
-  VectorX state;  ///< of the law
+  VectorX state;  ///< of the material
 };
 
-/// Every level is compressed without sideways strain, each layer from its law's initial state,
-/// until its vertical stress carries what lies above: stress, density and hardening then belong
-/// together whatever the law. Without initial_stress the levels have the initial state.
+/// Every level is compressed without lateral strain, each layer from the initial state of its
+/// material, until its vertical stress carries what lies above: stress, density and hardening then
+/// belong together whatever the material. Without initial_stress the levels have the initial state.
 /// @param levels  z and half, from the surface down; layer and state are filled in
-/// @throws InputError when a law cannot carry the weight
-void find_overburden(const TerrainParameters& ground, std::vector<ParticleLevel>& levels);
+/// @throws InputError when a material cannot carry the weight
+void find_overburden(const TerrainParameters& parameters, std::vector<ParticleLevel>& levels);
 
 }  // namespace furrow

@@ -1,134 +1,144 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where the particles of continuum ground are: order in memory, ranks, and ground that moves.
-#include <algorithm>
-#include <limits>
+#include "mpm/particle_distribution.h"
+
 #include <numeric>
 
-#include "mpm/continuum_terrain.h"
+#include <fmt/format.h>
+
+#include "core/error.h"
 
 namespace furrow {
 
-void ContinuumTerrain::sort() {
+namespace {
+
+constexpr double max_drift = 0.5;  // of the shortest cell between two sortings
+
+}  // namespace
+
+ParticleDistribution::ParticleDistribution(Discretisation& discretisation, Boundary& boundary)
+    : discretisation_(discretisation), boundary_(boundary) {}
+
+bool ParticleDistribution::sorting_due() const {
+  return drift_ > max_drift * discretisation_.grid.shortest_cell();
+}
+
+void ParticleDistribution::sort() {
   drift_ = 0.0;
   ++generation_;
   migrate();
-  const std::size_t ny = static_cast<std::size_t>(grid_.axis(1).cells()),
-                    nz = static_cast<std::size_t>(grid_.axis(2).cells());
-  std::vector<std::size_t> cell, start, order;
-  for (ParticleGroup& group : groups_) {
-    const std::size_t n = group.particles.size();
-    cell.resize(n);
-    start.assign(static_cast<std::size_t>(grid_.axis(0).cells()) * ny * nz + 1, 0);
-    for (std::size_t p = 0; p < n; ++p) {
-      const Vector3 x = group.particles.position(p);
-      const int c[3] = {grid_.axis(0).cell_of(x[0]), grid_.axis(1).cell_of(x[1]),
-                        grid_.axis(2).cell_of(x[2])};
-      if (c[0] < 0 || c[1] < 0 || c[2] < 0) report_outside(group);
-      cell[p] = (static_cast<std::size_t>(c[0]) * ny + static_cast<std::size_t>(c[1])) * nz +
-                static_cast<std::size_t>(c[2]);
-      ++start[cell[p] + 1];
-    }
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    order.resize(n);
-    for (std::size_t p = 0; p < n; ++p) order[start[cell[p]]++] = p;
-    group.particles.reorder(order);
-  }
-  if (free_surface_.exists()) free_surface_.relocate(groups_);
+  for (ParticleGroup& group : discretisation_.groups) sort_by_cell(group);
 }
 
-/// Balances the slabs and sends every particle to the owner of its cell.
-void ContinuumTerrain::migrate() {
-  if (ranks().size() == 1) return;
-  const Axis& x = grid_.axis(0);
+/// Counting sort: stable, so that the order of the particles of a cell stays.
+void ParticleDistribution::sort_by_cell(ParticleGroup& group) {
+  const Grid& grid = discretisation_.grid;
+  const auto nx = static_cast<std::size_t>(grid.axis(0).cells());
+  const auto ny = static_cast<std::size_t>(grid.axis(1).cells());
+  const auto nz = static_cast<std::size_t>(grid.axis(2).cells());
+  const std::size_t n = group.particles.size();
+  cell_.resize(n);
+  start_.assign(nx * ny * nz + 1, 0);
+  for (std::size_t p = 0; p < n; ++p) {
+    const Vector3 x = group.particles.position(p);
+    const int c[3] = {grid.axis(0).cell_of(x[0]), grid.axis(1).cell_of(x[1]),
+                      grid.axis(2).cell_of(x[2])};
+    if (c[0] < 0 || c[1] < 0 || c[2] < 0) report_outside(group);
+    cell_[p] = (static_cast<std::size_t>(c[0]) * ny + static_cast<std::size_t>(c[1])) * nz +
+               static_cast<std::size_t>(c[2]);
+    ++start_[cell_[p] + 1];
+  }
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  order_.resize(n);
+  for (std::size_t p = 0; p < n; ++p) order_[start_[cell_[p]]++] = p;
+  group.particles.reorder(order_);
+}
+
+/// Of all ranks.
+std::vector<double> ParticleDistribution::count_by_x_cell() const {
+  const Axis& x = discretisation_.grid.axis(0);
   std::vector<double> count(static_cast<std::size_t>(x.cells()), 0.0);
-  for (const ParticleGroup& group : groups_)
+  for (const ParticleGroup& group : discretisation_.groups)
     for (std::size_t p = 0; p < group.particles.size(); ++p) {
       const int cell = x.cell_of(group.particles.data(column::x)[p]);
       if (cell < 0) report_outside(group);
       ++count[static_cast<std::size_t>(cell)];
     }
-  ranks().sum(count.data(), count.size());
-  boundary_.synchronise(ranks(), partition_.owned());
-  partition_.rebalance(count);
+  discretisation_.ranks().sum(count.data(), count.size());
+  return count;
+}
+
+void ParticleDistribution::migrate() {
+  const Communicator& ranks = discretisation_.ranks();
+  if (ranks.size() == 1) return;
+  const Axis& x = discretisation_.grid.axis(0);
+  Partition& partition = discretisation_.partition;
+  const std::vector<double> count = count_by_x_cell();
+  boundary_.synchronise(ranks, partition.owned_planes());
+  partition.rebalance(count);
   std::vector<std::size_t> staying;
-  for (ParticleGroup& group : groups_) {
-    std::vector<std::vector<double>> leaving(static_cast<std::size_t>(ranks().size()));
+  for (ParticleGroup& group : discretisation_.groups) {
+    std::vector<std::vector<double>> leaving(static_cast<std::size_t>(ranks.size()));
     staying.clear();
     for (std::size_t p = 0; p < group.particles.size(); ++p) {
-      const int owner = partition_.owner(x.cell_of(group.particles.data(column::x)[p]));
-      if (owner == ranks().rank())
+      const int owner = partition.owner(x.cell_of(group.particles.data(column::x)[p]));
+      if (owner == ranks.rank())
         staying.push_back(p);
       else
         group.particles.pack(p, leaving[static_cast<std::size_t>(owner)]);
     }
     group.particles.reorder(staying);
-    for (int r = 0; r < ranks().size(); ++r) {
-      if (r == ranks().rank()) continue;
-      const std::vector<double> arriving =
-          ranks().exchange(r, leaving[static_cast<std::size_t>(r)]);
+    for (int r = 0; r < ranks.size(); ++r) {
+      if (r == ranks.rank()) continue;
+      const std::vector<double> arriving = ranks.exchange(r, leaving[static_cast<std::size_t>(r)]);
       for (std::size_t n = 0; n < arriving.size(); n += group.particles.record_length())
         group.particles.unpack(arriving.data() + n);
     }
   }
 }
 
-// ---- moving ground ------------------------------------------------------------------------------
-
-double ContinuumTerrain::travelled() const { return grid_.axis(0).lower() - start_; }
-
-void ContinuumTerrain::move_window() {
-  if (!parameters_.window) return;
-  const Axis& x = grid_.axis(0);
-  bool moved = false;
-  while (focus_ > 0.5 * (x.lower() + x.upper()) + x.length(0)) {
-    remove_behind();
-    if (!moved) boundary_.synchronise(ranks(), partition_.owned());  // rows go over from rank to rank
-    grid_.shift_x(1);
-    boundary_.shift_x(1);
-    ++shifts_;
-    const double before = internal_energy();
-    add_column(x.cells() - 1);
-    initial_ += internal_energy() - before;
-    moved = true;
+void ParticleDistribution::report_outside(const ParticleGroup& group) const {
+  const Grid& grid = discretisation_.grid;
+  for (std::size_t p = 0; p < group.particles.size(); ++p) {
+    const Vector3 x = group.particles.position(p);
+    for (int a = 0; a < 3; ++a)
+      if (grid.axis(a).cell_of(x[a]) < 0)
+        throw StateError(fmt::format(
+            "a particle is at {:.4g} {:.4g} {:.4g} m, outside of the grid (x {:.4g} to {:.4g}, y "
+            "{:.4g} to {:.4g}, z {:.4g} to {:.4g} m): give the ground more headroom or size, or "
+            "look for an unstable contact",
+            x[0], x[1], x[2], grid.axis(0).lower(), grid.axis(0).upper(), grid.axis(1).lower(),
+            grid.axis(1).upper(), grid.axis(2).lower(), grid.axis(2).upper()));
   }
-  if (moved) sort();
+  throw StateError(
+      fmt::format("particles moved more than a cell in {:.2g} m of expected drift: the ground has "
+                  "become unstable",
+                  drift_));
 }
 
-void ContinuumTerrain::remove_behind() {
-  const Axis &x = grid_.axis(0), &y = grid_.axis(1);
-  const double edge = x.knot(1);
-  std::vector<double> top(static_cast<std::size_t>(y.cells()),
-                          -std::numeric_limits<double>::infinity()),
-      mass(top.size(), 0.0), volume(top.size(), 0.0);
-  const double before = internal_energy(), heat_before = energy(field::dissipated_energy);
-  std::vector<std::size_t> kept;
-  for (ParticleGroup& group : groups_) {
-    const Particles& particles = group.particles;
-    kept.clear();
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      if (particles.data(column::x)[p] >= edge) {
-        kept.push_back(p);
-        continue;
-      }
-      const auto row = static_cast<std::size_t>(y.cell_of(particles.data(column::y)[p]));
-      const double ratio = particles.data(column::state + field::volume_ratio)[p],
-                   reference = particles.data(column::volume)[p];
-      top[row] = std::max(top[row],
-                          particles.data(column::z)[p] + particles.data(column::half_z)[p] * ratio);
-      mass[row] += group.material->density() * reference;
-      volume[row] += reference * ratio;
-      dropped_kinetic_ +=
-          0.5 * group.material->density() * reference * particles.velocity(p).squaredNorm();
+/// The drift stays, so that the next sorting comes when it would have come.
+void ParticleDistribution::checkpoint_particles(Checkpoint& state) {
+  const Communicator& ranks = discretisation_.ranks();
+  for (ParticleGroup& group : discretisation_.groups) {
+    const std::size_t length = group.particles.record_length();
+    std::vector<double> records;
+    if (state.saving()) {
+      for (std::size_t p = 0; p < group.particles.size(); ++p) group.particles.pack(p, records);
+      records = ranks.gather(records);
     }
-    group.particles.reorder(kept);
+    state.values("particles", records);
+    if (state.saving()) continue;
+    group.particles.reorder({});
+    const Axis& x = discretisation_.grid.axis(0);
+    for (const double *next = records.data(), *end = next + records.size(); next != end;
+         next += length)
+      if (discretisation_.partition.owner(x.cell_of(next[0])) == ranks.rank())
+        group.particles.unpack(next);
   }
-  dropped_internal_ += before - internal_energy();
-  dropped_dissipated_ += heat_before - energy(field::dissipated_energy);
-  for (std::size_t row = 0; row < top.size(); ++row)
-    if (volume[row] > 0.0)
-      rut_.push_back({0.5 * (x.lower() + edge),
-                      y.knot(static_cast<int>(row)) + 0.5 * y.length(static_cast<int>(row)),
-                      top[row], mass[row] / volume[row]});
+  if (state.saving()) return;
+  const double drift = drift_;
+  if (ranks.size() > 1) sort();
+  drift_ = drift;
+  ++generation_;
 }
 
 }  // namespace furrow

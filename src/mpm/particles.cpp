@@ -6,18 +6,13 @@
 namespace furrow {
 
 Particles::Particles(const Material& material) : state_fields_(material.state_fields().size()) {
-  for (const char* name : {"x", "y", "z"}) columns_.push_back({name, 1, {}});
-  columns_.push_back({"velocity", 4, {}});
-  columns_.push_back({"affine", 12, {}});
-  for (const char* name : {"volume", "reference_x", "reference_y", "reference_z", "home_x",
-                           "home_y", "home_z", "half_x", "half_y", "half_z", "id"})
-    columns_.push_back({name, 1, {}});
-  for (const StateField& field : material.state_fields()) columns_.push_back({field.name, 1, {}});
+  for (std::size_t c = 0; c < column::state + state_fields_; ++c)
+    add_column(c == column::velocity ? 4 : c == column::affine ? 12 : 1);
 }
 
-std::size_t Particles::add_column(const std::string& name, int components) {
+std::size_t Particles::add_column(int components) {
   columns_.push_back(
-      {name, components, std::vector<double>(size_ * static_cast<std::size_t>(components), 0.0)});
+      {components, std::vector<double>(size_ * static_cast<std::size_t>(components), 0.0)});
   return columns_.size() - 1;
 }
 
@@ -80,7 +75,7 @@ ParticleView Particles::view(std::size_t first, std::size_t count) {
   ParticleView view;
   view.size = count;
   for (std::size_t a = 0; a < 3; ++a) {
-    view.reference[a] = data(column::shape_x + a) + first;
+    view.shape_position[a] = data(column::shape_x + a) + first;
     view.position[a] = data(column::x + a) + first;
   }
   view.velocity = data(column::velocity) + 4 * first;

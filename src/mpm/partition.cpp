@@ -26,26 +26,26 @@ int Partition::owner(int cell) const {
          1;
 }
 
-PlaneRange Partition::reach(int rank) const {
+PlaneRange Partition::local_planes_of(int rank) const {
   const auto r = static_cast<std::size_t>(rank);
   if (bounds_[r] == bounds_[r + 1]) return {bounds_[r], bounds_[r]};
   return {std::max(0, bounds_[r] - 1), std::min(bounds_.back(), bounds_[r + 1] + 1) + 2};
 }
 
-/// A plane belongs to the first rank that touches it.
-PlaneRange Partition::owned() const {
-  PlaneRange mine = touched();
+/// A plane belongs to the first rank to which it is local.
+PlaneRange Partition::owned_planes() const {
+  PlaneRange mine = local_planes();
   for (int r = 0; r < ranks_.rank(); ++r)
-    mine.from = std::max(mine.from, std::min(mine.to, reach(r).to));
+    mine.from = std::max(mine.from, std::min(mine.to, local_planes_of(r).to));
   return mine;
 }
 
 void Partition::sum_shared(Grid& grid) const {
   if (ranks_.size() == 1) return;
-  const PlaneRange mine = touched();
+  const PlaneRange mine = local_planes();
   const std::size_t length = 4 * grid.plane_size();
   const auto shared = [&](int rank) {
-    const PlaneRange theirs = reach(rank);
+    const PlaneRange theirs = local_planes_of(rank);
     return PlaneRange{std::max(mine.from, theirs.from), std::min(mine.to, theirs.to)};
   };
   const auto numbers = [&](const PlaneRange& planes) {
@@ -53,8 +53,8 @@ void Partition::sum_shared(Grid& grid) const {
     return std::vector<double>(first,
                                first + length * static_cast<std::size_t>(planes.to - planes.from));
   };
-  // All are sent before anything is added, then added in the order of the ranks: a node's sum does
-  // not depend on who makes it.
+  // All are sent before anything is added, then added in the order of the ranks: a node's sum has
+  // the same bits on every rank.
   std::vector<std::vector<double>> received(static_cast<std::size_t>(ranks_.size()));
   for (int r = 0; r < ranks_.size(); ++r) {
     const PlaneRange planes = shared(r);

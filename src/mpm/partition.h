@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Who computes what: every rank owns a slab of cells across x, and shares the nodes near its ends
-/// with its neighbours.
+/// Domain decomposition: every rank owns a slab of cells across x, and shares the planes of nodes
+/// near its ends with its neighbours.
 
 #include <vector>
 
@@ -14,26 +14,27 @@ class Partition {
  public:
   Partition(const Communicator& ranks, int cells) : ranks_(ranks), bounds_{0, cells} {}
 
-  /// Slabs of nearly equal numbers of particles. @param count particles of all ranks in every cell
-  /// across x; the same on all ranks
+  /// Chooses slabs of nearly equal numbers of particles.
+  /// @param count  particles of all ranks in every layer of cells across x; the same on all ranks
   void rebalance(const std::vector<double>& count);
-  int owner(int cell) const;
+  int owner(int cell) const;  ///< the rank that owns a layer of cells across x
   const Communicator& ranks() const { return ranks_; }
+
   /// Cells where this rank's particles may be between two sortings: its slab and one cell on each
   /// side.
-  int first_cell() const { return reach(ranks_.rank()).from; }
-  int last_cell() const { return reach(ranks_.rank()).to - 3; }
-  /// planes of nodes that this rank's particles may reach
-  PlaneRange touched() const { return reach(ranks_.rank()); }
-  /// planes that are counted here in sums over all nodes
-  PlaneRange owned() const;
+  int first_local_cell() const { return local_planes_of(ranks_.rank()).from; }
+  int last_local_cell() const { return local_planes_of(ranks_.rank()).to - 3; }
+  /// Planes of nodes that this rank's particles may reach.
+  PlaneRange local_planes() const { return local_planes_of(ranks_.rank()); }
+  /// Planes that this rank counts in sums over all nodes; every plane is owned once.
+  PlaneRange owned_planes() const;
 
-  /// Adds what other ranks gave to the nodes that are touched here too; the sum has the same bits
-  /// on all of them.
+  /// Adds the sums of other ranks to the nodes that are local here too; the result has the same
+  /// bits on all of them. Collective.
   void sum_shared(Grid& grid) const;
 
  private:
-  PlaneRange reach(int rank) const;
+  PlaneRange local_planes_of(int rank) const;
 
   Communicator ranks_;
   std::vector<int> bounds_;  // slab r: cells bounds_[r] to bounds_[r + 1] - 1

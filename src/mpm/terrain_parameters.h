@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Everything that makes a piece of continuum ground.
+/// Everything that makes a continuum terrain.
 
 #include <array>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "material/material.h"
@@ -20,21 +19,24 @@ struct TerrainLayer {
 };
 
 struct TerrainParameters {
-  AxisLayout x, y, z;    ///< of the grid; z reaches above the surface for what is pushed up
-  double surface = 0.0;  ///< z of the undisturbed ground [m]; a knot of the z axis
+  AxisLayout x;  ///< of the grid
+  AxisLayout y;
+  AxisLayout z;          ///< reaches above the surface, for ground that is pushed up
+  double surface = 0.0;  ///< z of the undisturbed surface [m]; a knot of the z axis
   std::vector<TerrainLayer> layers;
-  std::array<BoundaryKind, face_count> faces = {BoundaryKind::smooth, BoundaryKind::smooth,
-                                                BoundaryKind::smooth, BoundaryKind::smooth,
-                                                BoundaryKind::rough,  BoundaryKind::free};
+  /// in the order of Face: both ends and both sides smooth, a rough base, a free top
+  FaceArray<BoundaryKind> boundary = {BoundaryKind::smooth, BoundaryKind::smooth,
+                                      BoundaryKind::smooth, BoundaryKind::smooth,
+                                      BoundaryKind::rough,  BoundaryKind::free};
   std::array<int, 3> particles_per_cell = {2, 2, 2};  ///< in each direction
   Vector3 gravity = {0.0, 0.0, -standard_gravity};    ///< [m/s^2]
-  /// the weight of the ground is carried from the start, sideways as in confined compression
+  /// the ground carries its own weight from the start, with the stress of confined compression
   bool initial_stress = true;
   double cfl = 0.4;  ///< step over (shortest cell)/(wave speed + speed of the ground)
-  /// most steps for which the grid moves with the ground before particles are mapped to it anew
+  /// most steps between two remaps of particles and grid (terrain_step.h)
   int remap_interval = 16;
-  bool sheet = false;   ///< carries triangles on its upper face, for grains
-  bool window = false;  ///< the ground moves along x with what follow() names
+  bool surface_mesh = false;  ///< carries triangles on its free surface, for grains
+  bool window = false;        ///< moves along x with what ContinuumTerrain::follow() names
 };
 
 }  // namespace furrow

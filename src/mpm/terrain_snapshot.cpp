@@ -9,6 +9,7 @@ namespace furrow {
 
 namespace {
 
+/// Places of a particle's numbers in the record that ranks exchange.
 enum : std::size_t {
   id,
   x,
@@ -24,7 +25,7 @@ enum : std::size_t {
   length
 };
 
-/// Column of the law's compaction, or that of the volume ratio.
+/// Column of the material's compaction, or that of the volume ratio.
 std::size_t compaction_column(const Material& material) {
   const auto& fields = material.state_fields();
   const auto found = std::find_if(fields.begin(), fields.end(),
@@ -35,11 +36,11 @@ std::size_t compaction_column(const Material& material) {
 
 }  // namespace
 
-TerrainSnapshot take_snapshot(ContinuumTerrain& ground) {
+TerrainSnapshot take_snapshot(ContinuumTerrain& terrain) {
   std::vector<double> records;
-  const std::vector<ParticleGroup>& groups = ground.groups();
-  for (std::size_t k = 0; k < groups.size(); ++k) {
-    const ParticleGroup& group = groups[k];
+  const std::vector<ParticleGroup>& groups = terrain.groups();
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const ParticleGroup& group = groups[g];
     const Particles& particles = group.particles;
     const std::size_t compacted = compaction_column(*group.material);
     for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -48,15 +49,15 @@ TerrainSnapshot take_snapshot(ContinuumTerrain& ground) {
       for (int s = 0; s < 6; ++s)
         stress[s] = particles.data(column::state + field::stress + static_cast<std::size_t>(s))[p];
       const Invariants invariant = invariants(stress);
-      const double ratio = particles.data(column::state + field::volume_ratio)[p],
-                   value = particles.data(compacted)[p];
+      const double ratio = particles.volume_ratio(p);
+      const double value = particles.data(compacted)[p];
       r[id] = particles.data(column::id)[p];
       for (std::size_t a = 0; a < 3; ++a) {
         r[x + a] = particles.data(column::x + a)[p];
         r[initial_position + a] = particles.data(column::initial_x + a)[p];
         r[v + a] = particles.data(column::velocity)[4 * p + a];
       }
-      r[layer] = static_cast<double>(k);
+      r[layer] = static_cast<double>(g);
       r[volume] = particles.data(column::volume)[p] * ratio;
       r[density] = group.material->density() / ratio;
       r[pressure] = invariant.p;
@@ -66,7 +67,7 @@ TerrainSnapshot take_snapshot(ContinuumTerrain& ground) {
       records.insert(records.end(), r, r + length);
     }
   }
-  records = ground.ranks().gather(records);
+  records = terrain.ranks().gather(records);
   const std::size_t count = records.size() / length;
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t(0));
@@ -94,15 +95,8 @@ TerrainSnapshot take_snapshot(ContinuumTerrain& ground) {
   return snapshot;
 }
 
-std::vector<RutPoint> collect_rut(const ContinuumTerrain& ground) {
-  std::vector<double> numbers;
-  for (const RutPoint& point : ground.rut())
-    numbers.insert(numbers.end(), {point.x, point.y, point.z, point.density});
-  numbers = ground.ranks().gather(numbers);
-  std::vector<RutPoint> rut;
-  for (std::size_t n = 0; n < numbers.size(); n += 4)
-    rut.push_back({numbers[n], numbers[n + 1], numbers[n + 2], numbers[n + 3]});
-  return rut;
+std::vector<RutPoint> collect_rut(const ContinuumTerrain& terrain) {
+  return terrain.rut().gather(terrain.ranks());
 }
 
 }  // namespace furrow

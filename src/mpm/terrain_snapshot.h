@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The ground at one instant, as files and pictures need it.
+/// The terrain at one instant, as files and pictures need it.
 
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "core/types.h"
@@ -14,18 +12,22 @@ namespace furrow {
 /// Particles of all ranks and layers in the order of their ids.
 struct TerrainSnapshot {
   std::vector<double> id;
-  Matrix3X x, initial_position, v;      ///< position now and at the start [m], velocity [m/s]
+  Matrix3X x;                           ///< position now [m]
+  Matrix3X initial_position;            ///< [m]
+  Matrix3X v;                           ///< velocity [m/s]
   std::vector<double> layer;            ///< 0 on top
-  std::vector<double> volume, density;  ///< now [m^3], [kg/m^3]
-  std::vector<double> pressure, mises;  ///< p (compression positive) and q [Pa]
+  std::vector<double> volume;           ///< now [m^3]
+  std::vector<double> density;          ///< now [kg/m^3]
+  std::vector<double> pressure;         ///< p, compression positive [Pa]
+  std::vector<double> mises;            ///< q [Pa]
   std::vector<double> vertical_stress;  ///< sigma_zz, tension positive [Pa]
-  std::vector<double> compaction;       ///< eps_vol_pl of laws that have it, otherwise -ln J
+  std::vector<double> compaction;       ///< eps_vol_pl of materials that have it, otherwise -ln J
   std::size_t size() const { return id.size(); }
 };
 
 /// Collective; every rank gets all.
-TerrainSnapshot take_snapshot(ContinuumTerrain& ground);
-/// What the moving ground dropped, of all ranks. Collective.
-std::vector<RutPoint> collect_rut(const ContinuumTerrain& ground);
+TerrainSnapshot take_snapshot(ContinuumTerrain& terrain);
+/// What the moving window left behind, of all ranks. Collective.
+std::vector<RutPoint> collect_rut(const ContinuumTerrain& terrain);
 
 }  // namespace furrow

@@ -60,7 +60,7 @@ TEST(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
                      ->ground();
   const double before = upward_momentum(scene);
   const Vector3 ground_before = ground.energy_budget().momentum,
-                base_before = ground.face_impulse(z_lower);
+                base_before = ground.boundary_impulse(Face::z_lower);
   double impulse = 0.0;
   scene.at_end_of_step([&] { impulse += ground.surface().total_force().z() * step; });
   constexpr int steps = 2000;
@@ -78,7 +78,7 @@ TEST(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
     for (std::size_t p = 0; p < phase.particles.size(); ++p)
       mass += phase.material->density() * phase.particles.data(column::volume)[p];
   mass = scene.sum(mass);
-  const double base = ground.face_impulse(z_lower).z() - base_before.z(),
+  const double base = ground.boundary_impulse(Face::z_lower).z() - base_before.z(),
                ground_gain = ground.energy_budget().momentum.z() - ground_before.z();
   // forces are one step older in the ground
   EXPECT_NEAR(base, mass * gravity * time + ground_gain - impulse, 2e-3 * base);

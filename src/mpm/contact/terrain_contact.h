@@ -1,132 +1,97 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A surface that presses on continuum ground: wheel, tyre or plate against the particles.
+/// A surface that presses on a continuum terrain: wheel, tyre or plate against the particles.
 
-#include <limits>
-#include <memory>
+#include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "bodies/body.h"
 #include "bodies/contact.h"
-#include "geometry/triangle_search.h"
-#include "core/options.h"
+#include "mpm/contact/contact_law.h"
+#include "mpm/contact/contact_parameters.h"
+#include "mpm/contact/contact_search.h"
+#include "mpm/contact/narrow_phase.h"
+#include "mpm/contact/symmetry_mirror.h"
 #include "mpm/continuum_terrain.h"
 
 namespace furrow {
 
-struct ContactParameters {
-  enum class Enforcement {
-    penalty,  ///< springs normal and along, with damping
-    /// approach and penetration are taken away within the step, as far as the particle's own mass
-    /// does it
-    impulse
-  };
-  Enforcement enforcement = Enforcement::penalty;
-  double friction = 0.3;  ///< mu of Coulomb's law; 0: smooth, infinity: rough
-  /// k of TR eq 26 [m]: tau = mu sigma (1 - exp(-j/k)), j the slip; 0: Coulomb's law
-  double slip_length = 0.0;
-  /// spring of a particle over (wave modulus) x (cube root of its volume)
-  double stiffness = 0.4;
-  double damping = 0.1;  ///< of the spring with the particle's mass, of critical
-};
-
-/// A particle stands for ground that reaches half a spacing beyond it; what matters is the half
-/// spacing along the contact normal, which shrinks with the volume of the particle because ground
-/// under a wheel is compressed that way:
-///   gap = distance to the surface - J sum_a |n_a| h_a.
-/// Its error is a fraction of the spacing and vanishes with it. The force acts at the closest point
-/// of the surface on both sides: on the surface by barycentric weights, on the ground by
-/// PointImpulse, so that force and moment are kept.
+/// Composition of ContactSearch (which particles are near), NarrowPhase (which of them touch, and
+/// where), ContactLaw (with what force) and, in a half model, SymmetryMirror.
 ///
-/// Half models: with a ground that ends in a symmetry plane y = y_lower, the surface is whole and
-/// takes the mirrored forces as well.
+/// The force of a particle acts at the closest point of the surface on both sides: on the surface
+/// by barycentric weights, on the ground as a point load through the particle's weights, so that
+/// force and moment are kept. Each rank finds the contacts of its particles; the forces on the
+/// surface are summed over the ranks.
 class TerrainContact : public Contact {
  public:
-  /// The keys of a contact. @param subject names the owner in errors
-  static Schema schema(const std::string& subject = "contact with ground");
-  static ContactParameters parameters_from(const Options& options);
-
-  /// Body and ground must outlive the contact. @param half_model the ground's lower y face is a
-  /// plane of symmetry
-  /// @throws InputError when a half model's surface is not its own mirror image
-  TerrainContact(Body& body, ContinuumTerrain& ground, const ContactParameters& parameters,
+  /// Body and terrain must outlive the contact. Not collective.
+  /// @param half_model  the terrain's lower y face is a plane of symmetry and the surface is whole:
+  ///                    it takes the mirrored forces as well
+  /// @param where       names the contact in errors
+  /// @throws InputError when a half model's surface is not its own mirror image, or the law cannot
+  /// work on this terrain
+  TerrainContact(Body& body, ContinuumTerrain& terrain, const ContactParameters& parameters,
                  bool half_model, const std::string& where);
 
+  /// Collective. @throws StateError when the body is beyond the terrain, inside it at the start, or
+  /// too deep in it
   void apply(double dt) override;
 
-  // What the last step had; of all ranks and, of a half model, both halves.
-  const Vector3& force() const { return force_; }  ///< on the body [N]
-  double contacts() const { return contacts_; }
-  double penetration() const { return penetration_; }      ///< the deepest [m]
-  double deepest_penetration() const { return deepest_; }  ///< since the start [m]
-  double friction_loss() const { return friction_loss_; }  ///< since the start [J]
-  double damping_loss() const { return damping_loss_; }    ///< since the start [J]
-  /// of the touching particles' faces [m^2]
-  double area() const { return area_; }
+  // Of the last step, of all ranks and, in a half model, of both halves; not collective.
+  const Vector3& force() const { return force_; }           ///< on the body [N]
+  double contacts() const { return step_.contacts; }        ///< particles that touch
+  double area() const { return step_.area; }                ///< of the touching particles [m^2]
+  double penetration() const { return step_.penetration; }  ///< the deepest [m]
+  // Since the start.
+  double deepest_penetration() const { return deepest_penetration_; }  ///< [m]
+  double friction_loss() const { return losses_.friction; }            ///< [J]
+  double damping_loss() const { return losses_.damping; }              ///< [J]
 
-  /// Sums since the start, and when the candidates were found; what particles carry of a contact is
-  /// part of the ground's state. Its length depends on the surface only.
-  void checkpoint(Checkpoint& state);  ///< restored after body and terrain
+  /// Sums since the start, and when the candidates were found; what particles remember is part of
+  /// the terrain's checkpoint. Restored after body and terrain. Not collective.
+  void checkpoint(Checkpoint& state);
 
  private:
-  struct Near {
-    double distance;  // when the candidates were found [m]
-    int triangle;
+  /// Sums over the particles that touch in a step.
+  struct StepTotals {
+    double contacts = 0.0;
+    double area = 0.0;         // [m^2]
+    double penetration = 0.0;  // largest [m]
+    ContactLosses losses;
   };
-  struct Candidate {
-    ParticleIndex at;
-    Vector3 found;            // where the particle was when the candidates were found
-    std::size_t first, last;  // its triangles in near_, the nearest first
-  };
-  struct Touch {
-    Vector3 point, normal, barycentric;
-    double gap;
-    std::size_t triangle;
-  };
-  bool is_stale();
+  const ParticleGroup& group_of(const ParticleIndex& particle) const {
+    return terrain_.unsynchronised_groups()[particle.group];
+  }
+  ContactHistory history_of(const ParticleIndex& particle);
   void search();
-  void find_candidates(bool stiffness_anew);
-  void refuse_overlap() const;
-  void refuse_departure() const;
-  double* memory_of(const ParticleIndex& at);
-  void forget(const ParticleIndex& at);
-  double touch_distance(const ParticleIndex& at) const;
-  void choose_active();
-  bool touch(const Candidate& candidate, const Vector3& x, Touch& touch) const;
-  Vector3 penalty_force(const Touch& touch, const Vector3& velocity, double mass, double stiffness,
-                        double dt, double* memory);
-  Vector3 impulse_force(const Touch& touch, const Vector3& velocity, double mass, double dt,
-                        double* memory);
-  double friction_limit(double normal_force, double slip) const;
-  void collect();
+  void select_active();
+  template <class Law>
+  void add_forces(const Law& law, double dt);
+  void sum_over_ranks();
+  void add_other_half();
+  void record_step();
 
   Body& body_;
-  ContinuumTerrain& ground_;
-  ContactParameters parameters_;
-  std::string where_;
-  NodeTriangles corners_;
-  // the node at the mirror image of each node; empty unless half a model
-  std::vector<int> mirror_;
-  std::vector<std::size_t> memory_;  // column of each phase: see Memory in the source
+  ContinuumTerrain& terrain_;
+  ContactLaw law_;
+  ContactSearch search_;
+  NarrowPhase narrow_phase_;
+  std::optional<SymmetryMirror> mirror_;
+  std::vector<std::size_t> history_columns_;  // of each particle group
 
-  std::vector<Candidate> candidates_;
-  std::vector<Near> near_;
-  std::vector<std::size_t> active_;    // candidates that may have come close enough by now
-  std::vector<ParticleIndex> points_;  // their particles
+  // Candidates that may touch now, and their motions.
+  std::vector<std::size_t> active_;
+  std::vector<ParticleIndex> active_particles_;
   std::vector<ParticleMotion> motions_;
-  Matrix3X searched_;  // nodes when the candidates were found
-  unsigned long generation_ = 0;
-  // [m] of the last search; staleness_: by which its places were behind
-  double reach_ = 0.0, skin_ = 0.0, staleness_ = 0.0;
-  // [m] of the surface and of the ground since the last search
-  double moved_ = 0.0, drift_ = 0.0;
-  bool started_ = false;
 
-  Matrix3X nodal_;  // forces on the body [N]
-  std::vector<double> buffer_;
+  Matrix3X nodal_forces_;  // on the body [N]
+  StepTotals step_;
   Vector3 force_ = Vector3::Zero();
-  double contacts_ = 0.0, penetration_ = 0.0, area_ = 0.0, deepest_ = 0.0, friction_loss_ = 0.0,
-         damping_loss_ = 0.0;
-  double step_friction_ = 0.0, step_damping_ = 0.0;
+  ContactLosses losses_;  // since the start
+  double deepest_penetration_ = 0.0;
 };
 
 }  // namespace furrow

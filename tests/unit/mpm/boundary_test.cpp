@@ -41,8 +41,8 @@ void give_sums(Grid& grid, const Vector3& force) {
       }
 }
 
-std::array<BoundaryKind, face_count> only(Face face, BoundaryKind kind) {
-  std::array<BoundaryKind, face_count> kinds;
+FaceArray<BoundaryKind> only(Face face, BoundaryKind kind) {
+  FaceArray<BoundaryKind> kinds;
   kinds.fill(BoundaryKind::free);
   kinds[face] = kind;
   return kinds;
@@ -60,14 +60,14 @@ TEST(Boundary, NamesFollowTheKinds) {
 
 TEST(Boundary, SmoothStopsWhatIsAcrossAndRoughStopsAll) {
   const Vector3 v(1.0, 2.0, 3.0);
-  for (int face = 0; face < face_count; ++face)
+  for (const Face face : all_faces)
     for (const BoundaryKind kind : {BoundaryKind::smooth, BoundaryKind::rough}) {
       Grid grid = small_grid();
       give_velocity(grid, v);
-      Boundary faces(grid, only(static_cast<Face>(face), kind), {2, 2, 2}, speeds(grid));
-      EXPECT_TRUE(faces.captured());
-      faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);
-      const int axis = face / 2, plane = face % 2 == 0 ? 0 : grid.nodes(axis) - 1;
+      Boundary boundary(grid, only(face, kind), {2, 2, 2}, speeds(grid));
+      EXPECT_TRUE(boundary.has_initial_tractions());
+      boundary.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+      const int axis = axis_of(face), plane = is_upper(face) ? grid.nodes(axis) - 1 : 0;
       Vector3 expected = Vector3::Zero();
       for_nodes(grid, [&](const NodeMotion& n, int i, int j, int k) {
         const int at[3] = {i, j, k};
@@ -79,8 +79,8 @@ TEST(Boundary, SmoothStopsWhatIsAcrossAndRoughStopsAll) {
         }
         EXPECT_EQ(Vector3(Eigen::Map<const Vector3>(n.velocity)), after);
       });
-      EXPECT_LT((faces.impulse(static_cast<Face>(face)) - expected).norm(), 1e-12);
-      EXPECT_EQ(faces.work(), 0.0);
+      EXPECT_LT((boundary.impulse(face) - expected).norm(), 1e-12);
+      EXPECT_EQ(boundary.work(), 0.0);
     }
 }
 
@@ -88,17 +88,17 @@ TEST(Boundary, SmoothStopsWhatIsAcrossAndRoughStopsAll) {
 /// node across the face, taken implicitly.
 TEST(Boundary, AbsorbingIsDashpotAndSpring) {
   Grid grid = small_grid();
-  Boundary faces(grid, only(x_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
-  EXPECT_FALSE(faces.captured());
-  faces.capture(grid, grid.all_planes(), weightless);  // nothing to hold
-  EXPECT_TRUE(faces.captured());
+  Boundary boundary(grid, only(Face::x_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
+  EXPECT_FALSE(boundary.has_initial_tractions());
+  boundary.capture_initial_tractions(grid, grid.all_planes(), weightless);  // nothing to hold
+  EXPECT_TRUE(boundary.has_initial_tractions());
   // [m] (0.75^2 + 0.25^2)/2 of the spline at two particles a cell
   const double extent = 0.3125, length = 0.5 * 4.0;
   Vector3 u = Vector3::Zero(), v(1.0, 2.0, 3.0);
   double work = 0.0;
   for (int step = 0; step < 3; ++step) {
     give_velocity(grid, v);
-    faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+    boundary.apply(grid, grid.all_planes(), grid.all_planes(), dt);
     Vector3 after;
     for (int c = 0; c < 3; ++c) {
       const double speed = c == 0 ? 300.0 : 150.0;
@@ -111,25 +111,25 @@ TEST(Boundary, AbsorbingIsDashpotAndSpring) {
     work += grid.nodes(1) * grid.nodes(2) * mass * (after - v).dot(after);
     v = after;
   }
-  EXPECT_NEAR(faces.work(), work, 1e-12 * std::abs(work));
+  EXPECT_NEAR(boundary.work(), work, 1e-12 * std::abs(work));
 }
 
 /// What held the ground at the start is held on: a node on several faces is held once.
 TEST(Boundary, ForcesOfTheStartAreHeld) {
   for (const int count : {1, 2, 3}) {
-    std::array<BoundaryKind, face_count> kinds;
+    FaceArray<BoundaryKind> kinds;
     kinds.fill(BoundaryKind::free);
-    const Face places[3] = {x_upper, y_upper, z_lower};
-    for (int n = 0; n < count; ++n) kinds[places[n]] = BoundaryKind::absorbing;
+    const Face absorbing[3] = {Face::x_upper, Face::y_upper, Face::z_lower};
+    for (int n = 0; n < count; ++n) kinds[absorbing[n]] = BoundaryKind::absorbing;
     Grid grid = small_grid();
-    Boundary faces(grid, kinds, {2, 2, 2}, speeds(grid));
+    Boundary boundary(grid, kinds, {2, 2, 2}, speeds(grid));
     const Vector3 pull(10.0, -20.0, 30.0);  // [N] on every node
     const Vector3 gravity(0.0, 1.0, -9.0), stress = pull - mass * gravity;
     give_sums(grid, stress);
-    faces.capture(grid, grid.all_planes(), gravity);
+    boundary.capture_initial_tractions(grid, grid.all_planes(), gravity);
     for (int step = 0; step < 5; ++step) {
       give_velocity(grid, dt * pull / mass);
-      faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+      boundary.apply(grid, grid.all_planes(), grid.all_planes(), dt);
       for_nodes(grid, [&](const NodeMotion& n, int i, int j, int k) {
         const bool held = i == grid.nodes(0) - 1 || (count > 1 && j == grid.nodes(1) - 1) ||
                           (count > 2 && k == 0);
@@ -145,16 +145,16 @@ TEST(Boundary, ForcesOfTheStartAreHeld) {
 /// on it and holds nothing.
 TEST(Boundary, AbsorbingLeavesToWallsWhatTheyHold) {
   Grid grid = small_grid();
-  std::array<BoundaryKind, face_count> kinds = only(x_upper, BoundaryKind::absorbing);
-  kinds[z_lower] = BoundaryKind::rough;
-  kinds[y_lower] = BoundaryKind::smooth;
-  Boundary faces(grid, kinds, {2, 2, 2}, speeds(grid));
-  faces.capture(grid, grid.all_planes(), weightless);
+  FaceArray<BoundaryKind> kinds = only(Face::x_upper, BoundaryKind::absorbing);
+  kinds[Face::z_lower] = BoundaryKind::rough;
+  kinds[Face::y_lower] = BoundaryKind::smooth;
+  Boundary boundary(grid, kinds, {2, 2, 2}, speeds(grid));
+  boundary.capture_initial_tractions(grid, grid.all_planes(), weightless);
   const Vector3 v(1.0, 2.0, 3.0);
   double work = 0.0;
   for (int step = 0; step < 2; ++step) {
     give_velocity(grid, v);
-    faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+    boundary.apply(grid, grid.all_planes(), grid.all_planes(), dt);
   }
   for_nodes(grid, [&](const NodeMotion& n, int i, int j, int k) {
     if (k == 0 || j == 0) {
@@ -167,8 +167,8 @@ TEST(Boundary, AbsorbingLeavesToWallsWhatTheyHold) {
   });
   // The whole impulse on the nodes of the rough floor is the floor's.
   const double floor = -2.0 * mass * grid.nodes(0) * grid.nodes(1);
-  EXPECT_NEAR(faces.impulse(z_lower).x(), floor * v.x(), 1e-9);
-  EXPECT_NEAR(faces.impulse(z_lower).z(), floor * v.z(), 1e-9);
+  EXPECT_NEAR(boundary.impulse(Face::z_lower).x(), floor * v.x(), 1e-9);
+  EXPECT_NEAR(boundary.impulse(Face::z_lower).z(), floor * v.z(), 1e-9);
   // Nodes of the absorbing face that are free to move along x: without those of the floor.
   const double c = 300.0, extent = 0.3125, length = 2.0, cs = 150.0;
   double u[3] = {0, 0, 0};
@@ -181,7 +181,7 @@ TEST(Boundary, AbsorbingLeavesToWallsWhatTheyHold) {
       const int rows = d == 1 ? grid.nodes(1) - 1 : grid.nodes(1);
       work += rows * (grid.nodes(2) - 1) * mass * (after - v[d]) * after;
     }
-  EXPECT_NEAR(faces.work(), work, 1e-12 * std::abs(work));
+  EXPECT_NEAR(boundary.work(), work, 1e-12 * std::abs(work));
 }
 
 std::vector<char> state_of(Boundary& boundary) {
@@ -206,30 +206,30 @@ std::vector<double> last_numbers(const std::vector<char>& bytes, std::size_t cou
 
 TEST(Boundary, StateIsRestoredAndMovesWithTheGrid) {
   Grid grid = small_grid();
-  Boundary faces(grid, only(y_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
+  Boundary boundary(grid, only(Face::y_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
   give_velocity(grid, {1, 2, 3});
-  faces.capture(grid, grid.all_planes(), weightless);
+  boundary.capture_initial_tractions(grid, grid.all_planes(), weightless);
   for_nodes(grid, [&](NodeMotion& n, int i, int, int) {
     Eigen::Map<Vector3>(n.velocity) = Vector3(i, 0, 0);
     n.mass = mass;
   });
-  faces.apply(grid, grid.all_planes(), grid.all_planes(), dt);
-  const std::vector<char> saved = state_of(faces);
+  boundary.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+  const std::vector<char> saved = state_of(boundary);
 
-  Boundary other(grid, only(y_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
+  Boundary other(grid, only(Face::y_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
   restore(other, saved, true);
   EXPECT_EQ(state_of(other), saved);
   restore(other, saved, false);
-  EXPECT_EQ(other.impulse(y_upper), Vector3::Zero());
+  EXPECT_EQ(other.impulse(Face::y_upper), Vector3::Zero());
   EXPECT_EQ(other.work(), 0.0);
 
   const auto row = static_cast<std::size_t>(3 * grid.nodes(2)),
              rows = static_cast<std::size_t>(grid.nodes(0));
   // Rows between the ends move by one; the one that enters has no displacement. Displacements are
   // the last numbers of the state.
-  faces.shift_x(1);
+  boundary.shift_x(1);
   const std::vector<double> before_move = last_numbers(saved, row * rows),
-                            after_move = last_numbers(state_of(faces), row * rows);
+                            after_move = last_numbers(state_of(boundary), row * rows);
   const double* before = before_move.data();
   const double* after = after_move.data();
   for (std::size_t r = 0; r < rows; ++r) {
@@ -238,7 +238,7 @@ TEST(Boundary, StateIsRestoredAndMovesWithTheGrid) {
                                                    : 0.0;
     EXPECT_EQ(after[r * row], expected) << "row " << r;
   }
-  Boundary across(grid, only(x_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
+  Boundary across(grid, only(Face::x_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
   EXPECT_THROW(across.shift_x(1), Error);
 }
 

@@ -23,7 +23,7 @@ TerrainParameters snow_bed(const std::string& material = snow()) {
   parameters.z = even(0, depth + 2 * cell, cell);
   parameters.gravity = {0, 0, -standard_gravity};
   parameters.initial_stress = true;
-  set_faces(parameters, {"absorbing", "smooth", "smooth", "absorbing", "rough", "free"});
+  set_boundary(parameters, {"absorbing", "smooth", "smooth", "absorbing", "rough", "free"});
   return parameters;
 }
 
@@ -106,13 +106,13 @@ TEST(TerrainRestart, RefusesTheStateOfOtherGround) {
 /// profile; nothing moves by that.
 TEST(MovingTerrain, DropsBehindAndAddsAhead) {
   TerrainParameters parameters = snow_bed();
-  set_faces(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
+  set_boundary(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
   parameters.window = true;
   ContinuumTerrain ground(parameters, Communicator());
   const double particles = ground.particle_count(), mass = sums_of(ground).mass;
   ground.advance(1e-5);
   ground.follow(0.3);
-  // at the end of a cycle
+  // at the end of a remap interval
   for (int step = 0; step < parameters.remap_interval; ++step) ground.advance(1e-5);
   // by whole cells, one behind what it follows
   EXPECT_NEAR(ground.travelled(), 0.275, 1e-12);
@@ -120,8 +120,8 @@ TEST(MovingTerrain, DropsBehindAndAddsAhead) {
   EXPECT_NEAR(sums_of(ground).mass / mass, 1.0, 1e-12);
   EXPECT_NEAR(sums_of(ground).centre.x(), 0.275, 1e-6);
   // columns dropped times cells across, the new ones of the gap included
-  ASSERT_EQ(ground.rut().size(), 11u * 8u);
-  for (const RutPoint& point : ground.rut()) {
+  ASSERT_EQ(ground.rut().points().size(), 11u * 8u);
+  for (const RutPoint& point : ground.rut().points()) {
     EXPECT_NEAR(point.z, depth, 1e-3);
     EXPECT_NEAR(point.density, 200.0, 1.0);
     EXPECT_LT(point.x, 0.275 - 0.1);
@@ -138,7 +138,7 @@ TEST(MovingTerrain, RefusesGradedAndAbsorbingFacesAlongItsWay) {
   TerrainParameters parameters = snow_bed();
   parameters.window = true;
   EXPECT_THROW(ContinuumTerrain(parameters, Communicator()), InputError);  // absorbs across x
-  set_faces(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
+  set_boundary(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
   parameters.x = {-0.2, 0.2, cell, -0.1, 0.1, 1.2};
   try {
     ContinuumTerrain ground(parameters, Communicator(), "fix soil");
@@ -174,12 +174,12 @@ TEST(Terrain, StopsWhenParticlesLeaveTheGrid) {
   }
 }
 
-/// A particle close to a wall that moves towards it is stopped there, whatever the cycle; its
-/// half-way place would be beyond.
+/// A particle close to a wall that moves towards it is stopped there, whatever the remap
+/// interval; the place half-way through the interval would be beyond.
 TEST(Terrain, AParticleThatMeetsAWallStaysInside) {
   TerrainParameters parameters =
       box(material_of(elastic(1e6, 0.25, 1000)), {0, 0, 0}, {0.2, 0.2, 0.2}, 0.05);
-  set_faces(parameters, {"smooth", "free", "smooth", "smooth", "smooth", "free"});
+  set_boundary(parameters, {"smooth", "free", "smooth", "smooth", "smooth", "free"});
   ContinuumTerrain ground(parameters, Communicator());
   ground.groups()[0].particles.data(column::x)[0] = 1e-6;
   set_motion(ground, {-1.0, 0, 0});

@@ -11,19 +11,19 @@ TEST(Partition, OneRankHasEverything) {
   Partition partition(Communicator(), 7);
   partition.rebalance(std::vector<double>(7, 3.0));
   for (int cell = 0; cell < 7; ++cell) EXPECT_EQ(partition.owner(cell), 0);
-  EXPECT_EQ(partition.first_cell(), 0);
-  EXPECT_EQ(partition.last_cell(), 6);
-  EXPECT_EQ(partition.touched().from, 0);
-  EXPECT_EQ(partition.touched().to, 9);  // planes of nodes
-  EXPECT_EQ(partition.owned().from, 0);
-  EXPECT_EQ(partition.owned().to, 9);
+  EXPECT_EQ(partition.first_local_cell(), 0);
+  EXPECT_EQ(partition.last_local_cell(), 6);
+  EXPECT_EQ(partition.local_planes().from, 0);
+  EXPECT_EQ(partition.local_planes().to, 9);  // planes of nodes
+  EXPECT_EQ(partition.owned_planes().from, 0);
+  EXPECT_EQ(partition.owned_planes().to, 9);
 }
 
 TEST(Partition, BalanceOfNothingIsStillEverything) {
   Partition partition(Communicator(), 4);
   partition.rebalance(std::vector<double>(4, 0.0));
   EXPECT_EQ(partition.owner(3), 0);
-  EXPECT_EQ(partition.last_cell(), 3);
+  EXPECT_EQ(partition.last_local_cell(), 3);
 }
 
 }  // namespace

@@ -49,14 +49,15 @@ inline TerrainParameters box(const std::shared_ptr<const Material>& material, co
   ground.z = even(lower.z(), upper.z(), cell);
   ground.surface = upper.z();
   ground.layers = {{material, upper.z() - lower.z()}};
-  ground.faces.fill(BoundaryKind::free);
+  ground.boundary.fill(BoundaryKind::free);
   ground.gravity.setZero();
   ground.initial_stress = false;
   return ground;
 }
 
-inline void set_faces(TerrainParameters& ground, const std::array<const char*, face_count>& kinds) {
-  for (std::size_t f = 0; f < face_count; ++f) ground.faces[f] = boundary_kind(kinds[f]);
+/// In the order of Face.
+inline void set_boundary(TerrainParameters& ground, const FaceArray<const char*>& kinds) {
+  for (const Face face : all_faces) ground.boundary[face] = boundary_kind(kinds[face]);
 }
 
 /// Calls visit(particles, index) for all particles of this rank.

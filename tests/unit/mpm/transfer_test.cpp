@@ -49,7 +49,7 @@ struct Cloud {
     v.size = volume.size();
     moved.assign(position, position + 3);  // weights stay where the particles were
     for (std::size_t a = 0; a < 3; ++a) {
-      v.reference[a] = position[a].data();
+      v.shape_position[a] = position[a].data();
       v.position[a] = moved[a].data();
     }
     v.velocity = velocity.data();
@@ -113,7 +113,7 @@ TEST(Transfer, AllInstructionSetsAgree) {
     const ParticleView particles = cloud.view();
     ASSERT_EQ(kernels.scatter_momentum(grid.view(), particles, rho), 0u);
     std::vector<double> nodes = numbers_of(grid);
-    grid.start(grid.all_planes());
+    grid.compute_velocities(grid.all_planes());
     cloud.find_weights(kernels);
     kernels.scatter_force(grid.view(), particles, cloud.weights.data());
     const PointForce forces[2] = {{{0.5, 0.1, 0.3}, {1.0, -2.0, 0.5}, {0.01, 0.0, -0.02}},
@@ -127,7 +127,7 @@ TEST(Transfer, AllInstructionSetsAgree) {
     std::vector<double> after = cloud.gradient;
     after.push_back(kernels.stress_work(particles, cloud.gradients));
     PointMotion point{{0.5, 0.1, 0.3}, {}, {}, {}};
-    kernels.probe(grid.view(), &point, 1);
+    kernels.interpolate_motion(grid.view(), &point, 1);
     after.insert(after.end(), point.displacement, point.displacement + 3);
     after.insert(after.end(), point.velocity, point.velocity + 3);
     after.insert(after.end(), point.affine, point.affine + 12);
@@ -234,7 +234,7 @@ TEST(Transfer, FromTheGridReadsLinearFieldsExactly) {
     const Vector3 x = cloud.place(p), v = v0 + L * x,
                   now(cloud.moved[0][p], cloud.moved[1][p], cloud.moved[2][p]);
     PointMotion point{{x[0], x[1], x[2]}, {}, {}, {}};
-    transfer_kernels().probe(cloud.grid.view(), &point, 1);
+    transfer_kernels().interpolate_motion(cloud.grid.view(), &point, 1);
     EXPECT_LT((Eigen::Map<const Vector3>(point.velocity) - v).norm(), 1e-13);
     EXPECT_LT((Eigen::Map<const Vector3>(point.displacement) - dt * v).norm(), 1e-15);
     EXPECT_LT((Eigen::Map<const Eigen::Matrix<double, 4, 3>>(point.affine).topRows<3>() - L).norm(),
@@ -360,7 +360,7 @@ TEST(Transfer, KeepsNodalMassAndNeverMakesKineticEnergy) {
     });
     if (step == 0) first_masses = masses;
     ASSERT_EQ(masses, first_masses);
-    cloud.grid.start(cloud.grid.all_planes());
+    cloud.grid.compute_velocities(cloud.grid.all_planes());
     const double after =
         cloud.grid.move(cloud.grid.all_planes(), cloud.grid.all_planes(), 0.0).kinetic_energy;
     cloud.take_motion();

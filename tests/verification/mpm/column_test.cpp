@@ -75,7 +75,7 @@ TEST_P(Column, FollowsTheLawInConfinedCompression) {
   parameters.z = even(0, height + 2 * cell, cell);
   parameters.surface = height;
   parameters.remap_interval = GetParam().remap_interval;
-  set_faces(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
+  set_boundary(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
   ContinuumTerrain ground(parameters, Communicator());
   PlateGeometry geometry{PlateShape::square, 6 * cell, 2 * cell, 3};
   RigidPlate plate(geometry, {cell, cell, height + 1e-5});
@@ -149,7 +149,7 @@ double force_at_given_height(double cell, double stiffness) {
       box(material_of(elastic(E, nu, 1000)), {0, 0, 0}, {cell, cell, height}, cell);
   parameters.z = even(0, height + 2 * cell, cell);
   parameters.surface = height;
-  set_faces(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
+  set_boundary(parameters, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
   ContinuumTerrain ground(parameters, Communicator());
   RigidPlate plate({PlateShape::square, 6 * cell, 2 * cell, 3},
                    {0.5 * cell, 0.5 * cell, height + 1e-6});

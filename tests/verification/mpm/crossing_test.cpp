@@ -21,7 +21,7 @@ Noise noise_of(double strain, double speed) {
   const double cell = 0.05, E = 1e6, nu = 0.3, M = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)),
                pressure = M * strain, half = 0.5;
   TerrainParameters p = box(material_of(elastic(E, nu, 1000)), {-1, 0, 0}, {2, cell, cell}, cell);
-  set_faces(p, {"free", "free", "smooth", "smooth", "smooth", "smooth"});
+  set_boundary(p, {"free", "free", "smooth", "smooth", "smooth", "smooth"});
   ContinuumTerrain ground(p, Communicator());
   carve(ground, [half](const Vector3& x) { return std::abs(x.x()) < half; });
   for_particles(ground, [&](Particles& particles, std::size_t n) {

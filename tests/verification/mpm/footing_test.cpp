@@ -30,7 +30,7 @@ Punch punch_force(double cells_per_radius, double size, const char* far) {
   p.z = {-size * a, 2 * cell, cell, -reach, 2 * cell, 1.25};
   p.surface = 0.0;
   p.cfl = 0.35;
-  set_faces(p, {"smooth", far, "smooth", far, far, "free"});
+  set_boundary(p, {"smooth", far, "smooth", far, far, "free"});
   ContinuumTerrain ground(p, Communicator());
   RigidPlate plate({PlateShape::circle, 2 * a, 0.5 * a, 12}, {0, 0, 1e-9});
   ContactParameters smooth;
@@ -84,7 +84,7 @@ double bearing_factor(int cells_per_half_width) {
                   std::sqrt(3.0) * c, E));
   TerrainParameters p = box(material, {0, 0, -2.4 * b}, {4.4 * b, cell, 0}, cell);
   p.z = even(-2.4 * b, 2 * cell, cell);
-  set_faces(p, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
+  set_boundary(p, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
   p.particles_per_cell = {2, 1, 2};
   p.cfl = 0.8;
   ContinuumTerrain ground(p, Communicator());

@@ -39,7 +39,7 @@ Vector3 body_force(const Vector3& x, double t) {
 double error_of(int cells) {
   const double cell = 1.0 / cells;
   TerrainParameters parameters = box(material_of(elastic(E, nu, rho)), {0, 0, 0}, {1, 1, 1}, cell);
-  parameters.faces.fill(BoundaryKind::smooth);
+  parameters.boundary.fill(BoundaryKind::smooth);
   ContinuumTerrain ground(parameters, Communicator());
   const double end = 1.5 * pi / omega, dt = end / std::ceil(end / (0.4 * cell / c_p));
   for (double t = 0.0; t < end - 0.5 * dt; t += dt) {

@@ -35,7 +35,7 @@ double growth(double nu, double step_over_limit) {
   for (int step = 0; step < 50; ++step) {
     ground.advance(step_over_limit * limit);
     std::vector<ParticleMotion> motion;
-    ground.probe({{0, 0}}, motion);
+    ground.interpolate_motion({{0, 0}}, motion);
     most = std::max(most, motion[0].affine.cwiseAbs().maxCoeff());
   }
   return most / rate;

@@ -20,7 +20,7 @@ const double c_p = std::sqrt(wave_modulus / rho), c_s = std::sqrt(shear_modulus 
 TerrainParameters bar(double length, double cell) {
   TerrainParameters ground =
       box(material_of(elastic(E, nu, rho)), {0, 0, 0}, {length, cell, cell}, cell);
-  set_faces(ground, {"smooth", "smooth", "smooth", "smooth", "smooth", "smooth"});
+  set_boundary(ground, {"smooth", "smooth", "smooth", "smooth", "smooth", "smooth"});
   return ground;
 }
 
@@ -119,7 +119,7 @@ constexpr double bar_length = 2.0, pulse_width = 0.2, pulse_speed = 1e-4;
 
 double reflection(const char* end, double cell) {
   TerrainParameters parameters = bar(bar_length, cell);
-  parameters.faces[x_upper] = boundary_kind(end);
+  parameters.boundary[Face::x_upper] = boundary_kind(end);
   ContinuumTerrain ground(parameters, Communicator());
   start_pulse(ground, 1.0, pulse_width, pulse_speed);
   run(ground, 1.8 / c_p);
@@ -158,7 +158,7 @@ TEST(AbsorbingFace, LetsObliqueWavesPass) {
   const auto energy_left = [&](double half, const char* side) {
     TerrainParameters parameters =
         box(material_of(elastic(E, nu, rho)), {-half, -half, 0}, {half, half, cell}, cell);
-    set_faces(parameters, {side, side, side, side, "smooth", "smooth"});
+    set_boundary(parameters, {side, side, side, side, "smooth", "smooth"});
     parameters.particles_per_cell = {2, 2, 1};
     ContinuumTerrain ground(parameters, Communicator());
     double start = 0.0, end = 0.0;
@@ -206,7 +206,8 @@ double unrest(double cell) {
   parameters.z = even(-0.4, 0.2, cell);
   parameters.gravity = {0, 0, -standard_gravity};
   parameters.initial_stress = true;
-  set_faces(parameters, {"absorbing", "absorbing", "absorbing", "absorbing", "absorbing", "free"});
+  set_boundary(parameters,
+               {"absorbing", "absorbing", "absorbing", "absorbing", "absorbing", "free"});
   ContinuumTerrain ground(parameters, Communicator());
   run(ground, 0.2);
   double moved = 0.0;
@@ -233,7 +234,7 @@ TEST(AbsorbingFace, GivesWayAsItsSpringSays) {
   const double height = 1.0, pressure = 100.0, cell = 0.1;
   TerrainParameters parameters =
       box(material_of(elastic(E, nu, rho)), {0, 0, 0}, {cell, cell, height}, cell);
-  set_faces(parameters, {"smooth", "smooth", "smooth", "smooth", "absorbing", "free"});
+  set_boundary(parameters, {"smooth", "smooth", "smooth", "smooth", "absorbing", "free"});
   parameters.z = even(0, height + 2 * cell, cell);
   parameters.surface = height;
   ContinuumTerrain ground(parameters, Communicator());

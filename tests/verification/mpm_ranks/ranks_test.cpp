@@ -41,8 +41,8 @@ struct Scene {
     p.gravity = {0, 0, -standard_gravity};
     p.initial_stress = true;
     p.window = window;
-    set_faces(p, {window ? "smooth" : "absorbing", window ? "smooth" : "absorbing", "smooth",
-                  "absorbing", "rough", "free"});
+    set_boundary(p, {window ? "smooth" : "absorbing", window ? "smooth" : "absorbing", "smooth",
+                     "absorbing", "rough", "free"});
     return p;
   }
   void run(int intervals) {
@@ -104,11 +104,10 @@ void compare(Scene& many, Scene& one) {
   expect_near(m.contact_work, o.contact_work, o.contact_work, "contact work");
   expect_near(m.load_work, o.load_work, o.contact_work, "load work");
   expect_near(m.numerical_loss, o.numerical_loss, o.contact_work, "numerical loss");
-  for (int f = 0; f < face_count; ++f) {
-    const Vector3 i = many.ground.face_impulse(static_cast<Face>(f)),
-                  j = one.ground.face_impulse(static_cast<Face>(f));
-    EXPECT_LE((i - j).norm(), 1e-9 * one.ground.face_impulse(z_lower).norm())
-        << "impulse of face " << f;
+  for (const Face face : all_faces) {
+    const Vector3 i = many.ground.boundary_impulse(face), j = one.ground.boundary_impulse(face);
+    EXPECT_LE((i - j).norm(), 1e-9 * one.ground.boundary_impulse(Face::z_lower).norm())
+        << "impulse of face " << static_cast<int>(face);
   }
 }
 
@@ -123,8 +122,8 @@ TEST_P(Windows, GiveTheAnswerOfOne) {
   compare(many, one);
   if (GetParam()) {
     EXPECT_GT(one.ground.travelled(), 0.03);
-    const double mine = static_cast<double>(many.ground.rut().size());
-    EXPECT_EQ(many.ground.ranks().sum(mine), static_cast<double>(one.ground.rut().size()));
+    const double mine = static_cast<double>(many.ground.rut().points().size());
+    EXPECT_EQ(many.ground.ranks().sum(mine), static_cast<double>(one.ground.rut().points().size()));
   }
 }
 
@@ -156,7 +155,7 @@ TEST(Slabs, CoverAllCellsAndOwnEveryPlaneOnce) {
   for (std::size_t c = 3; c < 9; ++c) count[c] = 100.0;  // all ground in some cells
   partition.rebalance(count);
   std::vector<double> planes(22, 0.0), cells(20, 0.0);
-  for (int p = partition.owned().from; p < partition.owned().to; ++p)
+  for (int p = partition.owned_planes().from; p < partition.owned_planes().to; ++p)
     planes[static_cast<std::size_t>(p)] += 1.0;
   double mine = 0.0;
   for (int c = 0; c < 20; ++c)

@@ -36,7 +36,7 @@ Outcome drop_and_pull(bool half) {
       testing_terrain::box(testing_terrain::material_of(testing_terrain::snow()),
                            {-0.3, 0.0, -0.12}, {0.5, 0.2, 0.0}, 0.04);
   snow.z = testing_terrain::even(-0.12, 0.12, 0.04);
-  testing_terrain::set_faces(snow, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
+  testing_terrain::set_boundary(snow, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
   ContinuumTerrain ground(snow, Communicator());
   TerrainContact contact(tyre, ground, ContactParameters{}, !half, "contact");
   CoupledSystem system;

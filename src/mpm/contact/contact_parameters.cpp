@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mpm/contact/contact_parameters.h"
+
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "mpm/contact/contact_law.h"
+
+namespace furrow {
+
+Schema ContactParameters::schema(const std::string& subject) {
+  Schema schema(subject);
+  schema.choice("enforcement", contact_law_names(), contact_law_meanings()).by_default("penalty");
+  schema.choice("surface", {"frictional", "rough", "smooth"}, "rough: no slip; smooth: no friction")
+      .by_default("frictional");
+  schema.number("friction", "", Range::non_negative(), "coefficient mu of a frictional surface")
+      .by_default(0.3);
+  schema
+      .number("slip_length", "m", Range::non_negative(),
+              "k of tau = mu sigma (1 - exp(-j/k)) with the slip j; 0: tau = mu sigma")
+      .by_default(0.0);
+  schema
+      .number("stiffness", "", Range::positive(),
+              "spring of a particle over wave modulus x cube root of its volume")
+      .by_default(0.4);
+  schema.number("damping", "", Range::closed(0.0, 1.0), "of spring and particle, of critical")
+      .by_default(0.1);
+  return schema;
+}
+
+ContactParameters ContactParameters::from(const Options& options) {
+  const std::string& surface = options.text("surface");
+  if (surface != "frictional" && options.given("friction"))
+    throw InputError(options.where("friction"), fmt::format("is given with a {} surface", surface),
+                     "friction with surface frictional only");
+  ContactParameters p;
+  p.enforcement = options.text("enforcement");
+  p.friction = surface == "rough"    ? std::numeric_limits<double>::infinity()
+               : surface == "smooth" ? 0.0
+                                     : options.number("friction");
+  p.slip_length = options.number("slip_length");
+  p.stiffness = options.number("stiffness");
+  p.damping = options.number("damping");
+  return p;
+}
+
+}  // namespace furrow

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The parameters of a contact between a surface and a terrain, and the keys that set them.
+
+#include <string>
+
+#include "core/options.h"
+
+namespace furrow {
+
+struct ContactParameters {
+  std::string enforcement = "penalty";  ///< name of a contact law (contact_law.h)
+  double friction = 0.3;                ///< mu of Coulomb's law; 0: smooth, infinity: rough
+  /// k of [Shoop2001] eq. 26 [m]: tau = mu sigma (1 - exp(-j/k)), j the slip; 0: Coulomb's law
+  double slip_length = 0.0;
+  /// spring of a particle over (wave modulus) x (cube root of its volume)
+  double stiffness = 0.4;
+  double damping = 0.1;  ///< of the spring with the particle's mass, of critical
+
+  /// The keys of a contact. @param subject  names the owner in errors
+  static Schema schema(const std::string& subject = "contact with ground");
+  /// @throws InputError for keys that do not go together
+  static ContactParameters from(const Options& options);
+};
+
+}  // namespace furrow

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Which particles may touch a surface, and which of its triangles: the broad phase of a contact.
+
+#include <vector>
+
+#include "bodies/body.h"
+#include "core/checkpoint.h"
+#include "mpm/continuum_terrain.h"
+
+namespace furrow {
+
+class TriangleSearch;
+
+/// Deepest penetration that a contact can follow, of the shortest cell.
+constexpr double max_penetration_cells = 0.5;
+
+/// A neighbour list with a skin: what a search finds stays valid until surface and ground have
+/// moved towards each other by the skin (L. Verlet, Phys. Rev. 159, 1967), or particles have
+/// changed their order. Lists this rank's particles; no call is collective unless said otherwise.
+class ContactSearch {
+ public:
+  /// A triangle near a particle when it was searched.
+  struct NearTriangle {
+    double distance;  ///< [m]
+    int triangle;
+  };
+  struct Candidate {
+    ParticleIndex particle;
+    Vector3 position;  ///< when it was found [m]
+    /// its triangles in near_triangles(), the nearest first
+    std::size_t first;
+    std::size_t last;
+  };
+
+  /// Body and terrain must outlive the search.
+  ContactSearch(const Body& body, ContinuumTerrain& terrain);
+
+  /// Measures how far the surface has moved since the last search. @return whether to search again
+  bool is_outdated();
+  /// Finds the candidates at the present positions.
+  void search();
+  bool has_searched() const { return has_searched_; }
+  /// Particles may travel so much further before the next call of is_outdated() [m].
+  void add_terrain_travel(double distance) { terrain_travel_ += distance; }
+
+  const std::vector<Candidate>& candidates() const { return candidates_; }
+  const NearTriangle& near_triangle(std::size_t n) const { return near_triangles_[n]; }
+  /// Of the surface's fastest node since the last search [m].
+  double surface_travel() const { return surface_travel_; }
+  /// A candidate is no nearer to the surface than this now [m].
+  double lower_bound(const Candidate& candidate) const {
+    return near_triangles_[candidate.first].distance - surface_travel_ - terrain_travel_ -
+           staleness_;
+  }
+
+  /// On restoring, candidates are found again at the present positions, and the next search comes
+  /// when it would have come: a restarted run continues bit for bit. Body and terrain must have
+  /// been restored.
+  void checkpoint(Checkpoint& state);
+
+ private:
+  double largest_particle_reach() const;
+  void find_candidates();
+  void add_candidate(const TriangleSearch& triangles, const ParticleIndex& particle,
+                     const Vector3& position, double reach);
+
+  const Body& body_;
+  ContinuumTerrain& terrain_;
+  std::vector<Candidate> candidates_;
+  std::vector<NearTriangle> near_triangles_;
+  Matrix3X searched_nodes_;       // of the surface at the last search [m]
+  unsigned long generation_ = 0;  // of the terrain at the last search
+  double skin_ = 0.0;             // [m]
+  double staleness_ = 0.0;        // of the positions at the last search [m]
+  double surface_travel_ = 0.0;   // since the last search [m]
+  double terrain_travel_ = 0.0;   // bound, since the last search [m]
+  bool has_searched_ = false;
+};
+
+}  // namespace furrow

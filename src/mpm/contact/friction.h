@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The largest tangential force of a contact.
+
+#include <cmath>
+
+namespace furrow {
+
+/// Coulomb's law, mobilised with the slip j as [Shoop2001] eq. 26 has it:
+/// tau = mu sigma (1 - exp(-j/k)).
+struct Friction {
+  double coefficient;  ///< mu
+  double slip_length;  ///< k [m]; 0: fully mobilised
+
+  bool mobilised_by_slip() const { return slip_length > 0.0; }
+  /// @param normal_force  [N], pressure positive; @param slip  [m]; @return [N]
+  double limit(double normal_force, double slip) const {
+    if (normal_force <= 0.0 || coefficient == 0.0) return 0.0;
+    const double mobilised = mobilised_by_slip() ? -std::expm1(-slip / slip_length) : 1.0;
+    return coefficient * normal_force * mobilised;
+  }
+};
+
+}  // namespace furrow

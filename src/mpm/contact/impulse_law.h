@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Contact law: approach and penetration are taken away within the step, as far as the particle's
+/// own mass does it.
+
+#include <algorithm>
+#include <string>
+
+#include "mpm/contact/contact_parameters.h"
+#include "mpm/contact/friction.h"
+#include "mpm/contact/particle_contact.h"
+#include "mpm/particle_group.h"
+#include "mpm/terrain_parameters.h"
+
+namespace furrow {
+
+class ImpulseLaw {
+ public:
+  static constexpr const char* name = "impulse";
+  static constexpr const char* meaning = "the impulse that stops the approach";
+
+  explicit ImpulseLaw(const ContactParameters& parameters)
+      : friction_{parameters.friction, parameters.slip_length} {}
+
+  void check(const TerrainParameters&, const std::string&) const {}
+  void update_history(const ParticleGroup&, std::size_t, ContactHistory&) const {}
+  Vector3 force(const ContactMotion& contact, double dt, ContactHistory& history,
+                ContactLosses& losses) const;
+
+ private:
+  /// of the penetration that is taken away in one step (J. Baumgarte, Comput. Methods Appl. Mech.
+  /// Eng. 1, 1972)
+  static constexpr double correction = 0.2;
+
+  Friction friction_;
+};
+
+inline Vector3 ImpulseLaw::force(const ContactMotion& contact, double dt, ContactHistory& history,
+                                 ContactLosses& losses) const {
+  const Vector3& n = contact.point.normal;
+  const double approach = -contact.velocity.dot(n);
+  const double normal_force =
+      std::max(0.0, contact.mass * (approach - correction * contact.point.gap / dt) / dt);
+  const Vector3 sliding = contact.velocity + approach * n;
+  history.slip += dt * sliding.norm();
+  const double limit = friction_.limit(normal_force, history.slip);
+  const double stopping = contact.mass * sliding.norm() / dt;
+  const double size = std::min(limit, stopping);
+  losses.damping += normal_force * approach * dt;
+  losses.friction += size * sliding.norm() * dt;
+  return normal_force * n - (stopping > 0.0 ? contact.mass / dt * size / stopping : 0.0) * sliding;
+}
+
+}  // namespace furrow

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// One particle in contact with a surface: where it touches, how it moves, what it remembers.
+
+#include <cstddef>
+
+#include "core/types.h"
+
+namespace furrow {
+
+/// Where a particle touches a surface.
+struct ContactPoint {
+  std::size_t triangle;  ///< of the surface
+  Vector3 barycentric;   ///< of the closest point, in the triangle
+  Vector3 position;      ///< closest point of the surface [m]
+  Vector3 normal;        ///< out of the surface, of unit length
+  double gap;            ///< < 0: penetration [m]
+};
+
+/// What a contact law knows of a touching particle.
+struct ContactMotion {
+  const ContactPoint& point;
+  Vector3 velocity;  ///< of the ground relative to the surface, at the point [m/s]
+  double mass;       ///< of the particle [kg]
+};
+
+/// Energy that a contact takes [J].
+struct ContactLosses {
+  double friction = 0.0;
+  double damping = 0.0;
+};
+
+/// What a particle remembers of a contact: a view of its numbers in the column that the contact
+/// added to the particles, so that they follow it through sorting, migration and checkpoints.
+struct ContactHistory {
+  static constexpr int size = 5;  ///< numbers of a particle
+
+  explicit ContactHistory(double* numbers)
+      : spring(numbers), slip(numbers[3]), stiffness(numbers[4]) {}
+
+  /// The particle touches no more.
+  void end_contact() {
+    spring.setZero();
+    slip = 0.0;
+  }
+
+  Eigen::Map<Vector3> spring;  ///< stretch of the tangential spring [m]
+  double& slip;                ///< path along the surface since the contact began [m]
+  double& stiffness;           ///< of the springs, as of the last search [N/m]
+};
+
+}  // namespace furrow

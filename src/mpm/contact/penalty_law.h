@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Contact law: springs normal and tangential to the surface, with damping.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "mpm/contact/contact_parameters.h"
+#include "mpm/contact/friction.h"
+#include "mpm/contact/particle_contact.h"
+#include "mpm/particle_group.h"
+#include "mpm/terrain_parameters.h"
+
+namespace furrow {
+
+class PenaltyLaw {
+ public:
+  static constexpr const char* name = "penalty";
+  static constexpr const char* meaning = "springs";
+
+  explicit PenaltyLaw(const ContactParameters& parameters)
+      : friction_{parameters.friction, parameters.slip_length},
+        stiffness_(parameters.stiffness),
+        damping_(parameters.damping) {}
+
+  void check(const TerrainParameters& terrain, const std::string& where) const;
+  void update_history(const ParticleGroup& group, std::size_t particle,
+                      ContactHistory& history) const;
+  Vector3 force(const ContactMotion& contact, double dt, ContactHistory& history,
+                ContactLosses& losses) const;
+
+ private:
+  Friction friction_;
+  double stiffness_;  // over (wave modulus) x (cube root of the particle's volume)
+  double damping_;    // of critical
+};
+
+/// A particle of mass rho d^3 on its spring s M d, d the spacing of the particles: omega dt =
+/// sqrt(s) c dt/d, and a leapfrog needs less than 2.
+inline void PenaltyLaw::check(const TerrainParameters& terrain, const std::string& where) const {
+  const auto& per_cell = terrain.particles_per_cell;
+  const int particles = *std::max_element(per_cell.begin(), per_cell.end());
+  if (std::sqrt(stiffness_) * terrain.cfl * particles >= 2.0)
+    throw InputError(
+        where,
+        fmt::format(
+            "has a stiffness of {}, too stiff for steps of cfl {} with {} particles along a cell",
+            stiffness_, terrain.cfl, particles),
+        "sqrt(stiffness) x cfl x particles below 2", "lower the stiffness, or the ground's cfl");
+}
+
+/// The stiffness follows the modulus of the ground from search to search.
+inline void PenaltyLaw::update_history(const ParticleGroup& group, std::size_t particle,
+                                       ContactHistory& history) const {
+  const double modulus = group.material->moduli(group.particles.state(particle)).wave();
+  const double volume = group.particles.data(column::volume)[particle];
+  history.stiffness = stiffness_ * modulus * std::cbrt(volume);
+}
+
+inline Vector3 PenaltyLaw::force(const ContactMotion& contact, double dt, ContactHistory& history,
+                                 ContactLosses& losses) const {
+  const Vector3& n = contact.point.normal;
+  const double stiffness = history.stiffness;
+  const double damping = 2.0 * damping_ * std::sqrt(stiffness * contact.mass);
+  const double approach = -contact.velocity.dot(n);
+  const double spring_force = -stiffness * contact.point.gap;
+  const double normal_force = std::max(0.0, spring_force + damping * approach);
+  losses.damping += (normal_force - spring_force) * approach * dt;
+
+  const Vector3 sliding = contact.velocity + approach * n;
+  history.spring += dt * sliding;
+  history.spring -= history.spring.dot(n) * n;
+  Vector3 tangential_force = -stiffness * history.spring - damping * sliding;
+  // Where friction grows with the slip, every relative motion along the surface counts as slip;
+  // with Coulomb's law, only what goes beyond the spring.
+  if (friction_.mobilised_by_slip()) history.slip += dt * sliding.norm();
+  const double limit = friction_.limit(normal_force, history.slip);
+  const double size = tangential_force.norm();
+  if (size > limit) {
+    tangential_force *= limit / size;
+    const Vector3 held = -tangential_force / stiffness;
+    if (!friction_.mobilised_by_slip()) history.slip += (history.spring - held).norm();
+    losses.friction += limit * (history.spring - held).norm();
+    history.spring = held;
+  } else {
+    losses.damping += damping * sliding.squaredNorm() * dt;
+  }
+  return normal_force * n + tangential_force;
+}
+
+}  // namespace furrow

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mpm/moving_window.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.h"
+
+namespace furrow {
+
+MovingWindow::MovingWindow(const TerrainParameters& parameters, Discretisation& discretisation,
+                           Boundary& boundary, TerrainFill& fill, TerrainEnergy& energy,
+                           const std::string& where)
+    : enabled_(parameters.window),
+      discretisation_(discretisation),
+      boundary_(boundary),
+      fill_(fill),
+      energy_(energy),
+      followed_x_(0.5 * (parameters.x.lower + parameters.x.upper)),
+      start_(parameters.x.lower) {
+  if (!enabled_) return;
+  if (!discretisation.grid.axis(0).uniform())
+    throw InputError(where, "moves along a graded x axis",
+                     "a uniform x axis for ground that moves");
+  for (const Face face : {Face::x_lower, Face::x_upper})
+    if (boundary.kind(face) == BoundaryKind::absorbing)
+      throw InputError(where, "moves along x and absorbs there",
+                       "smooth, rough or free faces across x for ground that moves");
+  if (parameters.surface_mesh)
+    throw InputError(where, "moves along x and carries a sheet", "one of the two",
+                     "grains on moving ground would be left behind");
+}
+
+double MovingWindow::travelled() const { return discretisation_.grid.axis(0).lower() - start_; }
+
+bool MovingWindow::move() {
+  if (!enabled_) return false;
+  const Axis& x = discretisation_.grid.axis(0);
+  bool moved = false;
+  while (followed_x_ > 0.5 * (x.lower() + x.upper()) + x.length(0)) {
+    remove_first_cells();
+    // Rows of the far field pass from rank to rank when the grid moves.
+    if (!moved)
+      boundary_.synchronise(discretisation_.ranks(), discretisation_.partition.owned_planes());
+    discretisation_.grid.shift_x(1);
+    boundary_.shift_x(1);
+    ++shifts_;
+    const double before = internal_energy(discretisation_.groups);
+    fill_.add_cells(x.cells() - 1, discretisation_);
+    energy_.add_initial(internal_energy(discretisation_.groups) - before);
+    moved = true;
+  }
+  return moved;
+}
+
+/// Removes this rank's particles in the first layer of cells across x.
+void MovingWindow::remove_first_cells() {
+  const Axis& y = discretisation_.grid.axis(1);
+  const double edge = discretisation_.grid.axis(0).knot(1);
+  // of the removed particles, by row of cells along y
+  std::vector<double> top(static_cast<std::size_t>(y.cells()),
+                          -std::numeric_limits<double>::infinity());
+  std::vector<double> mass(top.size(), 0.0);
+  std::vector<double> volume(top.size(), 0.0);
+  const double internal_before = internal_energy(discretisation_.groups);
+  const double dissipated_before = sum_energy(discretisation_.groups, field::dissipated_energy);
+  std::vector<std::size_t> kept;
+  for (ParticleGroup& group : discretisation_.groups) {
+    const Particles& particles = group.particles;
+    kept.clear();
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      if (particles.data(column::x)[p] >= edge) {
+        kept.push_back(p);
+        continue;
+      }
+      const auto row = static_cast<std::size_t>(y.cell_of(particles.data(column::y)[p]));
+      const double ratio = particles.volume_ratio(p);
+      top[row] = std::max(top[row],
+                          particles.data(column::z)[p] + particles.data(column::half_z)[p] * ratio);
+      mass[row] += group.mass(p);
+      volume[row] += particles.data(column::volume)[p] * ratio;
+      energy_.add_removed_kinetic(0.5 * group.mass(p) * particles.velocity(p).squaredNorm());
+    }
+    group.particles.reorder(kept);
+  }
+  energy_.add_removed(
+      internal_before - internal_energy(discretisation_.groups),
+      dissipated_before - sum_energy(discretisation_.groups, field::dissipated_energy));
+  record_rut(top, mass, volume);
+}
+
+/// @param top, mass, volume  of the removed ground in each row of cells along y [m], [kg], [m^3]
+void MovingWindow::record_rut(const std::vector<double>& top, const std::vector<double>& mass,
+                              const std::vector<double>& volume) {
+  const Axis& x = discretisation_.grid.axis(0);
+  const Axis& y = discretisation_.grid.axis(1);
+  for (std::size_t row = 0; row < top.size(); ++row) {
+    if (!(volume[row] > 0.0)) continue;
+    const int cell = static_cast<int>(row);
+    rut_.add({0.5 * (x.lower() + x.knot(1)), y.knot(cell) + 0.5 * y.length(cell), top[row],
+              mass[row] / volume[row]});
+  }
+}
+
+void MovingWindow::checkpoint_position(Checkpoint& state) {
+  int shifts = shifts_;
+  state.value("shifts", shifts);
+  discretisation_.grid.shift_x(shifts - shifts_);
+  shifts_ = shifts;
+  state.value("followed_x", followed_x_);
+}
+
+void MovingWindow::checkpoint_rut(Checkpoint& state) {
+  rut_.checkpoint(state, discretisation_.ranks());
+}
+
+}  // namespace furrow

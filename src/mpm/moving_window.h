@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Ground that moves along with a body: removed behind, added ahead, one layer of cells at a time.
+
+#include <string>
+#include <vector>
+
+#include "core/checkpoint.h"
+#include "mpm/boundary.h"
+#include "mpm/discretisation.h"
+#include "mpm/rut_record.h"
+#include "mpm/terrain_energy.h"
+#include "mpm/terrain_fill.h"
+#include "mpm/terrain_parameters.h"
+
+namespace furrow {
+
+class MovingWindow {
+ public:
+  /// All parts must outlive the window. @param where  names the terrain in errors
+  /// @throws InputError for a window with a graded x axis, absorbing faces across x or a surface
+  /// mesh
+  MovingWindow(const TerrainParameters& parameters, Discretisation& discretisation,
+               Boundary& boundary, TerrainFill& fill, TerrainEnergy& energy,
+               const std::string& where);
+
+  /// The middle of the window is to follow this x [m].
+  void follow(double x) { followed_x_ = x; }
+  /// Moves until the middle is within a cell of what it follows. Particles must be up to date with
+  /// the grid. Collective. @return whether it moved: particles must then be sorted
+  bool move();
+
+  double travelled() const;  ///< of the grid since the start [m]
+  const RutRecord& rut() const { return rut_; }
+
+  /// Brings the grid back to where it was; to be restored before whatever depends on it.
+  void checkpoint_position(Checkpoint& state);
+  void checkpoint_rut(Checkpoint& state);  ///< collective
+
+ private:
+  void remove_first_cells();
+  void record_rut(const std::vector<double>& top, const std::vector<double>& mass,
+                  const std::vector<double>& volume);
+
+  bool enabled_;
+  Discretisation& discretisation_;
+  Boundary& boundary_;
+  TerrainFill& fill_;
+  TerrainEnergy& energy_;
+  double followed_x_;  // [m]
+  double start_;       // lower end of the grid at the start [m]
+  int shifts_ = 0;     // in cells
+  RutRecord rut_;
+};
+
+}  // namespace furrow

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Where particles are kept: in the order of their cells in memory, and on the rank that owns the
+/// cell.
+
+#include <vector>
+
+#include "core/checkpoint.h"
+#include "mpm/boundary.h"
+#include "mpm/discretisation.h"
+
+namespace furrow {
+
+class ParticleDistribution {
+ public:
+  /// Both must outlive the distribution; the boundary's far field moves with the planes of nodes.
+  ParticleDistribution(Discretisation& discretisation, Boundary& boundary);
+
+  /// Particles may have travelled so much further since the last sorting [m].
+  void add_drift(double distance) { drift_ += distance; }
+  /// Whether particles may have left their cells by half a cell: beyond one, kernels would not find
+  /// their nodes on this rank.
+  bool sorting_due() const;
+  /// Balances the slabs of the ranks, sends every particle to the owner of its cell, and orders
+  /// them by cell. Collective. @throws StateError when a particle is outside of the grid
+  void sort();
+  /// Changes whenever particles change their order.
+  unsigned long generation() const { return generation_; }
+
+  /// Names the first particle that is outside of the grid. @throws StateError always
+  [[noreturn]] void report_outside(const ParticleGroup& group) const;
+
+  void checkpoint_drift(Checkpoint& state) { state.value("drift", drift_); }
+  /// Records of Particles::pack(). Restored particles go to the owners of their cells and are then
+  /// distributed anew. Collective.
+  void checkpoint_particles(Checkpoint& state);
+
+ private:
+  void migrate();
+  std::vector<double> count_by_x_cell() const;
+  void sort_by_cell(ParticleGroup& group);
+
+  Discretisation& discretisation_;
+  Boundary& boundary_;
+  double drift_ = 0.0;  // bound of what any particle travelled since the last sorting [m]
+  unsigned long generation_ = 0;
+  // Buffers of a sorting.
+  std::vector<std::size_t> cell_;   // of each particle
+  std::vector<std::size_t> start_;  // index of the first particle of each cell
+  std::vector<std::size_t> order_;
+};
+
+}  // namespace furrow

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mpm/point_loads.h"
+
+namespace furrow {
+
+PointLoads::PointLoads(Discretisation& discretisation, RemapControl& remap)
+    : discretisation_(discretisation), remap_(remap), kernels_(transfer_kernels()) {}
+
+void PointLoads::add(const ParticleIndex& near, const Vector3& force, const Vector3& point) {
+  loads_.push_back({near, force, point});
+}
+
+void PointLoads::scatter_to_grid() {
+  forces_.clear();
+  for (const PointLoad& load : loads_) {
+    const Vector3 shape = particles_of(load.near).shape_position(load.near.particle);
+    const Vector3 arm = load.point - shape;
+    forces_.push_back({{shape[0], shape[1], shape[2]},
+                       {load.force[0], load.force[1], load.force[2]},
+                       {arm[0], arm[1], arm[2]}});
+  }
+  kernels_.scatter_point_forces(discretisation_.local_view(), forces_.data(), forces_.size());
+}
+
+void PointLoads::count_work(double dt, TerrainEnergy& energy) {
+  if (loads_.empty()) return;
+  loaded_.clear();
+  for (const PointLoad& load : loads_) loaded_.push_back(load.near);
+  interpolate_motion(loaded_, loaded_motions_);
+  for (std::size_t n = 0; n < loads_.size(); ++n) {
+    const ParticleMotion& motion = loaded_motions_[n];
+    energy.add_contact_work(dt * loads_[n].force.dot(motion.velocity_at(loads_[n].point)));
+    remap_.raise_largest_speed(motion.velocity.norm());
+  }
+  loads_.clear();
+}
+
+void PointLoads::interpolate_motion(const std::vector<ParticleIndex>& particles,
+                                    std::vector<ParticleMotion>& motions) {
+  motions.resize(particles.size());
+  if (!remap_.particles_lag()) {
+    for (std::size_t n = 0; n < particles.size(); ++n) {
+      const Particles& group = particles_of(particles[n]);
+      const std::size_t p = particles[n].particle;
+      const Vector3 x = group.position(p);
+      motions[n] = {x, remap_.interval_running() ? group.shape_position(p) : x, group.velocity(p),
+                    group.affine(p)};
+    }
+    return;
+  }
+  grid_motions_.resize(particles.size());
+  for (std::size_t n = 0; n < particles.size(); ++n)
+    Eigen::Map<Vector3>(grid_motions_[n].shape_position) =
+        particles_of(particles[n]).shape_position(particles[n].particle);
+  kernels_.interpolate_motion(discretisation_.local_view(), grid_motions_.data(), particles.size());
+  for (std::size_t n = 0; n < particles.size(); ++n) {
+    const PointMotion& grid = grid_motions_[n];
+    motions[n].shape_position = Eigen::Map<const Vector3>(grid.shape_position);
+    motions[n].position = particles_of(particles[n]).position(particles[n].particle) +
+                          Eigen::Map<const Vector3>(grid.displacement);
+    motions[n].velocity = Eigen::Map<const Vector3>(grid.velocity);
+    motions[n].affine = Eigen::Map<const Eigen::Matrix<double, 4, 3>>(grid.affine).topRows<3>();
+  }
+}
+
+}  // namespace furrow

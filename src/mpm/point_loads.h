@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Forces at points of the ground and its motion there: what a contact exchanges with a terrain.
+
+#include <vector>
+
+#include "core/types.h"
+#include "mpm/discretisation.h"
+#include "mpm/remap_control.h"
+#include "mpm/terrain_energy.h"
+#include "mpm/transfer.h"
+
+namespace furrow {
+
+/// Motion of the ground around a particle: v(x) = velocity + affine (x - shape_position).
+struct ParticleMotion {
+  Vector3 position;        ///< now [m]
+  Vector3 shape_position;  ///< where velocity holds [m]
+  Vector3 velocity;        ///< [m/s]
+  Matrix3 affine;          ///< C [1/s]
+  Vector3 velocity_at(const Vector3& x) const { return velocity + affine * (x - shape_position); }
+};
+
+/// Each rank adds and asks for its own particles; no call is collective.
+class PointLoads {
+ public:
+  PointLoads(Discretisation& discretisation, RemapControl& remap);
+
+  /// A force on the ground during the next step [N], through the weights of a particle near the
+  /// point where it acts [m].
+  void add(const ParticleIndex& near, const Vector3& force, const Vector3& point);
+
+  /// Adds the forces to the sums of the nodes; force and moment are kept.
+  void scatter_to_grid();
+  /// The work of the forces over a step of dt [s] that the nodes have taken; the forces are
+  /// removed.
+  void count_work(double dt, TerrainEnergy& energy);
+
+  /// Positions and motions of particles now: of the grid while particles lag behind it.
+  void interpolate_motion(const std::vector<ParticleIndex>& particles,
+                          std::vector<ParticleMotion>& motions);
+
+ private:
+  struct PointLoad {
+    ParticleIndex near;
+    Vector3 force;
+    Vector3 point;
+  };
+  const Particles& particles_of(const ParticleIndex& index) const {
+    return discretisation_.groups[index.group].particles;
+  }
+
+  Discretisation& discretisation_;
+  RemapControl& remap_;
+  const TransferKernels& kernels_;
+  std::vector<PointLoad> loads_;
+  // Buffers of a step.
+  std::vector<PointForce> forces_;
+  std::vector<PointMotion> grid_motions_;
+  std::vector<ParticleIndex> loaded_;
+  std::vector<ParticleMotion> loaded_motions_;
+};
+
+}  // namespace furrow

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// When particles and grid are remapped: the length of a remap interval, and which of the two holds
+/// the present motion (terrain_step.h explains the scheme).
+
+#include "core/checkpoint.h"
+#include "mpm/discretisation.h"
+
+namespace furrow {
+
+/// An interval has at most TerrainParameters::remap_interval steps, and no more than any particle
+/// needs to travel a twentieth of a cell: long enough that remapping takes little energy, short
+/// enough that the weights fit. The more a particle is compacted, the thinner is the ground that it
+/// stands for, and the less it may travel.
+class RemapControl {
+ public:
+  RemapControl(const Discretisation& discretisation, int max_steps);
+
+  bool interval_running() const { return steps_left_ > 0; }
+  bool last_step() const { return steps_left_ == 1; }
+  int steps_left() const { return steps_left_; }
+
+  /// Chooses the number of steps of dt [s] from the particles' speeds. Collective.
+  void begin_interval(double dt);
+  /// Counts a step of dt. Contact can make the ground faster than it was when the interval began:
+  /// the interval ends early when a particle may have travelled twice what was foreseen.
+  /// Collective.
+  /// @return bound of what any particle travelled in the step [m]
+  double count_step(double dt);
+
+  /// True while the grid is ahead of the particles' positions and velocities.
+  bool particles_lag() const { return particles_lag_; }
+  void grid_moved() { particles_lag_ = true; }
+  void particles_updated() { particles_lag_ = false; }
+  /// Bound of the distance by which particles lag [m].
+  double staleness() const { return particles_lag_ ? travel_ : 0.0; }
+
+  /// Of this rank's particles, at the start of the interval or seen at loaded points since [m/s].
+  double largest_speed() const { return largest_speed_; }
+  void raise_largest_speed(double speed);
+
+  /// Collective.
+  void checkpoint(Checkpoint& state);
+
+ private:
+  const Discretisation& discretisation_;
+  int max_steps_;
+  int steps_left_ = 0;
+  double largest_speed_ = 0.0;  // [m/s]
+  double travel_ = 0.0;         // bound of what any particle travelled in the interval [m]
+  bool particles_lag_ = false;
+};
+
+}  // namespace furrow

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The rut: the surface that a moving window leaves behind.
+
+#include <vector>
+
+#include "core/checkpoint.h"
+#include "core/communicator.h"
+
+namespace furrow {
+
+/// A point of the surface as it was when the window removed the ground below it.
+struct RutPoint {
+  double x;        ///< [m]
+  double y;        ///< [m]
+  double z;        ///< of the surface [m]
+  double density;  ///< mean over the depth [kg/m^3]
+};
+
+/// Each rank records what it removed.
+class RutRecord {
+ public:
+  void add(const RutPoint& point) { points_.push_back(point); }
+  const std::vector<RutPoint>& points() const { return points_; }  ///< this rank's
+  std::vector<RutPoint> gather(const Communicator& ranks) const;   ///< of all ranks; collective
+  /// Saves the points of all ranks; restores them on rank 0. Collective.
+  void checkpoint(Checkpoint& state, const Communicator& ranks);
+
+ private:
+  std::vector<double> gather_numbers(const Communicator& ranks) const;
+
+  std::vector<RutPoint> points_;
+};
+
+}  // namespace furrow

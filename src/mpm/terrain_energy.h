@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Energies of a terrain and the works done on it since the start.
+
+#include <cstddef>
+#include <vector>
+
+#include "bodies/body.h"
+#include "core/checkpoint.h"
+#include "core/communicator.h"
+#include "mpm/grid.h"
+#include "mpm/particle_group.h"
+
+namespace furrow {
+
+/// Sum over this rank's particles of a field per reference volume [J].
+/// @param field  of the material's state: field::stored_energy, field::dissipated_energy ...
+double sum_energy(const std::vector<ParticleGroup>& groups, std::size_t field);
+/// Stored, frozen and dissipated energy of this rank's particles [J].
+double internal_energy(const std::vector<ParticleGroup>& groups);
+Vector3 momentum_of(const std::vector<ParticleGroup>& groups);  ///< this rank's share [N s]
+
+/// Holds this rank's share of every sum; energy_budget() adds up the ranks.
+class TerrainEnergy {
+ public:
+  // Works of a step [J].
+  void add_stress_work(double work) { stress_work_ += work; }
+  void add_contact_work(double work) { contact_work_ += work; }
+  void add_gravity_work(double work) { gravity_work_ += work; }
+  /// Momentum and kinetic energy of the nodes after a step.
+  void set_node_totals(const NodeTotals& totals) { nodes_ = totals; }
+  const NodeTotals& node_totals() const { return nodes_; }
+
+  /// Ground that a fill or a moving window added had this internal energy [J].
+  void add_initial(double internal) { initial_ += internal; }
+  /// Ground that a moving window removed [J]; kinetic energy particle by particle.
+  void add_removed_kinetic(double energy) { removed_kinetic_ += energy; }
+  void add_removed(double internal, double dissipated);
+
+  /// Collective.
+  /// @param momentum       of this rank's share of the ground [N s]
+  /// @param boundary_work  of the absorbing faces, this rank's share [J]
+  EnergyBudget energy_budget(const std::vector<ParticleGroup>& groups, const Vector3& momentum,
+                             double boundary_work, const Communicator& ranks) const;
+
+  /// Saves the sums over all ranks; restores them on rank 0. Collective.
+  void checkpoint(Checkpoint& state, const Communicator& ranks);
+
+ private:
+  NodeTotals nodes_;  // of this rank's nodes after the last step
+  double initial_ = 0.0;
+  double stress_work_ = 0.0;
+  double contact_work_ = 0.0;
+  double gravity_work_ = 0.0;
+  double removed_kinetic_ = 0.0;
+  double removed_internal_ = 0.0;
+  double removed_dissipated_ = 0.0;
+};
+
+}  // namespace furrow

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mpm/terrain_fill.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace furrow {
+
+namespace {
+
+constexpr double max_off_knot = 1e-6;  // of the cell: the surface is where two cells meet
+
+/// Levels of particles from the surface down, with their state.
+std::vector<ParticleLevel> make_levels(const TerrainParameters& parameters, const Grid& grid) {
+  std::vector<ParticleLevel> levels;
+  const Axis& z = grid.axis(2);
+  const int count = parameters.particles_per_cell[2];
+  for (int cell = z.cells() - 1; cell >= 0; --cell) {
+    if (z.knot(cell) + 0.5 * z.length(cell) > parameters.surface) continue;
+    for (int n = count - 1; n >= 0; --n) {
+      ParticleLevel level;
+      level.z = z.knot(cell) + (n + 0.5) * z.length(cell) / count;
+      level.half = 0.5 * z.length(cell) / count;
+      levels.push_back(level);
+    }
+  }
+  find_overburden(parameters, levels);
+  return levels;
+}
+
+}  // namespace
+
+Grid make_grid(const TerrainParameters& parameters, const std::string& where) {
+  Grid grid(Axis(parameters.x, where + ", x axis"), Axis(parameters.y, where + ", y axis"),
+            Axis(parameters.z, where + ", z axis"));
+  const Axis& z = grid.axis(2);
+  const double surface = parameters.surface;
+  const int cell = z.cell_of(surface);
+  const double off =
+      cell < 0 ? 1.0
+               : std::min(surface - z.knot(cell), z.knot(cell + 1) - surface) / z.length(cell);
+  if (off > max_off_knot)
+    throw InputError(
+        where, fmt::format("has its surface at z = {:.6g} m, inside of a cell", surface),
+        "the height of an end of a cell",
+        "let the fine stretch of the z axis be a whole number of cells below the surface and above "
+        "it");
+  return grid;
+}
+
+TerrainFill::TerrainFill(const TerrainParameters& parameters, const Grid& grid)
+    : layers_(parameters.layers),
+      particles_per_cell_(parameters.particles_per_cell),
+      levels_(make_levels(parameters, grid)) {}
+
+std::vector<WaveSpeeds> TerrainFill::wave_speeds(const Grid& grid) const {
+  std::vector<WaveSpeeds> speeds;
+  for (int k = 0; k < grid.nodes(2); ++k) {
+    const double z = grid.axis(2).node(k);
+    const auto nearest = std::min_element(levels_.begin(), levels_.end(),
+                                          [z](const ParticleLevel& a, const ParticleLevel& b) {
+                                            return std::abs(a.z - z) < std::abs(b.z - z);
+                                          });
+    const Material& material = *layers_[nearest->layer].material;
+    const ElasticModuli moduli = material.moduli(nearest->state);
+    const double density = material.current_density(nearest->state);
+    speeds.push_back({std::sqrt(moduli.wave() / density), std::sqrt(moduli.shear / density)});
+  }
+  return speeds;
+}
+
+void TerrainFill::add_cells(int x_cell, Discretisation& discretisation) {
+  const Axis& x = discretisation.grid.axis(0);
+  const Axis& y = discretisation.grid.axis(1);
+  const bool mine = discretisation.partition.owner(x_cell) == discretisation.ranks().rank();
+  for (int i = 0; i < particles_per_cell_[0]; ++i)
+    for (int y_cell = 0; y_cell < y.cells(); ++y_cell)
+      for (int j = 0; j < particles_per_cell_[1]; ++j)
+        for (const ParticleLevel& level : levels_) {
+          const double id = next_id_++;
+          if (!mine) continue;
+          Particles& particles = discretisation.groups[level.layer].particles;
+          const std::size_t p = particles.append(1);
+          const double half[3] = {0.5 * x.length(x_cell) / particles_per_cell_[0],
+                                  0.5 * y.length(y_cell) / particles_per_cell_[1], level.half};
+          const double position[3] = {x.knot(x_cell) + (2 * i + 1) * half[0],
+                                      y.knot(y_cell) + (2 * j + 1) * half[1], level.z};
+          for (std::size_t a = 0; a < 3; ++a) {
+            particles.data(column::x + a)[p] = position[a];
+            particles.data(column::initial_x + a)[p] = position[a];
+            particles.data(column::half_x + a)[p] = half[a];
+          }
+          particles.data(column::volume)[p] =
+              8.0 * half[0] * half[1] * level.half / level.state[field::volume_ratio];
+          particles.data(column::id)[p] = id;
+          particles.set_state(p, level.state);
+        }
+}
+
+std::size_t TerrainFill::surface_columns(const Grid& grid) const {
+  return static_cast<std::size_t>(grid.axis(0).cells() * particles_per_cell_[0]);
+}
+
+std::size_t TerrainFill::surface_rows(const Grid& grid) const {
+  return static_cast<std::size_t>(grid.axis(1).cells() * particles_per_cell_[1]);
+}
+
+/// Ids as add_cells() counts them: the levels of a column follow one another.
+std::vector<double> TerrainFill::surface_ids(const Grid& grid) const {
+  std::vector<double> ids(surface_columns(grid) * surface_rows(grid));
+  for (std::size_t n = 0; n < ids.size(); ++n) ids[n] = static_cast<double>(n * levels_.size());
+  return ids;
+}
+
+void TerrainFill::checkpoint(Checkpoint& state) { state.value("next_id", next_id_); }
+
+}  // namespace furrow

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Undisturbed ground: the grid of a terrain and the particles that fill its cells at the start and
+/// ahead of a moving window.
+
+#include <string>
+#include <vector>
+
+#include "core/checkpoint.h"
+#include "mpm/boundary.h"
+#include "mpm/discretisation.h"
+#include "mpm/overburden.h"
+#include "mpm/terrain_parameters.h"
+
+namespace furrow {
+
+/// @param where  names the terrain in errors
+/// @throws InputError for axes that cannot be, or a surface inside a cell
+Grid make_grid(const TerrainParameters& parameters, const std::string& where);
+
+class TerrainFill {
+ public:
+  TerrainFill(const TerrainParameters& parameters, const Grid& grid);
+
+  /// Elastic wave speeds at the height of each plane of nodes across z, from below.
+  std::vector<WaveSpeeds> wave_speeds(const Grid& grid) const;
+
+  /// Appends the particles of a layer of cells across x, if this rank owns it. Ids are counted on
+  /// all ranks; every rank calls it for every layer.
+  void add_cells(int x_cell, Discretisation& discretisation);
+
+  /// Ids of the uppermost particles after the first fill, ascending: all rows along y of the first
+  /// column across x, then those of the next.
+  std::vector<double> surface_ids(const Grid& grid) const;
+  std::size_t surface_columns(const Grid& grid) const;  ///< particles along x
+  std::size_t surface_rows(const Grid& grid) const;     ///< particles along y
+
+  void checkpoint(Checkpoint& state);
+
+ private:
+  std::vector<TerrainLayer> layers_;
+  std::array<int, 3> particles_per_cell_;
+  std::vector<ParticleLevel> levels_;  // from the surface down
+  double next_id_ = 0.0;
+};
+
+}  // namespace furrow

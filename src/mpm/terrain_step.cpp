@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mpm/terrain_step.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace furrow {
+
+namespace {
+
+// particles between grid and material: gradients and weights stay in the second-level cache
+constexpr std::size_t chunk = 256;
+
+}  // namespace
+
+TerrainStep::TerrainStep(Discretisation& discretisation, Boundary& boundary,
+                         ParticleDistribution& distribution, RemapControl& remap, PointLoads& loads,
+                         TerrainEnergy& energy, const Vector3& gravity)
+    : discretisation_(discretisation),
+      boundary_(boundary),
+      distribution_(distribution),
+      remap_(remap),
+      loads_(loads),
+      energy_(energy),
+      gravity_(gravity),
+      kernels_(transfer_kernels()),
+      gradient_storage_(9 * chunk),
+      weights_(batches(chunk)) {
+  for (std::size_t g = 0; g < 9; ++g) gradient_[g] = gradient_storage_.data() + g * chunk;
+}
+
+void TerrainStep::advance(double dt) {
+  Grid& grid = discretisation_.grid;
+  const Partition& partition = discretisation_.partition;
+  const PlaneRange local = partition.local_planes();
+  const PlaneRange owned = partition.owned_planes();
+
+  if (!remap_.interval_running()) begin_remap_interval(dt);
+  loads_.scatter_to_grid();
+  partition.sum_shared(grid);
+  grid.accelerate(local, dt, gravity_);
+  boundary_.apply(grid, local, owned, dt);
+  const NodeTotals totals = grid.move(local, owned, dt);
+  remap_.grid_moved();
+  update_stress(dt);
+
+  energy_.set_node_totals(totals);
+  energy_.add_gravity_work(dt * gravity_.dot(totals.momentum));
+  loads_.count_work(dt, energy_);
+  distribution_.add_drift(remap_.count_step(dt));
+  if (!remap_.interval_running()) grid_to_particles();
+}
+
+void TerrainStep::begin_remap_interval(double dt) {
+  remap_.begin_interval(dt);
+  set_shape_positions(0.5 * (remap_.steps_left() - 1) * dt);
+  discretisation_.grid.clear_displacement(discretisation_.partition.local_planes());
+  particles_to_grid();
+}
+
+/// Where particles will be after a time [s]; a particle that would be beyond a face is stopped by
+/// it before: its weights are taken where it is.
+void TerrainStep::set_shape_positions(double time) {
+  for (ParticleGroup& group : discretisation_.groups) {
+    const double* v = group.particles.data(column::velocity);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const Axis& axis = discretisation_.grid.axis(static_cast<int>(a));
+      const double lower = axis.lower();
+      const double upper = axis.upper();
+      const double* x = group.particles.data(column::x + a);
+      double* shape = group.particles.data(column::shape_x + a);
+      for (std::size_t p = 0; p < group.particles.size(); ++p) {
+        const double later = x[p] + time * v[4 * p + a];
+        shape[p] = later >= lower && later <= upper ? later : x[p];
+      }
+    }
+  }
+}
+
+/// A fresh grid: masses, velocities and the forces of the stress.
+void TerrainStep::particles_to_grid() {
+  Grid& grid = discretisation_.grid;
+  const Partition& partition = discretisation_.partition;
+  grid.clear_sums(partition.local_planes());
+  const GridView view = discretisation_.local_view();
+  for (ParticleGroup& group : discretisation_.groups)
+    if (kernels_.scatter_momentum(view, group.particles.view(), group.material->density()) > 0)
+      distribution_.report_outside(group);
+  partition.sum_shared(grid);
+  grid.compute_velocities(partition.local_planes());
+  scatter_stress_forces();
+}
+
+/// With weights of its own; within an interval, update_stress() does it with those of the strain.
+void TerrainStep::scatter_stress_forces() {
+  const GridView view = discretisation_.local_view();
+  for (ParticleGroup& group : discretisation_.groups)
+    for (std::size_t first = 0; first < group.particles.size(); first += chunk) {
+      const ParticleView particles =
+          group.particles.view(first, std::min(chunk, group.particles.size() - first));
+      kernels_.find_weights(view, particles, weights_.data());
+      kernels_.scatter_force(view, particles, weights_.data());
+    }
+}
+
+void TerrainStep::update_stress(double dt) {
+  const GridView view = discretisation_.local_view();
+  for (ParticleGroup& group : discretisation_.groups)
+    for (std::size_t first = 0; first < group.particles.size(); first += chunk)
+      update_stress(group, first, view, dt);
+}
+
+/// Strain, stress and, unless this step ends the interval, the force of the new stress for the next
+/// step; of the chunk of particles that begins at `first`.
+void TerrainStep::update_stress(ParticleGroup& group, std::size_t first, const GridView& grid,
+                                double dt) {
+  const std::size_t count = std::min(chunk, group.particles.size() - first);
+  const ParticleView particles = group.particles.view(first, count);
+  kernels_.find_weights(grid, particles, weights_.data());
+  kernels_.gather_strain(grid, particles, weights_.data(), dt, gradient_.data());
+  // The work of the mean of the stresses before and after the step: with either alone, the audit of
+  // a vibrating body drifts by O(dt).
+  energy_.add_stress_work(0.5 * kernels_.stress_work(particles, gradient_.data()));
+  PointBlock block;
+  block.size = count;
+  std::copy(gradient_.begin(), gradient_.end(), block.gradient.begin());
+  group.particles.state_pointers(first, state_pointers_);
+  block.state = state_pointers_.data();
+  try {
+    group.material->update_block(block);
+  } catch (const PointError& error) {
+    const Vector3 x = group.particles.position(first + error.point);
+    throw StateError(
+        fmt::format("the particle at {:.4g} {:.4g} {:.4g} m: {}", x[0], x[1], x[2], error.what()));
+  }
+  energy_.add_stress_work(0.5 * kernels_.stress_work(particles, gradient_.data()));
+  if (!remap_.last_step()) kernels_.scatter_force(grid, particles, weights_.data());
+}
+
+void TerrainStep::grid_to_particles() {
+  if (!remap_.particles_lag()) return;
+  remap_.particles_updated();
+  const GridView view = discretisation_.local_view();
+  for (ParticleGroup& group : discretisation_.groups)
+    kernels_.gather_motion(view, group.particles.view());
+  discretisation_.grid.clear_displacement(discretisation_.partition.local_planes());
+}
+
+void TerrainStep::capture_initial_tractions() {
+  if (boundary_.has_initial_tractions()) return;
+  set_shape_positions(0.0);
+  particles_to_grid();
+  discretisation_.partition.sum_shared(discretisation_.grid);
+  boundary_.capture_initial_tractions(discretisation_.grid,
+                                      discretisation_.partition.local_planes(), gravity_);
+}
+
+void TerrainStep::restore_stress_forces() {
+  if (!remap_.interval_running()) return;
+  discretisation_.grid.clear_sums(discretisation_.partition.local_planes());
+  scatter_stress_forces();
+}
+
+}  // namespace furrow

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Grid to particles: strain and its work, motion, and the motion at single points.
+
+#include "mpm/transfer/nodes.h"
+#include "mpm/transfer/weights.h"
+
+#ifndef FURROW_ISA
+#error "kernel headers are for transfer_*.cpp, which name the instruction set"
+#endif
+
+namespace furrow {
+inline namespace FURROW_ISA {
+
+inline void gather_strain(const GridView& grid, const ParticleView& all, const Weights* of_batches,
+                          double dt, double* const* gradient) {
+  const Strides stride(grid);
+  for_batches(all, [&](const ParticleView& particles, std::size_t first) {
+    const Weights& weights = of_batches[first / batch];
+    for (std::size_t p = 0; p < particles.size; ++p) {
+      Vector4 velocity, column[3];
+      interpolate_with_slopes(grid.velocity, stride, weights, p, velocity, column);
+      for (int d = 0; d < 3; ++d) column[d] *= dt;
+#pragma GCC unroll 3
+      for (int row = 0; row < 3; ++row)
+#pragma GCC unroll 3
+        for (int d = 0; d < 3; ++d) gradient[3 * row + d][first + p] = column[d][row];
+    }
+  });
+}
+
+inline double stress_work(const ParticleView& particles, const double* const* h) {
+  const double* const* s = particles.stress;
+  // Sums side by side: the order of the additions is fixed, however the loop is vectorised.
+  constexpr std::size_t lanes = 8;
+  double work[lanes] = {};
+  const auto of = [&](std::size_t p) {
+    return particles.volume[p] * particles.volume_ratio[p] *
+           (s[0][p] * h[0][p] + s[1][p] * h[4][p] + s[2][p] * h[8][p] +
+            s[3][p] * (h[1][p] + h[3][p]) + s[4][p] * (h[5][p] + h[7][p]) +
+            s[5][p] * (h[2][p] + h[6][p]));
+  };
+  const std::size_t whole = particles.size - particles.size % lanes;
+  for (std::size_t p = 0; p < whole; p += lanes)
+    for (std::size_t lane = 0; lane < lanes; ++lane) work[lane] += of(p + lane);
+  for (std::size_t p = whole; p < particles.size; ++p) work[p - whole] += of(p);
+  double sum = 0.0;
+  for (const double w : work) sum += w;
+  return sum;
+}
+
+/// Velocity and C of a particle. The fourth numbers of C, which would be slopes of the nodes' mass,
+/// are zero: the next transfer to the grid must not bring them back.
+[[gnu::always_inline]] inline void interpolate_affine(const GridView& grid, const Strides& stride,
+                                                      const Weights& weights, std::size_t p,
+                                                      Vector4& velocity, Vector4* affine) {
+  interpolate_with_slopes(grid.velocity, stride, weights, p, velocity, affine);
+  for (int d = 0; d < 3; ++d) {
+    const double inverse = weights.inverse_spread[d][p];
+    affine[d] *= Vector4{inverse, inverse, inverse, 0.0};
+  }
+}
+
+inline void gather_motion(const GridView& grid, const ParticleView& all) {
+  const Strides stride(grid);
+  for_batches(all, [&](const ParticleView& particles, std::size_t) {
+    Weights weights;
+    find_batch_weights<Slope::moment>(grid, particles.shape_position, particles.size, weights);
+    for (std::size_t p = 0; p < particles.size; ++p) {
+      Vector4 velocity, affine[3];
+      interpolate_affine(grid, stride, weights, p, velocity, affine);
+      *reinterpret_cast<Stored4*>(particles.velocity + 4 * p) = velocity;
+      Stored4* stored = reinterpret_cast<Stored4*>(particles.affine + 12 * p);
+      for (int d = 0; d < 3; ++d) stored[d] = affine[d];
+      Vector4 displacement;
+      interpolate(grid.displacement, stride, weights, p, displacement);
+      for (int a = 0; a < 3; ++a) particles.position[a][p] += displacement[a];
+    }
+  });
+}
+
+inline void interpolate_motion(const GridView& grid, PointMotion* points, std::size_t count) {
+  const Strides stride(grid);
+  Weights weights;
+  for (std::size_t n = 0; n < count; ++n) {
+    PointMotion& point = points[n];
+    const double* position[3] = {point.shape_position, point.shape_position + 1,
+                                 point.shape_position + 2};
+    find_batch_weights<Slope::moment>(grid, position, 1, weights);
+    Vector4 velocity, affine[3];
+    interpolate_affine(grid, stride, weights, 0, velocity, affine);
+    *reinterpret_cast<Stored4*>(point.velocity) = velocity;
+    for (int d = 0; d < 3; ++d) *reinterpret_cast<Stored4*>(point.affine + 4 * d) = affine[d];
+    Vector4 displacement;
+    interpolate(grid.displacement, stride, weights, 0, displacement);
+    *reinterpret_cast<Stored4*>(point.displacement) = displacement;
+  }
+}
+
+}  // namespace FURROW_ISA
+}  // namespace furrow
