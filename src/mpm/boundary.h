@@ -61,7 +61,7 @@ class Boundary {
   /// Work of the absorbing faces on the ground since the start, this rank's share [J].
   double work() const { return work_; }
 
-  /// The grid moved by whole cells along x: face nodes keep their place in space.
+  /// The grid moved by whole cells along x: the values of the far field stay with the ground.
   /// @throws Error when a face across x absorbs
   void shift_x(int cells);
   /// Every rank takes the displacements of the rank that owns a plane. Collective.

@@ -16,9 +16,6 @@ constexpr std::array<Face, face_count> all_faces = {Face::x_lower, Face::x_upper
 /// The axis that a face lies across: 0 x, 1 y, 2 z.
 constexpr int axis_of(Face face) { return static_cast<int>(face) / 2; }
 constexpr bool is_upper(Face face) { return static_cast<int>(face) % 2 == 1; }
-constexpr Face face_of(int axis, bool upper) {
-  return static_cast<Face>(2 * axis + (upper ? 1 : 0));
-}
 
 /// One value for each face, in the order of Face.
 template <class T>
@@ -29,8 +26,6 @@ struct FaceArray {
   const T& operator[](Face face) const { return values[static_cast<std::size_t>(face)]; }
   auto begin() { return values.begin(); }
   auto end() { return values.end(); }
-  auto begin() const { return values.begin(); }
-  auto end() const { return values.end(); }
   void fill(const T& value) { values.fill(value); }
 };
 

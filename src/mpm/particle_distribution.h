@@ -18,8 +18,8 @@ class ParticleDistribution {
 
   /// Particles may have travelled so much further since the last sorting [m].
   void add_drift(double distance) { drift_ += distance; }
-  /// Whether particles may have left their cells by half a cell: beyond one, kernels would not find
-  /// their nodes on this rank.
+  /// Whether particles may have travelled half a cell since the last sorting. This rank has the
+  /// nodes for one cell.
   bool sorting_due() const;
   /// Balances the slabs of the ranks, sends every particle to the owner of its cell, and orders
   /// them by cell. Collective. @throws StateError when a particle is outside of the grid
@@ -32,7 +32,7 @@ class ParticleDistribution {
 
   void checkpoint_drift(Checkpoint& state) { state.value("drift", drift_); }
   /// Records of Particles::pack(). Restored particles go to the owners of their cells and are then
-  /// distributed anew. Collective.
+  /// balanced. Collective.
   void checkpoint_particles(Checkpoint& state);
 
  private:

@@ -10,8 +10,8 @@
 /// takes a fresh grid in every step. Each of these remaps smooths the velocity and takes kinetic
 /// energy (EnergyBudget::numerical_loss): with one in every step, 15 % of the work of a wheel on
 /// snow in cells of 4 cm. Here the grid stays attached to the ground and deforms with it for a
-/// remap interval of m steps, as it does for ever in total-Lagrangian MPM (A. de Vaucorbeil, V. P.
-/// Nguyen, C. R. Hutchinson, Comput. Methods Appl. Mech. Eng. 360, 2020); then particles take
+/// remap interval of m steps, as it does for a whole run in total-Lagrangian MPM (A. de Vaucorbeil,
+/// V. P. Nguyen, C. R. Hutchinson, Comput. Methods Appl. Mech. Eng. 360, 2020); then particles take
 /// position and motion from it and a fresh grid begins, as in the Lagrange-plus-remap schemes of
 /// hydrocodes. With m = 16, a third of that energy is lost.
 ///
@@ -22,8 +22,7 @@
 ///   each step  f_i += contact forces
 ///              v_i += dt (f_i/m_i + g), boundary conditions on v_i
 ///              u_i += dt v_i
-///              update_stress: H = dt sum v_i G_i^T, the material's law with H, f_i of the new
-///              stress
+///              update_stress: H = dt sum v_i G_i^T, material with H, f_i of the new stress
 ///   end        grid_to_particles: x_p += sum N_i u_i, and v_p, C_p from v_i
 /// Velocities are those of half steps (leapfrog, as in LIGGGHTS); all is in double precision.
 ///

@@ -3,7 +3,7 @@
 // snow; particle updates a second on one core, by part, while rolling, and the sinkage and
 // resistance of the stretch for orientation.
 //   build/tests/benchmarks/ground_update [cell in m] [metres of rolling] [material file] [cfl]
-//   [cycle]
+//   [remap interval]
 // The environment variable FURROW_ISA = baseline | avx2 | avx512 selects the kernels.
 
 #include <ctime>

@@ -97,7 +97,7 @@ BENCHMARK(run<&Scene::step>)
     ->Name("weights, strain from grid, force to grid")
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(run<&Scene::weights>)->Name("of that, weights")->Unit(benchmark::kMillisecond);
-// Once a cycle:
+// Once in a remap interval:
 BENCHMARK(run<&Scene::momentum>)->Name("momentum to grid")->Unit(benchmark::kMillisecond);
 BENCHMARK(run<&Scene::motion>)->Name("motion from grid")->Unit(benchmark::kMillisecond);
 

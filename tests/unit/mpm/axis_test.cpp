@@ -34,7 +34,8 @@ const AxisLayout uniform_layout{-1.0, 2.0, 0.25, -1.0, 2.0, 1.0};
 const AxisLayout graded_layout{-1.0, 2.0, 0.05, 0.2, 0.7, 1.25};
 
 class BothAxes : public ::testing::TestWithParam<AxisLayout> {};
-INSTANTIATE_TEST_SUITE_P(Axis, BothAxes, ::testing::Values(uniform_layout, graded_layout));
+INSTANTIATE_TEST_SUITE_P(Axis, BothAxes, ::testing::Values(uniform_layout, graded_layout),
+                         [](const auto& one) { return one.index == 0 ? "uniform" : "graded"; });
 
 /// The middle spline too is a B-spline: on its own knots it must be what Cox and de Boor's
 /// recursion gives.

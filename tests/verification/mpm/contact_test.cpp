@@ -79,7 +79,7 @@ TEST_P(Enforcements, SlidesAsCoulombSays) {
 }
 
 /// Below the angle of friction it does not slide once the first bounce is over. Springs hold it;
-/// impulses take away the velocity of each particle anew in every step and let it creep.
+/// impulses take away the velocity of each particle again in every step and let it creep.
 TEST_P(Enforcements, SticksBelowTheAngleOfFriction) {
   ContactParameters parameters;
   parameters.enforcement = GetParam();
@@ -103,7 +103,7 @@ TEST_P(Enforcements, SlidesAsEquation26Says) {
   parameters.enforcement = GetParam();
   parameters.friction = 0.8;
   parameters.slip_length = 0.05;
-  // the block is put on the plate with its whole weight: a bounce would begin the slip anew
+  // the block is put on the plate with its whole weight: a bounce would start the slip again
   parameters.damping = 1.0;
   const double slope = std::atan(0.5), duration = 0.2;
   Incline incline(slope, parameters);

@@ -36,8 +36,8 @@ Noise noise_of(double strain, double speed) {
     const double dt = ground.stable_time_step();
     Particles& particles = ground.groups()[0].particles;
     for (std::size_t n = 0; n < particles.size(); ++n) {
-      const double home = particles.data(column::initial_x)[n], side = home > 0 ? 1.0 : -1.0;
-      if (std::abs(home) > half - 0.5 * cell)
+      const double initial = particles.data(column::initial_x)[n], side = initial > 0 ? 1.0 : -1.0;
+      if (std::abs(initial) > half - 0.5 * cell)
         ground.add_point_force({0, n}, {-side * pressure * cell * cell / 4, 0, 0},
                                particles.position(n) + Vector3(side * 0.25 * cell, 0, 0));
     }

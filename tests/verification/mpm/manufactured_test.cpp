@@ -52,10 +52,11 @@ double error_of(int cells) {
   }
   double error = 0.0, size = 0.0;
   for_particles(ground, [&](Particles& particles, std::size_t p) {
-    const Vector3 home(particles.data(column::initial_x)[p], particles.data(column::initial_y)[p],
-                       particles.data(column::initial_z)[p]),
-        expected = (1 - std::cos(omega * end)) * shape(home);
-    error += (particles.position(p) - home - expected).squaredNorm();
+    const Vector3 initial(particles.data(column::initial_x)[p],
+                          particles.data(column::initial_y)[p],
+                          particles.data(column::initial_z)[p]),
+        expected = (1 - std::cos(omega * end)) * shape(initial);
+    error += (particles.position(p) - initial - expected).squaredNorm();
     size += expected.squaredNorm();
   });
   return std::sqrt(error / size);

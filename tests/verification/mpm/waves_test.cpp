@@ -212,9 +212,10 @@ double unrest(double cell) {
   run(ground, 0.2);
   double moved = 0.0;
   for_particles(ground, [&](Particles& particles, std::size_t p) {
-    const Vector3 home(particles.data(column::initial_x)[p], particles.data(column::initial_y)[p],
-                       particles.data(column::initial_z)[p]);
-    moved = std::max(moved, (particles.position(p) - home).norm());
+    const Vector3 initial(particles.data(column::initial_x)[p],
+                          particles.data(column::initial_y)[p],
+                          particles.data(column::initial_z)[p]);
+    moved = std::max(moved, (particles.position(p) - initial).norm());
   });
   return moved / (rho * standard_gravity * 0.4 * 0.4 / (2 * wave_modulus));
 }
@@ -252,9 +253,10 @@ TEST(AbsorbingFace, GivesWayAsItsSpringSays) {
   }
   double top = 0.0, bottom = 0.0;
   for_particles(ground, [&](Particles& particles, std::size_t p) {
-    const double home = particles.data(column::initial_z)[p], u = particles.position(p).z() - home;
-    if (home > height - 0.5 * cell) top = u;
-    if (home < 0.5 * cell) bottom = u;
+    const double initial = particles.data(column::initial_z)[p],
+                 u = particles.position(p).z() - initial;
+    if (initial > height - 0.5 * cell) top = u;
+    if (initial < 0.5 * cell) bottom = u;
   });
   EXPECT_NEAR(-bottom / (pressure / wave_modulus * (length + 0.25 * cell)), 1.0, 0.01);
   EXPECT_NEAR(-top / (pressure / wave_modulus * (length + height - 0.25 * cell)), 1.0, 0.01);

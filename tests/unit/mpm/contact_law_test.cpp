@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mpm/contact/contact_law.h"
+
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+
+namespace furrow {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr double mass = 2.0, stiffness = 1e5, dt = 1e-4;
+
+/// A particle that touches a horizontal surface above it, 1 mm deep.
+struct Touch {
+  ContactPoint point{0, Vector3(1, 0, 0), Vector3::Zero(), Vector3(0, 0, -1), -1e-3};
+  double numbers[ContactHistory::size] = {0, 0, 0, 0, stiffness};
+  ContactHistory history{numbers};
+  ContactLosses losses;
+
+  template <class Law>
+  Vector3 force(const Law& law, const Vector3& velocity) {
+    return law.force({point, velocity, mass}, dt, history, losses);
+  }
+};
+
+TEST(ContactLaw, IsFoundByItsName) {
+  EXPECT_THAT(contact_law_names(), ElementsAre("penalty", "impulse"));
+  ContactParameters parameters;
+  EXPECT_TRUE(std::holds_alternative<PenaltyLaw>(make_contact_law(parameters, "foot")));
+  parameters.enforcement = "impulse";
+  EXPECT_TRUE(std::holds_alternative<ImpulseLaw>(make_contact_law(parameters, "foot")));
+  parameters.enforcement = "glue";
+  try {
+    make_contact_law(parameters, "foot");
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("foot has the enforcement 'glue'; allowed: penalty, impul"));
+  }
+}
+
+/// k gap + c approach along the normal, with c = 2 damping sqrt(k m); it pushes only.
+TEST(PenaltyLaw, IsASpringWithADashpot) {
+  ContactParameters parameters;
+  parameters.damping = 0.25;
+  const PenaltyLaw law(parameters);
+  const double c = 2.0 * 0.25 * std::sqrt(stiffness * mass);
+  Touch at_rest, closing, leaving;
+  EXPECT_NEAR(at_rest.force(law, Vector3::Zero()).z(), -stiffness * 1e-3, 1e-9);
+  EXPECT_EQ(at_rest.losses.damping, 0.0);
+  EXPECT_NEAR(closing.force(law, {0, 0, 0.1}).z(), -(stiffness * 1e-3 + c * 0.1), 1e-9);
+  EXPECT_NEAR(closing.losses.damping, c * 0.1 * 0.1 * dt, 1e-15);
+  EXPECT_EQ(leaving.force(law, {0, 0, -10.0}).z(), 0.0);
+}
+
+/// The tangential spring stretches until mu N; what it slides beyond is friction's loss.
+TEST(PenaltyLaw, SlidesAtTheLimitOfFriction) {
+  ContactParameters parameters;
+  parameters.damping = 0.0;
+  parameters.friction = 0.3;
+  const PenaltyLaw law(parameters);
+  Touch touch;
+  const double normal = stiffness * 1e-3;
+  EXPECT_NEAR(touch.force(law, {0.5, 0, 0}).x(), -stiffness * 0.5 * dt, 1e-9);  // sticks
+  EXPECT_EQ(touch.losses.friction, 0.0);
+  double slid = 0.5 * dt;
+  for (int step = 0; step < 20; ++step) {
+    slid += 0.5 * dt;
+    const double pull = -touch.force(law, {0.5, 0, 0}).x();
+    EXPECT_LE(pull, 0.3 * normal * (1 + 1e-12));
+  }
+  const double stretch = 0.3 * normal / stiffness;
+  EXPECT_NEAR(touch.history.spring.x(), stretch, 1e-12);
+  EXPECT_NEAR(touch.history.slip, slid - stretch, 1e-12);
+  EXPECT_NEAR(touch.losses.friction, 0.3 * normal * (slid - stretch), 1e-9);
+}
+
+/// m (approach + a fifth of the penetration each step)/dt; friction stops the sliding at most.
+TEST(ImpulseLaw, StopsTheApproachWithinTheStep) {
+  ContactParameters parameters;
+  parameters.friction = std::numeric_limits<double>::infinity();
+  const ImpulseLaw law(parameters);
+  Touch touch;
+  const Vector3 force = touch.force(law, {0.5, 0, 0.1});
+  EXPECT_NEAR(force.z(), -mass * (0.1 + 0.2 * 1e-3 / dt) / dt, 1e-6);
+  EXPECT_NEAR(force.x(), -mass * 0.5 / dt, 1e-6);
+  EXPECT_NEAR(touch.history.slip, 0.5 * dt, 1e-15);
+  Touch leaving;
+  EXPECT_EQ(leaving.force(law, {0.5, 0, -100.0}), Vector3::Zero());
+}
+
+/// mu sigma (1 - exp(-j/k))
+TEST(Friction, GrowsWithTheSlip) {
+  const Friction friction{0.5, 0.02};
+  EXPECT_EQ(friction.limit(100.0, 0.0), 0.0);
+  EXPECT_NEAR(friction.limit(100.0, 0.02), 50.0 * (1.0 - std::exp(-1.0)), 1e-12);
+  EXPECT_EQ(friction.limit(-1.0, 0.02), 0.0);
+  EXPECT_EQ((Friction{0.5, 0.0}.limit(100.0, 0.0)), 50.0);
+}
+
+TEST(ContactHistory, ForgetsSpringAndSlipWhenTheContactEnds) {
+  double numbers[ContactHistory::size] = {1, 2, 3, 4, 5};
+  ContactHistory history(numbers);
+  history.end_contact();
+  EXPECT_THAT(numbers, ElementsAre(0, 0, 0, 0, 5));
+}
+
+}  // namespace
+}  // namespace furrow

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mpm/remap_control.h"
+
+#include <gtest/gtest.h>
+
+#include "terrain_scene.h"
+
+namespace furrow {
+namespace {
+
+using namespace testing_terrain;
+
+constexpr double cell = 0.1, dt = 1e-3;
+constexpr int max_steps = 16;
+
+/// One particle in a grid of cells of 0.1 m.
+struct Fixture {
+  Fixture()
+      : material(material_of(elastic(1e6, 0.25, 1000))),
+        discretisation{Grid(Axis(even(0, 1, cell), "x"), Axis(even(0, 1, cell), "y"),
+                            Axis(even(0, 1, cell), "z")),
+                       {{material, Particles(*material)}},
+                       Partition(Communicator(), 10)},
+        remap(discretisation, max_steps) {
+    particles().append(1);
+    particles().set_state(0, material->initial_state());
+  }
+  Particles& particles() { return discretisation.groups[0].particles; }
+  void set_speed(double speed) { particles().data(column::velocity)[2] = speed; }
+  void set_volume_ratio(double ratio) {
+    particles().data(column::state + field::volume_ratio)[0] = ratio;
+  }
+
+  std::shared_ptr<const Material> material;
+  Discretisation discretisation;
+  RemapControl remap;
+};
+
+TEST(RemapControl, GroundAtRestTakesTheLongestInterval) {
+  Fixture f;
+  EXPECT_FALSE(f.remap.interval_running());
+  f.remap.begin_interval(dt);
+  EXPECT_EQ(f.remap.steps_left(), max_steps);
+  for (int step = 1; step < max_steps; ++step) f.remap.count_step(dt);
+  EXPECT_TRUE(f.remap.last_step());
+  f.remap.count_step(dt);
+  EXPECT_FALSE(f.remap.interval_running());
+}
+
+/// A twentieth of a cell, less where the ground is compacted, at least one step.
+TEST(RemapControl, FastOrCompactedGroundTakesShorterIntervals) {
+  Fixture f;
+  f.set_speed(0.05 * cell / (4.5 * dt));
+  f.remap.begin_interval(dt);
+  EXPECT_EQ(f.remap.steps_left(), 4);
+  f.set_volume_ratio(0.5);
+  f.remap.begin_interval(dt);
+  EXPECT_EQ(f.remap.steps_left(), 2);
+  f.set_speed(100.0);
+  f.remap.begin_interval(dt);
+  EXPECT_EQ(f.remap.steps_left(), 1);
+  EXPECT_EQ(f.remap.largest_speed(), 100.0);
+}
+
+TEST(RemapControl, AnIntervalEndsWhenContactMakesTheGroundFast) {
+  Fixture f;
+  f.remap.begin_interval(dt);
+  f.remap.raise_largest_speed(0.06 * cell / dt);
+  EXPECT_DOUBLE_EQ(f.remap.count_step(dt), 0.06 * cell);
+  EXPECT_TRUE(f.remap.interval_running());
+  f.remap.count_step(dt);  // 0.12 of a cell
+  EXPECT_FALSE(f.remap.interval_running());
+}
+
+TEST(RemapControl, StalenessIsTheTravelSinceParticlesWereUpdated) {
+  Fixture f;
+  f.set_speed(0.05 * cell / (4.5 * dt));
+  f.remap.begin_interval(dt);
+  EXPECT_EQ(f.remap.staleness(), 0.0);
+  f.remap.grid_moved();
+  const double travel = f.remap.count_step(dt);
+  EXPECT_GT(travel, 0.0);
+  EXPECT_EQ(f.remap.staleness(), travel);
+  f.remap.particles_updated();
+  EXPECT_EQ(f.remap.staleness(), 0.0);
+}
+
+}  // namespace
+}  // namespace furrow
