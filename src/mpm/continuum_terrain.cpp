@@ -340,6 +340,7 @@ void ContinuumTerrain::update_stress(double dt) {
       std::copy(gradient.begin(), gradient.end(), block.gradient.begin());
       group.particles.state_pointers(first, state_pointers_);
       block.state = state_pointers_.data();
+      block.time_step = dt;
       try {
         report_ += group.material->update_block(block);
       } catch (const PointError& error) {

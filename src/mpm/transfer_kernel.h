@@ -7,7 +7,7 @@
 #include "mpm/transfer.h"
 
 #ifndef FURROW_ISA
-#error "kernel headers are for transfer_*.cpp, which name the instruction set"
+#error "headers of kernels are for kernel units, which name the instruction set"
 #endif
 
 namespace furrow {
@@ -422,9 +422,15 @@ inline void probe(const GridView& grid, PointMotion* points, std::size_t count) 
   }
 }
 
-constexpr TransferKernels all_transfers(const char* instruction_set) {
-  return {instruction_set, scatter_momentum, scatter_point_forces, find_weights, scatter_force,
-          gather_strain,   stress_work,      gather_motion,        probe};
+constexpr void fill(TransferKernels& kernels) {
+  kernels.scatter_momentum = scatter_momentum;
+  kernels.scatter_point_forces = scatter_point_forces;
+  kernels.find_weights = find_weights;
+  kernels.scatter_force = scatter_force;
+  kernels.gather_strain = gather_strain;
+  kernels.stress_work = stress_work;
+  kernels.gather_motion = gather_motion;
+  kernels.probe = probe;
 }
 
 }  // namespace FURROW_ISA
