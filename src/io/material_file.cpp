@@ -13,9 +13,9 @@ namespace furrow {
 
 namespace {
 
-std::vector<std::string> section_names(const MaterialModel& material) {
+std::vector<std::string> section_names(const MaterialModel& model) {
   std::vector<std::string> names;
-  for (const SectionSchema& section : material.sections) names.push_back(section.name);
+  for (const SectionSchema& section : model.sections) names.push_back(section.name);
   return names;
 }
 
@@ -88,14 +88,14 @@ YamlTree read_with_base(const std::string& path, int depth = 0) {
 
 }  // namespace
 
-MaterialFile read_material_file(const std::string& path) {
+MaterialFile read_material_file(const std::string& path, const MaterialModels& models) {
   const YamlTree file = read_with_base(path);
   MaterialFile result;
   result.path = path;
   result.title = std::filesystem::path(path).stem().string();
 
   std::vector<std::string> law_names;
-  for (const MaterialModel& material : material_models()) law_names.push_back(material.name);
+  for (const MaterialModel& model : models) law_names.push_back(model.name);
   const std::string one_of = fmt::format("one of: {}", fmt::join(law_names, ", "));
   const YamlTree& law_map =
       file.map("law", "the section 'law' with the law's name as 'type', and its keys");
@@ -103,19 +103,19 @@ MaterialFile read_material_file(const std::string& path) {
   if (std::find(law_names.begin(), law_names.end(), type.text) == law_names.end())
     throw InputError(type.origin, fmt::format("has the unknown law '{}'", type.text), one_of,
                      "furrow-point laws lists all with their keys");
-  result.material = type.text;
-  const MaterialModel& material = find_material_model(result.material);
+  result.model = find_material_model(type.text, models);
+  const MaterialModel& model = result.model;
 
   for (const auto& [key, value] : file.keys) {
     if (key == "title") {
       result.title = text_of(file, key, "a text").text;
       continue;
     }
-    const std::vector<std::string> names = section_names(material);
+    const std::vector<std::string> names = section_names(model);
     if (std::find(names.begin(), names.end(), key) == names.end())
       throw InputError(
           value.origin,
-          fmt::format("has the section '{}', which law {} does not have", key, material.name),
+          fmt::format("has the section '{}', which law {} does not have", key, model.name),
           fmt::format("title, base, {}", fmt::join(names, ", ")));
     if (value.kind != YamlTree::Kind::map)
       throw InputError(fmt::format("{}: '{}'", value.origin, key), "is not a section of keys",
@@ -126,7 +126,7 @@ MaterialFile read_material_file(const std::string& path) {
   }
   // Section by section first, so that a missing key is reported with the line of its section; then
   // the law as a whole.
-  for (const SectionSchema& section : material.sections) {
+  for (const SectionSchema& section : model.sections) {
     const YamlTree* map = file.find(section.name);
     YamlTree nothing;
     nothing.origin = path;
@@ -142,19 +142,18 @@ MaterialFile read_material_file(const std::string& path) {
   return result;
 }
 
-std::unique_ptr<Material> load_material(const std::string& path) {
-  return read_material_file(path).make();
+std::unique_ptr<Material> load_material(const std::string& path, const MaterialModels& models) {
+  return read_material_file(path, models).make();
 }
 
-std::string material_file_text(const std::string& title, const std::string& law_name,
+std::string material_file_text(const std::string& title, const MaterialModel& model,
                                const MaterialSections& sections) {
-  const MaterialModel& material = find_material_model(law_name);
-  const MaterialOptions options = read_sections(material, sections);
+  const MaterialOptions options = read_sections(model, sections);
   std::string text = fmt::format("title: {}\n", quoted(title));
-  for (const SectionSchema& section : material.sections) {
+  for (const SectionSchema& section : model.sections) {
     const SectionOptions& values = options.at(section.name);
     const Schema& schema = section.choice(values.type).schema;
-    const std::string type = section.name == "law" ? material.name : values.type;
+    const std::string type = section.name == "law" ? model.name : values.type;
     text += fmt::format("{}:\n", section.name);
     if (!type.empty()) text += fmt::format("  type: {}\n", type);
     for (const Entry& entry : values.options.effective()) {

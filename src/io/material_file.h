@@ -7,8 +7,8 @@
 ///   law:
 ///     type: drucker_prager_cap            # a name of furrow-point laws
 ///     density: 1900                       # the keys of the law
-///   hardening: { type: table, ... }       # the law's other sections, each with its `type` where
-///   it has several elasticity: { type: linear, ... }
+///   elasticity: { type: linear, ... }     # the law's other sections, each with its `type` where
+///   hardening: { type: table, ... }       # it has several
 ///
 /// A variant names another file and gives what differs: `base: fresh_snow.yaml` (beside this file).
 /// A section that is of another type than the base's replaces it whole.
@@ -26,21 +26,23 @@ namespace furrow {
 struct MaterialFile {
   std::string path;
   std::string title;  ///< the file's, or its name without folder and ending
-  std::string material;
+  MaterialModel model;
   MaterialSections sections;
 
-  std::unique_ptr<Material> make() const { return make_material(material, sections); }
+  std::unique_ptr<Material> make() const { return make_material(model, sections); }
 };
 
 /// @throws InputError naming file, line and key, what is allowed and what to do
-MaterialFile read_material_file(const std::string& path);
-/// The law of a material file. @throws InputError
-std::unique_ptr<Material> load_material(const std::string& path);
+MaterialFile read_material_file(const std::string& path,
+                                const MaterialModels& models = material_models());
+/// The material of a file. @throws InputError
+std::unique_ptr<Material> load_material(const std::string& path,
+                                        const MaterialModels& models = material_models());
 
 /// The effective values, defaults included, with unit and meaning as comments: a material file that
 /// gives the same law.
 /// @throws InputError when the sections do not pass
-std::string material_file_text(const std::string& title, const std::string& material,
+std::string material_file_text(const std::string& title, const MaterialModel& model,
                                const MaterialSections& sections);
 
 }  // namespace furrow

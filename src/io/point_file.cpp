@@ -210,7 +210,7 @@ PointFit read_point_fit(const std::string& path) {
   PointFit fit;
   fit.title = title_of(path, head);
   fit.material = read_material_file(beside(path, head.text("material")));
-  fit.problem.material = fit.material.material;
+  fit.problem.model = fit.material.model;
   fit.problem.sections = fit.material.sections;
   for (const YamlTree& map :
        file.list("parameters", "a list of {name: section.key, start, lower, upper}").items) {

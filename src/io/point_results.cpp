@@ -64,7 +64,7 @@ void write_point_run(const std::string& folder, const PointRun& run, const Mater
   };
   write_text_file(
       in_folder("material.yaml"),
-      material_file_text(run.material.title, run.material.material, run.material.sections));
+      material_file_text(run.material.title, run.material.model, run.material.sections));
   write_text_file(in_folder("run.yaml"), run_text(run));
 
   const std::vector<PointChannel> channels = point_channels(material);
@@ -171,7 +171,7 @@ void write_point_fit(const std::string& folder, const PointFit& fit, const FitRe
   };
   write_text_file(in_folder("material.yaml"),
                   material_file_text(fit.material.title + ", fitted: " + fit.title,
-                                     fit.material.material, result.sections));
+                                     fit.material.model, result.sections));
   write_text_file(in_folder("report.txt"), fit_report(fit, result));
 
   std::vector<double> number, driven, measured, start, fitted;
@@ -238,7 +238,7 @@ void write_point_fit(const std::string& folder, const PointFit& fit, const FitRe
 std::string fit_report(const PointFit& fit, const FitResult& result) {
   std::string text = fmt::format(
       "{}\n  material      {} ({})\n  data          {} values of {} curve(s), {} parameters\n",
-      fit.title, fit.material.title, fit.problem.material, result.data, fit.problem.curves.size(),
+      fit.title, fit.material.title, fit.problem.model.name, result.data, fit.problem.curves.size(),
       result.parameters.size());
   text +=
       fmt::format("  residual      rms {:.4g} at the start, {:.4g} fitted; {} evaluations; {}\n",

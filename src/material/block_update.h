@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The loop over a block: loads a few points, lets a law's kernel update them, turns the stress,
+/// The loop over a block: loads a few points, lets a law's kernel update them, rotates the stress,
 /// stores, counts.
 
 #include <cstddef>
 #include <cstdint>
 
-#include "material/kernel_table.h"
 #include "material/kinematics.h"
+#include "material/point_block.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {
 
-/// What a kernel sees of lane_count points: the common state at the start of the step, to be
-/// replaced by that at its end.
+/// What a kernel sees of lane_count points: the state at the start of the step, to be replaced by
+/// that at its end.
+template <int internal_variables>
 struct Points {
   Symmetric stress;    ///< in the frame of the start of the step [Pa]
   Lanes stored = 0.0;  ///< energies of this step per current volume [J/m^3]
   Lanes frozen = 0.0;
   Lanes dissipated = 0.0;
-  Lanes own[6];        ///< the law's own fields
-  Lanes branch = 0.0;  ///< a Branch
+  Lanes internal[internal_variables > 0 ? internal_variables : 1];  ///< the law's own variables
+  double time_step = 0.0;                                           ///< [s]
+  Lanes branch = 0.0;                                               ///< a Branch
   Lanes iterations = 0.0;
   Mask below_data = Mask(false);  ///< outside the hardening data
   Mask beyond_data = Mask(false);
@@ -34,10 +36,10 @@ struct Step {
   bool total_energy = false;
 };
 
-/// Laws of rate form: the strain is the logarithm of the step's stretch, the stress is turned
+/// Laws of rate form: the strain is the logarithm of the step's stretch, the stress is rotated
 /// afterwards.
-template <class Kernel>
-auto step_points(const Kernel& kernel, const Tensor& h, Points& points)
+template <class Kernel, int n>
+auto step_points(const Kernel& kernel, const Tensor& h, Points<n>& points)
     -> decltype(kernel.step(Symmetric{}, points), Step{}) {
   Motion motion;
   find_motion(h, motion);
@@ -46,8 +48,8 @@ auto step_points(const Kernel& kernel, const Tensor& h, Points& points)
   return {motion.volume, motion.admissible, false};
 }
 /// Hyperelastic laws: they carry their deformation with them.
-template <class Kernel>
-auto step_points(const Kernel& kernel, const Tensor& h, Points& points)
+template <class Kernel, int n>
+auto step_points(const Kernel& kernel, const Tensor& h, Points<n>& points)
     -> decltype(kernel.hyperelastic_step(h, points), Step{}) {
   kernel.hyperelastic_step(h, points);
   const Lanes volume = volume_change(h);
@@ -93,26 +95,30 @@ struct Group {
     for (std::size_t k = 0; k < 9; ++k) h.m[k] = load(block.gradient[k]);
     return h;
   }
-  FURROW_INLINE Points load_points(int internal_variables) const {
-    Points points;
+  /// @param used  of the n internal variables
+  template <int n>
+  FURROW_INLINE Points<n> load_points(int used = n) const {
+    Points<n> points;
+    points.time_step = block.time_step;
     double* const* state = block.state;
     points.stress = {load(state[0]), load(state[1]), load(state[2]),
                      load(state[3]), load(state[4]), load(state[5])};
-    for (int k = 0; k < internal_variables; ++k)
-      points.own[k] = load(state[field::own + static_cast<std::size_t>(k)]);
+    for (int k = 0; k < used; ++k)
+      points.internal[k] = load(state[field::internal + static_cast<std::size_t>(k)]);
     return points;
   }
 
   /// Checks and stores the end of the step. False, with the cause in the result, when the states
   /// must not be continued.
-  FURROW_INLINE bool store_points(const Points& points, const Step& step, int internal_variables,
-                                  double density, BlockResult& result) const {
+  template <int n>
+  FURROW_INLINE bool store_points(const Points<n>& points, const Step& step, double density,
+                                  BlockResult& result, int used = n) const {
     double* const* state = block.state;
     const Symmetric& stress = points.stress;
     const Lanes ratio = load(state[field::volume_ratio]) * step.volume;
     Lanes everything =
         contract(stress, stress) + ratio + points.stored + points.frozen + points.dissipated;
-    for (int k = 0; k < internal_variables; ++k) everything += points.own[k];
+    for (int k = 0; k < used; ++k) everything += points.internal[k];
     const Mask good =
         step.admissible && !points.stopped && finite(everything) && ratio > Lanes(0.0);
     if (!all(good)) {
@@ -140,8 +146,8 @@ struct Group {
       store(state[field::dissipated_energy],
             load(state[field::dissipated_energy]) + ratio * points.dissipated);
     }
-    for (int k = 0; k < internal_variables; ++k)
-      store(state[field::own + static_cast<std::size_t>(k)], points.own[k]);
+    for (int k = 0; k < used; ++k)
+      store(state[field::internal + static_cast<std::size_t>(k)], points.internal[k]);
 
     UpdateReport& report = result.report;
     std::size_t yielding = 0;
@@ -152,10 +158,10 @@ struct Group {
     }
     report.points[0] += static_cast<std::size_t>(lanes) - yielding;
     if (yielding > 0) {
-      alignas(64) double each[lane_count];
-      points.iterations.copy_to(each, stdx::vector_aligned);
+      alignas(64) double evaluations[lane_count];
+      points.iterations.copy_to(evaluations, stdx::vector_aligned);
       for (int lane = 0; lane < lanes; ++lane) {
-        const std::size_t iterations = static_cast<std::size_t>(each[lane]);
+        const std::size_t iterations = static_cast<std::size_t>(evaluations[lane]);
         report.iterations += iterations;
         if (iterations > report.max_iterations) report.max_iterations = iterations;
       }
@@ -172,33 +178,35 @@ struct Group {
 };
 
 /// Group by group. Kernel: `static constexpr int internal_variables;` and either `void step(const
-/// Symmetric& strain, Points&) const` or `void hyperelastic_step(const Tensor& h, Points&) const`.
+/// Symmetric& strain, Points<internal_variables>&) const` or `void hyperelastic_step(const Tensor&
+/// h, Points<internal_variables>&) const`.
 template <class Kernel>
 BlockResult update_points(const Kernel& kernel, double density, const PointBlock& block) {
-  static_assert(Kernel::internal_variables <= 6, "enlarge Points::own");
   BlockResult result;
   for (std::size_t first = 0; first < block.size; first += lane_count) {
     const Group group(block, first);
-    Points points = group.load_points(Kernel::internal_variables);
+    Points<Kernel::internal_variables> points = group.load_points<Kernel::internal_variables>();
     const Step step = step_points(kernel, group.load_gradient(), points);
-    if (!group.store_points(points, step, Kernel::internal_variables, density, result)) break;
+    if (!group.store_points(points, step, density, result)) break;
   }
   return result;
 }
 
-/// The same in three passes over a few groups at a time, for kernels whose return mapping is dear:
-/// trial states of all points; then the points that yield alike are gathered, so that no lane waits
-/// for a neighbour on another surface (a group that yields as one is corrected at once); then
-/// stresses. Between the passes a point is a few numbers. Kernel has
-///   Prediction  the numbers of the trial, and which surface each point met; none once corrected
-///   Numbers     the numbers of the end of the step
-///   predict(strain, points, Numbers&) -> Prediction,   correct(surface, trial numbers) -> Numbers,
-///   finish(strain, trial numbers, end numbers, points).
+/// The same in three passes over a few groups at a time, for kernels whose return mapping is
+/// expensive: trial states of all points; then the points that yield alike are gathered, so that no
+/// lane waits for a neighbour on another surface (a group that yields as one is corrected at once);
+/// then stresses. Between the passes a point is a few numbers. A kernel has
+///   Prediction    the numbers of the trial, and the surface that each point violates, if any
+///   Numbers       the numbers of the end of the step
+/// and, with `trial` and `end` for the numbers of these,
+///   Prediction predict(strain, points, Numbers& end)
+///   Numbers    correct(surface, trial)
+///   void       finish(strain, trial, end, points)
 template <class Kernel>
 BlockResult update_gathered(const Kernel& kernel, double density, const PointBlock& block) {
   constexpr int max_groups = 8, size = max_groups * lane_count;
   constexpr int inputs = Kernel::prediction_numbers, outputs = Kernel::return_numbers,
-                surfaces = Kernel::surfaces_met;
+                surfaces = Kernel::surface_count;
   BlockResult result;
   Motion motions[max_groups];
   alignas(64) double in[inputs][size], out[outputs][size], flags[lane_count];
@@ -213,14 +221,14 @@ BlockResult update_gathered(const Kernel& kernel, double density, const PointBlo
       find_motion(group.load_gradient(), motions[g]);
       typename Kernel::Numbers end;
       const typename Kernel::Prediction prediction =
-          kernel.predict(motions[g].strain, group.load_points(Kernel::internal_variables), end);
+          kernel.predict(motions[g].strain, group.load_points<Kernel::internal_variables>(), end);
       for (int k = 0; k < inputs; ++k)
         prediction.numbers[k].copy_to(&in[k][g * lane_count], stdx::vector_aligned);
       for (int k = 0; k < outputs; ++k)
         end.numbers[k].copy_to(&out[k][g * lane_count], stdx::vector_aligned);
       for (int surface = 0; surface < surfaces; ++surface) {
-        if (!any(prediction.met[surface])) continue;
-        select(prediction.met[surface], 1.0, 0.0).copy_to(flags, stdx::vector_aligned);
+        if (!any(prediction.violated[surface])) continue;
+        select(prediction.violated[surface], 1.0, 0.0).copy_to(flags, stdx::vector_aligned);
         for (int lane = 0; lane < group.lanes; ++lane) {
           members[surface][count[surface]] = g * lane_count + lane;
           count[surface] += flags[lane] > 0.0 ? 1 : 0;
@@ -244,7 +252,7 @@ BlockResult update_gathered(const Kernel& kernel, double density, const PointBlo
     }
     for (int g = 0; g < groups; ++g) {
       const Group group(block, start + static_cast<std::size_t>(g) * lane_count);
-      Points points = group.load_points(Kernel::internal_variables);
+      Points<Kernel::internal_variables> points = group.load_points<Kernel::internal_variables>();
       Lanes numbers[inputs], ends[outputs];
       for (int k = 0; k < inputs; ++k)
         numbers[k] = Lanes(&in[k][g * lane_count], stdx::vector_aligned);
@@ -252,8 +260,8 @@ BlockResult update_gathered(const Kernel& kernel, double density, const PointBlo
         ends[k] = Lanes(&out[k][g * lane_count], stdx::vector_aligned);
       kernel.finish(motions[g].strain, numbers, ends, points);
       points.stress = rotated(points.stress, motions[g].rotation);
-      if (!group.store_points(points, {motions[g].volume, motions[g].admissible, false},
-                              Kernel::internal_variables, density, result))
+      if (!group.store_points(points, {motions[g].volume, motions[g].admissible, false}, density,
+                              result))
         return result;
     }
   }

@@ -13,8 +13,8 @@
 /// stretches (a strain of more than 5 % in one step) take the eigenvalues of C instead, point by
 /// point.
 
-#include "material/kernel_table.h"
-#include "simd/lanes.h"
+#include "material/large_stretch.h"
+#include "simd/tensors.h"
 
 namespace furrow {
 
@@ -80,7 +80,10 @@ FURROW_INLINE void find_motion(const Tensor& h, Motion& motion) {
                           &motion.strain.xy, &motion.strain.yz, &motion.strain.xz};
       Lanes* u[6] = {&inverse_u.xx, &inverse_u.yy, &inverse_u.zz,
                      &inverse_u.xy, &inverse_u.yz, &inverse_u.xz};
-      for (int k = 0; k < 6; ++k) (*strain[k])[lane] = log_u[k], (*u[k])[lane] = inv[k];
+      for (int k = 0; k < 6; ++k) {
+        (*strain[k])[lane] = log_u[k];
+        (*u[k])[lane] = inv[k];
+      }
     }
   }
   Lanes f[9], *r = motion.rotation.m;

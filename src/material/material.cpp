@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "material/kernels.h"
 
 namespace furrow {
 
@@ -17,7 +16,7 @@ namespace {
 
 /// One point seen as a block of one.
 struct SinglePoint {
-  SinglePoint(const Matrix3& gradient, VectorX& state, Branch* branch)
+  SinglePoint(const Matrix3& gradient, VectorX& state, Branch* branch, double time_step)
       : pointers(static_cast<std::size_t>(state.size())) {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) entries[static_cast<std::size_t>(3 * i + j)] = gradient(i, j);
@@ -26,6 +25,7 @@ struct SinglePoint {
     for (std::size_t k = 0; k < 9; ++k) block.gradient[k] = &entries[k];
     block.state = pointers.data();
     block.branch = reinterpret_cast<std::uint8_t*>(branch);
+    block.time_step = time_step;
   }
   std::array<double, 9> entries;
   std::vector<double*> pointers;
@@ -56,41 +56,51 @@ UpdateReport& UpdateReport::operator+=(const UpdateReport& other) {
   return *this;
 }
 
-Material::Material(std::string name, double density, std::vector<StateField> internal_variables,
-                   double pressure)
+Material::Material(std::string name, double density,
+                   const std::vector<StateVariable>& internal_variables, double pressure)
     : name_(std::move(name)), density_(density) {
-  for (const char* component : {"xx", "yy", "zz", "xy", "yz", "xz"})
-    fields_.push_back({fmt::format("stress_{}", component), "Pa", "Cauchy stress, tension positive",
-                       component[0] == component[1] ? -pressure : 0.0});
-  fields_.push_back({"volume_ratio", "", "J = V/V0; density = rho0/J", 1.0});
-  fields_.push_back({"stored_energy", "J/m3", "elastic work per reference volume", 0.0});
-  fields_.push_back(
-      {"frozen_energy", "J/m3", "plastic work stored by compaction, per reference volume", 0.0});
-  fields_.push_back(
-      {"dissipated_energy", "J/m3", "plastic work turned into heat, per reference volume", 0.0});
-  fields_.insert(fields_.end(), internal_variables.begin(), internal_variables.end());
+  const auto add = [&](const StateVariable& variable) {
+    if (variable.kind == StateVariable::Kind::scalar) {
+      fields_.push_back({variable.name, variable.unit, variable.meaning, variable.initial});
+      return;
+    }
+    tensors_.push_back(fields_.size());
+    for (const char* component : {"xx", "yy", "zz", "xy", "yz", "xz"})
+      fields_.push_back({fmt::format("{}_{}", variable.name, component), variable.unit,
+                         variable.meaning, component[0] == component[1] ? variable.initial : 0.0});
+  };
+  add({"stress", "Pa", "Cauchy stress, tension positive", -pressure,
+       StateVariable::Kind::symmetric_tensor});
+  add({"volume_ratio", "", "J = V/V0; density = rho0/J", 1.0});
+  add({"stored_energy", "J/m3", "elastic work per reference volume"});
+  add({"frozen_energy", "J/m3", "plastic work stored by compaction, per reference volume"});
+  add({"dissipated_energy", "J/m3", "plastic work turned into heat, per reference volume"});
+  for (const StateVariable& variable : internal_variables) add(variable);
 }
 
 UpdateReport Material::checked(const BlockResult& result, const PointBlock& block) const {
   if (result.failure == Failure::none) return result.report;
-  const std::size_t i = result.failed_point;
-  std::string step = "H =", old = "state at its start:";
-  for (const double* h : block.gradient) step += fmt::format(" {:.6g}", h[i]);
-  for (std::size_t f = 0; f < fields_.size(); ++f)
-    old += fmt::format(" {} {:.6g}", fields_[f].name, block.state[f][i]);
-  const char* cause =
-      result.failure == Failure::folded ? "the deformation of the step is folded or not finite"
-      : result.failure == Failure::table_ends
-          ? "the hardening table ends (its rule beyond the table is 'stop')"
-          : "the new state is not finite (numbers too large, or porous elasticity at its "
-            "tensile limit)";
-  throw PointError(i, fmt::format("law {}: {}; {}; {}", name_, cause, step, old));
+  refuse(block, result.failed_point,
+         result.failure == Failure::folded ? "the deformation of the step is folded or not finite"
+         : result.failure == Failure::table_ends
+             ? "the hardening table ends (its rule beyond the table is 'stop')"
+             : "the new state is not finite (numbers too large, or porous elasticity at its "
+               "tensile limit)");
 }
 
-std::size_t Material::field_index(const std::string& name) const {
+void Material::refuse(const PointBlock& block, std::size_t point, const std::string& cause) const {
+  std::string step = "H =";
+  std::string old = "state at its start:";
+  for (const double* h : block.gradient) step += fmt::format(" {:.6g}", h[point]);
+  for (std::size_t f = 0; f < fields_.size(); ++f)
+    old += fmt::format(" {} {:.6g}", fields_[f].name, block.state[f][point]);
+  throw PointError(point, fmt::format("law {}: {}; {}; {}", name_, cause, step, old));
+}
+
+std::optional<std::size_t> Material::find_field(const std::string& name) const {
   for (std::size_t f = 0; f < fields_.size(); ++f)
     if (fields_[f].name == name) return f;
-  throw Error(fmt::format("law {} keeps no state named '{}'", name_, name));
+  return std::nullopt;
 }
 
 VectorX Material::initial_state() const {
@@ -100,28 +110,21 @@ VectorX Material::initial_state() const {
   return state;
 }
 
-UpdateReport Material::update_point(const Matrix3& gradient, VectorX& state, Branch* branch) const {
+UpdateReport Material::update_point(const Matrix3& gradient, VectorX& state, Branch* branch,
+                                    double time_step) const {
   if (static_cast<std::size_t>(state.size()) != fields_.size())
     throw Error(fmt::format("law {} keeps {} numbers a point, the state given has {}", name_,
                             fields_.size(), state.size()));
-  SinglePoint point(gradient, state, branch);
+  SinglePoint point(gradient, state, branch, time_step);
   return update_block(point.block);
 }
 
-Matrix6 Material::tangent(const Matrix3& gradient, const VectorX& state) const {
-  // Step near the cube root of the precision, so that truncation and rounding of the central
-  // difference are alike.
-  constexpr double step = 2e-6;
-  const double scale = std::clamp(gradient.norm(), 1e-4, 1.0);
-  Matrix6 result;
-  for (int j = 0; j < 6; ++j) {
-    Vector6 direction = Vector6::Zero();
-    direction[j] = step * scale;
-    const Matrix3 change = to_matrix(direction);
-    VectorX forward = state, backward = state;
-    update_point(gradient + change, forward);
-    update_point(gradient - change, backward);
-    result.col(j) = (stress_of(forward) - stress_of(backward)) / (2.0 * step * scale);
+VectorX Material::rotated(const VectorX& state, const Matrix3& rotation) const {
+  VectorX result = state;
+  for (const std::size_t first : tensors_) {
+    const auto tensor = static_cast<Eigen::Index>(first);
+    result.segment<6>(tensor) =
+        to_vector6(rotation * to_matrix(state.segment<6>(tensor)) * rotation.transpose());
   }
   return result;
 }

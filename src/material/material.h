@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A constitutive law: parameters, the state of a point, and one update. No mesh, no MPI, no files.
+/// The interface of a constitutive law: parameters, the state of a point, and one update. No mesh,
+/// no MPI, no files.
 ///
 /// Finite strain is treated once, for every law (material/kinematics.h). With the displacement
 /// gradient H of a step, measured from the configuration at its start (H = dt grad v), Delta F = I
 /// + H = R U: the law sees the logarithmic strain increment ln U in the frame of the start of the
-/// step, and the new stress is turned by R:
-///   sigma_{n+1} = R law(sigma_n, ln U) R^T.
-/// A rigid spin turns the stress exactly; for steps -> 0 this is the Jaumann (corotational) rate of
-/// the Cauchy stress, with a global error of second order in the step. A hyperelastic law
+/// step, and its stress is then rotated by R:
+///   sigma_{n+1} = R sigma(sigma_n, ln U) R^T.
+/// A rigid rotation rotates the stress exactly; for steps -> 0 this is the Jaumann (corotational)
+/// rate of the Cauchy stress, with a global error of second order in the step. A hyperelastic law
 /// (neo-Hookean) updates its own deformation instead.
 ///
 /// Signs and invariants: core/types.h. Energies are per unit of reference volume: d(energy) = J
 /// (energy per current volume).
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,11 +27,21 @@ namespace furrow {
 
 /// symmetric tensor: xx, yy, zz, xy, yz, xz (tensor components, no factor 2)
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 std::string to_string(Branch branch);
 
-/// One scalar that a law keeps for a point.
+/// What a law keeps for a point: a number, or a symmetric tensor that rotates with the material.
+struct StateVariable {
+  enum class Kind { scalar, symmetric_tensor };
+
+  std::string name;      ///< "eps_vol_pl"
+  std::string unit;      ///< "Pa", "" when it has none
+  std::string meaning;   ///< "compressive volumetric plastic strain"
+  double initial = 0.0;  ///< at the start of a run; of a tensor: its diagonal
+  Kind kind = Kind::scalar;
+};
+
+/// One number of the state: a scalar, or a component of a tensor.
 struct StateField {
   std::string name;     ///< "eps_vol_pl"
   std::string unit;     ///< "Pa", "" when it has none
@@ -40,11 +52,9 @@ struct StateField {
 /// A law refused the step of a point.
 class PointError : public StateError {
  public:
-  PointError(std::size_t place, const std::string& message) : StateError(message), point(place) {}
-  std::size_t point;  ///< its place in the block
+  PointError(std::size_t index, const std::string& message) : StateError(message), point(index) {}
+  std::size_t point;  ///< its index in the block
 };
-
-struct BlockResult;  // kernel_table.h
 
 /// Stiffness against an infinitesimal elastic step: the bound for the explicit time step and the
 /// start of a Newton iteration.
@@ -55,7 +65,9 @@ struct ElasticModuli {
 };
 
 /// Base of all laws. Immutable after creation and safe to share between threads. Created by
-/// make_material() (registry.h).
+/// make_material() (registry.h). A law derives from it and has kernels for blocks of points
+/// (models/elastic is the shortest), or derives from PointwiseMaterial and has one function in
+/// plain doubles (pointwise_material.h).
 class Material {
  public:
   virtual ~Material() = default;
@@ -64,27 +76,31 @@ class Material {
 
   const std::string& name() const { return name_; }
   double density() const { return density_; }  ///< in the reference configuration, rho0 [kg/m^3]
+  /// Every number of a point's state, in order: those of namespace field, then the law's own.
   const std::vector<StateField>& state_fields() const { return fields_; }
-  /// Place of a field in the state. @throws Error for an unknown name
-  std::size_t field_index(const std::string& name) const;
+  /// Index of a field by its name; none when the law does not keep it.
+  std::optional<std::size_t> find_field(const std::string& name) const;
+  /// The first of the six fields (xx, yy, zz, xy, yz, xz) of each symmetric tensor of the state: of
+  /// the stress, then of the law's own.
+  const std::vector<std::size_t>& tensor_fields() const { return tensors_; }
+  /// The stress after a step depends on its duration: such a law needs PointBlock::time_step.
+  virtual bool rate_dependent() const { return false; }
 
   /// One step of every point of a block. Not all-or-nothing: after a throw the states of the block
   /// are unspecified.
   /// @throws PointError when a result is not finite, Delta F is not invertible with positive
-  /// determinant, or the hardening
-  ///         table ends under the rule "stop"
+  /// determinant, the hardening data end under the rule "stop", or the law itself refuses
   virtual UpdateReport update_block(const PointBlock& block) const = 0;
 
   // ---- one point: `state` has state_fields().size() values in the order of state_fields() -------
   VectorX initial_state() const;
-  /// One step of one point. The result is that of update_block() to rounding. @throws StateError
-  UpdateReport update_point(const Matrix3& gradient, VectorX& state,
-                            Branch* branch = nullptr) const;
-  /// Derivative of the new stress with respect to the strain of the step, consistent with the
-  /// algorithm: column j is the change of the six stresses for a change of symmetric H_j (both
-  /// places for a shear). Central differences, relative error ~1e-8 where the law is smooth. [Pa]
-  /// @throws StateError
-  Matrix6 tangent(const Matrix3& gradient, const VectorX& state) const;
+  /// One step of one point. The result is that of update_block() to rounding.
+  /// @param time_step  [s], as PointBlock::time_step
+  /// @throws PointError
+  UpdateReport update_point(const Matrix3& gradient, VectorX& state, Branch* branch = nullptr,
+                            double time_step = 0.0) const;
+  /// The state after a rigid rotation of the material; its tensors rotate, T -> R T R^T.
+  VectorX rotated(const VectorX& state, const Matrix3& rotation) const;
 
   virtual ElasticModuli moduli(const VectorX& state) const = 0;
   double current_density(const VectorX& state) const {
@@ -92,7 +108,7 @@ class Material {
   }
   /// Speed of the fastest elastic wave [m/s]. Associated flow is slower. Flow that is not
   /// associated can be stiffer than elasticity in one direction (found: modulus 0.5 % for the cap
-  /// law, factor 2 for the foam of TR Table 1): leave the explicit step a margin.
+  /// law, factor 2 for the foam of [Shoop2001] Table 1): leave the explicit step a margin.
   double wave_speed(const VectorX& state) const;
   /// The largest of a block's wave speeds [m/s].
   virtual double largest_wave_speed(const PointBlock& block) const;
@@ -102,7 +118,8 @@ class Material {
   virtual double yield_function(const VectorX& state) const;
   /// The stress that an error of the yield function is compared with [Pa]: the strength or the
   /// pressure, and at least 1e-8 of the wave modulus, below which the rounding of a strain is felt.
-  virtual double stress_scale(const VectorX& state) const = 0;
+  /// A law that never yields has the wave modulus.
+  virtual double stress_scale(const VectorX& state) const { return moduli(state).wave(); }
   /// The yield surface of the state in triaxial compression as points (p, q), from the tensile end
   /// to the tip of the cap; empty for a law that never yields.
   virtual std::vector<Vector2> yield_surface(const VectorX& state, std::size_t points = 200) const;
@@ -110,15 +127,19 @@ class Material {
  protected:
   /// @param internal_variables  what the law keeps after the common fields
   /// @param pressure    at the start of a run [Pa]
-  Material(std::string name, double density, std::vector<StateField> internal_variables,
+  Material(std::string name, double density, const std::vector<StateVariable>& internal_variables,
            double pressure = 0.0);
-  /// The report of a kernel's update, or its failure. @throws StateError
+  /// The report of a kernel's update. @throws PointError when the kernel failed
   UpdateReport checked(const BlockResult& result, const PointBlock& block) const;
+  /// @throws PointError with the cause, the step and the state of a point of the block
+  [[noreturn]] void refuse(const PointBlock& block, std::size_t point,
+                           const std::string& cause) const;
 
  private:
   std::string name_;
   double density_;
   std::vector<StateField> fields_;
+  std::vector<std::size_t> tensors_;
 };
 
 /// Invariants of a stress, conventions of core/types.h.
@@ -132,6 +153,7 @@ Invariants invariants(const Vector6& stress);
 /// t = (q/2) [1 + 1/K - (1 - 1/K)(r/q)^3] with the flow stress ratio K: q in triaxial compression,
 /// q/K in extension [Pa].
 double yield_measure(const Invariants& stress, double flow_ratio);
+/// The stress of a state [Pa].
 inline Vector6 stress_of(const VectorX& state) { return state.segment<6>(field::stress); }
 Matrix3 to_matrix(const Vector6& symmetric);
 Vector6 to_vector6(const Matrix3& symmetric);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Plain data of a block of material points: shared by the laws (material.h) and their kernels
-/// (kernels_*.cpp).
+/// A block of material points as plain data: what a law's update works on (material.h), shared with
+/// the kernels of every instruction set (simd/lanes.h says why it must be plain).
 
 #include <array>
 #include <cstddef>
@@ -16,8 +16,8 @@ constexpr double ice_density = 917.0;
 enum class Branch : std::uint8_t { elastic, shear, transition, cap, tension };
 constexpr std::size_t branch_count = 5;
 
-/// Places of the fields that every law keeps first, in this order; the law's own fields follow from
-/// `own` on.
+/// Indices of the fields that every law keeps first, in this order; the law's own variables follow
+/// from `internal` on.
 namespace field {
 enum : std::size_t {
   stress = 0,         ///< six Cauchy stresses xx, yy, zz, xy, yz, xz [Pa]
@@ -25,7 +25,7 @@ enum : std::size_t {
   stored_energy,      ///< elastic work [J/m^3 of reference volume]
   frozen_energy,      ///< plastic work that compaction stores and softening gives back [J/m^3]
   dissipated_energy,  ///< plastic work turned into heat, never decreases [J/m^3]
-  own
+  internal
 };
 }
 
@@ -37,6 +37,8 @@ struct PointBlock {
   std::array<const double*, 9> gradient{};
   double* const* state = nullptr;  ///< state[f] is the array of field f of state_fields()
   std::uint8_t* branch = nullptr;  ///< Branch of each point, or null when nobody asks
+  /// Duration of the step [s]; 0: infinitely fast. Only laws that depend on the rate use it.
+  double time_step = 0.0;
 };
 
 /// What happened in an update of many points.
@@ -53,5 +55,25 @@ struct UpdateReport {
   std::size_t size() const;
   UpdateReport& operator+=(const UpdateReport& other);
 };
+
+/// Why a law refused a step.
+enum class Failure {
+  none,
+  folded,      ///< Delta F is not finite, or its determinant not positive
+  table_ends,  ///< the hardening data end, and the rule there is to stop
+  not_finite   ///< the new state
+};
+
+/// Result of a kernel's update of a block; material.cpp turns a failure into an exception.
+struct BlockResult {
+  UpdateReport report;
+  Failure failure = Failure::none;
+  std::size_t failed_point = 0;
+};
+
+/// A kernel's update of a block. @param density rho0 [kg/m^3]
+template <class Parameters>
+using BlockUpdate = BlockResult (*)(const Parameters& parameters, double density,
+                                    const PointBlock& block);
 
 }  // namespace furrow

@@ -7,24 +7,8 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
-#include "material/models/crushable_foam/crushable_foam.h"
-#include "material/models/drucker_prager_cap/drucker_prager_cap.h"
-#include "material/models/elastic/elastic.h"
-#include "material/models/neo_hookean/neo_hookean.h"
 
 namespace furrow {
-
-// ---- the table: to add a law, write its two files and one row here; -----------------------------
-// tests/unit/material/conformance_test.cpp gets one line ----
-const std::vector<MaterialModel>& material_models() {
-  static const std::vector<MaterialModel> table{
-      DruckerPragerCap::law(),
-      CrushableFoam::law(),
-      Elastic::law(),
-      NeoHookean::law(),
-  };
-  return table;
-}
 
 namespace {
 
@@ -37,34 +21,20 @@ std::string names_of(const Items& items) {
 
 }  // namespace
 
-const MaterialModel& find_material_model(const std::string& name) {
-  for (const MaterialModel& law : material_models())
-    if (law.name == name) return law;
-  throw InputError("material", fmt::format("has the unknown law '{}'", name),
-                   names_of(material_models()));
+const MaterialModel& find_material_model(const std::string& name, const MaterialModels& models) {
+  for (const MaterialModel& model : models)
+    if (model.name == name) return model;
+  throw InputError("material", fmt::format("has the unknown law '{}'", name), names_of(models));
 }
 
-const SectionChoice& SectionSchema::choice(const std::string& type) const {
-  std::vector<std::string> types;
-  for (const SectionChoice& candidate : choices) {
-    if (candidate.type == type) return candidate;
-    types.push_back(candidate.type);
-  }
-  if (choices.size() == 1)
-    throw InputError(fmt::format("section '{}'", name), fmt::format("has a type '{}'", type),
-                     "no key 'type' in this section");
-  throw InputError(fmt::format("section '{}', keyword 'type'", name), fmt::format("is '{}'", type),
-                   fmt::format("one of: {}", fmt::join(types, ", ")));
-}
-
-MaterialOptions read_sections(const MaterialModel& law, const MaterialSections& sections) {
+MaterialOptions read_sections(const MaterialModel& model, const MaterialSections& sections) {
   for (const auto& [name, entries] : sections)
-    if (std::none_of(law.sections.begin(), law.sections.end(),
+    if (std::none_of(model.sections.begin(), model.sections.end(),
                      [&](const auto& known) { return known.name == name; }))
-      throw InputError(fmt::format("law {}", law.name), fmt::format("has no section '{}'", name),
-                       names_of(law.sections));
+      throw InputError(fmt::format("law {}", model.name), fmt::format("has no section '{}'", name),
+                       names_of(model.sections));
   MaterialOptions result;
-  for (const SectionSchema& section : law.sections) {
+  for (const SectionSchema& section : model.sections) {
     std::string type = section.choices.front().type;
     std::vector<Entry> entries;
     const auto given = sections.find(section.name);
@@ -85,11 +55,11 @@ MaterialOptions read_sections(const MaterialModel& law, const MaterialSections& 
   return result;
 }
 
-MaterialSections to_sections(const MaterialModel& law, const std::vector<Entry>& flat) {
+MaterialSections to_sections(const MaterialModel& model, const std::vector<Entry>& flat) {
   MaterialSections sections;
   std::vector<Entry> keys;
   std::map<std::string, std::string> types;
-  for (const SectionSchema& section : law.sections)
+  for (const SectionSchema& section : model.sections)
     types[section.name] = section.choices.front().type;
   for (const Entry& entry : flat) {
     if (types.count(entry.key) == 0) {
@@ -107,18 +77,18 @@ MaterialSections to_sections(const MaterialModel& law, const std::vector<Entry>&
     std::string bare = entry.key;
     const std::size_t dot = entry.key.find('.');
     if (dot != std::string::npos) bare = entry.key.substr(dot + 1);
-    for (const SectionSchema& section : law.sections) {
+    for (const SectionSchema& section : model.sections) {
       if (dot != std::string::npos && section.name != entry.key.substr(0, dot)) continue;
       const Schema& schema = section.choice(types[section.name]).schema;
       for (const Key& key : schema.keys()) known.push_back(key.name);
       if (schema.find(bare)) owners.push_back(section.name);
     }
     if (owners.empty())
-      throw InputError(fmt::format("law {}", law.name),
+      throw InputError(fmt::format("law {}", model.name),
                        fmt::format("has no keyword '{}'", entry.key),
                        fmt::format("{}", fmt::join(known, ", ")));
     if (owners.size() > 1)
-      throw InputError(fmt::format("law {}, keyword '{}'", law.name, entry.key),
+      throw InputError(fmt::format("law {}, keyword '{}'", model.name, entry.key),
                        "belongs to more than one section",
                        fmt::format("{}.{}", fmt::join(owners, "." + bare + ", "), bare));
     sections[owners.front()].push_back({bare, entry.values});
@@ -126,13 +96,24 @@ MaterialSections to_sections(const MaterialModel& law, const std::vector<Entry>&
   return sections;
 }
 
-std::unique_ptr<Material> make_material(const std::string& name, const MaterialSections& sections) {
-  const MaterialModel& law = find_material_model(name);
-  return law.create(read_sections(law, sections));
+std::unique_ptr<Material> make_material(const MaterialModel& model,
+                                        const MaterialSections& sections) {
+  return model.create(read_sections(model, sections));
 }
 
-std::unique_ptr<Material> make_material(const std::string& name, const std::vector<Entry>& flat) {
-  return make_material(name, to_sections(find_material_model(name), flat));
+std::unique_ptr<Material> make_material(const std::string& name, const MaterialSections& sections,
+                                        const MaterialModels& models) {
+  return make_material(find_material_model(name, models), sections);
+}
+
+std::unique_ptr<Material> make_material(const MaterialModel& model,
+                                        const std::vector<Entry>& flat) {
+  return make_material(model, to_sections(model, flat));
+}
+
+std::unique_ptr<Material> make_material(const std::string& name, const std::vector<Entry>& flat,
+                                        const MaterialModels& models) {
+  return make_material(find_material_model(name, models), flat);
 }
 
 }  // namespace furrow

@@ -27,11 +27,7 @@ enum : std::size_t {
 
 /// Column of the material's compaction, or that of the volume ratio.
 std::size_t compaction_column(const Material& material) {
-  const auto& fields = material.state_fields();
-  const auto found = std::find_if(fields.begin(), fields.end(),
-                                  [](const StateField& f) { return f.name == "eps_vol_pl"; });
-  return column::state + (found == fields.end() ? std::size_t(field::volume_ratio)
-                                                : static_cast<std::size_t>(found - fields.begin()));
+  return column::state + material.find_field("eps_vol_pl").value_or(field::volume_ratio);
 }
 
 }  // namespace

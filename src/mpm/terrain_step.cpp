@@ -129,6 +129,7 @@ void TerrainStep::update_stress(ParticleGroup& group, std::size_t first, const G
   std::copy(gradient_.begin(), gradient_.end(), block.gradient.begin());
   group.particles.state_pointers(first, state_pointers_);
   block.state = state_pointers_.data();
+  block.time_step = dt;
   try {
     group.material->update_block(block);
   } catch (const PointError& error) {

@@ -24,6 +24,7 @@
 #include <cstddef>
 
 #include "mpm/axis.h"
+#include "simd/instruction_set.h"
 
 namespace furrow {
 
@@ -78,39 +79,37 @@ struct PointMotion {
   double affine[12];         ///< C, three columns of four numbers [1/s]
 };
 
-struct TransferKernels {
-  const char* instruction_set;
-
+/// Kernels of transfer_kernel.h.
+struct TransferKernels : KernelTable {
   /// Weights with slope G, for scatter_force and gather_strain.
   /// @param weights  an array of batches(size)
-  void (*find_weights)(const GridView&, const ParticleView&, Weights* weights);
+  void (*find_weights)(const GridView&, const ParticleView&, Weights* weights) = nullptr;
 
   // Particles to grid; each adds to the sums of the nodes.
 
   /// @return how many particles are outside of the grid (a position that is not a number counts);
   /// nothing is added for their batch. The other kernels expect that there are none.
-  std::size_t (*scatter_momentum)(const GridView&, const ParticleView&, double density);
-  void (*scatter_force)(const GridView&, const ParticleView&, const Weights*);
-  void (*scatter_point_forces)(const GridView&, const PointForce*, std::size_t count);
+  std::size_t (*scatter_momentum)(const GridView&, const ParticleView&, double density) = nullptr;
+  void (*scatter_force)(const GridView&, const ParticleView&, const Weights*) = nullptr;
+  void (*scatter_point_forces)(const GridView&, const PointForce*, std::size_t count) = nullptr;
 
   // Grid to particles.
 
   /// @param gradient  nine arrays for H, row by row (PointBlock)
   void (*gather_strain)(const GridView&, const ParticleView&, const Weights*, double dt,
-                        double* const* gradient);
+                        double* const* gradient) = nullptr;
   /// sum V sigma : H of the particles with their present stress [J]
-  double (*stress_work)(const ParticleView&, const double* const* gradient);
+  double (*stress_work)(const ParticleView&, const double* const* gradient) = nullptr;
   /// Moves the particles by the nodes' displacement and takes the nodes' velocity.
-  void (*gather_motion)(const GridView&, const ParticleView&);
-  void (*interpolate_motion)(const GridView&, PointMotion*, std::size_t count);
+  void (*gather_motion)(const GridView&, const ParticleView&) = nullptr;
+  void (*interpolate_motion)(const GridView&, PointMotion*, std::size_t count) = nullptr;
+
+  static const TransferKernels& baseline();
+  static const TransferKernels& avx2();
+  static const TransferKernels& avx512();
 };
 
-const TransferKernels& transfer_kernels_baseline();
-const TransferKernels& transfer_kernels_avx2();  // x86 builds only
-const TransferKernels& transfer_kernels_avx512();
-/// Those of an instruction set that available_kernels() names (material/kernels.h).
-const TransferKernels& transfer_kernels(const char* instruction_set);
-/// Those of the instruction set that the laws use.
+/// Those of this run (simd/dispatch.h).
 const TransferKernels& transfer_kernels();
 
 }  // namespace furrow

@@ -8,18 +8,15 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-constexpr TransferKernels all_transfers(const char* instruction_set) {
-  TransferKernels table{};
-  table.instruction_set = instruction_set;
-  table.find_weights = find_weights;
-  table.scatter_momentum = scatter_momentum;
-  table.scatter_force = scatter_force;
-  table.scatter_point_forces = scatter_point_forces;
-  table.gather_strain = gather_strain;
-  table.stress_work = stress_work;
-  table.gather_motion = gather_motion;
-  table.interpolate_motion = interpolate_motion;
-  return table;
+constexpr void fill(TransferKernels& kernels) {
+  kernels.find_weights = find_weights;
+  kernels.scatter_momentum = scatter_momentum;
+  kernels.scatter_force = scatter_force;
+  kernels.scatter_point_forces = scatter_point_forces;
+  kernels.gather_strain = gather_strain;
+  kernels.stress_work = stress_work;
+  kernels.gather_motion = gather_motion;
+  kernels.interpolate_motion = interpolate_motion;
 }
 
 }  // namespace FURROW_ISA

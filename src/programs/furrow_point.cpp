@@ -54,12 +54,12 @@ int fit(const std::string& input, const std::string& output, bool plot) {
 }
 
 void list_laws(const std::string& name) {
-  for (const furrow::MaterialModel& law : furrow::material_models()) {
-    if (!name.empty() && law.name != name) continue;
-    std::cout << law.name << ": " << law.meaning << '\n';
-    for (const furrow::SectionSchema& section : law.sections)
+  for (const furrow::MaterialModel& model : furrow::material_models()) {
+    if (!name.empty() && model.name != name) continue;
+    std::cout << model.name << ": " << model.meaning << '\n';
+    for (const furrow::SectionSchema& section : model.sections)
       for (const furrow::SectionChoice& choice : section.choices) {
-        const std::string type = section.name == "law" ? law.name : choice.type;
+        const std::string type = section.name == "law" ? model.name : choice.type;
         std::cout << ' ' << section.name << (type.empty() ? "" : ", type: " + type)
                   << (choice.meaning.empty() ? "" : "  (" + choice.meaning + ")") << '\n'
                   << choice.schema.table();

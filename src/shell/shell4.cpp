@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 #include "shell/shell4_block.h"
-#include "material/kernels.h"
+#include "simd/dispatch.h"
 
 namespace furrow {
 
@@ -197,10 +197,9 @@ Shell4::Shell4(const Matrix3X& reference, std::vector<Quad> quads, const ShellSe
 }
 
 void Shell4::add_forces(ShellNodes& nodes, double pressure) {
-  static const Shell4Kernel kernel = shell4_kernel();
-  const Shell4Result result =
-      kernel(kinds_.data(), kinds_.size(), places_->view(), nodes.x.data(), nodes.rotation.data(),
-             pressure, nodes.force.data(), nodes.moment.data());
+  const Shell4Result result = kernels<Shell4Kernels>().forces(
+      kinds_.data(), kinds_.size(), places_->view(), nodes.x.data(), nodes.rotation.data(),
+      pressure, nodes.force.data(), nodes.moment.data());
   if (!result.finite || !(result.straightest > straightest_limit))
     throw StateError(fmt::format("shell: element {} is folded or its nodes are not finite",
                                  places_->element[result.worst_place]));
@@ -231,15 +230,6 @@ Eigen::SparseMatrix<double> Shell4::stiffness() const {
   Eigen::SparseMatrix<double> matrix(6 * mass_.size(), 6 * mass_.size());
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
-}
-
-Shell4Kernel shell4_kernel() {
-#ifdef FURROW_X86_KERNELS
-  const std::string chosen = kernels().instruction_set;
-  if (chosen == "avx512") return shell4_forces_avx512;
-  if (chosen == "avx2") return shell4_forces_avx2;
-#endif
-  return shell4_forces_baseline;
 }
 
 }  // namespace furrow

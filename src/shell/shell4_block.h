@@ -5,6 +5,8 @@
 
 #include <cstddef>
 
+#include "simd/instruction_set.h"
+
 namespace furrow {
 
 constexpr std::size_t shell4_padding =
@@ -37,22 +39,19 @@ struct Shell4Result {
   bool finite = true;
 };
 
-/// Adds what the shell does to its nodes: -dU/dx [N], the moment conjugate to the nodal spin [N m],
-/// and the follower pressure.
-/// @param x        3 numbers a node [m]
-/// @param rotation 9 numbers a node, column by column: from the stress-free state
-using Shell4Kernel = Shell4Result (*)(const Shell4Kind* kinds, std::size_t kind_count,
-                                      const Shell4Places&, const double* x, const double* rotation,
-                                      double pressure, double* force, double* moment);
+/// Kernels of shell4_kernel.h.
+struct Shell4Kernels : KernelTable {
+  /// Adds what the shell does to its nodes: -dU/dx [N], the moment conjugate to the nodal spin [N
+  /// m], and the follower pressure.
+  /// @param x        3 numbers a node [m]
+  /// @param rotation 9 numbers a node, column by column: from the stress-free state
+  Shell4Result (*forces)(const Shell4Kind* kinds, std::size_t kind_count, const Shell4Places&,
+                         const double* x, const double* rotation, double pressure, double* force,
+                         double* moment) = nullptr;
 
-/// the fastest that this processor runs, or the one of FURROW_ISA (material/kernels.h)
-Shell4Kernel shell4_kernel();
-
-Shell4Result shell4_forces_baseline(const Shell4Kind*, std::size_t, const Shell4Places&,
-                                    const double*, const double*, double, double*, double*);
-Shell4Result shell4_forces_avx2(const Shell4Kind*, std::size_t, const Shell4Places&, const double*,
-                                const double*, double, double*, double*);
-Shell4Result shell4_forces_avx512(const Shell4Kind*, std::size_t, const Shell4Places&,
-                                  const double*, const double*, double, double*, double*);
+  static const Shell4Kernels& baseline();
+  static const Shell4Kernels& avx2();
+  static const Shell4Kernels& avx512();
+};
 
 }  // namespace furrow

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The co-rotational shell, several elements at once. Included by shell4_kernel_*.cpp only
-/// (simd/lanes.h says why).
+/// The co-rotational shell, several elements at once. Included by kernel units only (simd/lanes.h
+/// says why).
 ///
 /// An element's axes e turn with its nodes: e_3 is normal to both medians, and the turn about e_3
 /// is that of the polar decomposition of the medians' deformation, so the axes do not depend on
@@ -193,6 +193,8 @@ inline Shell4Result shell4_forces(const Shell4Kind* kinds, std::size_t kind_coun
   result.finite = result.energy - result.energy == 0.0 && result.straightest == result.straightest;
   return result;
 }
+
+constexpr void fill(Shell4Kernels& kernels) { kernels.forces = shell4_forces; }
 
 }  // namespace FURROW_ISA
 }  // namespace furrow

@@ -28,16 +28,15 @@ constexpr double max_deviation = 1.0;
 class Residuals {
  public:
   explicit Residuals(const FitProblem& problem) : problem_(problem), sections_(problem.sections) {
-    const MaterialModel& model = find_material_model(problem.material);
-    const MaterialOptions options = read_sections(model, problem.sections);
+    const MaterialOptions options = read_sections(problem.model, problem.sections);
     for (std::size_t i = 0; i < problem.parameters.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j)
         if (problem.parameters[j].name == problem.parameters[i].name)
           throw InputError(fmt::format("parameter '{}'", problem.parameters[i].name),
                            "is given twice", "each parameter once");
-      variables_.emplace_back(model, options, sections_, problem.parameters[i]);
+      variables_.emplace_back(problem.model, options, sections_, problem.parameters[i]);
     }
-    const auto material = make_material(problem.material, problem.sections);
+    const auto material = make_material(problem.model, problem.sections);
     for (const FitCurve& curve : problem.curves) {
       find_point_channel(*material, curve.channel);
       if (curve.measured.size() != curve.path.segments.size())
@@ -81,7 +80,7 @@ class Residuals {
   /// followed
   std::vector<std::vector<double>> curves_at(const VectorX& z) const {
     ++evaluations_;
-    const auto material = make_material(problem_.material, sections_at(z));
+    const auto material = make_material(problem_.model, sections_at(z));
     std::vector<std::vector<double>> curves;
     for (const FitCurve& curve : problem_.curves) {
       const PointHistory history = drive_point(*material, curve.path);

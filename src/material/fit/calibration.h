@@ -44,7 +44,7 @@ struct FitCurve {
 };
 
 struct FitProblem {
-  std::string material;
+  MaterialModel model;
   MaterialSections sections;
   std::vector<FitParameter> parameters;
   std::vector<FitCurve> curves;

@@ -36,11 +36,10 @@ Place place_of(const std::string& name, const std::string& where) {
   return place;
 }
 
-const Key* key_of(const MaterialModel& material, const MaterialOptions& options,
-                  const Place& place) {
+const Key* key_of(const MaterialModel& model, const MaterialOptions& options, const Place& place) {
   const auto section = options.find(place.section);
   if (section == options.end() || !section->second.options.has(place.key)) return nullptr;
-  for (const SectionSchema& candidate : material.sections)
+  for (const SectionSchema& candidate : model.sections)
     if (candidate.name == place.section)
       return candidate.choice(section->second.type).schema.find(place.key);
   return nullptr;
@@ -56,11 +55,11 @@ std::string names_of(const MaterialOptions& options) {
 
 }  // namespace
 
-FitVariable::FitVariable(const MaterialModel& material, const MaterialOptions& options,
+FitVariable::FitVariable(const MaterialModel& model, const MaterialOptions& options,
                          MaterialSections& sections, const FitParameter& parameter) {
   const std::string where = fmt::format("parameter '{}'", parameter.name);
   const Place place = place_of(parameter.name, where);
-  const Key* key = key_of(material, options, place);
+  const Key* key = key_of(model, options, place);
   if (!key || (key->kind != Key::Kind::number && key->kind != Key::Kind::numbers))
     throw InputError(where, "is no number of this material", names_of(options),
                      "write section.key, or section.key[n] for one of a list");

@@ -66,16 +66,19 @@ class Stepper {
   const VectorX& state() const { return state_; }
   const Vector6& variable() const { return variable_; }
   Branch branch() const { return branch_; }
+  double time() const { return time_; }
   const PointCost& cost() const { return cost_; }
 
-  /// Takes the controlled values to `target` over this step. @throws StateError
-  void advance(const std::array<Control, 6>& control, const Vector6& target) {
+  /// Takes the controlled values to `target` over this step of time_step seconds. @throws
+  /// StateError
+  void advance(const std::array<Control, 6>& control, const Vector6& target, double time_step) {
     Vector6 start;
     for (int c = 0; c < 6; ++c)
       start[c] = control[std::size_t(c)] == Control::strain ? variable_[c] : state_[c];
-    const std::string cause = advance_part(control, start, target, 0);
+    const std::string cause = advance_part(control, start, target, time_step, 0);
     if (!cause.empty()) throw StateError(cause);
     ++cost_.steps;
+    time_ += time_step;
   }
   /// Forgets the rate of the last step: the direction of the path changes.
   void turn() { last_change_.setZero(); }
@@ -91,12 +94,12 @@ class Stepper {
   };
 
   /// The state after a step to `variable`; false with the law's message when the law refuses it.
-  bool update(const Vector6& variable, Trial& trial, std::string& refusal) const {
+  bool update(const Vector6& variable, double time_step, Trial& trial, std::string& refusal) const {
     trial.variable = variable;
     trial.state = state_;
     try {
       trial.report = material_.update_point(step_gradient(path_.motion, variable_, variable),
-                                            trial.state, &trial.branch);
+                                            trial.state, &trial.branch, time_step);
     } catch (const StateError& error) {
       refusal = error.what();
       return false;
@@ -106,23 +109,24 @@ class Stepper {
 
   /// One step of the solver; cut in halves where it fails. Empty when it succeeded, else the cause.
   std::string advance_part(const std::array<Control, 6>& control, const Vector6& from,
-                           const Vector6& to, int depth) {
+                           const Vector6& to, double time_step, int depth) {
     std::string cause;
     // first guess: on as before; second: unknown strains stay
     for (const bool follow : {true, false}) {
       Vector6 guess = follow ? Vector6(variable_ + last_change_ * std::pow(0.5, depth)) : variable_;
-      cause = solve(control, to, guess);
+      cause = solve(control, to, time_step, guess);
       if (cause.empty()) return cause;
       if (last_change_.isZero(0.0)) break;
     }
     if (depth == max_halvings) return cause;
     ++cost_.cuts;
     const Vector6 middle = 0.5 * (from + to);
-    const std::string first = advance_part(control, from, middle, depth + 1);
-    return first.empty() ? advance_part(control, middle, to, depth + 1) : first;
+    const std::string first = advance_part(control, from, middle, 0.5 * time_step, depth + 1);
+    return first.empty() ? advance_part(control, middle, to, 0.5 * time_step, depth + 1) : first;
   }
 
-  std::string solve(const std::array<Control, 6>& control, const Vector6& target, Vector6 e) {
+  std::string solve(const std::array<Control, 6>& control, const Vector6& target, double time_step,
+                    Vector6 e) {
     std::vector<int> unknown;
     for (int c = 0; c < 6; ++c) {
       if (control[std::size_t(c)] == Control::strain)
@@ -150,7 +154,7 @@ class Stepper {
 
     std::string refusal;
     Trial trial;
-    if (!update(e, trial, refusal)) return refusal;
+    if (!update(e, time_step, trial, refusal)) return refusal;
     VectorX r = residual_of(trial);
     int iteration = 0;
     while (n > 0 && r.lpNorm<Eigen::Infinity>() > path_.tolerance * size_of(trial) + rounding) {
@@ -165,8 +169,8 @@ class Stepper {
         up[unknown[std::size_t(j)]] += h;
         down[unknown[std::size_t(j)]] -= h;
         Trial ahead, behind;
-        const bool has_ahead = update(up, ahead, refusal),
-                   has_behind = update(down, behind, refusal);
+        const bool has_ahead = update(up, time_step, ahead, refusal);
+        const bool has_behind = update(down, time_step, behind, refusal);
         if (!has_ahead && !has_behind) return refusal;
         const Trial& high = has_ahead ? ahead : trial;
         const Trial& low = has_behind ? behind : trial;
@@ -189,7 +193,7 @@ class Stepper {
         Vector6 next = e;
         for (Eigen::Index i = 0; i < n; ++i) next[unknown[std::size_t(i)]] += factor * change[i];
         Trial candidate;
-        if (!update(next, candidate, refusal)) continue;
+        if (!update(next, time_step, candidate, refusal)) continue;
         const VectorX new_r = residual_of(candidate);
         if (new_r.norm() < (1.0 - 1e-4 * factor) * r.norm()) {
           e = next;
@@ -232,6 +236,7 @@ class Stepper {
   Vector6 variable_ = Vector6::Zero();
   Vector6 last_change_ = Vector6::Zero();
   Branch branch_ = Branch::elastic;
+  double time_ = 0.0;  // [s]
   PointCost cost_;
 };
 
@@ -240,10 +245,17 @@ class Stepper {
 PointHistory drive_point(const Material& material, const PointPath& path) {
   if (path.segments.empty())
     throw InputError("path " + path.type, "has no segment", "at least one target");
+  const bool takes_time = std::any_of(path.segments.begin(), path.segments.end(),
+                                      [](const PathSegment& s) { return s.duration > 0.0; });
+  if (material.rate_dependent() && !takes_time)
+    throw InputError("path " + path.type,
+                     fmt::format("has no duration, and the stress of law {} depends on the rate",
+                                 material.name()),
+                     "duration > 0 [s] of a piece of the path");
   Stepper point(material, path);
   PointHistory history;
   const auto record = [&](int segment, int step) {
-    history.records.push_back({segment, step, point.variable(),
+    history.records.push_back({segment, step, point.time(), point.variable(),
                                spatial_strain(path.motion, point.variable()), point.state(),
                                point.branch()});
   };
@@ -267,7 +279,7 @@ PointHistory drive_point(const Material& material, const PointPath& path) {
       const double part = static_cast<double>(step) / segment.steps;
       const Vector6 target = step == segment.steps ? to : Vector6(from + part * (to - from));
       try {
-        point.advance(segment.control, target);
+        point.advance(segment.control, target, segment.duration / segment.steps);
       } catch (const StateError& error) {
         const Invariants now = invariants(stress_of(point.state()));
         throw StateError(
@@ -311,6 +323,8 @@ std::vector<PointChannel> point_channels(const Material& material) {
       [](const PointRecord& r) { return double(r.branch); });
   add("yield_function", "Pa", "<= 0 inside; -inf for a law that never yields",
       [&material](const PointRecord& r) { return material.yield_function(r.state); });
+  if (material.rate_dependent())
+    add("time", "s", "since the start", [](const PointRecord& r) { return r.time; });
   for (int c = 0; c < 6; ++c)
     add(fmt::format("strain_{}", components[std::size_t(c)]), "",
         "component of ln V, tension positive", [c](const PointRecord& r) { return r.strain[c]; });

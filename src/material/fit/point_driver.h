@@ -21,6 +21,7 @@ namespace furrow {
 struct PointRecord {
   int segment = 0;                     ///< 0 for the start, then 1, 2, ...
   int step = 0;                        ///< in the segment
+  double time = 0.0;                   ///< since the start [s]
   Vector6 variable = Vector6::Zero();  ///< e of the path's motion
   Vector6 strain = Vector6::Zero();    ///< ln V, V = sqrt(F F^T)
   VectorX state;                       ///< of the law
@@ -50,14 +51,15 @@ struct PointChannel {
 };
 
 /// strain_xx ... , stress_xx ..., axial_strain, axial_stress, shear_strain, shear_stress, eps_vol,
-/// p, q, density, branch, yield_function, and what the law keeps. Axial is z and compression
-/// positive; shear is xz.
+/// p, q, density, branch, yield_function, and what the law keeps; time if the law depends on the
+/// rate. Axial is z and compression positive; shear is xz.
 std::vector<PointChannel> point_channels(const Material& material);
 /// @throws InputError listing the names
 PointChannel find_point_channel(const Material& material, const std::string& name);
 
-/// @throws StateError naming segment and step when a target cannot be reached, with the nearest
-/// stress and the cause
+/// @throws InputError for a law that depends on the rate on a path without duration;
+///         StateError naming segment and step when a target cannot be reached, with the nearest
+///         stress and the cause
 PointHistory drive_point(const Material& material, const PointPath& path);
 
 /// What the size of the steps costs: the same path with every step halved, compared at the ends of

@@ -24,6 +24,10 @@ void add_common_keys(Schema& schema) {
       .number("tolerance", "", Range::closed(1e-13, 1e-3),
               "of controlled stresses, relative to the largest stress of the step")
       .by_default(1e-10);
+  schema
+      .number("duration", "s", Range::non_negative(),
+              "of each straight piece of the path, for laws that depend on the rate")
+      .optional();
 }
 
 PointPath path_of(const Options& options, const std::string& type,
@@ -39,6 +43,7 @@ PointPath path_of(const Options& options, const std::string& type,
 PathSegment& next_segment(PointPath& path, const Options& options) {
   path.segments.push_back(path.segments.empty() ? PathSegment{} : path.segments.back());
   path.segments.back().steps = static_cast<int>(options.integer("steps"));
+  path.segments.back().duration = options.given("duration") ? options.number("duration") : 0.0;
   return path.segments.back();
 }
 
@@ -258,6 +263,7 @@ Schema table_row_schema() {
                 "Cauchy stress at the row's end, tension positive")
         .optional();
   schema.integer("steps", Range::closed(1, 1e7), "steps of this row; else the path's").optional();
+  schema.number("duration", "s", Range::non_negative(), "of this row; else the path's").optional();
   return schema;
 }
 
@@ -268,6 +274,7 @@ PointPath table_path(const Options& options, const std::vector<Options>& rows) {
   for (const Options& row : rows) {
     PathSegment& segment = next_segment(path, options);
     if (row.given("steps")) segment.steps = static_cast<int>(row.integer("steps"));
+    if (row.given("duration")) segment.duration = row.number("duration");
     for (int c = 0; c < 6; ++c) {
       const std::string strain = fmt::format("strain_{}", components[std::size_t(c)]),
                         stress = fmt::format("stress_{}", components[std::size_t(c)]);

@@ -28,6 +28,7 @@ struct PathSegment {
   /// deformation variable e [-], or Cauchy stress, tension positive [Pa]
   Vector6 target = Vector6::Zero();
   int steps = 1;
+  double duration = 0.0;  ///< [s]; 0: infinitely fast. For laws that depend on the rate
 };
 
 struct PointPath {

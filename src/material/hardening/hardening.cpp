@@ -38,15 +38,17 @@ SectionSchema hardening_section() {
 namespace {
 
 HardeningParameters make_table(const Options& o) {
-  const std::vector<double>&p = o.numbers("p"), &eps = o.numbers("eps_vol_pl");
-  const std::size_t rows = p.size(), most = HardeningParameters::max_segments + 1;
+  const std::vector<double>& p = o.numbers("p");
+  const std::vector<double>& eps = o.numbers("eps_vol_pl");
+  const std::size_t rows = p.size();
+  const std::size_t max_rows = HardeningParameters::max_segments + 1;
   if (rows != eps.size())
     throw InputError(o.where("eps_vol_pl"),
                      fmt::format("has {} values for {} of 'p'", eps.size(), rows),
                      "as many as of 'p'");
-  if (rows < 2 || rows > most)
+  if (rows < 2 || rows > max_rows)
     throw InputError(o.where("p"), fmt::format("has {} row(s)", rows),
-                     fmt::format("2 to {} rows", most));
+                     fmt::format("2 to {} rows", max_rows));
   HardeningParameters h;
   const bool log = o.text("interpolation") == "log";
   h.kind = log ? HardeningParameters::Kind::log_table : HardeningParameters::Kind::linear_table;
@@ -112,10 +114,10 @@ double strength_at(const HardeningParameters& h, double eps) {
   return h.kind == HardeningParameters::Kind::log_table ? std::exp(value) : value;
 }
 
-void check_initial(const HardeningParameters& h, const Options& law, const std::string& key) {
-  const double eps = law.number(key);
+void check_initial(const HardeningParameters& h, const Options& options, const std::string& key) {
+  const double eps = options.number(key);
   if (eps < h.first || eps > h.last)
-    throw InputError(law.where(key), fmt::format("is {}, outside the hardening data", eps),
+    throw InputError(options.where(key), fmt::format("is {}, outside the hardening data", eps),
                      fmt::format("in [{}, {}]", h.first, h.last));
 }
 

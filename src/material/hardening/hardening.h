@@ -4,8 +4,9 @@
 /// options and queries.
 ///
 ///   table:        the strength p_b(eps) through given points, straight in p or in ln p (choose: it
-///   matters where data are far apart) exponential:  p_c + offset = (p_c0 + offset) exp( (1 + e0)(1
-///   - J_pl)/(lambda - kappa J_pl) ),  J_pl = exp(-eps)      (TR)
+///                 matters where data are far apart)
+///   exponential:  p_c + offset = (p_c0 + offset) exp( (1 + e0)(1 - J_pl)/(lambda - kappa J_pl) ),
+///                 J_pl = exp(-eps)      [Shoop2001]
 ///
 /// The strength is positive and increasing for every eps. Below the data (shear or tension has
 /// undone the compaction) it decays as
@@ -15,22 +16,23 @@
 /// holds: extrapolate its last segment, or stop the run.
 
 #include "material/hardening/hardening_parameters.h"
-#include "material/registry.h"
+#include "material/material_model.h"
 
 namespace furrow {
 
 /// The section "hardening" of a material file.
 SectionSchema hardening_section();
 /// @param offset           [Pa] of the exponential law (the tensile strength of a foam); tables do
-/// not use it
+///                         not use it
 /// @param includes_offset  the key pc0 is p_c0 + offset, not p_c0
 /// @throws InputError for rows that do not increase, a table of one row, lambda <= kappa
 HardeningParameters make_hardening(const SectionOptions& section, double offset = 0.0,
                                    bool includes_offset = false);
 /// Strength at eps_vol_pl [Pa].
 double strength_at(const HardeningParameters& hardening, double eps_vol_pl);
-/// @throws InputError when an initial strain is outside the data
-void check_initial(const HardeningParameters& hardening, const Options& law,
+/// @param key  of the options: the initial eps_vol_pl
+/// @throws InputError when it is outside the data
+void check_initial(const HardeningParameters& hardening, const Options& options,
                    const std::string& key);
 
 }  // namespace furrow

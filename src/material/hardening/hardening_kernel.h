@@ -2,8 +2,8 @@
 #pragma once
 /// Strength and its slope at given volumetric plastic strains (hardening.h has the equations).
 
-#include "simd/exponential.h"
 #include "material/hardening/hardening_parameters.h"
+#include "simd/exponential.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {
@@ -24,7 +24,7 @@ class Hardening {
                           ? by_formula(max(eps, h_.first))
                           : by_table(max(eps, h_.first));
     const Mask below = eps < Lanes(h_.first);
-    if (any(below)) {  // exp(-80) is a strength that no arithmetic sees next to the stiffness
+    if (any(below)) {  // exp(-80) is a strength that vanishes in rounding beside the stiffness
       const Lanes exponent = Lanes(h_.decay) * (eps - Lanes(h_.first));
       const Lanes value = Lanes(h_.first_value) * exponential(max(exponent, -80.0));
       result.value = select(below, value, result.value);
@@ -69,8 +69,10 @@ class Hardening {
   }
 
   const HardeningParameters& h_;
-  Lanes start_ = 1.0, to_ = 0.0;  // nothing remembered yet
-  Lanes base_ = 0.0, slope_ = 0.0;
+  Lanes start_ = 1.0;  // an empty interval: nothing remembered yet
+  Lanes to_ = 0.0;
+  Lanes base_ = 0.0;
+  Lanes slope_ = 0.0;
 };
 
 }  // namespace FURROW_ISA

@@ -57,7 +57,7 @@ class MaterialFileTest : public ::testing::Test {
 TEST_F(MaterialFileTest, GivesTheLawOfTheRegistry) {
   const MaterialFile read = read_material_file(file(sand));
   EXPECT_EQ(read.title, "Sand");
-  EXPECT_EQ(read.material, "drucker_prager_cap");
+  EXPECT_EQ(read.model.name, "drucker_prager_cap");
   const auto material = read.make();
   EXPECT_EQ(material->density(), 1800.0);
   EXPECT_DOUBLE_EQ(material->moduli(material->initial_state()).bulk, 689e6 / 1.5);
@@ -68,13 +68,13 @@ TEST_F(MaterialFileTest, GivesTheLawOfTheRegistry) {
 TEST_F(MaterialFileTest, EffectiveValuesReadBackAsTheSameLaw) {
   const MaterialFile first = read_material_file(file(with(sand, "Sand", "\"Shoop's sand: # 1\"")));
   EXPECT_EQ(first.title, "Shoop's sand: # 1");
-  const std::string text = material_file_text("it's: # sand", first.material, first.sections);
+  const std::string text = material_file_text("it's: # sand", first.model, first.sections);
   EXPECT_THAT(text, AllOf(HasSubstr("alpha: 0"),
                           HasSubstr("beta: 14.56  # [degree] slope of the shear line"),
                           HasSubstr("p: [0.138e6, 0.172e6, 0.434e6]  # [Pa]")));
   const MaterialFile second = read_material_file(file(text, "written.yaml"));
   EXPECT_EQ(second.title, "it's: # sand");
-  EXPECT_EQ(material_file_text("it's: # sand", second.material, second.sections), text);
+  EXPECT_EQ(material_file_text("it's: # sand", second.model, second.sections), text);
 }
 
 TEST_F(MaterialFileTest, AVariantGivesOnlyWhatDiffers) {
@@ -83,15 +83,15 @@ TEST_F(MaterialFileTest, AVariantGivesOnlyWhatDiffers) {
       read_material_file(file("base: sand.yaml\nlaw: {d: 5e3}\n", "variant.yaml"));
   const MaterialFile base = read_material_file(file(sand));
   EXPECT_EQ(variant.title, "Sand");
-  EXPECT_EQ(material_file_text("", variant.material, variant.sections),
-            with(material_file_text("", base.material, base.sections), "d: 1.194e6", "d: 5e3"));
+  EXPECT_EQ(material_file_text("", variant.model, variant.sections),
+            with(material_file_text("", base.model, base.sections), "d: 1.194e6", "d: 5e3"));
   // A section of another type replaces the base's whole: no table keys are left in it.
   const MaterialFile other =
       read_material_file(file("base: variant.yaml\ntitle: other\nhardening: {type: exponential, "
                               "pc0: 1e5, lambda: 0.1, kappa: 0, e0: 0.5}\n",
                               "other.yaml"));
   EXPECT_EQ(other.title, "other");
-  const std::string text = material_file_text("", other.material, other.sections);
+  const std::string text = material_file_text("", other.model, other.sections);
   EXPECT_THAT(text, AllOf(HasSubstr("d: 5e3"), HasSubstr("pc0: 1e5"),
                           ::testing::Not(HasSubstr("interpolation"))));
 }

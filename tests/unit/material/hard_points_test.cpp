@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The hard points of issue 3 for the cap law, one by one; random_paths_test.cpp mixes them.
+// Hard points of the cap law, one by one; random_paths_test.cpp mixes them.
 
 #include <gmock/gmock.h>
 

@@ -2,8 +2,6 @@
 // The kernels of every instruction set that this processor runs give the same results, and the
 // finite-strain kinematics agree with eigenvalues.
 
-#include "material/kernels.h"
-
 #include <random>
 
 #include <Eigen/Eigenvalues>
@@ -11,12 +9,25 @@
 #include <gtest/gtest.h>
 
 #include "material/models/drucker_prager_cap/drucker_prager_cap.h"
+#include "material/models/neo_hookean/neo_hookean_parameters.h"
 #include "paths.h"
+#include "simd/dispatch.h"
 
 namespace furrow {
 namespace {
 
 using testing_paths::material_of;
+
+TEST(Kernels, EveryTableIsOfTheInstructionSetAskedFor) {
+  const std::vector<InstructionSet> sets = available_instruction_sets();
+  ASSERT_FALSE(sets.empty());
+  EXPECT_EQ(sets.front(), InstructionSet::baseline);
+  for (const InstructionSet set : sets) {
+    EXPECT_EQ(kernels_for<DruckerPragerCapKernels>(set).instruction_set, set);
+    EXPECT_EQ(kernels_for<NeoHookeanKernels>(set).instruction_set, set);
+  }
+  EXPECT_EQ(kernels<NeoHookeanKernels>().instruction_set, chosen_instruction_set());
+}
 
 TEST(Kernels, InstructionSetsAgree) {
   const std::string snow =
@@ -31,7 +42,8 @@ TEST(Kernels, InstructionSetsAgree) {
     constexpr std::size_t n = 1003;
     const std::size_t fields = material->state_fields().size();
     std::vector<std::vector<std::vector<double>>> results;
-    for (const Kernels* kernels : available_kernels()) {
+    for (const InstructionSet set : available_instruction_sets()) {
+      const auto& kernels = kernels_for<DruckerPragerCapKernels>(set);
       std::mt19937 engine(3);
       std::normal_distribution<double> normal;
       std::vector<std::vector<double>> state(fields, std::vector<double>(n)),
@@ -50,14 +62,14 @@ TEST(Kernels, InstructionSetsAgree) {
           for (std::size_t k = 0; k < 9; ++k)
             gradient[k][i] =
                 (i % 7 == 0 ? 3e-2 : 1e-3) * (normal(engine) - (k % 4 == 0 ? 0.5 : 0.0));
-        EXPECT_EQ(kernels->drucker_prager_cap(cap.parameters(), 200, block).failure, Failure::none)
-            << kernels->instruction_set;
+        EXPECT_EQ(kernels.update(cap.parameters(), 200, block).failure, Failure::none)
+            << to_string(set);
       }
       results.push_back(state);
     }
     std::string tested;
-    for (const Kernels* kernels : available_kernels())
-      tested += std::string(" ") + kernels->instruction_set;
+    for (const InstructionSet set : available_instruction_sets())
+      tested += std::string(" ") + to_string(set);
     RecordProperty("instruction_sets", tested);
     for (const auto& result : results)
       for (std::size_t f = 0; f < fields; ++f)

@@ -5,36 +5,22 @@
 
 #include <cmath>
 #include <memory>
-#include <sstream>
 #include <string>
 
 #include <Eigen/LU>
 
 #include "material/registry.h"
+#include "testing/material_text.h"
 
 namespace furrow::testing_paths {
 
-/// "law key value value key value ...": numbers follow the key they belong to.
+/// "law key value value key value ..."
 inline std::unique_ptr<Material> material_of(const std::string& text) {
-  std::istringstream words(text);
-  std::string material, word;
-  words >> material;
-  std::vector<Entry> entries;
-  const auto is_value = [](const std::string& w) {
-    return std::string("0123456789+-.").find(w[0]) != std::string::npos;
-  };
-  while (words >> word) {
-    if (!entries.empty() && (is_value(word) || entries.back().values.empty())) {
-      entries.back().values.push_back(word);
-    } else {
-      entries.push_back({word, {}});
-    }
-  }
-  return make_material(material, entries);
+  return material_of_text(text);
 }
 
-/// McCormick Ranch sand, TR Tables 4 and 5. The density, not given there, only enters through
-/// inertia.
+/// McCormick Ranch sand, [Shoop2001] Tables 4 and 5. The density, not given there, only enters
+/// through inertia.
 inline std::string mccormick_sand(const std::string& more = "") {
   return "drucker_prager_cap density 1800 d 1.194e6 beta 14.56 R 0.1 eps_vol_pl_0 0.001 elasticity "
          "linear E 689e6 nu 0.25 "
@@ -48,13 +34,17 @@ inline std::string mccormick_sand(const std::string& more = "") {
 /// Displacement gradient of a step with Delta F = exp(strain), strain symmetric.
 inline Matrix3 stretch(const Vector6& strain) {
   const Matrix3 e = to_matrix(strain);
-  Matrix3 term = e, sum = e;
-  for (int k = 2; k < 60 && term.norm() > 1e-18 * sum.norm(); ++k) term = term * e / k, sum += term;
+  Matrix3 term = e;
+  Matrix3 sum = e;
+  for (int k = 2; k < 60 && term.norm() > 1e-18 * sum.norm(); ++k) {
+    term = term * e / k;
+    sum += term;
+  }
   return sum;
 }
 
 /// One step with the components of `strain`, except that the normal components marked in `held`
-/// take whatever keeps their stress at `target` (Newton's method on the law's tangent). Returns the
+/// take whatever keeps their stress at `target` (Newton's method with differences). Returns the
 /// strain increment.
 inline Vector6 mixed_step(const Material& material, VectorX& state, Vector6 strain,
                           const std::array<bool, 3>& held, const Vector3& target,

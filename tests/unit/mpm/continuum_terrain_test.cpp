@@ -217,7 +217,7 @@ TEST(Terrain, ALawsRefusalNamesTheParticle) {
   Particles& particles = ground.groups()[0].particles;
   const std::size_t broken = particles.size() - 5;
   // What only the law reads: others are not touched by it.
-  particles.data(column::state + parameters.layers[0].material->field_index("eps_vol_pl"))[broken] =
+  particles.data(column::state + *parameters.layers[0].material->find_field("eps_vol_pl"))[broken] =
       std::nan("");
   const Vector3 x = particles.position(broken);
   set_motion(ground, Vector3::Zero(), Vector3(0.0, 0.0, -10.0).asDiagonal());  // all yield

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "material/kernels.h"
+#include "simd/dispatch.h"
 #include "mpm/grid.h"
 #include "terrain_scene.h"
 
@@ -105,9 +105,9 @@ constexpr double rho = Cloud::rho, dt = 1e-3;
 
 TEST(Transfer, AllInstructionSetsAgree) {
   std::vector<double> reference, moved;
-  for (const Kernels* table : available_kernels()) {
-    const TransferKernels& kernels = transfer_kernels(table->instruction_set);
-    EXPECT_STREQ(kernels.instruction_set, table->instruction_set);
+  for (const InstructionSet set : available_instruction_sets()) {
+    const auto& kernels = kernels_for<TransferKernels>(set);
+    EXPECT_EQ(kernels.instruction_set, set);
     Cloud cloud(1003);  // no multiple of a batch
     Grid& grid = cloud.grid;
     const ParticleView particles = cloud.view();
@@ -144,11 +144,11 @@ TEST(Transfer, AllInstructionSetsAgree) {
     double largest = 0.0;
     for (const double value : reference) largest = std::max(largest, std::abs(value));
     for (std::size_t n = 0; n < nodes.size(); ++n)
-      ASSERT_NEAR(nodes[n], reference[n], 1e-13 * largest) << table->instruction_set;
+      ASSERT_NEAR(nodes[n], reference[n], 1e-13 * largest) << to_string(set);
     // A node that hardly any mass reaches has a large velocity with a large relative error; what
     // particles take of it is small again.
     for (std::size_t n = 0; n < after.size(); ++n)
-      ASSERT_NEAR(after[n], moved[n], 1e-9 * (1.0 + std::abs(moved[n]))) << table->instruction_set;
+      ASSERT_NEAR(after[n], moved[n], 1e-9 * (1.0 + std::abs(moved[n]))) << to_string(set);
   }
 }
 

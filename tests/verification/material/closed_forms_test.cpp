@@ -184,7 +184,7 @@ TEST(StepSize, SplittingDoesNotMatterOnRadialPaths) {
     for (const VectorX& end : ends) {
       EXPECT_LT((stress_of(end) - stress_of(ends[0])).norm(), 1e-10 * material->stress_scale(end))
           << c.material;
-      EXPECT_NEAR(end[field::own], ends[0][field::own], 1e-12) << c.material;
+      EXPECT_NEAR(end[field::internal], ends[0][field::internal], 1e-12) << c.material;
     }
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// McCormick Ranch sand (TR Tables 4, 5) along the paths of issue 3: the implicit update of
+// McCormick Ranch sand (TR Tables 4, 5) along four laboratory paths: the implicit update of
 // src/material against an independent explicit integration of the same rate equations
 // (rate_reference.h), to 1e-6. The update is of first order in the step, so two step sizes are
 // extrapolated to zero (Richardson) where the path is not radial.
@@ -88,7 +88,7 @@ std::vector<Eigen::Matrix<double, 7, 1>> run(const Material& material, const std
       state = next;
     }
     Eigen::Matrix<double, 7, 1> end;
-    end << stress_of(state), state[material.field_index("eps_vol_pl")];
+    end << stress_of(state), state[*material.find_field("eps_vol_pl")];
     ends.push_back(end);
   }
   return ends;

@@ -29,13 +29,13 @@ FitProblem synthetic(const std::string& material,
                      const std::vector<std::pair<std::string, double>>& truth, double noise = 0.0) {
   const MaterialFile file = read_material_file(root + "/inputs/materials/" + material + ".yaml");
   FitProblem problem;
-  problem.material = file.material;
+  problem.model = file.model;
   problem.sections = file.sections;
   for (const auto& [name, value] : truth)
     for (auto& [section, entries] : problem.sections)
       for (Entry& entry : entries)
         if (section + "." + entry.key == name) entry.values = {std::to_string(value)};
-  const auto law = make_material(problem.material, problem.sections);
+  const auto law = make_material(problem.model, problem.sections);
   FitCurve curve;
   curve.name = "synthetic";
   std::vector<double> stresses;

@@ -109,8 +109,7 @@ TEST(PointCommand, FitReportsWhatTheDataDetermine) {
             CsvTable::read(folder + "/fit.csv").numbers("fitted"));
   // The fitted material is a material file with the fitted values.
   const MaterialFile fitted = read_material_file(folder + "/material.yaml");
-  const MaterialOptions options =
-      read_sections(find_material_model(fitted.material), fitted.sections);
+  const MaterialOptions options = read_sections(fitted.model, fitted.sections);
   EXPECT_DOUBLE_EQ(options.at("hardening").options.number("pc0"),
                    h5.number_attribute("/parameters/hardening.pc0", "value"));
   expect_png(folder + "/fit.png");

@@ -85,7 +85,7 @@ TEST(PointDriver, ConfinedCompressionOnTheCap) {
   const auto sand = make_material("drucker_prager_cap", sections);
   const PointHistory history = drive_point(
       *sand, path("confined", {{"stress", {"4e6", "8e6", "12e6"}}, {"steps", {"200"}}}));
-  const std::size_t eps = sand->field_index("eps_vol_pl");
+  const std::size_t eps = *sand->find_field("eps_vol_pl");
   for (const int row : {200, 400, 600}) {
     const PointRecord& end = history.records[std::size_t(row)];
     ASSERT_EQ(end.branch, Branch::cap);

@@ -24,7 +24,7 @@ MaterialFile file_of(const std::string& name) {
 
 MaterialOptions options_of(const std::string& name) {
   const MaterialFile file = file_of(name);
-  return read_sections(find_material_model(file.material), file.sections);
+  return read_sections(file.model, file.sections);
 }
 
 CsvTable reference(const std::string& name) {
@@ -63,7 +63,7 @@ TEST(Presets, AllAreRead) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(inputs + "/materials")) {
     const MaterialFile file = read_material_file(entry.path().string());
-    EXPECT_EQ(material_file_text(file.title, file.material, file.sections).find("title: "), 0u);
+    EXPECT_EQ(material_file_text(file.title, file.model, file.sections).find("title: "), 0u);
     EXPECT_GT(file.make()->density(), 0.0);
     ++count;
   }

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "material/elasticity/elasticity.h"
 #include "material/hardening/hardening.h"
-#include "material/kernels.h"
+#include "simd/dispatch.h"
 
 namespace furrow {
 
@@ -17,39 +17,39 @@ namespace {
 
 std::unique_ptr<Material> create(const MaterialOptions& sections) {
   const Options& o = sections.at("law").options;
-  CrushableFoamParameters law;
-  law.elasticity = make_elasticity(sections.at("elasticity"));
-  law.pt = o.number("pt");
-  law.flow_ratio = o.number("K");
+  CrushableFoamParameters parameters;
+  parameters.elasticity = make_elasticity(sections.at("elasticity"));
+  parameters.pt = o.number("pt");
+  parameters.flow_ratio = o.number("K");
   const bool includes_pt = o.text("pc0_reading") == "pc0_plus_pt";
   const SectionOptions& hardening = sections.at("hardening");
   if (includes_pt && hardening.type != "exponential")
     throw InputError(o.where("pc0_reading"), "is pc0_plus_pt, with a hardening table",
                      "pc0 for a table, whose strengths are pc");
-  law.hardening = make_hardening(hardening, law.pt, includes_pt);
-  if (law.hardening.first > 0.0 || law.hardening.last < 0.0)
+  parameters.hardening = make_hardening(hardening, parameters.pt, includes_pt);
+  if (parameters.hardening.first > 0.0 || parameters.hardening.last < 0.0)
     throw InputError("hardening table, keyword 'eps_vol_pl'", "does not contain 0",
                      "a table around eps_vol_pl = 0, where pc0 is read");
-  const double pc0 = strength_at(law.hardening, 0.0), sigma0 = o.number("sigma0");
-  const double square = law.pt * pc0 + sigma0 * (pc0 - law.pt) / 3.0 -
+  const double pc0 = strength_at(parameters.hardening, 0.0), sigma0 = o.number("sigma0");
+  const double square = parameters.pt * pc0 + sigma0 * (pc0 - parameters.pt) / 3.0 -
                         sigma0 * sigma0 / 9.0;  // = (3 pc0 - sigma0)(sigma0 + 3 pt)/9
   if (square <= 0.0)
     throw InputError(
         o.where("sigma0"),
         fmt::format("is {}, which no ellipse through pc0 = {:.6g} Pa and pt reaches", sigma0, pc0),
         fmt::format("below 3 pc0 = {:.6g} Pa", 3.0 * pc0));
-  law.M = sigma0 / std::sqrt(square);
-  if (law.elasticity.porous && law.elasticity.limit <= law.pt)
+  parameters.M = sigma0 / std::sqrt(square);
+  if (parameters.elasticity.porous && parameters.elasticity.limit <= parameters.pt)
     throw InputError("elasticity porous, keyword 'pt_el'",
-                     fmt::format("is {} Pa", law.elasticity.limit),
-                     fmt::format("above pt = {} Pa", law.pt),
+                     fmt::format("is {} Pa", parameters.elasticity.limit),
+                     fmt::format("above pt = {} Pa", parameters.pt),
                      "the pressure could not reach the tensile strength");
-  return std::make_unique<CrushableFoam>(o.number("density"), law);
+  return std::make_unique<CrushableFoam>(o.number("density"), parameters);
 }
 
 }  // namespace
 
-MaterialModel CrushableFoam::law() {
+MaterialModel CrushableFoam::model() {
   Schema schema("law crushable_foam");
   schema.number("density", "kg/m3", Range::positive(), "mass density at the start");
   schema.number("pt", "Pa", Range::positive(), "yield strength in hydrostatic tension, constant");
@@ -63,10 +63,16 @@ MaterialModel CrushableFoam::law() {
       .choice("pc0_reading", {"pc0", "pc0_plus_pt"},
               "what pc0 of exponential hardening is: pc0, or pc0 + pt")
       .by_default("pc0");
-  return {"crushable_foam",
-          "snow and foams: ellipse hardening by compaction (ABAQUS, TR eq 17-18)",
-          {{"law", {{"", "", schema}}}, elasticity_section(), hardening_section()},
-          create};
+  MaterialModel model;
+  model.name = "crushable_foam";
+  model.meaning = "snow and foams: ellipse hardening by compaction (ABAQUS, [Shoop2001] eq 17-18)";
+  model.sections = {law_section(schema), elasticity_section(), hardening_section()};
+  model.create = create;
+  model.examples = {
+      "density 200 pt 11.376 sigma0 275.79 K 0.9 "
+      "elasticity porous elasticity.kappa 0.005 elasticity.e0 3.5 pt_el 113.76 nu 0.3 "
+      "hardening exponential pc0 113.76 lambda 0.35 hardening.kappa 0.005 hardening.e0 3.5"};
+  return model;
 }
 
 CrushableFoam::CrushableFoam(double density, const CrushableFoamParameters& parameters)
@@ -76,7 +82,7 @@ CrushableFoam::CrushableFoam(double density, const CrushableFoamParameters& para
       parameters_(parameters) {}
 
 UpdateReport CrushableFoam::update_block(const PointBlock& block) const {
-  return checked(kernels().crushable_foam(parameters_, density(), block), block);
+  return checked(kernels<CrushableFoamKernels>().update(parameters_, density(), block), block);
 }
 
 ElasticModuli CrushableFoam::moduli(const VectorX& state) const {
@@ -87,7 +93,8 @@ double CrushableFoam::pc(double eps) const { return strength_at(parameters_.hard
 
 double CrushableFoam::yield_function(const VectorX& state) const {
   const Invariants stress = invariants(stress_of(state));
-  const double strength = pc(state[eps_vol_pl]), pt = parameters_.pt;
+  const double strength = pc(state[eps_vol_pl]);
+  const double pt = parameters_.pt;
   const double t = yield_measure(stress, parameters_.flow_ratio);
   return std::hypot(stress.p - 0.5 * (strength - pt), t / parameters_.M) - 0.5 * (strength + pt);
 }

@@ -1,29 +1,31 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Crushable foam, as TR (eq 17, 18) takes it from ABAQUS 5.8. Compression positive; t as in
-/// drucker_prager_cap.h.
+/// Crushable foam, as [Shoop2001] (eq 17, 18) takes it from ABAQUS 5.8. Compression positive; t as
+/// in drucker_prager_cap.h.
 ///
 ///   yield (17):  f = sqrt( ((pt - pc)/2 + p)^2 + (t/M)^2 ) - (pc + pt)/2 = 0
 ///                M = sigma0 / sqrt( pt pc0 + sigma0 (pc0 - pt)/3 - sigma0^2/9 )
 ///   flow (18):   g = sqrt( (9/2) p^2 + q^2 ), not associated: compaction under p > 0 without
-///   lateral strain in uniaxial stress pt is constant; pc(eps_vol_pl) hardens by compaction:
-///   exponential (hardening.h, offset pt) or a table. pc0 = pc(0). sigma0 is the initial strength
-///   in uniaxial compression; it must stay below 3 pc0, where M becomes infinite.
+///                lateral strain in uniaxial stress
+/// pt is constant; pc(eps_vol_pl) hardens by compaction: exponential (hardening.h, offset pt) or a
+/// table. pc0 = pc(0). sigma0 is the initial strength in uniaxial compression; it must stay below
+/// 3 pc0, where M becomes infinite.
 ///
-/// TR's Table 1 can be read as pc0 or as pc0 + pt: the key pc0_reading says what pc0 of the
-/// hardening is. All plastic work is dissipated: sigma : d(eps_pl) = Lambda g^2 >= 0.
+/// Table 1 of [Shoop2001] can be read as pc0 or as pc0 + pt: the key pc0_reading says what pc0 of
+/// the hardening is. All plastic work is dissipated: sigma : d(eps_pl) = Lambda g^2 >= 0.
 
+#include "material/material_model.h"
 #include "material/models/crushable_foam/crushable_foam_parameters.h"
-#include "material/material.h"
-#include "material/registry.h"
 
 namespace furrow {
 
 class CrushableFoam : public Material {
  public:
-  enum : std::size_t { eps_vol_pl = field::own };
+  /// Indices of the law's own variables in the state.
+  enum : std::size_t { eps_vol_pl = field::internal };
 
-  static MaterialModel law();
+  static MaterialModel model();
+  /// @param density  rho0 [kg/m^3]
   CrushableFoam(double density, const CrushableFoamParameters& parameters);
 
   UpdateReport update_block(const PointBlock& block) const override;

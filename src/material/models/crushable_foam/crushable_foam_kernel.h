@@ -11,10 +11,10 @@
 /// bracketed.
 
 #include "material/block_update.h"
-#include "material/models/crushable_foam/crushable_foam_parameters.h"
+#include "material/deviatoric_return.h"
 #include "material/elasticity/elasticity_kernel.h"
 #include "material/hardening/hardening_kernel.h"
-#include "material/lode.h"
+#include "material/models/crushable_foam/crushable_foam_parameters.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {
@@ -24,14 +24,14 @@ struct CrushableFoamKernel {
   static constexpr int internal_variables = 1;  // eps_vol_pl
   const CrushableFoamParameters& parameters;
 
-  FURROW_INLINE void step(const Symmetric& strain, Points& points) const {
+  FURROW_INLINE void step(const Symmetric& strain, Points<internal_variables>& points) const {
     const ElasticStep elastic(parameters.elasticity, points.stress.trace() * Lanes(-1.0 / 3.0));
     const Lanes dv = -strain.trace();
     const Lanes p_trial = elastic.pressure(dv);
     const Symmetric s_old = points.stress.plus_identity(elastic.p_n);
     const Symmetric s_trial = s_old + strain.deviator() * (Lanes(2.0) * elastic.shear);
     const Lanes t_trial = DeviatoricReturn<lode_dependent>(parameters.flow_ratio, s_trial).t();
-    const Lanes eps_old = points.own[0];
+    const Lanes eps_old = points.internal[0];
     Hardening hardening(parameters.hardening);
     const Lanes pc_old = hardening.at(eps_old).value;
 
@@ -44,11 +44,11 @@ struct CrushableFoamKernel {
     const Mask yielding = excess(p_trial, t_trial, pc_old) >
                           Lanes(1e-13) * (pc_old + parameters.pt) + Lanes(1e-15) * abs(p_trial);
 
-    Lanes p = p_trial, shrink = 1.0, compaction = 0.0;
+    Lanes p = p_trial, scale = 1.0, compaction = 0.0;
     if (any(yielding)) {
       const Lanes sign = select(p_trial < Lanes(0.0), -1.0, 1.0);
       Lanes pressure = p_trial, measure = t_trial, c = 0.0, a = 0.0;
-      const auto budget = [&](const Lanes& y) -> ValueAndSlope {
+      const auto residual = [&](const Lanes& y) -> ValueAndSlope {
         const Hardening::Strength pc = hardening.at(eps_old + sign * y);
         const Lanes x = dv - sign * y;
         pressure = sign * max(sign * elastic.pressure(x), 0.0);
@@ -66,10 +66,10 @@ struct CrushableFoamKernel {
         return {distance - a, along / max(distance, 1e-290) - dpc};
       };
       const Lanes high = sign * (dv - elastic.strain(0.0));
-      const Lanes y = decreasing_root(budget, 0.0, 0.0, high, Lanes(1e-15) * high,
+      const Lanes y = decreasing_root(residual, 0.0, 0.0, high, Lanes(1e-15) * high,
                                       yielding && high > Lanes(0.0), points.iterations);
       const Lanes solution = select(yielding, max(y, 0.0), 0.0);
-      budget(solution);
+      residual(solution);
       // Rounding is removed by placing the stress on the ellipse: along the ray from its centre, or
       // at constant p when the root could not be resolved (p_tr next to zero).
       const Lanes distance = sqrt(square(pressure - c) + square(measure * (1.0 / parameters.M)));
@@ -78,24 +78,33 @@ struct CrushableFoamKernel {
       const Lanes leg = Lanes(parameters.M) * sqrt(max(a * a - square(pressure - c), 0.0));
       const Lanes t = select(near, measure * a / distance, min(leg, t_trial));
       stdx::where(yielding, p) = select(near, ray, pressure);
-      stdx::where(yielding && t_trial > Lanes(0.0), shrink) = t / t_trial;
+      stdx::where(yielding && t_trial > Lanes(0.0), scale) = t / t_trial;
       stdx::where(yielding, compaction) = sign * solution;
       stdx::where(yielding, points.branch) =
           select(sign > Lanes(0.0), double(Branch::cap), double(Branch::tension));
     }
-    const Symmetric s = s_trial * shrink;
+    const Symmetric s = s_trial * scale;
     const Lanes elastic_strain = dv - compaction, half_compliance = Lanes(0.5) / elastic.shear;
     points.stored = elastic.volumetric_work(elastic_strain, p) +
                     contract(s + s_old, s - s_old) * half_compliance * Lanes(0.5);
     points.dissipated =
         p * compaction + select(yielding, contract(s, s_trial - s) * half_compliance, 0.0);
-    points.own[0] = eps_old + compaction;
+    points.internal[0] = eps_old + compaction;
     points.stress = s.plus_identity(-p);
-    points.below_data = hardening.below(points.own[0]);
-    points.beyond_data = hardening.beyond(points.own[0]);
-    points.stopped = hardening.stopped(points.own[0]);
+    points.below_data = hardening.below(points.internal[0]);
+    points.beyond_data = hardening.beyond(points.internal[0]);
+    points.stopped = hardening.stopped(points.internal[0]);
   }
 };
+
+inline BlockResult update_crushable_foam(const CrushableFoamParameters& parameters, double density,
+                                         const PointBlock& block) {
+  if (parameters.flow_ratio < 1.0)
+    return update_points(CrushableFoamKernel<true>{parameters}, density, block);
+  return update_points(CrushableFoamKernel<false>{parameters}, density, block);
+}
+
+constexpr void fill(CrushableFoamKernels& kernels) { kernels.update = update_crushable_foam; }
 
 }  // namespace FURROW_ISA
 }  // namespace furrow

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Constants of the crushable foam law, as plain data for the kernels.
+/// Constants and kernels of the crushable foam law, as plain data.
 
 #include "material/elasticity/elasticity_parameters.h"
 #include "material/hardening/hardening_parameters.h"
+#include "material/point_block.h"
+#include "simd/instruction_set.h"
 
 namespace furrow {
 
@@ -14,6 +16,15 @@ struct CrushableFoamParameters {
   /// aspect of the ellipse: its half-height in t over its half-width in p
   double M = 1.0;
   double flow_ratio = 1.0;  ///< K
+};
+
+/// Kernels of crushable_foam_kernel.h.
+struct CrushableFoamKernels : KernelTable {
+  BlockUpdate<CrushableFoamParameters> update = nullptr;
+
+  static const CrushableFoamKernels& baseline();
+  static const CrushableFoamKernels& avx2();
+  static const CrushableFoamKernels& avx512();
 };
 
 }  // namespace furrow

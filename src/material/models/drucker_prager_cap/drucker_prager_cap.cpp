@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "material/elasticity/elasticity.h"
 #include "material/hardening/hardening.h"
-#include "material/kernels.h"
+#include "simd/dispatch.h"
 
 namespace furrow {
 
@@ -17,43 +17,46 @@ namespace {
 
 std::unique_ptr<Material> create(const MaterialOptions& sections) {
   const Options& o = sections.at("law").options;
-  DruckerPragerCapParameters law;
-  law.elasticity = make_elasticity(sections.at("elasticity"));
-  law.hardening = make_hardening(sections.at("hardening"));
+  DruckerPragerCapParameters parameters;
+  parameters.elasticity = make_elasticity(sections.at("elasticity"));
+  parameters.hardening = make_hardening(sections.at("hardening"));
   const double beta = radians(o.number("beta"));
-  law.d = o.number("d");
-  law.tan_beta = std::tan(beta);
-  law.sin_beta = std::sin(beta);
-  law.R = o.number("R");
-  law.alpha = o.number("alpha");
-  law.B = 1.0 - law.alpha / std::cos(beta);
-  law.A = law.B + law.alpha;
-  law.flow_ratio = o.number("K");
-  if (law.B <= 0.0)
-    throw InputError(
-        o.where("alpha"),
-        fmt::format("is {}: the transition would be wider than the shear strength", law.alpha),
-        fmt::format("below cos(beta) = {:.4g}", std::cos(beta)), "0.01 to 0.05 is usual");
-  const double apex = law.d / law.tan_beta;
-  law.cutoff = o.has("tension") ? o.number("tension") : apex;
-  if (law.cutoff > apex * (1.0 + 1e-12))
-    throw InputError(
-        o.where("tension"), fmt::format("is {} Pa, beyond the apex of the shear line", law.cutoff),
-        fmt::format("at most d/tan(beta) = {:.6g} Pa", apex), "leave it out to cut at the apex");
-  const double lowest = std::max(
-      law.cutoff, law.R * law.d / (1.0 + law.R * law.tan_beta));  // p and pa stay above -lowest
-  if (law.elasticity.porous && law.elasticity.limit <= lowest)
+  parameters.d = o.number("d");
+  parameters.tan_beta = std::tan(beta);
+  parameters.sin_beta = std::sin(beta);
+  parameters.R = o.number("R");
+  parameters.alpha = o.number("alpha");
+  parameters.B = 1.0 - parameters.alpha / std::cos(beta);
+  parameters.A = parameters.B + parameters.alpha;
+  parameters.flow_ratio = o.number("K");
+  if (parameters.B <= 0.0)
+    throw InputError(o.where("alpha"),
+                     fmt::format("is {}: the transition would be wider than the shear strength",
+                                 parameters.alpha),
+                     fmt::format("below cos(beta) = {:.4g}", std::cos(beta)),
+                     "0.01 to 0.05 is usual");
+  const double apex = parameters.d / parameters.tan_beta;
+  parameters.cutoff = o.has("tension") ? o.number("tension") : apex;
+  if (parameters.cutoff > apex * (1.0 + 1e-12))
+    throw InputError(o.where("tension"),
+                     fmt::format("is {} Pa, beyond the apex of the shear line", parameters.cutoff),
+                     fmt::format("at most d/tan(beta) = {:.6g} Pa", apex),
+                     "leave it out to cut at the apex");
+  const double lowest_pa = parameters.R * parameters.d / (1.0 + parameters.R * parameters.tan_beta);
+  const double min_limit = std::max(parameters.cutoff, lowest_pa);  // p, pa stay above its negative
+  if (parameters.elasticity.porous && parameters.elasticity.limit <= min_limit)
     throw InputError("elasticity porous, keyword 'pt_el'",
-                     fmt::format("is {} Pa", law.elasticity.limit),
-                     fmt::format("above the tensile strength, {:.6g} Pa", lowest),
+                     fmt::format("is {} Pa", parameters.elasticity.limit),
+                     fmt::format("above the tensile strength, {:.6g} Pa", min_limit),
                      "raise it, or lower the tension cut-off");
-  check_initial(law.hardening, o, "eps_vol_pl_0");
-  return std::make_unique<DruckerPragerCap>(o.number("density"), law, o.number("eps_vol_pl_0"));
+  check_initial(parameters.hardening, o, "eps_vol_pl_0");
+  return std::make_unique<DruckerPragerCap>(o.number("density"), parameters,
+                                            o.number("eps_vol_pl_0"));
 }
 
 }  // namespace
 
-MaterialModel DruckerPragerCap::law() {
+MaterialModel DruckerPragerCap::model() {
   Schema schema("law drucker_prager_cap");
   schema.number("density", "kg/m3", Range::positive(), "mass density at the start");
   schema.number("d", "Pa", Range::non_negative(), "cohesion: t at p = 0 on the shear line");
@@ -77,10 +80,22 @@ MaterialModel DruckerPragerCap::law() {
       .number("tension", "Pa", Range::non_negative(),
               "tension cut-off: p stays above -tension; the apex d/tan(beta) unless given")
       .optional();
-  return {"drucker_prager_cap",
-          "soils and snow: shear line, transition, hardening cap (ABAQUS, TR eq 12-16)",
-          {{"law", {{"", "", schema}}}, elasticity_section(), hardening_section()},
-          create};
+  MaterialModel model;
+  model.name = "drucker_prager_cap";
+  model.meaning =
+      "soils and snow: shear line, transition, hardening cap (ABAQUS, [Shoop2001] eq 12-16)";
+  model.sections = {law_section(schema), elasticity_section(), hardening_section()};
+  model.create = create;
+  const std::string snow =
+      " hardening table p 113.76 5e4 1e6 6e7 eps_vol_pl 0 0.593 1.083 1.514 beyond extrapolate";
+  model.examples = {
+      "density 200 d 5e3 beta 22.53 R 0.02 eps_vol_pl_0 0.3 "
+      "elasticity linear E 13.79e6 nu 0.3" +
+          snow + " interpolation linear",
+      "density 200 d 5e3 beta 22.53 R 0.3 alpha 0.05 K 0.8 tension 2e3 "
+      "eps_vol_pl_0 0.3 elasticity porous kappa 0.005 e0 3.5 p0 10 pt_el 1.5e4 nu 0.3" +
+          snow + " interpolation log"};
+  return model;
 }
 
 DruckerPragerCap::DruckerPragerCap(double density, const DruckerPragerCapParameters& parameters,
@@ -92,7 +107,7 @@ DruckerPragerCap::DruckerPragerCap(double density, const DruckerPragerCapParamet
       parameters_(parameters) {}
 
 UpdateReport DruckerPragerCap::update_block(const PointBlock& block) const {
-  return checked(kernels().drucker_prager_cap(parameters_, density(), block), block);
+  return checked(kernels<DruckerPragerCapKernels>().update(parameters_, density(), block), block);
 }
 
 ElasticModuli DruckerPragerCap::moduli(const VectorX& state) const {
@@ -110,15 +125,18 @@ double DruckerPragerCap::pa(double eps) const {
 }
 
 double DruckerPragerCap::shear_strength(double p, double eps) const {
-  const double top = pa(eps), Q = parameters_.d + top * parameters_.tan_beta,
-               radius = parameters_.alpha * Q, D = top - p;
+  const double top = pa(eps);
+  const double Q = parameters_.d + top * parameters_.tan_beta;
+  const double radius = parameters_.alpha * Q;
+  const double D = top - p;
   if (D < radius * parameters_.sin_beta)
     return parameters_.B * Q + std::sqrt(radius * radius - D * D);
   return parameters_.d + p * parameters_.tan_beta;
 }
 
 double DruckerPragerCap::strength(double p, double eps) const {
-  const double top = pa(eps), Q = parameters_.d + top * parameters_.tan_beta;
+  const double top = pa(eps);
+  const double Q = parameters_.d + top * parameters_.tan_beta;
   if (p < top) return p < -parameters_.cutoff ? 0.0 : shear_strength(p, eps);
   const double leg = parameters_.R * Q * parameters_.R * Q - (p - top) * (p - top);
   return parameters_.A / parameters_.R * std::sqrt(std::max(leg, 0.0));
@@ -126,8 +144,11 @@ double DruckerPragerCap::strength(double p, double eps) const {
 
 double DruckerPragerCap::yield_function(const VectorX& state) const {
   const Invariants stress = invariants(stress_of(state));
-  const double t = yield_measure(stress, parameters_.flow_ratio), eps = state[eps_vol_pl];
-  const double top = pa(eps), Q = parameters_.d + top * parameters_.tan_beta, D = stress.p - top;
+  const double t = yield_measure(stress, parameters_.flow_ratio);
+  const double eps = state[eps_vol_pl];
+  const double top = pa(eps);
+  const double Q = parameters_.d + top * parameters_.tan_beta;
+  const double D = stress.p - top;
   const double cut = -stress.p - parameters_.cutoff;
   if (D >= 0.0)
     return std::max(cut, std::hypot(D, parameters_.R * t / parameters_.A) - parameters_.R * Q);
@@ -141,8 +162,10 @@ double DruckerPragerCap::stress_scale(const VectorX& state) const {
 
 std::vector<Vector2> DruckerPragerCap::yield_surface(const VectorX& state,
                                                      std::size_t points) const {
-  const double eps = state[eps_vol_pl], tip = pb(eps), start = -parameters_.cutoff,
-               top = std::max(pa(eps), start);
+  const double eps = state[eps_vol_pl];
+  const double tip = pb(eps);
+  const double start = -parameters_.cutoff;
+  const double top = std::max(pa(eps), start);
   std::vector<Vector2> line;
   if (parameters_.cutoff < parameters_.d / parameters_.tan_beta) line.emplace_back(start, 0.0);
   const std::size_t half = std::max<std::size_t>(points / 2, 2);

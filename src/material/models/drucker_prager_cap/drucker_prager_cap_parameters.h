@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Constants of the Drucker-Prager cap law, as plain data for the kernels.
+/// Constants and kernels of the Drucker-Prager cap law, as plain data.
 
 #include "material/elasticity/elasticity_parameters.h"
 #include "material/hardening/hardening_parameters.h"
+#include "material/point_block.h"
+#include "simd/instruction_set.h"
 
 namespace furrow {
 
@@ -20,6 +22,15 @@ struct DruckerPragerCapParameters {
   double B = 1.0;           ///< 1 - alpha/cos(beta): height of the transition's centre
   double flow_ratio = 1.0;  ///< K
   double cutoff = 1e300;    ///< tension cut-off: p >= -cutoff [Pa]
+};
+
+/// Kernels of drucker_prager_cap_kernel.h.
+struct DruckerPragerCapKernels : KernelTable {
+  BlockUpdate<DruckerPragerCapParameters> update = nullptr;
+
+  static const DruckerPragerCapKernels& baseline();
+  static const DruckerPragerCapKernels& avx2();
+  static const DruckerPragerCapKernels& avx512();
 };
 
 }  // namespace furrow

@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Elastic ground: linear or porous elasticity and nothing else. Rate form (hypoelastic) under
-/// finite strain.
+/// Elastic ground: linear or porous elasticity (elasticity.h has the equations) and nothing else.
+/// Rate form (hypoelastic) under finite strain.
 
-#include "material/elasticity/elasticity.h"
-#include "material/material.h"
-#include "material/registry.h"
+#include "material/material_model.h"
+#include "material/models/elastic/elastic_parameters.h"
 
 namespace furrow {
 
 class Elastic : public Material {
  public:
-  static MaterialModel law();
-  Elastic(double density, const ElasticityParameters& elasticity);
+  static MaterialModel model();
+  /// @param density  rho0 [kg/m^3]
+  Elastic(double density, const ElasticParameters& parameters);
 
   UpdateReport update_block(const PointBlock& block) const override;
   ElasticModuli moduli(const VectorX& state) const override;
   double largest_wave_speed(const PointBlock& block) const override;
-  double stress_scale(const VectorX& state) const override;
 
  private:
-  ElasticityParameters elasticity_;
+  ElasticParameters parameters_;
 };
 
 }  // namespace furrow

@@ -4,16 +4,17 @@
 
 #include "material/block_update.h"
 #include "material/elasticity/elasticity_kernel.h"
+#include "material/models/elastic/elastic_parameters.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {
 
 struct ElasticKernel {
   static constexpr int internal_variables = 0;
-  const ElasticityParameters& elasticity;
+  const ElasticParameters& parameters;
 
-  FURROW_INLINE void step(const Symmetric& strain, Points& points) const {
-    const ElasticStep elastic(elasticity, points.stress.trace() * Lanes(-1.0 / 3.0));
+  FURROW_INLINE void step(const Symmetric& strain, Points<0>& points) const {
+    const ElasticStep elastic(parameters.elasticity, points.stress.trace() * Lanes(-1.0 / 3.0));
     const Lanes x = -strain.trace();
     const Lanes p = elastic.pressure(x);
     const Symmetric change = strain.deviator() * (Lanes(2.0) * elastic.shear);
@@ -23,6 +24,13 @@ struct ElasticKernel {
     points.stress = s.plus_identity(-p);
   }
 };
+
+inline BlockResult update_elastic(const ElasticParameters& parameters, double density,
+                                  const PointBlock& block) {
+  return update_points(ElasticKernel{parameters}, density, block);
+}
+
+constexpr void fill(ElasticKernels& kernels) { kernels.update = update_elastic; }
 
 }  // namespace FURROW_ISA
 }  // namespace furrow

@@ -4,38 +4,36 @@
 #include <algorithm>
 #include <cmath>
 
-#include "material/kernels.h"
+#include "simd/dispatch.h"
 
 namespace furrow {
 
-MaterialModel NeoHookean::law() {
+MaterialModel NeoHookean::model() {
   Schema schema("law neo_hookean");
   schema.number("density", "kg/m3", Range::positive(), "mass density at the start");
   schema.number("G", "Pa", Range::positive(), "shear modulus mu at small strain");
   schema.number("bulk", "Pa", Range::positive(), "bulk modulus K at small strain");
-  return {"neo_hookean",
-          "rubber: compressible neo-Hookean",
-          {{"law", {{"", "", schema}}}},
-          [](const MaterialOptions& sections) -> std::unique_ptr<Material> {
-            const Options& o = sections.at("law").options;
-            return std::make_unique<NeoHookean>(
-                o.number("density"), NeoHookeanParameters{o.number("G"), o.number("bulk")});
-          }};
+  MaterialModel model;
+  model.name = "neo_hookean";
+  model.meaning = "rubber: compressible neo-Hookean";
+  model.sections = {law_section(schema)};
+  model.create = [](const MaterialOptions& sections) -> std::unique_ptr<Material> {
+    const Options& o = sections.at("law").options;
+    return std::make_unique<NeoHookean>(o.number("density"),
+                                        NeoHookeanParameters{o.number("G"), o.number("bulk")});
+  };
+  model.examples = {"density 1100 G 1e6 bulk 5e7"};
+  return model;
 }
 
 NeoHookean::NeoHookean(double density, const NeoHookeanParameters& parameters)
     : Material("neo_hookean", density,
-               [] {
-                 std::vector<StateField> fields;
-                 for (const char* component : {"xx", "yy", "zz", "xy", "yz", "xz"})
-                   fields.push_back({std::string("b_minus_i_") + component, "",
-                                     "left Cauchy-Green tensor minus identity", 0.0});
-                 return fields;
-               }()),
+               {{"b_minus_i", "", "left Cauchy-Green tensor minus identity", 0.0,
+                 StateVariable::Kind::symmetric_tensor}}),
       parameters_(parameters) {}
 
 UpdateReport NeoHookean::update_block(const PointBlock& block) const {
-  return checked(kernels().neo_hookean(parameters_, density(), block), block);
+  return checked(kernels<NeoHookeanKernels>().update(parameters_, density(), block), block);
 }
 
 ElasticModuli NeoHookean::moduli(const VectorX& state) const {
@@ -47,7 +45,5 @@ ElasticModuli NeoHookean::moduli(const VectorX& state) const {
   const double shear = parameters_.shear * std::pow(J, -5.0 / 3.0) * std::max(stretch, 1.0);
   return {bulk, shear};
 }
-
-double NeoHookean::stress_scale(const VectorX& state) const { return moduli(state).wave(); }
 
 }  // namespace furrow

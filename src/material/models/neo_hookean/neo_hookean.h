@@ -8,23 +8,22 @@
 /// The state is the left Cauchy-Green tensor b; the stress follows from it, so setting the stress
 /// alone has no effect.
 
-#include "material/material.h"
+#include "material/material_model.h"
 #include "material/models/neo_hookean/neo_hookean_parameters.h"
-#include "material/registry.h"
 
 namespace furrow {
 
 class NeoHookean : public Material {
  public:
-  enum : std::size_t { b_minus_identity = field::own };  ///< six fields xx, yy, zz, xy, yz, xz
+  enum : std::size_t { b_minus_identity = field::internal };  ///< six fields xx, yy, zz, xy, yz, xz
 
-  static MaterialModel law();
+  static MaterialModel model();
+  /// @param density  rho0 [kg/m^3]
   NeoHookean(double density, const NeoHookeanParameters& parameters);
 
   UpdateReport update_block(const PointBlock& block) const override;
   /// A bound: the small-strain moduli, raised by the stretch of the state.
   ElasticModuli moduli(const VectorX& state) const override;
-  double stress_scale(const VectorX& state) const override;
 
  private:
   NeoHookeanParameters parameters_;

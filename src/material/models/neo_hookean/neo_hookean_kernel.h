@@ -4,8 +4,8 @@
 /// neo_hookean.h.
 
 #include "material/block_update.h"
-#include "simd/exponential.h"
 #include "material/models/neo_hookean/neo_hookean_parameters.h"
+#include "simd/exponential.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {
@@ -15,9 +15,10 @@ struct NeoHookeanKernel {
   const NeoHookeanParameters& parameters;
 
   /// The new stress in the final frame and the stored energy, from b - I at the start of the step.
-  void hyperelastic_step(const Tensor& h, Points& points) const {
-    Lanes* own = points.own;
-    const Symmetric c{own[0], own[1], own[2], own[3], own[4], own[5]}, b = c.plus_identity(1.0);
+  void hyperelastic_step(const Tensor& h, Points<internal_variables>& points) const {
+    Lanes* const old = points.internal;
+    const Symmetric c{old[0], old[1], old[2], old[3], old[4], old[5]};
+    const Symmetric b = c.plus_identity(1.0);
     // b_new - I = c + a + a^T + a H^T with a = H b
     const Lanes columns[9] = {b.xx, b.xy, b.xz, b.xy, b.yy, b.yz, b.xz, b.yz, b.zz};
     Lanes a[9];
@@ -43,9 +44,21 @@ struct NeoHookeanKernel {
     points.stored =
         Lanes(0.5 * parameters.shear) * (isochoric * (trace + Lanes(3.0)) - Lanes(3.0)) +
         Lanes(0.25 * parameters.bulk) * (excess - log_square);
-    own[0] = n.xx, own[1] = n.yy, own[2] = n.zz, own[3] = n.xy, own[4] = n.yz, own[5] = n.xz;
+    points.internal[0] = n.xx;
+    points.internal[1] = n.yy;
+    points.internal[2] = n.zz;
+    points.internal[3] = n.xy;
+    points.internal[4] = n.yz;
+    points.internal[5] = n.xz;
   }
 };
+
+inline BlockResult update_neo_hookean(const NeoHookeanParameters& parameters, double density,
+                                      const PointBlock& block) {
+  return update_points(NeoHookeanKernel{parameters}, density, block);
+}
+
+constexpr void fill(NeoHookeanKernels& kernels) { kernels.update = update_neo_hookean; }
 
 }  // namespace FURROW_ISA
 }  // namespace furrow

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The elastic trial of a step of the Drucker-Prager cap law, and which surface it violates.
+
+#include "material/deviatoric_return.h"
+#include "material/elasticity/elasticity_kernel.h"
+#include "material/models/drucker_prager_cap/drucker_prager_cap_surfaces.h"
+#include "material/point_block.h"
+
+namespace furrow {
+inline namespace FURROW_ISA {
+
+/// The elastic trial of a step, and what it takes to correct it.
+template <bool lode_dependent>
+struct CapTrial {
+  const ElasticStep& elastic;
+  const DeviatoricReturn<lode_dependent>& deviator;
+  Hardening& hardening;
+  Lanes dv;           ///< volumetric strain of the step, compression positive
+  Lanes eps;          ///< eps_vol_pl at the start of the step
+  CapSurfaces start;  ///< at the start of the step
+  Lanes p;            ///< of the elastic trial [Pa]
+  Lanes t;
+  Lanes noise;  ///< strain that rounding of p and eps amounts to
+};
+
+template <bool lode_dependent>
+FURROW_INLINE CapTrial<lode_dependent> make_trial(const DruckerPragerCapParameters& parameters,
+                                                  const ElasticStep& elastic,
+                                                  const DeviatoricReturn<lode_dependent>& deviator,
+                                                  Hardening& hardening, const Lanes& dv,
+                                                  const Lanes& eps) {
+  const CapSurfaces start = surfaces_at(parameters, hardening, eps);
+  const Lanes stress = abs(elastic.p_n) + abs(start.pa);
+  const Lanes noise =
+      Lanes(4e-16) * (abs(eps) + abs(dv)) + Lanes(8e-16) * stress / elastic.bulk(0.0, elastic.p_n);
+  return {elastic, deviator, hardening, dv, eps, start, elastic.pressure(dv), deviator.t(), noise};
+}
+
+/// The end of a step.
+struct CapReturn {
+  Lanes p;  ///< [Pa]
+  Lanes t;
+  Lanes compaction = 0.0;  ///< De, the volumetric plastic strain of the step
+  Lanes pa = 0.0;
+  Lanes branch = double(Branch::elastic);
+  Lanes iterations = 0.0;
+  Lanes m = 0.0;  ///< 3 G Lambda of the deviatoric return
+};
+
+/// The surface that each point's trial violates, one at most.
+struct ViolatedSurface {
+  Mask cap;
+  Mask shear;  ///< shear line or transition
+  Mask tension;
+};
+
+/// Which surface the return ends on is known beforehand: flow on the cap compacts and ends at p >=
+/// pa, flow on the shear line and the transition loosens and ends at p <= pa, so the side of the
+/// trial pressure decides.
+template <bool lode_dependent>
+FURROW_INLINE ViolatedSurface violated_surface(const DruckerPragerCapParameters& parameters,
+                                               const CapTrial<lode_dependent>& trial) {
+  // The slack is rounding: a point at rest on its surface is elastic.
+  const CapSurfaces& old = trial.start;
+  const Lanes slack = Lanes(1e-13) * old.Q;
+  const Lanes rounding = Lanes(1e-15) * abs(trial.p);
+  const Mask compacts = trial.p >= old.pa;
+  const Lanes cap_limit = Lanes(parameters.R) * (old.Q + slack) + rounding;
+  const Mask outside_cap =
+      square(trial.p - old.pa) + square(trial.t * Lanes(parameters.R / parameters.A)) >
+      square(cap_limit);
+  const Lanes shear_excess =
+      trial.t - shear_strength(parameters, old, trial.p, 0.0, 0.0, nullptr).value - slack;
+  const Mask cap = compacts && outside_cap;
+  const Mask shear = !compacts && shear_excess > rounding;
+  return {cap, shear, !cap && !shear && trial.p < Lanes(-parameters.cutoff) - rounding};
+}
+
+}  // namespace FURROW_ISA
+}  // namespace furrow

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "simd/dispatch.h"
+
+#include <cstdlib>
+#include <string>
+
+#include "core/error.h"
+
+namespace furrow {
+
+const char* to_string(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::avx512:
+      return "avx512";
+    case InstructionSet::avx2:
+      return "avx2";
+    default:
+      return "baseline";
+  }
+}
+
+std::vector<InstructionSet> available_instruction_sets() {
+  std::vector<InstructionSet> sets{InstructionSet::baseline};
+#ifdef FURROW_X86_KERNELS
+  __builtin_cpu_init();
+  const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                  __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
+                  __builtin_cpu_supports("f16c") && __builtin_cpu_supports("lzcnt") &&
+                  __builtin_cpu_supports("movbe");
+  const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                  __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+                  __builtin_cpu_supports("avx512cd");
+  if (v3) sets.push_back(InstructionSet::avx2);
+  if (v4) sets.push_back(InstructionSet::avx512);
+#endif
+  return sets;
+}
+
+namespace {
+
+InstructionSet choose() {
+  const std::vector<InstructionSet> available = available_instruction_sets();
+  const char* wish = std::getenv("FURROW_ISA");
+  if (!wish) return available.back();
+  std::string names;
+  for (const InstructionSet set : available) {
+    if (to_string(set) == std::string(wish)) return set;
+    names += (names.empty() ? "" : ", ") + std::string(to_string(set));
+  }
+  throw InputError("environment variable FURROW_ISA",
+                   "is '" + std::string(wish) + "', which this processor or build does not have",
+                   names, "leave it unset to take the fastest");
+}
+
+}  // namespace
+
+InstructionSet chosen_instruction_set() {
+  static const InstructionSet chosen = choose();
+  return chosen;
+}
+
+}  // namespace furrow

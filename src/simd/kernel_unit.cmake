@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Kernels are compiled once for every instruction set of the build; the program chooses among them when it starts
+# (src/simd/dispatch.h).
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT FURROW_NATIVE)
+  set(FURROW_INSTRUCTION_SETS baseline avx2 avx512)
+else()
+  set(FURROW_INSTRUCTION_SETS baseline)
+endif()
+set(furrow_kernel_unit_template ${CMAKE_CURRENT_LIST_DIR}/kernel_unit.cpp.in)
+
+# furrow_kernel_unit(<target> <header> <table> [FUSED]): adds to a target one source for each instruction set, which defines
+# <table>::baseline(), <table>::avx2() and <table>::avx512() (src/simd/instruction_set.h) from the kernels of <header>.
+# FUSED: multiply and add in one instruction where the set has it. Results then depend in the last digit on how the compiler
+# groups operations, so the laws, whose numbers are to be the same in any surrounding code, do without.
+function(furrow_kernel_unit target header table)
+  cmake_parse_arguments(PARSE_ARGV 3 ARG "FUSED" "" "")
+  set(baseline "")
+  set(avx2 -march=x86-64-v3)
+  set(avx512 -march=x86-64-v4 -mprefer-vector-width=512)
+  if(ARG_FUSED)
+    list(APPEND avx2 -ffp-contract=fast)  # ISO C++ mode turns it off
+    list(APPEND avx512 -ffp-contract=fast)
+  endif()
+  get_filename_component(name ${header} NAME_WE)
+  foreach(set ${FURROW_INSTRUCTION_SETS})
+    set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}_kernels/${name}_${set}.cpp)
+    configure_file(${furrow_kernel_unit_template} ${source} @ONLY)
+    target_sources(${target} PRIVATE ${source})
+    # gcc 12 warns of uninitialised variables in its own <experimental/simd> and avx512fintrin.h.
+    set_source_files_properties(${source} TARGET_DIRECTORY ${target}
+      PROPERTIES COMPILE_OPTIONS "-O3;${${set}};-Wno-uninitialized;-Wno-maybe-uninitialized")
+  endforeach()
+endfunction()
