@@ -41,18 +41,10 @@ std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& op
   settings.around = whole_number(options, "mesh", options.numbers("mesh")[1]);
   settings.half = options.flag("half");
   settings.direct = options.text("sidewall") == "direct";
-  settings.sidewall_points = static_cast<int>(options.integer("sidewall_rows"));
+  settings.sidewall_rows = static_cast<int>(options.integer("sidewall_rows"));
   settings.damping_rate = options.number("damping");
 
-  DarnellTyreHub hub;
-  hub.inertia.mass = options.number("mass");
-  hub.inertia.axial = options.number("inertia");
-  hub.inertia.diametral = options.has("inertia_diametral")
-                              ? options.number("inertia_diametral")
-                              : 0.5 * hub.inertia.axial +
-                                    hub.inertia.mass * std::pow(parameters.bead_spacing, 2) / 12.0;
-  const std::vector<double>& axle = options.numbers("axle");
-  hub.centre = {axle[0], axle[1], axle[2]};
+  const HubParameters hub = read_hub(options, parameters.bead_spacing);
   if (settings.half && hub.centre.y() != 0.0)
     throw InputError(options.where("axle"),
                      fmt::format("has y = {} m with a half model", hub.centre.y()),
@@ -84,19 +76,11 @@ Schema FixTyreDarnell::schema() {
       .integer("sidewall_rows", Range::closed(0, 50),
                "rows of nodes on each sidewall, for contact; 0: only the tread can touch")
       .by_default("4");
-  schema.number("mass", "kg", Range::positive(),
-                "mass of the rim and whatever moves with the axle, without the tread");
-  schema.number("inertia", "kg m^2", Range::positive(), "their moment of inertia about the axle");
-  schema
-      .number("inertia_diametral", "kg m^2", Range::positive(),
-              "the same across the axle; by default inertia/2 + mass bead_spacing^2/12")
-      .optional();
+  declare_hub(schema);
   schema
       .number("damping", "1/s", Range::non_negative(),
               "rate at which the tread's motion relative to the rim is damped")
       .by_default(100.0);
-  schema.numbers("axle", 3, "m", Range::any(), "axle centre at the start: x y z")
-      .by_default(std::vector<double>{0, 0, 0});
   return schema;
 }
 
@@ -134,13 +118,13 @@ void FixTyreDarnell::init() {
 double FixTyreDarnell::compute_vector(int n) {
   switch (n) {
     case 0:
-      return tyre().tread().x.row(2).minCoeff() - tyre().lowest_point();
+      return tyre().deflection();
     case 1:
       return tyre().pressure();
     case 2:
       return tyre().section_width();
     case 3:
-      return tyre().shell().energy() * (tyre().settings().half ? 2.0 : 1.0);
+      return tyre().tread_energy();
     default:
       return tyre().largest_sidewall_chord();
   }

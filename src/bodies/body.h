@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What every solver offers to the system: rigid wheel, tyre, continuum ground.
+/// What every solver offers to the coupled system: rigid wheel, tyre, continuum terrain.
 
 #include <string>
 
@@ -30,8 +30,10 @@ struct EnergyBudget {
   }
 };
 
-/// A body advances under the forces on its surface and its own loads. Replicated on every rank: all
-/// ranks must compute the same.
+/// A body advances under the forces on its surface and its own loads. Wheels and tyres are
+/// replicated: all ranks hold the whole body and compute the same. A body that is distributed over
+/// the ranks, the continuum terrain, communicates inside its functions: for it they are collective.
+/// The surface is replicated in either case.
 class Body {
  public:
   virtual ~Body() = default;
@@ -40,15 +42,15 @@ class Body {
   virtual double stable_time_step() const = 0;
   /// One step under surface().f (held constant) and the body's own loads. @throws StateError
   virtual void advance(double dt) = 0;
-  /// Around the steps that make up an interval of the system: what a body reports of "the last
-  /// step" then is the interval's mean.
+  /// Called around the steps that make up an interval of the system: what a body reports of "the
+  /// last step" is then the mean over the interval.
   virtual void begin_interval() {}
   virtual void end_interval() {}
   virtual Surface& surface() = 0;
   const Surface& surface() const { return const_cast<Body*>(this)->surface(); }
   virtual EnergyBudget energy_budget() const = 0;
   /// True when the surface is the half y >= 0 of a body that is its own mirror image in y = 0;
-  /// loads and balance are those of the whole.
+  /// loads and energy budget are those of the whole.
   virtual bool half_model() const { return false; }
 
   /// Saves everything needed to continue exactly, or brings it back. Collective for a body that is

@@ -31,6 +31,21 @@ void CoupledSystem::remove(const Contact& contact) {
 }
 
 int CoupledSystem::advance(double interval) {
+  const int sub_steps = sub_steps_of(interval);
+  const double dt = interval / sub_steps;
+  begin_interval(sub_steps);
+  for (int i = 0; i < sub_steps; ++i) {
+    apply_contacts(dt);
+    if (!contacts_.empty())
+      for (Member& m : members_) m.contact_force += m.body->surface().f / sub_steps;
+    advance_bodies(dt);
+    for (Member& m : members_) m.body->surface().f.setZero();
+  }
+  end_interval();
+  return sub_steps;
+}
+
+int CoupledSystem::sub_steps_of(double interval) const {
   if (!(std::isfinite(interval) && interval > 0.0))
     throw StateError(fmt::format("the system cannot advance by {} s", interval));
   double smallest = std::numeric_limits<double>::infinity();
@@ -44,8 +59,11 @@ int CoupledSystem::advance(double interval) {
                       member.name, stable, interval));
     smallest = std::min(smallest, stable);
   }
-  const int sub_steps = std::max(1, static_cast<int>(std::ceil(interval / smallest)));
-  const double dt = interval / sub_steps;
+  return std::max(1, static_cast<int>(std::ceil(interval / smallest)));
+}
+
+/// The forces of others become one impulse in the first sub-step.
+void CoupledSystem::begin_interval(int sub_steps) {
   for (Member& m : members_) {
     Matrix3X& f = m.body->surface().f;
     if (published_) f -= m.contact_force;
@@ -55,19 +73,16 @@ int CoupledSystem::advance(double interval) {
     m.body->begin_interval();
   }
   published_ = false;
-  for (int i = 0; i < sub_steps; ++i) {
-    apply_contacts(dt);
-    if (!contacts_.empty())
-      for (Member& m : members_) m.contact_force += m.body->surface().f / sub_steps;
-    advance_bodies(dt);
-    for (Member& m : members_) m.body->surface().f.setZero();
-  }
+}
+
+/// Leaves the forces of others on the surfaces as they were, and in contact_force the contacts'
+/// mean alone: the sum over sub-steps had the impulse in it.
+void CoupledSystem::end_interval() {
   for (Member& m : members_) {
     if (!contacts_.empty()) m.contact_force -= m.external_force;
     m.body->surface().f = m.external_force;
     m.body->end_interval();
   }
-  return sub_steps;
 }
 
 void CoupledSystem::apply_contacts(double dt) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Every body of a scene, advanced together.
+/// Every body and contact of a scene, advanced together.
 
 #include <string>
 #include <vector>
@@ -12,7 +12,8 @@ namespace furrow {
 
 class CoupledSystem {
  public:
-  /// The body is not owned; it must outlive the system or be removed.
+  /// Neither bodies nor contacts are owned: each must outlive the system or be removed.
+  /// @param name for errors
   void add(Body& body, const std::string& name) { members_.push_back({&body, name}); }
   void remove(const Body& body);
   void add(Contact& contact, const std::string& name) { contacts_.push_back({&contact, name}); }
@@ -22,8 +23,9 @@ class CoupledSystem {
   /// step of any body now. Surface forces act as one impulse, force times interval, in the first
   /// sub-step: their kick is centred on the time they belong to (r-RESPA: M. Tuckerman, B. J.
   /// Berne, G. J. Martyna, J. Chem. Phys. 97, 1990 (1992)). Held over n sub-steps they would lag,
-  /// and a spring k on a mass m gain energy at the rate k interval/(2 m) (1 - 1/n). Contacts
-  /// are found anew in every sub-step. Returns their number.
+  /// and a spring k on a mass m gain energy at the rate k interval/(2 m) (1 - 1/n). Contacts are
+  /// evaluated in every sub-step.
+  /// @returns the number of sub-steps
   /// @throws StateError naming the body when its stable step vanishes, its state is not finite or
   /// its own advance() refuses
   int advance(double interval);
@@ -32,8 +34,8 @@ class CoupledSystem {
   /// Adds the contacts' forces, their mean over the last interval, to the surfaces for whoever
   /// reads them; the next advance() takes them away again.
   void publish_contact_forces();
-  /// Those mean forces of all bodies one after the other, three numbers a node, if they are
-  /// published now; for checkpoints.
+  /// Those mean forces [N], body by body and node by node, three numbers for each node; empty
+  /// unless they are published now. For checkpoints.
   std::vector<double> published_contact_forces() const;
   /// @throws Error when their number does not fit
   void restore_published_contact_forces(const std::vector<double>& forces);
@@ -42,13 +44,16 @@ class CoupledSystem {
   struct Member {
     Body* body;
     std::string name;
-    // [N] of others; mean of the contacts over the last interval
-    Matrix3X external_force = {}, contact_force = {};
+    Matrix3X external_force = {};  // [N] on the surface by others than the system's contacts
+    Matrix3X contact_force = {};   // [N] of the contacts, mean over the last interval
   };
   struct Named {
     Contact* contact;
     std::string name;
   };
+  int sub_steps_of(double interval) const;
+  void begin_interval(int sub_steps);
+  void end_interval();
   void apply_contacts(double dt);
   void advance_bodies(double dt);
 

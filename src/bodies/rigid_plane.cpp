@@ -5,22 +5,20 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/check_number.h"
 
 namespace furrow {
 
 RigidPlane::RigidPlane(const RigidPlaneParameters& parameters, const Surface& surface)
     : parameters_(parameters) {
-  const auto need = [](double value, const char* name, bool good, const char* allowed) {
-    if (!(std::isfinite(value) && good))
-      throw InputError(fmt::format("rigid plane, {}", name), fmt::format("is {}", value), allowed);
+  const auto check = [](double value, const Range& range, const char* name, const char* unit) {
+    check_number(value, range, fmt::format("rigid plane, {}", name), unit);
   };
-  need(parameters.height, "height", true, "a number [m]");
-  need(parameters.stiffness, "stiffness", parameters.stiffness > 0.0, "a number > 0 [Pa/m]");
-  need(parameters.damping, "damping", parameters.damping >= 0.0, "a number >= 0 [Pa s/m]");
-  need(parameters.friction, "friction", parameters.friction >= 0.0, "a number >= 0");
-  need(parameters.tangential_stiffness, "tangential_stiffness",
-       parameters.tangential_stiffness > 0.0, "a number > 0 [Pa/m]");
+  check(parameters.height, Range::any(), "height", "m");
+  check(parameters.stiffness, Range::positive(), "stiffness", "Pa/m");
+  check(parameters.damping, Range::non_negative(), "damping", "Pa s/m");
+  check(parameters.friction, Range::non_negative(), "friction", "");
+  check(parameters.tangential_stiffness, Range::positive(), "tangential_stiffness", "Pa/m");
   const auto nodes = static_cast<Eigen::Index>(surface.node_count());
   area_ = pressure_ = VectorX::Zero(nodes);
   for (std::size_t t = 0; t < surface.triangle_count(); ++t)
@@ -32,7 +30,6 @@ RigidPlane::RigidPlane(const RigidPlaneParameters& parameters, const Surface& su
 
 void RigidPlane::press_on(Surface& surface) {
   total_.setZero();
-  stored_ = 0.0;
   for (Eigen::Index n = 0; n < surface.x.cols(); ++n) {
     const double depth = parameters_.height - surface.x(2, n);
     unsigned char& sticking = sticking_[static_cast<std::size_t>(n)];
@@ -47,7 +44,8 @@ void RigidPlane::press_on(Surface& surface) {
     const Vector2 point = surface.x.col(n).head<2>();
     if (!sticking) anchor_.col(n) = point;
     sticking = 1;
-    const double k = parameters_.tangential_stiffness, limit = parameters_.friction * pressure_[n];
+    const double k = parameters_.tangential_stiffness;
+    const double limit = parameters_.friction * pressure_[n];
     Vector2 shear = k * (anchor_.col(n) - point);
     if (const double size = shear.norm(); size > limit) {
       shear *= limit / size;
@@ -56,7 +54,6 @@ void RigidPlane::press_on(Surface& surface) {
     const Vector3 force(area_[n] * shear.x(), area_[n] * shear.y(), area_[n] * pressure_[n]);
     surface.f.col(n) += force;
     total_ += force;
-    stored_ += 0.5 * area_[n] * (parameters_.stiffness * depth * depth + shear.squaredNorm() / k);
   }
 }
 

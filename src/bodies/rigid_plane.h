@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A rigid level floor with friction under a surface, for tests and for tyres on a road.
+/// A rigid level floor with friction under a surface: a road.
 
 #include <vector>
 
@@ -19,9 +19,10 @@ struct RigidPlaneParameters {
   double tangential_stiffness = 1e9;  ///< [Pa/m] of sticking
 };
 
-/// Contact at the nodes of a surface, each with its share of the area of the triangles around (of
-/// the shape at construction). Sticking is a tangential spring from the point of first touch,
-/// dragged along when the force exceeds mu times the normal one.
+/// Contact at the nodes of a surface, each with its share of the area of the triangles around it in
+/// the shape at construction. Sticking is a tangential spring from the point of first touch,
+/// dragged along when its force exceeds mu times the normal one. The surface is not owned, nor
+/// kept.
 class RigidPlane {
  public:
   /// @throws InputError for values out of range
@@ -30,25 +31,20 @@ class RigidPlane {
   /// Adds the floor's forces to surface.f.
   void press_on(Surface& surface);
 
-  const VectorX& area() const { return area_; }          ///< [m^2] of each node
+  const VectorX& area() const { return area_; }          ///< [m^2] of every node
   const VectorX& pressure() const { return pressure_; }  ///< [Pa] normal, of the last press_on
   /// [N] on the surface, of the last press_on
   Vector3 total_force() const { return total_; }
-  /// Elastic energy of penetration and sticking [J], and what friction and damping took since the
-  /// start: exact for small steps.
-  double stored_energy() const { return stored_; }
-  void set_height(double height) { parameters_.height = height; }
   const RigidPlaneParameters& parameters() const { return parameters_; }
-  void checkpoint(Checkpoint& state);                       ///< where nodes stick, and their areas
-  void forget() { sticking_.assign(sticking_.size(), 0); }  ///< all nodes stick anew where they are
+  void checkpoint(Checkpoint& state);  ///< where nodes stick, and their areas
 
  private:
   RigidPlaneParameters parameters_;
-  VectorX area_, pressure_;
-  Eigen::Matrix2Xd anchor_;  // [m] where the spring of a sticking node is free of force
-  std::vector<unsigned char> sticking_;
-  Vector3 total_ = Vector3::Zero();
-  double stored_ = 0.0;
+  VectorX area_;                         // [m^2]
+  VectorX pressure_;                     // [Pa]
+  Eigen::Matrix2Xd anchor_;              // [m] where the spring of a sticking node has no force
+  std::vector<unsigned char> sticking_;  // 1: the node sticks
+  Vector3 total_ = Vector3::Zero();      // [N]
 };
 
 }  // namespace furrow

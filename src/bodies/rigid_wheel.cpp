@@ -6,31 +6,16 @@
 
 #include <fmt/format.h>
 
-#include "geometry/closed_surface.h"
 #include "core/error.h"
+#include "geometry/closed_surface.h"
+#include "geometry/wheel_mesh.h"
 
 namespace furrow {
 
 namespace {
 
-RigidWheelParameters parameters_from(const Options& options) {
-  RigidWheelParameters wheel;
-  wheel.geometry.diameter = options.number("diameter");
-  wheel.geometry.width = options.number("width");
-  wheel.geometry.shoulder = options.number("shoulder");
-  wheel.geometry.segments = static_cast<int>(options.integer("segments"));
-  if (options.has("element_size")) wheel.geometry.element_size = options.number("element_size");
-  wheel.mass = options.number("mass");
-  wheel.axle_inertia = options.number("inertia");
-  // exact for any distribution of mass that is the same in every plane across the axle
-  wheel.diametral_inertia =
-      options.has("inertia_diametral")
-          ? options.number("inertia_diametral")
-          : 0.5 * wheel.axle_inertia + wheel.mass * std::pow(wheel.geometry.width, 2) / 12.0;
-  const std::vector<double>& axle = options.numbers("axle");
-  wheel.axle_centre = {axle[0], axle[1], axle[2]};
-
-  Grousers& bars = wheel.geometry.grousers;
+Grousers grousers_from(const Options& options) {
+  Grousers bars;
   bars.number = static_cast<int>(options.integer("grousers"));
   for (const char* key : {"grouser_height", "grouser_thickness"}) {
     if (bars.number > 0 && !options.has(key))
@@ -45,30 +30,30 @@ RigidWheelParameters parameters_from(const Options& options) {
     bars.thickness = options.number("grouser_thickness");
     bars.angle = radians(options.number("grouser_angle"));
   }
+  return bars;
+}
+
+RigidWheelParameters parameters_from(const Options& options) {
+  RigidWheelParameters wheel;
+  wheel.geometry.diameter = options.number("diameter");
+  wheel.geometry.width = options.number("width");
+  wheel.geometry.shoulder = options.number("shoulder");
+  wheel.geometry.segments = static_cast<int>(options.integer("segments"));
+  if (options.has("element_size")) wheel.geometry.element_size = options.number("element_size");
+  wheel.geometry.grousers = grousers_from(options);
+  wheel.hub = read_hub(options, wheel.geometry.width);
   return wheel;
 }
 
 void check(const RigidWheelParameters& wheel, const std::string& where) {
-  const auto positive = [&](double value, const char* key, const char* unit) {
-    if (!(std::isfinite(value) && value > 0.0))
-      throw InputError(fmt::format("{}, keyword '{}'", where, key),
-                       fmt::format("is {} {}", value, unit), "a number > 0");
-  };
-  positive(wheel.mass, "mass", "kg");
-  positive(wheel.axle_inertia, "inertia", "kg m^2");
-  positive(wheel.diametral_inertia, "inertia_diametral", "kg m^2");
+  check(wheel.hub, where);
+  const HubInertia& inertia = wheel.hub.inertia;
   const double reach = wheel.geometry.radius() + wheel.geometry.grousers.height;
-  if (wheel.axle_inertia > wheel.mass * reach * reach)
-    throw InputError(where + ", keyword 'inertia'", fmt::format("is {} kg m^2", wheel.axle_inertia),
+  if (inertia.axial > inertia.mass * reach * reach)
+    throw InputError(where + ", keyword 'inertia'", fmt::format("is {} kg m^2", inertia.axial),
                      fmt::format("at most {:.6g} kg m^2, with all of the mass at the rim",
-                                 wheel.mass * reach * reach),
+                                 inertia.mass * reach * reach),
                      "check inertia, mass and diameter");
-  if (2.0 * wheel.diametral_inertia < wheel.axle_inertia)
-    throw InputError(where + ", keyword 'inertia_diametral'",
-                     fmt::format("is {} kg m^2", wheel.diametral_inertia),
-                     fmt::format("at least half of inertia, {} kg m^2", 0.5 * wheel.axle_inertia));
-  if (!wheel.axle_centre.allFinite())
-    throw InputError(where + ", keyword 'axle'", "is not finite", "three numbers [m]");
 }
 
 }  // namespace
@@ -81,13 +66,7 @@ Schema RigidWheel::schema(const std::string& subject) {
       .number("shoulder", "m", Range::non_negative(),
               "radius of the shoulders between tread and sides")
       .by_default(0.0);
-  schema.number("mass", "kg", Range::positive(), "mass that moves with the axle centre");
-  schema.number("inertia", "kg m^2", Range::positive(), "moment of inertia about the axle");
-  schema
-      .number("inertia_diametral", "kg m^2", Range::positive(),
-              "moment of inertia across the axle, for free yaw or camber; by default inertia/2 + "
-              "mass width^2/12")
-      .optional();
+  declare_hub(schema);
   schema.integer("segments", Range::closed(12, 5000), "facets around the tread").by_default("64");
   schema
       .number("element_size", "m", Range::positive(),
@@ -104,8 +83,6 @@ Schema RigidWheel::schema(const std::string& subject) {
       .number("grouser_angle", "degrees", Range::closed(-60, 60),
               "skew of the bars against the axle; > 0: the end at +y runs ahead")
       .by_default(0.0);
-  schema.numbers("axle", 3, "m", Range::any(), "axle centre at the start: x y z")
-      .by_default(std::vector<double>{0, 0, 0});
   return schema;
 }
 
@@ -113,9 +90,7 @@ RigidWheel::RigidWheel(const Options& options)
     : RigidWheel(parameters_from(options), options.subject()) {}
 
 RigidWheel::RigidWheel(const RigidWheelParameters& parameters, const std::string& where)
-    : WheelHub({parameters.mass, parameters.axle_inertia, parameters.diametral_inertia},
-               parameters.axle_centre, "rigid wheel"),
-      parameters_(parameters) {
+    : WheelHub(parameters.hub, "rigid wheel"), parameters_(parameters) {
   check(parameters, where);
   surface_ = make_wheel_mesh(parameters.geometry, where);
   check_closed(surface_, where);
@@ -136,9 +111,9 @@ void RigidWheel::advance(double dt) {
 }
 
 void RigidWheel::place_nodes() {
-  const Matrix3 turned = attitude();
+  const Matrix3 rotation = attitude();
   for (Eigen::Index node = 0; node < reference_.cols(); ++node) {
-    const Vector3 arm = turned * reference_.col(node);
+    const Vector3 arm = rotation * reference_.col(node);
     surface_.x.col(node) = centre() + arm;
     surface_.v.col(node) = velocity() + angular_velocity().cross(arm);
   }
@@ -159,9 +134,9 @@ void RigidWheel::checkpoint(Checkpoint& state) {
   state.match("grouser_height", shape.grousers.height);
   state.match("grouser_thickness", shape.grousers.thickness);
   state.match("grouser_angle", shape.grousers.angle);
-  state.match("mass", parameters_.mass);
-  state.match("inertia", parameters_.axle_inertia);
-  state.match("inertia_diametral", parameters_.diametral_inertia);
+  state.match("mass", parameters_.hub.inertia.mass);
+  state.match("inertia", parameters_.hub.inertia.axial);
+  state.match("inertia_diametral", parameters_.hub.inertia.diametral);
   state.match("nodes", surface_.node_count());
   checkpoint_hub(state);
   state.values("nodal_force", surface_.f);

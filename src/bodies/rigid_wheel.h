@@ -3,19 +3,15 @@
 /// A rigid wheel on an axle: six degrees of freedom, each free, held or prescribed.
 
 #include "bodies/wheel_hub.h"
-#include "geometry/wheel_mesh.h"
 #include "core/options.h"
+#include "geometry/wheel_geometry.h"
 
 namespace furrow {
 
 /// Everything that makes a wheel.
 struct RigidWheelParameters {
   WheelGeometry geometry;
-  double mass = 0.0;          ///< [kg] that moves with the axle centre
-  double axle_inertia = 0.0;  ///< [kg m^2] about the axle, C
-  /// [kg m^2] about any line across the axle through the centre, A
-  double diametral_inertia = 0.0;
-  Vector3 axle_centre = Vector3::Zero();  ///< [m] at the start
+  HubParameters hub;
 };
 
 /// A hub (wheel_hub.h) that carries a rigid surface: nodes are placed from the reference mesh by
@@ -47,7 +43,7 @@ class RigidWheel : public WheelHub {
   void place_nodes();
 
   RigidWheelParameters parameters_;
-  Matrix3X reference_;  // nodes about the axle centre, unturned
+  Matrix3X reference_;  // [m] nodes about the axle centre, at zero spin, yaw and camber
   Surface surface_;
 };
 

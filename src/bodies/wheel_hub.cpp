@@ -14,8 +14,9 @@ namespace {
 
 constexpr double largest_camber = radians(85);  // the spin and the yaw become one at 90 degrees
 
-constexpr bool is_translation(WheelHub::Coordinate coordinate) { return coordinate <= WheelHub::z; }
-constexpr int angle_index(WheelHub::Coordinate coordinate) { return coordinate - WheelHub::spin; }
+constexpr bool is_translation(Coordinate c) { return c <= Coordinate::z; }
+/// Of a translation among x, y, z, or of a rotation among spin, yaw, camber.
+constexpr int component(Coordinate c) { return static_cast<int>(c) % 3; }
 
 /// Axes of the carrier in space: columns e_x, a, e_n.
 Matrix3 carrier(double yaw, double camber) {
@@ -25,7 +26,8 @@ Matrix3 carrier(double yaw, double camber) {
 
 /// Rates of spin, yaw and camber (rows) from the quasi-velocities w.
 Matrix3 rates_from_w(double camber) {
-  const double sine = std::sin(camber), cosine = std::cos(camber);
+  const double sine = std::sin(camber);
+  const double cosine = std::cos(camber);
   Matrix3 rates;
   rates << 0.0, 1.0, -sine / cosine, 0.0, 0.0, 1.0 / cosine, 1.0, 0.0, 0.0;
   return rates;
@@ -33,9 +35,9 @@ Matrix3 rates_from_w(double camber) {
 
 }  // namespace
 
-WheelHub::WheelHub(const HubInertia& inertia, const Vector3& centre, const std::string& name)
-    : name_(name), inertia_(inertia), centre_(centre) {
-  motion_.fill(Motion::held);
+WheelHub::WheelHub(const HubParameters& parameters, const std::string& name)
+    : name_(name), inertia_(parameters.inertia), centre_(parameters.centre) {
+  motion_.values.fill(Motion::held);
 }
 
 void WheelHub::hold(Coordinate coordinate) {
@@ -93,11 +95,13 @@ void WheelHub::set_velocity(const Vector3& velocity, const Vector3& rates) {
 }
 
 double WheelHub::position(Coordinate coordinate) const {
-  return is_translation(coordinate) ? centre_[coordinate] : angles_[angle_index(coordinate)];
+  return is_translation(coordinate) ? centre_[component(coordinate)]
+                                    : angles_[component(coordinate)];
 }
 
 double WheelHub::rate(Coordinate coordinate) const {
-  return is_translation(coordinate) ? velocity_[coordinate] : rates_[angle_index(coordinate)];
+  return is_translation(coordinate) ? velocity_[component(coordinate)]
+                                    : rates_[component(coordinate)];
 }
 
 Vector3 WheelHub::axle() const { return carrier(angles_[1], angles_[2]).col(1); }
@@ -109,13 +113,13 @@ Matrix3 WheelHub::attitude() const {
 
 void WheelHub::begin_interval() {
   interval_ = 0.0;
-  constraint_impulse_.fill(0.0);
+  constraint_impulse_.values.fill(0.0);
 }
 
 void WheelHub::end_interval() {
   if (interval_ > 0.0)
-    for (std::size_t c = 0; c < coordinates; ++c)
-      constraint_[c] = constraint_impulse_[c] / interval_;
+    for (std::size_t c = 0; c < constraint_.values.size(); ++c)
+      constraint_.values[c] = constraint_impulse_.values[c] / interval_;
   interval_ = -1.0;
 }
 
@@ -132,7 +136,8 @@ void WheelHub::advance_hub(double dt, const Vector3& force, const Vector3& momen
   advance_rotation(dt, moment);
   if (interval_ >= 0.0) {
     interval_ += dt;
-    for (std::size_t c = 0; c < coordinates; ++c) constraint_impulse_[c] += dt * constraint_[c];
+    for (std::size_t c = 0; c < constraint_.values.size(); ++c)
+      constraint_impulse_.values[c] += dt * constraint_.values[c];
   }
   if (!(std::abs(angles_[2]) < largest_camber))
     throw StateError(fmt::format(
@@ -141,9 +146,12 @@ void WheelHub::advance_hub(double dt, const Vector3& force, const Vector3& momen
 }
 
 void WheelHub::advance_translation(double dt, const Vector3& force) {
-  for (const Coordinate axis : {x, y, z}) {
-    const double inertia = inertia_.mass / dt, damping = axis == z ? vertical_damping_ : 0.0;
-    const double before = velocity_[axis], applied = force[axis] + load_[axis];
+  for (const Coordinate axis : translations) {
+    const int k = component(axis);
+    const double inertia = inertia_.mass / dt;
+    const double damping = axis == Coordinate::z ? vertical_damping_ : 0.0;
+    const double before = velocity_[k];
+    const double applied = force[k] + load_[k];
     const double after =
         motion_[axis] == Motion::free
             ? ((inertia - 0.5 * damping) * before + applied) / (inertia + 0.5 * damping)
@@ -151,12 +159,12 @@ void WheelHub::advance_translation(double dt, const Vector3& force) {
     const double mean = 0.5 * (before + after);
     constraint_[axis] =
         motion_[axis] == Motion::free ? 0.0 : inertia * (after - before) - applied + damping * mean;
-    given_work_ += force[axis] * mean * dt;
-    load_work_ += load_[axis] * mean * dt;
+    given_work_ += force[k] * mean * dt;
+    load_work_ += load_[k] * mean * dt;
     drive_work_ += constraint_[axis] * mean * dt;
     dissipated_ += damping * mean * mean * dt;
-    velocity_[axis] = after;
-    centre_[axis] += after * dt;
+    velocity_[k] = after;
+    centre_[k] += after * dt;
   }
 }
 
@@ -169,10 +177,11 @@ void WheelHub::advance_rotation(double dt, const Vector3& moment) {
   const Matrix3 to_rates = rates_from_w(angles_[2]);
   const Vector3 inertia(inertia_.diametral, inertia_.axial, inertia_.diametral);
   const Vector3 contact = carrier(angles_[1], angles_[2]).transpose() * moment;
-  const double motor = motion_[spin] == Motion::free ? axle_torque_ : 0.0;
+  const double motor = motion_[Coordinate::spin] == Motion::free ? axle_torque_ : 0.0;
   const Vector3 applied = contact + motor * to_rates.row(0).transpose();
 
-  Vector3 after = w_, torques = Vector3::Zero();  // of the constraints on spin, yaw, camber
+  Vector3 after = w_;
+  Vector3 torques = Vector3::Zero();  // of the constraints on spin, yaw, camber
   Matrix3 to_rates_after = to_rates;
   for (int pass = 0; pass < 3; ++pass) {  // each pass gains an order in dt
     const Vector3 middle = 0.5 * (w_ + after);
@@ -187,8 +196,8 @@ void WheelHub::advance_rotation(double dt, const Vector3& moment) {
     system.topLeftCorner<3, 3>() = 0.5 * dt * gyroscopic;
     system.topLeftCorner<3, 3>().diagonal() += inertia;
     right.head<3>() = inertia.cwiseProduct(w_) - 0.5 * dt * gyroscopic * w_ + dt * applied;
-    for (const Coordinate angle : {spin, yaw, camber}) {
-      const int row = angle_index(angle);
+    for (const Coordinate angle : rotations) {
+      const int row = component(angle);
       if (motion_[angle] == Motion::free) {
         system(3 + row, 3 + row) = 1.0;
       } else {
@@ -202,17 +211,17 @@ void WheelHub::advance_rotation(double dt, const Vector3& moment) {
     torques = solution.tail<3>() / dt;
   }
 
-  const Vector3 mean = 0.5 * (w_ + after), mean_rates = to_rates * mean;
+  const Vector3 mean = 0.5 * (w_ + after);
+  const Vector3 mean_rates = to_rates * mean;
   given_work_ += contact.dot(mean) * dt;
   drive_work_ += (torques.dot(mean_rates) + motor * mean_rates[0]) * dt;
-  for (const Coordinate angle : {spin, yaw, camber})
-    constraint_[angle] = torques[angle_index(angle)];
-  constraint_[spin] += motor;
+  for (const Coordinate angle : rotations) constraint_[angle] = torques[component(angle)];
+  constraint_[Coordinate::spin] += motor;
 
   w_ = after;
   rates_ = to_rates_after * w_;
-  for (const Coordinate angle : {spin, yaw, camber})
-    if (motion_[angle] != Motion::free) rates_[angle_index(angle)] = prescribed_[angle];  // exactly
+  for (const Coordinate angle : rotations)
+    if (motion_[angle] != Motion::free) rates_[component(angle)] = prescribed_[angle];  // exactly
   const Vector3 half_way = angles_ + 0.5 * dt * rates_;
   omega_ = carrier(half_way[1], half_way[2]) * w_;
   angles_ += dt * rates_;
@@ -242,9 +251,9 @@ void WheelHub::checkpoint_hub(Checkpoint& state) {
   state.values("rates", rates_);
   state.values("angular_velocity", omega_);
   state.values("load", load_);
-  for (Motion& motion : motion_) state.value("motion", motion);
-  state.values("prescribed", prescribed_);
-  state.values("constraint", constraint_);
+  for (Motion& motion : motion_.values) state.value("motion", motion);
+  state.values("prescribed", prescribed_.values);
+  state.values("constraint", constraint_.values);
   state.value("axle_torque", axle_torque_);
   state.value("vertical_damping", vertical_damping_);
   state.value("given_work", given_work_);

@@ -8,14 +8,30 @@
 #include <string>
 
 #include "bodies/body.h"
+#include "bodies/hub_parameters.h"
 
 namespace furrow {
 
-/// What moves with the axle.
-struct HubInertia {
-  double mass = 0.0;       ///< [kg]
-  double axial = 0.0;      ///< [kg m^2] about the axle, C
-  double diametral = 0.0;  ///< [kg m^2] about any line across the axle through the centre, A
+/// Coordinates of a hub: position of the axle centre [m], then angles [rad].
+enum class Coordinate { x, y, z, spin, yaw, camber };
+
+constexpr std::array<Coordinate, 3> translations{Coordinate::x, Coordinate::y, Coordinate::z};
+constexpr std::array<Coordinate, 3> rotations{Coordinate::spin, Coordinate::yaw,
+                                              Coordinate::camber};
+
+/// One value for each coordinate of a hub.
+template <class Value>
+struct PerCoordinate {
+  std::array<Value, 6> values{};
+
+  Value& operator[](Coordinate c) { return values[static_cast<std::size_t>(c)]; }
+  const Value& operator[](Coordinate c) const { return values[static_cast<std::size_t>(c)]; }
+};
+
+/// Force [N] and its moment about the axle centre [N m].
+struct Wrench {
+  Vector3 force = Vector3::Zero();
+  Vector3 moment = Vector3::Zero();
 };
 
 /// Attitude: R = Rz(yaw) Rx(camber) Ry(spin); the axle is a = R y. Coordinates q: x, y, z of the
@@ -39,9 +55,7 @@ struct HubInertia {
 class WheelHub : public Body {
  public:
   using Body::surface;
-  enum Coordinate { x, y, z, spin, yaw, camber };
   enum class Motion { free, held, prescribed };
-  static constexpr int coordinates = 6;
 
   void hold(Coordinate coordinate);
   void release(Coordinate coordinate);
@@ -51,8 +65,8 @@ class WheelHub : public Body {
 
   /// Force at the axle centre, weight included: a hub knows no gravity of its own [N].
   void set_load(const Vector3& force) { load_ = force; }
-  /// Torque of a motor or brake between carrier and wheel, > 0 drives forward [N m]; of no effect
-  /// while the spin is prescribed.
+  /// Torque of a motor or brake between carrier and wheel, > 0 drives forward [N m]; has no effect
+  /// while the spin is held or prescribed.
   void set_axle_torque(double torque) { axle_torque_ = torque; }
   /// Viscous resistance to vertical motion, taken implicitly [N s/m]; its loss is part of the
   /// balance's dissipated_energy.
@@ -76,7 +90,10 @@ class WheelHub : public Body {
   Matrix3 attitude() const;                                   ///< R
   const Vector3& angular_velocity() const { return omega_; }  ///< [rad/s] in space, half a step ago
   const Vector3& load() const { return load_; }               ///< [N]
-  double axle_torque() const { return axle_torque_; }         ///< [N m] as set
+  /// [m/s] of a point [m] that moves with the wheel as a rigid body, half a step ago
+  Vector3 velocity_at(const Vector3& point) const {
+    return velocity_ + omega_.cross(point - centre_);
+  }
   /// Force [N] or torque [N m] with which whatever holds or prescribes a coordinate acts on the
   /// wheel, mean of the last step or interval; for the spin of a free wheel this is the axle
   /// torque. Zero for other free coordinates.
@@ -88,11 +105,7 @@ class WheelHub : public Body {
   virtual double nominal_radius() const = 0;
   /// [m] z of the unloaded shape, without grousers: what a sinkage is counted to
   virtual double lowest_point() const = 0;
-  /// Force [N] and moment about the axle centre [N m] of all that touches the wheel now; a half
-  /// model's are those of the whole.
-  struct Wrench {
-    Vector3 force, moment;
-  };
+  /// Of all that touches the wheel now; a half model's is that of the whole.
   virtual Wrench ground_wrench() const {
     return {surface().total_force(), surface().total_moment(centre_)};
   }
@@ -100,9 +113,11 @@ class WheelHub : public Body {
   virtual double total_mass() const { return inertia_.mass; }
 
  protected:
-  WheelHub(const HubInertia& inertia, const Vector3& centre, const std::string& name);
+  /// @param name names the wheel in errors
+  WheelHub(const HubParameters& parameters, const std::string& name);
 
-  /// One step of the hub. @throws StateError for what is not finite or a wheel that fell over
+  /// One step of the hub under a force and its moment about the axle centre [N, N m].
+  /// @throws StateError for what is not finite or a wheel that fell over
   void advance_hub(double dt, const Vector3& force, const Vector3& moment);
   double hub_energy() const;  ///< kinetic [J]
   /// [J] of the forces and moments passed to advance_hub
@@ -121,20 +136,26 @@ class WheelHub : public Body {
 
   std::string name_;
   HubInertia inertia_;
-  Vector3 centre_, velocity_ = Vector3::Zero();
+  Vector3 centre_;
+  Vector3 velocity_ = Vector3::Zero();
   Vector3 angles_ = Vector3::Zero();  // spin, yaw, camber [rad]
   Vector3 w_ = Vector3::Zero();       // about e_x, a, e_n [rad/s]
   Vector3 rates_ = Vector3::Zero();   // of the angles, from w_ at the attitude of its time [rad/s]
   Vector3 omega_ = Vector3::Zero();   // w_ in space, likewise [rad/s]
 
-  std::array<Motion, coordinates> motion_;
-  std::array<double, coordinates> prescribed_{};          // [m/s or rad/s]
-  std::array<double, coordinates> constraint_{};          // [N or N m]
-  std::array<double, coordinates> constraint_impulse_{};  // of the interval so far [N s or N m s]
-  double interval_ = -1.0;                                // [s] so far; < 0 outside of one
-  Vector3 load_ = Vector3::Zero();
-  double axle_torque_ = 0.0, vertical_damping_ = 0.0;
-  double given_work_ = 0.0, load_work_ = 0.0, drive_work_ = 0.0, dissipated_ = 0.0;  // [J]
+  PerCoordinate<Motion> motion_;
+  PerCoordinate<double> prescribed_;          // [m/s or rad/s]
+  PerCoordinate<double> constraint_;          // [N or N m]
+  PerCoordinate<double> constraint_impulse_;  // of the interval so far [N s or N m s]
+  double interval_ = -1.0;                    // [s] so far; < 0 outside of one
+  Vector3 load_ = Vector3::Zero();            // [N]
+  double axle_torque_ = 0.0;                  // [N m]
+  double vertical_damping_ = 0.0;             // [N s/m]
+  // [J] since the start
+  double given_work_ = 0.0;
+  double load_work_ = 0.0;
+  double drive_work_ = 0.0;
+  double dissipated_ = 0.0;
 };
 
 }  // namespace furrow

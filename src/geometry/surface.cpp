@@ -2,7 +2,6 @@
 #include "geometry/surface.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -18,26 +17,15 @@ void Surface::resize(std::size_t nodes) {
   f.setZero(3, static_cast<Eigen::Index>(nodes));
 }
 
-// Weights of least squares on the edge vectors, C. Ericson, Real-Time Collision Detection (2005),
-// section 3.4.
-Vector3 Surface::barycentric(std::size_t triangle, const Vector3& point) const {
-  const Vector3i& nodes = triangles[triangle];
-  const Vector3 a = x.col(nodes[0]), ab = x.col(nodes[1]) - a, ac = x.col(nodes[2]) - a,
-                ap = point - a;
-  const double bb = ab.dot(ab), bc = ab.dot(ac), cc = ac.dot(ac), pb = ap.dot(ab), pc = ap.dot(ac);
-  const double gram = bb * cc - bc * bc;  // (2 area)^2
-  if (!(gram > 0.0)) throw StateError(fmt::format("triangle {} has no area", triangle));
-  const double beta = (cc * pb - bc * pc) / gram, gamma = (bb * pc - bc * pb) / gram;
-  return {1.0 - beta - gamma, beta, gamma};
+Vector3 Surface::total_force() const {
+  // Eigen sums the rows of an aligned result in another order than those of an unaligned one: made
+  // in a place of known alignment the sum is the same to the last bit whoever calls
+  struct {
+    alignas(16) Vector3 force;
+  } sum;
+  sum.force = f.rowwise().sum();
+  return sum.force;
 }
-
-void Surface::add_force(std::size_t triangle, const Vector3& point, const Vector3& force) {
-  const Vector3 weights = barycentric(triangle, point);
-  const Vector3i& nodes = triangles[triangle];
-  for (int corner = 0; corner < 3; ++corner) f.col(nodes[corner]) += weights[corner] * force;
-}
-
-Vector3 Surface::total_force() const { return f.rowwise().sum(); }
 
 Vector3 Surface::total_moment(const Vector3& about) const {
   Vector3 moment = Vector3::Zero();
@@ -48,7 +36,9 @@ Vector3 Surface::total_moment(const Vector3& about) const {
 
 Vector3 Surface::area_vector(std::size_t triangle) const {
   const Vector3i& nodes = triangles[triangle];
-  const Vector3 a = x.col(nodes[0]), ab = x.col(nodes[1]) - a, ac = x.col(nodes[2]) - a;
+  const Vector3 a = x.col(nodes[0]);
+  const Vector3 ab = x.col(nodes[1]) - a;
+  const Vector3 ac = x.col(nodes[2]) - a;
   return 0.5 * ab.cross(ac);
 }
 

@@ -11,7 +11,8 @@
 namespace furrow {
 
 /// A triangulated surface with nodal position, velocity and force; SI units; replicated on every
-/// rank.
+/// rank. Whoever finds a force at a point of a triangle adds it to f with the barycentric weights
+/// of that point, which keep force and moment.
 struct Surface {
   std::vector<Vector3i> triangles;  ///< node indices, outward by the right-hand rule
   Matrix3X x;                       ///< [m]   3 x nodes
@@ -24,15 +25,6 @@ struct Surface {
 
   void resize(std::size_t nodes);  ///< all three arrays, zeroed
   void clear_forces() { f.setZero(); }
-
-  /// Barycentric coordinates of the projection of point onto the plane of a triangle; negative ones
-  /// lie outside of it.
-  /// @throws StateError when the triangle has no area
-  Vector3 barycentric(std::size_t triangle, const Vector3& point) const;
-  /// Spreads a force over the three nodes with barycentric weights: keeps the force, and the moment
-  /// of a point on the plane of the triangle. A point at height d above it loses the moment d n x
-  /// force: pass the contact point on the triangle.
-  void add_force(std::size_t triangle, const Vector3& point, const Vector3& force);
 
   Vector3 total_force() const;                       ///< [N]
   Vector3 total_moment(const Vector3& about) const;  ///< [N m]

@@ -11,153 +11,25 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "geometry/wheel_circumference.h"
 
 namespace furrow {
 
 namespace {
 
 constexpr double largest_aspect = 4.0;  // element length over the smallest feature of a grouser
-constexpr double largest_skew = radians(60);
 constexpr int largest_triangle_count = 500'000;
 
-void require_positive(double value, const char* what, const std::string& where) {
-  if (!(std::isfinite(value) && value > 0.0))
-    throw InputError(where, fmt::format("has {} {} m", what, value), "a number > 0");
-}
-
-void check(const WheelGeometry& wheel, const std::string& where) {
-  require_positive(wheel.diameter, "diameter", where);
-  require_positive(wheel.width, "width", where);
-  if (!(wheel.shoulder >= 0.0 && wheel.shoulder <= 0.5 * wheel.width &&
-        wheel.shoulder < wheel.radius()))
-    throw InputError(where, fmt::format("has shoulder {} m", wheel.shoulder),
-                     fmt::format("0 to half the width, {} m, and below the radius, {} m",
-                                 0.5 * wheel.width, wheel.radius()));
-  if (wheel.segments < 12)
-    throw InputError(where, fmt::format("has {} segments", wheel.segments), "an integer >= 12");
-  if (!(std::isfinite(wheel.element_size) && wheel.element_size >= 0.0))
-    throw InputError(where, fmt::format("has element_size {} m", wheel.element_size),
-                     "a number > 0, or 0 for one and a half facets");
-}
-
-void check(const Grousers& bars, const WheelGeometry& wheel, const std::string& where) {
-  if (bars.number < 0)
-    throw InputError(where, fmt::format("has {} grousers", bars.number), "an integer >= 0");
-  if (bars.number == 0) return;
-  require_positive(bars.height, "grouser_height", where);
-  require_positive(bars.thickness, "grouser_thickness", where);
-  if (!(std::abs(bars.angle) <= largest_skew))
-    throw InputError(where, fmt::format("has grouser_angle {} degrees", degrees(bars.angle)),
-                     "-60 to 60 degrees");
-  if (!(wheel.tread_width() > 0.0))
-    throw InputError(
-        where, "has grousers but no flat tread to carry them",
-        fmt::format("grousers on a shoulder below half the width, {} m", 0.5 * wheel.width),
-        "reduce the shoulder");
-  const double along = bars.thickness / std::cos(bars.angle),
-               pitch = 2.0 * pi * wheel.radius() / bars.number;
-  if (along >= pitch || along >= wheel.radius())
-    throw InputError(where,
-                     fmt::format("has {} grousers that overlap: each takes {:.4g} m of the "
-                                 "circumference, their pitch is {:.4g} m",
-                                 bars.number, along, pitch),
-                     "bars narrower than their pitch and than the radius",
-                     "reduce their number, thickness or angle");
-}
-
-int parts(double length, double size) {
-  return std::max(1, static_cast<int>(std::ceil(length / size - 1e-9)));
-}
 int nearest_parts(double length, double size) {
   return std::max(1, static_cast<int>(std::lround(length / size)));
 }
 
-/// The angles of the nodes around a ring, and which of its segments carry a bar.
-struct Circumference {
-  struct Bar {
-    int first = 0, last = 0;  // columns of its two edges
-    double centre = 0.0;      // [rad]
-  };
-  std::vector<double> angles;  // [rad]
-  std::vector<Bar> bars;
-  double node_radius = 0.0;  // [m] of the polygon with the area of the circle
-
-  int columns() const { return static_cast<int>(angles.size()); }
-  bool under_bar(int column) const {
-    return std::any_of(bars.begin(), bars.end(),
-                       [&](const Bar& bar) { return column >= bar.first && column < bar.last; });
-  }
-};
-
-/// Radius of the nodes that gives their polygon the area of the circle: R'^2 sum of sin(step) / 2 =
-/// pi R^2.
-double equal_area_radius(const std::vector<double>& angles, double radius) {
-  double sines = 0.0;
-  for (std::size_t i = 0; i < angles.size(); ++i)
-    sines += std::sin((i + 1 < angles.size() ? angles[i + 1] : angles[0] + 2.0 * pi) - angles[i]);
-  return radius * std::sqrt(2.0 * pi / sines);
-}
-
-Circumference plain_circumference(const WheelGeometry& wheel) {
-  Circumference around;
-  for (int i = 0; i < wheel.segments; ++i) around.angles.push_back(2.0 * pi * i / wheel.segments);
-  around.node_radius = equal_area_radius(around.angles, wheel.radius());
-  return around;
-}
-
-/// The bar is as wide as the chord between its edges, which depends on the node radius: a few
-/// passes settle both.
-Circumference grouser_circumference(const WheelGeometry& wheel, double size) {
-  const Grousers& bars = wheel.grousers;
-  const double chord = bars.thickness / std::cos(bars.angle), pitch = 2.0 * pi / bars.number;
-  Circumference around;
-  around.node_radius = wheel.radius();
-  for (int pass = 0; pass < 20; ++pass) {
-    const double half = std::asin(0.5 * chord / around.node_radius), gap = pitch - 2.0 * half;
-    const int bar_parts = parts(chord, size), gap_parts = parts(gap * wheel.radius(), size);
-    around.angles.clear();
-    around.bars.clear();
-    for (int bar = 0; bar < bars.number; ++bar) {
-      const double centre = bar * pitch;
-      const int first = around.columns();
-      for (int i = 0; i < bar_parts; ++i)
-        around.angles.push_back(centre - half + 2.0 * half * i / bar_parts);
-      around.bars.push_back({first, around.columns(), centre});
-      for (int i = 0; i < gap_parts; ++i)
-        around.angles.push_back(centre + half + gap * i / gap_parts);
-    }
-    around.node_radius = equal_area_radius(around.angles, wheel.radius());
-  }
-  return around;
-}
-
 /// Builds one wheel; nodes appear when first asked for, so that none is left unused.
-class WheelMesh {
+class WheelMeshBuilder {
  public:
-  explicit WheelMesh(const WheelGeometry& wheel, const std::string& where) : wheel_(wheel) {
-    const Grousers& bars = wheel.grousers;
-    const double facet = 2.0 * pi * wheel.radius() / wheel.segments;
-    double size = facet;
-    across_ = wheel.element_size > 0.0 ? wheel.element_size : 1.5 * facet;
-    if (bars.number > 0) {
-      const double along = bars.thickness / std::cos(bars.angle);
-      const double gap = 2.0 * pi * wheel.radius() / bars.number - along;
-      const double longest = largest_aspect * std::min({bars.thickness, bars.height, gap});
-      size = std::min(size, longest);
-      across_ = std::min(across_, longest);
-      levels_ = parts(bars.height, std::min(size, across_));
-    }
-    rows_ = wheel.tread_width() > 0.0 ? nearest_parts(wheel.tread_width(), across_) : 0;
-    shoulder_rows_ =
-        wheel.shoulder > 0.0 ? std::max(2, nearest_parts(0.5 * pi * wheel.shoulder, across_)) : 0;
-    const double estimate =
-        2.0 * (2.0 * pi * wheel.radius() / size) * (rows_ + 2.0 * shoulder_rows_ + 4.0);
-    if (!(estimate < largest_triangle_count))
-      throw InputError(where, fmt::format("would have about {:.2g} triangles", estimate),
-                       fmt::format("at most {}", largest_triangle_count),
-                       "give fewer segments, larger elements or thicker grousers");
-    around_ = bars.number > 0 ? grouser_circumference(wheel, size) : plain_circumference(wheel);
-
+  /// @throws InputError where the mesh would have too many triangles
+  WheelMeshBuilder(const WheelGeometry& wheel, const std::string& where) : wheel_(wheel) {
+    divide(where);
     build_tread();
     for (std::size_t bar = 0; bar < around_.bars.size(); ++bar) build_bar(static_cast<int>(bar));
     for (const int side : {-1, 1}) build_disc(build_shoulder(side), side);
@@ -175,8 +47,36 @@ class WheelMesh {
  private:
   struct Ring {
     std::vector<int> nodes;
-    double radius = 0.0, y = 0.0;
+    double radius = 0.0;  // [m]
+    double y = 0.0;       // [m]
   };
+
+  /// Columns around, rows across the flat tread and the shoulders, levels of the bars.
+  void divide(const std::string& where) {
+    const Grousers& bars = wheel_.grousers;
+    const double radius = wheel_.radius();
+    const double facet = 2.0 * pi * radius / wheel_.segments;
+    double along = facet;  // [m] element size around
+    double across = wheel_.element_size > 0.0 ? wheel_.element_size : 1.5 * facet;
+    if (bars.number > 0) {
+      const double thickness = bars.thickness / std::cos(bars.angle);  // along the circumference
+      const double gap = 2.0 * pi * radius / bars.number - thickness;
+      const double longest = largest_aspect * std::min({bars.thickness, bars.height, gap});
+      along = std::min(along, longest);
+      across = std::min(across, longest);
+      levels_ = parts(bars.height, std::min(along, across));
+    }
+    rows_ = wheel_.tread_width() > 0.0 ? nearest_parts(wheel_.tread_width(), across) : 0;
+    shoulder_rows_ =
+        wheel_.shoulder > 0.0 ? std::max(2, nearest_parts(0.5 * pi * wheel_.shoulder, across)) : 0;
+    const double estimate =
+        2.0 * (2.0 * pi * radius / along) * (rows_ + 2.0 * shoulder_rows_ + 4.0);
+    if (!(estimate < largest_triangle_count))
+      throw InputError(where, fmt::format("would have about {:.2g} triangles", estimate),
+                       fmt::format("at most {}", largest_triangle_count),
+                       "give fewer segments, larger elements or thicker grousers");
+    around_ = bars.number > 0 ? grouser_circumference(wheel_, along) : plain_circumference(wheel_);
+  }
 
   int add(const Vector3& point) {
     points_.push_back(point);
@@ -186,8 +86,8 @@ class WheelMesh {
   double row_y(int row) const {
     return rows_ == 0 ? 0.0 : wheel_.tread_width() * (static_cast<double>(row) / rows_ - 0.5);
   }
-  /// The grid of a ring is turned by the skew of the bars [rad].
-  double turn(double y) const { return y * std::tan(wheel_.grousers.angle) / wheel_.radius(); }
+  /// [rad] by which the skew of the bars shifts the grid of the ring at y.
+  double shift(double y) const { return y * std::tan(wheel_.grousers.angle) / wheel_.radius(); }
   static Vector3 on_circle(double angle, double radius, double y) {
     return {radius * std::sin(angle), y, radius * std::cos(angle)};
   }
@@ -197,7 +97,7 @@ class WheelMesh {
     const auto [found, fresh] = tread_nodes_.try_emplace({column(i), row}, -1);
     if (fresh)
       found->second =
-          add(on_circle(around_.angles[static_cast<std::size_t>(column(i))] + turn(row_y(row)),
+          add(on_circle(around_.angles[static_cast<std::size_t>(column(i))] + shift(row_y(row)),
                         around_.node_radius, row_y(row)));
     return found->second;
   }
@@ -208,9 +108,10 @@ class WheelMesh {
     if (level == 0) return tread_node(i, row);
     const auto [found, fresh] = bar_nodes_.try_emplace({bar, i, row, level}, -1);
     if (fresh) {
-      const double y = row_y(row), rise = wheel_.grousers.height * level / levels_;
-      const double angle = around_.angles[static_cast<std::size_t>(column(i))] + turn(y);
-      const double centre = around_.bars[static_cast<std::size_t>(bar)].centre + turn(y);
+      const double y = row_y(row);
+      const double rise = wheel_.grousers.height * level / levels_;
+      const double angle = around_.angles[static_cast<std::size_t>(column(i))] + shift(y);
+      const double centre = around_.bars[static_cast<std::size_t>(bar)].centre + shift(y);
       found->second = add(on_circle(angle, around_.node_radius, y) + on_circle(centre, rise, 0.0));
     }
     return found->second;
@@ -273,7 +174,8 @@ class WheelMesh {
   /// begins
   Ring build_shoulder(int side) {
     const int edge_row = side > 0 ? rows_ : 0;
-    const double edge_y = row_y(edge_row), scale = around_.node_radius / wheel_.radius();
+    const double edge_y = row_y(edge_row);
+    const double scale = around_.node_radius / wheel_.radius();
     Ring ring;
     for (int i = 0; i < around_.columns(); ++i) ring.nodes.push_back(tread_node(i, edge_row));
     ring.radius = around_.node_radius;
@@ -284,7 +186,7 @@ class WheelMesh {
       next.radius = scale * (wheel_.radius() - wheel_.shoulder * (1.0 - std::cos(slope)));
       next.y = edge_y + side * wheel_.shoulder * std::sin(slope);
       for (const double angle : around_.angles)
-        next.nodes.push_back(add(on_circle(angle + turn(edge_y), next.radius, next.y)));
+        next.nodes.push_back(add(on_circle(angle + shift(edge_y), next.radius, next.y)));
       for (int i = 0; i < around_.columns(); ++i) {
         const auto here = static_cast<std::size_t>(i),
                    ahead = static_cast<std::size_t>(column(i + 1));
@@ -350,8 +252,7 @@ class WheelMesh {
     }
   }
 
-  /// a, b, c as they run clockwise seen from outside on the side y > 0; on the other side they are
-  /// turned round.
+  /// a, b, c run clockwise seen from outside on the side y > 0, and counter-clockwise on the other.
   void add_on_side(int a, int b, int c, int side) {
     if (side > 0)
       triangles_.push_back({a, c, b});
@@ -360,9 +261,10 @@ class WheelMesh {
   }
 
   WheelGeometry wheel_;
-  Circumference around_;
-  double across_ = 0.0;  // [m] element size across
-  int rows_ = 0, shoulder_rows_ = 0, levels_ = 0;
+  WheelCircumference around_;
+  int rows_ = 0;           // of elements across the flat tread
+  int shoulder_rows_ = 0;  // of elements from the tread to a side
+  int levels_ = 0;         // of elements from the tread to the top of a bar
   std::vector<Vector3> points_;
   std::vector<Vector3i> triangles_;
   std::map<std::pair<int, int>, int> tread_nodes_;           // column, row
@@ -371,18 +273,9 @@ class WheelMesh {
 
 }  // namespace
 
-// Support function of the Minkowski sum of a cylinder (radius R - s, half width w/2 - s) and a ball
-// of radius s.
-double WheelGeometry::depth_below_centre(const Vector3& axle) const {
-  const double up = std::min(1.0, std::abs(axle.z()));
-  return (radius() - shoulder) * std::sqrt(1.0 - up * up) + (0.5 * width - shoulder) * up +
-         shoulder;
-}
-
 Surface make_wheel_mesh(const WheelGeometry& geometry, const std::string& where) {
   check(geometry, where);
-  check(geometry.grousers, geometry, where);
-  Surface surface = WheelMesh(geometry, where).surface();
+  Surface surface = WheelMeshBuilder(geometry, where).surface();
   const double sharpest = surface.minimum_angle();
   if (sharpest < minimum_mesh_angle)
     throw InputError(where,

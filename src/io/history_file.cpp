@@ -23,6 +23,9 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using NumberMember = std::pair<const char*, double Audit::*>;
 
+constexpr double flush_interval = 5.0;       // [s] between flushes that come by themselves
+constexpr double least_flush_ratio = 100.0;  // of that interval to the duration of a flush
+
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -229,8 +232,7 @@ void HistoryFile::append(const std::vector<double>& row) {
     throw StateError(fmt::format("{}: a row of t = {:.9g} s follows one of t = {:.9g} s", path_,
                                  row[0], history_.at(history_.size() - 1, 0)));
   history_.append(row);
-  if (seconds_since(last_flush_) >= flush_interval_ &&
-      (flush_interval_ == 0.0 || seconds_since(last_flush_) >= 100.0 * flush_duration_))
+  if (seconds_since(last_flush_) >= std::max(flush_interval, least_flush_ratio * flush_duration_))
     flush();
 }
 
@@ -351,20 +353,6 @@ Grains read_reference_grains(const std::string& path) {
   return read_grains(path, "/grains/reference");
 }
 Grains read_final_grains(const std::string& path) { return read_grains(path, "/grains/final"); }
-
-Surface read_final_surface(const std::string& path) {
-  const Hdf5File file(path, Hdf5File::Mode::read);
-  if (!file.exists("/surface"))
-    throw Error(fmt::format("{}: has no /surface; the run kept none", path));
-  Surface surface;
-  surface.triangles = file.read_triples("/surface/triangles");
-  surface.x = file.read_columns("/surface/x");
-  surface.v = surface.f = Matrix3X::Zero(3, surface.x.cols());
-  for (const Vector3i& triangle : surface.triangles)
-    if (triangle.minCoeff() < 0 || triangle.maxCoeff() >= surface.x.cols())
-      throw Error(fmt::format("{}: /surface/triangles names a node that is not there", path));
-  return surface;
-}
 
 bool has_closing(const std::string& path) {
   return Hdf5File(path, Hdf5File::Mode::read).exists("/cost");

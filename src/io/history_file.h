@@ -66,8 +66,6 @@ class HistoryFile {
   /// all rows, flushed or not, of this run and the parts before
   const History& history() const { return history_; }
   const std::string& path() const { return path_; }
-  /// Seconds between flushes that come by themselves; 0: every row.
-  void set_flush_interval(double seconds) { flush_interval_ = seconds; }
 
  private:
   HistoryFile(std::string path, History history);
@@ -77,7 +75,6 @@ class HistoryFile {
   std::string path_;
   History history_;
   std::size_t flushed_rows_ = 0;
-  double flush_interval_ = 5.0;  // [s]
   double flush_duration_ = 0.0;  // [s] of the last one
   std::chrono::steady_clock::time_point last_flush_;
 };
@@ -87,7 +84,6 @@ History read_history(const std::string& path);
 RunInfo read_run_info(const std::string& path);
 Grains read_reference_grains(const std::string& path);
 Grains read_final_grains(const std::string& path);
-Surface read_final_surface(const std::string& path);
 /// The run came to its end (write_closing was called).
 bool has_closing(const std::string& path);
 RunClosing read_closing(const std::string& path);

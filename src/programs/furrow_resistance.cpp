@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // furrow-resistance: steady sinkage, motion resistance and torque of finished runs, with their
-// standard errors. The same code that writes a run's summary; furrow-post resistance calls it.
+// standard errors. The same code that writes a run's summary; furrow-post resistance calls it. See
+// furrow_resistance.md.
 
 #include <cstdio>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "io/summary.h"
+#include "io/version.h"
 
 namespace {
 
@@ -31,41 +32,68 @@ void print_csv(const std::string& folder, const furrow::Resistance& r) {
   fmt::print("\n");
 }
 
+/// What the command line asks for.
+struct Request {
+  std::vector<std::string> folders;
+  std::vector<double> window;    // [s] begin and end; empty: found
+  std::vector<double> distance;  // [m] the same by travel
+  bool csv = false;
+  bool write = false;
+};
+
+void declare(CLI::App& app, Request& request) {
+  app.set_version_flag("--version", furrow::version());
+  app.add_option("results", request.folders, "results folders, each with a history.h5")->required();
+  CLI::Option* by_time =
+      app.add_option("--window", request.window,
+                     "begin and end of the window [s] instead of the one that is found")
+          ->expected(2);
+  app.add_option("--distance", request.distance, "the same by travel [m]")
+      ->expected(2)
+      ->excludes(by_time);
+  app.add_flag("--csv", request.csv, "one line of comma-separated values for each folder");
+  app.add_flag("--write", request.write, "write summary.txt and summary.json into the folders");
+}
+
+furrow::ResistanceOptions options_of(const Request& request) {
+  furrow::ResistanceOptions options;
+  if (!request.window.empty()) {
+    options.window.from_time = request.window[0];
+    options.window.to_time = request.window[1];
+  }
+  if (!request.distance.empty()) {
+    options.window.from_distance = request.distance[0];
+    options.window.to_distance = request.distance[1];
+  }
+  return options;
+}
+
+void evaluate(const std::string& folder, const Request& request) {
+  const furrow::Summary summary = furrow::summarise(folder, options_of(request));
+  if (request.write) furrow::write_summary(folder, summary);
+  if (!summary.trouble.empty()) throw furrow::Error(summary.trouble);
+  if (request.csv)
+    print_csv(folder, summary.resistance);
+  else
+    fmt::print("{}\n", furrow::summary_text(summary));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
+  CLI::App app(
       "Steady sinkage, motion resistance and torque of wheel runs, with standard errors by block "
-      "averaging."};
-  std::vector<std::string> folders;
-  std::vector<double> window, distance;
-  bool csv = false, write = false;
-  app.add_option("results", folders, "results folders, each with a history.h5")->required();
-  auto* by_time =
-      app.add_option("--window", window, "begin and end [s] instead of the automatic window")
-          ->expected(2);
-  app.add_option("--distance", distance, "the same by travel [m]")->expected(2)->excludes(by_time);
-  app.add_flag("--csv", csv, "one line a folder, comma separated");
-  app.add_flag("--write", write, "write summary.txt and summary.json into the folders");
+      "averaging.",
+      "furrow-resistance");
+  Request request;
+  declare(app, request);
   CLI11_PARSE(app, argc, argv);
 
-  furrow::ResistanceOptions options;
-  if (!window.empty()) options.window.from_time = window[0], options.window.to_time = window[1];
-  if (!distance.empty())
-    options.window.from_distance = distance[0], options.window.to_distance = distance[1];
-
   int status = 0;
-  if (csv) print_csv_header();
-  for (const std::string& folder : folders) {
+  if (request.csv) print_csv_header();
+  for (const std::string& folder : request.folders) {
     try {
-      const furrow::Summary summary = furrow::summarise(folder, options);
-      if (write) furrow::write_summary(folder, summary);
-      if (!summary.trouble.empty()) throw furrow::Error(summary.trouble);
-      if (csv) {
-        print_csv(folder, summary.resistance);
-      } else {
-        fmt::print("{}\n", furrow::summary_text(summary));
-      }
+      evaluate(folder, request);
     } catch (const std::exception& error) {
       fmt::print(stderr, "furrow-resistance: {}: {}\n", folder, error.what());
       status = 1;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// furrow-sidewall: the sidewall of a tyre file, solved and looked up: printed, tabulated and
-/// drawn.
+// furrow-sidewall: the sidewall of a tyre file, solved and looked up: printed, tabulated and
+// drawn. See furrow_sidewall.md.
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -18,32 +19,35 @@
 
 namespace {
 
-struct Wishes {
-  std::string input, output;
+/// What the command line asks for.
+struct Request {
+  std::string input;
+  std::string output;              // empty: results/<name of the input>
   std::optional<double> pressure;  // [Pa]
-  int nodes = 0;
+  int nodes = 0;                   // of the table along the chord; 0: the default grid
   bool no_plot = false;
 };
 
-void run(const Wishes& wishes) {
-  furrow::TyreParameters tyre = furrow::read_tyre_file(wishes.input);
-  if (wishes.pressure) tyre.pressure = *wishes.pressure;
+void run(const Request& request) {
+  furrow::TyreParameters tyre = furrow::read_tyre_file(request.input);
+  if (request.pressure) tyre.pressure = *request.pressure;
   furrow::check(tyre, "furrow-sidewall");
   furrow::SidewallTableGrid grid;
-  if (wishes.nodes) {
-    grid.chord_nodes = wishes.nodes;
-    grid.direction_nodes = std::max(6, wishes.nodes / 2);
-    grid.rotation_nodes = std::max(6, wishes.nodes / 4);
+  if (request.nodes) {
+    grid.chord_nodes = request.nodes;
+    grid.direction_nodes = std::max(6, request.nodes / 2);
+    grid.rotation_nodes = std::max(6, request.nodes / 4);
   }
   const auto table = furrow::open_sidewall_table(tyre.sidewall, tyre.pressure, grid);
   const furrow::SidewallSurvey survey = furrow::survey_sidewall(tyre, tyre.pressure, *table);
   const std::string folder =
-      wishes.output.empty()
-          ? (std::filesystem::path("results") / std::filesystem::path(wishes.input).stem()).string()
-          : wishes.output;
+      request.output.empty()
+          ? (std::filesystem::path("results") / std::filesystem::path(request.input).stem())
+                .string()
+          : request.output;
   furrow::write_sidewall_survey(folder, survey);
   std::cout << furrow::sidewall_report(survey) << "  results       " << folder << '\n';
-  if (!wishes.no_plot) furrow::draw_figure("sidewall_figures.py", folder);
+  if (!request.no_plot) furrow::draw_figure("sidewall_figures.py", folder);
 }
 
 void list_keys() {
@@ -59,26 +63,26 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", furrow::version());
   app.require_subcommand(1);
 
-  Wishes wishes;
+  Request request;
   CLI::App* run_command =
       app.add_subcommand("run", "survey the sidewall of a tyre file (inputs/tyres/*.yaml)");
-  run_command->add_option("file", wishes.input, "a tyre file; furrow-sidewall keys lists its keys")
+  run_command->add_option("file", request.input, "a tyre file; furrow-sidewall keys lists its keys")
       ->required();
-  run_command->add_option("-p,--pressure", wishes.pressure,
+  run_command->add_option("-p,--pressure", request.pressure,
                           "inflation pressure [Pa] instead of the file's");
   run_command
-      ->add_option("-n,--nodes", wishes.nodes,
+      ->add_option("-n,--nodes", request.nodes,
                    "of the table along the chord; half and a quarter as many along its other axes")
       ->check(CLI::Range(6, 200));
-  run_command->add_option("-o,--output", wishes.output,
+  run_command->add_option("-o,--output", request.output,
                           "the results folder; results/<name of the file> unless given");
-  run_command->add_flag("--no-plot", wishes.no_plot, "no figure");
+  run_command->add_flag("--no-plot", request.no_plot, "no figure");
   CLI::App* keys_command =
       app.add_subcommand("keys", "list the keys of a tyre file with units, ranges and meanings");
   CLI11_PARSE(app, argc, argv);
 
   try {
-    if (*run_command) run(wishes);
+    if (*run_command) run(request);
     if (*keys_command) list_keys();
   } catch (const std::exception& error) {
     std::cout << std::flush;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // furrow-tyre: a tyre at rest, inflated and pressed on a rigid plane: deflection, footprint,
-// section, forces.
+// section, forces. See furrow_tyre.md.
 
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,135 +14,164 @@
 
 #include "core/error.h"
 #include "io/tyre_file.h"
+#include "io/version.h"
 #include "io/vtk_file.h"
 #include "tyre/contact_patch.h"
+#include "tyre/darnell_tyre.h"
 
 namespace {
 
 using namespace furrow;
 
-/// One line of results; the unloaded inflated tyre has load 0.
-struct Row {
-  double pressure = 0.0, load = 0.0, deflection = 0.0, width = 0.0, radius = 0.0, chord = 0.0,
-         residual = 0.0;
-  long steps = 0;
-  ContactPatch patch;
+// The rim is held or moves up and down only, so these do not matter to a tyre at rest.
+const HubParameters rim{{30.0, 1.0, 0.6}, Vector3::Zero()};
+
+/// What the command line asks for.
+struct Request {
+  std::string file;
+  std::vector<double> pressures;  // [kPa]
+  std::vector<double> loads;      // [N]
+  std::vector<int> mesh{6, 72};   // elements across and around
+  bool half = false;
+  bool direct = false;
+  double friction = 0.0;
+  double tolerance = SettleOptions().tolerance;
+  std::optional<double> rim_stiffness;    // [N m/rad/m]
+  std::optional<double> tread_stiffness;  // [N m/rad/m]
+  std::vector<double> link;               // [m] axial and radial; empty: the tyre file's
+  std::string folder;                     // empty: nothing is written
 };
 
+void declare(CLI::App& app, Request& request) {
+  app.set_version_flag("--version", version());
+  app.add_option("file", request.file, "tyre file (inputs/tyres/*.yaml)")->required();
+  app.add_option("--pressure", request.pressures,
+                 "inflation pressures [kPa]; by default that of the tyre file");
+  app.add_option("--load", request.loads,
+                 "loads on the plane [N], each applied to the state before");
+  app.add_option("--mesh", request.mesh, "elements across and around")
+      ->expected(2)
+      ->capture_default_str();
+  app.add_flag("--half", request.half, "only half of the tyre, mirrored");
+  app.add_flag("--direct", request.direct,
+               "solve the sidewall's chain instead of looking it up in a table");
+  app.add_option("--friction", request.friction, "coefficient of the plane")->capture_default_str();
+  app.add_option("--tolerance", request.tolerance,
+                 "largest unbalanced force over the pressure's force on a node")
+      ->capture_default_str();
+  app.add_option("--rim-stiffness", request.rim_stiffness,
+                 "instead of the tyre file's [N m/rad/m]");
+  app.add_option("--tread-stiffness", request.tread_stiffness,
+                 "instead of the tyre file's [N m/rad/m]");
+  app.add_option("--link", request.link, "instead of the tyre file's: axial and radial [m]")
+      ->expected(2);
+  app.add_option("--folder", request.folder,
+                 "write shapes (VTK) and contact pressures (CSV) into this folder");
+}
+
+TyreParameters parameters_of(const Request& request) {
+  TyreParameters tyre = read_tyre_file(request.file);
+  if (request.rim_stiffness) tyre.sidewall.rim_stiffness = *request.rim_stiffness;
+  if (request.tread_stiffness) tyre.sidewall.tread_stiffness = *request.tread_stiffness;
+  if (!request.link.empty()) tyre.link = {request.link[0], request.link[1]};
+  return tyre;
+}
+
+DarnellTyreSettings settings_of(const Request& request) {
+  DarnellTyreSettings settings;
+  settings.across = request.mesh[0];
+  settings.around = request.mesh[1];
+  settings.half = request.half;
+  settings.direct = request.direct;
+  // on a plane the tread alone touches, and its nodes' areas are the tread's
+  settings.sidewall_rows = 0;
+  return settings;
+}
+
 constexpr const char* header =
-    "pressure_kPa,load_N,deflection_cm,perimeter_area_cm2,nodal_area_cm2,patch_length_cm,patch_"
-    "width_cm,mean_pressure_kPa,"
-    "largest_pressure_kPa,section_width_cm,crown_radius_cm,lifted_share,sidewall_chord,steps,"
-    "residual";
+    "pressure_kPa,load_N,deflection_cm,perimeter_area_cm2,nodal_area_cm2,patch_length_cm,"
+    "patch_width_cm,mean_pressure_kPa,largest_pressure_kPa,section_width_cm,crown_radius_cm,"
+    "lifted_share,sidewall_chord,steps,residual";
 
-std::string line(const Row& r) {
-  const ContactPatch& p = r.patch;
+/// The line of a tyre at rest, below the header.
+/// @param load [N] 0: inflated, without a plane
+std::string line(Tyre& tyre, double load, const ContactPatch& patch, const Relaxation& rest) {
   return fmt::format(
-      "{:.6g},{:.6g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.6g},{:.3g},{:.4g},{"
-      "},{:.2g}",
-      1e-3 * r.pressure, r.load, 100 * r.deflection, 1e4 * p.perimeter_area, 1e4 * p.nodal_area,
-      100 * p.length, 100 * p.width, 1e-3 * p.mean_pressure, 1e-3 * p.largest_pressure,
-      100 * r.width, 100 * r.radius, p.lifted_share, r.chord, r.steps, r.residual);
+      "{:.6g},{:.6g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.6g},{:.3g},{:.4g},"
+      "{},{:.2g}",
+      1e-3 * tyre.pressure(), load, 100 * (rim.centre.z() - tyre.centre().z()),
+      1e4 * patch.perimeter_area, 1e4 * patch.nodal_area, 100 * patch.length, 100 * patch.width,
+      1e-3 * patch.mean_pressure, 1e-3 * patch.largest_pressure, 100 * tyre.section_width(),
+      100 * tyre.crown_radius(), patch.lifted_share, tyre.largest_sidewall_chord(), rest.steps,
+      rest.residual);
 }
 
-double crown_radius(const DarnellTyre& tyre) {
-  double sum = 0.0;
-  const int n = tyre.settings().around, middle = tyre.settings().half ? 0 : tyre.rows() / 2;
-  for (int i = 0; i < n; ++i) {
-    const Vector3 arm = tyre.tread().x.col(tyre.tread_node(i, middle)) - tyre.centre();
-    sum += std::hypot(arm.x(), arm.z()) / n;
-  }
-  return sum;
-}
-
-/// Position from the middle of the footprint and pressure of every touching tread node.
-void write_pressures(const std::string& path, const DarnellTyre& tyre, const RigidPlane& plane) {
+/// Position from the middle of the footprint and pressure of every tread node that touches.
+void write_pressures(const std::string& path, const Tyre& tyre, const RigidPlane& plane) {
   auto file = fmt::output_file(path);
   file.print("x_m,y_m,pressure_Pa,area_m2\n");
-  for (Eigen::Index n = 0; n < tyre.tread().count(); ++n)
+  const Matrix3X& x = tyre.surface().x;
+  for (Eigen::Index n = 0; n < tyre.tread_grid().count(); ++n)
     if (plane.pressure()[n] > 0.0)
-      file.print("{:.6g},{:.6g},{:.6g},{:.6g}\n", tyre.tread().x(0, n), tyre.tread().x(1, n),
-                 plane.pressure()[n], plane.area()[n]);
+      file.print("{:.6g},{:.6g},{:.6g},{:.6g}\n", x(0, n), x(1, n), plane.pressure()[n],
+                 plane.area()[n]);
+}
+
+/// Prints and writes one state. @param plane null for the inflated tyre
+void report(Tyre& tyre, double load, const Relaxation& rest, const RigidPlane* plane,
+            const std::string& folder) {
+  const ContactPatch patch = plane ? contact_patch(tyre, *plane) : ContactPatch();
+  fmt::print("{}\n", line(tyre, load, patch, rest));
+  std::fflush(stdout);
+  if (folder.empty()) return;
+  const std::string name =
+      fmt::format("{}/{:.0f}kPa_{:.0f}N", folder, 1e-3 * tyre.pressure(), load);
+  write_vtp(name + ".vtp", tyre.surface());
+  if (plane) write_pressures(name + "_pressure.csv", tyre, *plane);
+}
+
+/// Inflates a tyre and presses it down under one load after the other.
+void press(Tyre& tyre, const Request& request) {
+  const SettleOptions options{request.tolerance};
+  report(tyre, 0.0, tyre.settle(nullptr, options), nullptr, request.folder);
+  RigidPlaneParameters floor;
+  floor.height = tyre.lowest_tread_height();
+  floor.friction = request.friction;
+  RigidPlane plane(floor, tyre.surface());
+  tyre.release(Coordinate::z);
+  for (const double load : request.loads) {
+    tyre.set_load({0.0, 0.0, -load});
+    report(tyre, load, tyre.settle(&plane, options), &plane, request.folder);
+  }
+}
+
+void run(const Request& request) {
+  TyreParameters parameters = parameters_of(request);
+  const DarnellTyreSettings settings = settings_of(request);
+  std::vector<double> pressures = request.pressures;
+  if (pressures.empty()) pressures = {1e-3 * parameters.pressure};
+  if (!request.folder.empty()) std::filesystem::create_directories(request.folder);
+  fmt::print("{}\n", header);
+  for (const double kilopascal : pressures) {
+    parameters.pressure = 1e3 * kilopascal;
+    DarnellTyre tyre(parameters, settings, rim, request.file);
+    press(tyre, request);
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
-      "Brings a tyre to rest: inflated, then pressed on a rigid plane under each load. One comma "
-      "separated line a state."};
-  std::string path, folder;
-  std::vector<double> pressures, loads, link;
-  std::vector<int> mesh{6, 72};
-  double tolerance = 1e-3, friction = 0.0, rim_stiffness = -1.0, tread_stiffness = -1.0;
-  bool half = false, direct = false;
-  app.add_option("file", path, "tyre file")->required();
-  app.add_option("--pressure", pressures,
-                 "inflation pressures [kPa]; by default that of the tyre file");
-  app.add_option("--load", loads, "loads [N], each from the one before");
-  app.add_option("--mesh", mesh, "elements across and around")->expected(2)->capture_default_str();
-  app.add_flag("--half", half, "only half of the tyre, mirrored");
-  app.add_flag("--direct", direct, "solve the sidewall's chain instead of looking it up");
-  app.add_option("--friction", friction, "of the plane")->capture_default_str();
-  app.add_option("--tolerance", tolerance,
-                 "largest unbalanced force over the pressure's force on a node")
-      ->capture_default_str();
-  app.add_option("--rim-stiffness", rim_stiffness, "instead of the tyre file's [N m/rad/m]");
-  app.add_option("--tread-stiffness", tread_stiffness, "instead of the tyre file's [N m/rad/m]");
-  app.add_option("--link", link, "instead of the tyre file's: axial and radial [m]")->expected(2);
-  app.add_option("--folder", folder, "writes shapes (VTK) and contact pressures (CSV) here");
+  CLI::App app(
+      "Brings a tyre to rest: inflated, then pressed on a rigid plane under each load. Prints one "
+      "line of comma-separated values for each state.",
+      "furrow-tyre");
+  Request request;
+  declare(app, request);
   CLI11_PARSE(app, argc, argv);
-
   try {
-    TyreParameters parameters = read_tyre_file(path);
-    if (rim_stiffness >= 0.0) parameters.sidewall.rim_stiffness = rim_stiffness;
-    if (tread_stiffness >= 0.0) parameters.sidewall.tread_stiffness = tread_stiffness;
-    if (!link.empty()) parameters.link = {link[0], link[1]};
-    if (pressures.empty()) pressures = {1e-3 * parameters.pressure};
-    if (!folder.empty()) std::filesystem::create_directories(folder);
-    DarnellTyreSettings settings;
-    settings.across = mesh[0];
-    settings.around = mesh[1];
-    settings.half = half;
-    settings.direct = direct;
-    // on a plane the tread alone touches, and its nodes' areas are the tread's
-    settings.sidewall_points = 0;
-    fmt::print("{}\n", header);
-    for (const double kilopascal : pressures) {
-      parameters.pressure = 1e3 * kilopascal;
-      DarnellTyre tyre(parameters, settings, {{30.0, 1.0, 0.6}, Vector3::Zero()}, path);
-      const SettleOptions options{tolerance};
-      RigidPlaneParameters plane_parameters;
-      plane_parameters.friction = friction;
-      const auto report = [&](double load, const Relaxation& relaxation, const RigidPlane* plane,
-                              double from) {
-        Row row{parameters.pressure,
-                load,
-                from - tyre.centre().z(),
-                tyre.section_width(),
-                crown_radius(tyre),
-                tyre.largest_sidewall_chord(),
-                relaxation.residual,
-                relaxation.steps,
-                {}};
-        if (plane) row.patch = contact_patch(tyre, *plane);
-        fmt::print("{}\n", line(row));
-        std::fflush(stdout);
-        if (folder.empty()) return;
-        const std::string name = fmt::format("{}/{:.0f}kPa_{:.0f}N", folder, kilopascal, load);
-        write_vtp(name + ".vtp", tyre.surface());
-        if (plane) write_pressures(name + "_pressure.csv", tyre, *plane);
-      };
-      report(0.0, tyre.settle(nullptr, options), nullptr, 0.0);
-      plane_parameters.height = tyre.tread().x.row(2).minCoeff();
-      RigidPlane plane(plane_parameters, tyre.surface());
-      tyre.release(WheelHub::z);
-      for (const double load : loads) {
-        tyre.set_load({0.0, 0.0, -load});
-        report(load, tyre.settle(&plane, options), &plane, 0.0);
-      }
-    }
-  } catch (const furrow::Error& error) {
+    run(request);
+  } catch (const std::exception& error) {
     fmt::print(stderr, "furrow-tyre: {}\n", error.what());
     return 1;
   }

@@ -5,20 +5,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/smooth_step.h"
+
 namespace furrow {
 
-/// S(u) = u^3 (10 - 15 u + 6 u^2), u = (t - start)/duration: value, first and second derivative are
-/// continuous (C2). A duration of 0 is a step at start.
+/// S((t - start)/duration) with the S of core/smooth_step.h: value, first and second derivative are
+/// continuous. A duration of 0 is a step at start.
 struct Ramp {
   double start = 0.0;     ///< [s]
   double duration = 0.0;  ///< [s]
 
   double end() const { return start + duration; }
 
-  double value(double time) const {
-    const double u = fraction(time);
-    return u * u * u * (10.0 - u * (15.0 - 6.0 * u));
-  }
+  double value(double time) const { return smooth_step(fraction(time)); }
 
   /// d/dt [1/s]
   double rate(double time) const {
@@ -27,8 +26,8 @@ struct Ramp {
     return 30.0 * u * u * (1.0 - u) * (1.0 - u) / duration;
   }
 
-  /// Integral of the value from the start to time [s]: duration u^4 (5/2 - 3 u + u^2), and time -
-  /// end after it.
+  /// Integral of the value from the start to time [s]: duration u^4 (5/2 - 3 u + u^2) on the ramp,
+  /// u = (time - start)/duration, and 1 s per second after it.
   double integral(double time) const {
     const double u = fraction(time);
     return duration * u * u * u * u * (2.5 - u * (3.0 - u)) + std::max(0.0, time - end());
@@ -50,9 +49,11 @@ struct Ramp {
  private:
   /// Integral over the part of [from, to] that lies on the ramp.
   double integrate(double (Ramp::*function)(double) const, double from, double to) const {
-    const double begin = std::clamp(start, from, to), finish = std::clamp(end(), from, to);
-    const double half = 0.5 * (finish - begin), middle = 0.5 * (begin + finish),
-                 offset = std::sqrt(0.6) * half;
+    const double begin = std::clamp(start, from, to);
+    const double finish = std::clamp(end(), from, to);
+    const double half = 0.5 * (finish - begin);
+    const double middle = 0.5 * (begin + finish);
+    const double offset = std::sqrt(0.6) * half;
     if (half <= 0.0) return 0.0;
     return half / 9.0 *
            (5.0 * (this->*function)(middle - offset) + 8.0 * (this->*function)(middle) +

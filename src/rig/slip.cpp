@@ -63,8 +63,4 @@ double rim_speed(SlipDefinition definition, double slip, double vehicle) {
   return by_vehicle ? vehicle * (1.0 + slip) : vehicle / (1.0 - slip);
 }
 
-double convert_slip(double value, SlipDefinition from, SlipDefinition to) {
-  return slip(to, rim_speed(from, value, 1.0), 1.0);
-}
-
 }  // namespace furrow

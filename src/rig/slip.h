@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The definitions of slip. Driving is positive in all of them; v_rim = spin rate x radius, v =
+/// The definitions of slip. Driving is positive in all of them. v_rim: spin rate times radius; v:
 /// speed of the axle in the wheel plane.
 
 #include <string>
@@ -13,7 +13,9 @@ enum class SlipDefinition {
   /// own)
   larger_speed,
   rim_speed,      ///< (v_rim - v)/v_rim: the same for a driven wheel; -infinity locked (Wong)
-  vehicle_speed,  ///< (v_rim - v)/v: the same for a braked wheel; +infinity on the spot (TR eq. 28)
+  vehicle_speed,  ///< (v_rim - v)/v: the same for a braked wheel; +infinity on the spot
+                  ///< ([Shoop2001],
+                  ///< eq. 28)
 };
 
 /// larger_speed, rim_speed, vehicle_speed
@@ -25,12 +27,8 @@ std::string slip_formula(SlipDefinition definition);
 /// Slip of a wheel from its speeds [m/s]. @throws StateError where the definition divides by zero
 double slip(SlipDefinition definition, double rim_speed, double vehicle_speed);
 /// Rim speed that gives a slip at a vehicle speed [m/s].
-/// @throws StateError for a vehicle speed <= 0, or for a slip that no forward spin has: allowed -1
-/// <= larger_speed < 1,
-///         rim_speed < 1, vehicle_speed >= -1
+/// @throws StateError for a vehicle speed <= 0, or for a slip that no forward spin has: allowed are
+/// -1 <= larger_speed < 1, rim_speed < 1, vehicle_speed >= -1
 double rim_speed(SlipDefinition definition, double slip, double vehicle_speed);
-/// The same motion in another definition. @throws StateError where either is singular: a locked
-/// wheel has no slip by rim speed
-double convert_slip(double slip, SlipDefinition from, SlipDefinition to);
 
 }  // namespace furrow

@@ -96,7 +96,7 @@ WheelRig::WheelRig(const Options& options, WheelHub& wheel) : wheel_(wheel) {
   read_drive(options);
   wheel_.set_vertical_damping(options.number("damping"));
   wheel_.set_axle_torque(0.0);
-  for (const auto coordinate : {WheelHub::y, WheelHub::yaw, WheelHub::camber})
+  for (const auto coordinate : {Coordinate::y, Coordinate::yaw, Coordinate::camber})
     wheel_.hold(coordinate);
 }
 
@@ -159,22 +159,22 @@ void WheelRig::apply(double time, double dt) {
   drive_vertical(time, dt);
   // by the middle of the step: safe against rounding of its ends
   if (stage(time + 0.5 * dt) == Stage::settle) {
-    wheel_.hold(WheelHub::x);
-    wheel_.hold(WheelHub::spin);
+    wheel_.hold(Coordinate::x);
+    wheel_.hold(Coordinate::spin);
   } else {
-    wheel_.prescribe(WheelHub::x, speed_ * speed_ramp_.mean(time, time + dt));
+    wheel_.prescribe(Coordinate::x, speed_ * speed_ramp_.mean(time, time + dt));
     drive_spin(time, dt);
   }
 }
 
 void WheelRig::drive_vertical(double time, double dt) {
   if (time + 0.5 * dt < load_ramp_.start) {
-    wheel_.hold(WheelHub::z);
+    wheel_.hold(Coordinate::z);
     wheel_.set_load(Vector3::Zero());
   } else if (sinkage_prescribed_) {
-    wheel_.prescribe(WheelHub::z, lowering_ * load_ramp_.mean_rate(time, time + dt));
+    wheel_.prescribe(Coordinate::z, lowering_ * load_ramp_.mean_rate(time, time + dt));
   } else {
-    wheel_.release(WheelHub::z);
+    wheel_.release(Coordinate::z);
     wheel_.set_load({0.0, 0.0, -load_ * load_ramp_.value(time)});
   }
 }
@@ -182,14 +182,14 @@ void WheelRig::drive_vertical(double time, double dt) {
 void WheelRig::drive_spin(double time, double dt) {
   switch (mode_) {
     case Mode::towed:
-      wheel_.release(WheelHub::spin);
+      wheel_.release(Coordinate::spin);
       return;
     case Mode::slip:
-      wheel_.prescribe(WheelHub::spin,
+      wheel_.prescribe(Coordinate::spin,
                        rim_speed_ / wheel_.nominal_radius() * speed_ramp_.mean(time, time + dt));
       return;
     case Mode::torque:
-      wheel_.release(WheelHub::spin);
+      wheel_.release(Coordinate::spin);
       wheel_.set_axle_torque(torque_ * speed_ramp_.value(time));
       return;
   }
@@ -236,7 +236,7 @@ std::vector<double> WheelRig::measure(double time) const {
   const auto [force, moment] = wheel_.ground_wrench();
   const EnergyBudget budget = wheel_.energy_budget();
 
-  const double yaw = wheel_.position(WheelHub::yaw), spin_rate = wheel_.rate(WheelHub::spin);
+  const double yaw = wheel_.position(Coordinate::yaw), spin_rate = wheel_.rate(Coordinate::spin);
   const double rim = spin_rate * wheel_.nominal_radius();
   const double along = velocity.x() * std::cos(yaw) + velocity.y() * std::sin(yaw);
   const bool at_rest = std::abs(rim) < standstill && std::abs(along) < standstill;
@@ -249,7 +249,7 @@ std::vector<double> WheelRig::measure(double time) const {
           velocity.x(),
           velocity.y(),
           velocity.z(),
-          wheel_.position(WheelHub::spin),
+          wheel_.position(Coordinate::spin),
           spin_rate,
           at_rest ? 0.0 : slip(SlipDefinition::larger_speed, rim, along),
           ground_level_ - wheel_.lowest_point(),
@@ -259,9 +259,9 @@ std::vector<double> WheelRig::measure(double time) const {
           moment.x(),
           moment.y(),
           moment.z(),
-          wheel_.constraint(WheelHub::spin),
-          -wheel_.constraint(WheelHub::x),
-          -wheel_.load().z() - wheel_.constraint(WheelHub::z),
+          wheel_.constraint(Coordinate::spin),
+          -wheel_.constraint(Coordinate::x),
+          -wheel_.load().z() - wheel_.constraint(Coordinate::z),
           budget.kinetic_energy,
           budget.contact_work,
           budget.load_work,

@@ -76,8 +76,8 @@ class WheelRig {
   double rim_speed_ = 0.0;     // [m/s]
   double torque_ = 0.0;        // [N m]
   double ground_level_ = 0.0;  // [m]
-  // the settling begins with the first, the acceleration with the second
-  Ramp load_ramp_, speed_ramp_;
+  Ramp load_ramp_;             // begins with the settling
+  Ramp speed_ramp_;            // begins with the acceleration
 };
 
 }  // namespace furrow

@@ -7,8 +7,6 @@
 #include <memory>
 #include <vector>
 
-#include <Eigen/SparseCore>
-
 #include "shell/shell4_stiffness.h"
 #include "shell/shell_nodes.h"
 
@@ -20,10 +18,10 @@ struct Shell4Kind;
 /// row), which keeps the matrices in the fastest memory; elements are computed several at once
 /// (shell4_kernel.h has the equations).
 ///
-/// Rotary inertia: real J = m h^2/12 would make turning of the nodes by far the fastest motion of a
-/// thin shell. An element's J is raised until no turn at fixed positions is faster than the fastest
-/// displacement without turns:
-///   J = max(m h^2/12, m lambda_max(K_turn)/lambda_max(K_displacement)),
+/// Rotary inertia: the real J = m h^2/12 would make rotation of the nodes by far the fastest motion
+/// of a thin shell. An element's J is raised until no rotation at fixed positions is faster than
+/// the fastest displacement without rotation:
+///   J = max(m h^2/12, m lambda_max(K_rotation)/lambda_max(K_displacement)),
 /// of the order of m times a quarter of the element's area. It delays bending waves not much longer
 /// than an element.
 class Shell4 {
@@ -33,8 +31,7 @@ class Shell4 {
   /// @param reference stress-free nodes [m]
   /// @param fibre direction of the section's axis 1 at a point, e.g. the circumference; need not be
   /// tangent
-  /// @param largest_kink nodes where normals of elements differ by less share one normal: a smooth
-  /// shell [rad]
+  /// @param largest_kink [rad] as in shell4_elements() of shell4_shape.h
   /// @throws StateError naming the element for a degenerate or folded one
   Shell4(const Matrix3X& reference, std::vector<Quad> quads, const ShellSection& section,
          const std::function<Vector3(const Vector3&)>& fibre, double largest_kink = radians(40.0));
@@ -43,30 +40,35 @@ class Shell4 {
 
   /// Adds forces and moments of the shell, and those of a pressure on its inner side (outwards), to
   /// nodes.force and .moment.
-  /// @throws StateError naming an element that is folded: a node turned by 120 degrees against it,
-  /// or a position that is no number
+  /// @throws StateError naming an element that is folded, i.e. with a node rotated by 120 degrees
+  /// against it, or whose nodes are not finite
   void add_forces(ShellNodes& nodes, double pressure);
 
   double energy() const { return energy_; }  ///< [J] elastic, at the last add_forces
-  /// [m^3] third of the integral of x . n dA; of a closed shell what it encloses
+  /// [m^3] a third of the integral of x . n dA, at the last add_forces: what a closed shell
+  /// encloses
   double volume() const { return volume_; }
   const std::vector<Quad>& quads() const { return quads_; }
   /// [kg] a quarter of each element at its nodes
   const VectorX& mass() const { return mass_; }
-  const VectorX& rotary_inertia() const { return inertia_; }  ///< [kg m^2] scaled, see above
+  const VectorX& rotary_inertia() const { return inertia_; }  ///< [kg m^2] raised, see above
   /// [s] 2/omega of the stiffest element, stress-free
   double stable_time_step() const { return stable_step_; }
   std::size_t kind_count() const;  ///< distinct stiffness matrices
-  /// of the stress-free state, 6 a node: u then theta
-  Eigen::SparseMatrix<double> stiffness() const;
 
  private:
-  struct Places;
+  struct Places;  // of the elements in the kernel's arrays, kind by kind
+  void add_kind(const std::vector<Shell4Element>& elements, const std::vector<int>& members,
+                const ShellSection& section);
+
   std::vector<Quad> quads_;
   std::vector<Shell4Kind> kinds_;
   std::unique_ptr<Places> places_;
-  VectorX mass_, inertia_;
-  double stable_step_ = 0.0, energy_ = 0.0, volume_ = 0.0;
+  VectorX mass_;              // [kg]
+  VectorX inertia_;           // [kg m^2]
+  double stable_step_ = 0.0;  // [s]
+  double energy_ = 0.0;       // [J]
+  double volume_ = 0.0;       // [m^3]
 };
 
 }  // namespace furrow

@@ -32,10 +32,10 @@ struct Shell4Places {
 struct Shell4Result {
   double energy = 0.0;  ///< [J]
   double volume = 0.0;  ///< [m^3] a third of the integral of x . n dA
-  /// smallest 1 + trace of a node's rotation relative to its element, 4 cos^2 of half the angle; 4
-  /// where nothing bends
-  double straightest = 4.0;
-  std::size_t worst_place = 0;
+  /// smallest 4 cos^2(angle/2) of a node's rotation relative to its element: 4 without bending, 1
+  /// at 120 degrees
+  double least_four_cos2 = 4.0;
+  std::size_t most_rotated = 0;  ///< where among the places that element is
   bool finite = true;
 };
 

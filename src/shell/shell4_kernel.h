@@ -3,15 +3,23 @@
 /// The co-rotational shell, several elements at once. Included by kernel units only (simd/lanes.h
 /// says why).
 ///
-/// An element's axes e turn with its nodes: e_3 is normal to both medians, and the turn about e_3
-/// is that of the polar decomposition of the medians' deformation, so the axes do not depend on
-/// where the numbering starts. In them
-///   u_a     = e^T (x_a - c) - X_a,
-///   theta_a = 2 sin(angle/2) axis  of  T_a = e^T Q_a E   (E: stress-free axes, Q_a: rotation of
-///   the node)
-/// are small, whatever the shell does, and U = 1/2 u^T K u. Forces are the exact gradient of U,
-/// with the turning of the axes in it: they balance in force and moment, and a free shell keeps its
-/// energy (Nour-Omid & Rankin 1991).
+/// The element-independent co-rotational formulation (C. C. Rankin, F. A. Brogan, J. Press. Vessel
+/// Technol. 108, 165 (1986); B. Nour-Omid, C. C. Rankin, Comput. Methods Appl. Mech. Eng. 93, 353
+/// (1991)) around the linear element of shell4_stiffness.h, in the steps of shell4_forces():
+///
+///   frame        the element's axes e follow its nodes: e_3 is normal to both medians, and the
+///                rotation about e_3 is that of the polar decomposition of the medians'
+///                deformation, so the axes do not depend on where the numbering starts
+///   deformation  small in these axes, whatever the shell does:
+///                  u_a     = e^T (x_a - c) - X_a
+///                  theta_a = 2 sin(angle/2) axis  of  T_a = e^T Q_a E
+///                (c: mean of the nodes, X_a: stress-free nodes, E: stress-free axes, Q_a: rotation
+///                of the node)
+///   energy       U = 1/2 u^T K u and its gradient K u
+///   forces       the exact gradient of U, the rotation of the axes included: they balance in force
+///                and moment, and a free shell keeps its energy
+///   pressure     a follower load on the bilinear surface through the nodes
+///   scatter      to the nodes, one element after the other
 
 #include "shell/shell4_block.h"
 #include "simd/lanes.h"
@@ -19,6 +27,7 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
+/// A vector for each element.
 struct Triple {
   Lanes x, y, z;
 };
@@ -42,23 +51,50 @@ FURROW_INLINE Lanes gather(const double* values, const int* index, int stride, i
 }
 FURROW_INLINE Lanes load(const double* values) { return Lanes(values, stdx::element_aligned); }
 
-/// Frame of the element now, and how it turns with the medians.
+// Parameter coordinates of the nodes.
+constexpr double shell4_xi[4] = {-1, 1, 1, -1};
+constexpr double shell4_eta[4] = {-1, -1, 1, 1};
+
+/// Nodes of the elements now, their mean and medians: a from edge 4-1 to edge 2-3, b from edge 1-2
+/// to edge 3-4 [m].
+struct Quadrilateral {
+  Triple node[4];
+  Triple centre;
+  Triple a, b;
+
+  FURROW_INLINE Quadrilateral(const Shell4Places& places, std::size_t first, const double* x) {
+    for (int n = 0; n < 4; ++n) {
+      const int* index = places.node[n] + first;
+      node[n] = {gather(x, index, 3, 0), gather(x, index, 3, 1), gather(x, index, 3, 2)};
+    }
+    centre = Lanes(0.25) * (node[0] + node[1] + (node[2] + node[3]));
+    a = Lanes(0.5) * (node[1] + node[2] - (node[0] + node[3]));
+    b = Lanes(0.5) * (node[2] + node[3] - (node[0] + node[1]));
+  }
+};
+
+/// The element's axes e now, and how they rotate with the medians.
 struct Frame {
   Triple e1, e2, e3;
-  Lanes a1, a2, b1, b2;  // medians in e
-  Lanes area, trace;     // of the medians' parallelogram; of their stretch
+  Lanes a1, a2, b1, b2;  // medians in e [m]
+  Lanes area;            // of the medians' parallelogram [m^2]
+  Lanes trace;           // of the medians' stretch
 
   FURROW_INLINE Frame(const Triple& a, const Triple& b, const Shell4Kind& kind) {
     const Triple normal = cross(a, b);
     area = sqrt(dot(normal, normal));
     const Lanes length = sqrt(dot(a, a));
     e3 = Lanes(1.0) / area * normal;
-    const Triple t1 = Lanes(1.0) / length * a, t2 = cross(e3, t1);
-    const Lanes bt1 = dot(b, t1), bt2 = dot(b, t2);
-    // F11 + F22, F21 - F12
-    const Lanes even = length * kind.p1 + bt2 * kind.q2, odd = -(length * kind.p2 + bt1 * kind.q2);
+    const Triple t1 = Lanes(1.0) / length * a;
+    const Triple t2 = cross(e3, t1);
+    const Lanes bt1 = dot(b, t1);
+    const Lanes bt2 = dot(b, t2);
+    // F = medians now times the inverse of the stress-free ones, in the plane of t1 and t2
+    const Lanes even = length * kind.p1 + bt2 * kind.q2;    // F11 + F22
+    const Lanes odd = -(length * kind.p2 + bt1 * kind.q2);  // F21 - F12
     trace = sqrt(even * even + odd * odd);
-    const Lanes c = even / trace, s = odd / trace;
+    const Lanes c = even / trace;
+    const Lanes s = odd / trace;
     e1 = c * t1 + s * t2;
     e2 = c * t2 - s * t1;
     a1 = c * length;
@@ -70,127 +106,191 @@ struct Frame {
   FURROW_INLINE Triple space(const Triple& v) const { return v.x * e1 + v.y * e2 + v.z * e3; }
 };
 
+/// What is small in the element's axes, with what leads back from its gradient.
+struct Deformation {
+  Lanes u[24];           // u then theta, node by node [m], [rad]
+  Triple arm[4];         // e^T (x_a - c) [m]
+  Triple half_theta[4];  // sin(angle/2) axis
+  Lanes cosine[4];       // cos(angle/2)
+  Lanes least_four_cos2 = 4.0;
+
+  FURROW_INLINE Deformation(const Quadrilateral& quad, const Frame& frame, const Shell4Kind& kind,
+                            const Shell4Places& places, std::size_t first, const double* rotation) {
+    for (int n = 0; n < 4; ++n) {
+      set_displacement(n, frame.local(quad.node[n] - quad.centre), kind);
+      set_rotation(n, frame, places, first, rotation);
+    }
+  }
+
+ private:
+  FURROW_INLINE void set_displacement(int n, const Triple& local, const Shell4Kind& kind) {
+    arm[n] = local;
+    u[6 * n] = local.x - kind.x[n][0];
+    u[6 * n + 1] = local.y - kind.x[n][1];
+    u[6 * n + 2] = local.z - kind.x[n][2];
+  }
+
+  /// 4 cos^2(angle/2) = 1 + tr T, and 2 sin(angle/2) axis is the axial vector of T - T^T over
+  /// 2 cos(angle/2).
+  FURROW_INLINE void set_rotation(int n, const Frame& frame, const Shell4Places& places,
+                                  std::size_t first, const double* rotation) {
+    const int* index = places.node[n] + first;
+    Lanes Q[9];
+    for (int entry = 0; entry < 9; ++entry) Q[entry] = gather(rotation, index, 9, entry);
+    Triple T[3];  // columns
+    for (int c = 0; c < 3; ++c) {
+      const Lanes E0 = load(places.axes[3 * c] + first);
+      const Lanes E1 = load(places.axes[3 * c + 1] + first);
+      const Lanes E2 = load(places.axes[3 * c + 2] + first);
+      T[c] = frame.local({Q[0] * E0 + Q[3] * E1 + Q[6] * E2, Q[1] * E0 + Q[4] * E1 + Q[7] * E2,
+                          Q[2] * E0 + Q[5] * E1 + Q[8] * E2});
+    }
+    const Lanes four_cos2 = Lanes(1.0) + T[0].x + T[1].y + T[2].z;
+    least_four_cos2 = min(least_four_cos2, four_cos2);
+    const Lanes two_cos = sqrt(four_cos2);
+    const Lanes inverse = Lanes(1.0) / two_cos;
+    const Triple theta = inverse * Triple{T[1].z - T[2].y, T[2].x - T[0].z, T[0].y - T[1].x};
+    cosine[n] = Lanes(0.5) * two_cos;
+    half_theta[n] = Lanes(0.5) * theta;
+    u[6 * n + 3] = theta.x;
+    u[6 * n + 4] = theta.y;
+    u[6 * n + 5] = theta.z;
+  }
+};
+
+/// g = K u. Four sums at once: their additions need not wait for each other.
+FURROW_INLINE void multiply_stiffness(const Shell4Kind& kind, const Lanes (&u)[24],
+                                      Lanes (&g)[24]) {
+  for (int row = 0; row < 24; row += 4) {
+    Lanes sum0 = 0.0, sum1 = 0.0, sum2 = 0.0, sum3 = 0.0;
+    for (int c = 0; c < 24; ++c) {
+      sum0 += kind.stiffness[row][c] * u[c];
+      sum1 += kind.stiffness[row + 1][c] * u[c];
+      sum2 += kind.stiffness[row + 2][c] * u[c];
+      sum3 += kind.stiffness[row + 3][c] * u[c];
+    }
+    g[row] = sum0;
+    g[row + 1] = sum1;
+    g[row + 2] = sum2;
+    g[row + 3] = sum3;
+  }
+}
+
+FURROW_INLINE Lanes half_product(const Lanes (&u)[24], const Lanes (&g)[24]) {
+  Lanes twice = 0.0;
+  for (int row = 0; row < 24; ++row) twice += u[row] * g[row];
+  return Lanes(0.5) * twice;
+}
+
+/// Gradient of U, in the element's axes, by the positions of the nodes and by their spins.
+struct Gradient {
+  Triple nodal[4];  // of U by u alone [N]
+  Triple spin[4];   // by the spins [N m]
+  Triple mean;      // of nodal
+  Triple on_a;      // by the medians, which the axes follow [N]
+  Triple on_b;
+
+  /// @param g = K u
+  FURROW_INLINE Gradient(const Lanes (&g)[24], const Deformation& deformation, const Frame& frame,
+                         const Shell4Kind& kind) {
+    mean = {0.0, 0.0, 0.0};
+    Triple carried = {0.0, 0.0, 0.0};  // the moment that the rotation of the axes has to carry
+    for (int n = 0; n < 4; ++n) {
+      nodal[n] = {g[6 * n], g[6 * n + 1], g[6 * n + 2]};
+      const Triple m = {g[6 * n + 3], g[6 * n + 4], g[6 * n + 5]};
+      spin[n] = deformation.cosine[n] * m + cross(deformation.half_theta[n], m);
+      carried = carried + cross(deformation.arm[n], nodal[n]) + spin[n];
+      mean = mean + Lanes(0.25) * nodal[n];
+    }
+    const Lanes per_area = Lanes(1.0) / frame.area;
+    const Lanes about3 = carried.z / frame.trace;
+    on_a = {-kind.p2 * about3, kind.p1 * about3,
+            -per_area * (frame.b1 * carried.x + frame.b2 * carried.y)};
+    on_b = {-kind.q2 * about3, 0.0, per_area * (frame.a1 * carried.x + frame.a2 * carried.y)};
+  }
+  FURROW_INLINE Triple by_position(int n) const {
+    return nodal[n] - mean - (Lanes(0.5 * shell4_xi[n]) * on_a + Lanes(0.5 * shell4_eta[n]) * on_b);
+  }
+  FURROW_INLINE const Triple& by_spin(int n) const { return spin[n]; }
+};
+
+/// Consistent forces of a unit pressure on the bilinear surface, outwards [m^2].
+struct UnitPressure {
+  Triple AB, AC, CB;
+
+  FURROW_INLINE explicit UnitPressure(const Quadrilateral& quad) {
+    const Triple A = Lanes(0.5) * quad.a;
+    const Triple B = Lanes(0.5) * quad.b;
+    const Triple C = Lanes(0.25) * (quad.node[0] - quad.node[1] + (quad.node[2] - quad.node[3]));
+    AB = cross(A, B);
+    AC = Lanes(1.0 / 3.0) * cross(A, C);
+    CB = Lanes(1.0 / 3.0) * cross(C, B);
+  }
+  FURROW_INLINE Triple on_node(int n) const { return AB + shell4_xi[n] * AC + shell4_eta[n] * CB; }
+};
+
+/// Adds to node n of each element that is no padding.
+FURROW_INLINE void scatter(const Shell4Places& places, std::size_t first, int n,
+                           const Triple& on_node, const Triple& spin_gradient, double* force,
+                           double* moment) {
+  for (int lane = 0; lane < lane_count; ++lane) {
+    if (!places.active[first + static_cast<std::size_t>(lane)]) continue;
+    const int index = 3 * places.node[n][first + static_cast<std::size_t>(lane)];
+    force[index] += on_node.x[lane];
+    force[index + 1] += on_node.y[lane];
+    force[index + 2] += on_node.z[lane];
+    moment[index] -= spin_gradient.x[lane];
+    moment[index + 1] -= spin_gradient.y[lane];
+    moment[index + 2] -= spin_gradient.z[lane];
+  }
+}
+
+/// Remembers the element whose node is rotated most against it, or is not a number.
+FURROW_INLINE void note_most_rotated(const Lanes& four_cos2, std::size_t first,
+                                     Shell4Result& result) {
+  if (!any(!(four_cos2 >= Lanes(result.least_four_cos2)))) return;
+  for (int lane = 0; lane < lane_count; ++lane)
+    if (!(four_cos2[lane] >= result.least_four_cos2)) {
+      result.least_four_cos2 = four_cos2[lane];
+      result.most_rotated = first + static_cast<std::size_t>(lane);
+    }
+}
+
+/// Shell4Kernel of shell4_block.h.
 inline Shell4Result shell4_forces(const Shell4Kind* kinds, std::size_t kind_count,
                                   const Shell4Places& places, const double* x,
                                   const double* rotation, double pressure, double* force,
                                   double* moment) {
-  constexpr double xi[4] = {-1, 1, 1, -1}, eta[4] = {-1, -1, 1, 1};
   Shell4Result result;
-  Lanes energy = 0.0, volume = 0.0;
+  Lanes energy = 0.0;
+  Lanes volume = 0.0;
   for (std::size_t k = 0; k < kind_count; ++k) {
     const Shell4Kind& kind = kinds[k];
     for (std::size_t i = kind.first; i < kind.end; i += lane_count) {
-      Lanes weight([&](auto lane) { return places.active[i + lane] ? 1.0 : 0.0; });
-      Triple node[4];
+      const Lanes weight([&](auto lane) { return places.active[i + lane] ? 1.0 : 0.0; });
+      const Quadrilateral quad(places, i, x);
+      const Frame frame(quad.a, quad.b, kind);
+      const Deformation deformation(quad, frame, kind, places, i, rotation);
+      Lanes g[24];
+      multiply_stiffness(kind, deformation.u, g);
+      energy += weight * half_product(deformation.u, g);
+      const Gradient gradient(g, deformation, frame, kind);
+      const UnitPressure unit(quad);
       for (int n = 0; n < 4; ++n) {
-        const int* index = places.node[n] + i;
-        node[n] = {gather(x, index, 3, 0), gather(x, index, 3, 1), gather(x, index, 3, 2)};
+        const Triple push = unit.on_node(n);
+        volume += weight * (dot(push, quad.node[n]) * Lanes(1.0 / 3.0));
+        const Triple on_node = pressure * push - frame.space(gradient.by_position(n));
+        scatter(places, i, n, on_node, frame.space(gradient.by_spin(n)), force, moment);
       }
-      const Triple centre = Lanes(0.25) * (node[0] + node[1] + (node[2] + node[3]));
-      const Triple a = Lanes(0.5) * (node[1] + node[2] - (node[0] + node[3]));
-      const Triple b = Lanes(0.5) * (node[2] + node[3] - (node[0] + node[1]));
-      const Frame frame(a, b, kind);
-
-      Lanes u[24], f[24];
-      Triple arm[4], half_turn[4];
-      Lanes cosine[4];  // of half the turn
-      Lanes straightest = 4.0;
-      for (int n = 0; n < 4; ++n) {
-        arm[n] = frame.local(node[n] - centre);
-        u[6 * n] = arm[n].x - kind.x[n][0];
-        u[6 * n + 1] = arm[n].y - kind.x[n][1];
-        u[6 * n + 2] = arm[n].z - kind.x[n][2];
-        Triple column[3];  // of the turn T: local axes of Q E
-        const int* index = places.node[n] + i;
-        Lanes Q[9];
-        for (int entry = 0; entry < 9; ++entry) Q[entry] = gather(rotation, index, 9, entry);
-        for (int c = 0; c < 3; ++c) {
-          const Lanes E0 = load(places.axes[3 * c] + i), E1 = load(places.axes[3 * c + 1] + i),
-                      E2 = load(places.axes[3 * c + 2] + i);
-          column[c] =
-              frame.local({Q[0] * E0 + Q[3] * E1 + Q[6] * E2, Q[1] * E0 + Q[4] * E1 + Q[7] * E2,
-                           Q[2] * E0 + Q[5] * E1 + Q[8] * E2});
-        }
-        const Lanes four_cos2 = Lanes(1.0) + column[0].x + column[1].y + column[2].z;
-        straightest = min(straightest, four_cos2);
-        const Lanes two_cos = sqrt(four_cos2), inverse = Lanes(1.0) / two_cos;
-        const Triple turn = inverse * Triple{column[1].z - column[2].y, column[2].x - column[0].z,
-                                             column[0].y - column[1].x};
-        cosine[n] = Lanes(0.5) * two_cos;
-        half_turn[n] = Lanes(0.5) * turn;
-        u[6 * n + 3] = turn.x;
-        u[6 * n + 4] = turn.y;
-        u[6 * n + 5] = turn.z;
-      }
-      // four sums at once: their additions need not wait for each other
-      for (int row = 0; row < 24; row += 4) {
-        Lanes sum0 = 0.0, sum1 = 0.0, sum2 = 0.0, sum3 = 0.0;
-        for (int c = 0; c < 24; ++c) {
-          sum0 += kind.stiffness[row][c] * u[c];
-          sum1 += kind.stiffness[row + 1][c] * u[c];
-          sum2 += kind.stiffness[row + 2][c] * u[c];
-          sum3 += kind.stiffness[row + 3][c] * u[c];
-        }
-        f[row] = sum0;
-        f[row + 1] = sum1;
-        f[row + 2] = sum2;
-        f[row + 3] = sum3;
-      }
-      Lanes twice = 0.0;
-      for (int row = 0; row < 24; ++row) twice += u[row] * f[row];
-      energy += weight * (Lanes(0.5) * twice);
-
-      // From the gradient in u to forces and moments, with the moment that the axes' turning has to
-      // carry.
-      Triple nodal[4], couple[4], carried = {0.0, 0.0, 0.0}, mean = {0.0, 0.0, 0.0};
-      for (int n = 0; n < 4; ++n) {
-        nodal[n] = {f[6 * n], f[6 * n + 1], f[6 * n + 2]};
-        const Triple m = {f[6 * n + 3], f[6 * n + 4], f[6 * n + 5]};
-        couple[n] = cosine[n] * m + cross(half_turn[n], m);
-        carried = carried + cross(arm[n], nodal[n]) + couple[n];
-        mean = mean + Lanes(0.25) * nodal[n];
-      }
-      const Lanes per_area = Lanes(1.0) / frame.area, about3 = carried.z / frame.trace;
-      const Triple on_a = {-kind.p2 * about3, kind.p1 * about3,
-                           -per_area * (frame.b1 * carried.x + frame.b2 * carried.y)};
-      const Triple on_b = {-kind.q2 * about3, 0.0,
-                           per_area * (frame.a1 * carried.x + frame.a2 * carried.y)};
-
-      const Triple A = Lanes(0.5) * a, B = Lanes(0.5) * b;
-      const Triple C = Lanes(0.25) * (node[0] - node[1] + (node[2] - node[3]));
-      const Triple AB = cross(A, B), AC = Lanes(1.0 / 3.0) * cross(A, C),
-                   CB = Lanes(1.0 / 3.0) * cross(C, B);
-      for (int n = 0; n < 4; ++n) {
-        const Triple push = AB + xi[n] * AC + eta[n] * CB;
-        volume += weight * (dot(push, node[n]) * Lanes(1.0 / 3.0));
-        const Triple gradient =
-            nodal[n] - mean - (Lanes(0.5 * xi[n]) * on_a + Lanes(0.5 * eta[n]) * on_b);
-        const Triple on_node = pressure * push - frame.space(gradient),
-                     turning = frame.space(couple[n]);
-        for (int lane = 0; lane < lane_count; ++lane) {
-          if (!places.active[i + static_cast<std::size_t>(lane)]) continue;
-          const int index = 3 * places.node[n][i + static_cast<std::size_t>(lane)];
-          force[index] += on_node.x[lane];
-          force[index + 1] += on_node.y[lane];
-          force[index + 2] += on_node.z[lane];
-          moment[index] -= turning.x[lane];
-          moment[index + 1] -= turning.y[lane];
-          moment[index + 2] -= turning.z[lane];
-        }
-      }
-      if (any(!(straightest >= Lanes(result.straightest))))
-        for (int lane = 0; lane < lane_count; ++lane)
-          if (!(straightest[lane] >= result.straightest)) {
-            result.straightest = straightest[lane];
-            result.worst_place = i + static_cast<std::size_t>(lane);
-          }
+      note_most_rotated(deformation.least_four_cos2, i, result);
     }
   }
   for (int lane = 0; lane < lane_count; ++lane) {
     result.energy += energy[lane];
     result.volume += volume[lane];
   }
-  result.finite = result.energy - result.energy == 0.0 && result.straightest == result.straightest;
+  result.finite =
+      result.energy - result.energy == 0.0 && result.least_four_cos2 == result.least_four_cos2;
   return result;
 }
 

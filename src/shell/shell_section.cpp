@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/check_number.h"
 #include "core/error.h"
 
 namespace furrow {
@@ -17,9 +18,7 @@ OrthotropicLayer OrthotropicLayer::isotropic(double E, double nu, double thickne
 ShellSection::ShellSection(const OrthotropicLayer& layer, double mass)
     : thickness(layer.thickness), areal_mass(mass) {
   const auto positive = [](double value, const char* name, const char* unit) {
-    if (!(std::isfinite(value) && value > 0.0))
-      throw InputError("shell section", fmt::format("has {} = {} {}", name, value, unit),
-                       "a number > 0");
+    check_number(value, Range::positive(), fmt::format("shell section, {}", name), unit);
   };
   positive(layer.E1, "E1", "Pa");
   positive(layer.E2, "E2", "Pa");
@@ -28,7 +27,8 @@ ShellSection::ShellSection(const OrthotropicLayer& layer, double mass)
   positive(layer.G23, "G23", "Pa");
   positive(layer.thickness, "thickness", "m");
   positive(mass, "areal_mass", "kg/m^2");
-  const double nu21 = layer.nu12 * layer.E2 / layer.E1, definite = 1.0 - layer.nu12 * nu21;
+  const double nu21 = layer.nu12 * layer.E2 / layer.E1;
+  const double definite = 1.0 - layer.nu12 * nu21;
   if (!(definite > 0.0))
     throw InputError(
         "shell section", fmt::format("has nu12 = {}, which makes it indefinite", layer.nu12),

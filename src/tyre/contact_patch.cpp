@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace furrow {
 
 namespace {
 
-/// Outline end beyond the last touching node, from it, in [0, distance to the first free node].
+/// Distance from the last touching node to the end of the outline, in [0, s1].
+/// @param s1, s2 distances of the next two nodes, which do not touch [m]
+/// @param gap1, gap2 theirs from the plane [m]
 double beyond(double s1, double gap1, double s2, double gap2) {
   if (!(gap1 > 0.0)) return s1;
   if (!(gap2 > gap1)) return 0.0;
@@ -16,56 +19,89 @@ double beyond(double s1, double gap1, double s2, double gap2) {
   return std::clamp((s1 - ratio * s2) / (1.0 - ratio), 0.0, s1);
 }
 
+/// One line of nodes around the tread.
+class Line {
+ public:
+  Line(const Tyre& tyre, const RigidPlane& plane, int j)
+      : grid_(tyre.tread_grid()), x_(tyre.surface().x), plane_(plane), j_(j) {
+    const int n = grid_.around;
+    for (int i = 0; i < n; ++i)
+      if (x_(2, node(i)) < x_(2, node(lowest_))) lowest_ = i;
+    // the footprint is shorter than half the tyre
+    for (int i = lowest_ - n / 4; i <= lowest_ + n / 4; ++i)
+      if (touches(i)) {
+        if (!touching_) first_ = i;
+        last_ = i;
+        touching_ = true;
+      }
+  }
+
+  bool touching() const { return touching_; }
+  int first() const { return first_; }  ///< touching node; may be negative, see TreadGrid::node()
+  int last() const { return last_; }    ///< touching node
+  int node(int i) const { return grid_.node(i, j_); }
+  bool touches(int i) const { return plane_.pressure()[node(i)] > 0.0; }
+  double lateral() const { return x_(1, node(lowest_)); }  ///< [m] y
+
+  double length() const {
+    double length = end(last_, 1) + end(first_, -1);
+    for (int i = first_; i < last_; ++i)
+      length += (x_.col(node(i + 1)) - x_.col(node(i))).head<2>().norm();
+    return length;
+  }
+
+ private:
+  /// [m] from the outermost touching node to the end of the outline.
+  /// @param step +1 or -1: away from the footprint
+  double end(int touching, int step) const {
+    const double floor = plane_.parameters().height;
+    const Vector3 a = x_.col(node(touching));
+    const Vector3 b = x_.col(node(touching + step));
+    const Vector3 c = x_.col(node(touching + 2 * step));
+    const double s1 = (b - a).norm();
+    const double s2 = s1 + (c - b).norm();
+    return beyond(s1, b.z() - floor, s2, c.z() - floor);
+  }
+
+  const TreadGrid& grid_;
+  const Matrix3X& x_;
+  const RigidPlane& plane_;
+  int j_;
+  int lowest_ = 0;
+  int first_ = 0;
+  int last_ = 0;
+  bool touching_ = false;
+};
+
 }  // namespace
 
-ContactPatch contact_patch(const DarnellTyre& tyre, const RigidPlane& plane) {
-  const Matrix3X& x = tyre.tread().x;
-  const int n = tyre.settings().around, rows = tyre.rows();
-  const double floor = plane.parameters().height, share = tyre.settings().half ? 2.0 : 1.0;
+ContactPatch contact_patch(const Tyre& tyre, const RigidPlane& plane) {
+  const TreadGrid& grid = tyre.tread_grid();
+  const double copies = grid.copies();
   ContactPatch patch;
-  std::vector<double> lengths(static_cast<std::size_t>(rows + 1), 0.0), lateral(lengths);
-  int inside = 0, lifted = 0;
-  for (int j = 0; j <= rows; ++j) {
-    const auto touches = [&](int i) { return plane.pressure()[tyre.tread_node(i, j)] > 0.0; };
-    // node numbers around; the patch is narrower than half the tyre
-    int lowest = 0, first = 0, last = 0;
-    for (int i = 0; i < n; ++i)
-      if (x(2, tyre.tread_node(i, j)) < x(2, tyre.tread_node(lowest, j))) lowest = i;
-    bool any = false;
-    for (int i = lowest - n / 4; i <= lowest + n / 4; ++i)
-      if (touches(i)) {
-        if (!any) first = i;
-        last = i;
-        any = true;
-      }
-    lateral[static_cast<std::size_t>(j)] = x(1, tyre.tread_node(lowest, j));
-    if (!any) continue;
-    const auto end = [&](int touching, int step) {
-      const Vector3 a = x.col(tyre.tread_node(touching, j)),
-                    b = x.col(tyre.tread_node(touching + step, j)),
-                    c = x.col(tyre.tread_node(touching + 2 * step, j));
-      const double s1 = (b - a).norm(), s2 = s1 + (c - b).norm();
-      return beyond(s1, b.z() - floor, s2, c.z() - floor);
-    };
-    double length = end(last, 1) + end(first, -1);
-    for (int i = first; i < last; ++i)
-      length += (x.col(tyre.tread_node(i + 1, j)) - x.col(tyre.tread_node(i, j))).head<2>().norm();
-    for (int i = first; i <= last; ++i) {
-      const Eigen::Index node = tyre.tread_node(i, j);
+  std::vector<double> lengths;  // [m] of the lines
+  std::vector<double> lateral;  // [m] where they are
+  int inside = 0;
+  int lifted = 0;
+  for (int j = 0; j < grid.lines(); ++j) {
+    const Line line(tyre, plane, j);
+    lateral.push_back(line.lateral());
+    lengths.push_back(line.touching() ? line.length() : 0.0);
+    patch.length = std::max(patch.length, lengths.back());
+    for (int i = line.first(); line.touching() && i <= line.last(); ++i) {
+      const int node = line.node(i);
       ++inside;
-      lifted += !touches(i);
+      lifted += !line.touches(i);
       patch.largest_pressure = std::max(patch.largest_pressure, plane.pressure()[node]);
-      if (touches(i)) patch.nodal_area += share * plane.area()[node];
+      if (line.touches(i)) patch.nodal_area += copies * plane.area()[node];
     }
-    lengths[static_cast<std::size_t>(j)] = length;
-    patch.length = std::max(patch.length, length);
   }
-  for (std::size_t j = 0; j < static_cast<std::size_t>(rows); ++j) {
+  for (std::size_t j = 0; j + 1 < lengths.size(); ++j) {
     const double across = lateral[j + 1] - lateral[j];
-    patch.perimeter_area += share * 0.5 * (lengths[j] + lengths[j + 1]) * across;
-    if (lengths[j] > 0.0 && lengths[j + 1] > 0.0) patch.width += share * across;
+    patch.perimeter_area += copies * 0.5 * (lengths[j] + lengths[j + 1]) * across;
+    if (lengths[j] > 0.0 && lengths[j + 1] > 0.0) patch.width += copies * across;
   }
-  patch.force = share * plane.total_force().z();
+  patch.force = copies * plane.total_force().z();
   if (patch.perimeter_area > 0.0) patch.mean_pressure = patch.force / patch.perimeter_area;
   if (inside > 0) patch.lifted_share = static_cast<double>(lifted) / inside;
   return patch;

@@ -3,12 +3,12 @@
 /// The footprint of a tyre on a rigid plane.
 
 #include "bodies/rigid_plane.h"
-#include "tyre/darnell_tyre.h"
+#include "tyre/tyre.h"
 
 namespace furrow {
 
 struct ContactPatch {
-  double length = 0.0;  ///< [m] longest line along the circumference
+  double length = 0.0;  ///< [m] of the longest line along the circumference
   double width = 0.0;   ///< [m] between the outermost touching tread lines
   /// [m^2] inside the outline, gaps within included: what a print's outline encloses
   double perimeter_area = 0.0;
@@ -16,7 +16,7 @@ struct ContactPatch {
   double largest_pressure = 0.0;  ///< [Pa] of a tread node
   double mean_pressure = 0.0;     ///< [Pa] vertical force over perimeter_area
   double force = 0.0;             ///< [N] vertical, whole tyre
-  /// of the nodes inside the outline, those that do not touch: a buckled middle
+  /// share of the nodes inside the outline that do not touch: a buckled middle
   double lifted_share = 0.0;
 };
 
@@ -24,6 +24,6 @@ struct ContactPatch {
 /// of the distance from the edge (a bent shell leaves the plane like that) fits the gaps of the
 /// first two free nodes; between the last node that touches and the next. Valid for an upright
 /// wheel. Call after plane.press_on(tyre.surface()).
-ContactPatch contact_patch(const DarnellTyre& tyre, const RigidPlane& plane);
+ContactPatch contact_patch(const Tyre& tyre, const RigidPlane& plane);
 
 }  // namespace furrow

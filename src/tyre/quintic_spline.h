@@ -42,8 +42,8 @@ class QuinticSpline3 {
   const std::array<GridAxis, 3>& axes() const { return axes_; }
   const std::vector<double>& coefficients() const { return coefficients_; }
 
-  /// At a point inside the grid; outside, the polynomial of the nearest cell goes on. The Hessian
-  /// is left as it is unless asked for.
+  /// At a point inside the grid; outside, the polynomial of the nearest cell is continued. The
+  /// Hessian is left as it is unless asked for.
   void evaluate(const Vector3& x, Value& value, bool with_hessian) const;
 
  private:

@@ -4,19 +4,19 @@
 /// tread edge, whichever way they are computed: SidewallDirect solves the chain, SidewallTable
 /// looks it up.
 ///
-/// A sidewall is taken as a planar chain in the meridian plane (Shoop & Darnell; TR-01-16), as wide
-/// as its strip of the tread. All values are per unit circumference of the tread: a station that
-/// holds the width w of tread takes w times them. The pressure acts on the strip's own width omega
-/// = bead_width + taper r (tyre_parameters.h): even, as in a plane, or between two meridians, where
-/// it is narrower at the rim. Neglected: tension and shear along the circumference, that bending
-/// stiffness varies with the strip's width, the sidewall's mass.
+/// A sidewall is taken as a planar chain in the meridian plane [Shoop2001], as wide as its strip of
+/// the tread. All values are per unit circumference of the tread: a station that holds the width w
+/// of tread takes w times them. The pressure acts on the strip's own width omega = bead_width +
+/// taper r (tyre_parameters.h): even, as in a plane, or between two meridians, where it is narrower
+/// at the rim. Neglected: tension and shear along the circumference, the variation of bending
+/// stiffness with the strip's width, the sidewall's mass.
 ///
 /// Pressure is a follower load with live normals. Let W = min over the chain's angles of (bending
 /// energy - p S), S the area between chain and chord, weighted by omega. On the tread act minus W's
 /// gradient and the tread's share of the pressure on the chord:
 ///   F = -dW/d(a, r) + p (bead_width/2 + taper r/3) (r, -a),   M = -dW/dphi.
-/// So dF_a/dr - dF_r/da = p omega(r): the force alone is no gradient, but W is tabulated and the
-/// rest is exact.
+/// So dF_a/dr - dF_r/da = p omega(r): the force alone is no gradient, but W is one potential that
+/// can be tabulated, and the rest is exact.
 
 #include <cstddef>
 
@@ -33,18 +33,17 @@ struct SidewallEnd {
 };
 
 struct SidewallResponse {
-  /// -dW/d(a, r, phi): on_tread without the pressure on the chord
+  /// -dW/d(a, r, phi): on_tread without the pressure on the chord [N/m], [N/m], [N m/m]
   Vector3 force = Vector3::Zero();
-  Vector3 on_tread = Vector3::Zero();  ///< F_a, F_r [N/m], M [N m/m]; M turns from +a towards +r
+  Vector3 on_tread = Vector3::Zero();  ///< F_a, F_r [N/m], M [N m/m] from +a towards +r
   /// -d(on_tread)/d(a, r, phi); not symmetric in (a, r) by the pressure
   Matrix3 stiffness = Matrix3::Zero();
   double potential = 0.0;  ///< W [J/m]
 };
 
-/// What the chain itself tells of an equilibrium.
+/// An equilibrium in detail, by the chain.
 struct SidewallShape {
-  /// from the bead (0, 0) to the tread end (a, r); N + 1 columns [m]
-  Eigen::Matrix2Xd nodes;
+  Eigen::Matrix2Xd nodes;            ///< [m] from the bead (0, 0) to the end (a, r); N + 1 columns
   VectorX angles;                    ///< of the N segments [rad]
   Vector3 on_rim = Vector3::Zero();  ///< F_a, F_r [N/m], M [N m/m] at the bead
   double bending = 0.0;              ///< energy of hinges and end springs [J/m]
@@ -55,20 +54,19 @@ class Sidewall {
  public:
   virtual ~Sidewall() = default;
 
-  /// Responses of n stations. A direct solve starts a station from its own last solution, so a
-  /// caller keeps their order.
+  /// Responses of n stations. A direct solution of a station starts from its own last one, so
+  /// callers must keep their order.
+  /// @param ends, responses n of each; owned by the caller
   /// @param with_stiffness false leaves out the stiffness
   /// @throws StateError for an end that is not finite or cannot be reached, naming the station
   virtual void evaluate(const SidewallEnd* ends, SidewallResponse* responses, std::size_t n,
                         bool with_stiffness) = 0;
 
   virtual double pressure() const = 0;  ///< [Pa]
-  /// from the next evaluation on; a table is made anew. @throws StateError
+  /// From the next evaluation on; a table is made for it. @throws StateError
   virtual void set_pressure(double pressure) = 0;
-  virtual SidewallShape shape(const SidewallEnd& end) = 0;  ///< by the chain, also where forces are
-                                                            ///< looked up. @throws StateError
-  /// The nodes of shape(), for pictures and for contact of the sidewall.
-  void profile(const SidewallEnd& end, Eigen::Matrix2Xd& nodes) { nodes = shape(end).nodes; }
+  /// By the chain, also where forces are looked up. @throws StateError
+  virtual SidewallShape shape(const SidewallEnd& end) = 0;
 };
 
 }  // namespace furrow

@@ -19,17 +19,17 @@ struct RimPose {
 };
 
 /// Station i has its bead point B_i on the rim and holds the tread's node i by a strip of width w,
-/// its share of the tread's edge. The strip ends at the node or at the end of a link, a rigid arm s
-/// = Q s_0 on the node. In the rim's frame, with d from B_i to the strip's end and the outward
-/// axial unit vector A:
+/// its share of the tread's edge. The strip ends at the node or at the end of a link, a rigid arm
+/// s = Q s_0 on the node (Q: the node's rotation). With d from B_i to the strip's end and the
+/// outward axial unit vector A of the rim:
 ///   a = d . A,  r e_r = d - a A,  phi = angle of the tread's axial line Q A from A towards e_r.
-/// The strip's plane so tilts when the tread is wound against the rim, and its tension resists
+/// The strip's plane tilts when the tread is wound up against the rim, and its tension resists
 /// that.
 ///
 /// Its potential is w W(a, r, phi) (tyre/sidewall.h). The pressure on the chord, which Sidewall
 /// states for a strip of even width, is taken on the true surface instead: quadrilaterals between
-/// bead points, ends of links and tread nodes. With the tread they close the tyre's air, whose
-/// potential is -p V, so that forces have a potential as a whole, and act on rim and tread in
+/// bead points, ends of links and tread nodes. With the tread they enclose the tyre's air, whose
+/// potential is -p V, so that the forces as a whole have a potential and act on rim and tread in
 /// balance.
 class SidewallRing {
  public:
@@ -48,41 +48,51 @@ class SidewallRing {
   /// [m^3] the quadrilaterals' third of the integral of x . n dA
   double volume() const { return volume_; }
   double largest_chord() const { return largest_chord_; }  ///< of the length
-  const std::vector<SidewallEnd>& ends() const { return ends_; }
   const std::vector<int>& edge() const { return edge_; }
   std::size_t stations() const { return edge_.size(); }
   int side() const { return side_; }
   /// Points of the sidewall at a station by the chain, in space, from bead to tread.
   Matrix3X profile(std::size_t station, const ShellNodes& nodes, const RimPose& rim);
   /// Points of the arc of the sidewall's length over its chord, the chain's shape without bending
-  /// stiffness: cheap enough for contact in every step. Point k of n, k = 0 at the bead; columns
-  /// are added from first on.
+  /// stiffness: cheap enough for contact in every step.
+  /// @param points of each station, evenly from the bead on; the tread's end is the one after them
+  /// @param x [m] columns from `first` on are set, station by station
   void arcs(int points, const ShellNodes& nodes, const RimPose& rim, Matrix3X& x,
             Eigen::Index first) const;
-  /// in the rim's frame
+  /// [m] bead point in the rim's frame
   Vector3 bead(std::size_t station) const { return bead_.col(static_cast<Eigen::Index>(station)); }
 
  private:
-  struct Axes {
-    Vector3 A, e_r;  // in space
+  /// Where a strip is, in space.
+  struct Station {
+    Vector3 A;
+    Vector3 e_r;
     SidewallEnd end;
-    Vector3 g;    // Q A in space
-    Vector3 arm;  // the link in space
+    Vector3 g;    // Q A
+    Vector3 arm;  // [m] the link
   };
-  Axes axes(std::size_t station, const ShellNodes& nodes, const RimPose& rim) const;
+  Station locate(std::size_t station, const ShellNodes& nodes, const RimPose& rim) const;
+  void add_sidewalls(ShellNodes& nodes);
   void add_pressure(const ShellNodes& nodes, const RimPose& rim);
+  static void unit_pressure(const Vector3 (&x)[4], Vector3 (&force)[4]);
 
   std::unique_ptr<Sidewall> sidewall_;
   int side_;
   std::vector<int> edge_;
-  double width_, length_;
+  double width_;   // [m] of a strip
+  double length_;  // [m] of the sidewall
   bool linked_;
-  Matrix3X bead_, link_;       // in the rim's frame, links as made
-  Matrix3X on_node_, on_end_;  // forces on tread nodes and on ends of links [N]
+  // One column for each station
+  Matrix3X bead_;     // [m] in the rim's frame
+  Matrix3X link_;     // [m] in the rim's frame, as made
+  Matrix3X on_node_;  // [N] on the nodes of the tread
+  Matrix3X on_end_;   // [N] on the ends of the links
   std::vector<SidewallEnd> ends_;
   std::vector<SidewallResponse> responses_;
-  std::vector<Axes> axes_;
-  double potential_ = 0.0, volume_ = 0.0, largest_chord_ = 0.0;
+  std::vector<Station> located_;
+  double potential_ = 0.0;      // [J]
+  double volume_ = 0.0;         // [m^3]
+  double largest_chord_ = 0.0;  // of the length
 };
 
 }  // namespace furrow

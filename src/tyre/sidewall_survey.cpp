@@ -15,8 +15,7 @@ constexpr double shortest = 0.25, longest = 0.98;  // chords over length
 
 /// Profile in the tyre's section: A from the mid-plane, R from the axle.
 Eigen::Matrix2Xd section(Sidewall& sidewall, const TyreParameters& tyre, const SidewallEnd& end) {
-  Eigen::Matrix2Xd nodes;
-  sidewall.profile(end, nodes);
+  Eigen::Matrix2Xd nodes = sidewall.shape(end).nodes;
   nodes.colwise() += Vector2(0.5 * tyre.bead_spacing, tyre.bead_radius);
   return nodes;
 }

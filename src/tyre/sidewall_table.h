@@ -47,7 +47,7 @@ class SidewallTable : public Sidewall {
   void evaluate(const SidewallEnd* ends, SidewallResponse* responses, std::size_t n,
                 bool with_stiffness) override;
   double pressure() const override { return pressure_; }
-  void set_pressure(double pressure) override;  ///< makes the table anew unless the pressure stays
+  void set_pressure(double pressure) override;  ///< makes another table unless the pressure stays
   SidewallShape shape(const SidewallEnd& end) override { return chain_.shape(end, pressure_); }
 
   /// Difference from the chain in the middle of cells.

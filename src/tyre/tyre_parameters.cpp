@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "core/check_number.h"
 #include "core/error.h"
+#include "tyre/arc.h"
 
 namespace furrow {
 
@@ -21,18 +23,52 @@ void need(bool fulfilled, const std::string& where, const std::string& problem,
 
 void need_positive(double value, const std::string& where, const std::string& name,
                    const std::string& unit) {
-  need(value > 0.0 && std::isfinite(value), where, fmt::format("{} is {} {}", name, value, unit),
-       "a number > 0");
+  check_number(value, Range::positive(), fmt::format("{}, {}", where, name), unit);
 }
 
-/// Half the angle that an arc turns by, from its chord and length: chord/length = sin(alpha)/alpha.
-double half_turn(double chord, double length) {
-  double lower = 0.0, upper = pi;
-  for (int i = 0; i < 60; ++i) {
-    const double alpha = 0.5 * (lower + upper);
-    (std::sin(alpha) * length > chord * alpha ? lower : upper) = alpha;
-  }
-  return lower;
+/// All that does not concern the tread or a sidewall alone.
+void check_section(const TyreParameters& tyre, const std::string& where) {
+  const Vector2 chord = tyre.sidewall_chord();
+  const double distance = chord.norm();
+  const double length = tyre.sidewall.length;
+  need(distance < length, where,
+       fmt::format("the sidewall is stretched past its length: bead and tread edge are {:.4g} m "
+                   "apart, its length is {:.4g} m",
+                   distance, length),
+       "a sidewall longer than that",
+       "mind whether length, radii and widths belong to the same points");
+  // Inflated, a sidewall is near an arc, which leaves the bead at this angle from the axial
+  // direction.
+  const double leaves = std::atan2(chord[1], chord[0]) - arc_half_angle(distance / length);
+  need(leaves < 0.5 * pi, where,
+       fmt::format("the rim is wider than the tyre: with its beads {:.4g} m apart the inflated "
+                   "sidewalls lean inwards from the "
+                   "beads on",
+                   tyre.bead_spacing),
+       "a bead_spacing below the section width",
+       "a wider tread, a longer sidewall, or a narrower rim");
+}
+
+/// @param bead_radius [m]
+void check(const TreadParameters& tread, double bead_radius, const std::string& where) {
+  need_positive(tread.radius, where, "the tread's radius", "m");
+  need_positive(tread.half_width, where, "the tread's half_width", "m");
+  need(tread.radius > bead_radius, where,
+       fmt::format("the tread, {:.4g} m from the axle, lies inside the rim ({:.4g} m)",
+                   tread.radius, bead_radius),
+       "a tread outside the rim");
+  const double height = tread.radius - bead_radius;
+  need(tread.crown >= 0.0 && tread.crown < height, where,
+       fmt::format("the tread's crown is {} m", tread.crown),
+       fmt::format("from 0 to below the section height, {:.4g} m", height));
+  need_positive(tread.thickness, where, "the tread's thickness", "m");
+  need_positive(tread.E1, where, "the tread's E1", "Pa");
+  need_positive(tread.E2, where, "the tread's E2", "Pa");
+  need_positive(tread.G12, where, "the tread's G12", "Pa");
+  need_positive(tread.areal_mass, where, "the tread's areal_mass", "kg/m2");
+  need(tread.nu12 * tread.nu12 * tread.E2 < tread.E1, where,
+       fmt::format("the tread's nu12 = {} makes its stiffness indefinite", tread.nu12),
+       fmt::format("below sqrt(E1/E2) = {:.4g} in size", std::sqrt(tread.E1 / tread.E2)));
 }
 
 }  // namespace
@@ -76,45 +112,9 @@ void check(const TyreParameters& tyre, const std::string& where) {
   need_positive(tyre.bead_radius, where, "bead_radius", "m");
   need_positive(tyre.bead_spacing, where, "bead_spacing", "m");
   need(tyre.link.allFinite(), where, "the link is not finite", "two numbers [m]");
-  const TreadParameters& tread = tyre.tread;
-  need_positive(tread.radius, where, "the tread's radius", "m");
-  need_positive(tread.half_width, where, "the tread's half_width", "m");
-  need(tread.radius > tyre.bead_radius, where,
-       fmt::format("the tread, {:.4g} m from the axle, lies inside the rim ({:.4g} m)",
-                   tread.radius, tyre.bead_radius),
-       "a tread outside the rim");
-  need(
-      tread.crown >= 0.0 && tread.crown < tread.radius - tyre.bead_radius, where,
-      fmt::format("the tread's crown is {} m", tread.crown),
-      fmt::format("from 0 to below the section height, {:.4g} m", tread.radius - tyre.bead_radius));
-  need_positive(tread.thickness, where, "the tread's thickness", "m");
-  need_positive(tread.E1, where, "the tread's E1", "Pa");
-  need_positive(tread.E2, where, "the tread's E2", "Pa");
-  need_positive(tread.G12, where, "the tread's G12", "Pa");
-  need_positive(tread.areal_mass, where, "the tread's areal_mass", "kg/m2");
-  need(tread.nu12 * tread.nu12 * tread.E2 < tread.E1, where,
-       fmt::format("the tread's nu12 = {} makes its stiffness indefinite", tread.nu12),
-       fmt::format("below sqrt(E1/E2) = {:.4g} in size", std::sqrt(tread.E1 / tread.E2)));
+  check(tyre.tread, tyre.bead_radius, where);
   check(tyre.sidewall, where);
-
-  const Vector2 chord = tyre.sidewall_chord();
-  const double distance = chord.norm(), length = tyre.sidewall.length;
-  need(distance < length, where,
-       fmt::format("the sidewall is stretched past its length: bead and tread edge are {:.4g} m "
-                   "apart, its length is {:.4g} m",
-                   distance, length),
-       "a sidewall longer than that",
-       "mind whether length, radii and widths belong to the same points");
-  // Inflated, a sidewall is near an arc, which leaves the bead at this angle from the axial
-  // direction.
-  const double leaves = std::atan2(chord[1], chord[0]) - half_turn(distance, length);
-  need(leaves < 0.5 * pi, where,
-       fmt::format("the rim is wider than the tyre: with its beads {:.4g} m apart the inflated "
-                   "sidewalls lean inwards from the "
-                   "beads on",
-                   tyre.bead_spacing),
-       "a bead_spacing below the section width",
-       "a wider tread, a longer sidewall, or a narrower rim");
+  check_section(tyre, where);
 }
 
 }  // namespace furrow

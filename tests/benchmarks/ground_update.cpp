@@ -46,10 +46,7 @@ int run(int argc, char** argv) {
   parameters.geometry.diameter = 0.74;
   parameters.geometry.width = 0.272;
   parameters.geometry.shoulder = 0.051;
-  parameters.mass = 636.0;
-  parameters.axle_inertia = 2.15;
-  parameters.diametral_inertia = 1.5;
-  parameters.axle_centre = {0.0, 0.0, depth + 0.37 + 0.005};
+  parameters.hub = {{636.0, 2.15, 1.5}, {0.0, 0.0, depth + 0.37 + 0.005}};
   RigidWheel wheel(parameters);
   WheelRig rig(WheelRig::schema().read({"load_mass", "636", "speed", "2.2352", "mode", "slip",
                                         "slip", "0", "settle_time", "0.3", "load_ramp_time", "0.3",

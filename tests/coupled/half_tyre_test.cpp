@@ -61,11 +61,11 @@ Outcome roll(bool half) {
       dynamic_cast<coupling::FixTerrainContinuum*>(find("soil"))->ground().energy_budget();
   LAMMPS_NS::Fix* touch = find("touch");
   const double both = half ? 2.0 : 1.0;
-  const WheelHub::Wrench wrench = tyre.ground_wrench();
+  const Wrench wrench = tyre.ground_wrench();
   EXPECT_NEAR(wrench.force.y(), 0.0, 1e-3 * wrench.force.z());
   return {tyre.centre().x(),
           0.5 - tyre.centre().z(),
-          tyre.position(WheelHub::spin),
+          tyre.position(Coordinate::spin),
           tyre_fix->compute_vector(0),
           tyre.section_width(),
           wrench.force.x(),

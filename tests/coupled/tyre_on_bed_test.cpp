@@ -95,7 +95,7 @@ TEST(TyreOnBed, KeepsMomentumAndEnergyWhileItDeformsAndRolls) {
 
   scene.command("run 6000");  // accelerates and rolls 8 cm
   EXPECT_GT(tyre.centre().x(), 0.0);
-  EXPECT_GT(tyre.position(WheelHub::spin), 0.1);
+  EXPECT_GT(tyre.position(Coordinate::spin), 0.1);
   EXPECT_GT(deflection, 0.01);
   EXPECT_LT(worst, 2e-3 * scale);
   const coupling::MomentumAudit& audit = scene.world().audit(tyre);
@@ -109,7 +109,7 @@ TEST(TyreOnBed, KeepsMomentumAndEnergyWhileItDeformsAndRolls) {
         "of "
         "{:.0f} J, rolled to x = {:.3f} m, spin {:.3f}\n",
         1e3 * deflection, impulse / expected, audit.force, audit.moment, worst / scale, scale,
-        tyre.centre().x(), tyre.position(WheelHub::spin));
+        tyre.centre().x(), tyre.position(Coordinate::spin));
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ Outcome roll(Scene& scene, double slip) {
       sum += wheel.surface().total_force()[2];
     }
     if (rig.rig().stage(time) == WheelRig::Stage::cruise) {
-      const double rim = wheel.rate(RigidWheel::spin) * wheel.parameters().geometry.radius(),
+      const double rim = wheel.rate(Coordinate::spin) * wheel.parameters().geometry.radius(),
                    v = wheel.velocity()[0];
       run.worst_slip_error = std::max(
           run.worst_slip_error, std::abs((rim - v) / std::max(std::abs(rim), std::abs(v)) - slip));

@@ -61,7 +61,7 @@ TEST(PlateMesh, RefusesShapesThatCannotBe) {
               HasSubstr("an even number"));
   geometry.size = -1.0;
   EXPECT_THAT(message_of([&] { make_plate_mesh(geometry, "fix plate/rigid"); }),
-              HasSubstr("keyword 'size' is -1 m"));
+              HasSubstr("keyword 'size' is -1; allowed: a number > 0 [m]"));
 }
 
 // A force of 3 N over 100 steps of 1 mm/s: work 3 N x 1e-4 m, given back by the drive.

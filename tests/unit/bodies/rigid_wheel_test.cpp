@@ -21,10 +21,7 @@ RigidWheelParameters small_wheel() {
   wheel.geometry.diameter = 0.4;
   wheel.geometry.width = 0.1;
   wheel.geometry.segments = 12;
-  wheel.mass = 3.0;
-  wheel.axle_inertia = 0.06;
-  wheel.diametral_inertia = 0.04;
-  wheel.axle_centre = {0.1, -0.2, 0.5};
+  wheel.hub = {{3.0, 0.06, 0.04}, {0.1, -0.2, 0.5}};
   return wheel;
 }
 
@@ -51,17 +48,18 @@ std::string error_of(Function&& function) {
   return "no error";
 }
 
-constexpr std::array<RigidWheel::Coordinate, 6> all_coordinates{
-    RigidWheel::x,    RigidWheel::y,   RigidWheel::z,
-    RigidWheel::spin, RigidWheel::yaw, RigidWheel::camber};
+constexpr std::array<Coordinate, 6> all_coordinates{Coordinate::x,   Coordinate::y,
+                                                    Coordinate::z,   Coordinate::spin,
+                                                    Coordinate::yaw, Coordinate::camber};
 
 TEST(RigidWheel, ReadsItsKeys) {
   const RigidWheel wheel(
       RigidWheel::schema().read(Words{"diameter", "0.74", "width", "0.272", "shoulder", "0.051",
                                       "mass", "636", "inertia", "2.15", "axle", "1", "2", "3"}));
-  EXPECT_DOUBLE_EQ(wheel.parameters().mass, 636.0);
-  EXPECT_DOUBLE_EQ(wheel.parameters().axle_inertia, 2.15);
-  EXPECT_DOUBLE_EQ(wheel.parameters().diametral_inertia, 0.5 * 2.15 + 636.0 * 0.272 * 0.272 / 12.0);
+  EXPECT_DOUBLE_EQ(wheel.parameters().hub.inertia.mass, 636.0);
+  EXPECT_DOUBLE_EQ(wheel.parameters().hub.inertia.axial, 2.15);
+  EXPECT_DOUBLE_EQ(wheel.parameters().hub.inertia.diametral,
+                   0.5 * 2.15 + 636.0 * 0.272 * 0.272 / 12.0);
   EXPECT_EQ(wheel.centre(), Vector3(1, 2, 3));
   EXPECT_DOUBLE_EQ(wheel.lowest_point(), 3.0 - 0.37);
   EXPECT_TRUE(wheel.surface().is_closed());
@@ -90,17 +88,17 @@ TEST(RigidWheel, RefusesWithKeywordAndRemedy) {
 
 TEST(RigidWheel, RefusesParametersThatAreNotNumbers) {
   RigidWheelParameters wheel = small_wheel();
-  wheel.mass = std::nan("");
+  wheel.hub.inertia.mass = std::nan("");
   EXPECT_THAT(error_of([&] { RigidWheel{wheel}; }),
-              HasSubstr("rigid wheel, keyword 'mass' is nan kg; allowed: a number > 0"));
+              HasSubstr("rigid wheel, keyword 'mass' is nan; allowed: a number > 0 [kg]"));
   wheel = small_wheel();
-  wheel.axle_centre.x() = std::nan("");
+  wheel.hub.centre.x() = std::nan("");
   EXPECT_THAT(error_of([&] { RigidWheel{wheel}; }), HasSubstr("keyword 'axle' is not finite"));
 }
 
 TEST(RigidWheel, FreeFallFollowsTheLeapfrogExactly) {
   RigidWheel wheel(small_wheel());
-  wheel.release(RigidWheel::z);
+  wheel.release(Coordinate::z);
   const double g = standard_gravity, dt = 1e-3;
   wheel.set_load({0, 0, -3.0 * g});
   for (int i = 0; i < 1000; ++i) wheel.advance(dt);
@@ -113,20 +111,20 @@ TEST(RigidWheel, FreeFallFollowsTheLeapfrogExactly) {
 
 TEST(RigidWheel, ATorqueSpinsItUpByTorqueOverInertia) {
   RigidWheel wheel(small_wheel());
-  wheel.release(RigidWheel::spin);
+  wheel.release(Coordinate::spin);
   wheel.set_axle_torque(0.3);
   const double dt = 1e-3;
   for (int i = 0; i < 1000; ++i) wheel.advance(dt);
-  EXPECT_NEAR(wheel.rate(RigidWheel::spin), 0.3 / 0.06, 1e-12);
-  EXPECT_NEAR(wheel.position(RigidWheel::spin), 0.3 / 0.06 * dt * dt * 1000 * 1001 / 2, 1e-12);
-  EXPECT_DOUBLE_EQ(wheel.constraint(RigidWheel::spin), 0.3);
+  EXPECT_NEAR(wheel.rate(Coordinate::spin), 0.3 / 0.06, 1e-12);
+  EXPECT_NEAR(wheel.position(Coordinate::spin), 0.3 / 0.06 * dt * dt * 1000 * 1001 / 2, 1e-12);
+  EXPECT_DOUBLE_EQ(wheel.constraint(Coordinate::spin), 0.3);
   EXPECT_NEAR(wheel.energy_budget().drive_work, 0.5 * 0.06 * 25.0, 1e-12);
 }
 
 TEST(RigidWheel, PositiveSpinRollsForward) {
   RigidWheel wheel(small_wheel());
-  wheel.prescribe(RigidWheel::spin, 2.0);
-  wheel.prescribe(RigidWheel::x, 0.4);  // omega r
+  wheel.prescribe(Coordinate::spin, 2.0);
+  wheel.prescribe(Coordinate::x, 0.4);  // omega r
   wheel.advance(1e-3);
   const Surface& surface = wheel.surface();
   for (Eigen::Index node = 0; node < surface.x.cols(); ++node) {
@@ -140,35 +138,35 @@ TEST(RigidWheel, AHeldWheelReportsTheForcesThatHoldIt) {
   RigidWheel wheel(small_wheel());
   wheel.set_load({0, 0, -30.0});
   const Vector3 force(1.0, -2.0, 50.0);
-  wheel.surface().add_force(0, wheel.surface().x.col(wheel.surface().triangles[0][0]), force);
+  wheel.surface().f.col(wheel.surface().triangles[0][0]) += force;
   const Vector3 moment = wheel.surface().total_moment(wheel.centre());
   wheel.advance(1e-4);
-  EXPECT_NEAR(wheel.constraint(RigidWheel::x), -1.0, 1e-13);
-  EXPECT_NEAR(wheel.constraint(RigidWheel::y), 2.0, 1e-13);
-  EXPECT_NEAR(wheel.constraint(RigidWheel::z), -20.0, 1e-13);
-  EXPECT_NEAR(wheel.constraint(RigidWheel::spin), -moment.y(), 1e-12);
-  EXPECT_NEAR(wheel.constraint(RigidWheel::yaw), -moment.z(), 1e-12);
-  EXPECT_NEAR(wheel.constraint(RigidWheel::camber), -moment.x(), 1e-12);
+  EXPECT_NEAR(wheel.constraint(Coordinate::x), -1.0, 1e-13);
+  EXPECT_NEAR(wheel.constraint(Coordinate::y), 2.0, 1e-13);
+  EXPECT_NEAR(wheel.constraint(Coordinate::z), -20.0, 1e-13);
+  EXPECT_NEAR(wheel.constraint(Coordinate::spin), -moment.y(), 1e-12);
+  EXPECT_NEAR(wheel.constraint(Coordinate::yaw), -moment.z(), 1e-12);
+  EXPECT_NEAR(wheel.constraint(Coordinate::camber), -moment.x(), 1e-12);
   EXPECT_EQ(wheel.energy_budget().drive_work, 0.0);
-  EXPECT_EQ(wheel.centre(), small_wheel().axle_centre);
+  EXPECT_EQ(wheel.centre(), small_wheel().hub.centre);
 }
 
 TEST(RigidWheel, APrescribedSpinReportsTheTorqueThatAcceleratesIt) {
   RigidWheel wheel(small_wheel());
   const double dt = 1e-3, alpha = 7.0;
   for (int i = 1; i <= 100; ++i) {
-    wheel.prescribe(RigidWheel::spin, alpha * i * dt);
+    wheel.prescribe(Coordinate::spin, alpha * i * dt);
     wheel.advance(dt);
-    EXPECT_NEAR(wheel.constraint(RigidWheel::spin), 0.06 * alpha, 1e-10);
+    EXPECT_NEAR(wheel.constraint(Coordinate::spin), 0.06 * alpha, 1e-10);
   }
 }
 
 TEST(RigidWheel, NodesKeepTheShapeAfterManyTurns) {
   RigidWheel wheel(small_wheel());
   const Matrix3X start = wheel.surface().x;
-  wheel.prescribe(RigidWheel::spin, 2.0 * pi * 100);  // 100 turns a second
+  wheel.prescribe(Coordinate::spin, 2.0 * pi * 100);  // 100 turns a second
   for (int i = 0; i < 100000; ++i) wheel.advance(1e-4);
-  EXPECT_NEAR(wheel.position(RigidWheel::spin), 2.0 * pi * 1000, 1e-6);
+  EXPECT_NEAR(wheel.position(Coordinate::spin), 2.0 * pi * 1000, 1e-6);
   wheel.place(wheel.centre(), 0.0, 0.0);
   EXPECT_EQ((wheel.surface().x - start).norm(), 0.0);
 }
@@ -177,7 +175,7 @@ TEST(RigidWheel, NodesKeepTheShapeAfterManyTurns) {
 // d(spin)/dt) about the vertical.
 TEST(RigidWheel, AFastWheelPrecessesUnderACouple) {
   RigidWheel wheel(small_wheel());
-  for (const auto angle : {RigidWheel::spin, RigidWheel::yaw, RigidWheel::camber})
+  for (const auto angle : {Coordinate::spin, Coordinate::yaw, Coordinate::camber})
     wheel.release(angle);
   const double omega = 1000.0, couple = 3.0, dt = 1e-6, precession = -couple / (0.06 * omega);
   wheel.set_velocity(Vector3::Zero(), {omega, precession, 0.0});
@@ -186,15 +184,15 @@ TEST(RigidWheel, AFastWheelPrecessesUnderACouple) {
     // forces level x arm on all nodes of the ring-symmetric mesh: no resultant, a pure couple along
     // level
     Surface& surface = wheel.surface();
-    const Vector3 level(std::cos(wheel.position(RigidWheel::yaw)),
-                        std::sin(wheel.position(RigidWheel::yaw)), 0.0);
+    const Vector3 level(std::cos(wheel.position(Coordinate::yaw)),
+                        std::sin(wheel.position(Coordinate::yaw)), 0.0);
     for (Eigen::Index node = 0; node < surface.x.cols(); ++node)
       surface.f.col(node) = level.cross(Vector3(surface.x.col(node) - wheel.centre()));
     surface.f *= couple / surface.total_moment(wheel.centre()).dot(level);
     wheel.advance(dt);
   }
-  EXPECT_NEAR(wheel.position(RigidWheel::yaw) / (precession * steps * dt), 1.0, 1e-9);
-  EXPECT_NEAR(wheel.position(RigidWheel::camber), 0.0, 1e-9);
+  EXPECT_NEAR(wheel.position(Coordinate::yaw) / (precession * steps * dt), 1.0, 1e-9);
+  EXPECT_NEAR(wheel.position(Coordinate::camber), 0.0, 1e-9);
 }
 
 // A body of revolution left to itself keeps its angular momentum; the error falls with the square
@@ -203,7 +201,7 @@ TEST(RigidWheel, FreeRotationKeepsEnergyToRoundOffAndAngularMomentumToSecondOrde
   std::array<double, 3> error{};
   for (std::size_t level = 0; level < 3; ++level) {
     RigidWheel wheel(small_wheel());
-    for (const auto angle : {RigidWheel::spin, RigidWheel::yaw, RigidWheel::camber})
+    for (const auto angle : {Coordinate::spin, Coordinate::yaw, Coordinate::camber})
       wheel.release(angle);
     wheel.set_velocity(Vector3::Zero(), {20.0, 3.0, -2.0});
     const double energy = wheel.energy_budget().kinetic_energy, dt = 5e-4 / (1 << level);
@@ -243,8 +241,8 @@ void expect_closed_balance(const std::array<RigidWheel::Motion, 6>& motions) {
         wheel.prescribe(all_coordinates[i], 0.5 * std::sin(1e-2 * step + static_cast<double>(i)));
     wheel.surface().clear_forces();
     const auto triangle = static_cast<std::size_t>(random() % wheel.surface().triangle_count());
-    const Vector3 point = wheel.surface().x.col(wheel.surface().triangles[triangle][0]);
-    wheel.surface().add_force(triangle, point, {normal(random), normal(random), normal(random)});
+    wheel.surface().f.col(wheel.surface().triangles[triangle][0]) +=
+        Vector3(normal(random), normal(random), normal(random));
     wheel.set_load({normal(random), normal(random), normal(random)});
     wheel.set_axle_torque(normal(random));
     const double before = work;
@@ -274,7 +272,7 @@ TEST(RigidWheel, BalanceClosesWithOnlyYawFree) { expect_closed_balance({H, H, H,
 
 TEST(RigidWheel, VerticalDampingDecaysAndLosesWhatItDissipates) {
   RigidWheel wheel(small_wheel());
-  wheel.release(RigidWheel::z);
+  wheel.release(Coordinate::z);
   wheel.set_velocity({0, 0, 1.0}, Vector3::Zero());
   wheel.set_vertical_damping(6.0);  // rate c/m = 2/s
   for (int i = 0; i < 1000; ++i) wheel.advance(1e-3);
@@ -290,9 +288,9 @@ TEST(RigidWheel, ContinuesBitwiseFromItsState) {
     wheel.surface().f.setConstant(0.01 * std::sin(0.1 * i));
     wheel.advance(1e-3);
   };
-  for (const auto coordinate : {RigidWheel::z, RigidWheel::spin, RigidWheel::camber})
+  for (const auto coordinate : {Coordinate::z, Coordinate::spin, Coordinate::camber})
     one.release(coordinate);
-  one.prescribe(RigidWheel::x, 0.7);
+  one.prescribe(Coordinate::x, 0.7);
   one.set_load({0, 0, -2.0});
   one.set_axle_torque(0.1);
   for (int i = 0; i < 100; ++i) step(one, i);
@@ -309,7 +307,7 @@ TEST(RigidWheel, ContinuesBitwiseFromItsState) {
 
 TEST(RigidWheel, RefusesTheStateOfAnotherWheel) {
   RigidWheelParameters heavier = small_wheel();
-  heavier.mass = 4.0;
+  heavier.hub.inertia.mass = 4.0;
   RigidWheel wheel(small_wheel()), other(heavier);
   EXPECT_THAT(error_of([&] { test::hand_over(other, wheel); }),
               HasSubstr("and was 4 when the checkpoint was written"));
@@ -318,7 +316,7 @@ TEST(RigidWheel, RefusesTheStateOfAnotherWheel) {
 TEST(RigidWheel, StopsOnStatesThatMustNotGoOn) {
   RigidWheel wheel(small_wheel());
   EXPECT_THAT(error_of([&] { wheel.advance(0.0); }), HasSubstr("a step of 0 s"));
-  EXPECT_THAT(error_of([&] { wheel.prescribe(RigidWheel::x, std::nan("")); }),
+  EXPECT_THAT(error_of([&] { wheel.prescribe(Coordinate::x, std::nan("")); }),
               HasSubstr("prescribed velocity is nan"));
   EXPECT_THAT(error_of([&] {
                 wheel.set_velocity({0, 0, std::nan("")}, Vector3::Zero());
@@ -329,7 +327,7 @@ TEST(RigidWheel, StopsOnStatesThatMustNotGoOn) {
   EXPECT_THAT(error_of([&] { wheel.advance(1e-3); }),
               HasSubstr("rigid wheel: not finite: force 0 0 nan N"));
   wheel.surface().clear_forces();
-  wheel.prescribe(RigidWheel::camber, 2000.0);
+  wheel.prescribe(Coordinate::camber, 2000.0);
   EXPECT_THAT(error_of([&] { wheel.advance(1e-3); }),
               HasSubstr("fell over, its camber is 114.6 degrees"));
 }

@@ -270,10 +270,10 @@ TEST(WheelMesh, RefusesImpossibleShapes) {
   WheelGeometry wheel = tr_wheel();
   wheel.diameter = -1;
   EXPECT_THAT(refusal_of(wheel),
-              HasSubstr("fix wheel/rigid has diameter -1 m; allowed: a number > 0"));
+              HasSubstr("fix wheel/rigid, diameter is -1; allowed: a number > 0 [m]"));
   wheel = tr_wheel();
   wheel.width = std::nan("");
-  EXPECT_THAT(refusal_of(wheel), HasSubstr("has width nan m"));
+  EXPECT_THAT(refusal_of(wheel), HasSubstr(", width is nan"));
   wheel = tr_wheel();
   wheel.shoulder = 0.14;
   EXPECT_THAT(refusal_of(wheel), HasSubstr("has shoulder 0.14 m; allowed: 0 to half the width, "
@@ -301,10 +301,10 @@ TEST(WheelMesh, RefusesImpossibleGrousers) {
   EXPECT_THAT(refusal_of(wheel), HasSubstr("has -1 grousers"));
   wheel = grouser_wheel();
   wheel.grousers.height = 0.0;
-  EXPECT_THAT(refusal_of(wheel), HasSubstr("has grouser_height 0 m; allowed: a number > 0"));
+  EXPECT_THAT(refusal_of(wheel), HasSubstr(", grouser_height is 0; allowed: a number > 0 [m]"));
   wheel = grouser_wheel();
   wheel.grousers.thickness = 0.0;
-  EXPECT_THAT(refusal_of(wheel), HasSubstr("has grouser_thickness 0 m"));
+  EXPECT_THAT(refusal_of(wheel), HasSubstr(", grouser_thickness is 0"));
   wheel = grouser_wheel(radians(61.0));
   EXPECT_THAT(refusal_of(wheel),
               HasSubstr("has grouser_angle 61 degrees; allowed: -60 to 60 degrees"));

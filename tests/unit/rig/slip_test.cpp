@@ -35,7 +35,7 @@ TEST(Slip, ByTheLargerSpeedGivesTheSlipsOfTheSandTests) {
 }
 
 TEST(Slip, ByRimAndByVehicleSpeedAreTheTwoBranches) {
-  EXPECT_DOUBLE_EQ(slip(by_vehicle, 3.0, 2.0), 0.5);  // TR eq. 28
+  EXPECT_DOUBLE_EQ(slip(by_vehicle, 3.0, 2.0), 0.5);  // [Shoop2001], eq. 28
   EXPECT_DOUBLE_EQ(slip(by_rim, 3.0, 2.0), 1.0 / 3.0);
   EXPECT_DOUBLE_EQ(slip(larger, 3.0, 2.0), 1.0 / 3.0);
   EXPECT_DOUBLE_EQ(slip(larger, 1.0, 2.0), -0.5);
@@ -43,11 +43,16 @@ TEST(Slip, ByRimAndByVehicleSpeedAreTheTwoBranches) {
   EXPECT_DOUBLE_EQ(slip(by_rim, 1.0, 2.0), -1.0);
 }
 
+/// The slip by another definition of the motion that has this one.
+double converted(double value, SlipDefinition from, SlipDefinition to) {
+  return slip(to, rim_speed(from, value, 1.0), 1.0);
+}
+
 TEST(Slip, ConversionsGoRoundWithoutLoss) {
-  EXPECT_DOUBLE_EQ(convert_slip(0.2, by_rim, by_vehicle), 0.25);  // i = s/(1 - s)
+  EXPECT_DOUBLE_EQ(converted(0.2, by_rim, by_vehicle), 0.25);  // i = s/(1 - s)
   for (const double s : {-0.9, -0.3, 0.0, 0.3, 0.9})
     for (const auto other : {by_rim, by_vehicle})
-      EXPECT_NEAR(convert_slip(convert_slip(s, larger, other), other, larger), s, 1e-14);
+      EXPECT_NEAR(converted(converted(s, larger, other), other, larger), s, 1e-14);
 }
 
 TEST(Slip, SingularCasesAreRefused) {
@@ -66,7 +71,7 @@ TEST(Slip, SingularCasesAreRefused) {
   EXPECT_THAT(error_of([] { rim_speed(by_vehicle, -1.5, 1.0); }), HasSubstr("allowed: slip >= -1"));
   EXPECT_THAT(error_of([] { rim_speed(by_vehicle, std::nan(""), 1.0); }),
               HasSubstr("no forward spin"));
-  EXPECT_THAT(error_of([] { convert_slip(-1.0, larger, by_rim); }),
+  EXPECT_THAT(error_of([] { converted(-1.0, larger, by_rim); }),
               HasSubstr("is not defined at a rim speed of 0"));
 }
 

@@ -19,10 +19,7 @@ inline RigidWheel make_wheel(double height = 0.2) {
   wheel.geometry.width = 0.1;
   wheel.geometry.segments = 160;
   wheel.geometry.element_size = 0.05;
-  wheel.mass = 3.0;
-  wheel.axle_inertia = 0.06;
-  wheel.diametral_inertia = 0.04;
-  wheel.axle_centre = {0.0, 0.0, height};
+  wheel.hub = {{3.0, 0.06, 0.04}, {0.0, 0.0, height}};
   return RigidWheel(wheel);
 }
 

@@ -133,7 +133,7 @@ TEST(WheelRig, PrescribedSlipIsExactFromTheFirstRollingStep) {
         }
         ASSERT_NEAR(row[channel("x")], 0.8 * ramp.integral(row[0]), 1e-13);
       });
-      EXPECT_NEAR(wheel.rate(RigidWheel::x), 0.8, 1e-15);
+      EXPECT_NEAR(wheel.rate(Coordinate::x), 0.8, 1e-15);
       EXPECT_NEAR(
           wheel.axle().dot(Vector3(-std::sin(radians(angle)), std::cos(radians(angle)), 0.0)), 1.0,
           1e-14);
@@ -161,7 +161,7 @@ TEST(WheelRig, ATorqueSpinsTheWheelUpByItsInertia) {
   run(rig, wheel, 0.6, 1e-4, nullptr, [&](const std::vector<double>& row) {
     ASSERT_NEAR(row[channel("spin_rate")], 0.3 / 0.06 * ramp.integral(row[0]), 0.3 / 0.06 * 1e-4);
   });
-  EXPECT_NEAR(wheel.rate(RigidWheel::spin), 1.5, 5e-4);
+  EXPECT_NEAR(wheel.rate(Coordinate::spin), 1.5, 5e-4);
 }
 
 TEST(WheelRig, OnAFloorTheWheelCarriesItsLoad) {

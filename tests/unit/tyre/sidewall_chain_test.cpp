@@ -124,6 +124,21 @@ TEST(SidewallChain, ASectorsAreaIsItsVolumePerCircumferenceOfTheTread) {
   }
 }
 
+/// Moments of rim spring, N - 1 hinges and tread spring [N m/m].
+VectorX moments(const SidewallParameters& sidewall, const VectorX& angles, double phi) {
+  const Eigen::Index n = angles.size();
+  const double L = sidewall.length / static_cast<double>(n);
+  VectorX moments(n + 1);
+  moments[0] = sidewall.rim_stiffness * (angles[0] - sidewall.rim_angle);
+  moments[n] = -sidewall.tread_stiffness * (angles[n - 1] - sidewall.tread_angle - phi);
+  for (Eigen::Index i = 0; i + 1 < n; ++i) {
+    const auto hinge = static_cast<std::size_t>(i);
+    moments[i + 1] =
+        sidewall.bending[hinge] * ((angles[i + 1] - angles[i]) / L - sidewall.curvature[hinge]);
+  }
+  return moments;
+}
+
 /// Every hinge: moment difference = force times arm, with the pressure on the nodes beyond.
 TEST(SidewallChain, EveryHingeIsInEquilibrium) {
   SidewallChain chain(tr_sidewall(3.0, 7.0));
@@ -132,7 +147,7 @@ TEST(SidewallChain, EveryHingeIsInEquilibrium) {
       const SidewallResponse response = cold(chain, end, p);
       const SidewallShape shape = chain.shape(end, p);
       const Eigen::Matrix2Xd& x = shape.nodes;
-      const VectorX M = chain.moments(shape.angles, end.phi);
+      const VectorX M = moments(chain.parameters(), shape.angles, end.phi);
       // The part from node i on: what the tread does to it, the pressure on it, and the hinge's
       // moment
       for (int i = 0; i < 10; ++i) {

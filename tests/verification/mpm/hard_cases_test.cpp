@@ -31,10 +31,7 @@ RigidWheelParameters tr_wheel(double height) {
   p.geometry.diameter = 0.74;
   p.geometry.width = 0.272;
   p.geometry.shoulder = 0.051;
-  p.mass = 636.0;
-  p.axle_inertia = 2.15;
-  p.diametral_inertia = 1.5;
-  p.axle_centre = {0.0, 0.0, depth + 0.37 + height};
+  p.hub = {{636.0, 2.15, 1.5}, {0.0, 0.0, depth + 0.37 + height}};
   return p;
 }
 
@@ -48,7 +45,7 @@ struct Scene {
     system.add(wheel, "wheel");
     system.add(ground, "ground");
     system.add(contact, "contact");
-    wheel.release(WheelHub::z);
+    wheel.release(Coordinate::z);
     wheel.set_load({0, 0, -weight});
     wheel.set_vertical_damping(3000.0);
   }
@@ -73,8 +70,8 @@ struct Scene {
   }
   /// Rolls at a speed: spin as of rolling times `spin`.
   void roll(double speed, double spin, double duration) {
-    wheel.prescribe(WheelHub::x, speed);
-    wheel.prescribe(WheelHub::spin, spin * speed / 0.37);
+    wheel.prescribe(Coordinate::x, speed);
+    wheel.prescribe(Coordinate::spin, spin * speed / 0.37);
     run(duration);
   }
   double sinkage() const { return depth - wheel.lowest_point(); }
@@ -165,10 +162,10 @@ TEST(HardCase, UnloadingAndASecondPassInTheSameRut) {
   scene.run(0.1);
   scene.roll(2.2, 1.0, 0.1);
   const double first = scene.sinkage();
-  scene.wheel.prescribe(WheelHub::z, 1.0);  // lifted
+  scene.wheel.prescribe(Coordinate::z, 1.0);  // lifted
   scene.roll(0.0, 0.0, 0.1);
   EXPECT_EQ(scene.contact.contacts(), 0.0);
-  scene.wheel.release(WheelHub::z);
+  scene.wheel.release(Coordinate::z);
   scene.roll(0.0, 0.0, 0.15);
   scene.roll(-2.2, 1.0, 0.1);
   EXPECT_LT(std::abs(scene.sinkage() - first), 0.5 * first);

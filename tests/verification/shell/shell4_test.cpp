@@ -56,7 +56,7 @@ ShellModel patch(const ShellSection& section) {
 double patch_error(const ShellSection& section,
                    const std::function<Eigen::Matrix<double, 6, 1>(const Vector3&)>& field) {
   ShellModel model = patch(section);
-  const Eigen::SparseMatrix<double> K = model.shell.stiffness();
+  const Eigen::SparseMatrix<double>& K = model.stiffness;
   Matrix6X exact(6, 8), outer = Matrix6X::Zero(6, 8);
   for (Eigen::Index n = 0; n < 8; ++n) exact.col(n) = field(model.nodes.x.col(n));
   outer.leftCols<4>() = exact.leftCols<4>();
@@ -108,7 +108,7 @@ TEST(Shell4, PatchTestOfTransverseShear) {
   ShellModel model = patch(section);
   Matrix6X u = Matrix6X::Zero(6, 8);
   u.row(2) = 1e-3 * model.nodes.x.row(0);
-  const VectorX f = model.shell.stiffness() * Eigen::Map<const VectorX>(u.data(), 48);
+  const VectorX f = model.stiffness * Eigen::Map<const VectorX>(u.data(), 48);
   double work = 0.0;
   for (Eigen::Index n = 4; n < 8; ++n) EXPECT_NEAR(f[6 * n + 2], 0.0, 1e-12 * section.shear(0, 0));
   work = 0.5 * f.dot(Eigen::Map<const VectorX>(u.data(), 48));
@@ -119,7 +119,7 @@ TEST(Shell4, OnlySixMotionsAreFreeOfEnergy) {
   ShellModel model = mapped_shell(
       1, 1, [](double s, double t) { return Vector3(s + 0.1 * t, t - 0.2 * s * t, 0.15 * s * t); },
       ShellSection(OrthotropicLayer::isotropic(1e6, 0.3, 0.05), 1.0), along_x);
-  const Eigen::MatrixXd K = Eigen::MatrixXd(model.shell.stiffness());
+  const Eigen::MatrixXd K = Eigen::MatrixXd(model.stiffness);
   const VectorX eigenvalues =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues();
   EXPECT_LT(std::abs(eigenvalues[5]), 1e-9 * eigenvalues[23]);
@@ -128,6 +128,33 @@ TEST(Shell4, OnlySixMotionsAreFreeOfEnergy) {
 
 TEST(Shell4, EqualShapesShareOneStiffness) {
   EXPECT_EQ(ring(0.3475, 0.157, 72, 6, ShellSection(belt(), 19.6)).shell.kind_count(), 1u);
+}
+
+/// The elements in motion have the assembled stiffness: small displacements and rotations of a
+/// curved shell whose elements all differ.
+TEST(Shell4, SmallMotionsMeetTheAssembledStiffness) {
+  ShellModel model = mapped_shell(
+      4, 3,
+      [](double s, double t) {
+        return Vector3(s + 0.1 * t * t, 0.8 * t - 0.1 * s * t, 0.3 * s * s - 0.2 * s * t);
+      },
+      ShellSection(belt(), 19.6), along_y);
+  ShellNodes& nodes = model.nodes;
+  std::srand(7);
+  const Matrix6X u = 1e-8 * Matrix6X::Random(6, nodes.count());
+  nodes.x += u.topRows<3>();
+  for (Eigen::Index n = 0; n < nodes.count(); ++n) {
+    const Vector3 theta = u.col(n).tail<3>();
+    nodes.set_rotation(n, Quaternion(Eigen::AngleAxisd(theta.norm(), theta.normalized())));
+  }
+  model.compute();
+  const VectorX expected = -model.stiffness * Eigen::Map<const VectorX>(u.data(), u.size());
+  Matrix6X found(6, nodes.count());
+  found << nodes.force, nodes.moment;
+  const Eigen::Map<const Matrix6X> linear(expected.data(), 6, nodes.count());
+  const double error = (found - linear).cwiseAbs().maxCoeff();
+  EXPECT_GT(linear.cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_LT(error, 1e-6 * linear.cwiseAbs().maxCoeff());
 }
 
 /// Forces are the gradient of the energy, at any rotation and deformation: central differences.

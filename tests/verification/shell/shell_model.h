@@ -10,18 +10,20 @@
 
 namespace furrow::test {
 
-using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
-
 struct ShellModel {
   ShellModel(Matrix3X x, std::vector<Shell4::Quad> quads, const ShellSection& section,
              const std::function<Vector3(const Vector3&)>& fibre)
-      : shell(x, std::move(quads), section, fibre), nodes(x), load(Matrix6X::Zero(6, x.cols())) {
+      : shell(x, std::move(quads), section, fibre),
+        nodes(x),
+        load(Matrix6X::Zero(6, x.cols())),
+        stiffness(assemble_stiffness(x, shell.quads(), section, fibre)) {
     nodes.mass = shell.mass();
     nodes.inertia = shell.rotary_inertia();
   }
   Shell4 shell;
   ShellNodes nodes;
-  Matrix6X load;
+  Matrix6X load;                          // [N], [N m]
+  Eigen::SparseMatrix<double> stiffness;  // of the stress-free state
 
   /// Symmetry about the plane normal to an axis for the nodes that the predicate picks.
   void symmetry(int axis, const std::function<bool(const Vector3&)>& pick) {
@@ -35,7 +37,7 @@ struct ShellModel {
     (nodes.x.colwise() - point).colwise().squaredNorm().minCoeff(&best);
     return best;
   }
-  Matrix6X solve() const { return solve_linear(shell, nodes, load); }
+  Matrix6X solve() const { return solve_linear(stiffness, nodes, load); }
   void compute(double pressure = 0.0) {
     nodes.force.setZero();
     nodes.moment.setZero();

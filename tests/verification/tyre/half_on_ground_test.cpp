@@ -43,9 +43,9 @@ Outcome drop_and_pull(bool half) {
   system.add(tyre, "tyre");
   system.add(ground, "ground");
   system.add(contact, "contact");
-  tyre.release(WheelHub::z);
-  tyre.release(WheelHub::spin);
-  tyre.prescribe(WheelHub::x, 3.0);
+  tyre.release(Coordinate::z);
+  tyre.release(Coordinate::spin);
+  tyre.prescribe(Coordinate::x, 3.0);
   tyre.set_load({0.0, 0.0, -1500.0});
   tyre.set_velocity({3.0, 0.0, -2.0}, {4.0, 0.0, 0.0});
   for (int i = 0; i < 600; ++i) {
@@ -53,10 +53,10 @@ Outcome drop_and_pull(bool half) {
     system.advance(5e-5);
     system.publish_contact_forces();
   }
-  const WheelHub::Wrench wrench = tyre.ground_wrench();
+  const Wrench wrench = tyre.ground_wrench();
   const double both = half ? 2.0 : 1.0;
   return {tyre.centre().z(),
-          tyre.position(WheelHub::spin),
+          tyre.position(Coordinate::spin),
           wrench.force.x(),
           wrench.force.z(),
           tyre.section_width(),

@@ -38,21 +38,21 @@ Rest press(double pressure, double load, int across, int around,
   settings.across = across;
   settings.around = around;
   settings.half = true;
-  settings.sidewall_points = 0;
+  settings.sidewall_rows = 0;
   DarnellTyre tyre(parameters, settings, {{30.0, 1.0, 0.6}, Vector3::Zero()});
   tyre.settle(nullptr);
   RigidPlaneParameters floor;
   floor.height = tyre.tread().x.row(2).minCoeff();
   RigidPlane plane(floor, tyre.surface());
-  tyre.release(WheelHub::z);
+  tyre.release(Coordinate::z);
   tyre.set_load({0.0, 0.0, -load});
   const Relaxation result = tyre.settle(&plane);
   tyre.surface().clear_forces();
   plane.press_on(tyre.surface());
   std::vector<double> lines;
-  for (int j = 0; j <= tyre.rows(); ++j) {
+  for (int j = 0; j < tyre.tread_grid().lines(); ++j) {
     double sum = 0.0;
-    for (int i = -1; i <= 1; ++i) sum += plane.pressure()[tyre.tread_node(i, j)];
+    for (int i = -1; i <= 1; ++i) sum += plane.pressure()[tyre.tread_grid().node(i, j)];
     lines.push_back(sum / 3.0);
   }
   return {-tyre.centre().z(),

@@ -11,6 +11,7 @@
 #include "io/tyre_file.h"
 #include "rig/wheel_rig.h"
 #include "tyre/contact_patch.h"
+#include "tyre/darnell_tyre.h"
 
 namespace furrow {
 namespace {
@@ -28,7 +29,7 @@ Outcome roll(const std::string& mode, double value, double speed, double time) {
   settings.across = 4;
   settings.around = 36;
   settings.half = true;
-  settings.sidewall_points = 0;
+  settings.sidewall_rows = 0;
   DarnellTyre tyre(parameters, settings, {{30.0, 1.0, 0.6}, {0.0, 0.0, 0.4}});
   tyre.settle(nullptr);
   RigidPlaneParameters road;
@@ -69,7 +70,7 @@ Outcome roll(const std::string& mode, double value, double speed, double time) {
         std::max({run.energy_scale, budget.kinetic_energy, std::abs(budget.load_work)});
     if (static_cast<double>(i) * dt < average_from) continue;
     if (counted == 0.0)
-      from_x = tyre.centre().x(), from_spin = tyre.position(WheelHub::spin),
+      from_x = tyre.centre().x(), from_spin = tyre.position(Coordinate::spin),
       from_damped = budget.dissipated_energy;
     run.force_x += force.x() * dt;
     run.force_z += force.z() * dt;
@@ -80,8 +81,8 @@ Outcome roll(const std::string& mode, double value, double speed, double time) {
   run.force_z /= counted;
   run.deflection /= counted;
   run.damping_power = (tyre.energy_budget().dissipated_energy - from_damped) / counted;
-  run.turns = tyre.position(WheelHub::spin) / (2.0 * pi);
-  run.rolling_radius = (tyre.centre().x() - from_x) / (tyre.position(WheelHub::spin) - from_spin);
+  run.turns = tyre.position(Coordinate::spin) / (2.0 * pi);
+  run.rolling_radius = (tyre.centre().x() - from_x) / (tyre.position(Coordinate::spin) - from_spin);
   return run;
 }
 

@@ -123,10 +123,9 @@ TEST(Sidewall, WithoutPressureItIsTheElastica) {
     for (const int n : {10, 20, 40, 80}) {
       SidewallChain chain(uniform(n, l, EI, 0.0));
       VectorX angles;
-      Eigen::Matrix2Xd nodes;
       const SidewallResponse response =
           chain.solve({0.3 * chord, std::sqrt(0.91) * chord, 0.0}, 0.0, angles);
-      chain.nodes(angles, nodes);
+      const Eigen::Matrix2Xd nodes = chain.energy().nodes(angles);
       const Vector2 along(0.3, std::sqrt(0.91)), outwards(along[1], -along[0]);
       EXPECT_NEAR(response.on_tread.head<2>().dot(outwards), 0.0, 1e-8 * P);
       force_errors.push_back(std::abs(response.on_tread.head<2>().dot(along) / P - 1.0));
@@ -261,12 +260,11 @@ TEST(Sidewall, ChainsOfMoreSegmentsConvergeToTheInflatedBand) {
 /// TR's inflated section is 22.9 cm wide and its sidewall turns by 97 to 101 degrees: so it does
 /// here within 1 % and 3 degrees, if it ends at the diameter of the belts. With the diameter that
 /// TR prints for its end, 72.5 cm, it would be nearly straight.
-TEST(Sidewall, InflatedSectionIsThatOfTR) {
+TEST(Sidewall, InflatedSectionIsThatOfTheReport) {
   const TyreParameters tyre = tr_tyre();
   const Vector2 chord = tyre.sidewall_chord();
   SidewallDirect sidewall(tyre.sidewall, 241e3);
-  Eigen::Matrix2Xd nodes;
-  sidewall.profile({chord[0], chord[1], 0.0}, nodes);
+  const Eigen::Matrix2Xd nodes = sidewall.shape({chord[0], chord[1], 0.0}).nodes;
   const double width = tyre.bead_spacing + 2.0 * nodes.row(0).maxCoeff();
   EXPECT_NEAR(width, 0.229, 0.0023);  // [m]
   const Eigen::Index n = nodes.cols() - 1;

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "bodies/hub_parameters.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/check_number.h"
+#include "core/error.h"
+
+namespace furrow {
+
+void declare_hub(Schema& schema) {
+  schema.number("mass", "kg", Range::positive(),
+                "of what moves rigidly with the axle: a whole rigid wheel, or the rim of a tyre");
+  schema.number("inertia", "kg m^2", Range::positive(), "its moment of inertia about the axle");
+  schema
+      .number("inertia_diametral", "kg m^2", Range::positive(),
+              "the same across the axle; by default inertia/2 + mass w^2/12 with w the width "
+              "between the sides, or the beads")
+      .optional();
+  schema.numbers("axle", 3, "m", Range::any(), "axle centre at the start: x y z")
+      .by_default(std::vector<double>{0, 0, 0});
+}
+
+HubParameters read_hub(const Options& options, double width) {
+  HubParameters hub;
+  HubInertia& inertia = hub.inertia;
+  inertia.mass = options.number("mass");
+  inertia.axial = options.number("inertia");
+  inertia.diametral = options.has("inertia_diametral")
+                          ? options.number("inertia_diametral")
+                          : 0.5 * inertia.axial + inertia.mass * std::pow(width, 2) / 12.0;
+  const std::vector<double>& axle = options.numbers("axle");
+  hub.centre = {axle[0], axle[1], axle[2]};
+  return hub;
+}
+
+void check(const HubParameters& hub, const std::string& where) {
+  const auto named = [&](const char* key) { return fmt::format("{}, keyword '{}'", where, key); };
+  const HubInertia& inertia = hub.inertia;
+  check_number(inertia.mass, Range::positive(), named("mass"), "kg");
+  check_number(inertia.axial, Range::positive(), named("inertia"), "kg m^2");
+  check_number(inertia.diametral, Range::positive(), named("inertia_diametral"), "kg m^2");
+  if (2.0 * inertia.diametral < inertia.axial)
+    throw InputError(named("inertia_diametral"), fmt::format("is {} kg m^2", inertia.diametral),
+                     fmt::format("at least half of inertia, {} kg m^2", 0.5 * inertia.axial));
+  if (!hub.centre.allFinite())
+    throw InputError(named("axle"), "is not finite", "three numbers [m]");
+}
+
+}  // namespace furrow

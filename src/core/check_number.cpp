@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/check_number.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace furrow {
+
+void check_number(double value, const Range& range, const std::string& where,
+                  const std::string& unit) {
+  if (range.contains(value)) return;
+  Key key;
+  key.kind = Key::Kind::number;
+  key.unit = unit;
+  key.range = range;
+  throw InputError(where, fmt::format("is {}", value), key.allowed());
+}
+
+void check_integer(long value, const Range& range, const std::string& where) {
+  if (range.contains(static_cast<double>(value))) return;
+  Key key;
+  key.kind = Key::Kind::integer;
+  key.range = range;
+  throw InputError(where, fmt::format("is {}", value), key.allowed());
+}
+
+}  // namespace furrow

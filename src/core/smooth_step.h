@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The change from 0 to 1 that loads and speeds make.
+
+#include <algorithm>
+
+namespace furrow {
+
+/// S(u) = u^3 (10 - 15 u + 6 u^2): 0 for u <= 0, 1 for u >= 1, with continuous first and second
+/// derivatives.
+inline double smooth_step(double u) {
+  u = std::clamp(u, 0.0, 1.0);
+  return u * u * u * (10.0 - u * (15.0 - 6.0 * u));
+}
+
+}  // namespace furrow

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Brings a shell structure to rest under its loads, however large its deformation.
+///
+/// Dynamic relaxation follows a fictitious motion that ends in equilibrium. Here it has two phases:
+///   loading     The load on the support, or its travel, is applied gradually (core/smooth_step.h)
+///               while the nodes are damped viscously relative to the support, near the critical
+///               rate of the structure's edges, so that nothing swings far beyond its rest.
+///   relaxation  Kinetic damping (P. A. Cundall 1976; M. R. Barnes, Int. J. Space Struct. 14, 89
+///               (1999)), with a little viscous damping for what snaps: whenever the kinetic energy
+///               has passed a peak, near which the potential energy is lowest, all motion is
+///               stopped.
+/// It ends when the largest unbalanced force is below the tolerance.
+
+#include <cstddef>
+
+#include "shell/shell_nodes.h"
+
+namespace furrow {
+
+/// Finds the peaks of the kinetic energy.
+class KineticDamping {
+ public:
+  /// @param energy kinetic energy after a step [J]
+  /// @returns true when motion should be stopped now
+  bool peaked(double energy) {
+    const bool falling = energy < last_;
+    last_ = falling ? 0.0 : energy;
+    stops_ += falling;
+    return falling;
+  }
+  std::size_t stops() const { return stops_; }
+
+ private:
+  double last_ = 0.0;
+  std::size_t stops_ = 0;
+};
+
+/// What is brought to rest: nodes of a shell and, where it has one, a rigid support such as a rim,
+/// which moves up and down (z) only.
+class RelaxingStructure {
+ public:
+  virtual ~RelaxingStructure() = default;
+
+  virtual ShellNodes& nodes() = 0;
+  /// Sets force and moment of the nodes for the present positions. @throws StateError
+  /// @returns what is unbalanced of the vertical force on the support [N]; of no influence unless
+  /// the support is free
+  virtual double compute_forces() = 0;
+  /// The nodes have moved; the support and all that hangs on it are to follow.
+  /// @param support_height z of the support [m]
+  virtual void follow(double support_height) = 0;
+  /// A further condition of rest, for a sum over all nodes.
+  virtual bool carries_its_load(double /*tolerance*/) const { return true; }
+};
+
+/// How the support moves while a structure comes to rest.
+struct RelaxationSupport {
+  enum class Motion { held, free, prescribed };
+
+  Motion motion = Motion::held;
+  double height = 0.0;  ///< [m] z at the start
+  double target = 0.0;  ///< [m] z at the end of the loading, where the motion is prescribed
+  /// [kg] fictitious; one like that of all nodes converges fastest
+  double mass = 1.0;
+  double damping = 0.0;  ///< [1/s] of a free support during the loading
+};
+
+struct RelaxationSettings {
+  double time_step = 0.0;           ///< [s] a stable one
+  double force_scale = 1.0;         ///< [N] to which unbalanced forces are compared
+  double tolerance = 1e-3;          ///< largest unbalanced force on a node over force_scale
+  long max_steps = 400000;          ///< of both phases
+  double loading_time = 0.0;        ///< [s]
+  double loading_damping = 0.0;     ///< [1/s] of the nodes relative to the support
+  double relaxation_damping = 0.0;  ///< [1/s] of the nodes, beside the kinetic damping
+  /// [m/s] largest component of random velocities at the start, the same in every run, so that no
+  /// unstable symmetric shape is taken for rest; 0: none
+  double disturbance = 0.0;
+};
+
+/// What a relaxation came to.
+struct Relaxation {
+  long steps = 0;
+  std::size_t stops = 0;  ///< by kinetic damping
+  double residual = 0.0;  ///< largest unbalanced force over the force scale
+  bool converged = false;
+};
+
+/// Neither the structure nor anything in it is owned.
+class DynamicRelaxation {
+ public:
+  DynamicRelaxation(RelaxingStructure& structure, const RelaxationSupport& support,
+                    const RelaxationSettings& settings);
+
+  /// Until the structure rests or max_steps are done; the nodes are left without velocity.
+  /// @throws StateError as the structure's compute_forces()
+  Relaxation run();
+
+ private:
+  void disturb();
+  void compute_forces();
+  bool at_rest() const;
+  void kick();
+  void damp_loading();
+  bool damp_relaxation();
+  void drift();
+
+  bool loading() const { return result_.steps < loading_steps_; }
+  double time() const { return static_cast<double>(result_.steps) * settings_.time_step; }
+  /// share of the load, or of the travel, that is applied at a time [s]
+  double applied(double time) const;
+
+  RelaxingStructure& structure_;
+  ShellNodes& nodes_;
+  RelaxationSupport support_;
+  RelaxationSettings settings_;
+  double start_height_;  // [m] of the support
+  long loading_steps_;
+  double rotation_length_;          // [m] by which moments are divided to compare with forces
+  double support_velocity_ = 0.0;   // [m/s] upwards
+  double support_force_ = 0.0;      // [N] unbalanced now, of what is applied of the load
+  double initial_imbalance_ = 0.0;  // [N] on the support at the start: the load to be applied
+  KineticDamping kinetic_damping_;
+  Relaxation result_;
+};
+
+}  // namespace furrow

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How a DarnellTyre comes to rest: its tread relaxes, its rim is the support.
+
+#include <algorithm>
+#include <cmath>
+
+#include "tyre/darnell_tyre.h"
+
+namespace furrow {
+
+namespace {
+
+constexpr double loading_time = 0.12;       // [s]
+constexpr double loading_damping = 2000.0;  // [1/s] of the tread
+constexpr double rim_damping = 60.0;        // [1/s]
+// [1/s] of the tread afterwards: wrinkles that snap must not swing
+constexpr double wrinkle_damping = 200.0;
+constexpr double disturbance = 1e-3;  // [m/s]
+// [Pa] the forces of at least this pressure are the scale of unbalanced ones
+constexpr double least_pressure_scale = 1e3;
+
+}  // namespace
+
+class DarnellTyre::Relaxing : public RelaxingStructure {
+ public:
+  Relaxing(DarnellTyre& tyre, RigidPlane* plane, bool under_load)
+      : tyre_(tyre), plane_(plane), under_load_(under_load), forces_of_others_(surface().f) {}
+
+  ShellNodes& nodes() override { return tyre_.nodes_; }
+
+  double compute_forces() override {
+    tyre_.compute_internal();
+    surface().f = forces_of_others_;
+    if (plane_) plane_->press_on(surface());
+    tyre_.compute_contact();
+    return tyre_.internal_on_rim_.force.z() + tyre_.contact_on_rim_.force.z() + tyre_.load().z();
+  }
+
+  void follow(double axle_height) override {
+    tyre_.rest_at({tyre_.centre().x(), tyre_.centre().y(), axle_height});
+    tyre_.place_surface();
+  }
+
+  bool carries_its_load(double tolerance) const override {
+    if (!under_load_) return true;
+    const double load = tyre_.load().z();
+    const double carried = tyre_.copies_ * tyre_.surface().f.row(2).sum() + load;
+    return std::abs(carried) < tolerance * std::abs(load);
+  }
+
+  void finish() {
+    surface().f = forces_of_others_;
+    tyre_.count_stored_energy();
+    tyre_.place_surface();
+  }
+
+ private:
+  Surface& surface() { return tyre_.surface(); }
+
+  DarnellTyre& tyre_;
+  RigidPlane* plane_;
+  bool under_load_;
+  Matrix3X forces_of_others_;  // [N]
+};
+
+Relaxation DarnellTyre::relax(RigidPlane* plane, const SettleOptions& options) {
+  RelaxationSupport rim;
+  const bool under_load = motion(Coordinate::z) == Motion::free && !options.axle_height;
+  if (under_load) rim.motion = RelaxationSupport::Motion::free;
+  if (options.axle_height) rim.motion = RelaxationSupport::Motion::prescribed;
+  rim.height = centre().z();
+  rim.target = options.axle_height.value_or(rim.height);
+  rim.mass = copies_ * nodes_.mass.sum();
+  rim.damping = rim_damping;
+
+  RelaxationSettings settings;
+  settings.time_step = stable_step_;
+  settings.force_scale = std::max(tyre_.pressure, least_pressure_scale) * 2.0 * pi *
+                         tyre_.tread.radius * 2.0 * tyre_.tread.half_width / copies_ /
+                         static_cast<double>(nodes_.count());
+  settings.tolerance = options.tolerance;
+  settings.max_steps = options.max_steps;
+  settings.loading_time = loading_time;
+  settings.loading_damping = loading_damping;
+  settings.relaxation_damping = wrinkle_damping;
+  settings.disturbance = disturbance;
+
+  Relaxing structure(*this, plane, under_load);
+  const Relaxation result = DynamicRelaxation(structure, rim, settings).run();
+  structure.finish();
+  return result;
+}
+
+}  // namespace furrow

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "tyre/tyre.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace furrow {
+
+Relaxation Tyre::settle(RigidPlane* plane, const SettleOptions& options) {
+  const Relaxation result = relax(plane, options);
+  if (!result.converged)
+    throw StateError(
+        fmt::format("tyre: not at rest after {} steps of relaxation; the largest unbalanced force "
+                    "is {:.3g} of the pressure's force on a node, asked for {:.3g}",
+                    options.max_steps, result.residual, options.tolerance));
+  return result;
+}
+
+double Tyre::lowest_tread_height() const {
+  return surface().x.row(2).head(tread_grid().count()).minCoeff();
+}
+
+double Tyre::crown_radius() const {
+  const TreadGrid& grid = tread_grid();
+  double sum = 0.0;
+  for (int i = 0; i < grid.around; ++i) {
+    const Vector3 arm = surface().x.col(grid.node(i, grid.middle_line())) - centre();
+    sum += std::hypot(arm.x(), arm.z()) / grid.around;
+  }
+  return sum;
+}
+
+}  // namespace furrow

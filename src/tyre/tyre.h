@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// What fixes, rigs and programs know of a tyre, whatever it is made of.
+///
+/// Another kind of tyre is a class that derives from Tyre, a reader of its files (as
+/// io/tyre_file.h) and a fix style (as coupling/bodies/fix_tyre_darnell.h). The parts in this
+/// folder that do not depend on the kind: sidewalls (sidewall_ring.h), surface and contact
+/// hand-over (tyre_surface.h), damping (rim_damping.h), footprint (contact_patch.h), and
+/// shell/dynamic_relaxation.h.
+
+#include <optional>
+
+#include "bodies/rigid_plane.h"
+#include "bodies/wheel_hub.h"
+#include "shell/dynamic_relaxation.h"
+#include "tyre/tread_grid.h"
+
+namespace furrow {
+
+/// How a tyre is brought to rest.
+struct SettleOptions {
+  /// largest unbalanced force on a node over the pressure's force on a node
+  double tolerance = 1e-3;
+  long max_steps = 400000;
+  std::optional<double> axle_height = {};  ///< [m] where the axle goes, instead of a load
+};
+
+/// An inflated, deformable wheel on a rim, which is the hub. A half model (half_model()) computes
+/// y >= 0 only; whatever it reports of forces, moments, energies and masses is that of the whole.
+class Tyre : public WheelHub {
+ public:
+  virtual double pressure() const = 0;  ///< [Pa] above the atmosphere
+  /// Inflates to another pressure; the change of stored energy at the present shape is counted as
+  /// load work. @throws StateError
+  virtual void set_pressure(double pressure) = 0;
+
+  /// Brings the tyre to rest under its pressure and its load (if z is free) on a plane, which may
+  /// be null, by dynamic relaxation: the load, or the travel of the axle, is applied gradually.
+  /// Time, works and dissipation are not counted; surface().f is as before.
+  /// @throws StateError when max_steps do not suffice, and as advance()
+  Relaxation settle(RigidPlane* plane, const SettleOptions& options = {});
+
+  /// Nodes of the outside of the tread. They are the first of surface(), in the grid's order.
+  virtual const TreadGrid& tread_grid() const = 0;
+  double lowest_tread_height() const;  ///< [m] z of the lowest node of the tread
+  /// [m] of the lowest node of the tread, from the unloaded tread about the present axle
+  double deflection() const { return lowest_tread_height() - lowest_point(); }
+  double crown_radius() const;              ///< [m] mean distance of the middle line from the axle
+  virtual double section_width() = 0;       ///< [m] largest, from sidewall to sidewall
+  virtual double tread_energy() const = 0;  ///< [J] elastic
+  /// chord over length of the sidewall that is stretched most: near 1 it is nearly straight
+  virtual double largest_sidewall_chord() const = 0;
+
+ protected:
+  using WheelHub::WheelHub;
+
+ private:
+  /// settle() without the refusal of what has not converged.
+  virtual Relaxation relax(RigidPlane* plane, const SettleOptions& options) = 0;
+};
+
+}  // namespace furrow
