@@ -6,12 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "comm.h"
+#include "bodies/hub_options.h"
 #include "core/error.h"
 #include "coupling/bodies/fix_mesh_body.h"
-#include "coupling/liggghts/access.h"
-#include "coupling/base/args.h"
-#include "error.h"
+#include "coupling/liggghts/script.h"
 #include "io/sidewall_cache.h"
 #include "io/tyre_file.h"
 #include "modify.h"
@@ -44,15 +42,10 @@ std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& op
   settings.sidewall_points = static_cast<int>(options.integer("sidewall_rows"));
   settings.damping_rate = options.number("damping");
 
+  const HubOptions on_axle = read_hub(options, parameters.bead_spacing);
   DarnellTyreHub hub;
-  hub.inertia.mass = options.number("mass");
-  hub.inertia.axial = options.number("inertia");
-  hub.inertia.diametral = options.has("inertia_diametral")
-                              ? options.number("inertia_diametral")
-                              : 0.5 * hub.inertia.axial +
-                                    hub.inertia.mass * std::pow(parameters.bead_spacing, 2) / 12.0;
-  const std::vector<double>& axle = options.numbers("axle");
-  hub.centre = {axle[0], axle[1], axle[2]};
+  hub.inertia = on_axle.inertia;
+  hub.centre = on_axle.centre;
   if (settings.half && hub.centre.y() != 0.0)
     throw InputError(options.where("axle"),
                      fmt::format("has y = {} m with a half model", hub.centre.y()),
@@ -84,66 +77,53 @@ Schema FixTyreDarnell::schema() {
       .integer("sidewall_rows", Range::closed(0, 50),
                "rows of nodes on each sidewall, for contact; 0: only the tread can touch")
       .by_default("4");
-  schema.number("mass", "kg", Range::positive(),
-                "mass of the rim and whatever moves with the axle, without the tread");
-  schema.number("inertia", "kg m^2", Range::positive(), "their moment of inertia about the axle");
-  schema
-      .number("inertia_diametral", "kg m^2", Range::positive(),
-              "the same across the axle; by default inertia/2 + mass bead_spacing^2/12")
-      .optional();
+  declare_hub(schema);
   schema
       .number("damping", "1/s", Range::non_negative(),
               "rate at which the tread's motion relative to the rim is damped")
       .by_default(100.0);
-  schema.numbers("axle", 3, "m", Range::any(), "axle centre at the start: x y z")
-      .by_default(std::vector<double>{0, 0, 0});
   return schema;
 }
 
-FixTyreDarnell::FixTyreDarnell(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixTyreDarnell(lammps, narg, arg, schema().read(args_after_style(narg, arg))) {}
+const Outputs<FixTyreDarnell>& FixTyreDarnell::outputs() {
+  using Fix = FixTyreDarnell;
+  static const Outputs<Fix> list = {
+      {"deflection", "m", "of the tread's lowest node, against the unloaded tread",
+       [](Fix& fix) { return fix.tyre().tread().x.row(2).minCoeff() - fix.tyre().lowest_point(); }},
+      {"pressure", "Pa", "of the inflation now", [](Fix& fix) { return fix.tyre().pressure(); }},
+      {"section_width", "m", "largest width of the sidewalls' profiles",
+       [](Fix& fix) { return fix.tyre().section_width(); }},
+      {"tread_energy", "J", "elastic energy of the tread; of a half model, of both halves",
+       [](Fix& fix) {
+         return fix.tyre().shell().energy() * (fix.tyre().settings().half ? 2.0 : 1.0);
+       }},
+      {"sidewall_chord", "", "longest sidewall chord over the sidewall's length",
+       [](Fix& fix) { return fix.tyre().largest_sidewall_chord(); }},
+  };
+  return list;
+}
 
-FixTyreDarnell::FixTyreDarnell(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg,
-                               const Options& options)
-    : FixWheelHub(lammps, narg, arg, make_tyre(*lammps, options), options) {
-  vector_flag = 1;
-  size_vector = 5;
-  global_freq = 1;
-  extvector = 0;
+FixTyreDarnell::FixTyreDarnell(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+    : FixWheelHub(lammps, narg, arg, schema(),
+                  [lammps](const Options& options) { return make_tyre(*lammps, options); }) {
+  provide(outputs());
 }
 
 /// Grain forces that come only once in many sub-steps may feed energy into a light tread:
 /// fix_tyre_darnell.md.
 void FixTyreDarnell::init() {
-  FixWheelHub::init();
   const double stable = tyre().stable_time_step();
   bool on_grains = false;
   for (int i = 0; i < modify->nfix; ++i) {
-    auto* mesh = dynamic_cast<FixMeshBody*>(modify->fix[i]);
+    const auto* mesh = dynamic_cast<FixMeshBody*>(modify->fix[i]);
     on_grains |= mesh && mesh->uses(*this);
   }
-  if (on_grains && update->dt > max_sub_steps * stable && comm->me == 0)
-    error->warning(FLERR,
-                   fmt::format("fix tyre/darnell '{}': the time step {:.3g} s is more than {} of "
-                               "the tyre's own, {:.3g} s; grain forces come once a "
-                               "step and may shake the tread: choose a step of at most {:.2g} s",
-                               id, update->dt, max_sub_steps, stable, max_sub_steps * stable)
-                       .c_str());
-}
-
-double FixTyreDarnell::compute_vector(int n) {
-  switch (n) {
-    case 0:
-      return tyre().tread().x.row(2).minCoeff() - tyre().lowest_point();
-    case 1:
-      return tyre().pressure();
-    case 2:
-      return tyre().section_width();
-    case 3:
-      return tyre().shell().energy() * (tyre().settings().half ? 2.0 : 1.0);
-    default:
-      return tyre().largest_sidewall_chord();
-  }
+  if (on_grains && update->dt > max_sub_steps * stable)
+    warn(*lmp,
+         fmt::format("{}: the time step {:.3g} s is more than {} of the tyre's own, {:.3g} s; "
+                     "grain forces come once a step and may shake the tread: choose a step "
+                     "of at most {:.2g} s",
+                     name(), update->dt, max_sub_steps, stable, max_sub_steps * stable));
 }
 
 }  // namespace furrow::coupling

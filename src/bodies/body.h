@@ -30,8 +30,9 @@ struct EnergyBudget {
   }
 };
 
-/// A body advances under the forces on its surface and its own loads. Replicated on every rank: all
-/// ranks must compute the same.
+/// A body advances under the forces on its surface and its own loads. Its surface is the same on
+/// every rank. A body may be computed on every rank alike, or be spread over the ranks (terrain);
+/// then its calls are collective.
 class Body {
  public:
   virtual ~Body() = default;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "bodies/hub_options.h"
 #include "geometry/closed_surface.h"
 #include "core/error.h"
 
@@ -20,15 +21,11 @@ RigidWheelParameters parameters_from(const Options& options) {
   wheel.geometry.shoulder = options.number("shoulder");
   wheel.geometry.segments = static_cast<int>(options.integer("segments"));
   if (options.has("element_size")) wheel.geometry.element_size = options.number("element_size");
-  wheel.mass = options.number("mass");
-  wheel.axle_inertia = options.number("inertia");
-  // exact for any distribution of mass that is the same in every plane across the axle
-  wheel.diametral_inertia =
-      options.has("inertia_diametral")
-          ? options.number("inertia_diametral")
-          : 0.5 * wheel.axle_inertia + wheel.mass * std::pow(wheel.geometry.width, 2) / 12.0;
-  const std::vector<double>& axle = options.numbers("axle");
-  wheel.axle_centre = {axle[0], axle[1], axle[2]};
+  const HubOptions hub = read_hub(options, wheel.geometry.width);
+  wheel.mass = hub.inertia.mass;
+  wheel.axle_inertia = hub.inertia.axial;
+  wheel.diametral_inertia = hub.inertia.diametral;
+  wheel.axle_centre = hub.centre;
 
   Grousers& bars = wheel.geometry.grousers;
   bars.number = static_cast<int>(options.integer("grousers"));
@@ -81,13 +78,7 @@ Schema RigidWheel::schema(const std::string& subject) {
       .number("shoulder", "m", Range::non_negative(),
               "radius of the shoulders between tread and sides")
       .by_default(0.0);
-  schema.number("mass", "kg", Range::positive(), "mass that moves with the axle centre");
-  schema.number("inertia", "kg m^2", Range::positive(), "moment of inertia about the axle");
-  schema
-      .number("inertia_diametral", "kg m^2", Range::positive(),
-              "moment of inertia across the axle, for free yaw or camber; by default inertia/2 + "
-              "mass width^2/12")
-      .optional();
+  declare_hub(schema);
   schema.integer("segments", Range::closed(12, 5000), "facets around the tread").by_default("64");
   schema
       .number("element_size", "m", Range::positive(),
@@ -104,8 +95,6 @@ Schema RigidWheel::schema(const std::string& subject) {
       .number("grouser_angle", "degrees", Range::closed(-60, 60),
               "skew of the bars against the axle; > 0: the end at +y runs ahead")
       .by_default(0.0);
-  schema.numbers("axle", 3, "m", Range::any(), "axle centre at the start: x y z")
-      .by_default(std::vector<double>{0, 0, 0});
   return schema;
 }
 
