@@ -8,15 +8,25 @@
 #include "atom.h"
 #include "geometry/weld.h"
 #include "core/error.h"
-#include "coupling/bodies/fix_coupled_system.h"
-#include "coupling/liggghts/errors.h"
+#include "coupling/base/find_fix.h"
+#include "coupling/base/read_options.h"
+#include "coupling/bodies/fix_body.h"
 #include "coupling/liggghts/access.h"
-#include "coupling/base/args.h"
+#include "coupling/liggghts/errors.h"
 #include "domain.h"
 #include "neighbor.h"
 #include "update.h"
 
 namespace furrow::coupling {
+
+namespace {
+
+// Nodes nearer than this are one, of the diagonal of the surface's box.
+constexpr double weld_distance = 1e-9;
+// Share of the skin that a node may move before neighbour lists are made again, as LIGGGHTS has it.
+constexpr double skin_share = 0.5;
+
+}  // namespace
 
 BodyMesh::BodyMesh(LAMMPS_NS::LAMMPS* lammps, const char* id, const Surface& surface)
     : TriMesh(lammps), surface_(surface) {
@@ -42,7 +52,7 @@ BodyMesh::BodyMesh(LAMMPS_NS::LAMMPS* lammps, const char* id, const Surface& sur
                        domain->yperiodic ? domain->prd[1] : 0.0,
                        domain->zperiodic ? domain->prd[2] : 0.0);
   const auto [lower, upper] = surface.bounds();
-  weld_ = weld_nodes(surface.x, period, 1e-9 * (upper - lower).norm());
+  weld_ = weld_nodes(surface.x, period, weld_distance * (upper - lower).norm());
   remember_rebuild();
 }
 
@@ -121,7 +131,7 @@ void BodyMesh::remember_rebuild() {
 /// its triangles overlaps the box of all grains: the upper half of a fast wheel must not force new
 /// lists. Replicated data, so all ranks agree.
 bool BodyMesh::decideRebuild() {
-  const double limit = 0.25 * neighbor->skin * neighbor->skin;
+  const double limit = skin_share * neighbor->skin * (skin_share * neighbor->skin);
   // Along a periodic axis the box of the grains says nothing.
   const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
   const Matrix3X& x = surface_.x;
@@ -149,8 +159,9 @@ Schema FixMeshBody::schema() {
 }
 
 FixMeshBody::Arguments::Arguments(LAMMPS_NS::LAMMPS& lammps, int narg, char** arg)
-    : options(schema().read(args_after_style(narg, arg))),
-      body(FixCoupledSystem::find_body(lammps, options.where("body"), options.text("body")).body()),
+    : options(read_options(lammps, schema(), narg, arg)),
+      body_fix(
+          find_fix<FixBody>(lammps, options, "body", {Kind::wheel, Kind::body, Kind::terrain})),
       words{arg[0],
             arg[1],
             "mesh/surface",
@@ -159,7 +170,7 @@ FixMeshBody::Arguments::Arguments(LAMMPS_NS::LAMMPS& lammps, int narg, char** ar
             "type",
             std::to_string(options.integer("type"))} {
   for (std::string& word : words) pointers.push_back(word.data());
-  if (body.half_model())
+  if (body_fix.body().half_model())
     throw InputError(options.where("body"),
                      fmt::format("is '{}', which is a half model", options.text("body")),
                      "a whole body", "grains have no plane of symmetry: give the body 'half no'");
@@ -176,15 +187,18 @@ FixMeshBody::FixMeshBody(LAMMPS_NS::LAMMPS* lammps, Arguments arguments)
     : FixMeshSurface(lammps, static_cast<int>(arguments.pointers.size()),
                      arguments.pointers.data()),
       options_(arguments.options),
-      body_(arguments.body),
+      body_fix_(arguments.body_fix),
+      body_(arguments.body_fix.body()),
       body_mesh_(new BodyMesh(lammps, id, body_.surface())) {
   replace_mesh(*this, body_mesh_);
   restart_global = 0;  // the body keeps its own state
 }
 
-bool FixMeshBody::uses(LAMMPS_NS::Fix& other) const {
-  auto* owner = dynamic_cast<BodyFix*>(&other);
-  return owner && &owner->body() == &body_;
+bool FixMeshBody::uses(const LAMMPS_NS::Fix& other) const { return &other == &body_fix_; }
+
+void FixMeshBody::pre_delete(bool unfixing) {
+  if (unfixing) with_collective_errors(*error, [&] { forbid_removal_while_used(*modify, *this); });
+  FixMeshSurface::pre_delete(unfixing);
 }
 
 int FixMeshBody::setmask() {

@@ -7,12 +7,16 @@
 
 #include "bodies/body.h"
 #include "core/options.h"
+#include "coupling/base/fix_order.h"
+#include "coupling/base/has_options.h"
 #include "coupling/base/uses_fix.h"
-#include "coupling/output/effective_input.h"
+#include "coupling/styles.h"
 #include "fix_mesh_surface.h"
 #include "tri_mesh.h"
 
 namespace furrow::coupling {
+
+class FixBody;
 
 /// Triangles of a body's surface, distributed over ranks as LIGGGHTS likes; node data come from the
 /// replicated surface.
@@ -51,19 +55,30 @@ class BodyMesh : public LAMMPS_NS::TriMesh {
   std::vector<Vector3> image_shift_;
   std::vector<int> weld_;
   Matrix3X x_at_rebuild_;
-  Vector3 reach_lower_, reach_upper_;  // box around all grains at the last rebuild, with a margin
+  // box around all grains at the last rebuild, with a margin
+  Vector3 reach_lower_;
+  Vector3 reach_upper_;
 };
 
-class FixMeshBody : public LAMMPS_NS::FixMeshSurface, public HasOptions, public UsesFix {
+/// A FixMeshSurface, so not a FurrowFix.
+class FixMeshBody : public LAMMPS_NS::FixMeshSurface,
+                    public HasOptions,
+                    public UsesFix,
+                    public FollowsSystem {
  public:
   FixMeshBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
+  static OutputTable outputs() { return {}; }
 
   Body& body() { return body_; }
   BodyMesh& body_mesh() { return *body_mesh_; }
   const Options& options() const override { return options_; }
 
-  bool uses(LAMMPS_NS::Fix& other) const override;
+  bool uses(const LAMMPS_NS::Fix& other) const override;
+  std::string reason_to_follow() const override {
+    return "its triangles take the positions that the nodes of the body have come to";
+  }
+  void pre_delete(bool unfixing) override;
   int setmask() override;
   void setup_pre_force(int vflag) override;
   void initial_integrate(int vflag) override;
@@ -75,7 +90,7 @@ class FixMeshBody : public LAMMPS_NS::FixMeshSurface, public HasOptions, public 
   struct Arguments {
     Arguments(LAMMPS_NS::LAMMPS& lammps, int narg, char** arg);
     Options options;
-    Body& body;
+    FixBody& body_fix;
     std::vector<std::string> words;
     std::vector<char*> pointers;
   };
@@ -83,6 +98,7 @@ class FixMeshBody : public LAMMPS_NS::FixMeshSurface, public HasOptions, public 
   void check_inside_box() const;
 
   Options options_;
+  const FixBody& body_fix_;
   Body& body_;
   BodyMesh* body_mesh_;  // owned by FixMesh
   bool exchanged_ = false;

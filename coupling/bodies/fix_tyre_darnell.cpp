@@ -6,12 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "comm.h"
+#include "bodies/hub_parameters.h"
 #include "core/error.h"
 #include "coupling/bodies/fix_mesh_body.h"
-#include "coupling/liggghts/access.h"
-#include "coupling/base/args.h"
-#include "error.h"
+#include "coupling/liggghts/script.h"
 #include "io/sidewall_cache.h"
 #include "io/tyre_file.h"
 #include "modify.h"
@@ -84,50 +82,45 @@ Schema FixTyreDarnell::schema() {
   return schema;
 }
 
-FixTyreDarnell::FixTyreDarnell(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixTyreDarnell(lammps, narg, arg, schema().read(args_after_style(narg, arg))) {}
+const Outputs<FixTyreDarnell>& FixTyreDarnell::outputs() {
+  using Fix = FixTyreDarnell;
+  static const Outputs<Fix> list = {
+      {"deflection", "m", "of the tread's lowest node, against the unloaded tread",
+       [](Fix& fix) { return fix.tyre().tread().x.row(2).minCoeff() - fix.tyre().lowest_point(); }},
+      {"pressure", "Pa", "of the inflation now", [](Fix& fix) { return fix.tyre().pressure(); }},
+      {"section_width", "m", "largest width of the sidewalls' profiles",
+       [](Fix& fix) { return fix.tyre().section_width(); }},
+      {"tread_energy", "J", "elastic energy of the tread; of a half model, of both halves",
+       [](Fix& fix) {
+         return fix.tyre().shell().energy() * (fix.tyre().settings().half ? 2.0 : 1.0);
+       }},
+      {"sidewall_chord", "", "longest sidewall chord over the sidewall's length",
+       [](Fix& fix) { return fix.tyre().largest_sidewall_chord(); }},
+  };
+  return list;
+}
 
-FixTyreDarnell::FixTyreDarnell(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg,
-                               const Options& options)
-    : FixWheelHub(lammps, narg, arg, make_tyre(*lammps, options), options) {
-  vector_flag = 1;
-  size_vector = 5;
-  global_freq = 1;
-  extvector = 0;
+FixTyreDarnell::FixTyreDarnell(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+    : FixWheelHub(lammps, narg, arg, schema(),
+                  [lammps](const Options& options) { return make_tyre(*lammps, options); }) {
+  provide(outputs());
 }
 
 /// Grain forces that come only once in many sub-steps may feed energy into a light tread:
 /// fix_tyre_darnell.md.
 void FixTyreDarnell::init() {
-  FixWheelHub::init();
   const double stable = tyre().stable_time_step();
   bool on_grains = false;
   for (int i = 0; i < modify->nfix; ++i) {
-    auto* mesh = dynamic_cast<FixMeshBody*>(modify->fix[i]);
+    const auto* mesh = dynamic_cast<FixMeshBody*>(modify->fix[i]);
     on_grains |= mesh && mesh->uses(*this);
   }
-  if (on_grains && update->dt > max_sub_steps * stable && comm->me == 0)
-    error->warning(FLERR,
-                   fmt::format("fix tyre/darnell '{}': the time step {:.3g} s is more than {} of "
-                               "the tyre's own, {:.3g} s; grain forces come once a "
-                               "step and may shake the tread: choose a step of at most {:.2g} s",
-                               id, update->dt, max_sub_steps, stable, max_sub_steps * stable)
-                       .c_str());
-}
-
-double FixTyreDarnell::compute_vector(int n) {
-  switch (n) {
-    case 0:
-      return tyre().deflection();
-    case 1:
-      return tyre().pressure();
-    case 2:
-      return tyre().section_width();
-    case 3:
-      return tyre().tread_energy();
-    default:
-      return tyre().largest_sidewall_chord();
-  }
+  if (on_grains && update->dt > max_sub_steps * stable)
+    warn(*lmp,
+         fmt::format("{}: the time step {:.3g} s is more than {} of the tyre's own, {:.3g} s; "
+                     "grain forces come once a step and may shake the tread: choose a step "
+                     "of at most {:.2g} s",
+                     name(), update->dt, max_sub_steps, stable, max_sub_steps * stable));
 }
 
 }  // namespace furrow::coupling

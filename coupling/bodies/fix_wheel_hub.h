@@ -1,26 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What fixes that make a wheel or a tyre have in common: a hub that a wheel/rig drives and a
-/// wheel/history records.
+/// The base of every fix that makes a wheel or a tyre: a hub that a wheel/rig drives and a
+/// wheel/history records. Its keys are those of bodies/hub_parameters.h beside its own.
 
 #include "bodies/wheel_hub.h"
-#include "coupling/output/effective_input.h"
 #include "coupling/bodies/fix_body.h"
 
 namespace furrow::coupling {
 
-class FixWheelHub : public FixBody, public HasOptions {
+class FixWheelHub : public FixBody {
  public:
-  /// @param options as they took effect
-  FixWheelHub(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, std::unique_ptr<WheelHub> hub,
-              const Options& options)
-      : FixBody(lammps, narg, arg, std::move(hub)), options_(options) {}
-
   WheelHub& hub() { return static_cast<WheelHub&>(body()); }
-  const Options& options() const override { return options_; }
 
- private:
-  Options options_;
+ protected:
+  using MakeHub = std::function<std::unique_ptr<WheelHub>(const Options&)>;
+  FixWheelHub(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema,
+              const MakeHub& make_hub)
+      : FixBody(lammps, narg, arg, schema, make_hub) {}
 };
 
 }  // namespace furrow::coupling

@@ -13,9 +13,6 @@ class FixWheelRigid : public FixWheelHub {
   static Schema schema() { return RigidWheel::schema("fix wheel/rigid"); }
 
   RigidWheel& wheel() { return static_cast<RigidWheel&>(body()); }
-
- private:
-  FixWheelRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Options& options);
 };
 
 }  // namespace furrow::coupling

@@ -3,94 +3,69 @@
 
 #include <fmt/format.h>
 
-#include "comm.h"
 #include "core/error.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
-#include "coupling/liggghts/errors.h"
-#include "coupling/base/restart_record.h"
-#include "coupling/base/args.h"
-#include "modify.h"
 
 namespace furrow::coupling {
 
-Schema FixContactBodies::schema() {
-  Schema schema = ContactParameters::schema("fix contact/bodies");
-  schema.text("body", "id of the fix of the wheel, tyre or plate");
-  schema.text("ground", "id of the fix terrain/continuum");
+Schema FixContactContinuum::schema() {
+  Schema schema = ContactParameters::schema("fix contact/continuum");
+  declare_body(schema);
+  schema.text("terrain", "id of the fix of the terrain");
+  schema.alias("ground", "terrain");
   return schema;
 }
 
-FixContactBodies::FixContactBodies(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : Fix(lammps, narg, arg), options_(schema().read(args_after_style(narg, arg))) {
-  Body& body =
-      FixCoupledSystem::find_body(*lammps, options_.where("body"), options_.text("body")).body();
-  auto* ground = dynamic_cast<FixTerrainContinuum*>(
-      &FixCoupledSystem::find_body(*lammps, options_.where("ground"), options_.text("ground")));
-  if (!ground)
-    throw InputError(options_.where("ground"),
-                     fmt::format("is '{}', which is a body but no ground", options_.text("ground")),
-                     "the id of a fix terrain/continuum");
-  if (body.surface().triangle_count() == 0)
-    throw InputError(options_.where("body"),
-                     fmt::format("is '{}', which has no surface", options_.text("body")),
-                     "a wheel, a tyre or a plate");
-  body_fix_ = lammps->modify->find_fix_id(options_.text("body").c_str());
-  terrain_fix_ = lammps->modify->find_fix_id(options_.text("ground").c_str());
-  const double plane = ground->ground().grid().axis(1).lower();
-  half_body_ = body.half_model();
-  if (half_body_ && !(ground->half_model() && plane == 0.0))
-    throw InputError(
-        options_.where("body"),
-        ground->half_model()
-            ? fmt::format(
-                  "is the half y >= 0 of '{}', and the ground's plane of symmetry is y = {:.4g} m",
-                  options_.text("body"), plane)
-            : fmt::format("is '{}', which is a half model, and the ground is whole",
-                          options_.text("body")),
-        "a half model on half a ground with the same plane",
-        "give the ground 'symmetry yes' and its centre y = 0, or the body 'half no'");
-  // A half body mirrors what it is given itself; a whole one needs the forces of the other half as
-  // well.
-  contact_ = std::make_unique<TerrainContact>(
-      body, ground->ground(), ContactParameters::from(options_),
-      ground->half_model() && !half_body_, fmt::format("fix {} contact/bodies", id));
-  restart_global = 1;
-  vector_flag = 1;
-  size_vector = 9;
-  global_freq = 1;
-  extvector = 0;
+const Outputs<FixContactContinuum>& FixContactContinuum::outputs() {
+  using Fix = FixContactContinuum;
+  static const Outputs<Fix> list = {
+      {"force_x", "N", "force on the body in the last sub-step",
+       [](Fix& fix) { return fix.halves() * fix.contact_.force().x(); }},
+      {"force_y", "N", "force on the body in the last sub-step",
+       [](Fix& fix) { return fix.body().half_model() ? 0.0 : fix.contact_.force().y(); }},
+      {"force_z", "N", "force on the body in the last sub-step",
+       [](Fix& fix) { return fix.halves() * fix.contact_.force().z(); }},
+      {"contacts", "", "particles in contact",
+       [](Fix& fix) { return fix.halves() * fix.contact_.contacts(); }},
+      {"area", "m^2", "area of these particles",
+       [](Fix& fix) { return fix.halves() * fix.contact_.area(); }},
+      {"penetration", "m", "the deepest now", [](Fix& fix) { return fix.contact_.penetration(); }},
+      {"deepest_penetration", "m", "the deepest since the start",
+       [](Fix& fix) { return fix.contact_.deepest_penetration(); }},
+      {"friction_loss", "J", "lost to friction since the start",
+       [](Fix& fix) { return fix.halves() * fix.contact_.friction_loss(); }},
+      {"damping_loss", "J", "lost to contact damping since the start",
+       [](Fix& fix) { return fix.halves() * fix.contact_.damping_loss(); }},
+  };
+  return list;
 }
 
-void FixContactBodies::post_create() { FixCoupledSystem::of(*lmp).add(*contact_, id); }
-
-void FixContactBodies::pre_delete(bool unfixflag) {
-  if (unfixflag) FixCoupledSystem::of(*lmp).remove(*contact_);
+/// A half body needs half the terrain with the same plane of symmetry, y = 0.
+FixTerrainContinuum& FixContactContinuum::find_terrain() {
+  auto& fix = use<FixTerrainContinuum>("terrain", {Kind::terrain});
+  const double plane = fix.terrain().grid().axis(1).lower();
+  if (!body().half_model() || (fix.half_model() && plane == 0.0)) return fix;
+  const std::string& body_id = options().text("body");
+  throw InputError(
+      options().where("body"),
+      fix.half_model()
+          ? fmt::format("is the half y >= 0 of '{}', and the terrain's plane of symmetry is y = "
+                        "{:.4g} m",
+                        body_id, plane)
+          : fmt::format("is '{}', which is a half model, and the terrain is whole", body_id),
+      "a half model on half a terrain with the same plane",
+      "give the terrain 'symmetry yes' and its centre y = 0, or the body 'half no'");
 }
 
-void FixContactBodies::write_restart(FILE* file) {
-  if (comm->me != 0) return;
-  Checkpoint state(style);
-  contact_->checkpoint(state);
-  with_local_errors(*error, [&] { write_record(file, state); });
-}
-
-void FixContactBodies::restart(char* buffer) {
-  with_collective_errors(*error, [&] {
-    Checkpoint state = read_record(style, buffer);
-    contact_->checkpoint(state);
-    state.finish();
-  });
-}
-
-double FixContactBodies::compute_vector(int n) {
-  const TerrainContact& c = *contact_;
-  const double both = half_body_ ? 2.0 : 1.0;
-  const double values[] = {both * c.force().x(),    half_body_ ? 0.0 : c.force().y(),
-                           both * c.force().z(),    both * c.contacts(),
-                           both * c.area(),         c.penetration(),
-                           c.deepest_penetration(), both * c.friction_loss(),
-                           both * c.damping_loss()};
-  return values[n];
+/// A half body mirrors what it is given itself; a whole one on half the terrain needs the forces of
+/// the other half as well.
+FixContactContinuum::FixContactContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+    : FixContact(lammps, narg, arg, schema()),
+      terrain_fix_(find_terrain()),
+      contact_(body(), terrain_fix_.terrain(), ContactParameters::from(options()),
+               terrain_fix_.half_model() && !body().half_model(), name()) {
+  contribute(static_cast<Contact&>(contact_));
+  provide(outputs());
 }
 
 }  // namespace furrow::coupling

@@ -1,41 +1,31 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// fix contact/bodies: contact between a body and continuum ground. See fix_contact_continuum.md.
+/// fix contact/continuum: contact between a body and continuum terrain. See
+/// fix_contact_continuum.md.
 
-#include <memory>
-
-#include "coupling/base/uses_fix.h"
-#include "coupling/output/effective_input.h"
-#include "fix.h"
+#include "coupling/contact/fix_contact.h"
 #include "mpm/contact/terrain_contact.h"
 
 namespace furrow::coupling {
 
 class FixTerrainContinuum;
 
-class FixContactBodies : public LAMMPS_NS::Fix, public HasOptions, public UsesFix {
+class FixContactContinuum : public FixContact {
  public:
-  FixContactBodies(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
+  FixContactContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
+  static const Outputs<FixContactContinuum>& outputs();
 
-  const TerrainContact& contact() const { return *contact_; }
-  const Options& options() const override { return options_; }
-  bool uses(LAMMPS_NS::Fix& other) const override {
-    return &other == body_fix_ || &other == terrain_fix_;
-  }
-
-  int setmask() override { return 0; }
-  void post_create() override;
-  void pre_delete(bool unfixflag) override;
-  void write_restart(FILE* file) override;
-  void restart(char* buffer) override;
-  double compute_vector(int n) override;
+  const TerrainContact& contact() const { return contact_; }
 
  private:
-  Options options_;
-  LAMMPS_NS::Fix *body_fix_, *terrain_fix_;
-  std::unique_ptr<TerrainContact> contact_;
-  bool half_body_ = false;
+  FixTerrainContinuum& find_terrain();
+  void checkpoint(Checkpoint& state) override { contact_.checkpoint(state); }
+  /// A half body's outputs are those of the whole.
+  double halves() { return body().half_model() ? 2.0 : 1.0; }
+
+  FixTerrainContinuum& terrain_fix_;
+  TerrainContact contact_;
 };
 
 }  // namespace furrow::coupling

@@ -3,18 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include <fmt/format.h>
 
 #include "atom.h"
 #include "contact_interface.h"
 #include "core/error.h"
+#include "coupling/base/fix_coupled_system.h"
 #include "coupling/bodies/fix_mesh_body.h"
-#include "coupling/bodies/fix_coupled_system.h"
-#include "coupling/liggghts/errors.h"
-#include "coupling/liggghts/access.h"
 #include "coupling/contact/time_step_check.h"
+#include "coupling/liggghts/access.h"
+#include "coupling/liggghts/errors.h"
+#include "coupling/liggghts/wall_meshes.h"
 #include "fix_neighlist_mesh.h"
 #include "neighbor.h"
 #include "update.h"
@@ -23,9 +23,9 @@ namespace furrow::coupling {
 
 namespace {
 
-// A grain that overlaps a body by a tenth of its radius before the first step would be shot out of
-// the bed.
-constexpr double deepest_start = 0.1;
+// of its radius: a grain that overlaps a body by more before the first step would be shot out of
+// the bed
+constexpr double max_overlap_at_start = 0.1;
 
 }  // namespace
 
@@ -41,6 +41,11 @@ FixWallGranBody::FixWallGranBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg
                      "body for the sum");
   for (int m = 0; m < n_FixMesh_; ++m)
     if (!dynamic_cast<FixMeshBody*>(FixMesh_list_[m])) stock_meshes_.push_back(FixMesh_list_[m]);
+}
+
+bool FixWallGranBody::uses(const LAMMPS_NS::Fix& other) const {
+  return dynamic_cast<const FixMeshBody*>(&other) &&
+         std::find(FixMesh_list_, FixMesh_list_ + n_FixMesh_, &other) != FixMesh_list_ + n_FixMesh_;
 }
 
 void FixWallGranBody::init() {
@@ -62,14 +67,14 @@ void FixWallGranBody::setup(int vflag) {
   starting_ = false;
 }
 
-void FixWallGranBody::refuse_deep_start() {
+void FixWallGranBody::refuse_deep_start() const {
   const double deepest = FixCoupledSystem::of(*lmp).communicator().max(deepest_);
-  if (deepest > deepest_start)
+  if (deepest > max_overlap_at_start)
     throw StateError(
         fmt::format("fix wall/gran/body '{}': a body starts inside the bed: a grain overlaps it by "
-                    "{:.3g} of its radius "
-                    "(limit {:g}); start the body higher, just above the surface of the bed",
-                    id, deepest, deepest_start));
+                    "{:.3g} of its radius (limit {:g}); start the body higher, just above the "
+                    "surface of the bed",
+                    id, deepest, max_overlap_at_start));
 }
 
 void FixWallGranBody::post_force_mesh(int vflag) {
@@ -82,39 +87,43 @@ void FixWallGranBody::post_force_mesh(int vflag) {
 
 /// LIGGGHTS wants all meshes in one wall fix; those that are not ours get its own detection.
 void FixWallGranBody::post_force_stock_meshes(int vflag) {
-  LAMMPS_NS::FixMeshSurface** all = FixMesh_list_;
-  const int count = n_FixMesh_;
-  FixMesh_list_ = stock_meshes_.data();
-  n_FixMesh_ = static_cast<int>(stock_meshes_.size());
+  const WallMeshes stock(FixMesh_list_, n_FixMesh_, stock_meshes_);
   FixWallGran::post_force_mesh(vflag);
-  FixMesh_list_ = all;
-  n_FixMesh_ = count;
+}
+
+GrainBedCheck* FixWallGranBody::check_of(int mesh_number) {
+  const auto found = grain_bed_checks_.find(mesh_number);
+  return found == grain_bed_checks_.end() ? nullptr : &found->second;
 }
 
 void FixWallGranBody::post_force_body(FixMeshBody& mesh_fix, int mesh_number) {
+  FixCoupledSystem& system = FixCoupledSystem::of(*lmp);
+  const Body& body = mesh_fix.body();
+  const MeshAtWork mesh{mesh_fix, mesh_number, system.moment_reference(body), system.ledger(body),
+                        check_of(mesh_number)};
+  atom_type_wall_ = mesh_fix.atomTypeWall();  // which the contact model reads
   LAMMPS_NS::FixContactHistoryMesh* history = mesh_fix.contactHistory();
   if (history) history->markAllContacts();
-  atom_type_wall_ = mesh_fix.atomTypeWall();
 
-  const auto check = grain_bed_checks_.find(mesh_number);
-  check_ = check == grain_bed_checks_.end() ? nullptr : &check->second;
   collect_candidates(mesh_fix);
   // Not in the order in which LIGGGHTS happens to hold its triangles: sums, and so restarts, are
   // the same to the last bit.
   std::sort(touched_.begin(), touched_.end());
-  FixCoupledSystem& bodies = FixCoupledSystem::of(*lmp);
-  ContactLedger& ledger = bodies.ledger(mesh_fix.body());
-  const Vector3 moment_reference = bodies.moment_reference(mesh_fix.body());
   for (const int grain : touched_) {
     of_grain_.clear();
     for (int c = first_[grain]; c >= 0; c = next_[c]) of_grain_.push_back(candidates_[c]);
     first_[grain] = -1;
     selection_.select(of_grain_, atom->radius[grain]);
-    for (const ContactCandidate& contact : of_grain_)
-      apply(mesh_fix, mesh_number, grain, contact, moment_reference, ledger);
+    for (const ContactCandidate& contact : of_grain_) {
+      const double overlap = atom->radius[grain] - contact.point.distance;
+      deepest_ = std::max(deepest_, overlap / atom->radius[grain]);
+      // setup() refuses it; its force may not even be a number
+      const bool refused = starting_ && overlap > max_overlap_at_start * atom->radius[grain];
+      if (!refused) apply(mesh, grain, contact);
+    }
   }
   if (history) history->cleanUpContacts();
-  if (check_) check_->finish_step(mesh_fix.body().surface());
+  if (mesh.check) mesh.check->finish_step(body.surface());
 }
 
 void FixWallGranBody::collect_candidates(FixMeshBody& mesh_fix) {
@@ -186,18 +195,16 @@ double* FixWallGranBody::history_of(LAMMPS_NS::FixContactHistoryMesh& history, c
   return values;
 }
 
-void FixWallGranBody::apply(FixMeshBody& mesh_fix, int mesh_number, int grain,
-                            const ContactCandidate& contact, const Vector3& moment_reference,
-                            ContactLedger& ledger) {
+/// Computes one contact: its force goes to the grain and, by the weights of the contact point, to
+/// the three nodes.
+void FixWallGranBody::apply(const MeshAtWork& at_work, int grain, const ContactCandidate& contact) {
+  FixMeshBody& mesh_fix = at_work.fix;
   BodyMesh& mesh = mesh_fix.body_mesh();
   Surface& surface = mesh_fix.body().surface();
   const Vector3i& nodes = surface.triangles[static_cast<std::size_t>(contact.triangle)];
   const double radius = atom->radius[grain];
   const double overlap = radius - contact.point.distance;
   const bool touching = overlap >= 0.0;
-  deepest_ = std::max(deepest_, overlap / radius);
-  // setup() refuses it; its force may not even be a number
-  if (starting_ && overlap > deepest_start * radius) return;
 
   LIGGGHTS::ContactModels::SurfacesIntersectData data;
   data.is_wall = true;
@@ -216,7 +223,7 @@ void FixWallGranBody::apply(FixMeshBody& mesh_fix, int mesh_number, int grain,
 
   Eigen::Map<Vector3> grain_force(atom->f[grain]), grain_torque(atom->torque[grain]);
   const Vector3 force_before = grain_force, torque_before = grain_torque;
-  impl->compute_force(this, data, touching, wall_velocity.data(), &mesh_fix, mesh_number, &mesh,
+  impl->compute_force(this, data, touching, wall_velocity.data(), &mesh_fix, at_work.number, &mesh,
                       contact.tag);
   const Vector3 contact_force = grain_force - force_before;
   const Vector3 contact_torque = grain_torque - torque_before;
@@ -225,8 +232,7 @@ void FixWallGranBody::apply(FixMeshBody& mesh_fix, int mesh_number, int grain,
     with_local_errors(*error, [&] {
       throw StateError(
           fmt::format("fix wall/gran/body '{}': the force between grain {} and triangle {} is not "
-                      "finite at step {}; the "
-                      "time step is too large or the grains have exploded",
+                      "finite at step {}; the time step is too large or the grains have exploded",
                       id, atom->tag[grain], contact.triangle, update->ntimestep));
     });
 
@@ -237,8 +243,9 @@ void FixWallGranBody::apply(FixMeshBody& mesh_fix, int mesh_number, int grain,
 
   const Vector3 centre = Eigen::Map<const Vector3>(atom->x[grain]) - mesh.image_shift(contact.tag);
   const Vector3 contact_point = centre - contact.point.separation;
-  if (check_) check_->contact(overlap, radius, contact_point, contact_force);
-  const Vector3 arm = contact_point - moment_reference;
+  if (at_work.check) at_work.check->contact(overlap, radius, contact_point, contact_force);
+  const Vector3 arm = contact_point - at_work.moment_reference;
+  ContactLedger& ledger = at_work.ledger;
   ledger.grain_force += contact_force;
   ledger.grain_moment += arm.cross(contact_force);
   // The grain's own balance: its torque about its centre against the force at the contact point.

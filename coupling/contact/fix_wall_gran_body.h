@@ -6,9 +6,11 @@
 #include <map>
 #include <vector>
 
-#include "geometry/closest_feature.h"
-#include "coupling/terrain/grain_bed_check.h"
+#include "coupling/base/uses_fix.h"
+#include "coupling/contact/grain_bed_check.h"
+#include "coupling/styles.h"
 #include "fix_wall_gran.h"
+#include "geometry/closest_feature.h"
 
 namespace furrow::coupling {
 
@@ -16,10 +18,14 @@ class BodyMesh;
 class FixMeshBody;
 struct ContactLedger;
 
-class FixWallGranBody : public LAMMPS_NS::FixWallGran {
+/// A FixWallGran, so not a FurrowFix; its keywords are LIGGGHTS's.
+class FixWallGranBody : public LAMMPS_NS::FixWallGran, public UsesFix {
  public:
   FixWallGranBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
+  static Schema schema() { return Schema("fix wall/gran/body"); }
+  static OutputTable outputs() { return {}; }
 
+  bool uses(const LAMMPS_NS::Fix& other) const override;
   void init() override;
   void setup(int vflag) override;
 
@@ -27,14 +33,22 @@ class FixWallGranBody : public LAMMPS_NS::FixWallGran {
   void post_force_mesh(int vflag) override;
 
  private:
+  /// The mesh of a body while its contacts are computed.
+  struct MeshAtWork {
+    FixMeshBody& fix;
+    int number;                       ///< in the list of the wall's meshes
+    const Vector3& moment_reference;  ///< [m]
+    ContactLedger& ledger;
+    GrainBedCheck* check;  ///< null before the first set-up
+  };
   void post_force_stock_meshes(int vflag);
   void post_force_body(FixMeshBody& mesh_fix, int mesh_number);
   void collect_candidates(FixMeshBody& mesh_fix);
-  void apply(FixMeshBody& mesh_fix, int mesh_number, int grain, const ContactCandidate& contact,
-             const Vector3& moment_reference, ContactLedger& ledger);
+  void apply(const MeshAtWork& mesh, int grain, const ContactCandidate& contact);
   double* history_of(LAMMPS_NS::FixContactHistoryMesh& history, const BodyMesh& mesh, int grain,
                      const ContactCandidate& contact, bool touching) const;
-  void refuse_deep_start();
+  GrainBedCheck* check_of(int mesh_number);
+  void refuse_deep_start() const;
 
   ContactSelection selection_;
   std::vector<LAMMPS_NS::FixMeshSurface*> stock_meshes_;
@@ -47,10 +61,8 @@ class FixWallGranBody : public LAMMPS_NS::FixWallGran {
   std::vector<ContactCandidate> of_grain_;
   // in the set-up of the first run: deep contacts are counted, not computed
   bool starting_ = false;
-  double deepest_ = 0.0;  // largest overlap over radius in the last call
-  std::map<int, GrainBedCheck>
-      grain_bed_checks_;            // of each mesh of a body, by its place in the list
-  GrainBedCheck* check_ = nullptr;  // of the mesh at work
+  double deepest_ = 0.0;                           // overlap over radius in the last call
+  std::map<int, GrainBedCheck> grain_bed_checks_;  // of each mesh of a body, by its number
 };
 
 }  // namespace furrow::coupling

@@ -7,10 +7,9 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "comm.h"
 #include "core/communicator.h"
 #include "core/error.h"
-#include "error.h"
+#include "coupling/liggghts/script.h"
 #include "fix_property_global.h"
 #include "modify.h"
 #include "update.h"
@@ -18,6 +17,8 @@
 namespace furrow::coupling {
 
 namespace {
+
+constexpr double step_recommended = 0.2;  // of the Rayleigh time
 
 LAMMPS_NS::FixPropertyGlobal* property_of_types(LAMMPS_NS::LAMMPS& lammps, const char* name) {
   return static_cast<LAMMPS_NS::FixPropertyGlobal*>(lammps.modify->find_fix_property(
@@ -49,20 +50,18 @@ void check_time_step(LAMMPS_NS::LAMMPS& lammps, const std::string& where) {
   shortest = -Communicator(&lammps.world).max(-shortest);
   if (std::isinf(shortest)) return;
 
-  const double step = lammps.update->dt, share = step / shortest;
+  const double step = lammps.update->dt;
+  const double share = step / shortest;
   if (share <= step_warning) return;
   const std::string finding = fmt::format(
       "{}: timestep {:.4g} s is {:.3g} of the Rayleigh time of the smallest, lightest or stiffest "
       "grain, {:.4g} s",
       where, step, share, shortest);
   const std::string remedy = fmt::format("write 'timestep {:.2g}' or less, or lower youngsModulus",
-                                         rounded_down(0.2 * shortest));
+                                         rounded_down(step_recommended * shortest));
   if (!(share <= step_limit))
     throw StateError(fmt::format("{} (limit {:g}); {}", finding, step_limit, remedy));
-  if (lammps.comm->me == 0)
-    lammps.error->warning(
-        "time_step_check.cpp", __LINE__,
-        fmt::format("{} (recommended: at most {:g}); {}", finding, step_warning, remedy).c_str());
+  warn(lammps, fmt::format("{} (recommended: at most {:g}); {}", finding, step_warning, remedy));
 }
 
 }  // namespace furrow::coupling

@@ -10,7 +10,8 @@ namespace furrow::coupling {
 
 // Shares of the Rayleigh time: 0.1 to 0.3 is common practice, and beyond half a contact of several
 // grains gains energy.
-constexpr double step_warning = 0.25, step_limit = 0.5;
+inline constexpr double step_warning = 0.25;
+inline constexpr double step_limit = 0.5;
 
 /// Compares the step with the time in which a Rayleigh wave runs over the surface of the worst
 /// grain,

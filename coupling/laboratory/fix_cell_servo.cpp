@@ -7,13 +7,11 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "atom_vec.h"
 #include "compute.h"
 #include "core/communicator.h"
 #include "core/error.h"
-#include "coupling/liggghts/errors.h"
 #include "coupling/contact/time_step_check.h"
-#include "coupling/base/args.h"
+#include "coupling/liggghts/script.h"
 #include "domain.h"
 #include "modify.h"
 #include "update.h"
@@ -22,7 +20,8 @@ namespace furrow::coupling {
 
 namespace {
 
-constexpr char temperature_id[] = "furrow_cell_temperature", pressure_id[] = "furrow_cell_pressure";
+constexpr char temperature_id[] = "furrow_cell_temperature";
+constexpr char pressure_id[] = "furrow_cell_pressure";
 constexpr char axis_names[] = "xyz";
 // Integral action over this many response times: the stress is met also while the cell moves,
 // without ringing.
@@ -61,33 +60,51 @@ Schema FixCellServo::schema() {
   return schema;
 }
 
+const Outputs<FixCellServo>& FixCellServo::outputs() {
+  using Fix = FixCellServo;
+  static const Outputs<Fix> list = {
+      {"edge_x", "m", "length of the cell", [](Fix& fix) { return fix.domain->prd[0]; }},
+      {"edge_y", "m", "width of the cell", [](Fix& fix) { return fix.domain->prd[1]; }},
+      {"edge_z", "m", "height of the cell", [](Fix& fix) { return fix.domain->prd[2]; }},
+      {"stress_x", "Pa", "normal stress, compression positive",
+       [](Fix& fix) { return fix.stress_[0]; }},
+      {"stress_y", "Pa", "normal stress, compression positive",
+       [](Fix& fix) { return fix.stress_[1]; }},
+      {"stress_z", "Pa", "normal stress, compression positive",
+       [](Fix& fix) { return fix.stress_[2]; }},
+      {"density", "kg/m^3", "mass over volume", [](Fix& fix) { return fix.density(); }},
+      {"inertial_number", "",
+       "largest rate x mean diameter x sqrt(grain density / mean stress); below 1e-3 the test is "
+       "quasi-static",
+       [](Fix& fix) { return fix.inertial_number(); }},
+  };
+  return list;
+}
+
 FixCellServo::FixCellServo(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : Fix(lammps, narg, arg),
-      options_(schema().read(args_after_style(narg, arg))),
-      rate_limit_(options_.number("rate_limit")),
-      stiffness_(options_.number("stiffness")),
-      response_time_(options_.number("response_time")),
-      ramp_time_(options_.number("ramp_time")) {
+    : FurrowFix(lammps, narg, arg, schema()),
+      rate_limit_(options().number("rate_limit")),
+      stiffness_(options().number("stiffness")),
+      response_time_(options().number("response_time")),
+      ramp_time_(options().number("ramp_time")),
+      box_(*lammps, groupbit) {
   for (std::size_t k = 0; k < 3; ++k) {
     const std::string rate = fmt::format("rate_{}", axis_names[k]),
                       stress = fmt::format("stress_{}", axis_names[k]);
-    if (options_.given(rate) && options_.given(stress))
-      throw InputError(options_.where(stress), "is given besides " + rate,
-                       "one of them for an axis",
+    if (options().given(rate) && options().given(stress))
+      throw InputError(options().where(stress), "is given beside " + rate,
+                       "one of them for each axis",
                        "leave one out; without both, the edge keeps its length");
-    if (options_.given(rate)) axes_[k] = {Axis::Control::rate, options_.number(rate)};
-    if (options_.given(stress)) axes_[k] = {Axis::Control::stress, options_.number(stress)};
+    if (options().given(rate)) axes_[k] = {Axis::Control::rate, options().number(rate)};
+    if (options().given(stress)) axes_[k] = {Axis::Control::stress, options().number(stress)};
   }
   if (!domain->xperiodic || !domain->yperiodic || !domain->zperiodic || domain->triclinic)
     throw InputError("fix cell/servo", "stands in a box that is not periodic along x, y and z",
                      "boundary p p p, no tilt",
                      "a cell has no walls; use plate/rigid for ground in a box");
   box_change_size = 1;
-  vector_flag = 1;
-  size_vector = 8;
-  global_freq = 1;
-  extvector = 0;
   nevery = 1;
+  provide(outputs());
 }
 
 int FixCellServo::setmask() {
@@ -95,30 +112,17 @@ int FixCellServo::setmask() {
 }
 
 void FixCellServo::post_create() {
-  std::string temperature[] = {temperature_id, "all", "temp"};
-  std::string pressure[] = {pressure_id, "all", "pressure", temperature_id, "virial"};
-  std::vector<char*> words;
-  for (std::string& word : temperature) words.push_back(word.data());
-  if (modify->find_compute(temperature_id) < 0) modify->add_compute(3, words.data());
-  words.clear();
-  for (std::string& word : pressure) words.push_back(word.data());
-  if (modify->find_compute(pressure_id) < 0) modify->add_compute(5, words.data());
+  FurrowFix::post_create();
+  add_compute(*lmp, {temperature_id, "all", "temp"});
+  add_compute(*lmp, {pressure_id, "all", "pressure", temperature_id, "virial"});
 }
 
-void FixCellServo::pre_delete(bool) {
-  domain->deform_vremap = 0;
-  atom->avec->init();
+std::array<double, 3> FixCellServo::rates() const {
+  return {axes_[0].rate, axes_[1].rate, axes_[2].rate};
 }
 
 void FixCellServo::init() {
-  // Grains and ghosts that cross a face gain the velocity of the opposite face, as fix deform has
-  // it; no other fix may set it.
-  domain->deform_flag = domain->deform_vremap = 1;
-  domain->deform_groupbit = groupbit;
-  for (int k = 0; k < 6; ++k) domain->h_rate[k] = 0.0;
-  for (int k = 0; k < 3; ++k)
-    domain->h_rate[k] = -axes_[static_cast<std::size_t>(k)].rate * domain->prd[k];
-  atom->avec->init();
+  box_.announce(rates());
 
   const Communicator ranks(&world);
   double sums[] = {0.0, 0.0, 0.0, 0.0};  // mass, solid volume, diameter, count
@@ -133,8 +137,7 @@ void FixCellServo::init() {
   grain_density_ = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
   mean_diameter_ = sums[3] > 0.0 ? sums[2] / sums[3] : 0.0;
   modify->compute[modify->find_compute(pressure_id)]->addstep(update->ntimestep + 1);
-  with_collective_errors(*error,
-                         [&] { check_time_step(*lmp, fmt::format("fix cell/servo '{}'", id)); });
+  collectively([&] { check_time_step(*lmp, name()); });
 }
 
 /// The box moves before the grains: forces of this step belong to the new box.
@@ -146,35 +149,29 @@ double FixCellServo::next_rate(Axis& axis, double stress) const {
   if (axis.control == Axis::Control::hold) return 0.0;
   const double ramp = ramp_time_ > 0.0 ? std::min(1.0, elapsed_ / ramp_time_) : 1.0;
   if (axis.control == Axis::Control::rate) return ramp * axis.target;
-  const double limit = ramp * rate_limit_,
-               proportional = (axis.target - stress) / (stiffness_ * response_time_);
+  const double limit = ramp * rate_limit_;
+  const double proportional = (axis.target - stress) / (stiffness_ * response_time_);
   axis.integral = std::clamp(
       axis.integral + proportional * update->dt / (integral_times * response_time_), -limit, limit);
   return std::clamp(proportional + axis.integral, -limit, limit);
 }
 
 void FixCellServo::move_box() {
-  const double dt = update->dt;
-  double change[3], middle[3];
+  double change[3];  // [1/s] of the stretching rate
+  double middle[3];  // [m]
   for (std::size_t k = 0; k < 3; ++k) {
     Axis& axis = axes_[k];
     const double rate = next_rate(axis, stress_[k]);
-    change[k] = axis.rate - rate;  // of the stretching rate
+    change[k] = axis.rate - rate;
     axis.rate = rate;
     middle[k] = 0.5 * (domain->boxlo[k] + domain->boxhi[k]);
-    const double half = 0.5 * domain->prd[k] * std::exp(-rate * dt);
-    domain->boxlo[k] = middle[k] - half;
-    domain->boxhi[k] = middle[k] + half;
-    domain->h_rate[k] = -2.0 * rate * half;
-    domain->h_ratelo[k] = rate * half;
   }
-  domain->set_global_box();
-  domain->set_local_box();
+  box_.advance(rates(), update->dt);
   // A change of the rates takes all grains along at once, so that no wave starts at the faces.
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit)
       for (int k = 0; k < 3; ++k) atom->v[i][k] += change[k] * (atom->x[i][k] - middle[k]);
-  elapsed_ += dt;
+  elapsed_ += update->dt;
 }
 
 void FixCellServo::end_of_step() { measure(); }
@@ -186,16 +183,17 @@ void FixCellServo::measure() {
   pressure.addstep(update->ntimestep + 1);
   for (const double stress : stress_)
     if (!std::isfinite(stress))
-      with_collective_errors(*error, [&] {
-        throw StateError(fmt::format("fix cell/servo '{}': the stress is not finite at step {}", id,
-                                     update->ntimestep));
+      collectively([&] {
+        throw StateError(
+            fmt::format("{}: the stress is not finite at step {}", name(), update->ntimestep));
       });
 }
 
-double FixCellServo::compute_vector(int n) {
-  if (n < 3) return domain->prd[n];
-  if (n < 6) return stress_[static_cast<std::size_t>(n - 3)];
-  if (n == 6) return mass_ / (domain->prd[0] * domain->prd[1] * domain->prd[2]);
+double FixCellServo::density() const {
+  return mass_ / (domain->prd[0] * domain->prd[1] * domain->prd[2]);
+}
+
+double FixCellServo::inertial_number() const {
   const double p = (stress_[0] + stress_[1] + stress_[2]) / 3.0;
   double largest = 0.0;
   for (const Axis& axis : axes_) largest = std::max(largest, std::abs(axis.rate));

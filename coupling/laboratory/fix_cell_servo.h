@@ -5,26 +5,22 @@
 
 #include <array>
 
-#include "coupling/output/effective_input.h"
-#include "fix.h"
+#include "coupling/base/furrow_fix.h"
+#include "coupling/liggghts/box_motion.h"
 
 namespace furrow::coupling {
 
-class FixCellServo : public LAMMPS_NS::Fix, public HasOptions {
+class FixCellServo : public FurrowFix {
  public:
   FixCellServo(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
+  static const Outputs<FixCellServo>& outputs();
 
   int setmask() override;
   void post_create() override;
-  void pre_delete(bool unfixflag) override;
   void init() override;
   void initial_integrate(int vflag) override;
   void end_of_step() override;
-  /// f_id[1..3]: edges [m]; [4..6]: normal stresses, compression positive [Pa]; [7]: density
-  /// [kg/m3]; [8]: inertial number
-  double compute_vector(int n) override;
-  const Options& options() const override { return options_; }
 
  private:
   struct Axis {
@@ -35,16 +31,24 @@ class FixCellServo : public LAMMPS_NS::Fix, public HasOptions {
     double rate = 0.0;      // of the last step [1/s]
   };
 
+  std::array<double, 3> rates() const;
+  double density() const;          // [kg/m^3]
+  double inertial_number() const;  // of the cell now
   void measure();
   double next_rate(Axis& axis, double stress) const;
   void move_box();
 
-  Options options_;
   std::array<Axis, 3> axes_;
-  double rate_limit_, stiffness_, response_time_, ramp_time_;
-  double elapsed_ = 0.0;
-  std::array<double, 3> stress_{};
-  double mass_ = 0.0, mean_diameter_ = 0.0, grain_density_ = 0.0;
+  double rate_limit_;     // [1/s]
+  double stiffness_;      // [Pa]
+  double response_time_;  // [s]
+  double ramp_time_;      // [s]
+  BoxMotion box_;
+  double elapsed_ = 0.0;            // [s]
+  std::array<double, 3> stress_{};  // [Pa] compression positive
+  double mass_ = 0.0;               // [kg] of all grains
+  double mean_diameter_ = 0.0;      // [m]
+  double grain_density_ = 0.0;      // [kg/m^3]
 };
 
 }  // namespace furrow::coupling

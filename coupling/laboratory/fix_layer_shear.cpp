@@ -9,10 +9,7 @@
 #include "atom.h"
 #include "core/communicator.h"
 #include "core/error.h"
-#include "coupling/liggghts/errors.h"
-#include "coupling/base/args.h"
-#include "domain.h"
-#include "rig/ramp.h"
+#include "coupling/liggghts/box_motion.h"
 #include "update.h"
 
 namespace furrow::coupling {
@@ -27,15 +24,25 @@ Schema FixLayerShear::schema() {
   return schema;
 }
 
+const Outputs<FixLayerShear>& FixLayerShear::outputs() {
+  using Fix = FixLayerShear;
+  static const Outputs<Fix> list = {
+      {"displacement", "m", "of the layer along x", [](Fix& fix) { return fix.displacement_; }},
+      {"force_x", "N", "force of the other grains on the layer",
+       [](Fix& fix) { return fix.force_[0]; }},
+      {"force_y", "N", "force of the other grains on the layer",
+       [](Fix& fix) { return fix.force_[1]; }},
+      {"force_z", "N", "force of the other grains on the layer",
+       [](Fix& fix) { return fix.force_[2]; }},
+  };
+  return list;
+}
+
 FixLayerShear::FixLayerShear(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : Fix(lammps, narg, arg),
-      options_(schema().read(args_after_style(narg, arg))),
-      speed_(options_.number("speed")),
-      accelerate_time_(options_.number("accelerate_time")) {
-  vector_flag = 1;
-  size_vector = 4;
-  global_freq = 1;
-  extvector = 0;
+    : FurrowFix(lammps, narg, arg, schema()),
+      speed_(options().number("speed")),
+      ramp_{0.0, options().number("accelerate_time")} {
+  provide(outputs());
 }
 
 int FixLayerShear::setmask() {
@@ -53,20 +60,18 @@ void FixLayerShear::init() {
       sums[1] += 1.0;
     }
   ranks.sum(sums, 2);
-  with_collective_errors(*error, [&] {
+  collectively([&] {
     if (sums[1] == 0.0)
-      throw InputError(fmt::format("fix layer/shear '{}'", id), "has no grains in its group",
-                       "a group with grains",
+      throw InputError(name(), "has no grains in its group", "a group with grains",
                        "define the group by a region that holds a layer of grains");
   });
   height_ = sums[0] / sums[1];
 }
 
 void FixLayerShear::initial_integrate(int) {
-  const double dt = update->dt,
-               speed = speed_ * Ramp{0.0, accelerate_time_}.mean(elapsed_, elapsed_ + dt);
-  const double middle = 0.5 * (domain->boxlo[2] + domain->boxhi[2]);
-  const double rise = domain->h_rate[2] / domain->prd[2] * (height_ - middle);
+  const double dt = update->dt;
+  const double speed = speed_ * ramp_.mean(elapsed_, elapsed_ + dt);
+  const double rise = box_velocity_z(*lmp, height_);
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit) {
       atom->v[i][0] = speed;
@@ -89,10 +94,6 @@ void FixLayerShear::final_integrate() {
     if (atom->mask[i] & groupbit)
       for (std::size_t k = 0; k < 3; ++k) force_[k] += atom->f[i][k];
   Communicator(&world).sum(force_.data(), 3);
-}
-
-double FixLayerShear::compute_vector(int n) {
-  return n == 0 ? displacement_ : force_[static_cast<std::size_t>(n - 1)];
 }
 
 }  // namespace furrow::coupling

@@ -5,29 +5,29 @@
 
 #include <array>
 
-#include "coupling/output/effective_input.h"
-#include "fix.h"
+#include "coupling/base/furrow_fix.h"
+#include "rig/ramp.h"
 
 namespace furrow::coupling {
 
-class FixLayerShear : public LAMMPS_NS::Fix, public HasOptions {
+class FixLayerShear : public FurrowFix {
  public:
   FixLayerShear(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
+  static const Outputs<FixLayerShear>& outputs();
 
   int setmask() override;
   void init() override;
   void initial_integrate(int vflag) override;
   void final_integrate() override;
-  /// f_id[1]: displacement along x [m]; f_id[2..4]: force of the other grains on the layer [N]
-  double compute_vector(int n) override;
-  const Options& options() const override { return options_; }
 
  private:
-  Options options_;
-  double speed_, accelerate_time_;
-  double elapsed_ = 0.0, displacement_ = 0.0, height_ = 0.0;
-  std::array<double, 3> force_{};
+  double speed_;  // [m/s] along x
+  Ramp ramp_;
+  double elapsed_ = 0.0;           // [s]
+  double displacement_ = 0.0;      // [m] along x
+  double height_ = 0.0;            // [m] z of the middle of the layer
+  std::array<double, 3> force_{};  // [N] of the other grains on the layer
 };
 
 }  // namespace furrow::coupling

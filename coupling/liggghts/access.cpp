@@ -1,20 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/liggghts/access.h"
 
-#include <filesystem>
-
 #include <map>
 
-#include <unistd.h>
-
-#include <fmt/format.h>
-
-#include "core/error.h"
-#include "fix_wall_gran.h"
 #include "input.h"
 #include "modify.h"
-#include "tri_mesh.h"
-#include "universe.h"
 
 namespace furrow::coupling {
 
@@ -60,69 +50,30 @@ struct HistoryKeep {
 };
 template struct Expose<HistoryKeep, &LAMMPS_NS::FixContactHistoryMesh::keepflag_>;
 
-/// Number of the line that the stream has just been read up to; 0 when it cannot be told (standard
-/// input).
-long line_number(FILE* file) {
-  const long position = file ? std::ftell(file) : -1;
-  if (position < 0 || file == stdin) return 0;
-  std::rewind(file);
-  long lines = 0;
-  int last = '\n';
-  for (long i = 0; i < position; ++i) {
-    last = std::fgetc(file);
-    lines += last == '\n';
-  }
-  std::fseek(file, position, SEEK_SET);
-  return lines + (last != '\n');
+FixMap& fix_styles(const LAMMPS_NS::LAMMPS& lammps) {
+  return *(lammps.modify->*member(ModifyFixMap{}));
 }
-
-std::string file_name(FILE* file) {
-  char path[4096];
-  const ssize_t length =
-      readlink(fmt::format("/proc/self/fd/{}", fileno(file)).c_str(), path, sizeof path - 1);
-  return length > 0 ? std::string(path, static_cast<std::size_t>(length)) : "input script";
+CommandMap& commands(const LAMMPS_NS::LAMMPS& lammps) {
+  return *(lammps.input->*member(InputCommandMap{}));
 }
 
 }  // namespace
 
-void check_library(const LAMMPS_NS::LAMMPS& lammps) {
-  const std::string version = lammps.universe->version;
-  if (version.find("3.8.0") == std::string::npos)
-    throw Error(
-        "the LIGGGHTS library at hand is '" + version +
-        "', but furrow uses the class layout of 3.8.0; install Debian 12's libliggghts3 3.8.0");
-}
-
 void add_fix_style(LAMMPS_NS::LAMMPS& lammps, const std::string& style, FixCreator creator) {
-  (*(lammps.modify->*member(ModifyFixMap{})))[style] = creator;
+  fix_styles(lammps)[style] = creator;
 }
-
 void add_command(LAMMPS_NS::LAMMPS& lammps, const std::string& name, CommandCreator creator) {
-  (*(lammps.input->*member(InputCommandMap{})))[name] = creator;
+  commands(lammps)[name] = creator;
+}
+bool has_fix_style(const LAMMPS_NS::LAMMPS& lammps, const std::string& style) {
+  return fix_styles(lammps).count(style) > 0;
+}
+bool has_command(const LAMMPS_NS::LAMMPS& lammps, const std::string& name) {
+  return commands(lammps).count(name) > 0;
 }
 
-std::string script_position(const LAMMPS_NS::LAMMPS& lammps) {
-  if (!lammps.input || !lammps.infile) return "";
-  const char* text = lammps.input->*member(InputLine{});
-  const long line = line_number(lammps.infile);
-  if (line == 0) return text ? fmt::format("standard input: {}", text) : "";
-  return fmt::format("{}, line {}: {}", file_name(lammps.infile), line, text ? text : "");
-}
-
-std::string script_name(const LAMMPS_NS::LAMMPS& lammps) {
-  return lammps.infile && lammps.infile != stdin ? file_name(lammps.infile) : "";
-}
-
-std::string script_folder(const LAMMPS_NS::LAMMPS& lammps) {
-  int rank = 0;
-  MPI_Comm_rank(lammps.world, &rank);
-  std::string folder =
-      rank == 0 ? std::filesystem::path(script_name(lammps)).parent_path().string() : "";
-  int size = static_cast<int>(folder.size());
-  MPI_Bcast(&size, 1, MPI_INT, 0, lammps.world);
-  folder.resize(static_cast<std::size_t>(size));
-  MPI_Bcast(folder.data(), size, MPI_CHAR, 0, lammps.world);
-  return folder;
+const char* current_line(const LAMMPS_NS::LAMMPS& lammps) {
+  return lammps.input->*member(InputLine{});
 }
 
 void replace_mesh(LAMMPS_NS::FixMesh& fix, LAMMPS_NS::AbstractMesh* mesh) {

@@ -1,30 +1,29 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What the fixes that record results have in common: one file of rows, frames for ParaView, a
-/// closing at the end of the run, and runs that are continued from a checkpoint.
+/// The base of every fix that records results: one file of rows, frames for ParaView, a closing at
+/// the end of the run, and runs that are continued from a checkpoint.
 
 #include <chrono>
 #include <optional>
 
-#include "coupling/base/uses_fix.h"
-#include "coupling/output/effective_input.h"
-#include "coupling/base/flushes_on_error.h"
-#include "fix.h"
+#include "coupling/base/fix_order.h"
+#include "coupling/base/furrow_fix.h"
+#include "coupling/liggghts/flushes_on_error.h"
 #include "io/history_file.h"
 
 namespace furrow::coupling {
 
-class FixHistory : public LAMMPS_NS::Fix, public HasOptions, public UsesFix, public FlushesOnError {
+class FixHistory : public FurrowFix, public FollowsSystem, public FlushesOnError {
  public:
+  std::string reason_to_follow() const override {
+    return "it records what furrow/system has checked";
+  }
   int setmask() override;
   /// Files are made when the first run starts: by then every style of the scene is known.
   void setup(int vflag) override;
   void end_of_step() override;
   /// Also reached when the user interrupts the run: what there is, is written and evaluated.
   void post_run() override;
-  void write_restart(FILE* file) override;
-  void restart(char* buffer) override;
-  const Options& options() const override { return options_; }
   /// An error ends the run: the rows since the last flush are still worth having.
   void flush_results() override;
 
@@ -41,15 +40,21 @@ class FixHistory : public LAMMPS_NS::Fix, public HasOptions, public UsesFix, pub
   virtual void write_frame() = 0;
   virtual void close() = 0;
 
-  bool draws() const { return options_.integer("vtk") > 0; }
+  bool draws() const { return options().integer("vtk") > 0; }
   double time() const;       ///< of the scene [s]
   double wall_time() const;  ///< since the first run began [s]
   RunInfo run_info(const std::string& title) const;
+  /// Path of a file in the folder of the results.
+  std::string in_folder(const std::string& name) const {
+    return options().text("folder") + "/" + name;
+  }
 
   std::optional<HistoryFile> file_;  ///< rank 0 only
 
  private:
-  Options options_;
+  /// A checkpoint: the rows up to it must be in the file, or a continued run would find a gap.
+  void checkpoint(Checkpoint& state) override;
+
   std::optional<double> resume_time_;
   bool opened_ = false;
   std::chrono::steady_clock::time_point started_;

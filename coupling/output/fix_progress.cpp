@@ -7,12 +7,13 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "coupling/base/args.h"
 #include "update.h"
 
 namespace furrow::coupling {
 
 namespace {
+
+constexpr int steps_between_looks = 10;  // at the clock: that is cheap, but not free
 
 std::string clock_text(double seconds) {
   const long s = std::lround(seconds);
@@ -31,10 +32,8 @@ Schema FixProgress::schema() {
 }
 
 FixProgress::FixProgress(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : Fix(lammps, narg, arg),
-      options_(schema().read(args_after_style(narg, arg))),
-      interval_(options_.number("every")) {
-  nevery = 10;  // looking at the clock is cheap, but not free
+    : FurrowFix(lammps, narg, arg, schema()), interval_(options().number("every")) {
+  nevery = steps_between_looks;
 }
 
 int FixProgress::setmask() { return LAMMPS_NS::FixConst::END_OF_STEP; }
@@ -55,10 +54,10 @@ void FixProgress::print(Clock::time_point now) const {
   const double done = static_cast<double>(update->ntimestep - update->firststep),
                all = static_cast<double>(update->laststep - update->firststep);
   const double left = done > 0.0 ? elapsed * (all - done) / done : 0.0;
-  const std::string line =
-      fmt::format("[{}] {:5.1f} %  elapsed {}  left {}  {:.1f} M grain steps/s\n",
-                  options_.text("label"), 100.0 * done / all, clock_text(elapsed), clock_text(left),
-                  elapsed > 0.0 ? 1e-6 * done * static_cast<double>(atom->natoms) / elapsed : 0.0);
+  const std::string line = fmt::format(
+      "[{}] {:5.1f} %  elapsed {}  left {}  {:.1f} M grain steps/s\n", options().text("label"),
+      100.0 * done / all, clock_text(elapsed), clock_text(left),
+      elapsed > 0.0 ? 1e-6 * done * static_cast<double>(atom->natoms) / elapsed : 0.0);
   if (screen) {
     std::fputs(line.c_str(), screen);
     std::fflush(screen);

@@ -4,12 +4,11 @@
 
 #include <chrono>
 
-#include "coupling/output/effective_input.h"
-#include "fix.h"
+#include "coupling/base/furrow_fix.h"
 
 namespace furrow::coupling {
 
-class FixProgress : public LAMMPS_NS::Fix, public HasOptions {
+class FixProgress : public FurrowFix {
  public:
   FixProgress(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
@@ -17,15 +16,14 @@ class FixProgress : public LAMMPS_NS::Fix, public HasOptions {
   int setmask() override;
   void setup(int vflag) override;
   void end_of_step() override;
-  const Options& options() const override { return options_; }
 
  private:
   using Clock = std::chrono::steady_clock;
   void print(Clock::time_point now) const;
 
-  Options options_;
   double interval_;  // [s] of wall time between lines
-  Clock::time_point started_, last_;
+  Clock::time_point started_;
+  Clock::time_point last_;
 };
 
 }  // namespace furrow::coupling

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// fix terrain/history: the results of continuum ground. See fix_terrain_history.md.
+/// fix terrain/history: the results of continuum terrain. See fix_terrain_history.md.
 
 #include "coupling/output/fix_history.h"
 #include "io/vtk_file.h"
@@ -13,7 +13,7 @@ class FixTerrainHistory : public FixHistory {
  public:
   FixTerrainHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
-  bool uses(LAMMPS_NS::Fix& other) const override;
+  static OutputTable outputs();
 
  private:
   void open(std::optional<double> resume_time) override;

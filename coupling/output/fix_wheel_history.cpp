@@ -5,44 +5,28 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "core/error.h"
+#include "coupling/base/fix_coupled_system.h"
 #include "coupling/drive/fix_wheel_rig.h"
 #include "coupling/bodies/fix_wheel_hub.h"
 #include "coupling/output/gather_grains.h"
 #include "coupling/output/results_folder.h"
 #include "io/summary.h"
-#include "modify.h"
 #include "update.h"
 
 namespace furrow::coupling {
 
-namespace {
-
-FixWheelRig& find_rig(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
-  auto* rig = dynamic_cast<FixWheelRig*>(lammps.modify->find_fix_id(options.text("rig").c_str()));
-  if (!rig)
-    throw InputError(options.where("rig"),
-                     fmt::format("is '{}', and there is no such rig", options.text("rig")),
-                     "the id of a fix wheel/rig", "write the fix wheel/rig before this line");
-  return *rig;
-}
-
-}  // namespace
-
 Schema FixWheelHistory::schema() {
   Schema schema("fix wheel/history");
-  schema.text("rig", "id of the fix wheel/rig whose wheel is recorded");
+  schema.text("rig", "id of the fix of the rig whose wheel is recorded");
   add_keys(schema, "wheel and grains");
   schema.text("title", "what the scene is, for summaries and pictures").by_default("wheel");
   return schema;
 }
 
 FixWheelHistory::FixWheelHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixHistory(lammps, narg, arg, schema()), rig_fix_(find_rig(*lammps, options())) {}
+    : FixHistory(lammps, narg, arg, schema()), rig_fix_(use<FixWheelRig>("rig", {Kind::rig})) {}
 
-bool FixWheelHistory::uses(LAMMPS_NS::Fix& other) const { return &other == &rig_fix_; }
-
-FixCoupledSystem& FixWheelHistory::bodies() { return FixCoupledSystem::of(*lmp); }
+OutputTable FixWheelHistory::outputs() { return {"channel", WheelRig::channels()}; }
 
 void FixWheelHistory::open(std::optional<double> resume_time) {
   first_step_ = update->ntimestep;
@@ -51,8 +35,8 @@ void FixWheelHistory::open(std::optional<double> resume_time) {
   const double ground_level = rig_fix_.options().number("ground_level");
   Grains now = gather_grains(*lmp, ground_level);
   if (comm->me != 0) return;
-  const std::string& folder = options().text("folder");
-  const std::string path = folder + "/history.h5", frames = folder + "/vtk";
+  const std::string path = in_folder("history.h5");
+  const std::string frames = in_folder("vtk");
   if (resume_time) {
     file_ = HistoryFile::resume(path, WheelRig::channels(), *resume_time);
     if (now.size() > 0)
@@ -100,9 +84,10 @@ void FixWheelHistory::close() {
 }
 
 RunClosing FixWheelHistory::closing() {
+  FixCoupledSystem& system = FixCoupledSystem::of(*lmp);
   const WheelHub& wheel = rig_fix_.wheel_fix().hub();
   const EnergyBudget budget = wheel.energy_budget();
-  const MomentumAudit& momentum = bodies().audit(wheel);
+  const MomentumAudit& momentum = system.audit(wheel);
   RunClosing end;
   end.audit.set_energies({{"work of the ground on the wheel", budget.contact_work},
                           {"work of the load", budget.load_work},
@@ -120,7 +105,7 @@ RunClosing FixWheelHistory::closing() {
   end.cost.steps = static_cast<long>(update->ntimestep) - first_step_;
   end.cost.grains = static_cast<long>(atom->natoms);
   end.cost.ranks = comm->nprocs;
-  end.cost.memory = bodies().communicator().sum(peak_memory());
+  end.cost.memory = system.communicator().sum(peak_memory());
   if (update->ntimestep < update->laststep)
     end.warnings.push_back(fmt::format(
         "The run was interrupted at step {} of {}; the values are those of the part that was done.",

@@ -8,13 +8,12 @@
 namespace furrow::coupling {
 
 class FixWheelRig;
-class FixCoupledSystem;
 
 class FixWheelHistory : public FixHistory {
  public:
   FixWheelHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
-  bool uses(LAMMPS_NS::Fix& other) const override;
+  static OutputTable outputs();
 
  private:
   void open(std::optional<double> resume_time) override;
@@ -22,16 +21,17 @@ class FixWheelHistory : public FixHistory {
   void write_frame() override;
   void close() override;
   RunClosing closing();
-  FixCoupledSystem& bodies();
 
   FixWheelRig& rig_fix_;
 
   // Rank 0 only.
-  std::optional<VtkSeries> wheel_frames_, grain_frames_;
+  std::optional<VtkSeries> wheel_frames_;
+  std::optional<VtkSeries> grain_frames_;
   Grains reference_;
 
   long first_step_ = 0;
-  double first_time_ = 0.0, first_energy_ = 0.0;
+  double first_time_ = 0.0;    // [s]
+  double first_energy_ = 0.0;  // [J] residual of the wheel's energy
 };
 
 }  // namespace furrow::coupling

@@ -12,7 +12,7 @@
 
 namespace furrow::coupling {
 
-/// Makes the folder of the keyword 'folder' if need be. @throws InputError
+/// Makes the folder of the keyword 'folder' unless it is there. @throws InputError
 inline void make_results_folder(const Options& options) {
   const std::string& folder = options.text("folder");
   std::error_code failed;

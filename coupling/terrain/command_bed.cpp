@@ -1,34 +1,36 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/terrain/command_bed.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <mpi.h>
 
-#include "atom.h"
 #include "comm.h"
 #include "core/communicator.h"
 #include "core/error.h"
-#include "coupling/liggghts/access.h"
+#include "coupling/liggghts/script.h"
+#include "coupling/terrain/bed_facts.h"
 #include "domain.h"
 #include "input.h"
 #include "io/cache.h"
 #include "io/version.h"
 #include "signal_handling.h"
-#include "update.h"
-#include "variable.h"
 
 namespace furrow::coupling {
 
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr char line_variable[] = "furrow_bed";  // holds the words of the line, one on each line
+constexpr char no_checkpoint[] = "none";
+
+/// Of a parameter that was renamed.
+std::string current_name(const std::string& name) {
+  return name == "headroom" ? "clearance_above" : name;
+}
 
 std::string read_file(const fs::path& path) {
   std::ifstream file(path);
@@ -50,18 +52,144 @@ std::string section(const std::string& text, const std::string& name) {
   return text.substr(begin, text.find("\n#: ", begin) - begin);
 }
 
-}  // namespace
-
-void CommandBed::set_variable(const std::string& name, const std::string& value) {
-  std::string words[] = {name, "string", value};
-  char* arguments[] = {words[0].data(), words[1].data(), words[2].data()};
-  input->variable->set(3, arguments);
+/// "command processors": 0 leaves the number of ranks along an axis to LIGGGHTS.
+std::string processors_line(const int (&grid)[3]) {
+  std::string line = "processors";
+  for (const int ranks : grid) line += ranks ? fmt::format(" {}", ranks) : " *";
+  return line;
 }
 
-/// Line by line, so that this command can go on when the script has ended: no jumps, loops or
+}  // namespace
+
+Schema CommandBed::schema() {
+  Schema schema("command bed");
+  schema.text("script", "path of the script that makes the bed, relative to the main script");
+  schema.number("depth", "m", Range::positive(), "the bed is levelled at this height");
+  schema.text("from", "restart file of a run on this bed, to continue that run; `none`: begin")
+      .by_default(no_checkpoint);
+  return schema;
+}
+
+OutputTable CommandBed::outputs() { return {"variable", bed_outputs().channels()}; }
+
+std::string CommandBed::Request::identity() const {
+  std::string all = version() + "\n" + text;
+  for (const Parameter& p : parameters) all += "\n" + p.name + " " + p.value;
+  return all;
+}
+
+CommandBed::KeptBed::KeptBed(const Request& request)
+    : restart(cache_folder() / ("bed-" + content_hash(request.identity()) + ".restart")),
+      facts(fs::path(restart).replace_extension(".txt")) {}
+
+void CommandBed::command(int narg, char** arg) {
+  // The words live in the buffer of the line being parsed, which other commands overwrite.
+  const std::vector<std::string> words(arg, arg + narg);
+  if (domain->box_exist)
+    throw InputError("command bed", "comes after the simulation box was made",
+                     "bed before create_box, read_restart or read_data",
+                     "move the line up: the bed brings its own box");
+  const Request request = read_request(words);
+  set_parameters(request);
+  const KeptBed bed(request);
+  if (!is_kept(bed)) make(request, bed);
+  MPI_Barrier(world);
+  read(request, bed);
+}
+
+CommandBed::Request CommandBed::read_request(const std::vector<std::string>& words) {
+  if (words.size() % 2 == 0)
+    throw InputError("command bed", fmt::format("has {} words", words.size()),
+                     "bed <script> <name> <value> <name> <value> ...",
+                     "every parameter of the bed needs a value");
+  std::vector<Entry> entries = {{"script", {words[0]}}};
+  Request request;
+  for (std::size_t i = 1; i < words.size(); i += 2) {
+    const std::string& name = words[i];
+    const std::string& value = words[i + 1];
+    if (name == "depth" || name == "from") entries.push_back({name, {value}});
+    if (name != "from") request.parameters.push_back({current_name(name), value, name});
+  }
+  const Options options = schema().read(entries);
+  request.script = fs::path(script_folder(*lmp)) / options.text("script");
+  request.text = read_file(request.script);
+  request.depth = options.number("depth");
+  request.from = options.text("from");
+  return request;
+}
+
+/// Each becomes a variable with bed_ before its name; of a former name too, which a bed script may
+/// still read.
+void CommandBed::set_parameters(const Request& request) {
+  std::string line = "script\n" + request.script.string();
+  for (const Parameter& p : request.parameters) {
+    set_variable(*lmp, "bed_" + p.name, p.value);
+    line += "\n" + p.name + "\n" + p.value;
+    if (p.written == p.name) continue;
+    set_variable(*lmp, "bed_" + p.written, p.value);
+    warn(*lmp, fmt::format("command bed: parameter '{}' is now called '{}'; write '{} {}'",
+                           p.written, p.name, p.name, p.value));
+  }
+  set_variable(*lmp, line_variable, line);
+}
+
+bool CommandBed::is_kept(const KeptBed& bed) {
+  int kept = comm->me == 0 && fs::exists(bed.restart) && fs::exists(bed.facts);
+  MPI_Bcast(&kept, 1, MPI_INT, 0, world);
+  return kept;
+}
+
+void CommandBed::make(const Request& request, const KeptBed& bed) {
+  if (comm->me == 0 && screen)
+    fmt::print(screen, "Making the bed {} (kept in {})\n", request.script.string(),
+               bed.restart.parent_path().string());
+  const int grid[3] = {comm->user_procgrid[0], comm->user_procgrid[1], comm->user_procgrid[2]};
+  for (const char* name : {"box", "contact", "settle"}) run_section(request, name);
+  // A termination signal ends every run at once and lets the script go on: what came of it is no
+  // bed, and must not be kept for others.
+  if (Communicator(&world).any(LAMMPS_NS::SignalHandler::request_quit))
+    throw StateError(
+        "command bed was interrupted while it made the bed, which is not kept; start the script "
+        "again");
+  keep(request, bed);
+  input->one("clear");
+  input->one(processors_line(grid).c_str());
+}
+
+/// Both files take their names when they are whole.
+void CommandBed::keep(const Request& request, const KeptBed& bed) {
+  const BedFacts facts = measure_bed(*lmp, request.depth);
+  if (comm->me == 0) fs::create_directories(bed.restart.parent_path());
+  const std::string part =
+      fmt::format("{}.part{}", bed.restart.string(), static_cast<long>(facts.grains));
+  input->one(("write_restart " + part).c_str());
+  if (comm->me != 0) return;
+  fs::rename(part, bed.restart);
+  std::ofstream file(bed.facts);
+  const std::vector<Channel> names = bed_outputs().channels();
+  const std::vector<double> values = bed_outputs().values(facts);
+  for (std::size_t n = 0; n < names.size(); ++n)
+    file << fmt::format("{} {:.10g}\n", names[n].name, values[n]);
+  file << "\n# made by:\n" << request.identity() << '\n';
+}
+
+/// The bed, or the checkpoint of a run on it, with its contact properties and facts.
+void CommandBed::read(const Request& request, const KeptBed& bed) {
+  // read_restart keeps the setting of the moment, and contact history needs it off
+  input->one("newton off");
+  input->one(
+      ("read_restart " + (request.from == no_checkpoint ? bed.restart.string() : request.from))
+          .c_str());
+  run_section(request, "contact");
+  std::ifstream file(bed.facts);
+  std::string name, value;
+  while (file >> name >> value && name[0] != '#') set_variable(*lmp, name, value);
+}
+
+/// Line by line, so that this command can go on when the section has ended: no jumps, loops or
 /// labels inside.
-void CommandBed::run_script(const std::string& text) {
-  std::istringstream lines(text);
+void CommandBed::run_section(const Request& request, const std::string& name) {
+  std::istringstream lines(section(request.text, name));
   std::string line, whole;
   while (std::getline(lines, line)) {
     const std::size_t end = line.find_last_not_of(" \t\r");
@@ -75,123 +203,12 @@ void CommandBed::run_script(const std::string& text) {
   }
 }
 
-std::map<std::string, double> CommandBed::measure(double depth) {
-  const Communicator ranks(&world);
-  // Away from the floor and from the levelled surface, where packing is disturbed over a few
-  // grains.
-  const double bottom = domain->boxlo[2], low = bottom + 0.2 * depth, high = bottom + 0.8 * depth;
-  // mass, solid volume in the slice, mass in the slice, kinetic energy
-  double sums[4] = {0.0, 0.0, 0.0, 0.0};
-  double extremes[4] = {1e300, 1e300, -1e300, -1e300};
-  for (int i = 0; i < atom->nlocal; ++i) {
-    const double z = atom->x[i][2], r = atom->radius[i];
-    sums[0] += atom->rmass[i];
-    for (int k = 0; k < 3; ++k) sums[3] += 0.5 * atom->rmass[i] * atom->v[i][k] * atom->v[i][k];
-    for (int k = 0; k < 2; ++k) {
-      extremes[k] = std::min(extremes[k], atom->x[i][k] - r);
-      extremes[2 + k] = std::max(extremes[2 + k], atom->x[i][k] + r);
-    }
-    // Part of the sphere between two planes: volume below height t above its lowest point is pi t^2
-    // (r - t/3).
-    const auto below = [&](double plane) {
-      const double t = std::clamp(plane - (z - r), 0.0, 2.0 * r);
-      return M_PI * t * t * (r - t / 3.0);
-    };
-    const double volume = below(high) - below(low);
-    sums[1] += volume;
-    sums[2] += volume * atom->density[i];
-  }
-  ranks.sum(sums, 4);
-  for (double& extreme : extremes)
-    extreme = &extreme < extremes + 2 ? -ranks.max(-extreme) : ranks.max(extreme);
-  double side[2];
-  for (int k = 0; k < 2; ++k)
-    side[k] = (k == 0 ? domain->xperiodic : domain->yperiodic) ? domain->prd[k]
-                                                               : extremes[2 + k] - extremes[k];
-  const double area = side[0] * side[1], bulk = sums[2] / (area * (high - low));
-  return {{"bed_grains", static_cast<double>(atom->natoms)},
-          {"bed_solid_fraction", sums[1] / (area * (high - low))},
-          {"bed_bulk_density", bulk},
-          // top of a uniform bed of this density and the same mass
-          {"bed_level", bottom + sums[0] / (area * bulk)},
-          {"bed_kinetic_energy", sums[3]},
-          {"bed_settle_steps", static_cast<double>(update->ntimestep)}};
-}
-
-void CommandBed::command(int narg, char** arg) {
-  // The words live in the buffer of the line being parsed, which other commands overwrite.
-  const std::vector<std::string> words(arg, arg + narg);
-  if (words.size() < 1 || words.size() % 2 == 0)
-    throw InputError("command bed", fmt::format("has {} words", words.size()),
-                     "bed <script> <name> <value> <name> <value> ...",
-                     "every parameter of the bed needs a value");
-  if (domain->box_exist)
-    throw InputError("command bed", "comes after the simulation box was made",
-                     "bed before create_box, read_restart or read_data",
-                     "move the line up: the bed brings its own box");
-
-  const fs::path script = fs::path(script_folder(*lmp)) / words[0];
-  const std::string text = read_file(script);
-  std::string identity = version() + "\n" + text;
-  double depth = 0.0;
-  std::string from = "none";  // a checkpoint of a run on this bed
-  for (std::size_t i = 1; i < words.size(); i += 2) {
-    if (words[i] == "from") {
-      from = words[i + 1];
-      continue;
-    }
-    identity += "\n" + words[i] + " " + words[i + 1];
-    set_variable("bed_" + words[i], words[i + 1]);
-    if (words[i] == "depth") depth = std::strtod(words[i + 1].c_str(), nullptr);
-  }
-  if (!(depth > 0.0))
-    throw InputError("command bed, parameter 'depth'", "is missing or not positive",
-                     "depth and a number > 0 [m]",
-                     "the bed is levelled at this height above the floor");
-
-  const fs::path folder = cache_folder(),
-                 restart = folder / ("bed-" + content_hash(identity) + ".restart");
-  fs::path facts_path = restart;
-  facts_path.replace_extension(".txt");
-  int kept = comm->me == 0 && fs::exists(restart) && fs::exists(facts_path);
-  MPI_Bcast(&kept, 1, MPI_INT, 0, world);
-
-  if (!kept) {
-    if (comm->me == 0 && screen)
-      fmt::print(screen, "Making the bed {} (kept in {})\n", script.string(), folder.string());
-    const int grid[3] = {comm->user_procgrid[0], comm->user_procgrid[1], comm->user_procgrid[2]};
-    if (comm->me == 0) fs::create_directories(folder);
-    for (const char* name : {"box", "contact", "settle"}) run_script(section(text, name));
-    // A termination signal ends every run at once and lets the script go on: what came of it is no
-    // bed, and must not be kept for others.
-    if (Communicator(&world).max(LAMMPS_NS::SignalHandler::request_quit ? 1.0 : 0.0) > 0.0)
-      throw StateError(
-          "command bed was interrupted while it made the bed, which is not kept; start the script "
-          "again");
-    const std::map<std::string, double> facts = measure(depth);
-    const std::string part =
-        fmt::format("{}.part{}", restart.string(), static_cast<long>(facts.at("bed_grains")));
-    input->one(("write_restart " + part).c_str());
-    if (comm->me == 0) {
-      fs::rename(part, restart);
-      std::ofstream file(facts_path);
-      for (const auto& [name, value] : facts)
-        file << name << ' ' << fmt::format("{:.10g}", value) << '\n';
-      file << "\n# made by:\n" << identity << '\n';
-    }
-    input->one("clear");
-    const auto choice = [](int n) { return n ? std::to_string(n) : std::string("*"); };
-    input->one(
-        ("processors " + choice(grid[0]) + " " + choice(grid[1]) + " " + choice(grid[2])).c_str());
-  }
-  MPI_Barrier(world);
-  // read_restart keeps the setting of the moment, and contact history needs it off
-  input->one("newton off");
-  input->one(("read_restart " + (from == "none" ? restart.string() : from)).c_str());
-  run_script(section(text, "contact"));
-  std::ifstream file(facts_path);
+std::vector<std::pair<std::string, std::string>> bed_line(LAMMPS_NS::LAMMPS& lammps) {
+  std::vector<std::pair<std::string, std::string>> words;
+  std::istringstream line(variable(lammps, line_variable).value_or(""));
   std::string name, value;
-  while (file >> name >> value && name[0] != '#') set_variable(name, value);
+  while (std::getline(line, name) && std::getline(line, value)) words.emplace_back(name, value);
+  return words;
 }
 
 }  // namespace furrow::coupling

@@ -2,10 +2,13 @@
 #pragma once
 /// bed: a settled bed of grains, made once and kept. See command_bed.md.
 
-#include <map>
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/options.h"
+#include "coupling/styles.h"
 #include "pointers.h"
 
 namespace furrow::coupling {
@@ -13,15 +16,48 @@ namespace furrow::coupling {
 class CommandBed : protected LAMMPS_NS::Pointers {
  public:
   explicit CommandBed(LAMMPS_NS::LAMMPS* lammps) : Pointers(lammps) {}
+  /// The keywords that every bed has; the other parameters are those of its script.
+  static Schema schema();
+  static OutputTable outputs();
+
   void command(int narg, char** arg);
 
  private:
-  using Parameters = std::vector<std::pair<std::string, std::string>>;
+  /// Any other word of the line than script and from, with its value.
+  struct Parameter {
+    std::string name;
+    std::string value;
+    std::string written;  // the name in the line, which may be a former one
+  };
+  /// What the line asks for.
+  struct Request {
+    std::filesystem::path script;
+    std::string text;                   // of the script
+    double depth;                       // [m]
+    std::string from;                   // a checkpoint of a run on this bed, or "none"
+    std::vector<Parameter> parameters;  // depth among them
 
-  void set_variable(const std::string& name, const std::string& value);
-  void run_script(const std::string& text);
-  /// Packing of the bed that stands in the box now; collective.
-  std::map<std::string, double> measure(double depth);
+    /// Equal for equal beds.
+    std::string identity() const;
+  };
+  /// The files of a bed that was made.
+  struct KeptBed {
+    explicit KeptBed(const Request& request);
+    std::filesystem::path restart;  // of LIGGGHTS
+    std::filesystem::path facts;    // a name and a value on each line, then how it was made
+  };
+
+  Request read_request(const std::vector<std::string>& words);
+  void set_parameters(const Request& request);
+  bool is_kept(const KeptBed& bed);
+  void make(const Request& request, const KeptBed& bed);
+  void keep(const Request& request, const KeptBed& bed);
+  void read(const Request& request, const KeptBed& bed);
+  void run_section(const Request& request, const std::string& name);
 };
+
+/// The words of the last bed line: "script", its path, then name and value in turn; nothing without
+/// one.
+std::vector<std::pair<std::string, std::string>> bed_line(LAMMPS_NS::LAMMPS& lammps);
 
 }  // namespace furrow::coupling

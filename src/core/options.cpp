@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -84,7 +85,7 @@ std::string Key::allowed() const {
     case Kind::numbers:
       return fmt::format("{} numbers, each {}{}", count == 0 ? "a list of" : std::to_string(count),
                          range.text(), unit_text);
-    case Kind::word:
+    case Kind::choice:
       return fmt::format("one of: {}", fmt::join(choices, ", "));
     case Kind::text:
       return "a word";
@@ -112,7 +113,7 @@ Schema& Schema::numbers(const std::string& name, std::size_t count, const std::s
 }
 Schema& Schema::choice(const std::string& name, std::vector<std::string> choices,
                        const std::string& meaning) {
-  return declare({name, Key::Kind::word, "", {}, 1, std::move(choices), meaning});
+  return declare({name, Key::Kind::choice, "", {}, 1, std::move(choices), meaning});
 }
 Schema& Schema::text(const std::string& name, const std::string& meaning) {
   return declare({name, Key::Kind::text, "", {}, 1, {}, meaning});
@@ -140,57 +141,80 @@ const Key* Schema::find(const std::string& name) const {
   return found == keys_.end() ? nullptr : &*found;
 }
 
-Options Schema::read(const std::vector<std::string>& choices) const {
+std::string inverted_flag(const std::string& value) {
+  return value == "yes" ? "no" : value == "no" ? "yes" : value;
+}
+
+Schema& Schema::alias(const std::string& former, const std::string& key,
+                      Alias::Translation translation) {
+  if (!find(key) || resolve(former))
+    throw Error(fmt::format("{}: '{}' cannot be a former name of '{}'", subject_, former, key));
+  aliases_.push_back({former, key, translation});
+  return *this;
+}
+
+const Alias* Schema::find_alias(const std::string& former) const {
+  const auto found = std::find_if(aliases_.begin(), aliases_.end(),
+                                  [&](const Alias& alias) { return alias.former == former; });
+  return found == aliases_.end() ? nullptr : &*found;
+}
+
+const Key* Schema::resolve(const std::string& name) const {
+  const Alias* alias = find_alias(name);
+  return find(alias ? alias->key : name);
+}
+
+Options Schema::read(const std::vector<std::string>& words) const {
   std::vector<Entry> entries;
-  for (std::size_t i = 0; i < choices.size();) {
-    Entry entry{choices[i++], {}};
-    const Key* key = find(entry.key);
+  for (std::size_t i = 0; i < words.size();) {
+    Entry entry{words[i++], {}};
+    const Key* key = resolve(entry.key);
     // an unknown key is refused below, with its name
-    const std::size_t count = !key ? choices.size() : key->count;
-    while (i < choices.size() &&
-           (count == 0 ? to_number(choices[i]).has_value() : entry.values.size() < count)) {
-      if (key && find(choices[i]) && key->kind != Key::Kind::text && key->kind != Key::Kind::word)
+    const std::size_t count = !key ? words.size() : key->count;
+    while (i < words.size() &&
+           (count == 0 ? to_number(words[i]).has_value() : entry.values.size() < count)) {
+      if (key && resolve(words[i]) && key->kind != Key::Kind::text &&
+          key->kind != Key::Kind::choice)
         break;
-      entry.values.push_back(choices[i++]);
+      entry.values.push_back(words[i++]);
     }
     entries.push_back(std::move(entry));
   }
   return read(entries);
 }
 
+/// Checks the values of one key and adds them. @param where names the key in errors
+void Schema::accept(Options& options, const Key& key, const std::vector<std::string>& texts,
+                    bool given, const std::string& origin, const std::string& where) const {
+  if (key.count == 0 ? texts.empty() : texts.size() != key.count)
+    throw InputError(where,
+                     texts.empty() ? "has no value" : fmt::format("has {} value(s)", texts.size()),
+                     key.allowed());
+  Options::Value value{texts, {}, given, origin};
+  if (key.kind == Key::Kind::choice || key.kind == Key::Kind::flag) {
+    if (std::find(key.choices.begin(), key.choices.end(), texts[0]) == key.choices.end())
+      throw InputError(where, fmt::format("is '{}'", texts[0]), key.allowed());
+  } else if (key.kind != Key::Kind::text) {
+    for (const std::string& text : texts) {
+      const std::optional<double> number = to_number(text);
+      if (!number)
+        throw InputError(where, fmt::format("is '{}', which is not a number", text), key.allowed());
+      if (!key.range.contains(*number) ||
+          (key.kind == Key::Kind::integer && *number != std::round(*number)))
+        throw InputError(where, fmt::format("is {}", text), key.allowed());
+      value.numbers.push_back(*number);
+    }
+  }
+  options.values_[key.name] = std::move(value);
+}
+
 Options Schema::read(const std::vector<Entry>& entries) const {
   Options options;
   options.subject_ = subject_;
-  for (const Key& key : keys_) options.order_.push_back(key.name);
-
-  const auto accept = [&](const Key& key, const std::vector<std::string>& texts, bool given,
-                          const std::string& origin) {
-    const std::string where = after_origin(origin, options.where(key.name));
-    if (key.count == 0 ? texts.empty() : texts.size() != key.count)
-      throw InputError(
-          where, texts.empty() ? "has no value" : fmt::format("has {} value(s)", texts.size()),
-          key.allowed());
-    Options::Value value{texts, {}, given, origin};
-    if (key.kind == Key::Kind::word || key.kind == Key::Kind::flag) {
-      if (std::find(key.choices.begin(), key.choices.end(), texts[0]) == key.choices.end())
-        throw InputError(where, fmt::format("is '{}'", texts[0]), key.allowed());
-    } else if (key.kind != Key::Kind::text) {
-      for (const std::string& text : texts) {
-        const std::optional<double> number = to_number(text);
-        if (!number)
-          throw InputError(where, fmt::format("is '{}', which is not a number", text),
-                           key.allowed());
-        if (!key.range.contains(*number) ||
-            (key.kind == Key::Kind::integer && *number != std::round(*number)))
-          throw InputError(where, fmt::format("is {}", text), key.allowed());
-        value.numbers.push_back(*number);
-      }
-    }
-    options.values_[key.name] = std::move(value);
-  };
+  options.keys_ = keys_;
 
   for (const Entry& entry : entries) {
-    const Key* key = find(entry.key);
+    const Key* key = resolve(entry.key);
     if (!key) {
       std::vector<std::string> names;
       for (const Key& known : keys_) names.push_back(known.name);
@@ -200,17 +224,27 @@ Options Schema::read(const std::vector<Entry>& entries) const {
                        fmt::format("{}", fmt::join(names, ", ")),
                        near.empty() ? "" : fmt::format("did you mean '{}'?", near));
     }
-    if (options.given(entry.key))
-      throw InputError(after_origin(entry.origin, subject_ + ", keyword '" + entry.key + "'"),
-                       "is given twice", "each keyword once", "remove one of them");
-    accept(*key, entry.values, true, entry.origin);
+    std::string where = after_origin(entry.origin, subject_ + ", keyword '" + entry.key + "'");
+    std::vector<std::string> values = entry.values;
+    const Alias* alias = find_alias(entry.key);
+    if (alias) where += fmt::format(" (now '{}')", key->name);
+    if (options.given(key->name))
+      throw InputError(where, "is given twice", "each keyword once", "remove one of them");
+    if (alias && alias->translation)
+      std::transform(values.begin(), values.end(), values.begin(), alias->translation);
+    accept(options, *key, values, true, entry.origin, where);
+    if (alias)
+      options.warnings_.push_back(fmt::format("{}: keyword '{}' is now called '{}'; write '{} {}'",
+                                              after_origin(entry.origin, subject_), entry.key,
+                                              key->name, key->name, fmt::join(values, " ")));
   }
   for (const Key& key : keys_) {
     if (options.given(key.name)) continue;
     if (key.required)
       throw InputError(options.where(key.name), "is missing", key.allowed(),
                        "it is: " + key.meaning);
-    if (!key.default_values.empty()) accept(key, key.default_values, false, {});
+    if (!key.default_values.empty())
+      accept(options, key, key.default_values, false, {}, options.where(key.name));
   }
   return options;
 }
@@ -251,8 +285,8 @@ std::string Options::where(const std::string& key) const {
 }
 std::vector<Entry> Options::effective() const {
   std::vector<Entry> entries;
-  for (const std::string& key : order_)
-    if (has(key)) entries.push_back({key, value(key).texts});
+  for (const Key& key : keys_)
+    if (has(key.name)) entries.push_back({key.name, value(key.name).texts});
   return entries;
 }
 

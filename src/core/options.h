@@ -35,14 +35,14 @@ struct Range {
 
 /// One declared key.
 struct Key {
-  enum class Kind { number, integer, numbers, word, text, flag };
+  enum class Kind { number, integer, numbers, choice, text, flag };
 
   std::string name;
   Kind kind = Kind::number;
-  std::string unit;                  ///< "" for words, texts and pure numbers
+  std::string unit;                  ///< "" for choices, texts and pure numbers
   Range range;                       ///< of every number
   std::size_t count = 1;             ///< values that follow; 0 (numbers only): as many as there are
-  std::vector<std::string> choices;  ///< the admissible words
+  std::vector<std::string> choices;  ///< the admissible words of a choice
   std::string meaning;
   bool required = true;
   /// used when not required and not given; may be empty
@@ -50,6 +50,18 @@ struct Key {
 
   std::string allowed() const;  ///< "a number > 0 [m]", "one of: towed, slip, torque"
 };
+
+/// A former name of a key. Accepted with a warning; the value is taken over under the key's name.
+struct Alias {
+  using Translation = std::string (*)(const std::string& value);
+
+  std::string former;
+  std::string key;
+  Translation translation = nullptr;  ///< of the former value; none: the value means the same
+};
+
+/// For a flag whose former name meant the opposite: "yes" becomes "no"; other words stay.
+std::string inverted_flag(const std::string& value);
 
 /// One key with its values as text, as found in a script or a file.
 struct Entry {
@@ -67,8 +79,8 @@ class Schema {
   /// @param subject names the owner in errors: "fix wheel/rigid", "law drucker_prager_cap"
   explicit Schema(std::string subject) : subject_(std::move(subject)) {}
 
-  // Each call declares a required key; optional_*() declares one with a default, or without one
-  // (then ask given()).
+  // Each call declares a required key, unless optional() or by_default() follows. Ask has() or
+  // given() for an optional key without a default.
   Schema& number(const std::string& name, const std::string& unit, Range range,
                  const std::string& meaning);
   Schema& integer(const std::string& name, Range range, const std::string& meaning);
@@ -86,23 +98,34 @@ class Schema {
   Schema& by_default(double value);
   Schema& by_default(std::vector<double> values);
 
+  /// A former name of a key that is declared already. Whoever reads options with aliases shows
+  /// Options::warnings() to the user.
+  Schema& alias(const std::string& former, const std::string& key,
+                Alias::Translation translation = nullptr);
+
   const std::string& subject() const { return subject_; }
   const std::vector<Key>& keys() const { return keys_; }
+  const std::vector<Alias>& aliases() const { return aliases_; }
   const Key* find(const std::string& name) const;
 
   /// Reads "key value(s) key value(s) ..." as a script line has it. @throws InputError
-  Options read(const std::vector<std::string>& choices) const;
+  Options read(const std::vector<std::string>& words) const;
   /// Reads entries as a file has them. @throws InputError
   Options read(const std::vector<Entry>& entries) const;
-  /// The table of keys for --help and for the pages: one line a key with unit, range, default and
-  /// meaning.
+  /// The table of keys for --help: a line for each with unit, range, default and meaning.
   std::string table() const;
 
  private:
   Schema& declare(Key key);
+  const Alias* find_alias(const std::string& former) const;
+  /// The key that an entry means, by its name or by a former one; null for an unknown name.
+  const Key* resolve(const std::string& name) const;
+  void accept(Options& options, const Key& key, const std::vector<std::string>& texts, bool given,
+              const std::string& origin, const std::string& where) const;
 
   std::string subject_;
   std::vector<Key> keys_;
+  std::vector<Alias> aliases_;
 };
 
 /// Values that passed their Schema.
@@ -111,12 +134,16 @@ class Options {
   double number(const std::string& key) const;
   long integer(const std::string& key) const;
   const std::vector<double>& numbers(const std::string& key) const;
-  const std::string& text(const std::string& key) const;  ///< also for text
+  const std::string& text(const std::string& key) const;  ///< of a text, a choice or a flag
   bool flag(const std::string& key) const;
   bool given(const std::string& key) const;  ///< the user wrote it
   bool has(const std::string& key) const;    ///< given, or has a default
 
   const std::string& subject() const { return subject_; }
+  /// Every declared key, with a value or without one.
+  const std::vector<Key>& keys() const { return keys_; }
+  /// Former names that were used, a sentence each that says what to write instead.
+  const std::vector<std::string>& warnings() const { return warnings_; }
   /// The effective values, defaults included, in the order of declaration: "key value ...".
   std::vector<Entry> effective() const;
   /// "fix wheel/rigid, keyword 'mass'", after the key's origin if it has one; to build an
@@ -134,8 +161,9 @@ class Options {
   const Value& value(const std::string& key) const;
 
   std::string subject_;
-  std::vector<std::string> order_;
+  std::vector<Key> keys_;
   std::map<std::string, Value> values_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace furrow

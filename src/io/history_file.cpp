@@ -14,6 +14,8 @@
 #include "core/error.h"
 #include "io/hdf5_file.h"
 #include "io/replace_file.h"
+#include "io/terrain_fields.h"
+#include "statistics/rig_stage.h"
 
 namespace furrow {
 
@@ -25,6 +27,7 @@ using NumberMember = std::pair<const char*, double Audit::*>;
 
 constexpr double flush_interval = 5.0;       // [s] between flushes that come by themselves
 constexpr double least_flush_ratio = 100.0;  // of that interval to the duration of a flush
+constexpr char former_stage_channel[] = "phase";  // in older files
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -172,6 +175,7 @@ HistoryFile HistoryFile::create(const std::string& path, const std::vector<Chann
     file.set_attribute("/run", "started", info.started.empty() ? utc_now() : info.started);
     file.set_attribute("/run", "ranks", info.ranks);
     file.write("/run/effective_input", info.effective_input);
+    file.write("/run/styles", styles_json(info.styles));
     file.create_group("/history");
     for (const Channel& channel : channels) {
       file.create_growing(dataset_of(channel));
@@ -185,7 +189,7 @@ HistoryFile HistoryFile::create(const std::string& path, const std::vector<Chann
 
 HistoryFile HistoryFile::resume(const std::string& path, const std::vector<Channel>& channels,
                                 double time) {
-  History history = read_history(path);
+  History history = read_rows(Hdf5File(path, Hdf5File::Mode::read));
   check_channels(path, history.channels(), channels);
   cut_at(path, history, time);
 
@@ -194,7 +198,8 @@ HistoryFile HistoryFile::resume(const std::string& path, const std::vector<Chann
   file.replace_with([&](Hdf5File& content) {
     for (const Channel& channel : channels)
       content.truncate(dataset_of(channel), file.flushed_rows_);
-    for (const char* ending : {"/grains/final", "/surface", "/audit", "/cost", "/warnings"})
+    for (const char* ending :
+         {"/grains/final", "/surface", "/terrain", "/rut", "/audit", "/cost", "/warnings"})
       content.remove(ending);
   });
   return file;
@@ -271,35 +276,32 @@ void HistoryFile::write_final(const Grains& grains, const Surface& surface) {
   });
 }
 
-void HistoryFile::write_terrain(const TerrainSnapshot& ground, const std::vector<RutPoint>& rut) {
+void HistoryFile::write_terrain(const TerrainSnapshot& terrain, const std::vector<RutPoint>& rut) {
   replace_with([&](Hdf5File& file) {
-    for (const char* group : {"/ground", "/rut"}) {
+    for (const char* group : {"/terrain", "/rut"}) {
       file.remove(group);
       file.create_group(group);
     }
-    const auto write = [&](const std::string& dataset, const auto& values, const char* unit) {
+    const auto write = [&](const std::string& dataset, const auto& values, const char* unit,
+                           const char* meaning) {
       file.write(dataset, values);
       file.set_attribute(dataset, "unit", unit);
+      file.set_attribute(dataset, "meaning", meaning);
     };
-    write("/ground/id", ground.id, "");
-    write("/ground/x", ground.x, "m");
-    write("/ground/home", ground.initial_position, "m");
-    write("/ground/v", ground.v, "m/s");
-    write("/ground/layer", ground.layer, "");
-    write("/ground/volume", ground.volume, "m^3");
-    write("/ground/density", ground.density, "kg/m^3");
-    write("/ground/pressure", ground.pressure, "Pa");
-    write("/ground/mises", ground.mises, "Pa");
-    write("/ground/vertical_stress", ground.vertical_stress, "Pa");
-    write("/ground/compaction", ground.compaction, "");
+    for (const auto& field : vector_terrain_fields)
+      write(fmt::format("/terrain/{}", field.name), terrain.*field.values, field.unit,
+            field.meaning);
+    for (const auto& field : scalar_terrain_fields)
+      write(fmt::format("/terrain/{}", field.name), terrain.*field.values, field.unit,
+            field.meaning);
     Matrix3X x(3, Eigen::Index(rut.size()));
     std::vector<double> density;
     for (const RutPoint& point : rut) {
       x.col(Eigen::Index(density.size())) << point.x, point.y, point.z;
       density.push_back(point.density);
     }
-    write("/rut/x", x, "m");
-    write("/rut/density", density, "kg/m^3");
+    write("/rut/x", x, "m", "surface of the terrain where it was dropped behind");
+    write("/rut/density", density, "kg/m^3", "mean over the depth there");
   });
 }
 
@@ -332,7 +334,11 @@ void HistoryFile::write_closing(const RunClosing& closing) {
 }
 
 History read_history(const std::string& path) {
-  return read_rows(Hdf5File(path, Hdf5File::Mode::read));
+  const History read = read_rows(Hdf5File(path, Hdf5File::Mode::read));
+  std::vector<Channel> channels = read.channels();
+  for (Channel& channel : channels)
+    if (channel.name == former_stage_channel) channel.name = stage_channel;
+  return read.renamed(channels);
 }
 
 RunInfo read_run_info(const std::string& path) {

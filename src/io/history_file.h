@@ -1,22 +1,28 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The results file of a run, history.h5:
+/// The results file of a run, history.h5 of a wheel or terrain.h5 of continuum terrain:
 ///
-///   /run                 attributes title, version, script, started, ranks; text effective_input
-///   /history/<channel>   one dataset a channel, with attributes unit and meaning; all of one
-///   length /grains/reference    id, x, radius, period of the settled bed before the wheel touches
-///   it; attribute bed_level /grains/final        the same and v, at the end /surface triangles, x
-///   of the wheel or tyre at the end /ground, /rut        continuum ground at the end: x, home, v,
-///   density, pressure, ...; what a moving ground has left behind /audit, /cost        numbers as
-///   attributes; /audit/energies [J] with its attribute terms, a name a line /warnings text, a
-///   sentence a line
+///   /run                 attributes title, version, script, started, ranks
+///   /run/effective_input text: every style with all its values, and the script
+///   /run/styles          text: the same styles in JSON (style_record.h)
+///   /history/<channel>   one dataset for each channel, with attributes unit and meaning; all of
+///                        one length
+///   /grains/reference    id, x, radius, period of the settled bed before the wheel touches it;
+///                        attribute bed_level
+///   /grains/final        the same and v, at the end
+///   /surface             triangles, x of the wheel or tyre at the end
+///   /terrain/<field>     particles of continuum terrain at the end (terrain_fields.h), with
+///                        attributes unit and meaning
+///   /rut                 x, density: what moving terrain has left behind
+///   /audit, /cost        numbers as attributes; /audit/energies [J] with its attribute terms, a
+///                        name on each line
+///   /warnings            text, a sentence on each line
 ///
 /// The file on disk is complete at every instant: rows are gathered in memory, and a flush appends
-/// them to a copy beside it
-/// ("history.part.h5") which then takes the file's name in one step. A run that is killed leaves
-/// the state of its last flush, and others may read while it runs. A flush comes by itself when
-/// five seconds have passed and at least a hundred times the duration of the last one, so that
-/// files cost less than one per cent of a run.
+/// them to a copy beside it ("history.part.h5") which then takes the file's name in one step. A run
+/// that is killed leaves the state of its last flush, and others may read while it runs. A flush
+/// comes by itself when five seconds have passed and at least a hundred times the duration of the
+/// last one, so that files cost less than one per cent of a run.
 
 #include <chrono>
 #include <string>
@@ -25,10 +31,12 @@
 #include "geometry/surface.h"
 #include "io/grains.h"
 #include "io/run_report.h"
-#include "mpm/terrain_snapshot.h"
 #include "statistics/history.h"
 
 namespace furrow {
+
+struct TerrainSnapshot;
+struct RutPoint;
 
 /// Writes history.h5 while the run goes on. One rank of a run has it.
 class HistoryFile {
@@ -59,8 +67,9 @@ class HistoryFile {
 
   void write_reference(const Grains& grains);
   void write_final(const Grains& grains, const Surface& surface);  ///< either may be empty
-  /// The ground and, where it moved, the rut it left: /ground/<field>, /rut/{x,density}
-  void write_terrain(const TerrainSnapshot& ground, const std::vector<RutPoint>& rut);
+  /// The particles and, where the terrain moved, the rut it left: /terrain/<field>,
+  /// /rut/{x,density}
+  void write_terrain(const TerrainSnapshot& terrain, const std::vector<RutPoint>& rut);
   void write_closing(const RunClosing& closing);
 
   /// all rows, flushed or not, of this run and the parts before
@@ -80,6 +89,7 @@ class HistoryFile {
 };
 
 // Reading back. @throws Error when the file or the part is missing, naming both
+/// A former name of a channel is read as its present one.
 History read_history(const std::string& path);
 RunInfo read_run_info(const std::string& path);
 Grains read_reference_grains(const std::string& path);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/types.h"
+#include "io/style_record.h"
 #include "io/version.h"
 
 namespace furrow {
@@ -15,9 +16,11 @@ namespace furrow {
 struct RunInfo {
   std::string title;  ///< the scene: "rigid wheel on sand"
   std::string version = furrow::version();
-  std::string script;           ///< the input script as the user named it
-  std::string effective_input;  ///< every style with all its values, defaults included
-  std::string started;          ///< ISO 8601, UTC; empty: now
+  std::string script;  ///< the input script as the user named it
+  /// every style with all its values, defaults included: as text with the script, and as records
+  std::string effective_input;
+  std::vector<StyleRecord> styles;
+  std::string started;  ///< ISO 8601, UTC; empty: now
   int ranks = 1;
 };
 

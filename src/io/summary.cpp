@@ -126,9 +126,8 @@ std::string summary_text(const Summary& s) {
       "Signs: force_z carries the wheel; resistance coefficient = -force_x/force_z; drawbar pull > "
       "0 pulls the vehicle "
       "forward;\n"
-      "slip > 0 when driving, (v_rim - v)/max(|v_rim|, |v|). Effective input: attribute "
-      "effective_input of /run in "
-      "history.h5.\n";
+      "slip > 0 when driving, (v_rim - v)/max(|v_rim|, |v|). Effective input: "
+      "/run/effective_input of history.h5.\n";
   return text;
 }
 

@@ -15,8 +15,9 @@ namespace furrow {
 
 namespace {
 
-constexpr double min_headroom_cells = 6.0;
-constexpr double headroom_of_depth = 1.0;  // what a wheel pushes up beside and before it
+// Default of clearance_above: room for what a wheel pushes up beside and ahead of it.
+constexpr double min_clearance_cells = 6.0;
+constexpr double clearance_of_depth = 1.0;
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -28,21 +29,21 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// Multiplies Young's modulus: longer steps for a softer ground.
-void soften(MaterialFile& file, double factor, const std::string& where) {
+/// Multiplies Young's modulus: longer steps for softer terrain.
+void scale_modulus(MaterialFile& file, double factor, const std::string& where) {
   for (Entry& entry : file.sections["elasticity"])
     if (entry.key == "E") {
       entry.values[0] = fmt::format("{:.17g}", factor * std::stod(entry.values[0]));
       return;
     }
   throw InputError(where, fmt::format("is {}, and {} has no Young's modulus E", factor, file.path),
-                   "1 for a law without E");
+                   "1 for a material without E");
 }
 
 std::shared_ptr<const Material> load(const Options& options, const std::filesystem::path& path) {
   MaterialFile file = read_material_file(path.string());
-  if (options.number("soften") != 1.0)
-    soften(file, options.number("soften"), options.where("soften"));
+  const double factor = options.number("modulus_scale");
+  if (factor != 1.0) scale_modulus(file, factor, options.where("modulus_scale"));
   return file.make();
 }
 
@@ -88,10 +89,10 @@ AxisLayout vertical_layout(const Options& options) {
   const double fine =
       options.given("fine_depth") ? std::min(depth, options.number("fine_depth")) : depth;
   const double own_cell = fine / std::max(1.0, std::round(fine / cell));
-  const double headroom = options.given("headroom")
-                              ? options.number("headroom")
-                              : std::max(min_headroom_cells * cell, headroom_of_depth * depth);
-  const double top = surface + own_cell * std::ceil(headroom / own_cell - 1e-9);
+  const double clearance = options.given("clearance_above")
+                               ? options.number("clearance_above")
+                               : std::max(min_clearance_cells * cell, clearance_of_depth * depth);
+  const double top = surface + own_cell * std::ceil(clearance / own_cell - 1e-9);
   return {surface - depth, top, own_cell, surface - fine, top, options.number("growth")};
 }
 
@@ -109,8 +110,8 @@ Schema terrain_schema(const std::string& subject) {
       .by_default(std::vector<double>{0.0, 0.0});
   schema.number("surface", "m", Range::any(), "z of the undisturbed ground").by_default(0.0);
   schema
-      .number("headroom", "m", Range::positive(),
-              "of the grid above the ground, for what is pushed up")
+      .number("clearance_above", "m", Range::positive(),
+              "height of the grid above the surface, for what is pushed up")
       .optional();
   schema
       .number("fine_length", "m", Range::positive(),
@@ -135,18 +136,23 @@ Schema terrain_schema(const std::string& subject) {
   schema.choice("base", boundary_kind_names(), "what it lies on").by_default("rough");
   schema.number("gravity", "m/s^2", Range::non_negative(), "downwards")
       .by_default(standard_gravity);
-  schema.flag("weightless_start", "start without the stress of the ground's own weight");
+  schema.flag("initial_stress", "start with the stress of the terrain's own weight")
+      .by_default("yes");
   schema.flag("sheet", "carry triangles on the upper face, for grains that lie on the ground");
   schema.number("cfl", "", Range::closed(0.01, 1.0), "step over shortest cell and wave speed")
       .by_default(0.4);
   schema
-      .integer("cycle", Range::closed(1, 64),
+      .integer("remap_interval", Range::closed(1, 64),
                "most steps between two mappings of particles to the grid")
       .by_default("16");
   schema
-      .number("soften", "", Range{0.0, 1.0, true, false},
+      .number("modulus_scale", "", Range{0.0, 1.0, true, false},
               "factor on Young's modulus, for longer steps")
       .by_default(1.0);
+  schema.alias("headroom", "clearance_above");
+  schema.alias("weightless_start", "initial_stress", inverted_flag);
+  schema.alias("cycle", "remap_interval");
+  schema.alias("soften", "modulus_scale");
   return schema;
 }
 
@@ -169,10 +175,10 @@ TerrainParameters read_terrain(const Options& options, const std::string& folder
   const int particles = static_cast<int>(options.integer("particles"));
   ground.particles_per_cell = {particles, particles, particles};
   ground.gravity = {0.0, 0.0, -options.number("gravity")};
-  ground.initial_stress = !options.flag("weightless_start");
+  ground.initial_stress = options.flag("initial_stress");
   ground.surface_mesh = options.flag("sheet");
   ground.cfl = options.number("cfl");
-  ground.remap_interval = static_cast<int>(options.integer("cycle"));
+  ground.remap_interval = static_cast<int>(options.integer("remap_interval"));
   return ground;
 }
 

@@ -21,6 +21,7 @@
 
 #include "core/error.h"
 #include "io/replace_file.h"
+#include "io/terrain_fields.h"
 
 namespace furrow {
 
@@ -106,21 +107,18 @@ void write_vtp(const std::string& path, const Grains& grains, const Grains* refe
   write_poly_data(path, data);
 }
 
-void write_vtp(const std::string& path, const TerrainSnapshot& ground) {
+void write_vtp(const std::string& path, const TerrainSnapshot& terrain) {
   vtkNew<vtkPolyData> data;
-  data->SetPoints(points_of(ground.x));
-  data->SetVerts(vertices_of(ground.size()));
+  data->SetPoints(points_of(terrain.x));
+  data->SetVerts(vertices_of(terrain.size()));
   data->GetPointData()->AddArray(
-      array_of("displacement", Matrix3X(ground.x - ground.initial_position)));
-  data->GetPointData()->AddArray(array_of("velocity", ground.v));
-  for (const auto& [name, values] :
-       {std::pair{"id", &ground.id}, std::pair{"layer", &ground.layer},
-        std::pair{"volume", &ground.volume}, std::pair{"density", &ground.density},
-        std::pair{"pressure", &ground.pressure}, std::pair{"mises", &ground.mises},
-        std::pair{"vertical_stress", &ground.vertical_stress},
-        std::pair{"compaction", &ground.compaction}})
-    data->GetPointData()->AddArray(
-        array_of(name, Eigen::Map<const VectorX>(values->data(), Eigen::Index(values->size()))));
+      array_of("displacement", Matrix3X(terrain.x - terrain.initial_position)));
+  data->GetPointData()->AddArray(array_of("velocity", terrain.v));
+  for (const auto& field : scalar_terrain_fields) {
+    const std::vector<double>& values = terrain.*field.values;
+    data->GetPointData()->AddArray(array_of(
+        field.name, Eigen::Map<const VectorX>(values.data(), Eigen::Index(values.size()))));
+  }
   write_poly_data(path, data);
 }
 
@@ -187,9 +185,9 @@ void VtkSeries::add(double time, const Grains& grains, const Grains* reference) 
   list(time, file);
 }
 
-void VtkSeries::add(double time, const TerrainSnapshot& ground) {
+void VtkSeries::add(double time, const TerrainSnapshot& terrain) {
   const std::string file = next_file(time);
-  write_vtp((fs::path(folder_) / file).string(), ground);
+  write_vtp((fs::path(folder_) / file).string(), terrain);
   list(time, file);
 }
 

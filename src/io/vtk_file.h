@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Surfaces, grains and continuum ground for ParaView: .vtp frames and the .pvd collection that
+/// Surfaces, grains and continuum terrain for ParaView: .vtp frames and the .pvd collection that
 /// orders them in time.
 
 #include <string>
@@ -8,26 +8,28 @@
 
 #include "geometry/surface.h"
 #include "io/grains.h"
-#include "mpm/terrain_snapshot.h"
 
 namespace furrow {
+
+struct TerrainSnapshot;
 
 /// Triangles with point data velocity [m/s] and force [N]. Written beside and renamed: never half a
 /// file. @throws Error
 void write_vtp(const std::string& path, const Surface& surface);
-/// One vertex a grain with point data id, radius [m], velocity [m/s] and, with a reference,
+/// One vertex for each grain, with point data id, radius [m], velocity [m/s] and, with a reference,
 /// displacement [m]. @throws Error
 void write_vtp(const std::string& path, const Grains& grains, const Grains* reference = nullptr);
-/// One vertex a particle with the fields of TerrainSnapshot and its displacement [m] from its home.
-/// @throws Error
-void write_vtp(const std::string& path, const TerrainSnapshot& ground);
+/// One vertex for each particle, with the fields of terrain_fields.h and its displacement [m] since
+/// the start. @throws Error
+void write_vtp(const std::string& path, const TerrainSnapshot& terrain);
 
 /// A series of frames: <folder>/<name>_000000.vtp, ... and <folder>/<name>.pvd, which lists only
 /// complete frames and is itself replaced in one step, so that a run that is killed leaves a valid
 /// series.
 class VtkSeries {
  public:
-  /// Starts a series; the folder is made if need be, an older series of that name is replaced.
+  /// Starts a series; the folder is made if it is missing, an older series of that name is
+  /// replaced.
   /// @throws Error
   static VtkSeries create(const std::string& folder, const std::string& name);
   /// Continues after a restart: frames later than time are dropped from the list and written anew.
@@ -37,7 +39,7 @@ class VtkSeries {
   /// @throws Error when time is not later than the last frame's, or a file cannot be written
   void add(double time, const Surface& surface);
   void add(double time, const Grains& grains, const Grains* reference = nullptr);
-  void add(double time, const TerrainSnapshot& ground);
+  void add(double time, const TerrainSnapshot& terrain);
 
   std::size_t size() const { return frames_.size(); }
   std::string pvd() const;            ///< path of the collection

@@ -149,16 +149,16 @@ void WheelRig::read_drive(const Options& options) {
   }
 }
 
-WheelRig::Stage WheelRig::stage(double time) const {
-  return time < speed_ramp_.start   ? Stage::settle
-         : time < speed_ramp_.end() ? Stage::accelerate
-                                    : Stage::cruise;
+RigStage WheelRig::stage(double time) const {
+  return time < speed_ramp_.start   ? RigStage::settle
+         : time < speed_ramp_.end() ? RigStage::accelerate
+                                    : RigStage::cruise;
 }
 
 void WheelRig::apply(double time, double dt) {
   drive_vertical(time, dt);
   // by the middle of the step: safe against rounding of its ends
-  if (stage(time + 0.5 * dt) == Stage::settle) {
+  if (stage(time + 0.5 * dt) == RigStage::settle) {
     wheel_.hold(Coordinate::x);
     wheel_.hold(Coordinate::spin);
   } else {
@@ -195,78 +195,89 @@ void WheelRig::drive_spin(double time, double dt) {
   }
 }
 
-std::vector<Channel> WheelRig::channels() {
-  return {
-      {"time", "s", "time since the start of the run"},
-      {"phase", "", "0 settle, 1 accelerate, 2 cruise"},
-      {"x", "m", "axle centre, along the travel"},
-      {"y", "m", "axle centre, lateral"},
-      {"z", "m", "axle centre, upwards"},
-      {"velocity_x", "m/s", "of the axle centre, half a step before time"},
-      {"velocity_y", "m/s", "of the axle centre, half a step before time"},
-      {"velocity_z", "m/s", "of the axle centre, half a step before time"},
-      {"spin_angle", "rad", "turn about the axle since the start, > 0 rolling forward"},
-      {"spin_rate", "rad/s", "rate of spin_angle, half a step before time"},
+/// What a row is computed from.
+struct WheelRig::Reading {
+  const WheelRig& rig;
+  const WheelHub& wheel;
+  double time;              // [s]
+  WheelHub::Wrench ground;  // of the ground on the wheel, moment about the axle centre
+  EnergyBudget budget;      // of the wheel
+  double rim_speed;         // [m/s]
+  double speed_in_plane;    // [m/s] of the axle in the wheel plane
+};
+
+const Outputs<const WheelRig::Reading>& WheelRig::outputs() {
+  using R = const Reading;
+  static const Outputs<R> list = {
+      {"time", "s", "time since the start of the run", [](R& r) { return r.time; }},
+      {stage_channel, "", "0 settle, 1 accelerate, 2 cruise",
+       [](R& r) { return static_cast<double>(r.rig.stage(r.time)); }},
+      {"x", "m", "axle centre, along the travel", [](R& r) { return r.wheel.centre().x(); }},
+      {"y", "m", "axle centre, lateral", [](R& r) { return r.wheel.centre().y(); }},
+      {"z", "m", "axle centre, upwards", [](R& r) { return r.wheel.centre().z(); }},
+      {"velocity_x", "m/s", "of the axle centre, half a step before time",
+       [](R& r) { return r.wheel.velocity().x(); }},
+      {"velocity_y", "m/s", "of the axle centre, half a step before time",
+       [](R& r) { return r.wheel.velocity().y(); }},
+      {"velocity_z", "m/s", "of the axle centre, half a step before time",
+       [](R& r) { return r.wheel.velocity().z(); }},
+      {"spin_angle", "rad", "turn about the axle since the start, > 0 rolling forward",
+       [](R& r) { return r.wheel.position(Coordinate::spin); }},
+      {"spin_rate", "rad/s", "rate of spin_angle, half a step before time",
+       [](R& r) { return r.wheel.rate(Coordinate::spin); }},
       {"slip", "",
        slip_formula(SlipDefinition::larger_speed) +
            ", v_rim = spin_rate x radius without grousers, v = speed of the axle in the "
-           "wheel plane; 0 at standstill"},
-      {"sinkage", "m", "ground level minus lowest point of the wheel without grousers"},
-      {"force_x", "N", "force of the ground on the wheel"},
-      {"force_y", "N", "force of the ground on the wheel"},
-      {"force_z", "N", "force of the ground on the wheel"},
-      {"moment_x", "N m", "moment of the ground on the wheel about the axle centre"},
-      {"moment_y", "N m", "moment of the ground on the wheel about the axle centre"},
-      {"moment_z", "N m", "moment of the ground on the wheel about the axle centre"},
+           "wheel plane; 0 at standstill",
+       [](R& r) {
+         const bool at_rest =
+             std::abs(r.rim_speed) < standstill && std::abs(r.speed_in_plane) < standstill;
+         return at_rest ? 0.0
+                        : furrow::slip(SlipDefinition::larger_speed, r.rim_speed, r.speed_in_plane);
+       }},
+      {"sinkage", "m", "ground level minus lowest point of the wheel without grousers",
+       [](R& r) { return r.rig.ground_level_ - r.wheel.lowest_point(); }},
+      {"force_x", "N", "force of the ground on the wheel", [](R& r) { return r.ground.force.x(); }},
+      {"force_y", "N", "force of the ground on the wheel", [](R& r) { return r.ground.force.y(); }},
+      {"force_z", "N", "force of the ground on the wheel", [](R& r) { return r.ground.force.z(); }},
+      {"moment_x", "N m", "moment of the ground on the wheel about the axle centre",
+       [](R& r) { return r.ground.moment.x(); }},
+      {"moment_y", "N m", "moment of the ground on the wheel about the axle centre",
+       [](R& r) { return r.ground.moment.y(); }},
+      {"moment_z", "N m", "moment of the ground on the wheel about the axle centre",
+       [](R& r) { return r.ground.moment.z(); }},
       {"drive_torque", "N m",
-       "torque of the axle on the wheel, mean of the last step, > 0 drives forward"},
+       "torque of the axle on the wheel, mean of the last step, > 0 drives forward",
+       [](R& r) { return r.wheel.constraint(Coordinate::spin); }},
       {"drawbar_pull", "N",
-       "force of the axle on the vehicle along x, mean of the last step, > 0 pulls it forward"},
-      {"load", "N", "downward force on the wheel, its weight included, mean of the last step"},
-      {"kinetic_energy", "J", "of the wheel"},
-      {"contact_work", "J", "of the ground on the wheel, since the start"},
-      {"load_work", "J", "of the load on the wheel, weight included, since the start"},
-      {"drive_work", "J", "of the axle on the wheel by speed, torque and guides, since the start"},
-      {"damping_loss", "J", "taken out by the rig's vertical damping, since the start"},
+       "force of the axle on the vehicle along x, mean of the last step, > 0 pulls it forward",
+       [](R& r) { return -r.wheel.constraint(Coordinate::x); }},
+      {"load", "N", "downward force on the wheel, its weight included, mean of the last step",
+       [](R& r) { return -r.wheel.load().z() - r.wheel.constraint(Coordinate::z); }},
+      {"kinetic_energy", "J", "of the wheel", [](R& r) { return r.budget.kinetic_energy; }},
+      {"contact_work", "J", "of the ground on the wheel, since the start",
+       [](R& r) { return r.budget.contact_work; }},
+      {"load_work", "J", "of the load on the wheel, weight included, since the start",
+       [](R& r) { return r.budget.load_work; }},
+      {"drive_work", "J", "of the axle on the wheel by speed, torque and guides, since the start",
+       [](R& r) { return r.budget.drive_work; }},
+      {"damping_loss", "J", "taken out by the rig's vertical damping, since the start",
+       [](R& r) { return r.budget.dissipated_energy; }},
   };
+  return list;
 }
 
+std::vector<Channel> WheelRig::channels() { return outputs().channels(); }
+
 std::vector<double> WheelRig::measure(double time) const {
-  const Vector3 &centre = wheel_.centre(), &velocity = wheel_.velocity();
-  const auto [force, moment] = wheel_.ground_wrench();
-  const EnergyBudget budget = wheel_.energy_budget();
-
-  const double yaw = wheel_.position(Coordinate::yaw), spin_rate = wheel_.rate(Coordinate::spin);
-  const double rim = spin_rate * wheel_.nominal_radius();
-  const double along = velocity.x() * std::cos(yaw) + velocity.y() * std::sin(yaw);
-  const bool at_rest = std::abs(rim) < standstill && std::abs(along) < standstill;
-
-  return {time,
-          static_cast<double>(stage(time)),
-          centre.x(),
-          centre.y(),
-          centre.z(),
-          velocity.x(),
-          velocity.y(),
-          velocity.z(),
-          wheel_.position(Coordinate::spin),
-          spin_rate,
-          at_rest ? 0.0 : slip(SlipDefinition::larger_speed, rim, along),
-          ground_level_ - wheel_.lowest_point(),
-          force.x(),
-          force.y(),
-          force.z(),
-          moment.x(),
-          moment.y(),
-          moment.z(),
-          wheel_.constraint(Coordinate::spin),
-          -wheel_.constraint(Coordinate::x),
-          -wheel_.load().z() - wheel_.constraint(Coordinate::z),
-          budget.kinetic_energy,
-          budget.contact_work,
-          budget.load_work,
-          budget.drive_work,
-          budget.dissipated_energy};
+  const Vector3& velocity = wheel_.velocity();
+  const double yaw = wheel_.position(Coordinate::yaw);
+  const double rim_speed = wheel_.rate(Coordinate::spin) * wheel_.nominal_radius();
+  const double speed_in_plane = velocity.x() * std::cos(yaw) + velocity.y() * std::sin(yaw);
+  const Reading reading{
+      *this,     wheel_,        time, wheel_.ground_wrench(), wheel_.energy_budget(),
+      rim_speed, speed_in_plane};
+  return outputs().values(reading);
 }
 
 }  // namespace furrow

@@ -7,20 +7,20 @@
 
 #include "bodies/wheel_hub.h"
 #include "core/options.h"
-#include "statistics/history.h"
+#include "core/outputs.h"
+#include "statistics/rig_stage.h"
 #include "rig/ramp.h"
 #include "rig/slip.h"
 
 namespace furrow {
 
-/// Phases, one after the other:
+/// Stages, one after the other:
 ///   settle      x, y and spin held, the load grows smoothly from 0 over load_ramp_time (or the
-///   wheel is lowered to its sinkage);
-///               the spin is held so that every run starts to roll from the same, unturned wheel;
+///               wheel is lowered to its sinkage); the spin is held so that every run starts to
+///               roll from the same, unturned wheel;
 ///   accelerate  x follows speed x ramp; the spin is free (towed), follows the rim speed of the
-///   slip times the same ramp, so that
-///               the slip has its value from the first step (slip), or is driven by torque x ramp
-///               (torque);
+///               slip times the same ramp, so that the slip has its value from the first step
+///               (slip), or is driven by torque x ramp (torque);
 ///   cruise      everything constant.
 /// y, yaw and camber are held throughout. Before `start` the wheel is held where it is. Travel is
 /// along +x.
@@ -29,10 +29,9 @@ namespace furrow {
 /// whatever the wheel's own mass times gravity lacks or exceeds is a constant force that the rig
 /// adds at the axle, without inertia.
 ///
-/// All phases are functions of time alone: a rig restarts by being made again from the same input.
+/// All stages are functions of time alone: a rig restarts by being made again from the same input.
 class WheelRig {
  public:
-  enum class Stage { settle = 0, accelerate = 1, cruise = 2 };
   enum class Mode { towed, slip, torque };
 
   /// The keys of the rig. @param subject names the owner in errors
@@ -46,13 +45,13 @@ class WheelRig {
   /// Sets loads and motions of the wheel for the step [time, time + dt]; call it before every step.
   void apply(double time, double dt);
 
-  /// What measure() returns, in its order.
+  /// What measure() returns, in its order; the first is the time.
   static std::vector<Channel> channels();
   /// One row: state of the wheel and the forces now on its surface; call it when the forces of the
   /// step are known.
   std::vector<double> measure(double time) const;
 
-  Stage stage(double time) const;
+  RigStage stage(double time) const;
   Mode mode() const { return mode_; }
   /// [N] full; 0 when the sinkage is prescribed
   double load() const { return load_; }
@@ -61,6 +60,8 @@ class WheelRig {
   double cruise_start() const { return speed_ramp_.end(); }  ///< [s]
 
  private:
+  struct Reading;
+  static const Outputs<const Reading>& outputs();
   void read_vertical(const Options& options);
   void read_drive(const Options& options);
   void drive_vertical(double time, double dt);

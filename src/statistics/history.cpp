@@ -41,6 +41,15 @@ std::vector<double> History::column(const std::string& name) const {
   return values;
 }
 
+History History::renamed(std::vector<Channel> channels) const {
+  if (channels.size() != channels_.size())
+    throw Error(fmt::format("{} channels cannot be the names of {} columns", channels.size(),
+                            channels_.size()));
+  History history(std::move(channels));
+  history.values_ = values_;
+  return history;
+}
+
 void History::truncate_after(double time) {
   std::size_t rows = size();
   while (rows > 0 && values_[(rows - 1) * channels_.size()] > time) --rows;

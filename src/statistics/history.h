@@ -6,16 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "core/outputs.h"
+
 namespace furrow {
 
-/// One recorded quantity.
-struct Channel {
-  std::string name;     ///< "sinkage"
-  std::string unit;     ///< "m"
-  std::string meaning;  ///< "bed level minus lowest point of the wheel without grousers"
-};
-
-/// Rows of equal length, one column a channel; the first channel is the time [s].
+/// Rows of equal length, one column for each channel; the first channel is the time [s].
 class History {
  public:
   History() = default;
@@ -30,6 +25,8 @@ class History {
   std::vector<double> column(const std::string& name) const;
   /// @throws Error for an unknown channel
   std::size_t index(const std::string& name) const;
+  /// The same rows under other channels. @throws Error when their number differs
+  History renamed(std::vector<Channel> channels) const;
   /// Drops every row later than time (a restart continues from there).
   void truncate_after(double time);
 

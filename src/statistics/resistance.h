@@ -35,7 +35,7 @@ struct Resistance {
 std::vector<double> linearised_ratio(const std::vector<double>& a, const std::vector<double>& b);
 
 /// Needs the channels time, x, sinkage, force_x, force_z, drawbar_pull, drive_torque, slip
-/// (rig/wheel_rig.h) in equally spaced rows; phase if there is one. resistance_coefficient =
+/// (rig/wheel_rig.h) in equally spaced rows; stage if there is one. resistance_coefficient =
 /// -force_x/force_z and drawbar_coefficient = drawbar_pull/force_z, ratios of means. In a steady
 /// run drawbar pull and force_x agree; the first is what a load cell between vehicle and wheel
 /// sees, inertia included. Negligible drifts are measured against the value itself, and at least

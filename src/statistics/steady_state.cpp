@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "statistics/rig_stage.h"
 
 namespace furrow {
 
@@ -97,19 +98,20 @@ double half_difference(const std::vector<double>& values) {
          std::accumulate(values.begin(), middle, 0.0) / early;
 }
 
+/// 0 for a history without stages.
 std::size_t first_row_of_cruise(const History& history) {
-  const auto& channels = history.channels();
+  const std::vector<Channel>& channels = history.channels();
   if (std::none_of(channels.begin(), channels.end(),
-                   [](const Channel& channel) { return channel.name == "phase"; }))
+                   [](const Channel& channel) { return channel.name == stage_channel; }))
     return 0;
-  const std::vector<double> phase = history.column("phase");
-  const auto first =
-      std::find_if(phase.begin(), phase.end(), [](double value) { return value >= 2.0; });
-  if (first == phase.end())
+  const std::vector<double> stages = history.column(stage_channel);
+  const auto cruise = static_cast<double>(RigStage::cruise);
+  const auto first = std::find(stages.begin(), stages.end(), cruise);
+  if (first == stages.end())
     throw Error(
         "the history ends before the cruise begins: run longer, or shorten settle_time and "
         "accelerate_time");
-  return static_cast<std::size_t>(first - phase.begin());
+  return static_cast<std::size_t>(first - stages.begin());
 }
 
 /// Rows whose value lies in [from, to] of a growing column.

@@ -1,129 +1,188 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The pages beside the code say what the code declares: every keyword of a style has its row, with
-// unit and default, and no row describes a keyword that is gone.
+// The page of every style says what the code declares: each keyword has its row, with unit and
+// default; each output has its row, with name, unit and meaning; no row describes what is gone.
 
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
-#include "coupling/contact/fix_contact_plane.h"
-#include "coupling/contact/fix_contact_continuum.h"
-#include "coupling/terrain/fix_bed_window.h"
-#include "coupling/laboratory/fix_cell_servo.h"
-#include "coupling/laboratory/fix_layer_shear.h"
-#include "coupling/bodies/fix_mesh_body.h"
-#include "coupling/bodies/fix_plate_rigid.h"
-#include "coupling/output/fix_progress.h"
-#include "coupling/terrain/fix_terrain_continuum.h"
-#include "coupling/output/fix_terrain_history.h"
-#include "coupling/bodies/fix_tyre_darnell.h"
-#include "coupling/output/fix_wheel_history.h"
-#include "coupling/drive/fix_wheel_rig.h"
-#include "coupling/bodies/fix_wheel_rigid.h"
+#include "coupling/styles.h"
 
 namespace furrow::test {
 namespace {
 
-struct Row {
-  std::string unit, default_value, meaning;
-};
+using namespace coupling;
+using Row = std::vector<std::string>;
 
 std::string trimmed(const std::string& text, const std::string& blank = " ") {
-  const std::size_t first = text.find_first_not_of(blank), last = text.find_last_not_of(blank);
+  const std::size_t first = text.find_first_not_of(blank);
+  const std::size_t last = text.find_last_not_of(blank);
   return first == std::string::npos ? "" : text.substr(first, last - first + 1);
 }
 
 /// Cells of "| a | b |"; an escaped bar is text.
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> result(1);
+Row cells(const std::string& line) {
+  Row result(1);
   for (std::size_t i = 1; i < line.size(); ++i) {
-    if (line[i] == '|' && line[i - 1] != '\\') {
+    if (line[i] == '|' && line[i - 1] == '\\') {
+      result.back().back() = '|';
+    } else if (line[i] == '|') {
       result.emplace_back();
     } else {
       result.back() += line[i];
     }
   }
+  if (trimmed(result.back()).empty()) result.pop_back();  // behind the last bar
   for (std::string& cell : result) cell = trimmed(cell);
   return result;
 }
 
-/// A page of coupling/, in whichever folder it lies.
-std::string path_of(const std::string& page) {
-  for (const auto& entry :
-       std::filesystem::recursive_directory_iterator(FURROW_SOURCE_DIR "/coupling"))
-    if (entry.path().filename() == page) return entry.path().string();
-  return page;
+std::string line(const Row& row) {
+  std::string text = "|";
+  for (const std::string& cell : row) {
+    text += cell.empty() ? "" : " ";
+    for (const char c : cell) text += c == '|' ? "\\|" : std::string(1, c);
+    text += " |";
+  }
+  return text + "\n";
 }
 
-/// The table that begins with "| keyword |".
-std::map<std::string, Row> keyword_table(const std::string& page) {
-  std::ifstream file(path_of(page));
-  EXPECT_TRUE(file.is_open()) << page;
-  std::map<std::string, Row> rows;
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string folder() { return FURROW_SOURCE_DIR "/coupling/"; }
+
+/// The rows of the first table whose head is this, without head and rule.
+std::vector<Row> table(const std::string& page, const Row& head) {
+  std::ifstream file(folder() + page);
+  EXPECT_TRUE(file.is_open()) << page << " is missing";
+  std::vector<Row> rows;
   std::string line;
-  while (std::getline(file, line) && line.rfind("| keyword |", 0) != 0) {
+  while (std::getline(file, line) && (line.empty() || line[0] != '|' || cells(line) != head)) {
   }
   std::getline(file, line);  // the rule below the head
-  while (std::getline(file, line) && !line.empty() && line[0] == '|') {
-    const std::vector<std::string> row = cells(line);
-    EXPECT_GE(row.size(), 4u) << page << ": " << line;
-    if (row.size() >= 4) rows[trimmed(row[0], "`")] = {row[1], trimmed(row[2], "`"), row[3]};
-  }
+  while (std::getline(file, line) && !line.empty() && line[0] == '|') rows.push_back(cells(line));
   return rows;
 }
 
-void expect_page_of(const std::string& page, const Schema& schema) {
-  std::map<std::string, Row> rows = keyword_table(page);
+void expect_keywords(const Style& style) {
+  std::map<std::string, Row> rows;
+  for (const Row& row : table(style.page, {"keyword", "unit", "default", "meaning"})) {
+    ASSERT_EQ(row.size(), 4u) << style.page << ": " << fmt::format("{}", fmt::join(row, " | "));
+    rows[trimmed(row[0], "`")] = row;
+  }
+  const Schema schema = style.schema();
   for (const Key& key : schema.keys()) {
-    ASSERT_TRUE(rows.count(key.name)) << page << " has no row for " << key.name;
+    EXPECT_TRUE(rows.count(key.name)) << style.page << " has no row for " << key.name;
+    if (!rows.count(key.name)) continue;
     const Row& row = rows[key.name];
-    EXPECT_EQ(row.unit, key.unit) << page << ", " << key.name;
-    EXPECT_EQ(row.default_value, fmt::format("{}", fmt::join(key.default_values, " ")))
-        << page << ", " << key.name;
-    EXPECT_FALSE(row.meaning.empty()) << page << ", " << key.name;
+    EXPECT_EQ(row[1], key.unit) << style.page << ", " << key.name;
+    EXPECT_EQ(trimmed(row[2], "`"), fmt::format("{}", fmt::join(key.default_values, " ")))
+        << style.page << ", " << key.name;
+    EXPECT_FALSE(row[3].empty()) << style.page << ", " << key.name;
     for (const std::string& word : key.choices)
-      EXPECT_NE(row.meaning.find('`' + word + '`'), std::string::npos) << page << ", " << word;
+      EXPECT_NE(row[3].find('`' + word + '`'), std::string::npos) << style.page << ", " << word;
     rows.erase(key.name);
   }
   for (const auto& [name, row] : rows)
-    ADD_FAILURE() << page << " describes " << name << ", which " << schema.subject()
+    ADD_FAILURE() << style.page << " describes " << name << ", which " << schema.subject()
                   << " does not have";
 }
 
-using namespace coupling;
+/// Entries of a vector have a number beside their name; channels and variables their name alone.
+void expect_outputs(const Style& style) {
+  const OutputTable outputs = style.outputs();
+  std::vector<Row> declared;
+  for (const Channel& row : outputs.rows) {
+    declared.push_back({'`' + row.name + '`', row.unit, row.meaning});
+    if (outputs.what == "entry")
+      declared.back().insert(declared.back().begin(), fmt::format("`f_ID[{}]`", declared.size()));
+  }
+  const std::map<std::string, Row> heads = {{"entry", {"entry", "name", "unit", "meaning"}},
+                                            {"channel", {"channel", "unit", "meaning"}},
+                                            {"variable", {"variable", "unit", "meaning"}}};
+  for (const auto& [what, head] : heads) {
+    std::vector<Row> expected;
+    if (what == outputs.what) expected = declared;
+    std::string text = line(head) + line(Row(head.size(), "---"));
+    for (const Row& row : expected) text += line(row);
+    EXPECT_EQ(table(style.page, head), expected) << style.page << ": the table must be\n" << text;
+  }
+}
 
-TEST(Pages, WheelRigid) { expect_page_of("fix_wheel_rigid.md", FixWheelRigid::schema()); }
-TEST(Pages, TyreDarnell) { expect_page_of("fix_tyre_darnell.md", FixTyreDarnell::schema()); }
-TEST(Pages, ContactPlane) { expect_page_of("fix_contact_plane.md", FixContactPlane::schema()); }
-TEST(Pages, WheelRig) { expect_page_of("fix_wheel_rig.md", FixWheelRig::schema()); }
-TEST(Pages, WheelHistory) { expect_page_of("fix_wheel_history.md", FixWheelHistory::schema()); }
-TEST(Pages, PlateRigid) { expect_page_of("fix_plate_rigid.md", FixPlateRigid::schema()); }
-TEST(Pages, MeshBody) { expect_page_of("fix_mesh_body.md", FixMeshBody::schema()); }
-TEST(Pages, TerrainContinuum) {
-  expect_page_of("fix_terrain_continuum.md", FixTerrainContinuum::schema());
+TEST(Pages, EveryStyleHasAPageThatSaysWhatTheCodeDeclares) {
+  for (const Style& style : styles()) {
+    if (style.kind == Kind::internal) continue;
+    ASSERT_FALSE(style.page.empty()) << style.name << " has no page";
+    expect_keywords(style);
+    expect_outputs(style);
+  }
 }
-TEST(Pages, TerrainHistory) {
-  expect_page_of("fix_terrain_history.md", FixTerrainHistory::schema());
-}
-TEST(Pages, ContactBodies) {
-  expect_page_of("fix_contact_continuum.md", FixContactBodies::schema());
-}
-TEST(Pages, CellServo) { expect_page_of("fix_cell_servo.md", FixCellServo::schema()); }
-TEST(Pages, LayerShear) { expect_page_of("fix_layer_shear.md", FixLayerShear::schema()); }
-TEST(Pages, BedWindow) { expect_page_of("fix_bed_window.md", FixBedWindow::schema()); }
-TEST(Pages, Progress) { expect_page_of("fix_progress.md", FixProgress::schema()); }
 
-TEST(Pages, HistoryNamesEveryChannel) {
-  std::ifstream file(path_of("fix_wheel_history.md"));
-  std::stringstream text;
-  text << file.rdbuf();
-  for (const Channel& channel : WheelRig::channels())
-    EXPECT_NE(text.str().find(channel.name), std::string::npos) << "no channel " << channel.name;
+TEST(Pages, EveryPageIsThatOfAStyle) {
+  std::set<std::string> pages;
+  for (const Style& style : styles()) pages.insert(folder() + style.page);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder())) {
+    const std::string path = entry.path();
+    if (entry.path().extension() != ".md") continue;
+    EXPECT_TRUE(pages.count(path)) << path;
+  }
+}
+
+TEST(Pages, LinksLeadToFiles) {
+  const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
+  int links = 0;
+  for (const Style& style : styles()) {
+    if (style.page.empty()) continue;
+    const std::filesystem::path page = folder() + style.page;
+    const std::string content = text_of(page);
+    for (std::sregex_iterator found(content.begin(), content.end(), link), end; found != end;
+         ++found, ++links)
+      EXPECT_TRUE(std::filesystem::exists(page.parent_path() / (*found)[1].str()))
+          << style.page << " links to " << (*found)[1];
+  }
+  EXPECT_GT(links, 0);
+}
+
+TEST(Styles, NamesAreUnambiguousAndDeclarationsComplete) {
+  std::set<std::string> names;
+  for (const Style& style : styles()) {
+    EXPECT_TRUE(names.insert(style.name).second) << style.name;
+    for (const std::string& former : style.former_names)
+      EXPECT_TRUE(names.insert(former).second) << former;
+    EXPECT_NE(style.create_fix == nullptr, style.run_command == nullptr) << style.name;
+    EXPECT_EQ(find_style(style.name), &style);
+    std::set<std::string> keys, outputs;
+    const Schema schema = style.schema();
+    const OutputTable table = style.outputs();
+    for (const Key& key : schema.keys()) {
+      EXPECT_TRUE(keys.insert(key.name).second) << style.name << ", " << key.name;
+      EXPECT_FALSE(key.meaning.empty()) << style.name << ", " << key.name;
+    }
+    for (const Channel& row : table.rows) {
+      EXPECT_TRUE(outputs.insert(row.name).second) << style.name << ", " << row.name;
+      EXPECT_FALSE(row.meaning.empty()) << style.name << ", " << row.name;
+    }
+  }
+}
+
+TEST(Styles, ErrorsNameTheStylesOfAKind) {
+  EXPECT_EQ(style_names({Kind::rig}), "wheel/rig");
+  EXPECT_EQ(style_names({Kind::wheel}), "wheel/rigid or tyre/darnell");
+  EXPECT_EQ(style_names({Kind::wheel, Kind::body}), "wheel/rigid, tyre/darnell or plate/rigid");
+  EXPECT_EQ(find_style("contact/bodies"), find_style("contact/continuum"));
+  EXPECT_EQ(find_style("nve/sphere"), nullptr);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ def evaluate(folder):
     done = finished(folder)
     if done is None:
         return None
-    row = dict(run=folder.name, user_s=done["cost"]["user_s"], error=done["error"], cycle=done.get("cycle", done["job"]["variables"]["cycle"]))
+    row = dict(run=folder.name, user_s=done["cost"]["user_s"], error=done["error"], cycle=done.get("remap_interval", done["job"]["variables"]["remap_interval"]))
     if done["error"]:
         return row
     wheel, ground, contact = columns(folder / "history.h5"), columns(folder / "ground.h5"), np.loadtxt(folder / "contact.txt")

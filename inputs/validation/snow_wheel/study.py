@@ -10,7 +10,7 @@ WIDTH = 0.272      # m
 CELLS = 5          # in 0.20 m: cells of 4 cm
 # Numerical choices; the stage 'error' changes one at a time. Damping of the rig: the wheel comes to rest in height after 0.6 m.
 BASE = dict(wheel_width=WIDTH, shoulder=0.051, mass=LOAD_MASS, speed=2.235, settle=0.25, accelerate=0.15, distance=1.2, damping=10000,
-            width=0.7, fine_width=0.4, particles=2, friction=0.3, enforcement="penalty", cycle=16)
+            width=0.7, fine_width=0.4, particles=2, friction=0.3, enforcement="penalty", remap_interval=16)
 WINDOW = 0.5       # m of travel at the end that is averaged
 DEEP_DISTANCE = 2.4  # m of rolling on more than 0.3 m of snow
 
@@ -52,10 +52,10 @@ def material_text(sections, title):
 # ---- runs -----------------------------------------------------------------------------------------------------------------------------
 
 
-def job(material, depth, mode="towed", diameter=0.76, cells=None, soften=1.0, stiffness=0.4, length=1.2, sections=None, **changes):
+def job(material, depth, mode="towed", diameter=0.76, cells=None, modulus_scale=1.0, stiffness=0.4, length=1.2, sections=None, **changes):
     """Cells of about 4 cm that divide the depth."""
     cell = depth / (cells or round(depth * CELLS / 0.20))
-    values = dict(BASE, depth=depth, diameter=diameter, cell=round(cell, 6), fine_depth=depth, headroom=0.4, soften=soften,
+    values = dict(BASE, depth=depth, diameter=diameter, cell=round(cell, 6), fine_depth=depth, clearance_above=0.4, modulus_scale=modulus_scale,
                   stiffness=stiffness, length=length, mode="slip slip 0" if mode == "zero_slip" else mode)
     values.update(changes)
     return dict(variables=values, material=material, sections=sections)
@@ -63,13 +63,13 @@ def job(material, depth, mode="towed", diameter=0.76, cells=None, soften=1.0, st
 
 def preset(name, depth=0.20, mode="towed", **changes):
     """TR's wheel on snow of a file of inputs/materials. The modulus is softened (README: what that does)."""
-    return job(name, depth, mode, diameter=0.74, **{"soften": 0.25, **changes})
+    return job(name, depth, mode, diameter=0.74, **{"modulus_scale": 0.25, **changes})
 
 
 def on_law(density, depth, mode, law, **changes):
     """Table 11's wheel. A modulus like TR's is softened; springs of the contact follow the modulus, so that a soft one needs stiffer springs."""
     E = law["E"]
-    values = dict(soften=min(1.0, 0.25 * 13.79e6 / E), stiffness=max(0.4, min(4.0, 1e6 / E)))
+    values = dict(modulus_scale=min(1.0, 0.25 * 13.79e6 / E), stiffness=max(0.4, min(4.0, 1e6 / E)))
     return job(None, depth, mode, sections=power_law(density, **law), **{**values, **changes})
 
 
@@ -83,12 +83,12 @@ def prediction():
     for variant in ("log", "p_0413", "abele_gow", "exponential", "beta_41", "d_30"):
         runs[f"{variant}_towed"] = preset(f"fresh_snow_{variant}")
     runs["log_zero_slip"] = preset("fresh_snow_log", mode="zero_slip")
-    runs["smooth_wheel"] = preset("fresh_snow", friction=0.0, headroom=1.0)  # does not turn: it pushes snow up before it
-    deep = dict(depth=0.50, width=0.9, distance=DEEP_DISTANCE, headroom=1.0)
+    runs["smooth_wheel"] = preset("fresh_snow", friction=0.0, clearance_above=1.0)  # does not turn: it pushes snow up before it
+    deep = dict(depth=0.50, width=0.9, distance=DEEP_DISTANCE, clearance_above=1.0)
     runs["deep_towed"] = preset("fresh_snow", **deep)
     runs["deep_zero_slip"] = preset("fresh_snow", mode="zero_slip", **deep)
     runs["deep_field_towed"] = on_field_snow(220, law="towed", **deep)
-    runs["foam_towed"] = preset("fresh_snow_foam", soften=1.0, cycle=1)  # porous elasticity: no E to soften
+    runs["foam_towed"] = preset("fresh_snow_foam", modulus_scale=1.0, remap_interval=1)  # porous elasticity: no E to scale
     return runs
 
 
@@ -122,8 +122,8 @@ ERRORS = {
     "long": ("ground 1.6 m long", dict(length=1.6)),
     "rolls_further": ("2.0 m of rolling", dict(distance=2.0)),
     "impulse": ("contact by impulses", dict(enforcement="impulse")),
-    "cycle_1": ("mapping at each step", dict(cycle=1)),
-    "soft": ("modulus halved", dict(soften=0.5)),
+    "cycle_1": ("mapping at each step", dict(remap_interval=1)),
+    "soft": ("modulus halved", dict(modulus_scale=0.5)),
     "slow": ("5 km/h, as measured", dict(speed=1.39)),
 }
 SPRINGS = (0.5, 1.5)        # factors on the springs of the contact, the identified law
@@ -145,7 +145,7 @@ def oedometer_errors():
     runs = {"cell_5cm": ("cells of 5 cm", preset("fresh_snow", cells=4)), "cell_3.3cm": ("cells of 3.33 cm", preset("fresh_snow", cells=6)),
             "impulse": ("contact by impulses", preset("fresh_snow", enforcement="impulse"))}
     runs |= {f"soften_{factor:g}": (f"modulus softened by {factor:g}" if factor < 1 else "modulus not softened",
-                                    preset("fresh_snow", soften=factor)) for factor in SOFTEN}
+                                    preset("fresh_snow", modulus_scale=factor)) for factor in SOFTEN}
     runs |= {f"contact_{factor:g}": (f"contact springs {factor:g}", preset("fresh_snow", stiffness=factor)) for factor in CONTACT}
     return runs
 

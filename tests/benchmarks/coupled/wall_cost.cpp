@@ -68,7 +68,7 @@ double load_bed(Scene& scene) {
   scene.command("processors 1 * 1");
   scene.command(
       "bed " FURROW_SOURCE_DIR
-      "/inputs/beds/sand.lig length 0.8 width 0.32 depth 0.12 headroom 0.36 diameter 0.01 "
+      "/inputs/beds/sand.lig length 0.8 width 0.32 depth 0.12 clearance_above 0.36 diameter 0.01 "
       "density 2600 young 2e7 poisson 0.25 restitution 0.3 friction 0.6 rolling 0.15 pour_friction "
       "0.3 step 4e-5 "
       "seed 86028121");

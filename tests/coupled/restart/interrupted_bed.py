@@ -19,7 +19,7 @@ furrow, bed = sys.argv[1:]
 with tempfile.TemporaryDirectory() as name:
     folder = Path(name)
     (folder / "bed.lig").write_text(
-        f"processors 1 * 1\nbed {bed} length 0.4 width 0.2 depth 0.1 headroom 0.1 diameter 0.008 density 2600 young 5e6 poisson 0.25 restitution 0.3 "
+        f"processors 1 * 1\nbed {bed} length 0.4 width 0.2 depth 0.1 clearance_above 0.1 diameter 0.008 density 2600 young 5e6 poisson 0.25 restitution 0.3 "
         "friction 0.5 rolling 0.1 pour_friction 0.5 step 5e-5 seed 86028121\nrun 0\n")
     run = subprocess.Popen([furrow, "-in", "bed.lig", "-log", "none"], cwd=folder, env={**os.environ, "FURROW_CACHE": str(folder / "cache")},
                            text=True, stdin=subprocess.DEVNULL, stdout=open(folder / "screen.txt", "w"), stderr=subprocess.STDOUT)

@@ -2,7 +2,6 @@
 #include "tests/coupled/support/scene.h"
 
 #include <cstdio>
-#include <map>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -19,35 +18,41 @@ namespace furrow::test {
 
 namespace {
 
-// LIGGGHTS constructs fixes from words; what a test hands over waits here under the id of the fix.
-std::map<std::string, std::unique_ptr<Body>>& waiting_bodies() {
-  static std::map<std::string, std::unique_ptr<Body>> bodies;
-  return bodies;
+// LIGGGHTS makes fixes from the words of a line: a scene puts its own address there.
+
+constexpr char scene_key[] = "scene";
+
+Schema scene_schema(const std::string& style) {
+  Schema schema("fix " + style);
+  schema.text(scene_key, "address of the scene that the fix belongs to");
+  return schema;
 }
-std::map<std::string, std::function<void()>>& waiting_actions() {
-  static std::map<std::string, std::function<void()>> actions;
-  return actions;
+
+Scene& scene_of(const Options& options) {
+  return *reinterpret_cast<Scene*>(std::stoull(options.text(scene_key), nullptr, 16));
 }
 
 class FixTestBody : public coupling::FixBody {
  public:
   FixTestBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-      : FixBody(lammps, narg, arg, std::move(waiting_bodies().at(arg[0]))) {}
+      : FixBody(lammps, narg, arg, scene_schema("test/body"), [arg](const Options& options) {
+          return scene_of(options).hand_over_body(arg[0]);
+        }) {}
 };
 
 template <int Mask>
-class FixHook : public LAMMPS_NS::Fix {
+class FixHook : public coupling::FurrowFix {
  public:
   FixHook(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-      : Fix(lammps, narg, arg), action_(waiting_actions().at(arg[0])) {
+      : FurrowFix(lammps, narg, arg, scene_schema("test/hook")), scene_(scene_of(options())) {
     nevery = 1;
   }
   int setmask() override { return Mask; }
-  void initial_integrate(int) override { action_(); }
-  void end_of_step() override { action_(); }
+  void initial_integrate(int) override { scene_.run_action(id); }
+  void end_of_step() override { scene_.run_action(id); }
 
  private:
-  std::function<void()> action_;
+  Scene& scene_;
 };
 
 /// A second instance in one process registers every contact model again and says so some 230 times
@@ -117,20 +122,30 @@ void Scene::commands(const std::string& lines) {
 }
 
 void Scene::add_body(const std::string& id, std::unique_ptr<Body> body) {
-  waiting_bodies()[id] = std::move(body);
-  command("fix " + id + " all test/body");
+  waiting_[id] = std::move(body);
+  command(fmt::format("fix {} all test/body {} {}", id, scene_key, fmt::ptr(this)));
+}
+
+std::unique_ptr<Body> Scene::hand_over_body(const std::string& id) {
+  return std::move(waiting_.at(id));
+}
+
+Body& Scene::body(const std::string& id) {
+  return dynamic_cast<coupling::FixBody&>(*lammps_->modify->find_fix_id(id.c_str())).body();
+}
+
+void Scene::add_action(const std::string& style, std::function<void()> action) {
+  const std::string id = fmt::format("hook_{}", actions_.size());
+  actions_[id] = std::move(action);
+  command(fmt::format("fix {} all {} {} {}", id, style, scene_key, fmt::ptr(this)));
 }
 
 void Scene::at_end_of_step(std::function<void()> action) {
-  const std::string id = fmt::format("hook_{}", hooks_++);
-  waiting_actions()[id] = std::move(action);
-  command("fix " + id + " all test/end");
+  add_action("test/end", std::move(action));
 }
 
 void Scene::at_start_of_step(std::function<void()> action) {
-  const std::string id = fmt::format("hook_{}", hooks_++);
-  waiting_actions()[id] = std::move(action);
-  command("fix " + id + " all test/start");
+  add_action("test/start", std::move(action));
 }
 
 int Scene::rank() const {

@@ -4,14 +4,15 @@
 /// likes.
 
 #include <functional>
+#include <limits>
+#include <map>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include <mpi.h>
 
 #include "bodies/body.h"
-#include "coupling/bodies/fix_coupled_system.h"
+#include "coupling/base/fix_coupled_system.h"
 #include "lammps.h"
 
 namespace furrow::test {
@@ -52,6 +53,8 @@ class Scene {
   void commands(const std::string& lines);
   /// Makes a body known as fix <id>.
   void add_body(const std::string& id, std::unique_ptr<Body> body);
+  /// The body of a fix, of add_body() or of the script.
+  Body& body(const std::string& id);
   /// Called at the end of every step.
   void at_end_of_step(std::function<void()> action);
   /// Called at the start of every step, before the bodies advance (place for moving grains by
@@ -59,7 +62,7 @@ class Scene {
   void at_start_of_step(std::function<void()> action);
 
   LAMMPS_NS::LAMMPS& lammps() { return *lammps_; }
-  coupling::FixCoupledSystem& world() { return coupling::FixCoupledSystem::of(*lammps_); }
+  coupling::FixCoupledSystem& system() { return coupling::FixCoupledSystem::of(*lammps_); }
   int rank() const;
   int ranks() const;
   double sum(double value) const;
@@ -75,9 +78,16 @@ class Scene {
   /// Hertz contact properties alike for all types.
   void contact_properties(double young, double poisson, double restitution, double friction);
 
+  // For the fixes of a scene, which find it by its address in their line.
+  std::unique_ptr<Body> hand_over_body(const std::string& id);
+  void run_action(const std::string& id) { actions_.at(id)(); }
+
  private:
+  void add_action(const std::string& style, std::function<void()> action);
+
   LAMMPS_NS::LAMMPS* lammps_;
-  int hooks_ = 0;
+  std::map<std::string, std::unique_ptr<Body>> waiting_;  // until their fix is made
+  std::map<std::string, std::function<void()>> actions_;  // of each fix
 };
 
 }  // namespace furrow::test

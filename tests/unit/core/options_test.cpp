@@ -97,5 +97,66 @@ TEST(Options, EntriesOfAFileTellTheirLine) {
   EXPECT_EQ(options.where("shoulder"), "fix wheel/rigid, keyword 'shoulder'");
 }
 
+Schema renamed_schema() {
+  Schema schema("fix terrain/continuum");
+  schema.integer("remap_interval", Range::closed(1, 64), "most steps between two remaps")
+      .by_default("16");
+  schema.flag("initial_stress", "start with the stress of the own weight").by_default("yes");
+  schema.numbers("centre", 2, "m", Range::any(), "x y of the middle").optional();
+  schema.alias("cycle", "remap_interval");
+  schema.alias("weightless_start", "initial_stress", inverted_flag);
+  schema.alias("middle", "centre");
+  return schema;
+}
+
+TEST(Options, AFormerNameIsTakenOverWithAWarningThatGivesTheNewOne) {
+  const Options options =
+      renamed_schema().read(Words{"cycle", "4", "middle", "1", "2", "weightless_start", "yes"});
+  EXPECT_EQ(options.integer("remap_interval"), 4);
+  EXPECT_EQ(options.numbers("centre"), (std::vector<double>{1, 2}));
+  EXPECT_FALSE(options.flag("initial_stress"));
+  ASSERT_EQ(options.warnings().size(), 3u);
+  EXPECT_EQ(options.warnings()[0],
+            "fix terrain/continuum: keyword 'cycle' is now called 'remap_interval'; write "
+            "'remap_interval 4'");
+  EXPECT_THAT(options.warnings()[1], HasSubstr("write 'centre 1 2'"));
+  EXPECT_THAT(options.warnings()[2],
+              HasSubstr("'weightless_start' is now called 'initial_stress'; write "
+                        "'initial_stress no'"));
+  EXPECT_TRUE(renamed_schema().read(Words{"weightless_start", "no"}).flag("initial_stress"));
+  // What took effect is told in the new words.
+  EXPECT_EQ(options.effective()[0].key, "remap_interval");
+}
+
+TEST(Options, TheNewNameNeedsNoWarning) {
+  EXPECT_TRUE(renamed_schema().read(Words{"remap_interval", "4"}).warnings().empty());
+}
+
+TEST(Options, AFormerNameIsCheckedLikeTheKeyItself) {
+  const auto message_of = [](const Words& words) {
+    try {
+      renamed_schema().read(words);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_THAT(message_of({"cycle", "99"}),
+              HasSubstr("keyword 'cycle' (now 'remap_interval') is 99; allowed: an integer in "
+                        "[1, 64]"));
+  EXPECT_THAT(message_of({"cycle", "4", "remap_interval", "5"}),
+              HasSubstr("keyword 'remap_interval' is given twice"));
+  EXPECT_THAT(message_of({"weightless_start", "maybe"}), HasSubstr("allowed: yes or no"));
+  EXPECT_THAT(message_of({"middle", "1", "cycle", "4"}),
+              HasSubstr("keyword 'middle' (now 'centre') has 1 value(s)"));
+}
+
+TEST(Options, AnAliasNeedsAKeyAndAFreeName) {
+  Schema schema = renamed_schema();
+  EXPECT_THROW(schema.alias("old", "no_such_key"), Error);
+  EXPECT_THROW(schema.alias("centre", "remap_interval"), Error);
+  EXPECT_THROW(schema.alias("cycle", "centre"), Error);
+}
+
 }  // namespace
 }  // namespace furrow

@@ -8,7 +8,9 @@
 #include <csignal>
 #include <filesystem>
 
+#include "core/error.h"
 #include "io/hdf5_file.h"
+#include "mpm/terrain_snapshot.h"
 #include "scratch.h"
 
 namespace furrow {
@@ -64,6 +66,56 @@ TEST(HistoryFile, RowsChannelsAndRunComeBack) {
   EXPECT_EQ(back.ranks, 2);
   EXPECT_THAT(back.started,
               ::testing::MatchesRegex("[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}Z"));
+}
+
+TEST(HistoryFile, StylesAreKeptAsText) {
+  const Scratch scratch;
+  const std::string path = scratch.path("history.h5");
+  RunInfo info;
+  info.styles = {{"wheel", "all", "wheel/rigid", "wheel", {{"mass", {636.0}}}}};
+  HistoryFile::create(path, channels, info);
+  EXPECT_EQ(Hdf5File(path, Hdf5File::Mode::read).read_text("/run/styles"),
+            styles_json(info.styles));
+}
+
+/// A file of an earlier version is still evaluated, but not continued.
+TEST(HistoryFile, TheFormerNameOfTheStageIsReadAsTheStage) {
+  const Scratch scratch;
+  const std::string path = scratch.path("history.h5");
+  const std::vector<Channel> now = {{"time", "s", ""}, {"stage", "", ""}};
+  const std::vector<Channel> former = {{"time", "s", ""}, {"phase", "", ""}};
+  {
+    HistoryFile file = HistoryFile::create(path, former, {});
+    file.append({0.0, 0.0});
+    file.append({1.0, 2.0});
+  }
+  EXPECT_EQ(read_history(path).column("stage"), (std::vector<double>{0.0, 2.0}));
+  EXPECT_THROW(HistoryFile::resume(path, now, 1.0), Error);
+}
+
+TEST(HistoryFile, ParticlesOfTheTerrainHaveUnitsAndMeanings) {
+  const Scratch scratch;
+  const std::string path = scratch.path("terrain.h5");
+  TerrainSnapshot snapshot;
+  snapshot.x = snapshot.initial_position = snapshot.v = Matrix3X::Ones(3, 2);
+  snapshot.id = {0, 1};
+  snapshot.layer = snapshot.volume = snapshot.density = snapshot.pressure = snapshot.mises =
+      snapshot.vertical_stress = snapshot.compaction = {3.0, 4.0};
+  {
+    HistoryFile file = HistoryFile::create(path, channels, {});
+    file.write_terrain(snapshot, {{0.5, 0.0, -0.1, 400.0}});
+  }
+  const Hdf5File file(path, Hdf5File::Mode::read);
+  EXPECT_EQ(file.members("/terrain").size(), 11u);
+  for (const std::string& field : file.members("/terrain")) {
+    const std::string dataset = "/terrain/" + field;
+    EXPECT_TRUE(file.has_attribute(dataset, "unit")) << field;
+    EXPECT_FALSE(file.text_attribute(dataset, "meaning").empty()) << field;
+  }
+  EXPECT_EQ(file.read_columns("/terrain/initial_position"), snapshot.initial_position);
+  EXPECT_EQ(file.read_numbers("/terrain/compaction"), snapshot.compaction);
+  EXPECT_EQ(file.text_attribute("/terrain/pressure", "unit"), "Pa");
+  EXPECT_EQ(file.read_numbers("/rut/density"), std::vector<double>{400.0});
 }
 
 TEST(HistoryFile, AKilledRunLeavesItsLastFlush) {

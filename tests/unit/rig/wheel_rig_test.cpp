@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "rig/wheel_rig.h"
+#include "statistics/history.h"
 
 #include <cmath>
 
@@ -66,10 +67,10 @@ TEST(WheelRig, PhasesFollowTheClock) {
   RigidWheel wheel = make_wheel();
   const WheelRig rig =
       make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "towed", "start", "1"});
-  EXPECT_EQ(rig.stage(0.5), WheelRig::Stage::settle);
-  EXPECT_EQ(rig.stage(1.19), WheelRig::Stage::settle);
-  EXPECT_EQ(rig.stage(1.21), WheelRig::Stage::accelerate);
-  EXPECT_EQ(rig.stage(1.41), WheelRig::Stage::cruise);
+  EXPECT_EQ(rig.stage(0.5), RigStage::settle);
+  EXPECT_EQ(rig.stage(1.19), RigStage::settle);
+  EXPECT_EQ(rig.stage(1.21), RigStage::accelerate);
+  EXPECT_EQ(rig.stage(1.41), RigStage::cruise);
   EXPECT_DOUBLE_EQ(rig.cruise_start(), 1.4);
 }
 

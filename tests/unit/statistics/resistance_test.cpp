@@ -25,7 +25,7 @@ struct SyntheticRun {
 
   History history() const {
     History result({{"time", "s", ""},
-                    {"phase", "", ""},
+                    {"stage", "", ""},
                     {"x", "m", ""},
                     {"sinkage", "m", ""},
                     {"force_x", "N", ""},
@@ -42,11 +42,11 @@ struct SyntheticRun {
       own = 0.9 * own + 0.3 * normal(random);
       if (time > skipped_from && time < skipped_to) continue;
       const double force_z = 100.0 * (1.0 + vertical), force_x = -0.2 * force_z + own;
-      const double phase = time < 1.0 ? 0.0 : time < 2.0 ? 1.0 : 2.0;
+      const double stage = time < 1.0 ? 0.0 : time < 2.0 ? 1.0 : 2.0;
       const double sinkage =
           0.03 + 1e-4 * normal(random) + sinkage_drift * std::max(0.0, time - 2.0) / 10.0;
       result.append(
-          {time, phase, std::max(0.0, time - 1.5), sinkage, force_x, force_z, force_x, 0.0, -0.05});
+          {time, stage, std::max(0.0, time - 1.5), sinkage, force_x, force_z, force_x, 0.0, -0.05});
     }
     return result;
   }

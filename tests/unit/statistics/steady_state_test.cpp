@@ -229,12 +229,12 @@ TEST(SteadyState, MserStopsAtHalfOfASignalThatNeverSettles) {
 /// 1 s settle, 1 s accelerate, 8 s cruise at 2 m/s; rows every 0.01 s; a force that decays into
 /// noise.
 History rolling(double transient_time, double end = 10.0) {
-  History history({{"time", "s", ""}, {"phase", "", ""}, {"x", "m", ""}, {"force", "N", ""}});
+  History history({{"time", "s", ""}, {"stage", "", ""}, {"x", "m", ""}, {"force", "N", ""}});
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
   for (int i = 0; i <= std::lround(end / 0.01); ++i) {
-    const double time = 0.01 * i, phase = time < 1.0 - 1e-9 ? 0 : time < 2.0 - 1e-9 ? 1 : 2;
-    history.append({time, phase, 2.0 * std::max(0.0, time - 1.0),
+    const double time = 0.01 * i, stage = time < 1.0 - 1e-9 ? 0 : time < 2.0 - 1e-9 ? 1 : 2;
+    history.append({time, stage, 2.0 * std::max(0.0, time - 1.0),
                     7.0 + normal(random) + 50.0 * std::exp(-(time - 2.0) / transient_time)});
   }
   return history;

@@ -19,7 +19,7 @@ struct GrainBedLimits {
   static constexpr double bed_widths = 2.0;        ///< width of the bed over width of the body
 };
 
-/// Watches the contact of one body with grains; each kind of warning comes once a run.
+/// Watches the contact of one body with grains; each kind of warning comes once in a run.
 class GrainBedCheck {
  public:
   /// @param where names the wall in messages

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/terrain/grain_bed_check.h"
+#include "coupling/contact/grain_bed_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,26 +8,26 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "comm.h"
 #include "core/communicator.h"
+#include "coupling/liggghts/script.h"
 #include "domain.h"
-#include "error.h"
 #include "modify.h"
 
 namespace furrow::coupling {
 
 namespace {
 
-constexpr long every = 200;  // steps between looks
+constexpr long every = 200;         // steps between looks
+constexpr double min_grains = 100;  // fewer are no bed: a few grains meet a body
+// of squared mean grain diameters: on a smaller area a handful of grains carries no pressure
+constexpr double min_area = 9.0;
 
 }  // namespace
 
 void GrainBedCheck::warn(bool& done, const std::string& text) {
   if (done) return;
   done = true;
-  if (lammps_.comm->me == 0)
-    lammps_.error->warning("grain_bed_check.cpp", __LINE__,
-                           fmt::format("{}: {}", where_, text).c_str());
+  coupling::warn(lammps_, fmt::format("{}: {}", where_, text));
 }
 
 void GrainBedCheck::start(const Surface& surface) {
@@ -47,7 +47,7 @@ void GrainBedCheck::start(const Surface& surface) {
   highest = ranks.max(highest);
   steps_ = 0;
   warned_overlap_ = warned_inertia_ = false;
-  if (sums[2] < 100.0) return;  // no bed: a few grains meet a body
+  if (sums[2] < min_grains) return;
   mean_diameter_ = sums[0] / sums[2];
   density_ = sums[1] / sums[2];
   elastic_ = lammps_.modify->find_fix_property("youngsModulus", "property/global", "peratomtype",
@@ -98,12 +98,12 @@ void GrainBedCheck::finish_step(const Surface& surface) {
   if (elastic_ && deepest > GrainBedLimits::overlap)
     warn(warned_overlap_,
          fmt::format("a grain overlaps the body by {:.3g} of its diameter (recommended: at most "
-                     "{:g}); the grains are too "
-                     "soft for this load: raise youngsModulus and settle the bed anew",
+                     "{:g}); the grains are too soft for this load: raise youngsModulus and settle "
+                     "the bed again",
                      deepest, GrainBedLimits::overlap));
-  // Fewer than a handful of grains carry no pressure.
-  const double area = extent[0] * extent[1], force = std::abs(sum[2]);
-  if (!(area > 9.0 * mean_diameter_ * mean_diameter_) || !(force > 0.0)) return;
+  const double area = extent[0] * extent[1];
+  const double force = std::abs(sum[2]);
+  if (!(area > min_area * mean_diameter_ * mean_diameter_) || !(force > 0.0)) return;
   const double speed = surface.v.rowwise().mean().norm();
   const double number =
       speed / std::sqrt(area) * mean_diameter_ * std::sqrt(density_ * area / force);

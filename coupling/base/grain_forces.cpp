@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/contact/grain_forces.h"
+#include "coupling/base/grain_forces.h"
 
 #include <algorithm>
-#include <string>
-#include <vector>
 
 #include "atom.h"
+#include "coupling/liggghts/script.h"
 #include "fix_property_atom.h"
 #include "modify.h"
 
@@ -24,14 +23,8 @@ double** storage(LAMMPS_NS::LAMMPS& lammps) {
 
 void GrainForces::make_storage() {
   // restart yes, no communication to ghosts or back, six values that begin with 0
-  std::vector<std::string> words = {storage_id, "all",    "property/atom",
-                                    storage_id, "vector", "yes",
-                                    "no",       "no",     "0",
-                                    "0",        "0",      "0",
-                                    "0",        "0"};
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  lammps_.modify->add_fix(static_cast<int>(arguments.size()), arguments.data());
+  add_fix(lammps_, {storage_id, "all", "property/atom", storage_id, "vector", "yes", "no", "no",
+                    "0", "0", "0", "0", "0", "0"});
 }
 
 void GrainForces::store() {

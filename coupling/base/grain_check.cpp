@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/contact/grain_check.h"
+#include "coupling/base/grain_check.h"
 
 #include <fmt/format.h>
 
@@ -26,8 +26,8 @@ bool all_finite(const double* values, int count) {
   const double *x = atom.x[i], *v = atom.v[i];
   throw StateError(fmt::format(
       "grain {} is at {:.6g} {:.6g} {:.6g} m with velocity {:.6g} {:.6g} {:.6g} m/s at step {}; "
-      "grains overlap "
-      "at the start, the time step is too large, or a command set a value that is no number",
+      "grains overlap at the start, the time step is too large, or a command set a value that is "
+      "no number",
       atom.tag[i], x[0], x[1], x[2], v[0], v[1], v[2], lammps.update->ntimestep));
 }
 

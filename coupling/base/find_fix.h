@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The fix that a keyword names.
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/options.h"
+#include "coupling/base/has_options.h"
+#include "coupling/styles.h"
+#include "fix.h"
+#include "modify.h"
+
+namespace furrow::coupling {
+
+/// @param key of the options: its value is the id of the fix
+/// @param kinds of the styles whose class Wanted is, for the error
+/// @throws InputError when there is no fix of that id, or one of another class
+template <class Wanted>
+Wanted& find_fix(LAMMPS_NS::LAMMPS& lammps, const Options& options, const std::string& key,
+                 const std::vector<Kind>& kinds) {
+  const std::string& id = options.text(key);
+  LAMMPS_NS::Modify& modify = *lammps.modify;
+  LAMMPS_NS::Fix* fix = modify.find_fix_id(id.c_str());
+  if (auto* wanted = dynamic_cast<Wanted*>(fix)) return *wanted;
+
+  std::string ids;
+  for (int i = 0; i < modify.nfix; ++i)
+    if (dynamic_cast<Wanted*>(modify.fix[i]))
+      ids += (ids.empty() ? "" : ", ") + std::string(modify.fix[i]->id);
+  throw InputError(options.where(key),
+                   fix ? fmt::format("is '{}', which is a fix {}", id, style_of(*fix))
+                       : fmt::format("is '{}', and no fix has that id", id),
+                   fmt::format("the id of a fix {}, here {}", style_names(kinds),
+                               ids.empty() ? "none yet" : "one of: " + ids),
+                   "write that fix before this line");
+}
+
+}  // namespace furrow::coupling

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/base/fix_coupled_system.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "coupling/base/fix_order.h"
+#include "coupling/base/grain_check.h"
+#include "coupling/base/restart_record.h"
+#include "coupling/base/uses_fix.h"
+#include "coupling/liggghts/contact_history.h"
+#include "coupling/liggghts/errors.h"
+#include "coupling/liggghts/script.h"
+#include "modify.h"
+#include "update.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+constexpr char system_id[] = "furrow_system";
+
+}  // namespace
+
+FixCoupledSystem::FixCoupledSystem(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+    : Fix(lammps, narg, arg), communicator_(&world), grain_forces_(*lammps) {
+  if (id != std::string(system_id) || narg > 3)
+    throw InputError("fix furrow/system", "is written in the script", "no such line",
+                     "remove it: the fix of the first body makes it");
+  restart_global = 1;
+  nevery = 1;
+}
+
+FixCoupledSystem& FixCoupledSystem::of(LAMMPS_NS::LAMMPS& lammps) {
+  if (LAMMPS_NS::Fix* existing = lammps.modify->find_fix_id(system_id))
+    return dynamic_cast<FixCoupledSystem&>(*existing);
+  return dynamic_cast<FixCoupledSystem&>(add_fix(lammps, {system_id, "all", "furrow/system"}));
+}
+
+void FixCoupledSystem::add(Body& body, const std::string& name) {
+  system_.add(body, name);
+  members_.push_back({&body, name});
+}
+
+void FixCoupledSystem::remove(const Body& body) {
+  system_.remove(body);
+  members_.erase(std::remove_if(members_.begin(), members_.end(),
+                                [&](const Member& m) { return m.body == &body; }),
+                 members_.end());
+}
+
+void FixCoupledSystem::add(MotionController& controller, const std::string& name) {
+  controllers_.push_back({&controller, name});
+}
+
+void FixCoupledSystem::remove(const MotionController& controller) {
+  controllers_.erase(
+      std::remove_if(controllers_.begin(), controllers_.end(),
+                     [&](const NamedController& c) { return c.controller == &controller; }),
+      controllers_.end());
+}
+
+FixCoupledSystem::Member& FixCoupledSystem::member(const Body& body) {
+  const auto found = std::find_if(members_.begin(), members_.end(),
+                                  [&](const Member& m) { return m.body == &body; });
+  if (found == members_.end())
+    with_local_errors(*error, [] { throw Error("a body is asked for that is in no system"); });
+  return *found;
+}
+
+void FixCoupledSystem::pre_delete(bool unfixing) {
+  if (unfixing) with_collective_errors(*error, [&] { forbid_removal_while_used(*modify, *this); });
+}
+
+int FixCoupledSystem::setmask() {
+  using namespace LAMMPS_NS::FixConst;
+  return PRE_INITIAL_INTEGRATE | INITIAL_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE |
+         END_OF_STEP;  // PRE_FORCE: for setup_pre_force
+}
+
+/// Before the first neighbour lists: a position that is no number would crash them.
+void FixCoupledSystem::init() {
+  with_collective_errors(*error, [&] { check_fix_order(*modify, *this); });
+  with_local_errors(*error, [&] { check_grains_finite(*lmp); });
+}
+
+void FixCoupledSystem::setup_pre_force(int) {
+  const bool restored = forces_ == ForceState::restored;
+  for (Member& m : members_)
+    if (restored && m.restored_forces.cols() == 0) m.restored_forces = m.body->surface().f;
+  clear_forces();
+  if (restored) forces_ = ForceState::restored;
+}
+
+/// The forces of the last step before the checkpoint, in place of those that the set-up has made of
+/// full-step velocities.
+void FixCoupledSystem::pre_initial_integrate() {
+  if (forces_ != ForceState::restored) return;
+  clear_forces();
+  grain_forces_.put_back();
+  for (Member& m : members_) m.body->surface().f = m.restored_forces;
+  system_.restore_published_contact_forces(restored_contact_forces_);
+  forces_ = ForceState::complete;
+}
+
+void FixCoupledSystem::initial_integrate(int) {
+  with_collective_errors(*error, [&] {
+    // those of the set-up, made after this fix had its turn
+    if (forces_ == ForceState::partial) sum_forces();
+    for (const NamedController& each : controllers_) try {
+        each.controller->apply(time_, update->dt);
+      } catch (const StateError& problem) {
+        throw StateError(fmt::format("fix {}: {}", each.name, problem.what()));
+      }
+    system_.advance(update->dt);
+    time_ += update->dt;
+    clear_forces();
+  });
+}
+
+void FixCoupledSystem::final_integrate() {
+  with_collective_errors(*error, [&] {
+    sum_forces();
+    system_.publish_contact_forces();
+  });
+}
+
+void FixCoupledSystem::end_of_step() {
+  with_local_errors(*error, [&] { check_velocities_finite(*lmp); });
+}
+
+void FixCoupledSystem::clear_forces() {
+  system_.clear_forces();
+  for (Member& m : members_) {
+    const Surface& surface = m.body->surface();
+    m.ledger = {};
+    if (surface.node_count() > 0) m.reference = surface.x.rowwise().mean();
+  }
+  forces_ = ForceState::partial;
+}
+
+void FixCoupledSystem::sum_forces() {
+  if (communicator_.size() > 1) sum_over_ranks();
+  for (Member& m : members_)
+    m.audit.add(m.ledger, m.body->surface(), m.reference, m.name, update->ntimestep);
+  forces_ = ForceState::complete;
+}
+
+/// One sum for all bodies: nodal forces and ledgers side by side.
+void FixCoupledSystem::sum_over_ranks() {
+  buffer_.clear();
+  for (const Member& m : members_) {
+    const Matrix3X& f = m.body->surface().f;
+    buffer_.insert(buffer_.end(), f.data(), f.data() + f.size());
+    const auto ledger = m.ledger.numbers();
+    buffer_.insert(buffer_.end(), ledger.begin(), ledger.end());
+  }
+  communicator_.sum(buffer_.data(), buffer_.size());
+  const double* next = buffer_.data();
+  for (Member& m : members_) {
+    Matrix3X& f = m.body->surface().f;
+    std::copy(next, next + f.size(), f.data());
+    next += f.size();
+    m.ledger = ContactLedger::from(next);
+    next += ContactLedger::size;
+  }
+}
+
+/// Collective. In the middle of a run (command restart) forces and contact histories are those of
+/// the last step; LIGGGHTS would write the histories as they were when the neighbour lists were
+/// made. After a run (command write_restart) it brings them up to date itself, moves grains between
+/// ranks without their forces, and a further run in this process computes them anew as well.
+void FixCoupledSystem::write_restart(FILE* file) {
+  const bool in_run = update->whichflag == 1;
+  if (in_run) {
+    grain_forces_.store();
+    update_contact_histories(*lmp);
+  }
+  if (communicator_.rank() != 0) return;
+  with_local_errors(*error, [&] {
+    Checkpoint state(style);
+    checkpoint(state, in_run, system_.published_contact_forces());
+    write_record(file, state);
+  });
+}
+
+void FixCoupledSystem::restart(char* buffer) {
+  with_collective_errors(*error, [&] {
+    Checkpoint state = read_record(style, buffer);
+    checkpoint(state, false, {});
+    state.finish();
+  });
+}
+
+/// @param in_run, contact_forces to be saved; what is read goes to the members
+void FixCoupledSystem::checkpoint(Checkpoint& state, bool in_run,
+                                  std::vector<double> contact_forces) {
+  state.value("time", time_);
+  state.value("in_run", in_run);
+  state.values("contact_forces", contact_forces);
+  if (state.saving()) return;
+  if (in_run) forces_ = ForceState::restored;
+  restored_contact_forces_ = std::move(contact_forces);
+}
+
+}  // namespace furrow::coupling

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// fix furrow/system: couples the bodies of a scene to LIGGGHTS's steps. Made by the first fix that
+/// contributes to it; users never write it.
+///
+/// One step of LIGGGHTS, for a body and the grains it touches:
+///   initial_integrate  the controllers set loads and motions; the bodies advance by the step under
+///                      the grains' forces of the step before; their surfaces' forces are cleared
+///   (LIGGGHTS)         meshes follow the nodes, neighbour lists, forces between grains;
+///                      wall/gran/body adds to the surfaces' forces and to the ledgers
+///   final_integrate    one sum over the ranks; forces on bodies and on grains must cancel
+///   end_of_step        histories write their rows
+
+#include <string>
+#include <vector>
+
+#include "bodies/body.h"
+#include "bodies/coupled_system.h"
+#include "core/checkpoint.h"
+#include "core/communicator.h"
+#include "coupling/base/grain_forces.h"
+#include "coupling/base/momentum_audit.h"
+#include "coupling/base/motion_controller.h"
+#include "coupling/styles.h"
+#include "fix.h"
+
+namespace furrow::coupling {
+
+class FixCoupledSystem : public LAMMPS_NS::Fix {
+ public:
+  FixCoupledSystem(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
+  static Schema schema() { return Schema("fix furrow/system"); }
+  static OutputTable outputs() { return {}; }
+
+  /// The system of a LIGGGHTS instance; made on first use.
+  static FixCoupledSystem& of(LAMMPS_NS::LAMMPS& lammps);
+
+  // None is owned; each must outlive the system or be removed. @param name for errors
+  void add(Body& body, const std::string& name);
+  void remove(const Body& body);
+  void add(Contact& contact, const std::string& name) { system_.add(contact, name); }
+  void remove(const Contact& contact) { system_.remove(contact); }
+  void add(MotionController& controller, const std::string& name);
+  void remove(const MotionController& controller);
+
+  // Of a body that was added.
+  ContactLedger& ledger(const Body& body) { return member(body).ledger; }
+  /// Where moments of this step are taken about: the middle of the body's nodes.
+  const Vector3& moment_reference(const Body& body) { return member(body).reference; }
+  const MomentumAudit& audit(const Body& body) { return member(body).audit; }
+
+  double time() const { return time_; }  ///< of the scene [s], also after a restart
+  const Communicator& communicator() const { return communicator_; }
+
+  void post_create() override { grain_forces_.make_storage(); }
+  void pre_delete(bool unfixing) override;
+  int setmask() override;
+  void init() override;
+  void setup_pre_force(int) override;
+  void pre_initial_integrate() override;
+  void initial_integrate(int) override;
+  void final_integrate() override;
+  void end_of_step() override;
+  void write_restart(FILE* file) override;
+  void restart(char* buffer) override;
+
+ private:
+  /// What the forces on the bodies' surfaces are.
+  ///
+  ///            final_integrate (or initial_integrate, of the set-up's forces)
+  ///     partial ------------------------------------------------------------> complete
+  ///        ^                                                                    |   ^
+  ///        +--------------------------------------------------------------------+   |
+  ///           clear_forces: set-up, and initial_integrate after the advance         |
+  ///                                                                                 |
+  ///     restored -------------------------------------------------------------------+
+  ///        pre_initial_integrate: in place of the set-up's. LIGGGHTS computes contact forces with
+  ///        velocities at mid-step, but knows those of the full step only when a run continues
+  enum class ForceState {
+    partial,   ///< of this rank's grains, so far
+    complete,  ///< of all grains; with the mean of the contacts' forces, for histories
+    restored,  ///< a checkpoint written in a run has brought those of its last step
+  };
+
+  struct Member {
+    Body* body;
+    std::string name;
+    ContactLedger ledger = {};
+    MomentumAudit audit = {};
+    Vector3 reference = Vector3::Zero();
+    Matrix3X restored_forces = {};  // nodal
+  };
+  Member& member(const Body& body);
+  void checkpoint(Checkpoint& state, bool in_run, std::vector<double> contact_forces);
+  void clear_forces();
+  void sum_over_ranks();
+  void sum_forces();
+
+  Communicator communicator_;
+  CoupledSystem system_;
+  std::vector<Member> members_;
+  struct NamedController {
+    MotionController* controller;
+    std::string name;
+  };
+  std::vector<NamedController> controllers_;
+  std::vector<double> buffer_;
+  GrainForces grain_forces_;
+  double time_ = 0.0;
+  ForceState forces_ = ForceState::partial;
+  std::vector<double> restored_contact_forces_;
+};
+
+}  // namespace furrow::coupling

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/base/fix_order.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "coupling/base/has_options.h"
+
+namespace furrow::coupling {
+
+void check_fix_order(const LAMMPS_NS::Modify& modify, const LAMMPS_NS::Fix& system) {
+  for (int i = 0; i < modify.nfix && modify.fix[i] != &system; ++i) {
+    const LAMMPS_NS::Fix& fix = *modify.fix[i];
+    const auto* follower = dynamic_cast<const FollowsSystem*>(&fix);
+    if (follower)
+      throw StateError(fmt::format(
+          "fix {} '{}' comes before fix {} '{}' in a step, and must come after it: {}; write "
+          "'unfix {}' and its line once more, behind the fix of the first body",
+          style_of(fix), fix.id, system.style, system.id, follower->reason_to_follow(), fix.id));
+  }
+}
+
+}  // namespace furrow::coupling

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/base/furrow_fix.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "comm.h"
+#include "coupling/base/fix_coupled_system.h"
+#include "coupling/base/read_options.h"
+#include "coupling/base/restart_record.h"
+
+namespace furrow::coupling {
+
+FurrowFix::FurrowFix(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema)
+    : Fix(lammps, narg, arg), options_(read_options(*lammps, schema, narg, arg)) {}
+
+const Outputs<FurrowFix>& FurrowFix::outputs() {
+  static const Outputs<FurrowFix> none;
+  return none;
+}
+
+std::string FurrowFix::name() const { return fmt::format("fix {} '{}'", style, id); }
+
+bool FurrowFix::uses(const LAMMPS_NS::Fix& other) const {
+  if (!parts_.empty() && dynamic_cast<const FixCoupledSystem*>(&other)) return true;
+  return std::find(used_.begin(), used_.end(), &other) != used_.end();
+}
+
+void FurrowFix::post_create() {
+  if (parts_.empty()) return;  // no need of a system
+  FixCoupledSystem& system = FixCoupledSystem::of(*lmp);
+  for (const Part& part : parts_) std::visit([&](auto* p) { system.add(*p, id); }, part);
+}
+
+void FurrowFix::pre_delete(bool unfixing) {
+  if (!unfixing) return;  // all fixes are going
+  collectively([&] { forbid_removal_while_used(*modify, *this); });
+  if (parts_.empty()) return;
+  FixCoupledSystem& system = FixCoupledSystem::of(*lmp);
+  for (auto part = parts_.rbegin(); part != parts_.rend(); ++part)
+    std::visit([&](auto* p) { system.remove(*p); }, *part);
+}
+
+/// Collective where a body is spread over the ranks.
+void FurrowFix::write_restart(FILE* file) {
+  collectively([&] {
+    Checkpoint state(name());
+    checkpoint(state);
+    if (comm->me == 0) write_record(file, state);
+  });
+}
+
+void FurrowFix::restart(char* buffer) {
+  collectively([&] {
+    Checkpoint state = read_record(name(), buffer);
+    checkpoint(state);
+    state.finish();
+  });
+}
+
+void FurrowFix::announce_vector(std::size_t size) {
+  vector_flag = 1;
+  size_vector = static_cast<int>(size);
+  global_freq = 1;
+  extvector = 0;
+}
+
+double FurrowFix::compute_vector(int n) {
+  double value = 0.0;
+  collectively([&] { value = compute_(static_cast<std::size_t>(n)); });
+  return value;
+}
+
+}  // namespace furrow::coupling

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The base of Furrow's fixes: what a fix has to do for LIGGGHTS beside its own job.
+///
+/// A fix derives from it (or from FixBody, FixContact, FixHistory) and says
+///   - its keywords:        static Schema schema(), handed to the constructor
+///   - its outputs f_ID[n]: static const Outputs<Class>& outputs(), and provide(outputs())
+///   - the fixes it needs:  use<Class>(key, kinds) in the constructor; none of them can be removed
+///                          before this one
+///   - what the coupled system shall call: contribute(body | contact | controller)
+///   - its state:           checkpoint(), and keep_state()
+/// The class comes into the table of styles (styles.cpp), its page beside it.
+
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "bodies/body.h"
+#include "bodies/contact.h"
+#include "core/checkpoint.h"
+#include "core/outputs.h"
+#include "coupling/base/find_fix.h"
+#include "coupling/base/has_options.h"
+#include "coupling/base/motion_controller.h"
+#include "coupling/base/uses_fix.h"
+#include "coupling/liggghts/errors.h"
+#include "fix.h"
+
+namespace furrow::coupling {
+
+class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix {
+ public:
+  /// None, unless the derived class has its own.
+  static const Outputs<FurrowFix>& outputs();
+
+  const Options& options() const final { return options_; }
+  /// Those of use(), and furrow/system for a fix that contributes to it.
+  bool uses(const LAMMPS_NS::Fix& other) const override;
+
+  int setmask() override { return 0; }
+  /// Contributions join the coupled system. Not in the constructor: LIGGGHTS cannot make one fix
+  /// while it makes another.
+  void post_create() override;
+  /// They leave it in reverse order, unless another fix uses this one: then the line is refused.
+  void pre_delete(bool unfixing) override;
+  void write_restart(FILE* file) override;
+  void restart(char* buffer) override;
+  double compute_vector(int n) override;
+
+ protected:
+  /// @throws InputError for words that the schema does not allow
+  FurrowFix(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema);
+
+  // ---- for the constructor of the derived class
+  // --------------------------------------------------
+  /// The fix named by a keyword. @throws InputError
+  template <class Wanted>
+  Wanted& use(const std::string& key, const std::vector<Kind>& kinds) {
+    Wanted& fix = find_fix<Wanted>(*lmp, options_, key, kinds);
+    used_.push_back(&fix);
+    return fix;
+  }
+  /// Not owned. In the order of these calls the system holds them.
+  template <class Part>
+  void contribute(Part& part) {
+    parts_.emplace_back(&part);
+  }
+  /// The outputs as f_ID[1], f_ID[2], ... of scripts; the list must live as long as the fix.
+  template <class FixStyle>
+  void provide(const Outputs<FixStyle>& outputs) {
+    compute_ = [this, &outputs](std::size_t n) {
+      return outputs.value(n, static_cast<FixStyle&>(*this));
+    };
+    announce_vector(outputs.size());
+  }
+  /// The same for outputs that read something else: make_source() gives it for each value.
+  template <class Source, class MakeSource>
+  void provide(const Outputs<Source>& outputs, MakeSource make_source) {
+    compute_ = [&outputs, make_source](std::size_t n) {
+      Source source = make_source();
+      return outputs.value(n, source);
+    };
+    announce_vector(outputs.size());
+  }
+  void keep_state() { restart_global = 1; }
+
+  // ---- for the derived class at any time
+  // ---------------------------------------------------------
+  /// Saves or brings back what the fix must keep in restart files. Called on all ranks; what rank 0
+  /// saves is written.
+  virtual void checkpoint(Checkpoint&) {}
+  /// For errors and warnings: "fix wheel/rigid 'wheel'".
+  std::string name() const;
+  /// Runs an action that all ranks run alike; what it throws becomes the error of all.
+  template <class Action>
+  void collectively(Action&& action) const {
+    with_collective_errors(*error, action);
+  }
+  /// Runs an action that may fail on this rank alone; what it throws stops all ranks.
+  template <class Action>
+  void on_this_rank(Action&& action) const {
+    with_local_errors(*error, action);
+  }
+
+ private:
+  using Part = std::variant<Body*, Contact*, MotionController*>;
+  void announce_vector(std::size_t size);
+
+  Options options_;
+  std::vector<const LAMMPS_NS::Fix*> used_;
+  std::vector<Part> parts_;
+  std::function<double(std::size_t)> compute_;
+};
+
+}  // namespace furrow::coupling

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The base of every fix that makes a contact of a body with something other than grains.
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "coupling/bodies/fix_body.h"
+
+namespace furrow::coupling {
+
+class FixContact : public FurrowFix {
+ protected:
+  /// @param schema with the key of declare_body()
+  FixContact(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema)
+      : FurrowFix(lammps, narg, arg, schema),
+        body_(use<FixBody>("body", {Kind::wheel, Kind::body}).body()) {
+    if (body_.surface().triangle_count() == 0)
+      throw InputError(options().where("body"),
+                       fmt::format("is '{}', which has no surface", options().text("body")),
+                       "a wheel, a tyre or a plate");
+    keep_state();
+  }
+
+  /// The key `body`.
+  static void declare_body(Schema& schema) {
+    schema.text("body", "id of the fix of the wheel, tyre or plate");
+  }
+
+  Body& body() { return body_; }
+
+ private:
+  Body& body_;
+};
+
+}  // namespace furrow::coupling

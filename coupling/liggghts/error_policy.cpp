@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/liggghts/error_policy.h"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+
+#include <mpi.h>
+
+#include "coupling/liggghts/flushes_on_error.h"
+#include "coupling/liggghts/script.h"
+#include "fix.h"
+#include "modify.h"
+#include "output.h"
+#include "universe.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+// for ranks that come to the same error a little later
+constexpr std::chrono::seconds patience(10);
+
+/// One error, one message: what is wrong, where in the script, and where in the source it was
+/// noticed. (The library's own version may add a line from a string that no longer exists.)
+void print_error(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace place) {
+  const std::string position = script_position(lammps);
+  for (FILE* stream : {lammps.screen, lammps.logfile}) {
+    if (!stream) continue;
+    std::fprintf(stream, "\nERROR: %s\n", text.c_str());
+    if (!position.empty()) std::fprintf(stream, "  at %s\n", position.c_str());
+    if (place.line > 0) std::fprintf(stream, "  (LIGGGHTS, %s:%d)\n", place.file, place.line);
+    std::fflush(stream);
+  }
+}
+
+/// Whatever cannot be saved now is lost: the run ends with the error that stopped it, not with this
+/// one.
+void flush_results(const LAMMPS_NS::LAMMPS& lammps) {
+  for (int i = 0; lammps.modify && i < lammps.modify->nfix; ++i) try {
+      if (auto* fix = dynamic_cast<FlushesOnError*>(lammps.modify->fix[i])) fix->flush_results();
+    } catch (const std::exception& loss) {
+      std::fprintf(stderr, "Results of fix %s are lost: %s\n", lammps.modify->fix[i]->id,
+                   loss.what());
+    }
+}
+
+/// Whether all ranks come here; false when one of them waits for this one elsewhere.
+bool all_arrive(MPI_Comm ranks) {
+  MPI_Request request;
+  MPI_Ibarrier(ranks, &request);
+  int done = 0;
+  for (const auto start = std::chrono::steady_clock::now();
+       !done && std::chrono::steady_clock::now() - start < patience;
+       std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+  return done != 0;
+}
+
+int rank_in(MPI_Comm ranks) {
+  int rank = 0;
+  MPI_Comm_rank(ranks, &rank);
+  return rank;
+}
+
+}  // namespace
+
+void stop_together(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace place) {
+  if (!all_arrive(lammps.world)) stop_alone(lammps, text, place);
+  if (rank_in(lammps.world) == 0) {
+    print_error(lammps, text, place);
+    flush_results(lammps);
+  }
+  delete lammps.output;
+  if (lammps.logfile) std::fclose(lammps.logfile);
+  if (lammps.universe->nworlds > 1) MPI_Abort(lammps.universe->uworld, 1);
+  MPI_Finalize();
+  std::exit(1);
+}
+
+void stop_alone(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace place) {
+  const int rank = rank_in(lammps.world);
+  if (rank == 0) {
+    print_error(lammps, text, place);
+    flush_results(lammps);
+  } else {
+    std::fprintf(stderr, "\nERROR on rank %d: %s\n", rank, text.c_str());
+    if (place.line > 0) std::fprintf(stderr, "  (LIGGGHTS, %s:%d)\n", place.file, place.line);
+  }
+  MPI_Abort(lammps.world, 1);
+  std::abort();  // MPI_Abort does not come back
+}
+
+}  // namespace furrow::coupling

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// How a run ends with an error: one message that names the line of the script, results saved, all
+/// ranks stopped, a non-zero status. Error::all, one and fix_error of LIGGGHTS come here
+/// (overrides.cpp).
+
+#include <string>
+
+#include "lammps.h"
+
+namespace furrow::coupling {
+
+/// Where in LIGGGHTS an error was noticed; line 0: in Furrow.
+struct SourcePlace {
+  const char* file;
+  int line;
+};
+
+/// All ranks have come to the same error: they leave together, dumps and logs closed. What was
+/// thought to befall all may befall one (a particle of its part of the terrain): then as
+/// stop_alone(), after ten seconds. Collective.
+[[noreturn]] void stop_together(LAMMPS_NS::LAMMPS& lammps, const std::string& text,
+                                SourcePlace place);
+
+/// An error of this rank alone: the others cannot be told, so the run is aborted. Only rank 0 knows
+/// the line of the script and saves results.
+[[noreturn]] void stop_alone(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace place);
+
+}  // namespace furrow::coupling

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/liggghts/library_check.h"
+
+#include <malloc.h>
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "coupling/liggghts/access.h"
+#include "domain.h"
+#include "input.h"
+#include "modify.h"
+#include "universe.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& difference) {
+  throw Error(fmt::format(
+      "the LIGGGHTS library at hand is not the one that furrow was built for: {}; furrow uses "
+      "the class layout of {}: install libliggghts3 {} of Debian 12",
+      difference, liggghts_version, liggghts_version));
+}
+
+/// The library has allocated the object: it must have room for the class that the headers declare.
+template <class Class>
+void check_room(Class* object, const char* name) {
+  if (malloc_usable_size(object) < sizeof(Class))
+    refuse(fmt::format("its class {} has less than {} bytes", name, sizeof(Class)));
+}
+
+}  // namespace
+
+void* next_definition(const char* symbol) { return dlsym(RTLD_NEXT, symbol); }
+
+void check_library(const LAMMPS_NS::LAMMPS& lammps) {
+  const std::string version = lammps.universe->version;
+  if (version.find(liggghts_version) == std::string::npos)
+    refuse(fmt::format("it calls itself '{}'", version));
+  if (!next_definition(create_symbol)) refuse(fmt::format("it has no symbol {}", create_symbol));
+  check_room(lammps.modify, "Modify");
+  check_room(lammps.input, "Input");
+  check_room(lammps.domain, "Domain");
+  // Of the tables that styles are added to: entries that every LIGGGHTS has must be found.
+  if (!has_fix_style(lammps, "wall/gran") || !has_fix_style(lammps, "mesh/surface"))
+    refuse("its table of fix styles is elsewhere");
+  if (!has_command(lammps, "delete_atoms")) refuse("its table of commands is elsewhere");
+}
+
+}  // namespace furrow::coupling

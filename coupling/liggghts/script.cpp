@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/liggghts/script.h"
+
+#include <filesystem>
+
+#include <mpi.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "comm.h"
+#include "coupling/liggghts/access.h"
+#include "input.h"
+#include "modify.h"
+#include "variable.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+/// Number of the line that the stream has just been read up to; 0 when it cannot be told (standard
+/// input).
+long line_number(FILE* file) {
+  const long position = file ? std::ftell(file) : -1;
+  if (position < 0 || file == stdin) return 0;
+  std::rewind(file);
+  long lines = 0;
+  int last = '\n';
+  for (long i = 0; i < position; ++i) {
+    last = std::fgetc(file);
+    lines += last == '\n';
+  }
+  std::fseek(file, position, SEEK_SET);
+  return lines + (last != '\n');
+}
+
+std::string file_name(FILE* file) {
+  char path[4096];
+  const ssize_t length =
+      readlink(fmt::format("/proc/self/fd/{}", fileno(file)).c_str(), path, sizeof path - 1);
+  return length > 0 ? std::string(path, static_cast<std::size_t>(length)) : "input script";
+}
+
+std::vector<char*> pointers_to(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  return pointers;
+}
+
+}  // namespace
+
+std::string script_position(const LAMMPS_NS::LAMMPS& lammps) {
+  if (!lammps.input || !lammps.infile) return "";
+  const char* text = current_line(lammps);
+  const long line = line_number(lammps.infile);
+  if (line == 0) return text ? fmt::format("standard input: {}", text) : "";
+  return fmt::format("{}, line {}: {}", file_name(lammps.infile), line, text ? text : "");
+}
+
+std::string script_name(const LAMMPS_NS::LAMMPS& lammps) {
+  return lammps.infile && lammps.infile != stdin ? file_name(lammps.infile) : "";
+}
+
+std::string script_folder(const LAMMPS_NS::LAMMPS& lammps) {
+  int rank = 0;
+  MPI_Comm_rank(lammps.world, &rank);
+  std::string folder =
+      rank == 0 ? std::filesystem::path(script_name(lammps)).parent_path().string() : "";
+  int size = static_cast<int>(folder.size());
+  MPI_Bcast(&size, 1, MPI_INT, 0, lammps.world);
+  folder.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(folder.data(), size, MPI_CHAR, 0, lammps.world);
+  return folder;
+}
+
+LAMMPS_NS::Fix& add_fix(LAMMPS_NS::LAMMPS& lammps, std::vector<std::string> words) {
+  std::vector<char*> arguments = pointers_to(words);
+  lammps.modify->add_fix(static_cast<int>(arguments.size()), arguments.data());
+  return *lammps.modify->find_fix_id(words[0].c_str());
+}
+
+void add_compute(LAMMPS_NS::LAMMPS& lammps, std::vector<std::string> words) {
+  if (lammps.modify->find_compute(words[0].c_str()) >= 0) return;
+  std::vector<char*> arguments = pointers_to(words);
+  lammps.modify->add_compute(static_cast<int>(arguments.size()), arguments.data());
+}
+
+void set_variable(LAMMPS_NS::LAMMPS& lammps, std::string name, std::string value) {
+  std::vector<std::string> words = {std::move(name), "string", std::move(value)};
+  std::vector<char*> arguments = pointers_to(words);
+  lammps.input->variable->set(static_cast<int>(arguments.size()), arguments.data());
+}
+
+std::optional<std::string> variable(LAMMPS_NS::LAMMPS& lammps, std::string name) {
+  if (lammps.input->variable->find(name.data()) < 0) return std::nullopt;
+  const char* value = lammps.input->variable->retrieve(name.data());
+  return value ? std::optional<std::string>(value) : std::nullopt;
+}
+
+void warn(LAMMPS_NS::LAMMPS& lammps, const std::string& text) {
+  if (lammps.comm->me != 0) return;
+  for (FILE* stream : {lammps.screen, lammps.logfile})
+    if (stream) std::fprintf(stream, "WARNING: %s\n", text.c_str());
+}
+
+}  // namespace furrow::coupling

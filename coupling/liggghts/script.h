@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The input script: where it stands, and what Furrow writes into it by itself.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lammps.h"
+#include "fix.h"
+
+namespace furrow::coupling {
+
+/// "in.wheel, line 12: fix wheel all ..." of the command being executed; empty outside a script.
+/// Rank 0 only.
+std::string script_position(const LAMMPS_NS::LAMMPS& lammps);
+/// Path of the script being read; empty for standard input. Rank 0 only.
+std::string script_name(const LAMMPS_NS::LAMMPS& lammps);
+/// Folder of that script, from which files named in a script are found; empty for the current
+/// folder. Collective.
+std::string script_folder(const LAMMPS_NS::LAMMPS& lammps);
+
+/// As the line "fix <words>". Not from the constructor of another fix: LIGGGHTS is then in the
+/// middle of its list.
+LAMMPS_NS::Fix& add_fix(LAMMPS_NS::LAMMPS& lammps, std::vector<std::string> words);
+/// As the line "compute <words>", unless there is a compute of that id.
+void add_compute(LAMMPS_NS::LAMMPS& lammps, std::vector<std::string> words);
+
+/// As the line "variable <name> string <value>". @throws nothing: LIGGGHTS ends the run when the
+/// variable is there and is no string
+void set_variable(LAMMPS_NS::LAMMPS& lammps, std::string name, std::string value);
+/// Value of a variable; nothing when there is none of that name.
+std::optional<std::string> variable(LAMMPS_NS::LAMMPS& lammps, std::string name);
+
+/// Prints "WARNING: <text>" to screen and log, on rank 0.
+void warn(LAMMPS_NS::LAMMPS& lammps, const std::string& text);
+
+}  // namespace furrow::coupling

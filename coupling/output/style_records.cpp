@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/output/style_records.h"
+
+#include <fstream>
+#include <sstream>
+
+#include "coupling/base/has_options.h"
+#include "coupling/liggghts/script.h"
+#include "coupling/styles.h"
+#include "coupling/terrain/command_bed.h"
+#include "group.h"
+#include "modify.h"
+
+namespace furrow::coupling {
+
+std::vector<StyleRecord> style_records(LAMMPS_NS::LAMMPS& lammps) {
+  std::vector<StyleRecord> records;
+  const auto bed = bed_line(lammps);
+  if (!bed.empty()) {
+    StyleRecord record{"", "", "bed", name_of(find_style("bed")->kind), {}};
+    for (const auto& [name, value] : bed) record.options.push_back({name, {typed_value(value)}});
+    records.push_back(std::move(record));
+  }
+  for (int i = 0; i < lammps.modify->nfix; ++i) {
+    const LAMMPS_NS::Fix& fix = *lammps.modify->fix[i];
+    const auto* described = dynamic_cast<const HasOptions*>(&fix);
+    const Style* style = find_style(style_of(fix));
+    if (described && style)
+      records.push_back({fix.id, lammps.group->names[fix.igroup], style->name,
+                         name_of(style->kind), typed_values(described->options())});
+  }
+  return records;
+}
+
+std::string effective_input(LAMMPS_NS::LAMMPS& lammps) {
+  std::ostringstream text;
+  text << "# styles with their effective values\n";
+  const auto bed = bed_line(lammps);
+  for (const auto& [name, value] : bed)
+    text << (name == "script" ? "bed" : ' ' + name) << ' ' << value;
+  if (!bed.empty()) text << '\n';
+  for (int i = 0; i < lammps.modify->nfix; ++i) {
+    const LAMMPS_NS::Fix& fix = *lammps.modify->fix[i];
+    const auto* described = dynamic_cast<const HasOptions*>(&fix);
+    if (!described) continue;
+    text << "fix " << fix.id << ' ' << lammps.group->names[fix.igroup] << ' ' << style_of(fix);
+    for (const Entry& entry : described->options().effective()) {
+      text << ' ' << entry.key;
+      for (const std::string& value : entry.values) text << ' ' << value;
+    }
+    text << '\n';
+  }
+  const std::string script = script_name(lammps);
+  if (std::ifstream file{script}) text << "\n# script " << script << '\n' << file.rdbuf();
+  return text.str();
+}
+
+}  // namespace furrow::coupling

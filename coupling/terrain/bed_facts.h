@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// What is known of a settled bed of grains.
+
+#include "core/outputs.h"
+#include "lammps.h"
+
+namespace furrow::coupling {
+
+struct BedFacts {
+  double grains = 0.0;
+  double solid_fraction = 0.0;
+  double bulk_density = 0.0;    ///< [kg/m^3]
+  double level = 0.0;           ///< [m]
+  double kinetic_energy = 0.0;  ///< [J]
+  double settle_steps = 0.0;
+};
+
+/// As variables of the script.
+const Outputs<const BedFacts>& bed_outputs();
+
+/// Of the bed that stands in the box now. @param depth of the levelled bed [m]. Collective.
+BedFacts measure_bed(LAMMPS_NS::LAMMPS& lammps, double depth);
+
+}  // namespace furrow::coupling

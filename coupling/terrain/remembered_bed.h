@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// A bed of grains as it was at one instant, with all that its grains carry, to be put in again.
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "lammps.h"
+
+namespace furrow::coupling {
+
+/// The grains of all ranks, on every rank, in the order of their tags then. A grain is meant by its
+/// index in that order; its latest copy in the run has another tag.
+class RememberedBed {
+ public:
+  /// The bed that stands in the box now, its grains at rest. Collective; grains have just been
+  /// exchanged and carry their contact histories.
+  /// @throws StateError for an atom style whose grains are packed in another way
+  explicit RememberedBed(LAMMPS_NS::LAMMPS& lammps);
+
+  std::size_t size() const { return offset_.size(); }
+  const double* position(std::size_t grain) const;  ///< [m]
+  double radius(std::size_t grain) const;           ///< [m]
+
+  /// Gives the grains, which are about to be put in, the next unused tags, in their order.
+  void renumber(const std::vector<std::size_t>& grains);
+  /// Largest tag that a copy or an original has had.
+  int largest_tag() const { return largest_tag_; }
+
+  /// Puts a grain in on this rank, under its latest tag and with its contacts to the latest copies
+  /// of its partners. @param is_gone partners whose contacts are left out
+  void put_in(LAMMPS_NS::LAMMPS& lammps, std::size_t grain,
+              const std::function<bool(std::size_t partner)>& is_gone) const;
+
+ private:
+  void gather(LAMMPS_NS::LAMMPS& lammps);
+  void refer_partners_by_index();
+  double* packed(std::size_t grain) { return &packed_[offset_[grain]]; }
+  const double* packed(std::size_t grain) const { return &packed_[offset_[grain]]; }
+  std::size_t packed_size(std::size_t grain) const;
+
+  bool has_contacts_;                     // the contact model keeps histories
+  std::size_t contact_values_ = 0;        // of each contact
+  std::vector<double> packed_;            // exchange_buffer.h, one grain after the other
+  std::vector<std::size_t> offset_;       // of each grain in packed_
+  std::vector<std::size_t> contacts_at_;  // of its contacts, from its own beginning
+  std::vector<int> latest_tag_;           // of each grain
+  int largest_tag_ = 0;
+};
+
+}  // namespace furrow::coupling

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// What continuum terrain reports: f_ID[n] of terrain/continuum, and the channels of
+/// terrain/history.
+
+#include <optional>
+
+#include "bodies/body.h"
+#include "core/outputs.h"
+#include "mpm/continuum_terrain.h"
+
+namespace furrow::coupling {
+
+/// A terrain whose energies are looked at once, when an output asks for them.
+class TerrainReading {
+ public:
+  explicit TerrainReading(const ContinuumTerrain& terrain) : terrain_(terrain) {}
+
+  const ContinuumTerrain& terrain() const { return terrain_; }
+  /// Collective.
+  const EnergyBudget& energy() {
+    if (!energy_) energy_ = terrain_.energy_budget();
+    return *energy_;
+  }
+
+ private:
+  const ContinuumTerrain& terrain_;
+  std::optional<EnergyBudget> energy_;
+};
+
+/// The functions are collective. Energies since the start; of a half model, of the half.
+const Outputs<TerrainReading>& terrain_outputs();
+
+}  // namespace furrow::coupling

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The stages of a wheel's run, as the channel `stage` of its history records them.
+
+namespace furrow {
+
+/// One after the other; steady values are those of the cruise.
+enum class RigStage { settle = 0, accelerate = 1, cruise = 2 };
+
+/// Name of the channel that holds the stage of every row, as a number.
+constexpr char stage_channel[] = "stage";
+
+}  // namespace furrow
