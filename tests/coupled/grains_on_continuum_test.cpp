@@ -86,9 +86,6 @@ TEST(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
   EXPECT_GT(audit.force_scale, 0.0);
   EXPECT_LT(audit.force, 1e-10);
   EXPECT_LT(audit.moment, 1e-10);
-  if (scene.rank() == 0)
-    fmt::print("base {:.6f} N s of {:.6f}; audit force {:.1e}, moment {:.1e}\n", base,
-               mass * gravity * time + ground_gain - impulse, audit.force, audit.moment);
 }
 
 }  // namespace

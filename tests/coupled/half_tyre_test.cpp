@@ -79,8 +79,6 @@ Outcome roll(bool half) {
 
 void expect_alike(const Outcome& a, const Outcome& b, double share) {
   const auto alike = [&](const char* name, double Outcome::*value, double scale) {
-    fmt::print("  {}: {:.6g} {:.6g}, difference {:.1e} of {:.3g}\n", name, a.*value, b.*value,
-               (a.*value - b.*value) / scale, scale);
     EXPECT_NEAR(a.*value, b.*value, share * std::abs(scale)) << name;
   };
   alike("x", &Outcome::x, b.x);

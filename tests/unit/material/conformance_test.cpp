@@ -118,7 +118,6 @@ TEST_P(Conformance, FirstStepHasTheElasticModuli) {
     material_->update_point(stretch((Vector6() << 0, 0, 0, 0.5, 0, 0).finished() * (sign * strain)),
                             shear);
     const double p0 = invariants(stress_of(start)).p;
-    if (sign > 0 && volume[field::dissipated_energy] != 0.0) continue;  // yields at once in tension
     EXPECT_NEAR((p0 - invariants(stress_of(volume)).p) / (sign * strain * moduli.bulk), 1.0, 1e-2);
     EXPECT_NEAR(shear[3] / (sign * strain * moduli.shear), 1.0, 1e-2);
   }
