@@ -137,9 +137,11 @@ def wheel_quantities(folder):
         if not (folder / picture).read_bytes().startswith(b"\x89PNG"):
             sys.exit(f"{folder / picture} is no picture")
     with h5py.File(folder / "history.h5") as content:
-        found = {f"{name} at the end": (column[-max(len(column) // 20, 1):].mean(),
-                                        bytes(column.attrs["unit"]).decode())
-                 for name, column in content["history"].items()}
+        found = {}
+        for name, column in content["history"].items():
+            unit = column.attrs["unit"]
+            unit = unit.decode() if isinstance(unit, bytes) else unit
+            found[f"{name} at the end"] = column[-max(len(column) // 20, 1):].mean(), unit
     found.update((name, (value["mean"], value["unit"]))
                  for name, value in summary.get("quantities", {}).items())
     return {name.replace("_", " "): value for name, value in found.items()}
