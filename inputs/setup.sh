@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Shared by inputs/run and tests/run: what Furrow needs from Debian, and how it is built. Source it; it defines functions only.
+# Shared by inputs/run, tests/run and .ci/format: what Furrow needs from Debian, and how it is built. Source it; it defines functions
+# and variables only.
 
 furrow_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 furrow_build=${FURROW_BUILD:-$furrow_root/build}
@@ -8,8 +9,9 @@ furrow_build=${FURROW_BUILD:-$furrow_root/build}
 furrow_packages="g++ cmake ninja-build liggghts libliggghts-dev libopenmpi-dev openmpi-bin libeigen3-dev libhdf5-dev
   libvtk9-dev libyaml-cpp-dev libfmt-dev libcli11-dev nlohmann-json3-dev python3 python3-numpy python3-h5py python3-matplotlib
   python3-scipy"
-# To test besides.
-furrow_test_packages="libgtest-dev libgmock-dev libbenchmark-dev"
+# To test as well.
+furrow_test_packages="libgtest-dev libgmock-dev libbenchmark-dev mypy"
+furrow_format_packages="clang-format git"
 
 # install_packages <package>...: those that are missing, from Debian, once
 install_packages() {
@@ -32,16 +34,26 @@ install_packages() {
   rm -f "$log"
 }
 
+# More words for cmake, e.g. furrow_options=(-D FURROW_WERROR=ON)
+furrow_options=()
+
 # build_furrow <tests: ON|OFF> <target>...
 build_furrow() {
-  local tests=$1 log="$furrow_build/build.log"
+  local tests=$1 log="$furrow_build/build.log" generator=(-G Ninja)
   shift
   mkdir -p "$furrow_build"
   echo "Building in $furrow_build"
-  # A build folder that was configured with tests keeps them: switching back and forth would compile for nothing.
+  # A build folder that was configured keeps its generator, and its tests: switching back and forth would compile for nothing.
+  [ ! -f "$furrow_build/CMakeCache.txt" ] || generator=()
   grep -qs 'FURROW_TESTS:BOOL=ON' "$furrow_build/CMakeCache.txt" && tests=ON
-  { cmake -S "$furrow_root" -B "$furrow_build" -G Ninja -DFURROW_TESTS="$tests" && cmake --build "$furrow_build" --target "$@"; } >"$log" 2>&1 ||
-    { grep -E "error|Error" "$log" | head -20 >&2; tail -5 "$log" >&2; echo "The build failed; whole log: $log" >&2; exit 1; }
+  { cmake -S "$furrow_root" -B "$furrow_build" "${generator[@]}" -D FURROW_TESTS="$tests" "${furrow_options[@]}" &&
+      cmake --build "$furrow_build" --parallel "$(nproc)" --target "$@"; } >"$log" 2>&1 ||
+    { show_build_errors "$log"; echo "The build failed; whole log: $log" >&2; exit 1; }
+}
+
+# show_build_errors <log>: what the compiler, the linker or CMake said, or the end of the log
+show_build_errors() {
+  { grep -E -A 4 'error:|undefined reference|ld returned|CMake Error' "$1" || tail -n 40 "$1"; } | head -n 60 >&2
 }
 
 # Open MPI refuses root and more ranks than cores unless told; ranks that wait should give way where cores are shared.

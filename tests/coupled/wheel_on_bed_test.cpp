@@ -13,6 +13,7 @@
 #include "coupling/bodies/fix_wheel_rigid.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
+#include "tests/support/max_error.h"
 #include "update.h"
 
 namespace furrow::test {
@@ -57,6 +58,7 @@ struct Outcome {
   double expected_force;
   double worst_slip_error;
   double energy_residual, energy_scale;
+  double force_scale;  // [N] of the contacts, in the step in which it was largest
   double force_defect, moment_defect;
 };
 
@@ -81,6 +83,7 @@ Outcome roll(Scene& scene, double slip) {
       dynamic_cast<coupling::FixWheelRigid*>(scene.lammps().modify->find_fix_id("wheel"))->wheel();
 
   Outcome run{};
+  MaxError slip_error;
   // Impulse theorem over the last part of the settling: sum of F dt = load T + m change of v + c
   // change of z, exact for the leapfrog (the velocity at the end of a step does not yet know the
   // force of that step).
@@ -101,12 +104,12 @@ Outcome roll(Scene& scene, double slip) {
     if (rig.rig().stage(time) == RigStage::cruise) {
       const double rim = wheel.rate(Coordinate::spin) * wheel.parameters().geometry.radius(),
                    v = wheel.velocity()[0];
-      run.worst_slip_error = std::max(
-          run.worst_slip_error, std::abs((rim - v) / std::max(std::abs(rim), std::abs(v)) - slip));
+      slip_error.add((rim - v) / std::max(std::abs(rim), std::abs(v)) - slip);
     }
   });
   scene.command("run 17500");
   const double duration = samples * scene.lammps().update->dt;
+  run.worst_slip_error = slip_error.max();
   run.standing_force = sum / samples;
   run.expected_force = load + (wheel_mass * (last_velocity - first_velocity) +
                                damping * (last_height - first_height)) /
@@ -114,6 +117,7 @@ Outcome roll(Scene& scene, double slip) {
   const EnergyBudget budget = wheel.energy_budget();
   run.energy_residual = std::abs(budget.residual());
   run.energy_scale = std::max(std::abs(budget.contact_work), std::abs(budget.load_work));
+  run.force_scale = scene.system().audit(wheel).force_scale;
   run.force_defect = scene.system().audit(wheel).force;
   run.moment_defect = scene.system().audit(wheel).moment;
   return run;
@@ -126,6 +130,7 @@ TEST(WheelOnBed, CarriesItsLoadAndKeepsMomentumAndEnergy) {
   EXPECT_NEAR(run.standing_force / load, 1.0, 0.02);  // it stands, nearly
   EXPECT_LT(run.worst_slip_error, 1e-10);
   EXPECT_LT(run.energy_residual / run.energy_scale, 1e-10);
+  EXPECT_GT(run.force_scale, 0.5 * load);
   EXPECT_LT(run.force_defect, 1e-10);
   EXPECT_LT(run.moment_defect, 1e-10);
 }

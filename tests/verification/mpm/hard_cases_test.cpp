@@ -200,8 +200,8 @@ TEST(HardCase, WheelThatLeavesTheGroundStopsTheRun) {
   }
 }
 
-/// Compacted to a tenth of its height: denser than ice, which is not clamped.
-void compact_by_90_percent(double stiffness) {
+/// Compacted to a tenth of its height: denser than ice, which is reported and not clamped.
+void expect_sound_at_90_percent(double stiffness) {
   const double cell = 0.02, height = 0.2;
   const auto material = material_of(snow());
   TerrainParameters p = box(material, {0, 0, 0}, {cell, cell, height}, cell);
@@ -235,13 +235,13 @@ void compact_by_90_percent(double stiffness) {
   });
 }
 
-TEST(HardCase, CompactionBy90Percent) { compact_by_90_percent(4.0); }
+TEST(HardCase, CompactionBy90Percent) { expect_sound_at_90_percent(4.0); }
 
 /// The contact's springs are made for the snow's elasticity; ice at tens of megapascals presses
 /// through them.
 TEST(HardCase, CompactionBy90PercentUnderASoftLidStopsWithItsCause) {
   try {
-    compact_by_90_percent(0.4);
+    expect_sound_at_90_percent(0.4);
     FAIL() << "no error";
   } catch (const StateError& error) {
     EXPECT_THAT(error.what(), HasSubstr("contact 'lid': the surface is 0.01"));

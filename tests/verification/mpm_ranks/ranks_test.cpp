@@ -12,6 +12,7 @@
 #include "bodies/rigid_plate.h"
 #include "core/error.h"
 #include "tests/support/checkpoints.h"
+#include "tests/support/max_error.h"
 
 namespace furrow {
 namespace {
@@ -84,14 +85,13 @@ void expect_near(double a, double b, double scale, const std::string& what) {
   EXPECT_LE(std::abs(a - b), 1e-9 * scale) << what << ": " << a << " " << b;
 }
 
-void compare(Scene& many, Scene& one) {
+void expect_alike(Scene& many, Scene& one) {
   const std::vector<double> a = sorted_particles(many.ground), b = sorted_particles(one.ground);
   ASSERT_EQ(a.size(), b.size());
   const double scales[14] = {1, 0.1, 0.1, 0.1, 1, 1, 1, 1e5, 1e5, 1e5, 1e5, 1e5, 1e5, 1};
-  double worst = 0.0;
-  for (std::size_t n = 0; n < a.size(); ++n)
-    worst = std::max(worst, std::abs(a[n] - b[n]) / scales[n % 14]);
-  EXPECT_LE(worst, 1e-9);
+  test::MaxError difference;
+  for (std::size_t n = 0; n < a.size(); ++n) difference.add((a[n] - b[n]) / scales[n % 14]);
+  EXPECT_LE(difference.max(), 1e-9);
   EXPECT_EQ(many.contact.contacts(), one.contact.contacts());
   const double force = one.contact.force().norm();
   for (int c = 0; c < 3; ++c)
@@ -119,7 +119,7 @@ TEST_P(Windows, GiveTheAnswerOfOne) {
   many.run(30);
   one.run(30);
   EXPECT_GT(one.contact.contacts(), 20.0);
-  compare(many, one);
+  expect_alike(many, one);
   if (GetParam()) {
     EXPECT_GT(one.ground.travelled(), 0.03);
     const double mine = static_cast<double>(many.ground.rut().points().size());
@@ -138,14 +138,14 @@ TEST_P(Windows, TakeOverTheStateOfOne) {
   many.steps = one.steps;
   one.run(12);
   many.run(12);
-  compare(many, one);
+  expect_alike(many, one);
   test::hand_over(many.plate, back.plate);
   test::hand_over(many.ground, back.ground);  // collective
   test::hand_over(many.contact, back.contact);
   back.steps = many.steps;
   back.run(6);
   one.run(6);
-  compare(back, one);
+  expect_alike(back, one);
 }
 
 TEST(Slabs, CoverAllCellsAndOwnEveryPlaneOnce) {

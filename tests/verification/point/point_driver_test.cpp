@@ -63,11 +63,14 @@ TEST(PointDriver, TriaxialCompressionEndsInTheCriticalState) {
                                              {"steps", {"300"}}}));
     const PointRecord& end = history.records.back();
     EXPECT_NEAR(stress(end).q / ((d + confinement * tan_beta) / (1.0 - tan_beta / 3.0)), 1.0, 1e-6);
+    int compressed = 0;
     for (const PointRecord& record : history.records) {
       if (record.segment != 2) continue;
+      ++compressed;
       EXPECT_NEAR(record.state[0], -confinement, 2e-10 * stress(record).q + 1e-10 * confinement);
       EXPECT_NEAR(record.state[1], record.state[0], 4e-10 * stress(record).q + 1e-10 * confinement);
     }
+    EXPECT_EQ(compressed, 300);
     // The axial strain counts from the end of the isotropic piece.
     EXPECT_NEAR(-end.strain[2] + history.records[300].strain[2], 0.3, 1e-12);
   }

@@ -95,6 +95,7 @@ TEST(Presets, McCormickSandIsTRTables4And5) {
 TEST(Presets, DrySandFollowsTheOedometerOfItsGrains) {
   const CsvTable grains = CsvTable::read(inputs + "/validation/grains/sand_dry_oedometer.csv");
   const std::vector<double> rho = grains.numbers("rho_kgm3");
+  ASSERT_GT(rho.size(), 5u);
   for (const char* name : {"dry_sand", "dry_sand_triaxial"}) {
     const auto sand = file_of(name).make();
     const PointHistory history = oedometer(*sand, grains.numbers("sigma1_Pa"));
@@ -118,10 +119,13 @@ TEST(Presets, SnowAsPrintedIsTRTable3) {
   // The trap of the reference density: the printed strains are ln(rho/210), to their three
   // decimals.
   const std::vector<double> rho = table.numbers("rho_kgm3"), eps = table.numbers("eps_vol_pl");
+  int compared = 0;
   for (std::size_t i = 0; i < rho.size(); ++i)
     if (!std::isnan(rho[i])) {
+      ++compared;
       EXPECT_NEAR(std::log(rho[i] / 210.0), eps[i], 6e-4);
     }
+  EXPECT_GT(compared, 5);
 }
 
 TEST(Presets, FreshSnowCountsTable3From200) {

@@ -26,7 +26,7 @@ void expect_convergence(const char* name, const std::vector<int>& meshes,
     ratios.push_back(ratio(n));
     line += fmt::format("  {}: {:.4f}", n, ratios.back());
   }
-  fmt::print("  {} / reference {}\n", name, line);
+  ::testing::Test::RecordProperty(std::string(name) + "_over_reference", line);
   EXPECT_NEAR(ratios.front(), 1.0, coarse) << name;
   EXPECT_NEAR(ratios.back(), 1.0, fine) << name;
   EXPECT_LE(std::abs(ratios.back() - 1.0), std::abs(ratios.front() - 1.0) + 1e-3) << name;

@@ -10,6 +10,7 @@
 
 #include "io/tyre_file.h"
 #include "rig/wheel_rig.h"
+#include "tests/support/max_error.h"
 #include "tyre/contact_patch.h"
 #include "tyre/darnell_tyre.h"
 
@@ -56,6 +57,7 @@ Outcome roll(const std::string& mode, double value, double speed, double time) {
   const double dt = tyre.stable_time_step(), start = tyre.energy_budget().residual(),
                average_from = time - 2.0 * pi * 0.3475 / speed;
   Outcome run{};
+  test::MaxError energy;
   double from_x = 0.0, from_spin = 0.0, from_damped = 0.0, counted = 0.0;
   const long steps = std::lround(time / dt);
   for (long i = 0; i < steps; ++i) {
@@ -65,7 +67,7 @@ Outcome roll(const std::string& mode, double value, double speed, double time) {
     const Vector3 force = tyre.ground_wrench().force;
     tyre.advance(dt);
     const EnergyBudget budget = tyre.energy_budget();
-    run.worst_energy = std::max(run.worst_energy, std::abs(budget.residual() - start));
+    energy.add(budget.residual() - start);
     run.energy_scale =
         std::max({run.energy_scale, budget.kinetic_energy, std::abs(budget.load_work)});
     if (static_cast<double>(i) * dt < average_from) continue;
@@ -77,6 +79,7 @@ Outcome roll(const std::string& mode, double value, double speed, double time) {
     run.deflection += (tyre.nominal_radius() - (tyre.centre().z() - road.height)) * dt;
     counted += dt;
   }
+  run.worst_energy = energy.max();
   run.force_x /= counted;
   run.force_z /= counted;
   run.deflection /= counted;
@@ -88,12 +91,11 @@ Outcome roll(const std::string& mode, double value, double speed, double time) {
 
 TEST(RollingTyre, ManyTurns) {
   const Outcome run = roll("towed", 0.0, 6.0, 2.4);
-  fmt::print(
-      "  {:.1f} turns, rolling radius {:.4f} m, drag {:.1f} N, load {:.1f} N, damping takes {:.1f} "
-      "W, energy off by {:.1e} "
-      "of {:.0f} J\n",
-      run.turns, run.rolling_radius, -run.force_x, run.force_z, run.damping_power, run.worst_energy,
-      run.energy_scale);
+  RecordProperty("roll",
+                 fmt::format("{:.1f} turns, rolling radius {:.4f} m, drag {:.1f} N, load {:.1f} N, "
+                             "damping takes {:.1f} W, energy off by {:.1e} of {:.0f} J",
+                             run.turns, run.rolling_radius, -run.force_x, run.force_z,
+                             run.damping_power, run.worst_energy, run.energy_scale));
   EXPECT_GT(run.turns, 5.0);
   EXPECT_NEAR(run.force_z, 6227.0, 0.005 * 6227.0);
   EXPECT_LT(run.worst_energy, 1e-3 * run.energy_scale);
@@ -107,7 +109,8 @@ TEST(RollingTyre, ManyTurns) {
 
 TEST(RollingTyre, SlipPullsAndBrakes) {
   const Outcome drive = roll("slip", 0.02, 2.0, 1.6), brake = roll("slip", -0.02, 2.0, 1.6);
-  fmt::print("  2 % slip: {:.0f} N, -2 %: {:.0f} N\n", drive.force_x, brake.force_x);
+  RecordProperty("force_at_2_percent",
+                 fmt::format("{:.0f} N, braking {:.0f} N", drive.force_x, brake.force_x));
   EXPECT_GT(drive.force_x, 300.0);
   EXPECT_LT(brake.force_x, -300.0);
   EXPECT_LT(drive.force_x, 0.8 * 6300.0);  // Coulomb's limit

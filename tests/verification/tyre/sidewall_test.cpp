@@ -12,6 +12,7 @@
 #include <Eigen/LU>
 
 #include "io/tyre_file.h"
+#include "tests/support/max_error.h"
 #include "tyre/sidewall_chain.h"
 #include "tyre/sidewall_direct.h"
 #include "tyre/sidewall_table.h"
@@ -286,8 +287,8 @@ TEST(Sidewall, TableFollowsTheChain) {
     std::mt19937 engine(11);
     std::uniform_real_distribution<double> share(0.3, 0.97), direction(radians(45), radians(135)),
         phi(-0.8, 0.8);
-    double squares = 0.0, largest = 0.0, largest_moment = 0.0, largest_stiffness = 0.0,
-           force_squares = 0.0;
+    double squares = 0.0, force_squares = 0.0;
+    test::MaxError force, moment, stiffness;
     const int n = 3000;
     for (int i = 0; i < n; ++i) {
       const double c = tyre.sidewall.length * share(engine), chi = direction(engine);
@@ -299,21 +300,18 @@ TEST(Sidewall, TableFollowsTheChain) {
       const double error = (looked_up.on_tread - solved.on_tread).head<2>().norm();
       squares += error * error;
       force_squares += solved.on_tread.head<2>().squaredNorm();
-      largest = std::max(largest, error);
-      largest_moment =
-          std::max(largest_moment, std::abs(looked_up.on_tread[2] - solved.on_tread[2]));
-      largest_stiffness =
-          std::max(largest_stiffness,
-                   (looked_up.stiffness - solved.stiffness).norm() / solved.stiffness.norm());
+      force.add(error);
+      moment.add(looked_up.on_tread[2] - solved.on_tread[2]);
+      stiffness.add((looked_up.stiffness - solved.stiffness).norm() / solved.stiffness.norm());
     }
     const double rms = std::sqrt(squares / n), scale = std::sqrt(force_squares / n);
     const std::string name = (sidewall.taper > 0.0 ? "sector_" : "even_") + std::to_string(int(p));
     RecordProperty(name + "_rms_N_per_m", std::to_string(rms));
-    RecordProperty(name + "_max_N_per_m", std::to_string(largest));
+    RecordProperty(name + "_max_N_per_m", std::to_string(force.max()));
     EXPECT_LT(rms, 1e-6 * scale) << "force rms " << scale << " N/m";
-    EXPECT_LT(largest, 2e-5 * scale);
-    EXPECT_LT(largest_moment, 1e-4);
-    EXPECT_LT(largest_stiffness, 1e-3);
+    EXPECT_LT(force.max(), 2e-5 * scale);
+    EXPECT_LT(moment.max(), 1e-4);
+    EXPECT_LT(stiffness.max(), 1e-3);
   }
 }
 

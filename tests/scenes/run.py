@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs the small version of a scene or laboratory test, as a user would, and checks the result.
+
+    run.py scene <script> <ranks> <results>     bash inputs/run <script> --quick
+    run.py two_grounds <results>                bash inputs/run --quick: two scenes and their report
+    run.py laboratory <script> <results>        inputs/laboratory/run, for a test or a ground
+    run.py usage                                the list of scenes, and what inputs/run refuses
+
+The head of a script says what is run and what must come out, in SI units:
+
+    # Quick:    -v cell 0.05 -v distance 0.6
+    # Gives:    sinkage 0.15 to 0.17 m, resistance coefficient 0.16 to 0.20
+
+A scene's quantities are those of summary.json (means over the cruise of a wheel), of its history
+("... at the end": the last twentieth), of curve.txt (a plate) and of the continuum's history; those
+of a laboratory test are in laboratory.json. Every run must also keep its energies and momenta.
+"""
+
+import json
+import math
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+PROJECT = Path(__file__).resolve().parents[2]
+SCENES = PROJECT / "inputs" / "scenes"
+LABORATORY = PROJECT / "inputs" / "laboratory"
+ENERGY_LIMIT = 1e-3  # of the largest energy, for a wheel or tyre: the error of its time step
+CONTINUUM_LIMIT = 0.05  # the same for a continuum, as in tests/verification/mpm/hard_cases_test.cpp
+MOMENTUM_LIMIT = 1e-10  # of the largest force or moment: round-off
+
+
+class Head:
+    """The comment at the top of a script: title, words of the small version, what it gives."""
+
+    def __init__(self, script):
+        self.script = Path(script)
+        self.lines = []
+        for line in self.script.read_text().splitlines():
+            if not line.startswith("#"):
+                break
+            self.lines.append(line)
+        self.title = self.lines[0].lstrip("# ")
+        self.quick = shlex.split(self._entry("Quick"))
+        self.gives = [self._expectation(text) for text in self._entry("Gives").split(", ")]
+
+    def _entry(self, name):
+        start = f"# {name}:"
+        found = [line[len(start):].strip() for line in self.lines if line.startswith(start)]
+        if len(found) != 1 or not found[0]:
+            sys.exit(f"{self.script}: its head needs one line '{start} ...', it has {len(found)}; "
+                     "see tests/scenes/run.py")
+        return found[0]
+
+    def _expectation(self, text):
+        """(name, lowest, highest, unit) of "sinkage 0.15 to 0.17 m"."""
+        parts = re.fullmatch(r"(.+?) (\S+) to (\S+)(?: (\S+))?", text)
+        if not parts:
+            sys.exit(f"{self.script}: '{text}' is not 'name lowest to highest unit'")
+        lowest, highest = float(parts[2]), float(parts[3])
+        if not lowest < highest:
+            sys.exit(f"{self.script}: '{text}' is an empty range")
+        return parts[1], lowest, highest, parts[4] or ""
+
+    def check(self, found):
+        """Every quantity of the line Gives lies in its range. found: (value, unit) by name."""
+        missed = []
+        for name, lowest, highest, unit in self.gives:
+            if name not in found:
+                sys.exit(f"{self.script}: '{name}' is not among {', '.join(sorted(found))}")
+            value, its_unit = found[name]
+            if unit != its_unit:
+                sys.exit(f"{self.script}: the unit of '{name}' is '{its_unit}', not '{unit}'")
+            value = math.nan if value is None else float(value)
+            print(f"  {name}: {value:.6g} {unit}, expected {lowest:g} to {highest:g}")
+            if not lowest <= value <= highest:
+                missed.append(f"{name} is {value:.6g} {unit}, not {lowest:g} to {highest:g}")
+        if missed:
+            sys.exit(f"{self.script}: {'; '.join(missed)}")
+
+
+def run(command, status=0, **environment):
+    """What a command says that ends with this status; else the test ends with it."""
+    print("+", shlex.join(map(str, command)), flush=True)
+    done = subprocess.run(command, env={**os.environ, **environment}, text=True,
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT)
+    if done.returncode != status:
+        sys.exit(f"{done.stdout}\nended with status {done.returncode} instead of {status}")
+    return done.stdout
+
+
+def inputs_run(*words, status=0, **environment):
+    return run(["bash", PROJECT / "inputs" / "run", "--no-build", *words], status, **environment)
+
+
+def empty(folder):
+    shutil.rmtree(folder, ignore_errors=True)
+    Path(folder).mkdir(parents=True)
+    return Path(folder)
+
+
+def check_share(name, part, whole, limit):
+    """|part| <= limit whole, and neither is NaN."""
+    print(f"  {name}: {part:.3g} of {whole:.3g}")
+    if not abs(part) <= limit * whole:
+        sys.exit(f"{name}: {part:.3g} of {whole:.3g} is more than {limit:g} of it")
+
+
+def check_audit(audit, name, energy_limit):
+    if not audit["energy_scale"] > 0:
+        sys.exit(f"{name}: there was no energy at all")
+    check_share(f"{name}, energy not accounted for", audit["energy_residual"],
+                audit["energy_scale"], energy_limit)
+    for what in ("force", "moment"):
+        check_share(f"{name}, {what}s on nodes and grains", audit[f"{what}_imbalance"],
+                    audit[f"{what}_scale"], MOMENTUM_LIMIT)
+
+
+def wheel_quantities(folder):
+    """Of summary.json, which the run itself writes, and of history.h5."""
+    summary = json.loads((folder / "summary.json").read_text())
+    if not summary["complete"]:
+        sys.exit(f"{folder} did not come to its end")
+    check_audit(summary["audit"], "wheel", ENERGY_LIMIT)
+    pictures = ["histories.png"]
+    if summary["cost"]["grains"] > 0 or len(list(folder.glob("*.h5"))) > 1:
+        pictures.append("rut.png")
+    for picture in pictures:
+        if not (folder / picture).read_bytes().startswith(b"\x89PNG"):
+            sys.exit(f"{folder / picture} is no picture")
+    with h5py.File(folder / "history.h5") as content:
+        found = {}
+        for name, column in content["history"].items():
+            unit = column.attrs["unit"]
+            unit = unit.decode() if isinstance(unit, bytes) else unit
+            found[f"{name} at the end"] = column[-max(len(column) // 20, 1):].mean(), unit
+    found.update((name, (value["mean"], value["unit"]))
+                 for name, value in summary.get("quantities", {}).items())
+    return {name.replace("_", " "): value for name, value in found.items()}
+
+
+def plate_quantities(folder):
+    """Of curve.txt: time step, sinkage, force, pressure; its end is the last twentieth."""
+    curve = np.loadtxt(folder / "curve.txt")
+    end = curve[-max(len(curve) // 20, 1):].mean(axis=0)
+    return {"peak force": (curve[:, 2].max(), "N"), "force at the end": (end[2], "N"),
+            "pressure at the end": (end[3], "Pa"), "sinkage reached": (curve[-1, 1], "m")}
+
+
+def continuum_quantities(folder):
+    """Of the history of terrain/continuum: what the base carries in the last third."""
+    for file in folder.glob("*.h5"):
+        with h5py.File(file) as content:
+            if "history/base_impulse" not in content:
+                continue
+            check_audit(content["audit"].attrs, "continuum", CONTINUUM_LIMIT)
+            time, impulse = content["history/time"][()], content["history/base_impulse"][()]
+        first = 2 * len(time) // 3
+        force = (impulse[-1] - impulse[first]) / (time[-1] - time[first])
+        return {"base force": (force, "N")}
+    return {}
+
+
+def check_scene(script, folder):
+    found = continuum_quantities(folder)
+    if (folder / "history.h5").is_file():
+        found.update(wheel_quantities(folder))
+    if (folder / "curve.txt").is_file():
+        found.update(plate_quantities(folder))
+    Head(script).check(found)
+
+
+def scene(script, ranks, results):
+    folder = empty(results)
+    # A cache of its own: the bed is made, not read.
+    inputs_run(script, "--quick", "-n", ranks, "-o", folder / "run",
+               FURROW_CACHE=str(folder / "cache"))
+    check_scene(script, folder / "run")
+
+
+def two_grounds(results):
+    folder = empty(results)
+    comparison = inputs_run("--quick", "-o", folder / "run", FURROW_CACHE=str(folder / "cache"))
+    check_scene(SCENES / "wheel_on_snow.lig", folder / "run" / "continuum")
+    check_scene(SCENES / "wheel_on_snow_grains.lig", folder / "run" / "grains")
+    report = (folder / "run" / "report.html").read_text()
+    for word in ("continuum", "grains", "sinkage", "NRMM"):
+        for where, text in (("comparison", comparison), ("report", report)):
+            if word not in text:
+                sys.exit(f"the {where} does not name '{word}':\n{text}")
+
+
+def laboratory(script, results):
+    head, folder = Head(script), empty(results)
+    if head.script.parent == LABORATORY:
+        words = [head.script.stem, *head.quick]
+    else:
+        words = [*head.quick, "--ground", head.script.stem]
+    run([sys.executable, LABORATORY / "run", *words, "-o", folder / "run"],
+        FURROW_CACHE=str(folder / "cache"))
+    quantities = json.loads((folder / "run" / "laboratory.json").read_text())["quantities"]
+    head.check({name.replace("_", " "): (quantity["value"], quantity["unit"])
+                for name, quantity in quantities.items()})
+
+
+def usage():
+    listed = " ".join(inputs_run("--help").split())
+    for script in SCENES.glob("*.lig"):
+        name, title = Head(script).title.split(": ", 1)
+        if name != script.stem or f"{name} {title}" not in listed:
+            sys.exit(f"{script.name} is not in the list of scenes under its name and title")
+    for words, message in ((["no_such_scene"], "no scene 'no_such_scene'"),
+                           (["--fast"], "does not know '--fast'"),
+                           (["wheel_on_snow", "-n", "two"], "whole number of ranks"),
+                           (["-v", "speed", "1"], "name one"),
+                           (["wheel_on_snow", "--quick", "--error", "10%"], "give one of them")):
+        refused = inputs_run(*words, status=2)
+        if message not in refused:
+            sys.exit(f"{words} is refused without '{message}':\n{refused}")
+
+
+if __name__ == "__main__":
+    tests = {"scene": scene, "two_grounds": two_grounds, "laboratory": laboratory, "usage": usage}
+    tests[sys.argv[1]](*sys.argv[2:])
