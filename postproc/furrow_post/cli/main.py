@@ -1,110 +1,109 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The command furrow-post and its subcommands."""
+"""The command furrow-post: finds the module of a subcommand, which has all the rest."""
 
 import argparse
-import os
-import shutil
+import importlib
 import sys
-from pathlib import Path
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol, cast
 
-from . import cross_commands
-from .results import Results, ResultsError
-from .summary import Summary
+from .. import __version__
+from ..errors import ResultsError
 
-
-def _find_resistance_program():
-    """furrow-resistance: beside furrow-post, in the build folder of the source tree, or on the PATH."""
-    here = Path(sys.argv[0]).resolve().parent
-    build = Path(os.environ.get("FURROW_BUILD", here.parent / "build"))
-    for candidate in (here / "furrow-resistance", build / "bin" / "furrow-resistance"):
-        if candidate.is_file():
-            return str(candidate)
-    found = shutil.which("furrow-resistance")
-    if not found:
-        raise ResultsError("furrow-resistance is not built or not installed; run 'bash inputs/run' once, or put it on the PATH")
-    return found
+DESCRIPTION = "Steady values, plots, pictures and comparisons of Furrow's results folders."
 
 
-def _resistance(arguments):
-    program = _find_resistance_program()
-    os.execv(program, [program] + arguments.words)
+@dataclass(frozen=True)
+class Subcommand:
+    """One subcommand: the module of its name has its arguments and what it does."""
+
+    name: str
+    help: str
+    aliases: tuple[str, ...] = ()
 
 
-def _plot(arguments):
-    from . import histories
+class Module(Protocol):
+    """What the module of a subcommand has."""
 
-    results = Results(arguments.results)
-    target = arguments.output or results.folder / f"histories.{arguments.format}"
-    histories.draw(results, target)
-    print(target)
+    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
+        ...
 
-
-def _picture(arguments):
-    from . import ground, picture
-
-    results = Results(arguments.results)
-    target = arguments.output or results.folder / f"rut.{arguments.format}"
-    numbers = Summary(results.folder).line()
-    if results.has_grains or not (results.folder / "ground.h5").is_file():
-        picture.draw(results, numbers, target)
-    else:
-        ground.draw(results.folder, results.title, numbers, target)
-    print(target)
+    def run(self, arguments: argparse.Namespace) -> None:
+        """@raises ResultsError, OSError"""
 
 
-def _ground(arguments):
-    from . import ground
-
-    folder = Path(arguments.results)
-    folder = folder if folder.is_dir() else folder.parent
-    target = arguments.output or folder / f"ground.{arguments.format}"
-    title = Results(folder).title if (folder / "history.h5").is_file() else folder.resolve().name
-    print(ground.text(ground.draw(folder, title, Summary(folder).line(), target)))
-    print(target)
-
-
-def _laboratory(arguments):
-    from . import laboratory, laboratory_figures
-
-    tests, measured, points, text = laboratory.report(arguments.folders, arguments.reference, arguments.point)
-    print(text)
-    target = arguments.output or tests[0].folder / f"laboratory.{arguments.format}"
-    laboratory_figures.draw(tests, measured, points, target)
-    print(target)
-
-
-def _parser():
-    parser = argparse.ArgumentParser(prog="furrow-post", description="Steady values, plots and pictures of Furrow's results folders.")
-    commands = parser.add_subparsers(dest="command", required=True, metavar="command")
-    resistance = commands.add_parser("resistance", add_help=False,
-                                     help="steady sinkage, motion resistance and torque with standard errors (furrow-resistance)")
-    resistance.add_argument("words", nargs=argparse.REMAINDER)
-    resistance.set_defaults(run=_resistance)
-    for name, run, text in (("plot", _plot, "forces, sinkage, torque and slip against time -> histories.png"),
-                            ("picture", _picture, "the rut from four sides, grains coloured by displacement, continuum by density -> rut.png"),
-                            ("ground", _ground, "density sections, tracers and densities of the rut of continuum ground -> ground.png")):
-        command = commands.add_parser(name, help=text, description=text)
-        command.add_argument("results", help="results folder of a run, or its history.h5")
-        command.add_argument("-o", "--output", type=Path, help="file to write (default: in the results folder)")
-        command.add_argument("--format", choices=("png", "svg", "pdf"), default="png", help="format (default: png)")
-        command.set_defaults(run=run)
-    text = "moduli, strengths, repose or run-out of laboratory tests with their errors -> laboratory.json, laboratory.png"
-    command = commands.add_parser("laboratory", help=text, description=text)
-    command.add_argument("folders", nargs="+", metavar="results", help="results folders of one test of inputs/laboratory")
-    command.add_argument("--reference", type=Path, help="reference.csv of an oedometer, with columns rho_kgm3 and sigma1_Pa")
-    command.add_argument("--point", action="append", default=[], help="results folder of furrow-point with the same path, to lay beside")
-    command.add_argument("-o", "--output", type=Path, help="figure to write (default: in the first folder)")
-    command.add_argument("--format", choices=("png", "svg", "pdf"), default="png", help="format (default: png)")
-    command.set_defaults(run=_laboratory)
-    cross_commands.add(commands)
-    return parser
+SUBCOMMANDS = (
+    Subcommand(
+        "resistance",
+        "steady sinkage, motion resistance and torque with standard errors (furrow-resistance)",
+    ),
+    Subcommand("plot", "forces, sinkage, torque and slip against time -> histories.png"),
+    Subcommand(
+        "picture",
+        "the rut from four sides, grains coloured by displacement, continuum by density -> rut.png",
+    ),
+    Subcommand(
+        "terrain",
+        "density sections, tracers and densities of the rut of continuum terrain -> terrain.png",
+        ("ground",),
+    ),
+    Subcommand(
+        "laboratory",
+        "moduli, strengths, repose or run-out of laboratory tests with their errors "
+        "-> laboratory.json, laboratory.png",
+    ),
+    Subcommand("point", "the figure of furrow-point -> point.png or fit.png"),
+    Subcommand("sidewall", "the figure of furrow-sidewall -> sidewall.png"),
+    Subcommand(
+        "empirical", "what an empirical formula says: NRMM for snow, Bekker and Wong-Reece for sand"
+    ),
+    Subcommand(
+        "compare",
+        "the same scene on several grounds: table, verdict, figure -> compare.txt, .csv, .h5, .png",
+    ),
+    Subcommand(
+        "cost", "error against cost of the runs of a scene, and which to take -> cost.png, cost.csv"
+    ),
+    Subcommand(
+        "choose",
+        "for 'inputs/run SCENE --error': the run of a table to make, and whether its estimate held",
+    ),
+    Subcommand(
+        "report",
+        "one self-contained page on runs and their comparison "
+        "-> report.html, report.csv, report.h5",
+    ),
+)
 
 
-def main(words):
-    # The words of "resistance" belong to furrow-resistance, options included.
-    arguments = argparse.Namespace(words=words[1:], run=_resistance) if words[:1] == ["resistance"] else _parser().parse_args(words)
+def parser(chosen: str) -> argparse.ArgumentParser:
+    """The command line; of the subcommands only the chosen one has its arguments.
+
+    Its module alone is loaded, so that a command without figures does not wait for matplotlib.
+    """
+    whole = argparse.ArgumentParser(prog="furrow-post", description=DESCRIPTION)
+    whole.add_argument("--version", action="version", version=f"furrow-post {__version__}")
+    commands = whole.add_subparsers(dest="command", required=True, metavar="command")
+    for entry in SUBCOMMANDS:
+        command = commands.add_parser(
+            entry.name, aliases=entry.aliases, help=entry.help, description=entry.help
+        )
+        if chosen in (entry.name, *entry.aliases):
+            module = cast(Module, importlib.import_module(f".{entry.name}", __package__))
+            module.add_arguments(command)
+            command.set_defaults(run=module.run)
+    return whole
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs a subcommand; the result is the exit status."""
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    if given[:1] == ["resistance"]:
+        given.insert(1, "--")  # its options are those of another program
     try:
-        arguments.run(arguments)
+        parsed = parser(given[0] if given else "").parse_args(given)
+        parsed.run(parsed)
     except (ResultsError, OSError) as error:
         print(f"furrow-post: {error}", file=sys.stderr)
         return 1

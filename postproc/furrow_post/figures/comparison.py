@@ -1,107 +1,170 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The figure of furrow-post compare."""
+"""The figure of a comparison of wheel runs."""
 
 import textwrap
-
-import matplotlib
-
-matplotlib.use("Agg")
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.gridspec import GridSpec
+from matplotlib.image import AxesImage
 
-from . import compare, density
-from .style import CENTIMETRE, annotate_panel, save, use_style
-from .summary import with_error
+from ..analyse.comparison import FORMULA, MEASURED, RUN, Comparison, overall
+from ..analyse.density import Section, sections
+from ..analyse.verdict import COEFFICIENT, COVERAGE, QUANTITIES, SINKAGE, Quantity
+from ..analyse.wheel_histories import cruise_history, settling_curve
+from ..read.wheel_run import WheelRun
+from .style import (
+    CENTIMETRE,
+    KILOPASCAL,
+    RUN_COLOURS,
+    WHEEL_COLOUR,
+    annotate_panel,
+    panel_letters,
+    save,
+    use_style,
+)
 
-COLOURS = ("#1f5a8a", "#c8672b", "#4d8a4a", "#7a4b8c", "#8a6d1f", "#3f3f3f")
-KIND_COLOURS = {"formula": "#777777", "measured": "black"}
+KIND_COLOURS = {FORMULA: "#777777", MEASURED: "black"}
+SECTION_HEIGHT = 1.75  # of a row of density sections [inch]
 
 
-def _values(axes, result, quantity, colours):
-    name, unit, scale = compare.QUANTITIES[quantity]
-    entries = result.of(quantity)
+def draw_comparison(result: Comparison, target: Path) -> None:
+    """Values with their uncertainties, histories, settling curves, and density sections."""
+    use_style()
+    grounds = [run for run in result.runs if run.ground != "none"]
+    colours = {run.label: RUN_COLOURS[k % len(RUN_COLOURS)] for k, run in enumerate(result.runs)}
+    many = max(len(result.of(SINKAGE)) - 4, 0)  # entries that need more room
+    tall = 5.9 + SECTION_HEIGHT * len(grounds) + 0.4 * many
+    figure = plt.figure(figsize=(11, tall), layout="constrained")
+    figure.get_layout_engine().set(hspace=0.04)
+    heights = [2.4 + 0.4 * many, 2.4] + [SECTION_HEIGHT] * len(grounds)
+    grid = figure.add_gridspec(2 + len(grounds), 6, height_ratios=heights)
+    letters = panel_letters()
+    for k, quantity in enumerate(QUANTITIES):
+        axes = figure.add_subplot(grid[0, 3 * k : 3 * k + 3])
+        _draw_values(axes, result, quantity, colours)
+        annotate_panel(axes, next(letters), quantity.name)
+    sink, resist, settle = (figure.add_subplot(grid[1, 2 * k : 2 * k + 2]) for k in range(3))
+    _draw_histories(sink, resist, settle, result, colours)
+    titles = (
+        (sink, "sinkage"),
+        (resist, "resistance, smoothed"),
+        (settle, "pressure while it is lowered"),
+    )
+    for axes, title in titles:
+        annotate_panel(axes, next(letters), title)
+    if grounds:
+        _draw_sections(figure, grid, grounds, [next(letters) for _ in range(2 * len(grounds))])
+    title = overall(result) or ", ".join(run.label for run in result.runs)
+    figure.suptitle("\n".join(textwrap.wrap(title, 110)), fontsize=11, fontweight="bold")
+    save(figure, target)
+
+
+def _draw_values(
+    axes: Axes, result: Comparison, quantity: Quantity, colours: Mapping[str, str]
+) -> None:
+    entries, scale = result.of(quantity), quantity.scale
     for row, e in enumerate(entries):
         colour = colours.get(e.source, KIND_COLOURS.get(e.kind, "0.4"))
         known = np.isfinite(e.uncertainty)
-        axes.errorbar(scale * e.value, row, xerr=scale * compare.COVERAGE * e.uncertainty if known else None, ms=6, color=colour, capsize=4,
-                      lw=1.6, fmt="s" if e.kind == "measured" else "o", mfc="white" if e.kind == "formula" else colour)
-        label = with_error(scale * e.value, scale * e.uncertainty) if known else f"{scale * e.value:.3g}"
-        axes.annotate(label, (scale * e.value, row), (0, 8), textcoords="offset points", ha="center", fontsize=8, color="0.25")
+        axes.errorbar(
+            scale * e.value,
+            row,
+            xerr=scale * COVERAGE * e.uncertainty if known else None,
+            ms=6,
+            color=colour,
+            capsize=4,
+            lw=1.6,
+            fmt="s" if e.kind == MEASURED else "o",
+            mfc="white" if e.kind == FORMULA else colour,
+        )
+        axes.annotate(
+            e.text(),
+            (scale * e.value, row),
+            (0, 8),
+            textcoords="offset points",
+            ha="center",
+            fontsize=8,
+            color="0.25",
+        )
     axes.set_yticks(range(len(entries)), [textwrap.fill(e.source, 16) for e in entries])
     axes.set_ylim(len(entries) - 0.5, -0.7)
     low, high = axes.get_xlim()
-    axes.set_xlim(min(low, 0) if low < 0.35 * high else low - 0.08 * (high - low), high + 0.08 * (high - low))
-    axes.set_xlabel(f"{name}{f' [{unit}]' if unit else ''}, bars: {compare.COVERAGE:g} standard deviations")
+    margin = 0.08 * (high - low)
+    axes.set_xlim(min(low, 0) if low < 0.35 * high else low - margin, high + margin)
+    axes.set_xlabel(f"{quantity.label}, bars: {COVERAGE:g} standard deviations")
     axes.grid(axis="x", color="0.9", lw=0.6)
     axes.set_axisbelow(True)
 
 
-def _wheel_circle(axes, run):
-    """Outline of the wheel in the lengthwise section."""
-    z = run.radius - run.results.columns["sinkage"][-1]
-    axes.add_patch(plt.Circle((0, CENTIMETRE * z), CENTIMETRE * run.radius, fill=False, ec="#39424e", lw=1.4))
-
-
-def draw(result, target):
-    use_style()
-    runs = result.runs
-    grounds = [run for run in runs if run.ground != "none"]
-    colours = {run.label: COLOURS[k % len(COLOURS)] for k, run in enumerate(runs)}
-    cuts = {run.label: density.sections(run) for run in grounds}
-
-    many = max(len(result.of("sinkage")) - 4, 0)  # entries that need more room than the first panels have
-    tall = 5.9 + 1.75 * len(grounds) + 0.4 * many
-    figure = plt.figure(figsize=(11, tall), layout="constrained")
-    figure.get_layout_engine().set(hspace=0.04)
-    grid = figure.add_gridspec(2 + len(grounds), 6, height_ratios=[2.4 + 0.4 * many, 2.4] + [1.75] * len(grounds))
-    for k, quantity in enumerate(compare.QUANTITIES):
-        axes = figure.add_subplot(grid[0, 3 * k:3 * k + 3])
-        _values(axes, result, quantity, colours)
-        annotate_panel(axes, "ab"[k], compare.QUANTITIES[quantity][0])
-
-    sink, resist, settle = (figure.add_subplot(grid[1, 2 * k:2 * k + 2]) for k in range(3))
-    for run in runs:
-        distance, z, c = compare.histories(run)
-        sink.plot(distance, CENTIMETRE * z, color=colours[run.label], lw=1.2, label=run.label)
-        resist.plot(distance, c, color=colours[run.label], lw=1.2)
-        z, p = compare.settling(run)
-        settle.plot(CENTIMETRE * z, 1e-3 * p, color=colours[run.label], lw=1.2)
+def _draw_histories(
+    sink: Axes, resist: Axes, settle: Axes, result: Comparison, colours: Mapping[str, str]
+) -> None:
+    for run in result.runs:
+        colour = colours[run.label]
+        history, settling = cruise_history(run), settling_curve(run)
+        sinkage = CENTIMETRE * history.sinkage
+        sink.plot(history.distance, sinkage, color=colour, lw=1.2, label=run.label)
+        resist.plot(history.distance, history.coefficient, color=colour, lw=1.2)
+        pressure = KILOPASCAL * settling.pressure
+        settle.plot(CENTIMETRE * settling.sinkage, pressure, color=colour, lw=1.2)
     sink.set(xlabel="travel in cruise [m]", ylabel="sinkage [cm]")
     resist.set(xlabel="travel in cruise [m]", ylabel="resistance coefficient")
-    steady = [e.value for e in result.of("coefficient", "run")]
+    steady = [e.value for e in result.of(COEFFICIENT, RUN)]
     resist.set_ylim(min(0, 1.5 * min(steady)), max(2.2 * max(steady), 0.05))
     sink.set_ylim(0, None)
     settle.set(xlabel="sinkage [cm]", ylabel="mean pressure [kPa]", ylim=(0, None), xlim=(0, None))
     sink.legend(fontsize=8)
-    titles = ((sink, "c", "sinkage"), (resist, "d", "resistance, smoothed"), (settle, "e", "pressure while it is let down"))
-    for axes, letter, title in titles:
-        annotate_panel(axes, letter, title)
 
-    if grounds:
-        low = min(run.conditions["density"].value if "density" in run.conditions else 0.0 for run in grounds)
-        high = max(np.nanpercentile(cut.density, 98) for pair in cuts.values() for cut in pair)
-        norm = Normalize(0.85 * low, high)
-        images = []
-        panels = []
-        for row, run in enumerate(grounds):
-            for column, (cut, what) in enumerate(zip(cuts[run.label], ("along the middle plane", "across the track behind"))):
-                axes = figure.add_subplot(grid[2 + row, 0:4] if column == 0 else grid[2 + row, 4:6])
-                image = axes.imshow(cut.density, origin="lower", extent=[CENTIMETRE * e for e in cut.extent], cmap="YlGnBu", norm=norm,
-                                    interpolation="nearest")
-                axes.axhline(0, color="0.3", lw=0.8, ls=(0, (6, 4)))
-                if column == 0:
-                    _wheel_circle(axes, run)
-                    axes.set_ylabel("z [cm]")
-                axes.set_ylim(CENTIMETRE * cut.z_edges[0], CENTIMETRE * cut.z_edges[-1])
-                if row == len(grounds) - 1:
-                    axes.set_xlabel("xy"[column] + " from the axle [cm]" if column == 0 else "y [cm]")
-                annotate_panel(axes, "fghijklm"[2 * row + column], f"{run.label}, {what}" if column == 0 else what)
-                images.append(image)
-                panels.append(axes)
-        bar = figure.colorbar(images[0], ax=panels, extend="max", fraction=0.025, pad=0.01, aspect=25)
-        bar.set_label("density [kg/m³]")
-    title = compare.overall(result) or ", ".join(run.label for run in runs)
-    figure.suptitle("\n".join(textwrap.wrap(title, 110)), fontsize=11, fontweight="bold")
-    save(figure, target)
+
+def _draw_wheel_outline(axes: Axes, run: WheelRun) -> None:
+    """A circle in the lengthwise section."""
+    z = run.radius - run.results.columns["sinkage"][-1]
+    radius = CENTIMETRE * run.radius
+    axes.add_patch(plt.Circle((0, CENTIMETRE * z), radius, fill=False, ec=WHEEL_COLOUR, lw=1.4))
+
+
+def _draw_sections(
+    figure: Figure, grid: GridSpec, grounds: Sequence[WheelRun], letters: Sequence[str]
+) -> None:
+    """Density along and across the track, one row per run, one scale."""
+    cuts = {run.label: sections(run) for run in grounds}
+    low = min(run.number("density") if "density" in run.conditions else 0.0 for run in grounds)
+    high = max(np.nanpercentile(cut.density, 98) for pair in cuts.values() for cut in pair)
+    norm = Normalize(0.85 * low, high)
+    panels, images = [], []
+    for row, run in enumerate(grounds):
+        lengthwise = figure.add_subplot(grid[2 + row, 0:4])
+        across = figure.add_subplot(grid[2 + row, 4:6])
+        for axes, cut in zip((lengthwise, across), cuts[run.label]):
+            images.append(_draw_density(axes, cut, norm))
+        _draw_wheel_outline(lengthwise, run)
+        lengthwise.set_ylabel("z [cm]")
+        if row == len(grounds) - 1:
+            lengthwise.set_xlabel("x from the axle [cm]")
+            across.set_xlabel("y [cm]")
+        annotate_panel(lengthwise, letters[2 * row], f"{run.label}, along the middle plane")
+        annotate_panel(across, letters[2 * row + 1], "across the track behind")
+        panels += [lengthwise, across]
+    bar = figure.colorbar(images[0], ax=panels, extend="max", fraction=0.025, pad=0.01, aspect=25)
+    bar.set_label("density [kg/m³]")
+
+
+def _draw_density(axes: Axes, cut: Section, norm: Normalize) -> AxesImage:
+    """Returns the image, for a scale."""
+    image = axes.imshow(
+        cut.density,
+        origin="lower",
+        extent=[CENTIMETRE * edge for edge in cut.extent],
+        cmap="YlGnBu",
+        norm=norm,
+        interpolation="nearest",
+    )
+    axes.axhline(0, color="0.3", lw=0.8, ls=(0, (6, 4)))
+    axes.set_ylim(CENTIMETRE * cut.z_edges[0], CENTIMETRE * cut.z_edges[-1])
+    return image

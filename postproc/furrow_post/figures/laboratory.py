@@ -1,118 +1,155 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The figure of furrow-post laboratory: one test kind, all its runs, measurements and continuum laws beside them."""
+"""The figure of laboratory tests: all runs of one kind, measurements and continuum laws beside."""
 
-import matplotlib
-
-matplotlib.use("Agg")
+from collections.abc import Callable, Sequence
+from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from .laboratory import cell_curve
-from .results import ResultsError
-from .style import annotate_panel, save, use_style
+from ..analyse.laboratory import LaboratoryReport, evaluate
+from ..errors import ResultsError
+from ..read.laboratory import LaboratoryTest, cell_curve
+from .style import CENTIMETRE, KILOPASCAL, MILLIMETRE, annotate_panel, save, use_style
 
-KPA = 1e-3
+
+def draw_laboratory(report: LaboratoryReport, target: Path) -> None:
+    """@raises ResultsError for tests of several kinds"""
+    kinds = {test.kind for test in report.tests}
+    if len(kinds) != 1:
+        raise ResultsError(
+            f"a figure needs tests of one kind, not {', '.join(sorted(kinds))}; name folders of "
+            "one test"
+        )
+    use_style()
+    save(FIGURES[kinds.pop()](report), target)
 
 
-def _oedometer(tests, measured, points):
-    figure, panels = plt.subplots(1, 2, figsize=(10, 4.2), layout="constrained")
-    for test in tests:
-        strain, stress, density = cell_curve(test.curve())
+def _pair() -> tuple[Figure, Axes, Axes]:
+    figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4.2), layout="constrained")
+    return figure, left, right
+
+
+def _draw_oedometers(report: LaboratoryReport) -> Figure:
+    figure, left, right = _pair()
+    largest = 0.0
+    for test in report.tests:
+        _, stress, density = cell_curve(test.curve())
+        axial, lateral = KILOPASCAL * stress[:, 2], KILOPASCAL * stress[:, :2].mean(axis=1)
         above = stress[:, 2] > 1.0
-        panels[0].semilogy(density[above], stress[above, 2] * KPA, lw=1.3, label=f"grains: {test.label}")
-        panels[1].plot(stress[above, 2] * KPA, stress[above, :2].mean(axis=1) * KPA, lw=1.3)
-    for point in points:
+        left.semilogy(density[above], axial[above], lw=1.3, label=f"grains: {test.label}")
+        right.plot(axial[above], lateral[above], lw=1.3)
+        largest = max(largest, float(axial.max()))
+    for point in report.points:
+        axial = KILOPASCAL * point.columns["axial_stress"]
+        lateral = -KILOPASCAL * point.columns["stress_xx"]
         loaded = point.columns["axial_stress"] > 1.0
-        panels[0].semilogy(point.columns["density"][loaded], point.columns["axial_stress"][loaded] * KPA, "--", lw=1.3, color="0.3",
-                           label=f"continuum: {point.label}")
-        panels[1].plot(point.columns["axial_stress"] * KPA, -point.columns["stress_xx"] * KPA, "--", lw=1.3, color="0.3")
-    if measured:
-        panels[0].semilogy(*np.array([(rho, sigma * KPA) for rho, sigma in measured]).T, "ko", ms=5, label="measured")
-    panels[0].set(xlabel="density [kg/m³]", ylabel="axial stress [kPa]")
-    largest = max(cell_curve(test.curve())[1][:, 2].max() for test in tests) * KPA
-    panels[0].set_ylim(1e-3 * largest, 3 * largest)
-    panels[1].set(xlabel="axial stress [kPa]", ylabel="lateral stress [kPa]", xlim=(0, 1.05 * largest), ylim=(0, 1.05 * largest))
-    panels[0].legend(fontsize=8)
-    annotate_panel(panels[0], "a", "confined compression")
-    annotate_panel(panels[1], "b", "earth pressure at rest")
+        look = {"ls": "--", "lw": 1.3, "color": "0.3"}
+        label = f"continuum: {point.label}"
+        left.semilogy(point.columns["density"][loaded], axial[loaded], label=label, **look)
+        right.plot(axial, lateral, **look)
+    if report.measured:
+        density, stress = np.array(report.measured).T
+        left.semilogy(density, KILOPASCAL * stress, "ko", ms=5, label="measured")
+    left.set(xlabel="density [kg/m³]", ylabel="axial stress [kPa]")
+    left.set_ylim(1e-3 * largest, 3 * largest)
+    room = (0, 1.05 * largest)
+    right.set(xlabel="axial stress [kPa]", ylabel="lateral stress [kPa]", xlim=room, ylim=room)
+    left.legend(fontsize=8)
+    annotate_panel(left, "a", "confined compression")
+    annotate_panel(right, "b", "earth pressure at rest")
     return figure
 
 
-def _triaxial(tests, measured, points):
-    figure, panels = plt.subplots(1, 2, figsize=(10, 4.2), layout="constrained")
-    for test in tests:
+def _draw_triaxial(report: LaboratoryReport) -> Figure:
+    figure, left, right = _pair()
+    for test in report.tests:
         strain, stress, _ = cell_curve(test.curve())
-        panels[0].plot(100 * strain[:, 2], (stress[:, 2] - stress[:, :2].mean(axis=1)) * KPA, lw=1.1, label=f"grains: {test.label}")
-        panels[1].plot(100 * strain[:, 2], 100 * strain.sum(axis=1), lw=1.1)
-    for point in points:
-        c = point.columns
-        start = int(np.argmax(c["segment"] > 0)) if c["segment"].max() > 0 else 0
-        axial, volume = c["axial_strain"] - c["axial_strain"][start], c["eps_vol"] - c["eps_vol"][start]
-        later = slice(start, None)
-        panels[0].plot(100 * axial[later], c["q"][later] * KPA, "--", color="0.3", label=f"continuum: {point.label}")
-        panels[1].plot(100 * axial[later], 100 * volume[later], "--", color="0.3")
-    panels[0].set(xlabel="axial strain [%]", ylabel="axial minus lateral stress [kPa]")
-    panels[1].set(xlabel="axial strain [%]", ylabel="volume strain [%], compression positive")
-    panels[0].legend(fontsize=8)
-    annotate_panel(panels[0], "a", "triaxial compression")
-    annotate_panel(panels[1], "b", "volume")
+        axial = 100 * strain[:, 2]
+        deviator = KILOPASCAL * (stress[:, 2] - stress[:, :2].mean(axis=1))
+        left.plot(axial, deviator, lw=1.1, label=f"grains: {test.label}")
+        right.plot(axial, 100 * strain.sum(axis=1), lw=1.1)
+    for point in report.points:
+        columns = point.columns
+        segment = columns["segment"]
+        start = int(np.argmax(segment > 0)) if segment.max() > 0 else 0
+        axial = 100 * (columns["axial_strain"] - columns["axial_strain"][start])[start:]
+        volume = 100 * (columns["eps_vol"] - columns["eps_vol"][start])[start:]
+        look = {"ls": "--", "color": "0.3"}
+        q = KILOPASCAL * columns["q"][start:]
+        left.plot(axial, q, label=f"continuum: {point.label}", **look)
+        right.plot(axial, volume, **look)
+    left.set(xlabel="axial strain [%]", ylabel="axial minus lateral stress [kPa]")
+    right.set(xlabel="axial strain [%]", ylabel="volume strain [%], compression positive")
+    left.legend(fontsize=8)
+    annotate_panel(left, "a", "triaxial compression")
+    annotate_panel(right, "b", "volume")
     return figure
 
 
-def _shear(tests, measured, points):
-    figure, panels = plt.subplots(1, 2, figsize=(10, 4.2), layout="constrained")
-    for test in tests:
+def _draw_shear(report: LaboratoryReport) -> Figure:
+    figure, left, right = _pair()
+    for test in report.tests:
         rows = test.curve()
-        panels[0].plot(rows[:, 8] * 1e3, rows[:, 9] * KPA, lw=1.1, label=f"grains: {test.label}")
-        panels[1].plot(rows[:, 8] * 1e3, rows[:, 7], lw=1.1)
-    panels[0].set(xlabel="displacement [mm]", ylabel="shear stress [kPa]")
-    panels[1].set(xlabel="displacement [mm]", ylabel="density of the cell [kg/m³]")
-    panels[0].legend(fontsize=8)
-    annotate_panel(panels[0], "a", "direct shear")
-    annotate_panel(panels[1], "b", "density")
+        travel = MILLIMETRE * rows[:, 8]
+        left.plot(travel, KILOPASCAL * rows[:, 9], lw=1.1, label=f"grains: {test.label}")
+        right.plot(travel, rows[:, 7], lw=1.1)
+    left.set(xlabel="displacement [mm]", ylabel="shear stress [kPa]")
+    right.set(xlabel="displacement [mm]", ylabel="density of the cell [kg/m³]")
+    left.legend(fontsize=8)
+    annotate_panel(left, "a", "direct shear")
+    annotate_panel(right, "b", "density")
     return figure
 
 
-def _plate(tests, measured, points):
+def _draw_plates(report: LaboratoryReport) -> Figure:
     figure, axes = plt.subplots(figsize=(6, 4.2), layout="constrained")
-    for test in tests:
+    for test in report.tests:
         rows = test.curve()
-        axes.plot(rows[:, 1] * 1e3, rows[:, 3] * KPA, lw=1.1, label=f"{test.label}, {test.number('size') * 1e3:g} mm")
+        label = f"{test.label}, {MILLIMETRE * test.number('size'):g} mm"
+        axes.plot(MILLIMETRE * rows[:, 1], KILOPASCAL * rows[:, 3], lw=1.1, label=label)
     axes.set(xlabel="sinkage [mm]", ylabel="mean pressure [kPa]", xlim=(0, None))
     axes.legend(fontsize=8)
     return figure
 
 
-def _heap(tests, measured, points):
-    figure, panels = plt.subplots(len(tests), 1, figsize=(8, 3.2 * len(tests)), layout="constrained", squeeze=False)
+def _draw_heaps(report: LaboratoryReport) -> Figure:
+    tests: Sequence[LaboratoryTest] = report.tests
+    figure, panels = plt.subplots(
+        len(tests), 1, figsize=(8, 3.2 * len(tests)), layout="constrained", squeeze=False
+    )
     for axes, test in zip(panels[:, 0], tests):
         deposit = test.grains("deposit")
-        names = {q.name: q for q in test.evaluate()}
+        found = {quantity.name: quantity for quantity in evaluate(test)}
         if test.kind == "repose":
-            across, q = deposit[:, 0], names["angle_of_repose"]
-            text = f"angle of repose {q.value:.1f} ± {q.error:.1f}°"
+            across, angle = deposit[:, 0], found["angle_of_repose"]
+            finding = f"angle of repose {angle.value:.1f} ± {angle.error:.1f}°"
         else:
             middle = np.average(deposit[:, :2], axis=0)
             distance = np.hypot(*(deposit[:, :2] - middle).T)
             across = np.copysign(distance, deposit[:, 0] - middle[0])
-            q = names["runout_over_Lube"]
-            text = f"a = {names['aspect'].value:.2f}, run-out {names['runout'].value:.2f}: {q.value:.2f} ± {q.error:.2f} of Lube et al. (2004)"
-            expected = test.number("radius") * (1 + names["runout"].value / q.value)
+            runout, ratio = found["runout"], found["runout_over_Lube"]
+            finding = (
+                f"a = {found['aspect'].value:.2f}, run-out {runout.value:.2f}: "
+                f"{ratio.value:.2f} ± {ratio.error:.2f} of Lube et al. (2004)"
+            )
+            expected = test.number("radius") * (1 + runout.value / ratio.value)
             for side in (-1, 1):
-                axes.axvline(side * expected * 100, color="C3", ls="--", lw=1)
-        axes.scatter(100 * across, 100 * deposit[:, 2], s=5, c=deposit[:, 2], cmap="copper")
+                axes.axvline(side * CENTIMETRE * expected, color="C3", ls="--", lw=1)
+        height = deposit[:, 2]
+        axes.scatter(CENTIMETRE * across, CENTIMETRE * height, s=5, c=height, cmap="copper")
         axes.set(xlabel="cm", ylabel="cm", aspect="equal")
-        axes.set_title(f"{test.label}: {text}", loc="left")
+        axes.set_title(f"{test.label}: {finding}", loc="left")
     return figure
 
 
-FIGURES = {"oedometer": _oedometer, "triaxial": _triaxial, "shear": _shear, "plate": _plate, "repose": _heap, "collapse": _heap}
-
-
-def draw(tests, measured, points, target):
-    kinds = {test.kind for test in tests}
-    if len(kinds) != 1:
-        raise ResultsError(f"a figure needs tests of one kind, not {', '.join(sorted(kinds))}; name folders of one test")
-    use_style()
-    save(FIGURES[kinds.pop()](tests, measured, points), target)
+FIGURES: dict[str, Callable[[LaboratoryReport], Figure]] = {
+    "oedometer": _draw_oedometers,
+    "triaxial": _draw_triaxial,
+    "shear": _draw_shear,
+    "plate": _draw_plates,
+    "repose": _draw_heaps,
+    "collapse": _draw_heaps,
+}

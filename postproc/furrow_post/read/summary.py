@@ -1,59 +1,77 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The steady values of a run as summary.json has them; they are computed by furrow-resistance, never here."""
+"""The steady values of a run as summary.json has them; furrow-resistance computes them."""
 
 import json
-import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
-from .results import ResultsError
+from ..errors import ResultsError
+from ..formatting import with_error
 
 
-def with_error(mean, error):
-    """"10.8 ± 0.5": two digits of the error when they start with 1, else one, and the mean to the same place."""
-    if not error > 0:
-        return f"{mean:.3g}"
-    exponent = math.floor(math.log10(error))
-    digits = max(-exponent + (error < 2 * 10.0**exponent), 0)
-    return f"{mean:.{digits}f} ± {error:.{digits}f}"
+@dataclass(frozen=True)
+class SteadyValue:
+    """A mean over the steady window, SI, with the standard error of the time average."""
+
+    mean: float
+    standard_error: float
+    unit: str
+    steady: bool
 
 
 class Summary:
     """summary.json of a results folder; empty where there is none."""
 
-    def __init__(self, folder):
+    def __init__(self, folder: Path) -> None:
+        """@raises ResultsError where the file is not a summary"""
+        path = folder / "summary.json"
+        remedy = f"write it again with 'furrow-post resistance --write {folder}'"
+        content: Any = {}
         try:
-            self.content = json.loads((folder / "summary.json").read_text())
+            content = json.loads(path.read_text())
         except FileNotFoundError:
-            self.content = {}
+            pass
         except (OSError, ValueError) as error:
-            raise ResultsError(f"{folder / 'summary.json'}: cannot be read ({error}); write it anew with "
-                               f"'furrow-post resistance --write {folder}'") from error
-        if not isinstance(self.content, dict):
-            raise ResultsError(f"{folder / 'summary.json'}: is not a summary of Furrow; write it anew with "
-                               f"'furrow-post resistance --write {folder}'")
+            raise ResultsError(f"{path}: cannot be read ({error}); {remedy}") from error
+        if not isinstance(content, dict):
+            raise ResultsError(f"{path}: is not a summary of Furrow; {remedy}")
+        self.content: dict[str, Any] = content
 
     @property
-    def window(self):
-        """(begin, end) of the steady window [s], or None."""
+    def window(self) -> tuple[float, float] | None:
+        """Begin and end of the steady window [s]."""
         window = self.content.get("window")
         return (window["start"], window["end"]) if window else None
 
-    def quantity(self, name):
-        """dict with mean, standard_error, unit, steady; or None, also where a number is null."""
-        value = self.content.get("quantities", {}).get(name)
-        return None if value is None or None in (value["mean"], value["standard_error"]) else value
+    @property
+    def quantities(self) -> dict[str, dict[str, Any]]:
+        """Name -> what the file has of it: mean, standard_error, unit, steady, verdict."""
+        quantities: dict[str, dict[str, Any]] = self.content.get("quantities", {})
+        return quantities
 
-    def line(self):
-        """One line for a title: "sinkage 15.8 ± 1.9 mm, resistance coefficient 0.330 ± 0.007, ..."."""
+    def quantity(self, name: str) -> SteadyValue | None:
+        """None where the file has no such quantity or no number for it."""
+        value = self.quantities.get(name)
+        if value is None or None in (value["mean"], value["standard_error"]):
+            return None
+        return SteadyValue(value["mean"], value["standard_error"], value["unit"], value["steady"])
+
+    def line(self) -> str:
+        """For a title: "sinkage 15.8 ± 1.9 mm, resistance coefficient 0.330 ± 0.007, ..."."""
+        torque = self.quantity("drive_torque")
+        if torque and not (torque.mean or torque.standard_error):
+            torque = None  # a towed wheel has none
         parts = []
-        sinkage, coefficient, torque, slip = map(self.quantity, ("sinkage", "resistance_coefficient", "drive_torque", "slip"))
-        if sinkage:
-            parts.append(f"sinkage {with_error(1e3 * sinkage['mean'], 1e3 * sinkage['standard_error'])} mm")
-        if coefficient:
-            parts.append(f"resistance coefficient {with_error(coefficient['mean'], coefficient['standard_error'])}")
-        if torque and (torque["mean"] or torque["standard_error"]):  # a towed wheel has none
-            parts.append(f"torque {with_error(torque['mean'], torque['standard_error'])} N m")
-        if slip:
-            parts.append(f"slip {with_error(100 * slip['mean'], 100 * slip['standard_error'])} %")
+        for value, name, scale, unit in (
+            (self.quantity("sinkage"), "sinkage", 1e3, " mm"),
+            (self.quantity("resistance_coefficient"), "resistance coefficient", 1, ""),
+            (torque, "torque", 1, " N m"),
+            (self.quantity("slip"), "slip", 100, " %"),
+        ):
+            if value:
+                number = with_error(scale * value.mean, scale * value.standard_error)
+                parts.append(f"{name} {number}{unit}")
         if parts and not self.content.get("steady", False):
             parts.append("not all steady, see summary.txt")
         return ", ".join(parts)

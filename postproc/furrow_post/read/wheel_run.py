@@ -1,225 +1,254 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a wheel run was: its conditions and discretisation, read from its results folder; the base of every comparison.
+"""What a wheel run was: conditions and discretisation from its results folder; base of comparisons.
 
-Definitions are aligned here, once: load is the vertical force the ground carries at rest, slip is counted in the definition of the
-history ((v_rim - v)/max(|v_rim|, |v|), driving positive) and by vehicle speed, the datum of the sinkage is the top of the undisturbed ground
-(of grains: of a uniform bed of the same mass), the coefficient is -force_x/force_z.
+Definitions are aligned here, once. Load is the vertical force that the ground carries at rest. Slip
+is counted as in the history ((v_rim - v)/max(|v_rim|, |v|), driving positive) and by vehicle speed.
+The datum of the sinkage is the top of the undisturbed ground (of grains: of a uniform bed of the
+same mass). The resistance coefficient is -force_x/force_z.
 """
 
 import json
-import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-import h5py
 import numpy as np
 
-from .results import Results, ResultsError
-from .summary import Summary
+from ..arrays import Floats
+from ..errors import ResultsError
+from .results import Grains, Results
+from .styles import Style
+from .summary import SteadyValue, Summary
+from .terrain import FILE, read_terrain_fields, terrain_file
+
+STEADY_QUANTITIES = (
+    "sinkage",
+    "resistance_coefficient",
+    "force_z",
+    "drawbar_pull",
+    "drive_torque",
+    "slip",
+)
 
 
-@dataclass
-class Value:
-    """A steady value with the standard error of its time average."""
-
-    mean: float
-    error: float
-    unit: str
-    steady: bool
-
-
-@dataclass
+@dataclass(frozen=True)
 class Condition:
-    value: object
+    """One condition of a run: a number with its unit, or a word."""
+
+    value: float | str
     unit: str = ""
 
-    def text(self):
-        if not isinstance(self.value, float):
-            return str(self.value)
-        value = 0.0 if abs(self.value) < 1e-9 else self.value  # rounding of a sum that should vanish
+    @property
+    def number(self) -> float:
+        """NaN for a word."""
+        return self.value if isinstance(self.value, float) else float("nan")
+
+    def text(self) -> str:
+        if isinstance(self.value, str):
+            return self.value
+        value = 0.0 if abs(self.value) < 1e-9 else self.value  # rounding of a sum that vanishes
         return f"{value:.4g} {self.unit}".strip()
-
-
-def _after(words, key, default=None, count=1):
-    """The number(s) behind a keyword of a fix line."""
-    if key not in words:
-        return default
-    at = words.index(key) + 1
-    return float(words[at]) if count == 1 else [float(w) for w in words[at:at + count]]
-
-
-def _substituted_bed(folder, effective_input):
-    """Words of the scene's bed line with its variables replaced: from the log, or from the script's own defaults."""
-    log = folder / "log.liggghts"
-    if log.is_file():
-        lines = [line.split() for line in log.read_text(errors="replace").splitlines() if line.startswith("bed ") and "${" not in line]
-        if lines:
-            return lines[0]
-    script = effective_input.partition("\n# script ")[2].replace("&\n", " ")
-    values = dict(re.findall(r"^variable\s+(\S+)\s+index\s+(\S+)", script, re.MULTILINE))
-    found = re.search(r"^bed\s.*$", script, re.MULTILINE)
-    return re.sub(r"\$\{(\w+)\}", lambda name: values.get(name[1], name[0]), found[0]).split() if found else []
 
 
 @dataclass
 class WheelRun:
-    """One results folder of a wheel on a rig, on grains (history.h5) or continuum (ground.h5 beside it)."""
+    """One results folder of a wheel on a rig: on grains, continuum (terrain.h5), or neither."""
 
     folder: Path
     results: Results
     label: str
-    ground: str                                   # "grains", "continuum" or "none"
-    conditions: dict = field(default_factory=dict)  # name -> Condition
-    size: float = float("nan")                    # m: cell or mean grain diameter
-    elements: int = 0                             # particles or grains
-    half: bool = False
-    domain: tuple = ()                            # m: length, width of the ground
-    seed: str = ""
-    soften: float = 1.0
-    values: dict = field(default_factory=dict)    # name -> Value
-    wall_time: float = float("nan")
-    cpu_time: float = float("nan")                # s: measured by the runner, else wall time x ranks
+    ground: str  # "grains", "continuum" or "none"
+    deformable: bool  # a tyre, whose outline changes under load
+    conditions: dict[str, Condition] = field(default_factory=dict)
+    size: float = float("nan")  # cell or mean grain diameter [m]
+    elements: int = 0  # particles or grains
+    half: bool = False  # half model, mirrored at y = 0
+    domain: tuple[float, ...] = ()  # length and width of the ground [m]
+    seed: str = ""  # of the packing of grains
+    values: dict[str, SteadyValue] = field(default_factory=dict)  # STEADY_QUANTITIES
+    wall_time: float = float("nan")  # [s]
+    cpu_time: float = float("nan")  # measured by the runner, else wall time x ranks [s]
+
+    def number(self, condition: str) -> float:
+        """Of a condition; NaN where it is not known."""
+        found = self.conditions.get(condition)
+        return float("nan") if found is None else found.number
+
+    def text(self, condition: str, missing: str = "") -> str:
+        found = self.conditions.get(condition)
+        return missing if found is None else found.text()
 
     @property
-    def wheel(self):
-        return self.conditions["wheel"].value
+    def wheel(self) -> str:
+        """What rolls, in words: "rigid wheel", "tyre"."""
+        return self.text("wheel")
 
     @property
-    def ground_level(self):
-        return self.conditions["ground_level"].value
+    def ground_level(self) -> float:
+        """z from which the rig counts the sinkage [m]."""
+        return self.number("ground_level")
 
     @property
-    def radius(self):
-        return 0.5 * self.conditions["wheel_diameter"].value
+    def radius(self) -> float:
+        """Of the undeformed wheel [m]."""
+        return 0.5 * self.number("wheel_diameter")
 
-    def describe_size(self):
+    @property
+    def model(self) -> str:
+        return "half" if self.half else "whole"
+
+    @property
+    def elements_name(self) -> str:
+        return "particles" if self.ground == "continuum" else "grains"
+
+    def describe_size(self) -> str:
         kind = "cells" if self.ground == "continuum" else "grains"
         return f"{kind} of {1e3 * self.size:.3g} mm"
 
-
-def _styles(effective_input):
-    """style -> words of its line."""
-    styles = {}
-    for line in effective_input.split("\n# script ")[0].splitlines():
-        words = line.split()
-        if len(words) > 3 and words[0] == "fix":
-            styles.setdefault(words[3], words)
-    return styles
+    def relabelled(self, label: str) -> "WheelRun":
+        return replace(self, label=label)
 
 
-def _rig_conditions(run, rig, wheel, tyre):
-    conditions = run.conditions
-    gravity = _after(rig, "gravity", 9.80665)
-    load = _after(rig, "load_force") if "load_force" in rig else \
-        _after(rig, "load_mass") * gravity if "load_mass" in rig else float("nan")
-    conditions["load"] = Condition(load, "N")
-    conditions["speed"] = Condition(_after(rig, "speed"), "m/s")
-    conditions["mode"] = Condition(rig[rig.index("mode") + 1])
-    for name in ("slip_angle", "camber"):
-        conditions[name] = Condition(_after(rig, name, 0.0), "deg")
-    conditions["gravity"] = Condition(gravity, "m/s2")
-    conditions["ground_level"] = Condition(_after(rig, "ground_level"), "m")
-    if tyre:
-        conditions["wheel"] = Condition("tyre")
-        conditions["pressure"] = Condition(_after(tyre, "pressure", float("nan")), "Pa")
-        surface = run.results.surface()
-        low, high = surface[1].min(axis=0), surface[1].max(axis=0)
-        conditions["wheel_diameter"] = Condition(float(high[0] - low[0]), "m")
-        half = "half" in tyre and tyre[tyre.index("half") + 1] == "yes"
-        conditions["wheel_width"] = Condition(float(2 * high[1] if half else high[1] - low[1]), "m")
+def read_wheel_run(folder: Path | str, label: str | None = None) -> WheelRun:
+    """The run of a results folder; label: its name in tables. @raises ResultsError"""
+    results = Results(folder)
+    styles = results.styles()
+    rig, wheel = styles.of_kind("rig"), styles.of_kind("wheel")
+    if rig is None or wheel is None:
+        raise ResultsError(
+            f"{results.file}: is not the run of a wheel on a rig "
+            "(none of its styles is of the kind wheel, or none is a rig)"
+        )
+    soil, bed = styles.of_kind("terrain"), styles.of_style("bed")
+    if soil and not terrain_file(results.folder).is_file():
+        raise ResultsError(
+            f"{results.folder}: has no {FILE}; give the scene a fix terrain/history with the same "
+            "folder"
+        )
+    reference = results.grains("reference") if results.has_grains else None
+    if reference is not None and len(reference.id) == 0:
+        reference = None
+    run = WheelRun(
+        results.folder,
+        results,
+        label or results.folder.resolve().name,
+        "continuum" if soil else "grains" if reference else "none",
+        deformable=not wheel.has("diameter"),
+    )
+    run.conditions.update(_rig_conditions(rig))
+    run.conditions.update(_wheel_conditions(wheel, results))
+    if soil:
+        _read_continuum(run, soil)
+    elif reference:
+        _read_grains(run, bed, reference)
+    _read_values(run, reference if run.ground == "grains" else None)
+    _read_cost(run)
+    return run
+
+
+def _rig_conditions(rig: Style) -> dict[str, Condition]:
+    gravity = rig.number("gravity")
+    if rig.has("load_force"):
+        load = rig.number("load_force")
     else:
-        conditions["wheel"] = Condition("rigid wheel")
-        conditions["wheel_diameter"] = Condition(_after(wheel, "diameter"), "m")
-        conditions["wheel_width"] = Condition(_after(wheel, "width"), "m")
+        load = rig.number("load_mass", float("nan")) * gravity
+    return {
+        "load": Condition(load, "N"),
+        "speed": Condition(rig.number("speed"), "m/s"),
+        "mode": Condition(rig.text("mode")),
+        "slip_angle": Condition(rig.number("slip_angle", 0.0), "deg"),
+        "camber": Condition(rig.number("camber", 0.0), "deg"),
+        "gravity": Condition(gravity, "m/s2"),
+        "ground_level": Condition(rig.number("ground_level"), "m"),
+    }
 
 
-def _continuum(run, soil):
-    with h5py.File(run.folder / "ground.h5", "r") as content:
-        home, density = content["ground/home"][()], content["ground/density"][()]
-        compaction, volume = content["ground/compaction"][()], content["ground/volume"][()]
-    run.size, run.elements = _after(soil, "cell"), len(home)
-    run.half = "symmetry" in soil and soil[soil.index("symmetry") + 1] == "yes"
-    run.domain = (_after(soil, "length"), _after(soil, "width"))
-    run.soften = _after(soil, "soften", 1.0)
-    run.conditions["depth"] = Condition(_after(soil, "depth"), "m")
+def _wheel_conditions(wheel: Style, results: Results) -> dict[str, Condition]:
+    """Sizes are those that the style has, else those of its surface at the end of the run."""
+    head, _, tail = wheel.style.partition("/")
+    found = {"wheel": Condition(f"{tail} {head}" if head == "wheel" else head)}
+    if wheel.has("pressure"):
+        found["pressure"] = Condition(wheel.number("pressure"), "Pa")
+    if wheel.has("diameter"):
+        diameter, width = wheel.number("diameter"), wheel.number("width")
+    else:
+        surface = results.surface()
+        if surface is None:
+            raise ResultsError(
+                f"{results.file}: has no surface of the {head} at the end of the run"
+            )
+        low, high = surface.x.min(axis=0), surface.x.max(axis=0)
+        diameter = float(high[0] - low[0])
+        width = float(2 * high[1] if wheel.flag("half") else high[1] - low[1])
+    found["wheel_diameter"] = Condition(diameter, "m")
+    found["wheel_width"] = Condition(width, "m")
+    return found
+
+
+def _read_continuum(run: WheelRun, soil: Style) -> None:
+    fields = read_terrain_fields(run.folder)
+    density, compaction, volume = (fields[name] for name in ("density", "compaction", "volume"))
+    run.size, run.elements = soil.number("cell"), len(density)
+    run.half = soil.flag("symmetry")
+    run.domain = (soil.number("length"), soil.number("width"))
+    run.conditions["depth"] = Condition(soil.number("depth"), "m")
     # compaction is ln(rho/rho_0) of a particle
-    run.conditions["density"] = Condition(float(np.average(density * np.exp(-compaction), weights=volume * density)), "kg/m3")
+    initial = float(np.average(density * np.exp(-compaction), weights=volume * density))
+    run.conditions["density"] = Condition(initial, "kg/m3")
 
 
-def _grains(run, bed):
-    reference = run.results.grains("reference")
+def _read_grains(run: WheelRun, bed: Style | None, reference: Grains) -> None:
     run.size, run.elements = float(2 * reference.radius.mean()), len(reference.id)
     level = reference.bed_level if np.isfinite(reference.bed_level) else run.ground_level
-    low, high = (reference.x - reference.radius[:, None]).min(axis=0), (reference.x + reference.radius[:, None]).max(axis=0)
-    inner = (high - low)[:2]  # what the grains fill: a bed's walls may stand outside of its length and width
-    run.domain = tuple(_after(bed, key, float(inner[k])) for k, key in enumerate(("length", "width")))
+    low, high = reference.corners
+    inner: Floats = (high - low)[:2]  # what the grains fill: walls may stand outside of the bed
+    run.domain = (float(inner[0]), float(inner[1]))
     floor = 0.0 if abs(low[2]) < run.size else float(low[2])
-    run.conditions["depth"] = Condition(float(level - floor), "m")
-    if bed and _after(bed, "density"):
+    depth = float(level - floor)
+    run.conditions["depth"] = Condition(depth, "m")
+    if bed is None:
+        return
+    run.domain = (bed.number("length", run.domain[0]), bed.number("width", run.domain[1]))
+    if bed.has("density"):
         solid = 4 / 3 * np.pi * np.sum(reference.radius**3)
-        run.conditions["density"] = Condition(float(_after(bed, "density") * solid / (inner[0] * inner[1] * (level - floor))), "kg/m3")
-    run.seed = bed[bed.index("seed") + 1] if "seed" in bed else ""
+        bulk = float(bed.number("density") * solid / (inner[0] * inner[1] * depth))
+        run.conditions["density"] = Condition(bulk, "kg/m3")
+    if bed.has("seed"):
+        run.seed = f"{bed.number('seed'):.0f}"
 
 
-def _cost(run):
-    with h5py.File(run.results.file, "r") as content:
-        attributes = dict(content["cost"].attrs) if "cost" in content else {}
-    run.wall_time = float(attributes.get("wall_time", "nan"))
-    run.cpu_time = run.wall_time * float(attributes.get("ranks", 1))
+def _read_values(run: WheelRun, reference: Grains | None) -> None:
+    """Steady values, and the slip in both definitions; reference: grains before, or None."""
+    summary = Summary(run.folder)
+    for name in STEADY_QUANTITIES:
+        value = summary.quantity(name)
+        if value is None or summary.window is None:
+            raise ResultsError(
+                f"{run.folder}: has no steady {name} in summary.json; write it with "
+                f"'furrow-post resistance --write {run.folder}', or run longer"
+            )
+        run.values[name] = value
+    assert summary.window is not None
+    begin, end = summary.window
+    columns = run.results.columns
+    inside = (columns["time"] >= begin) & (columns["time"] <= end)
+    v = columns["velocity_x"][inside].mean()
+    rim = run.radius * columns["spin_rate"][inside].mean()
+    run.conditions["slip"] = Condition(float(run.values["slip"].mean))
+    by_speed = float((rim - v) / v) if v else float("nan")
+    run.conditions["slip_by_vehicle_speed"] = Condition(by_speed)
+    # The rig counts the sinkage from ground_level, which may differ from the top of the ground
+    if reference is not None and np.isfinite(reference.bed_level):
+        shift = float(reference.bed_level - run.ground_level)
+        sinkage = run.values["sinkage"]
+        run.values["sinkage"] = replace(sinkage, mean=sinkage.mean + shift)
+        run.conditions["datum_shift"] = Condition(shift, "m")
+
+
+def _read_cost(run: WheelRun) -> None:
+    cost = run.results.cost
+    run.wall_time = cost.get("wall_time", float("nan"))
+    run.cpu_time = run.wall_time * cost.get("ranks", 1.0)
     try:  # the runner's own measurement does not count what other programs took
         run.cpu_time = float(json.loads((run.folder / "run.json").read_text())["cpu_time"])
     except (OSError, ValueError, KeyError):
         pass
-
-
-def read(folder, label=None):
-    """WheelRun of a results folder. @raises ResultsError"""
-    results = Results(folder)
-    with h5py.File(results.file, "r") as content:
-        text = content["run/effective_input"][()]
-    text = text.decode() if isinstance(text, bytes) else str(text)
-    styles = _styles(text)
-    rig, wheel, tyre = styles.get("wheel/rig"), styles.get("wheel/rigid"), styles.get("tyre/darnell")
-    if rig is None or (wheel is None and tyre is None):
-        raise ResultsError(f"{results.file}: is not the run of a wheel on a rig (no line of wheel/rig and wheel/rigid or tyre/darnell)")
-    soil = styles.get("terrain/continuum")
-    if soil and not (results.folder / "ground.h5").is_file():
-        raise ResultsError(f"{results.folder}: has no ground.h5; give the scene a fix terrain/history with the same folder")
-    with h5py.File(results.file, "r") as content:
-        has_grains = "grains/reference" in content and len(content["grains/reference/id"]) > 0
-    run = WheelRun(results.folder, results, label or results.folder.resolve().name,
-                   "continuum" if soil else "grains" if has_grains else "none")
-    _rig_conditions(run, rig, wheel, tyre)
-    if soil:
-        _continuum(run, soil)
-    elif has_grains:
-        _grains(run, _substituted_bed(results.folder, text))
-    _values(run)
-    _cost(run)
-    return run
-
-
-def _values(run):
-    summary = Summary(run.folder)
-    names = ("sinkage", "resistance_coefficient", "force_z", "drawbar_pull", "drive_torque", "slip")
-    for name in names:
-        value = summary.quantity(name)
-        if value is None:
-            raise ResultsError(f"{run.folder}: has no steady {name} in summary.json; write it with "
-                               f"'furrow-post resistance --write {run.folder}', or run longer")
-        run.values[name] = Value(value["mean"], value["standard_error"], value["unit"], value["steady"])
-    columns = run.results.columns
-    begin, end = summary.window
-    inside = (columns["time"] >= begin) & (columns["time"] <= end)
-    v, rim = columns["velocity_x"][inside].mean(), run.radius * columns["spin_rate"][inside].mean()
-    slip = run.values["slip"]
-    run.conditions["slip"] = Condition(slip.mean)
-    run.conditions["slip_by_vehicle_speed"] = Condition(float((rim - v) / v) if v else float("nan"))
-    # The datum: the rig counts from ground_level, which may differ from the top of the undisturbed ground
-    depth = run.conditions.get("depth")
-    if run.ground == "grains" and depth is not None:
-        reference = run.results.grains("reference")
-        if np.isfinite(reference.bed_level):
-            shift = reference.bed_level - run.ground_level
-            run.values["sinkage"].mean += shift
-            run.conditions["datum_shift"] = Condition(float(shift), "m")
