@@ -1,150 +1,271 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is run, and what is made of it: the lists of runs, the evaluation, the comparison."""
-import csv, math, pathlib
+"""What is run: the lists of runs, and the measurements that they are for."""
 
-import numpy as np
+import math
+from dataclasses import dataclass
+from pathlib import Path
 
-here = pathlib.Path(__file__).resolve().parent
+from furrow_post.csv_table import read_rows
+from furrow_post.study.case import Case, Value
+from furrow_post.study.furrow_cases import script_case
+
+HERE = Path(__file__).resolve().parent
 
 # Numerical choices; checked in the stage 'checks'.
-BASE = dict(diameter=0.010, young=1e7, seed=86028121)
-PLATE_BED = dict(length=0.26, depth=0.10)
-WHEEL_BED = dict(length=0.46, width=0.16, depth=0.07)
-PLATE_SPEED = 0.05  # m/s
+BASE: dict[str, Value] = {"diameter": 0.010, "young": 1e7, "seed": 86028121}
+PLATE_BED: dict[str, Value] = {"length": 0.26, "depth": 0.10}
+WHEEL_BED: dict[str, Value] = {"length": 0.46, "width": 0.16, "depth": 0.07}
+PLATE_SPEED = 0.05  # [m/s]
 PLATE_FRICTION = 0.4
-# Not measured. The authors' model takes the sand's full friction at the rim of both wheels (their force data need it: see README.md);
-# so the wheel is rough here, and the sand, not the rim, decides how much shear is carried.
+# Not measured. The authors' model takes the sand's full friction at the rim of both wheels (their
+# force data need it: see README.md); so the wheel is rough here, and the sand, not the rim, decides
+# how much shear is carried.
 WHEEL_FRICTION = 0.7
-FASTEST = 0.2       # m/s, the larger of travel and rim speed
-TRAVEL = 0.24       # m
-WINDOW = (0.14, 0.239)  # m of travel, for the steady values
-GROUSERS = 24       # assumed; the authors' code gives the share of the tread that the tips cover, 0.1: 24 x 1.65 mm on 2 pi 63 mm
-GROUSER_THICKNESS = 0.00165
+FASTEST = 0.2  # [m/s] the larger of travel and rim speed
+TRAVEL = 0.24  # [m]
+WINDOW = (0.14, 0.239)  # [m] of travel, for the steady values
+# Assumed; the authors' code gives the share of the tread that the tips cover, 0.1: 24 x 1.65 mm on
+# 2 pi 63 mm
+GROUSERS = 24
+GROUSER_THICKNESS = 0.00165  # [m]
+GROUSER_HEIGHT = 0.005  # [m]
+BED_KEYS = tuple(  # variables that make a bed what it is
+    "length width depth diameter density young friction rolling pour_friction seed".split()
+)
 ORDER = [-0.0, -0.5, 0.5, 0.2, -0.2, 0.8]  # of the slips: breadth first
 
-# Explicit search on the plates: (friction, rolling friction, friction while pouring, density of a grain that gives 1330 kg/m3).
+
+@dataclass(frozen=True)
+class Grains:
+    """A candidate of the explicit search on the plates."""
+
+    friction: float
+    rolling: float  # rolling friction
+    pour_friction: float  # while the bed is made
+    density: int  # of a grain, which gives 1330 kg/m3 in bulk [kg/m3]
+
+
 CANDIDATES = {
-    "A": (0.5, 0.2, 0.5, 2440),
-    "B": (0.5, 0.1, 0.5, 2380),
-    "C": (0.3, 0.2, 0.3, 2340),
-    "E": (0.8, 0.2, 0.8, 2470),
+    "A": Grains(0.5, 0.2, 0.5, 2440),
+    "B": Grains(0.5, 0.1, 0.5, 2380),
+    "C": Grains(0.3, 0.2, 0.3, 2340),
+    "E": Grains(0.8, 0.2, 0.8, 2470),
 }
 CHOSEN = "A"
-PLATES = (60, 80, 100)  # mm
+PLATES = (60, 80, 100)  # [mm]
+WHEELS = ("smooth", "grouser")
 
-GOALS = {f"{kind}: rms of {what}": 0.10
-         for kind in ("smooth wheel", "grouser wheel", "smooth wheel, 5 slips with grains of 8 mm") for what in ("Fx/Fz", "sinkage/r")}
-# What was reached, plus the scatter from one pour to the next (0.04 for the plates, 0.02 to 0.03 for a wheel's rms, README.md): the
-# limits of the test. The goals stand beside them and are not all reached.
+FINER = "smooth wheel, 5 slips with grains of 8 mm"
+GOALS = {
+    f"{what}: rms of {quantity}": 0.10
+    for what in ("smooth wheel", "grouser wheel", FINER)
+    for quantity in ("Fx/Fz", "sinkage/r")
+}
+# What was reached, plus the scatter from one pour to the next (0.04 for the plates, 0.02 to 0.03
+# for a wheel's rms, README.md): the limits of the test. The goals stand beside them and are not all
+# reached.
 REACHED = {
     "plates: rms of ln(force)": 0.32,
     "smooth wheel: rms of Fx/Fz": 0.11,
     "smooth wheel: rms of sinkage/r": 0.07,
     "grouser wheel: rms of Fx/Fz": 0.14,
     "grouser wheel: rms of sinkage/r": 0.12,
-    "smooth wheel, 5 slips with grains of 8 mm: rms of Fx/Fz": 0.18,
-    "smooth wheel, 5 slips with grains of 8 mm: rms of sinkage/r": 0.10,
+    f"{FINER}: rms of Fx/Fz": 0.18,
+    f"{FINER}: rms of sinkage/r": 0.10,
 }
 
 
-def step(diameter):
-    """0.22 of the Rayleigh time of the smallest grain."""
-    return 8e-5 * diameter / 0.010
+@dataclass(frozen=True)
+class Point:
+    """A row of reference.csv; NaN where it has nothing."""
+
+    kind: str  # plate, smooth or grouser
+    values: dict[str, float]
+
+    def __getitem__(self, key: str) -> float:
+        return self.values[key]
 
 
-def grains(candidate, **changes):
-    friction, rolling, pour_friction, density = CANDIDATES[candidate]
-    values = dict(BASE, friction=friction, rolling=rolling, pour_friction=pour_friction, density=density)
-    values.update(changes)
-    values["step"] = f"{step(values['diameter']):.3g}"
-    return values
+def reference() -> list[Point]:
+    return [
+        Point(row["kind"], {k: float(v) if v else math.nan for k, v in row.items() if k != "kind"})
+        for row in read_rows(HERE / "reference.csv")
+    ]
 
 
-def plate_job(size_mm, candidate, speed=PLATE_SPEED, **changes):
-    values = grains(candidate, **{**PLATE_BED, "wall_friction": PLATE_FRICTION, **changes})
-    return dict(scene="plate", variables=dict(values, size=size_mm / 1000, speed=speed, travel=0.024))
+def plate_points(size: int) -> list[Point]:
+    """Measured on the plate of this size [mm]."""
+    return [p for p in reference() if p.kind == "plate" and p["size_mm"] == size]
 
 
-def bed_key(job):
-    """Runs of equal keys use the same bed."""
-    keys = ("length", "width", "depth", "diameter", "density", "young", "friction", "rolling", "pour_friction", "seed")
-    return (job["scene"], *(job["variables"].get(key) for key in keys))
+def wheel_points(kind: str) -> list[Point]:
+    """Measured points that are computed."""
+    return [p for p in reference() if p.kind == kind and -0.55 < p["slip"] < 0.8]
 
 
-def wheel_job(kind, point, candidate=CHOSEN, fastest=FASTEST, **changes):
-    """One measured point: its own load and slip; the larger of travel and rim speed is the same for all slips."""
-    slip, bars = point["slip"], dict(smooth=0, grouser=GROUSERS)[kind]
-    words = f"grousers {bars}" + (f" grouser_height 0.005 grouser_thickness {GROUSER_THICKNESS}" if bars else "")
-    values = grains(candidate, **{**WHEEL_BED, "wall_friction": WHEEL_FRICTION, **changes})
-    values.update(grousers=words, grouser_height=0.005 if bars else 0.0, slip=slip, load=point["load_N"],
-                  speed=round(fastest * min(1.0, 1.0 - slip), 5), travel=TRAVEL)
-    return dict(scene="wheel", variables=values)
-
-
-def reference():
-    """Rows of reference.csv, numbers as numbers."""
-    with open(here / "reference.csv") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    return [{k: (v if k == "kind" else float(v) if v else math.nan) for k, v in row.items()} for row in rows]
-
-
-def wheel_points(kind):
-    return [row for row in reference() if row["kind"] == kind and -0.55 < row["slip"] < 0.8]
-
-
-def wheel_name(kind, point):
-    return f"{kind}_{point['slip']:+.3f}"
-
-
-def point(kind, slip):
+def nearest_point(kind: str, slip: float) -> Point:
     return min(wheel_points(kind), key=lambda p: abs(p["slip"] - slip))
 
 
-# One thing changed at a time: name -> (wheel, slip, changes, what it shows). Speed, bed and pour with the cheapest grains.
+def grains(candidate: str, changes: dict[str, Value]) -> dict[str, Value]:
+    """Variables of the scripts; the step is 0.22 of the Rayleigh time of the smallest grain."""
+    values: dict[str, Value] = {**BASE, **vars(CANDIDATES[candidate]), **changes}
+    return {**values, "step": f"{8e-5 * float(str(values['diameter'])) / 0.010:.3g}"}
+
+
+def bed_key(script: str, variables: dict[str, Value]) -> tuple[Value | None, ...]:
+    """Runs of equal keys use the same bed."""
+    return (script, *(variables.get(key) for key in BED_KEYS))
+
+
+def case(name: str, stage: str, script: str, variables: dict[str, Value], what: str = "") -> Case:
+    return script_case(
+        name,
+        HERE / f"{script}.lig",
+        variables,
+        log=True,
+        stage=stage,
+        what=what,
+        shares=bed_key(script, variables),
+    )
+
+
+def plate_case(
+    name: str, stage: str, size: int, candidate: str, speed: float = PLATE_SPEED, **changes: Value
+) -> Case:
+    """size [mm], speed [m/s]; changes: of the grains' variables."""
+    changes = {**PLATE_BED, "wall_friction": PLATE_FRICTION, **changes}
+    test: dict[str, Value] = {"size": size / 1000, "speed": speed, "travel": 0.024}
+    return case(name, stage, "plate", {**grains(candidate, changes), **test})
+
+
+def wheel_case(
+    name: str,
+    stage: str,
+    point: Point,
+    what: str = "",
+    candidate: str = CHOSEN,
+    fastest: float = FASTEST,
+    **changes: Value,
+) -> Case:
+    """One measured point: its own load and slip.
+
+    The larger of travel and rim speed is the same for all slips: fastest [m/s].
+    """
+    bars = GROUSERS if point.kind == "grouser" else 0
+    grousers = f"grousers {bars}"
+    if bars:
+        grousers += f" grouser_height {GROUSER_HEIGHT} grouser_thickness {GROUSER_THICKNESS}"
+    changes = {**WHEEL_BED, "wall_friction": WHEEL_FRICTION, **changes}
+    test: dict[str, Value] = {
+        "grousers": grousers,
+        "grouser_height": GROUSER_HEIGHT if bars else 0.0,
+        "slip": point["slip"],
+        "load": point["load_N"],
+        "speed": round(fastest * min(1.0, 1.0 - point["slip"]), 5),
+        "travel": TRAVEL,
+    }
+    return case(name, stage, "wheel", {**grains(candidate, changes), **test}, what)
+
+
+def wheel_name(point: Point) -> str:
+    return f"{point.kind}_{point['slip']:+.3f}"
+
+
+@dataclass(frozen=True)
+class Check:
+    """One thing changed on a wheel: its slip, what is changed, in words and in variables."""
+
+    slip: float
+    what: str
+    changes: dict[str, Value]
+    candidate: str = CHOSEN
+    fastest: float = FASTEST
+
+
+SEED = 67867967  # of another pour
+# Of the smooth wheel. Speed, bed and pour with the cheapest grains.
 CHECKS = {
-    "grain_8": ("smooth", 0.231, dict(diameter=0.008), "grains of 8 mm"),
-    "grain_12.5": ("smooth", 0.231, dict(diameter=0.0125), "grains of 12.5 mm"),
-    "grain_8_slip_0": ("smooth", 0.0, dict(diameter=0.008), "grains of 8 mm"),
-    "grain_8_slip_-0.2": ("smooth", -0.2, dict(diameter=0.008), "grains of 8 mm"),
-    "grain_8_slip_-0.5": ("smooth", -0.5, dict(diameter=0.008), "grains of 8 mm"),
-    "grain_8_slip_0.5": ("smooth", 0.5, dict(diameter=0.008), "grains of 8 mm"),
-    "grain_12.5_slip_0": ("smooth", 0.0, dict(diameter=0.0125), "grains of 12.5 mm"),
-    "bed_wide": ("smooth", 0.231, dict(diameter=0.0125, width=0.24, depth=0.10), "grains of 12.5 mm, bed 0.24 m wide, 0.10 m deep"),
-    "fast": ("smooth", 0.231, dict(diameter=0.0125, fastest=0.4), "grains of 12.5 mm, twice the speed"),
-    "slow": ("smooth", 0.231, dict(diameter=0.0125, fastest=0.1), "grains of 12.5 mm, half the speed"),
-    "seed_10": ("smooth", 0.231, dict(seed=67867967), "grains of 10 mm, another pour"),
-    "seed": ("smooth", 0.231, dict(diameter=0.0125, seed=67867967), "grains of 12.5 mm, another pour"),
-    "candidate_E": ("smooth", 0.231, dict(candidate="E"), "candidate E, grains of 10 mm"),
-    "candidate_E_slip_0": ("smooth", 0.0, dict(candidate="E"), "candidate E, grains of 10 mm"),
-    "wall_0.4": ("smooth", 0.0, dict(wall_friction=0.4), "grains of 10 mm, friction of wheel and sand 0.4"),
+    "grain_8": Check(0.231, "grains of 8 mm", {"diameter": 0.008}),
+    "grain_12.5": Check(0.231, "grains of 12.5 mm", {"diameter": 0.0125}),
+    "grain_8_slip_0": Check(0.0, "grains of 8 mm", {"diameter": 0.008}),
+    "grain_8_slip_-0.2": Check(-0.2, "grains of 8 mm", {"diameter": 0.008}),
+    "grain_8_slip_-0.5": Check(-0.5, "grains of 8 mm", {"diameter": 0.008}),
+    "grain_8_slip_0.5": Check(0.5, "grains of 8 mm", {"diameter": 0.008}),
+    "grain_12.5_slip_0": Check(0.0, "grains of 12.5 mm", {"diameter": 0.0125}),
+    "bed_wide": Check(
+        0.231,
+        "grains of 12.5 mm, bed 0.24 m wide, 0.10 m deep",
+        {"diameter": 0.0125, "width": 0.24, "depth": 0.10},
+    ),
+    "fast": Check(0.231, "grains of 12.5 mm, twice the speed", {"diameter": 0.0125}, fastest=0.4),
+    "slow": Check(0.231, "grains of 12.5 mm, half the speed", {"diameter": 0.0125}, fastest=0.1),
+    "seed_10": Check(0.231, "grains of 10 mm, another pour", {"seed": SEED}),
+    "seed": Check(0.231, "grains of 12.5 mm, another pour", {"diameter": 0.0125, "seed": SEED}),
+    "candidate_E": Check(0.231, "candidate E, grains of 10 mm", {}, candidate="E"),
+    "candidate_E_slip_0": Check(0.0, "candidate E, grains of 10 mm", {}, candidate="E"),
+    "wall_0.4": Check(
+        0.0, "grains of 10 mm, friction of wheel and sand 0.4", {"wall_friction": 0.4}
+    ),
 }
-
-
-PLATE_CHECKS = {
-    "12.5": dict(diameter=0.0125),
-    "8": dict(diameter=0.008),
-    "seed": dict(seed=67867967),
-    "fast": dict(speed=0.1),
+PLATE_CHECKS: dict[str, dict[str, Value]] = {  # of the chosen candidate
+    "12.5": {"diameter": 0.0125},
+    "8": {"diameter": 0.008},
+    "seed": {"seed": SEED},
+    "fast": {},
 }
+PLATE_CHECK_SPEEDS = {"fast": 0.1}  # [m/s]
+BASE_OF_CHECKS = (
+    "base: grains of 10 mm, bed 0.46 x 0.16 x 0.07 m, 0.2 m/s, friction of wheel and sand 0.7"
+)
 
 
-def check_points():
-    """The two base points first, then every change of them."""
-    base = "base: grains of 10 mm, bed 0.46 x 0.16 x 0.07 m, 0.2 m/s, friction of wheel and sand 0.7"
-    checks = {wheel_name("smooth", p): ("smooth", p, base) for p in wheel_points("smooth")[:-1]}
-    return {**checks, **{f"check_{name}": (kind, point(kind, slip), what) for name, (kind, slip, _, what) in CHECKS.items()}}
+def calibration_cases() -> list[Case]:
+    return [
+        plate_case(f"plate_{name}_{size}", "calibrate", size, name)
+        for name in CANDIDATES
+        for size in PLATES
+    ]
 
 
-def jobs(stage):
-    """Runs of a stage in the order of their worth, name -> scene and variables."""
-    if stage == "calibrate":
-        return {f"plate_{c}_{size}": plate_job(size, c) for c in CANDIDATES for size in PLATES}
-    if stage == "wheel":
-        by_worth = {kind: sorted(wheel_points(kind), key=lambda p: ORDER.index(round(p["slip"], 1)))
-                    for kind in ("smooth", "grouser")}
-        return {wheel_name(kind, p): wheel_job(kind, p) for kind, points in by_worth.items() for p in points}
-    plates = {f"plate_{CHOSEN}{what}_{size}": plate_job(size, CHOSEN, **changes)
-              for what, changes in PLATE_CHECKS.items() for size in PLATES}
-    wheels = {f"check_{name}": wheel_job(kind, point(kind, slip), **changes)
-              for name, (kind, slip, changes, _) in CHECKS.items()}
-    return {**wheels, **plates}
+def wheel_cases() -> list[Case]:
+    """In the order of their worth."""
+    return [
+        wheel_case(wheel_name(point), "wheel", point)
+        for kind in WHEELS
+        for point in sorted(wheel_points(kind), key=lambda p: ORDER.index(round(p["slip"], 1)))
+    ]
+
+
+def check_cases() -> list[Case]:
+    wheels = [
+        wheel_case(
+            f"check_{name}",
+            "checks",
+            nearest_point("smooth", check.slip),
+            check.what,
+            check.candidate,
+            check.fastest,
+            **check.changes,
+        )
+        for name, check in CHECKS.items()
+    ]
+    plates = [
+        plate_case(
+            f"plate_{CHOSEN}{name}_{size}",
+            "checks",
+            size,
+            CHOSEN,
+            PLATE_CHECK_SPEEDS.get(name, PLATE_SPEED),
+            **changes,
+        )
+        for name, changes in PLATE_CHECKS.items()
+        for size in PLATES
+    ]
+    return wheels + plates
+
+
+def all_cases() -> dict[str, Case]:
+    """Name -> case, in the order in which they are made."""
+    cases = calibration_cases() + wheel_cases() + check_cases()
+    return {case.name: case for case in cases}

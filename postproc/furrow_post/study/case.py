@@ -27,6 +27,7 @@ class Case:
     stage: str = ""  # part of the study
     shares: Hashable = None  # runs with the same key share what the first one makes
     time_limit: float = math.inf  # [s]
+    may_fail: bool = False  # its failure is a result of the study too
     fallback: Mapping[str, Value] = field(default_factory=dict)  # variables of a second attempt
 
     def command(self, program: Path, folder: Path, changes: Mapping[str, Value]) -> list[str]:

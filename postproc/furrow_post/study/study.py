@@ -136,11 +136,12 @@ def _evaluate(study: Study, runner: Runner, chosen: Sequence[Case], check: bool)
     for case in failed:
         failure = runner.failure(case)
         print(f"FAILED: {case.name}: {failure.error if failure else ''}", file=sys.stderr)
+    unexpected = any(not case.may_fail for case in failed)
     for sentence in missed:
         print(f"MISSED: {sentence}", file=sys.stderr)
     if not check:
-        return 1 if failed else 0
+        return 1 if unexpected else 0
     absent = [case for case in chosen if runner.state(case) is State.MISSING]
     for case in absent:
         print(f"MISSED: {case.name} was not run", file=sys.stderr)
-    return 1 if failed or missed or absent else 0
+    return 1 if unexpected or missed or absent else 0

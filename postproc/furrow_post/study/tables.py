@@ -8,9 +8,13 @@ from ..csv_table import column_names
 
 
 def aligned(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Rows under the names of their columns; empty where a row lacks one."""
+    """Rows under the names of their columns, numbers with six digits; empty where one is not."""
+
+    def text(value: Any) -> str:
+        return f"{value:.6g}" if isinstance(value, float) else str(value)
+
     names = column_names(rows)
-    cells = [[str(row.get(name, "")) for name in names] for row in rows]
+    cells = [[text(row.get(name, "")) for name in names] for row in rows]
     widths = [max(map(len, column)) for column in zip(names, *cells)]
     lines = [
         "  ".join(cell.rjust(width) for cell, width in zip(line, widths))
