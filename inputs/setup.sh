@@ -9,7 +9,7 @@ furrow_packages="g++ cmake ninja-build liggghts libliggghts-dev libopenmpi-dev o
   libvtk9-dev libyaml-cpp-dev libfmt-dev libcli11-dev nlohmann-json3-dev python3 python3-numpy python3-h5py python3-matplotlib
   python3-scipy"
 # To test besides.
-furrow_test_packages="libgtest-dev libgmock-dev libbenchmark-dev"
+furrow_test_packages="libgtest-dev libgmock-dev libbenchmark-dev mypy"
 
 # install_packages <package>...: those that are missing, from Debian, once
 install_packages() {

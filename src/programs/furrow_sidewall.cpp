@@ -43,7 +43,7 @@ void run(const Wishes& wishes) {
           : wishes.output;
   furrow::write_sidewall_survey(folder, survey);
   std::cout << furrow::sidewall_report(survey) << "  results       " << folder << '\n';
-  if (!wishes.no_plot) furrow::draw_figure("sidewall_figures.py", folder);
+  if (!wishes.no_plot) furrow::draw_figure("sidewall", folder);
 }
 
 void list_keys() {

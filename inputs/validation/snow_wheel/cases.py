@@ -204,7 +204,7 @@ def on_law(
 
 def on_field_snow(name: str, stage: str, law: str, mode: str = "", **changes: Any) -> Case:
     """0.20 m of 220 kg/m3 with an identified law; mode: by default the one it was identified in."""
-    given = {"density": 220, "depth": 0.20, **changes}
+    given: dict[str, Any] = {"density": 220, "depth": 0.20, **changes}
     return on_law(name, stage, mode=mode or law, law=LAWS[law], **given)
 
 
