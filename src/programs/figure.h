@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Figures of results folders, drawn by the system's Python, which has matplotlib and h5py.
+/// Figures of results folders, drawn by furrow-post with the Python that CMake found.
 
 #include <string>
 
 namespace furrow {
 
-/// Runs a script of share/furrow, which lies beside the bin folder of this program, for a results
-/// folder.
-/// @throws Error when the script is missing or fails; the results stay
-void draw_figure(const std::string& script, const std::string& folder);
+/// Runs a subcommand of furrow-post, which lies beside this program, for a results folder.
+/// @param subcommand "point" or "sidewall"
+/// @throws Error when furrow-post is missing or fails; the results stay
+void draw_figure(const std::string& subcommand, const std::string& folder);
 
 }  // namespace furrow

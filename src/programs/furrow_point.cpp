@@ -40,7 +40,7 @@ void run(const std::string& input, const std::string& output, bool plot) {
   }
   std::cout << furrow::run_report(run, *material, history, error ? &*error : nullptr)
             << "  results       " << folder << '\n';
-  if (plot) furrow::draw_figure("point_figures.py", folder);
+  if (plot) furrow::draw_figure("point", folder);
 }
 
 int fit(const std::string& input, const std::string& output, bool plot) {
@@ -49,7 +49,7 @@ int fit(const std::string& input, const std::string& output, bool plot) {
   const std::string folder = folder_for(output, input);
   furrow::write_point_fit(folder, fit, result);
   std::cout << furrow::fit_report(fit, result) << "  results       " << folder << '\n';
-  if (plot) furrow::draw_figure("point_figures.py", folder);
+  if (plot) furrow::draw_figure("point", folder);
   return result.converged ? 0 : 1;
 }
 

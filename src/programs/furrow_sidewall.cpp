@@ -47,7 +47,7 @@ void run(const Request& request) {
           : request.output;
   furrow::write_sidewall_survey(folder, survey);
   std::cout << furrow::sidewall_report(survey) << "  results       " << folder << '\n';
-  if (!request.no_plot) furrow::draw_figure("sidewall_figures.py", folder);
+  if (!request.no_plot) furrow::draw_figure("sidewall", folder);
 }
 
 void list_keys() {

@@ -1,40 +1,60 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Density under the track of a wheel on clusters: mass over volume below the rut's surface, behind the wheel.
+"""Density under the track of a wheel on clusters: mass over volume below the rut's surface, behind
+the wheel."""
 
-  track_density.py RESULTS CLUSTER_DENSITY
-"""
-import pathlib, sys
+import argparse
+import sys
+from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "postproc"))
-from furrow_post.results import Results
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "postproc"))
 
-HALF_WIDTH = 0.09     # m: the middle two thirds of a wheel 0.272 m wide
-BEHIND = (-0.50, -0.15)  # m from the axle: rolled over, and away from the start
+from furrow_post.errors import ResultsError
+from furrow_post.read.results import Results
+
+HALF_WIDTH = 0.09  # [m] the middle two thirds of a wheel 0.272 m wide
+BEHIND = (-0.50, -0.15)  # [m] from the axle: rolled over, and away from the start
 
 
-def main():
-    results, density = Results(sys.argv[1]), float(sys.argv[2])
-    grains = results.grains("final")
-    _, nodes = results.surface()
-    axle = nodes[:, 0].mean()
+def report(folder: Path, cluster_density: float) -> str:
+    """Two lines. cluster_density [kg/m3]; @raises ResultsError without grains or wheel"""
+    results = Results(folder)
+    grains, surface = results.grains("final"), results.surface()
+    if surface is None:
+        raise ResultsError(f"{results.file}: has no surface of a wheel")
+    axle = surface.x[:, 0].mean()
     x, y, z = grains.x.T
     low, high = axle + BEHIND[0], axle + BEHIND[1]
     inside = (abs(y) < HALF_WIDTH) & (x > low) & (x < high)
-    volume = 4 / 3 * np.pi * grains.radius**3
     # Surface: mean of the highest cluster's top in squares of two diameters
     size = 4 * np.median(grains.radius)
-    cells = {}
+    tops: dict[tuple[int, int], float] = {}
     for i in np.flatnonzero(inside):
-        key = (int((x[i] - low) / size), int((y[i] + HALF_WIDTH) / size))
-        cells[key] = max(cells.get(key, 0.0), z[i] + grains.radius[i])
-    height = np.mean(list(cells.values()))
-    mass = density * volume[inside].sum()
-    value = mass / ((high - low) * 2 * HALF_WIDTH * height)
-    print(f"surface of the track {1e3 * height:.0f} mm above the floor (bed level {1e3 * grains.bed_level:.0f} mm)")
-    print(f"density under the track {value:.0f} kg/m3; over the bed's level as it was: {mass / ((high - low) * 2 * HALF_WIDTH * grains.bed_level):.0f}")
+        square = (int((x[i] - low) / size), int((y[i] + HALF_WIDTH) / size))
+        tops[square] = max(tops.get(square, 0.0), float(z[i] + grains.radius[i]))
+    height = float(np.mean(list(tops.values())))
+    mass = cluster_density * (4 / 3 * np.pi * grains.radius**3)[inside].sum()
+    area = (high - low) * 2 * HALF_WIDTH
+    level = grains.bed_level
+    return (
+        f"surface of the track {1e3 * height:.0f} mm above the floor "
+        f"(bed level {1e3 * level:.0f} mm)\n"
+        f"density under the track {mass / (area * height):.0f} kg/m3; "
+        f"over the bed's level as it was: {mass / (area * level):.0f}"
+    )
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("results", type=Path, help="results folder of the run")
+    parser.add_argument("density", type=float, help="of a cluster [kg/m3]")
+    parsed = parser.parse_args()
+    try:
+        print(report(parsed.results, parsed.density))
+    except ResultsError as error:
+        sys.exit(f"track_density.py: {error}")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,278 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Adjusts parameters of a ground of grains to measurements with a laboratory test.
+
+Least squares (scipy.optimize.least_squares, trust region) in the logarithms of the parameters;
+differences of 20 % make the Jacobian, well above the scatter of packings. Every run is kept in
+FOLDER/log.jsonl: a calibration that was stopped continues where it was, and one that is done is
+only evaluated again. The result goes to CALIBRATION.result.json, beside the input.
+
+The input: "test", "ground", "variables" of all runs, "parameters": {name: [start, lower, upper]},
+"seeds" for the scatter, and the target, either "reference" (reference.csv of an oedometer: ln of
+stress at the measured densities from "lowest" to "highest" Pa) or "quantities": {name: [value,
+deviation]} of the evaluation, with "series" of confinements whose "together" values are used.
+"""
+
+import argparse
+import json
+import math
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.optimize import least_squares
+
+HERE = Path(__file__).resolve().parent
+PROJECT = HERE.parents[1]
+sys.path.insert(0, str(PROJECT / "postproc"))
+
+from furrow_post.analyse.laboratory import together, values_of
+from furrow_post.analyse.statistics import rms
+from furrow_post.arrays import Floats
+from furrow_post.errors import ResultsError
+from furrow_post.read.laboratory import LaboratoryTest, cell_curve, read_oedometer_reference
+from furrow_post.study.case import Value
+from furrow_post.study.furrow_cases import laboratory_case
+from furrow_post.study.launch import Interrupted, Tools, launch
+
+STEP = 0.2  # of a parameter's logarithm, for differences
+WEAK = 0.05  # singular values below this share of the largest: a combination not determined
+FAILED = 3.0  # residual of a test that did not reach the stress of a target
+
+Task = dict[str, Any]  # the input
+
+
+class Runs:
+    """The runs made so far, by their parameters; the log is read again after a stop."""
+
+    def __init__(self, task: Task, folder: Path, most: int, tools: Tools) -> None:
+        self.task, self.folder, self.most, self.tools = task, folder, most, tools
+        self.names = list(task["parameters"])
+        self.log = folder / "log.jsonl"
+        self.known: dict[tuple[str | int, ...], list[float]] = {}
+        self.made = 0
+        if self.log.exists():
+            for line in self.log.read_text().splitlines():
+                entry = json.loads(line)
+                if entry["task"] == self.identity():
+                    self.known[self.key(entry["values"], entry["seed"])] = entry["residuals"]
+
+    def identity(self) -> Task:
+        """What the runs of a log must have in common."""
+        target = self.task.get("reference") or self.task.get("quantities")
+        return {key: self.task[key] for key in ("test", "ground", "variables")} | {"target": target}
+
+    @staticmethod
+    def key(values: Sequence[float], seed: int) -> tuple[str | int, ...]:
+        return (*(f"{v:.6g}" for v in values), seed)
+
+    def residuals(self, values: Floats, seed: int | None = None) -> Floats:
+        """Of the target, from the log or a new run; seed: default the first."""
+        seed = seed or int(self.task["seeds"][0])
+        key = self.key(list(values), seed)
+        if key not in self.known:
+            if self.made >= self.most:
+                raise ResultsError(
+                    f"{self.most} runs are made; start again with a larger --runs to continue "
+                    f"(log: {self.log})"
+                )
+            self.made += 1
+            began = time.time()
+            self.known[key] = self.run(values, seed)
+            self.keep(values, seed, self.known[key], time.time() - began)
+        return np.array(self.known[key])
+
+    def keep(self, values: Floats, seed: int, residuals: list[float], seconds: float) -> None:
+        """Adds a run to the log, and prints it."""
+        entry = {
+            "task": self.identity(),
+            "values": [float(f"{v:.6g}") for v in values],
+            "seed": seed,
+            "residuals": residuals,
+            "wall_s": round(seconds, 1),
+        }
+        with open(self.log, "a") as file:
+            file.write(json.dumps(entry) + "\n")
+        numbers = "  ".join(f"{n} {v:.4g}" for n, v in zip(self.names, values))
+        misfit = f"rms {rms(residuals):.3f}"
+        print(f"run {len(self.known):3}  {numbers}  seed {seed}  {misfit}", flush=True)
+
+    def run(self, values: Floats, seed: int) -> list[float]:
+        """Residuals of a new run. @raises ResultsError where it failed, Interrupted"""
+        tests = []
+        for confinement in self.task.get("series", [None]):
+            given = {
+                **self.task["variables"],
+                "ground": self.task["ground"],
+                "seed": seed,
+                **dict(zip(self.names, (float(v) for v in values))),
+            }
+            if confinement:
+                given["confinement"] = confinement
+            variables: dict[str, Value] = {
+                name: f"{value:.6g}" if isinstance(value, float) else str(value)
+                for name, value in given.items()
+            }
+            name = f"run_{confinement}" if confinement else "run"
+            case = laboratory_case(name, self.task["test"], PROJECT, variables)
+            folder = self.folder / name
+            record = launch(case, folder, self.tools)
+            if record.error:
+                raise ResultsError(f"{folder} failed: {record.error}")
+            tests.append(LaboratoryTest(folder))
+        if "reference" in self.task:
+            return self.misfit_of_curve(tests[0])
+        shared = {q.name: q.value for q in together(tests)}
+        found = shared or values_of(tests[0])
+        targets = self.task["quantities"].items()
+        return [(found[name] - value) / deviation for name, (value, deviation) in targets]
+
+    def misfit_of_curve(self, test: LaboratoryTest) -> list[float]:
+        """ln of computed over measured stress at the measured densities."""
+        _, stress, density = cell_curve(test.curve())
+        end = int(np.argmax(stress[:, 2])) + 1
+        axial = np.maximum.accumulate(np.maximum(stress[:end, 2], 1.0))
+        reference = read_oedometer_reference(HERE / self.task["reference"])
+        misfit = []
+        for rho, sigma in reference:
+            if not self.task["lowest"] <= sigma <= self.task["highest"]:
+                continue
+            if rho <= density[end - 1]:
+                computed = np.interp(rho, density[:end], axial)
+                misfit.append(math.log(computed / sigma))
+            else:
+                # A test that ended before the density was reached was too stiff, at least so much
+                beyond = FAILED * (rho / density[end - 1] - 1)
+                misfit.append(max(math.log(axial[-1] / sigma), float(beyond)))
+        return misfit
+
+
+class Bounds:
+    """Logarithms of the parameters' start and limits."""
+
+    def __init__(self, task: Task) -> None:
+        self.start, self.lower, self.upper = np.log(list(task["parameters"].values())).T
+
+
+def jacobian(runs: Runs, bounds: Bounds, logs: Floats) -> Floats:
+    """(residuals, parameters) from differences of STEP towards the inside.
+
+    Written out because every run must come again with the same digits from the log.
+    """
+    base = runs.residuals(np.exp(logs))
+    columns = []
+    for k in range(len(logs)):
+        step = STEP if logs[k] + STEP <= bounds.upper[k] else -STEP
+        moved = logs.copy()
+        moved[k] += step
+        columns.append((runs.residuals(np.exp(moved)) - base) / step)
+    return np.array(columns).T
+
+
+def calibrate(task: Task, runs: Runs) -> dict[str, Any]:
+    """The result, as it is written."""
+    bounds = Bounds(task)
+    fit = least_squares(
+        lambda logs: runs.residuals(np.exp(logs)),
+        bounds.start,
+        jac=lambda logs: jacobian(runs, bounds, logs),
+        bounds=(bounds.lower, bounds.upper),
+        x_scale=0.5,
+        ftol=0.02,
+        xtol=0.03,
+        max_nfev=task.get("iterations", 6),
+    )
+    best = np.exp(fit.x)
+    residuals = [runs.residuals(best, seed) for seed in task["seeds"]]
+    scatter = math.nan
+    if len(residuals) > 1:
+        scatter = float(np.sqrt(np.mean(np.var(residuals, axis=0, ddof=1))))
+    slopes = jacobian(runs, bounds, fit.x)
+    spread, findings = uncertainty(runs.names, bounds, fit.x, fit.fun, slopes, scatter)
+    return {
+        "parameters": {
+            name: {
+                "value": float(f"{value:.4g}"),
+                "ln_error": float(f"{error:.3g}") if np.isfinite(error) else None,
+            }
+            for name, value, error in zip(runs.names, best, spread)
+        },
+        "rms_by_seed": [round(rms(r), 3) for r in residuals],
+        "scatter_of_seeds": round(scatter, 3) if np.isfinite(scatter) else None,
+        "residuals": [[round(float(v), 3) for v in r] for r in residuals],
+        "sensitivity": {
+            name: [round(float(v), 2) for v in column] for name, column in zip(runs.names, slopes.T)
+        },
+        "not_determined": findings,
+        "runs": len(runs.known),
+    }
+
+
+def uncertainty(
+    names: Sequence[str],
+    bounds: Bounds,
+    logs: Floats,
+    residuals: Floats,
+    slopes: Floats,
+    scatter: float,
+) -> tuple[Floats, list[str]]:
+    """Standard deviations of the logarithms, and in words what the target does not determine.
+
+    slopes: the Jacobian at logs; scatter: of the residuals from packing to packing
+    """
+    _, singular, directions = np.linalg.svd(slopes, full_matrices=False)
+    degrees = max(len(residuals) - len(logs), 1)
+    sigma = float(np.sqrt(np.sum(residuals**2) / degrees))
+    sigma = max(sigma, scatter if np.isfinite(scatter) else 0.0)
+    parts = directions.T / np.maximum(singular, 1e-12)
+    spread: Floats = np.sqrt(np.sum(parts**2, axis=1)) * sigma
+    findings = []
+    if len(residuals) < len(logs):
+        spread[:] = np.inf
+    for value, direction in zip(singular, directions):
+        if value < WEAK * singular[0]:
+            product = " ".join(f"{n}^{c:+.2f}" for n, c in zip(names, direction) if abs(c) > 0.2)
+            findings.append(
+                f"the combination {product} is not determined "
+                f"(singular value {value / singular[0]:.3f} of the largest)"
+            )
+    if len(residuals) < len(logs):
+        findings.append(
+            f"{len(logs)} parameters and {len(residuals)} target(s): not all can be determined"
+        )
+    for k, name in enumerate(names):
+        if spread[k] > 1:
+            findings.append(f"{name} is known no better than a factor of e")
+        if min(logs[k] - bounds.lower[k], bounds.upper[k] - logs[k]) < 0.01:
+            findings.append(f"{name} stands at a bound")
+    return spread, findings
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("calibration", type=Path)
+    parser.add_argument("-o", "--output", type=Path)
+    parser.add_argument("--runs", type=int, default=40, help="new runs at most (default 40)")
+    parser.add_argument("--build", type=Path, help="default: $FURROW_BUILD, or build in the tree")
+    parsed = parser.parse_args()
+    calibration: Path = parsed.calibration
+    task = json.loads(calibration.read_text())
+    default = PROJECT / "results" / "laboratory" / f"calibrate_{calibration.stem}"
+    folder: Path = (parsed.output or default).resolve()
+    folder.mkdir(parents=True, exist_ok=True)
+    runs = Runs(task, folder, parsed.runs, Tools.of(Path(__file__), parsed.build))
+    result = json.dumps(calibrate(task, runs), indent=1)
+    calibration.with_suffix(".result.json").write_text(result + "\n")
+    print(result)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except (ResultsError, Interrupted, OSError) as error:
+        sys.exit(f"inputs/laboratory/calibrate.py: {error}")

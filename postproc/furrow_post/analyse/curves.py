@@ -1,0 +1,361 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Comparison of curves on grains, on continuum, as measured.
+
+Plates: pressure against sinkage. Their folder has curve.txt (fix ave/time: step, sinkage [m], force
+[N], pressure [Pa]) and facts.txt (name value pairs). Oedometers: compression against stress. Their
+folder is one of inputs/laboratory, or one of furrow-point (point.csv).
+"""
+
+import csv
+import enum
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from ..arrays import Booleans, Floats
+from ..errors import ResultsError
+from ..formatting import percent
+from ..read.laboratory import LaboratoryTest, PointRun, cell_curve
+from .statistics import rms
+from .verdict import COVERAGE, Agreement
+
+PLATE_LEVELS = (0.05, 0.1, 0.2, 0.3, 0.5)  # sinkage over depth of the ground
+STRESS_LEVELS = (2e3, 1e4, 5e4, 1e5, 2e5, 5e5)  # [Pa]
+VAGUE = 0.4  # beyond this uncertainty of ln(y), 50 %, agreement says nothing
+TOLERANCES = {"size": 0.02, "depth": 0.06, "density": 0.1, "speed": 0.02}  # relative
+NUMERICAL_PARTS = ("size", "domain", "packing")
+
+NumericalErrors = dict[str, Floats]  # of NUMERICAL_PARTS -> relative standard deviation per level
+
+
+class CurveKind(enum.Enum):
+    """What x and y of a curve are."""
+
+    PLATE = "plate"  # sinkage [m], pressure [Pa]
+    OEDOMETER = "oedometer"  # axial stress [Pa], density over that at the start
+
+    @property
+    def compared(self) -> str:
+        if self is CurveKind.PLATE:
+            return "pressure at equal sinkage"
+        return "compression (density over that at the start) at equal stress"
+
+    def level_text(self, level: float) -> str:
+        """A value of x for people."""
+        if self is CurveKind.PLATE:
+            return f"{1e3 * level:.3g} mm"
+        return f"{level / 1e3:.3g} kPa"
+
+
+@dataclass
+class Curve:
+    """A curve of one test; x rises."""
+
+    label: str
+    kind: CurveKind
+    ground: str  # grains, continuum, made, ...
+    x: Floats
+    y: Floats
+    facts: dict[str, float]  # size, depth, box [m], density [kg/m3], cell, diameter [m], ...
+    noise: Floats  # standard deviation about the smoothed curve, in y's unit
+
+    @property
+    def size(self) -> float:
+        """Of cells or grains [m], NaN where it is not known."""
+        return self.facts.get("cell", self.facts.get("diameter", math.nan))
+
+    @property
+    def box(self) -> float:
+        """Width of the ground [m], NaN where it is not known."""
+        return self.facts.get("box", math.nan)
+
+
+def is_curve(folder: Path | str) -> bool:
+    """Whether a results folder is that of a plate or an oedometer."""
+    return any((Path(folder) / name).is_file() for name in ("facts.txt", "point.csv"))
+
+
+def _smoothed(x: Floats, y: Floats, parts: int = 40) -> tuple[Floats, Floats, Floats]:
+    """Means over equal stretches of x and y, and the standard error of each of y."""
+    groups = [g for g in np.array_split(np.arange(len(x)), min(parts, len(x))) if len(g)]
+    errors = [y[g].std(ddof=1) / math.sqrt(len(g)) if len(g) > 1 else 0.0 for g in groups]
+    return (
+        np.array([x[g].mean() for g in groups]),
+        np.array([y[g].mean() for g in groups]),
+        np.array(errors),
+    )
+
+
+def read_curve(folder: Path | str, label: str | None = None) -> Curve:
+    """@raises ResultsError for a folder of another test"""
+    folder = Path(folder)
+    if (folder / "point.csv").is_file():
+        return _point_curve(PointRun(folder), label)
+    test = LaboratoryTest(folder)
+    facts = test.numbers
+    if test.kind == "plate":
+        rows = test.curve()
+        rows = rows[rows[:, 1] > 0]
+        x, y, noise = _smoothed(rows[:, 1], rows[:, 3])
+        ground = test.facts.get("family", "grains")
+        return Curve(label or folder.name, CurveKind.PLATE, ground, x, y, facts, noise)
+    if test.kind == "oedometer":
+        _, stress, density = cell_curve(test.curve())
+        axial = np.maximum.accumulate(np.maximum(stress[:, 2], 1e-3))
+        end = int(np.argmax(stress[:, 2])) + 1
+        facts["density"] = float(density[0])  # that of the facts is of a grain's substance
+        return Curve(
+            label or test.label,
+            CurveKind.OEDOMETER,
+            "grains",
+            axial[:end],
+            density[:end] / density[0],
+            facts,
+            np.zeros(end),
+        )
+    raise ResultsError(f"{folder}: compare takes plates and oedometers, not '{test.kind}'")
+
+
+def _point_curve(point: PointRun, label: str | None) -> Curve:
+    stress, density = point.columns["axial_stress"], point.columns["density"]
+    end = int(np.argmax(stress)) + 1
+    rising = np.maximum.accumulate(stress[:end])
+    keep = rising > 1.0
+    return Curve(
+        label or point.label,
+        CurveKind.OEDOMETER,
+        "continuum",
+        rising[keep],
+        (density[:end] / density[0])[keep],
+        {"density": float(density[0])},
+        np.zeros(keep.sum()),
+    )
+
+
+@dataclass
+class CurveComparison:
+    """Curves at common levels of x, the first against the others."""
+
+    curves: list[Curve]
+    levels: list[float]
+    values: Floats  # (levels, curves)
+    errors: Floats  # (levels, curves): noise of the curves, in y's unit
+    findings: list[str] = field(default_factory=list)
+    differences: list[str] = field(default_factory=list)  # of conditions, compared all the same
+
+    @property
+    def kind(self) -> CurveKind:
+        return self.curves[0].kind
+
+
+def compare_curves(curves: Sequence[Curve], anyway: bool = False) -> CurveComparison:
+    """Values at common levels. @raises ResultsError where tests are not the same"""
+    kinds = {curve.kind for curve in curves}
+    if len(kinds) > 1:
+        what = ", ".join(f"{c.label} is a {c.kind.value}" for c in curves)
+        raise ResultsError(f"these tests are not comparable: {what}")
+    kind = kinds.pop()
+    differences = _differences(curves)
+    if differences and not anyway:
+        raise ResultsError(
+            "these tests are not comparable:\n  "
+            + "\n  ".join(differences)
+            + "\n  --anyway compares them all the same, and says so"
+        )
+    plate = kind is CurveKind.PLATE
+    depth = curves[0].facts.get("depth", 1.0)
+    wanted = [share * depth for share in PLATE_LEVELS] if plate else list(STRESS_LEVELS)
+    levels = [v for v in wanted if all(c.x[0] <= v <= c.x[-1] for c in curves)]
+    if not levels:
+        ranges = "; ".join(f"{c.label}: {c.x[0]:.3g} to {c.x[-1]:.3g}" for c in curves)
+        raise ResultsError(f"these tests have no common range: {ranges}")
+    values, errors = (
+        np.column_stack([_at_levels(c, levels, y) for c, y in pairs])
+        for pairs in ([(c, c.y) for c in curves], [(c, c.noise) for c in curves])
+    )
+    result = CurveComparison(list(curves), levels, values, errors, differences=differences)
+    for k, curve in enumerate(curves[1:], 1):
+        ratio = np.log(values[:, k] / values[:, 0])
+        worst = int(np.argmax(np.abs(ratio)))
+        mean, most = (percent(math.exp(v) - 1) for v in (ratio.mean(), ratio[worst]))
+        result.findings.append(
+            f"{kind.compared}: {curve.label} differs from {curves[0].label} by {mean} on average, "
+            f"rms ln-ratio {rms(ratio):.3f}, most at {kind.level_text(levels[worst])}: {most}"
+        )
+    return result
+
+
+def _at_levels(curve: Curve, levels: Sequence[float], y: Floats) -> Floats:
+    """y at the levels, interpolated in x, of oedometers in ln x."""
+    if curve.kind is CurveKind.OEDOMETER:
+        return np.interp(np.log(levels), np.log(curve.x), y)
+    return np.interp(levels, curve.x, y)
+
+
+def _differences(curves: Sequence[Curve]) -> list[str]:
+    """What differs beyond TOLERANCES, in words."""
+    differences = []
+    for name, relative in TOLERANCES.items():
+        have = [(curve.label, curve.facts[name]) for curve in curves if name in curve.facts]
+        values = [value for _, value in have]
+        if len(values) > 1 and max(values) - min(values) > relative * max(values):
+            texts = "; ".join(f"{label}: {value:.4g}" for label, value in have)
+            differences.append(f"{name}: {texts} (they may differ by {100 * relative:g} %)")
+    return differences
+
+
+def _same(a: float, b: float) -> bool:
+    """Also where one is not known: that differs in nothing."""
+    return not abs(a - b) > 0.02 * abs(a)
+
+
+def _log_at(curve: Curve, levels: Sequence[float]) -> Floats:
+    """ln y at the levels; NaN beyond the curve's ends and where it carries nothing yet."""
+    y = np.interp(levels, curve.x, curve.y, left=math.nan, right=math.nan)
+    log: Floats = np.log(np.where(y > 0, y, math.nan))
+    return log
+
+
+def numerical_errors(
+    base: Curve, checks: Sequence[Curve], levels: Sequence[float]
+) -> NumericalErrors:
+    """Relative standard deviations of base's y at the levels by what checks vary; NaN: not known.
+
+    checks are curves of the same test. A check with another size (facts cell or diameter) and
+    base's seed gives the error of the size, of first order as in cost_table; one with another box
+    the error of the domain; else it is another packing. The last two are differences from the curve
+    of the same size.
+    """
+    found = {name: np.full(len(levels), np.nan) for name in NUMERICAL_PARTS}
+    series = [base]
+    for check in checks:
+        if not any(_same(curve.size, check.size) for curve in series):
+            series.append(check)
+    if len(series) > 1:
+        h = np.array([curve.size for curve in series])
+        logs = np.array([_log_at(curve, levels) for curve in series])
+        slope = (h - h.mean()) @ logs / np.sum((h - h.mean()) ** 2)
+        found["size"] = np.abs(slope) * base.size
+    for check in checks:
+        if any(check is curve for curve in series):
+            continue
+        twin = next((curve for curve in series if _same(curve.size, check.size)), None)
+        if twin is None:
+            continue
+        difference = np.abs(_log_at(check, levels) - _log_at(twin, levels))
+        if _same(twin.box, check.box):
+            # two packings: the standard deviation of one is the difference over sqrt(2)
+            found["packing"] = np.fmax(found["packing"], difference / math.sqrt(2))
+        else:
+            found["domain"] = np.fmax(found["domain"], difference)
+    if base.ground == "continuum":
+        found["packing"] = np.zeros(len(levels))  # a lattice: nothing is random
+    return found
+
+
+@dataclass(frozen=True)
+class CurveVerdict:
+    """The verdict on two curves, level by level, and in a sentence."""
+
+    agreements: tuple[Agreement, ...]  # one per level
+    allowed: Floats  # difference of ln y per level that the uncertainty allows
+    sentence: str
+    unknown: tuple[str, ...]  # parts of the uncertainty, "size of a"
+
+
+_AGREEMENT_WORDS = {
+    Agreement.AGREE: "agree within their uncertainty",
+    Agreement.UNDECIDED: "cannot be told apart",
+    Agreement.DIFFER: "differ",
+}
+
+
+def judge_curves(
+    result: CurveComparison, k: int, errors: Sequence[NumericalErrors]
+) -> CurveVerdict:
+    """Curve k against the first. errors: of every curve, as numerical_errors gives them."""
+    total = np.zeros(len(result.levels))
+    unknown = []
+    for column in (0, k):
+        for name, value in errors[column].items():
+            total += np.nan_to_num(value) ** 2
+            if np.isnan(value).all():
+                unknown.append(f"{name} of {result.curves[column].label}")
+        total += (result.errors[:, column] / result.values[:, column]) ** 2
+    allowed = COVERAGE * np.sqrt(total)
+    near = np.abs(np.log(result.values[:, k] / result.values[:, 0])) <= allowed
+    agreements = tuple(
+        Agreement.DIFFER if not close else Agreement.UNDECIDED if wide else Agreement.AGREE
+        for close, wide in zip(near, allowed > VAGUE)
+    )
+    parts = [
+        f"{words} at {_levels_text(result, np.array([a is agreement for a in agreements]))}"
+        for agreement, words in _AGREEMENT_WORDS.items()
+        if agreement in agreements
+    ]
+    least, most = f"{100 * allowed.min():.0f}", f"{100 * allowed.max():.0f}"
+    span = least if least == most else f"{least} to {most}"
+    sentence = (
+        f"{result.curves[0].label} and {result.curves[k].label} {'; '.join(parts)} "
+        f"(allowed {span} %)"
+    )
+    if unknown:
+        sentence += f"; not known: {', '.join(unknown)}"
+    return CurveVerdict(agreements, allowed, sentence, tuple(unknown))
+
+
+def _levels_text(result: CurveComparison, which: Booleans) -> str:
+    if which.all():
+        return "every level"
+    chosen = (level for level, yes in zip(result.levels, which) if yes)
+    return ", ".join(result.kind.level_text(level) for level in chosen)
+
+
+def curve_report(result: CurveComparison) -> str:
+    """The table and what was found, for a person."""
+    plate = result.kind is CurveKind.PLATE
+    wide = max([len(c.label) for c in result.curves] + [12]) + 2
+    scale, unit = (1e-3, "kPa") if plate else (1.0, "density over that at the start")
+    head = "".join(f"{c.label:>{wide}}" for c in result.curves)
+    lines = [f"{'sinkage' if plate else 'axial stress':14}{head}   [{unit}]"]
+    for level, row in zip(result.levels, result.values):
+        cells = "".join(f"{scale * v:{wide}.4g}" for v in row)
+        lines.append(f"{result.kind.level_text(level):14}{cells}")
+    lines += ["", *(f"COMPARED ALTHOUGH THEY DIFFER: {d}" for d in result.differences)]
+    return "\n".join([*lines, "Verdict", *(f"  - {finding}" for finding in result.findings)])
+
+
+def write_curves(result: CurveComparison, folder: Path) -> None:
+    """compare.txt, compare.csv, compare.h5."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "compare.txt").write_text(curve_report(result) + "\n", encoding="utf-8")
+    with open(folder / "compare.csv", "w", encoding="utf-8", newline="") as file:
+        file.write(
+            "# plate: sinkage [m], pressure [Pa]; oedometer: axial stress [Pa], density over that "
+            "at the start\n"
+        )
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["level"] + [c.label for c in result.curves])
+        for level, row in zip(result.levels, result.values):
+            writer.writerow([f"{level:.6g}"] + [f"{v:.6g}" for v in row])
+    with h5py.File(folder / "compare.h5", "w") as content:
+        for c in result.curves:
+            group = content.create_group(f"curves/{c.label.replace('/', '_')}")
+            group["x"], group["y"] = c.x, c.y
+            group.attrs["kind"], group.attrs["ground"] = c.kind.value, c.ground
+
+
+def combined_errors(errors: NumericalErrors, noise: Floats) -> Floats | None:
+    """Relative uncertainty per level from the known parts and the noise; None without a size error.
+
+    NaN at levels where the error of the size is not known. noise: relative, per level.
+    """
+    if not np.isfinite(errors["size"]).any():
+        return None
+    squares = [np.square(part) for part in errors.values()] + [noise**2]
+    total = np.sqrt(np.nansum(squares, axis=0))
+    return np.where(np.isfinite(errors["size"]), total, np.nan)

@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Density of the ground around a wheel on a regular grid, from grains or continuum particles.
+
+Coordinates are those of the wheel: x from the axle along the travel, y from its middle plane, z
+from the undisturbed ground. Grains: the volume of spheres per cell, smoothed over a grain (a
+Gaussian of half a diameter, cut at two), times the density of the grains' substance; so the surface
+is blurred over about a grain. Continuum: mean of the particles in a cell, weighted by volume.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..arrays import Floats
+from ..read.terrain import read_terrain_fields
+from ..read.wheel_run import WheelRun
+
+Interval = tuple[float, float]  # low, high [m]
+
+
+@dataclass
+class Section:
+    """Density (rows up, columns along) [kg/m3], NaN where no ground is; edges of its cells [m]."""
+
+    density: Floats
+    across_edges: Floats
+    z_edges: Floats
+
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """Left, right, bottom, top [m]."""
+        across, z = self.across_edges, self.z_edges
+        return float(across[0]), float(across[-1]), float(z[0]), float(z[-1])
+
+
+@dataclass
+class GroundPoints:
+    """Points that stand for the ground, grains or particles."""
+
+    x: Floats  # (n, 3) in the wheel's coordinates [m]
+    mass: Floats  # (n) [kg]
+    volume: Floats  # (n) [m3]
+    size: Floats  # (n) diameter or edge [m]
+    grains: bool
+
+
+def _points_in_sphere() -> Floats:
+    """(48, 3) points that stand for the volume of the unit sphere: directions on four shells."""
+    shells = [((2 * k + 1) / 8) ** (1 / 3) for k in range(4)]  # of equal volume
+    golden = np.pi * (3 - np.sqrt(5))
+    heights = (np.arange(12) + 0.5) / 6 - 1
+    directions = np.array(
+        [
+            (np.sqrt(1 - u * u) * np.cos(k * golden), np.sqrt(1 - u * u) * np.sin(k * golden), u)
+            for k, u in enumerate(heights)
+        ]
+    )
+    return np.concatenate([shell * directions for shell in shells])
+
+
+_IN_SPHERE = _points_in_sphere()
+_THIRDS = [-1 / 3, 0.0, 1 / 3]
+_IN_CUBE = np.stack(np.meshgrid(_THIRDS, _THIRDS, _THIRDS), axis=-1).reshape(-1, 3)
+
+
+def ground_points(run: WheelRun) -> GroundPoints:
+    """The ground at the end of a run. @raises ResultsError where it was not kept"""
+    columns = run.results.columns
+    origin = np.array([columns["x"][-1], columns["y"][-1], run.ground_level])
+    if run.ground == "continuum":
+        fields = read_terrain_fields(run.folder)
+        x, density, volume = (fields[name] for name in ("x", "density", "volume"))
+        if run.half:  # mirrored at the plane of symmetry
+            x = np.concatenate([x, x * [1, -1, 1]])
+            density, volume = np.tile(density, 2), np.tile(volume, 2)
+        return GroundPoints(x - origin, density * volume, volume, np.cbrt(volume), False)
+    grains = run.results.grains("final")
+    volume = 4 / 3 * np.pi * grains.radius**3
+    reference = run.results.grains("reference")
+    solid = np.sum(4 / 3 * np.pi * reference.radius**3)
+    low, high = reference.corners
+    space = (high - low)[0] * (high - low)[1] * run.number("depth")
+    # without a bulk density: density over that at the start
+    substance = (
+        run.number("density") * space / solid if "density" in run.conditions else space / solid
+    )
+    return GroundPoints(grains.x - origin, substance * volume, volume, 2 * grains.radius, True)
+
+
+def _convolved(line: Floats, kernel: Floats, reach: int) -> Floats:
+    """Of the length of line, also where the kernel is longer."""
+    if len(line) >= len(kernel):
+        return np.convolve(line, kernel, "same")
+    return np.convolve(line, kernel, "full")[reach : reach + len(line)]
+
+
+def _blurred(image: Floats, reach: float) -> Floats:
+    """Gaussian of reach cells along both axes, nothing beyond the edges."""
+    half = int(np.ceil(4 * reach))
+    kernel = np.exp(-0.5 * (np.arange(-half, half + 1) / max(reach, 1e-9)) ** 2)
+    kernel /= kernel.sum()
+    for axis in (0, 1):
+        image = np.apply_along_axis(_convolved, axis, image, kernel, half)
+    return image
+
+
+def section(
+    ground: GroundPoints,
+    along: int,
+    slab_axis: int,
+    slab: Interval,
+    across: Interval,
+    z: Interval,
+    cell: float,
+) -> Section:
+    """Density over the plane (along, z), mean over the slab of the third axis.
+
+    along, slab_axis: 0 or 1; cell: edge of the picture's cells [m].
+    """
+    across_edges, z_edges = (np.arange(low, high + 0.5 * cell, cell) for low, high in (across, z))
+    area = cell * cell * (slab[1] - slab[0])
+    place = ground.x[:, slab_axis]
+    inside = (place > slab[0] - ground.size) & (place < slab[1] + ground.size)
+    x, mass = ground.x[inside], ground.mass[inside]
+    volume, size = ground.volume[inside], ground.size[inside]
+    offsets = 0.5 * _IN_SPHERE if ground.grains else _IN_CUBE
+    points = (x[:, None, :] + size[:, None, None] * offsets).reshape(-1, 3)
+    kept = (points[:, slab_axis] > slab[0]) & (points[:, slab_axis] < slab[1])
+    edges: Any = (z_edges, across_edges)  # numpy's type hints know no edges of each axis
+    mass_in, volume_in = (
+        np.histogram2d(
+            points[kept, 2],
+            points[kept, along],
+            edges,
+            weights=np.repeat(weight / len(offsets), len(offsets))[kept],
+        )[0]
+        for weight in (mass, volume)
+    )
+    if ground.grains:
+        reach = 0.5 * float(np.mean(size)) / cell
+        room = _blurred(np.ones_like(mass_in), reach)  # what edges of the picture and floor cut off
+        smooth = _blurred(mass_in, reach) / room / area
+        solid = _blurred(volume_in, reach) / room / area
+        typical = np.median(solid[solid > 0.05]) if (solid > 0.05).any() else 1.0
+        return Section(np.where(solid > 0.45 * typical, smooth, np.nan), across_edges, z_edges)
+    # A little smoothing: the particles' cubes overlap and leave gaps where the ground is sheared.
+    reach = 0.35 * float(np.mean(size)) / cell
+    mass_in, volume_in = _blurred(mass_in, reach), _blurred(volume_in, reach)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        density = np.where(volume_in > 0.45 * area, mass_in / volume_in, np.nan)
+    return Section(density, across_edges, z_edges)
+
+
+def sections(run: WheelRun, cell: float = 0.01) -> tuple[Section, Section]:
+    """Lengthwise in the wheel's middle plane, and across in the track behind the wheel.
+
+    The window is the same for every run of a wheel. cell [m]
+    """
+    ground = ground_points(run)
+    radius, width, depth = run.radius, run.number("wheel_width"), run.number("depth")
+    z = (-depth, 0.4 * depth)
+    middle = (-0.25 * width, 0.25 * width)
+    lengthwise = section(ground, 0, 1, middle, (-1.7 * radius, 1.4 * radius), z, cell)
+    behind = (-1.3 * radius, -0.6 * radius)
+    across = section(ground, 1, 0, behind, (-1.4 * width, 1.4 * width), z, cell)
+    return lengthwise, across
+
+
+def height_left(run: WheelRun) -> float:
+    """Of ground under the wheel [m].
+
+    A tyre's sinkage counts to its unloaded tread: there the lowest point of the tread at the end is
+    taken.
+    """
+    depth = run.number("depth")
+    surface = run.results.surface() if run.deformable else None
+    if surface is not None:
+        return float(surface.x[:, 2].min()) - (run.ground_level - depth)
+    return depth - run.values["sinkage"].mean
+
+
+def track_density(run: WheelRun) -> tuple[float, float]:
+    """Density under the track behind the wheel [kg/m3], and the standard error of four stretches.
+
+    Mass on the middle half of the track over the height left under the wheel: the same definition
+    for grains and continuum, without any smoothing.
+    """
+    ground = ground_points(run)
+    radius, width = run.radius, run.number("wheel_width")
+    left = height_left(run)
+    x, y, size = ground.x[:, 0], ground.x[:, 1], ground.size
+    parts = []
+    stations = np.linspace(-1.3 * radius, -0.6 * radius, 5)
+    for low, high in zip(stations[:-1], stations[1:]):
+        touches = ~((x > high + size) | (x < low - size))
+        near = np.flatnonzero(touches & (np.abs(y) < 0.25 * width + size))
+        reach = 0.5 * size[near, None, None] * _IN_SPHERE
+        points = (ground.x[near, None, :] + reach).reshape(-1, 3)
+        mass = np.repeat(ground.mass[near] / len(_IN_SPHERE), len(_IN_SPHERE))
+        inside = (
+            (points[:, 0] > low) & (points[:, 0] < high) & (np.abs(points[:, 1]) < 0.25 * width)
+        )
+        parts.append(mass[inside].sum() / ((high - low) * 0.5 * width * left))
+    return float(np.mean(parts)), float(np.std(parts, ddof=1) / np.sqrt(len(parts)))

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Empirical formulas for the conditions of a run."""
+
+from collections.abc import Iterable
+
+from ..errors import ResultsError
+from ..read.wheel_run import WheelRun
+from . import empirical
+from .empirical import Prediction
+
+
+def predictions_for(run: WheelRun, names: Iterable[str], extrapolate: bool) -> list[Prediction]:
+    """One per name: "nrmm:PRESSURE" [Pa], "bekker:TERRAIN", "wong_reece:TERRAIN".
+
+    @raises ResultsError for another name, an unknown terrain, or outside of the range of a formula
+    """
+    return [_prediction(run, name, extrapolate) for name in names]
+
+
+def _prediction(run: WheelRun, name: str, extrapolate: bool) -> Prediction:
+    method, _, what = name.partition(":")
+    load, diameter, width = run.number("load"), 2 * run.radius, run.number("wheel_width")
+    if method == "nrmm":
+        if "density" not in run.conditions:
+            raise ResultsError(
+                f"{run.label}: the density of its ground is not known; NRMM needs it"
+            )
+        depth, density = run.number("depth"), run.number("density")
+        pressure = float(what or "nan")
+        return empirical.nrmm(
+            load, run.radius, width, depth, density, pressure, extrapolate=extrapolate
+        )
+    if method == "bekker":
+        return empirical.bekker(load, diameter, width, empirical.terrain(what), extrapolate)
+    if method == "wong_reece":
+        ground, slip = empirical.terrain(what), run.number("slip")
+        return empirical.wong_reece(load, diameter, width, slip, ground, extrapolate)
+    raise ResultsError(
+        f"there is no formula '{method}'; there are nrmm:PRESSURE, bekker:TERRAIN, "
+        "wong_reece:TERRAIN"
+    )

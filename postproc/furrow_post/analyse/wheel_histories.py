@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Histories of wheel runs, aligned so that they can be laid over each other."""
+
+import enum
+from typing import NamedTuple
+
+import numpy as np
+
+from ..arrays import Floats
+from ..read.wheel_run import WheelRun
+from .statistics import moving_mean
+
+
+class Stage(enum.IntEnum):
+    """Of the rig: values of the channel stage."""
+
+    SETTLE = 0
+    ACCELERATE = 1
+    CRUISE = 2
+
+
+class CruiseHistory(NamedTuple):
+    """Over the travel from the start of the cruise on."""
+
+    distance: Floats  # [m], negative while it accelerates
+    sinkage: Floats  # [m]
+    coefficient: Floats  # resistance coefficient, NaN while the ground does not carry the wheel yet
+
+
+class SettlingCurve(NamedTuple):
+    """While the wheel is lowered onto the ground."""
+
+    sinkage: Floats  # [m]
+    pressure: Floats  # mean over the projected contact [Pa]
+
+
+def cruise_history(run: WheelRun) -> CruiseHistory:
+    """Sinkage and resistance coefficient over travel, the latter smoothed over 0.1 radius."""
+    columns = run.results.columns
+    stage, x = columns["stage"], columns["x"]
+    cruise = np.flatnonzero(stage == Stage.CRUISE)
+    begin = x[cruise[0]] if len(cruise) else x[-1]
+    moving = np.flatnonzero(stage >= Stage.ACCELERATE)
+    distance = x[moving] - begin
+    step = max(np.median(np.diff(distance[-max(len(cruise), 2) :])), 1e-9)
+    window = max(int(0.1 * run.radius / step), 1)
+    force_x = moving_mean(columns["force_x"][moving], window)
+    force_z = moving_mean(columns["force_z"][moving], window)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        carried = force_z > 0.2 * run.number("load")
+        coefficient = np.where(carried, -force_x / force_z, np.nan)
+    shift = run.number("datum_shift") if "datum_shift" in run.conditions else 0.0
+    return CruiseHistory(distance, columns["sinkage"][moving] + shift, coefficient)
+
+
+def settling_curve(run: WheelRun) -> SettlingCurve:
+    """Force over the projected contact of a rigid cylinder, 2 b sqrt(2 r z - z^2), against z."""
+    columns = run.results.columns
+    deep_enough = columns["sinkage"] > 0.02 * run.radius
+    chosen = np.flatnonzero((columns["stage"] == Stage.SETTLE) & deep_enough)
+    z = columns["sinkage"][chosen]
+    chord = np.sqrt(np.maximum(2 * run.radius * z - z * z, 1e-12))
+    area = 2 * run.number("wheel_width") * chord
+    window = max(len(z) // 60, 1)
+    force = columns["force_z"][chosen]
+    if len(z):
+        force = np.convolve(force, np.ones(window) / window, "same")
+    return SettlingCurve(z, force / area)

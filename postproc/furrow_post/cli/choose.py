@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""furrow-post choose, for inputs/run --error: the choice's options on stdout, why on stderr."""
+
+import argparse
+import shlex
+import sys
+from pathlib import Path
+
+from ..analyse import choice, cost, cost_table
+from ..errors import ResultsError
+from ..read.wheel_run import read_wheel_run
+from .comparison import fraction
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("table", type=Path)
+    parser.add_argument("--error", type=fraction, required=True)
+    parser.add_argument("--held", type=Path, help="results folder of the run that was chosen")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    rows, comments = cost_table.read_table(arguments.table)
+    runnable = {row.run for row in rows if row.options}
+    all_assessed = cost.assess(rows, cost_table.wanted_wheel(comments))
+    assessed = [a for a in all_assessed if a.row.run in runnable]
+    if not assessed:
+        raise ResultsError(f"{arguments.table}: no row says how to run it (column options)")
+    chosen, within = cost.recommend(assessed, arguments.error)
+    if arguments.held:
+        print("\n".join(choice.held(chosen, arguments.error, read_wheel_run(arguments.held))))
+        return
+    reasons = choice.reasons(chosen, within, assessed, arguments.error)
+    print("\n".join(reasons), file=sys.stderr)
+    print("\n".join(shlex.split(chosen.row.options)))  # one word per line

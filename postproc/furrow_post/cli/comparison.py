@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Arguments of the subcommands that compare runs, and the comparison that they ask for."""
+
+import argparse
+from pathlib import Path
+from typing import NamedTuple
+
+from ..analyse import cost_table
+from ..analyse.comparison import Comparison, compare
+from ..analyse.formulas import predictions_for
+from ..read.wheel_run import read_wheel_run
+
+
+class Labelled(NamedTuple):
+    """A results folder, and its name in tables."""
+
+    folder: str
+    label: str | None
+
+
+def labelled(text: str) -> Labelled:
+    """Of FOLDER or LABEL=FOLDER."""
+    head, equals, tail = text.partition("=")
+    return Labelled(tail, head) if equals else Labelled(head, None)
+
+
+def fraction(text: str) -> float:
+    """0.1 of "10%" or "0.1". @raises ValueError outside of (0, 1)"""
+    value = float(text[:-1]) / 100 if text.endswith("%") else float(text)
+    if not 0 < value < 1:
+        raise ValueError
+    return value
+
+
+def add_comparison_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("results", nargs="+", type=labelled, help="results folder, or LABEL=FOLDER")
+    parser.add_argument(
+        "--errors",
+        type=Path,
+        help="table of runs of the scene (inputs/costs): errors of size, domain, packing",
+    )
+    parser.add_argument(
+        "--formula",
+        action="append",
+        default=[],
+        help="nrmm:PRESSURE, bekker:TERRAIN or wong_reece:TERRAIN; may be repeated",
+    )
+    parser.add_argument(
+        "--measured",
+        type=Path,
+        help="reference.csv with depth_m, sinkage_m, resistance, density_kgm3",
+    )
+    parser.add_argument(
+        "--extrapolate", action="store_true", help="formulas outside of their range too"
+    )
+    parser.add_argument(
+        "--anyway", action="store_true", help="compare runs whose conditions differ"
+    )
+
+
+def compared(arguments: argparse.Namespace) -> Comparison:
+    """@raises ResultsError with every reason why the runs are not comparable"""
+    runs = [read_wheel_run(folder, label) for folder, label in arguments.results]
+    table = cost_table.read_table(arguments.errors)[0] if arguments.errors else None
+    formulas = predictions_for(runs[0], arguments.formula, arguments.extrapolate)
+    return compare(runs, table, formulas, arguments.measured, arguments.anyway)

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The command furrow-post: finds the module of a subcommand, which has all the rest."""
+
+import argparse
+import importlib
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol, cast
+
+from .. import __version__
+from ..errors import ResultsError
+
+DESCRIPTION = "Steady values, plots, pictures and comparisons of Furrow's results folders."
+
+
+@dataclass(frozen=True)
+class Subcommand:
+    """One subcommand: the module of its name has its arguments and what it does."""
+
+    name: str
+    help: str
+    aliases: tuple[str, ...] = ()
+
+
+class Module(Protocol):
+    """What the module of a subcommand has."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
+        ...
+
+    def run(self, arguments: argparse.Namespace) -> None:
+        """@raises ResultsError, OSError"""
+
+
+SUBCOMMANDS = (
+    Subcommand(
+        "resistance",
+        "steady sinkage, motion resistance and torque with standard errors (furrow-resistance)",
+    ),
+    Subcommand("plot", "forces, sinkage, torque and slip against time -> histories.png"),
+    Subcommand(
+        "picture",
+        "the rut from four sides, grains coloured by displacement, continuum by density -> rut.png",
+    ),
+    Subcommand(
+        "terrain",
+        "density sections, tracers and densities of the rut of continuum terrain -> terrain.png",
+        ("ground",),
+    ),
+    Subcommand(
+        "laboratory",
+        "moduli, strengths, repose or run-out of laboratory tests with their errors "
+        "-> laboratory.json, laboratory.png",
+    ),
+    Subcommand("point", "the figure of furrow-point -> point.png or fit.png"),
+    Subcommand("sidewall", "the figure of furrow-sidewall -> sidewall.png"),
+    Subcommand(
+        "empirical", "what an empirical formula says: NRMM for snow, Bekker and Wong-Reece for sand"
+    ),
+    Subcommand(
+        "compare",
+        "the same scene on several grounds: table, verdict, figure -> compare.txt, .csv, .h5, .png",
+    ),
+    Subcommand(
+        "cost", "error against cost of the runs of a scene, and which to take -> cost.png, cost.csv"
+    ),
+    Subcommand(
+        "choose",
+        "for 'inputs/run SCENE --error': the run of a table to make, and whether its estimate held",
+    ),
+    Subcommand(
+        "report",
+        "one self-contained page on runs and their comparison "
+        "-> report.html, report.csv, report.h5",
+    ),
+)
+
+
+def parser(chosen: str) -> argparse.ArgumentParser:
+    """The command line; of the subcommands only the chosen one has its arguments.
+
+    Its module alone is loaded, so that a command without figures does not wait for matplotlib.
+    """
+    whole = argparse.ArgumentParser(prog="furrow-post", description=DESCRIPTION)
+    whole.add_argument("--version", action="version", version=f"furrow-post {__version__}")
+    commands = whole.add_subparsers(dest="command", required=True, metavar="command")
+    for entry in SUBCOMMANDS:
+        command = commands.add_parser(
+            entry.name, aliases=entry.aliases, help=entry.help, description=entry.help
+        )
+        if chosen in (entry.name, *entry.aliases):
+            module = cast(Module, importlib.import_module(f".{entry.name}", __package__))
+            module.add_arguments(command)
+            command.set_defaults(run=module.run)
+    return whole
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs a subcommand; the result is the exit status."""
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    if given[:1] == ["resistance"]:
+        given.insert(1, "--")  # its options are those of another program
+    try:
+        parsed = parser(given[0] if given else "").parse_args(given)
+        parsed.run(parsed)
+    except (ResultsError, OSError) as error:
+        print(f"furrow-post: {error}", file=sys.stderr)
+        return 1
+    return 0

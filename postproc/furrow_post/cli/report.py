@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""furrow-post report: one self-contained page on runs, and the same numbers as CSV and HDF5."""
+
+import argparse
+import shutil
+import tempfile
+from pathlib import Path
+
+from ..analyse import cost, cost_table
+from ..analyse.comparison import Comparison, write_comparison
+from ..errors import ResultsError
+from ..figures.comparison import draw_comparison
+from ..figures.cost import draw_cost
+from ..figures.histories import draw_histories
+from ..figures.page import (
+    conditions_table,
+    footer,
+    inline_picture,
+    page,
+    paragraph,
+    results_tables,
+    run_section,
+)
+from .comparison import add_comparison_arguments, compared
+
+COMPARISON_CAPTION = (
+    "a, b: values with two standard deviations. c to e: histories, datum of the sinkage the top of "
+    "the undisturbed ground. Below: density, same scale; grains are smoothed over about one grain."
+)
+COST_CAPTION = "Numerical error of the runs of this scene against their cost; values against size."
+WANTED_ERROR = 0.1  # relative, of the section on cost
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_comparison_arguments(parser)
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        help="page to write (default: report.html in or beside the results)",
+    )
+
+
+def run(arguments: argparse.Namespace) -> None:
+    result = compared(arguments)
+    runs = result.runs
+    folder = runs[0].folder if len(runs) == 1 else runs[0].folder.resolve().parent
+    target: Path = arguments.output or folder / "report.html"
+    if target.suffix != ".html":
+        raise ResultsError(f"{target}: a report's name ends in .html")
+    target.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as scratch:
+        numbers = Path(scratch) / "numbers"
+        write_comparison(result, numbers)
+        text = _page_text(result, arguments.errors, Path(scratch), target)
+        target.write_text(text, encoding="utf-8")
+        for ending in (".csv", ".h5"):
+            shutil.copyfile(numbers / f"compare{ending}", target.with_suffix(ending))
+    print(f"{target}, {target.with_suffix('.csv').name}, {target.with_suffix('.h5').name}")
+
+
+def _page_text(result: Comparison, errors: Path | None, scratch: Path, target: Path) -> str:
+    """errors: table of runs of the scene, or None; scratch: folder for figures."""
+    runs = result.runs
+    first = runs[0]
+    draw_comparison(result, scratch / "compare.png")
+    sections = [
+        "<h2>Results</h2>",
+        results_tables(result),
+        inline_picture(scratch / "compare.png", COMPARISON_CAPTION),
+        "<h2>Conditions and discretisation</h2>",
+        conditions_table(result),
+    ]
+    if errors:
+        rows, _ = cost_table.read_table(errors)
+        assessed = cost.assess(rows)
+        draw_cost(assessed, WANTED_ERROR, scratch / "cost.png")
+        sections.append("<h2>Error against cost</h2>")
+        sections.append("".join(map(paragraph, cost.advice(assessed, WANTED_ERROR))))
+        sections.append(inline_picture(scratch / "cost.png", COST_CAPTION))
+    for one in runs:
+        draw_histories(one.results, scratch / "histories.png")
+        sections.append(run_section(one, scratch / "histories.png"))
+    sections.append(footer(first, target))
+    title = first.results.title if len(runs) == 1 else " and ".join(run.label for run in runs)
+    size = f"{first.text('wheel_diameter')} x {first.text('wheel_width')}"
+    lead = f"{first.wheel} {size}, load {first.text('load')}, {first.text('speed')}"
+    return page(result, title, lead, sections)

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""CSV files with a head of comment lines ("# ..."), as all tables of the project have."""
+
+import csv
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from .arrays import Floats
+from .errors import ResultsError
+
+import numpy as np
+
+
+def read_rows(path: Path) -> list[dict[str, str]]:
+    """Rows of a table, name of the column -> text; comments are left out. @raises OSError"""
+    with open(path, encoding="utf-8") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def read_comments(path: Path) -> list[str]:
+    """The comment lines of a table, with their "#". @raises OSError"""
+    with open(path, encoding="utf-8") as file:
+        return [line.rstrip("\n") for line in file if line.startswith("#")]
+
+
+def read_numbers(path: Path) -> list[dict[str, float]]:
+    """Rows of a table of numbers; an empty cell is NaN. @raises ResultsError for any other text"""
+    try:
+        return [
+            {name: float(text) if text else math.nan for name, text in row.items()}
+            for row in read_rows(path)
+        ]
+    except ValueError as error:
+        raise ResultsError(f"{path}: {error}") from error
+
+
+def read_columns(path: Path) -> dict[str, Floats]:
+    """Columns of a table of numbers. @raises ResultsError"""
+    rows = read_numbers(path)
+    return {name: np.array([row[name] for row in rows]) for name in (rows[0] if rows else ())}
+
+
+def column_names(rows: Iterable[Mapping[str, Any]]) -> list[str]:
+    """Names of all columns in the order in which the rows bring them."""
+    return list(dict.fromkeys(name for row in rows for name in row))
+
+
+def write_rows(path: Path, rows: Sequence[Mapping[str, Any]], comments: Sequence[str] = ()) -> None:
+    """Writes rows that may lack columns of others; comments go above, each with its "#"."""
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        file.writelines(line.rstrip() + "\n" for line in comments)
+        writer = csv.DictWriter(file, column_names(rows), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)

@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The figure of a comparison of wheel runs."""
+
+import textwrap
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.gridspec import GridSpec
+from matplotlib.image import AxesImage
+
+from ..analyse.comparison import FORMULA, MEASURED, RUN, Comparison, overall
+from ..analyse.density import Section, sections
+from ..analyse.verdict import COEFFICIENT, COVERAGE, QUANTITIES, SINKAGE, Quantity
+from ..analyse.wheel_histories import cruise_history, settling_curve
+from ..read.wheel_run import WheelRun
+from .style import (
+    CENTIMETRE,
+    KILOPASCAL,
+    RUN_COLOURS,
+    WHEEL_COLOUR,
+    annotate_panel,
+    panel_letters,
+    save,
+    use_style,
+)
+
+KIND_COLOURS = {FORMULA: "#777777", MEASURED: "black"}
+SECTION_HEIGHT = 1.75  # of a row of density sections [inch]
+
+
+def draw_comparison(result: Comparison, target: Path) -> None:
+    """Values with their uncertainties, histories, settling curves, and density sections."""
+    use_style()
+    grounds = [run for run in result.runs if run.ground != "none"]
+    colours = {run.label: RUN_COLOURS[k % len(RUN_COLOURS)] for k, run in enumerate(result.runs)}
+    many = max(len(result.of(SINKAGE)) - 4, 0)  # entries that need more room
+    tall = 5.9 + SECTION_HEIGHT * len(grounds) + 0.4 * many
+    figure = plt.figure(figsize=(11, tall), layout="constrained")
+    figure.get_layout_engine().set(hspace=0.04)
+    heights = [2.4 + 0.4 * many, 2.4] + [SECTION_HEIGHT] * len(grounds)
+    grid = figure.add_gridspec(2 + len(grounds), 6, height_ratios=heights)
+    letters = panel_letters()
+    for k, quantity in enumerate(QUANTITIES):
+        axes = figure.add_subplot(grid[0, 3 * k : 3 * k + 3])
+        _draw_values(axes, result, quantity, colours)
+        annotate_panel(axes, next(letters), quantity.name)
+    sink, resist, settle = (figure.add_subplot(grid[1, 2 * k : 2 * k + 2]) for k in range(3))
+    _draw_histories(sink, resist, settle, result, colours)
+    titles = (
+        (sink, "sinkage"),
+        (resist, "resistance, smoothed"),
+        (settle, "pressure while it is lowered"),
+    )
+    for axes, title in titles:
+        annotate_panel(axes, next(letters), title)
+    if grounds:
+        _draw_sections(figure, grid, grounds, [next(letters) for _ in range(2 * len(grounds))])
+    title = overall(result) or ", ".join(run.label for run in result.runs)
+    figure.suptitle("\n".join(textwrap.wrap(title, 110)), fontsize=11, fontweight="bold")
+    save(figure, target)
+
+
+def _draw_values(
+    axes: Axes, result: Comparison, quantity: Quantity, colours: Mapping[str, str]
+) -> None:
+    entries, scale = result.of(quantity), quantity.scale
+    for row, e in enumerate(entries):
+        colour = colours.get(e.source, KIND_COLOURS.get(e.kind, "0.4"))
+        known = np.isfinite(e.uncertainty)
+        axes.errorbar(
+            scale * e.value,
+            row,
+            xerr=scale * COVERAGE * e.uncertainty if known else None,
+            ms=6,
+            color=colour,
+            capsize=4,
+            lw=1.6,
+            fmt="s" if e.kind == MEASURED else "o",
+            mfc="white" if e.kind == FORMULA else colour,
+        )
+        axes.annotate(
+            e.text(),
+            (scale * e.value, row),
+            (0, 8),
+            textcoords="offset points",
+            ha="center",
+            fontsize=8,
+            color="0.25",
+        )
+    axes.set_yticks(range(len(entries)), [textwrap.fill(e.source, 16) for e in entries])
+    axes.set_ylim(len(entries) - 0.5, -0.7)
+    low, high = axes.get_xlim()
+    margin = 0.08 * (high - low)
+    axes.set_xlim(min(low, 0) if low < 0.35 * high else low - margin, high + margin)
+    axes.set_xlabel(f"{quantity.label}, bars: {COVERAGE:g} standard deviations")
+    axes.grid(axis="x", color="0.9", lw=0.6)
+    axes.set_axisbelow(True)
+
+
+def _draw_histories(
+    sink: Axes, resist: Axes, settle: Axes, result: Comparison, colours: Mapping[str, str]
+) -> None:
+    for run in result.runs:
+        colour = colours[run.label]
+        history, settling = cruise_history(run), settling_curve(run)
+        sinkage = CENTIMETRE * history.sinkage
+        sink.plot(history.distance, sinkage, color=colour, lw=1.2, label=run.label)
+        resist.plot(history.distance, history.coefficient, color=colour, lw=1.2)
+        pressure = KILOPASCAL * settling.pressure
+        settle.plot(CENTIMETRE * settling.sinkage, pressure, color=colour, lw=1.2)
+    sink.set(xlabel="travel in cruise [m]", ylabel="sinkage [cm]")
+    resist.set(xlabel="travel in cruise [m]", ylabel="resistance coefficient")
+    steady = [e.value for e in result.of(COEFFICIENT, RUN)]
+    resist.set_ylim(min(0, 1.5 * min(steady)), max(2.2 * max(steady), 0.05))
+    sink.set_ylim(0, None)
+    settle.set(xlabel="sinkage [cm]", ylabel="mean pressure [kPa]", ylim=(0, None), xlim=(0, None))
+    sink.legend(fontsize=8)
+
+
+def _draw_wheel_outline(axes: Axes, run: WheelRun) -> None:
+    """A circle in the lengthwise section."""
+    z = run.radius - run.results.columns["sinkage"][-1]
+    radius = CENTIMETRE * run.radius
+    axes.add_patch(plt.Circle((0, CENTIMETRE * z), radius, fill=False, ec=WHEEL_COLOUR, lw=1.4))
+
+
+def _draw_sections(
+    figure: Figure, grid: GridSpec, grounds: Sequence[WheelRun], letters: Sequence[str]
+) -> None:
+    """Density along and across the track, one row per run, one scale."""
+    cuts = {run.label: sections(run) for run in grounds}
+    low = min(run.number("density") if "density" in run.conditions else 0.0 for run in grounds)
+    high = max(np.nanpercentile(cut.density, 98) for pair in cuts.values() for cut in pair)
+    norm = Normalize(0.85 * low, high)
+    panels, images = [], []
+    for row, run in enumerate(grounds):
+        lengthwise = figure.add_subplot(grid[2 + row, 0:4])
+        across = figure.add_subplot(grid[2 + row, 4:6])
+        for axes, cut in zip((lengthwise, across), cuts[run.label]):
+            images.append(_draw_density(axes, cut, norm))
+        _draw_wheel_outline(lengthwise, run)
+        lengthwise.set_ylabel("z [cm]")
+        if row == len(grounds) - 1:
+            lengthwise.set_xlabel("x from the axle [cm]")
+            across.set_xlabel("y [cm]")
+        annotate_panel(lengthwise, letters[2 * row], f"{run.label}, along the middle plane")
+        annotate_panel(across, letters[2 * row + 1], "across the track behind")
+        panels += [lengthwise, across]
+    bar = figure.colorbar(images[0], ax=panels, extend="max", fraction=0.025, pad=0.01, aspect=25)
+    bar.set_label("density [kg/m³]")
+
+
+def _draw_density(axes: Axes, cut: Section, norm: Normalize) -> AxesImage:
+    """Returns the image, for a scale."""
+    image = axes.imshow(
+        cut.density,
+        origin="lower",
+        extent=[CENTIMETRE * edge for edge in cut.extent],
+        cmap="YlGnBu",
+        norm=norm,
+        interpolation="nearest",
+    )
+    axes.axhline(0, color="0.3", lw=0.8, ls=(0, (6, 4)))
+    axes.set_ylim(CENTIMETRE * cut.z_edges[0], CENTIMETRE * cut.z_edges[-1])
+    return image

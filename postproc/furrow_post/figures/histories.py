@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Sinkage, forces, torque and slip against time."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+
+from ..analyse.wheel_histories import Stage
+from ..arrays import Floats
+from ..errors import ResultsError
+from ..formatting import with_error
+from ..read.results import Results
+from ..read.summary import Summary
+from .style import MILLIMETRE, save, use_style
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One panel of the figure."""
+
+    title: str
+    unit: str
+    scale: float  # from SI
+    channels: tuple[tuple[str, str], ...]  # of the history, with their legend
+    quantity: str  # of the summary, whose mean is marked
+
+
+PANELS = (
+    Panel("sinkage", "mm", MILLIMETRE, (("sinkage", "sinkage"),), "sinkage"),
+    Panel(
+        "forces of the ground",
+        "N",
+        1.0,
+        (("force_z", "vertical"), ("force_x", "along the travel"), ("force_y", "lateral")),
+        "force_z",
+    ),
+    Panel("drawbar pull", "N", 1.0, (("drawbar_pull", "drawbar pull"),), "drawbar_pull"),
+    Panel("axle torque", "N m", 1.0, (("drive_torque", "axle torque"),), "drive_torque"),
+    Panel("slip", "%", 100.0, (("slip", "slip"),), "slip"),
+)
+STAGE_COLOURS = {Stage.SETTLE: "0.93", Stage.ACCELERATE: "0.97", Stage.CRUISE: "1.0"}
+
+
+def draw_histories(results: Results, target: Path) -> None:
+    """Draws the histories of a run. @raises ResultsError where it is not one of a wheel on a rig"""
+    use_style()
+    summary = Summary(results.folder)
+    wanted = ["time", *(name for panel in PANELS for name, _ in panel.channels), "stage"]
+    missing = [name for name in wanted if name not in results.columns]
+    if missing:
+        raise ResultsError(
+            f"{results.file}: has no channel {', '.join(missing)}; plot needs the history of a "
+            "wheel on a rig"
+        )
+    time, stage = results.columns["time"], results.columns["stage"]
+    if len(time) == 0:
+        raise ResultsError(f"{results.file}: the history has no rows yet")
+    figure, all_axes = plt.subplots(
+        len(PANELS), 1, figsize=(10, 12), sharex=True, layout="constrained"
+    )
+    for axes, panel in zip(all_axes, PANELS):
+        _shade_stages(axes, time, stage, named=axes is all_axes[0])
+        columns = [results.columns[channel] for channel, _ in panel.channels]
+        for column, (_, legend) in zip(columns, panel.channels):
+            axes.plot(time, panel.scale * column, lw=0.8, alpha=0.85, label=legend)
+        _mark_steady(axes, summary, panel)
+        axes.set_ylabel(f"{panel.title} [{panel.unit}]")
+        _limit_to_cruise(axes, panel.scale, columns, stage)
+        axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
+        axes.margins(x=0)
+    all_axes[-1].set_xlabel("time [s]")
+    line = summary.line()
+    figure.suptitle(f"{results.title}\n{line}" if line else results.title, fontsize=10)
+    save(figure, target)
+
+
+def _shade_stages(axes: Axes, time: Floats, stage: Floats, named: bool) -> None:
+    """Light bands for the rig's stages, with their names on top."""
+    for number, colour in STAGE_COLOURS.items():
+        rows = np.flatnonzero(stage == number)
+        if len(rows) == 0:
+            continue
+        begin, end = time[rows[0]], time[rows[-1]]
+        axes.axvspan(begin, end, color=colour, lw=0, zorder=0)
+        if named:
+            axes.text(
+                0.5 * (begin + end),
+                1.03,
+                number.name.lower(),
+                transform=axes.get_xaxis_transform(),
+                ha="center",
+                va="bottom",
+                color="0.4",
+            )
+
+
+def _mark_steady(axes: Axes, summary: Summary, panel: Panel) -> None:
+    """The mean over the steady window with its standard error; dashed where it was not steady."""
+    value, window = summary.quantity(panel.quantity), summary.window
+    if value is None or window is None:
+        return
+    mean, error = panel.scale * value.mean, panel.scale * value.standard_error
+    axes.fill_between(window, mean - error, mean + error, color="C3", alpha=0.25, lw=0, zorder=3)
+    axes.plot(
+        window,
+        (mean, mean),
+        color="C3",
+        lw=1.6,
+        ls="-" if value.steady else "--",
+        zorder=4,
+        label=f"mean {with_error(mean, error)}{'' if value.steady else ' (not steady)'}",
+    )
+
+
+def _limit_to_cruise(axes: Axes, scale: float, columns: Sequence[Floats], stage: Floats) -> None:
+    """Limits the axis where a short swing before the cruise (slip at the first motion) rules it."""
+    cruise = np.concatenate([column[stage == Stage.CRUISE] for column in columns]) * scale
+    if len(cruise) == 0:
+        return
+    low, high = min(cruise.min(), 0.0), max(cruise.max(), 0.0)
+    room = 1.5 * (high - low)
+    bottom, top = axes.get_ylim()
+    if room > 0 and (bottom < low - room or top > high + room):
+        axes.set_ylim(max(bottom, low - 0.4 * room), min(top, high + 0.4 * room))
+        axes.text(
+            0.005,
+            0.03,
+            "swings before the cruise go beyond this axis",
+            transform=axes.transAxes,
+            fontsize=7,
+            color="0.4",
+        )

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""One look for all figures."""
+
+import string
+from collections.abc import Iterator
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.figure import Figure
+
+CENTIMETRE = 100.0  # per metre
+MILLIMETRE = 1000.0  # per metre
+KILOPASCAL = 1e-3  # per pascal
+
+# Of runs that are laid over each other
+RUN_COLOURS = ("#1f5a8a", "#c8672b", "#4d8a4a", "#7a4b8c", "#8a6d1f", "#3f3f3f")
+WHEEL_COLOUR = "#39424e"
+# Of ground by displacement or density; at rest: sand
+GROUND_COLOURS = LinearSegmentedColormap.from_list(
+    "sand", ["#e6d8b4", "#f0b55e", "#dd6a3c", "#a3264f", "#46125c"]
+)
+
+
+def use_style() -> None:
+    """Sets the look of all figures that are made from here on."""
+    plt.rcParams.update(
+        {
+            "font.family": "DejaVu Sans",
+            "font.size": 9,
+            "axes.titlesize": 10,
+            "axes.titlelocation": "left",
+            "axes.spines.top": False,
+            "axes.spines.right": False,
+            "axes.linewidth": 0.8,
+            "legend.frameon": False,
+            "figure.facecolor": "white",
+            "svg.fonttype": "none",
+        }
+    )
+
+
+def panel_letters() -> Iterator[str]:
+    """a, b, c, ... z, aa, ab, ..."""
+    yield from string.ascii_lowercase
+    for first in string.ascii_lowercase:
+        for second in string.ascii_lowercase:
+            yield first + second
+
+
+def annotate_panel(axes: Axes, letter: str, text: str) -> None:
+    axes.set_title(f"$\\mathbf{{{letter}}}$  {text}", color="0.15")
+
+
+def save(figure: Figure, target: Path, dpi: float = 150) -> None:
+    """Writes and closes a figure; the ending of target says the format."""
+    figure.savefig(target, dpi=dpi)
+    plt.close(figure)

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Numbers as people write them."""
+
+import math
+
+
+def with_error(mean: float, error: float) -> str:
+    """ "10.8 ± 0.5": two digits of the error when they start with 1, else one; the mean as far."""
+    if not error > 0:
+        return f"{mean:.3g}"
+    exponent = math.floor(math.log10(error))
+    digits = max(-exponent + (error < 2 * 10.0**exponent), 0)
+    return f"{mean:.{digits}f} ± {error:.{digits}f}"
+
+
+def value_text(value: float, error: float) -> str:
+    """The same, or three digits alone where the error is not known (NaN or infinite)."""
+    return with_error(value, error) if math.isfinite(error) else f"{value:.3g}"
+
+
+def duration(seconds: float) -> str:
+    """ "90 s", "12.5 min", "2.1 h"; empty where it is not known."""
+    if not math.isfinite(seconds):
+        return ""
+    if seconds < 120:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.1f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
+
+
+def in_unit(unit: str) -> str:
+    """ " [mm]", or nothing for a pure number: to be put behind a name."""
+    return f" [{unit}]" if unit else ""
+
+
+def percent(fraction: float) -> str:
+    """ "+12 %" of 0.12."""
+    return f"{100 * fraction:+.0f} %"

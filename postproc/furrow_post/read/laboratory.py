@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Results folders of laboratory tests on grains, and of furrow-point, the same paths on a law."""
+
+from pathlib import Path
+
+import numpy as np
+
+from ..arrays import Floats
+from ..csv_table import read_columns, read_numbers
+from ..errors import ResultsError
+
+KINDS = ("oedometer", "triaxial", "shear", "collapse", "repose", "plate")
+
+
+class LaboratoryTest:
+    """One results folder: facts.txt (name value pairs), and its curve or dumps."""
+
+    def __init__(self, folder: Path | str) -> None:
+        """@raises ResultsError where there is no facts.txt, or it is of no known test"""
+        self.folder = Path(folder)
+        path = self.folder / "facts.txt"
+        try:
+            pairs = path.read_text().split()
+        except OSError as error:
+            raise ResultsError(
+                f"{self.folder}: has no facts.txt; name the results folder of a laboratory test "
+                "that came to its end"
+            ) from error
+        self.facts = dict(zip(pairs[::2], pairs[1::2]))
+        self.kind = self.facts.get("test", "")
+        if self.kind not in KINDS:
+            raise ResultsError(f"{path}: test '{self.kind}' is not one of {', '.join(KINDS)}")
+
+    def number(self, name: str) -> float:
+        """A fact. @raises KeyError, ValueError"""
+        return float(self.facts[name])
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """All facts that are numbers."""
+        found = {}
+        for name, text in self.facts.items():
+            try:
+                found[name] = float(text)
+            except ValueError:
+                continue
+        return found
+
+    @property
+    def label(self) -> str:
+        name = self.facts.get("ground", self.folder.name)
+        if "confinement" not in self.facts:
+            return name
+        return f"{name}, {self.number('confinement') / 1e3:g} kPa"
+
+    def curve(self) -> Floats:
+        """(n, columns) of curve.txt (fix ave/time) without its first row, which has no forces yet.
+
+        Plates: step, sinkage [m], force [N], pressure [Pa]. Cells: see cell_curve. @raises
+        ResultsError for fewer than ten rows
+        """
+        path = self.folder / "curve.txt"
+        rows: Floats = np.loadtxt(path)
+        if rows.ndim != 2 or len(rows) < 10:
+            raise ResultsError(f"{path}: has fewer than ten rows; was the run stopped?")
+        return rows[1:]
+
+    def grains(self, name: str) -> Floats:
+        """(n, 4): x, y, z, radius [m] of a dump."""
+        dump: Floats = np.loadtxt(self.folder / f"{name}.dump", skiprows=9)
+        return dump[:, 1:5]
+
+
+def cell_curve(rows: Floats) -> tuple[Floats, Floats, Floats]:
+    """Of the rows of fix cell/servo: strains (n, 3), stresses (n, 3) [Pa], density (n) [kg/m3].
+
+    Strain is logarithmic; compression is positive.
+    """
+    edges = rows[:, 1:4]
+    return -np.log(edges / edges[0]), rows[:, 4:7], rows[:, 7]
+
+
+class PointRun:
+    """A run of furrow-point; columns: of its point.csv, SI."""
+
+    def __init__(self, folder: Path | str) -> None:
+        """@raises ResultsError where the folder has no point.csv"""
+        self.folder = Path(folder)
+        path = self.folder / "point.csv"
+        if not path.is_file():
+            raise ResultsError(
+                f"{path}: no such file; name the results folder of 'furrow-point run'"
+            )
+        self.columns: dict[str, Floats] = read_columns(path)
+        first = path.read_text(encoding="utf-8").splitlines()[0]
+        self.label = first.lstrip("# ").split(" (")[0]
+
+
+def read_oedometer_reference(path: Path) -> list[tuple[float, float]]:
+    """(density [kg/m3], axial stress [Pa]), rising, of the columns rho_kgm3 and sigma1_Pa.
+
+    @raises ResultsError where a column is missing
+    """
+    try:
+        return sorted((row["rho_kgm3"], row["sigma1_Pa"]) for row in read_numbers(path))
+    except KeyError as error:
+        raise ResultsError(
+            f"{path}: has no column {error}; a reference of an oedometer needs rho_kgm3 and "
+            "sigma1_Pa"
+        ) from error

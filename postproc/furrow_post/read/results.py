@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Reading history.h5, the results file of a run (its layout: src/io/history_file.h)."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import h5py
+import numpy as np
+
+from ..arrays import Floats, Integers
+from ..errors import ResultsError
+from .styles import Styles
+
+
+def decoded(value: Any) -> str:
+    """Text of an HDF5 attribute or scalar dataset, which h5py gives as bytes or str."""
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def require_layout(content: Any, file: Path) -> None:
+    """Refuses files that an older Furrow wrote; content: an open history.h5 or terrain.h5.
+
+    @raises ResultsError with the version that wrote the file
+    """
+    if "run" in content and "run/styles" not in content:
+        run = content["run"].attrs
+        version = decoded(run.get("version", "?"))
+        started = decoded(run.get("started", "an unknown date"))
+        raise ResultsError(
+            f"{file}: was written by an older Furrow, version {version}, on {started}: it has no "
+            "/run/styles. Read it with the furrow-post of the source tree that made the run, or "
+            "repeat the run"
+        )
+
+
+class Surface(NamedTuple):
+    """A triangulated surface."""
+
+    triangles: Integers  # (m, 3): nodes of each triangle
+    x: Floats  # (n, 3) [m]
+
+
+@dataclass
+class Grains:
+    """Spheres at one instant."""
+
+    id: Integers  # (n)
+    x: Floats  # (n, 3) [m]
+    radius: Floats  # (n) [m]
+    period: Floats  # (3) [m], 0 along an axis that is not periodic
+    bed_level: float  # [m], NaN where the bed did not measure itself
+
+    def displacement_from(self, reference: "Grains") -> Floats:
+        """(n, 3) [m]: matched by id, the shortest way round a periodic box; NaN without a match."""
+        order = np.argsort(reference.id)
+        place = np.searchsorted(reference.id, self.id, sorter=order).clip(max=len(order) - 1)
+        match = order[place]
+        moved: Floats = self.x - reference.x[match]
+        for axis in range(3):
+            period = reference.period[axis]
+            if period > 0:
+                moved[:, axis] -= period * np.round(moved[:, axis] / period)
+        moved[reference.id[match] != self.id] = np.nan
+        return moved
+
+    @property
+    def corners(self) -> tuple[Floats, Floats]:
+        """Lowest and highest coordinates (3) of the spheres' surfaces [m]."""
+        reach = self.radius[:, None]
+        return (self.x - reach).min(axis=0), (self.x + reach).max(axis=0)
+
+
+class Results:
+    """One results folder, or the history.h5 in it.
+
+    run: attributes of /run; columns, units, meanings: of every channel of the history.
+    """
+
+    def __init__(self, where: Path | str) -> None:
+        """@raises ResultsError where there is no such file, or an older Furrow wrote it"""
+        path = Path(where)
+        self.file = path / "history.h5" if path.is_dir() else path
+        self.folder = self.file.parent
+        if not self.file.is_file():
+            raise ResultsError(
+                f"{self.file}: no such file; name the results folder of a run, or its history.h5"
+            )
+        try:
+            with h5py.File(self.file, "r") as content:
+                require_layout(content, self.file)
+                self._read(content)
+        except (OSError, KeyError) as error:
+            raise ResultsError(f"{self.file}: is not a results file of Furrow ({error})") from error
+
+    def _read(self, content: Any) -> None:
+        self.run = {name: decoded(value) for name, value in content["run"].attrs.items()}
+        self.columns: dict[str, Floats] = {}
+        self.units: dict[str, str] = {}
+        self.meanings: dict[str, str] = {}
+        for name, data in content["history"].items():
+            self.columns[name] = data[()]
+            self.units[name] = decoded(data.attrs["unit"])
+            self.meanings[name] = decoded(data.attrs["meaning"])
+
+    @property
+    def title(self) -> str:
+        return self.run.get("title") or self.folder.resolve().name
+
+    @property
+    def has_grains(self) -> bool:
+        """Whether the run kept grains; continuum terrain has its own file, terrain.h5."""
+        with h5py.File(self.file, "r") as content:
+            return "grains/final" in content
+
+    @property
+    def effective_input(self) -> str:
+        """Styles with their values, and the script, for people."""
+        with h5py.File(self.file, "r") as content:
+            return decoded(content["run/effective_input"][()])
+
+    @property
+    def cost(self) -> dict[str, float]:
+        """Attributes of /cost: wall_time [s], ranks, ...; empty for a run that did not end."""
+        with h5py.File(self.file, "r") as content:
+            attributes: Any = content["cost"].attrs if "cost" in content else {}
+            return {name: float(value) for name, value in attributes.items()}
+
+    def styles(self) -> Styles:
+        """@raises ResultsError where /run/styles is not what a writer puts there"""
+        with h5py.File(self.file, "r") as content:
+            text = decoded(content["run/styles"][()])
+        try:
+            return Styles.from_json(text)
+        except (ValueError, KeyError, TypeError) as error:
+            raise ResultsError(f"{self.file}: /run/styles cannot be read ({error})") from error
+
+    def grains(self, when: str) -> Grains:
+        """when: "reference" (the settled bed) or "final". @raises ResultsError without them"""
+        with h5py.File(self.file, "r") as content:
+            group = content.get(f"grains/{when}")
+            if group is None:
+                raise ResultsError(
+                    f"{self.file}: has no /grains/{when}; a picture needs the grains of a run that "
+                    "came to its end"
+                )
+            return Grains(
+                group["id"][()],
+                group["x"][()],
+                group["radius"][()],
+                group["period"][()],
+                float(group.attrs["bed_level"]),
+            )
+
+    def surface(self) -> Surface | None:
+        """The wheel, tyre or plate at the end, or None where the run kept none."""
+        return read_surface(self.file)
+
+
+def read_surface(file: Path) -> Surface | None:
+    """The surface of a body at the end of a run, or None where history.h5 has none or is none."""
+    try:
+        with h5py.File(file, "r") as content:
+            group = content.get("surface")
+            return None if group is None else Surface(group["triangles"][()], group["x"][()])
+    except OSError:
+        return None

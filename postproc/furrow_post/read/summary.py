@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The steady values of a run as summary.json has them; furrow-resistance computes them."""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..errors import ResultsError
+from ..formatting import with_error
+
+
+@dataclass(frozen=True)
+class SteadyValue:
+    """A mean over the steady window, SI, with the standard error of the time average."""
+
+    mean: float
+    standard_error: float
+    unit: str
+    steady: bool
+
+
+class Summary:
+    """summary.json of a results folder; empty where there is none."""
+
+    def __init__(self, folder: Path) -> None:
+        """@raises ResultsError where the file is not a summary"""
+        path = folder / "summary.json"
+        remedy = f"write it again with 'furrow-post resistance --write {folder}'"
+        content: Any = {}
+        try:
+            content = json.loads(path.read_text())
+        except FileNotFoundError:
+            pass
+        except (OSError, ValueError) as error:
+            raise ResultsError(f"{path}: cannot be read ({error}); {remedy}") from error
+        if not isinstance(content, dict):
+            raise ResultsError(f"{path}: is not a summary of Furrow; {remedy}")
+        self.content: dict[str, Any] = content
+
+    @property
+    def window(self) -> tuple[float, float] | None:
+        """Begin and end of the steady window [s]."""
+        window = self.content.get("window")
+        return (window["start"], window["end"]) if window else None
+
+    @property
+    def quantities(self) -> dict[str, dict[str, Any]]:
+        """Name -> what the file has of it: mean, standard_error, unit, steady, verdict."""
+        quantities: dict[str, dict[str, Any]] = self.content.get("quantities", {})
+        return quantities
+
+    def quantity(self, name: str) -> SteadyValue | None:
+        """None where the file has no such quantity or no number for it."""
+        value = self.quantities.get(name)
+        if value is None or None in (value["mean"], value["standard_error"]):
+            return None
+        return SteadyValue(value["mean"], value["standard_error"], value["unit"], value["steady"])
+
+    def line(self) -> str:
+        """For a title: "sinkage 15.8 ± 1.9 mm, resistance coefficient 0.330 ± 0.007, ..."."""
+        torque = self.quantity("drive_torque")
+        if torque and not (torque.mean or torque.standard_error):
+            torque = None  # a towed wheel has none
+        parts = []
+        for value, name, scale, unit in (
+            (self.quantity("sinkage"), "sinkage", 1e3, " mm"),
+            (self.quantity("resistance_coefficient"), "resistance coefficient", 1, ""),
+            (torque, "torque", 1, " N m"),
+            (self.quantity("slip"), "slip", 100, " %"),
+        ):
+            if value:
+                number = with_error(scale * value.mean, scale * value.standard_error)
+                parts.append(f"{name} {number}{unit}")
+        if parts and not self.content.get("steady", False):
+            parts.append("not all steady, see summary.txt")
+        return ", ".join(parts)

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Reading terrain.h5: the continuum at the end of a run, particle by particle, and its history."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from ..arrays import Booleans, Floats
+from ..errors import ResultsError
+from .results import Surface, read_surface, require_layout
+
+FILE = "terrain.h5"
+OLD_FILE = "ground.h5"  # its name in an older Furrow
+
+
+def terrain_file(folder: Path) -> Path:
+    """terrain.h5 of a results folder, which may not be there.
+
+    @raises ResultsError where only the file of an older Furrow is
+    """
+    path = folder / FILE
+    if not path.is_file() and (folder / OLD_FILE).is_file():
+        with h5py.File(folder / OLD_FILE, "r") as content:
+            require_layout(content, folder / OLD_FILE)
+    return path
+
+
+def read_terrain_fields(folder: Path) -> dict[str, Floats]:
+    """Field of /terrain -> its values, the first axis over the particles, at the end of a run.
+
+    Fields: x, initial_position (n, 3) [m], density [kg/m3], volume [m3], compaction
+    (ln(rho/rho_0)), pressure, mises, vertical_stress [Pa]. @raises ResultsError
+    """
+    path = terrain_file(folder)
+    try:
+        with h5py.File(path, "r") as content:
+            require_layout(content, path)
+            return {name: data[()] for name, data in content["terrain"].items()}
+    except (OSError, KeyError) as error:
+        raise ResultsError(
+            f"{path}: has no terrain at the end of a run ({error}); give the folder of a run with "
+            "fix terrain/history that came to its end"
+        ) from error
+
+
+def read_terrain_history(folder: Path) -> dict[str, Floats]:
+    """Channel of /history in terrain.h5 -> its values (energies [J] over time [s])."""
+    path = terrain_file(folder)
+    try:
+        with h5py.File(path, "r") as content:
+            require_layout(content, path)
+            return {name: data[()] for name, data in content["history"].items()}
+    except (OSError, KeyError) as error:
+        raise ResultsError(f"{path}: has no history ({error})") from error
+
+
+@dataclass
+class Terrain:
+    """Particles of the continuum at the end of a run; half models are mirrored."""
+
+    x: Floats  # (n, 3) [m]
+    initial_position: Floats  # (n, 3) [m]
+    density: Floats  # (n) [kg/m3]
+    volume: Floats  # (n) [m3]
+    level: float  # z of the undisturbed surface [m]
+    undisturbed: float  # its density [kg/m3]
+
+    @classmethod
+    def read(cls, folder: Path) -> "Terrain":
+        """@raises ResultsError when the run kept no terrain"""
+        fields = read_terrain_fields(folder)
+        try:
+            x, initial, density, volume = (
+                fields[name] for name in ("x", "initial_position", "density", "volume")
+            )
+        except KeyError as error:
+            raise ResultsError(f"{folder / FILE}: /terrain has no field {error}") from error
+        spacing = [_lattice_spacing(initial[:, axis]) for axis in range(3)]
+        level = float(initial[:, 2].max() + 0.5 * spacing[2])
+        fine = np.abs(initial[:, 1]) < np.abs(initial[:, 1]).min() + 0.1 * spacing[1]
+        undisturbed = float(np.median((density * volume)[fine]) / np.prod(spacing))
+        terrain = cls(x, initial, density, volume, level, undisturbed)
+        return terrain.mirrored() if initial[:, 1].min() > 0 else terrain
+
+    def mirrored(self) -> "Terrain":
+        """Both halves of a half model, whose plane of symmetry is y = 0."""
+        flip = np.array([1.0, -1.0, 1.0])
+        return Terrain(
+            np.vstack([self.x, self.x * flip]),
+            np.vstack([self.initial_position, self.initial_position * flip]),
+            np.tile(self.density, 2),
+            np.tile(self.volume, 2),
+            self.level,
+            self.undisturbed,
+        )
+
+    @property
+    def spacing(self) -> float:
+        """Of the particles before the wheel came, in the fine part [m]."""
+        undeformed = self.volume * self.density / self.undisturbed
+        return float(np.percentile(undeformed, 5) ** (1 / 3))
+
+    def mean_density(self, inside: Booleans) -> float:
+        """Mass over volume of the particles inside (n) [kg/m3]; NaN where there is none."""
+        volume = self.volume[inside].sum()
+        mass = (self.density[inside] * self.volume[inside]).sum()
+        return float(mass / volume) if volume > 0 else np.nan
+
+
+def _lattice_spacing(coordinates: Floats) -> float:
+    """Of the lattice on which the particles stood, in its fine part [m]."""
+    places = np.unique(np.round(coordinates, 9))
+    if len(places) < 2:
+        raise ResultsError(f"{FILE}: terrain of a single layer of particles has no sections")
+    return float(np.diff(places).min())
+
+
+class Outline:
+    """Where a wheel, tyre or plate stood at the end; without one, the middle of the terrain.
+
+    surface: Surface or None; centre (3) [m]; half_width [m], NaN without a body.
+    """
+
+    def __init__(self, folder: Path, terrain: Terrain) -> None:
+        self.surface: Surface | None = read_surface(folder / "history.h5")
+        x = terrain.x if self.surface is None else self.surface.x
+        low, high = x.min(axis=0), x.max(axis=0)
+        self.centre: Floats = 0.5 * (low + high)
+        self.half_width = float(np.nan if self.surface is None else 0.5 * (high - low)[1])

@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What a wheel run was: conditions and discretisation from its results folder; base of comparisons.
+
+Definitions are aligned here, once. Load is the vertical force that the ground carries at rest. Slip
+is counted as in the history ((v_rim - v)/max(|v_rim|, |v|), driving positive) and by vehicle speed.
+The datum of the sinkage is the top of the undisturbed ground (of grains: of a uniform bed of the
+same mass). The resistance coefficient is -force_x/force_z.
+"""
+
+import json
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from ..arrays import Floats
+from ..errors import ResultsError
+from .results import Grains, Results
+from .styles import Style
+from .summary import SteadyValue, Summary
+from .terrain import FILE, read_terrain_fields, terrain_file
+
+STEADY_QUANTITIES = (
+    "sinkage",
+    "resistance_coefficient",
+    "force_z",
+    "drawbar_pull",
+    "drive_torque",
+    "slip",
+)
+
+
+@dataclass(frozen=True)
+class Condition:
+    """One condition of a run: a number with its unit, or a word."""
+
+    value: float | str
+    unit: str = ""
+
+    @property
+    def number(self) -> float:
+        """NaN for a word."""
+        return self.value if isinstance(self.value, float) else float("nan")
+
+    def text(self) -> str:
+        if isinstance(self.value, str):
+            return self.value
+        value = 0.0 if abs(self.value) < 1e-9 else self.value  # rounding of a sum that vanishes
+        return f"{value:.4g} {self.unit}".strip()
+
+
+@dataclass
+class WheelRun:
+    """One results folder of a wheel on a rig: on grains, continuum (terrain.h5), or neither."""
+
+    folder: Path
+    results: Results
+    label: str
+    ground: str  # "grains", "continuum" or "none"
+    deformable: bool  # a tyre, whose outline changes under load
+    conditions: dict[str, Condition] = field(default_factory=dict)
+    size: float = float("nan")  # cell or mean grain diameter [m]
+    elements: int = 0  # particles or grains
+    half: bool = False  # half model, mirrored at y = 0
+    domain: tuple[float, ...] = ()  # length and width of the ground [m]
+    seed: str = ""  # of the packing of grains
+    values: dict[str, SteadyValue] = field(default_factory=dict)  # STEADY_QUANTITIES
+    wall_time: float = float("nan")  # [s]
+    cpu_time: float = float("nan")  # measured by the runner, else wall time x ranks [s]
+
+    def number(self, condition: str) -> float:
+        """Of a condition; NaN where it is not known."""
+        found = self.conditions.get(condition)
+        return float("nan") if found is None else found.number
+
+    def text(self, condition: str, missing: str = "") -> str:
+        found = self.conditions.get(condition)
+        return missing if found is None else found.text()
+
+    @property
+    def wheel(self) -> str:
+        """What rolls, in words: "rigid wheel", "tyre"."""
+        return self.text("wheel")
+
+    @property
+    def ground_level(self) -> float:
+        """z from which the rig counts the sinkage [m]."""
+        return self.number("ground_level")
+
+    @property
+    def radius(self) -> float:
+        """Of the undeformed wheel [m]."""
+        return 0.5 * self.number("wheel_diameter")
+
+    @property
+    def model(self) -> str:
+        return "half" if self.half else "whole"
+
+    @property
+    def elements_name(self) -> str:
+        return "particles" if self.ground == "continuum" else "grains"
+
+    def describe_size(self) -> str:
+        kind = "cells" if self.ground == "continuum" else "grains"
+        return f"{kind} of {1e3 * self.size:.3g} mm"
+
+    def relabelled(self, label: str) -> "WheelRun":
+        return replace(self, label=label)
+
+
+def read_wheel_run(folder: Path | str, label: str | None = None) -> WheelRun:
+    """The run of a results folder; label: its name in tables. @raises ResultsError"""
+    results = Results(folder)
+    styles = results.styles()
+    rig, wheel = styles.of_kind("rig"), styles.of_kind("wheel")
+    if rig is None or wheel is None:
+        raise ResultsError(
+            f"{results.file}: is not the run of a wheel on a rig "
+            "(none of its styles is of the kind wheel, or none is a rig)"
+        )
+    soil, bed = styles.of_kind("terrain"), styles.of_style("bed")
+    if soil and not terrain_file(results.folder).is_file():
+        raise ResultsError(
+            f"{results.folder}: has no {FILE}; give the scene a fix terrain/history with the same "
+            "folder"
+        )
+    reference = results.grains("reference") if results.has_grains else None
+    if reference is not None and len(reference.id) == 0:
+        reference = None
+    run = WheelRun(
+        results.folder,
+        results,
+        label or results.folder.resolve().name,
+        "continuum" if soil else "grains" if reference else "none",
+        deformable=not wheel.has("diameter"),
+    )
+    run.conditions.update(_rig_conditions(rig))
+    run.conditions.update(_wheel_conditions(wheel, results))
+    if soil:
+        _read_continuum(run, soil)
+    elif reference:
+        _read_grains(run, bed, reference)
+    _read_values(run, reference if run.ground == "grains" else None)
+    _read_cost(run)
+    return run
+
+
+def _rig_conditions(rig: Style) -> dict[str, Condition]:
+    gravity = rig.number("gravity")
+    if rig.has("load_force"):
+        load = rig.number("load_force")
+    else:
+        load = rig.number("load_mass", float("nan")) * gravity
+    return {
+        "load": Condition(load, "N"),
+        "speed": Condition(rig.number("speed"), "m/s"),
+        "mode": Condition(rig.text("mode")),
+        "slip_angle": Condition(rig.number("slip_angle", 0.0), "deg"),
+        "camber": Condition(rig.number("camber", 0.0), "deg"),
+        "gravity": Condition(gravity, "m/s2"),
+        "ground_level": Condition(rig.number("ground_level"), "m"),
+    }
+
+
+def _wheel_conditions(wheel: Style, results: Results) -> dict[str, Condition]:
+    """Sizes are those that the style has, else those of its surface at the end of the run."""
+    head, _, tail = wheel.style.partition("/")
+    found = {"wheel": Condition(f"{tail} {head}" if head == "wheel" else head)}
+    if wheel.has("pressure"):
+        found["pressure"] = Condition(wheel.number("pressure"), "Pa")
+    if wheel.has("diameter"):
+        diameter, width = wheel.number("diameter"), wheel.number("width")
+    else:
+        surface = results.surface()
+        if surface is None:
+            raise ResultsError(
+                f"{results.file}: has no surface of the {head} at the end of the run"
+            )
+        low, high = surface.x.min(axis=0), surface.x.max(axis=0)
+        diameter = float(high[0] - low[0])
+        width = float(2 * high[1] if wheel.flag("half") else high[1] - low[1])
+    found["wheel_diameter"] = Condition(diameter, "m")
+    found["wheel_width"] = Condition(width, "m")
+    return found
+
+
+def _read_continuum(run: WheelRun, soil: Style) -> None:
+    fields = read_terrain_fields(run.folder)
+    density, compaction, volume = (fields[name] for name in ("density", "compaction", "volume"))
+    run.size, run.elements = soil.number("cell"), len(density)
+    run.half = soil.flag("symmetry")
+    run.domain = (soil.number("length"), soil.number("width"))
+    run.conditions["depth"] = Condition(soil.number("depth"), "m")
+    # compaction is ln(rho/rho_0) of a particle
+    initial = float(np.average(density * np.exp(-compaction), weights=volume * density))
+    run.conditions["density"] = Condition(initial, "kg/m3")
+
+
+def _read_grains(run: WheelRun, bed: Style | None, reference: Grains) -> None:
+    run.size, run.elements = float(2 * reference.radius.mean()), len(reference.id)
+    level = reference.bed_level if np.isfinite(reference.bed_level) else run.ground_level
+    low, high = reference.corners
+    inner: Floats = (high - low)[:2]  # what the grains fill: walls may stand outside of the bed
+    run.domain = (float(inner[0]), float(inner[1]))
+    floor = 0.0 if abs(low[2]) < run.size else float(low[2])
+    depth = float(level - floor)
+    run.conditions["depth"] = Condition(depth, "m")
+    if bed is None:
+        return
+    run.domain = (bed.number("length", run.domain[0]), bed.number("width", run.domain[1]))
+    if bed.has("density"):
+        solid = 4 / 3 * np.pi * np.sum(reference.radius**3)
+        bulk = float(bed.number("density") * solid / (inner[0] * inner[1] * depth))
+        run.conditions["density"] = Condition(bulk, "kg/m3")
+    if bed.has("seed"):
+        run.seed = f"{bed.number('seed'):.0f}"
+
+
+def _read_values(run: WheelRun, reference: Grains | None) -> None:
+    """Steady values, and the slip in both definitions; reference: grains before, or None."""
+    summary = Summary(run.folder)
+    for name in STEADY_QUANTITIES:
+        value = summary.quantity(name)
+        if value is None or summary.window is None:
+            raise ResultsError(
+                f"{run.folder}: has no steady {name} in summary.json; write it with "
+                f"'furrow-post resistance --write {run.folder}', or run longer"
+            )
+        run.values[name] = value
+    assert summary.window is not None
+    begin, end = summary.window
+    columns = run.results.columns
+    inside = (columns["time"] >= begin) & (columns["time"] <= end)
+    v = columns["velocity_x"][inside].mean()
+    rim = run.radius * columns["spin_rate"][inside].mean()
+    run.conditions["slip"] = Condition(float(run.values["slip"].mean))
+    by_speed = float((rim - v) / v) if v else float("nan")
+    run.conditions["slip_by_vehicle_speed"] = Condition(by_speed)
+    # The rig counts the sinkage from ground_level, which may differ from the top of the ground
+    if reference is not None and np.isfinite(reference.bed_level):
+        shift = float(reference.bed_level - run.ground_level)
+        sinkage = run.values["sinkage"]
+        run.values["sinkage"] = replace(sinkage, mean=sinkage.mean + shift)
+        run.conditions["datum_shift"] = Condition(shift, "m")
+
+
+def _read_cost(run: WheelRun) -> None:
+    cost = run.results.cost
+    run.wall_time = cost.get("wall_time", float("nan"))
+    run.cpu_time = run.wall_time * cost.get("ranks", 1.0)
+    try:  # the runner's own measurement does not count what other programs took
+        run.cpu_time = float(json.loads((run.folder / "run.json").read_text())["cpu_time"])
+    except (OSError, ValueError, KeyError):
+        pass

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Where the tables, figures and page sections of a study go, with their provenance."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ..csv_table import write_rows
+from .provenance import origin, update_origins
+from .record import Record
+from .tables import aligned
+
+PAGE, SECTION = "README.md", "tables.md"
+BEGIN, END = "<!-- written by run.py -->", "<!-- end -->"
+
+
+class Output:
+    """Files of a study in one folder.
+
+    page: README.md is there and gets the section between its marks; else the section is a file of
+    its own.
+    """
+
+    def __init__(self, folder: Path, page: bool) -> None:
+        self.folder, self.page = folder, page
+        self.files: list[str] = []
+        folder.mkdir(parents=True, exist_ok=True)
+
+    def path(self, name: str) -> Path:
+        """Of a file that the study writes there."""
+        if name not in self.files:
+            self.files.append(name)
+        return self.folder / name
+
+    def table(
+        self, name: str, rows: Sequence[Mapping[str, Any]], comments: Sequence[str] = ()
+    ) -> None:
+        """Prints a table and writes it; nothing for no rows."""
+        if rows:
+            print(aligned(rows), end="\n\n")
+            write_rows(self.path(name), rows, comments)
+
+    def section(self, lines: Sequence[str]) -> None:
+        """Writes the generated part of the study's page."""
+        text = "\n".join(lines).strip()
+        if not self.page:
+            self.path(SECTION).write_text(text + "\n", encoding="utf-8")
+            return
+        page = self.path(PAGE)
+        before, begin, rest = page.read_text(encoding="utf-8").partition(BEGIN)
+        after = rest.partition(END)[2] if END in rest else "\n"
+        page.write_text(f"{before}{begin or BEGIN}\n\n{text}\n\n{END}{after}", encoding="utf-8")
+
+    def write_provenance(self, records: Sequence[Record], root: Path) -> None:
+        """Of all files, which were made of these runs; root: of the project."""
+        update_origins(self.folder, [origin(file, records, root) for file in self.files])

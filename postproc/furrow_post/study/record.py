@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What is kept of a run beside its results: run.json when it came to its end, else failed.json."""
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+FINISHED, FAILED = "run.json", "failed.json"
+
+
+@lru_cache(maxsize=None)
+def _digest(path: Path, modified: int) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()[:12]
+
+
+def digest(path: Path) -> str:
+    """First digits of a file's SHA-256."""
+    return _digest(path, path.stat().st_mtime_ns)
+
+
+@dataclass(frozen=True)
+class Record:
+    """One run as it was made."""
+
+    job: Mapping[str, object]  # Case.identity
+    program: str  # digest of the executable
+    inputs: Mapping[str, str]  # file name -> digest, of what the command line names
+    commit: str  # of the source tree; "+" behind it: with changes; empty: none
+    started: str  # UTC, ISO 8601
+    wall_time: float  # [s]
+    cpu_time: float  # user time [s]
+    system_time: float  # [s]
+    facts: Mapping[str, float] = field(
+        default_factory=dict
+    )  # of the last line FACTS name value ...
+    changes: Mapping[str, str] = field(default_factory=dict)  # variables of the second attempt
+    stopped: tuple[str, ...] = ()  # errors of attempts before
+    error: str = ""  # of a failed run
+
+    @property
+    def name_of_program(self) -> str:
+        return str(self.job.get("program", ""))
+
+    def variable(self, name: str) -> str:
+        """As the last attempt had it. @raises KeyError"""
+        variables = self.job["variables"]
+        assert isinstance(variables, Mapping)
+        return str({**variables, **self.changes}[name])
+
+    def write(self, folder: Path) -> None:
+        """Writes run.json, or failed.json for a run with an error."""
+        text = json.dumps(asdict(self), indent=1)
+        (folder / (FAILED if self.error else FINISHED)).write_text(text + "\n")
+
+
+def read_record(path: Path) -> Record | None:
+    """None where there is no such file, or it is not one of a study."""
+    try:
+        content: dict[str, Any] = json.loads(path.read_text())
+        content["stopped"] = tuple(content["stopped"])
+        return Record(**content)
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
+def forget(folder: Path) -> None:
+    """Removes what an earlier run in the folder could be taken for finished by."""
+    for name in (FINISHED, FAILED, "facts.txt", "laboratory.json"):
+        (folder / name).unlink(missing_ok=True)
+    for checkpoint in folder.glob("restart_forced*"):
+        checkpoint.unlink()

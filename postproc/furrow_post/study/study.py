@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The command line that all studies under inputs share."""
+
+import argparse
+import fnmatch
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..errors import ResultsError
+from .case import Case
+from .launch import Interrupted, Tools
+from .output import Output
+from .runner import Runner, State
+
+Evaluation = Callable[[Runner, Output], Sequence[str]]
+
+
+def every(case: Case) -> bool:
+    return True
+
+
+@dataclass(frozen=True)
+class Study:
+    """Runs and what is made of them.
+
+    evaluate writes tables and figures of the runs that are there, and returns what misses a limit,
+    a sentence each; checked: the cases without which --check cannot pass.
+    """
+
+    file: Path  # the driver, in the folder of the study
+    description: str  # for --help
+    cases: Sequence[Case]
+    evaluate: Evaluation
+    checked: Callable[[Case], bool] = field(default=every)
+
+    @property
+    def folder(self) -> Path:
+        return self.file.resolve().parent
+
+    def selected(self, names: Sequence[str]) -> list[Case]:
+        """Cases whose stage or name is among names, which may be patterns; all of no names.
+
+        @raises ResultsError for a name that fits nothing
+        """
+        if not names:
+            return list(self.cases)
+        for name in names:
+            if not any(_fits(case, name) for case in self.cases):
+                stages = ", ".join(dict.fromkeys(case.stage for case in self.cases if case.stage))
+                hint = f"; stages are {stages}" if stages else ""
+                raise ResultsError(f"nothing is called '{name}'; --list shows all runs{hint}")
+        return [case for case in self.cases if any(_fits(case, name) for name in names)]
+
+
+def _fits(case: Case, name: str) -> bool:
+    return name == case.stage or fnmatch.fnmatchcase(case.name, name)
+
+
+def run_study(study: Study, arguments: Sequence[str] | None = None) -> int:
+    """The command line of a study; the result is the exit status."""
+    parsed = _parser(study).parse_args(arguments)
+    try:
+        return _run(study, parsed)
+    except (ResultsError, Interrupted, OSError) as error:
+        print(f"{study.file.name}: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print(f"{study.file.name}: interrupted; start again to make the rest", file=sys.stderr)
+        return 130
+
+
+def _parser(study: Study) -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        description=study.description, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "names",
+        nargs="*",
+        metavar="NAME",
+        help="stages or runs to make, also as patterns such as 'row_220*' (default: all)",
+    )
+    parser.add_argument("--list", action="store_true", help="say what is there and what is not")
+    parser.add_argument("--evaluate", action="store_true", help="make no runs, only the tables")
+    parser.add_argument("--again", action="store_true", help="make failed runs again")
+    parser.add_argument("--jobs", type=int, default=1, help="runs at a time (default: 1)")
+    parser.add_argument(
+        "--check",
+        action="store_true",
+        help="runs by the present program, tables in the results folder; exit status 1 when a "
+        "limit is missed",
+    )
+    parser.add_argument(
+        "--results",
+        type=Path,
+        help="where runs are kept (default: results/<study> in the source tree)",
+    )
+    parser.add_argument(
+        "--build",
+        type=Path,
+        help="build folder with the programs (default: $FURROW_BUILD, or build in the source tree)",
+    )
+    return parser
+
+
+def _run(study: Study, parsed: argparse.Namespace) -> int:
+    tools = Tools.of(study.file, parsed.build)
+    results = parsed.results or tools.root / "results" / study.folder.name
+    runner = Runner(results, tools, parsed.jobs, same_program=parsed.check, again=parsed.again)
+    chosen = study.selected(parsed.names)
+    if parsed.check and not parsed.names:
+        chosen = [case for case in chosen if study.checked(case)]
+    if parsed.list:
+        for case in chosen:
+            print(f"{runner.state(case).value:8} {case.name:40} {case.what}".rstrip())
+        return 0
+    if not parsed.evaluate:
+        runner.run(chosen)
+    return _evaluate(study, runner, chosen, parsed.check)
+
+
+def _evaluate(study: Study, runner: Runner, chosen: Sequence[Case], check: bool) -> int:
+    """Tables go beside the driver when they are complete, else into the results folder."""
+    states = [runner.state(case) for case in study.cases]
+    complete = State.MISSING not in states
+    beside = complete and not check
+    output = Output(study.folder if beside else runner.results, page=beside)
+    missed = list(study.evaluate(runner, output))
+    records = [record for case in study.cases if (record := runner.record(case))]
+    output.write_provenance(records, runner.tools.root)
+    if not beside:
+        there = sum(state is not State.MISSING for state in states)
+        print(f"{there} of {len(states)} runs are there; tables are in {output.folder}")
+    failed = [case for case in chosen if runner.state(case) is State.FAILED]
+    for case in failed:
+        failure = runner.failure(case)
+        print(f"FAILED: {case.name}: {failure.error if failure else ''}", file=sys.stderr)
+    unexpected = any(not case.may_fail for case in failed)
+    for sentence in missed:
+        print(f"MISSED: {sentence}", file=sys.stderr)
+    if not check:
+        return 1 if unexpected else 0
+    absent = [case for case in chosen if runner.state(case) is State.MISSING]
+    for case in absent:
+        print(f"MISSED: {case.name} was not run", file=sys.stderr)
+    return 1 if unexpected or missed or absent else 0

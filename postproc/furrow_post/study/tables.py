@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Tables for people: aligned text, and Markdown."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from ..csv_table import column_names
+
+
+def aligned(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Rows under the names of their columns, numbers with six digits; empty where one is not."""
+
+    def text(value: Any) -> str:
+        return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+    names = column_names(rows)
+    cells = [[text(row.get(name, "")) for name in names] for row in rows]
+    widths = [max(map(len, column)) for column in zip(names, *cells)]
+    lines = [
+        "  ".join(cell.rjust(width) for cell, width in zip(line, widths))
+        for line in [names, *cells]
+    ]
+    return "\n".join(lines)
+
+
+def transposed(rows: Sequence[Mapping[str, Any]], key: str) -> list[dict[str, Any]]:
+    """A row per quantity and a column per row, which is named by its value of key."""
+    quantities = [name for name in column_names(rows) if name != key]
+    return [
+        {"quantity": name, **{str(row[key]): row.get(name, "") for row in rows}}
+        for name in quantities
+    ]
+
+
+def markdown(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
+    """Lines of a table."""
+
+    def line(cells: Sequence[str]) -> str:
+        return "| " + " | ".join(cells) + " |"
+
+    return [line(head), "|---" * len(head) + "|", *(line(row) for row in rows)]

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Verdicts on two values, the verdict on all of them, and what pure functions leave alone."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from furrow_post.analyse import comparison
+from furrow_post.analyse.comparison import FORMULA, MEASURED, RUN, Comparison, Entry, judge, overall
+from furrow_post.analyse.cost_table import Components
+from furrow_post.analyse.density import height_left
+from furrow_post.analyse.verdict import COEFFICIENT, SINKAGE, Agreement, Quantity
+from furrow_post.errors import ResultsError
+from furrow_post.read.results import Results, Surface
+from furrow_post.read.summary import SteadyValue
+from furrow_post.read.wheel_run import Condition, WheelRun, read_wheel_run
+from support.runs import write_run
+
+
+def entry(
+    source: str, value: float, u: float, quantity: Quantity = SINKAGE, kind: str = RUN
+) -> Entry:
+    return Entry(quantity, source, value, Components(u, 0.0, 0.0, 0.0), kind)
+
+
+class JudgeTest(unittest.TestCase):
+    def test_two_standard_deviations_decide(self) -> None:
+        a = entry("a", 0.100, 0.003)
+        near = judge(a, entry("b", 0.100 + 2 * 0.005 - 1e-6, 0.004))
+        far = judge(a, entry("b", 0.100 + 2 * 0.005 + 1e-6, 0.004))
+        self.assertEqual((near.agreement, far.agreement), (Agreement.AGREE, Agreement.DIFFER))
+        self.assertIn(
+            "differ by 1.0 times what their uncertainty allows "
+            "(difference +10 mm (+10 %), allowed 10)",
+            far.sentence,
+        )
+
+    def test_agreement_within_a_large_uncertainty_is_undecided(self) -> None:
+        verdict = judge(entry("a", 0.1, 0.02), entry("b", 0.11, 0.0))
+        self.assertEqual(verdict.agreement, Agreement.UNDECIDED)
+        self.assertIn("cannot be told apart, their uncertainty is 40 %", verdict.sentence)
+
+    def test_no_uncertainty_no_verdict(self) -> None:
+        other = Entry(SINKAGE, "b", 0.1, Components(), RUN)
+        verdict = judge(entry("a", 0.1, 0.001), other)
+        self.assertEqual(verdict.agreement, Agreement.UNKNOWN)
+        self.assertIn("b has no uncertainty", verdict.sentence)
+
+    def test_unknown_parts_are_named(self) -> None:
+        other = Entry(SINKAGE, "b", 0.1, Components(time=0.001), RUN)
+        verdict = judge(entry("a", 0.1, 0.001), other)
+        self.assertEqual(verdict.unknown, ("domain of b", "packing of b", "size of b"))
+        self.assertIn("not known: domain of b, packing of b, size of b", verdict.sentence)
+
+
+class OverallTest(unittest.TestCase):
+    """The verdict comes from the enumeration, never from words."""
+
+    def verdict(self, *pairs: tuple[Entry, Entry]) -> str:
+        return overall(Comparison([], verdicts=[judge(a, b) for a, b in pairs]))
+
+    def test_every_kind_has_its_sentence(self) -> None:
+        agree = entry("a", 0.1, 0.003), entry("b", 0.101, 0.003)
+        differ = entry("a", 0.1, 0.003), entry("b", 0.2, 0.003)
+        undecided = entry("a", 0.2, 0.1, COEFFICIENT), entry("b", 0.21, 0.1, COEFFICIENT)
+        unknown = entry("a", 0.2, 0.1), Entry(SINKAGE, "b", 0.2, Components(), RUN)
+        both = "The runs agree within their uncertainty in sinkage and resistance."
+        self.assertEqual(self.verdict(agree), both)
+        self.assertEqual(self.verdict(differ), "The runs do not agree in sinkage.")
+        self.assertEqual(
+            self.verdict(agree, undecided),
+            "The runs agree in sinkage within their uncertainty; in resistance coefficient they "
+            "cannot be told apart: the uncertainty is too large.",
+        )
+        self.assertEqual(
+            self.verdict(undecided),
+            "In resistance coefficient the runs cannot be told apart: the uncertainty is too "
+            "large.",
+        )
+        self.assertEqual(
+            self.verdict(unknown), "There is no verdict in sinkage: an uncertainty is not known."
+        )
+        self.assertEqual(self.verdict(), "")
+
+    def test_a_run_may_be_called_measured(self) -> None:
+        values = entry("a", 0.1, 0.003), entry("measured", 0.2, 0.003)
+        self.assertEqual(self.verdict(values), "The runs do not agree in sinkage.")
+
+    def test_a_run_may_be_called_like_a_verdict(self) -> None:
+        values = entry("cannot be told apart", 0.1, 0.003), entry("not known", 0.1, 0.003)
+        both = "The runs agree within their uncertainty in sinkage and resistance."
+        self.assertEqual(self.verdict(values), both)
+
+    def test_measurements_are_no_part_of_it(self) -> None:
+        measured = entry("measured", 0.1, 0.001, kind=MEASURED)
+        self.assertEqual(self.verdict((measured, entry("b", 0.2, 0.001))), "")
+
+
+class CompareTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+
+    def tearDown(self) -> None:
+        self.temporary.cleanup()
+
+    def read(self, name: str, label: str, sinkage: float = 0.05) -> WheelRun:
+        write_run(self.folder / name, sinkage=sinkage)
+        return read_wheel_run(self.folder / name, label)
+
+    def test_labels_become_unique_and_the_runs_stay_as_they_are(self) -> None:
+        runs = [self.read("one/wheel", "wheel"), self.read("two/wheel", "wheel")]
+        result = comparison.compare(runs)
+        self.assertEqual([run.label for run in result.runs], ["one/wheel", "two/wheel"])
+        self.assertEqual([run.label for run in runs], ["wheel", "wheel"])
+
+    def test_a_run_called_measured_is_compared_as_any_other(self) -> None:
+        runs = [self.read("a", "measured"), self.read("b", "b", sinkage=0.06)]
+        result = comparison.compare(runs)
+        self.assertEqual(
+            overall(result),
+            "The runs do not agree in sinkage as far as their uncertainty is known.",
+        )
+
+    def test_measurements_are_judged_against_every_run(self) -> None:
+        reference = self.folder / "reference.csv"
+        rows = "".join(f"0.2,{0.05 + k * 1e-3},0.2,200\n" for k in (-1, 0, 1))
+        reference.write_text("# made\ndepth_m,sinkage_m,resistance,density_kgm3\n" + rows)
+        run = self.read("a", "a")
+        run.conditions["depth"] = Condition(0.2, "m")
+        result = comparison.compare([run], measured=reference)
+        self.assertTrue(all(verdict.with_measurement for verdict in result.verdicts))
+        self.assertEqual(overall(result), "")
+        run.conditions["depth"] = Condition(0.5, "m")
+        message = "has 0 rows within 10 % of a depth of 0.5 m; a scatter needs three"
+        with self.assertRaisesRegex(ResultsError, message):
+            comparison.compare([run], measured=reference)
+
+    def test_formula_has_its_place_and_no_verdict(self) -> None:
+        prediction = comparison.empirical.Prediction("made", "nowhere", 0.04, 100.0, 1000.0)
+        result = comparison.compare([self.read("a", "a")], formulas=[prediction])
+        (found,) = result.of(SINKAGE, FORMULA)
+        self.assertEqual((found.source, found.value), ("made", 0.04))
+        self.assertEqual(result.verdicts, [])
+
+
+class TyreResults(Results):
+    """A tyre whose lowest point stands at 0.34 m."""
+
+    def __init__(self) -> None:
+        pass
+
+    def surface(self) -> Surface:
+        return Surface(np.empty((0, 3), int), np.array([[0.0, 0.0, 0.34], [0.1, 0.0, 0.4]]))
+
+
+class HeightLeftTest(unittest.TestCase):
+    def test_under_a_tyre_it_counts_the_deflection(self) -> None:
+        """0.2 m of ground up to 0.5 m; sinkage of the unloaded outline 0.18 m: 20 mm further up."""
+        run = WheelRun(Path(), TyreResults(), "", "continuum", deformable=False)
+        run.conditions = {"depth": Condition(0.2), "ground_level": Condition(0.5)}
+        run.values = {"sinkage": SteadyValue(0.18, 0.0, "m", True)}
+        self.assertAlmostEqual(height_left(run), 0.02)
+        run.deformable = True
+        self.assertAlmostEqual(height_left(run), 0.04)
+
+
+if __name__ == "__main__":
+    unittest.main()

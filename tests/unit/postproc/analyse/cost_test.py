@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Tables of runs with exact lines to size zero: errors, costs, recommendations."""
+
+import dataclasses
+import math
+import tempfile
+import unittest
+from pathlib import Path
+
+from furrow_post.analyse import cost, cost_table
+from furrow_post.analyse.cost_table import FamilyKey
+from furrow_post.errors import ResultsError
+from support.tables import CONTINUUM, GRAINS, made_runs, row
+
+
+class TableTest(unittest.TestCase):
+    def test_extrapolation_and_components_are_those_of_the_lines(self) -> None:
+        families = cost_table.families(made_runs())
+        fit = families[CONTINUUM].fit("sinkage")
+        assert fit
+        self.assertAlmostEqual(fit.at_zero, 0.1, places=9)
+        self.assertAlmostEqual(fit.slope, 0.2, places=7)
+        parts = families[GRAINS].components("sinkage", 0.03, 1e-4)
+        self.assertAlmostEqual(parts.size, 0.12 * 3 * 0.03, places=7)
+        self.assertAlmostEqual(parts.packing, 0.002 / math.sqrt(2), places=9)
+        self.assertAlmostEqual(parts.domain, 0.005, places=9)
+        squares = 1e-8 + 0.0108**2 + 0.002**2 / 2 + 0.005**2
+        self.assertAlmostEqual(parts.total, math.sqrt(squares), places=7)
+
+    def test_one_size_gives_no_error(self) -> None:
+        rows = [row("a", "grains", 0.04, 0.1, 0.2, 1.0)]
+        family = cost_table.families(rows)[GRAINS]
+        self.assertIsNone(family.fit("sinkage"))
+        self.assertEqual(family.components("sinkage", 0.04).known, [])
+        with self.assertRaisesRegex(ResultsError, "add a run of another size, or longer runs"):
+            cost.recommend(cost.assess(rows), 0.1)
+
+    def test_recommends_the_cheapest_within_the_error(self) -> None:
+        # as c0.02, at three times its cost
+        slow = row("slow", "continuum", 0.02, 0.1 * 1.04, 0.2 * 0.9, 2e3, seed="", error=1e-9)
+        assessed = cost.assess(made_runs() + [slow])
+        errors = {a.row.run: a.error for a in assessed}
+        self.assertAlmostEqual(errors["c0.04"], 0.2, places=4)  # the coefficient's 5 h is the worse
+        self.assertAlmostEqual(errors["c0.02"], 0.1, places=4)
+        # sizes 3 h, packing and domain of the sinkage
+        squares = 0.06**2 + (0.002 / 0.12) ** 2 / 2 + (0.005 / 0.12) ** 2
+        self.assertAlmostEqual(errors["g0.02"], math.sqrt(squares), places=4)
+        self.assertEqual({a.row.run for a in assessed if not a.pareto}, {"slow"})
+        for wanted, name, reached in (
+            (0.101, "c0.02", True),
+            (0.08, "g0.02", True),
+            (0.001, "c0.01", False),
+        ):
+            choice, within = cost.recommend(assessed, wanted)
+            self.assertEqual((choice.row.run, within), (name, reached))
+
+    def test_another_wheel_errs_by_the_difference_of_values_at_size_zero(self) -> None:
+        tyres = [
+            dataclasses.replace(
+                r,
+                run="t" + r.run,
+                wheel="tyre",
+                model="whole",
+                sinkage=1.25 * r.sinkage,
+                cpu_time=9 * r.cpu_time,
+            )
+            for r in made_runs()
+            if r.ground == "continuum"
+        ]
+        assessed = {a.row.run: a for a in cost.assess(made_runs() + tyres, "tyre")}
+        stand_in, tyre = assessed["c0.01"], assessed["tc0.01"]
+        self.assertAlmostEqual(tyre.error, 0.05, places=4)  # its own size, as before
+        self.assertEqual(tyre.models["sinkage"], 0.0)
+        self.assertAlmostEqual(stand_in.models["sinkage"], 0.2, places=6)  # 0.1 m for 0.125 m
+        expected = math.hypot(0.2, 0.2 * 0.01 / 0.125)
+        self.assertAlmostEqual(stand_in.errors["sinkage"], expected, places=4)
+        self.assertAlmostEqual(stand_in.references["sinkage"], 0.125, places=6)
+        self.assertTrue(math.isnan(assessed["g0.02"].error))  # no tyre on grains to be judged by
+        choice, _ = cost.recommend(list(assessed.values()), 0.101)
+        self.assertEqual(choice.row.run, "tc0.02")
+        self.assertEqual(cost_table.wanted_wheel(["# made", "# wheel: tyre"]), "tyre")
+
+    def test_size_and_cost_beyond_the_table(self) -> None:
+        # coefficient error 5 h = 1 % at h = 2 mm, cost 1e-4/h^4
+        continuum = [r for r in made_runs() if r.ground == "continuum"]
+        needed, *_ = cost.needed(cost.assess(continuum), 0.01)
+        self.assertEqual(needed.family, FamilyKey("continuum", "half", "rigid wheel"))
+        self.assertAlmostEqual(needed.size, 0.002, delta=2e-5)
+        self.assertAlmostEqual(needed.cpu_time / (1e-4 / 0.002**4), 1, delta=0.05)
+
+    def test_written_table_comes_back(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "t.csv"
+            cost_table.write_table(path, made_runs(), ["# made"])
+            rows, comments = cost_table.read_table(path)
+            self.assertEqual([r.run for r in rows], [r.run for r in made_runs()])
+            self.assertAlmostEqual(rows[0].sinkage, made_runs()[0].sinkage)
+            self.assertEqual(comments, ["# made"])
+            path.write_text("run,ground\na,b\n")
+            message = "has no column model; columns are run, ground"
+            with self.assertRaisesRegex(ResultsError, message):
+                cost_table.read_table(path)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Formulas against closed forms, an independent quadrature and measurements; their refusals."""
+
+import math
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from furrow_post.analyse import empirical
+from furrow_post.analyse.empirical import OutOfRange, terrain
+from furrow_post.analyse.statistics import rms
+from furrow_post.csv_table import read_numbers, read_rows
+from furrow_post.errors import ResultsError
+from support.command import SOURCE
+
+
+def reference(case: str) -> Path:
+    return SOURCE / "inputs" / "validation" / case / "reference.csv"
+
+
+class SnowTest(unittest.TestCase):
+    def test_sinkage_is_the_density_ratio(self) -> None:
+        # (0.519 + 0.0023 * 100) Mg/m3 = 749 kg/m3; the cap of ice from 173 kPa on
+        expected = 0.3 * (1 - 200 / 749)
+        self.assertAlmostEqual(empirical.nrmm_sinkage(0.3, 200.0, 100e3), expected, places=12)
+        self.assertEqual(empirical.nrmm_final_density(500e3), 917.0)
+        self.assertLess(empirical.nrmm_final_density(172e3), 917.0)
+
+    def test_resistance_of_a_half_sunk_wheel(self) -> None:
+        # z = r: the arc is a quarter of the circle; up to 150 kg/m3 deep snow counts once
+        expected = 13.6041 * (120 * 0.25 * 0.4 * math.pi / 2) ** 1.26
+        found = empirical.nrmm_resistance(120, 0.25, 0.4, 0.4)
+        self.assertAlmostEqual(found / expected, 1, places=12)
+        shallow, deep, before, deeper = (
+            empirical.nrmm_resistance(200, 0.25, 0.39, z) for z in (0.2599, 0.2601, 0.3899, 0.3901)
+        )
+        self.assertAlmostEqual(deep / shallow, 1.5, delta=2e-3)
+        self.assertAlmostEqual(deeper / before, 2.5 / 1.5, delta=2e-3)
+
+    def test_refuses_what_its_tests_do_not_cover(self) -> None:
+        message = "density 300 kg/m3, allowed 110 to 220 .*Table 11.*--extrapolate"
+        with self.assertRaisesRegex(OutOfRange, message):
+            empirical.nrmm(6240, 0.37, 0.272, 0.2, 300, 179e3)
+        prediction = empirical.nrmm(6240, 0.37, 0.272, 0.2, 300, 179e3, extrapolate=True)
+        self.assertEqual(len(prediction.outside), 1)
+        self.assertIn("EXTRAPOLATED: density 300", prediction.report())
+
+    def test_scatter_is_that_of_the_measurements(self) -> None:
+        rows = read_numbers(reference("snow_wheel"))
+        self.assertGreater(len(rows), 20)
+        coefficient, sinkage = [], []
+        for r in rows:
+            density, z = r["density_kgm3"], r["sinkage_m"]
+            computed = empirical.nrmm_resistance(density, 0.272, 0.38, z) / 6240
+            coefficient.append(computed - r["resistance"])
+            sinkage.append(empirical.nrmm_sinkage(r["depth_m"], density, 179e3) - z)
+        known = empirical.NRMM_COEFFICIENT_RMS, empirical.NRMM_SINKAGE_RMS
+        self.assertAlmostEqual(rms(coefficient), known[0], delta=0.0005)
+        self.assertAlmostEqual(rms(sinkage), known[1], delta=0.00005)
+
+
+class SandTest(unittest.TestCase):
+    def test_bekker_carries_its_load(self) -> None:
+        # the sinkage's own equation: W = b k sqrt(D) z^(n + 1/2) (3 - n)/3; and the work of
+        # compaction per length is the resistance
+        ground = terrain("LETE sand")
+        p = empirical.bekker(5000, 0.9, 0.25, ground)
+        k = 102e3 / 0.25 + 5301e3
+        load = 0.25 * k * math.sqrt(0.9) * p.sinkage**1.29 * (3 - 0.79) / 3
+        self.assertAlmostEqual(load / 5000, 1, places=10)
+        z = np.linspace(0, p.sinkage, 20001)
+        work = 0.25 * np.trapz(ground.plate_pressure(z, 0.25), z)
+        self.assertAlmostEqual(p.resistance / float(work), 1, places=5)
+
+    def test_wong_reece_against_an_independent_quadrature(self) -> None:
+        names = {"compact": "Wong-Reece compact sand", "loose": "Wong-Reece loose sand"}
+        rows = read_rows(reference("wong_reece"))
+        self.assertEqual(len(rows), 27)
+        for row in rows:
+            load, radius, width, slip = (float(row[key]) for key in ("W_N", "r_m", "b_m", "slip"))
+            ground = terrain(names[row["case"].split("_")[0]])
+            p = empirical.wong_reece(load, 2 * radius, width, slip, ground, extrapolate=True)
+            values = {result.name: result.value for result in p.extra}
+            # the table has four places
+            self.assertAlmostEqual(p.sinkage, float(row["sinkage_m"]), delta=1e-4, msg=str(row))
+            pull, torque = float(row["DP_N"]), float(row["torque_Nm"])
+            self.assertAlmostEqual(values["drawbar pull"], pull, delta=1.6, msg=str(row))
+            self.assertAlmostEqual(values["torque"], torque, delta=1.6, msg=str(row))
+
+    def test_refusals(self) -> None:
+        lete, compact = terrain("LETE sand"), terrain("Wong-Reece compact sand")
+        with self.assertRaisesRegex(OutOfRange, "diameter 0.3 m, allowed at least 0.5 .*50 cm"):
+            empirical.bekker(200, 0.3, 0.15, lete)
+        self.assertTrue(empirical.bekker(200, 0.3, 0.15, lete, extrapolate=True).outside)
+        with self.assertRaisesRegex(ResultsError, "K, c1, c2 of 'LETE sand' are not known"):
+            empirical.wong_reece(5000, 1.2, 0.3, 0.1, lete)
+        with self.assertRaisesRegex(OutOfRange, "driven wheels, slip from 0 to 1, not -0.1"):
+            empirical.wong_reece(5000, 1.2, 0.3, -0.1, compact, extrapolate=True)
+        with self.assertRaisesRegex(ResultsError, "no terrain 'moon'; there are: LLL dry sand"):
+            terrain("moon")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""inputs/laboratory/identify.py finds the law that curves were made with."""
+
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from furrow_post.read.laboratory import LaboratoryTest
+from support.command import SOURCE
+from support.laboratory import cell_rows, triaxial_stress, write_test
+
+sys.path.insert(0, str(SOURCE / "inputs" / "laboratory"))
+
+import identify
+
+TANGENT, E, NU, R, H = 1.1, 4e6, 0.2, 0.3, 2e6  # p_b = its first value + H eps
+
+
+class CapLawTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+
+    def tearDown(self) -> None:
+        self.temporary.cleanup()
+
+    def triaxial(self, lateral: float) -> LaboratoryTest:
+        axial = np.linspace(0, 0.2, 4000)
+        q = np.minimum(E * axial, lateral * TANGENT / (1 - TANGENT / 3))
+        strain = np.column_stack((-NU * axial, -NU * axial, axial))
+        rows = cell_rows(strain, triaxial_stress(lateral, lateral + q))
+        facts = f"test triaxial ground made confinement {lateral}"
+        return LaboratoryTest(write_test(self.folder / f"triaxial_{lateral:g}", facts, rows))
+
+    def test_friction_and_its_match(self) -> None:
+        found, each = identify.friction([self.triaxial(1e4), self.triaxial(5e4)])
+        sine = 3 * TANGENT / (6 + TANGENT)  # triaxial compression
+        self.assertEqual(len(each), 2)
+        self.assertAlmostEqual(found, sine, delta=1e-3)
+        triaxial, plane = identify.MATCH["triaxial"], identify.MATCH["plane_strain"]
+        self.assertAlmostEqual(triaxial.tangent(found), TANGENT, delta=4e-3)
+        half = float(np.sin(np.radians(30.0)))
+        self.assertAlmostEqual(plane.tangent(half), float(np.sqrt(0.75)), places=9)
+
+    def test_elasticity(self) -> None:
+        found = identify.elasticity(self.triaxial(5e4))
+        np.testing.assert_allclose(found, (E, NU), rtol=1e-3)
+
+    def test_eccentricity_and_hardening(self) -> None:
+        on_cap = identify.cap_stress(np.geomspace(1e3, 3e5, 3000), R, TANGENT, 0.0)
+        K0 = float(on_cap.K0[0])
+        self.assertAlmostEqual(identify.eccentricity(K0, TANGENT), R, delta=1e-3)
+        self.assertEqual(identify.eccentricity(0.1, TANGENT), identify.SMALLEST)
+        # elastic and plastic volume
+        elastic = (on_cap.p - on_cap.p[0]) * 3 * (1 - 2 * NU) / E
+        compression = elastic + (on_cap.p_b - on_cap.p_b[0]) / H
+        lateral = on_cap.p - on_cap.q / 3
+        strain = np.column_stack((0 * compression, 0 * compression, compression))
+        rows = cell_rows(strain, np.column_stack((lateral, lateral, on_cap.axial)))
+        rows[:, 7] = 1500.0 * np.exp(np.concatenate((compression[:1], compression)))
+        folder = write_test(self.folder / "oedometer", "test oedometer ground made", rows)
+        law = identify.Law(TANGENT, 0.0, R, E, NU)
+        hardening, density = identify.hardening(LaboratoryTest(folder), law)
+        self.assertAlmostEqual(density, 1500.0, places=6)
+        self.assertGreater(len(hardening), 6)
+        for p_b, plastic in hardening:
+            self.assertAlmostEqual(p_b, on_cap.p_b[0] + H * plastic, delta=0.01 * p_b)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Every driver under inputs starts: its help, and its list of runs without any run."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from support.command import SOURCE
+
+INPUTS = SOURCE / "inputs"
+STUDIES = sorted(
+    path for path in (*INPUTS.glob("validation/*/run.py"), INPUTS / "crosscheck" / "run.py")
+)
+TOOLS = (
+    INPUTS / "laboratory" / "run.py",
+    INPUTS / "laboratory" / "calibrate.py",
+    INPUTS / "laboratory" / "identify.py",
+    INPUTS / "validation" / "snow_wheel" / "identify.py",
+    INPUTS / "validation" / "grains" / "track_density.py",
+)
+
+
+def start(*words: object) -> "subprocess.CompletedProcess[str]":
+    return subprocess.run(
+        [sys.executable, *map(str, words)], capture_output=True, text=True, timeout=120
+    )
+
+
+class DriversTest(unittest.TestCase):
+    def test_there_are_all_studies(self) -> None:
+        self.assertEqual(len(STUDIES), 8)
+
+    def test_help(self) -> None:
+        for driver in (*STUDIES, *TOOLS):
+            with self.subTest(driver=driver):
+                done = start(driver, "--help")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn("usage:", done.stdout)
+
+    def test_list_names_every_run_once(self) -> None:
+        with tempfile.TemporaryDirectory() as results:
+            for driver in STUDIES:
+                with self.subTest(driver=driver):
+                    done = start(driver, "--list", "--results", results)
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    names = [line.split()[1] for line in done.stdout.splitlines()]
+                    self.assertGreater(len(names), 3)
+                    self.assertEqual(len(names), len(set(names)))
+                    self.assertEqual(
+                        {line.split()[0] for line in done.stdout.splitlines()}, {"missing"}
+                    )
+
+    def test_laboratory_lists_tests_and_grounds(self) -> None:
+        done = start(INPUTS / "laboratory" / "run.py", "--list")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("oedometer", done.stdout)
+        self.assertIn("sand_dry", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

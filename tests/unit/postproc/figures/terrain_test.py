@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Continuum terrain made here: densities in closed form, a picture with something on it."""
+
+import json
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import matplotlib.image
+import numpy as np
+
+from furrow_post.analyse.rut import rut_densities, rut_depth
+from furrow_post.figures.terrain import draw_terrain
+from furrow_post.read.terrain import Outline, Terrain
+from support.command import run_post
+from support.rut import wheel
+
+SPACING, DEPTH, DENSITY = 0.02, 0.2, 200.0  # [m], [m], [kg/m3]
+AXLE, RADIUS, WIDTH = 0.9, 0.3, 0.2  # [m]
+
+
+def write_terrain(path: Path) -> None:
+    """Half a model: under and behind the wheel pressed to half its depth and twice its density.
+
+    Beside it nothing moves.
+    """
+    axes = [np.arange(0.5 * SPACING, length, SPACING) for length in (1.4, 0.4, DEPTH)]
+    initial = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    pressed = (initial[:, 1] < 0.5 * WIDTH) & (initial[:, 0] < AXLE + 0.06)
+    ratio = np.where(pressed, 0.5, 1.0)
+    one = np.ones_like(ratio)
+    with h5py.File(path, "w") as content:
+        content["run/styles"] = np.bytes_(json.dumps([]).encode())
+        group = content.create_group("terrain")
+        group["x"] = initial * np.stack([one, one, ratio], axis=1)
+        group["initial_position"] = initial
+        group["density"], group["volume"] = DENSITY / ratio, SPACING**3 * ratio
+
+
+class TerrainTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+        write_terrain(self.folder / "terrain.h5")
+        triangles, x = wheel(RADIUS, WIDTH, [AXLE, 0.0, 0.5 * DEPTH + RADIUS])
+        with h5py.File(self.folder / "history.h5", "w") as content:
+            content["surface/triangles"], content["surface/x"] = triangles, x
+
+    def tearDown(self) -> None:
+        self.temporary.cleanup()
+
+    def test_densities_are_those_of_the_terrain(self) -> None:
+        terrain = Terrain.read(self.folder)
+        body = Outline(self.folder, terrain)
+        self.assertEqual(len(terrain.x), 2 * 70 * 20 * 10)  # mirrored
+        self.assertAlmostEqual(terrain.level, DEPTH)
+        self.assertAlmostEqual(terrain.spacing, SPACING)
+        densities = rut_densities(terrain, body)
+        self.assertAlmostEqual(densities.undisturbed, DENSITY)
+        self.assertAlmostEqual(densities.under, 2 * DENSITY)
+        self.assertAlmostEqual(densities.in_rut, 2 * DENSITY)
+        self.assertAlmostEqual(densities.shoulder, DENSITY)
+        self.assertAlmostEqual(rut_depth(terrain, body), 0.5 * DEPTH)
+
+    def test_mean_density_is_mass_over_volume(self) -> None:
+        terrain = Terrain.read(self.folder)
+        # half of the mass at 200, half at 400 kg/m3: 2/(1/200 + 1/400)
+        one, two = (np.flatnonzero(terrain.density == k * DENSITY)[:50] for k in (1, 2))
+        inside = np.zeros(len(terrain.x), bool)
+        nothing = inside.copy()
+        inside[one] = inside[two] = True
+        expected = 2 / (1 / DENSITY + 0.5 / DENSITY)
+        self.assertAlmostEqual(terrain.mean_density(inside), expected)
+        self.assertTrue(np.isnan(terrain.mean_density(nothing)))
+
+    def test_picture_shows_the_compacted_track(self) -> None:
+        target = self.folder / "terrain.png"
+        draw_terrain(self.folder, "synthetic", "", target, pixels=300)
+        picture = matplotlib.image.imread(target)[..., :3]
+        dark = (picture.sum(axis=2) < 1.2).mean()
+        self.assertGreater(dark, 0.01)
+        self.assertLess(dark, 0.5)
+
+    def test_folder_without_terrain_is_refused(self) -> None:
+        for name in ("terrain.h5", "history.h5"):
+            (self.folder / name).unlink()
+        done = run_post("terrain", self.folder)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("terrain.h5: has no terrain at the end of a run", done.stderr)
+        self.assertIn("fix terrain/history", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

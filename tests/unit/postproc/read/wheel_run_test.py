@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Conditions of a run come from /run/styles; a wheel is whatever is of that kind."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from furrow_post.errors import ResultsError
+from furrow_post.read.results import Results
+from furrow_post.read.styles import Styles
+from furrow_post.read.wheel_run import read_wheel_run
+from support.runs import RADIUS, rig, rigid_wheel, style, write_grains, write_run
+
+TYRE = style("wheel", "tyre/modal", "wheel", pressure=2.4e5, modes=12, half=True)
+
+
+class WheelRunTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+
+    def tearDown(self) -> None:
+        self.temporary.cleanup()
+
+    def test_slip_in_both_definitions(self) -> None:
+        write_run(self.folder)
+        run = read_wheel_run(self.folder)
+        self.assertAlmostEqual(run.number("slip"), 0.2, places=12)
+        self.assertAlmostEqual(run.number("slip_by_vehicle_speed"), 0.25, places=12)  # s/(1 - s)
+
+    def test_a_fix_may_be_called_like_a_keyword(self) -> None:
+        write_run(self.folder, styles=[rigid_wheel("speed"), rig(identity="load_force")])
+        run = read_wheel_run(self.folder)
+        self.assertEqual((run.number("speed"), run.number("load")), (1.0, 1000.0))
+
+    def test_load_of_a_mass_is_its_weight(self) -> None:
+        entry = rig()
+        del entry["options"]["load_force"]
+        entry["options"].update(load_mass=[100], gravity=[10.0])
+        write_run(self.folder, styles=[rigid_wheel(), entry])
+        self.assertEqual(read_wheel_run(self.folder).number("load"), 1000.0)
+
+    def test_any_style_of_the_kind_wheel_is_one(self) -> None:
+        """A tyre that nobody here knows: its sizes are those of its surface, a half is mirrored."""
+        write_run(self.folder, styles=[TYRE, rig()])
+        with h5py.File(self.folder / "history.h5", "a") as content:
+            content["surface/triangles"] = np.array([[0, 1, 2]])
+            content["surface/x"] = np.array([[0.0, 0, 0], [0.7, 0.13, 0.1], [0.3, 0, 0.7]])
+        run = read_wheel_run(self.folder)
+        self.assertEqual((run.wheel, run.deformable), ("tyre", True))
+        self.assertAlmostEqual(run.number("wheel_diameter"), 0.7)
+        self.assertAlmostEqual(run.number("wheel_width"), 0.26)
+        self.assertEqual(run.number("pressure"), 2.4e5)
+
+    def test_rigid_wheel_has_the_sizes_of_its_style(self) -> None:
+        write_run(self.folder)
+        run = read_wheel_run(self.folder)
+        self.assertEqual((run.wheel, run.deformable), ("rigid wheel", False))
+        self.assertEqual(run.radius, RADIUS)
+
+    def test_without_a_wheel_it_is_no_wheel_run(self) -> None:
+        write_run(self.folder, styles=[rig()])
+        with self.assertRaisesRegex(ResultsError, "is not the run of a wheel on a rig"):
+            read_wheel_run(self.folder)
+
+    def test_bed_of_grains_and_datum(self) -> None:
+        """Grains that fill a box of 0.4 x 0.2 x 0.1 m to one half; the rig counts from 0.12 m."""
+        bed = style("command", "bed", "", length=0.5, density=2000, seed=86028121)
+        write_run(self.folder, styles=[bed, rigid_wheel(), rig(datum=0.12)])
+        radius = 0.01
+        corners = np.array([[0.0, 0, 0], [0.4, 0.2, 0.1]])
+        count = int(0.5 * 0.4 * 0.2 * 0.1 / (4 / 3 * np.pi * radius**3))
+        x = np.full((count, 3), 0.05)
+        x[:2] = corners + [[radius], [-radius]]
+        with h5py.File(self.folder / "history.h5", "a") as content:
+            for when in ("reference", "final"):
+                group = content.create_group(f"grains/{when}")
+                write_grains(group, x, np.full(count, radius), 0.1)
+        run = read_wheel_run(self.folder)
+        self.assertEqual((run.ground, run.seed, run.elements), ("grains", "86028121", count))
+        self.assertEqual(
+            run.domain, (0.5, 0.2)
+        )  # the bed's length; its width is that of the grains
+        self.assertAlmostEqual(run.number("depth"), 0.1)
+        self.assertAlmostEqual(run.number("density"), 1000, delta=2)
+        self.assertAlmostEqual(run.values["sinkage"].mean, 0.05 - 0.02)
+        self.assertAlmostEqual(run.number("datum_shift"), -0.02)
+
+    def test_results_of_an_older_version_are_refused(self) -> None:
+        write_run(self.folder)
+        with h5py.File(self.folder / "history.h5", "a") as content:
+            del content["run/styles"]
+        message = "older Furrow, version 0.0.9, on 2026-01-01.*furrow-post of the source tree"
+        with self.assertRaisesRegex(ResultsError, message):
+            Results(self.folder)
+
+    def test_terrain_of_an_older_version_is_refused(self) -> None:
+        soil = style("terrain", "terrain/continuum", cell=0.02)
+        write_run(self.folder, styles=[rigid_wheel(), rig(), soil])
+        with h5py.File(self.folder / "ground.h5", "w") as content:
+            content.create_group("run").attrs["version"] = np.bytes_("0.0.8")
+        with self.assertRaisesRegex(ResultsError, "ground.h5: .*older Furrow, version 0.0.8"):
+            read_wheel_run(self.folder)
+        (self.folder / "ground.h5").unlink()
+        with self.assertRaisesRegex(ResultsError, "has no terrain.h5; give the scene a fix"):
+            read_wheel_run(self.folder)
+
+    def test_missing_steady_value_names_the_remedy(self) -> None:
+        write_run(self.folder)
+        (self.folder / "summary.json").unlink()
+        with self.assertRaisesRegex(ResultsError, "no steady sinkage.*resistance --write"):
+            read_wheel_run(self.folder)
+
+
+class StylesTest(unittest.TestCase):
+    def test_options_are_typed(self) -> None:
+        styles = Styles.from_json(
+            '[{"id": "a", "group": "all", "style": "terrain/continuum", "kind": "terrain",'
+            ' "options": {"cell": [0.02], "symmetry": [true], "centre": [0, 0.5],'
+            ' "material": ["snow.yaml"]}}]'
+        )
+        soil = styles.of_kind("terrain")
+        assert soil
+        self.assertEqual((soil.number("cell"), soil.flag("symmetry")), (0.02, True))
+        self.assertEqual(soil.values("centre"), [0, 0.5])
+        self.assertEqual(soil.number("depth", 0.3), 0.3)
+        self.assertFalse(soil.flag("half"))
+        self.assertIsNone(styles.of_kind("wheel"))
+        with self.assertRaisesRegex(ResultsError, "'a': 'material' is 'snow.yaml', not a number"):
+            soil.number("material")
+        with self.assertRaisesRegex(ResultsError, "no value of 'depth'"):
+            soil.number("depth")
+
+
+if __name__ == "__main__":
+    unittest.main()

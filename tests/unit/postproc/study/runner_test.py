@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs by a fake program: made once, failures kept apart, interruptions forgotten."""
+
+import json
+import signal
+import tempfile
+import unittest
+from dataclasses import replace
+from pathlib import Path
+
+from furrow_post.errors import ResultsError
+from furrow_post.study.case import FOLDER
+from furrow_post.study.launch import Interrupted, launch
+from furrow_post.study.runner import Runner, State
+from support.fake import FakeTree
+
+
+class RunnerTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.temporary = tempfile.TemporaryDirectory()
+        self.tree = FakeTree(Path(self.temporary.name))
+        self.results = Path(self.temporary.name) / "results"
+        self.runner = Runner(self.results, self.tree.tools)
+
+    def tearDown(self) -> None:
+        self.temporary.cleanup()
+
+    def test_what_is_there_is_not_made_again(self) -> None:
+        cases = [self.tree.case("a", value=2), self.tree.case("b/c")]
+        self.runner.run(cases)
+        self.runner.run(cases)
+        self.assertEqual(sorted(self.tree.starts()), ["a", "c"])
+        record = self.runner.record(cases[0])
+        assert record
+        self.assertEqual(record.facts, {"steps": 10.0, "value": 2.0})  # of the last line FACTS
+        self.assertEqual(record.error, "")
+        self.assertGreater(record.wall_time, 0.0)
+        self.assertTrue((self.results / "b/c" / "run.json").is_file())
+
+    def test_another_variable_is_another_run(self) -> None:
+        self.runner.run([self.tree.case("a", value=2)])
+        changed = self.tree.case("a", value=3)
+        self.assertEqual(self.runner.state(changed), State.MISSING)
+        self.runner.run([changed])
+        record = self.runner.record(changed)
+        assert record
+        self.assertEqual(record.facts["value"], 3.0)
+
+    def test_a_moved_tree_keeps_its_runs(self) -> None:
+        """Paths below the project count relative to it."""
+        first = self.tree.case("a", material=self.tree.root / "inputs" / "snow.yaml")
+        identity = first.identity(self.tree.root)
+        self.assertIn("inputs/snow.yaml", json.dumps(identity))
+        self.assertNotIn(str(self.tree.root), json.dumps(identity))
+
+    def test_a_failure_is_kept_apart_and_stops_no_other_run(self) -> None:
+        cases = [self.tree.case("bad", fail="it broke"), self.tree.case("good")]
+        self.runner.run(cases)
+        self.assertEqual([self.runner.state(c) for c in cases], [State.FAILED, State.DONE])
+        self.assertIsNone(self.runner.record(cases[0]))
+        failure = self.runner.failure(cases[0])
+        assert failure
+        self.assertEqual(failure.error, "ERROR: it broke (made.cpp:1)")
+        self.assertFalse((self.results / "bad" / "run.json").exists())
+
+    def test_a_failure_is_made_again_only_when_asked(self) -> None:
+        case = self.tree.case("bad", fail="it broke")
+        self.runner.run([case])
+        self.runner.run([case])
+        self.assertEqual(len(self.tree.starts()), 1)
+        Runner(self.results, self.tree.tools, again=True).run([case])
+        self.assertEqual(len(self.tree.starts()), 2)
+
+    def test_a_run_that_succeeds_forgets_its_failure(self) -> None:
+        self.runner.run([self.tree.case("a", fail="it broke")])
+        self.runner.run([self.tree.case("a")])
+        self.assertFalse((self.results / "a" / "failed.json").exists())
+        self.assertTrue((self.results / "a" / "run.json").exists())
+
+    def test_message_on_stderr_is_the_error_of_other_programs(self) -> None:
+        case = self.tree.case("a", status=3)
+        self.runner.run([case])
+        failure = self.runner.failure(case)
+        assert failure
+        self.assertEqual(failure.error, f"furrow: {self.results / 'a'} is bad")
+
+    def test_second_attempt_with_other_variables(self) -> None:
+        """What stopped the first one is kept."""
+        case = replace(self.tree.case("a", status=1), fallback={"status": 0})
+        self.runner.run([case])
+        record = self.runner.record(case)
+        assert record
+        self.assertEqual(record.stopped, (f"furrow: {self.results / 'a'} is bad",))
+        self.assertEqual(record.variable("status"), "0")
+
+    def test_failure_of_the_second_attempt(self) -> None:
+        case = replace(self.tree.case("a", fail="it broke"), fallback={"fail": "again"})
+        self.runner.run([case])
+        failure = self.runner.failure(case)
+        assert failure
+        self.assertEqual(failure.stopped, ("ERROR: it broke (made.cpp:1)",))
+        self.assertEqual(failure.error, "ERROR: again (made.cpp:1)")
+        self.assertEqual(len(self.tree.starts()), 2)
+
+    def test_time_limit(self) -> None:
+        case = replace(self.tree.case("a", sleep=30), time_limit=0.5, fallback={"sleep": 0})
+        self.runner.run([case])
+        failure = self.runner.failure(case)
+        assert failure
+        self.assertEqual(failure.error, "time limit of 0.5 s")
+        self.assertEqual(len(self.tree.starts()), 1)  # no second attempt: it would take as long
+
+    def test_an_interrupted_run_leaves_nothing(self) -> None:
+        for variables in ({"signal": int(signal.SIGTERM)}, {"checkpoint": 1}):
+            case = self.tree.case("a", **variables)
+            with self.assertRaisesRegex(Interrupted, "was interrupted; start again"):
+                self.runner.run([case])
+            self.assertEqual(self.runner.state(case), State.MISSING)
+        after = self.tree.case("a")
+        self.runner.run([after])  # an old checkpoint is no interruption
+        self.assertEqual(self.runner.state(after), State.DONE)
+
+    def test_a_crash_is_a_failure(self) -> None:
+        case = self.tree.case("a", signal=int(signal.SIGSEGV))
+        self.runner.run([case])
+        failure = self.runner.failure(case)
+        assert failure
+        self.assertEqual(failure.error, "stopped with status -11")
+
+    def test_what_is_shared_is_made_by_one(self) -> None:
+        cases = [
+            replace(self.tree.case(name), shares=key)
+            for name, key in (("a1", "a"), ("a2", "a"), ("b1", "b"), ("b2", "b"))
+        ]
+        Runner(self.results, self.tree.tools, jobs=2).run(cases)
+        starts = self.tree.starts()
+        self.assertEqual((sorted(starts[:2]), sorted(starts[2:])), (["a1", "b1"], ["a2", "b2"]))
+
+    def test_for_a_check_runs_are_by_the_present_program_and_script(self) -> None:
+        case = self.tree.case("a")
+        self.runner.run([case])
+        strict = Runner(self.results, self.tree.tools, same_program=True)
+        self.assertEqual(strict.state(case), State.DONE)
+        self.tree.install("another build")
+        self.assertEqual(self.runner.state(case), State.DONE)
+        self.assertEqual(strict.state(case), State.MISSING)
+        strict.run([case])
+        self.assertEqual(strict.state(case), State.DONE)
+        self.tree.script.write_text("run 2\n")
+        self.assertEqual(strict.state(case), State.MISSING)
+
+    def test_files_are_written_with_the_folder_of_the_run(self) -> None:
+        files = {"path.yaml": f"output: {FOLDER}/x\n"}
+        case = replace(self.tree.case("a"), files=files)
+        self.runner.run([case])
+        text = (self.results / "a" / "path.yaml").read_text()
+        self.assertEqual(text, f"output: {self.results / 'a'}/x\n")
+
+    def test_missing_program_says_what_to_do(self) -> None:
+        self.tree.program.unlink()
+        with self.assertRaisesRegex(ResultsError, "there is no program .*--build"):
+            self.runner.run([self.tree.case("a")])
+
+    def test_old_evaluation_is_not_taken_for_the_new_one(self) -> None:
+        folder = self.results / "a"
+        folder.mkdir(parents=True)
+        (folder / "facts.txt").write_text("test triaxial")
+        launch(self.tree.case("a"), folder, self.tree.tools)
+        self.assertFalse((folder / "facts.txt").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

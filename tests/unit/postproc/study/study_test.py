@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The command line of a study: selection, tables beside the driver or not, checks, provenance."""
+
+import contextlib
+import io
+import tempfile
+import unittest
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from furrow_post.csv_table import read_rows
+from furrow_post.study.case import Case
+from furrow_post.study.output import Output
+from furrow_post.study.runner import Runner
+from furrow_post.study.study import Study, run_study
+from support.fake import FakeTree
+
+
+def evaluate(runner: Runner, output: Output) -> Sequence[str]:
+    """A row per run that is there; a run called low misses its limit."""
+    rows = [
+        {"run": case.name, "value": record.facts["value"]}
+        for case in STUDIED
+        if (record := runner.record(case))
+    ]
+    output.table("results.csv", rows)
+    output.section([f"{len(rows)} runs"])
+    return [f"{row['run']} is below 1" for row in rows if float(str(row["value"])) < 1]
+
+
+STUDIED: list[Case] = []
+
+
+class StudyTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.temporary = tempfile.TemporaryDirectory()
+        self.tree = FakeTree(Path(self.temporary.name))
+        self.results = Path(self.temporary.name) / "results"
+        self.page = self.tree.study / "README.md"
+        self.page.write_text("# Made\n\n<!-- written by run.py -->\nold\n<!-- end -->\n\nAfter.\n")
+
+    def tearDown(self) -> None:
+        self.temporary.cleanup()
+
+    def run_study(self, *words: str, **values: float) -> tuple[int, str]:
+        """Runs of these values; status and what was printed."""
+        STUDIED[:] = [
+            replace(self.tree.case(name, value=value), stage=name[0], what=f"value {value:g}")
+            for name, value in values.items()
+        ]
+        study = Study(self.tree.study / "run.py", "made", STUDIED, evaluate)
+        options = ("--results", str(self.results), "--build", str(self.tree.build))
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
+            status = run_study(study, [*words, *options])
+        return status, printed.getvalue()
+
+    def test_list_makes_nothing(self) -> None:
+        status, printed = self.run_study("--list", a1=1, b1=2)
+        self.assertEqual(status, 0)
+        self.assertRegex(printed, r"missing +a1 +value 1\nmissing +b1 +value 2")
+        self.assertEqual(self.tree.starts(), [])
+
+    def test_selection_by_stage_and_pattern(self) -> None:
+        self.run_study("a", a1=1, a2=1, b1=2)
+        self.assertEqual(self.tree.starts(), ["a1", "a2"])
+        self.run_study("?1", a1=1, a2=1, b1=2)
+        self.assertEqual(self.tree.starts(), ["a1", "a2", "b1"])
+        status, printed = self.run_study("c", a1=1, b1=2)
+        self.assertEqual(status, 1)
+        self.assertIn("nothing is called 'c'; --list shows all runs; stages are a, b", printed)
+
+    def test_incomplete_tables_do_not_replace_those_of_the_study(self) -> None:
+        old = "run,value\na1,0.5\n"
+        (self.tree.study / "results.csv").write_text(old)
+        _, printed = self.run_study("a", a1=1, b1=2)
+        self.assertEqual((self.tree.study / "results.csv").read_text(), old)
+        self.assertIn("old", self.page.read_text())
+        self.assertEqual((self.results / "results.csv").read_text(), "run,value\na1,1.0\n")
+        self.assertIn("1 of 2 runs are there; tables are in", printed)
+
+    def test_complete_tables_and_page_come_with_their_provenance(self) -> None:
+        status, _ = self.run_study(a1=1, b1=2)
+        self.assertEqual(status, 0)
+        page = self.page.read_text()
+        self.assertIn("<!-- written by run.py -->\n\n2 runs\n\n<!-- end -->\n\nAfter.\n", page)
+        origins = {row["file"]: row for row in read_rows(self.tree.study / "provenance.csv")}
+        self.assertEqual(set(origins), {"README.md", "results.csv"})
+        origin = origins["results.csv"]
+        self.assertRegex(origin["program"], r"^furrow [0-9a-f]{12}$")
+        self.assertRegex(origin["runs"], r"^\d{4}-\d\d-\d\d")
+        self.assertNotIn(str(self.tree.root), origin["command"])
+
+    def test_provenance_of_other_files_stays(self) -> None:
+        path = self.tree.study / "provenance.csv"
+        head = "file,program,commit,runs,written,command,note"
+        path.write_text(f"# ours\n{head}\nphoto.png,camera,,,2020-01-01,,by hand\n")
+        self.run_study(a1=1)
+        text = path.read_text()
+        self.assertIn("photo.png,camera,,,2020-01-01,,by hand", text)
+        self.assertTrue(text.startswith("# ours\n"))
+
+    def test_missed_limit_counts_in_a_check_only(self) -> None:
+        status, printed = self.run_study(low=0.5)
+        self.assertEqual(status, 0)
+        self.assertIn("MISSED: low is below 1", printed)
+        status, _ = self.run_study("--check", low=0.5)
+        self.assertEqual(status, 1)
+
+    def test_check_writes_to_the_results_folder(self) -> None:
+        status, _ = self.run_study("--check", a1=1)
+        self.assertEqual(status, 0)
+        self.assertFalse((self.tree.study / "results.csv").exists())
+        self.assertTrue((self.results / "results.csv").exists())
+
+    def test_check_fails_without_its_runs(self) -> None:
+        status, printed = self.run_study("--check", "--evaluate", a1=1)
+        self.assertEqual(status, 1)
+        self.assertIn("MISSED: a1 was not run", printed)
+
+    def test_failed_run_counts_unless_it_is_a_result(self) -> None:
+        bad = self.tree.case("bad", fail="it broke")
+        options = ["--results", str(self.results), "--build", str(self.tree.build)]
+        for may_fail, expected in ((False, 1), (True, 0)):
+            case = replace(bad, may_fail=may_fail)
+            study = Study(self.tree.study / "run.py", "made", [case], lambda runner, output: [])
+            printed = io.StringIO()
+            with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
+                self.assertEqual(run_study(study, options), expected)
+            self.assertIn("FAILED: bad: ERROR: it broke", printed.getvalue())
+
+
+if __name__ == "__main__":
+    unittest.main()

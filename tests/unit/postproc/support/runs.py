@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Results folders of wheel runs with known answers: history.h5, terrain.h5, summary.json."""
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from furrow_post.arrays import Floats
+
+RADIUS, WIDTH = 0.3, 0.2  # [m] of the rigid wheel
+
+Entry = dict[str, Any]  # of /run/styles
+
+
+def style(kind: str, name: str, identity: str = "x", **options: Any) -> Entry:
+    """An entry of /run/styles; every option is a list there."""
+    listed = {key: value if isinstance(value, list) else [value] for key, value in options.items()}
+    return {"id": identity, "group": "all", "style": name, "kind": kind, "options": listed}
+
+
+def rigid_wheel(identity: str = "wheel") -> Entry:
+    return style("wheel", "wheel/rigid", identity, diameter=2 * RADIUS, width=WIDTH, mass=50)
+
+
+def rig(load: float = 1000.0, identity: str = "rig", datum: float = 0.0) -> Entry:
+    return style(
+        "rig",
+        "wheel/rig",
+        identity,
+        wheel="wheel",
+        load_force=load,
+        speed=1,
+        mode="slip",
+        slip=0.2,
+        slip_angle=0,
+        camber=0,
+        gravity=9.80665,
+        ground_level=datum,
+    )
+
+
+def write_columns(group: Any, columns: Mapping[str, Floats]) -> None:
+    for name, values in columns.items():
+        group[name] = values
+        group[name].attrs["unit"] = np.bytes_(" ")
+        group[name].attrs["meaning"] = np.bytes_(name)
+
+
+def write_head(content: Any, styles: list[Entry] | None, title: str = "made") -> None:
+    """/run of history.h5; styles: None as an older Furrow wrote it."""
+    run = content.create_group("run")
+    for name, value in (
+        ("title", title),
+        ("version", "0.0.9"),
+        ("script", "none"),
+        ("started", "2026-01-01T00:00:00Z"),
+    ):
+        run.attrs[name] = np.bytes_(value)
+    run.attrs["ranks"] = 1
+    run["effective_input"] = np.bytes_("# styles with their effective values\n")
+    if styles is not None:
+        run["styles"] = np.bytes_(json.dumps(styles).encode())
+
+
+def write_summary(folder: Path, sinkage: float, load: float) -> None:
+    def quantity(mean: float, error: float, unit: str) -> dict[str, Any]:
+        entry = {"mean": mean, "standard_error": error, "unit": unit}
+        return {**entry, "steady": True, "verdict": "steady"}
+
+    quantities = {
+        "sinkage": quantity(sinkage, 1e-3, "m"),
+        "resistance_coefficient": quantity(0.2, 0.01, ""),
+        "force_z": quantity(load, 1.0, "N"),
+        "drawbar_pull": quantity(-0.2 * load, 1.0, "N"),
+        "drive_torque": quantity(0.0, 0.0, "N m"),
+        "slip": quantity(0.2, 0.0, ""),
+    }
+    content = {"window": {"start": 1.0, "end": 1.9}, "steady": True, "quantities": quantities}
+    (folder / "summary.json").write_text(json.dumps(content))
+
+
+def write_run(
+    folder: Path,
+    load: float = 1000.0,
+    sinkage: float = 0.05,
+    styles: list[Entry] | None = None,
+    datum: float = 0.0,
+) -> None:
+    """A wheel of RADIUS and WIDTH on ground without grains, steady from 1 s on.
+
+    It settles until 0.5 s, accelerates until 0.8 s; the slip is 0.2. styles: instead of a rigid
+    wheel on a rig
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    time = np.arange(2000) * 1e-3
+    stage = np.where(time < 0.5, 0.0, np.where(time < 0.8, 1.0, 2.0))
+    v = np.where(time > 0.65, 1.0, 0.0)
+    one = np.ones_like(time)
+    columns = {
+        "time": time,
+        "stage": stage,
+        "x": np.maximum(time - 0.65, 0),
+        "y": 0 * one,
+        "z": RADIUS * one,
+        "velocity_x": v,
+        "spin_rate": v / RADIUS * 1.25,
+        "sinkage": sinkage * np.minimum(time / 0.5, 1),
+        "force_x": -0.2 * load * v,
+        "force_y": 0 * one,
+        "force_z": load * one,
+        "drawbar_pull": -0.2 * load * v,
+        "drive_torque": 0 * one,
+        "slip": 0.2 * v,
+    }
+    with h5py.File(folder / "history.h5", "w") as content:
+        write_head(content, styles or [rigid_wheel(), rig(load, datum=datum)])
+        write_columns(content.create_group("history", track_order=True), columns)
+    write_summary(folder, sinkage, load)
+
+
+def write_noisy_history(path: Path, rows: int = 4000) -> None:
+    """Settle, accelerate, cruise with noise about known means.
+
+    Sinkage 20 mm, resistance coefficient 0.2, slip 0.1, torque 3 N m
+    """
+    random = np.random.default_rng(3)
+
+    def noise(size: float) -> Floats:
+        return size * random.normal(size=rows)
+
+    time = np.arange(rows) * 1e-3
+    columns = {
+        "time": time,
+        "stage": np.where(time < 0.5, 0.0, np.where(time < 0.8, 1.0, 2.0)),
+        "x": np.maximum(time - 0.65, 0),
+        "sinkage": 0.02 + noise(2e-4),
+        "force_x": -20 + noise(1.0),
+        "force_y": noise(0.5),
+        "force_z": 100 + noise(2.0),
+        "drawbar_pull": -20 + noise(1.0),
+        "drive_torque": 3 + noise(0.1),
+        "slip": 0.1 + noise(0.002),
+    }
+    with h5py.File(path, "w") as content:
+        write_head(content, [rigid_wheel(), rig()], "synthetic")
+        write_columns(content.create_group("history", track_order=True), columns)
+
+
+def write_grains(group: Any, x: Floats, radius: Floats, bed_level: float) -> None:
+    """/grains/reference or /grains/final."""
+    group["id"], group["x"], group["radius"] = np.arange(len(x)), x, radius
+    group["period"] = np.zeros(3)
+    group.attrs["bed_level"] = bed_level
