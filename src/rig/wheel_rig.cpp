@@ -200,7 +200,7 @@ struct WheelRig::Reading {
   const WheelRig& rig;
   const WheelHub& wheel;
   double time;              // [s]
-  WheelHub::Wrench ground;  // of the ground on the wheel, moment about the axle centre
+  Wrench ground;  // of the ground on the wheel, moment about the axle centre
   EnergyBudget budget;      // of the wheel
   double rim_speed;         // [m/s]
   double speed_in_plane;    // [m/s] of the axle in the wheel plane
