@@ -86,14 +86,12 @@ const Outputs<FixTyreDarnell>& FixTyreDarnell::outputs() {
   using Fix = FixTyreDarnell;
   static const Outputs<Fix> list = {
       {"deflection", "m", "of the tread's lowest node, against the unloaded tread",
-       [](Fix& fix) { return fix.tyre().tread().x.row(2).minCoeff() - fix.tyre().lowest_point(); }},
+       [](Fix& fix) { return fix.tyre().deflection(); }},
       {"pressure", "Pa", "of the inflation now", [](Fix& fix) { return fix.tyre().pressure(); }},
       {"section_width", "m", "largest width of the sidewalls' profiles",
        [](Fix& fix) { return fix.tyre().section_width(); }},
       {"tread_energy", "J", "elastic energy of the tread; of a half model, of both halves",
-       [](Fix& fix) {
-         return fix.tyre().shell().energy() * (fix.tyre().settings().half ? 2.0 : 1.0);
-       }},
+       [](Fix& fix) { return fix.tyre().tread_energy(); }},
       {"sidewall_chord", "", "longest sidewall chord over the sidewall's length",
        [](Fix& fix) { return fix.tyre().largest_sidewall_chord(); }},
   };

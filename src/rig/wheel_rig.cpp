@@ -199,11 +199,11 @@ void WheelRig::drive_spin(double time, double dt) {
 struct WheelRig::Reading {
   const WheelRig& rig;
   const WheelHub& wheel;
-  double time;              // [s]
-  Wrench ground;  // of the ground on the wheel, moment about the axle centre
-  EnergyBudget budget;      // of the wheel
-  double rim_speed;         // [m/s]
-  double speed_in_plane;    // [m/s] of the axle in the wheel plane
+  double time;            // [s]
+  Wrench ground;          // of the ground on the wheel, moment about the axle centre
+  EnergyBudget budget;    // of the wheel
+  double rim_speed;       // [m/s]
+  double speed_in_plane;  // [m/s] of the axle in the wheel plane
 };
 
 const Outputs<const WheelRig::Reading>& WheelRig::outputs() {

@@ -12,6 +12,7 @@
 #include "../unit/material/plain_elastic.h"
 #include "material/registry.h"
 #include "simd/dispatch.h"
+#include "testing/material_text.h"
 
 namespace furrow {
 namespace {
@@ -157,9 +158,8 @@ void measure(benchmark::State& timer, const Material& material, double strain, d
 void BM_elastic(benchmark::State& timer) { measure(timer, *elastic(), 1e-4, 0.0); }
 /// The same law written point by point, with seven variables of its own.
 void BM_elastic_pointwise(benchmark::State& timer) {
-  const auto material = make_material(
-      PlainElastic::model(),
-      {{"law", {{"density", {"200"}}}}, {"elasticity", {{"E", {"13.79e6"}}, {"nu", {"0.3"}}}}});
+  const auto material =
+      make_material(PlainElastic::model(), entries_of_text("density 200 E 13.79e6 nu 0.3"));
   measure(timer, *material, 1e-4, 0.0);
 }
 void BM_cap_mixed(benchmark::State& timer) { measure(timer, *snow("1", "0", "linear"), 1e-4, 0.0); }
