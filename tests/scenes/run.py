@@ -3,7 +3,7 @@
 
     run.py scene <script> <ranks> <results>     bash inputs/run <script> --quick
     run.py two_grounds <results>                bash inputs/run --quick: two scenes and their report
-    run.py laboratory <script> <results>        inputs/laboratory/run, for a test or a ground
+    run.py laboratory <script> <results>        inputs/laboratory/run.py, for a test or a ground
     run.py usage                                the list of scenes, and what inputs/run refuses
 
 The head of a script says what is run and what must come out, in SI units:
@@ -204,7 +204,7 @@ def laboratory(script, results):
         words = [head.script.stem, *head.quick]
     else:
         words = [*head.quick, "--ground", head.script.stem]
-    run([sys.executable, LABORATORY / "run", *words, "-o", folder / "run"],
+    run([sys.executable, LABORATORY / "run.py", *words, "-o", folder / "run"],
         FURROW_CACHE=str(folder / "cache"))
     quantities = json.loads((folder / "run" / "laboratory.json").read_text())["quantities"]
     head.check({name.replace("_", " "): (quantity["value"], quantity["unit"])
