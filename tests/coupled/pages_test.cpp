@@ -130,27 +130,42 @@ TEST(Pages, EveryStyleHasAPageThatSaysWhatTheCodeDeclares) {
   }
 }
 
-TEST(Pages, EveryPageIsThatOfAStyle) {
+TEST(Pages, EveryPageIsThatOfAStyleAndIsListed) {
   std::set<std::string> pages;
-  for (const Style& style : styles()) pages.insert(folder() + style.page);
+  const std::string list = text_of(folder() + "README.md");
+  for (const Style& style : styles()) {
+    if (style.page.empty()) continue;
+    pages.insert(folder() + style.page);
+    EXPECT_NE(list.find('[' + style.name + "](" + style.page + ')'), std::string::npos)
+        << "coupling/README.md does not list " << style.name;
+  }
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder())) {
     const std::string path = entry.path();
-    if (entry.path().extension() != ".md") continue;
+    if (entry.path().extension() != ".md" || path == folder() + "README.md") continue;
     EXPECT_TRUE(pages.count(path)) << path;
   }
+}
+
+/// Of all pages of the project.
+std::vector<std::filesystem::path> all_pages() {
+  const std::filesystem::path root = FURROW_SOURCE_DIR;
+  std::vector<std::filesystem::path> pages = {root / "README.md", root / "CONTRIBUTING.md"};
+  for (const char* part : {"src", "coupling", "inputs", "tests", "postproc"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / part))
+      if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  return pages;
 }
 
 TEST(Pages, LinksLeadToFiles) {
   const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
   int links = 0;
-  for (const Style& style : styles()) {
-    if (style.page.empty()) continue;
-    const std::filesystem::path page = folder() + style.page;
+  for (const std::filesystem::path& page : all_pages()) {
     const std::string content = text_of(page);
+    EXPECT_FALSE(content.empty()) << page;
     for (std::sregex_iterator found(content.begin(), content.end(), link), end; found != end;
          ++found, ++links)
       EXPECT_TRUE(std::filesystem::exists(page.parent_path() / (*found)[1].str()))
-          << style.page << " links to " << (*found)[1];
+          << page << " links to " << (*found)[1];
   }
   EXPECT_GT(links, 0);
 }

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from furrow_post.analyse import comparison
+from furrow_post.analyse import comparison, empirical
 from furrow_post.analyse.comparison import FORMULA, MEASURED, RUN, Comparison, Entry, judge, overall
 from furrow_post.analyse.cost_table import Components
 from furrow_post.analyse.density import height_left
@@ -139,7 +139,7 @@ class CompareTest(unittest.TestCase):
             comparison.compare([run], measured=reference)
 
     def test_formula_has_its_place_and_no_verdict(self) -> None:
-        prediction = comparison.empirical.Prediction("made", "nowhere", 0.04, 100.0, 1000.0)
+        prediction = empirical.Prediction("made", "nowhere", 0.04, 100.0, 1000.0)
         result = comparison.compare([self.read("a", "a")], formulas=[prediction])
         (found,) = result.of(SINKAGE, FORMULA)
         self.assertEqual((found.source, found.value), ("made", 0.04))

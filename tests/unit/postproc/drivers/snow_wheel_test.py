@@ -70,7 +70,7 @@ class AccuracyTest(unittest.TestCase):
         value, uncertain = report.extrapolated(sizes, np.array([1.0, 1.0, 1.0]))
         self.assertAlmostEqual(value, 1.0)
         self.assertAlmostEqual(uncertain, 0.0)
-        value, uncertain = report.extrapolated(sizes, 1 + 5 * np.array(sizes))
+        value, uncertain = report.extrapolated(sizes, 1.0 + 5.0 * np.array(sizes, dtype=float))
         self.assertLess(abs(value - 1.0), uncertain)
 
 

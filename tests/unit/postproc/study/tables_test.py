@@ -9,7 +9,7 @@ from furrow_post.csv_table import read_comments, read_numbers, read_rows, write_
 from furrow_post.errors import ResultsError
 from furrow_post.study.tables import aligned, markdown, transposed
 
-ROWS = [{"run": "a", "value": 1 / 3}, {"run": "long", "error": "stopped"}]
+ROWS: list[dict[str, object]] = [{"run": "a", "value": 1 / 3}, {"run": "long", "error": "stopped"}]
 
 
 class TablesTest(unittest.TestCase):
