@@ -26,8 +26,8 @@ std::vector<StyleRecord> style_records(LAMMPS_NS::LAMMPS& lammps) {
     const auto* described = dynamic_cast<const HasOptions*>(&fix);
     const Style* style = find_style(style_of(fix));
     if (described && style)
-      records.push_back({fix.id, lammps.group->names[fix.igroup], style->name,
-                         name_of(style->kind), typed_values(described->options())});
+      records.push_back({fix.id, lammps.group->names[fix.igroup], style->name, name_of(style->kind),
+                         typed_values(described->options())});
   }
   return records;
 }

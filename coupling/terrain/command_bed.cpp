@@ -144,6 +144,8 @@ void CommandBed::make(const Request& request, const KeptBed& bed) {
     fmt::print(screen, "Making the bed {} (kept in {})\n", request.script.string(),
                bed.restart.parent_path().string());
   const int grid[3] = {comm->user_procgrid[0], comm->user_procgrid[1], comm->user_procgrid[2]};
+  // before the minutes that a bed takes: a folder that cannot be made is an error now
+  if (comm->me == 0) fs::create_directories(bed.restart.parent_path());
   for (const char* name : {"box", "contact", "settle"}) run_section(request, name);
   // A termination signal ends every run at once and lets the script go on: what came of it is no
   // bed, and must not be kept for others.
@@ -159,7 +161,6 @@ void CommandBed::make(const Request& request, const KeptBed& bed) {
 /// Both files take their names when they are whole.
 void CommandBed::keep(const Request& request, const KeptBed& bed) {
   const BedFacts facts = measure_bed(*lmp, request.depth);
-  if (comm->me == 0) fs::create_directories(bed.restart.parent_path());
   const std::string part =
       fmt::format("{}.part{}", bed.restart.string(), static_cast<long>(facts.grains));
   input->one(("write_restart " + part).c_str());

@@ -130,7 +130,7 @@ Schema& Schema::by_default(const std::string& value) {
   return optional();
 }
 Schema& Schema::by_default(double value) { return by_default(fmt::format("{}", value)); }
-Schema& Schema::by_default(std::vector<double> values) {
+Schema& Schema::by_default(const std::vector<double>& values) {
   for (double value : values) keys_.back().default_values.push_back(fmt::format("{}", value));
   return optional();
 }

@@ -96,7 +96,7 @@ class Schema {
   /// the same, and then has this value
   Schema& by_default(const std::string& value);
   Schema& by_default(double value);
-  Schema& by_default(std::vector<double> values);
+  Schema& by_default(const std::vector<double>& values);
 
   /// A former name of a key that is declared already. Whoever reads options with aliases shows
   /// Options::warnings() to the user.

@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using NumberMember = std::pair<const char*, double Audit::*>;
 
-constexpr double flush_interval = 5.0;       // [s] between flushes that come by themselves
-constexpr double least_flush_ratio = 100.0;  // of that interval to the duration of a flush
+constexpr double flush_interval = 5.0;            // [s] between flushes that come by themselves
+constexpr double least_flush_ratio = 100.0;       // of that interval to the duration of a flush
 constexpr char former_stage_channel[] = "phase";  // in older files
 
 double seconds_since(Clock::time_point start) {

@@ -103,8 +103,7 @@ TEST(MembraneOnBed, InflatedAgainstABedCarriesItsWeight) {
 TEST(MembraneOnBed, BouncingKeepsTheEnergyBalanceOver1e5Steps) {
   Scene scene;
   make_bed_on_membrane(scene, {2e6, 0.3, 0.5e-3, 1000.0, 0.0}, 0.0, 5e6, 1e-5);
-  auto& membrane =
-      static_cast<Membrane&>(scene.body("cover"));
+  auto& membrane = static_cast<Membrane&>(scene.body("cover"));
   MaxError imbalance;
   double throughput = 0.0, before = 0.0;
   scene.at_end_of_step([&] {

@@ -79,8 +79,9 @@ class Terrain:
             raise ResultsError(f"{folder / FILE}: /terrain has no field {error}") from error
         spacing = [_lattice_spacing(initial[:, axis]) for axis in range(3)]
         level = float(initial[:, 2].max() + 0.5 * spacing[2])
-        fine = np.abs(initial[:, 1]) < np.abs(initial[:, 1]).min() + 0.1 * spacing[1]
-        undisturbed = float(np.median((density * volume)[fine]) / np.prod(spacing))
+        mass = density * volume
+        fine = mass < 1.1 * mass.min()  # cells that are fine along all three axes
+        undisturbed = float(np.median(mass[fine]) / np.prod(spacing))
         terrain = cls(x, initial, density, volume, level, undisturbed)
         return terrain.mirrored() if initial[:, 1].min() > 0 else terrain
 

@@ -6,9 +6,6 @@
 #include <cmath>
 #include <string>
 
-#include <fmt/format.h>
-
-#include "core/error.h"
 #include "mpm/contact/contact_parameters.h"
 #include "mpm/contact/friction.h"
 #include "mpm/contact/particle_contact.h"
@@ -38,20 +35,6 @@ class PenaltyLaw {
   double stiffness_;  // over (wave modulus) x (cube root of the particle's volume)
   double damping_;    // of critical
 };
-
-/// A particle of mass rho d^3 on its spring s M d, d the spacing of the particles: omega dt =
-/// sqrt(s) c dt/d, and a leapfrog needs less than 2.
-inline void PenaltyLaw::check(const TerrainParameters& terrain, const std::string& where) const {
-  const auto& per_cell = terrain.particles_per_cell;
-  const int particles = *std::max_element(per_cell.begin(), per_cell.end());
-  if (std::sqrt(stiffness_) * terrain.cfl * particles >= 2.0)
-    throw InputError(
-        where,
-        fmt::format(
-            "has a stiffness of {}, too stiff for steps of cfl {} with {} particles along a cell",
-            stiffness_, terrain.cfl, particles),
-        "sqrt(stiffness) x cfl x particles below 2", "lower the stiffness, or the ground's cfl");
-}
 
 /// The stiffness follows the modulus of the ground from search to search.
 inline void PenaltyLaw::update_history(const ParticleGroup& group, std::size_t particle,
