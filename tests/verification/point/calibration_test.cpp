@@ -153,7 +153,7 @@ TEST(Calibration, OneOfATableIsAParameter) {
   problem.parameters[0].name = "hardening.p[6]";
   problem.parameters[0].start = 2.2e6;
   const FitResult result = fit_material(problem);
-  EXPECT_NEAR(result.parameters[0].value / 2.758e6, 1.0, 1e-6);  // TR Table 5, row 6
+  EXPECT_NEAR(result.parameters[0].value / 2.758e6, 1.0, 1e-6);  // Table 5, row 6
 }
 
 TEST(Calibration, RefusesWhatCannotBeFitted) {
