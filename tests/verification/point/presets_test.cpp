@@ -89,7 +89,7 @@ TEST(Presets, McCormickSandIsTRTables4And5) {
               1.0);  // first yield in hydrostatic compression
 }
 
-/// inputs/laboratory/identify made both laws from these grains' tests: they follow the oedometer
+/// inputs/laboratory/identify.py made both laws from these grains' tests: they follow the oedometer
 /// that they were made with.
 TEST(Presets, DrySandFollowsTheOedometerOfItsGrains) {
   const CsvTable grains = CsvTable::read(inputs + "/validation/grains/sand_dry_oedometer.csv");
