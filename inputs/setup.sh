@@ -56,6 +56,7 @@ show_build_errors() {
   { grep -E -A 4 'error:|undefined reference|ld returned|CMake Error' "$1" || tail -n 40 "$1"; } | head -n 60 >&2
 }
 
-# Open MPI refuses root and more ranks than cores unless told; ranks that wait should give way where cores are shared.
+# Open MPI refuses root and more ranks than cores unless it is configured; waiting ranks should yield
+# where cores are shared.
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=none
 [ "$(id -u)" -ne 0 ] || export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1

@@ -101,7 +101,7 @@ TEST(Calibration, FlagsParametersThatOnlyACombinationFixes) {
   EXPECT_LT(result.singular_values[2], 1e-6 * result.singular_values[0]);
 }
 
-/// The density is not felt by a quasi-static path.
+/// The density has no influence on a quasi-static path.
 TEST(Calibration, FlagsAParameterWithoutInfluence) {
   const FitResult result = fit_material(synthetic(
       "mccormick_sand_exponential", {{"hardening.lambda", 0.045}, {"law.density", 1900}}));
