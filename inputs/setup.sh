@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Shared by inputs/run, tests/run and .ci/format: what Furrow needs from Debian, and how it is built. Source it; it defines functions
-# and variables only.
+# Shared by inputs/run, tests/run and .ci/format: what Furrow needs from Debian, and how it is
+# built. Source it; it defines functions and variables only.
 
 furrow_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 furrow_build=${FURROW_BUILD:-$furrow_root/build}
@@ -43,7 +43,8 @@ build_furrow() {
   shift
   mkdir -p "$furrow_build"
   echo "Building in $furrow_build"
-  # A build folder that was configured keeps its generator, and its tests: switching back and forth would compile for nothing.
+  # A build folder that was configured keeps its generator, and its tests: switching back and forth
+  # would compile for nothing.
   [ ! -f "$furrow_build/CMakeCache.txt" ] || generator=()
   grep -qs 'FURROW_TESTS:BOOL=ON' "$furrow_build/CMakeCache.txt" && tests=ON
   { cmake -S "$furrow_root" -B "$furrow_build" "${generator[@]}" -D FURROW_TESTS="$tests" "${furrow_options[@]}" &&
@@ -56,6 +57,7 @@ show_build_errors() {
   { grep -E -A 4 'error:|undefined reference|ld returned|CMake Error' "$1" || tail -n 40 "$1"; } | head -n 60 >&2
 }
 
-# Open MPI refuses root and more ranks than cores unless told; ranks that wait should give way where cores are shared.
+# Open MPI refuses root and more ranks than cores unless it is configured; waiting ranks should
+# yield where cores are shared.
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=none
 [ "$(id -u)" -ne 0 ] || export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1

@@ -171,7 +171,7 @@ void FixCoupledSystem::sum_over_ranks() {
 /// Collective. In the middle of a run (command restart) forces and contact histories are those of
 /// the last step; LIGGGHTS would write the histories as they were when the neighbour lists were
 /// made. After a run (command write_restart) it brings them up to date itself, moves grains between
-/// ranks without their forces, and a further run in this process computes them anew as well.
+/// ranks without their forces, and a further run in this process computes them again as well.
 void FixCoupledSystem::write_restart(FILE* file) {
   const bool in_run = update->whichflag == 1;
   if (in_run) {

@@ -9,7 +9,7 @@
 
 namespace furrow::coupling {
 
-/// What the grains felt of one body in one step: of this rank's contacts, then summed over ranks.
+/// Forces of one body on the grains in one step: of this rank's contacts, then summed over ranks.
 struct ContactLedger {
   Vector3 grain_force = Vector3::Zero();  ///< sum of contact forces on grains [N]
   /// sum of (contact point - reference) x force on grain [N m]

@@ -16,7 +16,7 @@ inline std::vector<std::string> args_after_style(int narg, char** arg) {
   return {arg + std::min(narg, 3), arg + narg};
 }
 
-/// The options of a fix line; former names of keywords are told. @throws InputError
+/// The options of a fix line; former names of keywords are reported. @throws InputError
 inline Options read_options(LAMMPS_NS::LAMMPS& lammps, const Schema& schema, int narg, char** arg) {
   Options options = schema.read(args_after_style(narg, arg));
   for (const std::string& warning : options.warnings()) warn(lammps, warning);

@@ -24,7 +24,7 @@ class FixHistory : public FurrowFix, public FollowsSystem, public FlushesOnError
   void end_of_step() override;
   /// Also reached when the user interrupts the run: what there is, is written and evaluated.
   void post_run() override;
-  /// An error ends the run: the rows since the last flush are still worth having.
+  /// An error ends the run: the rows since the last flush are still useful.
   void flush_results() override;
 
  protected:

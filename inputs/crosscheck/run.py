@@ -22,8 +22,8 @@ from furrow_post.study.runner import Runner
 from furrow_post.study.study import Study, run_study
 
 RESULTS_HEAD = (
-    "# written by ./run.py; SI units, uncertainties are standard deviations; empty: not known; "
-    "program: of the executable, SHA-256",
+    "# Written by run.py; SI units, uncertainties are standard deviations; empty: not known;",
+    "# program: of the executable, SHA-256",
 )
 
 

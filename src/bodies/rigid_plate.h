@@ -10,7 +10,7 @@
 
 namespace furrow {
 
-/// Moves up and down only, at the speed it is told; everything else is held. It has no mass:
+/// Moves up and down only, at a prescribed speed; everything else is held. It has no mass:
 /// whatever drives it takes all forces, and the work of the driver is minus the work of the contact
 /// forces.
 class RigidPlate : public Body {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Which triangles of a surface are near a point: bins over space, made anew when the surface has
+/// Which triangles of a surface are near a point: bins over space, made again when the surface has
 /// moved far enough.
 
 #include <vector>

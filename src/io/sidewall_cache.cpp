@@ -43,7 +43,7 @@ std::vector<double> kept(const fs::path& path, const std::string& identity) {
     const Hdf5File file(path.string(), Hdf5File::Mode::read);
     if (file.read_text("/identity") == identity) return file.read_numbers(dataset);
   } catch (const Error&) {
-    // A file of something else, or cut short: the table is made anew and takes its place.
+    // A file of something else, or cut short: the table is made again and replaces it.
   }
   return {};
 }

@@ -32,7 +32,7 @@ class VtkSeries {
   /// replaced.
   /// @throws Error
   static VtkSeries create(const std::string& folder, const std::string& name);
-  /// Continues after a restart: frames later than time are dropped from the list and written anew.
+  /// Continues after a restart: frames later than time are dropped from the list and written again.
   /// @throws Error
   static VtkSeries resume(const std::string& folder, const std::string& name, double time);
 

@@ -117,7 +117,7 @@ class Material {
   /// Where several surfaces meet (cap, shear, tension cut-off), the largest.
   virtual double yield_function(const VectorX& state) const;
   /// The stress that an error of the yield function is compared with [Pa]: the strength or the
-  /// pressure, and at least 1e-8 of the wave modulus, below which the rounding of a strain is felt.
+  /// pressure, and at least 1e-8 of the wave modulus, below which the rounding of a strain matters.
   /// A law that never yields has the wave modulus.
   virtual double stress_scale(const VectorX& state) const { return moduli(state).wave(); }
   /// The yield surface of the state in triaxial compression as points (p, q), from the tensile end

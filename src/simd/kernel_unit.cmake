@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Kernels are compiled once for every instruction set of the build; the program chooses among them when it starts
-# (src/simd/dispatch.h).
+# Kernels are compiled once for every instruction set of the build; the program chooses among them
+# when it starts (src/simd/dispatch.h).
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT FURROW_NATIVE)
   set(FURROW_INSTRUCTION_SETS baseline avx2 avx512)
 else()
@@ -8,10 +8,11 @@ else()
 endif()
 set(furrow_kernel_unit_template ${CMAKE_CURRENT_LIST_DIR}/kernel_unit.cpp.in)
 
-# furrow_kernel_unit(<target> <header> <table> [FUSED]): adds to a target one source for each instruction set, which defines
-# <table>::baseline(), <table>::avx2() and <table>::avx512() (src/simd/instruction_set.h) from the kernels of <header>.
-# FUSED: multiply and add in one instruction where the set has it. Results then depend in the last digit on how the compiler
-# groups operations, so the laws, whose numbers are to be the same in any surrounding code, do without.
+# furrow_kernel_unit(<target> <header> <table> [FUSED]): adds to a target one source for each
+# instruction set, which defines <table>::baseline(), <table>::avx2() and <table>::avx512()
+# (src/simd/instruction_set.h) from the kernels of <header>. FUSED: multiply and add in one
+# instruction where the set has it. Results then depend in the last digit on how the compiler groups
+# operations, so the laws, whose numbers are to be the same in any surrounding code, do without.
 function(furrow_kernel_unit target header table)
   cmake_parse_arguments(PARSE_ARGV 3 ARG "FUSED" "" "")
   set(baseline "")

@@ -40,8 +40,8 @@ std::size_t mser_truncation(const std::vector<double>& values);
 
 /// The rows that count. Automatic: from the start of the cruise (channel `stage`, rig_stage.h; the
 /// first row where there is no such channel), less the longest transient of the named channels.
-/// @throws InputError for a request outside of the history, or by both time and distance; Error
-/// when no rows remain
+/// @throws InputError for a request outside of the history, or one given by both time and distance;
+/// Error when no rows remain
 Window select_window(const History& history, const WindowRequest& request,
                      const std::vector<std::string>& channels);
 

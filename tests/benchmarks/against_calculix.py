@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Continuum ground against CalculiX, run in turns on one core.
+"""Continuum terrain against CalculiX, run alternately on one core.
 
-CalculiX (Debian package calculix-ccx): *DYNAMIC, EXPLICIT, 24 x 24 x 24 C3D8R with Mises plasticity, a block that its lid
-compresses; element updates a second from the difference of a long and a short run, so that reading and writing do not count.
-Furrow: build/tests/benchmarks/ground_update, whose particle carries what a one-point brick carries; the cap material.
+CalculiX (Debian package calculix-ccx): *DYNAMIC, EXPLICIT, 24 x 24 x 24 C3D8R with Mises plasticity,
+a block that its lid compresses; element updates per second from the difference of a long and a
+short run, so that reading and writing do not count. Furrow: build/tests/benchmarks/ground_update,
+whose particle carries what a one-point brick carries; the cap material.
 
     tests/benchmarks/against_calculix.py build/tests/benchmarks/ground_update [pairs]
 """

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Cost of the continuum ground: TR's rigid wheel (half model, moving ground) rolls over 0.20 m of
-// snow; particle updates a second on one core, by part, while rolling, and the sinkage and
-// resistance of the stretch for orientation.
+// Cost of continuum terrain: the rigid wheel of [Shoop2001] (half model, moving terrain) rolls over
+// 0.20 m of snow; particle updates per second on one core while rolling, and the sinkage and
+// resistance of that stretch for orientation.
 //   build/tests/benchmarks/ground_update [cell in m] [metres of rolling] [material file] [cfl]
 //   [remap interval]
 // The environment variable FURROW_ISA = baseline | avx2 | avx512 selects the kernels.

@@ -85,7 +85,7 @@ std::unique_ptr<Material> elastic() {
                           {"elasticity", {{"E", {"13.79e6"}}, {"nu", {"0.3"}}}}});
 }
 
-/// Fresh snow, TR Tables 1 and 3.
+/// Fresh snow, [Shoop2001] Tables 1 and 3.
 std::unique_ptr<Material> snow(const std::string& K, const std::string& alpha,
                                const std::string& interpolation) {
   return make(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Half a tyre on half a ground is the whole tyre on the whole ground: let down and rolled over
+// Half a tyre on half a ground is the whole tyre on the whole ground: lowered and rolled over
 // snow, all that is recorded agrees. Where it is refused: bad_input/tyre_half_*.lig.
 
 #include <cmath>

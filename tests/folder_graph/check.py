@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The folders of src/ include only what their library links, and their library links only what they include.
+"""The folders of src/ include only what their library links, and their library links only what they
+include.
 
-A header of another folder (or package) in a header asks for a PUBLIC link, in a source for a PRIVATE one at least.
+A header of another folder (or package) in a header requires a PUBLIC link, in a source at least a
+PRIVATE one.
 
     check.py <src> <folder_graph.txt of the build>
 """

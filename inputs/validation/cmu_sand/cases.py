@@ -229,7 +229,7 @@ def calibration_cases() -> list[Case]:
 
 
 def wheel_cases() -> list[Case]:
-    """In the order of their worth."""
+    """From best to worst."""
     return [
         wheel_case(wheel_name(point), "wheel", point)
         for kind in WHEELS

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Continuum terrain at the end of a run: density sections, tracers, a picture without a display.
 
-Sections as S. A. Shoop (ERDC/CRREL TR-01-16, 2001, Fig 65-67) shows them: across the track and
-along it, coloured by density, and the displacement of tracers that stood in straight lines before
-the wheel came.
+Sections as in [Shoop2001] Figs 65-67: across the track and along it, coloured by density, and the
+displacement of tracers that stood in straight lines before the wheel passed.
 """
 
 from pathlib import Path

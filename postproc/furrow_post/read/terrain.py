@@ -99,7 +99,7 @@ class Terrain:
 
     @property
     def spacing(self) -> float:
-        """Of the particles before the wheel came, in the fine part [m]."""
+        """Of the particles before the wheel passed, in the fine part [m]."""
         undeformed = self.volume * self.density / self.undisturbed
         return float(np.percentile(undeformed, 5) ** (1 / 3))
 

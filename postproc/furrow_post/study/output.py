@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Where the tables, figures and page sections of a study go, with their provenance."""
 
+import textwrap
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,21 @@ from .tables import aligned
 
 PAGE, SECTION = "README.md", "tables.md"
 BEGIN, END = "<!-- written by run.py -->", "<!-- end -->"
+COLUMNS = 100  # of a page
+
+
+def _wrapped(line: str) -> str:
+    """Prose and items of a list in lines of a page's width; tables and images stay as they are."""
+    if len(line) <= COLUMNS or line.startswith(("|", "![", "#")):
+        return line
+    indent = "  " if line.startswith("- ") else ""
+    return textwrap.fill(
+        line,
+        COLUMNS,
+        subsequent_indent=indent,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
 
 
 class Output:
@@ -42,7 +58,7 @@ class Output:
 
     def section(self, lines: Sequence[str]) -> None:
         """Writes the generated part of the study's page."""
-        text = "\n".join(lines).strip()
+        text = "\n".join(_wrapped(line) for line in lines).strip()
         if not self.page:
             self.path(SECTION).write_text(text + "\n", encoding="utf-8")
             return

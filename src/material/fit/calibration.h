@@ -27,7 +27,7 @@ struct FitParameter {
   /// "law.d", "elasticity.E", or one of a list: "hardening.p[2]", counted from 1
   std::string name;
   std::optional<double> start;  ///< else the material's value
-  /// bounds besides the key's declared range
+  /// bounds in addition to the key's declared range
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
 };

@@ -55,9 +55,9 @@ const std::vector<PathType>& path_types();
 /// @throws InputError listing the names
 const PathType& find_path_type(const std::string& name);
 
-/// Keys of a general path besides its rows, and of one row: strain_xx ... or stress_xx ... of each
-/// component, tension positive. A component that a row does not name keeps its control and value;
-/// at the start all six have zero strain.
+/// Keys of a general path other than its rows, and of one row: strain_xx ... or stress_xx ... of
+/// each component, tension positive. A component that a row does not name keeps its control and
+/// value; at the start all six have zero strain.
 Schema table_path_schema();
 Schema table_row_schema();
 /// @throws InputError for a component with both strain and stress

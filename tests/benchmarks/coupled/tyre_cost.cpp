@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a tyre costs in a coupled step: the time in the bodies' advance (all of the tyre's sub-steps
 // and the rig) and in the mesh that follows it, over the time of whole steps of the same run. The
-// tyre is let down on 100,000 grains of 10 mm. They lie in a cubic lattice, six contacts a grain,
+// tyre is lowered onto 100,000 grains of 10 mm. They lie in a cubic lattice, six contacts a grain,
 // as many as in a poured bed: it needs no settling.
 //
 //   build/tests/benchmarks/coupled/tyre_cost [step] [across] [around] [steps]        or under
@@ -99,7 +99,7 @@ int main(int argc, char** argv) {
                   " mesh n_meshes 1 meshes skin");
     scene.command("fix move all nve/sphere");
     scene.command("thermo 100000");
-    scene.command(fmt::format("run {}", static_cast<int>(0.03 / step)));  // let down, in contact
+    scene.command(fmt::format("run {}", static_cast<int>(0.03 / step)));  // lowered, in contact
 
     furrow::DarnellTyre& tyre =
         dynamic_cast<furrow::coupling::FixTyreDarnell*>(scene.lammps().modify->find_fix_id("tyre"))

@@ -5,12 +5,15 @@
 
 The header of a script says what must happen:
     # expect: <text>      part of the message (any number of lines)
-    # intact: <file>      results file that must be readable after the error, with no row missing before it
-    # warning: <text> part of a warning; the script must run to its end
-    # of one rank: yes    on several ranks the error may be that of any one, which knows no line and cannot have rank 0 write its rows: the
-                          run must still stop, with the message
-A script with an expectation must stop at its last line, with a non-zero status, within the time limit, and the message must name
-the script and the number of that line. A script without one must run to its end, without a warning that it does not announce.
+    # intact: <file>      results file that must be readable after the error, with no row missing
+                          before it
+    # warning: <text>     part of a warning; the script must run to its end
+    # of one rank: yes    on several ranks the error may be that of any one, which knows no line and
+                          cannot have rank 0 write its rows: the run must still stop, with the
+                          message
+A script with an expectation must stop at its last line, with a non-zero status, within the time
+limit, and the message must name the script and the number of that line. A script without one must
+run to its end, without a warning that it does not announce.
 """
 
 import os

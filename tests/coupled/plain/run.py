@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A plain LIGGGHTS script must give the same numbers with furrow as with liggghts.
 
-    run.py same <liggghts> <furrow> <script> [<launcher> ...]   thermo lines and the final grains, every digit
-    run.py clear <furrow>                                       Furrow's styles after clear: as in a fresh process
+    run.py same <liggghts> <furrow> <script> [<launcher> ...]
+        thermo lines and the final grains, every digit
+    run.py clear <furrow>
+        Furrow's styles after clear: as in a fresh process
 """
 
 import subprocess

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A termination signal while a bed is made: an error that says so, a status that is not zero, and nothing kept for later runs.
+"""A termination signal while a bed is made: an error that says so, a status that is not zero, and
+nothing kept for later runs.
 
     interrupted_bed.py <furrow> <bed script>
 
-LIGGGHTS takes the signal as a wish for a checkpoint, ends the run of the moment and goes on with the script, so that without care the grains are kept as
-they fell.
+LIGGGHTS takes the signal as a request for a checkpoint, ends the current run and continues with the
+script, so that without precautions the grains would be kept as they fell.
 """
 
 import os

@@ -1,19 +1,24 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A wheel run that is stopped and continued against the same run in one go: the histories must agree.
+"""A wheel run that is stopped and continued, against the same run without a break: the histories
+must agree.
 
     run.py <case> <furrow> [<mpirun -n>]
 
-Cases, with the largest difference reached here over 2000 steps, relative to the largest value of a channel:
+Cases, with the largest difference reached here over 2000 steps, relative to the largest value of a
+channel:
     exact       checkpoint at a multiple of 1000 steps, killed later, continued: every bit
     slip        the same with prescribed slip: every bit
     sinkage     the same with prescribed sinkage: every bit
-    off_sort    checkpoint at another step: 2e-11. LIGGGHTS sorts its grains every 1000 steps and at every start, so the
-                continued run adds the contact forces of a grain in another order.
-    two_runs    checkpoint by write_restart between two runs of one process: every bit. Both begin with LIGGGHTS's set-up.
+    off_sort    checkpoint at another step: 2e-11. LIGGGHTS sorts its grains every 1000 steps and at
+                every start, so the continued run adds the contact forces of a grain in another
+                order.
+    two_runs    checkpoint by write_restart between two runs of one process: every bit. Both begin
+                with LIGGGHTS's set-up.
     one_to_two  continued on two ranks: 3e-11. Sums over ranks and ghosts come in another order.
     two         two ranks throughout: every bit
-Rounding differences grow with time, because grains are chaotic; the bound of 1e-9 leaves them room for these 2000 steps and
-none for a state that is missing: without the forces of the checkpoint's step the difference was 1e-2.
+Rounding differences grow with time, because grains are chaotic; the bound of 1e-9 leaves room for
+them over these 2000 steps, and none for a missing state: without the forces of the checkpoint's
+step the difference was 1e-2.
 """
 
 import os
@@ -76,7 +81,8 @@ def main(case, furrow, *mpirun):
     with tempfile.TemporaryDirectory() as folder:
         run = Runner(furrow, mpirun, Path(folder), options)
         run("whole", script, ranks=before)
-        # The first part goes on beyond its checkpoint, as a run does that is killed: those rows must be dropped.
+        # The first part goes on beyond its checkpoint, as a run does that is killed: those rows must
+        # be dropped.
         run("parts", script, ranks=before, until=checkpoint + 500)
         assert len(history(Path(folder) / "parts")["time"]) < len(history(Path(folder) / "whole")["time"])
         run("parts", ranks=after, **{"from": f"checkpoint.{checkpoint}"})

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A tyre on a rigid plane that is stopped and continued against the same run in one go: every bit of the histories must agree.
+"""A tyre on a rigid plane that is stopped and continued, against the same run without a break: every
+bit of the histories must agree.
 
     tyre.py <furrow>
 """

@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The wheel of TR p. 27.
+/// The wheel of [Shoop2001] p. 27.
 WheelGeometry tr_wheel() {
   WheelGeometry wheel;
   wheel.diameter = 0.74;

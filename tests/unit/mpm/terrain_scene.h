@@ -27,7 +27,7 @@ inline std::string elastic(double E, double nu, double density) {
   return text.str();
 }
 
-/// Fresh snow of TR Tables 1 and 3 (inputs/materials/fresh_snow.yaml).
+/// Fresh snow of [Shoop2001] Tables 1 and 3 (inputs/materials/fresh_snow.yaml).
 inline std::string snow() {
   return "drucker_prager_cap density 200 d 5e3 beta 22.53 R 2.2e-2 eps_vol_pl_0 0.001 elasticity "
          "linear E 13.79e6 nu 0.3 "

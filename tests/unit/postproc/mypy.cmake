@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 cmake_minimum_required(VERSION 3.25)
-# mypy over the package, then over each folder of drivers by itself (they have modules of the same names), then over the tests.
+# mypy over the package, then over each folder of drivers by itself (they have modules of the same
+# names), then over the tests.
 set(failed "")
 
 # check(<folder>... FILES <file>...): files that find their modules in the folders

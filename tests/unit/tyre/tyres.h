@@ -7,8 +7,8 @@
 
 namespace furrow {
 
-/// 235/75 R15, TR Table 8 (inputs/tyres/p235_75r15.yaml), with end springs of one's choice [N m/rad
-/// per m].
+/// 235/75 R15, [Shoop2001] Table 8 (inputs/tyres/p235_75r15.yaml), with end springs of one's choice
+/// [N m/rad per m].
 inline SidewallParameters tr_sidewall(double rim_stiffness, double tread_stiffness) {
   SidewallParameters sidewall;
   sidewall.length = 0.161;

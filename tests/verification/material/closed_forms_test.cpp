@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Laws against closed forms: facts.md section 3 (cap), TR eq 12-18, Simo and Hughes (rubber), and
-// against their own step size.
+// Laws against closed forms: cap and foam, [Shoop2001] eq 12-18; rubber, [Simo1998]; and against
+// their own step size.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ Vector6 strain_of(double xx, double yy, double zz, double xy = 0, double yz = 0,
   return (Vector6() << xx, yy, zz, xy, yz, xz).finished();
 }
 
-/// Fresh snow with a cap of eccentricity R, TR Tables 1 and 3.
+/// Fresh snow with a cap of eccentricity R, [Shoop2001] Tables 1 and 3.
 std::string snow(double R, const std::string& more = "") {
   return fmt::format(
       "drucker_prager_cap density 200 d 5e3 beta 22.53 R {} eps_vol_pl_0 0.001 elasticity linear E "

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// McCormick Ranch sand (TR Tables 4, 5) along four laboratory paths: the implicit update of
-// src/material against an independent explicit integration of the same rate equations
+// McCormick Ranch sand ([Shoop2001] Tables 4, 5) along four laboratory paths: the implicit update
+// of src/material against an independent explicit integration of the same rate equations
 // (rate_reference.h), to 1e-6. The update is of first order in the step, so two step sizes are
 // extrapolated to zero (Richardson) where the path is not radial.
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// An independent integration of the cap law's rate equations (facts: TR eq 12-16 with K = 1, alpha
-/// = 0), for comparison with the implicit update of src/material. Nothing of src/material is used:
-/// the elastoplastic rate equations with the consistency condition, explicit Runge-Kutta of Dormand
-/// and Prince (J. Comput. Appl. Math. 6, 1980) with adaptive steps, the first yield located by
-/// bisection. The deformation is given by its velocity gradient; the rate of stress is the Jaumann
-/// rate.
+/// An independent integration of the cap law's rate equations ([Shoop2001] eq 12-16 with K = 1,
+/// alpha = 0), for comparison with the implicit update of src/material. Nothing of src/material is
+/// used: the elastoplastic rate equations with the consistency condition, explicit Runge-Kutta of
+/// Dormand and Prince (J. Comput. Appl. Math. 6, 1980) with adaptive steps, the first yield located
+/// by bisection. The deformation is given by its velocity gradient; the rate of stress is the
+/// Jaumann rate.
 
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace reference {
 
 using Matrix3 = Eigen::Matrix3d;
 
-struct Sand {  // McCormick Ranch sand, TR Tables 4 and 5
+struct Sand {  // McCormick Ranch sand, [Shoop2001] Tables 4 and 5
   double E = 689e6, nu = 0.25, d = 1.194e6, beta = 14.56, R = 0.1, eps_0 = 0.001;
   std::vector<double> pb{0.138e6, 0.172e6, 0.434e6, 0.896e6, 1.655e6,
                          2.758e6, 4.137e6, 6.895e6, 13.447e6};

@@ -59,8 +59,8 @@ std::string foam() {
          "hardening.e0 3.5";
 }
 
-// The foam of TR snaps when a wave unloads it (porous kappa 0.005): a remap at each step damps the
-// waves. With remap intervals of 16 steps the lateral stress is off by 5 %.
+// The foam of [Shoop2001] snaps when a wave unloads it (porous kappa 0.005): a remap at each step
+// damps the waves. With remap intervals of 16 steps the lateral stress is off by 5 %.
 INSTANTIATE_TEST_SUITE_P(Laws, Column,
                          ::testing::Values(Case{"elastic", elastic(1e6, 0.3, 1000), 0.1, 0.05},
                                            Case{"cap_snow", snow(), 0.5, 0.3},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Contact of surfaces with ground: Coulomb's law and TR eq 26 on an incline, momentum and its
-// moment on both sides, energies.
+// Contact of surfaces with terrain: Coulomb's law and [Shoop2001] eq 26 on an incline, momentum and
+// its moment on both sides, energies.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -97,8 +97,8 @@ TEST_P(Enforcements, SticksBelowTheAngleOfFriction) {
   EXPECT_NEAR(incline.friction_impulse / incline.normal_impulse, 0.2, 0.02);
 }
 
-/// tau = mu sigma (1 - exp(-j/k)), TR eq 26: the distance slid solves s'' = g sin - mu g cos (1 -
-/// exp(-s/k)).
+/// tau = mu sigma (1 - exp(-j/k)), [Shoop2001] eq 26: the distance slid solves
+/// s'' = g sin - mu g cos (1 - exp(-s/k)).
 TEST_P(Enforcements, SlidesAsEquation26Says) {
   ContactParameters parameters;
   parameters.enforcement = GetParam();

@@ -35,8 +35,8 @@ RigidWheelParameters tr_wheel(double height) {
   return p;
 }
 
-/// TR's wheel on 0.2 m of ground, half model; after a millimetre of free fall it carries its
-/// weight.
+/// The wheel of [Shoop2001] on 0.2 m of terrain, half model; after a millimetre of free fall it
+/// carries its weight.
 struct Scene {
   explicit Scene(const Bed& bed, double height = 1e-3)
       : ground(parameters(bed), Communicator()),

@@ -101,7 +101,7 @@ TEST(Calibration, FlagsParametersThatOnlyACombinationFixes) {
   EXPECT_LT(result.singular_values[2], 1e-6 * result.singular_values[0]);
 }
 
-/// The density is not felt by a quasi-static path.
+/// The density has no influence on a quasi-static path.
 TEST(Calibration, FlagsAParameterWithoutInfluence) {
   const FitResult result = fit_material(synthetic(
       "mccormick_sand_exponential", {{"hardening.lambda", 0.045}, {"law.density", 1900}}));
@@ -153,7 +153,7 @@ TEST(Calibration, OneOfATableIsAParameter) {
   problem.parameters[0].name = "hardening.p[6]";
   problem.parameters[0].start = 2.2e6;
   const FitResult result = fit_material(problem);
-  EXPECT_NEAR(result.parameters[0].value / 2.758e6, 1.0, 1e-6);  // TR Table 5, row 6
+  EXPECT_NEAR(result.parameters[0].value / 2.758e6, 1.0, 1e-6);  // Table 5, row 6
 }
 
 TEST(Calibration, RefusesWhatCannotBeFitted) {

@@ -15,7 +15,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-// McCormick sand, TR Table 4
+// McCormick sand, [Shoop2001] Table 4
 const double K = 689e6 / 1.5, tan_beta = std::tan(radians(14.56)), d = 1.194e6, R = 0.1;
 
 std::unique_ptr<Material> preset(const std::string& name) {
@@ -32,8 +32,8 @@ double volume_strain(const PointRecord& record) {
 }
 Invariants stress(const PointRecord& record) { return invariants(stress_of(record.state)); }
 
-/// Hydrostatic: eps_v = p/K + H^-1(p) - eps_0 on the rows of TR Table 5, and p/K before first yield
-/// at 0.1448 MPa.
+/// Hydrostatic: eps_v = p/K + H^-1(p) - eps_0 on the rows of [Shoop2001] Table 5, and p/K before
+/// first yield at 0.1448 MPa.
 TEST(PointDriver, HydrostaticCompressionFollowsTheHardeningTable) {
   const auto sand = preset("mccormick_sand");
   const PointHistory history = drive_point(

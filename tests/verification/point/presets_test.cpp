@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Every preset of inputs/materials against its source: TR is S. A. Shoop, ERDC/CRREL TR-01-16
-/// (2001).
+/// Every preset of inputs/materials against its source (keys: inputs/validation/references.md).
 
 #include <cmath>
 #include <filesystem>
@@ -43,8 +42,8 @@ PointHistory oedometer(const Material& snow, const std::vector<double>& stresses
   return drive_point(snow, path);
 }
 
-/// Root mean square of ln(rho/rho_measured) in confined compression, over the stresses of TR
-/// Table 2.
+/// Root mean square of ln(rho/rho_measured) in confined compression, over the stresses of
+/// [Shoop2001] Table 2.
 double oedometer_error(const std::string& preset) {
   const CsvTable data = reference("snow_oedometer");
   const std::vector<double> rho = data.numbers("rho_kgm3");
@@ -90,7 +89,7 @@ TEST(Presets, McCormickSandIsTRTables4And5) {
               1.0);  // first yield in hydrostatic compression
 }
 
-/// inputs/laboratory/identify made both laws from these grains' tests: they follow the oedometer
+/// inputs/laboratory/identify.py made both laws from these grains' tests: they follow the oedometer
 /// that they were made with.
 TEST(Presets, DrySandFollowsTheOedometerOfItsGrains) {
   const CsvTable grains = CsvTable::read(inputs + "/validation/grains/sand_dry_oedometer.csv");
@@ -172,7 +171,7 @@ TEST(Presets, InvertedTableFollowsTheOedometer) {
   EXPECT_LT(oedometer_error("fresh_snow_abele_gow_log"), 1e-3);
 }
 
-/// Of TR's readings p = sigma_1 is the nearest to the oedometer.
+/// Of the readings of [Shoop2001] Table 3, p = sigma_1 is the nearest to the oedometer.
 TEST(Presets, SigmaOneIsTheReadingNearestToTheOedometer) {
   const double sigma1 = oedometer_error("fresh_snow");
   EXPECT_LT(sigma1, 0.12);
@@ -198,7 +197,7 @@ TEST(Presets, InvertedTableIsTheClosedForm) {
   }
 }
 
-/// TR's M from Table 1 is 5.807; the other reading of pc0 gives 8.39.
+/// M from [Shoop2001] Table 1 is 5.807; the other reading of pc0 gives 8.39.
 TEST(Presets, FoamHasBothReadings) {
   const double pt = 11.376, sigma0 = 275.79;
   const auto aspect = [&](double pc0) {
@@ -217,11 +216,12 @@ TEST(Presets, FoamHasBothReadings) {
   EXPECT_EQ(foam.at("hardening").options.number("lambda"), 0.35);
   EXPECT_EQ(foam.at("hardening").options.number("kappa"), 0.005);
   EXPECT_EQ(foam.at("hardening").options.number("e0"),
-            900.0 / 200.0 - 1.0);  // TR: voids against ice of 900 kg/m3
+            900.0 / 200.0 - 1.0);  // [Shoop2001]: ice of 900 kg/m3
   EXPECT_EQ(foam.at("elasticity").options.number("kappa"), 0.005);
 }
 
-/// TR's lambda needs twice the oedometer's stress; the fitted one meets its densities.
+/// The lambda of [Shoop2001] needs twice the oedometer's stress; the fitted one meets its
+/// densities.
 TEST(Presets, FoamInTheOedometer) {
   EXPECT_NEAR(oedometer_error("fresh_snow_foam"), 0.163, 5e-3);
   EXPECT_LT(oedometer_error("fresh_snow_foam_oedometer"), 0.04);

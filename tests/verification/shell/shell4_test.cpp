@@ -19,7 +19,7 @@ Vector3 along_x(const Vector3&) { return Vector3::UnitX(); }
 Vector3 along_y(const Vector3&) { return Vector3::UnitY(); }
 Vector3 around_y(const Vector3& x) { return Vector3(-x.z(), 0.0, x.x()); }
 
-/// The belt of TR's tyre: E1 3.62e10, E2 1.98e10 Pa, h 1.11 mm; nu12 and G assumed.
+/// The belt of the tyre of [Shoop2001]: E1 3.62e10, E2 1.98e10 Pa, h 1.11 mm; nu12 and G assumed.
 OrthotropicLayer belt() { return {3.62e10, 1.98e10, 0.3, 1e10, 1e10, 1e10, 1.11e-3}; }
 
 /// A ring round the y axis, normals outwards: n elements around, m across.

@@ -114,8 +114,8 @@ TEST(HardCases, CrownedTread) {
 }
 
 /// A sidewall that is held stiffly to the tread's edge presses the edge down and buckles the belt
-/// inside of it, as TR Figs 52 and 53 show: the shoulder carries much more than the air's pressure,
-/// the line of nodes inside of it much less, the middle the air's pressure.
+/// inside it, as [Shoop2001] Figs 52 and 53 show: the shoulder carries much more than the air's
+/// pressure, the line of nodes inside it much less, the middle the air's pressure.
 TEST(HardCases, BucklesInsideTheShoulder) {
   constexpr double pressure = 207e3;
   const Rest pinned = press(pressure, 6627.0, 6, 72),

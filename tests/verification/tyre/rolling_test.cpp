@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A tyre that rolls on a rigid plane, driven by the rig: TR's shells failed near one turn.
-// References: conservation of energy, the inextensible belt's rolling radius, the load, statics of
-// a driven wheel.
+// A tyre that rolls on a rigid plane, driven by the rig: the shells of [Shoop2001] failed near one
+// turn. References: conservation of energy, the inextensible belt's rolling radius, the load,
+// statics of a driven wheel.
 
 #include <cmath>
 

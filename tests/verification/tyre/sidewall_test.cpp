@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The sidewall against what does not come from it: the membrane, the elastica in closed form, the
-/// inflated band as an ordinary differential equation, and TR's geometry of the inflated 235/75
-/// R15.
+/// The sidewall against independent solutions: the membrane, the elastica in closed form, the
+/// inflated band as an ordinary differential equation, and the geometry of the inflated 235/75 R15
+/// in [Shoop2001].
 
 #include <cmath>
 #include <functional>
@@ -258,9 +258,9 @@ TEST(Sidewall, ChainsOfMoreSegmentsConvergeToTheInflatedBand) {
       }
 }
 
-/// TR's inflated section is 22.9 cm wide and its sidewall turns by 97 to 101 degrees: so it does
-/// here within 1 % and 3 degrees, if it ends at the diameter of the belts. With the diameter that
-/// TR prints for its end, 72.5 cm, it would be nearly straight.
+/// The inflated section of [Shoop2001] is 22.9 cm wide and its sidewall turns by 97 to 101 degrees:
+/// so it does here within 1 % and 3 degrees, if it ends at the diameter of the belts. With the
+/// diameter printed for its end, 72.5 cm, it would be nearly straight.
 TEST(Sidewall, InflatedSectionIsThatOfTheReport) {
   const TyreParameters tyre = tr_tyre();
   const Vector2 chord = tyre.sidewall_chord();
