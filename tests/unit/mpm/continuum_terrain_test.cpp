@@ -170,7 +170,7 @@ TEST(Terrain, StopsWhenParticlesLeaveTheGrid) {
     FAIL();
   } catch (const StateError& error) {
     EXPECT_THAT(error.what(), HasSubstr("outside of the grid (x 0 to 0.2, y 0 to 0.2, z 0 to 0.2 "
-                                        "m): give the ground more headroom or size"));
+                                        "m): give the ground more clearance above it or size"));
   }
 }
 
