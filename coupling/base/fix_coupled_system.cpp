@@ -2,11 +2,15 @@
 #include "coupling/base/fix_coupled_system.h"
 
 #include <algorithm>
+#include <set>
+#include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.h"
 #include "coupling/base/fix_order.h"
+#include "coupling/base/furrow_fix.h"
 #include "coupling/base/grain_check.h"
 #include "coupling/base/restart_record.h"
 #include "coupling/base/uses_fix.h"
@@ -21,6 +25,16 @@ namespace furrow::coupling {
 namespace {
 
 constexpr char system_id[] = "furrow_system";
+
+/// A line each.
+std::string names_of_restorable_fixes(const LAMMPS_NS::Modify& modify) {
+  std::string names;
+  for (int i = 0; i < modify.nfix; ++i) {
+    const auto* fix = dynamic_cast<const FurrowFix*>(modify.fix[i]);
+    if (fix && fix->must_be_restored()) names += fix->name() + '\n';
+  }
+  return names;
+}
 
 }  // namespace
 
@@ -83,7 +97,32 @@ int FixCoupledSystem::setmask() {
 /// Before the first neighbour lists: a position that is no number would crash them.
 void FixCoupledSystem::init() {
   with_collective_errors(*error, [&] { check_fix_order(*modify, *this); });
+  with_collective_errors(*error, [&] { check_restored_fixes(); });
   with_local_errors(*error, [&] { check_grains_finite(*lmp); });
+}
+
+/// What the checkpoint keeps and the script does not have is lost; what the script has and the
+/// checkpoint does not, begins as its line says.
+void FixCoupledSystem::check_restored_fixes() {
+  if (checkpointed_fixes_.empty()) return;
+  std::set<std::string> kept;
+  std::istringstream lines(checkpointed_fixes_);
+  for (std::string name; std::getline(lines, name);) kept.insert(name);
+  for (int i = 0; i < modify->nfix; ++i) {
+    const auto* fix = dynamic_cast<const FurrowFix*>(modify->fix[i]);
+    if (!fix || !fix->must_be_restored()) continue;
+    if (fix->restored())
+      kept.erase(fix->name());
+    else
+      warn(*lmp, fmt::format("{} has no state in the checkpoint: it begins as its line says",
+                             fix->name()));
+  }
+  if (!kept.empty())
+    throw StateError(fmt::format(
+        "the checkpoint has the state of {}, and the script that continues has no such line; "
+        "write it with the same id and style",
+        fmt::join(kept, ", ")));
+  checkpointed_fixes_.clear();
 }
 
 void FixCoupledSystem::setup_pre_force(int) {
@@ -200,7 +239,10 @@ void FixCoupledSystem::checkpoint(Checkpoint& state, bool in_run,
   state.value("time", time_);
   state.value("in_run", in_run);
   state.values("contact_forces", contact_forces);
+  std::string fixes = names_of_restorable_fixes(*modify);
+  state.value("fixes", fixes);
   if (state.saving()) return;
+  checkpointed_fixes_ = fixes;
   if (in_run) forces_ = ForceState::restored;
   restored_contact_forces_ = std::move(contact_forces);
 }

@@ -92,6 +92,7 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   };
   Member& member(const Body& body);
   void checkpoint(Checkpoint& state, bool in_run, std::vector<double> contact_forces);
+  void check_restored_fixes();
   void clear_forces();
   void sum_over_ranks();
   void sum_forces();
@@ -109,6 +110,7 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   double time_ = 0.0;
   ForceState forces_ = ForceState::partial;
   std::vector<double> restored_contact_forces_;
+  std::string checkpointed_fixes_;  // names, a line each; empty unless the run is continued
 };
 
 }  // namespace furrow::coupling

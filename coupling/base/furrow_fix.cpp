@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "comm.h"
 #include "coupling/base/fix_coupled_system.h"
@@ -46,6 +47,7 @@ void FurrowFix::pre_delete(bool unfixing) {
 void FurrowFix::write_restart(FILE* file) {
   collectively([&] {
     Checkpoint state(name());
+    match_options(state);
     checkpoint(state);
     if (comm->me == 0) write_record(file, state);
   });
@@ -54,9 +56,27 @@ void FurrowFix::write_restart(FILE* file) {
 void FurrowFix::restart(char* buffer) {
   collectively([&] {
     Checkpoint state = read_record(name(), buffer);
+    match_options(state);
     checkpoint(state);
     state.finish();
+    restored_ = true;
   });
+}
+
+/// Numbers are compared as numbers: 0.2 is 0.20.
+void FurrowFix::match_options(Checkpoint& state) const {
+  if (!state_needs_options()) return;
+  for (const Key& key : options_.keys()) {
+    if (key.may_change) continue;
+    const std::string what = fmt::format("keyword '{}'", key.name);
+    const bool numbers = key.kind == Key::Kind::number || key.kind == Key::Kind::numbers;
+    if (!options_.has(key.name))
+      state.match(what, "not given");
+    else if (numbers)
+      state.match(what, fmt::format("{}", fmt::join(options_.numbers(key.name), " ")));
+    else
+      state.match(what, options_.text(key.name));
+  }
 }
 
 void FurrowFix::announce_vector(std::size_t size) {

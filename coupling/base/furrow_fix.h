@@ -37,6 +37,12 @@ class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix {
   const Options& options() const final { return options_; }
   /// Those of use(), and furrow/system for a fix that contributes to it.
   bool uses(const LAMMPS_NS::Fix& other) const override;
+  /// For errors and warnings: "fix wheel/rigid 'wheel'".
+  std::string name() const;
+  /// A checkpoint keeps a state of it that a continued run cannot do without.
+  bool must_be_restored() const { return restart_global && state_needs_options(); }
+  /// It has the state of a checkpoint.
+  bool restored() const { return restored_; }
 
   int setmask() override { return 0; }
   /// Contributions join the coupled system. Not in the constructor: LIGGGHTS cannot make one fix
@@ -90,8 +96,9 @@ class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix {
   /// Saves or brings back what the fix must keep in restart files. Called on all ranks; what rank 0
   /// saves is written.
   virtual void checkpoint(Checkpoint&) {}
-  /// For errors and warnings: "fix wheel/rigid 'wheel'".
-  std::string name() const;
+  /// Does the state belong to these options alone? Then a run is continued with the same ones, but
+  /// for those that may_change().
+  virtual bool state_needs_options() const { return true; }
   /// Runs an action that all ranks run alike; what it throws becomes the error of all.
   template <class Action>
   void collectively(Action&& action) const {
@@ -106,11 +113,13 @@ class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix {
  private:
   using Part = std::variant<Body*, Contact*, MotionController*>;
   void announce_vector(std::size_t size);
+  void match_options(Checkpoint& state) const;
 
   Options options_;
   std::vector<const LAMMPS_NS::Fix*> used_;
   std::vector<Part> parts_;
   std::function<double(std::size_t)> compute_;
+  bool restored_ = false;
 };
 
 }  // namespace furrow::coupling

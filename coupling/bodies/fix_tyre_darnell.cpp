@@ -4,6 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include <sstream>
+
 #include <fmt/format.h>
 
 #include "bodies/hub_parameters.h"
@@ -58,7 +60,8 @@ std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& op
 
 Schema FixTyreDarnell::schema() {
   Schema schema("fix tyre/darnell");
-  schema.text("file", "tyre file, relative to the folder of the script");
+  schema.text("file", "tyre file, relative to the folder of the script")
+      .may_change();  // of place and name: checkpoints compare what is in it
   schema
       .number("pressure", "Pa", Range::non_negative(),
               "inflation pressure; by default that of the tyre file")
@@ -106,6 +109,14 @@ FixTyreDarnell::FixTyreDarnell(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
 
 /// Grain forces that come only once in many sub-steps may feed energy into a light tread:
 /// fix_tyre_darnell.md.
+/// Line by line, so that an error names the value of the tyre file that differs.
+void FixTyreDarnell::checkpoint(Checkpoint& state) {
+  std::istringstream lines(tyre_file_text(tyre().parameters()));
+  for (std::string line; std::getline(lines, line);)
+    state.match("line '" + line.substr(0, line.find(':')) + "' of the tyre file", line);
+  FixBody::checkpoint(state);
+}
+
 void FixTyreDarnell::init() {
   const double stable = tyre().stable_time_step();
   bool on_grains = false;

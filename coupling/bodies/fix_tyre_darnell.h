@@ -15,6 +15,9 @@ class FixTyreDarnell : public FixWheelHub {
 
   DarnellTyre& tyre() { return static_cast<DarnellTyre&>(body()); }
   void init() override;
+
+ protected:
+  void checkpoint(Checkpoint& state) override;
 };
 
 }  // namespace furrow::coupling

@@ -54,6 +54,7 @@ class FixHistory : public FurrowFix, public FollowsSystem, public FlushesOnError
  private:
   /// A checkpoint: the rows up to it must be in the file, or a continued run would find a gap.
   void checkpoint(Checkpoint& state) override;
+  bool state_needs_options() const override { return false; }
 
   std::optional<double> resume_time_;
   bool opened_ = false;

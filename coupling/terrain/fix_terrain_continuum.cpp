@@ -35,7 +35,8 @@ Schema FixTerrainContinuum::schema() {
   schema
       .number("energy_tolerance", "", Range::positive(),
               "energy that may be missing or made, over the largest work")
-      .by_default(0.05);
+      .by_default(0.05)
+      .may_change();
   return schema;
 }
 

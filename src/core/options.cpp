@@ -135,6 +135,11 @@ Schema& Schema::by_default(const std::vector<double>& values) {
   return optional();
 }
 
+Schema& Schema::may_change() {
+  keys_.back().may_change = true;
+  return *this;
+}
+
 const Key* Schema::find(const std::string& name) const {
   const auto found =
       std::find_if(keys_.begin(), keys_.end(), [&](const Key& key) { return key.name == name; });

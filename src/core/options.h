@@ -47,6 +47,7 @@ struct Key {
   bool required = true;
   /// used when not required and not given; may be empty
   std::vector<std::string> default_values = {};
+  bool may_change = false;  ///< when a run is continued from a checkpoint
 
   std::string allowed() const;  ///< "a number > 0 [m]", "one of: towed, slip, torque"
 };
@@ -97,6 +98,8 @@ class Schema {
   Schema& by_default(const std::string& value);
   Schema& by_default(double value);
   Schema& by_default(const std::vector<double>& values);
+  /// ... may have another value when a run is continued from a checkpoint
+  Schema& may_change();
 
   /// A former name of a key that is declared already. Whoever reads options with aliases shows
   /// Options::warnings() to the user.

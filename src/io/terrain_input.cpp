@@ -40,11 +40,24 @@ void scale_modulus(MaterialFile& file, double factor, const std::string& where) 
                    "1 for a material without E");
 }
 
-std::shared_ptr<const Material> load(const Options& options, const std::filesystem::path& path) {
+/// The law and every key that has a value, section by section.
+std::vector<Entry> describe(const MaterialFile& file) {
+  std::vector<Entry> description = {{"law", {file.model.name}}};
+  for (const auto& [section, values] : read_sections(file.model, file.sections)) {
+    description.push_back({section, {values.type}});
+    for (Entry entry : values.options.effective()) {
+      entry.key = section + '.' + entry.key;
+      description.push_back(std::move(entry));
+    }
+  }
+  return description;
+}
+
+TerrainLayer load(const Options& options, const std::filesystem::path& path, double thickness) {
   MaterialFile file = read_material_file(path.string());
   const double factor = options.number("modulus_scale");
   if (factor != 1.0) scale_modulus(file, factor, options.where("modulus_scale"));
-  return file.make();
+  return {file.make(), thickness, describe(file)};
 }
 
 /// "crust.yaml:0.03,snow.yaml": from the top, each but the last with its thickness.
@@ -68,7 +81,7 @@ std::vector<TerrainLayer> read_layers(const Options& options, const std::filesys
       throw InputError(where, fmt::format("has the layer '{}'", parts[n]),
                        "file:thickness,file:thickness,...,file from the top down",
                        "only the lowest layer needs no thickness");
-    layers.push_back({load(options, folder / words[0]), thickness});
+    layers.push_back(load(options, folder / words[0], thickness));
   }
   return layers;
 }
@@ -100,8 +113,10 @@ AxisLayout vertical_layout(const Options& options) {
 
 Schema terrain_schema(const std::string& subject) {
   Schema schema(subject);
-  schema.text("material",
-              "material file, or layers from the top down: file:thickness,file:thickness,file");
+  schema
+      .text("material",
+            "material file, or layers from the top down: file:thickness,file:thickness,file")
+      .may_change();  // of place and name: checkpoints compare what is in it
   schema.number("length", "m", Range::positive(), "along x");
   schema.number("width", "m", Range::positive(), "along y; of a half model, both halves");
   schema.number("depth", "m", Range::positive(), "of the ground");
@@ -140,7 +155,8 @@ Schema terrain_schema(const std::string& subject) {
       .by_default("yes");
   schema.flag("sheet", "carry triangles on the upper face, for grains that lie on the ground");
   schema.number("cfl", "", Range::closed(0.01, 1.0), "step over shortest cell and wave speed")
-      .by_default(0.4);
+      .by_default(0.4)
+      .may_change();
   schema
       .integer("remap_interval", Range::closed(1, 64),
                "most steps between two mappings of particles to the grid")

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace furrow {
 
 namespace {
@@ -124,9 +127,11 @@ void ContinuumTerrain::checkpoint(Checkpoint& state) {
     state.match("shortest_cell", grid().axis(a).shortest());
   }
   state.match("layers", discretisation_.groups.size());
-  for (const ParticleGroup& group : discretisation_.groups) {
-    state.match("numbers_of_a_particle", group.particles.record_length());
+  for (const TerrainLayer& layer : parameters_.layers) match_layer(layer, state);
+  for (ParticleGroup& group : discretisation_.groups) {
     state.match("density", group.material->density());
+    group.particles.checkpoint_columns(state);
+    state.match("numbers_of_a_particle", group.particles.record_length());
   }
   state.match("surface_nodes", free_surface_.surface().node_count());
   window_.checkpoint_position(state);
@@ -151,6 +156,15 @@ void ContinuumTerrain::checkpoint_boundary(Checkpoint& state) {
   boundary.synchronise(ranks(), discretisation_.partition.owned_planes());
   boundary.sum_over_ranks(ranks());
   boundary.checkpoint(state, true);
+}
+
+/// Key by key, so that an error names the one that differs.
+void ContinuumTerrain::match_layer(const TerrainLayer& layer, Checkpoint& state) {
+  state.match("thickness of a layer", layer.thickness);
+  state.match("number of its keys", layer.description.size());
+  for (const Entry& entry : layer.description)
+    state.match(fmt::format("'{}' of a layer", entry.key),
+                fmt::format("{}", fmt::join(entry.values, " ")));
 }
 
 /// What follows from the restored particles and nodes.

@@ -94,6 +94,7 @@ class ContinuumTerrain : public Body {
   void fill();
   void sort_particles();
   void checkpoint_boundary(Checkpoint& state);
+  static void match_layer(const TerrainLayer& layer, Checkpoint& state);
   void resume();
 
   TerrainParameters parameters_;

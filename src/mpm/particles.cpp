@@ -2,18 +2,68 @@
 #include "mpm/particles.h"
 
 #include <algorithm>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
 
 namespace furrow {
 
 Particles::Particles(const Material& material) : state_fields_(material.state_fields().size()) {
   for (std::size_t c = 0; c < column::state + state_fields_; ++c)
-    add_column(c == column::velocity ? 4 : c == column::affine ? 12 : 1);
+    append_column("", c == column::velocity ? 4 : c == column::affine ? 12 : 1, true);
 }
 
-std::size_t Particles::add_column(int components) {
-  columns_.push_back(
-      {components, std::vector<double>(size_ * static_cast<std::size_t>(components), 0.0)});
+std::size_t Particles::append_column(const std::string& owner, int components, bool claimed) {
+  columns_.push_back({components,
+                      std::vector<double>(size_ * static_cast<std::size_t>(components), 0.0), owner,
+                      claimed});
   return columns_.size() - 1;
+}
+
+std::size_t Particles::add_column(const std::string& owner, int components) {
+  const auto found = std::find_if(columns_.begin(), columns_.end(),
+                                  [&](const Column& column) { return column.owner == owner; });
+  if (found == columns_.end()) return append_column(owner, components, true);
+  if (found->claimed)
+    throw Error(fmt::format("{} keeps values with these particles already", owner));
+  if (found->components != components)
+    throw Error(fmt::format("{} keeps {} values with a particle, the checkpoint has {}", owner,
+                            components, found->components));
+  found->claimed = true;
+  return static_cast<std::size_t>(found - columns_.begin());
+}
+
+/// Columns that are there already must be the first of the checkpoint's, in its order.
+void Particles::checkpoint_columns(Checkpoint& state) {
+  const std::size_t own = column::state + state_fields_;
+  auto added = static_cast<std::int64_t>(columns_.size() - own);
+  const std::int64_t present = added;
+  state.value("added_columns", added);
+  if (present > added)
+    throw Error(fmt::format("{}: the checkpoint has no values that {} keeps with the particles",
+                            state.owner(), columns_[own + static_cast<std::size_t>(added)].owner));
+  for (std::size_t n = 0; n < static_cast<std::size_t>(added); ++n) {
+    const bool exists = own + n < columns_.size();
+    std::string owner = exists ? columns_[own + n].owner : "";
+    int components = exists ? columns_[own + n].components : 0;
+    state.value("values_kept_by", owner);
+    state.value("their_number", components);
+    if (!exists)
+      append_column(owner, components, false);
+    else if (owner != columns_[own + n].owner || components != columns_[own + n].components)
+      throw Error(fmt::format(
+          "{}: {} keeps values with its particles, {} did when the checkpoint was written",
+          state.owner(), columns_[own + n].owner, owner));
+  }
+}
+
+std::vector<std::string> Particles::unclaimed_columns() const {
+  std::vector<std::string> owners;
+  for (const Column& column : columns_)
+    if (!column.claimed) owners.push_back(column.owner);
+  return owners;
 }
 
 std::size_t Particles::record_length() const {

@@ -4,15 +4,17 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
+#include "core/checkpoint.h"
 #include "material/material.h"
 #include "material/point_block.h"
 #include "mpm/transfer.h"
 
 namespace furrow {
 
-/// Columns of every particle; those of the material's state follow, then those that others keep
+/// Columns of every particle; those of the material's state follow, then those that contacts keep
 /// with the particles (Particles::add_column). Unscoped: columns are indices, and those of the
 /// state are sums (column::state + field::stress). One number for each particle unless said
 /// otherwise.
@@ -42,9 +44,17 @@ class Particles {
  public:
   explicit Particles(const Material& material);
 
-  /// Keeps a number of values with every particle, zero at first; they follow it through sorting,
-  /// migration and checkpoints. @return the column
-  std::size_t add_column(int components);
+  /// Keeps a number of values with every particle; they follow it through sorting, migration and
+  /// checkpoints. They are zero at first, or those that a checkpoint has brought under this name.
+  /// @param owner whose they are: "fix contact/continuum 'touch'"; each has one column
+  /// @return the column
+  /// @throws Error when the owner has a column already, or the checkpoint's has another length
+  std::size_t add_column(const std::string& owner, int components);
+  /// Saves whose columns there are. When a terrain is restored, those who kept values with its
+  /// particles do not exist yet: their columns are made, and wait for add_column().
+  void checkpoint_columns(Checkpoint& state);
+  /// Whose columns a checkpoint has brought, that nobody has added since.
+  std::vector<std::string> unclaimed_columns() const;
 
   std::size_t size() const { return size_; }
   std::size_t record_length() const;  ///< numbers of one particle
@@ -82,7 +92,10 @@ class Particles {
   struct Column {
     int components;  // numbers of one particle
     std::vector<double> values;
+    std::string owner = {};  // empty: the particles themselves
+    bool claimed = true;     // false: brought by a checkpoint, and not added yet
   };
+  std::size_t append_column(const std::string& owner, int components, bool claimed);
   /// Of three columns that follow one another.
   Vector3 vector(std::size_t first_column, std::size_t i) const {
     return {data(first_column)[i], data(first_column + 1)[i], data(first_column + 2)[i]};

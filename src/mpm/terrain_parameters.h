@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/options.h"
 #include "material/material.h"
 #include "mpm/axis.h"
 #include "mpm/boundary.h"
@@ -16,6 +17,8 @@ namespace furrow {
 struct TerrainLayer {
   std::shared_ptr<const Material> material;
   double thickness = 0.0;  ///< [m]
+  /// The law and its effective keys, as a checkpoint compares them; may be empty.
+  std::vector<Entry> description = {};
 };
 
 struct TerrainParameters {

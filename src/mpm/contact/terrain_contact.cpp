@@ -22,7 +22,7 @@ TerrainContact::TerrainContact(Body& body, ContinuumTerrain& terrain,
   std::visit([&](const auto& law) { law.check(terrain.parameters(), where); }, law_);
   if (half_model) mirror_.emplace(body.surface(), terrain.grid().axis(1).lower(), where);
   for (ParticleGroup& group : terrain_.unsynchronised_groups())
-    history_columns_.push_back(group.particles.add_column(ContactHistory::size));
+    history_columns_.push_back(group.particles.add_column(where, ContactHistory::size));
 }
 
 void TerrainContact::apply(double dt) {

@@ -30,7 +30,7 @@ class TerrainContact : public Contact {
   /// Body and terrain must outlive the contact. Not collective.
   /// @param half_model  the terrain's lower y face is a plane of symmetry and the surface is whole:
   ///                    it takes the mirrored forces as well
-  /// @param where       names the contact in errors
+  /// @param where       names the contact in errors, and its values in checkpoints of the terrain
   /// @throws InputError when a half model's surface is not its own mirror image, or the law cannot
   /// work on this terrain
   TerrainContact(Body& body, ContinuumTerrain& terrain, const ContactParameters& parameters,

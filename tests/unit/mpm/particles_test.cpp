@@ -53,7 +53,7 @@ TEST(Particles, ReorderMovesAllColumnsAndDropsTheRest) {
   const auto material = material_of(elastic(1e6, 0.3, 1000));
   Particles particles(*material);
   particles.append(4);
-  const std::size_t memory = particles.add_column(2);
+  const std::size_t memory = particles.add_column("one", 2);
   number(particles);
   for (std::size_t p = 0; p < 4; ++p) particles.data(memory)[2 * p + 1] = double(p);
   particles.reorder({3, 0, 2});
@@ -72,13 +72,20 @@ TEST(Particles, AColumnAddedLateIsZeroAndTravelsWithTheParticle) {
   const auto material = material_of(elastic(1e6, 0.3, 1000));
   Particles particles(*material);
   particles.append(3);
-  const std::size_t before = particles.record_length(), memory = particles.add_column(4);
+  const std::size_t before = particles.record_length(), memory = particles.add_column("one", 4);
   EXPECT_EQ(particles.record_length(), before + 4);
   for (std::size_t n = 0; n < 12; ++n) EXPECT_EQ(particles.data(memory)[n], 0.0);
   particles.data(memory)[9] = 7.0;
   particles.append(1);
   EXPECT_EQ(particles.data(memory)[9], 7.0);
   EXPECT_EQ(particles.data(memory)[15], 0.0);
+}
+
+TEST(Particles, EveryOwnerHasOneColumn) {
+  Particles particles(*material_of(elastic(1e6, 0.3, 1000)));
+  const std::size_t first = particles.add_column("one", 4);
+  EXPECT_NE(particles.add_column("two", 4), first);
+  EXPECT_THROW(particles.add_column("one", 4), Error);
 }
 
 TEST(Particles, PackAndUnpackAreInverse) {

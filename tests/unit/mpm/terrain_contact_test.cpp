@@ -108,16 +108,16 @@ TEST(TerrainContact, RefusesWhatCannotBe) {
   EXPECT_THAT(refusal_of([&] { TerrainContact(aside, ground, ContactParameters{}, true, "foot"); }),
               HasSubstr("foot needs a surface that is its own mirror image in the plane y = 0 m"));
   RigidPlate inside({PlateShape::square, 0.1, 0.05, 4}, {0, 0.05, -0.08});
-  TerrainContact overlap(inside, ground, ContactParameters{}, false, "foot");
+  TerrainContact overlap(inside, ground, ContactParameters{}, false, "overlap");
   EXPECT_THAT(refusal_of([&] { overlap.apply(1e-5); }),
               HasSubstr("is inside of the body at the start; start above the ground"));
   RigidPlate away({PlateShape::square, 0.1, 0.05, 4}, {0.3, 0.05, 0.01});
-  TerrainContact departed(away, ground, ContactParameters{}, false, "foot");
+  TerrainContact departed(away, ground, ContactParameters{}, false, "departed");
   EXPECT_THAT(refusal_of([&] { departed.apply(1e-5); }),
               HasSubstr("the middle of the body is at x = 0.3 m"));
   RigidPlate finer({PlateShape::square, 0.1, 0.05, 8}, {0, 0.05, 0.01});
-  TerrainContact one(away, ground, ContactParameters{}, false, "foot"),
-      other(finer, ground, ContactParameters{}, false, "foot");
+  TerrainContact one(away, ground, ContactParameters{}, false, "one"),
+      other(finer, ground, ContactParameters{}, false, "other");
   EXPECT_THAT(refusal_of([&] { test::hand_over(one, other); }), HasSubstr("surface_nodes is"));
 }
 
