@@ -12,7 +12,7 @@ The head of a script says what is run and what must come out, in SI units:
     # Gives:    sinkage 0.15 to 0.17 m, resistance coefficient 0.16 to 0.20
 
 A scene's quantities are those of summary.json (means over the cruise of a wheel), of its history
-("... at the end": the last twentieth), of curve.txt (a plate) and of the continuum's history; those
+("<channel> at the end", underscores as spaces: the last twentieth), of curve.txt (a plate) and of the continuum's history; those
 of a laboratory test are in laboratory.json. Every run must also keep its energies and momenta.
 """
 
