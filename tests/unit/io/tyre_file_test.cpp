@@ -70,7 +70,7 @@ TEST_F(TyreFileTest, BadFilesAreRefusedWithTheirPlace) {
       {", 17.54]", "]", "has 8 values of curvature for 9 of bending"},
       {", 17.54]", ", 300]", "curvature 300 1/m folds a hinge"},
       {"[1.5,  0.15,", "[1.5,  -0.15,", "keyword 'bending' is -0.15"},
-      {"rim_stiffness: 50 ", "rim_stiffness: -1 ",
+      {"rim_stiffness: 50\n", "rim_stiffness: -1\n",
        "keyword 'rim_stiffness' is -1; allowed: a number >= 0"},
       {"rim_angle: 23 ", "rim_angle: 230 ", "keyword 'rim_angle' is 230"},
   };
