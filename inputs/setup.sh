@@ -11,7 +11,7 @@ furrow_packages="g++ cmake ninja-build liggghts libliggghts-dev libopenmpi-dev o
   python3-scipy"
 # To test as well.
 furrow_test_packages="libgtest-dev libgmock-dev libbenchmark-dev mypy"
-furrow_format_packages="clang-format git"
+furrow_format_packages="clang-format"
 
 # install_packages <package>...: those that are missing, from Debian, once
 install_packages() {
