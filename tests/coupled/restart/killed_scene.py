@@ -6,7 +6,7 @@
 The scene is changed as coupling/terrain/fix_terrain_continuum.md says: `restart` before the run; to
 continue, `read_restart` in the place of the box and of whatever was done before, and `upto`. Every
 number of history.h5 and terrain.h5 must be the same, bit for bit on one rank and to 1e-9 of the
-largest on several, but for the two files' own facts (cost, audit of a part of a run, script).
+largest of its unit on several, but for the two files' own facts (cost, audit of a part of a run, script).
 """
 
 import os
@@ -64,11 +64,12 @@ def finish(folder: Path, script: str) -> None:
 
 def kill_after_checkpoint(folder: Path, script: str) -> Path:
     """@return a checkpoint that was whole when the run was killed"""
+    began = time.monotonic()
     run = start(folder, script)
     files = [folder / "ck.1", folder / "ck.2"]
     while not all(file.exists() for file in files) and run.poll() is None:
-        time.sleep(0.02)
-    time.sleep(random.uniform(0.0, 1.0))
+        time.sleep(0.01)
+    time.sleep(random.uniform(0.0, 0.3) * (time.monotonic() - began))  # well before the end
     if run.poll() is not None:
         sys.exit("the run ended before it was killed:\n" + (folder / "screen.txt").read_text()[-2000:])
     os.killpg(run.pid, signal.SIGKILL)
@@ -76,15 +77,25 @@ def kill_after_checkpoint(folder: Path, script: str) -> Path:
     return min(files, key=lambda file: file.stat().st_mtime)  # the other may be half written
 
 
-def numbers(folder: Path) -> dict[str, np.ndarray]:
+def largest(values: np.ndarray) -> float:
+    return float(np.nanmax(np.abs(values), initial=0.0))
+
+
+def numbers(folder: Path) -> tuple[dict[str, np.ndarray], dict[str, float]]:
+    """Arrays by name, and the largest value of their unit: of a force component that is zero but
+    for rounding, that of all forces."""
     found: dict[str, np.ndarray] = {}
+    units: dict[str, str] = {}
     for path in sorted((folder / "results").glob("*.h5")):
         with h5py.File(path) as content:
             def collect(name: str, item: object) -> None:
                 if isinstance(item, h5py.Dataset) and name.split("/")[0] in COMPARED:
                     found[f"{path.name}/{name}"] = item[()]
+                    units[f"{path.name}/{name}"] = str(item.attrs.get("unit", name))
             content.visititems(collect)
-    return found
+    scales = {name: max(largest(values) for other, values in found.items()
+                        if units[other] == units[name]) for name in found}
+    return found, scales
 
 
 seed = int.from_bytes(os.urandom(4), "little")
@@ -95,12 +106,11 @@ with tempfile.TemporaryDirectory() as name:
     finish(whole, whole_script())
     checkpoint = kill_after_checkpoint(killed, whole_script())
     finish(killed, continued_script(checkpoint))
-    expected, got = numbers(whole), numbers(killed)
+    (expected, scales), (got, _) = numbers(whole), numbers(killed)
     if not expected or expected.keys() != got.keys():
         sys.exit(f"results differ in kind: {sorted(expected.keys() ^ got.keys())}")
     for item, values in expected.items():
-        largest = np.nanmax(np.abs(values)) if values.size else 0.0
-        limit = 0.0 if ranks == "1" else 1e-9 * largest
+        limit = 0.0 if ranks == "1" else 1e-9 * scales[item]
         if np.shape(values) != np.shape(got[item]) or not np.allclose(
                 values, got[item], rtol=0.0, atol=limit, equal_nan=True):
             at = np.shape(values), np.shape(got[item])
