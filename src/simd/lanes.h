@@ -11,9 +11,7 @@
 
 #include <experimental/simd>
 
-#ifndef FURROW_ISA
-#error "headers of kernels are for kernel units, which name the instruction set"
-#endif
+#include "simd/kernel_units_only.h"
 
 /// Lanes travel in registers only when a call is inlined, which gcc 12 does too seldom on its own.
 #define FURROW_INLINE [[gnu::always_inline]] inline

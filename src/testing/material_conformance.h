@@ -22,6 +22,7 @@
 #include "core/error.h"
 #include "material/registry.h"
 #include "testing/material_text.h"
+#include "testing/stretch.h"
 
 namespace furrow {
 
@@ -96,17 +97,6 @@ class MaterialConformance : public ::testing::TestWithParam<ConformanceCase> {
     double time = 1e-9;
     while (time < 1e9 && (after(time) - first).norm() < 0.5 * all) time *= 1.5;
     return time;
-  }
-  /// Displacement gradient of a step with Delta F = exp(strain), strain symmetric.
-  static Matrix3 stretch(const Vector6& strain) {
-    const Matrix3 e = to_matrix(strain);
-    Matrix3 term = e;
-    Matrix3 sum = e;
-    for (int k = 2; k < 60 && term.norm() > 1e-18 * sum.norm(); ++k) {
-      term = term * e / k;
-      sum += term;
-    }
-    return sum;
   }
   /// Derivative of the new stress with respect to the strain of the step, consistent with the
   /// algorithm: column j is the change of the six stresses for a change of symmetric H_j (both

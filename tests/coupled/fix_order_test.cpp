@@ -7,10 +7,12 @@
 #include "coupling/base/fix_order.h"
 #include "modify.h"
 #include "tests/coupled/support/scene.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::test {
 namespace {
 
+using test::error_of;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
@@ -32,12 +34,8 @@ void exchange(Scene& scene, const char* first, const char* second) {
 }
 
 std::string message_of(Scene& scene) {
-  try {
-    coupling::check_fix_order(*scene.lammps().modify, scene.system());
-  } catch (const StateError& error) {
-    return error.what();
-  }
-  return "no error";
+  return error_of<StateError>(
+      [&] { coupling::check_fix_order(*scene.lammps().modify, scene.system()); });
 }
 
 TEST(FixOrder, TheSystemMadeByTheFirstBodyStandsBeforeWhatFollowsIt) {

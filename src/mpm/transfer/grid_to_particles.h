@@ -5,10 +5,6 @@
 #include "mpm/transfer/nodes.h"
 #include "mpm/transfer/weights.h"
 
-#ifndef FURROW_ISA
-#error "kernel headers are for transfer_*.cpp, which name the instruction set"
-#endif
-
 namespace furrow {
 inline namespace FURROW_ISA {
 

@@ -4,10 +4,7 @@
 /// nodes, interpolation from them.
 
 #include "mpm/transfer.h"
-
-#ifndef FURROW_ISA
-#error "kernel headers are for transfer_*.cpp, which name the instruction set"
-#endif
+#include "simd/kernel_units_only.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

@@ -5,10 +5,7 @@
 /// particles.
 
 #include "mpm/transfer.h"
-
-#ifndef FURROW_ISA
-#error "kernel headers are for transfer_*.cpp, which name the instruction set"
-#endif
+#include "simd/kernel_units_only.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {

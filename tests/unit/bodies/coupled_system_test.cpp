@@ -8,10 +8,12 @@
 
 #include "core/error.h"
 #include "tests/support/max_error.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
 
 /// Counts its steps; its stable step, its refusal and its position are for the test to choose.
@@ -38,12 +40,7 @@ class Probe : public Body {
 };
 
 std::string refusal_of(CoupledSystem& system, double interval) {
-  try {
-    system.advance(interval);
-  } catch (const StateError& error) {
-    return error.what();
-  }
-  return "no error";
+  return error_of<StateError>([&] { system.advance(interval); });
 }
 
 /// A mass on its own spring, by leapfrog.

@@ -8,21 +8,13 @@
 
 #include "core/error.h"
 #include "tests/support/checkpoints.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
-
-template <class Action>
-std::string message_of(Action&& action) {
-  try {
-    action();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 PlateGeometry plate(PlateShape shape) { return {shape, 0.08, 0.005, 20}; }
 
@@ -53,14 +45,14 @@ INSTANTIATE_TEST_SUITE_P(Shapes, PlateMesh,
 TEST(PlateMesh, RefusesShapesThatCannotBe) {
   PlateGeometry geometry = plate(PlateShape::circle);
   geometry.thickness = 1e-5;
-  EXPECT_THAT(message_of([&] { make_plate_mesh(geometry, "fix plate/rigid"); }),
+  EXPECT_THAT(error_of([&] { make_plate_mesh(geometry, "fix plate/rigid"); }),
               HasSubstr("makes slivers at the edge"));
   geometry = plate(PlateShape::circle);
   geometry.elements = 7;
-  EXPECT_THAT(message_of([&] { make_plate_mesh(geometry, "fix plate/rigid"); }),
+  EXPECT_THAT(error_of([&] { make_plate_mesh(geometry, "fix plate/rigid"); }),
               HasSubstr("an even number"));
   geometry.size = -1.0;
-  EXPECT_THAT(message_of([&] { make_plate_mesh(geometry, "fix plate/rigid"); }),
+  EXPECT_THAT(error_of([&] { make_plate_mesh(geometry, "fix plate/rigid"); }),
               HasSubstr("keyword 'size' is -1; allowed: a number > 0 [m]"));
 }
 
@@ -94,16 +86,16 @@ TEST(RigidPlate, ContinuesFromItsStateAndRefusesAnother) {
   EXPECT_EQ(test::state_of(first), test::state_of(second));
 
   RigidPlate other(plate(PlateShape::square), Vector3::Zero());
-  EXPECT_THAT(message_of([&] { test::hand_over(first, other); }),
+  EXPECT_THAT(error_of([&] { test::hand_over(first, other); }),
               HasSubstr("shape is 1, and was 0 when the checkpoint was written"));
 }
 
 TEST(RigidPlate, StopsOnNotANumber) {
   RigidPlate body(plate(PlateShape::circle), Vector3::Zero());
-  EXPECT_THAT(message_of([&] { body.prescribe(std::nan("")); }),
+  EXPECT_THAT(error_of([&] { body.prescribe(std::nan("")); }),
               HasSubstr("prescribed velocity is nan"));
   body.surface().f(2, 0) = std::nan("");
-  EXPECT_THAT(message_of([&] { body.advance(1e-3); }), HasSubstr("the force on it is nan"));
+  EXPECT_THAT(error_of([&] { body.advance(1e-3); }), HasSubstr("the force on it is nan"));
 }
 
 }  // namespace

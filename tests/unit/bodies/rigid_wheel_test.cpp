@@ -9,10 +9,12 @@
 
 #include "core/error.h"
 #include "tests/support/checkpoints.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
 using Words = std::vector<std::string>;
 
@@ -30,22 +32,8 @@ std::string refusal_of(Words words) {
   for (std::size_t i = 0; i < needed.size(); i += 2)
     if (std::find(words.begin(), words.end(), needed[i]) == words.end())
       words.insert(words.end(), {needed[i], needed[i + 1]});
-  try {
-    RigidWheel wheel(RigidWheel::schema("fix wheel/rigid").read(words));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
-template <class Function>
-std::string error_of(Function&& function) {
-  try {
-    function();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return error_of<InputError>(
+      [&] { RigidWheel wheel(RigidWheel::schema("fix wheel/rigid").read(words)); });
 }
 
 constexpr std::array<Coordinate, 6> all_coordinates{Coordinate::x,   Coordinate::y,

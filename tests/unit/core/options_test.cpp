@@ -4,10 +4,12 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
 using Words = std::vector<std::string>;
 
@@ -24,12 +26,7 @@ Schema wheel_schema() {
 }
 
 std::string message_of(const Words& words) {
-  try {
-    wheel_schema().read(words);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return error_of<InputError>([&] { wheel_schema().read(words); });
 }
 
 TEST(Options, ReadsGivenValuesAndDefaults) {

@@ -7,10 +7,12 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
 
 /// A tetrahedron with three unit edges from its corner: volume 1/6, closed, outward.
@@ -21,16 +23,6 @@ Surface tetrahedron(const Vector3& corner = Vector3::Zero()) {
   surface.x.colwise() += corner;
   surface.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
   return surface;
-}
-
-template <class Function>
-std::string state_error_of(Function&& function) {
-  try {
-    function();
-  } catch (const StateError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(Surface, ResizeZeroesAllArrays) {
@@ -84,7 +76,7 @@ TEST(Surface, BoundsAreTheExtremeCorners) {
   const auto [low, high] = tetrahedron({1, 2, 3}).bounds();
   EXPECT_EQ(low, Vector3(1, 2, 3));
   EXPECT_EQ(high, Vector3(2, 3, 4));
-  EXPECT_THAT(state_error_of([] { Surface().bounds(); }), HasSubstr("without nodes"));
+  EXPECT_THAT(error_of<StateError>([] { Surface().bounds(); }), HasSubstr("without nodes"));
 }
 
 TEST(Surface, ClosedMeansEveryEdgeTwiceInOppositeDirections) {
@@ -114,10 +106,10 @@ TEST(Surface, NotANumberIsReportedWithBodyAndNode) {
   Surface surface = tetrahedron();
   EXPECT_NO_THROW(surface.check_finite("wheel"));
   surface.v(1, 2) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(state_error_of([&] { surface.check_finite("wheel"); }),
+  EXPECT_THAT(error_of<StateError>([&] { surface.check_finite("wheel"); }),
               HasSubstr("body 'wheel': the velocity of node 2 is not finite (0 nan 0)"));
   surface.x(0, 1) = std::numeric_limits<double>::infinity();
-  EXPECT_THAT(state_error_of([&] { surface.check_finite("wheel"); }),
+  EXPECT_THAT(error_of<StateError>([&] { surface.check_finite("wheel"); }),
               HasSubstr("the position of node 1 is not finite"));
 }
 

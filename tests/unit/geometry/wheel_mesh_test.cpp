@@ -9,10 +9,12 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
 
 /// The wheel of [Shoop2001] p. 27.
@@ -93,12 +95,7 @@ void expect_sound(const Surface& surface) {
 }
 
 std::string refusal_of(const WheelGeometry& wheel) {
-  try {
-    make_wheel_mesh(wheel, "fix wheel/rigid");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return error_of<InputError>([&] { make_wheel_mesh(wheel, "fix wheel/rigid"); });
 }
 
 TEST(WheelMesh, TheDefaultWheelHasAboutTwelveHundredGoodTriangles) {

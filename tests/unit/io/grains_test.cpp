@@ -4,10 +4,12 @@
 #include <gmock/gmock.h>
 
 #include "scratch.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
 
 Grains three_grains() {
@@ -52,15 +54,15 @@ TEST(Grains, AGrainWithoutReferenceHasMovedByNaN) {
 TEST(Grains, CheckNamesWhatIsWrong) {
   Grains twice = three_grains();
   twice.id[2] = 7;
-  EXPECT_THAT(message_of([&] { twice.check(); }), HasSubstr("id 7 is there twice"));
+  EXPECT_THAT(error_of([&] { twice.check(); }), HasSubstr("id 7 is there twice"));
   Grains lost = three_grains();
   lost.x(2, 1) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(message_of([&] { lost.check(); }), HasSubstr("of grain 3 is not finite"));
+  EXPECT_THAT(error_of([&] { lost.check(); }), HasSubstr("of grain 3 is not finite"));
   Grains uneven = three_grains();
   uneven.radius.resize(2);
-  EXPECT_THAT(message_of([&] { uneven.check(); }),
+  EXPECT_THAT(error_of([&] { uneven.check(); }),
               HasSubstr("3 ids, 3 positions, 3 velocities, 2 radii"));
-  EXPECT_EQ(message_of([&] { three_grains().check(); }), "no error");
+  EXPECT_EQ(error_of([&] { three_grains().check(); }), "no error");
 }
 
 }  // namespace

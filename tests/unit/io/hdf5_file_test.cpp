@@ -7,10 +7,12 @@
 #include <fstream>
 
 #include "scratch.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -92,27 +94,27 @@ TEST(Hdf5File, ErrorsNameFileObjectAndCause) {
   const Scratch scratch;
   const std::string missing = scratch.path("missing.h5"), text = scratch.path("text.h5"),
                     good = scratch.path("good.h5");
-  EXPECT_THAT(message_of([&] { Hdf5File(missing, Mode::read); }),
+  EXPECT_THAT(error_of([&] { Hdf5File(missing, Mode::read); }),
               AllOf(HasSubstr(missing + ": cannot open as an HDF5 file"),
                     HasSubstr("No such file or directory")));
   std::ofstream(text) << "time sinkage\n";
-  EXPECT_THAT(message_of([&] { Hdf5File(text, Mode::read); }),
+  EXPECT_THAT(error_of([&] { Hdf5File(text, Mode::read); }),
               HasSubstr(text + ": cannot open as an HDF5 file"));
-  EXPECT_THAT(message_of([&] { Hdf5File(scratch.path("no/such/folder.h5"), Mode::create); }),
+  EXPECT_THAT(error_of([&] { Hdf5File(scratch.path("no/such/folder.h5"), Mode::create); }),
               HasSubstr("cannot create the file"));
 
   Hdf5File file(good, Mode::create);
   file.write("/x", Matrix3X::Zero(3, 4));
   file.set_attribute("/x", "number", 1.0);
-  EXPECT_THAT(message_of([&] { file.read_numbers("/none"); }),
+  EXPECT_THAT(error_of([&] { file.read_numbers("/none"); }),
               HasSubstr(good + ": cannot open dataset '/none'"));
-  EXPECT_THAT(message_of([&] { file.read_numbers("/x"); }),
+  EXPECT_THAT(error_of([&] { file.read_numbers("/x"); }),
               HasSubstr(good + ": dataset '/x' must be one-dimensional"));
-  EXPECT_THAT(message_of([&] { file.text_attribute("/x", "unit"); }),
+  EXPECT_THAT(error_of([&] { file.text_attribute("/x", "unit"); }),
               HasSubstr("cannot read attribute unit of '/x'"));
-  EXPECT_THAT(message_of([&] { file.text_attribute("/x", "number"); }),
+  EXPECT_THAT(error_of([&] { file.text_attribute("/x", "number"); }),
               HasSubstr("'number' of '/x' is not a text"));
-  EXPECT_THAT(message_of([&] { file.append("/x", {1.0}); }),
+  EXPECT_THAT(error_of([&] { file.append("/x", {1.0}); }),
               HasSubstr("dataset '/x' must be one-dimensional"));
 }
 

@@ -12,10 +12,12 @@
 #include "io/hdf5_file.h"
 #include "mpm/terrain_snapshot.h"
 #include "scratch.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -180,7 +182,7 @@ TEST(HistoryFile, ContinuesAfterARestartAsIfNotStopped) {
     expect_rows(file.history(), 1201);
     EXPECT_FALSE(has_closing(path));
     EXPECT_EQ(read_reference_grains(path).size(), 1u);
-    EXPECT_THAT(message_of([&] { read_final_grains(path); }), HasSubstr("has no /grains/final"));
+    EXPECT_THAT(error_of([&] { read_final_grains(path); }), HasSubstr("has no /grains/final"));
     append_rows(file, 1201, 3000);
   }
   expect_rows(read_history(path), 3000);
@@ -205,14 +207,14 @@ TEST(HistoryFile, RefusesToContinueWithAGapOrOtherChannels) {
     HistoryFile file = HistoryFile::create(path, channels, {});
     append_rows(file, 0, 11);
   }
-  EXPECT_EQ(message_of([&] { HistoryFile::resume(path, channels, 0.0109); }), "no error");
-  EXPECT_THAT(message_of([&] { HistoryFile::resume(path, channels, 0.011); }),
+  EXPECT_EQ(error_of([&] { HistoryFile::resume(path, channels, 0.0109); }), "no error");
+  EXPECT_THAT(error_of([&] { HistoryFile::resume(path, channels, 0.011); }),
               AllOf(HasSubstr("ends at t = 0.01 s but the run continues from t = 0.011 s: rows "
                               "between are missing"),
                     HasSubstr("continue from an earlier checkpoint")));
   std::vector<Channel> other = channels;
   other[2] = {"torque", "N m", "torque"};
-  EXPECT_THAT(message_of([&] { HistoryFile::resume(path, other, 0.005); }),
+  EXPECT_THAT(error_of([&] { HistoryFile::resume(path, other, 0.005); }),
               HasSubstr("has the channels time [s], sinkage [m], force_x [N]; this run has time "
                         "[s], sinkage [m], torque [N m]"));
   expect_rows(read_history(path), 11);  // a refusal leaves the file as it was
@@ -222,15 +224,15 @@ TEST(HistoryFile, RefusesRowsThatAreNotFiniteOrNotLater) {
   const Scratch scratch;
   HistoryFile file = HistoryFile::create(scratch.path("history.h5"), channels, {});
   append_rows(file, 0, 3);
-  EXPECT_THAT(message_of([&] {
+  EXPECT_THAT(error_of([&] {
                 file.append({0.003, std::nan(""), 1.0});
               }),
               HasSubstr("sinkage is nan at t = 0.003 s"));
-  EXPECT_THAT(message_of([&] {
+  EXPECT_THAT(error_of([&] {
                 file.append({0.002, 0.0, 1.0});
               }),
               HasSubstr("a row of t = 0.002 s follows one of t = 0.002 s"));
-  EXPECT_NE(message_of([&] { file.append({0.003, 0.0}); }), "no error");
+  EXPECT_NE(error_of([&] { file.append({0.003, 0.0}); }), "no error");
   expect_rows(file.history(), 3);
 }
 
@@ -264,7 +266,7 @@ TEST(HistoryFile, GrainsSurfaceAuditAndCostComeBack) {
     file.write_reference(grains);
     append_rows(file, 0, 5);
     EXPECT_FALSE(has_closing(path));
-    EXPECT_THAT(message_of([&] { read_closing(path); }),
+    EXPECT_THAT(error_of([&] { read_closing(path); }),
                 HasSubstr("the run did not come to its end"));
     file.write_final(grains, surface);
     file.write_closing(closing);
@@ -295,12 +297,12 @@ TEST(HistoryFile, GrainsSurfaceAuditAndCostComeBack) {
 TEST(HistoryFile, MissingAndForeignFilesAreNamed) {
   const Scratch scratch;
   const std::string path = scratch.path("history.h5");
-  EXPECT_THAT(message_of([&] { read_history(path); }),
+  EXPECT_THAT(error_of([&] { read_history(path); }),
               HasSubstr(path + ": cannot open as an HDF5 file"));
   Hdf5File(path, Hdf5File::Mode::create).close();
-  EXPECT_THAT(message_of([&] { read_history(path); }),
+  EXPECT_THAT(error_of([&] { read_history(path); }),
               HasSubstr("has no /history; is it a results file of Furrow?"));
-  EXPECT_THAT(message_of([&] { read_run_info(path); }), HasSubstr("has no /run"));
+  EXPECT_THAT(error_of([&] { read_run_info(path); }), HasSubstr("has no /run"));
 }
 
 }  // namespace

@@ -7,10 +7,12 @@
 #include "io/replace_file.h"
 #include "io/yaml_tree.h"
 #include "scratch.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
@@ -46,7 +48,7 @@ class MaterialFileTest : public ::testing::Test {
   }
   std::string refusal(const std::string& text) {
     const std::string path = file(text);
-    std::string message = message_of([&] { read_material_file(path); });
+    std::string message = error_of([&] { read_material_file(path); });
     for (std::size_t at = 0; (at = message.find(scratch_.folder() + "/")) != std::string::npos;)
       message.erase(at, scratch_.folder().size() + 1);
     return message;
@@ -168,7 +170,7 @@ TEST_F(MaterialFileTest, BadFilesAreRefusedWithTheirPlace) {
       {"base: sand.yaml\n", "eighth base of a base"},
   };
   for (const Case& bad : cases) EXPECT_THAT(refusal(bad.text), HasSubstr(bad.message)) << bad.text;
-  EXPECT_THAT(message_of([&] { read_material_file(scratch_.path("absent.yaml")); }),
+  EXPECT_THAT(error_of([&] { read_material_file(scratch_.path("absent.yaml")); }),
               HasSubstr("absent.yaml does not exist or is not a file"));
 }
 
@@ -182,13 +184,13 @@ TEST(CsvFile, ReadsNumbersAndNamesWhatIsWrong) {
   EXPECT_EQ(table.rows(), 2u);
   EXPECT_EQ(table.numbers("p_Pa"), (std::vector<double>{1e5, -2}));
   EXPECT_TRUE(std::isnan(table.numbers("rho")[0]));
-  EXPECT_THAT(message_of([&] { table.numbers("name"); }),
+  EXPECT_THAT(error_of([&] { table.numbers("name"); }),
               HasSubstr("a.csv, line 3, column 'name' is 'a'; allowed: a finite number"));
-  EXPECT_THAT(message_of([&] { table.numbers("q"); }),
+  EXPECT_THAT(error_of([&] { table.numbers("q"); }),
               HasSubstr("has no column 'q'; allowed: p_Pa, name, rho"));
-  EXPECT_THAT(message_of([&] { read("a,b\n1,2\n3\n"); }),
+  EXPECT_THAT(error_of([&] { read("a,b\n1,2\n3\n"); }),
               HasSubstr("a.csv, line 3 has 1 values; allowed: 2"));
-  EXPECT_THAT(message_of([&] { read("a,b\n"); }), HasSubstr("has no rows"));
+  EXPECT_THAT(error_of([&] { read("a,b\n"); }), HasSubstr("has no rows"));
   const CsvTable back = read(csv_text({"x: of y"}, {"x", "y"}, {{0.1, 1.0 / 3.0}, {-1e-300, 4}}));
   EXPECT_EQ(back.numbers("x"), (std::vector<double>{0.1, 1.0 / 3.0}));
   EXPECT_EQ(back.numbers("y"), (std::vector<double>{-1e-300, 4}));

@@ -6,10 +6,12 @@
 #include "io/replace_file.h"
 #include "material/fit/point_driver.h"
 #include "scratch.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
 
 class PointFileTest : public ::testing::Test {
@@ -28,10 +30,10 @@ class PointFileTest : public ::testing::Test {
     return message;
   }
   std::string run_refusal(const std::string& text) {
-    return without_folder(message_of([&] { read_point_run(file("run.yaml", text)); }));
+    return without_folder(error_of([&] { read_point_run(file("run.yaml", text)); }));
   }
   std::string fit_refusal(const std::string& text) {
-    return without_folder(message_of([&] { read_point_fit(file("fit.yaml", text)); }));
+    return without_folder(error_of([&] { read_point_fit(file("fit.yaml", text)); }));
   }
   Scratch scratch_;
 };

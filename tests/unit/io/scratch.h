@@ -28,15 +28,4 @@ class Scratch {
   std::filesystem::path folder_;
 };
 
-/// What an action threw, or "no error".
-template <class Action>
-std::string message_of(Action action) {
-  try {
-    action();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 }  // namespace furrow

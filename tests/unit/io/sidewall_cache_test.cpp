@@ -9,10 +9,12 @@
 #include "io/replace_file.h"
 #include "io/tyre_file.h"
 #include "scratch.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
 
 class SidewallCacheTest : public ::testing::Test {
@@ -86,7 +88,7 @@ TEST_F(SidewallCacheTest, KindsAreTableAndDirect) {
   open_sidewall("direct", sidewall_, 103e3)->evaluate(&end, &solved, 1, false);
   EXPECT_NE(looked_up.on_tread, solved.on_tread);
   EXPECT_LT((looked_up.on_tread - solved.on_tread).norm(), 1e-5 * solved.on_tread.norm());
-  EXPECT_THAT(message_of([&] { open_sidewall("spline", sidewall_, 103e3); }),
+  EXPECT_THAT(error_of([&] { open_sidewall("spline", sidewall_, 103e3); }),
               HasSubstr("sidewall is 'spline'; allowed: one of: table, direct"));
 }
 

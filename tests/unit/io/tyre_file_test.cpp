@@ -5,10 +5,12 @@
 
 #include "io/replace_file.h"
 #include "scratch.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
 
 const std::string inputs = FURROW_SOURCE_DIR "/inputs/tyres/";
@@ -21,7 +23,7 @@ class TyreFileTest : public ::testing::Test {
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
     write_text_file(scratch_.path("tyre.yaml"), text.replace(at, from.size(), to));
-    return message_of([&] { read_tyre_file(scratch_.path("tyre.yaml")); });
+    return error_of([&] { read_tyre_file(scratch_.path("tyre.yaml")); });
   }
   Scratch scratch_;
 };
@@ -76,7 +78,7 @@ TEST_F(TyreFileTest, BadFilesAreRefusedWithTheirPlace) {
   };
   for (const Case& bad : cases)
     EXPECT_THAT(refusal(bad.from, bad.to), HasSubstr(bad.message)) << bad.to;
-  EXPECT_THAT(message_of([&] { read_tyre_file(scratch_.path("absent.yaml")); }),
+  EXPECT_THAT(error_of([&] { read_tyre_file(scratch_.path("absent.yaml")); }),
               HasSubstr("does not exist"));
 }
 

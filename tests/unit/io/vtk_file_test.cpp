@@ -13,10 +13,12 @@
 
 #include "io/replace_file.h"
 #include "scratch.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -95,7 +97,7 @@ TEST(VtkFile, NoHalfFilesAndErrorsNameThePath) {
   EXPECT_FALSE(std::filesystem::exists(scratch.path("surface.part.vtp")));
   vtkObject::GlobalWarningDisplayOff();
   const std::string path = scratch.path("no/such/folder.vtp");
-  EXPECT_THAT(message_of([&] { write_vtp(path, tetrahedron()); }),
+  EXPECT_THAT(error_of([&] { write_vtp(path, tetrahedron()); }),
               HasSubstr(path + ": cannot be written"));
   vtkObject::GlobalWarningDisplayOn();
 }
@@ -108,7 +110,7 @@ TEST(VtkSeries, ListsFramesAndContinuesAfterARestart) {
     // valid before the first frame
     EXPECT_THAT(read_text_file(series.pvd()), HasSubstr("</VTKFile>"));
     for (double time : {0.0, 0.1, 0.2, 0.3}) series.add(time, tetrahedron());
-    EXPECT_THAT(message_of([&] { series.add(0.3, tetrahedron()); }),
+    EXPECT_THAT(error_of([&] { series.add(0.3, tetrahedron()); }),
                 HasSubstr("a frame of t = 0.3 s follows one of t = 0.3 s"));
   }
   VtkSeries series = VtkSeries::resume(folder, "wheel", 0.2);
@@ -122,11 +124,11 @@ TEST(VtkSeries, ListsFramesAndContinuesAfterARestart) {
 
 TEST(VtkSeries, RefusesToContinueWhatIsNotThere) {
   const Scratch scratch;
-  EXPECT_THAT(message_of([&] { VtkSeries::resume(scratch.folder(), "wheel", 0.0); }),
+  EXPECT_THAT(error_of([&] { VtkSeries::resume(scratch.folder(), "wheel", 0.0); }),
               HasSubstr("wheel.pvd: is missing, the series cannot be continued"));
   write_text_file(scratch.path("wheel.pvd"),
                   "<VTKFile><Collection><DataSet file=\"a.vtp\"/></Collection></VTKFile>");
-  EXPECT_THAT(message_of([&] { VtkSeries::resume(scratch.folder(), "wheel", 0.0); }),
+  EXPECT_THAT(error_of([&] { VtkSeries::resume(scratch.folder(), "wheel", 0.0); }),
               HasSubstr("frame 0 lacks 'timestep'"));
 }
 

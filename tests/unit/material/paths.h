@@ -11,6 +11,7 @@
 
 #include "material/registry.h"
 #include "testing/material_text.h"
+#include "testing/stretch.h"
 
 namespace furrow::testing_paths {
 
@@ -31,17 +32,7 @@ inline std::string mccormick_sand(const std::string& more = "") {
          more;
 }
 
-/// Displacement gradient of a step with Delta F = exp(strain), strain symmetric.
-inline Matrix3 stretch(const Vector6& strain) {
-  const Matrix3 e = to_matrix(strain);
-  Matrix3 term = e;
-  Matrix3 sum = e;
-  for (int k = 2; k < 60 && term.norm() > 1e-18 * sum.norm(); ++k) {
-    term = term * e / k;
-    sum += term;
-  }
-  return sum;
-}
+using furrow::stretch;
 
 /// One step with the components of `strain`, except that the normal components marked in `held`
 /// take whatever keeps their stress at `target` (Newton's method with differences). Returns the

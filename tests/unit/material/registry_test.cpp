@@ -7,10 +7,12 @@
 
 #include "core/error.h"
 #include "paths.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing_paths::material_of;
@@ -21,12 +23,7 @@ const std::string table =
 const std::string yield = "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.02";
 
 std::string message_of(const std::string& text) {
-  try {
-    material_of(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return error_of<InputError>([&] { material_of(text); });
 }
 
 struct Refusal {

@@ -6,10 +6,12 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
 
 struct Splines {
@@ -178,12 +180,7 @@ TEST(Axis, ShiftMovesEverythingByWholeCells) {
 
 TEST(Axis, RefusesLayoutsWithoutSense) {
   const auto refusal = [](const AxisLayout& layout) -> std::string {
-    try {
-      Axis(layout, "soil, x axis");
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
+    return error_of<InputError>([&] { Axis(layout, "soil, x axis"); });
   };
   EXPECT_THAT(refusal({1.0, 0.0, 0.1, 0.0, 1.0, 1.0}),
               HasSubstr("soil, x axis has cells of 0.1 m from 1 to 0 m"));

@@ -7,22 +7,14 @@
 #include "core/error.h"
 #include "terrain_scene.h"
 #include "tests/support/checkpoints.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
 using namespace testing_terrain;
-
-template <class Action>
-std::string refusal_of(Action action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 ContinuumTerrain block(double y_lower = -0.1) {
   TerrainParameters p =
@@ -40,12 +32,12 @@ TEST(TerrainContact, ReadsItsKeys) {
   EXPECT_EQ(read({"surface", "rough"}).friction, std::numeric_limits<double>::infinity());
   EXPECT_EQ(read({"enforcement", "impulse"}).enforcement, "impulse");
   EXPECT_EQ(read({"friction", "0.5", "slip_length", "0.02"}).slip_length, 0.02);
-  EXPECT_THAT(refusal_of([&] {
+  EXPECT_THAT(error_of([&] {
                 read({"surface", "rough", "friction", "0.5"});
               }),
               HasSubstr("keyword 'friction' is given with a rough surface"));
-  EXPECT_THAT(refusal_of([&] { read({"friction", "-1"}); }), HasSubstr("keyword 'friction' is -1"));
-  EXPECT_THAT(refusal_of([&] { read({"damping", "2"}); }), HasSubstr("keyword 'damping' is 2"));
+  EXPECT_THAT(error_of([&] { read({"friction", "-1"}); }), HasSubstr("keyword 'friction' is -1"));
+  EXPECT_THAT(error_of([&] { read({"damping", "2"}); }), HasSubstr("keyword 'damping' is 2"));
 }
 
 /// Ground level with a plate's lower face is not touched by it, under the plate or beside its edge.
@@ -64,7 +56,7 @@ TEST(TerrainContact, RefusesASpringTooStiffForTheStep) {
   RigidPlate plate({PlateShape::circle, 0.11, 0.05, 4}, {0.0, 0.0, 0.01});
   ContactParameters stiff;
   stiff.stiffness = 1.01 * std::pow(2.0 / (2.0 * ground.parameters().cfl), 2);
-  EXPECT_THAT(refusal_of([&] { TerrainContact(plate, ground, stiff, false, "foot"); }),
+  EXPECT_THAT(error_of([&] { TerrainContact(plate, ground, stiff, false, "foot"); }),
               HasSubstr("sqrt(stiffness) x cfl x particles below 2"));
 }
 
@@ -105,20 +97,20 @@ TEST(TerrainContact, HalfAModelIsMirrored) {
 TEST(TerrainContact, RefusesWhatCannotBe) {
   ContinuumTerrain ground = block(0.0);
   RigidPlate aside({PlateShape::square, 0.05, 0.05, 4}, {0, 0.01, 0.01});
-  EXPECT_THAT(refusal_of([&] { TerrainContact(aside, ground, ContactParameters{}, true, "foot"); }),
+  EXPECT_THAT(error_of([&] { TerrainContact(aside, ground, ContactParameters{}, true, "foot"); }),
               HasSubstr("foot needs a surface that is its own mirror image in the plane y = 0 m"));
   RigidPlate inside({PlateShape::square, 0.1, 0.05, 4}, {0, 0.05, -0.08});
   TerrainContact overlap(inside, ground, ContactParameters{}, false, "overlap");
-  EXPECT_THAT(refusal_of([&] { overlap.apply(1e-5); }),
+  EXPECT_THAT(error_of([&] { overlap.apply(1e-5); }),
               HasSubstr("is inside of the body at the start; start above the ground"));
   RigidPlate away({PlateShape::square, 0.1, 0.05, 4}, {0.3, 0.05, 0.01});
   TerrainContact departed(away, ground, ContactParameters{}, false, "departed");
-  EXPECT_THAT(refusal_of([&] { departed.apply(1e-5); }),
+  EXPECT_THAT(error_of([&] { departed.apply(1e-5); }),
               HasSubstr("the middle of the body is at x = 0.3 m"));
   RigidPlate finer({PlateShape::square, 0.1, 0.05, 8}, {0, 0.05, 0.01});
   TerrainContact one(away, ground, ContactParameters{}, false, "one"),
       other(finer, ground, ContactParameters{}, false, "other");
-  EXPECT_THAT(refusal_of([&] { test::hand_over(one, other); }), HasSubstr("surface_nodes is"));
+  EXPECT_THAT(error_of([&] { test::hand_over(one, other); }), HasSubstr("surface_nodes is"));
 }
 
 }  // namespace

@@ -6,23 +6,15 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
 constexpr auto larger = SlipDefinition::larger_speed, by_rim = SlipDefinition::rim_speed,
                by_vehicle = SlipDefinition::vehicle_speed;
-
-template <class Function>
-std::string error_of(Function&& function) {
-  try {
-    function();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 // The rim speeds of the CMU tests at 10 mm/s and the slips printed with them.
 TEST(Slip, ByTheLargerSpeedGivesTheSlipsOfTheSandTests) {

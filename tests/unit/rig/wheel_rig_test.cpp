@@ -9,10 +9,12 @@
 #include "core/error.h"
 #include "wheel_on_floor.h"
 #include "tests/support/checkpoints.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
 using Words = std::vector<std::string>;
 
@@ -30,12 +32,7 @@ WheelRig make_rig(RigidWheel& wheel, const Words& words) {
 
 std::string refusal_of(const Words& words) {
   RigidWheel wheel = make_wheel();
-  try {
-    make_rig(wheel, words);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return error_of<InputError>([&] { make_rig(wheel, words); });
 }
 
 std::size_t channel(const std::string& name) { return History(WheelRig::channels()).index(name); }

@@ -4,10 +4,12 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
 
 History three_rows() {
@@ -16,16 +18,6 @@ History three_rows() {
   history.append({0.5, 6.0});
   history.append({1.0, 7.0});
   return history;
-}
-
-template <class Function>
-std::string error_of(Function&& function) {
-  try {
-    function();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(History, KeepsRowsAndGivesColumns) {

@@ -9,10 +9,12 @@
 #include "core/error.h"
 #include "rig/wheel_rig.h"
 #include "tests/unit/rig/wheel_on_floor.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
 
 /// A synthetic run: force_z = 100 (1 + noise), force_x = -0.2 force_z + own noise, both AR(1); 10 s
@@ -51,16 +53,6 @@ struct SyntheticRun {
     return result;
   }
 };
-
-template <class Function>
-std::string error_of(Function&& function) {
-  try {
-    function();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 TEST(Resistance, FindsItsChannelsInTheRecordOfTheRig) {
   const History record(WheelRig::channels()), synthetic = SyntheticRun().history();

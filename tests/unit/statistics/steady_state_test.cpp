@@ -8,10 +8,12 @@
 
 #include "core/error.h"
 #include "core/types.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
 
 /// x_i = phi x_{i-1} + sqrt(1 - phi^2) noise: unit variance, integrated autocorrelation time (1 +
@@ -26,16 +28,6 @@ std::vector<double> autoregressive(double phi, std::size_t rows, unsigned seed, 
     value = phi * value + std::sqrt(1.0 - phi * phi) * normal(random);
   }
   return values;
-}
-
-template <class Function>
-std::string error_of(Function&& function) {
-  try {
-    function();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 // The mean of n correlated values has the variance 2 tau/n: bars of two errors hold it in 95 % of

@@ -14,9 +14,12 @@
 #include "tyre/contact_patch.h"
 #include "tests/support/checkpoints.h"
 #include "tests/support/max_error.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
+
+using test::error_of;
 
 using testing::HasSubstr;
 
@@ -42,15 +45,6 @@ RigidPlane plane_under(DarnellTyre& tyre, double friction = 0.0) {
   plane.height = tyre.tread().x.row(2).minCoeff();
   plane.friction = friction;
   return RigidPlane(plane, tyre.surface());
-}
-
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 /// Momentum, angular momentum about the origin, of rim and tread.

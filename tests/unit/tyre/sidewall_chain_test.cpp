@@ -9,21 +9,13 @@
 
 #include "tyre/sidewall_direct.h"
 #include "tyres.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
-
-template <class Action>
-std::string message_of(Action action) {
-  try {
-    action();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 SidewallResponse cold(SidewallChain& chain, const SidewallEnd& end, double pressure) {
   VectorX angles;
@@ -257,7 +249,7 @@ TEST(SidewallChain, WhatCannotBeIsRefused) {
   SidewallChain chain(tr_sidewall(1.0, 1.0));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refusal = [&](const SidewallEnd& end, double pressure) {
-    return message_of([&] { cold(chain, end, pressure); });
+    return error_of([&] { cold(chain, end, pressure); });
   };
   EXPECT_THAT(refusal({0.0, 0.1611, 0.0}, 1e5),
               HasSubstr("stretched past its length: its ends (a = 0 m, r = 0.1611 m) are 0.1611 m "
@@ -271,15 +263,15 @@ TEST(SidewallChain, WhatCannotBeIsRefused) {
   SidewallDirect direct(tr_sidewall(1.0, 1.0), 1e5);
   const SidewallEnd stations[2] = {{0.0, 0.1, 0.0}, {0.0, 0.2, 0.0}};
   SidewallResponse responses[2];
-  EXPECT_THAT(message_of([&] { direct.evaluate(stations, responses, 2, true); }),
+  EXPECT_THAT(error_of([&] { direct.evaluate(stations, responses, 2, true); }),
               HasSubstr("station 1: sidewall: stretched"));
-  EXPECT_THAT(message_of([&] { direct.set_pressure(-5.0); }), HasSubstr("the pressure is -5 Pa"));
+  EXPECT_THAT(error_of([&] { direct.set_pressure(-5.0); }), HasSubstr("the pressure is -5 Pa"));
 
   SidewallParameters two = uniform_sidewall(3, 0.1, 1.0, 0.0);
-  EXPECT_THAT(message_of([&] { SidewallChain{two}; }),
+  EXPECT_THAT(error_of([&] { SidewallChain{two}; }),
               HasSubstr("has 2 values of bending; allowed: 3 to 999"));
   SidewallParameters negative = tr_sidewall(-1.0, 0.0);
-  EXPECT_THAT(message_of([&] { SidewallChain{negative}; }),
+  EXPECT_THAT(error_of([&] { SidewallChain{negative}; }),
               HasSubstr("the stiffness of an end spring is -1"));
 }
 

@@ -8,21 +8,13 @@
 
 #include "tyre/sidewall_direct.h"
 #include "tyres.h"
+#include "tests/support/error_of.h"
 
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::HasSubstr;
-
-template <class Action>
-std::string message_of(Action action) {
-  try {
-    action();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 SidewallResponse at(Sidewall& sidewall, const SidewallEnd& end, bool with_stiffness = true) {
   SidewallResponse response;
@@ -91,7 +83,7 @@ TEST(SidewallTable, CoefficientsMakeTheSameTable) {
 TEST(SidewallTable, WhatCannotBeIsRefused) {
   SidewallTable table(tr_sidewall(1.0, 1.0), 103e3);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto refusal = [&](const SidewallEnd& end) { return message_of([&] { at(table, end); }); };
+  const auto refusal = [&](const SidewallEnd& end) { return error_of([&] { at(table, end); }); };
   EXPECT_THAT(refusal({0.0, 0.1609, 0.0}),
               HasSubstr("the chord over the length is 0.9994, the table goes from 0.2 to 0.999"));
   EXPECT_THAT(refusal({0.0, 0.17, 0.0}), HasSubstr("the chord over the length is 1.056"));
@@ -102,17 +94,17 @@ TEST(SidewallTable, WhatCannotBeIsRefused) {
               HasSubstr("the tread's rotation is 63.03 degrees, the table goes from -60 to 60"));
   EXPECT_THAT(refusal({nan, 0.1, 0.0}), HasSubstr("the chord over the length is nan"));
   EXPECT_THAT(refusal({0.0, 0.1, nan}), HasSubstr("the tread's rotation is nan"));
-  EXPECT_THAT(message_of([&] { table.set_pressure(-1.0); }), HasSubstr("the pressure is -1 Pa"));
+  EXPECT_THAT(error_of([&] { table.set_pressure(-1.0); }), HasSubstr("the pressure is -1 Pa"));
   // Stiff springs and no pressure: the chain snaps through, and no smooth table can follow
-  EXPECT_THAT(message_of([&] { SidewallTable(tr_sidewall(100.0, 100.0), 2e4); }),
+  EXPECT_THAT(error_of([&] { SidewallTable(tr_sidewall(100.0, 100.0), 2e4); }),
               HasSubstr("its forces differ from the chain's by"));
   SidewallTableGrid grid;
   grid.chord_max = 1.2;
-  EXPECT_THAT(message_of([&] { SidewallTable(tr_sidewall(1.0, 1.0), 1e5, grid); }),
+  EXPECT_THAT(error_of([&] { SidewallTable(tr_sidewall(1.0, 1.0), 1e5, grid); }),
               HasSubstr("chords from 0.2 to 1.2"));
   grid = {};
   grid.rotation_nodes = 4;
-  EXPECT_THAT(message_of([&] { SidewallTable(tr_sidewall(1.0, 1.0), 1e5, grid); }),
+  EXPECT_THAT(error_of([&] { SidewallTable(tr_sidewall(1.0, 1.0), 1e5, grid); }),
               HasSubstr("axis 3 has 4 nodes"));
 }
 

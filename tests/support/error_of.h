@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+
+namespace furrow::test {
+
+/// What an action says when it throws an `Expected`, or "no error". Anything else that it throws
+/// goes on, and fails the test.
+template <class Expected = Error, class Action>
+std::string error_of(Action&& action) {
+  try {
+    std::forward<Action>(action)();
+  } catch (const Expected& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace furrow::test
