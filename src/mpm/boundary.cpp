@@ -207,7 +207,7 @@ void Boundary::checkpoint(Checkpoint& state, bool keep_sums) {
   state.value("has_initial_tractions", has_initial_tractions_);
   state.value("work", work_);
   for (Vector3& impulse : impulse_) state.values("impulse", impulse);
-  if (!state.saving() && !keep_sums) {
+  if (!keep_sums) {
     work_ = 0.0;
     impulse_.fill(Vector3::Zero());
   }

@@ -68,7 +68,7 @@ class Boundary {
   void synchronise(const Communicator& ranks, const PlaneRange& owned);
   /// Impulses and work become those of all ranks. Collective.
   void sum_over_ranks(const Communicator& ranks);
-  /// @param keep_sums on one rank only: restored impulses and work are then counted once
+  /// @param keep_sums on one rank only: impulses and work of all ranks are then counted once
   void checkpoint(Checkpoint& state, bool keep_sums);
 
  private:

@@ -148,14 +148,11 @@ void ContinuumTerrain::checkpoint(Checkpoint& state) {
 }
 
 void ContinuumTerrain::checkpoint_boundary(Checkpoint& state) {
-  if (!state.saving()) {
-    boundary_.checkpoint(state, ranks().rank() == 0);
-    return;
+  if (state.saving()) {
+    boundary_.synchronise(ranks(), discretisation_.partition.owned_planes());
+    boundary_.sum_over_ranks(ranks());
   }
-  Boundary boundary = boundary_;
-  boundary.synchronise(ranks(), discretisation_.partition.owned_planes());
-  boundary.sum_over_ranks(ranks());
-  boundary.checkpoint(state, true);
+  boundary_.checkpoint(state, ranks().rank() == 0);
 }
 
 /// Key by key, so that an error names the one that differs.

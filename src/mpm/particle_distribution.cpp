@@ -119,25 +119,32 @@ void ParticleDistribution::report_outside(const ParticleGroup& group) const {
 /// The drift stays, so that the next sorting comes when it would have come.
 void ParticleDistribution::checkpoint_particles(Checkpoint& state) {
   const Communicator& ranks = discretisation_.ranks();
+  const bool as_many_ranks = discretisation_.partition.checkpoint(state);
   for (ParticleGroup& group : discretisation_.groups) {
     const std::size_t length = group.particles.record_length();
-    std::vector<double> records;
+    std::vector<double> records, lengths;  // of all ranks; lengths of each rank's part
     if (state.saving()) {
       for (std::size_t p = 0; p < group.particles.size(); ++p) group.particles.pack(p, records);
+      lengths = ranks.gather({static_cast<double>(records.size())});
       records = ranks.gather(records);
     }
+    state.values("numbers_of_ranks", lengths);
     state.values("particles", records);
     if (state.saving()) continue;
     group.particles.reorder({});
     const Axis& x = discretisation_.grid.axis(0);
-    for (const double *next = records.data(), *end = next + records.size(); next != end;
-         next += length)
-      if (discretisation_.partition.owner(x.cell_of(next[0])) == ranks.rank())
-        group.particles.unpack(next);
+    const double* next = records.data();
+    for (std::size_t r = 0; r < lengths.size(); ++r)
+      for (const double* end = next + static_cast<std::size_t>(lengths[r]); next != end;
+           next += length) {
+        const int owner = as_many_ranks ? static_cast<int>(r)
+                                        : discretisation_.partition.owner(x.cell_of(next[0]));
+        if (owner == ranks.rank()) group.particles.unpack(next);
+      }
   }
   if (state.saving()) return;
   const double drift = drift_;
-  if (ranks.size() > 1) sort();
+  if (!as_many_ranks && ranks.size() > 1) sort();
   drift_ = drift;
   ++generation_;
 }

@@ -31,8 +31,9 @@ class ParticleDistribution {
   [[noreturn]] void report_outside(const ParticleGroup& group) const;
 
   void checkpoint_drift(Checkpoint& state) { state.value("drift", drift_); }
-  /// Records of Particles::pack(). Restored particles go to the owners of their cells and are then
-  /// balanced. Collective.
+  /// Records of Particles::pack(), those of a rank together. As many ranks get them back as they
+  /// had them, in the same order; others by the owners of their cells, and then balanced.
+  /// Collective.
   void checkpoint_particles(Checkpoint& state);
 
  private:

@@ -20,6 +20,14 @@ void Partition::rebalance(const std::vector<double>& count) {
   bounds_.push_back(cells);
 }
 
+bool Partition::checkpoint(Checkpoint& state) {
+  std::vector<double> bounds(bounds_.begin(), bounds_.end());
+  state.values("slabs", bounds);
+  const bool as_many = bounds.size() == static_cast<std::size_t>(ranks_.size()) + 1;
+  if (as_many) bounds_.assign(bounds.begin(), bounds.end());
+  return as_many;
+}
+
 int Partition::owner(int cell) const {
   return static_cast<int>(std::upper_bound(bounds_.begin() + 1, bounds_.end() - 1, cell) -
                           bounds_.begin()) -

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "core/checkpoint.h"
 #include "core/communicator.h"
 #include "mpm/grid.h"
 
@@ -17,6 +18,9 @@ class Partition {
   /// Chooses slabs of nearly equal numbers of particles.
   /// @param count  particles of all ranks in every layer of cells across x; the same on all ranks
   void rebalance(const std::vector<double>& count);
+  /// Restores the slabs of a run with as many ranks; others keep theirs.
+  /// @return whether the saved run had as many ranks
+  bool checkpoint(Checkpoint& state);
   int owner(int cell) const;  ///< the rank that owns a layer of cells across x
   const Communicator& ranks() const { return ranks_; }
 

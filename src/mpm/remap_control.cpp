@@ -52,9 +52,8 @@ void RemapControl::raise_largest_speed(double speed) {
 
 void RemapControl::checkpoint(Checkpoint& state) {
   state.value("travel", travel_);
-  double largest_speed = discretisation_.ranks().max(largest_speed_);
-  state.value("largest_speed", largest_speed);
-  if (!state.saving()) largest_speed_ = largest_speed;
+  largest_speed_ = discretisation_.ranks().max(largest_speed_);
+  state.value("largest_speed", largest_speed_);
   state.value("steps_to_remap", steps_left_);
   state.value("particles_lag", particles_lag_);
 }

@@ -30,7 +30,6 @@ void RutRecord::checkpoint(Checkpoint& state, const Communicator& ranks) {
   std::vector<double> numbers;
   if (state.saving()) numbers = gather_numbers(ranks);
   state.values("rut", numbers);
-  if (state.saving()) return;
   points_.clear();
   if (ranks.rank() == 0) points_ = points_from(numbers);
 }

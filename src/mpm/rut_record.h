@@ -23,7 +23,7 @@ class RutRecord {
   void add(const RutPoint& point) { points_.push_back(point); }
   const std::vector<RutPoint>& points() const { return points_; }  ///< this rank's
   std::vector<RutPoint> gather(const Communicator& ranks) const;   ///< of all ranks; collective
-  /// Saves the points of all ranks; restores them on rank 0. Collective.
+  /// Saves the points of all ranks; they are rank 0's afterwards. Collective.
   void checkpoint(Checkpoint& state, const Communicator& ranks);
 
  private:

@@ -66,7 +66,6 @@ void TerrainEnergy::checkpoint(Checkpoint& state, const Communicator& ranks) {
   for (const double* total : totals) sums.push_back(*total);
   if (state.saving()) ranks.sum(sums.data(), sums.size());
   state.values("totals", sums.data(), sums.size());
-  if (state.saving()) return;
   for (std::size_t n = 0; n < sums.size(); ++n) *totals[n] = ranks.rank() == 0 ? sums[n] : 0.0;
 }
 

@@ -43,7 +43,9 @@ class TerrainEnergy {
   EnergyBudget energy_budget(const std::vector<ParticleGroup>& groups, const Vector3& momentum,
                              double boundary_work, const Communicator& ranks) const;
 
-  /// Saves the sums over all ranks; restores them on rank 0. Collective.
+  /// Saves the sums over all ranks. Whether it saves or restores, they are rank 0's share
+  /// afterwards: the run that goes on then adds up in the order of one that is continued.
+  /// Collective.
   void checkpoint(Checkpoint& state, const Communicator& ranks);
 
  private:
