@@ -46,7 +46,7 @@ std::string steady_table(const Resistance& r) {
         "  {:<24} {:>24} {:<5}  {}\n", title_of(v.name), with_error(v.mean, v.standard_error),
         v.unit,
         v.steady ? fmt::format("steady, {:.0f} independent samples", v.independent_samples)
-                 : v.verdict);
+                 : "not steady");
   text +=
       "\n  ± is one standard error of the mean over time (block averages). It does not hold the "
       "influence of grain size, "

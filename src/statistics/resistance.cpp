@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -93,10 +94,19 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
     because(fmt::format(
         "the window is too short: the wheel travels {:.3g} m in it, {:.3g} m are needed",
         window.distance, options.shortest_distance));
-  for (const SteadyValue& value : result.values)
-    if (!value.steady)
-      because(fmt::format("{}: {}", value.name,
-                          value.verdict.substr(std::string("not steady: ").size())));
+  // Values that are not steady for the same reason share it.
+  std::vector<std::pair<std::string, std::string>> names_of_reason;
+  for (const SteadyValue& value : result.values) {
+    if (value.steady) continue;
+    const std::string why = value.verdict.substr(std::string("not steady: ").size());
+    const auto same = std::find_if(names_of_reason.begin(), names_of_reason.end(),
+                                   [&](const auto& known) { return known.first == why; });
+    if (same == names_of_reason.end())
+      names_of_reason.emplace_back(why, value.name);
+    else
+      same->second += ", " + value.name;
+  }
+  for (const auto& [why, names] : names_of_reason) because(names + ": " + why);
   result.steady = reason.empty();
   result.verdict = result.steady ? "steady" : "not steady: " + reason;
   return result;

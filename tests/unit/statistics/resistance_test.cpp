@@ -130,6 +130,22 @@ TEST(Resistance, ADriftingSinkageMakesTheRunNotSteady) {
   EXPECT_TRUE(result.value("resistance_coefficient").steady);
 }
 
+TEST(Resistance, ValuesThatAreNotSteadyForTheSameReasonShareIt) {
+  ResistanceOptions options;
+  options.criteria.min_blocks = 1000;
+  const Resistance result = measure_resistance(SyntheticRun().history(), options);
+  EXPECT_FALSE(result.steady);
+  const std::string reason = "are needed";
+  std::size_t times = 0, unsteady = 0;
+  for (std::size_t at = 0; (at = result.verdict.find(reason, at)) != std::string::npos; ++at)
+    ++times;
+  for (const SteadyValue& value : result.values) unsteady += value.steady ? 0 : 1;
+  EXPECT_GE(unsteady, 2u);
+  EXPECT_LT(times, unsteady);
+  for (const SteadyValue& value : result.values)
+    if (!value.steady) EXPECT_THAT(result.verdict, HasSubstr(value.name));
+}
+
 TEST(Resistance, AShortTravelIsSaid) {
   ResistanceOptions options;
   options.shortest_distance = 20.0;
