@@ -11,6 +11,8 @@ furrow_packages="g++ cmake ninja-build liggghts libliggghts-dev libopenmpi-dev o
   python3-scipy"
 # To test as well.
 furrow_test_packages="libgtest-dev libgmock-dev libbenchmark-dev mypy"
+# To build with sanitizers: gcc takes half an hour for the kernels then, and has no libFuzzer.
+furrow_sanitizer_packages="clang libclang-rt-dev"
 furrow_format_packages="clang-format"
 
 # install_packages <package>...: those that are missing, from Debian, once

@@ -22,6 +22,8 @@ constexpr double energy_floor = 1e-3;
 
 std::unique_ptr<Body> make_terrain(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   TerrainParameters parameters = read_terrain(options, script_folder(lammps));
+  for (const TerrainLayer& layer : parameters.layers)
+    for (const std::string& warning : layer.warnings) warn(lammps, warning);
   parameters.window = options.given("follow");
   return std::make_unique<ContinuumTerrain>(parameters, Communicator(&lammps.world),
                                             options.subject());

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/nearest_word.h"
 
 namespace furrow {
 
@@ -29,33 +30,18 @@ std::optional<double> to_number(const std::string& text) {
   return value;
 }
 
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
+/// Why a text is no number.
+std::string no_number(const std::string& text) {
+  double value = 0.0;
+  const char* begin = text.data() + (!text.empty() && text.front() == '+' ? 1 : 0);
+  const bool too_large =
+      std::from_chars(begin, text.data() + text.size(), value).ec == std::errc::result_out_of_range;
+  return fmt::format("is '{}', which is {}", text,
+                     too_large ? "beyond what a number can hold" : "not a number");
 }
 
-std::string nearest_key(const std::vector<Key>& keys, const std::string& name) {
-  std::string best;
-  std::size_t best_distance = 3;  // further away is no help
-  for (const Key& key : keys) {
-    const std::size_t distance = edit_distance(key.name, name);
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = key.name;
-    }
-  }
-  return best;
-}
+// Integers up to it are exact as a double.
+constexpr double largest_integer = 9007199254740992.0;
 
 }  // namespace
 
@@ -202,10 +188,10 @@ void Schema::accept(Options& options, const Key& key, const std::vector<std::str
   } else if (key.kind != Key::Kind::text) {
     for (const std::string& text : texts) {
       const std::optional<double> number = to_number(text);
-      if (!number)
-        throw InputError(where, fmt::format("is '{}', which is not a number", text), key.allowed());
+      if (!number) throw InputError(where, no_number(text), key.allowed());
       if (!key.range.contains(*number) ||
-          (key.kind == Key::Kind::integer && *number != std::round(*number)))
+          (key.kind == Key::Kind::integer &&
+           (*number != std::round(*number) || std::abs(*number) > largest_integer)))
         throw InputError(where, fmt::format("is {}", text), key.allowed());
       value.numbers.push_back(*number);
     }
@@ -223,11 +209,9 @@ Options Schema::read(const std::vector<Entry>& entries) const {
     if (!key) {
       std::vector<std::string> names;
       for (const Key& known : keys_) names.push_back(known.name);
-      const std::string near = nearest_key(keys_, entry.key);
       throw InputError(after_origin(entry.origin, subject_),
                        fmt::format("has no keyword '{}'", entry.key),
-                       fmt::format("{}", fmt::join(names, ", ")),
-                       near.empty() ? "" : fmt::format("did you mean '{}'?", near));
+                       fmt::format("{}", fmt::join(names, ", ")), did_you_mean(names, entry.key));
     }
     std::string where = after_origin(entry.origin, subject_ + ", keyword '" + entry.key + "'");
     std::vector<std::string> values = entry.values;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
+#include <cstdint>
 #include <limits>
 #include <sstream>
 
@@ -12,11 +12,13 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
-#include "io/replace_file.h"
+#include "io/input_text.h"
 
 namespace furrow {
 
 namespace {
+
+constexpr std::uintmax_t largest_table = 64u << 20;  // [bytes]
 
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
@@ -37,12 +39,10 @@ std::vector<std::string> split(const std::string& line) {
 }  // namespace
 
 CsvTable CsvTable::read(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path))
-    throw InputError(path, "does not exist or is not a file", "a table of comma-separated values",
-                     "check the path");
   CsvTable table;
   table.path_ = path;
-  std::istringstream text(read_text_file(path));
+  std::istringstream text(
+      read_input_text(path, "a table of comma-separated values", largest_table));
   std::string line;
   for (int number = 1; std::getline(text, line); ++number) {
     line = trimmed(line);

@@ -5,6 +5,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "core/error.h"
 
@@ -58,6 +59,14 @@ T require(T result, const std::string& file, const std::string& action,
   return result;
 }
 
+/// Metadata in the format of HDF5 1.10, which has checksums: a damaged file is then refused by
+/// HDF5, where that of the older formats makes it read or write past its memory.
+hid_t access_properties() {
+  const hid_t properties = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_libver_bounds(properties, H5F_LIBVER_V110, H5F_LIBVER_V110);
+  return properties;
+}
+
 /// UTF-8, null-terminated, of fixed length.
 hid_t text_type(std::size_t length) {
   const hid_t type = H5Tcopy(H5T_C_S1);
@@ -102,6 +111,26 @@ void write_dataset(Hdf5File& owner, hid_t file, const std::string& dataset, cons
           "write", dataset);
 }
 
+constexpr hsize_t best_packing = 1032;                // of deflate: bytes from one that is stored
+constexpr std::size_t longest_attribute = 64u << 10;  // [bytes] HDF5's own limit
+
+/// Refuses a dataset that says it has more values than its bytes in the file can hold, before
+/// memory is taken for them.
+void check_stored(const std::string& path, hid_t file, const std::string& dataset, hid_t data,
+                  hsize_t count) {
+  const Handle layout(H5Dget_create_plist(data), H5Pclose);
+  const Handle type(H5Dget_type(data), H5Tclose);
+  const hsize_t packing = H5Pget_nfilters(layout) > 0 ? best_packing : 1;
+  const std::size_t size = std::max<std::size_t>(H5Tget_size(type), 1);
+  hsize_t file_size = 0;
+  H5Fget_filesize(file, &file_size);
+  const hsize_t stored = std::min(H5Dget_storage_size(data), file_size);
+  if (count / packing > stored / size)
+    throw Error(
+        fmt::format("{}: dataset '{}' has {} bytes for {} values of {}: the file is damaged", path,
+                    dataset, stored, count, size));
+}
+
 /// Reads a dataset of the given rank; with rank 2 the second extent must be 3.
 template <class T>
 std::vector<T> read_dataset(const Hdf5File& owner, hid_t file, const std::string& dataset,
@@ -115,7 +144,11 @@ std::vector<T> read_dataset(const Hdf5File& owner, hid_t file, const std::string
       H5Sget_simple_extent_dims(space, extent, nullptr) != rank || extent[1] != 3)
     throw Error(fmt::format("{}: dataset '{}' must be {}", owner.path(), dataset,
                             rank == 1 ? "one-dimensional" : "n x 3"));
-  std::vector<T> values(extent[0] * (rank == 2 ? 3 : 1));
+  const hsize_t columns = rank == 2 ? 3 : 1;
+  if (extent[0] > std::numeric_limits<hsize_t>::max() / columns)
+    throw Error(fmt::format("{}: dataset '{}' is too long", owner.path(), dataset));
+  check_stored(owner.path(), file, dataset, data, extent[0] * columns);
+  std::vector<T> values(extent[0] * columns);
   if (!values.empty())
     require(H5Dread(data, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
             owner.path(), "read", dataset);
@@ -126,15 +159,16 @@ std::vector<T> read_dataset(const Hdf5File& owner, hid_t file, const std::string
 
 Hdf5File::Hdf5File(const std::string& path, Mode mode) : path_(path), file_(-1) {
   silence_hdf5();
+  const Handle access(access_properties(), H5Pclose);
   if (mode == Mode::create) {
     const Handle properties(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-    file_ = require(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties, H5P_DEFAULT), path,
+    file_ = require(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties, access), path,
                     "create the file");
   } else {
-    file_ = require(
-        H5Fopen(path.c_str(), mode == Mode::edit ? H5F_ACC_RDWR : H5F_ACC_RDONLY, H5P_DEFAULT),
-        path, "open as an HDF5 file");
+    file_ =
+        require(H5Fopen(path.c_str(), mode == Mode::edit ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access),
+                path, "open as an HDF5 file");
   }
 }
 
@@ -232,6 +266,11 @@ std::string Hdf5File::text_attribute(const std::string& object, const std::strin
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0)
     throw Error(fmt::format("{}: attribute '{}' of '{}' is not a text of fixed length", path_, name,
                             object));
+  if (H5Tget_size(type) > longest_attribute)
+    throw Error(
+        fmt::format("{}: attribute '{}' of '{}' is longer than HDF5 allows: the file is "
+                    "damaged",
+                    path_, name, object));
   std::string text(H5Tget_size(type), '\0');
   require(H5Aread(attribute, type, text.data()), path_, action, object);
   text.resize(std::min(text.find('\0'), text.size()));
@@ -298,6 +337,7 @@ std::string Hdf5File::read_text(const std::string& dataset) const {
   const Handle type(H5Dget_type(data), H5Tclose);
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0)
     throw Error(fmt::format("{}: dataset '{}' is not a text of fixed length", path_, dataset));
+  check_stored(path_, file_, dataset, data, 1);
   std::string text(H5Tget_size(type), '\0');
   require(H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), path_, "read", dataset);
   text.resize(std::min(text.find('\0'), text.size()));

@@ -8,6 +8,9 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/nearest_word.h"
+#include "io/input_kind.h"
+#include "material/plausibility.h"
 
 namespace furrow {
 
@@ -47,41 +50,58 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
+constexpr std::size_t most_bases = 8;
+
+/// The file that `base` names, beside the file at the end of `files`: each the base of the one
+/// before.
+std::string base_of(const YamlTree& name, const std::vector<std::string>& files) {
+  const auto path = std::filesystem::path(files.back()).parent_path() / name.text;
+  std::error_code unknown;
+  for (const std::string& file : files)
+    if (std::filesystem::equivalent(file, path, unknown))
+      throw InputError(
+          name.origin + ": base",
+          fmt::format("leads back to {}: {} -> {}", file, fmt::join(files, " -> "), path.string()),
+          "a base that does not need this file", "remove 'base' from one of them");
+  if (files.size() > most_bases)
+    throw InputError(name.origin + ": base", fmt::format("is the base of {} files", files.size()),
+                     fmt::format("{} one after the other", most_bases));
+  return path.string();
+}
+
+/// Puts the keys of a section over those of the base's section of that name.
+void put_over(YamlTree& base, const YamlTree& section) {
+  const YamlTree *type = section.find("type"), *base_type = base.find("type");
+  const bool other_type = type && (!base_type || type->text != base_type->text);
+  if (section.kind != YamlTree::Kind::map || base.kind != YamlTree::Kind::map || other_type) {
+    base = section;
+    return;
+  }
+  base.origin = section.origin;
+  for (const auto& [key, value] : section.keys) {
+    if (YamlTree* old = base.find(key))
+      *old = value;
+    else
+      base.keys.emplace_back(key, value);
+  }
+}
+
 /// The file with its base below it: every key knows the file it came from.
-YamlTree read_with_base(const std::string& path, int depth = 0) {
-  YamlTree file = read_yaml(path);
+YamlTree read_with_base(const std::vector<std::string>& files) {
+  YamlTree file = read_yaml(files.back());
+  check_kind(file, InputKind::material);
   if (!file.find("base")) return file;
   const YamlTree& name = text_of(file, "base", "a file beside this one");
-  if (depth == 8)
-    throw InputError(name.origin, "is the eighth base of a base", "fewer",
-                     "does a file have itself as base?");
-  YamlTree merged =
-      read_with_base((std::filesystem::path(path).parent_path() / name.text).string(), depth + 1);
+  std::vector<std::string> more = files;
+  more.push_back(base_of(name, files));
+  YamlTree merged = with_place(name.origin + ": base", [&] { return read_with_base(more); });
   merged.origin = file.origin;
   for (const auto& [key, value] : file.keys) {
     if (key == "base") continue;
-    const auto same_key = [&k = key](const auto& pair) { return pair.first == k; };
-    const auto old = std::find_if(merged.keys.begin(), merged.keys.end(), same_key);
-    if (old == merged.keys.end()) {
+    if (YamlTree* old = merged.find(key))
+      put_over(*old, value);
+    else
       merged.keys.emplace_back(key, value);
-      continue;
-    }
-    const YamlTree *type = value.find("type"), *old_type = old->second.find("type");
-    const bool other_type = type && (!old_type || type->text != old_type->text);
-    if (value.kind != YamlTree::Kind::map || other_type) {
-      old->second = value;
-      continue;
-    }
-    old->second.origin = value.origin;
-    for (const auto& change : value.keys) {
-      auto& keys = old->second.keys;
-      const auto place = std::find_if(keys.begin(), keys.end(),
-                                      [&](const auto& pair) { return pair.first == change.first; });
-      if (place == keys.end())
-        keys.push_back(change);
-      else
-        place->second = change.second;
-    }
   }
   return merged;
 }
@@ -89,7 +109,7 @@ YamlTree read_with_base(const std::string& path, int depth = 0) {
 }  // namespace
 
 MaterialFile read_material_file(const std::string& path, const MaterialModels& models) {
-  const YamlTree file = read_with_base(path);
+  const YamlTree file = read_with_base({path});
   MaterialFile result;
   result.path = path;
   result.title = std::filesystem::path(path).stem().string();
@@ -100,9 +120,11 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
   const YamlTree& law_map =
       file.map("law", "the section 'law' with the law's name as 'type', and its keys");
   const YamlTree& type = text_of(law_map, "type", one_of);
-  if (std::find(law_names.begin(), law_names.end(), type.text) == law_names.end())
+  if (std::find(law_names.begin(), law_names.end(), type.text) == law_names.end()) {
+    const std::string near = did_you_mean(law_names, type.text);
     throw InputError(type.origin, fmt::format("has the unknown law '{}'", type.text), one_of,
-                     "furrow-point laws lists all with their keys");
+                     near.empty() ? "furrow-point laws lists all with their keys" : near);
+  }
   result.model = find_material_model(type.text, models);
   const MaterialModel& model = result.model;
 
@@ -116,13 +138,10 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
       throw InputError(
           value.origin,
           fmt::format("has the section '{}', which law {} does not have", key, model.name),
-          fmt::format("title, base, {}", fmt::join(names, ", ")));
+          fmt::format("title, base, {}", fmt::join(names, ", ")), did_you_mean(names, key));
     if (value.kind != YamlTree::Kind::map)
       throw InputError(fmt::format("{}: '{}'", value.origin, key), "is not a section of keys",
                        "keys with values, indented below it");
-    std::vector<std::string> aside;
-    if (key == "law") aside.push_back("type");
-    result.sections[key] = entries_of(value, aside);
   }
   // Section by section first, so that a missing key is reported with the line of its section; then
   // the law as a whole.
@@ -137,8 +156,17 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
     const SectionChoice choice =
         with_place(chosen ? chosen->origin : map->origin, [&] { return section.choice(name); });
     with_place(map->origin, [&] { return read_map(choice.schema, *map, {"type"}); });
+    std::vector<std::string> aside;
+    if (section.name == "law") aside.push_back("type");
+    if (map != &nothing) result.sections[section.name] = entries_of(*map, aside);
   }
-  with_place(path, [&] { return result.make(); });
+  const std::unique_ptr<Material> material = with_place(path, [&] { return result.make(); });
+  with_place(path, [&] {
+    check_plausible(*material);
+    return 0;
+  });
+  for (const std::string& doubt : doubts(*material))
+    result.warnings.push_back(fmt::format("{}: {}", path, doubt));
   return result;
 }
 

@@ -15,6 +15,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "io/yaml_tree.h"
 #include "material/material.h"
@@ -28,6 +29,7 @@ struct MaterialFile {
   std::string title;  ///< the file's, or its name without folder and ending
   MaterialModel model;
   MaterialSections sections;
+  std::vector<std::string> warnings;  ///< what is unusual, a sentence each, to be shown
 
   std::unique_ptr<Material> make() const { return make_material(model, sections); }
 };

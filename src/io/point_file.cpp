@@ -9,10 +9,13 @@
 
 #include "core/error.h"
 #include "io/csv_file.h"
+#include "io/input_kind.h"
 
 namespace furrow {
 
 namespace {
+
+constexpr double most_steps = 2e6;  // of a path; half a gigabyte
 
 Schema head_schema(const std::string& subject) {
   Schema schema(subject);
@@ -91,6 +94,17 @@ std::string flow_text(const Schema& schema, const Options& options, const std::s
   return text;
 }
 
+PointPath checked_length(PointPath path) {
+  double steps = 0.0;
+  for (const PathSegment& segment : path.segments) steps += segment.steps;
+  if (steps > most_steps)
+    throw InputError(fmt::format("path {}", path.type),
+                     fmt::format("has {:.6g} steps in {} pieces", steps, path.segments.size()),
+                     fmt::format("at most {:.6g} in all: every one is kept in memory", most_steps),
+                     "lower 'steps'");
+  return path;
+}
+
 PointPath read_path(const YamlTree& map, std::string* effective) {
   const std::string type = path_type_of(map);
   if (type != "table") {
@@ -99,7 +113,7 @@ PointPath read_path(const YamlTree& map, std::string* effective) {
     if (effective)
       *effective =
           fmt::format("path:\n  type: {}\n{}", type, flow_text(known.schema, options, "  ", "\n"));
-    return in_path(map, [&] { return known.build(options); });
+    return in_path(map, [&] { return checked_length(known.build(options)); });
   }
   const Schema path_schema = table_path_schema(), row_schema = table_row_schema();
   const Options options = read_map(path_schema, map, {"type", "rows"});
@@ -117,7 +131,7 @@ PointPath read_path(const YamlTree& map, std::string* effective) {
   if (effective)
     *effective = fmt::format("path:\n  type: table\n{}  rows:\n{}",
                              flow_text(path_schema, options, "  ", "\n"), rows_text);
-  return in_path(map, [&] { return table_path(options, rows); });
+  return in_path(map, [&] { return checked_length(table_path(options, rows)); });
 }
 
 /// A map of one key and one text: {density: rho_kgm3}.
@@ -185,7 +199,7 @@ FitCurve read_curve(const std::string& file, const YamlTree& map, PointFit& fit)
   curve.measured.insert(curve.measured.begin(), curve.path.segments.size() - driven.size(),
                         std::nan(""));
   curve.channel = channel;
-  in_path(*measured, [&] { return find_point_channel(*fit.material.make(), channel); });
+  in_path(*measured, [&] { return find_point_channel(*fit.material.make(), curve.channel); });
   fit.driven.push_back(driven);
   fit.driven_names.push_back(fmt::format(key->unit.empty() ? "{}" : "{} [{}]", target, key->unit));
   return curve;
@@ -195,6 +209,7 @@ FitCurve read_curve(const std::string& file, const YamlTree& map, PointFit& fit)
 
 PointRun read_point_run(const std::string& path) {
   const YamlTree file = read_yaml(path);
+  check_kind(file, InputKind::point_run);
   const Options head = read_map(head_schema("run"), file, {"path"});
   PointRun run;
   run.title = title_of(path, head);
@@ -206,6 +221,7 @@ PointRun read_point_run(const std::string& path) {
 
 PointFit read_point_fit(const std::string& path) {
   const YamlTree file = read_yaml(path);
+  check_kind(file, InputKind::point_fit);
   const Options head = read_map(head_schema("fit"), file, {"parameters", "curves"});
   PointFit fit;
   fit.title = title_of(path, head);

@@ -11,19 +11,13 @@
 #include "core/error.h"
 #include "io/csv_file.h"
 #include "io/hdf5_file.h"
+#include "io/make_folder.h"
 #include "io/replace_file.h"
 #include "io/version.h"
 
 namespace furrow {
 
 namespace {
-
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder))
-    throw Error(fmt::format("{}: cannot be made as a folder: {}", folder, error.message()));
-}
 
 std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : fmt::format("{} [{}]", name, unit);

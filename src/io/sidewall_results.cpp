@@ -8,6 +8,7 @@
 
 #include "io/csv_file.h"
 #include "io/hdf5_file.h"
+#include "io/make_folder.h"
 #include "io/replace_file.h"
 #include "io/tyre_file.h"
 #include "io/version.h"
@@ -51,7 +52,7 @@ Columns columns_of(const SidewallCurve& curve) {
 }  // namespace
 
 void write_sidewall_survey(const std::string& folder, const SidewallSurvey& survey) {
-  std::filesystem::create_directories(folder);
+  make_folder(folder);
   write_text_file(folder + "/tyre.yaml", tyre_file_text(survey.tyre));
   replace_file(folder + "/sidewall.h5", [&](const std::string& part) {
     Hdf5File file(part, Hdf5File::Mode::create);

@@ -5,11 +5,13 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
 #include "io/material_file.h"
+#include "material/plausibility.h"
 
 namespace furrow {
 
@@ -57,7 +59,9 @@ TerrainLayer load(const Options& options, const std::filesystem::path& path, dou
   MaterialFile file = read_material_file(path.string());
   const double factor = options.number("modulus_scale");
   if (factor != 1.0) scale_modulus(file, factor, options.where("modulus_scale"));
-  return {file.make(), thickness, describe(file)};
+  std::unique_ptr<Material> material = file.make();
+  check_plausible(*material);  // with the modulus as scaled
+  return {std::move(material), thickness, describe(file), file.warnings};
 }
 
 /// "crust.yaml:0.03,snow.yaml": from the top, each but the last with its thickness.

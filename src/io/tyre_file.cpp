@@ -8,20 +8,27 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "io/input_kind.h"
 #include "io/yaml_tree.h"
 
 namespace furrow {
 
 namespace {
 
+// Wider than any tyre needs, and narrow enough to find a wrong unit
+const Range length = {0.0, 10.0, true, false};   // [m]
+const Range modulus = Range::closed(1.0, 1e13);  // [Pa]
+const Range spring = Range::closed(0.0, 1e7);    // [N m/rad/m]
+
 Schema tyre_schema() {
   Schema schema("tyre");
-  schema.number("pressure", "Pa", Range::non_negative(), "inflation above the atmosphere");
-  schema.number("bead_radius", "m", Range::positive(), "radius at which the sidewalls begin");
-  schema.number("bead_spacing", "m", Range::positive(), "distance of the two beads along the axle");
+  schema.number("pressure", "Pa", Range::closed(0.0, largest_inflation),
+                "inflation above the atmosphere");
+  schema.number("bead_radius", "m", length, "radius at which the sidewalls begin");
+  schema.number("bead_spacing", "m", length, "distance of the two beads along the axle");
   schema
       .numbers(
-          "link", 2, "m", Range::any(),
+          "link", 2, "m", Range::closed(-1.0, 1.0),
           "rigid arm from the tread's edge to the sidewall's end: axial (outwards) and radial part")
       .by_default(std::vector<double>{0.0, 0.0});
   return schema;
@@ -29,36 +36,35 @@ Schema tyre_schema() {
 
 Schema tread_schema() {
   Schema schema("tread");
-  schema.number("radius", "m", Range::positive(), "radius of the belts, without pressure");
-  schema.number("half_width", "m", Range::positive(), "half the width of the tread");
+  schema.number("radius", "m", length, "radius of the belts, without pressure");
+  schema.number("half_width", "m", length, "half the width of the tread");
   schema.number("crown", "m", Range::non_negative(), "the radius at the edge is smaller by this")
       .by_default(0.0);
-  schema.number("thickness", "m", Range::positive(),
-                "of the equivalent shell, EI = E h^3/12 per unit width");
-  schema.number("E1", "Pa", Range::positive(), "modulus along the circumference");
-  schema.number("E2", "Pa", Range::positive(), "modulus across");
+  schema.number("thickness", "m", length, "of the equivalent shell, EI = E h^3/12 per unit width");
+  schema.number("E1", "Pa", modulus, "modulus along the circumference");
+  schema.number("E2", "Pa", modulus, "modulus across");
   schema.number("nu12", "", Range::open(-1.0, 1.0),
                 "Poisson's ratio: strain across for stress along");
-  schema.number("G12", "Pa", Range::positive(), "shear modulus");
-  schema.number("areal_mass", "kg/m2", Range::positive(),
+  schema.number("G12", "Pa", modulus, "shear modulus");
+  schema.number("areal_mass", "kg/m2", Range{0.0, 1e4, true, false},
                 "mass of the real tread per area, rubber and belts");
   return schema;
 }
 
 Schema sidewall_schema() {
   Schema schema("sidewall");
-  schema.number("length", "m", Range::positive(), "of the whole chain of equal segments");
+  schema.number("length", "m", length, "of the whole chain of equal segments");
   schema.numbers(
-      "bending", 0, "N m", Range::non_negative(),
+      "bending", 0, "N m", Range::closed(0.0, 1e6),
       "stiffness EI per width of each hinge, from bead to tread: one fewer than segments");
   schema.numbers("curvature", 0, "1/m", Range::any(), "stress-free curvature at each hinge");
   schema.number("rim_angle", "degree", Range::closed(-180.0, 180.0),
                 "of the first segment, from outwards to upwards, where the rim's spring is free");
   schema.number("tread_angle", "degree", Range::closed(-180.0, 180.0),
                 "of the last segment, where the tread's spring is free");
-  schema.number("rim_stiffness", "N m/rad/m", Range::non_negative(),
+  schema.number("rim_stiffness", "N m/rad/m", spring,
                 "of the spring between rim and sidewall; 0: a pin");
-  schema.number("tread_stiffness", "N m/rad/m", Range::non_negative(),
+  schema.number("tread_stiffness", "N m/rad/m", spring,
                 "of the spring between sidewall and tread; 0: a pin");
   schema
       .choice(
@@ -83,6 +89,7 @@ std::vector<std::pair<std::string, Schema>> tyre_schemas() {
 
 TyreParameters read_tyre_file(const std::string& path) {
   const YamlTree file = read_yaml(path);
+  check_kind(file, InputKind::tyre);
   refuse_other_keys(file, {"title", "tyre", "tread", "sidewall"});
   const auto read = [&](const Schema& schema, const std::string& meaning) {
     return read_map(schema, file.map(schema.subject(), meaning));

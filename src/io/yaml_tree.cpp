@@ -4,12 +4,15 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <cstdint>
+#include <unordered_set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/nearest_word.h"
+#include "io/input_text.h"
 
 namespace furrow {
 
@@ -19,34 +22,104 @@ bool contains(const std::vector<std::string>& list, const std::string& text) {
   return std::find(list.begin(), list.end(), text) != list.end();
 }
 
-YamlTree tree_of(const YAML::Node& node, const std::string& path) {
-  YamlTree tree;
-  tree.origin = fmt::format("{}, line {}", path, node.Mark().line + 1);
-  if (node.IsScalar()) {
-    tree.text = node.Scalar();
-  } else if (node.IsSequence()) {
-    tree.kind = YamlTree::Kind::list;
-    for (const YAML::Node& item : node) tree.items.push_back(tree_of(item, path));
-  } else if (node.IsMap()) {
-    tree.kind = YamlTree::Kind::map;
-    for (const auto& pair : node) {
-      const std::string origin = fmt::format("{}, line {}", path, pair.first.Mark().line + 1);
+[[noreturn]] void refuse_key(const std::string& where, const std::string& key,
+                             const std::vector<std::string>& known) {
+  throw InputError(where, fmt::format("has no keyword '{}'", key),
+                   fmt::format("{}", fmt::join(known, ", ")), did_you_mean(known, key));
+}
+
+// Far above what any file needs, so that no file takes all memory or time
+constexpr std::uintmax_t largest_file = 4u << 20;  // [bytes]
+constexpr int largest_depth = 16;                  // of sections and lists in each other
+constexpr std::size_t longest_text = 4096;         // of a key or value [bytes]
+constexpr std::size_t most_repeated = 100'000;     // values that aliases (*name) stand for
+
+constexpr char yaml_file[] = "a YAML file of keys and values";
+
+std::string place(const std::string& path, const YAML::Mark& mark) {
+  return mark.is_null() ? path : fmt::format("{}, line {}", path, mark.line + 1);
+}
+
+/// Copies the nodes of yaml-cpp, in which an alias is a reference to the node of its anchor: a few
+/// of them may stand for any number of values, and one may be inside its own anchor.
+class TreeBuilder {
+ public:
+  /// @param size of the file [bytes]; without aliases it holds no more values than that
+  TreeBuilder(const std::string& path, std::size_t size)
+      : path_(path), values_left_(size + most_repeated) {}
+
+  YamlTree tree(const YAML::Node& node, int depth = 0) {
+    YamlTree tree;
+    tree.origin = place(path_, node.Mark());
+    if (depth > largest_depth)
+      throw InputError(tree.origin, "is nested too deep",
+                       fmt::format("{} sections and lists in each other", largest_depth),
+                       "an alias (*name) must not be inside its own anchor (&name)");
+    if (values_left_-- == 0)
+      throw InputError(path_,
+                       fmt::format("has aliases that stand for more than {} values", most_repeated),
+                       "fewer aliases (*name)", "write out what is meant");
+    if (node.IsScalar()) {
+      tree.text = checked_text(node, tree.origin);
+    } else if (node.IsSequence()) {
+      tree.kind = YamlTree::Kind::list;
+      for (const YAML::Node& item : node) tree.items.push_back(this->tree(item, depth + 1));
+    } else if (node.IsMap()) {
+      tree.kind = YamlTree::Kind::map;
+      add_keys(tree, node, depth);
+    } else {
+      throw InputError(tree.origin, "has an empty value", "a value");
+    }
+    return tree;
+  }
+
+ private:
+  std::string checked_text(const YAML::Node& node, const std::string& origin) const {
+    const std::string& text = node.Scalar();
+    if (text.size() > longest_text)
+      throw InputError(origin, fmt::format("has a text of {} bytes", text.size()),
+                       fmt::format("at most {} bytes", longest_text),
+                       "is a quotation mark missing?");
+    if (has_control_character(text))
+      throw InputError(origin, "has a control character in a text", "text",
+                       "mind that \\ begins an escape sequence between double quotation marks");
+    return text;
+  }
+
+  void add_keys(YamlTree& tree, const YAML::Node& map, int depth) {
+    std::unordered_set<std::string> names;
+    for (const auto& pair : map) {
+      const std::string origin = place(path_, pair.first.Mark());
       if (!pair.first.IsScalar())
         throw InputError(origin, "has a key that is not a word", "key: value");
-      const std::string key = pair.first.Scalar();
-      if (tree.find(key))
+      const std::string key = checked_text(pair.first, origin);
+      if (!names.insert(key).second)
         throw InputError(fmt::format("{}: keyword '{}'", origin, key), "is given twice",
                          "each keyword once", "remove one of them");
-      if (pair.second.IsNull())
+      if (!pair.second.IsDefined() || pair.second.IsNull())
         throw InputError(fmt::format("{}: keyword '{}'", origin, key), "has no value", "key: value",
                          "write the value or remove the key");
-      tree.keys.emplace_back(key, tree_of(pair.second, path));
+      tree.keys.emplace_back(key, this->tree(pair.second, depth + 1));
       tree.keys.back().second.origin = origin;
     }
-  } else {
-    throw InputError(tree.origin, "has an empty value", "a value");
   }
-  return tree;
+
+  const std::string& path_;
+  std::size_t values_left_;
+};
+
+/// The one document of a file.
+YAML::Node document_of(const std::string& path, const std::string& text) {
+  YAML::Node document;
+  for (const YAML::Node& node : YAML::LoadAll(text)) {
+    if (!node.IsDefined() || node.IsNull()) continue;
+    if (document.IsDefined() && !document.IsNull())
+      throw InputError(place(path, node.Mark()), "begins a second document (after ---)",
+                       "one document in a file", "make it a file of its own");
+    document.reset(node);
+  }
+  if (document.IsNull()) throw InputError(path, "is empty", yaml_file);
+  return document;
 }
 
 }  // namespace
@@ -55,6 +128,10 @@ const YamlTree* YamlTree::find(const std::string& key) const {
   for (const auto& [name, value] : keys)
     if (name == key) return &value;
   return nullptr;
+}
+
+YamlTree* YamlTree::find(const std::string& key) {
+  return const_cast<YamlTree*>(static_cast<const YamlTree*>(this)->find(key));
 }
 
 const YamlTree& YamlTree::map(const std::string& key, const std::string& meaning) const {
@@ -76,21 +153,15 @@ const YamlTree& YamlTree::list(const std::string& key, const std::string& meanin
 }
 
 YamlTree read_yaml(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path))
-    throw InputError(path, "does not exist or is not a file", "a YAML file", "check the path");
+  const std::string text = read_input_text(path, yaml_file, largest_file);
   try {
-    const YAML::Node node = YAML::LoadFile(path);
-    if (!node || node.IsNull())
-      throw InputError(path, "is empty", "a YAML file of keys and values");
-    YamlTree tree = tree_of(node, path);
-    if (tree.kind != YamlTree::Kind::map)
-      throw InputError(tree.origin, "is not a map", "a YAML file of keys and values");
+    YamlTree tree = TreeBuilder(path, text.size()).tree(document_of(path, text));
+    if (tree.kind != YamlTree::Kind::map) throw InputError(tree.origin, "is not a map", yaml_file);
     tree.origin = path;
     return tree;
   } catch (const YAML::Exception& error) {
-    throw InputError(fmt::format("{}, line {}", path, error.mark.line + 1),
-                     fmt::format("is not YAML: {}", error.msg), "a YAML file of keys and values",
-                     "check indentation, colons and brackets");
+    throw InputError(place(path, error.mark), fmt::format("is not YAML: {}", error.msg), yaml_file,
+                     "check indentation (by spaces), colons and brackets");
   }
 }
 
@@ -116,6 +187,15 @@ std::vector<Entry> entries_of(const YamlTree& map, const std::vector<std::string
 
 Options read_map(const Schema& schema, const YamlTree& map,
                  const std::vector<std::string>& without) {
+  std::vector<std::string> known;
+  for (const Key& key : schema.keys()) known.push_back(key.name);
+  known.insert(known.end(), without.begin(), without.end());
+  for (const auto& [key, value] : map.keys) {
+    const auto is_former = [&name = key](const Alias& alias) { return alias.former == name; };
+    if (!contains(known, key) &&
+        std::none_of(schema.aliases().begin(), schema.aliases().end(), is_former))
+      refuse_key(fmt::format("{}: {}", value.origin, schema.subject()), key, known);
+  }
   const std::vector<Entry> entries = entries_of(map, without);
   try {
     return schema.read(entries);
@@ -131,9 +211,7 @@ Options read_map(const Schema& schema, const YamlTree& map,
 
 void refuse_other_keys(const YamlTree& map, const std::vector<std::string>& known) {
   for (const auto& [key, value] : map.keys)
-    if (!contains(known, key))
-      throw InputError(value.origin, fmt::format("has the unknown key '{}'", key),
-                       fmt::format("{}", fmt::join(known, ", ")));
+    if (!contains(known, key)) refuse_key(value.origin, key, known);
 }
 
 }  // namespace furrow

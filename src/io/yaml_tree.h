@@ -22,14 +22,16 @@ struct YamlTree {
 
   /// null when it is not there, or this is no map
   const YamlTree* find(const std::string& key) const;
+  YamlTree* find(const std::string& key);
   /// The same, but it must be there and be a map (a list). @throws InputError saying what `meaning`
   /// is
   const YamlTree& map(const std::string& key, const std::string& meaning) const;
   const YamlTree& list(const std::string& key, const std::string& meaning) const;
 };
 
-/// @throws InputError naming file and line: missing, empty, not YAML, no map at its top, a key
-/// given twice, an empty value
+/// @throws InputError naming file and line: what read_input_text() refuses, empty, not YAML, two
+/// documents, no map at its top, a key given twice, an empty value, nested too deep, aliases that
+/// stand for more values than memory is good for
 YamlTree read_yaml(const std::string& path);
 
 /// The entries of a map whose values are texts and lists of texts. @throws InputError for a deeper

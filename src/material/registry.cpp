@@ -28,11 +28,11 @@ const MaterialModel& find_material_model(const std::string& name, const Material
 }
 
 MaterialOptions read_sections(const MaterialModel& model, const MaterialSections& sections) {
-  for (const auto& [name, entries] : sections)
+  for (const auto& given : sections)
     if (std::none_of(model.sections.begin(), model.sections.end(),
-                     [&](const auto& known) { return known.name == name; }))
-      throw InputError(fmt::format("law {}", model.name), fmt::format("has no section '{}'", name),
-                       names_of(model.sections));
+                     [&](const auto& known) { return known.name == given.first; }))
+      throw InputError(fmt::format("law {}", model.name),
+                       fmt::format("has no section '{}'", given.first), names_of(model.sections));
   MaterialOptions result;
   for (const SectionSchema& section : model.sections) {
     std::string type = section.choices.front().type;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/options.h"
@@ -19,6 +20,7 @@ struct TerrainLayer {
   double thickness = 0.0;  ///< [m]
   /// The law and its effective keys, as a checkpoint compares them; may be empty.
   std::vector<Entry> description = {};
+  std::vector<std::string> warnings = {};  ///< of the reader, to be shown
 };
 
 struct TerrainParameters {

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "end_output.h"
 #include "figure.h"
 #include "io/point_file.h"
 #include "io/point_results.h"
@@ -19,6 +20,11 @@
 #include "material/registry.h"
 
 namespace {
+
+void show_warnings(const furrow::MaterialFile& material) {
+  for (const std::string& warning : material.warnings)
+    std::cerr << "furrow-point: warning: " << warning << '\n';
+}
 
 std::string folder_for(const std::string& wish, const std::string& input) {
   return wish.empty()
@@ -28,6 +34,7 @@ std::string folder_for(const std::string& wish, const std::string& input) {
 
 void run(const std::string& input, const std::string& output, bool plot) {
   const furrow::PointRun run = furrow::read_point_run(input);
+  show_warnings(run.material);
   const auto material = run.material.make();
   const furrow::PointHistory history = furrow::drive_point(*material, run.path);
   const std::string folder = folder_for(output, input);
@@ -45,6 +52,7 @@ void run(const std::string& input, const std::string& output, bool plot) {
 
 int fit(const std::string& input, const std::string& output, bool plot) {
   const furrow::PointFit fit = furrow::read_point_fit(input);
+  show_warnings(fit.material);
   const furrow::FitResult result = furrow::fit_material(fit.problem);
   const std::string folder = folder_for(output, input);
   furrow::write_point_fit(folder, fit, result);
@@ -97,16 +105,18 @@ int main(int argc, char** argv) {
 
   try {
     if (*run_command) run(input, output, !no_plot);
-    if (*fit_command) return fit(input, output, !no_plot);
+    int status = 0;
+    if (*fit_command) status = fit(input, output, !no_plot);
     if (*laws_command) {
       if (!law.empty()) furrow::find_material_model(law);
       list_laws(law);
     }
     if (*paths_command) std::cout << furrow::path_tables();
+    furrow::end_output();
+    return status;
   } catch (const std::exception& error) {
     std::cout << std::flush;
     std::cerr << "furrow-point: " << error.what() << '\n';
     return 1;
   }
-  return 0;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // furrow-resistance: steady sinkage, motion resistance and torque of finished runs, with their
-// standard errors. The same code that writes a run's summary; furrow-post resistance calls it. See
-// furrow_resistance.md.
+// standard errors. The same code that writes a run's summary; furrow-post resistance calls it.
 
 #include <cstdio>
 #include <string>
@@ -11,8 +10,10 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "end_output.h"
 #include "io/summary.h"
 #include "io/version.h"
+#include "number_option.h"
 
 namespace {
 
@@ -41,14 +42,19 @@ struct Request {
   bool write = false;
 };
 
+using furrow::Range;
+using furrow::within;
+
 void declare(CLI::App& app, Request& request) {
   app.set_version_flag("--version", furrow::version());
   app.add_option("results", request.folders, "results folders, each with a history.h5")->required();
   CLI::Option* by_time =
       app.add_option("--window", request.window,
                      "begin and end of the window [s] instead of the one that is found")
+          ->check(within(Range::any(), "s"))
           ->expected(2);
   app.add_option("--distance", request.distance, "the same by travel [m]")
+      ->check(within(Range::any(), "m"))
       ->expected(2)
       ->excludes(by_time);
   app.add_flag("--csv", request.csv, "one line of comma-separated values for each folder");
@@ -98,6 +104,12 @@ int main(int argc, char** argv) {
       fmt::print(stderr, "furrow-resistance: {}: {}\n", folder, error.what());
       status = 1;
     }
+  }
+  try {
+    furrow::end_output();
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "furrow-resistance: {}\n", error.what());
+    status = 1;
   }
   return status;
 }

@@ -11,11 +11,13 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.h"
+#include "end_output.h"
 #include "figure.h"
 #include "io/sidewall_cache.h"
 #include "io/sidewall_results.h"
 #include "io/tyre_file.h"
 #include "io/version.h"
+#include "number_option.h"
 
 namespace {
 
@@ -68,8 +70,10 @@ int main(int argc, char** argv) {
       app.add_subcommand("run", "survey the sidewall of a tyre file (inputs/tyres/*.yaml)");
   run_command->add_option("file", request.input, "a tyre file; furrow-sidewall keys lists its keys")
       ->required();
-  run_command->add_option("-p,--pressure", request.pressure,
-                          "inflation pressure [Pa] instead of the file's");
+  run_command
+      ->add_option("-p,--pressure", request.pressure,
+                   "inflation pressure [Pa] instead of the file's")
+      ->check(furrow::within(furrow::Range::closed(0.0, furrow::largest_inflation), "Pa"));
   run_command
       ->add_option("-n,--nodes", request.nodes,
                    "of the table along the chord; half and a quarter as many along its other axes")
@@ -84,6 +88,7 @@ int main(int argc, char** argv) {
   try {
     if (*run_command) run(request);
     if (*keys_command) list_keys();
+    furrow::end_output();
   } catch (const std::exception& error) {
     std::cout << std::flush;
     std::cerr << "furrow-sidewall: " << error.what() << '\n';

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // furrow-tyre: a tyre at rest, inflated and pressed on a rigid plane: deflection, footprint,
-// section, forces. See furrow_tyre.md.
+// section, forces.
 
 #include <cstdio>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,9 +12,12 @@
 #include <fmt/os.h>
 
 #include "core/error.h"
+#include "end_output.h"
+#include "io/make_folder.h"
 #include "io/tyre_file.h"
 #include "io/version.h"
 #include "io/vtk_file.h"
+#include "number_option.h"
 #include "tyre/contact_patch.h"
 #include "tyre/darnell_tyre.h"
 
@@ -46,24 +48,31 @@ void declare(CLI::App& app, Request& request) {
   app.set_version_flag("--version", version());
   app.add_option("file", request.file, "tyre file (inputs/tyres/*.yaml)")->required();
   app.add_option("--pressure", request.pressures,
-                 "inflation pressures [kPa]; by default that of the tyre file");
+                 "inflation pressures [kPa]; by default that of the tyre file")
+      ->check(within(Range::closed(0.0, 1e-3 * largest_inflation), "kPa"));
   app.add_option("--load", request.loads,
-                 "loads on the plane [N], each applied to the state before");
+                 "loads on the plane [N], each applied to the state before")
+      ->check(within(Range::positive(), "N"));
   app.add_option("--mesh", request.mesh, "elements across and around")
       ->expected(2)
       ->capture_default_str();
   app.add_flag("--half", request.half, "only half of the tyre, mirrored");
   app.add_flag("--direct", request.direct,
                "solve the sidewall's chain instead of looking it up in a table");
-  app.add_option("--friction", request.friction, "coefficient of the plane")->capture_default_str();
+  app.add_option("--friction", request.friction, "coefficient of the plane")
+      ->check(within(Range::closed(0.0, 100.0)))
+      ->capture_default_str();
   app.add_option("--tolerance", request.tolerance,
                  "largest unbalanced force over the pressure's force on a node")
+      ->check(within(Range::closed(1e-9, 0.1)))
       ->capture_default_str();
-  app.add_option("--rim-stiffness", request.rim_stiffness,
-                 "instead of the tyre file's [N m/rad/m]");
+  app.add_option("--rim-stiffness", request.rim_stiffness, "instead of the tyre file's [N m/rad/m]")
+      ->check(within(Range::non_negative(), "N m/rad/m"));
   app.add_option("--tread-stiffness", request.tread_stiffness,
-                 "instead of the tyre file's [N m/rad/m]");
+                 "instead of the tyre file's [N m/rad/m]")
+      ->check(within(Range::non_negative(), "N m/rad/m"));
   app.add_option("--link", request.link, "instead of the tyre file's: axial and radial [m]")
+      ->check(within(Range::closed(-1.0, 1.0), "m"))
       ->expected(2);
   app.add_option("--folder", request.folder,
                  "write shapes (VTK) and contact pressures (CSV) into this folder");
@@ -87,6 +96,9 @@ DarnellTyreSettings settings_of(const Request& request) {
   settings.sidewall_rows = 0;
   return settings;
 }
+
+// [Pa] what a tyre without air may carry by its own stiffness
+constexpr double own_stiffness = 100e3;
 
 constexpr const char* header =
     "pressure_kPa,load_N,deflection_cm,perimeter_area_cm2,nodal_area_cm2,patch_length_cm,"
@@ -141,8 +153,30 @@ void press(Tyre& tyre, const Request& request) {
   tyre.release(Coordinate::z);
   for (const double load : request.loads) {
     tyre.set_load({0.0, 0.0, -load});
-    report(tyre, load, tyre.settle(&plane, options), &plane, request.folder);
+    try {
+      report(tyre, load, tyre.settle(&plane, options), &plane, request.folder);
+    } catch (const StateError& error) {
+      throw StateError(fmt::format(
+          "--load {:.6g} at {:.6g} kPa: the tyre does not come to rest: {}; lower the load, reach "
+          "it by several smaller ones, or raise --pressure",
+          load, 1e-3 * tyre.pressure(), error.what()));
+    }
   }
+}
+
+/// Refuses a load that would not be carried if the whole tread, seen from above, lay on the plane.
+/// @param pressure [Pa]
+void check_loads(const TyreParameters& tyre, double pressure, const Request& request) {
+  const double area = 2.0 * tyre.tread.radius * 2.0 * tyre.tread.half_width;
+  const double largest = (pressure + own_stiffness) * area;
+  for (const double load : request.loads)
+    if (load > largest)
+      throw InputError(fmt::format("--load, at {:.6g} kPa,", 1e-3 * pressure),
+                       fmt::format("is {:.6g} N", load),
+                       fmt::format("a number in (0, {:.6g}] [N]: width times diameter of the tread "
+                                   "times the pressure and {:.6g} kPa for the tyre's own stiffness",
+                                   largest, 1e-3 * own_stiffness),
+                       "lower the load, or raise --pressure");
 }
 
 void run(const Request& request) {
@@ -150,7 +184,8 @@ void run(const Request& request) {
   const DarnellTyreSettings settings = settings_of(request);
   std::vector<double> pressures = request.pressures;
   if (pressures.empty()) pressures = {1e-3 * parameters.pressure};
-  if (!request.folder.empty()) std::filesystem::create_directories(request.folder);
+  for (const double kilopascal : pressures) check_loads(parameters, 1e3 * kilopascal, request);
+  if (!request.folder.empty()) make_folder(request.folder);
   fmt::print("{}\n", header);
   for (const double kilopascal : pressures) {
     parameters.pressure = 1e3 * kilopascal;
@@ -171,6 +206,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   try {
     run(request);
+    end_output();
   } catch (const std::exception& error) {
     fmt::print(stderr, "furrow-tyre: {}\n", error.what());
     return 1;

@@ -1,10 +1,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Kernels are compiled once for every instruction set of the build; the program chooses among them
 # when it starts (src/simd/dispatch.h).
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT FURROW_NATIVE)
+#
+# Under sanitizers one instruction set with little optimisation is all that a build can afford: the
+# checks make a kernel of inlined vector operations many times as large.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT FURROW_NATIVE AND NOT FURROW_SANITIZE)
   set(FURROW_INSTRUCTION_SETS baseline avx2 avx512)
 else()
   set(FURROW_INSTRUCTION_SETS baseline)
+endif()
+set(furrow_kernel_optimisation -O3)
+if(FURROW_SANITIZE)
+  set(furrow_kernel_optimisation -O1)
 endif()
 set(furrow_kernel_unit_template ${CMAKE_CURRENT_LIST_DIR}/kernel_unit.cpp.in)
 
@@ -29,6 +36,6 @@ function(furrow_kernel_unit target header table)
     target_sources(${target} PRIVATE ${source})
     # gcc 12 warns of uninitialised variables in its own <experimental/simd> and avx512fintrin.h.
     set_source_files_properties(${source} TARGET_DIRECTORY ${target}
-      PROPERTIES COMPILE_OPTIONS "-O3;${${set}};-Wno-uninitialized;-Wno-maybe-uninitialized")
+      PROPERTIES COMPILE_OPTIONS "${furrow_kernel_optimisation};${${set}};-Wno-uninitialized;$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>")
   endforeach()
 endfunction()

@@ -73,12 +73,12 @@ void SidewallTable::build() {
   const Accuracy seen = accuracy(0.97, 5);
   if (seen.force_rms > largest_error * seen.force_scale)
     throw StateError(
-        fmt::format("sidewall table: its forces differ from the chain's by {:.3g} N/m (rms of {} "
-                    "points; the force's rms "
-                    "is {:.3g} N/m), at {:.6g} Pa; it needs more nodes or, if the chain snaps "
-                    "through, smaller ranges "
+        fmt::format("sidewall table at a pressure of {:.6g} Pa: its forces differ from the chain's "
+                    "by {:.3g} N/m (rms of {} points; the force's rms is {:.3g} N/m): where the "
+                    "pressure is low for the bending stiffness, the chain snaps through; raise the "
+                    "pressure (2.4 bar or 35 psi are 241e3 Pa), or take more nodes, smaller ranges "
                     "or the direct solution",
-                    seen.force_rms, seen.points, seen.force_scale, pressure_));
+                    pressure_, seen.force_rms, seen.points, seen.force_scale));
 }
 
 void SidewallTable::set_pressure(double pressure) {

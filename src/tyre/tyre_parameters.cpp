@@ -107,8 +107,7 @@ void check(const SidewallParameters& sidewall, const std::string& where) {
 }
 
 void check(const TyreParameters& tyre, const std::string& where) {
-  need(tyre.pressure >= 0.0 && std::isfinite(tyre.pressure), where,
-       fmt::format("pressure is {} Pa", tyre.pressure), "a number >= 0");
+  check_number(tyre.pressure, Range::closed(0.0, largest_inflation), where + ", pressure", "Pa");
   need_positive(tyre.bead_radius, where, "bead_radius", "m");
   need_positive(tyre.bead_spacing, where, "bead_spacing", "m");
   need(tyre.link.allFinite(), where, "the link is not finite", "two numbers [m]");

@@ -15,6 +15,9 @@
 
 namespace furrow {
 
+/// [Pa] above that of any tyre (aircraft: 1.5 MPa)
+constexpr double largest_inflation = 2e6;
+
 /// A chain of N equal inextensible segments and N - 1 hinges between them, counted from bead to
 /// tread. Stiffnesses are per unit width, i.e. per unit circumference of the tread. Angles are
 /// those of a segment, from +A (outwards) towards +R (away from the axle): a sidewall leaves the

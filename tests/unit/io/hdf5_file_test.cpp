@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "io/replace_file.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
 
@@ -88,6 +89,37 @@ TEST(Hdf5File, GrowsAndShrinksAcrossChunks) {
   EXPECT_EQ(file.length("/history/load"), 0u);
   // in the order they were made
   EXPECT_THAT(file.members("/history"), ElementsAre("time", "load", "angle"));
+}
+
+/// HDF5 finds what is altered of its own records by their checksums, so nothing else than a refusal
+/// or other numbers can come of it.
+TEST(Hdf5File, AnAlteredByteIsSurvived) {
+  const Scratch scratch;
+  const std::string path = scratch.path("whole.h5"), altered = scratch.path("altered.h5");
+  {
+    Hdf5File file(path, Mode::create);
+    file.create_growing("/history/time", 4);
+    file.append("/history/time", {1, 2, 3, 4, 5});
+    file.set_attribute("/history/time", "unit", "s");
+    file.write("/text", std::string("some words"));
+    file.write("/x", Matrix3X::Zero(3, 4));
+  }
+  const std::string whole = read_text_file(path);
+  int refused = 0;
+  for (std::size_t n = 0; n < whole.size(); ++n) {
+    std::string bytes = whole;
+    bytes[n] = static_cast<char>(bytes[n] ^ (1 << n % 8));
+    write_text_file(altered, bytes);
+    refused += "no error" != error_of([&] {
+                 const Hdf5File file(altered, Mode::read);
+                 for (const std::string& name : file.members("/history"))
+                   file.read_numbers("/history/" + name);
+                 file.text_attribute("/history/time", "unit");
+                 file.read_text("/text");
+                 file.read_columns("/x");
+               });
+  }
+  EXPECT_GT(refused, 200) << "of " << whole.size() << " bytes";
 }
 
 TEST(Hdf5File, ErrorsNameFileObjectAndCause) {

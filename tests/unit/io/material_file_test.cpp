@@ -166,12 +166,61 @@ TEST_F(MaterialFileTest, BadFilesAreRefusedWithTheirPlace) {
       {with(sand, "  K: 1\n", "  K: 1\n  eps_vol_pl_0: 0.5\n"),
        "sand.yaml, line 9: law drucker_prager_cap, keyword 'eps_vol_pl_0' is 0.5, outside the "
        "hardening data"},
-      {"base: nothing.yaml\n", "nothing.yaml does not exist"},
-      {"base: sand.yaml\n", "eighth base of a base"},
+      {"base: nothing.yaml\n", "sand.yaml, line 1: base: nothing.yaml does not exist"},
+      {"base: ''\n", "is a folder"},
+      {"base: [a, b]\n", "sand.yaml, line 1: keyword 'base' is not a word"},
+      {"title: a\nbase: sand.yaml\n",
+       "sand.yaml, line 2: base leads back to sand.yaml: sand.yaml -> sand.yaml; allowed: a base "
+       "that does not need this file"},
+      {"base: ./../" + std::filesystem::path(scratch_.folder()).filename().string() +
+           "/sand.yaml\n",
+       "sand.yaml, line 1: base leads back to sand.yaml"},
+      {sand + "---\n" + sand, "sand.yaml, line 17 begins a second document"},
+      {with(sand, "law:", "lay:"),
+       "sand.yaml has no section 'law'; allowed: the section 'law' with the law's name as 'type'"},
+      {with(sand, "hardening:", "hardning:"), "did you mean 'hardening'?"},
+      {with(sand, "drucker_prager_cap", "druker_prager_cap"),
+       "has the unknown law 'druker_prager_cap'; allowed: one of: "},
+      {with(sand, "drucker_prager_cap", "druker_prager_cap"), "did you mean 'drucker_prager_cap'?"},
+      {with(sand, "  d: 1.194e6\n", "  cohesion: {value: 1.194e6}\n"),
+       "sand.yaml, line 5: law drucker_prager_cap has no keyword 'cohesion'; allowed: density, d"},
+      {with(sand, "d: 1.194e6", "d: 1e400"),
+       "keyword 'd' is '1e400', which is beyond what a number can hold"},
+      {with(sand, "d: 1.194e6", "d: 1.194 MPa"),
+       "keyword 'd' is '1.194 MPa', which is not a number; allowed: a number >= 0 [Pa]"},
+      {with(sand, "d: 1.194e6", "d: 1,194"), "keyword 'd' is '1,194', which is not a number"},
+      {with(sand, "density: 1800", "density: 1e30"),
+       "sand.yaml: law drucker_prager_cap has a density of 1e+30 kg/m3; allowed: a number in"},
+      {with(sand, "E: 689e6", "E: 1e-30"),
+       "sand.yaml: law drucker_prager_cap has a stiffness at rest of 1.2e-30 Pa"},
+      {with(sand, "nu: 0.25", "nu: 0.4999999999"),
+       "(Poisson's ratio 0.4999999999); allowed: a ratio in [0.001, 10000]"},
   };
   for (const Case& bad : cases) EXPECT_THAT(refusal(bad.text), HasSubstr(bad.message)) << bad.text;
   EXPECT_THAT(error_of([&] { read_material_file(scratch_.path("absent.yaml")); }),
-              HasSubstr("absent.yaml does not exist or is not a file"));
+              HasSubstr("absent.yaml does not exist; allowed: a YAML file"));
+}
+
+TEST_F(MaterialFileTest, BasesThatLeadInACircleAreShown) {
+  file("base: b.yaml\n", "a.yaml");
+  file("base: c.yaml\n", "b.yaml");
+  file("base: a.yaml\n", "c.yaml");
+  EXPECT_THAT(
+      error_of([&] { read_material_file(scratch_.path("a.yaml")); }),
+      ::testing::ContainsRegex("c.yaml, line 1: base leads back to [^ ]*a.yaml: [^ ]*a.yaml -> "
+                               "[^ ]*b.yaml -> [^ ]*c.yaml -> [^ ]*a.yaml"));
+  for (int n = 0; n < 12; ++n)
+    file("base: " + std::to_string(n + 1) + ".yaml\n", std::to_string(n) + ".yaml");
+  EXPECT_THAT(
+      error_of([&] { read_material_file(scratch_.path("0.yaml")); }),
+      HasSubstr("8.yaml, line 1: base is the base of 9 files; allowed: 8 one after the other"));
+}
+
+TEST_F(MaterialFileTest, WhatIsUnusualIsReadWithAWarning) {
+  EXPECT_THAT(read_material_file(file(sand)).warnings, ::testing::IsEmpty());
+  EXPECT_THAT(read_material_file(file(with(sand, "density: 1800", "density: 5000"))).warnings,
+              ::testing::ElementsAre(HasSubstr("sand.yaml: the density is 5000 kg/m3; ground and "
+                                               "rubber have one in [10, 3000]")));
 }
 
 TEST(CsvFile, ReadsNumbersAndNamesWhatIsWrong) {

@@ -68,6 +68,16 @@ TEST_F(PointFileTest, BadRunsAreRefusedWithTheirPlace) {
       {"material: sea.yaml\npath: {type: confined, strain: [0.1]}\n", "sea.yaml does not exist"},
       {head, "run.yaml has no section 'path'"},
       {head + "paths: 1\n", "run.yaml, line 2: run has no keyword 'paths'"},
+      {head + "paths: {type: confined}\n",
+       "run.yaml, line 2: run has no keyword 'paths'; allowed: title, material, path; did you mean "
+       "'path'?"},
+      {head + "path: {type: cyclic, upper: 1, cycles: 100000, steps: 100000}\n",
+       "run.yaml, line 2: path cyclic has 2e+10 steps in 200000 pieces; allowed: at most 2e+06 in "
+       "all"},
+      {head + "path: {type: confined, strain: [1e-1], steps: 1e300}\n", "keyword 'steps' is 1e300"},
+      {"material: data.csv\npath: {type: confined, strain: [0.1]}\n",
+       "data.csv, line 1 is not a map"},
+      {"material: ''\npath: {type: confined, strain: [0.1]}\n", "is a folder"},
       {head + "path: {strain: [0.1]}\n",
        "run.yaml, line 2: path, keyword 'type' is missing; allowed: one of: hydrostatic, confined"},
       {head + "path: {type: confine}\n", "run.yaml, line 2: path, keyword 'type' is 'confine'"},

@@ -57,6 +57,15 @@ TEST_F(TyreFileTest, BadFilesAreRefusedWithTheirPlace) {
   const std::vector<Case> cases = {
       {"pressure: 241e3", "pressure: -241e3",
        "tyre.yaml, line 5: tyre, keyword 'pressure' is -241"},
+      {"pressure: 241e3", "pressure: 1e9",
+       "tyre.yaml, line 5: tyre, keyword 'pressure' is 1e9; allowed: a number in [0, 2000000] "
+       "[Pa]"},
+      {"radius: 0.3475", "radius: 347.5",
+       "tread, keyword 'radius' is 347.5; allowed: a number in (0, 10] [m]"},
+      {"E1: 3.62e10", "E1: 1e300",
+       "keyword 'E1' is 1e300; allowed: a number in [1, 10000000000000] [Pa]"},
+      {"tread:\n", "tyre:\n", "keyword 'tyre' is given twice"},
+      {"sidewall:\n", "---\nsidewall:\n", "begins a second document"},
       {"pressure: 241e3", "pressure: nan", "keyword 'pressure' is nan"},
       {"bead_radius: 0.208", "rim_radius: 0.208",
        "tyre has no keyword 'rim_radius'; allowed: pressure, bead_radius"},
@@ -73,7 +82,7 @@ TEST_F(TyreFileTest, BadFilesAreRefusedWithTheirPlace) {
       {", 17.54]", ", 300]", "curvature 300 1/m folds a hinge"},
       {"[1.5,  0.15,", "[1.5,  -0.15,", "keyword 'bending' is -0.15"},
       {"rim_stiffness: 50\n", "rim_stiffness: -1\n",
-       "keyword 'rim_stiffness' is -1; allowed: a number >= 0"},
+       "keyword 'rim_stiffness' is -1; allowed: a number in [0, 10000000]"},
       {"rim_angle: 23 ", "rim_angle: 230 ", "keyword 'rim_angle' is 230"},
   };
   for (const Case& bad : cases)

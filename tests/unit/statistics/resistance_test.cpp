@@ -24,6 +24,7 @@ struct SyntheticRun {
   double sinkage_drift = 0.0;  // [m] over the cruise
   double end = 12.0;           // [s]
   double skipped_from = 100.0, skipped_to = 100.0;
+  double load = 100.0;  // [N]
 
   History history() const {
     History result({{"time", "s", ""},
@@ -43,7 +44,7 @@ struct SyntheticRun {
       vertical = 0.9 * vertical + 0.02 * normal(random);
       own = 0.9 * own + 0.3 * normal(random);
       if (time > skipped_from && time < skipped_to) continue;
-      const double force_z = 100.0 * (1.0 + vertical), force_x = -0.2 * force_z + own;
+      const double force_z = load * (1.0 + vertical), force_x = -0.2 * force_z + own;
       const double stage = time < 1.0 ? 0.0 : time < 2.0 ? 1.0 : 2.0;
       const double sinkage =
           0.03 + 1e-4 * normal(random) + sinkage_drift * std::max(0.0, time - 2.0) / 10.0;
@@ -181,6 +182,13 @@ TEST(Resistance, RefusesHistoriesWithGapsOrWithoutCruise) {
               HasSubstr("the history has 0 rows"));
   EXPECT_THAT(error_of([] { measure_resistance(SyntheticRun().history()).value("mass"); }),
               HasSubstr("no steady value 'mass'"));
+}
+
+TEST(Resistance, AWheelThatBearsNoLoadIsNamed) {
+  SyntheticRun lifted;
+  lifted.load = 0.0;
+  EXPECT_THAT(error_of([&] { measure_resistance(lifted.history()); }),
+              HasSubstr("the wheel bears no load in the window (cruise from 2 s"));
 }
 
 TEST(Resistance, ARatioNeedsADenominator) {

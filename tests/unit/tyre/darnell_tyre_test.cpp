@@ -290,7 +290,7 @@ TEST(DarnellTyre, RefusesWhatCannotBe) {
         return error_of([&] { DarnellTyre(tyre, settings, hub); });
       };
   EXPECT_THAT(refusal([](auto& t, auto&, auto&) { t.pressure = -1.0; }),
-              HasSubstr("pressure is -1 Pa"));
+              HasSubstr("pressure is -1; allowed: a number in [0, 2000000] [Pa]"));
   EXPECT_THAT(refusal([](auto& t, auto&, auto&) { t.bead_spacing = 0.298; }),
               HasSubstr("the rim is wider than the tyre"));
   EXPECT_THAT(refusal([](auto& t, auto&, auto&) { t.sidewall.length = 0.13; }),

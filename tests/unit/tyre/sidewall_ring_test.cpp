@@ -61,11 +61,11 @@ TEST(SidewallRing, ForcesAreTheGradientOfThePotential) {
     // the pressure's potential is -p V of a closed surface: a cap of triangles from the tread's
     // edge to a fixed point closes it
     const Vector3 apex = model.rim.centre;
-    const auto cap = [&](const Matrix3X& x) {
+    const auto cap = [&, sign = side](const Matrix3X& x) {
       double volume = 0.0;
       for (int i = 0; i < Ring::n; ++i) {
         const Vector3 a = x.col(i), b = x.col((i + 1) % Ring::n);
-        volume -= side * -a.dot(b.cross(apex)) / 6.0;
+        volume -= sign * -a.dot(b.cross(apex)) / 6.0;
       }
       return volume;
     };

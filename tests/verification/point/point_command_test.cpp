@@ -147,7 +147,7 @@ TEST(PointCommand, FailuresHaveTheirMessageAndStatus) {
       "material: " + std::string(FURROW_SOURCE_DIR) + "/inputs/materials/fresh_snow.yaml\n";
   expect_failure("", "subcommand");
   expect_failure("run", "file is required");
-  expect_failure("run absent.yaml", "furrow-point: absent.yaml does not exist or is not a file");
+  expect_failure("run absent.yaml", "furrow-point: absent.yaml does not exist");
   expect_failure("run " + file("") + out, "bad.yaml is empty");
   expect_failure("run " + file("material: none.yaml\npath: {type: confined, strain: [1]}\n") + out,
                  "none.yaml does not exist");

@@ -102,9 +102,9 @@ TEST_F(SidewallCommand, FailuresSayWhatIsWrong) {
     EXPECT_NE(outcome.status, 0) << arguments;
     EXPECT_THAT(outcome.text, HasSubstr(message));
   };
-  expect_failure("run absent.yaml", "furrow-sidewall: absent.yaml does not exist or is not a file");
+  expect_failure("run absent.yaml", "furrow-sidewall: absent.yaml does not exist");
   expect_failure("run --no-plot -p -5 " + tyres + "p235_75r15.yaml -o " + scratch_.path("x"),
-                 "pressure is -5 Pa; allowed: a number >= 0");
+                 "--pressure: is '-5'; allowed: a number in [0, 2000000] [Pa]");
   expect_failure("run -n 3 " + tyres + "p235_75r15.yaml", "nodes");
   EXPECT_FALSE(std::filesystem::exists(scratch_.path("x")));
 

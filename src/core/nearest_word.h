@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// What a misspelled word may have meant.
+
+#include <string>
+#include <vector>
+
+namespace furrow {
+
+/// "did you mean 'beta'?" for the word that is at most two letters from the given one, else "".
+std::string did_you_mean(const std::vector<std::string>& words, const std::string& given);
+
+}  // namespace furrow

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The kinds of YAML files that Furrow reads, told apart by their sections.
+
+#include "io/yaml_tree.h"
+
+namespace furrow {
+
+enum class InputKind { material, tyre, point_run, point_fit };
+
+/// @throws InputError when a file has no section of the kind that is expected, but one of another
+/// kind: which one it looks like, and what reads that
+void check_kind(const YamlTree& file, InputKind expected);
+
+}  // namespace furrow

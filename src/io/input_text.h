@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The text of a file that somebody wrote by hand.
+
+#include <cstdint>
+#include <string>
+
+namespace furrow {
+
+/// @param kind "a YAML file", for errors
+/// @param largest [bytes]
+/// @returns the text without a byte order mark
+/// @throws InputError when the file does not exist, is a folder or a device, may not be read, is
+/// larger than that, or is not text in UTF-8 (with the line)
+std::string read_input_text(const std::string& path, const std::string& kind,
+                            std::uintmax_t largest);
+
+/// Whether a text has a control character other than tabulators and line ends.
+bool has_control_character(const std::string& text);
+
+}  // namespace furrow

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "material/plausibility.h"
+
+#include <gmock/gmock.h>
+
+#include "paths.h"
+
+namespace furrow {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing_paths::material_of;
+
+std::string refusal(const std::string& text) {
+  try {
+    check_plausible(*material_of(text));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+TEST(Plausibility, WhatNoMatterHasIsRefusedWithTheNumbers) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"elastic density 25000 elasticity linear E 5e6 nu 0.2",
+       "law elastic has a density of 25000 kg/m3; allowed: a number in [0.001, 23000]; units are "
+       "SI"},
+      {"elastic density 1e-4 elasticity linear E 5e6 nu 0.2", "has a density of 0.0001 kg/m3"},
+      {"elastic density 200 elasticity linear E 1e-30 nu 0.2",
+       "has a stiffness at rest of 1.11e-30 Pa and a density of 200 kg/m3: compression waves of "
+       "7.45e-17 m/s; allowed: a speed in [0.001, 30000] [m/s]"},
+      {"elastic density 200 elasticity linear E 1e15 nu 0.2", "compression waves of 2.36e+06 m/s"},
+      {"elastic density 200 elasticity porous kappa 1e-300 e0 1e300 p0 1 nu 0.3",
+       "compression waves of inf m/s"},
+      {"elastic density 200 elasticity linear E 5e6 nu 0.4999999999",
+       "has a bulk modulus of 5e+09 times its shear modulus (Poisson's ratio 0.4999999999); "
+       "allowed: "
+       "a ratio in [0.001, 10000]: Poisson's ratio in [-0.9955, 0.49995]"},
+      {"elastic density 200 elasticity linear E 5e6 nu -0.9999", "(Poisson's ratio -0.9999)"},
+      {"neo_hookean density 1100 G 1 bulk 5e7", "has a bulk modulus of 5e+07 times"}};
+  for (const auto& [text, message] : cases) EXPECT_THAT(refusal(text), HasSubstr(message));
+  EXPECT_EQ(refusal("elastic density 200 elasticity linear E 5e6 nu 0.4999"), "not refused");
+}
+
+TEST(Plausibility, WhatIsUnusualIsDoubted) {
+  const auto doubts_of = [](const char* text) { return doubts(*material_of(text)); };
+  EXPECT_THAT(doubts_of("elastic density 1600 elasticity linear E 5e6 nu 0.2"), IsEmpty());
+  EXPECT_THAT(doubts_of("elastic density 5000 elasticity linear E 5e6 nu 0.2"),
+              ElementsAre(HasSubstr("the density is 5000 kg/m3; ground and rubber have one in [10, "
+                                    "3000]")));
+  // g/cm3 for kg/m3, MPa for Pa
+  EXPECT_THAT(doubts_of("elastic density 1.6 elasticity linear E 5e6 nu 0.2"),
+              ElementsAre(HasSubstr("the density is 1.6 kg/m3")));
+  EXPECT_THAT(doubts_of("elastic density 200 elasticity linear E 13.79 nu 0.3"),
+              ElementsAre(HasSubstr("compression waves have 0.305 m/s at rest")));
+}
+
+}  // namespace
+}  // namespace furrow

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Wrong options of the command-line programs: each is refused in a message that names the option
+// and what is allowed, with a status of its own, before anything is computed.
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+
+#include "../io/scratch.h"
+#include "io/history_file.h"
+#include "io/replace_file.h"
+
+namespace furrow {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct Outcome {
+  bool ended = false;  ///< by itself, not by a signal
+  int status = 0;
+  std::string text;  ///< standard output and error
+};
+
+Outcome run(const std::string& command) {
+  FILE* pipe = popen(("(" + command + ") 2>&1").c_str(), "r");
+  Outcome outcome;
+  char buffer[4096];
+  while (const std::size_t size = fread(buffer, 1, sizeof buffer, pipe))
+    outcome.text.append(buffer, size);
+  const int status = pclose(pipe);
+  outcome.ended = WIFEXITED(status) && WEXITSTATUS(status) < 128;  // a shell adds 128 to a signal
+  outcome.status = WEXITSTATUS(status);
+  return outcome;
+}
+
+struct Case {
+  std::string arguments, message;
+};
+
+template <class Cases>
+void expect_refusals(const std::string& program, const Cases& cases) {
+  for (const Case& bad : cases) {
+    const Outcome outcome = run(program + " " + bad.arguments);
+    EXPECT_TRUE(outcome.ended) << bad.arguments << "\n" << outcome.text;
+    EXPECT_NE(outcome.status, 0) << bad.arguments;
+    EXPECT_THAT(outcome.text, AllOf(HasSubstr(bad.message), Not(HasSubstr("terminate called"))))
+        << bad.arguments;
+  }
+}
+
+const std::string inputs = FURROW_SOURCE_DIR "/inputs/";
+
+TEST(BadOptions, OfFurrowTyre) {
+  const Scratch scratch;
+  write_text_file(scratch.path("taken"), "");
+  const std::string tyre = inputs + "tyres/p235_75r15.yaml --mesh 4 36 ";
+  const Case cases[] = {
+      {"", "file is required"},
+      {"absent.yaml", "absent.yaml does not exist; allowed: a YAML file"},
+      {inputs, "is a folder; allowed: a YAML file"},
+      {inputs + "materials/fresh_snow.yaml", "it looks like a material file"},
+      {tyre + "--load nan", "--load: is 'nan'; allowed: a number > 0 [N]"},
+      {tyre + "--load -500", "--load: is '-500'; allowed: a number > 0 [N]"},
+      {tyre + "--load 0", "--load: is '0'; allowed: a number > 0 [N]"},
+      {tyre + "--load 4kN", "--load: is '4kN'; allowed: a number > 0 [N]"},
+      {tyre + "--load 1e12",
+       "--load, at 241 kPa, is 1e+12 N; allowed: a number in (0, 37208.2] [N]: width times "
+       "diameter"},
+      {tyre + "--load 3000 --load 1e400", "--load: is '1e400'"},
+      {tyre + "--pressure 241000", "--pressure: is '241000'; allowed: a number in [0, 2000] [kPa]"},
+      {tyre + "--pressure -1", "--pressure: is '-1'; allowed: a number in [0, 2000] [kPa]"},
+      {tyre + "--pressure inf", "--pressure: is 'inf'"},
+      {tyre + "--tolerance 0", "--tolerance: is '0'; allowed: a number in [1e-09, 0.1]"},
+      {tyre + "--tolerance nan", "--tolerance: is 'nan'"},
+      {tyre + "--friction -0.1", "--friction: is '-0.1'; allowed: a number in [0, 100]"},
+      {tyre + "--rim-stiffness -5", "--rim-stiffness: is '-5'; allowed: a number >= 0 [N m/rad/m]"},
+      {tyre + "--tread-stiffness nan", "--tread-stiffness: is 'nan'"},
+      {tyre + "--link 20 0", "--link: is '20'; allowed: a number in [-1, 1] [m]"},
+      {tyre + "--link 0.01", "--link"},
+      {tyre + "--folder /proc/x", "/proc/x: cannot be made as a folder ("},
+      {tyre + "--folder " + scratch.path("taken"), "taken: cannot be made as a folder ("},
+      {tyre + "--mass 3", "--mass"},
+      {inputs + "tyres/p235_75r15.yaml --mesh 4", "--mesh"},
+      {inputs + "tyres/p235_75r15.yaml --mesh 4 2.5", "--mesh"},
+      {inputs + "tyres/p235_75r15.yaml --mesh 4 99999",
+       "elements around is 99999; allowed: an integer in [12, 2000]"},
+      {inputs + "tyres/p235_75r15.yaml --mesh -1 36",
+       "elements across is -1; allowed: an integer"}};
+  expect_refusals(FURROW_TYRE, cases);
+}
+
+TEST(BadOptions, OfFurrowSidewall) {
+  const Scratch scratch;
+  write_text_file(scratch.path("taken"), "");
+  const std::string run = "run --no-plot " + inputs + "tyres/p235_75r15.yaml ";
+  const Case cases[] = {
+      {"", "subcommand"},
+      {"run", "file is required"},
+      {"bend", "subcommand"},
+      {run + "-p nan", "--pressure: is 'nan'; allowed: a number in [0, 2000000] [Pa]"},
+      {run + "-p 1e9", "--pressure: is '1e9'; allowed: a number in [0, 2000000] [Pa]"},
+      {run + "-n 1000", "--nodes: Value 1000 not in range"},
+      {"run --no-plot " + inputs + "points/fit_foam.yaml",
+       "it looks like a point file with curves"}};
+  expect_refusals("FURROW_CACHE=" + scratch.path("cache") + " " FURROW_SIDEWALL, cases);
+}
+
+TEST(BadOptions, OfFurrowPoint) {
+  const Scratch scratch;
+  const std::string run = inputs + "points/mccormick_confined.yaml";
+  const Case cases[] = {
+      {"fit " + run, "it looks like a point file with a path to drive"},
+      {"run " + inputs + "points/fit_abele_gow.yaml",
+       "it looks like a point file with curves to fit"},
+      {"run " + inputs + "materials/fresh_snow.yaml", "it looks like a material file"},
+      {"run " + inputs, "is a folder"},
+      {"run --no-plot -o /proc/x " + run, "/proc/x: cannot be made as a folder ("},
+      {"run --no-plott " + run, "--no-plott"},
+      {"laws > /dev/full", "furrow-point: the standard output cannot be written"}};
+  expect_refusals(FURROW_POINT, cases);
+}
+
+TEST(BadOptions, OfFurrowResistance) {
+  const Scratch scratch;
+  {
+    HistoryFile file = HistoryFile::create(scratch.path("history.h5"),
+                                           {{"time", "s", ""}, {"x", "m", ""}}, RunInfo());
+    for (int i = 0; i < 10; ++i) file.append({0.1 * i, 0.05 * i});
+  }
+  std::filesystem::create_directory(scratch.path("text"));
+  write_text_file(scratch.path("text/history.h5"), "no HDF5");
+  const std::string folder = scratch.folder();
+  const Case cases[] = {
+      {"", "results is required"},
+      {"absent", "absent: absent/history.h5: cannot open as an HDF5 file"},
+      {scratch.path("text"), "history.h5: cannot open as an HDF5 file"},
+      {folder + " --window nan 1", "--window: is 'nan'; allowed: any finite number [s]"},
+      {folder + " --window 1", "--window"},
+      {folder + " --window 0 1 --distance 0 1", "--window"},
+      {folder + " --window 0.5 0.2",
+       "the window by time is 0.5 to 0.2 s; allowed: a part of 0 to 0.9 s, the begin before the "
+       "end"},
+      {folder + " --window 0 100", "the window by time is 0 to 100 s; allowed: a part of"},
+      {folder + " --distance -3 1", "the window by distance is -3 to 1 m; allowed: a part of"}};
+  expect_refusals(FURROW_RESISTANCE, cases);
+}
+
+}  // namespace
+}  // namespace furrow
