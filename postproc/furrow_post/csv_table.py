@@ -8,20 +8,35 @@ from pathlib import Path
 from typing import Any
 
 from .arrays import Floats
-from .errors import ResultsError
+from .errors import ResultsError, content_of
 
 import numpy as np
 
+TABLE = "a table is CSV: a head with the names of its columns, then rows of as many cells"
+
 
 def read_rows(path: Path) -> list[dict[str, str]]:
-    """Rows of a table, name of the column -> text; comments are left out. @raises OSError"""
-    with open(path, encoding="utf-8") as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+    """Rows of a table, name of the column -> text; comments are left out.
+
+    @raises OSError; ResultsError where a row has other cells than the head
+    """
+    with content_of(path, TABLE), open(path, encoding="utf-8") as file:
+        try:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        except csv.Error as error:
+            raise ResultsError(f"{path}: {error}; {TABLE}") from error
+    for number, row in enumerate(rows, 1):
+        if None in row or None in row.values():
+            raise ResultsError(
+                f"{path}: row {number} has {'more' if None in row else 'fewer'} cells than the "
+                f"head; {TABLE}"
+            )
+    return rows
 
 
 def read_comments(path: Path) -> list[str]:
-    """The comment lines of a table, with their "#". @raises OSError"""
-    with open(path, encoding="utf-8") as file:
+    """The comment lines of a table, with their "#". @raises OSError, ResultsError"""
+    with content_of(path, TABLE), open(path, encoding="utf-8") as file:
         return [line.rstrip("\n") for line in file if line.startswith("#")]
 
 
@@ -33,7 +48,7 @@ def read_numbers(path: Path) -> list[dict[str, float]]:
             for row in read_rows(path)
         ]
     except ValueError as error:
-        raise ResultsError(f"{path}: {error}") from error
+        raise ResultsError(f"{path}: {error}; {TABLE}") from error
 
 
 def read_columns(path: Path) -> dict[str, Floats]:

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.optimize import curve_fit, least_squares
 
 from ..arrays import Booleans, Floats
-from ..errors import ResultsError
+from ..errors import ResultsError, content_of
 from ..read.laboratory import LaboratoryTest, PointRun, cell_curve, read_oedometer_reference
 from .statistics import block_mean, line_fit, rms
 
@@ -40,8 +40,10 @@ class LaboratoryQuantity:
 
 
 def evaluate(test: LaboratoryTest) -> list[LaboratoryQuantity]:
-    """What one test gives."""
-    return EVALUATIONS[test.kind](test)
+    """What one test gives. @raises ResultsError where its curve or deposit is no such test's"""
+    remedy = "was the run stopped, or too short? Make it again"
+    with content_of(test.folder, remedy), np.errstate(all="ignore"):
+        return EVALUATIONS[test.kind](test)
 
 
 def values_of(test: LaboratoryTest) -> dict[str, float]:
@@ -323,12 +325,14 @@ def together(tests: Sequence[LaboratoryTest]) -> list[LaboratoryQuantity]:
     if len(tests) < 2 or len(kinds) != 1:
         return []
     kind = kinds.pop()
-    if kind == "shear":
-        return _shear_strength(tests)
-    if kind == "triaxial":
-        return _triaxial_strength(tests)
-    if kind == "plate" and len({test.facts["size"] for test in tests}) > 1:
-        return _bekker_of_plates(tests)
+    remedy = "these tests give no common strength: lay tests of different sizes or stresses together"
+    with content_of(", ".join(str(test.folder) for test in tests), remedy):
+        if kind == "shear":
+            return _shear_strength(tests)
+        if kind == "triaxial":
+            return _triaxial_strength(tests)
+        if kind == "plate" and len({test.number("size") for test in tests}) > 1:
+            return _bekker_of_plates(tests)
     return []
 
 
@@ -450,4 +454,4 @@ def write_json(test: LaboratoryTest, quantities: Sequence[LaboratoryQuantity]) -
         for q in quantities
     }
     text = json.dumps({"facts": test.facts, "quantities": content}, indent=1, allow_nan=False)
-    (test.folder / "laboratory.json").write_text(text)
+    (test.folder / "laboratory.json").write_text(text, encoding="utf-8")

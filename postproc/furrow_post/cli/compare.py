@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ..analyse.comparison import comparison_report, write_comparison
 from ..analyse.curves import compare_curves, curve_report, is_curve, read_curve, write_curves
+from ..arguments import path
 from ..figures.comparison import draw_comparison
 from ..figures.curves import draw_curves
 from .comparison import Labelled, add_comparison_arguments, compared
@@ -15,7 +16,7 @@ from .comparison import Labelled, add_comparison_arguments, compared
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_comparison_arguments(parser)
     parser.add_argument(
-        "-o", "--output", type=Path, help="folder to write (default: compare beside the first)"
+        "-o", "--output", type=path, help="folder to write (default: compare beside the first)"
     )
 
 

@@ -5,9 +5,10 @@ import argparse
 from pathlib import Path
 
 from ..analyse import cost, cost_table
+from ..arguments import fraction, path
 from ..figures.cost import draw_cost
 from ..read.wheel_run import read_wheel_run
-from .comparison import fraction, labelled
+from .comparison import labelled
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -18,9 +19,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--error", type=fraction, default=0.1, help="wanted relative error, e.g. 10%% (default)"
     )
     parser.add_argument(
-        "--write", type=Path, help="also write the table of runs, as inputs/costs has them"
+        "--write", type=path, help="also write the table of runs, as inputs/costs has them"
     )
-    parser.add_argument("-o", "--output", type=Path, help="figure (default: cost.png)")
+    parser.add_argument("-o", "--output", type=path, help="figure (default: cost.png)")
 
 
 def run(arguments: argparse.Namespace) -> None:

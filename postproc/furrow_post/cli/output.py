@@ -4,17 +4,19 @@
 import argparse
 from pathlib import Path
 
+from ..arguments import path, words
+
 FORMATS = ("png", "svg", "pdf")
 
 
 def add_results(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("results", help="results folder of a run, or its history.h5")
+    parser.add_argument("results", type=words, help="results folder of a run, or its history.h5")
 
 
 def add_output(
     parser: argparse.ArgumentParser, text: str = "file to write (default: in the results folder)"
 ) -> None:
-    parser.add_argument("-o", "--output", type=Path, help=text)
+    parser.add_argument("-o", "--output", type=path, help=text)
     parser.add_argument("--format", choices=FORMATS, default=FORMATS[0], help="default: png")
 
 

@@ -5,13 +5,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from ..arrays import Booleans, Floats, Integers
+from ..read.hdf5 import opened
 from ..read.results import decoded
 from .style import annotate_panel, panel_letters, save, use_style
 
@@ -94,7 +94,7 @@ def _spans_decades(targets: Floats) -> bool:
 
 def draw_path(folder: Path) -> Path:
     """point.png: stress path with yield surfaces, stress and strain, volume."""
-    with h5py.File(folder / "point.h5") as file:
+    with opened(folder / "point.h5") as file:
         point = {name: dataset[...] for name, dataset in file["point"].items()}
         head = _attributes(file["point"])
         surfaces = [
@@ -185,7 +185,7 @@ def _draw_pair(axes: Axes, point: Channels, x_name: str, y_name: str) -> None:
 
 def draw_fit(folder: Path) -> Path:
     """fit.png: every measured curve with the law before and after, and the parameters."""
-    with h5py.File(folder / "fit.h5") as file:
+    with opened(folder / "fit.h5") as file:
         heading = _attributes(file["curves"])["title"]
         curves = [
             {name: dataset[...] for name, dataset in group.items()} | _attributes(group)

@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Results folders of laboratory tests on grains, and of furrow-point, the same paths on a law."""
 
+import warnings
 from pathlib import Path
 
 import numpy as np
 
 from ..arrays import Floats
 from ..csv_table import read_columns, read_numbers
-from ..errors import ResultsError
+from ..errors import ResultsError, content_of
 
+REMEDY = "run the test again, with inputs/laboratory/run.py"
 KINDS = ("oedometer", "triaxial", "shear", "collapse", "repose", "plate")
+COLUMNS = {"oedometer": 8, "triaxial": 9, "shear": 10, "plate": 4}  # of curve.txt, at least
 
 
 class LaboratoryTest:
@@ -20,7 +23,8 @@ class LaboratoryTest:
         self.folder = Path(folder)
         path = self.folder / "facts.txt"
         try:
-            pairs = path.read_text().split()
+            with content_of(path, REMEDY):
+                pairs = path.read_text(encoding="utf-8").split()
         except OSError as error:
             raise ResultsError(
                 f"{self.folder}: has no facts.txt; name the results folder of a laboratory test "
@@ -32,8 +36,9 @@ class LaboratoryTest:
             raise ResultsError(f"{path}: test '{self.kind}' is not one of {', '.join(KINDS)}")
 
     def number(self, name: str) -> float:
-        """A fact. @raises KeyError, ValueError"""
-        return float(self.facts[name])
+        """A fact. @raises ResultsError where there is none, or it is no number"""
+        with content_of(self.folder / "facts.txt", REMEDY):
+            return float(self.facts[name])
 
     @property
     def numbers(self) -> dict[str, float]:
@@ -57,18 +62,34 @@ class LaboratoryTest:
         """(n, columns) of curve.txt (fix ave/time) without its first row, which has no forces yet.
 
         Plates: step, sinkage [m], force [N], pressure [Pa]. Cells: see cell_curve. @raises
-        ResultsError for fewer than ten rows
+        ResultsError for fewer than ten rows, too few columns, or what is no finite number
         """
-        path = self.folder / "curve.txt"
-        rows: Floats = np.loadtxt(path)
-        if rows.ndim != 2 or len(rows) < 10:
-            raise ResultsError(f"{path}: has fewer than ten rows; was the run stopped?")
+        path, columns = self.folder / "curve.txt", COLUMNS.get(self.kind, 1)
+        rows = _numbers(path, 0)
+        if len(rows) < 10:
+            raise ResultsError(f"{path}: has fewer than ten rows; was the run stopped? {REMEDY}")
+        if rows.shape[1] < columns or not np.isfinite(rows).all():
+            raise ResultsError(
+                f"{path}: a {self.kind} has {columns} columns of finite numbers; {REMEDY}"
+            )
         return rows[1:]
 
     def grains(self, name: str) -> Floats:
         """(n, 4): x, y, z, radius [m] of a dump."""
-        dump: Floats = np.loadtxt(self.folder / f"{name}.dump", skiprows=9)
+        path = self.folder / f"{name}.dump"
+        dump = _numbers(path, 9)
+        if len(dump) == 0 or dump.shape[1] < 5:
+            raise ResultsError(f"{path}: has no grains with id, x, y, z and radius; {REMEDY}")
         return dump[:, 1:5]
+
+
+def _numbers(path: Path, head: int) -> Floats:
+    """(rows, columns) of a text file below so many lines. @raises ResultsError"""
+    if not path.is_file():
+        raise ResultsError(f"{path}: no such file; {REMEDY}")
+    with content_of(path, REMEDY), warnings.catch_warnings(action="ignore"):
+        rows: Floats = np.loadtxt(path, skiprows=head, ndmin=2, encoding="utf-8")
+    return rows
 
 
 def cell_curve(rows: Floats) -> tuple[Floats, Floats, Floats]:
@@ -92,6 +113,11 @@ class PointRun:
                 f"{path}: no such file; name the results folder of 'furrow-point run'"
             )
         self.columns: dict[str, Floats] = read_columns(path)
+        for name in ("axial_stress", "density"):
+            if name not in self.columns or not np.isfinite(self.columns[name]).all():
+                raise ResultsError(
+                    f"{path}: has no column {name} of finite numbers; run 'furrow-point run' again"
+                )
         first = path.read_text(encoding="utf-8").splitlines()[0]
         self.label = first.lstrip("# ").split(" (")[0]
 

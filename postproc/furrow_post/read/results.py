@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import h5py
 import numpy as np
 
 from ..arrays import Floats, Integers
 from ..errors import ResultsError
+from .hdf5 import opened
 from .styles import Styles
 
 
@@ -86,12 +86,10 @@ class Results:
             raise ResultsError(
                 f"{self.file}: no such file; name the results folder of a run, or its history.h5"
             )
-        try:
-            with h5py.File(self.file, "r") as content:
-                require_layout(content, self.file)
-                self._read(content)
-        except (OSError, KeyError) as error:
-            raise ResultsError(f"{self.file}: is not a results file of Furrow ({error})") from error
+        with opened(self.file) as content:
+            require_layout(content, self.file)
+            self._read(content)
+        _require_history(self.columns, self.file)
 
     def _read(self, content: Any) -> None:
         self.run = {name: decoded(value) for name, value in content["run"].attrs.items()}
@@ -110,25 +108,25 @@ class Results:
     @property
     def has_grains(self) -> bool:
         """Whether the run kept grains; continuum terrain has its own file, terrain.h5."""
-        with h5py.File(self.file, "r") as content:
+        with opened(self.file) as content:
             return "grains/final" in content
 
     @property
     def effective_input(self) -> str:
         """Styles with their values, and the script, for people."""
-        with h5py.File(self.file, "r") as content:
+        with opened(self.file) as content:
             return decoded(content["run/effective_input"][()])
 
     @property
     def cost(self) -> dict[str, float]:
         """Attributes of /cost: wall_time [s], ranks, ...; empty for a run that did not end."""
-        with h5py.File(self.file, "r") as content:
+        with opened(self.file) as content:
             attributes: Any = content["cost"].attrs if "cost" in content else {}
             return {name: float(value) for name, value in attributes.items()}
 
     def styles(self) -> Styles:
         """@raises ResultsError where /run/styles is not what a writer puts there"""
-        with h5py.File(self.file, "r") as content:
+        with opened(self.file) as content:
             text = decoded(content["run/styles"][()])
         try:
             return Styles.from_json(text)
@@ -137,7 +135,7 @@ class Results:
 
     def grains(self, when: str) -> Grains:
         """when: "reference" (the settled bed) or "final". @raises ResultsError without them"""
-        with h5py.File(self.file, "r") as content:
+        with opened(self.file) as content:
             group = content.get(f"grains/{when}")
             if group is None:
                 raise ResultsError(
@@ -158,10 +156,30 @@ class Results:
 
 
 def read_surface(file: Path) -> Surface | None:
-    """The surface of a body at the end of a run, or None where history.h5 has none or is none."""
-    try:
-        with h5py.File(file, "r") as content:
-            group = content.get("surface")
-            return None if group is None else Surface(group["triangles"][()], group["x"][()])
-    except OSError:
+    """The surface of a body at the end of a run, or None where it kept none or there is no file.
+
+    @raises ResultsError where the file is damaged
+    """
+    if not file.is_file():
         return None
+    with opened(file) as content:
+        group = content.get("surface")
+        return None if group is None else Surface(group["triangles"][()], group["x"][()])
+
+
+def _require_history(columns: dict[str, Floats], file: Path) -> None:
+    """@raises ResultsError for a history without rows, of unequal columns, or back in time"""
+    remedy = "repeat the run, into a folder of its own"
+    lengths = {len(values) for values in columns.values()}
+    if len(lengths) > 1:
+        raise ResultsError(f"{file}: channels have {min(lengths)} to {max(lengths)} rows; {remedy}")
+    time = columns.get("time")
+    if time is None or len(time) == 0:
+        raise ResultsError(f"{file}: its history has no rows yet; run longer than 'every' steps")
+    wrong = np.flatnonzero(~(np.diff(time) >= 0))
+    if len(wrong):
+        row = int(wrong[0]) + 1
+        raise ResultsError(
+            f"{file}: time runs backwards in row {row + 1} of the history, {time[row]:g} s after "
+            f"{time[row - 1]:g} s; {remedy}"
+        )

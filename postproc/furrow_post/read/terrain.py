@@ -4,11 +4,11 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-import h5py
 import numpy as np
 
 from ..arrays import Booleans, Floats
 from ..errors import ResultsError
+from .hdf5 import opened
 from .results import Surface, read_surface, require_layout
 
 FILE = "terrain.h5"
@@ -22,7 +22,7 @@ def terrain_file(folder: Path) -> Path:
     """
     path = folder / FILE
     if not path.is_file() and (folder / OLD_FILE).is_file():
-        with h5py.File(folder / OLD_FILE, "r") as content:
+        with opened(folder / OLD_FILE) as content:
             require_layout(content, folder / OLD_FILE)
     return path
 
@@ -33,27 +33,25 @@ def read_terrain_fields(folder: Path) -> dict[str, Floats]:
     Fields: x, initial_position (n, 3) [m], density [kg/m3], volume [m3], compaction
     (ln(rho/rho_0)), pressure, mises, vertical_stress [Pa]. @raises ResultsError
     """
-    path = terrain_file(folder)
-    try:
-        with h5py.File(path, "r") as content:
-            require_layout(content, path)
-            return {name: data[()] for name, data in content["terrain"].items()}
-    except (OSError, KeyError) as error:
-        raise ResultsError(
-            f"{path}: has no terrain at the end of a run ({error}); give the folder of a run with "
-            "fix terrain/history that came to its end"
-        ) from error
+    return _group(folder, "terrain", "has no terrain at the end of a run")
 
 
 def read_terrain_history(folder: Path) -> dict[str, Floats]:
     """Channel of /history in terrain.h5 -> its values (energies [J] over time [s])."""
+    return _group(folder, "history", "has no history")
+
+
+def _group(folder: Path, name: str, lacking: str) -> dict[str, Floats]:
+    """Datasets of a group of terrain.h5. @raises ResultsError"""
     path = terrain_file(folder)
-    try:
-        with h5py.File(path, "r") as content:
-            require_layout(content, path)
-            return {name: data[()] for name, data in content["history"].items()}
-    except (OSError, KeyError) as error:
-        raise ResultsError(f"{path}: has no history ({error})") from error
+    remedy = "give the folder of a run with fix terrain/history that came to its end"
+    if not path.is_file():
+        raise ResultsError(f"{path}: {lacking} (no such file); {remedy}")
+    with opened(path) as content:
+        require_layout(content, path)
+        if name not in content:
+            raise ResultsError(f"{path}: {lacking}; {remedy}")
+        return {key: data[()] for key, data in content[name].items()}
 
 
 @dataclass
