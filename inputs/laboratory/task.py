@@ -60,7 +60,7 @@ def _check(task: Any) -> None:
     for key in NEEDED:
         if not task.get(key):
             raise ResultsError(f"'{key}' is missing or empty; {FORM}")
-    if task["test"] not in SERIES:
+    if task["test"] not in list(SERIES):
         raise ResultsError(f"'test' is {_shown(task['test'])}; tests are {', '.join(SERIES)}")
     if not isinstance(task["ground"], str):
         raise ResultsError(f"'ground' is {_shown(task['ground'])}, the name of a ground is needed")
@@ -87,6 +87,8 @@ def _check_parameters(task: Task) -> None:
                 f"parameter '{name}' starts at {values[0]:g}, outside of {values[1]:g} to "
                 f"{values[2]:g}"
             )
+        if name == "seed":
+            raise ResultsError("parameter 'seed': seeds stand in 'seeds'")
         if name in task.get("variables", {}):
             raise ResultsError(f"'{name}' is a parameter and a variable; give it once")
 

@@ -22,9 +22,13 @@ def read_rows(path: Path) -> list[dict[str, str]]:
     """
     with content_of(path, TABLE), open(path, encoding="utf-8") as file:
         try:
-            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+            reader = csv.DictReader(line for line in file if not line.startswith("#"))
+            rows = list(reader)
         except csv.Error as error:
             raise ResultsError(f"{path}: {error}; {TABLE}") from error
+    for name in rows[0] if rows else ():
+        if reader.fieldnames and list(reader.fieldnames).count(name) > 1:
+            raise ResultsError(f"{path}: has two columns '{name}'; {TABLE}")
     for number, row in enumerate(rows, 1):
         if None in row or None in row.values():
             raise ResultsError(

@@ -6,6 +6,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
+
+# What code raises on values, keys or types that it does not expect
+CONTENT_ERRORS = (
+    *(ArithmeticError, IndexError, KeyError, RuntimeError, TypeError, ValueError),
+    *(np.linalg.LinAlgError, SystemError),
+)
+
 
 class ResultsError(Exception):
     """Something asked for is not in the results; the message names file and remedy."""
@@ -23,7 +31,7 @@ def content_of(file: Path | str, remedy: str) -> Iterator[None]:
     """
     try:
         yield
-    except (ArithmeticError, IndexError, KeyError, RuntimeError, TypeError, ValueError) as error:
+    except CONTENT_ERRORS as error:
         raise ResultsError(f"{file}: {_in_words(error)}; {remedy}") from error
 
 
@@ -31,7 +39,7 @@ def _in_words(error: Exception) -> str:
     if isinstance(error, UnicodeDecodeError):
         return "is not text in UTF-8"
     if isinstance(error, KeyError):
-        absent = re.search(r"object '(.+)' doesn't exist", str(error))  # as HDF5 says it
+        absent = re.search(r"(?:object|attribute:) '(.+?)'", str(error))  # as HDF5 says it
         return f"has no '{absent[1] if absent else error.args[0]}'"
     if isinstance(error, IndexError):
         return "has too few values"

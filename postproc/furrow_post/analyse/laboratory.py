@@ -17,6 +17,7 @@ from scipy.optimize import curve_fit, least_squares
 from ..arrays import Booleans, Floats
 from ..errors import ResultsError, content_of
 from ..read.laboratory import LaboratoryTest, PointRun, cell_curve, read_oedometer_reference
+from ..read.results import require_different
 from .statistics import block_mean, line_fit, rms
 
 Oedometer = list[tuple[float, float]]  # (density [kg/m3], axial stress [Pa]), rising
@@ -64,8 +65,15 @@ def _around_peak(values: Floats) -> tuple[int, int, float]:
     return int(np.argmax(smooth)) + window // 2, window, float(smooth.max())
 
 
+def _require_compressed(strain: Floats, stress: Floats) -> None:
+    """@raises ValueError where a cell was not compressed along z, or carried nothing"""
+    if not (strain[:, 2].max() > 0 and stress[:, 2].max() > 0):
+        raise ValueError("the cell is not compressed, or carries nothing")
+
+
 def oedometer(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     strain, stress, density = cell_curve(test.curve())
+    _require_compressed(strain, stress)
     axial = stress[:, 2]
     loading = slice(0, int(np.argmax(axial)) + 1)
     lateral = 0.5 * (stress[loading, 0] + stress[loading, 1]) / np.maximum(axial[loading], 1e-30)
@@ -132,6 +140,7 @@ def reference_error(
 def triaxial(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     rows = test.curve()
     strain, stress, density = cell_curve(rows)
+    _require_compressed(strain, stress)
     lateral, axial = 0.5 * (stress[:, 0] + stress[:, 1]), stress[:, 2]
     deviator = axial - lateral
     peak, window, largest = _around_peak(deviator)
@@ -292,6 +301,8 @@ def plate(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     """Bekker's p = k z^n of one plate."""
     rows = test.curve()
     z, pressure = rows[:, 1], rows[:, 3]
+    if not (z.max() > 0 and pressure.max() > 0):
+        raise ValueError("the plate does not come into the ground, or carries nothing")
     size = test.number("size")
     late = (z > 0.1 * z.max()) & (pressure > 0)
     n, log_k, covariance = line_fit(np.log(z[late]), np.log(pressure[late]))
@@ -423,6 +434,7 @@ def report_tests(
 
     reference: of an oedometer; points: results folders of furrow-point. @raises ResultsError
     """
+    require_different(folders)
     tests = [LaboratoryTest(folder) for folder in folders]
     measured = read_oedometer_reference(reference) if reference else None
     lines = []

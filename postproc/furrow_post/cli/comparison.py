@@ -8,6 +8,7 @@ from ..analyse import cost_table
 from ..analyse.comparison import Comparison, compare
 from ..analyse.formulas import predictions_for
 from ..arguments import path, words
+from ..read.results import require_different
 from ..read.wheel_run import read_wheel_run
 
 
@@ -53,6 +54,7 @@ def add_comparison_arguments(parser: argparse.ArgumentParser) -> None:
 
 def compared(arguments: argparse.Namespace) -> Comparison:
     """@raises ResultsError with every reason why the runs are not comparable"""
+    require_different([folder for folder, _ in arguments.results])
     runs = [read_wheel_run(folder, label) for folder, label in arguments.results]
     table = cost_table.read_table(arguments.errors)[0] if arguments.errors else None
     formulas = predictions_for(runs[0], arguments.formula, arguments.extrapolate)

@@ -7,8 +7,10 @@ from pathlib import Path
 from ..analyse import cost, cost_table
 from ..arguments import fraction, path
 from ..figures.cost import draw_cost
+from ..read.results import require_different
 from ..read.wheel_run import read_wheel_run
 from .comparison import labelled
+from .output import require_picture
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -25,6 +27,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
+    target: Path = arguments.output or Path("cost.png")
+    require_picture(target)
+    require_different(arguments.results)
     rows: list[cost_table.Row] = []
     comments: list[str] = []
     for text in arguments.results:
@@ -37,7 +42,6 @@ def run(arguments: argparse.Namespace) -> None:
         cost_table.write_table(arguments.write, rows, comments)
     assessed = cost.assess(rows, cost_table.wanted_wheel(comments))
     print(cost.cost_report(assessed, arguments.error))
-    target = arguments.output or Path("cost.png")
     draw_cost(assessed, arguments.error, target)
     cost.write_csv(target.with_suffix(".csv"), assessed)
     print(f"\n{target}, {target.with_suffix('.csv')}")

@@ -49,6 +49,8 @@ def run(arguments: argparse.Namespace) -> None:
     target: Path = arguments.output or folder / "report.html"
     if target.suffix != ".html":
         raise ResultsError(f"{target}: a report's name ends in .html")
+    if target.is_dir():
+        raise ResultsError(f"-o {target}: is a folder; name a file in it")
     target.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as scratch:
         numbers = Path(scratch) / "numbers"

@@ -9,6 +9,7 @@ import numpy as np
 from ..arrays import Floats
 from ..csv_table import read_columns, read_numbers
 from ..errors import ResultsError, content_of
+from ..fields import Fields
 
 REMEDY = "run the test again, with inputs/laboratory/run.py"
 KINDS = ("oedometer", "triaxial", "shear", "collapse", "repose", "plate")
@@ -30,6 +31,8 @@ class LaboratoryTest:
                 f"{self.folder}: has no facts.txt; name the results folder of a laboratory test "
                 "that came to its end"
             ) from error
+        if len(pairs) % 2:
+            raise ResultsError(f"{path}: '{pairs[-1]}' has no value; {REMEDY}")
         self.facts = dict(zip(pairs[::2], pairs[1::2]))
         self.kind = self.facts.get("test", "")
         if self.kind not in KINDS:
@@ -95,9 +98,11 @@ def _numbers(path: Path, head: int) -> Floats:
 def cell_curve(rows: Floats) -> tuple[Floats, Floats, Floats]:
     """Of the rows of fix cell/servo: strains (n, 3), stresses (n, 3) [Pa], density (n) [kg/m3].
 
-    Strain is logarithmic; compression is positive.
+    Strain is logarithmic; compression is positive. @raises ValueError for a cell without volume
     """
     edges = rows[:, 1:4]
+    if not ((edges > 0).all() and (rows[:, 7] > 0).all()):
+        raise ValueError("edges or densities of the cell are not above 0")
     return -np.log(edges / edges[0]), rows[:, 4:7], rows[:, 7]
 
 
@@ -112,12 +117,9 @@ class PointRun:
             raise ResultsError(
                 f"{path}: no such file; name the results folder of 'furrow-point run'"
             )
-        self.columns: dict[str, Floats] = read_columns(path)
-        for name in ("axial_stress", "density"):
-            if name not in self.columns or not np.isfinite(self.columns[name]).all():
-                raise ResultsError(
-                    f"{path}: has no column {name} of finite numbers; run 'furrow-point run' again"
-                )
+        remedy = "run 'furrow-point run' again"
+        self.columns = Fields(path, read_columns(path), remedy)
+        self.columns.require_finite("axial_stress", "density")
         first = path.read_text(encoding="utf-8").splitlines()[0]
         self.label = first.lstrip("# ").split(" (")[0]
 
@@ -125,12 +127,11 @@ class PointRun:
 def read_oedometer_reference(path: Path) -> list[tuple[float, float]]:
     """(density [kg/m3], axial stress [Pa]), rising, of the columns rho_kgm3 and sigma1_Pa.
 
-    @raises ResultsError where a column is missing
+    @raises ResultsError where a column or rows are missing, or a number is not above 0
     """
-    try:
-        return sorted((row["rho_kgm3"], row["sigma1_Pa"]) for row in read_numbers(path))
-    except KeyError as error:
-        raise ResultsError(
-            f"{path}: has no column {error}; a reference of an oedometer needs rho_kgm3 and "
-            "sigma1_Pa"
-        ) from error
+    needed = "a reference of an oedometer has columns rho_kgm3 and sigma1_Pa of numbers above 0"
+    with content_of(path, needed):
+        pairs = sorted((row["rho_kgm3"], row["sigma1_Pa"]) for row in read_numbers(path))
+        if not pairs or not (np.isfinite(pairs).all() and np.min(pairs) > 0):
+            raise ValueError("no rows of such numbers")
+        return pairs

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Reading history.h5, the results file of a run (its layout: src/io/history_file.h)."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -9,8 +10,11 @@ import numpy as np
 
 from ..arrays import Floats, Integers
 from ..errors import ResultsError
+from ..fields import Fields
 from .hdf5 import opened
 from .styles import Styles
+
+REPEAT = "repeat the run, into a folder of its own"
 
 
 def decoded(value: Any) -> str:
@@ -32,6 +36,14 @@ def require_layout(content: Any, file: Path) -> None:
             "/run/styles. Read it with the furrow-post of the source tree that made the run, or "
             "repeat the run"
         )
+
+
+def require_different(folders: Sequence[Path | str]) -> None:
+    """@raises ResultsError where one results folder is named twice"""
+    places = [Path(folder).resolve() for folder in folders]
+    for folder, place in zip(folders, places):
+        if places.count(place) > 1:
+            raise ResultsError(f"{folder}: is given twice; name each results folder once")
 
 
 class Surface(NamedTuple):
@@ -93,13 +105,14 @@ class Results:
 
     def _read(self, content: Any) -> None:
         self.run = {name: decoded(value) for name, value in content["run"].attrs.items()}
-        self.columns: dict[str, Floats] = {}
+        columns: dict[str, Floats] = {}
         self.units: dict[str, str] = {}
         self.meanings: dict[str, str] = {}
         for name, data in content["history"].items():
-            self.columns[name] = data[()]
+            columns[name] = data[()]
             self.units[name] = decoded(data.attrs["unit"])
             self.meanings[name] = decoded(data.attrs["meaning"])
+        self.columns = Fields(self.file, columns, REPEAT)
 
     @property
     def title(self) -> str:
@@ -142,13 +155,11 @@ class Results:
                     f"{self.file}: has no /grains/{when}; a picture needs the grains of a run that "
                     "came to its end"
                 )
-            return Grains(
-                group["id"][()],
-                group["x"][()],
-                group["radius"][()],
-                group["period"][()],
-                float(group.attrs["bed_level"]),
-            )
+            number, x, radius = (group[name][()] for name in ("id", "x", "radius"))
+            fields = Fields(self.file, {"id": number, "x": x, "radius": radius}, REPEAT)
+            fields.require_rows()
+            fields.require_finite("x", "radius")
+            return Grains(number, x, radius, group["period"][()], float(group.attrs["bed_level"]))
 
     def surface(self) -> Surface | None:
         """The wheel, tyre or plate at the end, or None where the run kept none."""
@@ -164,22 +175,39 @@ def read_surface(file: Path) -> Surface | None:
         return None
     with opened(file) as content:
         group = content.get("surface")
-        return None if group is None else Surface(group["triangles"][()], group["x"][()])
+        if group is None:
+            return None
+        return _require_surface(Surface(group["triangles"][()], group["x"][()]), file)
 
 
-def _require_history(columns: dict[str, Floats], file: Path) -> None:
+def _require_history(columns: Fields, file: Path) -> None:
     """@raises ResultsError for a history without rows, of unequal columns, or back in time"""
-    remedy = "repeat the run, into a folder of its own"
-    lengths = {len(values) for values in columns.values()}
-    if len(lengths) > 1:
-        raise ResultsError(f"{file}: channels have {min(lengths)} to {max(lengths)} rows; {remedy}")
-    time = columns.get("time")
-    if time is None or len(time) == 0:
-        raise ResultsError(f"{file}: its history has no rows yet; run longer than 'every' steps")
-    wrong = np.flatnonzero(~(np.diff(time) >= 0))
+    for name, values in columns.items():
+        if values.ndim != 1 or values.dtype.kind not in "fiu":
+            raise ResultsError(f"{file}: channel '{name}' is no row of numbers; {REPEAT}")
+    if columns.require_rows() < 2:
+        raise ResultsError(
+            f"{file}: its history has fewer than two rows; run longer, or write more often ('every')"
+        )
+    time = columns["time"]
+    wrong = np.flatnonzero(~(np.diff(time) > 0))
     if len(wrong):
         row = int(wrong[0]) + 1
         raise ResultsError(
-            f"{file}: time runs backwards in row {row + 1} of the history, {time[row]:g} s after "
-            f"{time[row - 1]:g} s; {remedy}"
+            f"{file}: time does not run forwards: row {row + 1} of the history is at "
+            f"{time[row]:g} s, after {time[row - 1]:g} s; two runs wrote into one folder, or the "
+            f"file is damaged: {REPEAT}"
         )
+    columns.require_finite(*columns)
+
+
+def _require_surface(surface: Surface, file: Path) -> Surface:
+    """@raises ResultsError for triangles of nodes that are not there"""
+    triangles, x = surface
+    if (
+        (triangles.ndim, triangles.shape[-1], x.ndim, x.shape[-1]) != (2, 3, 2, 3)
+        or not np.isfinite(x).all()
+        or not ((triangles >= 0) & (triangles < len(x))).all()
+    ):
+        raise ResultsError(f"{file}: /surface has triangles without nodes; {REPEAT}")
+    return surface

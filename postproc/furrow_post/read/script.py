@@ -61,6 +61,8 @@ def check_variables(
     settable = [name for name in known.settable if name not in reserved]
     names = [name for name, _ in given]
     for name, value in given:
+        if not name.strip():
+            raise ResultsError("-v has an empty name; it takes a name and a value")
         if names.count(name) > 1:
             raise ResultsError(f"-v {name} is given {names.count(name)} times; give it once")
         if name in reserved:

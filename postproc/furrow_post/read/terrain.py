@@ -8,6 +8,7 @@ import numpy as np
 
 from ..arrays import Booleans, Floats
 from ..errors import ResultsError
+from ..fields import Fields
 from .hdf5 import opened
 from .results import Surface, read_surface, require_layout
 
@@ -27,7 +28,7 @@ def terrain_file(folder: Path) -> Path:
     return path
 
 
-def read_terrain_fields(folder: Path) -> dict[str, Floats]:
+def read_terrain_fields(folder: Path) -> Fields:
     """Field of /terrain -> its values, the first axis over the particles, at the end of a run.
 
     Fields: x, initial_position (n, 3) [m], density [kg/m3], volume [m3], compaction
@@ -36,12 +37,12 @@ def read_terrain_fields(folder: Path) -> dict[str, Floats]:
     return _group(folder, "terrain", "has no terrain at the end of a run")
 
 
-def read_terrain_history(folder: Path) -> dict[str, Floats]:
+def read_terrain_history(folder: Path) -> Fields:
     """Channel of /history in terrain.h5 -> its values (energies [J] over time [s])."""
     return _group(folder, "history", "has no history")
 
 
-def _group(folder: Path, name: str, lacking: str) -> dict[str, Floats]:
+def _group(folder: Path, name: str, lacking: str) -> Fields:
     """Datasets of a group of terrain.h5. @raises ResultsError"""
     path = terrain_file(folder)
     remedy = "give the folder of a run with fix terrain/history that came to its end"
@@ -51,7 +52,7 @@ def _group(folder: Path, name: str, lacking: str) -> dict[str, Floats]:
         require_layout(content, path)
         if name not in content:
             raise ResultsError(f"{path}: {lacking}; {remedy}")
-        return {key: data[()] for key, data in content[name].items()}
+        return Fields(path, {key: data[()] for key, data in content[name].items()}, remedy)
 
 
 @dataclass
@@ -69,12 +70,11 @@ class Terrain:
     def read(cls, folder: Path) -> "Terrain":
         """@raises ResultsError when the run kept no terrain"""
         fields = read_terrain_fields(folder)
-        try:
-            x, initial, density, volume = (
-                fields[name] for name in ("x", "initial_position", "density", "volume")
-            )
-        except KeyError as error:
-            raise ResultsError(f"{folder / FILE}: /terrain has no field {error}") from error
+        names = ("x", "initial_position", "density", "volume")
+        fields.require_finite(*names)
+        if fields.require_rows() == 0:
+            raise ResultsError(f"{fields.file}: has no particles; {fields.remedy}")
+        x, initial, density, volume = (fields[name] for name in names)
         spacing = [_lattice_spacing(initial[:, axis]) for axis in range(3)]
         level = float(initial[:, 2].max() + 0.5 * spacing[2])
         mass = density * volume
