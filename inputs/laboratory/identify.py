@@ -179,7 +179,8 @@ def test_of(kind: str, folder: Path) -> LaboratoryTest:
     """@raises ResultsError where the folder is that of another test"""
     test = LaboratoryTest(folder)
     if test.kind != kind:
-        raise ResultsError(f"{folder}: is a test '{test.kind}'; name the results of a {kind} test")
+        article = "an" if kind == "oedometer" else "a"
+        raise ResultsError(f"{folder}: is a test '{test.kind}'; name the results of {article} {kind}")
     return test
 
 

@@ -54,7 +54,8 @@ def _text(error: Exception) -> str:
     if isinstance(error, OSError):
         return str(error)
     if isinstance(error, UnicodeEncodeError):
-        return f"{error.object!r}: is not UTF-8; rename the file or folder"
+        words = [word for word in error.object.split() if not word.isprintable()]
+        return f"{' '.join(words[:1])}: is a name that is not UTF-8; rename the file or folder"
     if isinstance(error, MemoryError):
         return "there is not enough memory; close other programs, or evaluate fewer runs at a time"
     place = traceback.extract_tb(error.__traceback__)[-1]

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from ..arrays import Booleans, Floats, Integers
+from ..errors import ResultsError
 from ..read.hdf5 import opened
 from ..read.results import decoded
 from .style import annotate_panel, panel_letters, save, use_style
@@ -46,9 +47,18 @@ YieldSurface = tuple[Floats, Floats]  # p, q [Pa]
 
 
 def draw_point(folder: Path) -> Path:
-    """Draws the results folder of furrow-point run or fit, and returns the figure's path."""
+    """Draws the results folder of furrow-point run or fit, and returns the figure's path.
+
+    @raises ResultsError where it is none
+    """
     use_style()
-    return draw_path(folder) if (folder / "point.h5").exists() else draw_fit(folder)
+    if (folder / "point.h5").exists():
+        return draw_path(folder)
+    if (folder / "fit.h5").exists():
+        return draw_fit(folder)
+    raise ResultsError(
+        f"{folder}: has neither point.h5 nor fit.h5; name the results folder of furrow-point"
+    )
 
 
 def _attributes(item: Any) -> dict[str, Any]:
