@@ -275,7 +275,7 @@ def main() -> None:
     )
     parser.add_argument("calibration", type=path)
     parser.add_argument("-o", "--output", type=path)
-    parser.add_argument("--runs", type=at_least(1), default=40, help="new runs at most (default 40)")
+    parser.add_argument("--runs", type=at_least(1), default=40, help="new runs at most (40)")
     parser.add_argument("--build", type=path, help="default: $FURROW_BUILD, or build in the tree")
     parsed = parser.parse_args()
     calibration: Path = parsed.calibration

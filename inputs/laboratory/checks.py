@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is refused before a test of the laboratory runs: grounds, and variables with their values."""
+"""What is refused before a test of the laboratory runs: grounds, variables and their values."""
 
 import math
 from collections.abc import Mapping, Sequence

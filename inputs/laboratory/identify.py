@@ -179,8 +179,7 @@ def test_of(kind: str, folder: Path) -> LaboratoryTest:
     """@raises ResultsError where the folder is that of another test"""
     test = LaboratoryTest(folder)
     if test.kind != kind:
-        article = "an" if kind == "oedometer" else "a"
-        raise ResultsError(f"{folder}: is a test '{test.kind}'; name the results of {article} {kind}")
+        raise ResultsError(f"{folder}: is a test '{test.kind}'; name the results of test '{kind}'")
     return test
 
 
@@ -238,7 +237,9 @@ def parse() -> argparse.Namespace:
     parser.add_argument("--match", choices=sorted(MATCH), default="plane_strain")
     parser.add_argument("--title", default="Dry sand, identified on grains")
     parser.add_argument("--stress", type=positive, default=1e5, help="[Pa] default: 1e5")
-    parser.add_argument("--cohesion", type=between(0.0, 1e9), default=100.0, help="d [Pa], default: 100")
+    parser.add_argument(
+        "--cohesion", type=between(0.0, 1e9), default=100.0, help="d [Pa], default: 100"
+    )
     parser.add_argument("-o", "--output", required=True, type=path, metavar="MATERIAL.yaml")
     return parser.parse_args()
 

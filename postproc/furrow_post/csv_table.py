@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""CSV files with a head of comment lines ("# ..."), as all tables of the project have."""
+"""CSV files with a head of comment lines ("# ..."), as all tables of the project have; LIGGGHTS's
+tables of numbers."""
 
 import csv
 import math
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -59,6 +61,21 @@ def read_columns(path: Path) -> dict[str, Floats]:
     """Columns of a table of numbers. @raises ResultsError"""
     rows = read_numbers(path)
     return {name: np.array([row[name] for row in rows]) for name in (rows[0] if rows else ())}
+
+
+def read_matrix(path: Path, columns: int, head: int = 0) -> Floats:
+    """(rows, columns or more) of a file of numbers and blanks below so many lines.
+
+    It is what LIGGGHTS writes (fix ave/time, dumps). @raises ResultsError
+    """
+    remedy = "repeat the run"
+    if not path.is_file():
+        raise ResultsError(f"{path}: no such file; {remedy}")
+    with content_of(path, remedy), warnings.catch_warnings(action="ignore"):
+        rows: Floats = np.loadtxt(path, skiprows=head, ndmin=2, encoding="utf-8")
+    if len(rows) == 0 or rows.shape[1] < columns:
+        raise ResultsError(f"{path}: has no rows of {columns} numbers; {remedy}")
+    return rows
 
 
 def column_names(rows: Iterable[Mapping[str, Any]]) -> list[str]:

@@ -73,7 +73,8 @@ class Prediction:
     extra: tuple[Result, ...] = ()
 
     def __post_init__(self) -> None:
-        if not np.isfinite([self.sinkage, self.resistance, self.load, *(r.value for r in self.extra)]).all():
+        values = (self.sinkage, self.resistance, self.load, *(r.value for r in self.extra))
+        if not np.isfinite(values).all():
             raise ResultsError(
                 f"{self.method}: gives no finite number for these values; check their units (SI)"
             )
@@ -191,7 +192,7 @@ def nrmm(
             Limit("density", density, *NRMM_DENSITY, "kg/m3", NRMM_TESTS),
             Limit("depth", depth, *NRMM_DEPTH, "m", NRMM_TESTS),
             Limit("wheel radius", radius, *NRMM_RADIUS, "m", why),
-            Limit("sinkage", z, -math.inf, depth, "m", "the wheel does not sink deeper than the snow"),
+            Limit("sinkage", z, -math.inf, depth, "m", "the snow is not deeper"),
             Limit(
                 "final over initial density",
                 final / density,

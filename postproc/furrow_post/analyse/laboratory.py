@@ -336,7 +336,7 @@ def together(tests: Sequence[LaboratoryTest]) -> list[LaboratoryQuantity]:
     if len(tests) < 2 or len(kinds) != 1:
         return []
     kind = kinds.pop()
-    remedy = "these tests give no common strength: lay tests of different sizes or stresses together"
+    remedy = "lay tests of different sizes or stresses together"
     with content_of(", ".join(str(test.folder) for test in tests), remedy):
         if kind == "shear":
             return _shear_strength(tests)

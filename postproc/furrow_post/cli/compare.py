@@ -26,7 +26,7 @@ def run(arguments: argparse.Namespace) -> None:
     given: Sequence[Labelled] = arguments.results
     target = arguments.output or Path(given[0].folder).resolve().parent / "compare"
     if len(given) < 2 and not (arguments.formula or arguments.measured):
-        raise ResultsError("compare needs two results folders, or --formula or --measured beside one")
+        raise ResultsError("compare needs two results folders, or one and --formula or --measured")
     if is_curve(given[0].folder):
         require_different([folder for folder, _ in given])
         curves = compare_curves([read_curve(*item) for item in given], arguments.anyway)

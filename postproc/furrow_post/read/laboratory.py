@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Results folders of laboratory tests on grains, and of furrow-point, the same paths on a law."""
 
-import warnings
 from pathlib import Path
 
 import numpy as np
 
 from ..arrays import Floats
-from ..csv_table import read_columns, read_numbers
+from ..csv_table import read_columns, read_matrix, read_numbers
 from ..errors import ResultsError, content_of
 from ..fields import Fields
 
@@ -68,7 +67,7 @@ class LaboratoryTest:
         ResultsError for fewer than ten rows, too few columns, or what is no finite number
         """
         path, columns = self.folder / "curve.txt", COLUMNS.get(self.kind, 1)
-        rows = _numbers(path, 0)
+        rows = read_matrix(path, 1)
         if len(rows) < 10:
             raise ResultsError(f"{path}: has fewer than ten rows; was the run stopped? {REMEDY}")
         if rows.shape[1] < columns or not np.isfinite(rows).all():
@@ -79,20 +78,7 @@ class LaboratoryTest:
 
     def grains(self, name: str) -> Floats:
         """(n, 4): x, y, z, radius [m] of a dump."""
-        path = self.folder / f"{name}.dump"
-        dump = _numbers(path, 9)
-        if len(dump) == 0 or dump.shape[1] < 5:
-            raise ResultsError(f"{path}: has no grains with id, x, y, z and radius; {REMEDY}")
-        return dump[:, 1:5]
-
-
-def _numbers(path: Path, head: int) -> Floats:
-    """(rows, columns) of a text file below so many lines. @raises ResultsError"""
-    if not path.is_file():
-        raise ResultsError(f"{path}: no such file; {REMEDY}")
-    with content_of(path, REMEDY), warnings.catch_warnings(action="ignore"):
-        rows: Floats = np.loadtxt(path, skiprows=head, ndmin=2, encoding="utf-8")
-    return rows
+        return read_matrix(self.folder / f"{name}.dump", 5, head=9)[:, 1:5]
 
 
 def cell_curve(rows: Floats) -> tuple[Floats, Floats, Floats]:

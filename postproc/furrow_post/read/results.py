@@ -187,7 +187,8 @@ def _require_history(columns: Fields, file: Path) -> None:
             raise ResultsError(f"{file}: channel '{name}' is no row of numbers; {REPEAT}")
     if columns.require_rows() < 2:
         raise ResultsError(
-            f"{file}: its history has fewer than two rows; run longer, or write more often ('every')"
+            f"{file}: its history has fewer than two rows; run longer, or write it more often "
+            "('every')"
         )
     time = columns["time"]
     wrong = np.flatnonzero(~(np.diff(time) > 0))

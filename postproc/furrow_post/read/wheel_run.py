@@ -236,8 +236,8 @@ def _read_values(run: WheelRun, reference: Grains | None) -> None:
     inside = (columns["time"] >= begin) & (columns["time"] <= end)
     if not inside.any():
         raise ResultsError(
-            f"{run.folder}: the window of summary.json, {begin:g} to {end:g} s, lies outside of the "
-            f"history; write it again with 'furrow-post resistance --write {run.folder}'"
+            f"{run.folder}: the window of summary.json, {begin:g} to {end:g} s, lies outside of "
+            f"the history; write it again with 'furrow-post resistance --write {run.folder}'"
         )
     v = columns["velocity_x"][inside].mean()
     rim = run.radius * columns["spin_rate"][inside].mean()

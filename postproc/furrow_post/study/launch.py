@@ -113,7 +113,7 @@ def _start(case: Case, command: list[str], folder: Path) -> _Attempt:
     """Runs a command in the folder, its output into files there. @raises Interrupted"""
     began = time.monotonic()
     late = threading.Event()
-    with open(folder / SCREEN, "w", encoding="utf-8") as screen, open(folder / ERRORS, "w", encoding="utf-8") as errors:
+    with open(folder / SCREEN, "wb") as screen, open(folder / ERRORS, "wb") as errors:
         process = subprocess.Popen([*NICE, *command], cwd=folder, stdout=screen, stderr=errors)
 
         def stop() -> None:

@@ -152,18 +152,19 @@ class ArgumentsFaultsTest(FaultsTest):
     def test_tables_of_runs(self) -> None:
         good = Path("table.csv").read_text()
         head, *rows = good.splitlines(keepends=True)
+        size = "half,rigid wheel,"  # stands before the size
         for fault, text, message in (
             ("empty", "", "has no rows"),
             ("no rows", head, "has no rows"),
             ("another head", "a,b\n1,2\n", "has no column run"),
-            ("a column less", good.replace("sinkage_error", "error"), "has no column sinkage_error"),
+            ("a column less", good.replace("sinkage_error", "error"), "no column sinkage_error"),
             ("a column twice", head[:-1] + ",size\n" + rows[0][:-1] + ",1\n", "two columns 'size'"),
             ("a short row", good + "x,y\n", "has fewer cells than the head"),
             ("a long row", good + rows[0][:-1] + ",1,2\n", "has more cells than the head"),
-            ("a word", good.replace("half,rigid wheel,0.04", "half,rigid wheel,x", 1), "float: 'x'"),
-            ("size 0", good.replace("half,rigid wheel,0.04", "half,rigid wheel,0", 1), "size is 0"),
-            ("size -1", good.replace("half,rigid wheel,0.04", "half,rigid wheel,-1", 1), "is -1"),
-            ("open quote", good.replace("wheel -v cell 0.01", "wheel -v 'a"), "No closing quotation"),
+            ("a word", good.replace(f"{size}0.04", f"{size}x", 1), "to float: 'x'"),
+            ("size 0", good.replace(f"{size}0.04", f"{size}0", 1), "size is 0"),
+            ("size -1", good.replace(f"{size}0.04", f"{size}-1", 1), "size is -1"),
+            ("open quote", good.replace("wheel -v cell 0.01", "wheel 'a"), "No closing quotation"),
         ):
             Path("bad.csv").write_text(text)
             for words in (["cost", "bad.csv"], ["choose", "bad.csv", "--error", "10%"]):

@@ -150,7 +150,7 @@ BAD_CURVES: tuple[tuple[str, Callable[[Floats], Floats], str], ...] = (
 )
 BAD_TEXTS = (
     ("words", b"hello world\n", "curve.txt: cannot be used"),
-    ("empty", b"", "curve.txt: has fewer than ten rows"),
+    ("empty", b"", "curve.txt: has no rows of 1 numbers"),
     ("bytes", b"\xff\xfe\0" * 50, "curve.txt: is not text in UTF-8"),
     ("ragged", b"1 2 3 4 5 6 7 8 9 10\n1 2 3\n" * 9, "curve.txt: cannot be used"),
 )
@@ -163,9 +163,9 @@ BAD_FACTS = (
 )
 DUMP_HEAD = 9 * "x\n"
 BAD_DUMPS = (
-    ("empty", "", "has no grains with id, x, y, z and radius"),
-    ("no grains", DUMP_HEAD, "has no grains with id, x, y, z and radius"),
-    ("few columns", DUMP_HEAD + "1 0\n" * 50, "has no grains with id, x, y, z and radius"),
+    ("empty", "", "has no rows of 5 numbers"),
+    ("no grains", DUMP_HEAD, "has no rows of 5 numbers"),
+    ("few columns", DUMP_HEAD + "1 0\n" * 50, "has no rows of 5 numbers"),
     ("one place", DUMP_HEAD + "1 0 0 0 0.005\n" * 50, "was the run stopped, or too short?"),
     ("not a number", DUMP_HEAD + "1 nan nan nan 1\n" * 50, "was the run stopped, or too short?"),
 )
@@ -257,8 +257,8 @@ class LaboratoryFaultsTest(FaultsTest):
         )
         for tests, confined, message in (
             ("none", oedometer, "none: has no facts.txt"),
-            (oedometer, oedometer, "is a test 'oedometer'; name the results of a triaxial"),
-            (triaxial, triaxial, "is a test 'triaxial'; name the results of an oedometer"),
+            (oedometer, oedometer, "is a test 'oedometer'; name the results of test 'triaxial'"),
+            (triaxial, triaxial, "is a test 'triaxial'; name the results of test 'oedometer'"),
         ):
             self.start("identify", [tests, "--oedometer", confined, "-o", "law.yaml"], message)
         for option in ("--stress", "--cohesion"):

@@ -197,7 +197,7 @@ class ResultsFaultsTest(FaultsTest):
         (folder / "history.h5").write_bytes((folder / "history.h5").read_bytes()[:-1])
         (folder / "terrain.h5").write_bytes(b"\x89HDF\r\n\x1a\n" + 2000 * b"\x07")
         for subcommand in SUBCOMMANDS:
-            self.post("truncated", subcommand, folder, "is not a results file of Furrow, or damaged")
+            self.post("truncated", subcommand, folder, "not a results file of Furrow, or damaged")
             self.post("no folder", subcommand, folder / "none", "none: no such file; name the")
 
     def test_histories(self) -> None:
@@ -228,14 +228,15 @@ class ResultsFaultsTest(FaultsTest):
             self.post(fault, "picture", folder, message)
 
     def test_terrain(self) -> None:
-        shapes: dict[str, tuple[int, ...]] = {"x": (50, 3), "initial_position": (50, 3), "density": (50,), "volume": (50,)}
-        empty = {name: (0, *shape[1:]) for name, shape in shapes.items()}
-        without_volume = {name: shape for name, shape in shapes.items() if name != "volume"}
-        for fault, changed, message in (
-            ("no particles", empty, "has no particles"),
+        vectors, numbers = ("x", "initial_position"), ("density", "volume")
+        shapes: dict[str, tuple[int, ...]] = dict.fromkeys(vectors, (50, 3))
+        shapes |= dict.fromkeys(numbers, (50,))
+        cases: tuple[tuple[str, dict[str, tuple[int, ...]], str], ...] = (
+            ("no particles", {n: (0, *s[1:]) for n, s in shapes.items()}, "has no particles"),
             ("fewer volumes", {**shapes, "volume": (7,)}, "arrays have 7 to 50 rows"),
-            ("no volumes", without_volume, "has no 'volume'"),
-        ):
+            ("no volumes", {n: s for n, s in shapes.items() if n != "volume"}, "has no 'volume'"),
+        )
+        for fault, changed, message in cases:
             folder = self.copy()
             with h5py.File(folder / "terrain.h5", "w") as content:
                 group = content.create_group("terrain")
