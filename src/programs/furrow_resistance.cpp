@@ -44,11 +44,7 @@ struct Request {
 
 void declare(CLI::App& app, Request& request) {
   app.set_version_flag("--version", furrow::version());
-  app.add_option("results", request.folders, "results folders, each with a history.h5")
-      ->required()
-      ->check([](const std::string& folder) {
-        return std::string(folder.empty() ? "a folder's name is empty" : "");
-      });
+  app.add_option("results", request.folders, "results folders, each with a history.h5")->required();
   CLI::Option* by_time =
       app.add_option("--window", request.window,
                      "begin and end of the window [s] instead of the one that is found")
@@ -74,7 +70,8 @@ furrow::ResistanceOptions options_of(const Request& request) {
 }
 
 void evaluate(const std::string& folder, const Request& request) {
-  if (!std::filesystem::is_regular_file(std::filesystem::path(folder) / "history.h5"))
+  if (folder.empty() ||
+      !std::filesystem::is_regular_file(std::filesystem::path(folder) / "history.h5"))
     throw furrow::Error(
         "has no history.h5; name the results folder of a run with fix wheel/history");
   const furrow::Summary summary = furrow::summarise(folder, options_of(request));

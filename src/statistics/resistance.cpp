@@ -72,11 +72,6 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
   };
 
   const std::vector<double> force_z = part("force_z"), drawbar_pull = part("drawbar_pull");
-  if (std::all_of(force_z.begin(), force_z.end(), [](double force) { return force == 0.0; }))
-    throw StateError(
-        fmt::format("the wheel does not touch the ground from {:.4g} s to {:.4g} s, force_z is 0: "
-                    "choose a later window, or run longer",
-                    window.begin, window.end));
   std::vector<double> resistance = part("force_x");
   for (double& force : resistance) force = -force;
 

@@ -175,17 +175,6 @@ TEST(Resistance, RefusesHistoriesWithGapsOrWithoutCruise) {
               HasSubstr("no steady value 'mass'"));
 }
 
-TEST(Resistance, AWheelInTheAirIsSaidWithTheWindow) {
-  History in_the_air(SyntheticRun().history().channels());
-  for (int i = 0; i < 1000; ++i) {
-    const double time = 0.002 * i;
-    in_the_air.append({time, 2.0, time, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
-  }
-  EXPECT_THAT(
-      error_of([&] { measure_resistance(in_the_air); }),
-      HasSubstr("does not touch the ground from 0 s to 1.998 s, force_z is 0: choose a later"));
-}
-
 TEST(Resistance, ARatioNeedsADenominator) {
   EXPECT_THAT(error_of([] {
                 linearised_ratio({1.0, 2.0}, {1.0});
