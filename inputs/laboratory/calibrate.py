@@ -29,20 +29,22 @@ HERE = Path(__file__).resolve().parent
 PROJECT = HERE.parents[1]
 sys.path.insert(0, str(PROJECT / "postproc"))
 
+from task import Task, read_task
+
 from furrow_post.analyse.laboratory import together, values_of
 from furrow_post.analyse.statistics import rms
+from furrow_post.arguments import at_least, path
 from furrow_post.arrays import Floats
-from furrow_post.errors import ResultsError
+from furrow_post.errors import ResultsError, content_of
+from furrow_post.program import run_program
 from furrow_post.read.laboratory import LaboratoryTest, cell_curve, read_oedometer_reference
 from furrow_post.study.case import Value
 from furrow_post.study.furrow_cases import laboratory_case
-from furrow_post.study.launch import Interrupted, Tools, launch
+from furrow_post.study.launch import Tools, launch
 
 STEP = 0.2  # of a parameter's logarithm, for differences
 WEAK = 0.05  # singular values below this share of the largest: a combination not determined
 FAILED = 3.0  # residual of a test that did not reach the stress of a target
-
-Task = dict[str, Any]  # the input
 
 
 class Runs:
@@ -55,10 +57,20 @@ class Runs:
         self.known: dict[tuple[str | int, ...], list[float]] = {}
         self.made = 0
         if self.log.exists():
-            for line in self.log.read_text().splitlines():
+            self.read_log()
+
+    def read_log(self) -> None:
+        """@raises ResultsError of a damaged line; the last may be cut by a stop: it counts not"""
+        text = self.log.read_text(encoding="utf-8", errors="replace")
+        lines = text.splitlines() if text.endswith("\n") else text.splitlines()[:-1]
+        for number, line in enumerate(lines, 1):
+            with content_of(f"{self.log}, line {number}", "remove the line: its run is made again"):
                 entry = json.loads(line)
                 if entry["task"] == self.identity():
-                    self.known[self.key(entry["values"], entry["seed"])] = entry["residuals"]
+                    residuals = [float(value) for value in entry["residuals"]]
+                    self.known[self.key(entry["values"], int(entry["seed"]))] = residuals
+        if not text.endswith("\n"):
+            self.log.write_text("".join(f"{line}\n" for line in lines), encoding="utf-8")
 
     def identity(self) -> Task:
         """What the runs of a log must have in common."""
@@ -94,7 +106,7 @@ class Runs:
             "residuals": residuals,
             "wall_s": round(seconds, 1),
         }
-        with open(self.log, "a") as file:
+        with open(self.log, "a", encoding="utf-8") as file:
             file.write(json.dumps(entry) + "\n")
         numbers = "  ".join(f"{n} {v:.4g}" for n, v in zip(self.names, values))
         misfit = f"rms {rms(residuals):.3f}"
@@ -103,7 +115,7 @@ class Runs:
     def run(self, values: Floats, seed: int) -> list[float]:
         """Residuals of a new run. @raises ResultsError where it failed, Interrupted"""
         tests = []
-        for confinement in self.task.get("series", [None]):
+        for confinement in self.task.get("series") or [None]:
             given = {
                 **self.task["variables"],
                 "ground": self.task["ground"],
@@ -128,6 +140,12 @@ class Runs:
         shared = {q.name: q.value for q in together(tests)}
         found = shared or values_of(tests[0])
         targets = self.task["quantities"].items()
+        absent = [name for name, _ in targets if not math.isfinite(found.get(name, math.nan))]
+        if absent:
+            raise ResultsError(
+                f"{tests[0].folder}: the test gives no {', '.join(absent)} for 'quantities'; "
+                f"it gives {', '.join(found)}"
+            )
         return [(found[name] - value) / deviation for name, (value, deviation) in targets]
 
     def misfit_of_curve(self, test: LaboratoryTest) -> list[float]:
@@ -255,24 +273,21 @@ def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("calibration", type=Path)
-    parser.add_argument("-o", "--output", type=Path)
-    parser.add_argument("--runs", type=int, default=40, help="new runs at most (default 40)")
-    parser.add_argument("--build", type=Path, help="default: $FURROW_BUILD, or build in the tree")
+    parser.add_argument("calibration", type=path)
+    parser.add_argument("-o", "--output", type=path)
+    parser.add_argument("--runs", type=at_least(1), default=40, help="new runs at most (40)")
+    parser.add_argument("--build", type=path, help="default: $FURROW_BUILD, or build in the tree")
     parsed = parser.parse_args()
     calibration: Path = parsed.calibration
-    task = json.loads(calibration.read_text())
+    task = read_task(calibration)
     default = PROJECT / "results" / "laboratory" / f"calibrate_{calibration.stem}"
     folder: Path = (parsed.output or default).resolve()
     folder.mkdir(parents=True, exist_ok=True)
     runs = Runs(task, folder, parsed.runs, Tools.of(Path(__file__), parsed.build))
     result = json.dumps(calibrate(task, runs), indent=1)
-    calibration.with_suffix(".result.json").write_text(result + "\n")
+    calibration.with_suffix(".result.json").write_text(result + "\n", encoding="utf-8")
     print(result)
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except (ResultsError, Interrupted, OSError) as error:
-        sys.exit(f"inputs/laboratory/calibrate.py: {error}")
+    sys.exit(run_program("laboratory/calibrate.py", main))

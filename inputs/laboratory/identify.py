@@ -28,8 +28,10 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postproc"))
 
 from furrow_post.analyse.laboratory import values_of
+from furrow_post.arguments import between, path, positive
 from furrow_post.arrays import Floats
-from furrow_post.errors import ResultsError
+from furrow_post.errors import ResultsError, content_of
+from furrow_post.program import run_program
 from furrow_post.read.laboratory import LaboratoryTest, cell_curve
 
 SMALLEST = 0.02  # R
@@ -166,8 +168,24 @@ def hardening(test: LaboratoryTest, law: Law) -> tuple[list[tuple[float, float]]
 
 def material_text(parsed: argparse.Namespace) -> str:
     """The material file. @raises ResultsError"""
-    tests = [LaboratoryTest(folder) for folder in parsed.triaxial]
-    confined = LaboratoryTest(parsed.oedometer)
+    tests = [test_of("triaxial", folder) for folder in parsed.triaxial]
+    confined = test_of("oedometer", parsed.oedometer)
+    names = ", ".join(str(test.folder) for test in (*tests, confined))
+    with content_of(names, "lay other tests of this ground together"):
+        return law_text(parsed, tests, confined)
+
+
+def test_of(kind: str, folder: Path) -> LaboratoryTest:
+    """@raises ResultsError where the folder is that of another test"""
+    test = LaboratoryTest(folder)
+    if test.kind != kind:
+        raise ResultsError(f"{folder}: is a test '{test.kind}'; name the results of test '{kind}'")
+    return test
+
+
+def law_text(
+    parsed: argparse.Namespace, tests: Sequence[LaboratoryTest], confined: LaboratoryTest
+) -> str:
     sine, each = friction(tests)
     match = MATCH[parsed.match]
     tangent = match.tangent(sine)
@@ -214,21 +232,24 @@ def parse() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("triaxial", nargs="+", type=Path, help="results folders")
-    parser.add_argument("--oedometer", required=True, type=Path, help="results folder")
+    parser.add_argument("triaxial", nargs="+", type=path, help="results folders")
+    parser.add_argument("--oedometer", required=True, type=path, help="results folder")
     parser.add_argument("--match", choices=sorted(MATCH), default="plane_strain")
     parser.add_argument("--title", default="Dry sand, identified on grains")
-    parser.add_argument("--stress", type=float, default=1e5, help="[Pa] default: 1e5")
-    parser.add_argument("--cohesion", type=float, default=100.0, help="d [Pa], default: 100")
-    parser.add_argument("-o", "--output", required=True, type=Path, metavar="MATERIAL.yaml")
+    parser.add_argument("--stress", type=positive, default=1e5, help="[Pa] default: 1e5")
+    parser.add_argument(
+        "--cohesion", type=between(0.0, 1e9), default=100.0, help="d [Pa], default: 100"
+    )
+    parser.add_argument("-o", "--output", required=True, type=path, metavar="MATERIAL.yaml")
     return parser.parse_args()
 
 
+def main() -> None:
+    arguments = parse()
+    written = material_text(arguments)
+    arguments.output.write_text(written, encoding="utf-8")
+    print(written)
+
+
 if __name__ == "__main__":
-    try:
-        arguments = parse()
-        written = material_text(arguments)
-        arguments.output.write_text(written, encoding="utf-8")
-        print(written)
-    except (ResultsError, OSError) as error:
-        sys.exit(f"inputs/laboratory/identify.py: {error}")
+    sys.exit(run_program("laboratory/identify.py", main))

@@ -15,26 +15,19 @@ HERE = Path(__file__).resolve().parent
 PROJECT = HERE.parents[1]
 sys.path.insert(0, str(PROJECT / "postproc"))
 
+from checks import SERIES, grounds, require_ground, require_series, require_variables
+
 from furrow_post.analyse.laboratory import report_tests
+from furrow_post.arguments import path, words
 from furrow_post.errors import ResultsError
 from furrow_post.figures.laboratory import draw_laboratory
+from furrow_post.program import run_program
+from furrow_post.read.laboratory import read_oedometer_reference
 from furrow_post.study.case import Case, Value
 from furrow_post.study.furrow_cases import laboratory_case, point_case
-from furrow_post.study.launch import Interrupted, Tools, launch
+from furrow_post.study.launch import Tools, launch
 
-SERIES = {  # test -> the variable of which several values make a series
-    "oedometer": "seed",
-    "triaxial": "confinement",
-    "shear": "confinement",
-    "plate": "size",
-    "repose": "seed",
-    "collapse": "aspect",
-}
 CONFINEMENT = "2e4"  # [Pa] of the law's triaxial path where no series is given
-
-
-def grounds() -> list[str]:
-    return sorted(path.stem for path in (HERE / "grounds").glob("*.lig"))
 
 
 def law_case(name: str, test: str, material: Path, confinement: str) -> Case:
@@ -70,36 +63,65 @@ def parse() -> argparse.Namespace:
     parser.add_argument("--ground", default="sand_dry", help=f"one of {', '.join(grounds())}")
     series = ", ".join(f"{test}: {name}" for test, name in SERIES.items())
     parser.add_argument(
-        "--series", "--confinement", dest="series", help=f"values, with commas: {series}"
+        "--series", type=words, metavar="VALUES", help=f"values, with commas: {series}"
+    )
+    parser.add_argument(
+        "--confinement", type=words, metavar="VALUES", help="the series of triaxial and shear"
     )
     parser.add_argument(
         "--continuum",
-        type=Path,
+        type=path,
         action="append",
         default=[],
         metavar="MATERIAL.yaml",
         help="the same path on a law, to lay beside",
     )
-    parser.add_argument("--reference", type=Path, help="reference.csv of an oedometer")
+    parser.add_argument("--reference", type=path, help="reference.csv of an oedometer")
     parser.add_argument(
         "-v", nargs=2, action="append", default=[], metavar=("NAME", "VALUE"), dest="variables"
     )
-    parser.add_argument("-o", "--output", type=Path)
-    parser.add_argument("--build", type=Path, help="default: $FURROW_BUILD, or build in the tree")
-    parsed = parser.parse_args()
-    if parsed.ground not in grounds():
-        parser.error(f"there is no ground {parsed.ground}; there are {', '.join(grounds())}")
-    return parsed
+    parser.add_argument("-o", "--output", type=path)
+    parser.add_argument("--build", type=path, help="default: $FURROW_BUILD, or build in the tree")
+    return parser.parse_args()
+
+
+def series_of(parsed: argparse.Namespace) -> list[str]:
+    """Values of the series, or none. @raises ResultsError"""
+    name = SERIES[parsed.test]
+    if parsed.confinement and name != "confinement":
+        raise ResultsError(f"--confinement: the series of {parsed.test} is {name}; use --series")
+    if parsed.confinement and parsed.series:
+        raise ResultsError("--confinement and --series are the same here; give one of them")
+    text: str = parsed.confinement or parsed.series or ""
+    return [value.strip() for value in text.split(",")] if text else []
+
+
+def check(parsed: argparse.Namespace, series: list[str]) -> None:
+    """Before anything runs. @raises ResultsError"""
+    test: str = parsed.test
+    require_ground(parsed.ground)
+    given = [(name, value) for name, value in parsed.variables]
+    require_variables(test, parsed.ground, given)
+    require_series(test, series, dict(given))
+    for material in parsed.continuum:
+        if not material.is_file():
+            raise ResultsError(f"--continuum {material}: no such file; name a material (YAML)")
+        law_case("", test, material, CONFINEMENT)  # has this test a path of a point?
+    if parsed.reference:
+        read_oedometer_reference(parsed.reference)
+        if test != "oedometer":
+            raise ResultsError("--reference is for oedometers; leave it out")
 
 
 def run_test(parsed: argparse.Namespace) -> None:
     test: str = parsed.test
+    series = series_of(parsed)
+    check(parsed, series)
     tools = Tools.of(Path(__file__), parsed.build)
     default = PROJECT / "results" / "laboratory" / f"{test}_{parsed.ground}"
     output: Path = (parsed.output or default).resolve()
-    series: list[str] = parsed.series.split(",") if parsed.series else [""]
     folders = []
-    for value in series:
+    for value in series or [""]:
         variables: dict[str, Value] = {"ground": parsed.ground}
         if value:
             variables[SERIES[test]] = value
@@ -108,7 +130,7 @@ def run_test(parsed: argparse.Namespace) -> None:
         folders.append(make(laboratory_case(name, test, PROJECT, variables), output, tools))
     points = []
     for material in parsed.continuum:
-        for value in series if test == "triaxial" else [""]:
+        for value in (series if test == "triaxial" else []) or [""]:
             name = f"point_{material.stem}_{value}"
             case = law_case(name, test, material, value or CONFINEMENT)
             points.append(str(make(case, output, tools)))
@@ -119,12 +141,13 @@ def run_test(parsed: argparse.Namespace) -> None:
     print(target)
 
 
-if __name__ == "__main__":
-    arguments = parse()
-    if arguments.list or not arguments.test:
+def main() -> None:
+    parsed = parse()
+    if parsed.list or not parsed.test:
         print("tests:", ", ".join(sorted(SERIES)), "\ngrounds:", ", ".join(grounds()))
-        sys.exit()
-    try:
-        run_test(arguments)
-    except (ResultsError, Interrupted, OSError) as error:
-        sys.exit(f"inputs/laboratory/run.py: {error}")
+        return
+    run_test(parsed)
+
+
+if __name__ == "__main__":
+    sys.exit(run_program("laboratory/run.py", main))

@@ -1,27 +1,48 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""CSV files with a head of comment lines ("# ..."), as all tables of the project have."""
+"""CSV files with a head of comment lines ("# ..."), as all tables of the project have; LIGGGHTS's
+tables of numbers."""
 
 import csv
 import math
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from .arrays import Floats
-from .errors import ResultsError
+from .errors import ResultsError, content_of
 
 import numpy as np
 
+TABLE = "a table is CSV: a head with the names of its columns, then rows of as many cells"
+
 
 def read_rows(path: Path) -> list[dict[str, str]]:
-    """Rows of a table, name of the column -> text; comments are left out. @raises OSError"""
-    with open(path, encoding="utf-8") as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+    """Rows of a table, name of the column -> text; comments are left out.
+
+    @raises OSError; ResultsError where a row has other cells than the head
+    """
+    with content_of(path, TABLE), open(path, encoding="utf-8") as file:
+        try:
+            reader = csv.DictReader(line for line in file if not line.startswith("#"))
+            rows = list(reader)
+        except csv.Error as error:
+            raise ResultsError(f"{path}: {error}; {TABLE}") from error
+    for name in rows[0] if rows else ():
+        if reader.fieldnames and list(reader.fieldnames).count(name) > 1:
+            raise ResultsError(f"{path}: has two columns '{name}'; {TABLE}")
+    for number, row in enumerate(rows, 1):
+        if None in row or None in row.values():
+            raise ResultsError(
+                f"{path}: row {number} has {'more' if None in row else 'fewer'} cells than the "
+                f"head; {TABLE}"
+            )
+    return rows
 
 
 def read_comments(path: Path) -> list[str]:
-    """The comment lines of a table, with their "#". @raises OSError"""
-    with open(path, encoding="utf-8") as file:
+    """The comment lines of a table, with their "#". @raises OSError, ResultsError"""
+    with content_of(path, TABLE), open(path, encoding="utf-8") as file:
         return [line.rstrip("\n") for line in file if line.startswith("#")]
 
 
@@ -33,13 +54,28 @@ def read_numbers(path: Path) -> list[dict[str, float]]:
             for row in read_rows(path)
         ]
     except ValueError as error:
-        raise ResultsError(f"{path}: {error}") from error
+        raise ResultsError(f"{path}: {error}; {TABLE}") from error
 
 
 def read_columns(path: Path) -> dict[str, Floats]:
     """Columns of a table of numbers. @raises ResultsError"""
     rows = read_numbers(path)
     return {name: np.array([row[name] for row in rows]) for name in (rows[0] if rows else ())}
+
+
+def read_matrix(path: Path, columns: int, head: int = 0) -> Floats:
+    """(rows, columns or more) of a file of numbers and blanks below so many lines.
+
+    It is what LIGGGHTS writes (fix ave/time, dumps). @raises ResultsError
+    """
+    remedy = "repeat the run"
+    if not path.is_file():
+        raise ResultsError(f"{path}: no such file; {remedy}")
+    with content_of(path, remedy), warnings.catch_warnings(action="ignore"):
+        rows: Floats = np.loadtxt(path, skiprows=head, ndmin=2, encoding="utf-8")
+    if len(rows) == 0 or rows.shape[1] < columns:
+        raise ResultsError(f"{path}: has no rows of {columns} numbers; {remedy}")
+    return rows
 
 
 def column_names(rows: Iterable[Mapping[str, Any]]) -> list[str]:

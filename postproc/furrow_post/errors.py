@@ -1,6 +1,46 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The error that ends a command with a message instead of a traceback."""
+"""Errors that end a program with a message instead of a traceback."""
+
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+
+# What code raises on values, keys or types that it does not expect
+CONTENT_ERRORS = (
+    *(ArithmeticError, IndexError, KeyError, RuntimeError, TypeError, ValueError),
+    *(np.linalg.LinAlgError, SystemError),
+)
 
 
 class ResultsError(Exception):
     """Something asked for is not in the results; the message names file and remedy."""
+
+
+class Interrupted(Exception):
+    """Somebody ended the run: it is neither finished nor failed."""
+
+
+@contextmanager
+def content_of(file: Path | str, remedy: str) -> Iterator[None]:
+    """For code that takes a file's content as it comes: what that code raises blames the file.
+
+    @raises ResultsError with file, what is wrong, remedy
+    """
+    try:
+        yield
+    except CONTENT_ERRORS as error:
+        raise ResultsError(f"{file}: {_in_words(error)}; {remedy}") from error
+
+
+def _in_words(error: Exception) -> str:
+    if isinstance(error, UnicodeDecodeError):
+        return "is not text in UTF-8"
+    if isinstance(error, KeyError):
+        absent = re.search(r"(?:object|attribute:) '(.+?)'", str(error))  # as HDF5 says it
+        return f"has no '{absent[1] if absent else error.args[0]}'"
+    if isinstance(error, IndexError):
+        return "has too few values"
+    return f"cannot be used ({' '.join(str(error).split())})"

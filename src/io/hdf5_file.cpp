@@ -79,6 +79,13 @@ struct Shape {
   std::vector<hsize_t> extent;
 };
 
+/// In a creation property list: the numbers lie in chunks with checksums, so that a file that was
+/// damaged later is refused when it is read.
+void keep_in_checked_chunks(hid_t properties, const std::vector<hsize_t>& chunk) {
+  H5Pset_chunk(properties, int(chunk.size()), chunk.data());
+  H5Pset_fletcher32(properties);
+}
+
 template <class T>
 hid_t memory_type();
 template <>
@@ -102,11 +109,18 @@ void write_dataset(Hdf5File& owner, hid_t file, const std::string& dataset, cons
   H5Pset_create_intermediate_group(parents, 1);
   const Handle space(H5Screate_simple(int(shape.extent.size()), shape.extent.data(), nullptr),
                      H5Sclose);
+  const bool empty = std::find(shape.extent.begin(), shape.extent.end(), 0u) != shape.extent.end();
+  const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  if (!empty) {
+    std::vector<hsize_t> chunk = shape.extent;
+    chunk[0] = std::min<hsize_t>(chunk[0], 16384);
+    keep_in_checked_chunks(layout, chunk);
+  }
   const Handle data(require(H5Dcreate2(file, dataset.c_str(), memory_type<T>(), space, parents,
-                                       H5P_DEFAULT, H5P_DEFAULT),
+                                       layout, H5P_DEFAULT),
                             owner.path(), "create", dataset),
                     H5Dclose);
-  if (std::find(shape.extent.begin(), shape.extent.end(), 0u) != shape.extent.end()) return;
+  if (empty) return;
   require(H5Dwrite(data, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values), owner.path(),
           "write", dataset);
 }
@@ -366,8 +380,8 @@ void Hdf5File::create_growing(const std::string& dataset, std::size_t chunk) {
   const Handle parents(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(parents, 1);
   const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  const hsize_t none = 0, any = H5S_UNLIMITED, chunk_length = chunk;
-  H5Pset_chunk(layout, 1, &chunk_length);
+  const hsize_t none = 0, any = H5S_UNLIMITED;
+  keep_in_checked_chunks(layout, {hsize_t(chunk)});
   const Handle space(H5Screate_simple(1, &none, &any), H5Sclose);
   const Handle data(require(H5Dcreate2(file_, dataset.c_str(), H5T_NATIVE_DOUBLE, space, parents,
                                        layout, H5P_DEFAULT),

@@ -95,6 +95,17 @@ Grains read_grains(const std::string& path, const std::string& group) {
   return grains;
 }
 
+/// @throws Error where a row is not later [s] than the row above
+void check_time(const std::string& path, const std::vector<double>& time) {
+  for (std::size_t i = 1; i < time.size(); ++i)
+    if (!(time[i] > time[i - 1]))
+      throw Error(
+          fmt::format("{}: time does not run forwards: row {} of the history is at {} s, after {} "
+                      "s; two runs wrote into one folder, or the file is damaged: repeat the run, "
+                      "into a folder of its own",
+                      path, i + 1, time[i], time[i - 1]));
+}
+
 History read_rows(const Hdf5File& file) {
   if (!file.exists("/history"))
     throw Error(fmt::format("{}: has no /history; is it a results file of Furrow?", file.path()));
@@ -110,6 +121,7 @@ History read_rows(const Hdf5File& file) {
                               columns.back().size(), dataset_of(channels.front()),
                               columns.front().size()));
   }
+  if (!columns.empty()) check_time(file.path(), columns.front());
   History history(channels);
   std::vector<double> row(channels.size());
   for (std::size_t i = 0; !columns.empty() && i < columns.front().size(); ++i) {

@@ -3,6 +3,7 @@
 // standard errors. The same code that writes a run's summary; furrow-post resistance calls it.
 
 #include <cstdio>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -75,6 +76,10 @@ furrow::ResistanceOptions options_of(const Request& request) {
 }
 
 void evaluate(const std::string& folder, const Request& request) {
+  if (folder.empty() ||
+      !std::filesystem::is_regular_file(std::filesystem::path(folder) / "history.h5"))
+    throw furrow::Error(
+        "has no history.h5; name the results folder of a run with fix wheel/history");
   const furrow::Summary summary = furrow::summarise(folder, options_of(request));
   if (request.write) furrow::write_summary(folder, summary);
   if (!summary.trouble.empty()) throw furrow::Error(summary.trouble);

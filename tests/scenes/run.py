@@ -34,6 +34,7 @@ SCENES = PROJECT / "inputs" / "scenes"
 LABORATORY = PROJECT / "inputs" / "laboratory"
 ENERGY_LIMIT = 5e-3  # of the largest energy, for a wheel or tyre: the error of its time step
 CONTINUUM_LIMIT = 0.05  # the same for a continuum, as in tests/verification/mpm/hard_cases_test.cpp
+BLANKS = "Lauf mit Größe"  # name of a results folder: LIGGGHTS splits lines at blanks
 MOMENTUM_LIMIT = 1e-10  # of the largest force or moment: round-off
 
 
@@ -181,9 +182,9 @@ def check_scene(script, folder):
 def scene(script, ranks, results):
     folder = empty(results)
     # A cache of its own: the bed is made, not read.
-    inputs_run(script, "--quick", "-n", ranks, "-o", folder / "run",
+    inputs_run(script, "--quick", "-n", ranks, "-o", folder / BLANKS,
                FURROW_CACHE=str(folder / "cache"))
-    check_scene(script, folder / "run")
+    check_scene(script, folder / BLANKS)
 
 
 def two_grounds(results):
@@ -204,11 +205,51 @@ def laboratory(script, results):
         words = [head.script.stem, *head.quick]
     else:
         words = [*head.quick, "--ground", head.script.stem]
-    run([sys.executable, LABORATORY / "run.py", *words, "-o", folder / "run"],
+    run([sys.executable, LABORATORY / "run.py", *words, "-o", folder / BLANKS],
         FURROW_CACHE=str(folder / "cache"))
-    quantities = json.loads((folder / "run" / "laboratory.json").read_text())["quantities"]
+    quantities = json.loads((folder / BLANKS / "laboratory.json").read_text())["quantities"]
     head.check({name.replace("_", " "): (quantity["value"], quantity["unit"])
                 for name, quantity in quantities.items()})
+
+
+SCENE = "wheel_on_snow"
+# (words of inputs/run, what is said); everything is refused before anything runs
+REFUSED = (
+    (["no_such_scene"], "no scene 'no_such_scene'"),
+    (["--fast"], "does not know '--fast'"),
+    ([""], "an argument is empty"),
+    ([SCENE, "wheel_on_sand"], "are two scenes; name one"),
+    ([SCENE, "-n", "two"], "whole number of ranks"),
+    ([SCENE, "-n", "0"], "whole number of ranks"),
+    ([SCENE, "-n", "-2"], "whole number of ranks"),
+    ([SCENE, "-n"], "-n needs the number of ranks"),
+    ([SCENE, "-n", ""], "-n needs the number of ranks"),
+    ([SCENE, "-n", "1", "-n", "2"], "-n is given twice"),
+    ([SCENE, "-n", str(4 * len(os.sched_getaffinity(0)) + 1)], "would crawl"),
+    ([SCENE, "-o"], "-o needs a folder"),
+    ([SCENE, "-o", " "], "-o needs a folder"),
+    ([SCENE, "-o", "a", "-o", "b"], "-o is given twice"),
+    ([SCENE, "-o", str(Path(__file__).resolve())], "there is a file of this name"),
+    ([SCENE, "-o", "/proc/x"], "no right to write"),
+    (["-v", "speed", "1"], "name one"),
+    (["-n", "1"], "name one"),
+    ([SCENE, "-v"], "-v needs a name and a value"),
+    ([SCENE, "-v", "cell"], "-v cell needs a value"),
+    ([SCENE, "-v", "cell", ""], "-v cell has an empty value"),
+    ([SCENE, "-v", "", "1"], "-v needs a name and a value"),
+    ([SCENE, "-v", "lenght", "3"], "no line reads 'lenght'; did you mean length?"),
+    ([SCENE, "--quick", "-v", "sell", "3"], "no line reads 'sell'; did you mean cell?"),
+    ([SCENE, "-v", "steps", "3"], "computes 'steps' itself"),
+    ([SCENE, "-v", "results", "x"], "-v results: use -o"),
+    ([SCENE, "-v", "cell", "0.1", "-v", "cell", "0.2"], "-v cell is given 2 times"),
+    (["wheel_on_sand", "-v", "bed_level", "0.1"], "no line reads 'bed_level'"),
+    ([SCENE, "--error", "10%", "-v", "lenght", "3"], "no line reads 'lenght'"),
+    ([SCENE, "--error", "much"], "'much' is not a number"),
+    ([SCENE, "--error", "200%"], "'200%' does not lie between"),
+    ([SCENE, "--error", ""], "--error needs a relative error"),
+    (["plate_on_sand", "--error", "10%"], "errors of 'plate_on_sand' are not known"),
+    ([SCENE, "--quick", "--error", "10%"], "give one of them"),
+)
 
 
 def usage():
@@ -217,13 +258,9 @@ def usage():
         name, title = Head(script).title.split(": ", 1)
         if name != script.stem or f"{name} {title}" not in listed:
             sys.exit(f"{script.name} is not in the list of scenes under its name and title")
-    for words, message in ((["no_such_scene"], "no scene 'no_such_scene'"),
-                           (["--fast"], "does not know '--fast'"),
-                           (["wheel_on_snow", "-n", "two"], "whole number of ranks"),
-                           (["-v", "speed", "1"], "name one"),
-                           (["wheel_on_snow", "--quick", "--error", "10%"], "give one of them")):
+    for words, message in REFUSED:
         refused = inputs_run(*words, status=2)
-        if message not in refused:
+        if message not in refused or "Traceback" in refused:
             sys.exit(f"{words} is refused without '{message}':\n{refused}")
 
 

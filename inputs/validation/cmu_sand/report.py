@@ -17,6 +17,7 @@ from cases import Point
 
 from furrow_post.analyse.statistics import rms
 from furrow_post.arrays import Floats
+from furrow_post.csv_table import read_matrix
 from furrow_post.figures.style import save
 from furrow_post.study.case import Case
 from furrow_post.study.output import Output
@@ -41,7 +42,7 @@ def diameter_of(case: Case) -> float:
 
 def plate_curve(folder: Path) -> Curve:
     """Smoothed over 1.1 mm: a tenth of a grain."""
-    table = np.loadtxt(folder / "curve.txt")
+    table = read_matrix(folder / "curve.txt", 3)
     width = 11
     padded = np.pad(table[:, 2], width // 2, "edge")
     return 1000 * table[:, 1], np.convolve(padded, np.ones(width) / width, "valid")

@@ -11,7 +11,9 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "postproc"))
 
+from furrow_post.arguments import path, positive
 from furrow_post.errors import ResultsError
+from furrow_post.program import run_program
 from furrow_post.read.results import Results
 
 HALF_WIDTH = 0.09  # [m] the middle two thirds of a wheel 0.272 m wide
@@ -34,6 +36,11 @@ def report(folder: Path, cluster_density: float) -> str:
     for i in np.flatnonzero(inside):
         square = (int((x[i] - low) / size), int((y[i] + HALF_WIDTH) / size))
         tops[square] = max(tops.get(square, 0.0), float(z[i] + grains.radius[i]))
+    if not tops:
+        raise ResultsError(
+            f"{results.file}: has no grains {-BEHIND[1]:g} to {-BEHIND[0]:g} m behind the wheel; "
+            "roll farther"
+        )
     height = float(np.mean(list(tops.values())))
     mass = cluster_density * (4 / 3 * np.pi * grains.radius**3)[inside].sum()
     area = (high - low) * 2 * HALF_WIDTH
@@ -48,14 +55,11 @@ def report(folder: Path, cluster_density: float) -> str:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("results", type=Path, help="results folder of the run")
-    parser.add_argument("density", type=float, help="of a cluster [kg/m3]")
+    parser.add_argument("results", type=path, help="results folder of the run")
+    parser.add_argument("density", type=positive, help="of a cluster [kg/m3]")
     parsed = parser.parse_args()
-    try:
-        print(report(parsed.results, parsed.density))
-    except ResultsError as error:
-        sys.exit(f"track_density.py: {error}")
+    print(report(parsed.results, parsed.density))
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(run_program("track_density.py", main))

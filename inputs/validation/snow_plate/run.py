@@ -23,6 +23,7 @@ sys.path.insert(0, str(PROJECT / "postproc"))
 
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_numbers
+from furrow_post.errors import ResultsError, content_of
 from furrow_post.figures.style import save
 from furrow_post.figures.terrain import draw_density_section
 from furrow_post.read.laboratory import PointRun, read_oedometer_reference
@@ -181,7 +182,8 @@ def reference() -> Mapping[str, float]:
 def curve_of(folder: Path) -> Floats:
     """(n, 4) step, sinkage [m], load [N], pressure [Pa]; no rows where there is none."""
     file = folder / "curve.txt"
-    curve: Floats = np.loadtxt(file, ndmin=2) if file.exists() else np.empty((0, 4))
+    with content_of(file, "make the run again: remove its folder"):
+        curve: Floats = np.loadtxt(file, ndmin=2) if file.exists() else np.empty((0, 4))
     return curve if curve.size else np.empty((0, 4))
 
 
@@ -197,6 +199,8 @@ def row_of(case: Case, folder: Path, record: Record, peak_load: float) -> dict[s
     }
     if record.error:
         return row
+    if not curve.size:
+        raise ResultsError(f"{folder}/curve.txt: has no rows; make the run again: remove its folder")
     peak = curve[:, 2].max()
     last = curve[:, 1] > reached - 0.005  # the load at the end, over half a centimetre
     history = read_terrain_history(folder)

@@ -25,11 +25,13 @@ import cases
 import report
 
 from furrow_post.analyse.statistics import rms
+from furrow_post.arguments import at_least, path, positive
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
+from furrow_post.program import run_program
 from furrow_post.study.case import Case
-from furrow_post.study.launch import Interrupted, Tools
+from furrow_post.study.launch import Tools
 from furrow_post.study.output import Output
 from furrow_post.study.record import Record
 from furrow_post.study.runner import Runner
@@ -165,13 +167,27 @@ def parse() -> argparse.Namespace:
     parser.add_argument(
         "--start", nargs="+", metavar="NAME=VALUE", default=[], help="instead of START"
     )
-    parser.add_argument("--iterations", type=int, default=4)
-    parser.add_argument("--results", type=Path, help="as of run.py")
-    parser.add_argument("--build", type=Path, help="as of run.py")
+    parser.add_argument("--iterations", type=at_least(1), default=4)
+    parser.add_argument("--results", type=path, help="as of run.py")
+    parser.add_argument("--build", type=path, help="as of run.py")
     parsed = parser.parse_args()
     if parsed.search and len(parsed.search) > 3:
         parser.error("at most three parameters")
     return parsed
+
+
+def start_values(pairs: Sequence[str], known: Parameters) -> Parameters:
+    """Of "NAME=VALUE". @raises ResultsError for another name, or a value not above 0"""
+    given: Parameters = {}
+    for pair in pairs:
+        name, _, value = pair.partition("=")
+        if name not in known:
+            raise ResultsError(f"--start {pair}: NAME is one of {', '.join(known)}")
+        try:
+            given[name] = positive(value)
+        except argparse.ArgumentTypeError as error:
+            raise ResultsError(f"--start {pair}: {error}") from error
+    return given
 
 
 def identify(parsed: argparse.Namespace) -> None:
@@ -187,8 +203,7 @@ def identify(parsed: argparse.Namespace) -> None:
         made.append(record)
         return report.row_of(case, runner.folder(case), record)
 
-    given = {name: float(value) for name, value in (pair.split("=") for pair in parsed.start)}
-    start = {**START[parsed.mode], **given}
+    start = {**START[parsed.mode], **start_values(parsed.start, START[parsed.mode])}
     search = Search(parsed.mode, parsed.search or SEARCHED[parsed.mode], start, make)
     best = search.run(parsed.iterations)
     print(f"best:\n{aligned([best])}\n")
@@ -201,7 +216,4 @@ def identify(parsed: argparse.Namespace) -> None:
 
 
 if __name__ == "__main__":
-    try:
-        identify(parse())
-    except (ResultsError, Interrupted) as error:
-        sys.exit(f"identify.py: {error}")
+    sys.exit(run_program("snow_wheel/identify.py", lambda: identify(parse())))

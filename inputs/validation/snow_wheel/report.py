@@ -15,6 +15,7 @@ from furrow_post.analyse import empirical
 from furrow_post.analyse.rut import rut_densities, rut_depth
 from furrow_post.analyse.statistics import rms
 from furrow_post.arrays import Floats
+from furrow_post.csv_table import read_matrix
 from furrow_post.figures.style import save
 from furrow_post.figures.terrain import draw_terrain
 from furrow_post.read.results import Results
@@ -50,7 +51,7 @@ def row_of(case: Case, folder: Path, record: Record) -> Row:
     if record.error:
         return row
     wheel, terrain = Results(folder).columns, read_terrain_history(folder)
-    contact = np.loadtxt(folder / "contact.txt")
+    contact = read_matrix(folder / "contact.txt", 3)
     x = wheel["x"] - wheel["x"][0]
     end = float(x[-1])
     start, middle = end - cases.WINDOW, end - cases.WINDOW / 2

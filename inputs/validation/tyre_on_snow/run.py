@@ -18,6 +18,7 @@ sys.path.insert(0, str(PROJECT / "postproc"))
 
 from furrow_post.analyse.statistics import block_mean, drift
 from furrow_post.arrays import Booleans, Floats
+from furrow_post.csv_table import read_matrix
 from furrow_post.errors import ResultsError
 from furrow_post.read.results import Results
 from furrow_post.read.terrain import read_terrain_fields
@@ -116,7 +117,7 @@ def deflections(
 
     last: rows of the window; nodes (n, 3) [m] of the tyre at the end
     """
-    watch = np.loadtxt(folder / "watch.txt")
+    watch = read_matrix(folder / "watch.txt", 3)
     watched = watch[:, 0] * TIME_STEP > history["time"][last][0]
     lowest = watch[watched, 2].mean()
     # Half a model: column 0 of the tread is the middle

@@ -25,6 +25,7 @@ from ..read.wheel_run import WheelRun
 from . import cost_table, empirical
 from .cost_table import Components, Family, FamilyKey
 from .density import sections, track_density
+from .statistics import commonest
 from .verdict import COVERAGE, QUANTITIES, Agreement, Quantity, Verdict, joined, quantities_with
 from .wheel_histories import cruise_history, settling_curve
 
@@ -230,6 +231,8 @@ def read_measured(
 
 def measured_entries(path: Path, run: WheelRun) -> list[Entry]:
     density = run.number("density") if "density" in run.conditions else None
+    if not math.isfinite(run.number("depth")):
+        raise ResultsError(f"{run.label}: has no terrain; --measured needs its depth")
     measured = read_measured(path, run.number("depth"), density)
     note = f"mean and scatter of {measured.tests} tests"
     values = (
@@ -292,6 +295,9 @@ def compare(
     are not comparable
     """
     runs = uniquely_labelled(runs)
+    labels = [run.label for run in runs]
+    if len(set(labels)) < len(labels):
+        raise ResultsError(f"two runs are called '{commonest(labels)}'; write LABEL=FOLDER")
     differences = incomparable(runs)
     if differences and not anyway:
         raise ResultsError(

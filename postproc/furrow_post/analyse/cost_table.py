@@ -10,6 +10,7 @@ run of the same size; a packing's standard deviation is that of one run.
 
 import csv
 import math
+import shlex
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
@@ -18,7 +19,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from ..csv_table import read_comments, read_rows
-from ..errors import ResultsError
+from ..errors import ResultsError, content_of
 from ..read.wheel_run import WheelRun
 from .statistics import commonest
 from .verdict import QUANTITIES
@@ -100,16 +101,20 @@ def read_table(path: Path) -> tuple[list[Row], list[str]]:
     if missing:
         lacking = "rows" if not rows else f"column {missing[0]}"
         raise ResultsError(f"{path}: has no {lacking}; columns are {', '.join(HEADER)}")
-    try:
+    with content_of(path, "write the table again with 'furrow-post cost RESULTS... --write TABLE'"):
         return [_parsed(row) for row in rows], comments
-    except ValueError as error:
-        raise ResultsError(f"{path}: {error}") from error
 
 
 def _parsed(row: dict[str, str]) -> Row:
-    """@raises ValueError where a number is none"""
+    """@raises ValueError where a number is none, or a size is not above 0"""
     values: dict[str, Any] = {name: row[name] for name in HEADER}
     values.update({name: float(row[name]) for name in NUMERIC})
+    for name in ("sinkage", "coefficient"):
+        if not math.isfinite(values[name]):
+            raise ValueError(f"run '{row['run']}': {name} is {row[name]}")
+    if values["size"] <= 0 or math.isinf(values["size"]):  # NaN: a run without terrain
+        raise ValueError(f"run '{row['run']}': size is {row['size']}")
+    shlex.split(row["options"])
     return Row(**values)
 
 

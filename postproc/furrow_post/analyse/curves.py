@@ -17,10 +17,10 @@ import h5py
 import numpy as np
 
 from ..arrays import Booleans, Floats
-from ..errors import ResultsError
+from ..errors import ResultsError, content_of
 from ..formatting import percent
 from ..read.laboratory import LaboratoryTest, PointRun, cell_curve
-from .statistics import rms
+from .statistics import commonest, rms
 from .verdict import COVERAGE, Agreement
 
 PLATE_LEVELS = (0.05, 0.1, 0.2, 0.3, 0.5)  # sinkage over depth of the ground
@@ -100,11 +100,14 @@ def read_curve(folder: Path | str, label: str | None = None) -> Curve:
     if test.kind == "plate":
         rows = test.curve()
         rows = rows[rows[:, 1] > 0]
+        if len(rows) < 2:
+            raise ResultsError(f"{folder}: the plate does not come into the ground; run it longer")
         x, y, noise = _smoothed(rows[:, 1], rows[:, 3])
         ground = test.facts.get("family", "grains")
         return Curve(label or folder.name, CurveKind.PLATE, ground, x, y, facts, noise)
     if test.kind == "oedometer":
-        _, stress, density = cell_curve(test.curve())
+        with content_of(folder, "run the test again"):
+            _, stress, density = cell_curve(test.curve())
         axial = np.maximum.accumulate(np.maximum(stress[:, 2], 1e-3))
         end = int(np.argmax(stress[:, 2])) + 1
         facts["density"] = float(density[0])  # that of the facts is of a grain's substance
@@ -122,6 +125,11 @@ def read_curve(folder: Path | str, label: str | None = None) -> Curve:
 
 def _point_curve(point: PointRun, label: str | None) -> Curve:
     stress, density = point.columns["axial_stress"], point.columns["density"]
+    if len(stress) < 2 or not (stress.max() > 1.0 and density.min() > 0):
+        raise ResultsError(
+            f"{point.columns.file}: is no compression; compare takes oedometers ('furrow-point "
+            "run' of a confined path)"
+        )
     end = int(np.argmax(stress)) + 1
     rising = np.maximum.accumulate(stress[:end])
     keep = rising > 1.0
@@ -154,6 +162,9 @@ class CurveComparison:
 
 def compare_curves(curves: Sequence[Curve], anyway: bool = False) -> CurveComparison:
     """Values at common levels. @raises ResultsError where tests are not the same"""
+    labels = [curve.label for curve in curves]
+    if len(set(labels)) < len(labels):
+        raise ResultsError(f"two curves are called '{commonest(labels)}'; write LABEL=FOLDER")
     kinds = {curve.kind for curve in curves}
     if len(kinds) > 1:
         what = ", ".join(f"{c.label} is a {c.kind.value}" for c in curves)

@@ -72,6 +72,13 @@ class Prediction:
     outside: tuple[str, ...] = ()  # the limits that are not met, in words
     extra: tuple[Result, ...] = ()
 
+    def __post_init__(self) -> None:
+        values = (self.sinkage, self.resistance, self.load, *(r.value for r in self.extra))
+        if not np.isfinite(values).all():
+            raise ResultsError(
+                f"{self.method}: gives no finite number for these values; check their units (SI)"
+            )
+
     @property
     def coefficient(self) -> float:
         return self.resistance / self.load
@@ -107,6 +114,13 @@ def _outside(method: str, limits: Sequence[Limit], extrapolate: bool) -> tuple[s
             "same, and says so"
         )
     return outside
+
+
+def _require_positive(method: str, **values: float) -> None:
+    """@raises ResultsError naming the first that is not a finite number above 0"""
+    for name, value in values.items():
+        if not (math.isfinite(value) and value > 0):
+            raise ResultsError(f"{method}: {name} is {value:g}, a finite number above 0 is needed")
 
 
 # --- snow -----------------------------------------------------------------------------------------
@@ -167,6 +181,8 @@ def nrmm(
     load [N], radius, width, depth, sinkage [m], density [kg/m3], pressure [Pa] the largest contact
     pressure. @raises OutOfRange
     """
+    sizes = {"load": load, "radius": radius, "width": width, "depth": depth}
+    _require_positive("NRMM", **sizes, density=density, pressure=pressure)
     z = nrmm_sinkage(depth, density, pressure) if sinkage is None else sinkage
     final = nrmm_final_density(pressure)
     why = f"within 10 % of the wheel of {NRMM_TESTS}"
@@ -176,6 +192,7 @@ def nrmm(
             Limit("density", density, *NRMM_DENSITY, "kg/m3", NRMM_TESTS),
             Limit("depth", depth, *NRMM_DEPTH, "m", NRMM_TESTS),
             Limit("wheel radius", radius, *NRMM_RADIUS, "m", why),
+            Limit("sinkage", z, -math.inf, depth, "m", "the snow is not deeper"),
             Limit(
                 "final over initial density",
                 final / density,
@@ -266,6 +283,7 @@ def bekker(
     z = (3 W/((3 - n) b k sqrt(D)))^(2/(2n+1)), R = b k z^(n+1)/(n+1). load [N], diameter and width
     [m]. @raises OutOfRange
     """
+    _require_positive("Bekker's wheel", load=load, diameter=diameter, width=width)
     k, n = ground.modulus(width), ground.n
     z = (3 * load / ((3 - n) * width * k * np.sqrt(diameter))) ** (2 / (2 * n + 1))
     series = "Wong: for n up to 1.3, the series of the load integral is cut after two terms"
@@ -331,6 +349,7 @@ def wong_reece(
     is not here). The resistance is minus the drawbar pull. @raises OutOfRange; ResultsError where
     terrains.csv has no K, c1 or c2 for this ground
     """
+    _require_positive("Wong-Reece", load=load, diameter=diameter, width=width)
     lacking = [name for name in ("K", "c1", "c2") if not np.isfinite(getattr(ground, name))]
     if lacking:
         complete = [t.name for t in terrains().values() if np.isfinite([t.K, t.c1, t.c2]).all()]

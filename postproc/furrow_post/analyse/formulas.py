@@ -26,7 +26,13 @@ def _prediction(run: WheelRun, name: str, extrapolate: bool) -> Prediction:
                 f"{run.label}: the density of its ground is not known; NRMM needs it"
             )
         depth, density = run.number("depth"), run.number("density")
-        pressure = float(what or "nan")
+        try:
+            pressure = float(what)
+        except ValueError:
+            raise ResultsError(
+                f"formula '{name}': write nrmm:PRESSURE with the largest contact pressure in Pa, "
+                "e.g. nrmm:179e3"
+            ) from None
         return empirical.nrmm(
             load, run.radius, width, depth, density, pressure, extrapolate=extrapolate
         )

@@ -15,8 +15,9 @@ import numpy as np
 from scipy.optimize import curve_fit, least_squares
 
 from ..arrays import Booleans, Floats
-from ..errors import ResultsError
+from ..errors import ResultsError, content_of
 from ..read.laboratory import LaboratoryTest, PointRun, cell_curve, read_oedometer_reference
+from ..read.results import require_different
 from .statistics import block_mean, line_fit, rms
 
 Oedometer = list[tuple[float, float]]  # (density [kg/m3], axial stress [Pa]), rising
@@ -40,8 +41,10 @@ class LaboratoryQuantity:
 
 
 def evaluate(test: LaboratoryTest) -> list[LaboratoryQuantity]:
-    """What one test gives."""
-    return EVALUATIONS[test.kind](test)
+    """What one test gives. @raises ResultsError where its curve or deposit is no such test's"""
+    remedy = "was the run stopped, or too short? Make it again"
+    with content_of(test.folder, remedy), np.errstate(all="ignore"):
+        return EVALUATIONS[test.kind](test)
 
 
 def values_of(test: LaboratoryTest) -> dict[str, float]:
@@ -62,8 +65,15 @@ def _around_peak(values: Floats) -> tuple[int, int, float]:
     return int(np.argmax(smooth)) + window // 2, window, float(smooth.max())
 
 
+def _require_compressed(strain: Floats, stress: Floats) -> None:
+    """@raises ValueError where a cell was not compressed along z, or carried nothing"""
+    if not (strain[:, 2].max() > 0 and stress[:, 2].max() > 0):
+        raise ValueError("the cell is not compressed, or carries nothing")
+
+
 def oedometer(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     strain, stress, density = cell_curve(test.curve())
+    _require_compressed(strain, stress)
     axial = stress[:, 2]
     loading = slice(0, int(np.argmax(axial)) + 1)
     lateral = 0.5 * (stress[loading, 0] + stress[loading, 1]) / np.maximum(axial[loading], 1e-30)
@@ -130,6 +140,7 @@ def reference_error(
 def triaxial(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     rows = test.curve()
     strain, stress, density = cell_curve(rows)
+    _require_compressed(strain, stress)
     lateral, axial = 0.5 * (stress[:, 0] + stress[:, 1]), stress[:, 2]
     deviator = axial - lateral
     peak, window, largest = _around_peak(deviator)
@@ -290,6 +301,8 @@ def plate(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     """Bekker's p = k z^n of one plate."""
     rows = test.curve()
     z, pressure = rows[:, 1], rows[:, 3]
+    if not (z.max() > 0 and pressure.max() > 0):
+        raise ValueError("the plate does not come into the ground, or carries nothing")
     size = test.number("size")
     late = (z > 0.1 * z.max()) & (pressure > 0)
     n, log_k, covariance = line_fit(np.log(z[late]), np.log(pressure[late]))
@@ -323,12 +336,14 @@ def together(tests: Sequence[LaboratoryTest]) -> list[LaboratoryQuantity]:
     if len(tests) < 2 or len(kinds) != 1:
         return []
     kind = kinds.pop()
-    if kind == "shear":
-        return _shear_strength(tests)
-    if kind == "triaxial":
-        return _triaxial_strength(tests)
-    if kind == "plate" and len({test.facts["size"] for test in tests}) > 1:
-        return _bekker_of_plates(tests)
+    remedy = "lay tests of different sizes or stresses together"
+    with content_of(", ".join(str(test.folder) for test in tests), remedy):
+        if kind == "shear":
+            return _shear_strength(tests)
+        if kind == "triaxial":
+            return _triaxial_strength(tests)
+        if kind == "plate" and len({test.number("size") for test in tests}) > 1:
+            return _bekker_of_plates(tests)
     return []
 
 
@@ -419,6 +434,7 @@ def report_tests(
 
     reference: of an oedometer; points: results folders of furrow-point. @raises ResultsError
     """
+    require_different(folders)
     tests = [LaboratoryTest(folder) for folder in folders]
     measured = read_oedometer_reference(reference) if reference else None
     lines = []
@@ -450,4 +466,4 @@ def write_json(test: LaboratoryTest, quantities: Sequence[LaboratoryQuantity]) -
         for q in quantities
     }
     text = json.dumps({"facts": test.facts, "quantities": content}, indent=1, allow_nan=False)
-    (test.folder / "laboratory.json").write_text(text)
+    (test.folder / "laboratory.json").write_text(text, encoding="utf-8")

@@ -4,18 +4,17 @@
 import argparse
 import shlex
 import sys
-from pathlib import Path
 
 from ..analyse import choice, cost, cost_table
+from ..arguments import fraction, path
 from ..errors import ResultsError
 from ..read.wheel_run import read_wheel_run
-from .comparison import fraction
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("table", type=Path)
+    parser.add_argument("table", type=path)
     parser.add_argument("--error", type=fraction, required=True)
-    parser.add_argument("--held", type=Path, help="results folder of the run that was chosen")
+    parser.add_argument("--held", type=path, help="results folder of the run that was chosen")
 
 
 def run(arguments: argparse.Namespace) -> None:

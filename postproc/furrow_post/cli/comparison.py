@@ -2,12 +2,13 @@
 """Arguments of the subcommands that compare runs, and the comparison that they ask for."""
 
 import argparse
-from pathlib import Path
 from typing import NamedTuple
 
 from ..analyse import cost_table
 from ..analyse.comparison import Comparison, compare
 from ..analyse.formulas import predictions_for
+from ..arguments import path, words
+from ..read.results import require_different
 from ..read.wheel_run import read_wheel_run
 
 
@@ -21,22 +22,15 @@ class Labelled(NamedTuple):
 def labelled(text: str) -> Labelled:
     """Of FOLDER or LABEL=FOLDER."""
     head, equals, tail = text.partition("=")
-    return Labelled(tail, head) if equals else Labelled(head, None)
-
-
-def fraction(text: str) -> float:
-    """0.1 of "10%" or "0.1". @raises ValueError outside of (0, 1)"""
-    value = float(text[:-1]) / 100 if text.endswith("%") else float(text)
-    if not 0 < value < 1:
-        raise ValueError
-    return value
+    words(tail if equals else head)
+    return Labelled(tail, words(head)) if equals else Labelled(head, None)
 
 
 def add_comparison_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("results", nargs="+", type=labelled, help="results folder, or LABEL=FOLDER")
     parser.add_argument(
         "--errors",
-        type=Path,
+        type=path,
         help="table of runs of the scene (inputs/costs): errors of size, domain, packing",
     )
     parser.add_argument(
@@ -47,7 +41,7 @@ def add_comparison_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--measured",
-        type=Path,
+        type=path,
         help="reference.csv with depth_m, sinkage_m, resistance, density_kgm3",
     )
     parser.add_argument(
@@ -60,6 +54,7 @@ def add_comparison_arguments(parser: argparse.ArgumentParser) -> None:
 
 def compared(arguments: argparse.Namespace) -> Comparison:
     """@raises ResultsError with every reason why the runs are not comparable"""
+    require_different([folder for folder, _ in arguments.results])
     runs = [read_wheel_run(folder, label) for folder, label in arguments.results]
     table = cost_table.read_table(arguments.errors)[0] if arguments.errors else None
     formulas = predictions_for(runs[0], arguments.formula, arguments.extrapolate)

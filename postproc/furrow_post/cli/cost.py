@@ -5,9 +5,12 @@ import argparse
 from pathlib import Path
 
 from ..analyse import cost, cost_table
+from ..arguments import fraction, path
 from ..figures.cost import draw_cost
+from ..read.results import require_different
 from ..read.wheel_run import read_wheel_run
-from .comparison import fraction, labelled
+from .comparison import labelled
+from .output import require_picture
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -18,12 +21,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--error", type=fraction, default=0.1, help="wanted relative error, e.g. 10%% (default)"
     )
     parser.add_argument(
-        "--write", type=Path, help="also write the table of runs, as inputs/costs has them"
+        "--write", type=path, help="also write the table of runs, as inputs/costs has them"
     )
-    parser.add_argument("-o", "--output", type=Path, help="figure (default: cost.png)")
+    parser.add_argument("-o", "--output", type=path, help="figure (default: cost.png)")
 
 
 def run(arguments: argparse.Namespace) -> None:
+    target: Path = arguments.output or Path("cost.png")
+    require_picture(target)
+    require_different(arguments.results)
     rows: list[cost_table.Row] = []
     comments: list[str] = []
     for text in arguments.results:
@@ -36,7 +42,6 @@ def run(arguments: argparse.Namespace) -> None:
         cost_table.write_table(arguments.write, rows, comments)
     assessed = cost.assess(rows, cost_table.wanted_wheel(comments))
     print(cost.cost_report(assessed, arguments.error))
-    target = arguments.output or Path("cost.png")
     draw_cost(assessed, arguments.error, target)
     cost.write_csv(target.with_suffix(".csv"), assessed)
     print(f"\n{target}, {target.with_suffix('.csv')}")

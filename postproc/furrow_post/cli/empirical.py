@@ -4,6 +4,7 @@
 import argparse
 
 from ..analyse import empirical
+from ..arguments import between, positive
 from ..errors import ResultsError
 
 OPTIONS = {  # option -> unit and meaning
@@ -21,12 +22,14 @@ NEEDED = {  # method -> what it cannot do without
     "bekker": ("load", "diameter", "width", "terrain"),
     "wong_reece": ("load", "diameter", "width", "terrain", "slip"),
 }
+FURTHER = {"nrmm": ("sinkage",)}  # method -> what it may have besides
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("method", choices=NEEDED)
     for name, unit in OPTIONS.items():
-        parser.add_argument(f"--{name}", type=float, help=unit)
+        kind = between(0.0, 1.0) if name == "slip" else positive
+        parser.add_argument(f"--{name}", type=kind, help=unit)
     terrains = "name in furrow_post/analyse/terrains.csv, e.g. 'LETE sand'"
     parser.add_argument("--terrain", help=terrains)
     parser.add_argument(
@@ -41,6 +44,11 @@ def run(arguments: argparse.Namespace) -> None:
     if missing:
         options = ", ".join(f"--{name}" for name in missing)
         raise ResultsError(f"empirical {arguments.method} needs {options}")
+    given = {name for name in (*OPTIONS, "terrain") if getattr(arguments, name) is not None}
+    unread = given - {*NEEDED[arguments.method], *FURTHER.get(arguments.method, ())}
+    if unread:
+        options = ", ".join(f"--{name}" for name in sorted(unread))
+        raise ResultsError(f"empirical {arguments.method} does not read {options}; leave it out")
     print(_prediction(arguments).report())
 
 

@@ -2,9 +2,9 @@
 """furrow-post laboratory: evaluates tests of inputs/laboratory."""
 
 import argparse
-from pathlib import Path
 
 from ..analyse.laboratory import report_tests
+from ..arguments import path, words
 from ..figures.laboratory import draw_laboratory
 from .output import add_output, target
 
@@ -13,16 +13,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "folders",
         nargs="+",
+        type=words,
         metavar="results",
         help="results folders of one test of inputs/laboratory",
     )
     parser.add_argument(
         "--reference",
-        type=Path,
+        type=path,
         help="reference.csv of an oedometer, with columns rho_kgm3 and sigma1_Pa",
     )
     parser.add_argument(
         "--point",
+        type=words,
         action="append",
         default=[],
         help="results folder of furrow-point with the same path, to lay beside",

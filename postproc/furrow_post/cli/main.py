@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Protocol, cast
 
 from .. import __version__
-from ..errors import ResultsError
+from ..program import run_program
 
 DESCRIPTION = "Steady values, plots, pictures and comparisons of Furrow's results folders."
 
@@ -70,6 +70,9 @@ SUBCOMMANDS = (
         "for 'inputs/run SCENE --error': the run of a table to make, and whether its estimate held",
     ),
     Subcommand(
+        "variables", "the variables of a script that 'inputs/run SCRIPT -v NAME VALUE' may set"
+    ),
+    Subcommand(
         "report",
         "one self-contained page on runs and their comparison "
         "-> report.html, report.csv, report.h5",
@@ -99,12 +102,11 @@ def parser(chosen: str) -> argparse.ArgumentParser:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs a subcommand; the result is the exit status."""
     given = list(sys.argv[1:] if arguments is None else arguments)
-    if given[:1] == ["resistance"]:
-        given.insert(1, "--")  # its options are those of another program
-    try:
+
+    def run() -> None:
+        if given[:1] == ["resistance"]:
+            given.insert(1, "--")  # its options are those of another program
         parsed = parser(given[0] if given else "").parse_args(given)
         parsed.run(parsed)
-    except (ResultsError, OSError) as error:
-        print(f"furrow-post: {error}", file=sys.stderr)
-        return 1
-    return 0
+
+    return run_program("furrow-post", run)

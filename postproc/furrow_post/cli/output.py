@@ -4,21 +4,40 @@
 import argparse
 from pathlib import Path
 
+from ..arguments import path, words
+from ..errors import ResultsError
+
 FORMATS = ("png", "svg", "pdf")
 
 
 def add_results(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("results", help="results folder of a run, or its history.h5")
+    parser.add_argument("results", type=words, help="results folder of a run, or its history.h5")
 
 
 def add_output(
     parser: argparse.ArgumentParser, text: str = "file to write (default: in the results folder)"
 ) -> None:
-    parser.add_argument("-o", "--output", type=Path, help=text)
-    parser.add_argument("--format", choices=FORMATS, default=FORMATS[0], help="default: png")
+    parser.add_argument("-o", "--output", type=path, help=text)
+    parser.add_argument("--format", choices=FORMATS, help="default: that of --output, or png")
 
 
 def target(arguments: argparse.Namespace, folder: Path, name: str) -> Path:
-    """The file to write: as asked for, or of this name in a folder."""
+    """The file to write: as asked for, or of this name in a folder. @raises ResultsError"""
     asked: Path | None = arguments.output
-    return asked or folder / f"{name}.{arguments.format}"
+    wanted: str | None = arguments.format
+    if asked is None:
+        return folder / f"{name}.{wanted or FORMATS[0]}"
+    require_picture(asked)
+    if wanted and asked.suffix != f".{wanted}":
+        raise ResultsError(f"-o {asked}: is no {wanted}; leave out --format, or change the name")
+    return asked
+
+
+def require_picture(file: Path) -> None:
+    """@raises ResultsError for a name that no figure can have"""
+    if file.is_dir():
+        raise ResultsError(f"-o {file}: is a folder; name a file in it")
+    if file.suffix[1:] not in FORMATS:
+        raise ResultsError(f"-o {file}: its name ends in none of .{', .'.join(FORMATS)}")
+    if not file.parent.is_dir():
+        raise ResultsError(f"-o {file}: there is no folder {file.parent}; make it first")

@@ -2,13 +2,13 @@
 """furrow-post point: the figure of a results folder of furrow-point, which calls this."""
 
 import argparse
-from pathlib import Path
 
+from ..arguments import path
 from ..figures.point import draw_point
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("results", type=Path, help="results folder of furrow-point")
+    parser.add_argument("results", type=path, help="results folder of furrow-point")
 
 
 def run(arguments: argparse.Namespace) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ..analyse import cost, cost_table
 from ..analyse.comparison import Comparison, write_comparison
+from ..arguments import path
 from ..errors import ResultsError
 from ..figures.comparison import draw_comparison
 from ..figures.cost import draw_cost
@@ -36,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o",
         "--output",
-        type=Path,
+        type=path,
         help="page to write (default: report.html in or beside the results)",
     )
 
@@ -48,6 +49,8 @@ def run(arguments: argparse.Namespace) -> None:
     target: Path = arguments.output or folder / "report.html"
     if target.suffix != ".html":
         raise ResultsError(f"{target}: a report's name ends in .html")
+    if target.is_dir():
+        raise ResultsError(f"-o {target}: is a folder; name a file in it")
     target.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as scratch:
         numbers = Path(scratch) / "numbers"

@@ -2,13 +2,13 @@
 """furrow-post sidewall: the figure of a results folder of furrow-sidewall, which calls this."""
 
 import argparse
-from pathlib import Path
 
+from ..arguments import path
 from ..figures.sidewall import draw_sidewall
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("results", type=Path, help="results folder of furrow-sidewall")
+    parser.add_argument("results", type=path, help="results folder of furrow-sidewall")
 
 
 def run(arguments: argparse.Namespace) -> None:

@@ -4,6 +4,7 @@
 import argparse
 from pathlib import Path
 
+from ..errors import ResultsError
 from ..figures.terrain import draw_terrain
 from ..read.results import Results
 from ..read.summary import Summary
@@ -17,6 +18,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     given = Path(arguments.results)
+    if not given.exists():
+        raise ResultsError(f"{given}: no such file; name the results folder of a run")
     folder = given if given.is_dir() else given.parent
     has_history = (folder / "history.h5").is_file()
     title = Results(folder).title if has_history else folder.resolve().name

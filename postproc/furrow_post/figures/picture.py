@@ -12,6 +12,7 @@ from matplotlib.colors import Normalize, TwoSlopeNorm
 from matplotlib.figure import Figure
 
 from ..arrays import Floats, Integers
+from ..errors import ResultsError
 from ..read.results import Results, Surface
 from . import render
 from .style import (
@@ -123,6 +124,8 @@ def draw_picture(results: Results, numbers: str, target: Path, pixels: int = 150
     ResultsError when the run kept no grains
     """
     use_style()
+    if not len(results.grains("final").id):
+        raise ResultsError(f"{results.file}: has no grains at the end; there is nothing to draw")
     scene = Scene(results)
     cross = scene.cross_section
     figure = plt.figure(layout="constrained")

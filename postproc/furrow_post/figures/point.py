@@ -5,13 +5,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from ..arrays import Booleans, Floats, Integers
+from ..errors import ResultsError
+from ..read.hdf5 import opened
 from ..read.results import decoded
 from .style import annotate_panel, panel_letters, save, use_style
 
@@ -46,9 +47,18 @@ YieldSurface = tuple[Floats, Floats]  # p, q [Pa]
 
 
 def draw_point(folder: Path) -> Path:
-    """Draws the results folder of furrow-point run or fit, and returns the figure's path."""
+    """Draws the results folder of furrow-point run or fit, and returns the figure's path.
+
+    @raises ResultsError where it is none
+    """
     use_style()
-    return draw_path(folder) if (folder / "point.h5").exists() else draw_fit(folder)
+    if (folder / "point.h5").exists():
+        return draw_path(folder)
+    if (folder / "fit.h5").exists():
+        return draw_fit(folder)
+    raise ResultsError(
+        f"{folder}: has neither point.h5 nor fit.h5; name the results folder of furrow-point"
+    )
 
 
 def _attributes(item: Any) -> dict[str, Any]:
@@ -94,7 +104,7 @@ def _spans_decades(targets: Floats) -> bool:
 
 def draw_path(folder: Path) -> Path:
     """point.png: stress path with yield surfaces, stress and strain, volume."""
-    with h5py.File(folder / "point.h5") as file:
+    with opened(folder / "point.h5") as file:
         point = {name: dataset[...] for name, dataset in file["point"].items()}
         head = _attributes(file["point"])
         surfaces = [
@@ -185,7 +195,7 @@ def _draw_pair(axes: Axes, point: Channels, x_name: str, y_name: str) -> None:
 
 def draw_fit(folder: Path) -> Path:
     """fit.png: every measured curve with the law before and after, and the parameters."""
-    with h5py.File(folder / "fit.h5") as file:
+    with opened(folder / "fit.h5") as file:
         heading = _attributes(file["curves"])["title"]
         curves = [
             {name: dataset[...] for name, dataset in group.items()} | _attributes(group)

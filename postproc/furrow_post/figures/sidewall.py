@@ -5,12 +5,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 
 from ..arrays import Floats
+from ..read.hdf5 import opened
 from ..read.results import decoded
 from .style import MILLIMETRE, annotate_panel, save, use_style
 
@@ -32,7 +32,7 @@ class Profile(NamedTuple):
 def draw_sidewall(folder: Path) -> Path:
     """Draws sidewall.h5 of a results folder, and returns the figure's path."""
     use_style()
-    with h5py.File(folder / "sidewall.h5") as file:
+    with opened(folder / "sidewall.h5") as file:
         curves: dict[str, Curve] = {
             name: {key: data[...] for key, data in file[name].items()}
             for name in ("deflection", "lateral")

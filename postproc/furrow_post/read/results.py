@@ -1,16 +1,20 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Reading history.h5, the results file of a run (its layout: src/io/history_file.h)."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import h5py
 import numpy as np
 
 from ..arrays import Floats, Integers
 from ..errors import ResultsError
+from ..fields import Fields
+from .hdf5 import opened
 from .styles import Styles
+
+REPEAT = "repeat the run, into a folder of its own"
 
 
 def decoded(value: Any) -> str:
@@ -32,6 +36,14 @@ def require_layout(content: Any, file: Path) -> None:
             "/run/styles. Read it with the furrow-post of the source tree that made the run, or "
             "repeat the run"
         )
+
+
+def require_different(folders: Sequence[Path | str]) -> None:
+    """@raises ResultsError where one results folder is named twice"""
+    places = [Path(folder).resolve() for folder in folders]
+    for folder, place in zip(folders, places):
+        if places.count(place) > 1:
+            raise ResultsError(f"{folder}: is given twice; name each results folder once")
 
 
 class Surface(NamedTuple):
@@ -86,22 +98,21 @@ class Results:
             raise ResultsError(
                 f"{self.file}: no such file; name the results folder of a run, or its history.h5"
             )
-        try:
-            with h5py.File(self.file, "r") as content:
-                require_layout(content, self.file)
-                self._read(content)
-        except (OSError, KeyError) as error:
-            raise ResultsError(f"{self.file}: is not a results file of Furrow ({error})") from error
+        with opened(self.file) as content:
+            require_layout(content, self.file)
+            self._read(content)
+        _require_history(self.columns, self.file)
 
     def _read(self, content: Any) -> None:
         self.run = {name: decoded(value) for name, value in content["run"].attrs.items()}
-        self.columns: dict[str, Floats] = {}
+        columns: dict[str, Floats] = {}
         self.units: dict[str, str] = {}
         self.meanings: dict[str, str] = {}
         for name, data in content["history"].items():
-            self.columns[name] = data[()]
+            columns[name] = data[()]
             self.units[name] = decoded(data.attrs["unit"])
             self.meanings[name] = decoded(data.attrs["meaning"])
+        self.columns = Fields(self.file, columns, REPEAT)
 
     @property
     def title(self) -> str:
@@ -110,25 +121,25 @@ class Results:
     @property
     def has_grains(self) -> bool:
         """Whether the run kept grains; continuum terrain has its own file, terrain.h5."""
-        with h5py.File(self.file, "r") as content:
+        with opened(self.file) as content:
             return "grains/final" in content
 
     @property
     def effective_input(self) -> str:
         """Styles with their values, and the script, for people."""
-        with h5py.File(self.file, "r") as content:
+        with opened(self.file) as content:
             return decoded(content["run/effective_input"][()])
 
     @property
     def cost(self) -> dict[str, float]:
         """Attributes of /cost: wall_time [s], ranks, ...; empty for a run that did not end."""
-        with h5py.File(self.file, "r") as content:
+        with opened(self.file) as content:
             attributes: Any = content["cost"].attrs if "cost" in content else {}
             return {name: float(value) for name, value in attributes.items()}
 
     def styles(self) -> Styles:
         """@raises ResultsError where /run/styles is not what a writer puts there"""
-        with h5py.File(self.file, "r") as content:
+        with opened(self.file) as content:
             text = decoded(content["run/styles"][()])
         try:
             return Styles.from_json(text)
@@ -137,20 +148,18 @@ class Results:
 
     def grains(self, when: str) -> Grains:
         """when: "reference" (the settled bed) or "final". @raises ResultsError without them"""
-        with h5py.File(self.file, "r") as content:
+        with opened(self.file) as content:
             group = content.get(f"grains/{when}")
             if group is None:
                 raise ResultsError(
                     f"{self.file}: has no /grains/{when}; a picture needs the grains of a run that "
                     "came to its end"
                 )
-            return Grains(
-                group["id"][()],
-                group["x"][()],
-                group["radius"][()],
-                group["period"][()],
-                float(group.attrs["bed_level"]),
-            )
+            number, x, radius = (group[name][()] for name in ("id", "x", "radius"))
+            fields = Fields(self.file, {"id": number, "x": x, "radius": radius}, REPEAT)
+            fields.require_rows()
+            fields.require_finite("x", "radius")
+            return Grains(number, x, radius, group["period"][()], float(group.attrs["bed_level"]))
 
     def surface(self) -> Surface | None:
         """The wheel, tyre or plate at the end, or None where the run kept none."""
@@ -158,10 +167,48 @@ class Results:
 
 
 def read_surface(file: Path) -> Surface | None:
-    """The surface of a body at the end of a run, or None where history.h5 has none or is none."""
-    try:
-        with h5py.File(file, "r") as content:
-            group = content.get("surface")
-            return None if group is None else Surface(group["triangles"][()], group["x"][()])
-    except OSError:
+    """The surface of a body at the end of a run, or None where it kept none or there is no file.
+
+    @raises ResultsError where the file is damaged
+    """
+    if not file.is_file():
         return None
+    with opened(file) as content:
+        group = content.get("surface")
+        if group is None:
+            return None
+        return _require_surface(Surface(group["triangles"][()], group["x"][()]), file)
+
+
+def _require_history(columns: Fields, file: Path) -> None:
+    """@raises ResultsError for a history without rows, of unequal columns, or back in time"""
+    for name, values in columns.items():
+        if values.ndim != 1 or values.dtype.kind not in "fiu":
+            raise ResultsError(f"{file}: channel '{name}' is no row of numbers; {REPEAT}")
+    if columns.require_rows() < 2:
+        raise ResultsError(
+            f"{file}: its history has fewer than two rows; run longer, or write it more often "
+            "('every')"
+        )
+    time = columns["time"]
+    wrong = np.flatnonzero(~(np.diff(time) > 0))
+    if len(wrong):
+        row = int(wrong[0]) + 1
+        raise ResultsError(
+            f"{file}: time does not run forwards: row {row + 1} of the history is at "
+            f"{time[row]:g} s, after {time[row - 1]:g} s; two runs wrote into one folder, or the "
+            f"file is damaged: {REPEAT}"
+        )
+    columns.require_finite(*columns)
+
+
+def _require_surface(surface: Surface, file: Path) -> Surface:
+    """@raises ResultsError for triangles of nodes that are not there"""
+    triangles, x = surface
+    if (
+        (triangles.ndim, triangles.shape[-1], x.ndim, x.shape[-1]) != (2, 3, 2, 3)
+        or not np.isfinite(x).all()
+        or not ((triangles >= 0) & (triangles < len(x))).all()
+    ):
+        raise ResultsError(f"{file}: /surface has triangles without nodes; {REPEAT}")
+    return surface

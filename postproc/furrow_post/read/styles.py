@@ -9,6 +9,7 @@ numbers, booleans or texts, with defaults filled in.
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from ..errors import ResultsError
 
@@ -52,6 +53,18 @@ class Style:
         return self.options.get(keyword, [False])[0] is True
 
 
+def _style_of(entry: dict[str, Any]) -> Style:
+    """@raises KeyError, TypeError, ValueError where the entry is no style"""
+    identity, style, kind = names = [entry[key] for key in ("id", "style", "kind")]
+    options = dict(entry["options"])
+    for keyword, values in options.items():
+        if not isinstance(values, list) or not values:
+            raise ValueError(f"'{keyword}' of {style} has no values")
+    if not all(isinstance(name, str) for name in names):
+        raise TypeError(f"{names} are no texts")
+    return Style(identity, style, kind, options)
+
+
 class Styles:
     """The styles of a run in the order of its script."""
 
@@ -61,12 +74,7 @@ class Styles:
     @classmethod
     def from_json(cls, text: str) -> "Styles":
         """@raises ValueError, KeyError, TypeError where the text is not such an array"""
-        return cls(
-            [
-                Style(entry["id"], entry["style"], entry["kind"], entry["options"])
-                for entry in json.loads(text)
-            ]
-        )
+        return cls([_style_of(entry) for entry in json.loads(text)])
 
     def of_kind(self, kind: str) -> Style | None:
         """The first of a kind, or None."""

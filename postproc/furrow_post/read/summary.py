@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..errors import ResultsError
+from ..errors import ResultsError, content_of
 from ..formatting import with_error
 
 
@@ -25,11 +25,13 @@ class Summary:
 
     def __init__(self, folder: Path) -> None:
         """@raises ResultsError where the file is not a summary"""
-        path = folder / "summary.json"
-        remedy = f"write it again with 'furrow-post resistance --write {folder}'"
+        path = self._path = folder / "summary.json"
+        remedy = self._remedy = (
+            f"write it again with 'furrow-post resistance --write {folder}'"
+        )
         content: Any = {}
         try:
-            content = json.loads(path.read_text())
+            content = json.loads(path.read_text(encoding="utf-8"))
         except FileNotFoundError:
             pass
         except (OSError, ValueError) as error:
@@ -42,7 +44,8 @@ class Summary:
     def window(self) -> tuple[float, float] | None:
         """Begin and end of the steady window [s]."""
         window = self.content.get("window")
-        return (window["start"], window["end"]) if window else None
+        with content_of(self._path, self._remedy):
+            return (float(window["start"]), float(window["end"])) if window else None
 
     @property
     def quantities(self) -> dict[str, dict[str, Any]]:
@@ -52,10 +55,12 @@ class Summary:
 
     def quantity(self, name: str) -> SteadyValue | None:
         """None where the file has no such quantity or no number for it."""
-        value = self.quantities.get(name)
-        if value is None or None in (value["mean"], value["standard_error"]):
-            return None
-        return SteadyValue(value["mean"], value["standard_error"], value["unit"], value["steady"])
+        with content_of(self._path, self._remedy):
+            value = dict(self.quantities).get(name)
+            if value is None or None in (value["mean"], value["standard_error"]):
+                return None
+            mean, error = float(value["mean"]), float(value["standard_error"])
+            return SteadyValue(mean, error, str(value["unit"]), bool(value["steady"]))
 
     def line(self) -> str:
         """For a title: "sinkage 15.8 ± 1.9 mm, resistance coefficient 0.330 ± 0.007, ..."."""

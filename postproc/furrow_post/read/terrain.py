@@ -4,11 +4,12 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-import h5py
 import numpy as np
 
 from ..arrays import Booleans, Floats
 from ..errors import ResultsError
+from ..fields import Fields
+from .hdf5 import opened
 from .results import Surface, read_surface, require_layout
 
 FILE = "terrain.h5"
@@ -22,38 +23,36 @@ def terrain_file(folder: Path) -> Path:
     """
     path = folder / FILE
     if not path.is_file() and (folder / OLD_FILE).is_file():
-        with h5py.File(folder / OLD_FILE, "r") as content:
+        with opened(folder / OLD_FILE) as content:
             require_layout(content, folder / OLD_FILE)
     return path
 
 
-def read_terrain_fields(folder: Path) -> dict[str, Floats]:
+def read_terrain_fields(folder: Path) -> Fields:
     """Field of /terrain -> its values, the first axis over the particles, at the end of a run.
 
     Fields: x, initial_position (n, 3) [m], density [kg/m3], volume [m3], compaction
     (ln(rho/rho_0)), pressure, mises, vertical_stress [Pa]. @raises ResultsError
     """
-    path = terrain_file(folder)
-    try:
-        with h5py.File(path, "r") as content:
-            require_layout(content, path)
-            return {name: data[()] for name, data in content["terrain"].items()}
-    except (OSError, KeyError) as error:
-        raise ResultsError(
-            f"{path}: has no terrain at the end of a run ({error}); give the folder of a run with "
-            "fix terrain/history that came to its end"
-        ) from error
+    return _group(folder, "terrain", "has no terrain at the end of a run")
 
 
-def read_terrain_history(folder: Path) -> dict[str, Floats]:
+def read_terrain_history(folder: Path) -> Fields:
     """Channel of /history in terrain.h5 -> its values (energies [J] over time [s])."""
+    return _group(folder, "history", "has no history")
+
+
+def _group(folder: Path, name: str, lacking: str) -> Fields:
+    """Datasets of a group of terrain.h5. @raises ResultsError"""
     path = terrain_file(folder)
-    try:
-        with h5py.File(path, "r") as content:
-            require_layout(content, path)
-            return {name: data[()] for name, data in content["history"].items()}
-    except (OSError, KeyError) as error:
-        raise ResultsError(f"{path}: has no history ({error})") from error
+    remedy = "give the folder of a run with fix terrain/history that came to its end"
+    if not path.is_file():
+        raise ResultsError(f"{path}: {lacking} (no such file); {remedy}")
+    with opened(path) as content:
+        require_layout(content, path)
+        if name not in content:
+            raise ResultsError(f"{path}: {lacking}; {remedy}")
+        return Fields(path, {key: data[()] for key, data in content[name].items()}, remedy)
 
 
 @dataclass
@@ -71,12 +70,11 @@ class Terrain:
     def read(cls, folder: Path) -> "Terrain":
         """@raises ResultsError when the run kept no terrain"""
         fields = read_terrain_fields(folder)
-        try:
-            x, initial, density, volume = (
-                fields[name] for name in ("x", "initial_position", "density", "volume")
-            )
-        except KeyError as error:
-            raise ResultsError(f"{folder / FILE}: /terrain has no field {error}") from error
+        names = ("x", "initial_position", "density", "volume")
+        fields.require_finite(*names)
+        if fields.require_rows() == 0:
+            raise ResultsError(f"{fields.file}: has no particles; {fields.remedy}")
+        x, initial, density, volume = (fields[name] for name in names)
         spacing = [_lattice_spacing(initial[:, axis]) for axis in range(3)]
         level = float(initial[:, 2].max() + 0.5 * spacing[2])
         mass = density * volume

@@ -186,6 +186,9 @@ def _wheel_conditions(wheel: Style, results: Results) -> dict[str, Condition]:
 
 def _read_continuum(run: WheelRun, soil: Style) -> None:
     fields = read_terrain_fields(run.folder)
+    fields.require_finite("density", "compaction", "volume")
+    if fields.require_rows() == 0:
+        raise ResultsError(f"{fields.file}: has no particles; {fields.remedy}")
     density, compaction, volume = (fields[name] for name in ("density", "compaction", "volume"))
     run.size, run.elements = soil.number("cell"), len(density)
     run.half = soil.flag("symmetry")
@@ -231,6 +234,11 @@ def _read_values(run: WheelRun, reference: Grains | None) -> None:
     begin, end = summary.window
     columns = run.results.columns
     inside = (columns["time"] >= begin) & (columns["time"] <= end)
+    if not inside.any():
+        raise ResultsError(
+            f"{run.folder}: the window of summary.json, {begin:g} to {end:g} s, lies outside of "
+            f"the history; write it again with 'furrow-post resistance --write {run.folder}'"
+        )
     v = columns["velocity_x"][inside].mean()
     rim = run.radius * columns["spin_rate"][inside].mean()
     run.conditions["slip"] = Condition(float(run.values["slip"].mean))
@@ -250,5 +258,5 @@ def _read_cost(run: WheelRun) -> None:
     run.cpu_time = run.wall_time * cost.get("ranks", 1.0)
     try:  # the runner's own measurement does not count what other programs took
         run.cpu_time = float(json.loads((run.folder / "run.json").read_text())["cpu_time"])
-    except (OSError, ValueError, KeyError):
+    except (OSError, ValueError, KeyError, TypeError):
         pass

@@ -6,9 +6,15 @@ from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ..errors import ResultsError
+
 Value = str | float | int | Path
 
 FOLDER = "{folder}"  # in an argument, a variable or a file's text: the folder of the run
+
+
+def _has_blanks(path: Path) -> bool:
+    return len(str(path).split()) > 1
 
 
 @dataclass(frozen=True)
@@ -31,11 +37,18 @@ class Case:
     fallback: Mapping[str, Value] = field(default_factory=dict)  # variables of a second attempt
 
     def command(self, program: Path, folder: Path, changes: Mapping[str, Value]) -> list[str]:
-        """The command line. changes: variables that differ in this attempt"""
-        words = [str(program), *(str(argument) for argument in self.arguments)]
+        """The command line. changes: variables that differ in this attempt. @raises ResultsError"""
+        words = [str(program), *(str(word).replace(FOLDER, str(folder)) for word in self.arguments)]
+        # A run starts in its folder, which has a name without blanks from there
+        inside = str(folder) if not _has_blanks(folder) else "."
         for name, value in {**self.variables, **changes}.items():
-            words += ["-var", name, str(value)]
-        return [word.replace(FOLDER, str(folder)) for word in words]
+            if isinstance(value, Path) and _has_blanks(value):
+                raise ResultsError(
+                    f"{value}: has blanks, at which LIGGGHTS splits the value of a variable "
+                    f"({name}); move the source tree to a path without blanks"
+                )
+            words += ["-var", name, str(value).replace(FOLDER, inside)]
+        return words
 
     def identity(self, root: Path) -> dict[str, object]:
         """What tells this run from others, as JSON has it; root: of the project, which may move."""

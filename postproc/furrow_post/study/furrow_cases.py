@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Cases of the programs: a LIGGGHTS script, a laboratory test, a path of a material point."""
 
+import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -31,6 +32,7 @@ def laboratory_case(
 
 def point_case(name: str, title: str, material: Path, path: str, **more: Any) -> Case:
     """A path of a material point by furrow-point; path: its YAML mapping, "{type: ..., ...}"."""
-    text = f"title: {title}\nmaterial: {material}\npath: {path}\n"
+    quoted = json.dumps(str(material), ensure_ascii=False)  # a YAML text with any letter
+    text = f"title: {title}\nmaterial: {quoted}\npath: {path}\n"
     arguments = ("run", f"{FOLDER}/path.yaml", "-o", FOLDER, "--no-plot")
     return Case(name, "furrow-point", arguments, files={"path.yaml": text}, **more)

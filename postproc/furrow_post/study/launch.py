@@ -11,17 +11,13 @@ from dataclasses import dataclass
 from datetime import datetime, timezone
 from pathlib import Path
 
-from ..errors import ResultsError
+from ..errors import Interrupted, ResultsError
 from .case import FOLDER, Case, Value
 from .record import Record, digest, forget
 
 NICE = ("nice", "-n", "10")  # a study yields to other work
 SCREEN, ERRORS = "screen.txt", "errors.txt"  # stdout and stderr of the program
 INTERRUPTIONS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-
-
-class Interrupted(Exception):
-    """Somebody ended the run: it is neither finished nor failed."""
 
 
 def project_root(path: Path) -> Path:
@@ -117,7 +113,7 @@ def _start(case: Case, command: list[str], folder: Path) -> _Attempt:
     """Runs a command in the folder, its output into files there. @raises Interrupted"""
     began = time.monotonic()
     late = threading.Event()
-    with open(folder / SCREEN, "w") as screen, open(folder / ERRORS, "w") as errors:
+    with open(folder / SCREEN, "wb") as screen, open(folder / ERRORS, "wb") as errors:
         process = subprocess.Popen([*NICE, *command], cwd=folder, stdout=screen, stderr=errors)
 
         def stop() -> None:

@@ -54,13 +54,13 @@ class Record:
     def write(self, folder: Path) -> None:
         """Writes run.json, or failed.json for a run with an error."""
         text = json.dumps(asdict(self), indent=1)
-        (folder / (FAILED if self.error else FINISHED)).write_text(text + "\n")
+        (folder / (FAILED if self.error else FINISHED)).write_text(text + "\n", encoding="utf-8")
 
 
 def read_record(path: Path) -> Record | None:
     """None where there is no such file, or it is not one of a study."""
     try:
-        content: dict[str, Any] = json.loads(path.read_text())
+        content: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         content["stopped"] = tuple(content["stopped"])
         return Record(**content)
     except (OSError, ValueError, KeyError, TypeError):

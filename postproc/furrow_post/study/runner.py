@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from pathlib import Path
 
+from ..errors import Interrupted
 from ..formatting import duration
 from .case import Case
-from .launch import Interrupted, Tools, launch
+from .launch import Tools, launch
 from .record import FAILED, FINISHED, Record, digest, read_record
 
 

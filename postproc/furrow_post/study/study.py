@@ -8,9 +8,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ..arguments import at_least, path, words
 from ..errors import ResultsError
+from ..program import run_program
 from .case import Case
-from .launch import Interrupted, Tools
+from .launch import Tools
 from .output import Output
 from .runner import Runner, State
 
@@ -60,15 +62,10 @@ def _fits(case: Case, name: str) -> bool:
 
 def run_study(study: Study, arguments: Sequence[str] | None = None) -> int:
     """The command line of a study; the result is the exit status."""
-    parsed = _parser(study).parse_args(arguments)
-    try:
-        return _run(study, parsed)
-    except (ResultsError, Interrupted, OSError) as error:
-        print(f"{study.file.name}: {error}", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        print(f"{study.file.name}: interrupted; start again to make the rest", file=sys.stderr)
-        return 130
+    return run_program(
+        f"{study.folder.name}/{study.file.name}",
+        lambda: _run(study, _parser(study).parse_args(arguments)),
+    )
 
 
 def _parser(study: Study) -> argparse.ArgumentParser:
@@ -78,13 +75,14 @@ def _parser(study: Study) -> argparse.ArgumentParser:
     parser.add_argument(
         "names",
         nargs="*",
+        type=words,
         metavar="NAME",
         help="stages or runs to make, also as patterns such as 'row_220*' (default: all)",
     )
     parser.add_argument("--list", action="store_true", help="say what is there and what is not")
     parser.add_argument("--evaluate", action="store_true", help="make no runs, only the tables")
     parser.add_argument("--again", action="store_true", help="make failed runs again")
-    parser.add_argument("--jobs", type=int, default=1, help="runs at a time (default: 1)")
+    parser.add_argument("--jobs", type=at_least(1), default=1, help="runs at a time (default: 1)")
     parser.add_argument(
         "--check",
         action="store_true",
@@ -93,12 +91,12 @@ def _parser(study: Study) -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--results",
-        type=Path,
+        type=path,
         help="where runs are kept (default: results/<study> in the source tree)",
     )
     parser.add_argument(
         "--build",
-        type=Path,
+        type=path,
         help="build folder with the programs (default: $FURROW_BUILD, or build in the source tree)",
     )
     return parser

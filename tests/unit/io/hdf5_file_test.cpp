@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstring>
 #include <fstream>
+#include <iterator>
 
+#include "core/error.h"
 #include "io/replace_file.h"
 #include "scratch.h"
 #include "tests/support/error_of.h"
@@ -57,6 +60,40 @@ TEST(Hdf5File, KeepsNumbersTextsAndAttributes) {
   EXPECT_FALSE(file.has_attribute("/x", "unit"));
   EXPECT_TRUE(file.exists("/group/deep/numbers"));
   EXPECT_FALSE(file.exists("/group/shallow/numbers"));
+}
+
+/// Every number of a file has a checksum: one changed bit is an error, never another number.
+TEST(Hdf5File, AChangedNumberIsRefused) {
+  const Scratch scratch;
+  const std::string path = scratch.path("numbers.h5");
+  const double mark = 1234.5678;
+  {
+    Hdf5File file(path, Mode::create);
+    file.write("/fixed", std::vector<double>(100, mark));
+    file.create_growing("/growing");
+    file.append("/growing", std::vector<double>(100, mark));
+    file.close();
+  }
+  std::ifstream in(path, std::ios::binary);
+  const std::string intact{std::istreambuf_iterator<char>(in), {}};
+  std::string number(sizeof mark, '\0');
+  std::memcpy(number.data(), &mark, sizeof mark);
+  int refused = 0;
+  for (std::size_t at = intact.find(number); at != std::string::npos;
+       at = intact.find(number, at + 50 * sizeof mark)) {
+    std::string damaged = intact;
+    damaged[at] ^= 1;
+    std::ofstream(path, std::ios::binary) << damaged;
+    const Hdf5File file(path, Mode::read);
+    for (const char* dataset : {"/fixed", "/growing"}) {
+      try {
+        for (const double value : file.read_numbers(dataset)) ASSERT_EQ(value, mark);
+      } catch (const Error&) {
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GE(refused, 4);
 }
 
 TEST(Hdf5File, ReplacesDatasetsAndAttributes) {

@@ -236,6 +236,26 @@ TEST(HistoryFile, RefusesRowsThatAreNotFiniteOrNotLater) {
   expect_rows(file.history(), 3);
 }
 
+TEST(HistoryFile, TimeThatRunsBackwardsIsNamed) {
+  for (const double time : {0.0015, 0.002, std::nan("")}) {
+    const Scratch scratch;
+    const std::string path = scratch.path("history.h5");
+    {
+      HistoryFile file = HistoryFile::create(path, channels, {});
+      append_rows(file, 0, 3);
+    }
+    {
+      Hdf5File file(path, Hdf5File::Mode::edit);
+      file.append("/history/time", {time});
+      file.append("/history/sinkage", {0.0});
+      file.append("/history/force_x", {0.0});
+      file.close();
+    }
+    EXPECT_THAT(error_of([&] { read_history(path); }),
+                HasSubstr(fmt::format("row 4 of the history is at {} s, after 0.002 s", time)));
+  }
+}
+
 TEST(HistoryFile, GrainsSurfaceAuditAndCostComeBack) {
   const Scratch scratch;
   const std::string path = scratch.path("history.h5");

@@ -14,9 +14,9 @@
 namespace furrow {
 namespace {
 
+using test::error_of;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using test::error_of;
 
 TEST(InputKind, AFileOfAnotherKindIsNamedAsWhatItIs) {
   struct Kind {

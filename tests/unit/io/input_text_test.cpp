@@ -11,8 +11,8 @@
 namespace furrow {
 namespace {
 
-using ::testing::HasSubstr;
 using test::error_of;
+using ::testing::HasSubstr;
 using namespace std::string_literals;
 
 TEST(InputText, IsReadAsItStandsInTheFile) {

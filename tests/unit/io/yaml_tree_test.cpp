@@ -12,8 +12,8 @@
 namespace furrow {
 namespace {
 
-using ::testing::HasSubstr;
 using test::error_of;
+using ::testing::HasSubstr;
 
 class YamlTreeTest : public ::testing::Test {
  protected:

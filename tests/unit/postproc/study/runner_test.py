@@ -10,7 +10,8 @@ from pathlib import Path
 
 from furrow_post.errors import ResultsError
 from furrow_post.study.case import FOLDER
-from furrow_post.study.launch import Interrupted, launch
+from furrow_post.errors import Interrupted
+from furrow_post.study.launch import launch
 from furrow_post.study.runner import Runner, State
 from support.fake import FakeTree
 

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What is refused before a test of the laboratory runs: grounds, variables and their values."""
+
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from furrow_post.errors import ResultsError
+from furrow_post.read.script import check_variables, script_variables
+
+HERE = Path(__file__).resolve().parent
+
+SERIES = {  # test -> the variable of which several values make a series
+    "oedometer": "seed",
+    "triaxial": "confinement",
+    "shear": "confinement",
+    "plate": "size",
+    "repose": "seed",
+    "collapse": "aspect",
+}
+RESERVED = {
+    "results": "-o for the results folder",
+    "ground": "--ground for the ground",
+    "here": "the tests of the source tree",
+}
+MAY_VANISH = {"adhesion", "face_friction", "friction", "pour_friction", "restitution", "rolling"}
+FEWEST_GRAINS = 50  # a cell must be wider than the reach of its contacts
+# LIGGGHTS wants primes above this, and these are taken: parts/grains.lig
+SMALLEST_SEED, TAKEN_SEEDS = 10000, (15485863, 15485867, 32452843, 32452867)
+
+
+def grounds() -> list[str]:
+    return sorted(path.stem for path in (HERE / "grounds").glob("*.lig"))
+
+
+def require_ground(ground: str) -> None:
+    """@raises ResultsError"""
+    if ground not in grounds():
+        raise ResultsError(f"there is no ground '{ground}'; there are {', '.join(grounds())}")
+
+
+def require_variables(test: str, ground: str, given: Sequence[tuple[str, str]]) -> None:
+    """Of a test: each is read by its scripts and has a value in its range. @raises ResultsError"""
+    script = HERE / f"{test}.lig"
+    surroundings = {"here": str(HERE), "ground": ground}
+    check_variables(script, given, RESERVED, surroundings)
+    defaults = script_variables(script, surroundings).defaults
+    for name, value in given:
+        if is_number(defaults.get(name, "")):
+            require_value(name, value)
+
+
+def is_number(text: str) -> bool:
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False
+
+
+def require_value(name: str, text: str) -> None:
+    """Of a variable that is a number. @raises ResultsError outside of its range"""
+    if not is_number(text):
+        raise ResultsError(f"variable {name}: '{text}' is not a number")
+    value = float(text)
+    if value < 0 or (value == 0 and name not in MAY_VANISH):
+        least = "0 or more" if name in MAY_VANISH else "above 0"
+        raise ResultsError(f"variable {name}: {text} is not {least}")
+    if name == "grains" and (value < FEWEST_GRAINS or value != int(value)):
+        raise ResultsError(
+            f"variable grains: {text} is not a whole number from {FEWEST_GRAINS} on; fewer make a "
+            "cell narrower than its contacts reach"
+        )
+    if name == "seed" and not is_seed(value):
+        raise ResultsError(
+            f"variable seed: {text} is no prime above {SMALLEST_SEED}, or one of those in "
+            "parts/grains.lig; take e.g. 86028121, 67867967, 49979687"
+        )
+
+
+def is_seed(value: float) -> bool:
+    number = int(value)
+    if value != number or number <= SMALLEST_SEED or number in TAKEN_SEEDS or number >= 2**31:
+        return False
+    return all(number % divisor for divisor in range(2, math.isqrt(number) + 1))
+
+
+def require_series(test: str, values: Sequence[str], given: Mapping[str, str]) -> None:
+    """Values of --series. @raises ResultsError for one that is empty, twice or out of range"""
+    name = SERIES[test]
+    if name in given:
+        raise ResultsError(f"{name} is given by -v and by --series; give it once")
+    for value in values:
+        if not value.strip():
+            raise ResultsError(f"--series has an empty value of {name}; separate values by commas")
+        require_value(name, value)
+    if len({float(value) for value in values}) < len(values):
+        raise ResultsError(f"--series has a value of {name} twice; give each once")

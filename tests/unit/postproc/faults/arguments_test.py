@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What is wrong on the command line of furrow-post, and in the tables that it names."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from furrow_post.analyse.cost_table import write_table
+from furrow_post.cli.main import main
+from support.command import FURROW_POST
+from support.faults import FaultsTest, outcome
+from support.laboratory import write_plate
+from support.runs import write_run
+from support.tables import made_runs
+
+NRMM = {
+    "--load": "6000",
+    "--diameter": "0.74",
+    "--width": "0.272",
+    "--depth": "0.2",
+    "--density": "200",
+    "--pressure": "179e3",
+}
+BEKKER = "bekker --load 6000 --diameter 0.74 --width 0.272 --terrain"
+WONG = "wong_reece --load 6000 --diameter 1.2 --width 0.3 --terrain"
+
+# (words of empirical, terrain or None, what is said)
+EMPIRICAL = (
+    (BEKKER, "no such sand", "there is no terrain 'no such sand'; there are"),
+    (BEKKER, "", "there is no terrain ''"),
+    ("bekker", None, "needs --load, --diameter, --width, --terrain"),
+    (f"--slip 0.2 {BEKKER}", "LETE sand", "does not read --slip; leave it out"),
+    (f"--depth 0.2 {BEKKER}", "LETE sand", "does not read --depth; leave it out"),
+    (f"--extrapolate {BEKKER.replace('6000', '1e300')}", "LETE sand", "gives no finite number"),
+    (f"--slip 1.5 {WONG}", "LETE sand", "argument --slip: 1.5 does not lie between 0 and 1"),
+    (f"--slip nan {WONG}", "LETE sand", "argument --slip: 'nan' is not a finite number"),
+    (f"--slip 0.2 {WONG}", "LETE sand", "are not known; a terrain that has them"),
+)
+
+# (words after two runs "a b", what is said)
+COMPARE = (
+    (["--formula", "nrmm:"], "a: the density of its ground is not known"),
+    (["--formula", "bekker:no sand"], "there is no terrain 'no sand'"),
+    (["--formula", "guess:1"], "there is no formula 'guess'"),
+    (["--formula", ""], "there is no formula ''"),
+    (["--measured", "none.csv"], "a: has no terrain; --measured needs its depth"),
+    (["--measured", ""], "argument --measured: is empty"),
+    (["--errors", "none.csv"], "none.csv: cannot be read"),
+    (["-o", ""], "argument -o/--output: is empty"),
+    (["-o", "a/history.h5"], "a/history.h5: file exists"),
+    (["-o", "/proc/x"], "/proc/x: no such file or directory; check path and rights"),
+    (["a"], "a: is given twice; name each results folder once"),
+    ([""], "argument results: is empty"),
+    (["c="], "argument results: is empty"),
+    (["=c"], "argument results: is empty"),
+    (["none"], "none: no such file; name the results folder of a run"),
+)
+
+# (words, what is said)
+OTHERS: tuple[tuple[list[str], str], ...] = (
+    (["no_such_command"], "invalid choice: 'no_such_command'"),
+    ([], "the following arguments are required: command"),
+    (["compare", "a"], "needs two results folders"),
+    (["compare", "x=a", "x=b"], "/x'; write LABEL=FOLDER"),
+    (["compare", "one/plate", "two/plate"], "two curves are called 'plate'; write LABEL=FOLDER"),
+    (["plot", ""], "argument results: is empty"),
+    (["plot", "a", "-o", "a"], "-o a: is a folder; name a file in it"),
+    (["plot", "a", "-o", "none/x.png"], "there is no folder none; make it first"),
+    (["plot", "a", "-o", "x.gif"], "its name ends in none of .png, .svg, .pdf"),
+    (["plot", "a", "-o", "x.svg", "--format", "pdf"], "-o x.svg: is no pdf"),
+    (["report", "a", "-o", "x.pdf"], "x.pdf: a report's name ends in .html"),
+    (["report", "a", "-o", "/proc/x.html"], "/proc/x.html: no such file or directory"),
+    (["cost", "a", "-o", "/proc"], "-o /proc: is a folder"),
+    (["cost", "a", "a"], "a: is given twice"),
+    (["cost", "a", "--write", "/proc/x.csv"], "/proc/x.csv: no such file or directory"),
+    (["cost", "none.csv"], "none.csv: cannot be read"),
+    (["choose", "a", "--error", "10%"], "a: cannot be read"),
+    (["point", "none"], "none: has neither point.h5 nor fit.h5"),
+    (["point", "a"], "a: has neither point.h5 nor fit.h5"),
+    (["sidewall", "a"], "a/sidewall.h5: No such file"),
+    (["sidewall", "text"], "sidewall.h5: is not a results file of Furrow, or damaged"),
+    (["point", "text"], "point.h5: is not a results file of Furrow, or damaged"),
+    (["laboratory", "a"], "has no facts.txt; name the results folder of a laboratory test"),
+    (["laboratory", "one/plate", "one/plate"], "one/plate: is given twice"),
+    (["variables", "none.lig"], "none.lig: no such file or directory"),
+)
+
+ERRORS = ("0", "1", "-1", "nan", "inf", "200%", "0%", "abc", "", "%")
+
+HEAD = "depth_m,sinkage_m,resistance,density_kgm3\n"
+
+
+class ArgumentsFaultsTest(FaultsTest):
+    folder: Path
+    home: str
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.home = os.getcwd()
+        cls.folder = Path(tempfile.mkdtemp())
+        os.chdir(cls.folder)
+        write_run(Path("a"))
+        write_run(Path("b"), sinkage=0.051)
+        for name in ("one", "two"):
+            write_plate(Path(name) / "plate", 1e6)
+        Path("text").mkdir()
+        for name in ("point", "sidewall"):
+            Path("text", f"{name}.h5").write_text("hello")
+        write_table(Path("table.csv"), made_runs())
+
+    @classmethod
+    def tearDownClass(cls) -> None:
+        os.chdir(cls.home)
+        shutil.rmtree(cls.folder)
+
+    def post(self, words: list[str], message: str) -> None:
+        self.expect(" ".join(map(repr, words)), outcome(lambda: main(words)), message)
+
+    def test_numbers_of_formulas(self) -> None:
+        kinds = {"-5": "is not above 0", "0": "is not above 0", "nan": "finite", "inf": "finite"}
+        kinds |= {"1e400": "is not a finite number", "abc": "is not a number", "": "not a number"}
+        for option in NRMM:
+            for value, message in kinds.items():
+                given = {**NRMM, option: value}
+                words = [word for pair in given.items() for word in pair]
+                self.post(["empirical", "nrmm", *words], message)
+
+    def test_formulas(self) -> None:
+        for words, terrain, message in EMPIRICAL:
+            last = [] if terrain is None else [terrain]
+            self.post(["empirical", *words.split(), *last], message)
+
+    def test_comparisons(self) -> None:
+        for words, message in COMPARE:
+            output = [] if "-o" in words else ["-o", "out"]
+            self.post(["compare", "a", "b", *words, *output], message)
+        self.assertFalse(Path("out").exists())
+
+    def test_others(self) -> None:
+        for words, message in OTHERS:
+            self.post(words, message)
+
+    def test_relative_errors(self) -> None:
+        for text in ERRORS:
+            for words in (["cost", "a", "b"], ["choose", "table.csv"]):
+                self.post([*words, f"--error={text}"], "argument --error: ")
+
+    def test_tables_of_runs(self) -> None:
+        good = Path("table.csv").read_text()
+        head, *rows = good.splitlines(keepends=True)
+        size = "half,rigid wheel,"  # stands before the size
+        for fault, text, message in (
+            ("empty", "", "has no rows"),
+            ("no rows", head, "has no rows"),
+            ("another head", "a,b\n1,2\n", "has no column run"),
+            ("a column less", good.replace("sinkage_error", "error"), "no column sinkage_error"),
+            ("a column twice", head[:-1] + ",size\n" + rows[0][:-1] + ",1\n", "two columns 'size'"),
+            ("a short row", good + "x,y\n", "has fewer cells than the head"),
+            ("a long row", good + rows[0][:-1] + ",1,2\n", "has more cells than the head"),
+            ("a word", good.replace(f"{size}0.04", f"{size}x", 1), "to float: 'x'"),
+            ("size 0", good.replace(f"{size}0.04", f"{size}0", 1), "size is 0"),
+            ("size -1", good.replace(f"{size}0.04", f"{size}-1", 1), "size is -1"),
+            ("open quote", good.replace("wheel -v cell 0.01", "wheel 'a"), "No closing quotation"),
+        ):
+            Path("bad.csv").write_text(text)
+            for words in (["cost", "bad.csv"], ["choose", "bad.csv", "--error", "10%"]):
+                with self.subTest(fault=fault):
+                    self.post(words, "bad.csv: ")
+                    self.post(words, message)
+        Path("bad.csv").write_bytes(good.encode() + b"\xe9\xff")
+        self.post(["cost", "bad.csv"], "bad.csv: is not text in UTF-8")
+
+    def test_locales_without_umlauts(self) -> None:
+        """Text is UTF-8 whatever the locale; a name that is not is said."""
+        plain = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+        environment = {**os.environ, **plain}
+        write_run(Path("Spur ä ö"))
+        shutil.copytree("a", os.fsdecode(b"l\xe4uf"))
+
+        def post(*words: str) -> "subprocess.CompletedProcess[bytes]":
+            command = [sys.executable, str(FURROW_POST), *words]
+            return subprocess.run(command, env=environment, capture_output=True)
+
+        done = post("report", "Spur ä ö", "-o", "Größe.html")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("Spur ä ö", Path("Größe.html").read_text(encoding="utf-8"))
+        done = post("report", os.fsdecode(b"l\xe4uf"), "-o", "x.html")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"is a name that is not UTF-8; rename", done.stderr.splitlines()[-1])
+
+
+if __name__ == "__main__":
+    unittest.main()
