@@ -124,8 +124,8 @@ def draw_picture(results: Results, numbers: str, target: Path, pixels: int = 150
     ResultsError when the run kept no grains
     """
     use_style()
-    if not len(results.grains("final").id):
-        raise ResultsError(f"{results.file}: has no grains at the end; there is nothing to draw")
+    if not all(len(results.grains(when).id) for when in ("reference", "final")):
+        raise ResultsError(f"{results.file}: lists no grains; there is nothing to draw")
     scene = Scene(results)
     cross = scene.cross_section
     figure = plt.figure(layout="constrained")
