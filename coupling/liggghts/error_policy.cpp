@@ -10,6 +10,7 @@
 
 #include "coupling/liggghts/flushes_on_error.h"
 #include "coupling/liggghts/script.h"
+#include "coupling/liggghts/signals.h"
 #include "fix.h"
 #include "modify.h"
 #include "output.h"
@@ -20,7 +21,7 @@ namespace furrow::coupling {
 namespace {
 
 // for ranks that come to the same error a little later
-constexpr std::chrono::seconds patience(10);
+constexpr std::chrono::seconds patience(5);
 
 /// One error, one message: what is wrong, where in the script, and where in the source it was
 /// noticed. (The library's own version may add a line from a string that no longer exists.)
@@ -74,9 +75,9 @@ void stop_together(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePla
   }
   delete lammps.output;
   if (lammps.logfile) std::fclose(lammps.logfile);
-  if (lammps.universe->nworlds > 1) MPI_Abort(lammps.universe->uworld, 1);
+  if (lammps.universe->nworlds > 1) MPI_Abort(lammps.universe->uworld, failure_status());
   MPI_Finalize();
-  std::exit(1);
+  std::exit(failure_status());
 }
 
 void stop_alone(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace place) {

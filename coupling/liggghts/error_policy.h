@@ -18,7 +18,7 @@ struct SourcePlace {
 
 /// All ranks have come to the same error: they leave together, dumps and logs closed. What was
 /// thought to befall all may befall one (a particle of its part of the terrain): then as
-/// stop_alone(), after ten seconds. Collective.
+/// stop_alone(), after five seconds. Collective.
 [[noreturn]] void stop_together(LAMMPS_NS::LAMMPS& lammps, const std::string& text,
                                 SourcePlace place);
 

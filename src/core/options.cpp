@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/nearest_name.h"
 
 namespace furrow {
 
@@ -27,34 +28,6 @@ std::optional<double> to_number(const std::string& text) {
   const auto [stop, status] = std::from_chars(begin, end, value);
   if (status != std::errc{} || stop != end) return std::nullopt;
   return value;
-}
-
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
-}
-
-std::string nearest_key(const std::vector<Key>& keys, const std::string& name) {
-  std::string best;
-  std::size_t best_distance = 3;  // further away is no help
-  for (const Key& key : keys) {
-    const std::size_t distance = edit_distance(key.name, name);
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = key.name;
-    }
-  }
-  return best;
 }
 
 }  // namespace
@@ -223,7 +196,7 @@ Options Schema::read(const std::vector<Entry>& entries) const {
     if (!key) {
       std::vector<std::string> names;
       for (const Key& known : keys_) names.push_back(known.name);
-      const std::string near = nearest_key(keys_, entry.key);
+      const std::string near = nearest_name(names, entry.key);
       throw InputError(after_origin(entry.origin, subject_),
                        fmt::format("has no keyword '{}'", entry.key),
                        fmt::format("{}", fmt::join(names, ", ")),
