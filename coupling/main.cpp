@@ -13,6 +13,7 @@
 #include "coupling/liggghts/error_policy.h"
 #include "coupling/liggghts/first_rank.h"
 #include "coupling/liggghts/library_check.h"
+#include "coupling/liggghts/rescue.h"
 #include "coupling/liggghts/signals.h"
 #include "input.h"
 #include "io/version.h"
@@ -55,6 +56,7 @@ void run_script(LAMMPS_NS::LAMMPS& lammps) {
 
 int main(int argc, char** argv) {
   handle_signals();
+  prepare_rescue();
   MPI_Init(&argc, &argv);
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -62,6 +64,7 @@ int main(int argc, char** argv) {
   std::optional<int> status = read_words(argc, argv, rank == 0);
   if (!status) {
     auto* lammps = new LAMMPS_NS::LAMMPS(argc, argv, MPI_COMM_WORLD);
+    start_rescue(*lammps);
     run_script(*lammps);
     if (agreed_signal()) report_stop(*lammps);
     delete lammps;

@@ -119,8 +119,8 @@ void FixCoupledSystem::check_restored_fixes() {
   }
   if (!kept.empty())
     throw StateError(fmt::format(
-        "the checkpoint has the state of {}, and the script that continues has no such line; "
-        "write it with the same id and style",
+        "the checkpoint has the state of {}, and the script that continues has no such line "
+        "before its first run; write it there, with the same id and style",
         fmt::join(kept, ", ")));
   checkpointed_fixes_.clear();
 }

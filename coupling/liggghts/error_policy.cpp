@@ -8,11 +8,10 @@
 
 #include <mpi.h>
 
-#include "coupling/liggghts/flushes_on_error.h"
+#include "coupling/liggghts/access.h"
+#include "coupling/liggghts/rescue.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/signals.h"
-#include "fix.h"
-#include "modify.h"
 #include "output.h"
 #include "universe.h"
 
@@ -34,17 +33,6 @@ void print_error(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace
     if (place.line > 0) std::fprintf(stream, "  (LIGGGHTS, %s:%d)\n", place.file, place.line);
     std::fflush(stream);
   }
-}
-
-/// Whatever cannot be saved now is lost: the run ends with the error that stopped it, not with this
-/// one.
-void flush_results(const LAMMPS_NS::LAMMPS& lammps) {
-  for (int i = 0; lammps.modify && i < lammps.modify->nfix; ++i) try {
-      if (auto* fix = dynamic_cast<FlushesOnError*>(lammps.modify->fix[i])) fix->flush_results();
-    } catch (const std::exception& loss) {
-      std::fprintf(stderr, "Results of fix %s are lost: %s\n", lammps.modify->fix[i]->id,
-                   loss.what());
-    }
 }
 
 /// Whether all ranks come here; false when one of them waits for this one elsewhere.
@@ -87,7 +75,10 @@ void stop_alone(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace 
     flush_results(lammps);
   } else {
     std::fprintf(stderr, "\nERROR on rank %d: %s\n", rank, text.c_str());
+    const char* line = lammps.input ? current_line(lammps) : nullptr;
+    if (line) std::fprintf(stderr, "  at %s\n", line);
     if (place.line > 0) std::fprintf(stderr, "  (LIGGGHTS, %s:%d)\n", place.file, place.line);
+    ask_for_rescue();
   }
   MPI_Abort(lammps.world, 1);
   std::abort();  // MPI_Abort does not come back

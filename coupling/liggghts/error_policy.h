@@ -23,7 +23,7 @@ struct SourcePlace {
                                 SourcePlace place);
 
 /// An error of this rank alone: the others cannot be told, so the run is aborted. Only rank 0 knows
-/// the line of the script and saves results.
+/// the number of the script's line; it saves results (rescue.h).
 [[noreturn]] void stop_alone(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace place);
 
 }  // namespace furrow::coupling
