@@ -23,6 +23,7 @@
 #include "coupling/output/fix_terrain_history.h"
 #include "coupling/output/fix_wheel_history.h"
 #include "coupling/restart/command_read_restart.h"
+#include "coupling/restart/fix_expected_states.h"
 #include "coupling/terrain/command_bed.h"
 #include "coupling/terrain/fix_bed_window.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
@@ -100,6 +101,7 @@ const std::vector<Style>& styles() {
       fix<FixCellServo>("cell/servo", Kind::laboratory, "laboratory/fix_cell_servo.md"),
       fix<FixLayerShear>("layer/shear", Kind::laboratory, "laboratory/fix_layer_shear.md"),
       fix<FixCoupledSystem>("furrow/system", Kind::internal, ""),
+      fix<FixExpectedStates>("furrow/expected_states", Kind::internal, ""),
   };
   return table;
 }

@@ -48,9 +48,12 @@ FixCoupledSystem::FixCoupledSystem(LAMMPS_NS::LAMMPS* lammps, int narg, char** a
 }
 
 FixCoupledSystem& FixCoupledSystem::of(LAMMPS_NS::LAMMPS& lammps) {
-  if (LAMMPS_NS::Fix* existing = lammps.modify->find_fix_id(system_id))
-    return dynamic_cast<FixCoupledSystem&>(*existing);
+  if (FixCoupledSystem* existing = find(lammps)) return *existing;
   return dynamic_cast<FixCoupledSystem&>(add_fix(lammps, {system_id, "all", "furrow/system"}));
+}
+
+FixCoupledSystem* FixCoupledSystem::find(LAMMPS_NS::LAMMPS& lammps) {
+  return dynamic_cast<FixCoupledSystem*>(lammps.modify->find_fix_id(system_id));
 }
 
 void FixCoupledSystem::add(Body& body, const std::string& name) {
@@ -230,6 +233,7 @@ void FixCoupledSystem::restart(char* buffer) {
     Checkpoint state = read_record(style, buffer);
     checkpoint(state, false, {});
     state.finish();
+    restored_ = true;
   });
 }
 

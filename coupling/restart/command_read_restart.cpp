@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/restart/command_read_restart.h"
 
-#include <algorithm>
 #include <new>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "coupling/base/fix_coupled_system.h"
-#include "coupling/liggghts/access.h"
 #include "coupling/liggghts/checkpoint_file.h"
+#include "coupling/restart/fix_expected_states.h"
 #include "domain.h"
 #include "read_restart.h"
 
@@ -50,18 +47,11 @@ void CommandReadRestart::command(int narg, char** arg) {
   char* words[] = {path.data()};
   try {
     LAMMPS_NS::ReadRestart(lmp).command(1, words);
-    if (options.text("check") == "checked") expect_states();
+    if (options.text("check") == "checked") FixExpectedStates::add_if_needed(*lmp);
   } catch (const std::bad_alloc&) {  // a length of 1e18 grains
     throw StateError(
         fmt::format("checkpoint '{}' is damaged: it asks for more memory than there is", path));
   }
-}
-
-/// LIGGGHTS forgets the states of fixes that no line has claimed when the first run begins; the
-/// coupled system, made now, will notice.
-void CommandReadRestart::expect_states() {
-  const std::vector<std::string> styles = styles_in_restart_file(*lmp);
-  if (std::count(styles.begin(), styles.end(), "furrow/system")) FixCoupledSystem::of(*lmp);
 }
 
 }  // namespace furrow::coupling

@@ -14,9 +14,6 @@ class CommandReadRestart : protected LAMMPS_NS::Pointers {
   static OutputTable outputs() { return {}; }
 
   void command(int narg, char** arg);
-
- private:
-  void expect_states();
 };
 
 }  // namespace furrow::coupling

@@ -75,7 +75,7 @@ def own_scripts(furrow, table, beds):
         text = file.read()
     plain = re.sub(r"#: parameters\n(#.*\n)*", "", text)
     cases = [("without declarations, unknown", plain, " colour red", "has no keyword 'colour'"),
-             ("without declarations, missing", plain.replace("${bed_seed}", "${bed_other}"), "", "keyword 'other' is missing"),
+             ("without declarations, missing", plain.replace("${bed_seed}", "${bed_seed}${bed_other}"), "", "keyword 'other' is missing"),
              ("no section settle", plain.replace("#: settle", "# settle"), "", "finds no line '#: settle'"),
              ("a jump", plain.replace("pair_coeff", "jump SELF\npair_coeff"), "", "the command 'jump' in its section 'contact'"),
              ("a range", text.replace("> 0 ", "=> 0", 1), "", "the range '=> 0'"),

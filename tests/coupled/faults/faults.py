@@ -41,6 +41,9 @@ fix move all nve/sphere
 """
 GRAINS = GRAINS.format(properties=PROPERTIES)
 CONTINUED = "newton off\ncommunicate single vel yes\natom_modify sort 0 0\nread_restart {file}\n" + PROPERTIES
+# A wheel far above the grains: its state is a part of a checkpoint, and so are all forces.
+WHEEL = ("fix wheel all wheel/rigid diameter 0.04 width 0.02 shoulder 0.005 mass 1 inertia 2e-4 segments 24 "
+         "axle 0 0 0.17\n")
 
 
 class Said:

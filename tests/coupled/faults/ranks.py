@@ -12,15 +12,13 @@ import time
 
 import h5py
 
-from faults import CONTINUED, GRAINS, Said, Table, run_script
+from faults import CONTINUED, GRAINS, WHEEL, Said, Table, run_script
 
 WITHIN = 10.0  # s
 GRAINS = "processors 2 1 1\n" + GRAINS
 SECOND_RANK = "region right block 0.07 0.1 INF INF INF INF units box\ngroup right region right\n"
 # Long after the failure.
 GO_ON = "thermo 100\nrun 100000000\n"
-# A wheel far above the grains, whose state is a part of the checkpoint.
-WHEEL = "fix wheel all wheel/rigid diameter 0.04 width 0.02 mass 1 inertia 0.005 segments 24 axle 0 0 0.17\n"
 HISTORY = ("fix rig all wheel/rig wheel wheel load_force 1 speed 1 mode towed settle_time 1 accelerate_time 1 ground_level 0\n"
            "fix out all wheel/history rig rig folder results every 1\n")
 
@@ -70,12 +68,12 @@ def main(furrow, *mpirun):
         rows = len(content["history/time"])
     table.expect("an infinite force on a grain: all rows are there", rows >= 200, rows)
     timed(table, "a file of rank 0", here, "ERROR", "Cannot open", "line ",
-          script=GRAINS + "dump d all custom 20 nowhere/dump id\n" + begun + GO_ON)
+          script=GRAINS + "dump d all custom 20 /proc/no/dump id\n" + begun + GO_ON)
     timed(table, "a line of the script", here, "ERROR", "line ",
           script=GRAINS + begun + "fix wheel all wheel/rigid diameter -1\n")
     timed(table, "killed", here, script=GRAINS + "run 10\n" + begun + GO_ON,
           meanwhile=lambda: subprocess.run(["kill", "-9", (table.folder / "pid").read_text().strip()], check=True))
-    timed(table, "too little memory", launch(mpirun, "ulimit -v 1000000", furrow), "ERROR",
+    timed(table, "too little memory", launch(mpirun, "ulimit -v 500000", furrow), "ERROR",
           script=GRAINS + begun + "region more block -0.1 0.1 -0.1 0.1 0 0.2 units box\nlattice sc 0.0004\n"
                  "create_atoms 1 region more\n" + GO_ON)
 

@@ -13,14 +13,17 @@ import subprocess
 import sys
 import time
 
-from faults import CONTINUED, GRAINS, TIME_LIMIT, Said, Table, run_script
+from faults import CONTINUED, GRAINS, TIME_LIMIT, WHEEL, Said, Table, run_script
 
+
+
+BEGIN = GRAINS + WHEEL
 
 
 def state(table, name):
-    """Grains by number, as text with all digits."""
-    lines = (table.folder / name).read_text().splitlines()
-    return sorted(line for line in lines[9:])
+    """Grains of the last dump, as text with all digits."""
+    last = (table.folder / name).read_text().split("ITEM: ATOMS")[-1]
+    return sorted(last.splitlines()[1:])
 
 
 def dump_at(step):
@@ -60,17 +63,17 @@ def going(script, steps):
 
 
 def continues(furrow, table, name, number, status, launcher=()):
-    said = interrupted(furrow, table, going(GRAINS, 100000000), [number], launcher)
+    said = interrupted(furrow, table, going(BEGIN, 100000000), [number], launcher)
     table.check(f"{name}", said, status, "stopped the run after step", "'read_restart restart_forced_liggghts_")
     files = [path.name for path in table.folder.glob("restart_forced*")]
     table.expect(f"{name}: one checkpoint", len(files) == 1, files)
     step = int(re.search(r"_(\d+)\.data", files[0]).group(1))
     last = f"run {step + 500} upto\n"
     dump = dump_at(step + 500)
-    again = run_script(furrow, table.folder, CONTINUED.format(file=files[0]) + dump + last, launcher=launcher)
+    again = run_script(furrow, table.folder, CONTINUED.format(file=files[0]) + WHEEL + dump + last, launcher=launcher)
     table.check(f"{name}: continued", again, 0)
     got = state(table, "end")
-    whole = run_script(furrow, table.folder, GRAINS + f"restart {step} same.*\n" + dump + last, launcher=launcher)
+    whole = run_script(furrow, table.folder, BEGIN + f"restart {step} same.*\n" + dump + last, launcher=launcher)
     table.check(f"{name}: without a break", whole, 0)
     table.expect(f"{name}: the same grains", got == state(table, "end") and len(got) > 100, "they differ")
 
