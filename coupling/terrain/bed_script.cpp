@@ -42,6 +42,10 @@ std::optional<Range> to_range(const std::string& text) {
 
 }  // namespace
 
+std::string current_name(const std::string& parameter) {
+  return parameter == "headroom" ? "clearance_above" : parameter;
+}
+
 BedScript::BedScript(const fs::path& path) : path_(path) {
   std::error_code failed;
   std::ifstream file(path);
@@ -118,7 +122,7 @@ std::vector<std::string> BedScript::parameters_that_are_read() const {
       for (std::sregex_iterator match(command.begin(), command.end(), read), end; match != end;
            ++match) {
         const std::string name = (*match)[1].matched ? (*match)[1] : (*match)[2];
-        if (known.insert(name).second) found.push_back(name);
+        if (known.insert(name).second) found.push_back(current_name(name));
       }
       std::smatch match;
       if (std::regex_search(command, match, set)) known.insert(match[1]);

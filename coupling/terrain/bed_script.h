@@ -10,6 +10,9 @@
 
 namespace furrow::coupling {
 
+/// Of a parameter that was renamed: its present name.
+std::string current_name(const std::string& parameter);
+
 class BedScript {
  public:
   /// @throws InputError for a file that is none

@@ -32,11 +32,6 @@ namespace fs = std::filesystem;
 constexpr char line_variable[] = "furrow_bed";  // holds the words of the line, one on each line
 constexpr char no_checkpoint[] = "none";
 
-/// Of a parameter that was renamed.
-std::string current_name(const std::string& name) {
-  return name == "headroom" ? "clearance_above" : name;
-}
-
 /// "command processors": 0 leaves the number of ranks along an axis to LIGGGHTS.
 std::string processors_line(const int (&grid)[3]) {
   std::string line = "processors";

@@ -8,7 +8,7 @@ import os
 import random
 import sys
 
-from faults import CONTINUED, GRAINS, Table, run_script
+from faults import CONTINUED, GRAINS, WHEEL, Table, run_script
 
 WRITE = GRAINS + "run 10\nwrite_restart ck.10\n"
 
@@ -37,6 +37,23 @@ def damaged(furrow, table):
     table.check("twice in one file", continued(furrow, table, "damaged"), 1, "checkpoint 'damaged'")
 
 
+def belongs_together(furrow, table):
+    """The states of a checkpoint find the lines that they belong to."""
+    folder, renamed = table.folder, WHEEL.replace("fix wheel ", "fix other ")
+    states = "the checkpoint has states of Furrow's fixes"
+    table.check("with a wheel", run_script(furrow, folder, GRAINS + WHEEL + "run 10\nwrite_restart ck\n"), 0)
+    for name, lines, status, texts in (
+            ("continued", WHEEL + "run 5\n", 0, []),
+            ("without the wheel", "run 5\n", 1, [states]),
+            ("a run before the wheel", "run 0\n" + WHEEL + "run 5\n", 1, [states]),
+            ("the wheel renamed", renamed + "run 5\n", 1, ["has the state of fix wheel/rigid 'wheel'"]),
+            ("another wheel", WHEEL.replace("0.04", "0.05") + "run 5\n", 1, ["keyword 'diameter' is '0.05', and was '0.04'"])):
+        script = CONTINUED.format(file="ck") + lines
+        table.check(f"with a wheel: {name}", run_script(furrow, folder, script), status, *texts)
+    grains = CONTINUED.format(file="ck unchecked") + "run 5\n"
+    table.check("with a wheel: grains alone", run_script(furrow, folder, grains), 0)
+
+
 def main(furrow, liggghts, *mpirun):
     table = Table()
     table.check("written", run_script(furrow, table.folder, WRITE), 0)
@@ -53,6 +70,7 @@ def main(furrow, liggghts, *mpirun):
     table.check("after the box", run_script(furrow, table.folder, GRAINS + "read_restart ck.10\n"), 1,
                 "comes after the simulation box was made")
     damaged(furrow, table)
+    belongs_together(furrow, table)
     if os.path.exists(liggghts):
         folder = table.folder
         stock = run_script(liggghts, folder, WRITE.replace("ck.10", "stock"))
