@@ -240,6 +240,7 @@ void FixCoupledSystem::restart(char* buffer) {
 /// @param in_run, contact_forces to be saved; what is read goes to the members
 void FixCoupledSystem::checkpoint(Checkpoint& state, bool in_run,
                                   std::vector<double> contact_forces) {
+  state.match("the parameters of the bed", variable(*lmp, bed_variable).value_or("none"));
   state.value("time", time_);
   state.value("in_run", in_run);
   state.values("contact_forces", contact_forces);

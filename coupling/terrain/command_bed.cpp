@@ -6,11 +6,13 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <mpi.h>
 #include <unistd.h>
 
 #include "comm.h"
 #include "core/error.h"
+#include "coupling/base/fix_coupled_system.h"
 #include "coupling/liggghts/checkpoint_file.h"
 #include "coupling/liggghts/first_rank.h"
 #include "coupling/liggghts/script.h"
@@ -37,6 +39,19 @@ std::string processors_line(const int (&grid)[3]) {
   std::string line = "processors";
   for (const int ranks : grid) line += ranks ? fmt::format(" {}", ranks) : " *";
   return line;
+}
+
+/// Of the parameters: "length 0.2, width 0.1".
+std::string values_of(const Options& options) {
+  std::vector<std::string> words;
+  for (const Key& key : options.keys()) {
+    if (key.name == "script" || key.name == "from") continue;
+    const bool number = key.kind == Key::Kind::number;
+    words.push_back(
+        key.name + " " +
+        (number ? fmt::format("{}", options.number(key.name)) : options.text(key.name)));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
 }
 
 /// A command with a path, which may have blanks.
@@ -118,7 +133,8 @@ CommandBed::Request CommandBed::read_request(const std::vector<std::string>& wor
   script.declare_parameters(keys);
   const Options options = keys.read(entries);
   check_bed_parameters(options);
-  return {std::move(script), options.number("depth"), options.text("from"), std::move(parameters)};
+  return {std::move(script), options.number("depth"), options.text("from"), std::move(parameters),
+          values_of(options)};
 }
 
 /// Each becomes a variable with bed_ before its name; of a former name too, which a bed script may
@@ -134,6 +150,7 @@ void CommandBed::set_parameters(const Request& request) {
                            p.written, p.name, p.name, p.value));
   }
   set_variable(*lmp, line_variable, line);
+  set_variable(*lmp, FixCoupledSystem::bed_variable, request.values);
 }
 
 /// A damaged one is made again.

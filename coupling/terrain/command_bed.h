@@ -36,6 +36,7 @@ class CommandBed : protected LAMMPS_NS::Pointers {
     double depth;                       // [m]
     std::string from;                   // a checkpoint of a run on this bed, or "none"
     std::vector<Parameter> parameters;  // depth among them
+    std::string values;                 // of all parameters, equal for equal numbers
 
     /// Equal for equal beds.
     std::string identity() const;

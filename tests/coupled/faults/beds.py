@@ -7,7 +7,7 @@
 import re
 import sys
 
-from faults import Table, run_script
+from faults import WHEEL, Table, run_script
 
 SAND = {"length": "0.16", "width": "0.08", "depth": "0.03", "clearance_above": "0.05", "diameter": "0.014", "density": "2600",
         "young": "5e6", "poisson": "0.25", "restitution": "0.3", "friction": "0.6", "rolling": "0.15", "pour_friction": "0.3",
@@ -115,6 +115,14 @@ def kept(furrow, table, beds):
                 file.write_bytes(content)
             table.check(f"{name}, {damage}", start(), 0, f"{name}' ", again, making, level)
     table.check("read after all", start(), 0, level, absent=[making])
+
+    def wheel(change, end=""):
+        lines = (line(beds + "/sand.lig", {**SAND, **change}), AFTER.replace("run 0", "fix move all nve/sphere"), WHEEL, "run 5", end)
+        return run_script(furrow, table.folder, "\n".join(lines), FURROW_CACHE="cache of beds")
+
+    table.check("a run on it", wheel({}, "write_restart ck\n"), 0)
+    table.check("continued", wheel({"from": "ck"}), 0, absent=[making])
+    table.check("continued on another bed", wheel({"from": "ck", "friction": "0.5"}), 1, "the parameters of the bed", "friction 0.6")
 
 
 def main(furrow, beds, *mpirun):
