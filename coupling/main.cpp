@@ -2,27 +2,74 @@
 // furrow: LIGGGHTS with the fix styles of this folder. Same command line, same scripts: furrow -in
 // script.
 
-#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <optional>
 
 #include <mpi.h>
 
+#include "coupling/command_line.h"
+#include "coupling/liggghts/error_policy.h"
+#include "coupling/liggghts/first_rank.h"
+#include "coupling/liggghts/library_check.h"
+#include "coupling/liggghts/rescue.h"
+#include "coupling/liggghts/signals.h"
 #include "input.h"
+#include "io/version.h"
 #include "lammps.h"
-#include "signal_handling.h"
+
+namespace {
+
+using namespace furrow::coupling;
+
+constexpr int wrong_command_line = 2;
+
+/// @return a status that ends the program, or nothing
+std::optional<int> read_words(int argc, char** argv, bool tells) {
+  try {
+    const CommandLine line = read_command_line({argv + 1, argv + argc});
+    if (tells && line.help) std::fputs(usage().c_str(), stdout);
+    if (tells && line.version)
+      std::printf("furrow %s with LIGGGHTS %s\n", furrow::version().c_str(), liggghts_version);
+    if (line.help || line.version) return 0;
+    on_first_rank(MPI_COMM_WORLD, [&] { check_command_line(line); });
+  } catch (const std::exception& problem) {
+    if (tells) std::fprintf(stderr, "ERROR: %s\n", problem.what());
+    return wrong_command_line;
+  }
+  return std::nullopt;
+}
+
+/// Exceptions that come through LIGGGHTS's own functions.
+void run_script(LAMMPS_NS::LAMMPS& lammps) {
+  try {
+    lammps.input->file();
+  } catch (const std::bad_alloc&) {
+    stop_alone(lammps, "there is not enough memory for this script", {"furrow", 0});
+  } catch (const std::exception& problem) {
+    stop_alone(lammps, problem.what(), {"furrow", 0});
+  }
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
-  // As liggghts does: an interrupt ends the run at the next step and lets fixes write what they
-  // have.
-  struct sigaction interrupt = {}, checkpoint = {};
-  interrupt.sa_handler = LAMMPS_NS::SignalHandler::int_handler;
-  checkpoint.sa_handler = LAMMPS_NS::SignalHandler::usr1_handler;
-  sigaction(SIGINT, &interrupt, nullptr);
-  sigaction(SIGTERM, &interrupt, nullptr);
-  sigaction(SIGUSR1, &checkpoint, nullptr);
-
+  handle_signals();
+  prepare_rescue();
   MPI_Init(&argc, &argv);
-  auto* lammps = new LAMMPS_NS::LAMMPS(argc, argv, MPI_COMM_WORLD);
-  lammps->input->file();
-  delete lammps;
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  confirm_signals(rank == 0);
+  std::optional<int> status = read_words(argc, argv, rank == 0);
+  if (!status) {
+    auto* lammps = new LAMMPS_NS::LAMMPS(argc, argv, MPI_COMM_WORLD);
+    start_rescue(*lammps);
+    run_script(*lammps);
+    if (agreed_signal()) report_stop(*lammps);
+    delete lammps;
+    status = agreed_signal() ? failure_status() : 0;
+  }
   MPI_Finalize();
+  return *status;
 }

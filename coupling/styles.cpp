@@ -22,6 +22,8 @@
 #include "coupling/output/fix_progress.h"
 #include "coupling/output/fix_terrain_history.h"
 #include "coupling/output/fix_wheel_history.h"
+#include "coupling/restart/command_read_restart.h"
+#include "coupling/restart/fix_expected_states.h"
 #include "coupling/terrain/command_bed.h"
 #include "coupling/terrain/fix_bed_window.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
@@ -94,10 +96,12 @@ const std::vector<Style>& styles() {
       fix<FixWheelRig>("wheel/rig", Kind::rig, "drive/fix_wheel_rig.md"),
       fix<FixWheelHistory>("wheel/history", Kind::history, "output/fix_wheel_history.md"),
       fix<FixTerrainHistory>("terrain/history", Kind::history, "output/fix_terrain_history.md"),
+      command<CommandReadRestart>("read_restart", "restart/command_read_restart.md"),
       fix<FixProgress>("progress", Kind::progress, "output/fix_progress.md"),
       fix<FixCellServo>("cell/servo", Kind::laboratory, "laboratory/fix_cell_servo.md"),
       fix<FixLayerShear>("layer/shear", Kind::laboratory, "laboratory/fix_layer_shear.md"),
       fix<FixCoupledSystem>("furrow/system", Kind::internal, ""),
+      fix<FixExpectedStates>("furrow/expected_states", Kind::internal, ""),
   };
   return table;
 }

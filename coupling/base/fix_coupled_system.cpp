@@ -48,9 +48,12 @@ FixCoupledSystem::FixCoupledSystem(LAMMPS_NS::LAMMPS* lammps, int narg, char** a
 }
 
 FixCoupledSystem& FixCoupledSystem::of(LAMMPS_NS::LAMMPS& lammps) {
-  if (LAMMPS_NS::Fix* existing = lammps.modify->find_fix_id(system_id))
-    return dynamic_cast<FixCoupledSystem&>(*existing);
+  if (FixCoupledSystem* existing = find(lammps)) return *existing;
   return dynamic_cast<FixCoupledSystem&>(add_fix(lammps, {system_id, "all", "furrow/system"}));
+}
+
+FixCoupledSystem* FixCoupledSystem::find(LAMMPS_NS::LAMMPS& lammps) {
+  return dynamic_cast<FixCoupledSystem*>(lammps.modify->find_fix_id(system_id));
 }
 
 void FixCoupledSystem::add(Body& body, const std::string& name) {
@@ -119,8 +122,8 @@ void FixCoupledSystem::check_restored_fixes() {
   }
   if (!kept.empty())
     throw StateError(fmt::format(
-        "the checkpoint has the state of {}, and the script that continues has no such line; "
-        "write it with the same id and style",
+        "the checkpoint has the state of {}, and the script that continues has no such line "
+        "before its first run; write it there, with the same id and style",
         fmt::join(kept, ", ")));
   checkpointed_fixes_.clear();
 }
@@ -230,12 +233,14 @@ void FixCoupledSystem::restart(char* buffer) {
     Checkpoint state = read_record(style, buffer);
     checkpoint(state, false, {});
     state.finish();
+    restored_ = true;
   });
 }
 
 /// @param in_run, contact_forces to be saved; what is read goes to the members
 void FixCoupledSystem::checkpoint(Checkpoint& state, bool in_run,
                                   std::vector<double> contact_forces) {
+  state.match("the parameters of the bed", variable(*lmp, bed_variable).value_or("none"));
   state.value("time", time_);
   state.value("in_run", in_run);
   state.values("contact_forces", contact_forces);

@@ -32,8 +32,13 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   static Schema schema() { return Schema("fix furrow/system"); }
   static OutputTable outputs() { return {}; }
 
+  /// Variable of the script that holds the parameters of its bed: a run is continued on the same.
+  static constexpr char bed_variable[] = "furrow_bed_parameters";
+
   /// The system of a LIGGGHTS instance; made on first use.
   static FixCoupledSystem& of(LAMMPS_NS::LAMMPS& lammps);
+  /// The same, or null.
+  static FixCoupledSystem* find(LAMMPS_NS::LAMMPS& lammps);
 
   // None is owned; each must outlive the system or be removed. @param name for errors
   void add(Body& body, const std::string& name);
@@ -49,7 +54,8 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   const Vector3& moment_reference(const Body& body) { return member(body).reference; }
   const MomentumAudit& audit(const Body& body) { return member(body).audit; }
 
-  double time() const { return time_; }  ///< of the scene [s], also after a restart
+  double time() const { return time_; }        ///< of the scene [s], also after a restart
+  bool restored() const { return restored_; }  ///< from a checkpoint
   const Communicator& communicator() const { return communicator_; }
 
   void post_create() override { grain_forces_.make_storage(); }
@@ -108,6 +114,7 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   std::vector<double> buffer_;
   GrainForces grain_forces_;
   double time_ = 0.0;
+  bool restored_ = false;
   ForceState forces_ = ForceState::partial;
   std::vector<double> restored_contact_forces_;
   std::string checkpointed_fixes_;  // names, a line each; empty unless the run is continued

@@ -33,6 +33,11 @@ double rounded_down(double value) {
 
 }  // namespace
 
+double rayleigh_time(double radius, double density, double young, double poisson) {
+  const double shear = young / (2.0 * (1.0 + poisson));
+  return M_PI * radius * std::sqrt(density / shear) / (0.1631 * poisson + 0.8766);
+}
+
 void check_time_step(LAMMPS_NS::LAMMPS& lammps, const std::string& where) {
   auto *young = property_of_types(lammps, "youngsModulus"),
        *poisson = property_of_types(lammps, "poissonsRatio");
@@ -42,10 +47,9 @@ void check_time_step(LAMMPS_NS::LAMMPS& lammps, const std::string& where) {
   double shortest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < atom.nlocal; ++i) {
     const auto type = atom.type[i] - 1;
-    const double E = young->get_values()[type], nu = poisson->get_values()[type],
-                 G = E / (2.0 * (1.0 + nu));
-    shortest = std::min(
-        shortest, M_PI * atom.radius[i] * std::sqrt(atom.density[i] / G) / (0.1631 * nu + 0.8766));
+    shortest =
+        std::min(shortest, rayleigh_time(atom.radius[i], atom.density[i], young->get_values()[type],
+                                         poisson->get_values()[type]));
   }
   shortest = -Communicator(&lammps.world).max(-shortest);
   if (std::isinf(shortest)) return;

@@ -26,6 +26,12 @@ struct ModifyFixMap {
 };
 template struct Expose<ModifyFixMap, &LAMMPS_NS::Modify::fix_map>;
 
+struct ModifyRestartStyles {
+  using type = char** LAMMPS_NS::Modify::*;
+  friend type member(ModifyRestartStyles);
+};
+template struct Expose<ModifyRestartStyles, &LAMMPS_NS::Modify::style_restart_global>;
+
 struct InputCommandMap {
   using type = CommandMap* LAMMPS_NS::Input::*;
   friend type member(InputCommandMap);
@@ -74,6 +80,13 @@ bool has_command(const LAMMPS_NS::LAMMPS& lammps, const std::string& name) {
 
 const char* current_line(const LAMMPS_NS::LAMMPS& lammps) {
   return lammps.input->*member(InputLine{});
+}
+
+std::vector<std::string> styles_in_restart_file(const LAMMPS_NS::LAMMPS& lammps) {
+  const int count = lammps.modify->nfix_restart_global;
+  if (count == 0) return {};
+  char** first = lammps.modify->*member(ModifyRestartStyles{});
+  return {first, first + count};
 }
 
 void replace_mesh(LAMMPS_NS::FixMesh& fix, LAMMPS_NS::AbstractMesh* mesh) {

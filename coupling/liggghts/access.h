@@ -3,6 +3,7 @@
 /// Members of LIGGGHTS's classes that are not public.
 
 #include <string>
+#include <vector>
 
 #include "lammps.h"
 #include "fix.h"
@@ -23,6 +24,10 @@ bool has_command(const LAMMPS_NS::LAMMPS& lammps, const std::string& name);
 
 /// The line being executed (Input::line, private), or null.
 const char* current_line(const LAMMPS_NS::LAMMPS& lammps);
+
+/// Styles of the fixes whose state LIGGGHTS has read from a restart file and keeps for them
+/// (Modify::style_restart_global, protected); until the next run begins.
+std::vector<std::string> styles_in_restart_file(const LAMMPS_NS::LAMMPS& lammps);
 
 /// Gives a mesh fix another mesh (FixMesh::mesh_, private), which it then owns; the old one is
 /// deleted.

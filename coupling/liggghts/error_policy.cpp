@@ -8,10 +8,10 @@
 
 #include <mpi.h>
 
-#include "coupling/liggghts/flushes_on_error.h"
+#include "coupling/liggghts/access.h"
+#include "coupling/liggghts/rescue.h"
 #include "coupling/liggghts/script.h"
-#include "fix.h"
-#include "modify.h"
+#include "coupling/liggghts/signals.h"
 #include "output.h"
 #include "universe.h"
 
@@ -20,7 +20,7 @@ namespace furrow::coupling {
 namespace {
 
 // for ranks that come to the same error a little later
-constexpr std::chrono::seconds patience(10);
+constexpr std::chrono::seconds patience(5);
 
 /// One error, one message: what is wrong, where in the script, and where in the source it was
 /// noticed. (The library's own version may add a line from a string that no longer exists.)
@@ -33,17 +33,6 @@ void print_error(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace
     if (place.line > 0) std::fprintf(stream, "  (LIGGGHTS, %s:%d)\n", place.file, place.line);
     std::fflush(stream);
   }
-}
-
-/// Whatever cannot be saved now is lost: the run ends with the error that stopped it, not with this
-/// one.
-void flush_results(const LAMMPS_NS::LAMMPS& lammps) {
-  for (int i = 0; lammps.modify && i < lammps.modify->nfix; ++i) try {
-      if (auto* fix = dynamic_cast<FlushesOnError*>(lammps.modify->fix[i])) fix->flush_results();
-    } catch (const std::exception& loss) {
-      std::fprintf(stderr, "Results of fix %s are lost: %s\n", lammps.modify->fix[i]->id,
-                   loss.what());
-    }
 }
 
 /// Whether all ranks come here; false when one of them waits for this one elsewhere.
@@ -74,9 +63,9 @@ void stop_together(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePla
   }
   delete lammps.output;
   if (lammps.logfile) std::fclose(lammps.logfile);
-  if (lammps.universe->nworlds > 1) MPI_Abort(lammps.universe->uworld, 1);
+  if (lammps.universe->nworlds > 1) MPI_Abort(lammps.universe->uworld, failure_status());
   MPI_Finalize();
-  std::exit(1);
+  std::exit(failure_status());
 }
 
 void stop_alone(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace place) {
@@ -86,7 +75,10 @@ void stop_alone(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace 
     flush_results(lammps);
   } else {
     std::fprintf(stderr, "\nERROR on rank %d: %s\n", rank, text.c_str());
+    const char* line = lammps.input ? current_line(lammps) : nullptr;
+    if (line) std::fprintf(stderr, "  at %s\n", line);
     if (place.line > 0) std::fprintf(stderr, "  (LIGGGHTS, %s:%d)\n", place.file, place.line);
+    ask_for_rescue();
   }
   MPI_Abort(lammps.world, 1);
   std::abort();  // MPI_Abort does not come back

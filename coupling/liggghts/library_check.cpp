@@ -33,13 +33,15 @@ void check_room(Class* object, const char* name) {
 
 }  // namespace
 
-void* next_definition(const char* symbol) { return dlsym(RTLD_NEXT, symbol); }
+void* next_definition(const char* name) { return dlsym(RTLD_NEXT, name); }
 
 void check_library(const LAMMPS_NS::LAMMPS& lammps) {
   const std::string version = lammps.universe->version;
   if (version.find(liggghts_version) == std::string::npos)
     refuse(fmt::format("it calls itself '{}'", version));
-  if (!next_definition(create_symbol)) refuse(fmt::format("it has no symbol {}", create_symbol));
+  for (const char* name : {symbol::create, symbol::write_restart, symbol::read_int,
+                           symbol::nread_double, symbol::restart_requested})
+    if (!next_definition(name)) refuse(fmt::format("it has no symbol {}", name));
   check_room(lammps.modify, "Modify");
   check_room(lammps.input, "Input");
   check_room(lammps.domain, "Domain");

@@ -11,15 +11,24 @@ namespace furrow::coupling {
 /// The only version whose class layouts and symbols the files of this folder know.
 inline constexpr char liggghts_version[] = "3.8.0";
 
-/// LAMMPS::create() as the linker knows it: overrides.cpp stands in front of it and calls it.
-inline constexpr char create_symbol[] = "_ZN9LAMMPS_NS6LAMMPS6createEv";
+/// Functions as the linker knows them: overrides.cpp stands in front of them and calls them.
+namespace symbol {
+inline constexpr char create[] = "_ZN9LAMMPS_NS6LAMMPS6createEv";
+inline constexpr char write_restart[] = "_ZN9LAMMPS_NS12WriteRestart5writeEPc";
+inline constexpr char read_int[] = "_ZN9LAMMPS_NS11ReadRestart8read_intEv";
+inline constexpr char nread_double[] = "_ZN9LAMMPS_NS11ReadRestart12nread_doubleEPdiP8_IO_FILE";
+inline constexpr char restart_requested[] = "_ZN9LAMMPS_NS6Output17restart_requestedEl";
+}  // namespace symbol
 
 /// The start-up self-test: version, symbols, and members that are reached by layout.
 /// @throws Error that names what differs and the version that is needed
 void check_library(const LAMMPS_NS::LAMMPS& lammps);
 
-/// Address of the next definition of a symbol behind this executable's own; null when there is
-/// none.
-void* next_definition(const char* symbol);
+/// The next definition of a function behind this executable's own; null when there is none.
+void* next_definition(const char* name);
+template <class Function>
+Function* next_function(const char* name) {
+  return reinterpret_cast<Function*>(next_definition(name));
+}
 
 }  // namespace furrow::coupling

@@ -7,22 +7,34 @@
 
 #include <mpi.h>
 
+#include "coupling/liggghts/checkpoint_file.h"
 #include "coupling/liggghts/error_policy.h"
+#include "coupling/liggghts/errors.h"
 #include "coupling/liggghts/library_check.h"
+#include "coupling/liggghts/signals.h"
 #include "coupling/styles.h"
 #include "error.h"
 #include "fix.h"
 #include "lammps.h"
+#include "output.h"
+#include "read_restart.h"
+#include "update.h"
+#include "write_restart.h"
 
 namespace {
 
+using furrow::coupling::next_function;
 using furrow::coupling::stop_alone;
 using furrow::coupling::stop_together;
+using furrow::coupling::with_collective_errors;
+namespace symbol = furrow::coupling::symbol;
 
 std::string fix_text(const LAMMPS_NS::Fix& fix, const char* style, const char* text) {
   const std::string name = std::string("fix ") + style + " (id " + fix.id + "): ";
   return name + (std::string(text).size() > 2 ? text : "illegal command");
 }
+
+constexpr char cut_short[] = "The restart file ends too early: it is cut short";
 
 }  // namespace
 
@@ -32,16 +44,45 @@ namespace LAMMPS_NS {
 
 /// Called at the start and by the command clear, both of which make a new table of fix styles.
 FURROW_EXPORTED void LAMMPS::create() {
-  using furrow::coupling::create_symbol;
-  void* original = furrow::coupling::next_definition(create_symbol);
+  const auto original = next_function<void(LAMMPS*)>(symbol::create);
   if (!original) {  // without it there is no instance that check_library() could look at
     std::fprintf(stderr,
                  "ERROR: the LIGGGHTS library has no %s; install libliggghts3 %s of Debian 12\n",
-                 create_symbol, furrow::coupling::liggghts_version);
+                 symbol::create, furrow::coupling::liggghts_version);
     MPI_Abort(MPI_COMM_WORLD, 1);
   }
-  reinterpret_cast<void (*)(LAMMPS*)>(original)(this);
+  original(this);
   furrow::coupling::add_styles(*this);
+}
+
+/// Every restart file comes from here: of write_restart, restart and signals.
+FURROW_EXPORTED void WriteRestart::write(char* file) {
+  const auto original = next_function<void(WriteRestart*, char*)>(symbol::write_restart);
+  with_collective_errors(*error, [&] {
+    furrow::coupling::write_checkpoint(*lmp, file, [&](char* name) { original(this, name); });
+  });
+}
+
+// LIGGGHTS does not look whether a restart file goes on, and would read its last number for ever.
+
+FURROW_EXPORTED int ReadRestart::read_int() {
+  const int value = next_function<int(ReadRestart*)>(symbol::read_int)(this);
+  if (me == 0 && std::feof(fp)) error->one(FLERR, cut_short);
+  return value;
+}
+
+FURROW_EXPORTED void ReadRestart::nread_double(double* numbers, int count, FILE* file) {
+  next_function<void(ReadRestart*, double*, int, FILE*)>(symbol::nread_double)(this, numbers, count,
+                                                                               file);
+  if (std::feof(file)) error->one(FLERR, cut_short);
+}
+
+/// Asked in every step, before it is decided whether neighbour lists are made.
+FURROW_EXPORTED bool Output::restart_requested(const bigint step) {
+  furrow::coupling::agree_on_signals(*lmp);
+  // Without this LIGGGHTS, after a checkpoint that a signal asked for, has no further output.
+  if (!restart_flag) next_restart_single = next_restart_double = update->laststep + 1;
+  return next_function<bool(Output*, bigint)>(symbol::restart_requested)(this, step);
 }
 
 FURROW_EXPORTED void Error::all(const char* file, int line, const char* text) {

@@ -10,6 +10,7 @@
 
 #include "comm.h"
 #include "coupling/liggghts/access.h"
+#include "coupling/liggghts/first_rank.h"
 #include "input.h"
 #include "modify.h"
 #include "variable.h"
@@ -64,13 +65,9 @@ std::string script_name(const LAMMPS_NS::LAMMPS& lammps) {
 std::string script_folder(const LAMMPS_NS::LAMMPS& lammps) {
   int rank = 0;
   MPI_Comm_rank(lammps.world, &rank);
-  std::string folder =
-      rank == 0 ? std::filesystem::path(script_name(lammps)).parent_path().string() : "";
-  int size = static_cast<int>(folder.size());
-  MPI_Bcast(&size, 1, MPI_INT, 0, lammps.world);
-  folder.resize(static_cast<std::size_t>(size));
-  MPI_Bcast(folder.data(), size, MPI_CHAR, 0, lammps.world);
-  return folder;
+  return broadcast(
+      rank == 0 ? std::filesystem::path(script_name(lammps)).parent_path().string() : "",
+      lammps.world);
 }
 
 LAMMPS_NS::Fix& add_fix(LAMMPS_NS::LAMMPS& lammps, std::vector<std::string> words) {

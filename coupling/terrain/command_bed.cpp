@@ -3,20 +3,27 @@
 
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <mpi.h>
+#include <unistd.h>
 
 #include "comm.h"
-#include "core/communicator.h"
 #include "core/error.h"
+#include "coupling/base/fix_coupled_system.h"
+#include "coupling/liggghts/checkpoint_file.h"
+#include "coupling/liggghts/first_rank.h"
 #include "coupling/liggghts/script.h"
+#include "coupling/liggghts/signals.h"
 #include "coupling/terrain/bed_facts.h"
+#include "coupling/terrain/bed_limits.h"
 #include "domain.h"
 #include "input.h"
 #include "io/cache.h"
+#include "io/sealed_file.h"
 #include "io/version.h"
-#include "signal_handling.h"
 
 namespace furrow::coupling {
 
@@ -27,36 +34,43 @@ namespace fs = std::filesystem;
 constexpr char line_variable[] = "furrow_bed";  // holds the words of the line, one on each line
 constexpr char no_checkpoint[] = "none";
 
-/// Of a parameter that was renamed.
-std::string current_name(const std::string& name) {
-  return name == "headroom" ? "clearance_above" : name;
-}
-
-std::string read_file(const fs::path& path) {
-  std::ifstream file(path);
-  if (!file)
-    throw InputError("command bed", fmt::format("cannot read '{}'", path.string()),
-                     "the path of a script that makes a bed",
-                     "give it relative to the folder of the main script");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-/// The lines of a bed script between "#: <name>" and the next "#: ".
-std::string section(const std::string& text, const std::string& name) {
-  const std::size_t begin = text.find("#: " + name + "\n");
-  if (begin == std::string::npos)
-    throw InputError("command bed", fmt::format("finds no line '#: {}' in the script", name),
-                     "sections '#: box', '#: contact', '#: settle'");
-  return text.substr(begin, text.find("\n#: ", begin) - begin);
-}
-
 /// "command processors": 0 leaves the number of ranks along an axis to LIGGGHTS.
 std::string processors_line(const int (&grid)[3]) {
   std::string line = "processors";
   for (const int ranks : grid) line += ranks ? fmt::format(" {}", ranks) : " *";
   return line;
+}
+
+/// Of the parameters: "length 0.2, width 0.1".
+std::string values_of(const Options& options) {
+  std::vector<std::string> words;
+  for (const Key& key : options.keys()) {
+    if (key.name == "script" || key.name == "from") continue;
+    const bool number = key.kind == Key::Kind::number;
+    words.push_back(
+        key.name + " " +
+        (number ? fmt::format("{}", options.number(key.name)) : options.text(key.name)));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// A command with a path, which may have blanks.
+std::string quoted(const char* command, const fs::path& path) {
+  return fmt::format("{} \"{}\"", command, path.string());
+}
+
+/// Makes the folder, and a file in it for a moment. @throws InputError
+void check_folder(const fs::path& folder) {
+  const fs::path trial = folder / fmt::format("trial{}", getpid());
+  try {
+    write_sealed_text(trial, "");
+    fs::remove(trial);
+  } catch (const std::exception& problem) {
+    throw InputError(fmt::format("command bed: the folder for beds, '{}',", folder.string()),
+                     fmt::format("cannot be used: {}", problem.what()),
+                     "a folder that can be written",
+                     "name one in the environment variable FURROW_CACHE");
+  }
 }
 
 }  // namespace
@@ -73,14 +87,19 @@ Schema CommandBed::schema() {
 OutputTable CommandBed::outputs() { return {"variable", bed_outputs().channels()}; }
 
 std::string CommandBed::Request::identity() const {
-  std::string all = version() + "\n" + text;
+  std::string all = version() + "\n" + script.text();
   for (const Parameter& p : parameters) all += "\n" + p.name + " " + p.value;
   return all;
 }
 
-CommandBed::KeptBed::KeptBed(const Request& request)
-    : restart(cache_folder() / ("bed-" + content_hash(request.identity()) + ".restart")),
-      facts(fs::path(restart).replace_extension(".txt")) {}
+std::string CommandBed::KeptBed::problem() const {
+  for (const fs::path& file : {restart(), facts()}) {
+    const SealCheck check = check_seal(file);
+    if (check.state != SealCheck::State::whole)
+      return fmt::format("'{}' {}", file.string(), check.problem);
+  }
+  return "";
+}
 
 void CommandBed::command(int narg, char** arg) {
   // The words live in the buffer of the line being parsed, which other commands overwrite.
@@ -90,10 +109,10 @@ void CommandBed::command(int narg, char** arg) {
                      "bed before create_box, read_restart or read_data",
                      "move the line up: the bed brings its own box");
   const Request request = read_request(words);
+  if (request.from != no_checkpoint) check_checkpoint(*lmp, find_checkpoint(*lmp, request.from));
   set_parameters(request);
-  const KeptBed bed(request);
+  const KeptBed bed(cache_folder() / ("bed-" + content_hash(request.identity())));
   if (!is_kept(bed)) make(request, bed);
-  MPI_Barrier(world);
   read(request, bed);
 }
 
@@ -103,25 +122,25 @@ CommandBed::Request CommandBed::read_request(const std::vector<std::string>& wor
                      "bed <script> <name> <value> <name> <value> ...",
                      "every parameter of the bed needs a value");
   std::vector<Entry> entries = {{"script", {words[0]}}};
-  Request request;
+  std::vector<Parameter> parameters;
   for (std::size_t i = 1; i < words.size(); i += 2) {
-    const std::string& name = words[i];
-    const std::string& value = words[i + 1];
-    if (name == "depth" || name == "from") entries.push_back({name, {value}});
-    if (name != "from") request.parameters.push_back({current_name(name), value, name});
+    const std::string name = current_name(words[i]);
+    entries.push_back({name, {words[i + 1]}});
+    if (name != "from") parameters.push_back({name, words[i + 1], words[i]});
   }
-  const Options options = schema().read(entries);
-  request.script = fs::path(script_folder(*lmp)) / options.text("script");
-  request.text = read_file(request.script);
-  request.depth = options.number("depth");
-  request.from = options.text("from");
-  return request;
+  BedScript script(fs::path(script_folder(*lmp)) / words[0]);
+  Schema keys = schema();
+  script.declare_parameters(keys);
+  const Options options = keys.read(entries);
+  check_bed_parameters(options);
+  return {std::move(script), options.number("depth"), options.text("from"), std::move(parameters),
+          values_of(options)};
 }
 
 /// Each becomes a variable with bed_ before its name; of a former name too, which a bed script may
 /// still read.
 void CommandBed::set_parameters(const Request& request) {
-  std::string line = "script\n" + request.script.string();
+  std::string line = "script\n" + request.script.path().string();
   for (const Parameter& p : request.parameters) {
     set_variable(*lmp, "bed_" + p.name, p.value);
     line += "\n" + p.name + "\n" + p.value;
@@ -131,25 +150,34 @@ void CommandBed::set_parameters(const Request& request) {
                            p.written, p.name, p.name, p.value));
   }
   set_variable(*lmp, line_variable, line);
+  set_variable(*lmp, FixCoupledSystem::bed_variable, request.values);
 }
 
+/// A damaged one is made again.
 bool CommandBed::is_kept(const KeptBed& bed) {
-  int kept = comm->me == 0 && fs::exists(bed.restart) && fs::exists(bed.facts);
+  int kept = 0;
+  if (comm->me == 0 && fs::exists(bed.folder)) {
+    const std::string problem = bed.problem();
+    kept = problem.empty();
+    if (!kept)
+      warn(*lmp, fmt::format("command bed: the kept bed's file {}; it is made again", problem));
+  }
   MPI_Bcast(&kept, 1, MPI_INT, 0, world);
   return kept;
 }
 
 void CommandBed::make(const Request& request, const KeptBed& bed) {
   if (comm->me == 0 && screen)
-    fmt::print(screen, "Making the bed {} (kept in {})\n", request.script.string(),
-               bed.restart.parent_path().string());
+    fmt::print(screen, "Making the bed {} (kept in {})\n", request.script.path().string(),
+               bed.folder.parent_path().string());
   const int grid[3] = {comm->user_procgrid[0], comm->user_procgrid[1], comm->user_procgrid[2]};
-  // before the minutes that a bed takes: a folder that cannot be made is an error now
-  if (comm->me == 0) fs::create_directories(bed.restart.parent_path());
+  // before the minutes that a bed takes
+  on_first_rank(world, [&] { check_folder(bed.folder.parent_path()); });
+  const NoCheckpointOnSignal nothing_to_continue;
   for (const char* name : {"box", "contact", "settle"}) run_section(request, name);
   // A termination signal ends every run at once and lets the script go on: what came of it is no
   // bed, and must not be kept for others.
-  if (Communicator(&world).any(LAMMPS_NS::SignalHandler::request_quit))
+  if (agreed_signal())
     throw StateError(
         "command bed was interrupted while it made the bed, which is not kept; start the script "
         "again");
@@ -158,50 +186,45 @@ void CommandBed::make(const Request& request, const KeptBed& bed) {
   input->one(processors_line(grid).c_str());
 }
 
-/// Both files take their names when they are whole.
+/// Written beside; another run may be making the same bed.
 void CommandBed::keep(const Request& request, const KeptBed& bed) {
   const BedFacts facts = measure_bed(*lmp, request.depth);
-  const std::string part =
-      fmt::format("{}.part{}", bed.restart.string(), static_cast<long>(facts.grains));
-  input->one(("write_restart " + part).c_str());
-  if (comm->me != 0) return;
-  fs::rename(part, bed.restart);
-  std::ofstream file(bed.facts);
+  check_bed(facts, request.depth);
+  std::string text;
   const std::vector<Channel> names = bed_outputs().channels();
   const std::vector<double> values = bed_outputs().values(facts);
   for (std::size_t n = 0; n < names.size(); ++n)
-    file << fmt::format("{} {:.10g}\n", names[n].name, values[n]);
-  file << "\n# made by:\n" << request.identity() << '\n';
+    text += fmt::format("{} {:.10g}\n", names[n].name, values[n]);
+  text += "\n# made by:\n" + request.identity() + '\n';
+
+  const KeptBed part(broadcast(fmt::format("{}.part{}", bed.folder.string(), getpid()), world));
+  input->one(quoted("write_restart", part.restart()).c_str());
+  on_first_rank(world, [&] {
+    write_sealed_text(part.facts(), text);
+    std::error_code failed;
+    if (!bed.problem().empty()) fs::remove_all(bed.folder, failed);
+    fs::rename(part.folder, bed.folder, failed);
+    if (failed) fs::remove_all(part.folder);  // that other run has been faster
+    if (const std::string problem = bed.problem(); !problem.empty())
+      throw Error("command bed: the bed is not kept: " + problem);
+  });
 }
 
 /// The bed, or the checkpoint of a run on it, with its contact properties and facts.
 void CommandBed::read(const Request& request, const KeptBed& bed) {
   // read_restart keeps the setting of the moment, and contact history needs it off
   input->one("newton off");
-  input->one(
-      ("read_restart " + (request.from == no_checkpoint ? bed.restart.string() : request.from))
-          .c_str());
+  const bool begins = request.from == no_checkpoint;
+  input->one(quoted("read_restart", begins ? bed.restart() : fs::path(request.from)).c_str());
   run_section(request, "contact");
-  std::ifstream file(bed.facts);
+  std::ifstream file(bed.facts());
   std::string name, value;
   while (file >> name >> value && name[0] != '#') set_variable(*lmp, name, value);
 }
 
-/// Line by line, so that this command can go on when the section has ended: no jumps, loops or
-/// labels inside.
+/// Line by line, so that this command can go on when the section has ended.
 void CommandBed::run_section(const Request& request, const std::string& name) {
-  std::istringstream lines(section(request.text, name));
-  std::string line, whole;
-  while (std::getline(lines, line)) {
-    const std::size_t end = line.find_last_not_of(" \t\r");
-    if (end != std::string::npos && line[end] == '&') {
-      whole += line.substr(0, end) + " ";
-      continue;
-    }
-    whole += line;
-    input->one(whole.c_str());
-    whole.clear();
-  }
+  for (const std::string& command : request.script.commands(name)) input->one(command.c_str());
 }
 
 std::vector<std::pair<std::string, std::string>> bed_line(LAMMPS_NS::LAMMPS& lammps) {

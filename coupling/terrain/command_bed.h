@@ -9,6 +9,7 @@
 
 #include "core/options.h"
 #include "coupling/styles.h"
+#include "coupling/terrain/bed_script.h"
 #include "pointers.h"
 
 namespace furrow::coupling {
@@ -31,20 +32,24 @@ class CommandBed : protected LAMMPS_NS::Pointers {
   };
   /// What the line asks for.
   struct Request {
-    std::filesystem::path script;
-    std::string text;                   // of the script
+    BedScript script;
     double depth;                       // [m]
     std::string from;                   // a checkpoint of a run on this bed, or "none"
     std::vector<Parameter> parameters;  // depth among them
+    std::string values;                 // of all parameters, equal for equal numbers
 
     /// Equal for equal beds.
     std::string identity() const;
   };
-  /// The files of a bed that was made.
+  /// The files of a bed that was made: a folder, which is there whole or not at all.
   struct KeptBed {
-    explicit KeptBed(const Request& request);
-    std::filesystem::path restart;  // of LIGGGHTS
-    std::filesystem::path facts;    // a name and a value on each line, then how it was made
+    explicit KeptBed(std::filesystem::path where) : folder(std::move(where)) {}
+    std::filesystem::path folder;
+    std::filesystem::path restart() const { return folder / "bed.restart"; }
+    /// A name and a value on each line, then how it was made.
+    std::filesystem::path facts() const { return folder / "facts.txt"; }
+    /// What is damaged; nothing when all is whole.
+    std::string problem() const;
   };
 
   Request read_request(const std::vector<std::string>& words);

@@ -77,6 +77,14 @@ FixBedWindow::FixBedWindow(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
   force_reneighbor = 1;
   next_reneighbor = -1;
   provide(outputs());
+  keep_state();
+}
+
+/// The grains that it remembers would be those of the rut: they are not in the checkpoint.
+void FixBedWindow::checkpoint(Checkpoint& state) {
+  if (!state.saving())
+    throw StateError(
+        "fix bed/window cannot be continued from a checkpoint: start the run from its beginning");
 }
 
 int FixBedWindow::setmask() {

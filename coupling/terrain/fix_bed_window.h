@@ -31,6 +31,7 @@ class FixBedWindow : public FurrowFix, public FollowsSystem {
   void post_force(int vflag) override;
 
  private:
+  void checkpoint(Checkpoint& state) override;
   double middle_of_body() const { return body_.surface().x.row(0).mean(); }  // [m] along x
   long slab_of(double x) const;  // 0 to slabs_-1, x anywhere
   long slab_of_grain(std::size_t grain) const { return slab_of(bed_->position(grain)[0]); }

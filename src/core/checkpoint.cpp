@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/checksum.h"
 #include "core/error.h"
 
 namespace furrow {
@@ -18,14 +19,10 @@ struct Header {
   std::uint64_t checksum = 0;  // of what follows
 };
 
-/// FNV-1a, 64 bits (G. Fowler, L. C. Noll, K.-P. Vo).
-std::uint64_t checksum(const char* bytes, std::size_t size) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (std::size_t i = 0; i < size; ++i) {
-    hash ^= static_cast<unsigned char>(bytes[i]);
-    hash *= 1099511628211u;
-  }
-  return hash;
+std::uint64_t checksum(const std::vector<char>& bytes) {
+  Checksum sum;
+  sum.add(bytes.data(), bytes.size());
+  return sum.value();
 }
 
 constexpr char remedy[] = "continue with the input and the program of the first run";
@@ -55,7 +52,7 @@ Checkpoint::Checkpoint(std::string owner, const char* bytes, std::size_t size)
   if (header.length != size - sizeof header)
     refuse(fmt::format("has {} bytes of {}", size - sizeof header, header.length));
   data_.assign(bytes + sizeof header, bytes + size);
-  if (checksum(data_.data(), data_.size()) != header.checksum) refuse("is damaged");
+  if (checksum(data_) != header.checksum) refuse("is damaged");
 }
 
 std::size_t Checkpoint::size(const std::string& owner, const char* bytes) {
@@ -163,7 +160,7 @@ void Checkpoint::match(const std::string& name, const std::string& text) {
 std::vector<char> Checkpoint::bytes() const {
   Header header;
   header.length = data_.size();
-  header.checksum = checksum(data_.data(), data_.size());
+  header.checksum = checksum(data_);
   std::vector<char> all(sizeof header + data_.size());
   std::memcpy(all.data(), &header, sizeof header);
   if (!data_.empty()) std::memcpy(all.data() + sizeof header, data_.data(), data_.size());

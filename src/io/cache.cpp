@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "io/cache.h"
 
-#include <cstdint>
 #include <cstdlib>
 
 #include <fmt/format.h>
+
+#include "core/checksum.h"
 
 namespace furrow {
 
@@ -18,9 +19,9 @@ fs::path cache_folder() {
 }
 
 std::string content_hash(const std::string& text) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const unsigned char c : text) hash = (hash ^ c) * 1099511628211u;
-  return fmt::format("{:016x}", hash);
+  Checksum sum;
+  sum.add(text.data(), text.size());
+  return fmt::format("{:016x}", sum.value());
 }
 
 }  // namespace furrow

@@ -126,8 +126,9 @@ def _start(case: Case, command: list[str], folder: Path) -> _Attempt:
         _, status, usage = os.wait4(process.pid, 0)
         timer.cancel()
     process.returncode = os.waitstatus_to_exitcode(status)
-    # LIGGGHTS takes a signal as a wish for a checkpoint, ends the run and exits with 0
-    if -process.returncode in INTERRUPTIONS or any(folder.glob("restart_forced*")):
+    # furrow takes a signal as a wish for a checkpoint, ends the run and exits with 128 and the signal
+    by_signal = {-process.returncode, process.returncode - 128} & set(INTERRUPTIONS)
+    if by_signal or any(folder.glob("restart_forced*")):
         raise Interrupted(f"{folder} was interrupted; start again")
     error = ""
     if late.is_set():

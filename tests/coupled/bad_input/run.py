@@ -56,8 +56,10 @@ def main(furrow, script, launcher):
     expected, warnings = header(script, "expect"), header(script, "warning")
     environment = dict(os.environ, FURROW_CACHE="cache")
     with tempfile.TemporaryDirectory() as folder:
-        command = [*launcher, furrow, "-in", script, "-log", "none", "-var", "parts", here / "parts",
-                   "-var", "beds", here.parents[2] / "inputs/beds"]
+        folders = {"parts": here / "parts", "beds": here.parents[2] / "inputs/beds"}
+        variables = [word for name, path in folders.items() if f"${{{name}}}" in script.read_text()
+                     for word in ("-var", name, path)]
+        command = [*launcher, furrow, "-in", script, "-log", "none", *variables]
         run = subprocess.run(command, cwd=folder, env=environment, timeout=TIME_LIMIT, text=True, stdin=subprocess.DEVNULL,
                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         print(run.stdout)

@@ -20,7 +20,9 @@ TIME_LIMIT = 300  # s
 
 
 def run(command, script, folder):
-    done = subprocess.run([*command, "-in", script, "-log", "none", "-var", "here", HERE, "-var", "parts", PARTS],
+    variables = [word for name, path in (("here", HERE), ("parts", PARTS))
+                 if f"${{{name}}}" in Path(script).read_text() for word in ("-var", name, path)]
+    done = subprocess.run([*command, "-in", script, "-log", "none", *variables],
                           cwd=folder, timeout=TIME_LIMIT, text=True,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode != 0:

@@ -1,17 +1,26 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A shipped scene is killed at a random moment and continued: the results are those of a run in one.
 
-    killed_scene.py <furrow> <scene> <steps between checkpoints> <ranks> [<name> <value>]...
+    killed_scene.py [--kills n] [--mpirun <word>]... <furrow> <scene> <steps between checkpoints> <ranks>
+                    [<name> <value>]...
 
-The scene is changed as coupling/terrain/fix_terrain_continuum.md says: `restart` before the run; to
-continue, `read_restart` in the place of the box and of whatever was done before, and `upto`. Every
-number of history.h5 and terrain.h5 must be the same, bit for bit, but for the two files' own facts
-(cost, audit of a part of a run, script).
+The scene is changed as coupling/restart/command_read_restart.md says: `restart` before the run; to
+continue, `read_restart` in the place of the box and of whatever was done before, or `from` in the
+line of the bed, and `upto`. Every number of history.h5 and terrain.h5 must be the same, bit for bit,
+but for the two files' own facts (cost, audit of a part of a run, script).
+
+One kill comes some time after the second checkpoint. Of several, each comes at any moment of the
+run, every other one as SIGTERM; then the checkpoint is that of the signal, and a scene with grains,
+whose neighbour lists it has made at a step of their own, must have as many rows, frames and values,
+not the same; without grains, several ranks, whose sums it has added up at that step, agree to 1e-9
+of the largest number of a unit.
 """
 
+import argparse
 import os
 import random
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -25,8 +34,19 @@ import numpy as np
 INPUTS = Path(__file__).resolve().parents[3] / "inputs"
 COMPARED = ("history", "terrain", "rut", "surface", "grains")  # groups of the results files
 
-furrow, scene, every, ranks, *variables = sys.argv[1:]
-launch = ["mpirun", "-n", ranks] if int(ranks) > 1 else []
+parser = argparse.ArgumentParser()
+parser.add_argument("--kills", type=int, default=1)
+parser.add_argument("--mpirun", action="append", default=[])
+for positional in ("furrow", "scene", "every", "ranks"):
+    parser.add_argument(positional)
+parser.add_argument("variables", nargs=argparse.REMAINDER)
+words = parser.parse_args()
+furrow, scene, every, ranks, variables = words.furrow, words.scene, words.every, words.ranks, words.variables
+launch = [*words.mpirun, ranks] if int(ranks) > 1 else []
+has_bed = "from ${from}" in Path(scene).read_text()
+has_grains = "nve/sphere" in Path(scene).read_text()
+# A bed that was made in the first run is read in the others.
+cache = tempfile.TemporaryDirectory()
 
 
 def whole_script() -> str:
@@ -39,6 +59,8 @@ def whole_script() -> str:
 
 def continued_script(checkpoint: Path) -> str:
     text = whole_script()
+    if has_bed:
+        return re.sub(r"^(variable +from index) .*$", rf"\1 {checkpoint}", text, flags=re.M)
     text = re.sub(r"^region +box .*\ncreate_box .*$", f"read_restart {checkpoint}", text, flags=re.M)
     # Grains that were poured are in the checkpoint.
     text = re.sub(r"^# Grains: poured.*?^(fix +move .*?$).*?(^unfix +progress$)", r"\1", text,
@@ -49,10 +71,11 @@ def continued_script(checkpoint: Path) -> str:
 def start(folder: Path, script: str) -> subprocess.Popen:
     (folder / "results").mkdir(parents=True, exist_ok=True)  # as inputs/run does
     (folder / "scene.lig").write_text(script)
-    words = [part for name, value in zip(variables[::2], variables[1::2])
+    given = [part for name, value in zip(variables[::2], variables[1::2])
              for part in ("-var", name, value)]
     return subprocess.Popen([*launch, furrow, "-in", "scene.lig", "-log", "none", "-var", "results",
-                             "results", *words], cwd=folder, stdin=subprocess.DEVNULL,
+                             "results", *given], cwd=folder, stdin=subprocess.DEVNULL,
+                            env={**os.environ, "FURROW_CACHE": cache.name},
                             stdout=open(folder / "screen.txt", "w"), stderr=subprocess.STDOUT,
                             start_new_session=True)
 
@@ -62,10 +85,16 @@ def finish(folder: Path, script: str) -> None:
         sys.exit(f"{folder.name} stopped:\n" + (folder / "screen.txt").read_text()[-3000:])
 
 
-def kill_after_checkpoint(folder: Path, script: str) -> Path:
-    """@return a checkpoint that was whole when the run was killed"""
+def newest(files: list[Path]) -> Path | None:
+    """Whole, as every file of that name is."""
+    there = [file for file in files if file.exists()]
+    return max(there, key=lambda file: file.stat().st_mtime) if there else None
+
+
+def kill_after_checkpoint(folder: Path) -> Path | None:
+    """@return the newest checkpoint when the run was killed"""
     began = time.monotonic()
-    run = start(folder, script)
+    run = start(folder, whole_script())
     files = [folder / "ck.1", folder / "ck.2"]
     while not all(file.exists() for file in files) and run.poll() is None:
         time.sleep(0.01)
@@ -74,19 +103,59 @@ def kill_after_checkpoint(folder: Path, script: str) -> Path:
         sys.exit("the run ended before it was killed:\n" + (folder / "screen.txt").read_text()[-2000:])
     os.killpg(run.pid, signal.SIGKILL)
     run.wait()
-    return min(files, key=lambda file: file.stat().st_mtime)  # the other may be half written
+    return newest(files)
 
 
-def numbers(folder: Path) -> dict[str, np.ndarray]:
-    """All arrays of the results files, by name."""
+def kill_at_any_moment(folder: Path, duration: float, number: int) -> Path | None:
+    """@return a checkpoint, or nothing if there was none yet"""
+    run = start(folder, whole_script())
+    try:
+        if run.wait(timeout=random.uniform(0.05, 0.9) * duration) != 0:
+            sys.exit("the run stopped:\n" + (folder / "screen.txt").read_text()[-2000:])
+        return newest([folder / "ck.1", folder / "ck.2"])  # faster than the first: continued from its last
+    except subprocess.TimeoutExpired:
+        os.killpg(run.pid, number)
+    status = run.wait(timeout=120)
+    if number == signal.SIGTERM and status == 0:
+        sys.exit("the status after SIGTERM is 0")
+    return newest(list(folder.glob("restart_forced*")) or [folder / "ck.1", folder / "ck.2"])
+
+
+def largest(values: np.ndarray) -> float:
+    return float(np.nanmax(np.abs(values), initial=0.0))
+
+
+def numbers(folder: Path) -> tuple[dict[str, np.ndarray], dict[str, float]]:
+    """Arrays by name, and the largest value of their unit: of a force component that is zero but
+    for rounding, that of all forces."""
     found: dict[str, np.ndarray] = {}
+    units: dict[str, str] = {}
     for path in sorted((folder / "results").glob("*.h5")):
         with h5py.File(path) as content:
             def collect(name: str, item: object) -> None:
                 if isinstance(item, h5py.Dataset) and name.split("/")[0] in COMPARED:
                     found[f"{path.name}/{name}"] = item[()]
+                    units[f"{path.name}/{name}"] = str(item.attrs.get("unit", name))
             content.visititems(collect)
-    return found
+    scales = {name: max(largest(values) for other, values in found.items()
+                        if units[other] == units[name]) for name in found}
+    return found, scales
+
+
+def compare(whole: Path, killed: Path, values_too: bool, tolerance: float) -> int:
+    """@param tolerance  of the largest number of a unit
+    @return how many arrays are the same"""
+    (expected, scales), (got, _) = numbers(whole), numbers(killed)
+    if not expected or expected.keys() != got.keys():
+        sys.exit(f"results differ in kind: {sorted(expected.keys() ^ got.keys())}")
+    for item, values in expected.items():
+        shapes = np.shape(values), np.shape(got[item])
+        if shapes[0] != shapes[1]:
+            sys.exit(f"{item} is not the same: shapes {shapes[0]}, {shapes[1]}")
+        if values_too and not np.allclose(values, got[item], rtol=0.0, atol=tolerance * scales[item],
+                                          equal_nan=True):
+            sys.exit(f"{item} is not the same, by {np.nanmax(np.abs(values - got[item])):.3g}")
+    return len(expected)
 
 
 seed = int.from_bytes(os.urandom(4), "little")
@@ -94,16 +163,24 @@ random.seed(seed)
 print("seed", seed)
 with tempfile.TemporaryDirectory() as name:
     whole, killed = Path(name) / "whole", Path(name) / "killed"
+    if has_bed:
+        finish(killed, whole_script())  # makes the bed, whose minutes are none of the run's
+    began = time.monotonic()
     finish(whole, whole_script())
-    checkpoint = kill_after_checkpoint(killed, whole_script())
-    finish(killed, continued_script(checkpoint))
-    expected, got = numbers(whole), numbers(killed)
-    if not expected or expected.keys() != got.keys():
-        sys.exit(f"results differ in kind: {sorted(expected.keys() ^ got.keys())}")
-    for item, values in expected.items():
-        if not np.array_equal(values, got[item], equal_nan=True):
-            at = np.shape(values), np.shape(got[item])
-            difference = "" if at[0] != at[1] else f", by {np.nanmax(np.abs(values - got[item])):.3g}"
-            sys.exit(f"{item} is not the same{difference} (shapes {at[0]}, {at[1]})")
-    said = (killed / "screen.txt").read_text()
-    print(len(expected), "arrays are the same;", re.findall(r"Reading restart file.*|WARNING.*", said)[:3])
+    duration = time.monotonic() - began
+    continued = 0
+    for kill in range(words.kills):
+        shutil.rmtree(killed, ignore_errors=True)
+        number = signal.SIGTERM if kill % 2 else signal.SIGKILL
+        checkpoint = kill_after_checkpoint(killed) if words.kills == 1 else kill_at_any_moment(killed, duration, number)
+        if checkpoint is None:
+            print("killed before the first checkpoint")
+            continue
+        finish(killed, continued_script(checkpoint))
+        exact = number == signal.SIGKILL or ranks == "1"
+        same = compare(whole, killed, number == signal.SIGKILL or not has_grains,
+                       tolerance=0.0 if exact else 1e-9)
+        continued += 1
+        print(f"{number.name}, {checkpoint.name}: {same} arrays are the same", flush=True)
+    if 2 * continued < words.kills:
+        sys.exit(f"only {continued} of {words.kills} runs could be continued")

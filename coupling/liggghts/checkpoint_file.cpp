@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/liggghts/checkpoint_file.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "core/error.h"
+#include "coupling/liggghts/first_rank.h"
+#include "io/sealed_file.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file in memory, under a name that fopen() takes.
+class MemoryFile {
+ public:
+  MemoryFile() : handle_(memfd_create("checkpoint", MFD_CLOEXEC)) {
+    if (handle_ < 0)
+      throw Error(fmt::format("a checkpoint cannot be gathered: {}", std::strerror(errno)));
+  }
+  ~MemoryFile() { close(handle_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  std::string name() const { return fmt::format("/proc/self/fd/{}", handle_); }
+  void copy_to(SealedFile& file) const {
+    std::vector<char> block(1 << 20);
+    off_t position = 0;
+    for (ssize_t count; (count = pread(handle_, block.data(), block.size(), position)) != 0;
+         position += count) {
+      if (count < 0) throw Error(fmt::format("a checkpoint is lost: {}", std::strerror(errno)));
+      file.write(block.data(), static_cast<std::size_t>(count));
+    }
+  }
+
+ private:
+  int handle_;
+};
+
+/// Every restart file of LIGGGHTS begins with the flag of its version, 0, the length of that text,
+/// and the text.
+bool begins_as_restart_file(const std::string& path) {
+  struct {
+    int flag = -1, length = 0;
+    char text[7] = {};
+  } head;
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(&head.flag), sizeof head.flag);
+  file.read(reinterpret_cast<char*>(&head.length), sizeof head.length);
+  file.read(head.text, sizeof head.text);
+  return file && head.flag == 0 && head.length > 7 && std::memcmp(head.text, "Version", 7) == 0;
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& problem,
+                         const std::string& remedy) {
+  throw InputError(fmt::format("checkpoint '{}'", path), problem,
+                   "a whole restart file that furrow wrote", remedy);
+}
+
+constexpr char remedy_of_path[] =
+    "give the path of a checkpoint, from the folder in which furrow is started";
+constexpr char remedy_of_damage[] = "continue from another one, or start from the beginning";
+
+/// The number in a name that a pattern "ck.*" means; nothing for another name.
+std::optional<long> step_in(const std::string& name, const std::string& before,
+                            const std::string& after) {
+  if (name.size() <= before.size() + after.size() || name.compare(0, before.size(), before) != 0 ||
+      name.compare(name.size() - after.size(), after.size(), after) != 0)
+    return std::nullopt;
+  const std::string digits = name.substr(before.size(), name.size() - before.size() - after.size());
+  if (digits.find_first_not_of("0123456789") != std::string::npos || digits.size() > 18)
+    return std::nullopt;
+  return std::atol(digits.c_str());
+}
+
+std::string latest(const std::string& pattern) {
+  const std::size_t star = pattern.find('*'), slash = pattern.rfind('/');
+  const std::size_t name = slash == std::string::npos ? 0 : slash + 1;
+  if (star < name) refuse(pattern, "has a '*' in its folder", "write '*' in the file's own name");
+  const std::string before = pattern.substr(name, star - name), after = pattern.substr(star + 1);
+  const fs::path folder = name == 0 ? "." : pattern.substr(0, name);
+  std::error_code failed;
+  std::optional<long> last;
+  for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end;
+       entry.increment(failed))
+    if (const auto step = step_in(entry->path().filename().string(), before, after))
+      last = std::max(last.value_or(*step), *step);
+  if (failed) refuse(pattern, "cannot be looked for: " + failed.message(), remedy_of_path);
+  if (!last) refuse(pattern, "matches no file", remedy_of_path);
+  return fmt::format("{}{}{}", pattern.substr(0, star), *last, after);
+}
+
+}  // namespace
+
+void write_checkpoint(LAMMPS_NS::LAMMPS& lammps, const std::string& path,
+                      const std::function<void(char* name)>& write) {
+  if (path.find('%') != std::string::npos)
+    throw InputError(fmt::format("restart file '{}'", path), "asks for a file for each rank (%)",
+                     "a name without %", "one file holds the grains of all ranks");
+  std::optional<SealedFile> file;  // both on rank 0
+  std::optional<MemoryFile> memory;
+  on_first_rank(lammps.world, [&] {
+    file.emplace(path);  // before the work
+    memory.emplace();
+  });
+  std::string name = memory ? memory->name() : "";
+  write(name.data());
+  on_first_rank(lammps.world, [&] {
+    memory->copy_to(*file);
+    file->close();
+  });
+}
+
+std::string find_checkpoint(LAMMPS_NS::LAMMPS& lammps, const std::string& path) {
+  if (path.find('*') == std::string::npos) return path;
+  std::string found;
+  on_first_rank(lammps.world, [&] { found = latest(path); });
+  return broadcast(found, lammps.world);
+}
+
+void check_checkpoint(LAMMPS_NS::LAMMPS& lammps, const std::string& path) {
+  on_first_rank(lammps.world, [&] {
+    const SealCheck check = check_seal(path);
+    switch (check.state) {
+      case SealCheck::State::whole:
+        if (!begins_as_restart_file(path)) refuse(path, "is no restart file", remedy_of_path);
+        return;
+      case SealCheck::State::unreadable:
+        refuse(path, check.problem, remedy_of_path);
+      case SealCheck::State::damaged:
+        refuse(path, check.problem, remedy_of_damage);
+      case SealCheck::State::unsealed:
+        if (!begins_as_restart_file(path))
+          refuse(path, check.problem + " and is no restart file", remedy_of_path);
+        refuse(path,
+               check.problem + ": it is cut short, or stock LIGGGHTS or an older Furrow wrote it",
+               fmt::format("continue from another one, or, if it is known to be whole, write "
+                           "'read_restart {} unchecked'",
+                           path));
+    }
+  });
+}
+
+void check_restart_file(LAMMPS_NS::LAMMPS& lammps, const std::string& path) {
+  on_first_rank(lammps.world, [&] {
+    std::string file = path;
+    if (const std::size_t percent = file.find('%'); percent != std::string::npos)
+      file.replace(percent, 1, "base");
+    const SealCheck check = check_seal(file);
+    if (check.state == SealCheck::State::unreadable) refuse(file, check.problem, remedy_of_path);
+    if (!begins_as_restart_file(file)) refuse(file, "is no restart file", remedy_of_path);
+  });
+}
+
+}  // namespace furrow::coupling

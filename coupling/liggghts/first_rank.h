@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// What rank 0 does alone, for instance with a file, and all ranks must know the end of.
+
+#include <exception>
+#include <string>
+
+#include <mpi.h>
+
+#include "core/error.h"
+
+namespace furrow::coupling {
+
+/// A text of rank 0, on every rank. Collective.
+inline std::string broadcast(std::string text, MPI_Comm ranks) {
+  int size = static_cast<int>(text.size());
+  MPI_Bcast(&size, 1, MPI_INT, 0, ranks);
+  text.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(text.data(), size, MPI_CHAR, 0, ranks);
+  return text;
+}
+
+/// Runs an action on rank 0. Collective. @throws Error on all ranks when it throws on rank 0
+template <class Action>
+void on_first_rank(MPI_Comm ranks, Action&& action) {
+  int rank = 0;
+  MPI_Comm_rank(ranks, &rank);
+  std::string problem;
+  if (rank == 0) try {
+      action();
+    } catch (const std::exception& exception) {
+      problem = exception.what();
+      if (problem.empty()) problem = "an error without a message";
+    }
+  problem = broadcast(problem, ranks);
+  if (!problem.empty()) throw Error(problem);
+}
+
+}  // namespace furrow::coupling

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// SIGINT and SIGTERM end a run at the next step, with a checkpoint; SIGUSR1 asks for a checkpoint.
+/// LIGGGHTS has each rank act when its own signal comes, within a step; here all ranks agree at one
+/// place of one step. See restart/command_read_restart.md.
+
+#include "lammps.h"
+
+namespace furrow::coupling {
+
+/// A second SIGINT or SIGTERM ends the process at once.
+void handle_signals();
+/// Whether this process is the one that tells the user at once that a signal has come.
+void confirm_signals(bool confirm);
+
+/// At the one place of a step where LIGGGHTS asks whether a checkpoint is wanted: if any rank has
+/// had a signal, all ranks follow it now. Collective.
+void agree_on_signals(const LAMMPS_NS::LAMMPS& lammps);
+
+/// The signal that all ranks have agreed to end on; 0: none.
+int agreed_signal();
+/// Of a run that did not come to its end: 128 and the signal, as shells have it, or 1 for an error.
+int failure_status();
+
+/// While it lives, a signal that ends the run leaves no checkpoint: there is nothing to continue.
+class NoCheckpointOnSignal {
+ public:
+  NoCheckpointOnSignal();
+  ~NoCheckpointOnSignal();
+  NoCheckpointOnSignal(const NoCheckpointOnSignal&) = delete;
+  NoCheckpointOnSignal& operator=(const NoCheckpointOnSignal&) = delete;
+
+ private:
+  bool before_;
+};
+
+/// After a script that such a signal has ended: tells on rank 0 at which step, and how to continue.
+void report_stop(LAMMPS_NS::LAMMPS& lammps);
+
+}  // namespace furrow::coupling

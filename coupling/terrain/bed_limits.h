@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Can there be such a bed, and has it become one? Before the minutes that it takes, and after.
+
+#include "core/options.h"
+#include "coupling/terrain/bed_facts.h"
+
+namespace furrow::coupling {
+
+/// Sizes against grains, memory, and time step, as far as the parameters have the names that the
+/// beds of inputs/beds have: length, width, depth, diameter, density, bulk, step; young and
+/// poisson, or stiffness and unloading.
+/// @throws InputError
+void check_bed_parameters(const Options& options);
+
+/// @param depth that the bed was levelled at [m]
+/// @throws StateError for grains that flew apart, or have sunk far below
+void check_bed(const BedFacts& facts, double depth);
+
+}  // namespace furrow::coupling

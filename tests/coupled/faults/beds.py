@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Beds that cannot be, beds that did not become one, and kept beds that are damaged.
+
+    beds.py <furrow> <inputs/beds> [<mpirun -n>]
+"""
+
+import re
+import sys
+
+from faults import WHEEL, Table, run_script
+
+SAND = {"length": "0.16", "width": "0.08", "depth": "0.03", "clearance_above": "0.05", "diameter": "0.014", "density": "2600",
+        "young": "5e6", "poisson": "0.25", "restitution": "0.3", "friction": "0.6", "rolling": "0.15", "pour_friction": "0.3",
+        "step": "1e-4", "seed": "86028121"}
+SNOW = {"length": "0.3", "width": "0.3", "depth": "0.1", "clearance_above": "0.1", "diameter": "0.03", "bulk": "165",
+        "density": "700", "stiffness": "3.12e6", "strength": "5.55e3", "unloading": "3", "plasticity": "0.226",
+        "adhesion": "0.5", "friction": "0.5", "rolling": "0.2", "restitution": "0.1", "step": "1e-5", "seed": "86028121"}
+AFTER = ("fix m4 all property/global coefficientFriction peratomtypepair 2 0.6 0.5 0.5 0.5\nrun 0\n"
+         'print "LEVEL ${bed_level}"\n')
+
+# what a parameter may not be, and what is said
+SAND_VALUES = [
+    *((name, value, f"keyword '{name}' is {value}; allowed: a number > 0")
+      for name in ("length", "width", "depth", "diameter", "density", "young", "step") for value in ("-1", "0", "nan", "inf")),
+    *((name, "-1", f"keyword '{name}' is -1; allowed: a number >= 0")
+      for name in ("clearance_above", "friction", "rolling", "pour_friction")),
+    ("friction", "much", "'much', which is not a number"),
+    ("poisson", "0.6", "in [0, 0.5]"),
+    ("restitution", "1.1", "in [0.05, 1]"),
+    ("seed", "12", "an integer >= 10001"),
+    ("seed", "86028121.5", "an integer >= 10001"),
+    ("seed", "20000", "prime number"),  # LIGGGHTS's own word
+    ("diameter", "1", "keyword 'length' is 0.16 m; allowed: at least 2 grains of diameter 1 m"),
+    ("depth", "0.004", "'depth' is 0.004 m; allowed: at least 2 grains"),
+    ("width", "0.02", "'width' is 0.02 m; allowed: at least 2 grains"),
+    ("diameter", "1e-5", "which this machine has free"),
+    ("step", "5e-4", "of the Rayleigh time of the smallest grain"),
+    ("step", "1", "of the Rayleigh time of the smallest grain"),
+    ("from", "nofile", "checkpoint 'nofile' cannot be read"),
+]
+SNOW_VALUES = [("step", "1e-3", "of half a period of a contact"), ("unloading", "0.5", "a number >= 1"),
+               ("bulk", "0", "a number > 0"), ("young", "1e7", "has no keyword 'young'")]
+
+
+def line(script, parameters):
+    return f"bed {script} " + " ".join(f"{name} {value}" for name, value in parameters.items())
+
+
+def refused(furrow, table, beds):
+    def bed(words):
+        return run_script(furrow, table.folder, words + "\n" + AFTER, FURROW_CACHE="cache")
+
+    sand, snow = beds + "/sand.lig", beds + "/snow.lig"
+    for name, value, text in SAND_VALUES:
+        table.check(f"{name} {value}", bed(line(sand, {**SAND, name: value})), 1, text, ", line 1: ")
+    for name, value, text in SNOW_VALUES:
+        table.check(f"snow, {name} {value}", bed(line(snow, {**SNOW, name: value})), 1, text)
+    for name in ("friction", "seed", "clearance_above"):
+        rest = {key: value for key, value in SAND.items() if key != name}
+        table.check(f"without {name}", bed(line(sand, rest)), 1, f"keyword '{name}' is missing", "it is: ")
+    whole = line(sand, SAND)
+    table.check("unknown", bed(whole + " colour red"), 1, "has no keyword 'colour'")
+    table.check("misspelled", bed(whole + " frction 0.3"), 1, "did you mean 'friction'?")
+    table.check("twice", bed(whole + " young 6e6"), 1, "keyword 'young' is given twice")
+    table.check("without value", bed(whole + " young"), 1, "every parameter of the bed needs a value")
+    table.check("folder", bed("bed . depth 0.1"), 1, "cannot read")
+    for cache in ("/dev/null", "/proc/x"):
+        said = run_script(furrow, table.folder, whole, FURROW_CACHE=cache)
+        table.check(f"cache {cache}", said, 1, f"the folder for beds, '{cache}', cannot be used", "FURROW_CACHE")
+
+
+def own_scripts(furrow, table, beds):
+    """Bed scripts of a user, whose parameters are those that they read."""
+    with open(beds + "/sand.lig") as file:
+        text = file.read()
+    plain = re.sub(r"#: parameters\n(#.*\n)*", "", text)
+    cases = [("without declarations, unknown", plain, " colour red", "has no keyword 'colour'"),
+             ("without declarations, missing", plain.replace("${bed_seed}", "${bed_seed}${bed_other}"), "", "keyword 'other' is missing"),
+             ("no section settle", plain.replace("#: settle", "# settle"), "", "finds no line '#: settle'"),
+             ("a jump", plain.replace("pair_coeff", "jump SELF\npair_coeff"), "", "the command 'jump' in its section 'contact'"),
+             ("a range", text.replace("> 0 ", "=> 0", 1), "", "the range '=> 0'"),
+             ("a row", text.replace("# length ", "#length ", 1), "", "the line '#length"),
+             # gravity upwards: the grains leave the bed's place, and nothing is kept
+             ("explodes", plain.replace("vector 0 0 -1", "vector 0 0 1"), "", "ERROR")]
+    for name, script, words, message in cases:
+        (table.folder / "own.lig").write_text(script)
+        said = run_script(furrow, table.folder, line("own.lig", SAND) + words + "\n" + AFTER, FURROW_CACHE="own")
+        table.check(name, said, 1, message)
+    kept = list((table.folder / "own").glob("bed-*"))
+    table.expect("nothing is kept of them", not kept, kept)
+
+
+def kept(furrow, table, beds):
+    """A damaged kept bed is made again, with a warning; a whole one is read."""
+    script = line(beds + "/sand.lig", SAND) + "\n" + AFTER
+
+    def start(launcher=()):
+        return run_script(furrow, table.folder, script, launcher=launcher, FURROW_CACHE="cache of beds")
+
+    making, again = "Making the bed", "; it is made again"
+    first = start()
+    table.check("made", first, 0, making, "LEVEL", absent=[again])
+    level = re.search("LEVEL .*", first.text).group()
+    table.check("read", start(), 0, level, absent=[making])
+    folder, = (table.folder / "cache of beds").glob("bed-*")
+    table.expect("two files", sorted(path.name for path in folder.iterdir()) == ["bed.restart", "facts.txt"], list(folder.iterdir()))
+    for name in ("bed.restart", "facts.txt"):
+        file = folder / name
+        whole = file.read_bytes()
+        damages = {"empty": b"", "cut": whole[:-100], "bit": whole[:99] + bytes([whole[99] ^ 8]) + whole[100:]}
+        for damage, content in damages.items():
+            if name == "facts.txt" and damage == "empty":
+                file.unlink()
+            else:
+                file.write_bytes(content)
+            table.check(f"{name}, {damage}", start(), 0, f"{name}' ", again, making, level)
+    table.check("read after all", start(), 0, level, absent=[making])
+
+    def wheel(change, end=""):
+        lines = (line(beds + "/sand.lig", {**SAND, **change}), AFTER.replace("run 0", "fix move all nve/sphere"), WHEEL, "run 5", end)
+        return run_script(furrow, table.folder, "\n".join(lines), FURROW_CACHE="cache of beds")
+
+    table.check("a run on it", wheel({}, "write_restart ck\n"), 0)
+    table.check("continued", wheel({"from": "ck"}), 0, absent=[making])
+    table.check("continued on another bed", wheel({"from": "ck", "friction": "0.5"}), 1, "the parameters of the bed", "friction 0.6")
+
+
+def main(furrow, beds, *mpirun):
+    table = Table()
+    refused(furrow, table, beds)
+    own_scripts(furrow, table, beds)
+    kept(furrow, table, beds)
+    table.end()
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

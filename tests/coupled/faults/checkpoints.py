@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Checkpoints: written whole or not at all, and refused when they are not whole.
+
+    checkpoints.py <furrow> <liggghts or nothing> [<mpirun -n>]
+"""
+
+import os
+import random
+import sys
+
+from faults import CONTINUED, GRAINS, WHEEL, Table, run_script
+
+WRITE = GRAINS + "run 10\nwrite_restart ck.10\n"
+
+
+def continued(furrow, table, file, launcher=(), mode=""):
+    return run_script(furrow, table.folder, CONTINUED.format(file=f"{file} {mode}") + "run 5\n",
+                      launcher=launcher)
+
+
+def damaged(furrow, table):
+    whole = (table.folder / "ck.10").read_bytes()
+    file = table.folder / "damaged"
+    lengths = [0, 1, 8, 50, 68, 69, 100, 300, 1000, len(whole) // 2, len(whole) - 70, len(whole) - 69, len(whole) - 1]
+    for length in lengths:
+        file.write_bytes(whole[:length])
+        table.check(f"cut to {length}", continued(furrow, table, "damaged"), 1, "checkpoint 'damaged'", "line 4: read_restart")
+    for length in lengths[:-3]:  # no hang where LIGGGHTS's own reader is left alone
+        file.write_bytes(whole[:length])
+        table.check(f"cut to {length}, unchecked", continued(furrow, table, "damaged", mode="unchecked"), 1, "ERROR: ")
+    for place in (0, 5, 30, 200, 700, len(whole) // 2, len(whole) - 100, len(whole) - 5):
+        file.write_bytes(whole[:place] + bytes([whole[place] ^ 4]) + whole[place + 1:])
+        table.check(f"bit of byte {place}", continued(furrow, table, "damaged"), 1, "checkpoint 'damaged'")
+    file.write_bytes(random.Random(1).randbytes(5000))
+    table.check("random bytes", continued(furrow, table, "damaged"), 1, "is no restart file")
+    file.write_bytes(whole + whole)
+    table.check("twice in one file", continued(furrow, table, "damaged"), 1, "checkpoint 'damaged'")
+
+
+def belongs_together(furrow, table):
+    """The states of a checkpoint find the lines that they belong to."""
+    folder, renamed = table.folder, WHEEL.replace("fix wheel ", "fix other ")
+    states = "the checkpoint has states of Furrow's fixes"
+    table.check("with a wheel", run_script(furrow, folder, GRAINS + WHEEL + "run 10\nwrite_restart ck\n"), 0)
+    for name, lines, status, texts in (
+            ("continued", WHEEL + "run 5\n", 0, []),
+            ("without the wheel", "run 5\n", 1, [states]),
+            ("a run before the wheel", "run 0\n" + WHEEL + "run 5\n", 1, [states]),
+            ("the wheel renamed", renamed + "run 5\n", 1, ["has the state of fix wheel/rigid 'wheel'"]),
+            ("another wheel", WHEEL.replace("0.04", "0.05") + "run 5\n", 1, ["keyword 'diameter' is '0.05', and was '0.04'"])):
+        script = CONTINUED.format(file="ck") + lines
+        table.check(f"with a wheel: {name}", run_script(furrow, folder, script), status, *texts)
+    grains = CONTINUED.format(file="ck unchecked") + "run 5\n"
+    table.check("with a wheel: grains alone", run_script(furrow, folder, grains), 0)
+
+
+def main(furrow, liggghts, *mpirun):
+    table = Table()
+    table.check("written", run_script(furrow, table.folder, WRITE), 0)
+    table.check("continued", continued(furrow, table, "ck.10"), 0)
+    table.check("continued, latest", continued(furrow, table, "ck.*"), 0)
+    table.check("continued on two ranks", continued(furrow, table, "ck.10", [*mpirun, 2]), 0)
+    table.check("missing", continued(furrow, table, "nofile"), 1, "'nofile' cannot be read: No such file")
+    table.check("missing, two ranks", continued(furrow, table, "nofile", [*mpirun, 2]), 1, "'nofile' cannot be read")
+    table.check("no match", continued(furrow, table, "no.*"), 1, "'no.*' matches no file")
+    table.check("folder", continued(furrow, table, "/tmp"), 1, "is a folder")
+    table.check("device", continued(furrow, table, "/dev/zero"), 1, "is no regular file")
+    table.check("script", continued(furrow, table, "script.lig"), 1, "is no restart file")
+    table.check("unknown word", continued(furrow, table, "ck.10", mode="fast"), 1, "checked, unchecked")
+    table.check("after the box", run_script(furrow, table.folder, GRAINS + "read_restart ck.10\n"), 1,
+                "comes after the simulation box was made")
+    damaged(furrow, table)
+    belongs_together(furrow, table)
+    if os.path.exists(liggghts):
+        folder = table.folder
+        stock = run_script(liggghts, folder, WRITE.replace("ck.10", "stock"))
+        table.check("stock LIGGGHTS writes", stock, 0)
+        table.check("stock file", continued(furrow, table, "stock"), 1, "stock LIGGGHTS", "'read_restart stock unchecked'")
+        table.check("stock file, unchecked", continued(furrow, table, "stock", mode="unchecked"), 0)
+        table.check("stock LIGGGHTS reads", continued(liggghts, table, "ck.10"), 0)
+
+    # what cannot be written leaves the last good file
+    def write(name, prepare=lambda: None):
+        prepare()
+        return run_script(furrow, table.folder, GRAINS + f"run 10\nwrite_restart {name}\n")
+
+    good = (table.folder / "ck.10").read_bytes()
+    full = table.folder / "ck.10.part"
+    table.check("disk full", write("ck.10", lambda: full.symlink_to("/dev/full")), 1,
+                "'ck.10' is not written", "No space left on device", "write_restart ck.10")
+    table.expect("disk full: the last good one stays", (table.folder / "ck.10").read_bytes() == good, "changed")
+    table.expect("disk full: no part stays", not os.path.lexists(full), "there is one")
+    full.symlink_to("/dev/full")
+    said = run_script(furrow, table.folder, GRAINS + "run 10\nwrite_restart ck.10\n", launcher=[*mpirun, 2])
+    table.check("disk full, two ranks", said, 1, "'ck.10' is not written", "No space left on device")
+    table.check("folder in its place", write(".", lambda: None), 1, "Is a directory")
+    table.check("folder cannot be made", write("/proc/no/ck"), 1, "its folder '/proc/no' cannot be made")
+    table.check("file for each rank", write("ck.%"), 1, "a file for each rank")
+    table.check("new folder", write("new/deep/ck"), 0)
+    table.expect("new folder: the file is there", (table.folder / "new/deep/ck").exists(), "missing")
+    table.end()
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

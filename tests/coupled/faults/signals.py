@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Signals: a run ends at the next step with a checkpoint that continues as any other.
+
+    signals.py <furrow> [<mpirun -n>]
+
+The grains of faults.py fall on a floor while a signal comes; the run that continues gives the same
+state, bit for bit, as a run with a checkpoint at that step.
+"""
+
+import re
+import signal
+import subprocess
+import sys
+import time
+
+from faults import CONTINUED, GRAINS, TIME_LIMIT, WHEEL, Said, Table, run_script
+
+
+
+BEGIN = GRAINS + WHEEL
+
+
+def state(table, name):
+    """Grains of the last dump, as text with all digits."""
+    last = (table.folder / name).read_text().split("ITEM: ATOMS")[-1]
+    return sorted(last.splitlines()[1:])
+
+
+def dump_at(step):
+    return (f"dump end all custom {step} end id x y z vx vy vz omegax omegay omegaz\n"
+            'dump_modify end format "%d %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g" first no\n')
+
+
+def interrupted(furrow, table, script, numbers, launcher=()):
+    """Sends the signals to the first rank when the run has begun."""
+    (table.folder / "script.lig").write_text(script)
+    for file in (*table.folder.glob("restart_forced*"), *table.folder.glob("pid*")):
+        file.unlink()
+    shell = 'echo $$ > pid.new; mv pid.new pid${OMPI_COMM_WORLD_RANK:-0}; exec "$0" "$@"'
+    with open(table.folder / "said", "w+") as said:
+        run = subprocess.Popen([*launcher, "sh", "-c", shell, furrow, "-in", "script.lig", "-log", "none"], cwd=table.folder,
+                               stdin=subprocess.DEVNULL, stdout=said, stderr=subprocess.STDOUT)
+        began = time.monotonic()
+        while not (table.folder / "going").exists() and run.poll() is None and time.monotonic() < began + TIME_LIMIT:
+            time.sleep(0.02)
+        for number in numbers:
+            if run.poll() is None:
+                subprocess.run(["kill", f"-{number}", (table.folder / "pid0").read_text().strip()], check=True)
+                time.sleep(0.2)
+        try:
+            status = run.wait(timeout=TIME_LIMIT)
+        except subprocess.TimeoutExpired:
+            run.kill()
+            status = "time limit"
+        said.seek(0)
+        (table.folder / "going").unlink(missing_ok=True)
+        return Said(status, said.read())
+
+
+def going(script, steps):
+    """Says with a file that steps are taken."""
+    return script + f"dump going all custom 50 going id\nthermo 100\nrun {steps} upto\n"
+
+
+def continues(furrow, table, name, number, status, launcher=()):
+    said = interrupted(furrow, table, going(BEGIN, 100000000), [number], launcher)
+    table.check(f"{name}", said, status, "stopped the run after step", "'read_restart restart_forced_liggghts_")
+    files = [path.name for path in table.folder.glob("restart_forced*")]
+    table.expect(f"{name}: one checkpoint", len(files) == 1, files)
+    step = int(re.search(r"_(\d+)\.data", files[0]).group(1))
+    last = f"run {step + 500} upto\n"
+    dump = dump_at(step + 500)
+    again = run_script(furrow, table.folder, CONTINUED.format(file=files[0]) + WHEEL + dump + last, launcher=launcher)
+    table.check(f"{name}: continued", again, 0)
+    got = state(table, "end")
+    whole = run_script(furrow, table.folder, BEGIN + f"restart {step} same.*\n" + dump + last, launcher=launcher)
+    table.check(f"{name}: without a break", whole, 0)
+    table.expect(f"{name}: the same grains", got == state(table, "end") and len(got) > 100, "they differ")
+
+
+def main(furrow, *mpirun):
+    table = Table()
+    continues(furrow, table, "SIGTERM", signal.SIGTERM, 143)
+    continues(furrow, table, "SIGINT", signal.SIGINT, 130)
+    continues(furrow, table, "SIGTERM of one rank of two", signal.SIGTERM, 143, [*mpirun, "2"])
+    said = interrupted(furrow, table, going(GRAINS, 100000000), [signal.SIGUSR1, signal.SIGTERM])
+    table.check("SIGUSR1", said, 143)
+    files = list(table.folder.glob("restart_forced*"))
+    table.expect("SIGUSR1: goes on after its checkpoint", len(files) == 2, files)
+    said = interrupted(furrow, table, going(GRAINS + "write_restart_on_signal no\n", 100000000), [signal.SIGTERM])
+    table.check("without checkpoint", said, 143, "without a checkpoint")
+    table.expect("without checkpoint: no file", not list(table.folder.glob("restart_forced*")), "there is one")
+    endless = "label again\nshell touch going\njump SELF again\n"
+    table.check("second signal", interrupted(furrow, table, endless, [signal.SIGTERM, signal.SIGTERM]), 143, "ends at once")
+    table.end()
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
