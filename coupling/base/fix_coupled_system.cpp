@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "coupling/base/fix_order.h"
+#include "coupling/base/fixes_of.h"
 #include "coupling/base/furrow_fix.h"
 #include "coupling/base/grain_check.h"
 #include "coupling/base/restart_record.h"
@@ -29,10 +30,8 @@ constexpr char system_id[] = "furrow_system";
 /// A line each.
 std::string names_of_restorable_fixes(const LAMMPS_NS::Modify& modify) {
   std::string names;
-  for (int i = 0; i < modify.nfix; ++i) {
-    const auto* fix = dynamic_cast<const FurrowFix*>(modify.fix[i]);
-    if (fix && fix->must_be_restored()) names += fix->name() + '\n';
-  }
+  for (const auto* fix : fixes_of<const FurrowFix>(modify))
+    if (fix->must_be_restored()) names += fix->name() + '\n';
   return names;
 }
 
@@ -108,9 +107,8 @@ void FixCoupledSystem::check_restored_fixes() {
   std::set<std::string> kept;
   std::istringstream lines(checkpointed_fixes_);
   for (std::string name; std::getline(lines, name);) kept.insert(name);
-  for (int i = 0; i < modify->nfix; ++i) {
-    const auto* fix = dynamic_cast<const FurrowFix*>(modify->fix[i]);
-    if (!fix || !fix->must_be_restored()) continue;
+  for (const auto* fix : fixes_of<const FurrowFix>(*modify)) {
+    if (!fix->must_be_restored()) continue;
     if (fix->restored())
       kept.erase(fix->name());
     else

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/bodies/fix_tyre_darnell.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
-
 #include <sstream>
 
 #include <fmt/format.h>
@@ -14,7 +14,6 @@
 #include "coupling/liggghts/script.h"
 #include "io/sidewall_cache.h"
 #include "io/tyre_file.h"
-#include "modify.h"
 #include "update.h"
 
 namespace furrow::coupling {
@@ -107,8 +106,6 @@ FixTyreDarnell::FixTyreDarnell(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
   provide(outputs());
 }
 
-/// Grain forces that come only once in many sub-steps may feed energy into a light tread:
-/// fix_tyre_darnell.md.
 /// Line by line, so that an error names the value of the tyre file that differs.
 void FixTyreDarnell::checkpoint(Checkpoint& state) {
   std::istringstream lines(tyre_file_text(tyre().parameters()));
@@ -117,13 +114,13 @@ void FixTyreDarnell::checkpoint(Checkpoint& state) {
   FixBody::checkpoint(state);
 }
 
+/// Grain forces that come only once in many sub-steps may feed energy into a light tread:
+/// fix_tyre_darnell.md.
 void FixTyreDarnell::init() {
   const double stable = tyre().stable_time_step();
-  bool on_grains = false;
-  for (int i = 0; i < modify->nfix; ++i) {
-    const auto* mesh = dynamic_cast<FixMeshBody*>(modify->fix[i]);
-    on_grains |= mesh && mesh->uses(*this);
-  }
+  const auto meshes = fixes_of<const FixMeshBody>(*modify);
+  const bool on_grains = std::any_of(meshes.begin(), meshes.end(),
+                                     [&](const FixMeshBody* mesh) { return mesh->uses(*this); });
   if (on_grains && update->dt > max_sub_steps * stable)
     warn(*lmp,
          fmt::format("{}: the time step {:.3g} s is more than {} of the tyre's own, {:.3g} s; "

@@ -5,7 +5,6 @@
 
 #include "core/error.h"
 #include "coupling/bodies/fix_wheel_hub.h"
-#include "modify.h"
 
 namespace furrow::coupling {
 
@@ -46,14 +45,12 @@ FixWheelRig::FixWheelRig(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
 /// The wheel of the keyword, if no other rig has it.
 FixWheelHub& FixWheelRig::find_free_wheel() {
   auto& wheel = use<FixWheelHub>("wheel", {Kind::wheel});
-  for (int i = 0; i < modify->nfix; ++i) {
-    auto* other = dynamic_cast<FixWheelRig*>(modify->fix[i]);
-    if (other && &other->wheel_fix() == &wheel)
+  for (FixWheelRig* other : fixes_of<FixWheelRig>(*modify))
+    if (&other->wheel_fix() == &wheel)
       throw InputError(options().where("wheel"),
                        fmt::format("is '{}', which fix {} drives already", wheel.id, other->id),
                        "one rig for each wheel",
                        fmt::format("remove one of them, or write 'unfix {}' before", other->id));
-  }
   return wheel;
 }
 
