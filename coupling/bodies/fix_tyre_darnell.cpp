@@ -20,6 +20,8 @@ namespace furrow::coupling {
 
 namespace {
 
+constexpr double min_pressure = 1e3, max_pressure = 1e7;  // [Pa] of any tyre, with room
+constexpr double min_gyration = 0.05;  // radius of gyration of a rim over the radius of its beads
 constexpr int max_sub_steps = 4;  // in a step on grains, shown to be quiet: fix_tyre_darnell.md
 
 int whole_number(const Options& options, const char* key, double value) {
@@ -28,12 +30,42 @@ int whole_number(const Options& options, const char* key, double value) {
   return static_cast<int>(value);
 }
 
+/// Psi, bar and kPa are told from Pa by their size.
+void check_pressure(const Options& options, double pressure) {
+  if (pressure < min_pressure || pressure > max_pressure)
+    throw InputError(options.where("pressure"), fmt::format("is {:g} Pa", pressure),
+                     fmt::format("{:g} to {:g} Pa", min_pressure, max_pressure),
+                     "35 psi, 2.41 bar and 241 kPa are 241e3 Pa; a tyre without pressure is not "
+                     "modelled");
+}
+
+/// Tread and sidewalls turn the rim to and fro in the steps of the tread.
+void check_inertia(const Options& options, const HubParameters& hub, double bead_radius) {
+  const double least = hub.inertia.mass * std::pow(min_gyration * bead_radius, 2);
+  if (hub.inertia.axial < least)
+    throw InputError(
+        options.where("inertia"), fmt::format("is {:g} kg m^2", hub.inertia.axial),
+        fmt::format("at least {:.3g} kg m^2", least),
+        fmt::format("a rim of {:g} kg at {:g} m has about {:.3g} kg m^2", hub.inertia.mass,
+                    bead_radius, hub.inertia.mass * bead_radius * bead_radius));
+}
+
+/// An explicit damping of the rate c is stable up to c dt = 1.
+void check_damping(const Options& options, double stable_step) {
+  if (options.number("damping") * stable_step > 1.0)
+    throw InputError(options.where("damping"),
+                     fmt::format("is {:g} 1/s", options.number("damping")),
+                     fmt::format("at most {:.2g} 1/s with this mesh", 1.0 / stable_step),
+                     "20 to 200 1/s is the range of rubber's losses");
+}
+
 /// Read, made and inflated.
 std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   const std::filesystem::path path =
       std::filesystem::path(script_folder(lammps)) / options.text("file");
   TyreParameters parameters = read_tyre_file(path.string());
   if (options.has("pressure")) parameters.pressure = options.number("pressure");
+  check_pressure(options, parameters.pressure);
 
   DarnellTyreSettings settings;
   settings.across = whole_number(options, "mesh", options.numbers("mesh")[0]);
@@ -49,8 +81,10 @@ std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& op
                      fmt::format("has y = {} m with a half model", hub.centre.y()),
                      "y = 0: the plane of symmetry");
 
+  check_inertia(options, hub, parameters.bead_radius);
   auto tyre = std::make_unique<DarnellTyre>(parameters, settings, hub, options.subject(),
                                             open_sidewall_table);
+  check_damping(options, tyre->stable_time_step());
   tyre->settle(nullptr);
   return tyre;
 }
