@@ -38,7 +38,10 @@ std::string names_of_restorable_fixes(const LAMMPS_NS::Modify& modify) {
 }  // namespace
 
 FixCoupledSystem::FixCoupledSystem(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : Fix(lammps, narg, arg), communicator_(&world), grain_forces_(*lammps) {
+    : Fix(lammps, narg, arg),
+      communicator_(&world),
+      grain_forces_(*lammps),
+      scene_checks_(*lammps) {
   if (id != std::string(system_id) || narg > 3)
     throw InputError("fix furrow/system", "is written in the script", "no such line",
                      "remove it: the fix of the first body makes it");
@@ -98,6 +101,7 @@ void FixCoupledSystem::init() {
   with_collective_errors(*error, [&] { check_fix_order(*modify, *this); });
   with_collective_errors(*error, [&] { check_restored_fixes(); });
   with_local_errors(*error, [&] { check_grains_finite(*lmp); });
+  with_collective_errors(*error, [&] { scene_checks_.before_run(); });
 }
 
 /// What the checkpoint keeps and the script does not have is lost; what the script has and the
@@ -151,7 +155,8 @@ void FixCoupledSystem::initial_integrate(int) {
       } catch (const StateError& problem) {
         throw StateError(fmt::format("fix {}: {}", each.name, problem.what()));
       }
-    system_.advance(update->dt);
+    const int sub_steps = system_.advance(update->dt);
+    scene_checks_.after_step(sub_steps);
     time_ += update->dt;
     clear_forces();
   });
@@ -161,6 +166,7 @@ void FixCoupledSystem::final_integrate() {
   with_collective_errors(*error, [&] {
     sum_forces();
     system_.publish_contact_forces();
+    for (Member& m : members_) m.touched = m.touched || !m.body->surface().f.isZero(0.0);
   });
 }
 
