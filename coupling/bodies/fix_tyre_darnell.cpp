@@ -21,7 +21,9 @@ namespace furrow::coupling {
 namespace {
 
 constexpr double min_pressure = 1e3, max_pressure = 1e7;  // [Pa] of any tyre, with room
-constexpr double min_gyration = 0.05;  // radius of gyration of a rim over the radius of its beads
+// Radius of gyration of a rim, and what turns with it, over the radius of its beads.
+constexpr double min_gyration = 0.05, max_gyration = 30.0;
+constexpr double largest_mesh = 40000;  // elements, which take an hour to inflate
 constexpr int max_sub_steps = 4;  // in a step on grains, shown to be quiet: fix_tyre_darnell.md
 
 int whole_number(const Options& options, const char* key, double value) {
@@ -41,13 +43,14 @@ void check_pressure(const Options& options, double pressure) {
 
 /// Tread and sidewalls turn the rim to and fro in the steps of the tread.
 void check_inertia(const Options& options, const HubParameters& hub, double bead_radius) {
-  const double least = hub.inertia.mass * std::pow(min_gyration * bead_radius, 2);
-  if (hub.inertia.axial < least)
-    throw InputError(
-        options.where("inertia"), fmt::format("is {:g} kg m^2", hub.inertia.axial),
-        fmt::format("at least {:.3g} kg m^2", least),
-        fmt::format("a rim of {:g} kg at {:g} m has about {:.3g} kg m^2", hub.inertia.mass,
-                    bead_radius, hub.inertia.mass * bead_radius * bead_radius));
+  const double usual = hub.inertia.mass * bead_radius * bead_radius,
+               least = min_gyration * min_gyration * usual,
+               most = max_gyration * max_gyration * usual;
+  if (!(hub.inertia.axial >= least && hub.inertia.axial <= most))
+    throw InputError(options.where("inertia"), fmt::format("is {:g} kg m^2", hub.inertia.axial),
+                     fmt::format("{:.3g} to {:.3g} kg m^2", least, most),
+                     fmt::format("a rim of {:g} kg at {:g} m has about {:.3g} kg m^2",
+                                 hub.inertia.mass, bead_radius, usual));
 }
 
 /// An explicit damping of the rate c is stable up to c dt = 1.
@@ -70,6 +73,11 @@ std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& op
   DarnellTyreSettings settings;
   settings.across = whole_number(options, "mesh", options.numbers("mesh")[0]);
   settings.around = whole_number(options, "mesh", options.numbers("mesh")[1]);
+  if (const double elements = options.numbers("mesh")[0] * options.numbers("mesh")[1];
+      elements > largest_mesh)
+    throw InputError(options.where("mesh"), fmt::format("has {:g} elements", elements),
+                     fmt::format("at most {:g}", largest_mesh),
+                     "6 72 is usual, 12 144 fine; the step shrinks with the elements");
   settings.half = options.flag("half");
   settings.direct = options.text("sidewall") == "direct";
   settings.sidewall_rows = static_cast<int>(options.integer("sidewall_rows"));

@@ -27,6 +27,20 @@ bool moves_grains(const LAMMPS_NS::Fix& fix) {
 /// Takes all forces off a group, so that its grains are meant to stand still.
 bool freezes_grains(const LAMMPS_NS::Fix& fix) { return fix.style == std::string("freeze"); }
 
+/// A bed under a body needs weight, and has one.
+void check_gravity(const LAMMPS_NS::LAMMPS& lammps, double grains, const Warn& warn) {
+  if (grains < GrainBedLimits::min_grains ||
+      fixes_of<const FixWallGranBody>(*lammps.modify).empty())
+    return;
+  int count = 0;
+  for (const auto* fix : fixes_of<const LAMMPS_NS::Fix>(*lammps.modify))
+    count += fix->style == std::string("gravity");
+  if (count == 0)
+    warn("no fix gives the grains weight; write 'fix weight all gravity 9.80665 vector 0 0 -1'");
+  if (count > 1)
+    warn(fmt::format("{} fixes gravity act together; grains have that many weights", count));
+}
+
 using Fixes = std::vector<const LAMMPS_NS::Fix*>;
 
 /// @throws InputError when two of them move a grain of this rank or another
@@ -66,12 +80,14 @@ void check_grain_motion(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
   }
   refuse_double_motion(lammps, movers, ranks);
 
+  const double all = ranks.sum(static_cast<double>(atom.nlocal));
+  check_gravity(lammps, all, warn);
+
   double still = 0.0;
   for (int i = 0; i < atom.nlocal; ++i)
     if (!(atom.mask[i] & moved_or_frozen)) still += 1.0;
   still = ranks.sum(still);
   if (still == 0.0) return;
-  const double all = ranks.sum(static_cast<double>(atom.nlocal));
   const auto walls = fixes_of<const FixWallGranBody>(*lammps.modify);
   if (still == all && all >= GrainBedLimits::min_grains && !walls.empty())
     throw InputError(

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -88,6 +89,22 @@ std::vector<Level> levels_under(const LAMMPS_NS::LAMMPS& lammps, const FixBody& 
   return levels;
 }
 
+/// @param height of the body: lowest and highest z
+void check_height(const FixBody& body, const Level& level, const std::pair<double, double>& height,
+                  double size, const Warn& warn) {
+  const double gap = height.first - level.z;
+  if (height.second < level.z)
+    warn(
+        fmt::format("'{}' lies below the ground and cannot press on it: it reaches up to z = "
+                    "{:.4g} m, and {} is at z = {:.4g} m; let it start above",
+                    body.id, height.second, level.what, level.z));
+  else if (gap > size)
+    warn(
+        fmt::format("'{}' starts {:.4g} m above the ground, more than its own size: it may not "
+                    "come down in time; let it start just above z = {:.4g} m",
+                    body.id, gap, level.z));
+}
+
 void check_level(const LAMMPS_NS::LAMMPS& lammps, const Datum& datum, const Warn& warn) {
   const double given = datum.options.number("ground_level");
   const auto [lower, upper] = datum.body.body().surface().bounds();
@@ -99,7 +116,14 @@ void check_level(const LAMMPS_NS::LAMMPS& lammps, const Datum& datum, const Warn
   const auto nearest =
       std::min_element(levels.begin(), levels.end(),
                        [&](const Level& a, const Level& b) { return excess(a) < excess(b); });
-  if (nearest == levels.end() || excess(*nearest) <= 0.0) return;
+  if (nearest == levels.end()) {
+    if (touches_grains(lammps, datum.body) && lammps.atom->natoms > 0)
+      warn(fmt::format("'{}' does not stand over the grains: none lies between its ends and sides",
+                       datum.body.id));
+    return;
+  }
+  check_height(datum.body, *nearest, {lower[2], upper[2]}, size, warn);
+  if (excess(*nearest) <= 0.0) return;
   const std::string problem =
       fmt::format("is {:.6g} m, and {} is at z = {:.6g} m", given, nearest->what, nearest->z);
   const std::string remedy =

@@ -30,7 +30,7 @@ struct Span {
 struct Pair {
   const FixBody& body;
   const FixTerrainContinuum& terrain;
-  Span body_x, body_y, body_z, terrain_x, terrain_y;
+  Span body_x, body_y, terrain_x, terrain_y;
 };
 
 /// A half model stands for the whole.
@@ -44,7 +44,6 @@ Pair describe(FixContactContinuum& contact) {
           terrain,
           {lower[0], upper[0]},
           {body.half_model() ? -upper[1] : lower[1], upper[1]},
-          {lower[2], upper[2]},
           {grid.axis(0).lower(), grid.axis(0).upper()},
           {terrain.half_model() ? 2.0 * y.lower - y.upper : y.lower, y.upper}};
 }
@@ -91,16 +90,6 @@ void check_overhang(const Pair& pair, const Warn& warn) {
                     pair.terrain_x.upper, pair.terrain_y.lower, pair.terrain_y.upper));
 }
 
-void warn_of_a_body_below(const Pair& pair, const Warn& warn) {
-  const double surface = pair.terrain.options().number("surface"),
-               base = surface - pair.terrain.options().number("depth");
-  if (pair.body_z.upper < base)
-    warn(
-        fmt::format("'{}' lies below the terrain '{}' and cannot press on it: it reaches up to z "
-                    "= {:.4g} m, the terrain from {:.4g} to {:.4g} m; let it start above",
-                    pair.body.id, pair.terrain.id, pair.body_z.upper, base, surface));
-}
-
 /// Cells of an axis within a span, fractions included.
 double cells_within(const Axis& axis, const Span& span) {
   double count = 0.0;
@@ -140,7 +129,6 @@ void check_ground_under_bodies(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn
     check_length(pair, warn);
     check_cells(pair, contact->terrain_fix().terrain().grid(), warn);
     check_overhang(pair, warn);
-    warn_of_a_body_below(pair, warn);
   }
 }
 

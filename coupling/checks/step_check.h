@@ -6,7 +6,7 @@
 
 namespace furrow::coupling {
 
-inline constexpr double many_sub_steps = 1e3;  ///< beyond, a step of LIGGGHTS is a long pause
+inline constexpr double many_sub_steps = 100;  ///< beyond, a step of LIGGGHTS is a long pause
 
 /// @throws InputError
 void check_step_is_positive(const LAMMPS_NS::LAMMPS& lammps);

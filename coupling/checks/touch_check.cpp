@@ -16,6 +16,8 @@ namespace furrow::coupling {
 
 namespace {
 
+constexpr double large_overlap = 0.5;  // of the smaller of two boxes around bodies
+
 bool in_a_wall(const LAMMPS_NS::Modify& modify, const FixMeshBody& mesh) {
   const auto walls = fixes_of<const FixWallGranBody>(modify);
   return std::any_of(walls.begin(), walls.end(),
@@ -62,6 +64,8 @@ void warn_of_bodies_that_touch_nothing(const LAMMPS_NS::LAMMPS& lammps, const Wa
   for (auto* body : fixes_of<FixBody>(modify)) {
     const bool grains = touches_grains(lammps, *body);
     if (const auto* terrain = dynamic_cast<const FixTerrainContinuum*>(body)) {
+      if (!has_contact(modify, *body) && !grains && !terrain->options().flag("sheet"))
+        warn(fmt::format("nothing presses on {}: no contact/continuum names it", body->name()));
       if (terrain->options().flag("sheet") && !grains)
         warn(
             fmt::format("{} has a sheet that no wall/gran/body holds: grains fall through it; add "
@@ -74,6 +78,24 @@ void warn_of_bodies_that_touch_nothing(const LAMMPS_NS::LAMMPS& lammps, const Wa
                       body->name()));
     }
   }
+}
+
+void warn_of_bodies_in_one_place(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
+  std::vector<const FixBody*> bodies;
+  for (const auto* body : fixes_of<const FixBody>(*lammps.modify))
+    if (!dynamic_cast<const FixTerrainContinuum*>(body)) bodies.push_back(body);
+  for (std::size_t a = 0; a < bodies.size(); ++a)
+    for (std::size_t b = a + 1; b < bodies.size(); ++b) {
+      const auto [lower, upper] = bodies[a]->body().surface().bounds();
+      const auto [other_lower, other_upper] = bodies[b]->body().surface().bounds();
+      const Vector3 common = upper.cwiseMin(other_upper) - lower.cwiseMax(other_lower);
+      const double smaller = std::min((upper - lower).prod(), (other_upper - other_lower).prod());
+      if (common.minCoeff() > 0.0 && common.prod() > large_overlap * smaller)
+        warn(
+            fmt::format("{} and {} are in one place, and do not feel one another; move one of "
+                        "them or remove its lines",
+                        bodies[a]->name(), bodies[b]->name()));
+    }
 }
 
 }  // namespace furrow::coupling

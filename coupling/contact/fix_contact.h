@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "coupling/bodies/fix_body.h"
+#include "coupling/liggghts/script.h"
 
 namespace furrow::coupling {
 
@@ -22,6 +23,10 @@ class FixContact : public FurrowFix {
       throw InputError(options().where("body"),
                        fmt::format("is '{}', which has no surface", options().text("body")),
                        "a wheel, a tyre or a plate");
+    if (options().given("friction") && options().number("friction") > high_friction)
+      warn(*lmp, fmt::format("{} is {:g}, a coefficient, neither degrees nor percent; rubber on a "
+                             "dry road has about 1",
+                             options().where("friction"), options().number("friction")));
     keep_state();
   }
 
@@ -33,6 +38,8 @@ class FixContact : public FurrowFix {
   Body& body() const { return body_fix_.body(); }
 
  private:
+  static constexpr double high_friction = 1.5;
+
   FixBody& body_fix_;
 };
 

@@ -15,7 +15,7 @@ namespace furrow::coupling {
 namespace {
 
 // Of the body's height: beyond it a floor is none.
-constexpr double max_depth = 0.05;
+constexpr double max_depth = 0.05, max_depth_at_start = 0.01;
 
 RigidPlaneParameters plane_parameters(const Options& options) {
   RigidPlaneParameters plane;
@@ -76,7 +76,7 @@ void FixContactPlane::PlaneContact::apply(double) {
   const double depth = plane.parameters().height - surface.x.row(2).minCoeff();
   if (depth > 0.0) {
     const auto [lower, upper] = surface.bounds();
-    if (depth > max_depth * (upper[2] - lower[2]))
+    if (depth > (pressed ? max_depth : max_depth_at_start) * (upper[2] - lower[2]))
       throw StateError(
           pressed
               ? fmt::format("the body is {:.3g} m inside the floor, more than {:g} of its height: "

@@ -15,7 +15,6 @@
 #include "coupling/base/has_options.h"
 #include "coupling/base/units_check.h"
 #include "coupling/bodies/fix_mesh_body.h"
-#include "coupling/contact/time_step_check.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/errors.h"
 #include "coupling/liggghts/wall_meshes.h"
@@ -55,7 +54,11 @@ int FixWallGranBody::checked(const LAMMPS_NS::LAMMPS& lammps, int narg, char** a
   const auto word = [&](int i) { return i >= 0 && i < narg ? std::string(arg[i]) : ""; };
   int first = 0;
   while (first < narg && word(first) != "meshes") ++first;
-  const int last = std::min(narg, first + 1 + std::atoi(word(first - 1).c_str()));
+  const int count = std::atoi(word(first - 1).c_str()), last = first + 1 + count;
+  if (first < narg && last > narg)
+    throw InputError(where + ", keyword 'n_meshes'",
+                     fmt::format("is {}, and {} id(s) follow", count, narg - first - 1),
+                     "as many ids as it says", "write 'mesh n_meshes N meshes id1 ... idN'");
   for (int i = first + 1; i < last; ++i) {
     LAMMPS_NS::Fix* fix = lammps.modify->find_fix_id(arg[i]);
     if (!dynamic_cast<LAMMPS_NS::FixMeshSurface*>(fix)) {
@@ -91,12 +94,6 @@ void FixWallGranBody::check_single(const std::string& where, const LAMMPS_NS::LA
 bool FixWallGranBody::uses(const LAMMPS_NS::Fix& other) const {
   return dynamic_cast<const FixMeshBody*>(&other) &&
          std::find(FixMesh_list_, FixMesh_list_ + n_FixMesh_, &other) != FixMesh_list_ + n_FixMesh_;
-}
-
-void FixWallGranBody::init() {
-  FixWallGran::init();
-  with_collective_errors(
-      *error, [&] { check_time_step(*lmp, fmt::format("fix wall/gran/body '{}'", id)); });
 }
 
 void FixWallGranBody::setup(int vflag) {

@@ -26,7 +26,6 @@ class FixWallGranBody : public LAMMPS_NS::FixWallGran, public UsesFix {
   static OutputTable outputs() { return {}; }
 
   bool uses(const LAMMPS_NS::Fix& other) const override;
-  void init() override;
   void setup(int vflag) override;
 
  protected:

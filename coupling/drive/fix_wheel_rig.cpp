@@ -5,10 +5,14 @@
 
 #include "core/error.h"
 #include "coupling/bodies/fix_wheel_hub.h"
+#include "coupling/liggghts/script.h"
+#include "update.h"
 
 namespace furrow::coupling {
 
 namespace {
+
+constexpr double min_steps_of_ramp = 10;
 
 /// A rig is made with the wheel where the script puts it, also when the run continues: lowering,
 /// heading and camber are told from there. A wheel that comes from a restart file then goes back to
@@ -40,6 +44,18 @@ FixWheelRig::FixWheelRig(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
       wheel_fix_(find_free_wheel()),
       rig_(make_rig(options(), wheel_fix_)) {
   contribute(static_cast<MotionController&>(*this));
+}
+
+/// A ramp of a few steps is a blow.
+void FixWheelRig::init() {
+  for (const char* key : {"settle_time", "accelerate_time"})
+    if (options().number(key) < min_steps_of_ramp * update->dt && !warned_) {
+      warned_ = true;
+      warn(*lmp,
+           fmt::format("{} is {:g} s, less than {:g} steps of {:g} s: the wheel is struck, "
+                       "not moved; make it longer",
+                       options().where(key), options().number(key), min_steps_of_ramp, update->dt));
+    }
 }
 
 /// The wheel of the keyword, if no other rig has it.

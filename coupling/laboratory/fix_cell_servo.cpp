@@ -30,6 +30,8 @@ constexpr char axis_names[] = "xyz";
 // without ringing.
 constexpr double integral_times = 4.0;
 constexpr double largest_strain_of_step = 1e-3;
+constexpr double largest_stress = 10.0;  // of the stiffness
+constexpr double min_steps_of_response = 5.0;
 
 }  // namespace
 
@@ -50,11 +52,11 @@ Schema FixCellServo::schema() {
               "largest strain rate that the stress control may use")
       .by_default(0.5);
   schema
-      .number("stiffness", "Pa", Range::positive(),
+      .number("stiffness", "Pa", Range{0.0, 1e12, true, false},
               "upper estimate of the confined stiffness of the ground")
       .by_default(1e7);
   schema
-      .number("response_time", "s", Range::positive(),
+      .number("response_time", "s", Range{0.0, 10.0, true, false},
               "time in which an error of stress is removed")
       .by_default(2e-3);
   schema
@@ -148,6 +150,8 @@ void FixCellServo::init() {
     check_time_step(*lmp, name());
     check_grains();
     check_rates();
+    check_stresses();
+    check_other_box_changes();
   });
 }
 
@@ -174,6 +178,33 @@ void FixCellServo::check_rates() const {
         fmt::format("at most {:.3g} 1/s with this step", largest_strain_of_step / update->dt),
         "quasi-static tests have less than 1 1/s");
   }
+}
+
+/// A stress that is many times the stiffness is no stress of this ground.
+void FixCellServo::check_stresses() const {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (axes_[k].control != Axis::Control::stress) continue;
+    const double most = largest_stress * stiffness_;
+    if (axes_[k].target > most)
+      throw InputError(
+          options().where(fmt::format("stress_{}", axis_names[k])),
+          fmt::format("is {:g} Pa, with a stiffness of {:g} Pa", axes_[k].target, stiffness_),
+          fmt::format("at most {:g} Pa", most), "lower it, or give the ground's stiffness");
+    if (response_time_ < min_steps_of_response * update->dt)
+      throw InputError(options().where("response_time"), fmt::format("is {:g} s", response_time_),
+                       fmt::format("at least {:g} s, {:g} steps",
+                                   min_steps_of_response * update->dt, min_steps_of_response),
+                       "the default is 2e-3 s");
+  }
+}
+
+void FixCellServo::check_other_box_changes() const {
+  for (const auto* fix : fixes_of<const LAMMPS_NS::Fix>(*modify))
+    if (std::string(fix->style).rfind("deform", 0) == 0)
+      throw InputError(
+          name(),
+          fmt::format("stands beside fix {} '{}', which deforms the box too", fix->style, fix->id),
+          "one of them", fmt::format("write 'unfix {}' before", fix->id));
 }
 
 /// The box moves before the grains: forces of this step belong to the new box.

@@ -15,6 +15,10 @@ namespace {
 constexpr double standstill = 1e-12;
 // Load over the weight of the wheel: beyond, it does not move, or is shot away.
 constexpr double least_load = 1e-3, largest_load = 1e5;
+// Of the diameter: a rig's damping that lets the wheel go down by less while it settles holds it.
+constexpr double least_travel = 1e-3;
+// Of load x radius: no ground holds it.
+constexpr double largest_torque = 100.0;
 
 /// @throws InputError when key is missing (needed) or given (not needed)
 void expect_key(const Options& options, const std::string& key, bool needed,
@@ -147,6 +151,16 @@ void WheelRig::check_load(const Options& options) const {
                     share, wheel_.total_mass()),
         fmt::format("{:g} to {:g} of it", least_load, largest_load),
         "check the load and the mass of the wheel: what hangs on the axle is part of its mass");
+  const double settle_time = options.number("settle_time"), damping = options.number("damping"),
+               travel = load_ * settle_time / damping,
+               least = least_travel * 2.0 * wheel_.nominal_radius();
+  if (travel < least)
+    throw InputError(options.where("damping"),
+                     fmt::format("is {:g} N s/m: under {:.4g} N the wheel goes down by {:.3g} m in "
+                                 "a settle_time of {:g} s",
+                                 damping, load_, travel, settle_time),
+                     fmt::format("at most {:.3g} N s/m", load_ * settle_time / least),
+                     "it is there to calm the wheel, not to hold it");
 }
 
 void WheelRig::read_drive(const Options& options) {
@@ -161,6 +175,13 @@ void WheelRig::read_drive(const Options& options) {
   expect_key(options, "torque", mode_ == Mode::torque, context,
              "a torque in mode torque, and only there");
   if (mode_ == Mode::torque) torque_ = options.number("torque");
+  const double most = largest_torque * load_ * wheel_.nominal_radius();
+  if (!sinkage_prescribed_ && std::abs(torque_) > most)
+    throw InputError(
+        options.where("torque"),
+        fmt::format("is {:g} N m under a load of {:.4g} N", torque_, load_),
+        fmt::format("{:.3g} to {:.3g} N m, {:g} times load x radius", -most, most, largest_torque),
+        "the ground holds a torque of about load x radius");
   if (mode_ != Mode::slip) return;
   if (speed_ == 0.0)
     throw InputError(options.where("speed"), "is 0 m/s in mode slip", "a number > 0 [m/s]",

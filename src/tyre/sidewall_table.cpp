@@ -72,13 +72,12 @@ void SidewallTable::build() {
   // Where stiff springs make the chain snap, W has kinks that no smooth table follows.
   const Accuracy seen = accuracy(0.97, 5);
   if (seen.force_rms > largest_error * seen.force_scale)
-    throw StateError(
-        fmt::format("sidewall table: its forces differ from the chain's by {:.3g} N/m (rms of {} "
-                    "points; the force's rms "
-                    "is {:.3g} N/m), at {:.6g} Pa; it needs more nodes or, if the chain snaps "
-                    "through, smaller ranges "
-                    "or the direct solution",
-                    seen.force_rms, seen.points, seen.force_scale, pressure_));
+    throw StateError(fmt::format(
+        "sidewall table: its forces differ from the chain's by {:.3g} N/m (rms of {} "
+        "points; the force's rms "
+        "is {:.3g} N/m), at {:.6g} Pa; it needs a higher pressure, more nodes or, if the chain "
+        "snaps through, smaller ranges or the direct solution",
+        seen.force_rms, seen.points, seen.force_scale, pressure_));
 }
 
 void SidewallTable::set_pressure(double pressure) {
