@@ -89,9 +89,9 @@ std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& op
                      fmt::format("has y = {} m with a half model", hub.centre.y()),
                      "y = 0: the plane of symmetry");
 
-  check_inertia(options, hub, parameters.bead_radius);
   auto tyre = std::make_unique<DarnellTyre>(parameters, settings, hub, options.subject(),
                                             open_sidewall_table);
+  check_inertia(options, hub, parameters.bead_radius);
   check_damping(options, tyre->stable_time_step());
   tyre->settle(nullptr);
   return tyre;
