@@ -9,10 +9,10 @@
 
 #include "core/error.h"
 #include "core/options.h"
+#include "coupling/base/fixes_of.h"
 #include "coupling/base/has_options.h"
 #include "coupling/styles.h"
-#include "fix.h"
-#include "modify.h"
+#include "lammps.h"
 
 namespace furrow::coupling {
 
@@ -28,9 +28,8 @@ Wanted& find_fix(LAMMPS_NS::LAMMPS& lammps, const Options& options, const std::s
   if (auto* wanted = dynamic_cast<Wanted*>(fix)) return *wanted;
 
   std::string ids;
-  for (int i = 0; i < modify.nfix; ++i)
-    if (dynamic_cast<Wanted*>(modify.fix[i]))
-      ids += (ids.empty() ? "" : ", ") + std::string(modify.fix[i]->id);
+  for (Wanted* each : fixes_of<Wanted>(modify))
+    ids += (ids.empty() ? "" : ", ") + std::string(as_fix(*each).id);
   throw InputError(options.where(key),
                    fix ? fmt::format("is '{}', which is a fix {}", id, style_of(*fix))
                        : fmt::format("is '{}', and no fix has that id", id),

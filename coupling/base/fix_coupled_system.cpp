@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "coupling/base/fix_order.h"
+#include "coupling/base/fixes_of.h"
 #include "coupling/base/furrow_fix.h"
 #include "coupling/base/grain_check.h"
 #include "coupling/base/restart_record.h"
@@ -29,17 +30,18 @@ constexpr char system_id[] = "furrow_system";
 /// A line each.
 std::string names_of_restorable_fixes(const LAMMPS_NS::Modify& modify) {
   std::string names;
-  for (int i = 0; i < modify.nfix; ++i) {
-    const auto* fix = dynamic_cast<const FurrowFix*>(modify.fix[i]);
-    if (fix && fix->must_be_restored()) names += fix->name() + '\n';
-  }
+  for (const auto* fix : fixes_of<const FurrowFix>(modify))
+    if (fix->must_be_restored()) names += fix->name() + '\n';
   return names;
 }
 
 }  // namespace
 
 FixCoupledSystem::FixCoupledSystem(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : Fix(lammps, narg, arg), communicator_(&world), grain_forces_(*lammps) {
+    : Fix(lammps, narg, arg),
+      communicator_(&world),
+      grain_forces_(*lammps),
+      scene_checks_(*lammps) {
   if (id != std::string(system_id) || narg > 3)
     throw InputError("fix furrow/system", "is written in the script", "no such line",
                      "remove it: the fix of the first body makes it");
@@ -102,6 +104,7 @@ void FixCoupledSystem::init() {
   with_collective_errors(*error, [&] { check_fix_order(*modify, *this); });
   with_collective_errors(*error, [&] { check_restored_fixes(); });
   with_local_errors(*error, [&] { check_grains_finite(*lmp); });
+  with_collective_errors(*error, [&] { scene_checks_.before_run(); });
 }
 
 /// What the checkpoint keeps and the script does not have is lost; what the script has and the
@@ -111,9 +114,8 @@ void FixCoupledSystem::check_restored_fixes() {
   std::set<std::string> kept;
   std::istringstream lines(checkpointed_fixes_);
   for (std::string name; std::getline(lines, name);) kept.insert(name);
-  for (int i = 0; i < modify->nfix; ++i) {
-    const auto* fix = dynamic_cast<const FurrowFix*>(modify->fix[i]);
-    if (!fix || !fix->must_be_restored()) continue;
+  for (const auto* fix : fixes_of<const FurrowFix>(*modify)) {
+    if (!fix->must_be_restored()) continue;
     if (fix->restored())
       kept.erase(fix->name());
     else
@@ -156,7 +158,8 @@ void FixCoupledSystem::initial_integrate(int) {
       } catch (const StateError& problem) {
         throw StateError(fmt::format("fix {}: {}", each.name, problem.what()));
       }
-    system_.advance(update->dt);
+    const int sub_steps = system_.advance(update->dt);
+    scene_checks_.after_step(sub_steps);
     time_ += update->dt;
     clear_forces();
   });
@@ -166,6 +169,7 @@ void FixCoupledSystem::final_integrate() {
   with_collective_errors(*error, [&] {
     sum_forces();
     system_.publish_contact_forces();
+    for (Member& m : members_) m.touched = m.touched || !m.body->surface().f.isZero(0.0);
   });
 }
 

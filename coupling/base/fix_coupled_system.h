@@ -21,6 +21,7 @@
 #include "coupling/base/grain_forces.h"
 #include "coupling/base/momentum_audit.h"
 #include "coupling/base/motion_controller.h"
+#include "coupling/checks/scene_checks.h"
 #include "coupling/styles.h"
 #include "fix.h"
 
@@ -56,6 +57,10 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
 
   double time() const { return time_; }        ///< of the scene [s], also after a restart
   bool restored() const { return restored_; }  ///< from a checkpoint
+  /// Of the body whose stable step is the smallest now. Collective.
+  CoupledSystem::StepLimit step_limit() const { return system_.step_limit(); }
+  /// Whether anything has pressed on a body in this process.
+  bool touched(const Body& body) { return member(body).touched; }
   const Communicator& communicator() const { return communicator_; }
 
   void post_create() override { grain_forces_.make_storage(); }
@@ -95,6 +100,7 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
     MomentumAudit audit = {};
     Vector3 reference = Vector3::Zero();
     Matrix3X restored_forces = {};  // nodal
+    bool touched = false;
   };
   Member& member(const Body& body);
   void checkpoint(Checkpoint& state, bool in_run, std::vector<double> contact_forces);
@@ -113,6 +119,7 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   std::vector<NamedController> controllers_;
   std::vector<double> buffer_;
   GrainForces grain_forces_;
+  SceneChecks scene_checks_;
   double time_ = 0.0;
   bool restored_ = false;
   ForceState forces_ = ForceState::partial;

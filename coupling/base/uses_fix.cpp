@@ -4,17 +4,18 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "coupling/base/fixes_of.h"
 
 namespace furrow::coupling {
 
 void forbid_removal_while_used(const LAMMPS_NS::Modify& modify, const LAMMPS_NS::Fix& fix) {
-  for (int i = 0; i < modify.nfix; ++i) {
-    const auto* user = dynamic_cast<const UsesFix*>(modify.fix[i]);
-    if (user && user->uses(fix))
+  for (const auto* user : fixes_of<const UsesFix>(modify))
+    if (user->uses(fix)) {
+      const char* id = as_fix(*user).id;
       throw StateError(fmt::format(
           "fix {}: cannot be removed or replaced while fix {} uses it; write 'unfix {}' before",
-          fix.id, modify.fix[i]->id, modify.fix[i]->id));
-  }
+          fix.id, id, id));
+    }
 }
 
 }  // namespace furrow::coupling

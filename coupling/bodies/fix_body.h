@@ -13,7 +13,7 @@ namespace furrow::coupling {
 
 class FixBody : public FurrowFix {
  public:
-  Body& body() { return *body_; }
+  Body& body() const { return *body_; }
   /// The body as its fix line made it, before a checkpoint moved it on; nothing without one.
   const std::optional<Checkpoint>& state_as_made() const { return state_as_made_; }
 

@@ -70,7 +70,7 @@ class FixMeshBody : public LAMMPS_NS::FixMeshSurface,
   static Schema schema();
   static OutputTable outputs() { return {}; }
 
-  Body& body() { return body_; }
+  Body& body() const { return body_; }
   BodyMesh& body_mesh() { return *body_mesh_; }
   const Options& options() const override { return options_; }
 

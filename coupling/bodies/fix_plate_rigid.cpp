@@ -5,7 +5,7 @@ namespace furrow::coupling {
 
 Schema FixPlateRigid::schema() {
   Schema schema = RigidPlate::schema("fix plate/rigid");
-  schema.number("speed", "m/s", Range::non_negative(), "downward speed");
+  schema.number("speed", "m/s", Range::closed(0.0, 1000.0), "downward speed");
   schema.number("start", "s", Range::non_negative(), "time at which the plate sets off")
       .by_default(0.0);
   schema.number("accelerate_time", "s", Range::non_negative(),

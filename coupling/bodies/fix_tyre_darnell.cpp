@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/bodies/fix_tyre_darnell.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
-
 #include <sstream>
 
 #include <fmt/format.h>
@@ -14,13 +14,16 @@
 #include "coupling/liggghts/script.h"
 #include "io/sidewall_cache.h"
 #include "io/tyre_file.h"
-#include "modify.h"
 #include "update.h"
 
 namespace furrow::coupling {
 
 namespace {
 
+constexpr double min_pressure = 1e3, max_pressure = 1e7;  // [Pa] of any tyre, with room
+// Radius of gyration of a rim, and what turns with it, over the radius of its beads.
+constexpr double min_gyration = 0.05, max_gyration = 30.0;
+constexpr double largest_mesh = 40000;  // elements, which take an hour to inflate
 constexpr int max_sub_steps = 4;  // in a step on grains, shown to be quiet: fix_tyre_darnell.md
 
 int whole_number(const Options& options, const char* key, double value) {
@@ -29,16 +32,52 @@ int whole_number(const Options& options, const char* key, double value) {
   return static_cast<int>(value);
 }
 
+/// Psi, bar and kPa are told from Pa by their size.
+void check_pressure(const Options& options, double pressure) {
+  if (pressure < min_pressure || pressure > max_pressure)
+    throw InputError(options.where("pressure"), fmt::format("is {:g} Pa", pressure),
+                     fmt::format("{:g} to {:g} Pa", min_pressure, max_pressure),
+                     "35 psi, 2.41 bar and 241 kPa are 241e3 Pa; a tyre without pressure is not "
+                     "modelled");
+}
+
+/// Tread and sidewalls turn the rim to and fro in the steps of the tread.
+void check_inertia(const Options& options, const HubParameters& hub, double bead_radius) {
+  const double usual = hub.inertia.mass * bead_radius * bead_radius,
+               least = min_gyration * min_gyration * usual,
+               most = max_gyration * max_gyration * usual;
+  if (!(hub.inertia.axial >= least && hub.inertia.axial <= most))
+    throw InputError(options.where("inertia"), fmt::format("is {:g} kg m^2", hub.inertia.axial),
+                     fmt::format("{:.3g} to {:.3g} kg m^2", least, most),
+                     fmt::format("a rim of {:g} kg at {:g} m has about {:.3g} kg m^2",
+                                 hub.inertia.mass, bead_radius, usual));
+}
+
+/// An explicit damping of the rate c is stable up to c dt = 1.
+void check_damping(const Options& options, double stable_step) {
+  if (options.number("damping") * stable_step > 1.0)
+    throw InputError(options.where("damping"),
+                     fmt::format("is {:g} 1/s", options.number("damping")),
+                     fmt::format("at most {:.2g} 1/s with this mesh", 1.0 / stable_step),
+                     "20 to 200 1/s is the range of rubber's losses");
+}
+
 /// Read, made and inflated.
 std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   const std::filesystem::path path =
       std::filesystem::path(script_folder(lammps)) / options.text("file");
   TyreParameters parameters = read_tyre_file(path.string());
   if (options.has("pressure")) parameters.pressure = options.number("pressure");
+  check_pressure(options, parameters.pressure);
 
   DarnellTyreSettings settings;
   settings.across = whole_number(options, "mesh", options.numbers("mesh")[0]);
   settings.around = whole_number(options, "mesh", options.numbers("mesh")[1]);
+  if (const double elements = options.numbers("mesh")[0] * options.numbers("mesh")[1];
+      elements > largest_mesh)
+    throw InputError(options.where("mesh"), fmt::format("has {:g} elements", elements),
+                     fmt::format("at most {:g}", largest_mesh),
+                     "6 72 is usual, 12 144 fine; the step shrinks with the elements");
   settings.half = options.flag("half");
   settings.direct = options.text("sidewall") == "direct";
   settings.sidewall_rows = static_cast<int>(options.integer("sidewall_rows"));
@@ -52,6 +91,8 @@ std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& op
 
   auto tyre = std::make_unique<DarnellTyre>(parameters, settings, hub, options.subject(),
                                             open_sidewall_table);
+  check_inertia(options, hub, parameters.bead_radius);
+  check_damping(options, tyre->stable_time_step());
   tyre->settle(nullptr);
   return tyre;
 }
@@ -107,8 +148,6 @@ FixTyreDarnell::FixTyreDarnell(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
   provide(outputs());
 }
 
-/// Grain forces that come only once in many sub-steps may feed energy into a light tread:
-/// fix_tyre_darnell.md.
 /// Line by line, so that an error names the value of the tyre file that differs.
 void FixTyreDarnell::checkpoint(Checkpoint& state) {
   std::istringstream lines(tyre_file_text(tyre().parameters()));
@@ -117,13 +156,13 @@ void FixTyreDarnell::checkpoint(Checkpoint& state) {
   FixBody::checkpoint(state);
 }
 
+/// Grain forces that come only once in many sub-steps may feed energy into a light tread:
+/// fix_tyre_darnell.md.
 void FixTyreDarnell::init() {
   const double stable = tyre().stable_time_step();
-  bool on_grains = false;
-  for (int i = 0; i < modify->nfix; ++i) {
-    const auto* mesh = dynamic_cast<FixMeshBody*>(modify->fix[i]);
-    on_grains |= mesh && mesh->uses(*this);
-  }
+  const auto meshes = fixes_of<const FixMeshBody>(*modify);
+  const bool on_grains = std::any_of(meshes.begin(), meshes.end(),
+                                     [&](const FixMeshBody* mesh) { return mesh->uses(*this); });
   if (on_grains && update->dt > max_sub_steps * stable)
     warn(*lmp,
          fmt::format("{}: the time step {:.3g} s is more than {} of the tyre's own, {:.3g} s; "

@@ -6,19 +6,27 @@
 
 #include "core/error.h"
 #include "coupling/bodies/fix_body.h"
+#include "coupling/liggghts/script.h"
 
 namespace furrow::coupling {
 
 class FixContact : public FurrowFix {
+ public:
+  FixBody& body_fix() const { return body_fix_; }
+
  protected:
   /// @param schema with the key of declare_body()
   FixContact(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema)
       : FurrowFix(lammps, narg, arg, schema),
-        body_(use<FixBody>("body", {Kind::wheel, Kind::body}).body()) {
-    if (body_.surface().triangle_count() == 0)
+        body_fix_(use<FixBody>("body", {Kind::wheel, Kind::body})) {
+    if (body().surface().triangle_count() == 0)
       throw InputError(options().where("body"),
                        fmt::format("is '{}', which has no surface", options().text("body")),
                        "a wheel, a tyre or a plate");
+    if (options().given("friction") && options().number("friction") > high_friction)
+      warn(*lmp, fmt::format("{} is {:g}, a coefficient, neither degrees nor percent; rubber on a "
+                             "dry road has about 1",
+                             options().where("friction"), options().number("friction")));
     keep_state();
   }
 
@@ -27,10 +35,12 @@ class FixContact : public FurrowFix {
     schema.text("body", "id of the fix of the wheel, tyre or plate");
   }
 
-  Body& body() { return body_; }
+  Body& body() const { return body_fix_.body(); }
 
  private:
-  Body& body_;
+  static constexpr double high_friction = 1.5;
+
+  FixBody& body_fix_;
 };
 
 }  // namespace furrow::coupling

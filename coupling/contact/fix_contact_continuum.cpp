@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "coupling/base/refuse_double.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
 
 namespace furrow::coupling {
@@ -43,6 +44,11 @@ const Outputs<FixContactContinuum>& FixContactContinuum::outputs() {
 /// A half body needs half the terrain with the same plane of symmetry, y = 0.
 FixTerrainContinuum& FixContactContinuum::find_terrain() {
   auto& fix = use<FixTerrainContinuum>("terrain", {Kind::terrain});
+  refuse_double<FixContactContinuum>(
+      *modify, options().subject(), fmt::format("presses '{}' on '{}'", body_fix().id, fix.id),
+      "one contact for each pair", [&](FixContactContinuum& other) {
+        return &other.body_fix() == &body_fix() && &other.terrain_fix_ == &fix;
+      });
   const double plane = fix.terrain().grid().axis(1).lower();
   if (!body().half_model() || (fix.half_model() && plane == 0.0)) return fix;
   const std::string& body_id = options().text("body");

@@ -17,6 +17,7 @@ class FixContactContinuum : public FixContact {
   static const Outputs<FixContactContinuum>& outputs();
 
   const TerrainContact& contact() const { return contact_; }
+  FixTerrainContinuum& terrain_fix() const { return terrain_fix_; }
 
  private:
   FixTerrainContinuum& find_terrain();

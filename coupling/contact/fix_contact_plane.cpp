@@ -1,9 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/contact/fix_contact_plane.h"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "coupling/base/refuse_double.h"
+#include "tyre/tyre.h"
+#include "update.h"
+
 namespace furrow::coupling {
 
 namespace {
+
+// Of the body's height: beyond it a floor is none.
+constexpr double max_depth = 0.05, max_depth_at_start = 0.01;
 
 RigidPlaneParameters plane_parameters(const Options& options) {
   RigidPlaneParameters plane;
@@ -59,8 +71,59 @@ const Outputs<FixContactPlane>& FixContactPlane::outputs() {
 FixContactPlane::PlaneContact::PlaneContact(Body& touching, const Options& options)
     : body(touching), plane(plane_parameters(options), touching.surface()) {}
 
+void FixContactPlane::PlaneContact::apply(double) {
+  const Surface& surface = body.surface();
+  const double depth = plane.parameters().height - surface.x.row(2).minCoeff();
+  if (depth > 0.0) {
+    const auto [lower, upper] = surface.bounds();
+    if (depth > (pressed ? max_depth : max_depth_at_start) * (upper[2] - lower[2]))
+      throw StateError(
+          pressed
+              ? fmt::format("the body is {:.3g} m inside the floor, more than {:g} of its height: "
+                            "raise 'stiffness', {:g} Pa/m, or lower load or speed",
+                            depth, max_depth, plane.parameters().stiffness)
+              : fmt::format("the body starts {:.3g} m inside the floor at z = {:.4g} m: start it "
+                            "above",
+                            depth, plane.parameters().height));
+  }
+  pressed = true;
+  plane.press_on(body.surface());
+}
+
+/// The tread of a tyre on a floor of stiffness k and damping c is, node by node, a mass on a spring
+/// and dashpot: omega^2 = k/m', 2 zeta omega = c/m' with its mass m' of an area. An explicit step
+/// of dt is stable up to omega dt = 2, and with damping that lags by half a step up to c dt = m'.
+void FixContactPlane::check_tyre_stability() {
+  const auto* tyre = dynamic_cast<const Tyre*>(&body());
+  if (!tyre) return;
+  const double step = std::min(update->dt, tyre->stable_time_step());
+  const RigidPlaneParameters& floor = contact_.plane.parameters();
+  const double mass = tyre->tread_mass(), stiffest = 4.0 * mass / (step * step),
+               softest = tyre->pressure() / (max_depth * tyre->nominal_radius());
+  const auto refuse = [&](const char* key, double value, const std::string& unit,
+                          const std::string& allowed) {
+    throw InputError(
+        options().where(key), fmt::format("is {:g} {}", value, unit), allowed,
+        fmt::format("the tyre has {:.3g} kg/m^2 of tread and steps of {:.2g} s", mass, step));
+  };
+  if (floor.stiffness > stiffest || floor.stiffness < softest)
+    refuse("stiffness", floor.stiffness, "Pa/m",
+           fmt::format("{:.2g} to {:.2g} Pa/m under '{}' at {:g} Pa", softest, stiffest,
+                       body_fix().id, tyre->pressure()));
+  if (floor.tangential_stiffness > stiffest)
+    refuse("tangential_stiffness", floor.tangential_stiffness, "Pa/m",
+           fmt::format("at most {:.2g} Pa/m under '{}'", stiffest, body_fix().id));
+  if (floor.damping > mass / step)
+    refuse("damping", floor.damping, "Pa s/m",
+           fmt::format("at most {:.2g} Pa s/m under '{}'", mass / step, body_fix().id));
+}
+
 FixContactPlane::FixContactPlane(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixContact(lammps, narg, arg, schema()), contact_(body(), options()) {
+  refuse_double<FixContactPlane>(
+      *modify, options().subject(), fmt::format("puts a floor under '{}'", body_fix().id),
+      "one level floor for each body",
+      [&](FixContactPlane& other) { return &other.body_fix() == &body_fix(); });
   contribute(static_cast<Contact&>(contact_));
   provide(outputs());
 }

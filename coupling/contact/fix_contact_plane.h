@@ -13,14 +13,21 @@ class FixContactPlane : public FixContact {
   static Schema schema();
   static const Outputs<FixContactPlane>& outputs();
 
+  void init() override {
+    collectively([&] { check_tyre_stability(); });
+  }
+
  private:
   struct PlaneContact : public Contact {
     PlaneContact(Body& touching, const Options& options);
-    void apply(double) override { plane.press_on(body.surface()); }
+    /// @throws StateError when the body starts in the floor, or sinks into it
+    void apply(double dt) override;
 
     Body& body;
     RigidPlane plane;
+    bool pressed = false;  ///< since the start
   };
+  void check_tyre_stability();
   /// Where nodes stick.
   void checkpoint(Checkpoint& state) override { contact_.plane.checkpoint(state); }
 

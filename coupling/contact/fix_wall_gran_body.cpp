@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -10,8 +11,10 @@
 #include "contact_interface.h"
 #include "core/error.h"
 #include "coupling/base/fix_coupled_system.h"
+#include "coupling/base/fixes_of.h"
+#include "coupling/base/has_options.h"
+#include "coupling/base/units_check.h"
 #include "coupling/bodies/fix_mesh_body.h"
-#include "coupling/contact/time_step_check.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/errors.h"
 #include "coupling/liggghts/wall_meshes.h"
@@ -30,7 +33,7 @@ constexpr double max_overlap_at_start = 0.1;
 }  // namespace
 
 FixWallGranBody::FixWallGranBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixWallGran(lammps, narg, arg) {
+    : FixWallGran(lammps, checked(*lammps, narg, arg), arg) {
   if (!is_mesh_wall())
     throw InputError("fix wall/gran/body", "has no mesh", "mesh n_meshes N meshes id1 id2 ...",
                      "use fix wall/gran for primitive walls");
@@ -43,15 +46,54 @@ FixWallGranBody::FixWallGranBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg
     if (!dynamic_cast<FixMeshBody*>(FixMesh_list_[m])) stock_meshes_.push_back(FixMesh_list_[m]);
 }
 
+/// The words after "n_meshes N meshes"; LIGGGHTS does not say which of them is no mesh.
+/// @return narg
+int FixWallGranBody::checked(const LAMMPS_NS::LAMMPS& lammps, int narg, char** arg) {
+  const std::string where = "fix wall/gran/body";
+  check_units(lammps, where);
+  const auto word = [&](int i) { return i >= 0 && i < narg ? std::string(arg[i]) : ""; };
+  int first = 0;
+  while (first < narg && word(first) != "meshes") ++first;
+  const int count = std::atoi(word(first - 1).c_str()), last = first + 1 + count;
+  if (first < narg && last > narg)
+    throw InputError(where + ", keyword 'n_meshes'",
+                     fmt::format("is {}, and {} id(s) follow", count, narg - first - 1),
+                     "as many ids as it says", "write 'mesh n_meshes N meshes id1 ... idN'");
+  for (int i = first + 1; i < last; ++i) {
+    LAMMPS_NS::Fix* fix = lammps.modify->find_fix_id(arg[i]);
+    if (!dynamic_cast<LAMMPS_NS::FixMeshSurface*>(fix)) {
+      std::string ids;
+      for (const auto* mesh : fixes_of<LAMMPS_NS::FixMeshSurface>(*lammps.modify))
+        ids += (ids.empty() ? "" : ", ") + std::string(mesh->id);
+      throw InputError(where + ", keyword 'meshes'",
+                       fix ? fmt::format("has '{}', which is a fix {}", arg[i], style_of(*fix))
+                           : fmt::format("has '{}', and no fix has that id", arg[i]),
+                       "ids of meshes, here " + (ids.empty() ? "none yet" : "of: " + ids),
+                       "write that mesh/body before this line");
+    }
+    check_single(where, lammps, arg, first + 1, i);
+  }
+  return narg;
+}
+
+/// A body whose surface is in the wall twice would feel each grain twice.
+void FixWallGranBody::check_single(const std::string& where, const LAMMPS_NS::LAMMPS& lammps,
+                                   char** arg, int first, int last) {
+  const auto* mesh = dynamic_cast<FixMeshBody*>(lammps.modify->find_fix_id(arg[last]));
+  for (int i = first; mesh && i < last; ++i) {
+    const auto* other = dynamic_cast<FixMeshBody*>(lammps.modify->find_fix_id(arg[i]));
+    if (other && &other->body() == &mesh->body())
+      throw InputError(where + ", keyword 'meshes'",
+                       other == mesh ? fmt::format("has '{}' twice", mesh->id)
+                                     : fmt::format("has '{}' and '{}', two meshes of one body",
+                                                   other->id, mesh->id),
+                       "one mesh of each body", "leave one of them out");
+  }
+}
+
 bool FixWallGranBody::uses(const LAMMPS_NS::Fix& other) const {
   return dynamic_cast<const FixMeshBody*>(&other) &&
          std::find(FixMesh_list_, FixMesh_list_ + n_FixMesh_, &other) != FixMesh_list_ + n_FixMesh_;
-}
-
-void FixWallGranBody::init() {
-  FixWallGran::init();
-  with_collective_errors(
-      *error, [&] { check_time_step(*lmp, fmt::format("fix wall/gran/body '{}'", id)); });
 }
 
 void FixWallGranBody::setup(int vflag) {
@@ -230,10 +272,14 @@ void FixWallGranBody::apply(const MeshAtWork& at_work, int grain, const ContactC
 
   if (!contact_force.allFinite())
     with_local_errors(*error, [&] {
-      throw StateError(
-          fmt::format("fix wall/gran/body '{}': the force between grain {} and triangle {} is not "
-                      "finite at step {}; the time step is too large or the grains have exploded",
-                      id, atom->tag[grain], contact.triangle, update->ntimestep));
+      throw StateError(fmt::format(
+          "fix wall/gran/body '{}': the force between grain {} and triangle {} is not finite at "
+          "step {}: the grain overlaps the body, which moves there at {:.3g} m/s, by {:.3g} of its "
+          "radius; likely causes: a load or sinkage that these grains cannot carry, a speed or "
+          "time "
+          "step that is too large, a wheel too light for its load",
+          id, atom->tag[grain], contact.triangle, update->ntimestep, wall_velocity.norm(),
+          overlap / radius));
     });
 
   // By the weights of the contact point: the three nodes get the force and, because the point is on

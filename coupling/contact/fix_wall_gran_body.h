@@ -26,7 +26,6 @@ class FixWallGranBody : public LAMMPS_NS::FixWallGran, public UsesFix {
   static OutputTable outputs() { return {}; }
 
   bool uses(const LAMMPS_NS::Fix& other) const override;
-  void init() override;
   void setup(int vflag) override;
 
  protected:
@@ -41,6 +40,9 @@ class FixWallGranBody : public LAMMPS_NS::FixWallGran, public UsesFix {
     ContactLedger& ledger;
     GrainBedCheck* check;  ///< null before the first set-up
   };
+  static int checked(const LAMMPS_NS::LAMMPS& lammps, int narg, char** arg);
+  static void check_single(const std::string& where, const LAMMPS_NS::LAMMPS& lammps, char** arg,
+                           int first, int last);
   void post_force_stock_meshes(int vflag);
   void post_force_body(FixMeshBody& mesh_fix, int mesh_number);
   void collect_candidates(FixMeshBody& mesh_fix);

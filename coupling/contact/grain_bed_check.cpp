@@ -17,8 +17,7 @@ namespace furrow::coupling {
 
 namespace {
 
-constexpr long every = 200;         // steps between looks
-constexpr double min_grains = 100;  // fewer are no bed: a few grains meet a body
+constexpr long every = 200;  // steps between looks
 // of squared mean grain diameters: on a smaller area a handful of grains carries no pressure
 constexpr double min_area = 9.0;
 
@@ -47,7 +46,7 @@ void GrainBedCheck::start(const Surface& surface) {
   highest = ranks.max(highest);
   steps_ = 0;
   warned_overlap_ = warned_inertia_ = false;
-  if (sums[2] < min_grains) return;
+  if (sums[2] < GrainBedLimits::min_grains) return;
   mean_diameter_ = sums[0] / sums[2];
   density_ = sums[1] / sums[2];
   elastic_ = lammps_.modify->find_fix_property("youngsModulus", "property/global", "peratomtype",

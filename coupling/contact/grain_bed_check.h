@@ -12,7 +12,8 @@ namespace furrow::coupling {
 
 /// Limits with the study that shows them: inputs/validation/grains/README.md.
 struct GrainBedLimits {
-  static constexpr double overlap = 0.05;  ///< of a grain's diameter, elastic contacts
+  static constexpr double min_grains = 100;  ///< fewer are no bed: a few grains meet a body
+  static constexpr double overlap = 0.05;    ///< of a grain's diameter, elastic contacts
   /// speed / length x diameter x sqrt(grain density / pressure) under a body
   static constexpr double inertial_number = 0.05;
   static constexpr double grains_per_width = 8.0;  ///< width of the body over mean diameter

@@ -5,11 +5,14 @@
 
 #include "core/error.h"
 #include "coupling/bodies/fix_wheel_hub.h"
-#include "modify.h"
+#include "coupling/liggghts/script.h"
+#include "update.h"
 
 namespace furrow::coupling {
 
 namespace {
+
+constexpr double min_steps_of_ramp = 10;
 
 /// A rig is made with the wheel where the script puts it, also when the run continues: lowering,
 /// heading and camber are told from there. A wheel that comes from a restart file then goes back to
@@ -43,17 +46,27 @@ FixWheelRig::FixWheelRig(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
   contribute(static_cast<MotionController&>(*this));
 }
 
+/// A ramp of a few steps is a blow.
+void FixWheelRig::init() {
+  for (const char* key : {"settle_time", "accelerate_time"})
+    if (options().number(key) < min_steps_of_ramp * update->dt && !warned_) {
+      warned_ = true;
+      warn(*lmp,
+           fmt::format("{} is {:g} s, less than {:g} steps of {:g} s: the wheel is struck, "
+                       "not moved; make it longer",
+                       options().where(key), options().number(key), min_steps_of_ramp, update->dt));
+    }
+}
+
 /// The wheel of the keyword, if no other rig has it.
 FixWheelHub& FixWheelRig::find_free_wheel() {
   auto& wheel = use<FixWheelHub>("wheel", {Kind::wheel});
-  for (int i = 0; i < modify->nfix; ++i) {
-    auto* other = dynamic_cast<FixWheelRig*>(modify->fix[i]);
-    if (other && &other->wheel_fix() == &wheel)
+  for (FixWheelRig* other : fixes_of<FixWheelRig>(*modify))
+    if (&other->wheel_fix() == &wheel)
       throw InputError(options().where("wheel"),
                        fmt::format("is '{}', which fix {} drives already", wheel.id, other->id),
                        "one rig for each wheel",
                        fmt::format("remove one of them, or write 'unfix {}' before", other->id));
-  }
   return wheel;
 }
 

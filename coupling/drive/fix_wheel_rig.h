@@ -14,6 +14,7 @@ class FixWheelRig : public FurrowFix, public MotionController {
   FixWheelRig(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
 
+  void init() override;
   void apply(double time, double dt) override { rig_.apply(time, dt); }
 
   const WheelRig& rig() const { return rig_; }
@@ -24,6 +25,7 @@ class FixWheelRig : public FurrowFix, public MotionController {
 
   FixWheelHub& wheel_fix_;
   WheelRig rig_;
+  bool warned_ = false;  // of short ramps
 };
 
 }  // namespace furrow::coupling

@@ -10,6 +10,9 @@
 #include "compute.h"
 #include "core/communicator.h"
 #include "core/error.h"
+#include "coupling/base/refuse_double.h"
+#include "coupling/checks/grain_motion_check.h"
+#include "coupling/checks/step_check.h"
 #include "coupling/contact/time_step_check.h"
 #include "coupling/liggghts/script.h"
 #include "domain.h"
@@ -26,6 +29,9 @@ constexpr char axis_names[] = "xyz";
 // Integral action over this many response times: the stress is met also while the cell moves,
 // without ringing.
 constexpr double integral_times = 4.0;
+constexpr double largest_strain_of_step = 1e-3;
+constexpr double largest_stress = 10.0;  // of the stiffness
+constexpr double min_steps_of_response = 5.0;
 
 }  // namespace
 
@@ -46,11 +52,11 @@ Schema FixCellServo::schema() {
               "largest strain rate that the stress control may use")
       .by_default(0.5);
   schema
-      .number("stiffness", "Pa", Range::positive(),
+      .number("stiffness", "Pa", Range{0.0, 1e12, true, false},
               "upper estimate of the confined stiffness of the ground")
       .by_default(1e7);
   schema
-      .number("response_time", "s", Range::positive(),
+      .number("response_time", "s", Range{0.0, 10.0, true, false},
               "time in which an error of stress is removed")
       .by_default(2e-3);
   schema
@@ -102,6 +108,9 @@ FixCellServo::FixCellServo(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     throw InputError("fix cell/servo", "stands in a box that is not periodic along x, y and z",
                      "boundary p p p, no tilt",
                      "a cell has no walls; use plate/rigid for ground in a box");
+  refuse_double<FixCellServo>(*modify, options().subject(), "deforms the box",
+                              "one cell/servo, which controls all three axes",
+                              [](FixCellServo&) { return true; });
   box_change_size = 1;
   nevery = 1;
   provide(outputs());
@@ -137,7 +146,65 @@ void FixCellServo::init() {
   grain_density_ = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
   mean_diameter_ = sums[3] > 0.0 ? sums[2] / sums[3] : 0.0;
   modify->compute[modify->find_compute(pressure_id)]->addstep(update->ntimestep + 1);
-  collectively([&] { check_time_step(*lmp, name()); });
+  collectively([&] {
+    check_time_step(*lmp, name());
+    check_grains();
+    check_rates();
+    check_stresses();
+    check_other_box_changes();
+  });
+}
+
+void FixCellServo::check_grains() {
+  check_step_is_positive(*lmp);
+  check_grain_motion(*lmp, [this](const std::string& text) { warn(*lmp, text); });
+}
+
+/// In a step a grain shall not pass its neighbours.
+void FixCellServo::check_rates() const {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double largest = axes_[k].control == Axis::Control::rate     ? std::abs(axes_[k].target)
+                           : axes_[k].control == Axis::Control::stress ? rate_limit_
+                                                                       : 0.0;
+    const double strain = largest * update->dt;
+    if (strain <= largest_strain_of_step) continue;
+    const std::string key = axes_[k].control == Axis::Control::rate
+                                ? fmt::format("rate_{}", axis_names[k])
+                                : "rate_limit";
+    throw InputError(
+        options().where(key),
+        fmt::format("is {:g} 1/s, a strain of {:.3g} in one step of {:g} s", largest, strain,
+                    update->dt),
+        fmt::format("at most {:.3g} 1/s with this step", largest_strain_of_step / update->dt),
+        "quasi-static tests have less than 1 1/s");
+  }
+}
+
+/// A stress that is many times the stiffness is no stress of this ground.
+void FixCellServo::check_stresses() const {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (axes_[k].control != Axis::Control::stress) continue;
+    const double most = largest_stress * stiffness_;
+    if (axes_[k].target > most)
+      throw InputError(
+          options().where(fmt::format("stress_{}", axis_names[k])),
+          fmt::format("is {:g} Pa, with a stiffness of {:g} Pa", axes_[k].target, stiffness_),
+          fmt::format("at most {:g} Pa", most), "lower it, or give the ground's stiffness");
+    if (response_time_ < min_steps_of_response * update->dt)
+      throw InputError(options().where("response_time"), fmt::format("is {:g} s", response_time_),
+                       fmt::format("at least {:g} s, {:g} steps",
+                                   min_steps_of_response * update->dt, min_steps_of_response),
+                       "the default is 2e-3 s");
+  }
+}
+
+void FixCellServo::check_other_box_changes() const {
+  for (const auto* fix : fixes_of<const LAMMPS_NS::Fix>(*modify))
+    if (std::string(fix->style).rfind("deform", 0) == 0)
+      throw InputError(
+          name(),
+          fmt::format("stands beside fix {} '{}', which deforms the box too", fix->style, fix->id),
+          "one of them", fmt::format("write 'unfix {}' before", fix->id));
 }
 
 /// The box moves before the grains: forces of this step belong to the new box.

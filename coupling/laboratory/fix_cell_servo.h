@@ -34,6 +34,10 @@ class FixCellServo : public FurrowFix {
   std::array<double, 3> rates() const;
   double density() const;          // [kg/m^3]
   double inertial_number() const;  // of the cell now
+  void check_grains();
+  void check_rates() const;
+  void check_stresses() const;
+  void check_other_box_changes() const;
   void measure();
   double next_rate(Axis& axis, double stress) const;
   void move_box();

@@ -3,16 +3,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
 #include "atom.h"
 #include "core/communicator.h"
 #include "core/error.h"
+#include "coupling/checks/grain_motion_check.h"
+#include "coupling/checks/step_check.h"
 #include "coupling/liggghts/box_motion.h"
+#include "coupling/liggghts/script.h"
 #include "update.h"
 
 namespace furrow::coupling {
+
+namespace {
+
+constexpr double largest_travel_of_step = 0.1;  // of the radius of the smallest grain
+
+}  // namespace
 
 Schema FixLayerShear::schema() {
   Schema schema("fix layer/shear");
@@ -42,6 +52,7 @@ FixLayerShear::FixLayerShear(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FurrowFix(lammps, narg, arg, schema()),
       speed_(options().number("speed")),
       ramp_{0.0, options().number("accelerate_time")} {
+  time_integrate = 1;
   provide(outputs());
 }
 
@@ -66,6 +77,25 @@ void FixLayerShear::init() {
                        "define the group by a region that holds a layer of grains");
   });
   height_ = sums[0] / sums[1];
+  collectively([&] {
+    check_step_is_positive(*lmp);
+    check_speed();
+    check_grain_motion(*lmp, [this](const std::string& text) { warn(*lmp, text); });
+  });
+}
+
+/// In a step the layer shall not pass a grain.
+void FixLayerShear::check_speed() const {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < atom->nlocal; ++i) smallest = std::min(smallest, atom->radius[i]);
+  smallest = -Communicator(&world).max(-smallest);
+  const double largest_speed = largest_travel_of_step * smallest / update->dt;
+  if (std::abs(speed_) > largest_speed)
+    throw InputError(options().where("speed"), fmt::format("is {:g} m/s", speed_),
+                     fmt::format("at most {:.3g} m/s with grains of radius {:.3g} m and steps of "
+                                 "{:g} s",
+                                 largest_speed, smallest, update->dt),
+                     "choose a lower speed or a shorter timestep");
 }
 
 void FixLayerShear::initial_integrate(int) {

@@ -22,6 +22,8 @@ class FixLayerShear : public FurrowFix {
   void final_integrate() override;
 
  private:
+  void check_speed() const;
+
   double speed_;  // [m/s] along x
   Ramp ramp_;
   double elapsed_ = 0.0;           // [s]

@@ -9,6 +9,7 @@
 #include <mpi.h>
 
 #include "coupling/liggghts/access.h"
+#include "coupling/liggghts/error_hints.h"
 #include "coupling/liggghts/rescue.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/signals.h"
@@ -25,10 +26,11 @@ constexpr std::chrono::seconds patience(5);
 /// One error, one message: what is wrong, where in the script, and where in the source it was
 /// noticed. (The library's own version may add a line from a string that no longer exists.)
 void print_error(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace place) {
-  const std::string position = script_position(lammps);
+  const std::string position = script_position(lammps), hint = hint_for(text);
   for (FILE* stream : {lammps.screen, lammps.logfile}) {
     if (!stream) continue;
     std::fprintf(stream, "\nERROR: %s\n", text.c_str());
+    if (!hint.empty()) std::fprintf(stream, "  %s\n", hint.c_str());
     if (!position.empty()) std::fprintf(stream, "  at %s\n", position.c_str());
     if (place.line > 0) std::fprintf(stream, "  (LIGGGHTS, %s:%d)\n", place.file, place.line);
     std::fflush(stream);

@@ -10,9 +10,8 @@
 #include <mpi.h>
 #include <unistd.h>
 
+#include "coupling/base/fixes_of.h"
 #include "coupling/liggghts/flushes_on_error.h"
-#include "fix.h"
-#include "modify.h"
 
 namespace furrow::coupling {
 
@@ -33,11 +32,11 @@ sigset_t signals() {
 }  // namespace
 
 void flush_results(const LAMMPS_NS::LAMMPS& lammps) {
-  for (int i = 0; lammps.modify && i < lammps.modify->nfix; ++i) try {
-      if (auto* fix = dynamic_cast<FlushesOnError*>(lammps.modify->fix[i])) fix->flush_results();
+  if (!lammps.modify) return;
+  for (FlushesOnError* fix : fixes_of<FlushesOnError>(*lammps.modify)) try {
+      fix->flush_results();
     } catch (const std::exception& loss) {
-      std::fprintf(stderr, "Results of fix %s are lost: %s\n", lammps.modify->fix[i]->id,
-                   loss.what());
+      std::fprintf(stderr, "Results of fix %s are lost: %s\n", as_fix(*fix).id, loss.what());
     }
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/output/fix_history.h"
 
+#include <filesystem>
+
 #include <fmt/format.h>
 
 #include "comm.h"
+#include "coupling/base/refuse_double.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/output/style_records.h"
@@ -25,6 +28,15 @@ FixHistory::FixHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Sc
     : FurrowFix(lammps, narg, arg, schema) {
   nevery = 1;
   keep_state();
+  const auto folder = [](const FixHistory& fix) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(fix.in_folder(".")));
+  };
+  refuse_double<FixHistory>(
+      *modify, options().where("folder"),
+      fmt::format("is '{}', which this fix writes its files to", options().text("folder")),
+      "a folder for each wheel/history, and for each terrain/history", [&](FixHistory& other) {
+        return style_of(other) == style_of(*this) && folder(other) == folder(*this);
+      });
 }
 
 int FixHistory::setmask() {
@@ -47,10 +59,24 @@ RunInfo FixHistory::run_info(const std::string& title) const {
   return info;
 }
 
+/// A script of many short runs may mean it.
+void FixHistory::warn_of_long_intervals() {
+  const long steps = update->nsteps;
+  for (const char* key : {"every", "vtk"}) {
+    const long interval = options().integer(key);
+    if (steps == 0 || interval <= steps || warned_) continue;
+    warned_ = true;
+    warn(*lmp, fmt::format("{} is {} steps, and this run has {}: nothing is written after its "
+                           "start; write a smaller number",
+                           options().where(key), interval, steps));
+  }
+}
+
 // Rank 0 alone writes, so it may fail alone.
 
 void FixHistory::setup(int) {
   on_this_rank([&] {
+    warn_of_long_intervals();
     if (opened_) return;
     opened_ = true;
     started_ = std::chrono::steady_clock::now();

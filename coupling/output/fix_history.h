@@ -52,12 +52,14 @@ class FixHistory : public FurrowFix, public FollowsSystem, public FlushesOnError
   std::optional<HistoryFile> file_;  ///< rank 0 only
 
  private:
+  void warn_of_long_intervals();
   /// A checkpoint: the rows up to it must be in the file, or a continued run would find a gap.
   void checkpoint(Checkpoint& state) override;
   bool state_needs_options() const override { return false; }
 
   std::optional<double> resume_time_;
   bool opened_ = false;
+  bool warned_ = false;  // of long intervals
   std::chrono::steady_clock::time_point started_;
 };
 

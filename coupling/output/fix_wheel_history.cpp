@@ -110,6 +110,10 @@ RunClosing FixWheelHistory::closing() {
     end.warnings.push_back(fmt::format(
         "The run was interrupted at step {} of {}; the values are those of the part that was done.",
         update->ntimestep, update->laststep));
+  const bool settling = rig_fix_.rig().stage(time()) == RigStage::settle;
+  if (!settling && !system.touched(wheel))
+    end.warnings.push_back(
+        "Nothing touched the wheel: check its start, ground_level and the contacts of the scene.");
   return end;
 }
 

@@ -4,12 +4,12 @@
 #include <fstream>
 #include <sstream>
 
+#include "coupling/base/fixes_of.h"
 #include "coupling/base/has_options.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/styles.h"
 #include "coupling/terrain/command_bed.h"
 #include "group.h"
-#include "modify.h"
 
 namespace furrow::coupling {
 
@@ -21,11 +21,9 @@ std::vector<StyleRecord> style_records(LAMMPS_NS::LAMMPS& lammps) {
     for (const auto& [name, value] : bed) record.options.push_back({name, {typed_value(value)}});
     records.push_back(std::move(record));
   }
-  for (int i = 0; i < lammps.modify->nfix; ++i) {
-    const LAMMPS_NS::Fix& fix = *lammps.modify->fix[i];
-    const auto* described = dynamic_cast<const HasOptions*>(&fix);
-    const Style* style = find_style(style_of(fix));
-    if (described && style)
+  for (const auto* described : fixes_of<const HasOptions>(*lammps.modify)) {
+    const LAMMPS_NS::Fix& fix = as_fix(*described);
+    if (const Style* style = find_style(style_of(fix)))
       records.push_back({fix.id, lammps.group->names[fix.igroup], style->name, name_of(style->kind),
                          typed_values(described->options())});
   }
@@ -39,10 +37,8 @@ std::string effective_input(LAMMPS_NS::LAMMPS& lammps) {
   for (const auto& [name, value] : bed)
     text << (name == "script" ? "bed" : ' ' + name) << ' ' << value;
   if (!bed.empty()) text << '\n';
-  for (int i = 0; i < lammps.modify->nfix; ++i) {
-    const LAMMPS_NS::Fix& fix = *lammps.modify->fix[i];
-    const auto* described = dynamic_cast<const HasOptions*>(&fix);
-    if (!described) continue;
+  for (const auto* described : fixes_of<const HasOptions>(*lammps.modify)) {
+    const LAMMPS_NS::Fix& fix = as_fix(*described);
     text << "fix " << fix.id << ' ' << lammps.group->names[fix.igroup] << ' ' << style_of(fix);
     for (const Entry& entry : described->options().effective()) {
       text << ' ' << entry.key;

@@ -10,6 +10,7 @@
 #include "atom.h"
 #include "core/communicator.h"
 #include "core/error.h"
+#include "coupling/base/refuse_double.h"
 #include "coupling/bodies/fix_body.h"
 #include "coupling/liggghts/contact_history.h"
 #include "coupling/liggghts/exchange_buffer.h"
@@ -74,6 +75,8 @@ FixBedWindow::FixBedWindow(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
         fmt::format("{:.4g} (half the body) to {:.4g} m (box less half the body less two slabs)",
                     half, longest),
         "make the bed longer, or cut it into more slabs");
+  refuse_double<FixBedWindow>(*modify, options().subject(), "renews the bed of the box",
+                              "one bed/window", [](FixBedWindow&) { return true; });
   force_reneighbor = 1;
   next_reneighbor = -1;
   provide(outputs());

@@ -8,6 +8,7 @@
 
 #include "comm.h"
 #include "core/error.h"
+#include "coupling/base/refuse_double.h"
 #include "coupling/liggghts/script.h"
 #include "io/terrain_input.h"
 #include "update.h"
@@ -16,7 +17,9 @@ namespace furrow::coupling {
 
 namespace {
 
-constexpr long check_every = 100;  // steps between looks at the energy
+constexpr int good_cells_in_depth = 4;
+constexpr int most_empty_cells = 20;  // above the surface, over those below
+constexpr long check_every = 100;     // steps between looks at the energy
 // [J/kg] of the terrain, its weight lifted by 0.1 mm: below it an imbalance does not matter
 constexpr double energy_floor = 1e-3;
 
@@ -47,10 +50,36 @@ FixTerrainContinuum::FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, ch
               [lammps](const Options& options) { return make_terrain(*lammps, options); }) {
   if (options().given("follow"))
     followed_ = &use<FixBody>("follow", {Kind::wheel, Kind::body}).body();
+  refuse_overlap();
   contribute(static_cast<MotionController&>(*this));
   provide(outputs(), [this] { return TerrainReading(terrain()); });
   nevery = 1;
   report();
+}
+
+/// Two of them side by side, or one on top of the other, share a face.
+void FixTerrainContinuum::refuse_overlap() {
+  constexpr double shared = 1e-6;  // of an edge
+  const auto overlaps = [this](FixTerrainContinuum& other) {
+    bool overlap = true;
+    for (int a = 0; a < 3; ++a) {
+      const auto [lower, upper] = extent(a);
+      const auto [other_lower, other_upper] = other.extent(a);
+      overlap &=
+          std::min(upper, other_upper) - std::max(lower, other_lower) > shared * (upper - lower);
+    }
+    return overlap;
+  };
+  refuse_double<FixTerrainContinuum>(*modify, options().subject(), "fills space with terrain",
+                                     "terrains that do not overlap; layers of one terrain are in "
+                                     "its keyword 'material'",
+                                     overlaps);
+}
+
+/// Of the undisturbed terrain [m].
+std::pair<double, double> FixTerrainContinuum::extent(int direction) {
+  const Axis& axis = terrain().grid().axis(direction);
+  return {axis.lower(), direction == 2 ? options().number("surface") : axis.upper()};
 }
 
 int FixTerrainContinuum::setmask() { return LAMMPS_NS::FixConst::END_OF_STEP; }
@@ -64,11 +93,29 @@ void FixTerrainContinuum::report() {
                "step {:.3g} s\n",
                grid.axis(0).cells(), grid.axis(1).cells(), grid.axis(2).cells(),
                grid.shortest_cell(), particles, step);
+  warn_of_extremes();
   const double scale = options().number("modulus_scale");
   if (scale != 1.0)
     warn(*lmp, fmt::format("{}: Young's modulus is scaled by {:g}: steps are {:.2g} times longer, "
                            "elastic strains {:.2g} times larger",
                            name(), scale, 1.0 / std::sqrt(scale), 1.0 / scale));
+}
+
+void FixTerrainContinuum::warn_of_extremes() {
+  const Axis& z = terrain().grid().axis(2);
+  const double surface = options().number("surface");
+  int below = 0;
+  while (below < z.cells() && z.knot(below) + 0.5 * z.length(below) < surface) ++below;
+  const int above = z.cells() - below;
+  if (below < good_cells_in_depth)
+    warn(*lmp, fmt::format("{} is {:.4g} m: {} cells in the depth (recommended: at least {}); the "
+                           "ground will be stiff and coarse; choose smaller cells",
+                           options().where("cell"), options().number("cell"), below,
+                           good_cells_in_depth));
+  if (above > most_empty_cells * below)
+    warn(*lmp, fmt::format("{}: {} layers of cells reach {:.4g} m above the surface, {} lie below: "
+                           "they stay empty and cost time; make clearance_above smaller",
+                           name(), above, z.upper() - surface, below));
 }
 
 void FixTerrainContinuum::apply(double, double) {

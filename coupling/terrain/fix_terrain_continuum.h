@@ -2,6 +2,8 @@
 #pragma once
 /// fix terrain/continuum: terrain by the material point method. See fix_terrain_continuum.md.
 
+#include <utility>
+
 #include "coupling/bodies/fix_body.h"
 #include "coupling/terrain/terrain_outputs.h"
 #include "mpm/continuum_terrain.h"
@@ -14,7 +16,7 @@ class FixTerrainContinuum : public FixBody, public MotionController {
   static Schema schema();
   static const Outputs<TerrainReading>& outputs() { return terrain_outputs(); }
 
-  ContinuumTerrain& terrain() { return static_cast<ContinuumTerrain&>(body()); }
+  ContinuumTerrain& terrain() const { return static_cast<ContinuumTerrain&>(body()); }
   bool half_model() const { return options().flag("symmetry"); }
 
   int setmask() override;
@@ -23,7 +25,10 @@ class FixTerrainContinuum : public FixBody, public MotionController {
   void apply(double time, double dt) override;
 
  private:
+  void refuse_overlap();
+  std::pair<double, double> extent(int direction);
   void report();
+  void warn_of_extremes();
   void check_energy();
 
   Body* followed_ = nullptr;

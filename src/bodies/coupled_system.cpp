@@ -11,13 +11,6 @@
 
 namespace furrow {
 
-namespace {
-
-// more in one interval means that a body is collapsing, not that it is stiff
-constexpr double max_sub_steps = 1e6;
-
-}  // namespace
-
 void CoupledSystem::remove(const Body& body) {
   members_.erase(std::remove_if(members_.begin(), members_.end(),
                                 [&](const Member& member) { return member.body == &body; }),
@@ -48,18 +41,23 @@ int CoupledSystem::advance(double interval) {
 int CoupledSystem::sub_steps_of(double interval) const {
   if (!(std::isfinite(interval) && interval > 0.0))
     throw StateError(fmt::format("the system cannot advance by {} s", interval));
-  double smallest = std::numeric_limits<double>::infinity();
+  const StepLimit limit = step_limit();
+  if (!(limit.step * max_sub_steps >= interval))
+    throw StateError(
+        fmt::format("body '{}': its stable time step is {} s, less than {:g} of the interval {} s; "
+                    "an element has collapsed or a stiffness has grown without bound",
+                    limit.body, limit.step, 1.0 / max_sub_steps, interval));
+  return std::max(1, static_cast<int>(std::ceil(interval / limit.step)));
+}
+
+CoupledSystem::StepLimit CoupledSystem::step_limit() const {
+  StepLimit limit{std::numeric_limits<double>::infinity(), ""};
   for (const Member& member : members_) {
     const double stable = member.body->stable_time_step();
-    if (!(stable > interval / max_sub_steps))
-      throw StateError(
-          fmt::format("body '{}': its stable time step is {} s, less than a millionth of the "
-                      "interval {} s; an element has "
-                      "collapsed or a stiffness has grown without bound",
-                      member.name, stable, interval));
-    smallest = std::min(smallest, stable);
+    if (std::isnan(stable)) return {stable, member.name};
+    if (stable < limit.step) limit = {stable, member.name};
   }
-  return std::max(1, static_cast<int>(std::ceil(interval / smallest)));
+  return limit;
 }
 
 /// The forces of others become one impulse in the first sub-step.

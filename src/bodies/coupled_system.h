@@ -12,6 +12,9 @@ namespace furrow {
 
 class CoupledSystem {
  public:
+  /// More in one interval mean that a body collapses, or that the interval is far too long.
+  static constexpr double max_sub_steps = 1e5;
+
   /// Neither bodies nor contacts are owned: each must outlive the system or be removed.
   /// @param name for errors
   void add(Body& body, const std::string& name) { members_.push_back({&body, name}); }
@@ -29,6 +32,13 @@ class CoupledSystem {
   /// @throws StateError naming the body when its stable step vanishes, its state is not finite or
   /// its own advance() refuses
   int advance(double interval);
+
+  struct StepLimit {
+    double step;       ///< [s]; infinity without a body that has one
+    std::string body;  ///< its name
+  };
+  /// The smallest stable step of any body now. Collective.
+  StepLimit step_limit() const;
 
   void clear_forces();  ///< of all surfaces
   /// Adds the contacts' forces, their mean over the last interval, to the surfaces for whoever

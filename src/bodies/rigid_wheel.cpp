@@ -14,6 +14,8 @@ namespace furrow {
 
 namespace {
 
+constexpr double min_gyration = 0.01;  // radius of gyration over radius, of any wheel
+
 Grousers grousers_from(const Options& options) {
   Grousers bars;
   bars.number = static_cast<int>(options.integer("grousers"));
@@ -53,6 +55,13 @@ void check(const RigidWheelParameters& wheel, const std::string& where) {
     throw InputError(where + ", keyword 'inertia'", fmt::format("is {} kg m^2", inertia.axial),
                      fmt::format("at most {:.6g} kg m^2, with all of the mass at the rim",
                                  inertia.mass * reach * reach),
+                     "check inertia, mass and diameter");
+  const double least = inertia.mass * std::pow(min_gyration * wheel.geometry.radius(), 2);
+  if (inertia.axial < least)
+    throw InputError(where + ", keyword 'inertia'", fmt::format("is {:g} kg m^2", inertia.axial),
+                     fmt::format("at least {:.3g} kg m^2, with a radius of gyration of {:g} of the "
+                                 "wheel's",
+                                 least, min_gyration),
                      "check inertia, mass and diameter");
 }
 

@@ -27,6 +27,16 @@ Communicator& Communicator::operator=(const Communicator& other) {
 int Communicator::rank() const { return handle_->rank; }
 int Communicator::size() const { return handle_->size; }
 
+int Communicator::on_this_machine() const {
+  if (size() == 1) return 1;
+  MPI_Comm machine;
+  MPI_Comm_split_type(handle_->comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  int count = 1;
+  MPI_Comm_size(machine, &count);
+  MPI_Comm_free(&machine);
+  return count;
+}
+
 void Communicator::sum(double* values, std::size_t count) const {
   if (size() == 1) return;
   // Reduce and broadcast, not allreduce: replicated bodies must stay bitwise equal, and MPI does

@@ -20,6 +20,8 @@ namespace {
 // Default of clearance_above: room for what a wheel pushes up beside and ahead of it.
 constexpr double min_clearance_cells = 6.0;
 constexpr double clearance_of_depth = 1.0;
+constexpr double min_cells_in_depth = 2.0;
+constexpr double round_off = 1e-6;  // of a length
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -64,6 +66,22 @@ TerrainLayer load(const Options& options, const std::filesystem::path& path, dou
   return {std::move(material), thickness, describe(file), file.warnings};
 }
 
+/// @param all_have_one the lowest as well, which could do without
+void check_thicknesses(const std::vector<TerrainLayer>& layers, bool all_have_one,
+                       const Options& options) {
+  const double depth = options.number("depth");
+  double sum = 0.0;
+  for (std::size_t n = 0; n + (all_have_one ? 0 : 1) < layers.size(); ++n)
+    sum += layers[n].thickness;
+  const bool fits = all_have_one ? std::abs(sum - depth) <= round_off * depth : sum < depth;
+  if (!fits)
+    throw InputError(options.where("material"),
+                     fmt::format("has layers of {:.6g} m in ground {:.6g} m deep", sum, depth),
+                     all_have_one ? "layers that add up to the depth"
+                                  : "layers above the lowest that leave room for it",
+                     "change 'depth' or a thickness; the lowest layer needs none");
+}
+
 /// "crust.yaml:0.03,snow.yaml": from the top, each but the last with its thickness.
 std::vector<TerrainLayer> read_layers(const Options& options, const std::filesystem::path& folder) {
   std::vector<TerrainLayer> layers;
@@ -87,7 +105,38 @@ std::vector<TerrainLayer> read_layers(const Options& options, const std::filesys
                        "only the lowest layer needs no thickness");
     layers.push_back(load(options, folder / words[0], thickness));
   }
+  const bool all_have_one = parts.back().find(':') != std::string::npos;
+  check_thicknesses(layers, all_have_one, options);
   return layers;
+}
+
+/// Fine stretches of less than a cell would make cells smaller than `cell`; what is shorter than a
+/// cell would make a cell of another size.
+void check_cells(const Options& options) {
+  const double cell = options.number("cell"), enough = (1.0 - round_off) * cell;
+  for (const char* key : {"length", "width", "depth", "fine_length", "fine_width", "fine_depth"}) {
+    if (!options.has(key)) continue;
+    const bool halved =
+        options.flag("symmetry") && std::string(key).find("width") != std::string::npos;
+    if ((halved ? 0.5 : 1.0) * options.number(key) < enough)
+      throw InputError(options.where(key),
+                       fmt::format("is {} m, less than a cell of {} m{}", options.number(key), cell,
+                                   halved ? " on either side of the plane of symmetry" : ""),
+                       "at least one cell", "make it longer, or 'cell' smaller");
+  }
+}
+
+/// Of the cells as they come out.
+void check_depth(const TerrainParameters& ground, const Options& options) {
+  AxisLayout below = ground.z;
+  below.upper = below.fine_upper = ground.surface;
+  const double cells = Axis::cell_count(below);
+  if (cells < min_cells_in_depth - round_off)
+    throw InputError(options.where("cell"),
+                     fmt::format("is {} m, and the depth is {} m: {:.3g} cell(s)",
+                                 options.number("cell"), options.number("depth"), cells),
+                     fmt::format("at least {:g} cells in the depth", min_cells_in_depth),
+                     "choose smaller cells");
 }
 
 AxisLayout layout(const Options& options, double lower, double upper, double middle,
@@ -166,7 +215,7 @@ Schema terrain_schema(const std::string& subject) {
                "most steps between two mappings of particles to the grid")
       .by_default("16");
   schema
-      .number("modulus_scale", "", Range{0.0, 1.0, true, false},
+      .number("modulus_scale", "", Range::closed(0.01, 1.0),
               "factor on Young's modulus, for longer steps")
       .by_default(1.0);
   schema.alias("headroom", "clearance_above");
@@ -178,6 +227,7 @@ Schema terrain_schema(const std::string& subject) {
 
 TerrainParameters read_terrain(const Options& options, const std::string& folder) {
   TerrainParameters ground;
+  check_cells(options);
   ground.layers = read_layers(options, folder);
   ground.surface = options.number("surface");
   const double x = options.numbers("centre")[0], y = options.numbers("centre")[1];
@@ -187,6 +237,7 @@ TerrainParameters read_terrain(const Options& options, const std::string& folder
   ground.x = layout(options, x - half_length, x + half_length, x, "fine_length");
   ground.y = layout(options, half_model ? y : y - half_width, y + half_width, y, "fine_width");
   ground.z = vertical_layout(options);
+  check_depth(ground, options);
   const BoundaryKind ends = boundary_kind(options.text("ends")),
                      sides = boundary_kind(options.text("sides")),
                      base = boundary_kind(options.text("base"));

@@ -64,6 +64,21 @@ Axis::Axis(const AxisLayout& layout, const std::string& where) {
   tabulate();
 }
 
+double Axis::cell_count(const AxisLayout& layout) {
+  const double lower = std::max(layout.lower, layout.fine_lower),
+               upper = std::min(layout.upper, layout.fine_upper);
+  const double fine = std::max(1.0, std::round((upper - lower) / layout.cell));
+  const double cell = (upper - lower) / fine, growth = layout.growth;
+  double count = fine;
+  for (const double distance : {lower - layout.lower, layout.upper - upper}) {
+    if (!(distance > 0.0)) continue;
+    // cell (growth + growth^2 + ... + growth^n) = distance
+    const double cells = distance / cell;
+    count += growth > 1.0 ? std::log1p(cells * (growth - 1.0) / growth) / std::log(growth) : cells;
+  }
+  return count;
+}
+
 void Axis::tabulate() {
   const int n = cells();
   const auto at = [&](int i) { return knot(std::clamp(i, 0, n)); };

@@ -57,6 +57,9 @@ class Axis {
   /// @throws InputError naming `where` for lengths or growth that make no axis
   Axis(const AxisLayout& layout, const std::string& where);
 
+  /// How many cells a layout has, without making them.
+  static double cell_count(const AxisLayout& layout);
+
   int cells() const { return static_cast<int>(knot_.size()) - 1; }
   int nodes() const { return cells() + 2; }
   double lower() const { return knot_.front(); }

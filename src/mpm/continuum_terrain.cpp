@@ -6,12 +6,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "mpm/terrain_size.h"
+
 namespace furrow {
 
 namespace {
 
 Discretisation discretise(const TerrainParameters& parameters, const Communicator& ranks,
                           const std::string& where) {
+  check_memory(parameters, ranks, where);
   Grid grid = make_grid(parameters, where);
   const int x_cells = grid.axis(0).cells();
   std::vector<ParticleGroup> groups;
@@ -26,7 +29,7 @@ ContinuumTerrain::ContinuumTerrain(const TerrainParameters& parameters, const Co
                                    const std::string& where)
     : parameters_(parameters),
       discretisation_(discretise(parameters, ranks, where)),
-      fill_(parameters, discretisation_.grid),
+      fill_(parameters, discretisation_.grid, where),
       boundary_(discretisation_.grid, parameters.boundary, parameters.particles_per_cell,
                 fill_.wave_speeds(discretisation_.grid)),
       distribution_(discretisation_, boundary_),

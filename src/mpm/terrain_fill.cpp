@@ -32,6 +32,25 @@ std::vector<ParticleLevel> make_levels(const TerrainParameters& parameters, cons
   return levels;
 }
 
+/// A layer thinner than the particles are apart may fall between them.
+void check_layers(const TerrainParameters& parameters, const std::vector<ParticleLevel>& levels,
+                  const std::string& where) {
+  for (std::size_t n = 0; n < parameters.layers.size(); ++n) {
+    const auto in_layer = [n](const ParticleLevel& level) { return level.layer == n; };
+    if (std::any_of(levels.begin(), levels.end(), in_layer)) continue;
+    const double spacing = levels.empty() ? 0.0 : 2.0 * levels.front().half;
+    throw InputError(
+        where,
+        fmt::format("has a layer, number {} from the top, {:.4g} m thick, that not one particle "
+                    "lies in: they are {:.4g} m apart",
+                    n + 1, parameters.layers[n].thickness, spacing),
+        "layers that particles fit into",
+        fmt::format("make the layer at least {:.4g} m thick within the depth, or the cells "
+                    "smaller",
+                    spacing));
+  }
+}
+
 }  // namespace
 
 Grid make_grid(const TerrainParameters& parameters, const std::string& where) {
@@ -52,10 +71,13 @@ Grid make_grid(const TerrainParameters& parameters, const std::string& where) {
   return grid;
 }
 
-TerrainFill::TerrainFill(const TerrainParameters& parameters, const Grid& grid)
+TerrainFill::TerrainFill(const TerrainParameters& parameters, const Grid& grid,
+                         const std::string& where)
     : layers_(parameters.layers),
       particles_per_cell_(parameters.particles_per_cell),
-      levels_(make_levels(parameters, grid)) {}
+      levels_(make_levels(parameters, grid)) {
+  check_layers(parameters, levels_, where);
+}
 
 std::vector<WaveSpeeds> TerrainFill::wave_speeds(const Grid& grid) const {
   std::vector<WaveSpeeds> speeds;

@@ -20,7 +20,9 @@ Grid make_grid(const TerrainParameters& parameters, const std::string& where);
 
 class TerrainFill {
  public:
-  TerrainFill(const TerrainParameters& parameters, const Grid& grid);
+  /// @param where  names the terrain in errors
+  /// @throws InputError for a material that cannot carry the weight, or a layer without particles
+  TerrainFill(const TerrainParameters& parameters, const Grid& grid, const std::string& where);
 
   /// Elastic wave speeds at the height of each plane of nodes across z, from below.
   std::vector<WaveSpeeds> wave_speeds(const Grid& grid) const;

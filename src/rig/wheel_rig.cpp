@@ -13,6 +13,12 @@ namespace {
 
 // [m/s] below it, rim and axle both rest and the recorded slip is 0
 constexpr double standstill = 1e-12;
+// Load over the weight of the wheel: beyond, it does not move, or is shot away.
+constexpr double least_load = 1e-3, largest_load = 1e5;
+// Of the diameter: a rig's damping that lets the wheel go down by less while it settles holds it.
+constexpr double least_travel = 1e-3;
+// Of load x radius: no ground holds it.
+constexpr double largest_torque = 100.0;
 
 /// @throws InputError when key is missing (needed) or given (not needed)
 void expect_key(const Options& options, const std::string& key, bool needed,
@@ -41,7 +47,7 @@ Schema WheelRig::schema(const std::string& subject) {
       .number("sinkage", "m", Range::any(),
               "instead of a load: the wheel is lowered to this sinkage and held there")
       .optional();
-  schema.number("speed", "m/s", Range::non_negative(), "speed of the axle along x in cruise");
+  schema.number("speed", "m/s", Range::closed(0.0, 1000.0), "speed of the axle along x in cruise");
   schema.choice("mode", {"towed", "slip", "torque"},
                 "free spin, prescribed slip, or prescribed axle torque");
   schema.number("slip", "", Range::any(), "slip in mode slip, driving positive").optional();
@@ -90,6 +96,13 @@ WheelRig::WheelRig(const Options& options, WheelHub& wheel) : wheel_(wheel) {
                      fmt::format("0 to settle_time, {} s", settle_time), "lengthen settle_time");
   speed_ramp_ = {load_ramp_.start + settle_time, options.number("accelerate_time")};
 
+  for (const char* key : {"slip_angle", "camber"})
+    if (wheel_.half_model() && options.number(key) != 0.0)
+      throw InputError(options.where(key),
+                       fmt::format("is {} degrees with a half model, which moves in its plane of "
+                                   "symmetry",
+                                   options.number(key)),
+                       "0 degrees", "model the whole: 'half no', and ground without symmetry");
   wheel_.place(wheel_.centre(), radians(options.number("slip_angle")),
                radians(options.number("camber")));
   read_vertical(options);
@@ -113,11 +126,41 @@ void WheelRig::read_vertical(const Options& options) {
   sinkage_prescribed_ = options.given("sinkage");
   if (options.given("load_mass")) load_ = options.number("load_mass") * options.number("gravity");
   if (options.given("load_force")) load_ = options.number("load_force");
+  check_load(options);
   if (sinkage_prescribed_ && load_ramp_.duration == 0.0)
     throw InputError(options.where("load_ramp_time"), "is 0 s with a prescribed sinkage",
                      "a number > 0 [s]", "the wheel needs time to go down");
   if (sinkage_prescribed_)
     lowering_ = ground_level_ - options.number("sinkage") - wheel_.lowest_point();
+}
+
+void WheelRig::check_load(const Options& options) const {
+  if (sinkage_prescribed_) {
+    const double diameter = 2.0 * wheel_.nominal_radius();
+    if (std::abs(options.number("sinkage")) > diameter)
+      throw InputError(
+          options.where("sinkage"), fmt::format("is {} m", options.number("sinkage")),
+          fmt::format("-{:.4g} to {:.4g} m, the diameter of the wheel", diameter, diameter));
+    return;
+  }
+  const double share = load_ / (wheel_.total_mass() * standard_gravity);
+  if (!(share >= least_load && share <= largest_load))
+    throw InputError(
+        options.where(options.given("load_mass") ? "load_mass" : "load_force"),
+        fmt::format("makes {:.4g} N, {:.3g} of the weight of the wheel's own {:.4g} kg", load_,
+                    share, wheel_.total_mass()),
+        fmt::format("{:g} to {:g} of it", least_load, largest_load),
+        "check the load and the mass of the wheel: what hangs on the axle is part of its mass");
+  const double settle_time = options.number("settle_time"), damping = options.number("damping"),
+               travel = load_ * settle_time / damping,
+               least = least_travel * 2.0 * wheel_.nominal_radius();
+  if (travel < least)
+    throw InputError(options.where("damping"),
+                     fmt::format("is {:g} N s/m: under {:.4g} N the wheel goes down by {:.3g} m in "
+                                 "a settle_time of {:g} s",
+                                 damping, load_, travel, settle_time),
+                     fmt::format("at most {:.3g} N s/m", load_ * settle_time / least),
+                     "it is there to calm the wheel, not to hold it");
 }
 
 void WheelRig::read_drive(const Options& options) {
@@ -132,6 +175,13 @@ void WheelRig::read_drive(const Options& options) {
   expect_key(options, "torque", mode_ == Mode::torque, context,
              "a torque in mode torque, and only there");
   if (mode_ == Mode::torque) torque_ = options.number("torque");
+  const double most = largest_torque * load_ * wheel_.nominal_radius();
+  if (!sinkage_prescribed_ && std::abs(torque_) > most)
+    throw InputError(
+        options.where("torque"),
+        fmt::format("is {:g} N m under a load of {:.4g} N", torque_, load_),
+        fmt::format("{:.3g} to {:.3g} N m, {:g} times load x radius", -most, most, largest_torque),
+        "the ground holds a torque of about load x radius");
   if (mode_ != Mode::slip) return;
   if (speed_ == 0.0)
     throw InputError(options.where("speed"), "is 0 m/s in mode slip", "a number > 0 [m/s]",

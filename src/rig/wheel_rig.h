@@ -62,6 +62,7 @@ class WheelRig {
  private:
   struct Reading;
   static const Outputs<const Reading>& outputs();
+  void check_load(const Options& options) const;
   void read_vertical(const Options& options);
   void read_drive(const Options& options);
   void drive_vertical(double time, double dt);

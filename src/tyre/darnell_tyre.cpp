@@ -185,7 +185,17 @@ void DarnellTyre::compute_contact() {
   nodes_.force += contact_;
 }
 
-void DarnellTyre::advance(double dt) {
+/// What a deformed tyre is refused for is seldom what is wrong.
+void DarnellTyre::advance(double dt) try { step(dt); } catch (const StateError& problem) {
+  throw StateError(
+      fmt::format("{}; at {:g} Pa it carries a load of {:.4g} N and its axle moves at {:.3g} m/s; "
+                  "likely causes: a load that this pressure does not carry, a speed or time step "
+                  "that is too large, a start in the ground, a contact too stiff or too damped, a "
+                  "rim too light",
+                  problem.what(), pressure_, -load().z(), velocity().norm()));
+}
+
+void DarnellTyre::step(double dt) {
   compute_internal();
   damping_.add(nodes_, *this);
   Wrench on_rim = of_whole(damping_.reaction(nodes_, centre()));

@@ -79,9 +79,11 @@ class DarnellTyre : public Tyre {
   const TreadGrid& tread_grid() const override { return grid_; }
   double section_width() override;
   double tread_energy() const override { return copies_ * shell_.energy(); }
+  double tread_mass() const override { return tyre_.tread.areal_mass; }
   double largest_sidewall_chord() const override;
 
  private:
+  void step(double dt);
   class Relaxing;  // as shell/dynamic_relaxation.h sees it
 
   DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& settings,

@@ -48,6 +48,7 @@ class Tyre : public WheelHub {
   double crown_radius() const;              ///< [m] mean distance of the middle line from the axle
   virtual double section_width() = 0;       ///< [m] largest, from sidewall to sidewall
   virtual double tread_energy() const = 0;  ///< [J] elastic
+  virtual double tread_mass() const = 0;    ///< [kg/m^2] of its area
   /// chord over length of the sidewall that is stretched most: near 1 it is nearly straight
   virtual double largest_sidewall_chord() const = 0;
 

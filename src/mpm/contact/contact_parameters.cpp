@@ -18,7 +18,7 @@ Schema ContactParameters::schema(const std::string& subject) {
   schema.number("friction", "", Range::non_negative(), "coefficient mu of a frictional surface")
       .by_default(0.3);
   schema
-      .number("slip_length", "m", Range::non_negative(),
+      .number("slip_length", "m", Range::closed(0.0, 1.0),
               "k of tau = mu sigma (1 - exp(-j/k)) with the slip j; 0: tau = mu sigma")
       .by_default(0.0);
   schema

@@ -132,11 +132,13 @@ void TerrainContact::record_step() {
   losses_.damping += step_.losses.damping;
   deepest_penetration_ = std::max(deepest_penetration_, step_.penetration);
   if (step_.penetration > max_penetration_cells * terrain_.grid().shortest_cell())
-    throw StateError(
-        fmt::format("the surface is {:.3g} m inside the ground, more than half a cell: the "
-                    "contact's springs are too soft for this load, or the step is unstable; raise "
-                    "'stiffness'",
-                    step_.penetration));
+    throw StateError(fmt::format(
+        "the surface is {:.3g} m inside the ground, more than half a cell, under {:.3g} "
+        "N and at {:.3g} m/s; likely causes: a load or speed that this ground cannot "
+        "take, a wheel much lighter than its load, a modulus_scale or a timestep that "
+        "goes too far, ground that ends under the contact; otherwise raise 'stiffness'",
+        step_.penetration, nodal_forces_.rowwise().sum().norm(),
+        body_.surface().v.colwise().norm().maxCoeff()));
   force_ = nodal_forces_.rowwise().sum();
 }
 

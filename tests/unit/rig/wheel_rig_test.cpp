@@ -281,7 +281,7 @@ TEST(WheelRig, RefusesContradictionsWithKeywordAndRemedy) {
   EXPECT_THAT(refusal_of({"load_mass", "0", "speed", "1", "mode", "towed"}),
               HasSubstr("keyword 'load_mass' is 0"));
   EXPECT_THAT(refusal_of({"load_force", "60", "speed", "-1", "mode", "towed"}),
-              HasSubstr("keyword 'speed' is -1; allowed: a number >= 0 [m/s]"));
+              HasSubstr("keyword 'speed' is -1; allowed: a number in [0, 1000] [m/s]"));
   EXPECT_THAT(refusal_of({"load_force", "60", "speed", "1", "mode", "skid"}),
               HasSubstr("keyword 'mode' is 'skid'; allowed: one of: towed, slip, torque"));
   EXPECT_THAT(refusal_of({"load_force", "60", "speed", "0", "mode", "slip", "slip", "0.2"}),

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/checks/grain_motion_check.h"
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "atom.h"
+#include "core/communicator.h"
+#include "core/error.h"
+#include "coupling/base/fixes_of.h"
+#include "coupling/contact/fix_wall_gran_body.h"
+#include "coupling/contact/grain_bed_check.h"
+#include "update.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+constexpr char remedy[] = "write 'fix move all nve/sphere'";
+
+/// LIGGGHTS's multisphere moves its clumps without saying so by its flag.
+bool moves_grains(const LAMMPS_NS::Fix& fix) {
+  return fix.time_integrate != 0 || fix.style == std::string("multisphere");
+}
+/// Takes all forces off a group, so that its grains are meant to stand still.
+bool freezes_grains(const LAMMPS_NS::Fix& fix) { return fix.style == std::string("freeze"); }
+
+/// A bed under a body needs weight, and has one.
+void check_gravity(const LAMMPS_NS::LAMMPS& lammps, double grains, const Warn& warn) {
+  if (grains < GrainBedLimits::min_grains ||
+      fixes_of<const FixWallGranBody>(*lammps.modify).empty())
+    return;
+  int count = 0;
+  for (const auto* fix : fixes_of<const LAMMPS_NS::Fix>(*lammps.modify))
+    count += fix->style == std::string("gravity");
+  if (count == 0)
+    warn("no fix gives the grains weight; write 'fix weight all gravity 9.80665 vector 0 0 -1'");
+  if (count > 1)
+    warn(fmt::format("{} fixes gravity act together; grains have that many weights", count));
+}
+
+using Fixes = std::vector<const LAMMPS_NS::Fix*>;
+
+/// @throws InputError when two of them move a grain of this rank or another
+void refuse_double_motion(const LAMMPS_NS::LAMMPS& lammps, const Fixes& movers,
+                          const Communicator& ranks) {
+  const LAMMPS_NS::Atom& atom = *lammps.atom;
+  for (std::size_t a = 0; a < movers.size(); ++a)
+    for (std::size_t b = a + 1; b < movers.size(); ++b) {
+      const LAMMPS_NS::Fix &first = *movers[a], &second = *movers[b];
+      double both = 0.0;
+      for (int i = 0; i < atom.nlocal; ++i)
+        if ((atom.mask[i] & first.groupbit) && (atom.mask[i] & second.groupbit)) both += 1.0;
+      both = ranks.sum(both);
+      if (both > 0.0)
+        throw InputError(
+            fmt::format("fix {} '{}'", second.style, second.id),
+            fmt::format("moves {:.0f} grain(s) that fix {} '{}' moves already", both, first.style,
+                        first.id),
+            "one such fix for each grain",
+            fmt::format("remove one of the lines, write 'unfix {}' before, or give them groups "
+                        "without a common grain",
+                        first.id));
+    }
+}
+
+}  // namespace
+
+void check_grain_motion(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
+  if (lammps.update->nsteps == 0) return;
+  const Communicator ranks(&lammps.world);
+  const LAMMPS_NS::Atom& atom = *lammps.atom;
+  Fixes movers;
+  int moved_or_frozen = 0;  // bits of their groups
+  for (const auto* fix : fixes_of<const LAMMPS_NS::Fix>(*lammps.modify)) {
+    if (fix->time_integrate != 0) movers.push_back(fix);
+    if (moves_grains(*fix) || freezes_grains(*fix)) moved_or_frozen |= fix->groupbit;
+  }
+  refuse_double_motion(lammps, movers, ranks);
+
+  const double all = ranks.sum(static_cast<double>(atom.nlocal));
+  check_gravity(lammps, all, warn);
+
+  double still = 0.0;
+  for (int i = 0; i < atom.nlocal; ++i)
+    if (!(atom.mask[i] & moved_or_frozen)) still += 1.0;
+  still = ranks.sum(still);
+  if (still == 0.0) return;
+  const auto walls = fixes_of<const FixWallGranBody>(*lammps.modify);
+  if (still == all && all >= GrainBedLimits::min_grains && !walls.empty())
+    throw InputError(
+        fmt::format("fix wall/gran/body '{}'", walls.front()->id),
+        fmt::format("presses on grains, and no fix moves any of the {:.0f}", all),
+        "grains that a fix moves or freezes",
+        fmt::format("{}, or 'fix still all freeze' for grains that stand still", remedy));
+  warn(
+      fmt::format("no fix moves {:.0f} of {:.0f} grains: they stand still; {}, or 'fix still "
+                  "<group> freeze' if that is meant",
+                  still, all, remedy));
+}
+
+}  // namespace furrow::coupling

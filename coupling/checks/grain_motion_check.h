@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Does one fix, and only one, move each grain?
+
+#include "coupling/checks/scene_checks.h"
+
+namespace furrow::coupling {
+
+/// Warns of grains that no fix moves: they stand still, as LIGGGHTS has it. Collective.
+/// @throws InputError when two fixes move one grain, which then goes twice as far; when none moves
+/// any grain of a bed that a body shall press on
+void check_grain_motion(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn);
+
+}  // namespace furrow::coupling

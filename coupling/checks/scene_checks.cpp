@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/checks/scene_checks.h"
+
+#include <fmt/format.h>
+
+#include "coupling/base/fixes_of.h"
+#include "coupling/checks/grain_motion_check.h"
+#include "coupling/checks/ground_level_check.h"
+#include "coupling/checks/resolution_check.h"
+#include "coupling/checks/speed_check.h"
+#include "coupling/checks/step_check.h"
+#include "coupling/checks/touch_check.h"
+#include "coupling/contact/fix_wall_gran_body.h"
+#include "coupling/contact/time_step_check.h"
+#include "coupling/liggghts/script.h"
+#include "update.h"
+
+namespace furrow::coupling {
+
+void SceneChecks::say(const std::string& warning) {
+  if (said_.insert(warning).second) warn(lammps_, warning);
+}
+
+void SceneChecks::after_step(int sub_steps) {
+  if (slow_ || sub_steps <= many_sub_steps) return;
+  slow_ = true;
+  check_sub_steps(lammps_, [this](const std::string& text) { say(text); });
+}
+
+void SceneChecks::before_run() {
+  const Warn warn = [this](const std::string& text) { say(text); };
+  check_mesh_walls(lammps_);
+  if (lammps_.update->nsteps == 0) return;  // a set-up: the scene may not be complete yet
+  check_step_is_positive(lammps_);
+  for (const auto* wall : fixes_of<const FixWallGranBody>(*lammps_.modify))
+    check_time_step(lammps_, fmt::format("fix wall/gran/body '{}'", wall->id));
+  check_sub_steps(lammps_, [&](const std::string& text) {
+    slow_ = true;
+    warn(text);
+  });
+  check_grain_motion(lammps_, warn);
+  warn_of_bodies_that_touch_nothing(lammps_, warn);
+  warn_of_bodies_in_one_place(lammps_, warn);
+  check_ground_under_bodies(lammps_, warn);
+  check_speeds(lammps_, warn);
+  check_ground_levels(lammps_, warn);
+}
+
+}  // namespace furrow::coupling

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/checks/step_check.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "coupling/base/fix_coupled_system.h"
+#include "update.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+constexpr double sub_steps_to_aim_at = 10;  // for the remedy
+
+}  // namespace
+
+void check_step_is_positive(const LAMMPS_NS::LAMMPS& lammps) {
+  if (!(lammps.update->dt > 0.0))
+    throw InputError("timestep", fmt::format("is {} s", lammps.update->dt), "a number > 0 [s]",
+                     "write 'timestep <seconds>' before the run");
+}
+
+void check_sub_steps(LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
+  const CoupledSystem::StepLimit limit = FixCoupledSystem::of(lammps).step_limit();
+  const double step = lammps.update->dt, sub_steps = step / limit.step;
+  if (sub_steps <= many_sub_steps) return;
+  const std::string finding = fmt::format(
+      "a step of {:.4g} s takes {:.3g} sub-steps of body '{}', whose stable step is "
+      "{:.3g} s",
+      step, sub_steps, limit.body, limit.step);
+  const std::string remedy =
+      fmt::format("write 'timestep {:.1g}', or make the body's elements or cells larger",
+                  sub_steps_to_aim_at * limit.step);
+  if (!(sub_steps <= CoupledSystem::max_sub_steps))
+    throw InputError("timestep", fmt::format("is {:.4g} s: {}", step, finding),
+                     fmt::format("at most {:g} sub-steps", CoupledSystem::max_sub_steps), remedy);
+  warn(fmt::format("{}: the run will be slow; {}", finding, remedy));
+}
+
+}  // namespace furrow::coupling

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Is LIGGGHTS's step one that the bodies can follow?
+
+#include "coupling/checks/scene_checks.h"
+
+namespace furrow::coupling {
+
+inline constexpr double many_sub_steps = 100;  ///< beyond, a step of LIGGGHTS is a long pause
+
+/// @throws InputError
+void check_step_is_positive(const LAMMPS_NS::LAMMPS& lammps);
+
+/// Bodies take as many sub-steps in a step as their stable step asks for. Collective.
+/// @throws InputError when they are so many that the run would never end
+void check_sub_steps(LAMMPS_NS::LAMMPS& lammps, const Warn& warn);
+
+}  // namespace furrow::coupling

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/liggghts/error_hints.h"
+
+#include <algorithm>
+#include <array>
+
+namespace furrow::coupling {
+
+namespace {
+
+struct Hint {
+  const char* start;  // of the message
+  const char* text;
+};
+
+constexpr std::array hints = {
+    Hint{"Could not find fix group ID",
+         "the word behind the id of a fix is a group of grains: write 'all', or define the group "
+         "before"},
+    Hint{"Replacing a fix, but new style != old style",
+         "another fix has this id already: choose another id, or write 'unfix <id>' before"},
+    Hint{"Could not find thermo custom fix ID",
+         "an f_ID of thermo_style names a fix that is not there: correct the id, or write that fix "
+         "before"},
+    Hint{"Could not find thermo fix ID",
+         "an f_ID of thermo_style names a fix that an unfix has removed: write a thermo_style "
+         "without it before the run"},
+    Hint{"Could not find thermo custom variable name",
+         "a v_name of thermo_style names a variable that is not there"},
+    Hint{"Could not find thermo variable name",
+         "a v_name of thermo_style names a variable that has been deleted"},
+    Hint{
+        "Fix ID for fix ave/time does not exist",
+        "an f_ID of that fix ave/time names a fix that is not there, or that an unfix has removed: "
+        "remove the fix ave/time too"},
+    Hint{"Could not find fix ID to delete", "no fix has the id that unfix names"},
+    Hint{"Run command before simulation box is defined",
+         "a scene begins with its box: write 'region' and 'create_box', 'read_restart' or 'bed' "
+         "before; 'clear' removes all of it"},
+    Hint{"Fix command before simulation box is defined",
+         "a scene begins with its box: write 'region' and 'create_box', 'read_restart' or 'bed' "
+         "before"},
+    Hint{"Invalid run command N value",
+         "run takes a number of steps from 0 to 2147483647; write several runs for more"},
+    Hint{
+        "Invalid run command upto value",
+        "'run N upto' ends at step N, which must not be past, nor more than 2147483647 steps away"},
+    Hint{"Minimization could not find thermo_pe compute",
+         "bodies and grains move in time: write 'run' in the place of 'minimize'"},
+    Hint{
+        "Specified processors != physical processors",
+        "the numbers behind 'processors' must multiply to the number of ranks: write '*' for those "
+        "that may be chosen, or start as many ranks"},
+    Hint{"Processors command after simulation box is defined",
+         "write this line before the box is made"},
+    Hint{"Box bounds are invalid",
+         "each upper bound of the region must be larger than the lower one: check the variables "
+         "that it is made of"},
+    Hint{"Unable to calculate region volume",
+         "nothing fits into the region: it is empty, or outside of the box"},
+    Hint{"Invalid fix style", "check its spelling; coupling/README.md lists Furrow's"},
+};
+
+}  // namespace
+
+std::string hint_for(const std::string& message) {
+  const auto found = std::find_if(hints.begin(), hints.end(), [&](const Hint& hint) {
+    return message.rfind(hint.start, 0) == 0;
+  });
+  return found == hints.end() ? "" : found->text;
+}
+
+}  // namespace furrow::coupling

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// How large a terrain will be, told from its parameters alone.
+
+#include <string>
+
+#include "core/communicator.h"
+#include "mpm/terrain_parameters.h"
+
+namespace furrow {
+
+/// Of the whole terrain. Real numbers: what is far too large must be told as well.
+struct TerrainSize {
+  double cells = 0.0;
+  double nodes = 0.0;
+  double particles = 0.0;
+};
+TerrainSize size_of(const TerrainParameters& parameters);
+
+/// Compares what the ranks of a machine will need with what it has, before anything is made.
+/// Collective.
+/// @param where names the terrain in the error
+/// @throws InputError with the estimate when that is too much
+void check_memory(const TerrainParameters& parameters, const Communicator& ranks,
+                  const std::string& where);
+
+}  // namespace furrow
