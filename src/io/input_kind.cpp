@@ -50,7 +50,6 @@ const std::string* section_of(const YamlTree& file, const Kind& kind) {
 }  // namespace
 
 void check_kind(const YamlTree& file, InputKind expected) {
-  const auto index = static_cast<std::size_t>(expected);
   const Kind& wanted = kinds()[static_cast<std::size_t>(expected)];
   if (section_of(file, wanted)) return;
   for (const Kind& other : kinds())

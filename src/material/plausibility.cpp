@@ -35,7 +35,7 @@ void check_plausible(const Material& material) {
                      fmt::format("a number {}", possible_density.text()), units);
   const ElasticModuli moduli = material.moduli(material.initial_state());
   const double ratio = moduli.bulk / moduli.shear;
-  if (moduli.shear > 0.0 && !possible_ratio.contains(ratio))
+  if (moduli.shear > 0.0 && std::isfinite(ratio) && !possible_ratio.contains(ratio))
     throw InputError(
         where,
         fmt::format(

@@ -36,7 +36,8 @@ void use(const furrow::Options& options) {
 /// examples.
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
   std::ofstream line(FURROW_FUZZ_CORPUS "/terrain");
-  for (const furrow::Key& key : schema_of_every_kind().keys())
+  const furrow::Schema schema = schema_of_every_kind();
+  for (const furrow::Key& key : schema.keys())
     line << key.name << ' ' << (key.choices.empty() ? "1" : key.choices.front()) << ' ';
   for (const furrow::MaterialModel& model : furrow::material_models())
     for (const std::string& example : model.examples)

@@ -104,17 +104,20 @@ void find_batch_weights(const GridView& grid, const double* const* position, std
     weights.first_node[p] = (cell[0][p] * ny + cell[1][p]) * nz + cell[2][p];
 }
 
-/// `count` particles from `first` on.
+/// `count` particles from `first` on. What a view leaves out is null and stays so.
 inline ParticleView sub_view(const ParticleView& all, std::size_t first, std::size_t count) {
+  const auto advance = [first](auto*& values, std::size_t per_particle) {
+    if (values) values += per_particle * first;
+  };
   ParticleView some = all;
   some.size = count;
-  for (const double*& x : some.shape_position) x += first;
-  for (double*& x : some.position) x += first;
-  some.velocity += 4 * first;
-  some.affine += 12 * first;
-  some.volume += first;
-  some.volume_ratio += first;
-  for (const double*& s : some.stress) s += first;
+  for (const double*& x : some.shape_position) advance(x, 1);
+  for (double*& x : some.position) advance(x, 1);
+  advance(some.velocity, 4);
+  advance(some.affine, 12);
+  advance(some.volume, 1);
+  advance(some.volume_ratio, 1);
+  for (const double*& s : some.stress) advance(s, 1);
   return some;
 }
 

@@ -33,7 +33,7 @@ TEST(Plausibility, WhatNoMatterHasIsRefusedWithTheNumbers) {
        "7.45e-17 m/s; allowed: a speed in [0.001, 30000] [m/s]"},
       {"elastic density 200 elasticity linear E 1e15 nu 0.2", "compression waves of 2.36e+06 m/s"},
       {"elastic density 200 elasticity porous kappa 1e-300 e0 1e300 p0 1 nu 0.3",
-       "compression waves of inf m/s"},
+       "has a stiffness at rest of "},
       {"elastic density 200 elasticity linear E 5e6 nu 0.4999999999",
        "has a bulk modulus of 5e+09 times its shear modulus (Poisson's ratio 0.4999999999); "
        "allowed: "
