@@ -95,8 +95,8 @@ void FixCoupledSystem::pre_delete(bool unfixing) {
 
 int FixCoupledSystem::setmask() {
   using namespace LAMMPS_NS::FixConst;
-  return PRE_INITIAL_INTEGRATE | INITIAL_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE |
-         END_OF_STEP;  // PRE_FORCE: for setup_pre_force
+  return PRE_INITIAL_INTEGRATE | INITIAL_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE | END_OF_STEP |
+         POST_RUN;  // PRE_FORCE: for setup_pre_force
 }
 
 /// Before the first neighbour lists: a position that is no number would crash them.
@@ -163,6 +163,10 @@ void FixCoupledSystem::initial_integrate(int) {
     time_ += update->dt;
     clear_forces();
   });
+}
+
+void FixCoupledSystem::post_run() {
+  with_collective_errors(*error, [&] { scene_checks_.after_run(); });
 }
 
 void FixCoupledSystem::final_integrate() {

@@ -70,6 +70,7 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   void setup_pre_force(int) override;
   void pre_initial_integrate() override;
   void initial_integrate(int) override;
+  void post_run() override;
   void final_integrate() override;
   void end_of_step() override;
   void write_restart(FILE* file) override;

@@ -15,6 +15,7 @@ class FixPlateRigid : public FixBody, public MotionController {
   static const Outputs<FixPlateRigid>& outputs();
 
   void apply(double time, double dt) override;
+  double start() const { return ramp_.start; }  ///< time at which the plate sets off [s]
 
  private:
   RigidPlate& plate() { return static_cast<RigidPlate&>(body()); }

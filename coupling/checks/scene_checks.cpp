@@ -6,6 +6,7 @@
 #include "coupling/base/fixes_of.h"
 #include "coupling/checks/grain_motion_check.h"
 #include "coupling/checks/ground_level_check.h"
+#include "coupling/checks/lost_grains_check.h"
 #include "coupling/checks/resolution_check.h"
 #include "coupling/checks/speed_check.h"
 #include "coupling/checks/step_check.h"
@@ -27,8 +28,13 @@ void SceneChecks::after_step(int sub_steps) {
   check_sub_steps(lammps_, [this](const std::string& text) { say(text); });
 }
 
+void SceneChecks::after_run() {
+  warn_of_lost_grains(lammps_, grains_, [this](const std::string& text) { say(text); });
+}
+
 void SceneChecks::before_run() {
   const Warn warn = [this](const std::string& text) { say(text); };
+  grains_ = count_grains(lammps_);
   check_mesh_walls(lammps_);
   if (lammps_.update->nsteps == 0) return;  // a set-up: the scene may not be complete yet
   check_step_is_positive(lammps_);
@@ -41,6 +47,7 @@ void SceneChecks::before_run() {
   check_grain_motion(lammps_, warn);
   warn_of_bodies_that_touch_nothing(lammps_, warn);
   warn_of_bodies_in_one_place(lammps_, warn);
+  warn_of_plates_at_rest(lammps_, warn);
   check_ground_under_bodies(lammps_, warn);
   check_speeds(lammps_, warn);
   check_ground_levels(lammps_, warn);

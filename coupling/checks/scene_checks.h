@@ -22,6 +22,8 @@ class SceneChecks {
   /// All checks; a warning comes once, however many runs there are. Collective.
   /// @throws StateError, InputError
   void before_run();
+  /// Collective.
+  void after_run();
   /// A body may come to need shorter steps while it is deformed. Collective.
   void after_step(int sub_steps);
 
@@ -31,6 +33,7 @@ class SceneChecks {
   LAMMPS_NS::LAMMPS& lammps_;
   std::set<std::string> said_;
   bool slow_ = false;  // that was said
+  double grains_ = 0;  // at the start of the run
 };
 
 }  // namespace furrow::coupling

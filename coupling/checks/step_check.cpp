@@ -12,12 +12,14 @@ namespace furrow::coupling {
 namespace {
 
 constexpr double sub_steps_to_aim_at = 10;  // for the remedy
+constexpr double shortest_step = 1e-9;      // [s] sound passes a micrometre of rock in it
 
 }  // namespace
 
 void check_step_is_positive(const LAMMPS_NS::LAMMPS& lammps) {
-  if (!(lammps.update->dt > 0.0))
-    throw InputError("timestep", fmt::format("is {} s", lammps.update->dt), "a number > 0 [s]",
+  if (!(lammps.update->dt >= shortest_step))
+    throw InputError("timestep", fmt::format("is {} s", lammps.update->dt),
+                     fmt::format("a number >= {:g} [s]", shortest_step),
                      "write 'timestep <seconds>' before the run");
 }
 

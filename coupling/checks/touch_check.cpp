@@ -6,11 +6,15 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "coupling/base/fix_coupled_system.h"
 #include "coupling/base/fixes_of.h"
 #include "coupling/bodies/fix_mesh_body.h"
+#include "coupling/bodies/fix_plate_rigid.h"
 #include "coupling/contact/fix_contact.h"
 #include "coupling/contact/fix_wall_gran_body.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
+#include "domain.h"
+#include "update.h"
 
 namespace furrow::coupling {
 
@@ -71,6 +75,11 @@ void warn_of_bodies_that_touch_nothing(const LAMMPS_NS::LAMMPS& lammps, const Wa
             fmt::format("{} has a sheet that no wall/gran/body holds: grains fall through it; add "
                         "a mesh/body of it",
                         body->name()));
+      if (terrain->half_model() && grains && lammps.domain->boxlo[1] < 0.0)
+        warn(
+            fmt::format("{} is there for y >= 0 only: grains at y < 0 have nothing below them; "
+                        "write 'symmetry no', or a box and walls that keep them at y >= 0",
+                        body->name()));
     } else if (!grains && !has_contact(modify, *body)) {
       warn(
           fmt::format("{} touches nothing: there is no contact/continuum or contact/plane of it, "
@@ -78,6 +87,17 @@ void warn_of_bodies_that_touch_nothing(const LAMMPS_NS::LAMMPS& lammps, const Wa
                       body->name()));
     }
   }
+}
+
+void warn_of_plates_at_rest(LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
+  const double end = FixCoupledSystem::of(lammps).time() +
+                     static_cast<double>(lammps.update->nsteps) * lammps.update->dt;
+  for (const auto* plate : fixes_of<const FixPlateRigid>(*lammps.modify))
+    if (plate->start() >= end)
+      warn(
+          fmt::format("{}, keyword 'start' is {:.4g} s: the run ends at {:.4g} s, before the plate "
+                      "sets off; make it smaller, or the run longer",
+                      plate->name(), plate->start(), end));
 }
 
 void warn_of_bodies_in_one_place(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {

@@ -19,6 +19,9 @@ void warn_of_bodies_that_touch_nothing(const LAMMPS_NS::LAMMPS& lammps, const Wa
 /// Two wheels that a copied line has put into one another.
 void warn_of_bodies_in_one_place(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn);
 
+/// The run ends before they set off.
+void warn_of_plates_at_rest(LAMMPS_NS::LAMMPS& lammps, const Warn& warn);
+
 /// Is a mesh of this body in a wall/gran/body?
 bool touches_grains(const LAMMPS_NS::LAMMPS& lammps, const FixBody& body);
 

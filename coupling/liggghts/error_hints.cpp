@@ -33,6 +33,11 @@ constexpr std::array hints = {
         "Fix ID for fix ave/time does not exist",
         "an f_ID of that fix ave/time names a fix that is not there, or that an unfix has removed: "
         "remove the fix ave/time too"},
+    Hint{"Atom sorting has bin size = 0.0",
+         "without grains there is nothing to sort by: write 'atom_modify sort 0 0' before the box"},
+    Hint{"fix property/atom (id",
+         "if a checkpoint was read, it is that of another scene: continue with the lines of the "
+         "first run"},
     Hint{"Could not find fix ID to delete", "no fix has the id that unfix names"},
     Hint{"Run command before simulation box is defined",
          "a scene begins with its box: write 'region' and 'create_box', 'read_restart' or 'bed' "

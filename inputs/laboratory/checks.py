@@ -25,6 +25,7 @@ RESERVED = {
 }
 MAY_VANISH = {"adhesion", "face_friction", "friction", "pour_friction", "restitution", "rolling"}
 FEWEST_GRAINS = 50  # a cell must be wider than the reach of its contacts
+LARGEST_START_FRACTION = 0.4  # of a cell, filled by grains at random places
 # LIGGGHTS wants primes above this, and these are taken: parts/grains.lig
 SMALLEST_SEED, TAKEN_SEEDS = 10000, (15485863, 15485867, 32452843, 32452867)
 
@@ -48,6 +49,16 @@ def require_variables(test: str, ground: str, given: Sequence[tuple[str, str]]) 
     for name, value in given:
         if is_number(defaults.get(name, "")):
             require_value(name, value)
+    require_loading({**defaults, **dict(given)})
+
+
+def require_loading(values: Mapping[str, str]) -> None:
+    """Of an oedometer, which goes from its confinement to its stress. @raises ResultsError"""
+    start, end = values.get("confinement", ""), values.get("stress", "")
+    if is_number(start) and is_number(end) and float(end) <= float(start):
+        raise ResultsError(
+            f"variable stress: {end} Pa is not above the confinement at the start, {start} Pa"
+        )
 
 
 def is_number(text: str) -> bool:
@@ -69,6 +80,11 @@ def require_value(name: str, text: str) -> None:
         raise ResultsError(
             f"variable grains: {text} is not a whole number from {FEWEST_GRAINS} on; fewer make a "
             "cell narrower than its contacts reach"
+        )
+    if name == "start_fraction" and value > LARGEST_START_FRACTION:
+        raise ResultsError(
+            f"variable start_fraction: {text} is above {LARGEST_START_FRACTION}; grains that are "
+            "put at random places must not overlap"
         )
     if name == "seed" and not is_seed(value):
         raise ResultsError(

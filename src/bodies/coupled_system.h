@@ -13,7 +13,7 @@ namespace furrow {
 class CoupledSystem {
  public:
   /// More in one interval mean that a body collapses, or that the interval is far too long.
-  static constexpr double max_sub_steps = 1e5;
+  static constexpr double max_sub_steps = 1e4;
 
   /// Neither bodies nor contacts are owned: each must outlive the system or be removed.
   /// @param name for errors

@@ -201,6 +201,11 @@ HistoryFile HistoryFile::create(const std::string& path, const std::vector<Chann
 
 HistoryFile HistoryFile::resume(const std::string& path, const std::vector<Channel>& channels,
                                 double time) {
+  if (!std::filesystem::exists(path))
+    throw InputError(
+        path, "is not there, and the run is to be continued from a checkpoint",
+        "the results of the first run, to which rows are added",
+        "start where that run was started, bring its folder here, or name a new folder");
   History history = read_rows(Hdf5File(path, Hdf5File::Mode::read));
   check_channels(path, history.channels(), channels);
   cut_at(path, history, time);

@@ -202,7 +202,7 @@ Schema terrain_schema(const std::string& subject) {
   schema.choice("sides", boundary_kind_names(), "what holds it at the sides across y")
       .by_default("smooth");
   schema.choice("base", boundary_kind_names(), "what it lies on").by_default("rough");
-  schema.number("gravity", "m/s^2", Range::non_negative(), "downwards")
+  schema.number("gravity", "m/s^2", Range::closed(0.0, 2000.0), "downwards")
       .by_default(standard_gravity);
   schema.flag("initial_stress", "start with the stress of the terrain's own weight")
       .by_default("yes");

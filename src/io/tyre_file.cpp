@@ -16,9 +16,10 @@ namespace furrow {
 namespace {
 
 // Wider than any tyre needs, and narrow enough to find a wrong unit
-const Range length = {0.0, 10.0, true, false};   // [m]
-const Range modulus = Range::closed(1.0, 1e13);  // [Pa]
-const Range spring = Range::closed(0.0, 1e7);    // [N m/rad/m]
+const Range length = {0.0, 10.0, true, false};          // [m]
+const Range shell_thickness = {0.0, 0.1, true, false};  // [m]
+const Range modulus = Range::closed(1.0, 1e13);         // [Pa]
+const Range spring = Range::closed(0.0, 1e7);           // [N m/rad/m]
 
 Schema tyre_schema() {
   Schema schema("tyre");
@@ -40,7 +41,8 @@ Schema tread_schema() {
   schema.number("half_width", "m", length, "half the width of the tread");
   schema.number("crown", "m", Range::non_negative(), "the radius at the edge is smaller by this")
       .by_default(0.0);
-  schema.number("thickness", "m", length, "of the equivalent shell, EI = E h^3/12 per unit width");
+  schema.number("thickness", "m", shell_thickness,
+                "of the equivalent shell, EI = E h^3/12 per unit width");
   schema.number("E1", "Pa", modulus, "modulus along the circumference");
   schema.number("E2", "Pa", modulus, "modulus across");
   schema.number("nu12", "", Range::open(-1.0, 1.0),

@@ -22,7 +22,7 @@ Schema ContactParameters::schema(const std::string& subject) {
               "k of tau = mu sigma (1 - exp(-j/k)) with the slip j; 0: tau = mu sigma")
       .by_default(0.0);
   schema
-      .number("stiffness", "", Range::positive(),
+      .number("stiffness", "", Range::closed(0.01, 100.0),
               "spring of a particle over wave modulus x cube root of its volume")
       .by_default(0.4);
   schema.number("damping", "", Range::closed(0.0, 1.0), "of spring and particle, of critical")

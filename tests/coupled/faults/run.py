@@ -81,8 +81,9 @@ def run(furrow, fault, sound, cache):
     with tempfile.TemporaryDirectory() as folder:
         script = Path(folder) / "script.lig"
         script.write_text(fault.script(sound))
+        variables = ["-var", "inputs", INPUTS] if "${inputs}" in script.read_text() else []
         try:
-            done = subprocess.run([furrow, "-in", script, "-log", "none", "-var", "inputs", INPUTS], cwd=folder,
+            done = subprocess.run([furrow, "-in", script, "-log", "none", *variables], cwd=folder,
                                   env=dict(os.environ, FURROW_CACHE=cache), timeout=TIME_LIMIT, text=True,
                                   errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                   stderr=subprocess.STDOUT)

@@ -134,7 +134,7 @@ TEST(BadOptions, OfFurrowResistance) {
   const std::string folder = scratch.folder();
   const Case cases[] = {
       {"", "results is required"},
-      {"absent", "absent: absent/history.h5: cannot open as an HDF5 file"},
+      {"absent", "absent: has no history.h5; name the results folder of a run"},
       {scratch.path("text"), "history.h5: cannot open as an HDF5 file"},
       {folder + " --window nan 1", "--window: is 'nan'; allowed: any finite number [s]"},
       {folder + " --window 1", "--window"},

@@ -37,6 +37,8 @@ TESTS = (
     ("oedometer -v steps 3", "computes 'steps' itself"),
     ("oedometer -v stiffness 3e6", "no line reads 'stiffness'"),  # of snow, not of sand
     ("plate -v travel 4", "no line reads 'travel'"),
+    ("oedometer -v stress 10", "variable stress: 10 Pa is not above the confinement at the start"),
+    ("oedometer -v start_fraction 0.9", "variable start_fraction: 0.9 is above 0.4"),
     ("oedometer -v grains 100 -v grains 200", "-v grains is given 2 times; give it once"),
     ("oedometer -v results x", "-v results: use -o for the results folder"),
     ("oedometer -v ground snow", "-v ground: use --ground"),
