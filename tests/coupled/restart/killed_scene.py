@@ -17,6 +17,7 @@ of the largest number of a unit.
 """
 
 import argparse
+import contextlib
 import os
 import random
 import re
@@ -91,6 +92,30 @@ def newest(files: list[Path]) -> Path | None:
     return max(there, key=lambda file: file.stat().st_mtime) if there else None
 
 
+def session_of(leader: int) -> list[int]:
+    """@return processes of the session, of which mpirun's ranks outlive it for a while"""
+    found = []
+    for status in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            state, _, _, session, *_ = status.read_text().rpartition(") ")[2].split()
+        except OSError:  # has ended
+            continue
+        if int(session) == leader and state != "Z":
+            found.append(int(status.parent.name))
+    return found
+
+
+def end(run: subprocess.Popen) -> int:
+    """Waits for the run and all its ranks: none may write on into the results. @return the status"""
+    status = run.wait(timeout=120)
+    while left := session_of(run.pid):
+        for process in left:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(process, signal.SIGKILL)
+        time.sleep(0.01)
+    return status
+
+
 def kill_after_checkpoint(folder: Path) -> Path | None:
     """@return the newest checkpoint when the run was killed"""
     began = time.monotonic()
@@ -102,7 +127,7 @@ def kill_after_checkpoint(folder: Path) -> Path | None:
     if run.poll() is not None:
         sys.exit("the run ended before it was killed:\n" + (folder / "screen.txt").read_text()[-2000:])
     os.killpg(run.pid, signal.SIGKILL)
-    run.wait()
+    end(run)
     return newest(files)
 
 
@@ -115,7 +140,7 @@ def kill_at_any_moment(folder: Path, duration: float, number: int) -> Path | Non
         return newest([folder / "ck.1", folder / "ck.2"])  # faster than the first: continued from its last
     except subprocess.TimeoutExpired:
         os.killpg(run.pid, number)
-    status = run.wait(timeout=120)
+    status = end(run)
     if number == signal.SIGTERM and status == 0:
         sys.exit("the status after SIGTERM is 0")
     return newest(list(folder.glob("restart_forced*")) or [folder / "ck.1", folder / "ck.2"])
