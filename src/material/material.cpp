@@ -84,8 +84,7 @@ UpdateReport Material::checked(const BlockResult& result, const PointBlock& bloc
          result.failure == Failure::folded ? "the deformation of the step is folded or not finite"
          : result.failure == Failure::table_ends
              ? "the hardening table ends (its rule beyond the table is 'stop')"
-             : "the new state is not finite (numbers too large, or porous elasticity at its "
-               "tensile limit)");
+             : "the new state is not finite (numbers too large)");
 }
 
 void Material::refuse(const PointBlock& block, std::size_t point, const std::string& cause) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -50,6 +51,7 @@ ElasticityParameters make_elasticity(const SectionOptions& section) {
   if (e.p0 + e.limit <= 0.0)
     throw InputError(o.where("p0"), "and 'pt_el' are both 0: the bulk modulus would be 0",
                      "p0 + pt_el > 0 [Pa]");
+  e.resolution = std::numeric_limits<double>::epsilon() * (e.p0 + e.limit);
   if (o.has("nu") == o.has("G"))
     throw InputError(o.subject(),
                      o.has("nu") ? "has both 'nu' and 'G'" : "has neither 'nu' nor 'G'",
@@ -69,8 +71,9 @@ double initial_pressure(const ElasticityParameters& parameters) {
 
 ElasticModuli moduli_at(const ElasticityParameters& e, double p) {
   if (!e.porous) return {e.bulk, e.shear};
-  const double ratio = 1.0 - std::log((p + e.limit) / (e.p0 + e.limit)) / e.stiffness;
-  const double bulk = (p + e.limit) * e.stiffness * ratio;
+  const double above_limit = std::max(p + e.limit, e.resolution);
+  const double ratio = 1.0 - std::log(above_limit / (e.p0 + e.limit)) / e.stiffness;
+  const double bulk = above_limit * e.stiffness * ratio;
   return {bulk, e.shear_ratio > 0.0 ? e.shear_ratio * bulk : e.shear};
 }
 

@@ -9,6 +9,12 @@
 ///   porous:  kappa/(1 + e0) ln((p0 + p_t)/(p + p_t)) = J_el - 1     (ABAQUS *POROUS ELASTIC)
 ///            K = dp/d eps_el = (p + p_t) J_el (1 + e0)/kappa
 ///            G constant, or from nu with K at the start of the step
+///
+/// In porous elasticity p + p_t > 0 for every strain, but shrinks like exp(-(1 + e0)/kappa (J_el -
+/// 1)), while the stress that a point keeps is rounded: of p + p_t there remain some 2^-53 of p_t
+/// and of the deviator, of either sign or 0, which have no logarithm. So p + p_t is taken to be
+/// 2^-52 (p0 + p_t) at least: J_el is told up to 1 + 36 kappa/(1 + e0), and a point stretched
+/// further stays at the limit and answers compression from there.
 
 #include "material/elasticity/elasticity_parameters.h"
 #include "material/material_model.h"

@@ -13,6 +13,7 @@ inline namespace FURROW_ISA {
 struct ElasticStep {
   const ElasticityParameters& parameters;
   Lanes p_n;
+  Lanes above;  ///< p_n + limit > 0, whatever rounding has made of p_n (porous)
   Lanes shear;  ///< G at the start of the step
   Lanes ratio;  ///< J_el at the start of the step (porous)
 
@@ -23,11 +24,10 @@ struct ElasticStep {
       return;
     }
     const Lanes c = parameters.stiffness;
-    ratio = Lanes(1.0) -
-            logarithm((p_n + parameters.limit) / Lanes(parameters.p0 + parameters.limit)) / c;
-    shear = parameters.shear_ratio > 0.0
-                ? Lanes(parameters.shear_ratio) * (p_n + parameters.limit) * c * ratio
-                : Lanes(parameters.shear);
+    above = above_limit(p_n);
+    ratio = Lanes(1.0) - logarithm(above / Lanes(parameters.p0 + parameters.limit)) / c;
+    shear = parameters.shear_ratio > 0.0 ? Lanes(parameters.shear_ratio) * above * c * ratio
+                                         : Lanes(parameters.shear);
   }
 
   /// p(x), increasing. The largest exponent, exp(300), only bounds trial states of the return
@@ -35,17 +35,22 @@ struct ElasticStep {
   FURROW_INLINE Lanes pressure(const Lanes& x) const {
     if (!parameters.porous) return p_n + Lanes(parameters.bulk) * x;
     const Lanes exponent = Lanes(parameters.stiffness) * ratio * (Lanes(1.0) - exponential(-x));
-    return (p_n + parameters.limit) * exponential(min(exponent, 300.0)) - parameters.limit;
+    return above * exponential(min(exponent, 300.0)) - parameters.limit;
   }
   /// dp/dx at p = pressure(x)
   FURROW_INLINE Lanes bulk(const Lanes& x, const Lanes& p) const {
     if (!parameters.porous) return parameters.bulk;
     return (p + parameters.limit) * Lanes(parameters.stiffness) * ratio * exponential(-x);
   }
-  /// x that takes the pressure to p > -limit: the inverse of pressure().
+  /// dp/dx at the start of the step
+  FURROW_INLINE Lanes bulk_at_start() const {
+    if (!parameters.porous) return parameters.bulk;
+    return above * Lanes(parameters.stiffness) * ratio;
+  }
+  /// x that takes the pressure to p: the inverse of pressure().
   FURROW_INLINE Lanes strain(const Lanes& p) const {
     if (!parameters.porous) return (p - p_n) / Lanes(parameters.bulk);
-    const Lanes exponent = logarithm((p + parameters.limit) / (p_n + parameters.limit));
+    const Lanes exponent = logarithm(above_limit(p) / above);
     return -logarithm(Lanes(1.0) - exponent / (Lanes(parameters.stiffness) * ratio));
   }
   /// Elastic work of the step per current volume, volumetric part, from p_n to p = pressure(x): the
@@ -55,6 +60,11 @@ struct ElasticStep {
     if (!parameters.porous) return Lanes(0.5) * (p_n + p) * x;
     const Lanes mean_ratio = Lanes(0.5) * ratio * (Lanes(1.0) + exponential(-x));
     return (p - p_n) / (Lanes(parameters.stiffness) * mean_ratio) - Lanes(parameters.limit) * x;
+  }
+
+ private:
+  FURROW_INLINE Lanes above_limit(const Lanes& p) const {
+    return max(p + parameters.limit, parameters.resolution);
   }
 };
 

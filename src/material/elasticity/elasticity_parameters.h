@@ -12,6 +12,7 @@ struct ElasticityParameters {
   double stiffness = 0.0;    ///< (1 + e0)/kappa, porous
   double p0 = 0.0;           ///< pressure at which J_el = 1 [Pa], porous
   double limit = 0.0;        ///< tensile limit p_t,el [Pa], porous
+  double resolution = 0.0;   ///< least p + limit, below which a stress is rounding [Pa], porous
 };
 
 }  // namespace furrow

@@ -33,7 +33,7 @@ FURROW_INLINE CapTrial<lode_dependent> make_trial(const DruckerPragerCapParamete
   const CapSurfaces start = surfaces_at(parameters, hardening, eps);
   const Lanes stress = abs(elastic.p_n) + abs(start.pa);
   const Lanes noise =
-      Lanes(4e-16) * (abs(eps) + abs(dv)) + Lanes(8e-16) * stress / elastic.bulk(0.0, elastic.p_n);
+      Lanes(4e-16) * (abs(eps) + abs(dv)) + Lanes(8e-16) * stress / elastic.bulk_at_start();
   return {elastic, deviator, hardening, dv, eps, start, elastic.pressure(dv), deviator.t(), noise};
 }
 
