@@ -15,8 +15,6 @@ import time
 
 from faults import CONTINUED, GRAINS, TIME_LIMIT, WHEEL, Said, Table, run_script
 
-
-
 BEGIN = GRAINS + WHEEL
 
 
@@ -36,22 +34,25 @@ def interrupted(furrow, table, script, numbers, launcher=()):
     (table.folder / "script.lig").write_text(script)
     for file in (*table.folder.glob("restart_forced*"), *table.folder.glob("pid*")):
         file.unlink()
-    shell = 'echo $$ > pid.new; mv pid.new pid${OMPI_COMM_WORLD_RANK:-0}; exec "$0" "$@"'
+    shell = 'file=pid${OMPI_COMM_WORLD_RANK:-0}; echo $$ > $file.new; mv $file.new $file; exec "$0" "$@"'
     with open(table.folder / "said", "w+") as said:
         run = subprocess.Popen([*launcher, "sh", "-c", shell, furrow, "-in", "script.lig", "-log", "none"], cwd=table.folder,
                                stdin=subprocess.DEVNULL, stdout=said, stderr=subprocess.STDOUT)
-        began = time.monotonic()
-        while not (table.folder / "going").exists() and run.poll() is None and time.monotonic() < began + TIME_LIMIT:
-            time.sleep(0.02)
-        for number in numbers:
-            if run.poll() is None:
-                subprocess.run(["kill", f"-{number}", (table.folder / "pid0").read_text().strip()], check=True)
-                time.sleep(0.2)
         try:
+            began = time.monotonic()
+            while not (table.folder / "going").exists() and run.poll() is None and time.monotonic() < began + TIME_LIMIT:
+                time.sleep(0.02)
+            for number in numbers:
+                if run.poll() is None:
+                    subprocess.run(["kill", f"-{number}", (table.folder / "pid0").read_text().strip()], check=True)
+                    time.sleep(0.2)
             status = run.wait(timeout=TIME_LIMIT)
         except subprocess.TimeoutExpired:
-            run.kill()
             status = "time limit"
+        finally:
+            if run.poll() is None:
+                run.terminate()  # mpirun ends its ranks
+                run.wait()
         said.seek(0)
         (table.folder / "going").unlink(missing_ok=True)
         return Said(status, said.read())
