@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/nearest_word.h"
 #include "io/input_text.h"
+#include "io/yaml_documents.h"
 
 namespace furrow {
 
@@ -35,10 +36,6 @@ constexpr std::size_t longest_text = 4096;         // of a key or value [bytes]
 constexpr std::size_t most_repeated = 100'000;     // values that aliases (*name) stand for
 
 constexpr char yaml_file[] = "a YAML file of keys and values";
-
-std::string place(const std::string& path, const YAML::Mark& mark) {
-  return mark.is_null() ? path : fmt::format("{}, line {}", path, mark.line + 1);
-}
 
 /// Copies the nodes of yaml-cpp, in which an alias is a reference to the node of its anchor: a few
 /// of them may stand for any number of values, and one may be inside its own anchor.
@@ -110,15 +107,9 @@ class TreeBuilder {
 
 /// The one document of a file.
 YAML::Node document_of(const std::string& path, const std::string& text) {
-  YAML::Node document;
-  for (const YAML::Node& node : YAML::LoadAll(text)) {
-    if (!node.IsDefined() || node.IsNull()) continue;
-    if (document.IsDefined() && !document.IsNull())
-      throw InputError(place(path, node.Mark()), "begins a second document (after ---)",
-                       "one document in a file", "make it a file of its own");
-    document.reset(node);
-  }
-  if (document.IsNull()) throw InputError(path, "is empty", yaml_file);
+  require_one_document(path, text);
+  YAML::Node document = YAML::Load(text);
+  if (!document.IsDefined() || document.IsNull()) throw InputError(path, "is empty", yaml_file);
   return document;
 }
 

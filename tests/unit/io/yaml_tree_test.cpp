@@ -44,6 +44,13 @@ std::string repeated(const std::string& text, int times) {
   return all;
 }
 
+/// Two of them are the fuzz target's: YAML::LoadAll takes memory without end.
+TEST_F(YamlTreeTest, WhatNoDocumentCanBeginWithIsRefused) {
+  for (const char* text :
+       {",\n  G: 1e6\n  bulk: 49e6\n", "title: a\n,\n  G: 1e6\n", "]\na: 1\n", "a: 1\n}\n"})
+    EXPECT_THAT(refusal(text), HasSubstr("is not YAML")) << text;
+}
+
 TEST_F(YamlTreeTest, OrdinaryFilesAreRead) {
   EXPECT_EQ(read("---\na: 1  # one\n...\n").find("a")->text, "1");
   EXPECT_EQ(read("\xEF\xBB\xBF"
