@@ -47,8 +47,8 @@ class DocumentStart : public YAML::EventHandler {
 
 }  // namespace
 
-std::string place(const std::string& path, const YAML::Mark& mark) {
-  return mark.is_null() ? path : fmt::format("{}, line {}", path, mark.line + 1);
+std::string place(const std::string& path, int line) {
+  return line < 0 ? path : fmt::format("{}, line {}", path, line + 1);
 }
 
 void require_one_document(const std::string& path, const std::string& text) {
@@ -57,10 +57,10 @@ void require_one_document(const std::string& path, const std::string& text) {
   DocumentStart start;
   for (int last_position = -1; parser.HandleNextDocument(start);) {
     if (start.mark().pos <= last_position)
-      throw InputError(place(path, start.mark()), "is not YAML: nothing can begin like this",
+      throw InputError(place(path, start.mark().line), "is not YAML: nothing can begin like this",
                        "key: value", "look for a comma, a colon or a bracket too many");
     if (last_position >= 0 && start.has_content())
-      throw InputError(place(path, start.content()), "begins a second document (after ---)",
+      throw InputError(place(path, start.content().line), "begins a second document (after ---)",
                        "one document in a file", "make it a file of its own");
     last_position = start.mark().pos;
   }

@@ -3,12 +3,11 @@
 
 #include <string>
 
-#include <yaml-cpp/mark.h>
-
 namespace furrow {
 
-/// "a.yaml, line 3"; the path alone where nothing is known of the line.
-std::string place(const std::string& path, const YAML::Mark& mark);
+/// "a.yaml, line 3" for the line 2 of a YAML::Mark, which counts from 0; the path alone for that of
+/// an unknown place, -1.
+std::string place(const std::string& path, int line);
 
 /// Refuses a text of several documents. Looked at document by document, because YAML::LoadAll
 /// (yaml-cpp 0.7) does not come to an end where a document begins with what none can begin with.

@@ -47,7 +47,7 @@ class TreeBuilder {
 
   YamlTree tree(const YAML::Node& node, int depth = 0) {
     YamlTree tree;
-    tree.origin = place(path_, node.Mark());
+    tree.origin = place(path_, node.Mark().line);
     if (depth > largest_depth)
       throw InputError(tree.origin, "is nested too deep",
                        fmt::format("{} sections and lists in each other", largest_depth),
@@ -86,7 +86,7 @@ class TreeBuilder {
   void add_keys(YamlTree& tree, const YAML::Node& map, int depth) {
     std::unordered_set<std::string> names;
     for (const auto& pair : map) {
-      const std::string origin = place(path_, pair.first.Mark());
+      const std::string origin = place(path_, pair.first.Mark().line);
       if (!pair.first.IsScalar())
         throw InputError(origin, "has a key that is not a word", "key: value");
       const std::string key = checked_text(pair.first, origin);
@@ -151,8 +151,8 @@ YamlTree read_yaml(const std::string& path) {
     tree.origin = path;
     return tree;
   } catch (const YAML::Exception& error) {
-    throw InputError(place(path, error.mark), fmt::format("is not YAML: {}", error.msg), yaml_file,
-                     "check indentation (by spaces), colons and brackets");
+    throw InputError(place(path, error.mark.line), fmt::format("is not YAML: {}", error.msg),
+                     yaml_file, "check indentation (by spaces), colons and brackets");
   }
 }
 
