@@ -10,9 +10,9 @@
 #include "core/communicator.h"
 #include "core/error.h"
 #include "coupling/base/fixes_of.h"
+#include "coupling/checks/lost_grains_check.h"
 #include "coupling/contact/fix_wall_gran_body.h"
 #include "coupling/contact/grain_bed_check.h"
-#include "update.h"
 
 namespace furrow::coupling {
 
@@ -69,7 +69,6 @@ void refuse_double_motion(const LAMMPS_NS::LAMMPS& lammps, const Fixes& movers,
 }  // namespace
 
 void check_grain_motion(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
-  if (lammps.update->nsteps == 0) return;
   const Communicator ranks(&lammps.world);
   const LAMMPS_NS::Atom& atom = *lammps.atom;
   Fixes movers;
@@ -80,7 +79,7 @@ void check_grain_motion(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
   }
   refuse_double_motion(lammps, movers, ranks);
 
-  const double all = ranks.sum(static_cast<double>(atom.nlocal));
+  const double all = count_grains(lammps);
   check_gravity(lammps, all, warn);
 
   double still = 0.0;

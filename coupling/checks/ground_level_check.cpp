@@ -15,12 +15,10 @@
 #include "core/error.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/base/fixes_of.h"
-#include "coupling/bodies/fix_plate_rigid.h"
-#include "coupling/bodies/fix_wheel_hub.h"
+#include "coupling/checks/driven_bodies.h"
 #include "coupling/checks/touch_check.h"
 #include "coupling/contact/fix_contact_continuum.h"
 #include "coupling/contact/fix_contact_plane.h"
-#include "coupling/drive/fix_wheel_rig.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
 #include "update.h"
 
@@ -32,20 +30,6 @@ constexpr double level_tolerance = 1e-3;  // of the body's size, on a continuum 
 // Of the largest diameter, on grains: a bed's level may be that of its middles, of its highest
 // grains or a mean, and a few grains may stick out.
 constexpr double grain_tolerance = 3.0;
-
-/// A line that names the level of the ground under a body.
-struct Datum {
-  const FixBody& body;
-  const Options& options;  // with the keys "ground_level" and "start"
-};
-
-std::vector<Datum> data_of(const LAMMPS_NS::Modify& modify) {
-  std::vector<Datum> data;
-  for (auto* rig : fixes_of<FixWheelRig>(modify))
-    data.push_back({rig->wheel_fix(), rig->options()});
-  for (auto* plate : fixes_of<FixPlateRigid>(modify)) data.push_back({*plate, plate->options()});
-  return data;
-}
 
 /// The level of something under a body, and how well it is known.
 struct Level {
@@ -105,7 +89,7 @@ void check_height(const FixBody& body, const Level& level, const std::pair<doubl
                     body.id, gap, level.z));
 }
 
-void check_level(const LAMMPS_NS::LAMMPS& lammps, const Datum& datum, const Warn& warn) {
+void check_level(const LAMMPS_NS::LAMMPS& lammps, const DrivenBody& datum, const Warn& warn) {
   const double given = datum.options.number("ground_level");
   const auto [lower, upper] = datum.body.body().surface().bounds();
   const double size = (upper - lower).maxCoeff();
@@ -142,7 +126,7 @@ void check_level(const LAMMPS_NS::LAMMPS& lammps, const Datum& datum, const Warn
 void check_ground_levels(LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
   const double now = FixCoupledSystem::of(lammps).time(), step = lammps.update->dt;
   const double end = now + step * lammps.update->nsteps;
-  for (const Datum& datum : data_of(*lammps.modify)) {
+  for (const DrivenBody& datum : driven_bodies(*lammps.modify)) {
     const double start = datum.options.number("start");
     if (now <= start + 0.5 * step && end > start + 0.5 * step) check_level(lammps, datum, warn);
   }

@@ -4,17 +4,17 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "coupling/base/fix_coupled_system.h"
+#include "core/communicator.h"
 #include "coupling/base/fixes_of.h"
 #include "coupling/terrain/fix_bed_window.h"
 
 namespace furrow::coupling {
 
-double count_grains(LAMMPS_NS::LAMMPS& lammps) {
-  return FixCoupledSystem::of(lammps).communicator().sum(lammps.atom->nlocal);
+double count_grains(const LAMMPS_NS::LAMMPS& lammps) {
+  return Communicator(&lammps.world).sum(lammps.atom->nlocal);
 }
 
-void warn_of_lost_grains(LAMMPS_NS::LAMMPS& lammps, double at_the_start, const Warn& warn) {
+void warn_of_lost_grains(const LAMMPS_NS::LAMMPS& lammps, double at_the_start, const Warn& warn) {
   const double lost = at_the_start - count_grains(lammps);
   if (lost <= 0.0 || !fixes_of<const FixBedWindow>(*lammps.modify).empty()) return;
   warn(

@@ -7,10 +7,10 @@
 namespace furrow::coupling {
 
 /// Grains of all ranks. Collective.
-double count_grains(LAMMPS_NS::LAMMPS& lammps);
+double count_grains(const LAMMPS_NS::LAMMPS& lammps);
 
 /// At the end of a run that began with so many grains. A bed/window removes grains on purpose.
 /// Collective.
-void warn_of_lost_grains(LAMMPS_NS::LAMMPS& lammps, double at_the_start, const Warn& warn);
+void warn_of_lost_grains(const LAMMPS_NS::LAMMPS& lammps, double at_the_start, const Warn& warn);
 
 }  // namespace furrow::coupling

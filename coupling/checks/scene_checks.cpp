@@ -37,7 +37,7 @@ void SceneChecks::before_run() {
   grains_ = count_grains(lammps_);
   check_mesh_walls(lammps_);
   if (lammps_.update->nsteps == 0) return;  // a set-up: the scene may not be complete yet
-  check_step_is_positive(lammps_);
+  check_step_length(lammps_);
   for (const auto* wall : fixes_of<const FixWallGranBody>(*lammps_.modify))
     check_time_step(lammps_, fmt::format("fix wall/gran/body '{}'", wall->id));
   check_sub_steps(lammps_, [&](const std::string& text) {

@@ -9,11 +9,9 @@
 #include "core/communicator.h"
 #include "core/error.h"
 #include "coupling/base/fixes_of.h"
-#include "coupling/bodies/fix_plate_rigid.h"
-#include "coupling/bodies/fix_wheel_hub.h"
+#include "coupling/checks/driven_bodies.h"
 #include "coupling/checks/touch_check.h"
 #include "coupling/contact/fix_contact_continuum.h"
-#include "coupling/drive/fix_wheel_rig.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
 #include "update.h"
 
@@ -26,22 +24,8 @@ constexpr double mach_warning = 0.3, mach_limit = 1.0;
 // travel in a step over the radius of the smallest grain
 constexpr double travel_warning = 0.1, travel_limit = 1.0;
 
-/// What a line prescribes to a body.
-struct Speed {
-  const FixBody& body;
-  const Options& options;  // with the key "speed"
-};
-
-std::vector<Speed> prescribed_speeds(const LAMMPS_NS::Modify& modify) {
-  std::vector<Speed> speeds;
-  for (auto* rig : fixes_of<FixWheelRig>(modify))
-    speeds.push_back({rig->wheel_fix(), rig->options()});
-  for (auto* plate : fixes_of<FixPlateRigid>(modify)) speeds.push_back({*plate, plate->options()});
-  return speeds;
-}
-
 /// Refuses a share of a limit, or warns of it.
-void judge(double share, double warning, double limit, const Speed& speed,
+void judge(double share, double warning, double limit, const DrivenBody& speed,
            const std::string& finding, const std::string& remedy, const Warn& warn) {
   const std::string problem =
       fmt::format("is {:.4g} m/s, {}", speed.options.number("speed"), finding);
@@ -54,7 +38,8 @@ void judge(double share, double warning, double limit, const Speed& speed,
     warn(fmt::format("{} {}; {}", speed.options.where("speed"), problem, remedy));
 }
 
-void check_against_waves(const LAMMPS_NS::LAMMPS& lammps, const Speed& speed, const Warn& warn) {
+void check_against_waves(const LAMMPS_NS::LAMMPS& lammps, const DrivenBody& speed,
+                         const Warn& warn) {
   for (auto* contact : fixes_of<FixContactContinuum>(*lammps.modify)) {
     if (&contact->body_fix() != &speed.body) continue;
     const ContinuumTerrain& terrain = contact->terrain_fix().terrain();
@@ -68,7 +53,8 @@ void check_against_waves(const LAMMPS_NS::LAMMPS& lammps, const Speed& speed, co
   }
 }
 
-void check_against_grains(const LAMMPS_NS::LAMMPS& lammps, const Speed& speed, const Warn& warn) {
+void check_against_grains(const LAMMPS_NS::LAMMPS& lammps, const DrivenBody& speed,
+                          const Warn& warn) {
   if (!touches_grains(lammps, speed.body)) return;
   const LAMMPS_NS::Atom& atom = *lammps.atom;
   double smallest = std::numeric_limits<double>::infinity();
@@ -84,7 +70,7 @@ void check_against_grains(const LAMMPS_NS::LAMMPS& lammps, const Speed& speed, c
 }  // namespace
 
 void check_speeds(LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
-  for (const Speed& speed : prescribed_speeds(*lammps.modify)) {
+  for (const DrivenBody& speed : driven_bodies(*lammps.modify)) {
     check_against_waves(lammps, speed, warn);
     check_against_grains(lammps, speed, warn);
   }

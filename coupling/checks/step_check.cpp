@@ -16,7 +16,7 @@ constexpr double shortest_step = 1e-9;      // [s] sound passes a micrometre of 
 
 }  // namespace
 
-void check_step_is_positive(const LAMMPS_NS::LAMMPS& lammps) {
+void check_step_length(const LAMMPS_NS::LAMMPS& lammps) {
   if (!(lammps.update->dt >= shortest_step))
     throw InputError("timestep", fmt::format("is {} s", lammps.update->dt),
                      fmt::format("a number >= {:g} [s]", shortest_step),

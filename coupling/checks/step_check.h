@@ -9,7 +9,7 @@ namespace furrow::coupling {
 inline constexpr double many_sub_steps = 100;  ///< beyond, a step of LIGGGHTS is a long pause
 
 /// @throws InputError
-void check_step_is_positive(const LAMMPS_NS::LAMMPS& lammps);
+void check_step_length(const LAMMPS_NS::LAMMPS& lammps);
 
 /// Bodies take as many sub-steps in a step as their stable step asks for. Collective.
 /// @throws InputError when they are so many that the run would never end

@@ -156,7 +156,7 @@ void FixCellServo::init() {
 }
 
 void FixCellServo::check_grains() {
-  check_step_is_positive(*lmp);
+  check_step_length(*lmp);
   check_grain_motion(*lmp, [this](const std::string& text) { warn(*lmp, text); });
 }
 

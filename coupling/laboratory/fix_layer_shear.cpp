@@ -78,7 +78,7 @@ void FixLayerShear::init() {
   });
   height_ = sums[0] / sums[1];
   collectively([&] {
-    check_step_is_positive(*lmp);
+    check_step_length(*lmp);
     check_speed();
     check_grain_motion(*lmp, [this](const std::string& text) { warn(*lmp, text); });
   });
