@@ -44,7 +44,7 @@ DENSITY = 200.0  # [kg/m3] before
 DEPTH = 0.5  # [m]
 GOAL = 0.25  # of the measured peak
 FRESH, FOAM, FITTED = (
-    MATERIALS / f"fresh_snow{name}.yaml" for name in ("", "_foam", "_foam_oedometer")
+    MATERIALS / f"fresh_snow_{name}.yaml" for name in ("shoop", "foam", "foam_oedometer")
 )
 
 
@@ -116,7 +116,7 @@ CASES = (
     plate("oedometer", "cap law from the oedometer, friction 0.3"),
     plate("smooth", "the same, no friction on plate and edge", friction=0),
     plate(
-        "log", "the same, hardening straight in ln p", material=MATERIALS / "fresh_snow_log.yaml"
+        "log", "the same, hardening straight in ln p", material=MATERIALS / "fresh_snow_shoop_log.yaml"
     ),
     plate(
         "p_0413",

@@ -212,18 +212,19 @@ def predictions() -> list[Case]:
     """From the oedometer alone, with the variants that tell where the bias comes from."""
     stage = "predict"
     runs = [
-        on_preset("oedometer_towed", stage, "fresh_snow"),
-        on_preset("oedometer_zero_slip", stage, "fresh_snow", mode="zero_slip"),
+        on_preset("oedometer_towed", stage, "fresh_snow_shoop"),
+        on_preset("oedometer_zero_slip", stage, "fresh_snow_shoop", mode="zero_slip"),
     ]
-    for variant in ("log", "p_0413", "abele_gow", "exponential", "beta_41", "d_30"):
-        runs.append(on_preset(f"{variant}_towed", stage, f"fresh_snow_{variant}"))
+    for variant in ("shoop_log", "p_0413", "abele_gow", "exponential", "beta_41", "d_30"):
+        name = variant.removeprefix("shoop_")
+        runs.append(on_preset(f"{name}_towed", stage, f"fresh_snow_{variant}"))
     deep: dict[str, Any] = {"depth": 0.50, "clearance_above": 1.0, **DEEP}
     return runs + [
-        on_preset("log_zero_slip", stage, "fresh_snow_log", mode="zero_slip"),
+        on_preset("log_zero_slip", stage, "fresh_snow_shoop_log", mode="zero_slip"),
         # does not turn: it pushes snow up ahead of it
-        on_preset("smooth_wheel", stage, "fresh_snow", friction=0.0, clearance_above=1.0),
-        on_preset("deep_towed", stage, "fresh_snow", **deep),
-        on_preset("deep_zero_slip", stage, "fresh_snow", mode="zero_slip", **deep),
+        on_preset("smooth_wheel", stage, "fresh_snow_shoop", friction=0.0, clearance_above=1.0),
+        on_preset("deep_towed", stage, "fresh_snow_shoop", **deep),
+        on_preset("deep_zero_slip", stage, "fresh_snow_shoop", mode="zero_slip", **deep),
         on_field_snow("deep_field_towed", stage, "towed", **deep),
         # porous elasticity: no E to scale
         on_preset("foam_towed", stage, "fresh_snow_foam", modulus_scale=1.0, remap_interval=1),
@@ -302,7 +303,7 @@ def errors_of_oedometer() -> list[Case]:
     """The same of the oedometer's law, whose modulus is scaled down."""
 
     def changed(name: str, what: str, **changes: Any) -> Case:
-        return on_preset(f"error_oedometer_{name}", "error", "fresh_snow", what=what, **changes)
+        return on_preset(f"error_oedometer_{name}", "error", "fresh_snow_shoop", what=what, **changes)
 
     runs = [
         changed("cell_5cm", "cells of 5 cm", cells=4),

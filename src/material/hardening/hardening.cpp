@@ -10,17 +10,32 @@
 
 namespace furrow {
 
-SectionSchema hardening_section() {
-  Schema table("hardening table");
-  table.numbers("p", 0, "Pa", Range::positive(), "hydrostatic yield strengths p_b, increasing");
-  table.numbers("eps_vol_pl", 0, "", Range::any(),
-                "volumetric plastic strains of the strengths, compression positive, increasing");
-  table.choice("interpolation", {"linear", "log"}, "between rows: straight in p, or in ln p");
-  table.choice("beyond", {"extrapolate", "stop"}, "rule for strains beyond the last row");
-  table
+namespace {
+
+/// The keys of a table beside its column of strains or densities.
+void declare_strengths(Schema& schema) {
+  schema.numbers("p", 0, "Pa", Range::positive(), "hydrostatic yield strengths p_b, increasing");
+  schema.choice("interpolation", {"linear", "log"},
+                "between rows: straight in p, or in ln p, over eps_vol_pl");
+  schema.choice("beyond", {"extrapolate", "stop"}, "rule for strains beyond the last row");
+  schema
       .choice("below", {"extrapolate", "stop"},
               "rule for strains below the first row: decay to zero strength, or stop")
       .by_default("extrapolate");
+}
+
+}  // namespace
+
+SectionSchema hardening_section() {
+  Schema table("hardening table");
+  table.numbers("eps_vol_pl", 0, "", Range::any(),
+                "volumetric plastic strains of the strengths, compression positive, increasing");
+  declare_strengths(table);
+  Schema by_density("hardening by_density");
+  by_density.numbers("rho", 0, "kg/m3", Range::positive(),
+                     "densities of the strengths, without load, increasing: one curve for every "
+                     "initial density in them");
+  declare_strengths(by_density);
   Schema exponential("hardening exponential");
   exponential.number("pc0", "Pa", Range::positive(),
                      "hydrostatic yield strength at zero volumetric plastic strain");
@@ -32,19 +47,22 @@ SectionSchema hardening_section() {
   exponential.number("e0", "", Range::positive(), "initial void ratio");
   return {"hardening",
           {{"table", "strengths at given volumetric plastic strains", table},
+           {"by_density", "strengths at given densities", by_density},
            {"exponential", "straight in void ratio against ln p", exponential}}};
 }
 
 namespace {
 
-HardeningParameters make_table(const Options& o) {
+/// @param key  of the column that the strengths belong to
+/// @param eps  its volumetric plastic strains
+HardeningParameters make_table(const Options& o, const std::string& key,
+                               const std::vector<double>& eps) {
   const std::vector<double>& p = o.numbers("p");
-  const std::vector<double>& eps = o.numbers("eps_vol_pl");
+  const std::vector<double>& column = o.numbers(key);
   const std::size_t rows = p.size();
   const std::size_t max_rows = HardeningParameters::max_segments + 1;
   if (rows != eps.size())
-    throw InputError(o.where("eps_vol_pl"),
-                     fmt::format("has {} values for {} of 'p'", eps.size(), rows),
+    throw InputError(o.where(key), fmt::format("has {} values for {} of 'p'", eps.size(), rows),
                      "as many as of 'p'");
   if (rows < 2 || rows > max_rows)
     throw InputError(o.where("p"), fmt::format("has {} row(s)", rows),
@@ -54,11 +72,11 @@ HardeningParameters make_table(const Options& o) {
   h.kind = log ? HardeningParameters::Kind::log_table : HardeningParameters::Kind::linear_table;
   h.segments = static_cast<int>(rows) - 1;
   for (std::size_t k = 0; k + 1 < rows; ++k) {
-    for (const auto& [key, column] : {std::pair{"p", &p}, std::pair{"eps_vol_pl", &eps}})
-      if ((*column)[k + 1] <= (*column)[k])
-        throw InputError(o.where(key),
+    for (const auto& [name, values] : {std::pair{std::string("p"), &p}, std::pair{key, &column}})
+      if ((*values)[k + 1] <= (*values)[k])
+        throw InputError(o.where(name),
                          fmt::format("does not increase: row {} is {}, row {} is {}", k + 1,
-                                     (*column)[k], k + 2, (*column)[k + 1]),
+                                     (*values)[k], k + 2, (*values)[k + 1]),
                          "strictly increasing values", "sort the rows, remove equal ones");
     h.start[k] = eps[k];
     h.base[k] = log ? std::log(p[k]) : p[k];
@@ -71,6 +89,20 @@ HardeningParameters make_table(const Options& o) {
   h.stop_beyond = o.text("beyond") == "stop";
   h.stop_below = o.text("below") == "stop";
   return h;
+}
+
+/// eps_vol_pl = ln(rho/density): compaction from the density at the start.
+HardeningParameters make_by_density(const Options& o, double density) {
+  const std::vector<double>& rho = o.numbers("rho");
+  if (!rho.empty() && (density < rho.front() || density > rho.back()))
+    throw InputError(o.where("rho"),
+                     fmt::format("reaches from {} to {} kg/m3, without the density of the law, {}",
+                                 rho.front(), rho.back(), density),
+                     "densities around it", "add a row, or change the law's density");
+  std::vector<double> eps(rho.size());
+  std::transform(rho.begin(), rho.end(), eps.begin(),
+                 [&](double row) { return std::log(row / density); });
+  return make_table(o, "rho", eps);
 }
 
 HardeningParameters make_exponential(const Options& o, double offset, bool includes_offset) {
@@ -96,10 +128,12 @@ HardeningParameters make_exponential(const Options& o, double offset, bool inclu
 
 }  // namespace
 
-HardeningParameters make_hardening(const SectionOptions& section, double offset,
+HardeningParameters make_hardening(const SectionOptions& section, double density, double offset,
                                    bool includes_offset) {
-  return section.type == "table" ? make_table(section.options)
-                                 : make_exponential(section.options, offset, includes_offset);
+  const Options& o = section.options;
+  if (section.type == "table") return make_table(o, "eps_vol_pl", o.numbers("eps_vol_pl"));
+  if (section.type == "by_density") return make_by_density(o, density);
+  return make_exponential(o, offset, includes_offset);
 }
 
 double strength_at(const HardeningParameters& h, double eps) {

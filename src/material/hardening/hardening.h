@@ -5,6 +5,8 @@
 ///
 ///   table:        the strength p_b(eps) through given points, straight in p or in ln p (choose: it
 ///                 matters where data are far apart)
+///   by_density:   the same with densities rho instead of strains, eps = ln(rho/density), density
+///                 that of the law: one curve serves every initial density
 ///   exponential:  p_c + offset = (p_c0 + offset) exp( (1 + e0)(1 - J_pl)/(lambda - kappa J_pl) ),
 ///                 J_pl = exp(-eps)      [Shoop2001]
 ///
@@ -22,12 +24,14 @@ namespace furrow {
 
 /// The section "hardening" of a material file.
 SectionSchema hardening_section();
+/// @param density          at the start [kg/m^3]
 /// @param offset           [Pa] of the exponential law (the tensile strength of a foam); tables do
 ///                         not use it
 /// @param includes_offset  the key pc0 is p_c0 + offset, not p_c0
-/// @throws InputError for rows that do not increase, a table of one row, lambda <= kappa
-HardeningParameters make_hardening(const SectionOptions& section, double offset = 0.0,
-                                   bool includes_offset = false);
+/// @throws InputError for rows that do not increase, a table of one row, densities that do not
+///         include the initial one, lambda <= kappa
+HardeningParameters make_hardening(const SectionOptions& section, double density,
+                                   double offset = 0.0, bool includes_offset = false);
 /// Strength at eps_vol_pl [Pa].
 double strength_at(const HardeningParameters& hardening, double eps_vol_pl);
 /// @param key  of the options: the initial eps_vol_pl

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Hard points of the cap law, one by one; random_paths_test.cpp mixes them.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "core/error.h"
@@ -192,6 +193,26 @@ TEST(HardPoints, HydrostaticCurveIsTheHardeningLaw) {
       if (strength > 0) {
         EXPECT_NEAR(invariants(stress_of(state)).p / strength, 1.0, 1e-11);
       }
+    }
+  }
+}
+
+/// Strengths by density are one curve: from every initial density compression ends on it.
+TEST(HardPoints, StrengthsByDensityHoldForEveryInitialDensity) {
+  for (const double density : {110.0, 160.0, 220.0}) {
+    const auto material = material_of(
+        fmt::format("drucker_prager_cap density {} d 0 beta 65 R 0.02 elasticity linear E 13.79e6 "
+                    "nu 0.3 hardening by_density p 100 1e4 1e5 rho 100 300 500 interpolation log "
+                    "beyond stop",
+                    density));
+    VectorX state = material->initial_state();
+    for (double rho = density; rho < 380.0;) {
+      expect_sound_steps(*material, state, {strain_of(-0.1, -0.1, -0.1)});
+      rho = density * std::exp(eps_of(state));  // without its elastic part
+      const double strength = rho < 300.0
+                                  ? 100.0 * std::pow(100.0, std::log(rho / 100) / std::log(3.0))
+                                  : 1e4 * std::pow(10.0, std::log(rho / 300) / std::log(5.0 / 3));
+      EXPECT_NEAR(invariants(stress_of(state)).p / strength, 1.0, 1e-10) << density;
     }
   }
 }

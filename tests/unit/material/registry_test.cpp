@@ -93,6 +93,17 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{yield + elastic +
                     " hardening table p 0 5e4 eps_vol_pl 0 1 interpolation linear beyond stop",
                 {"keyword 'p' is 0", "each > 0 [Pa]"}},
+        Refusal{yield + elastic +
+                    " hardening by_density p 1e3 5e4 rho 210 400 interpolation log beyond stop",
+                {"keyword 'rho' reaches from 210 to 400 kg/m3, without the density of the law, 200",
+                 "densities around it"}},
+        Refusal{yield + elastic +
+                    " hardening by_density p 1e3 5e4 9e4 rho 100 400 300 interpolation log beyond "
+                    "stop",
+                {"keyword 'rho' does not increase: row 2 is 400, row 3 is 300"}},
+        Refusal{yield + elastic +
+                    " hardening by_density p 1e3 5e4 9e4 rho 100 400 interpolation log beyond stop",
+                {"keyword 'rho' has 2 values for 3 of 'p'"}},
         Refusal{yield + elastic + " hardening exponential pc0 100 lambda 0.1 kappa 0.2 e0 1",
                 {"keyword 'lambda' is 0.1, not above kappa = 0.2"}},
         Refusal{yield + " elasticity porous kappa 0.01 e0 1 pt_el 1e5 nu 0.3 hardening exponential "

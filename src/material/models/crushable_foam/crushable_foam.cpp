@@ -26,7 +26,7 @@ std::unique_ptr<Material> create(const MaterialOptions& sections) {
   if (includes_pt && hardening.type != "exponential")
     throw InputError(o.where("pc0_reading"), "is pc0_plus_pt, with a hardening table",
                      "pc0 for a table, whose strengths are pc");
-  parameters.hardening = make_hardening(hardening, parameters.pt, includes_pt);
+  parameters.hardening = make_hardening(hardening, o.number("density"), parameters.pt, includes_pt);
   if (parameters.hardening.first > 0.0 || parameters.hardening.last < 0.0)
     throw InputError("hardening table, keyword 'eps_vol_pl'", "does not contain 0",
                      "a table around eps_vol_pl = 0, where pc0 is read");

@@ -19,7 +19,7 @@ std::unique_ptr<Material> create(const MaterialOptions& sections) {
   const Options& o = sections.at("law").options;
   DruckerPragerCapParameters parameters;
   parameters.elasticity = make_elasticity(sections.at("elasticity"));
-  parameters.hardening = make_hardening(sections.at("hardening"));
+  parameters.hardening = make_hardening(sections.at("hardening"), o.number("density"));
   const double beta = radians(o.number("beta"));
   parameters.d = o.number("d");
   parameters.tan_beta = std::tan(beta);

@@ -116,6 +116,19 @@ class CompareTest(unittest.TestCase):
         self.assertEqual([run.label for run in result.runs], ["one/wheel", "two/wheel"])
         self.assertEqual([run.label for run in runs], ["wheel", "wheel"])
 
+    def test_slip_is_a_condition_unless_all_wheels_are_towed(self) -> None:
+        runs = [self.read("a", "a"), self.read("b", "b")]
+        runs[1].conditions["slip"] = Condition(runs[0].number("slip") - 0.1)
+        for modes, differences in (
+            (("slip", "slip"), ["slip"]),
+            (("towed", "slip"), ["slip"]),
+            (("towed", "towed"), []),
+        ):
+            for run, mode in zip(runs, modes):
+                run.conditions["mode"] = Condition(mode)
+            found = [difference.condition for difference in comparison.incomparable(runs)]
+            self.assertEqual(found, differences, modes)
+
     def test_a_run_called_measured_is_compared_as_any_other(self) -> None:
         runs = [self.read("a", "measured"), self.read("b", "b", sinkage=0.06)]
         result = comparison.compare(runs)

@@ -51,7 +51,7 @@ class PlanTest(unittest.TestCase):
         self.assertFalse(base.is_check)
         point = plans["confined_snow/continuum_base"]
         self.assertEqual(point.run.program, "furrow-point")
-        self.assertIn("fresh_snow.yaml", point.run.files["path.yaml"])
+        self.assertIn("fresh_snow_shoop.yaml", point.run.files["path.yaml"])
 
 
 if __name__ == "__main__":
