@@ -127,6 +127,20 @@ std::unique_ptr<Material> foam() {
                  {"e0", {"3.5"}}}}});
 }
 
+/// Fresh snow of 200 kg/m3 that follows the oedometer, with K0 = 0.12 (the table of the snow above,
+/// p = 0.413 sigma_1).
+std::unique_ptr<Material> cam_clay(const std::string& interpolation) {
+  return make("cohesive_cam_clay",
+              {{"law", {{"density", {"200"}}, {"M", {"3.3"}}, {"tension_ratio", {"0.1"}}}},
+               {"elasticity", {{"E", {"13.79e6"}}, {"nu", {"0.3"}}}},
+               {"hardening",
+                {{"type", {"table"}},
+                 {"p", {"113.76", "2.065e4", "8.26e4", "4.13e5", "1.342e6"}},
+                 {"eps_vol_pl", {"0", "0.6419", "0.8544", "1.1314", "1.5228"}},
+                 {"interpolation", {interpolation}},
+                 {"beyond", {"extrapolate"}}}}});
+}
+
 void measure(benchmark::State& timer, const Material& material, double strain, double loosening,
              std::size_t run = 1) {
   Points points(material, strain, loosening, run, 1);
@@ -182,6 +196,19 @@ void BM_cap_mixed_lode(benchmark::State& timer) {
   measure(timer, *snow("0.8", "0", "linear"), 1e-4, 0.0);
 }
 void BM_foam_mixed(benchmark::State& timer) { measure(timer, *foam(), 1e-4, 0.0); }
+void BM_cam_clay_mixed(benchmark::State& timer) { measure(timer, *cam_clay("linear"), 1e-4, 0.0); }
+void BM_cam_clay_mixed_neighbours_alike(benchmark::State& timer) {
+  measure(timer, *cam_clay("linear"), 1e-4, 0.0, 64);
+}
+void BM_cam_clay_mixed_log_table(benchmark::State& timer) {
+  measure(timer, *cam_clay("log"), 1e-4, 0.0);
+}
+void BM_cam_clay_all_compacting(benchmark::State& timer) {
+  measure(timer, *cam_clay("linear"), 1e-4, -1.0);
+}
+void BM_cam_clay_mixed_large_steps(benchmark::State& timer) {
+  measure(timer, *cam_clay("linear"), 1e-2, 0.0);
+}
 
 BENCHMARK(BM_elastic)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_elastic_pointwise)->Unit(benchmark::kMillisecond);
@@ -193,6 +220,11 @@ BENCHMARK(BM_cap_all_compacting)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_cap_mixed_large_steps)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_cap_mixed_lode)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_foam_mixed)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_cam_clay_mixed)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_cam_clay_mixed_neighbours_alike)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_cam_clay_mixed_log_table)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_cam_clay_all_compacting)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_cam_clay_mixed_large_steps)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace furrow

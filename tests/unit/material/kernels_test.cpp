@@ -8,6 +8,7 @@
 #include <Eigen/SVD>
 #include <gtest/gtest.h>
 
+#include "material/models/cohesive_cam_clay/cohesive_cam_clay.h"
 #include "material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "material/models/neo_hookean/neo_hookean_parameters.h"
 #include "paths.h"
@@ -24,60 +25,66 @@ TEST(Kernels, EveryTableIsOfTheInstructionSetAskedFor) {
   EXPECT_EQ(sets.front(), InstructionSet::baseline);
   for (const InstructionSet set : sets) {
     EXPECT_EQ(kernels_for<DruckerPragerCapKernels>(set).instruction_set, set);
+    EXPECT_EQ(kernels_for<CohesiveCamClayKernels>(set).instruction_set, set);
     EXPECT_EQ(kernels_for<NeoHookeanKernels>(set).instruction_set, set);
   }
   EXPECT_EQ(kernels<NeoHookeanKernels>().instruction_set, chosen_instruction_set());
 }
 
+/// The same steps of 1003 points by the kernels of every instruction set.
+template <class Law, class Kernels>
+void expect_instruction_sets_to_agree(const std::string& text) {
+  const auto material = material_of(text);
+  const auto& law = static_cast<const Law&>(*material);
+  constexpr std::size_t n = 1003;
+  const std::size_t fields = material->state_fields().size();
+  std::vector<std::vector<std::vector<double>>> results;
+  for (const InstructionSet set : available_instruction_sets()) {
+    const auto& kernels = kernels_for<Kernels>(set);
+    std::mt19937 engine(3);
+    std::normal_distribution<double> normal;
+    std::vector<std::vector<double>> state(fields, std::vector<double>(n)),
+        gradient(9, std::vector<double>(n));
+    std::vector<double*> pointers;
+    for (std::size_t f = 0; f < fields; ++f) {
+      std::fill(state[f].begin(), state[f].end(), material->state_fields()[f].initial);
+      pointers.push_back(state[f].data());
+    }
+    PointBlock block;
+    block.size = n;
+    block.state = pointers.data();
+    for (std::size_t k = 0; k < 9; ++k) block.gradient[k] = gradient[k].data();
+    for (int step = 0; step < 8; ++step) {
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t k = 0; k < 9; ++k)
+          gradient[k][i] = (i % 7 == 0 ? 3e-2 : 1e-3) * (normal(engine) - (k % 4 == 0 ? 0.5 : 0.0));
+      EXPECT_EQ(kernels.update(law.parameters(), 200, block).failure, Failure::none)
+          << to_string(set);
+    }
+    results.push_back(state);
+  }
+  for (const auto& result : results)
+    for (std::size_t f = 0; f < fields; ++f)
+      for (std::size_t i = 0; i < n; ++i)
+        ASSERT_NEAR(result[f][i], results[0][f][i],
+                    1e-7 * (f < 6 ? 1e5 : 1 + std::abs(results[0][f][i])))
+            << text << ": " << material->state_fields()[f].name;
+}
+
 TEST(Kernels, InstructionSetsAgree) {
   const std::string snow =
-      "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.05 eps_vol_pl_0 0.3 elasticity linear E "
-      "13.79e6 nu 0.3 "
-      "hardening table p 113.76 5e4 1e6 6e7 eps_vol_pl 0 0.593 1.083 1.514 beyond extrapolate "
-      "interpolation ";
-  for (const std::string& text :
-       {snow + "linear", snow + "log alpha 0.05", snow + "linear K 0.8"}) {
-    const auto material = material_of(text);
-    const auto& cap = static_cast<const DruckerPragerCap&>(*material);
-    constexpr std::size_t n = 1003;
-    const std::size_t fields = material->state_fields().size();
-    std::vector<std::vector<std::vector<double>>> results;
-    for (const InstructionSet set : available_instruction_sets()) {
-      const auto& kernels = kernels_for<DruckerPragerCapKernels>(set);
-      std::mt19937 engine(3);
-      std::normal_distribution<double> normal;
-      std::vector<std::vector<double>> state(fields, std::vector<double>(n)),
-          gradient(9, std::vector<double>(n));
-      std::vector<double*> pointers;
-      for (std::size_t f = 0; f < fields; ++f) {
-        std::fill(state[f].begin(), state[f].end(), material->state_fields()[f].initial);
-        pointers.push_back(state[f].data());
-      }
-      PointBlock block;
-      block.size = n;
-      block.state = pointers.data();
-      for (std::size_t k = 0; k < 9; ++k) block.gradient[k] = gradient[k].data();
-      for (int step = 0; step < 8; ++step) {
-        for (std::size_t i = 0; i < n; ++i)
-          for (std::size_t k = 0; k < 9; ++k)
-            gradient[k][i] =
-                (i % 7 == 0 ? 3e-2 : 1e-3) * (normal(engine) - (k % 4 == 0 ? 0.5 : 0.0));
-        EXPECT_EQ(kernels.update(cap.parameters(), 200, block).failure, Failure::none)
-            << to_string(set);
-      }
-      results.push_back(state);
-    }
-    std::string tested;
-    for (const InstructionSet set : available_instruction_sets())
-      tested += std::string(" ") + to_string(set);
-    RecordProperty("instruction_sets", tested);
-    for (const auto& result : results)
-      for (std::size_t f = 0; f < fields; ++f)
-        for (std::size_t i = 0; i < n; ++i)
-          ASSERT_NEAR(result[f][i], results[0][f][i],
-                      1e-7 * (f < 6 ? 1e5 : 1 + std::abs(results[0][f][i])))
-              << material->state_fields()[f].name;
-  }
+      " elasticity linear E 13.79e6 nu 0.3 hardening table p 113.76 5e4 1e6 6e7 eps_vol_pl 0 0.593 "
+      "1.083 1.514 beyond extrapolate interpolation ";
+  const std::string cap = "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.05 eps_vol_pl_0 0.3",
+                    clay = "cohesive_cam_clay density 200 M 3.3 tension_ratio 0.1 eps_vol_pl_0 0.3";
+  for (const std::string more : {"linear", "log alpha 0.05", "linear K 0.8"})
+    expect_instruction_sets_to_agree<DruckerPragerCap, DruckerPragerCapKernels>(cap + snow + more);
+  for (const std::string more : {"linear", "log"})
+    expect_instruction_sets_to_agree<CohesiveCamClay, CohesiveCamClayKernels>(clay + snow + more);
+  std::string tested;
+  for (const InstructionSet set : available_instruction_sets())
+    tested += std::string(" ") + to_string(set);
+  RecordProperty("instruction_sets", tested);
 }
 
 /// ln U and R of any step, by eigenvalues of F^T F, through an elastic law: sigma = R (C : ln U)

@@ -21,6 +21,7 @@ const std::string elastic = " elasticity linear E 13.79e6 nu 0.3";
 const std::string table =
     " hardening table p 1e3 5e4 1e6 eps_vol_pl 0 0.5 1 interpolation linear beyond stop";
 const std::string yield = "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.02";
+const std::string clay = "cohesive_cam_clay density 200 M 3.3";
 
 std::string message_of(const std::string& text) {
   return error_of<InputError>([&] { material_of(text); });
@@ -42,7 +43,8 @@ INSTANTIATE_TEST_SUITE_P(
     Registry, BadParameters,
     ::testing::Values(
         Refusal{"mud density 1",
-                {"unknown law 'mud'", "drucker_prager_cap, crushable_foam, elastic, neo_hookean"}},
+                {"unknown law 'mud'",
+                 "drucker_prager_cap, crushable_foam, cohesive_cam_clay, elastic, neo_hookean"}},
         Refusal{"drucker_prager_cap density 200 beta 22.53 R 0.02" + elastic + table,
                 {"law drucker_prager_cap, keyword 'd' is missing", "cohesion"}},
         Refusal{yield + " K 0.7" + elastic + table, {"keyword 'K' is 0.7", "in [0.778, 1]"}},
@@ -119,6 +121,13 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"crushable_foam density 200 pt 110 sigma0 200 pc0_reading pc0_plus_pt" + elastic +
                     " hardening exponential pc0 100 lambda 0.1 kappa 0.01 e0 1",
                 {"keyword 'pc0' is 100 Pa, which includes the tensile strength", "above 110 Pa"}},
+        Refusal{clay + " tension_ratio 1.5" + elastic + table,
+                {"keyword 'tension_ratio' is 1.5", "in [0, 1]"}},
+        Refusal{clay + " tension_ratio 0.1 eps_vol_pl_0 2" + elastic + table,
+                {"keyword 'eps_vol_pl_0' is 2, outside the hardening data", "in [0, 1]"}},
+        Refusal{
+            clay + " tension_ratio 0.1 elasticity porous kappa 0.01 e0 1 pt_el 50 nu 0.3" + table,
+            {"keyword 'pt_el' is 50 Pa", "above the tensile strength at the start, 100 Pa"}},
         Refusal{"elastic density 0" + elastic,
                 {"law elastic, keyword 'density' is 0", "> 0 [kg/m3]"}},
         Refusal{"neo_hookean density 1100 G 1e6", {"keyword 'bulk' is missing"}}));
