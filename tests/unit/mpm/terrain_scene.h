@@ -35,6 +35,12 @@ inline std::string snow() {
          "eps_vol_pl 0 0.6419 0.7178 0.8544 0.9933 1.1314 1.3481 1.5041 1.5228 interpolation "
          "linear beyond extrapolate";
 }
+/// Snow with K0 = 0.12 and cohesion that grows with density: inputs/materials/fresh_snow_cam_clay.
+inline std::string crushing_snow() {
+  return "cohesive_cam_clay density 200 M 3.3 tension_ratio 0.1 elasticity linear E 13.79e6 nu 0.3 "
+         "hardening table p 163.6 29.7e3 118.8e3 594.2e3 1664e3 "
+         "eps_vol_pl 0 0.64 0.8471 1.0954 1.4034 interpolation log beyond extrapolate";
+}
 
 inline AxisLayout even(double lower, double upper, double cell) {
   return {lower, upper, cell, lower, upper, 1.0};

@@ -65,6 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, Column,
                          ::testing::Values(Case{"elastic", elastic(1e6, 0.3, 1000), 0.1, 0.05},
                                            Case{"cap_snow", snow(), 0.5, 0.3},
                                            Case{"crushable_foam", foam(), 0.5, 0.2, 1},
+                                           Case{"cohesive_cam_clay", crushing_snow(), 0.6, 0.3},
                                            Case{"mccormick_sand", testing_paths::mccormick_sand(),
                                                 0.03, 0.15}),
                          [](const auto& one) { return std::string(one.param.name); });

@@ -172,6 +172,24 @@ TEST(HardCase, UnloadingAndASecondPassInTheSameRut) {
   scene.expect_sound("second_pass");
 }
 
+/// Snow with cohesion that grows with density: the wheel spins at 90 % slip, tears itself out of
+/// its rut and rolls through it again.
+TEST(HardCase, CohesiveSnowSpunTornAndRolledAgain) {
+  Bed bed;
+  bed.material = crushing_snow();
+  Scene scene(bed);
+  scene.run(0.1);
+  scene.roll(0.5, 10.0, 0.1);
+  scene.expect_sound("spun");
+  scene.wheel.prescribe(Coordinate::z, 1.0);
+  scene.roll(0.0, 0.0, 0.1);
+  EXPECT_EQ(scene.contact.contacts(), 0.0);
+  scene.wheel.release(Coordinate::z);
+  scene.roll(0.0, 0.0, 0.15);
+  scene.roll(-2.2, 1.0, 0.1);
+  scene.expect_sound("rolled_again");
+}
+
 TEST(HardCase, StiffCrustOnSoftSnow) {
   Bed bed;
   bed.crust =

@@ -220,6 +220,11 @@ TEST(Calibration, ShippedFits) {
   EXPECT_LT(foam.rms, 0.04);  // of ln(rho)
   EXPECT_TRUE(parameter(foam, "hardening.lambda").determined);
   EXPECT_NEAR(parameter(foam, "hardening.lambda").value, 0.381338, 1e-5);
+  const FitResult clay =
+      fit_material(read_point_fit(root + "/inputs/points/fit_cam_clay.yaml").problem);
+  EXPECT_TRUE(clay.converged);
+  EXPECT_LT(clay.rms, 0.15);  // in deviations of 3 %
+  for (const FittedParameter& p : clay.parameters) EXPECT_TRUE(p.determined) << p.name;
 }
 
 }  // namespace

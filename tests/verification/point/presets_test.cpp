@@ -271,6 +271,29 @@ TEST(Presets, FoamInTheOedometer) {
   EXPECT_LT(oedometer_error("fresh_snow_foam_oedometer"), 0.04);
 }
 
+/// The strengths of Cam clay are those of the closed form of confined compression
+/// (cohesive_cam_clay.h), p0 over sigma_1, at K0 = 0.12 [Shoop2001]; the law then meets the
+/// oedometer, but for the elastic strain beside the plastic.
+TEST(Presets, CamClayIsTheClosedFormAndMeetsTheOedometer) {
+  const MaterialOptions snow = options_of("fresh_snow_cam_clay");
+  const double beta = snow.at("law").options.number("tension_ratio"),
+               M = snow.at("law").options.number("M"), B = M / std::sqrt(1.0 + 2.0 * beta),
+               S = std::sqrt(9.0 + 4.0 * B * B);
+  const double p = 0.5 * (1.0 - beta) + 1.5 * (1.0 + beta) / S, q = (1.0 + beta) * B * B / S;
+  EXPECT_NEAR((p - q / 3.0) / (p + 2.0 / 3.0 * q), 0.12, 1e-3);
+  const CsvTable data = reference("snow_oedometer");
+  const std::vector<double> sigma1 = data.numbers("sigma1_Pa"), rho = data.numbers("rho_kgm3"),
+                            p0 = snow.at("hardening").options.numbers("p"),
+                            unloaded = snow.at("hardening").options.numbers("rho");
+  const double K = 13.79e6 / 1.2;
+  ASSERT_EQ(p0.size(), sigma1.size() + 1);
+  for (std::size_t i = 0; i < sigma1.size(); ++i) {
+    EXPECT_NEAR(p0[i + 1] * (p + 2.0 / 3.0 * q) / sigma1[i], 1.0, 1e-3);
+    EXPECT_NEAR(unloaded[i + 1], rho[i] * std::exp(-0.413 * sigma1[i] / K), 0.06);
+  }
+  EXPECT_LT(oedometer_error("fresh_snow_cam_clay"), 6e-3);
+}
+
 TEST(Presets, ElasticSandAndRubber) {
   const auto sand = file_of("compacted_sand_elastic").make();
   const ElasticModuli moduli = sand->moduli(sand->initial_state());

@@ -25,7 +25,8 @@
 /// Thermodynamics: compaction stores the frozen energy psi = integral of c d(eps_vol_pl) (Collins,
 /// Geotechnique 55 (2005) 373); the rest of the plastic work is
 ///   sigma : d(eps_pl) - c d(eps_vol_pl) = Lambda' (f + a) >= 0.
-/// beta <= 1, or compaction would move the centre into tension.
+/// beta <= 1, or compaction would move the centre into tension. src/material/snow.md shows what the
+/// law does with snow, and why flow is associated.
 
 #include "material/material_model.h"
 #include "material/models/cohesive_cam_clay/cohesive_cam_clay_parameters.h"
