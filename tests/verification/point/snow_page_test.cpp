@@ -138,7 +138,7 @@ std::vector<Row> rows() {
   return list;
 }
 
-/// A dash stands where the driver finds no state: the law has none, or more than one.
+/// A dash stands where the driver finds no state.
 TEST(SnowPage, NumbersAreThoseOfThePoints) {
   const auto page = page_rows();
   for (const Row& row : rows()) {

@@ -62,11 +62,12 @@ struct CohesiveCamClayKernel {
                 (D * dD + r * dr) / max(distance, 1e-290) - sign * radius * strength.slope};
       };
       const Lanes high = abs(dv - elastic.strain(centre * p0_old));
+      const Mask bracketed = yielding && high > Lanes(0.0) && finite(high);
       // First guess: back along the ray from the centre, at constant size.
-      const Lanes guess = high * excess / (excess + radius * p0_old);
+      const Lanes guess = select(bracketed, high * excess / (excess + radius * p0_old), 0.0);
       const Lanes rounding = Lanes(4e-16) * (abs(eps_old) + abs(dv));
       const Lanes y = decreasing_root(residual, guess, 0.0, high, Lanes(1e-13) * high + rounding,
-                                      yielding && high > Lanes(0.0), points.iterations);
+                                      bracketed, points.iterations);
       const Lanes solution = select(yielding, max(y, 0.0), 0.0);
       residual(solution);
       // Rounding is removed by placing the stress on the ellipse: along the ray from its centre, or
