@@ -38,7 +38,7 @@ double eps_of(const VectorX& state) { return state[CohesiveCamClay::eps_vol_pl];
 
 struct Shape {
   double M, beta;
-  double B() const { return M / std::sqrt(1 + 2 * beta); }
+  double aspect() const { return M / std::sqrt(1 + 2 * beta); }
 };
 const Shape shapes[] = {{0.6, 0},   {1.2, 0.1}, {3.3, 0}, {3.3, 0.1},
                         {3.3, 0.5}, {3.1, 1},   {8, 0.02}};
@@ -70,7 +70,7 @@ TEST(CamClayClosedForm, ConfinedCompression) {
     VectorX state = material->initial_state();
     for (int step = 0; step < 100; ++step)
       material->update_point(stretch(strain_of(0, 0, -4e-3)), state);
-    const double B = shape.B(), S = std::sqrt(9 + 4 * B * B), beta = shape.beta;
+    const double B = shape.aspect(), S = std::sqrt(9 + 4 * B * B), beta = shape.beta;
     const double p0 = strength(eps_of(state)), c = (1 - beta) * p0 / 2, a = (1 + beta) * p0 / 2;
     const Invariants end = invariants(stress_of(state));
     EXPECT_NEAR(end.p / (c + 3 * a / S), 1.0, 1e-6) << shape.M << " " << beta;
@@ -90,7 +90,7 @@ TEST(CamClayClosedForm, ConfinedCompression) {
 TEST(CamClayClosedForm, TriaxialCompressionEndsInTheCriticalState) {
   const double pressure = 2e3;
   for (const Shape& shape : {Shape{0.6, 0}, Shape{1.2, 0.1}, Shape{1.8, 0.05}}) {
-    const double N = shape.B() * (1 + shape.beta) / (1 - shape.beta);
+    const double N = shape.aspect() * (1 + shape.beta) / (1 - shape.beta);
     for (const double start : {0.1, 0.35}) {  // p0 = 2.7 and 33 kPa
       const auto material = material_of(clay(shape.M, shape.beta, 1e7, 0.2, start));
       VectorX state = material->initial_state();
@@ -110,7 +110,7 @@ TEST(CamClayClosedForm, TriaxialCompressionEndsInTheCriticalState) {
 /// that flow gives there, (r - 2/3)/(2 r + 2/3) with r = d(eps_q)/d(eps_v) = 3 p/(B^2 (p - c)).
 TEST(CamClayClosedForm, CompressionWithFreeSides) {
   for (const Shape& shape : {Shape{3.3, 0.02}, Shape{3.3, 0.1}, Shape{3.3, 0.3}, Shape{5, 0}}) {
-    const double B = shape.B(), c = (1 - shape.beta) / 2, a = (1 + shape.beta) / 2;  // over p0
+    const double B = shape.aspect(), c = (1 - shape.beta) / 2, a = (1 + shape.beta) / 2;  // over p0
     const auto material = material_of(clay(shape.M, shape.beta, 1e10));
     VectorX state = material->initial_state();
     Vector6 last = Vector6::Zero();
@@ -151,7 +151,7 @@ struct Rates {
   Vector7 rate(const Vector7& y, const Vector6& strain) const {
     const Vector6 unit = strain_of(1, 1, 1), weights = (Vector6() << 1, 1, 1, 2, 2, 2).finished();
     const Vector6 stress = y.head<6>();
-    const double p = -stress.head<3>().sum() / 3, p0 = strength(y[6]), B = shape.B();
+    const double p = -stress.head<3>().sum() / 3, p0 = strength(y[6]), B = shape.aspect();
     const double c = (1 - shape.beta) * p0 / 2, a = (1 + shape.beta) * p0 / 2;
     const Vector6 s = stress + p * unit;
     const double q = std::sqrt(1.5 * s.cwiseProduct(weights).dot(s));
@@ -181,7 +181,7 @@ TEST(CamClayRates, AgreeWithAnExplicitIntegration) {
       const auto material = material_of(clay(shape.M, shape.beta, E, nu));
       const double p = share * first_strength, c = (1 - shape.beta) / 2 * first_strength,
                    a = (1 + shape.beta) / 2 * first_strength;
-      const double q = shape.B() * std::sqrt(a * a - (p - c) * (p - c));
+      const double q = shape.aspect() * std::sqrt(a * a - (p - c) * (p - c));
       Rates::Vector7 y = Rates::Vector7::Zero();
       y.head<6>() = strain_of(-p + q / 3, -p + q / 3, -p - 2 * q / 3);
       VectorX start = material->initial_state();
