@@ -149,7 +149,7 @@ TEST_F(MaterialFileTest, BadFilesAreRefusedWithTheirPlace) {
        "sand.yaml, line 9: elasticity linear, keyword 'nu' is 0.5; allowed: a number in (-1, 0.5)"},
       {with(sand, "type: table", "type: spline"),
        "sand.yaml, line 11: section 'hardening', keyword 'type' is 'spline'; allowed: one of: "
-       "table, exponential"},
+       "table, by_density, exponential"},
       {with(sand, "interpolation: linear", "interpolation: cubic"),
        "sand.yaml, line 14: hardening table, keyword 'interpolation' is 'cubic'; allowed: one of: "
        "linear, log"},
