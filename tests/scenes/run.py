@@ -190,13 +190,16 @@ def scene(script, ranks, results):
 def two_grounds(results):
     folder = empty(results)
     comparison = inputs_run("--quick", "-o", folder / "run", FURROW_CACHE=str(folder / "cache"))
+    check_scene(SCENES / "tyre_on_snow.lig", folder / "run" / "tyre")
     check_scene(SCENES / "wheel_on_snow.lig", folder / "run" / "continuum")
     check_scene(SCENES / "wheel_on_snow_grains.lig", folder / "run" / "grains")
-    report = (folder / "run" / "report.html").read_text()
-    for word in ("continuum", "grains", "sinkage", "NRMM"):
-        for where, text in (("comparison", comparison), ("report", report)):
-            if word not in text:
-                sys.exit(f"the {where} does not name '{word}':\n{text}")
+    for report, words in (("report.html", ("continuum", "grains", "sinkage")),
+                          ("measured/report.html", ("tyre", "measured", "NRMM", "sinkage"))):
+        text = (folder / "run" / report).read_text()
+        for word in words:
+            for where, found in (("comparison", comparison), (report, text)):
+                if word not in found:
+                    sys.exit(f"the {where} does not name '{word}':\n{found}")
 
 
 def laboratory(script, results):

@@ -43,8 +43,8 @@ SPEED = 0.5  # [m/s] of the scene
 DENSITY = 200.0  # [kg/m3] before
 DEPTH = 0.5  # [m]
 GOAL = 0.25  # of the measured peak
-FRESH, FOAM, FITTED = (
-    MATERIALS / f"fresh_snow_{name}.yaml" for name in ("shoop", "foam", "foam_oedometer")
+FRESH, REPORT, FOAM, FITTED = (
+    MATERIALS / f"fresh_snow{name}.yaml" for name in ("", "_shoop", "_foam", "_foam_oedometer")
 )
 
 
@@ -55,8 +55,13 @@ def on_snow(name: str, what: str, stage: str, variables: Mapping[str, Value]) ->
 
 
 def plate(name: str, what: str, **variables: Value) -> Case:
-    """The scene with a cap law, from the oedometer unless a material is given."""
-    return on_snow(name, what, "cap", variables)
+    """The scene with a cap law, fresh_snow unless a material is given."""
+    return on_snow(name, what, "cap", {"material": FRESH, **variables})
+
+
+def report(name: str, what: str, **variables: Value) -> Case:
+    """The scene with the report's reading of the cap law."""
+    return plate(name, what, **{"material": REPORT, **variables})
 
 
 def foam(name: str, what: str, **variables: Value) -> Case:
@@ -71,8 +76,13 @@ def with_material(case: Case, text: str) -> Case:
     return replace(case, variables=variables, files={"material.yaml": text})
 
 
+def variant(name: str, what: str, text: str) -> Case:
+    """fresh_snow with other keys."""
+    return with_material(plate(name, what), f"title: {what}\nbase: {FRESH}\n{text}\n")
+
+
 def steep(name: str, beta: float) -> Case:
-    """The oedometer's cap law with a steeper cone [degrees] and the same confined compression.
+    """The report's cap law with a steeper cone [degrees] and the same confined compression.
 
     p_b such that sigma_1 = p_b (1 + 2/3 tan beta) + 2/3 d stays as it was.
     """
@@ -80,14 +90,14 @@ def steep(name: str, beta: float) -> Case:
     def rise(angle: float) -> float:
         return 1 + 2 / 3 * math.tan(math.radians(angle))
 
-    text = FRESH.read_text()
+    text = REPORT.read_text()
     p, eps = (_numbers(text, key) for key in ("p", "eps_vol_pl"))
     strengths = [float(value) * rise(22.53) / rise(beta) for value in p.strip("[]").split(",")]
     eccentricity = 0.95 * strengths[0] / 5e3
-    case = plate(name, f"the oedometer's, beta {beta} degrees, same confined compression")
+    case = report(name, f"the report's, beta {beta} degrees, same confined compression")
     return with_material(
         case,
-        f"title: Fresh snow, beta {beta}\nbase: {FRESH}\n"
+        f"title: Fresh snow, beta {beta}\nbase: {REPORT}\n"
         f"law: {{beta: {beta}, R: {eccentricity:.4g}}}\n"
         f"hardening: {{type: table, p: {strengths}, eps_vol_pl: {eps}, interpolation: linear, "
         "beyond: extrapolate}\n",
@@ -113,20 +123,44 @@ def linear(name: str, what: str, **variables: Value) -> Case:
 LINEAR = "foam law, linear elasticity"
 FITTED_LAMBDA = "foam law, lambda from the oedometer"
 CASES = (
-    plate("oedometer", "cap law from the oedometer, friction 0.3"),
-    plate("smooth", "the same, no friction on plate and edge", friction=0),
+    plate("fresh", "fresh_snow: crushed in place"),
+    plate("fresh_fine", "the same, cells of 3.1 cm", cell=0.03125),
+    plate("fresh_finer", "the same, cells of 2.5 cm", cell=0.025),
+    plate("fresh_smooth", "the same, no friction on plate and edge", friction=0),
+    plate("fresh_slow", "the same, half the speed", speed=0.25),
+    variant("fresh_d", "the same, d = 2 kPa", "law: {d: 2e3}"),
+    variant("fresh_linear", "the same, straight in p", "hardening: {interpolation: linear}"),
     plate(
-        "log", "the same, hardening straight in ln p", material=MATERIALS / "fresh_snow_shoop_log.yaml"
+        "clay",
+        "Cam clay with the same oedometer and K0",
+        material=MATERIALS / "fresh_snow_cam_clay.yaml",
     ),
     plate(
+        "clay_fine",
+        "the same, cells of 3.1 cm",
+        material=MATERIALS / "fresh_snow_cam_clay.yaml",
+        cell=0.03125,
+    ),
+    plate(
+        "clay_finer",
+        "the same, cells of 2.5 cm",
+        material=MATERIALS / "fresh_snow_cam_clay.yaml",
+        cell=0.025,
+    ),
+    plate("field", "field_snow, 220 kg/m3", material=MATERIALS / "field_snow.yaml"),
+    report("oedometer", "the report's reading, beta 22.5 degrees"),
+    report("fine", "the report's, cells of 3.1 cm", cell=0.03125),
+    report("finer", "the report's, cells of 2.5 cm", cell=0.025),
+    report(
+        "log",
+        "the report's, hardening straight in ln p",
+        material=MATERIALS / "fresh_snow_shoop_log.yaml",
+    ),
+    report(
         "p_0413",
-        "the same, hardening read as p = 0.413 sigma1",
+        "the report's, hardening read as p = 0.413 sigma1",
         material=MATERIALS / "fresh_snow_p_0413.yaml",
     ),
-    plate("field", "identified on wheels", material=MATERIALS / "field_snow_identified.yaml"),
-    plate("slow", "the oedometer's, half the speed", speed=0.25),
-    plate("fine", "the oedometer's, cells of 3.1 cm", cell=0.03125),
-    plate("finer", "the oedometer's, cells of 2.5 cm", cell=0.025),
     steep("beta_45", 45),
     steep("beta_60", 60),
     foam("foam", "foam law"),
@@ -158,7 +192,12 @@ CONFINED = tuple(
         what=what,
         stage="confined",
     )
-    for material, what in ((FRESH, "cap law"), (FOAM, "foam law"), (FITTED, FITTED_LAMBDA))
+    for material, what in (
+        (FRESH, "cap law"),
+        (REPORT, "cap law, the report's"),
+        (FOAM, "foam law"),
+        (FITTED, FITTED_LAMBDA),
+    )
 )
 IN_FOAM_FIGURE = (
     "foam",
@@ -171,7 +210,7 @@ IN_FOAM_FIGURE = (
     "foam_box",
     "foam_remap_1",
 )
-IN_DENSITY_FIGURE = ("oedometer", "log", "foam", "field")
+IN_DENSITY_FIGURE = ("fresh", "oedometer", "foam", "field")
 
 
 def reference() -> Mapping[str, float]:
@@ -249,7 +288,7 @@ def draw_foam(runner: Runner, target: Path) -> None:
     measured = reference()
     area = math.pi / 4 * measured["diameter_m"] ** 2
     sinkage = np.linspace(0, measured["sinkage_m"], 200)
-    for case, colour in zip(CONFINED, ("C0", "C1", "C2")):
+    for case, colour in zip(CONFINED, ("C3", "C0", "C1", "C2")):
         if not runner.record(case):
             continue
         columns = PointRun(runner.folder(case)).columns

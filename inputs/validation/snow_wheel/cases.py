@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is run: the lists of runs and the laws they use."""
+"""What is run: the lists of runs and the snow they use."""
 
-import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -11,103 +10,92 @@ from furrow_post.study.case import FOLDER, Case, Value
 from furrow_post.study.furrow_cases import script_case
 
 HERE = Path(__file__).resolve().parent
-MATERIALS = HERE.parents[1] / "materials"
-TIME_LIMIT = 580.0  # [s] of one run
+INPUTS = HERE.parents[1]
+MATERIALS = INPUTS / "materials"
+TIME_LIMIT = 3600.0  # [s] of one run
 
 LOAD_MASS = 636.0  # [kg] [Shoop2001] p. 27
 WIDTH = 0.272  # [m]
 CELLS = 5  # in 0.20 m: cells of 4 cm
-REMAP_INTERVAL = 16  # steps between remaps; half of it where that stops a run
 # Numerical choices; the stage 'error' changes one at a time. Damping of the rig: the wheel comes to
 # rest in height after 0.6 m.
 BASE: dict[str, Value] = {
-    "wheel_width": WIDTH,
-    "shoulder": 0.051,
-    "mass": LOAD_MASS,
     "speed": 2.235,
-    "settle": 0.25,
-    "accelerate": 0.15,
+    "settle": 0.4,
+    "accelerate": 0.2,
     "distance": 1.2,
-    "damping": 10000,
-    "width": 0.7,
+    "damping": 2000,
+    "length": 1.6,
+    "width": 0.8,
     "fine_width": 0.4,
     "particles": 2,
     "friction": 0.3,
+    "stiffness": 0.4,
     "enforcement": "penalty",
-    "remap_interval": REMAP_INTERVAL,
+    "remap_interval": 16,  # half of it where that stops a run
+    "modulus_scale": 1.0,
 }
 WINDOW = 0.5  # [m] of travel at the end that is averaged
-DEEP: dict[str, Any] = {"width": 0.9, "distance": 2.4}  # [m] on more than 0.3 m of snow
+DEEP: dict[str, Value] = {"width": 1.0, "distance": 2.0, "clearance_above": 0.6}  # above 0.3 m
 
 # The rows of reference.csv that the identification may see: density [kg/m3], depths [m]
 CALIBRATION_DENSITY = 220.0
 CALIBRATION_DEPTHS = (0.18, 0.22)
 
-# ---- laws of density alone: p_b = p_510 (rho/510 kg/m3)^s, not below what carries the own weight
+# ---- wheels: the measured one was a tyre
 
-OWN_WEIGHT = 1e3  # [Pa] half a metre of 220 kg/m3
-
-Section = dict[str, Any]  # of a material file
-
-
-def power_law(
-    density: float, slope: float, d: float, beta: float, E: float, p_510: float
-) -> dict[str, Section]:
-    """Sections of a material file. density [kg/m3], d, E, p_510 [Pa], beta [degrees]"""
-
-    def strength(rho: float) -> float:
-        return float(p_510 * (rho / 510.0) ** slope)
-
-    knee = 510.0 * (OWN_WEIGHT / p_510) ** (1.0 / slope)  # [kg/m3] where the power begins
-    rows = [(density, strength(density))]
-    if knee > 1.001 * density:
-        rows = [(density, OWN_WEIGHT), (knee, 1.001 * OWN_WEIGHT)]
-    rows.append((900.0, strength(900.0)))
-    return {
-        "law": {
-            "type": "drucker_prager_cap",
-            "density": density,
-            "d": d,
-            "beta": beta,
-            "R": 1.1e-4,
-            "alpha": 0,
-            "K": 1,
-            "eps_vol_pl_0": 0.001,
-        },
-        "elasticity": {"type": "linear", "E": E, "nu": 0.3},
-        "hardening": {
-            "type": "table",
-            "p": [float(f"{p:.6g}") for _, p in rows],
-            "eps_vol_pl": [round(math.log(rho / density), 6) for rho, _ in rows],
-            "interpolation": "log",
-            "beyond": "extrapolate",
-        },
-    }
-
-
-Law = dict[str, float]  # slope, d, beta, E, p_510 of power_law
-
-# The identified laws, rounded from what identify.py found; inputs/materials/
-# field_snow_identified[_towed].yaml are these at 220 kg/m3. zero_slip: as [Shoop2001] compares;
-# towed: free spin, as the wheel was measured.
-LAWS: dict[str, Law] = {
-    "zero_slip": {"slope": 26, "d": 7e3, "beta": 22.53, "E": 13.79e6, "p_510": 130e3},
-    "towed": {"slope": 30, "d": 1e3, "beta": 57, "E": 0.35e6, "p_510": 70e3},
+PRESSURE = 179e3  # [Pa] of the measured tyre
+RIGID: dict[str, Value] = {  # of [Shoop2001]
+    "body": "wheel/rigid diameter 0.74 width 0.272 shoulder 0.051 mass 636 inertia 2.15 segments 72",
+    "load": f"load_mass {LOAD_MASS:g}",
+    "radius": 0.37,
+    "damping": 10000,
 }
 
 
-def _yaml(value: Any) -> str:
-    if isinstance(value, list):
-        return f"[{', '.join(f'{x:.6g}' for x in value)}]"
-    return f"{value:.6g}" if isinstance(value, (int, float)) else str(value)
+def tyre(pressure: float = PRESSURE, mesh: str = "4 36") -> dict[str, Value]:
+    """The tyre of [Shoop2001] at a pressure [Pa]."""
+    file = INPUTS / "tyres" / "p235_75r15.yaml"
+    return {
+        "body": f"tyre/darnell file {file} pressure {pressure:g} mesh {mesh} half yes mass 30 inertia 1",
+        "load": "load_force 6227",
+        "radius": 0.3483,
+    }
 
 
-def material_text(sections: Mapping[str, Section], title: str) -> str:
-    """A material file."""
-    lines = [f"title: {title}"]
-    for name, section in sections.items():
-        lines += [f"{name}:", *(f"  {key}: {_yaml(value)}" for key, value in section.items())]
-    return "\n".join(lines) + "\n"
+# ---- the field's snow: one compaction curve for every initial density
+
+# Densities [kg/m3] that were found under wheels of such pressures [Pa] [CRREL95-7]: classes of
+# pressure and their middles
+MEASURED_COMPACTION = {525.0: 210e3, 575.0: 350e3, 625.0: 700e3, 660.0: 1400e3}
+IDENTIFIED_DENSITIES = (380.0, 450.0, 490.0)  # [kg/m3] of the beginning, which is searched
+START = (100.0, 15.0)  # [kg/m3], [Pa]: below the lightest snow of the rows, hardly any strength
+# p0 over axial stress in confined compression, by the closed form of cohesive_cam_clay.h with M and
+# tension_ratio of fresh_snow_cam_clay.yaml: K0 = 0.12 [Shoop2001] eq 24
+SHARE = 0.594
+
+Beginning = tuple[float, float, float]  # axial stresses [Pa] at IDENTIFIED_DENSITIES
+
+# Rounded from what identify.py found; inputs/materials/field_snow.yaml
+FIELD_SNOW: Beginning = (4e3, 25e3, 100e3)
+
+
+def field_snow(density: float, beginning: Beginning = FIELD_SNOW, title: str = "") -> str:
+    """A material file; density [kg/m3] at the start."""
+    rows = [START]
+    curve = {**dict(zip(IDENTIFIED_DENSITIES, beginning)), **MEASURED_COMPACTION}
+    rows += [(rho, SHARE * stress) for rho, stress in curve.items()]
+    return (
+        f"title: {title or 'Field snow'}\n"
+        f"law: {{type: cohesive_cam_clay, density: {density:g}, M: 3.3, tension_ratio: 0.1}}\n"
+        "elasticity: {type: linear, E: 13.79e6, nu: 0.3}\n"
+        "hardening:\n"
+        "  type: by_density\n"
+        f"  rho: [{', '.join(f'{rho:g}' for rho, _ in rows)}]\n"
+        f"  p: [{', '.join(f'{p:.6g}' for _, p in rows)}]\n"
+        "  interpolation: log\n"
+        "  beyond: extrapolate\n"
+    )
 
 
 # ---- runs
@@ -118,23 +106,19 @@ def case(
     stage: str,
     depth: float,
     variables: Mapping[str, Value],
-    mode: str = "towed",
     cells: int | None = None,
     what: str = "",
     files: Mapping[str, str] | None = None,
 ) -> Case:
-    """Cells of about 4 cm that divide the depth [m], or so many. mode: towed or zero_slip"""
+    """Cells of about 4 cm that divide the depth [m], or so many; towed unless a mode is given."""
     cell = depth / (cells or round(depth * CELLS / 0.20))
     given: dict[str, Value] = {
         **BASE,
         "depth": depth,
         "cell": round(cell, 6),
-        "fine_depth": depth,
         "clearance_above": 0.4,
-        "modulus_scale": 1.0,
-        "stiffness": 0.4,
-        "length": 1.2,
-        "mode": "slip slip 0" if mode == "zero_slip" else mode,
+        "mode": "towed",
+        **(DEEP if depth > 0.3 else {}),
         **variables,
     }
     steps = int(str(given["remap_interval"]))
@@ -155,84 +139,57 @@ def on_preset(
     name: str,
     stage: str,
     material: str,
+    wheel: Mapping[str, Value],
+    what: str,
     depth: float = 0.20,
-    mode: str = "towed",
     cells: int | None = None,
-    what: str = "",
     **changes: Value,
 ) -> Case:
-    """The wheel of [Shoop2001] on snow of a file of inputs/materials.
-
-    The modulus is scaled down (README: what that does).
-    """
-    given: dict[str, Value] = {
-        "diameter": 0.74,
-        "modulus_scale": 0.25,
-        "material": MATERIALS / f"{material}.yaml",
-        **changes,
-    }
-    return case(name, stage, depth, given, mode, cells, what)
+    """On snow of a file of inputs/materials."""
+    given = {**wheel, "material": MATERIALS / f"{material}.yaml", **changes}
+    return case(name, stage, depth, given, cells, what)
 
 
-def on_law(
+def on_field_snow(
     name: str,
     stage: str,
     density: float,
     depth: float,
-    mode: str,
-    law: Law,
+    wheel: Mapping[str, Value] | None = None,
+    beginning: Beginning = FIELD_SNOW,
     cells: int | None = None,
     what: str = "",
     **changes: Value,
 ) -> Case:
-    """The wheel of Table 11 on snow of a law.
-
-    A modulus like that of [Shoop2001] is scaled down; springs of the contact follow the modulus, so
-    that a soft one needs stiffer springs.
-    """
-    E = law["E"]
-    given: dict[str, Value] = {
-        "diameter": 0.76,
-        "modulus_scale": min(1.0, 0.25 * 13.79e6 / E),
-        "stiffness": max(0.4, min(4.0, 1e6 / E)),
-        "material": f"{FOLDER}/material.yaml",
-        **changes,
-    }
-    text = material_text(power_law(density, **law), f"snow of {Path(name).name}")
-    return case(name, stage, depth, given, mode, cells, what, {"material.yaml": text})
+    """The tyre, unless another wheel is given, on the field's snow."""
+    given = {**(wheel or tyre()), "material": f"{FOLDER}/material.yaml", **changes}
+    text = field_snow(density, beginning, f"field snow of {density:g} kg/m3")
+    return case(name, stage, depth, given, cells, what, {"material.yaml": text})
 
 
-def on_field_snow(name: str, stage: str, law: str, mode: str = "", **changes: Any) -> Case:
-    """0.20 m of 220 kg/m3 with an identified law; mode: by default the one it was identified in."""
-    given: dict[str, Any] = {"density": 220, "depth": 0.20, **changes}
-    return on_law(name, stage, mode=mode or law, law=LAWS[law], **given)
+ZERO_SLIP = "slip slip 0"
 
 
 def predictions() -> list[Case]:
-    """From the oedometer alone, with the variants that tell where the bias comes from."""
-    stage = "predict"
-    runs = [
-        on_preset("oedometer_towed", stage, "fresh_snow_shoop"),
-        on_preset("oedometer_zero_slip", stage, "fresh_snow_shoop", mode="zero_slip"),
-    ]
-    for variant in ("shoop_log", "p_0413", "abele_gow", "exponential", "beta_41", "d_30"):
-        name = variant.removeprefix("shoop_")
-        runs.append(on_preset(f"{name}_towed", stage, f"fresh_snow_{variant}"))
-    deep: dict[str, Any] = {"depth": 0.50, "clearance_above": 1.0, **DEEP}
-    return runs + [
-        on_preset("log_zero_slip", stage, "fresh_snow_shoop_log", mode="zero_slip"),
-        # does not turn: it pushes snow up ahead of it
-        on_preset("smooth_wheel", stage, "fresh_snow_shoop", friction=0.0, clearance_above=1.0),
-        on_preset("deep_towed", stage, "fresh_snow_shoop", **deep),
-        on_preset("deep_zero_slip", stage, "fresh_snow_shoop", mode="zero_slip", **deep),
-        on_field_snow("deep_field_towed", stage, "towed", **deep),
-        # porous elasticity: no E to scale
-        on_preset("foam_towed", stage, "fresh_snow_foam", modulus_scale=1.0, remap_interval=1),
+    """From the oedometer alone; what the report's reading of it and of friction change."""
+    stage, slip = "predict", {"mode": ZERO_SLIP}
+    fresh, clay, report = "fresh_snow", "fresh_snow_cam_clay", "fresh_snow_shoop"
+    return [
+        on_preset("rigid_towed", stage, fresh, RIGID, "`fresh_snow`, towed"),
+        on_preset("rigid_zero_slip", stage, fresh, RIGID, "the same, zero slip", **slip),
+        on_preset("tyre_towed", stage, fresh, tyre(), "`fresh_snow`, the tyre, towed"),
+        on_preset("clay_towed", stage, clay, RIGID, "`fresh_snow_cam_clay`, towed"),
+        on_preset("clay_zero_slip", stage, clay, RIGID, "the same, zero slip", **slip),
+        on_preset("clay_tyre_towed", stage, clay, tyre(), "`fresh_snow_cam_clay`, the tyre, towed"),
+        on_preset("report_towed", stage, report, RIGID, "`fresh_snow_shoop`, towed"),
+        on_preset("report_zero_slip", stage, report, RIGID, "the same, zero slip", **slip),
+        on_preset("rigid_deep", stage, clay, RIGID, "`fresh_snow_cam_clay`, 0.50 m deep, towed", 0.50),
+        on_field_snow("rigid_field", stage, 220, 0.20, RIGID, what="field snow, rigid wheel, towed"),
     ]
 
 
-def row_name(mode: str, density: float, depth: float) -> str:
-    return f"{mode}_row_{density:.0f}_{100 * depth:.0f}cm"
+def row_name(density: float, depth: float) -> str:
+    return f"row_{density:.0f}_{100 * depth:.0f}cm"
 
 
 def densities_and_depths() -> list[tuple[float, float]]:
@@ -241,88 +198,43 @@ def densities_and_depths() -> list[tuple[float, float]]:
 
 
 def rows() -> list[Case]:
-    """One run for each depth and density of the shared rows with each of the identified laws.
-
-    The calibration's too. A deep one has more width and rolls further until it is steady.
-    """
-    runs = []
-    for mode, law in LAWS.items():
-        for density, depth in densities_and_depths():
-            name, changes = row_name(mode, density, depth), DEEP if depth > 0.3 else {}
-            runs.append(on_law(name, "rows", density, depth, mode, law, **changes))
-    return runs
-
-
-def exchanged() -> list[Case]:
-    """Each law with the wheel of the other."""
+    """One run for each depth and density of the shared rows, the calibration's too."""
     return [
-        on_field_snow("towed_law_zero_slip", "rows", "towed", mode="zero_slip"),
-        on_field_snow("zero_slip_law_towed", "rows", "zero_slip", mode="towed"),
+        on_field_snow(row_name(density, depth), "rows", density, depth)
+        for density, depth in densities_and_depths()
     ]
 
 
-ERROR_BASE = row_name("towed", 220, 0.20)
+ERROR_BASE = row_name(220, 0.20)
 ERRORS: dict[str, tuple[str, dict[str, Any]]] = {  # name -> what is changed, changes
     "cell_5cm": ("cells of 5 cm", {"cells": 4}),
     "cell_3.3cm": ("cells of 3.33 cm", {"cells": 6}),
     "cell_2.5cm": ("cells of 2.5 cm", {"cells": 8}),
-    "particles_3": ("27 particles in a cell, springs 2.5", {"particles": 3, "stiffness": 2.5}),
-    "uniform": ("cells of 4 cm over the whole width", {"fine_width": 0.7}),
-    "graded": (
-        "cells grow under the wheel: below 8 cm and beside 20 cm",
-        {"fine_depth": 0.08, "fine_width": 0.2},
-    ),
-    "wide": ("ground 1.0 m wide", {"width": 1.0}),
-    "long": ("ground 1.6 m long", {"length": 1.6}),
+    "mesh": ("tyre of 6 x 72 elements", {"wheel": tyre(mesh="6 72")}),
+    "long": ("ground 2.0 m long", {"length": 2.0}),
+    "wide": ("ground 1.2 m wide", {"width": 1.2}),
     "rolls_further": ("2.0 m of rolling", {"distance": 2.0}),
-    "impulse": ("contact by impulses", {"enforcement": "impulse"}),
-    "remap_1": ("mapping at each step", {"remap_interval": 1}),
-    "soft": ("modulus halved", {"modulus_scale": 0.5}),
+    "soft": ("modulus of the snow times 0.25", {"modulus_scale": 0.25}),
+    "contact_0.2": ("springs of the contact times 0.5", {"stiffness": 0.2}),
     "slow": ("5 km/h, as measured", {"speed": 1.39}),
+    "friction_0.1": ("friction 0.1", {"friction": 0.1}),
+    "friction_0.6": ("friction 0.6", {"friction": 0.6}),
+    "pressure_103": ("tyre at 103 kPa", {"wheel": tyre(103e3)}),
+    "pressure_241": ("tyre at 241 kPa", {"wheel": tyre(241e3)}),
 }
-SPRINGS = (0.5, 1.5)  # factors on the springs of the contact, the identified law
-CONTACT = (0.2, 0.8, 1.6)  # springs of the contact, the oedometer's law, beside 0.4
-MODULUS_SCALES = (0.5, 1.0)  # factors on its modulus, beside 0.25
 
 
-def errors_of_law() -> list[Case]:
-    """Of the identified law: one numerical choice changed at a time."""
-    runs = [
-        on_field_snow(f"error_{name}", "error", "towed", what=what, **changes)
+def errors() -> list[Case]:
+    """The tyre on 0.20 m of 220 kg/m3: one choice changed at a time."""
+    return [
+        on_field_snow(f"error_{name}", "error", 220, 0.20, what=what, **changes)
         for name, (what, changes) in ERRORS.items()
     ]
-    springs = float(str(on_field_snow("", "error", "towed").variables["stiffness"]))
-    for factor in SPRINGS:
-        what = f"contact springs times {factor:g}"
-        name = f"error_contact_{factor:g}"
-        runs.append(on_field_snow(name, "error", "towed", what=what, stiffness=factor * springs))
-    return runs
-
-
-def errors_of_oedometer() -> list[Case]:
-    """The same of the oedometer's law, whose modulus is scaled down."""
-
-    def changed(name: str, what: str, **changes: Any) -> Case:
-        return on_preset(f"error_oedometer_{name}", "error", "fresh_snow_shoop", what=what, **changes)
-
-    runs = [
-        changed("cell_5cm", "cells of 5 cm", cells=4),
-        changed("cell_3.3cm", "cells of 3.33 cm", cells=6),
-        changed("impulse", "contact by impulses", enforcement="impulse"),
-    ]
-    for factor in MODULUS_SCALES:
-        what = f"modulus softened by {factor:g}" if factor < 1 else "modulus not softened"
-        runs.append(changed(f"modulus_{factor:g}", what, modulus_scale=factor))
-    for factor in CONTACT:
-        what = f"contact springs {factor:g}"
-        runs.append(changed(f"contact_{factor:g}", what, stiffness=factor))
-    return runs
 
 
 def all_cases() -> dict[str, Case]:
     """Name -> case, in the order in which they are made."""
-    cases = predictions() + rows() + exchanged() + errors_of_law() + errors_of_oedometer()
-    return {case.name: case for case in cases}
+    return {case.name: case for case in predictions() + rows() + errors()}
 
 
 # ---- measurements

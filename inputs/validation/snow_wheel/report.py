@@ -12,7 +12,7 @@ import numpy as np
 import cases
 
 from furrow_post.analyse import empirical
-from furrow_post.analyse.rut import rut_densities, rut_depth
+from furrow_post.analyse.rut import bow_wave, rut_densities, rut_depth, share_left
 from furrow_post.analyse.statistics import rms
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_matrix
@@ -27,10 +27,15 @@ from furrow_post.study.runner import Runner
 
 LOAD = cases.LOAD_MASS * 9.80665  # [N]
 RADIUS = 0.38  # [m] Table 11
-PRESSURE = 179e3  # [Pa] of the measured wheel's tyre, for NRMM
 TIME_STEP = 2e-4  # [s] of wheel.lig
 
 Row = dict[str, Any]  # of a table
+
+SECTIONS = {  # runs that are drawn -> title
+    cases.ERROR_BASE: "tyre on field snow, 220 kg/m3",
+    "rigid_towed": "rigid wheel on fresh_snow, towed",
+    "report_towed": "rigid wheel on fresh_snow_shoop, towed",
+}
 
 
 # ---- one run
@@ -77,6 +82,8 @@ def row_of(case: Case, folder: Path, record: Record) -> Row:
     row["density_shoulder"] = round(densities.shoulder)
     row["density_behind"] = round(densities.in_rut)
     row["rut_depth_m"] = round(rut_depth(snow, body), 3)
+    row["mass_left"] = round(share_left(snow, body), 3)
+    row["bow_wave_m"] = round(bow_wave(snow, body), 3)
     row["particles"] = int(record.facts["particles"])
     row["penetration_mm"] = round(1000 * record.facts["deepest_penetration"], 1)
     return row
@@ -109,7 +116,7 @@ class Found:
 
 
 def row_table(found: Found) -> list[Row]:
-    """The shared rows of Table 11, computed with both identified laws and by NRMM.
+    """The shared rows of Table 11, computed with the tyre on field snow and by NRMM.
 
     NRMM: from its own and from the measured sinkage.
     """
@@ -126,11 +133,10 @@ def measured_row(found: Found, r: Mapping[str, float]) -> Row:
         "sinkage_m": sinkage,
         "resistance": r["resistance"],
     }
-    for mode in cases.LAWS:
-        computed = found(cases.row_name(mode, density, depth))
-        for what in ("sinkage_m", "resistance", "density_under", "density_shoulder"):
-            row[f"{mode}_{what}"] = computed.get(what, "")
-    own = empirical.nrmm_sinkage(depth, density, PRESSURE)
+    computed = found(cases.row_name(density, depth))
+    for what in ("sinkage_m", "resistance", "density_under", "density_shoulder", "slip"):
+        row[f"tyre_{what}"] = computed.get(what, "")
+    own = empirical.nrmm_sinkage(depth, density, cases.PRESSURE)
     from_own, from_measured = (
         empirical.nrmm_resistance(density, cases.WIDTH, RADIUS, z) / LOAD for z in (own, sinkage)
     )
@@ -154,30 +160,26 @@ def accuracy(table: Sequence[Row], used: str, model: str) -> Row:
 
 
 def draw_comparison(table: Sequence[Row], path: Path) -> None:
-    """Computed over measured; open: the rows that the laws were identified on."""
-    marks = {"zero_slip": ("o", "tab:red", "zero slip"), "towed": ("s", "tab:blue", "towed")}
+    """Computed over measured; open: the rows that the snow was identified on."""
     figure, panels = plt.subplots(1, 2, figsize=(10, 4.8), constrained_layout=True)
     for axes, what, title in (
         (panels[0], "sinkage_m", "sinkage [m]"),
         (panels[1], "resistance", "resistance over load"),
     ):
-        sources = (what, f"nrmm_{what}", *(f"{mode}_{what}" for mode in marks))
-        top = 1.08 * max(r[source] or 0 for r in table for source in sources)
+        top = 1.08 * max(r[source] or 0 for r in table for source in (what, f"nrmm_{what}", f"tyre_{what}"))
         axes.plot([0, top], [0, top], color="0.5", lw=0.8)
-        for mode, (mark, colour, label) in marks.items():
-            for used, how, fill in (
-                ("calibration", "identified on", "none"),
-                ("prediction", "predicted", colour),
-            ):
-                mine = [r for r in table if r["used"] == used and r[f"{mode}_{what}"] != ""]
-                measured, computed = [r[what] for r in mine], [r[f"{mode}_{what}"] for r in mine]
-                look = {"ms": 5, "color": colour, "mfc": fill, "label": f"{label}, {how}"}
-                axes.plot(measured, computed, mark, **look)
+        for used, how, fill in (
+            ("calibration", "identified on", "none"),
+            ("prediction", "predicted", "tab:blue"),
+        ):
+            mine = [r for r in table if r["used"] == used and r[f"tyre_{what}"] != ""]
+            measured, computed = [r[what] for r in mine], [r[f"tyre_{what}"] for r in mine]
+            look = {"ms": 5, "color": "tab:blue", "mfc": fill, "label": f"tyre on field snow, {how}"}
+            axes.plot(measured, computed, "s", **look)
         measured, nrmm = [r[what] for r in table], [r[f"nrmm_{what}"] for r in table]
         axes.plot(measured, nrmm, "x", ms=4, color="0.4", label="NRMM")
-        bottom = min(0, axes.get_ylim()[0])
         axes.set(xlabel=f"measured {title}", ylabel=f"computed {title}")
-        axes.set(xlim=(0, top), ylim=(bottom, top))
+        axes.set(xlim=(0, top), ylim=(0, top))
         axes.legend(frameon=False, fontsize=8)
         axes.grid(alpha=0.3)
     save(figure, path, dpi=90)
@@ -205,41 +207,31 @@ Limits = dict[str, tuple[float, float]]  # quantity -> value at size zero, its u
 
 
 def error_table(found: Found) -> tuple[list[Row], Limits]:
-    """Each change of one numerical choice beside the base; and size zero.
-
-    Of the identified law, then of the oedometer's.
-    """
-
-    def line(law: str, what: str, name: str) -> list[Row]:
-        computed = found(name)
-        if not computed:
-            return []
-        cells = round(0.20 / float(str(found.cases[name].variables["cell"])))
-        kept = {key: value for key, value in computed.items() if key != "run"}
-        return [{"law": law, "change": what, "cell_m": round(0.20 / cells, 4), **kept}]
-
-    table = line("towed", "base: cells of 4 cm, 8 particles", cases.ERROR_BASE)
-    if not table or table[0]["error"]:
+    """Each change of one choice beside the base; and size zero."""
+    base = found(cases.ERROR_BASE)
+    if not base or base["error"]:
         return [], {}
-    for case in cases.errors_of_law():
-        table += line("towed", case.what, case.name)
+    lines = [("base: cells of 4 cm, tyre of 4 x 36 elements", cases.ERROR_BASE)]
+    lines += [(case.what, case.name) for case in cases.errors()]
+    table = []
+    for what, name in lines:
+        if computed := found(name):
+            cell = float(str(found.cases[name].variables["cell"]))
+            kept = {key: value for key, value in computed.items() if key != "run"}
+            table.append({"change": what, "cell_m": round(cell, 4), **kept})
     grids = grid_series(table)
     limits = {}
     if len(grids) >= 3:
         for what in ("sinkage_m", "resistance"):
             sizes, values = [r["cell_m"] for r in grids], np.array([r[what] for r in grids])
             limits[what] = extrapolated(sizes, values)
-    base = "base: modulus softened by 0.25, springs 0.4"
-    table += line("oedometer", base, "oedometer_towed")
-    for case in cases.errors_of_oedometer():
-        table += line("oedometer", case.what, case.name)
     return table, limits
 
 
 def grid_series(table: Sequence[Row]) -> list[Row]:
-    """Rows of the identified law that differ in the cells alone: the base, and other sizes."""
-    own = [r for r in table if r["law"] == "towed" and not r["error"]]
-    return [r for r in own if r["cell_m"] != 0.04 or r is table[0]]
+    """Rows that differ in the cells alone: the base, and other sizes."""
+    sound = [r for r in table if not r["error"]]
+    return [r for r in sound if r["cell_m"] != 0.04 or r is table[0]]
 
 
 def draw_errors(table: Sequence[Row], limits: Limits, path: Path) -> None:
@@ -274,9 +266,12 @@ def draw_errors(table: Sequence[Row], limits: Limits, path: Path) -> None:
 def run_table(found: Found) -> list[Row]:
     """Every run of the stages predict and rows."""
     staged = [("predict", case) for case in cases.predictions()]
-    staged += [("check", case) for case in cases.exchanged()]
     staged += [("rows", case) for case in cases.rows()]
-    return [{"stage": stage, **row} for stage, case in staged if (row := found(case.name))]
+    return [
+        {"stage": stage, "what": case.what, **row}
+        for stage, case in staged
+        if (row := found(case.name))
+    ]
 
 
 def report(runner: Runner, output: Output) -> list[str]:
@@ -286,8 +281,11 @@ def report(runner: Runner, output: Output) -> list[str]:
     table = row_table(found)
     output.table("rows.csv", table)
     draw_comparison(table, output.path("comparison.png"))
-    models, uses = (*cases.LAWS, "nrmm"), ("calibration", "prediction", "all")
-    scores = [accuracy(table, used, model) for model in models for used in uses]
+    scores = [
+        accuracy(table, used, model)
+        for model in ("tyre", "nrmm")
+        for used in ("calibration", "prediction", "all")
+    ]
     output.table("accuracy.csv", scores)
     errors, limits = error_table(found)
     output.table("error.csv", errors)
@@ -295,8 +293,8 @@ def report(runner: Runner, output: Output) -> list[str]:
         print(f"size zero: {what} {value:.4f} +- {uncertain:.4f}")
     if limits:
         draw_errors(errors, limits, output.path("error.png"))
-    section = found.cases[cases.row_name("towed", 220, 0.20)]
-    if runner.record(section):
-        title = "field snow, identified; rigid wheel, towed"
-        draw_terrain(runner.folder(section), title, "", output.path("section.png"), dpi=75)
+    for name, title in SECTIONS.items():
+        if runner.record(found.cases[name]):
+            picture = output.path(f"section_{name}.png")
+            draw_terrain(runner.folder(found.cases[name]), title, "", picture, dpi=75)
     return []

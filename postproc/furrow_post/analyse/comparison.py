@@ -354,8 +354,13 @@ def remarks(result: Comparison) -> list[str]:
 
 
 def overall(result: Comparison) -> str:
-    """The verdict on the grounds among each other in one line; empty for a single run."""
+    """The verdict on the runs among each other in one line; of a single run, with the measurements.
+
+    Empty where there is nothing to compare.
+    """
     among = [v for v in result.verdicts if not v.with_measurement]
+    who = "runs" if among else "run and the measurements"
+    among = among or (result.verdicts if len(result.runs) == 1 else [])
     if not among:
         return ""
     differing = quantities_with(among, Agreement.DIFFER)
@@ -369,16 +374,16 @@ def overall(result: Comparison) -> str:
     verdict = ""
     if differing:
         known = " as far as their uncertainty is known" if any(v.unknown for v in among) else ""
-        verdict = f"The runs do not agree in {joined(differing)}{known}."
+        verdict = f"The {who} do not agree in {joined(differing)}{known}."
     elif undecided:
         if agreed:
-            verdict = f"The runs agree in {joined(agreed)} within their uncertainty; "
-        verdict += f"in {joined(undecided)} they" if agreed else f"In {joined(undecided)} the runs"
+            verdict = f"The {who} agree in {joined(agreed)} within their uncertainty; "
+        verdict += f"in {joined(undecided)} they" if agreed else f"In {joined(undecided)} the {who}"
         verdict += " cannot be told apart: the uncertainty is too large."
     elif not unknown:
-        verdict = "The runs agree within their uncertainty in sinkage and resistance."
+        verdict = f"The {who} agree within their uncertainty in sinkage and resistance."
     elif agreed:
-        verdict = f"The runs agree in {joined(agreed)} within their uncertainty."
+        verdict = f"The {who} agree in {joined(agreed)} within their uncertainty."
     if unknown:
         verdict += f" There is no verdict in {joined(unknown)}: an uncertainty is not known."
         verdict = verdict.strip()

@@ -131,7 +131,7 @@ NRMM_SOURCE = (
 # The tests that [Shoop2001] holds against the formula (Table 11), which gives no other range.
 # Radius: 10 % to both sides of its only wheel.
 NRMM_TESTS = "tests of Shoop (2001), Table 11"
-NRMM_DENSITY = (110.0, 220.0)  # [kg/m3]
+NRMM_DENSITY = (105.0, 225.0)  # [kg/m3] rows of 110 to 220, which are rounded to 10
 NRMM_DEPTH = (0.13, 0.38)  # [m]
 NRMM_RADIUS = (0.342, 0.418)  # [m]
 DENSEST = 0.917  # ice: largest final density [Mg/m3]

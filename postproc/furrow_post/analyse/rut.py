@@ -5,10 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import Booleans, Floats
 from ..read.terrain import Outline, Terrain
 
 UNDER = 0.04  # m along the track to both sides of the axle that count as under the wheel
 SHOULDER = 0.05  # m outwards of the wheel's side that count as its shoulder
+TRACK = 0.12  # m along the track to both sides of the finished rut's section
 BEHIND = 0.6  # of the length of terrain behind the axle: where the finished rut is cut
 
 
@@ -80,6 +82,34 @@ def rut_depth(terrain: Terrain, body: Outline) -> float:
     """
     x = terrain.x[:, 0] - body.centre[0] - rut_place(terrain, body)
     inside = (np.abs(x) < UNDER) & (np.abs(terrain.x[:, 1]) < 0.5 * body.half_width)
+    return float(terrain.level - _tops(terrain, inside).max())
+
+
+def bow_wave(terrain: Terrain, body: Outline) -> float:
+    """Height to which the surface ahead of the axle has risen [m]."""
+    ahead = terrain.x[:, 0] > body.centre[0]
+    return max(float(_tops(terrain, ahead).max() - terrain.level), 0.0) if ahead.any() else 0.0
+
+
+def share_left(terrain: Terrain, body: Outline) -> float:
+    """Mass in the finished rut over what was there before: what has not been pushed aside.
+
+    Weights fall from the middle of the section to none at TRACK along the track, and from half of
+    the wheel's half width to none at its side, so that single particles do not count.
+    """
+    place, half = body.centre[0] + rut_place(terrain, body), body.half_width
+    mass = terrain.density * terrain.volume
+
+    def weighed(position: Floats) -> float:
+        along = 1 - np.abs(position[:, 0] - place) / TRACK
+        across = 2 - 2 * np.abs(position[:, 1] - body.centre[1]) / half
+        return float((mass * np.clip(along, 0, None) * np.clip(across, 0, 1)).sum())
+
+    before = weighed(terrain.initial_position)
+    return weighed(terrain.x) / before if before > 0 else float(np.nan)
+
+
+def _tops(terrain: Terrain, inside: Booleans) -> Floats:
+    """z of the upper sides of particles [m]."""
     squeeze = terrain.undisturbed / terrain.density[inside]
-    tops = terrain.x[inside, 2] + 0.5 * terrain.spacing * squeeze
-    return float(terrain.level - tops.max())
+    return terrain.x[inside, 2] + 0.5 * terrain.spacing * squeeze

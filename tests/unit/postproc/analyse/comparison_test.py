@@ -145,7 +145,11 @@ class CompareTest(unittest.TestCase):
         run.conditions["depth"] = Condition(0.2, "m")
         result = comparison.compare([run], measured=reference)
         self.assertTrue(all(verdict.with_measurement for verdict in result.verdicts))
-        self.assertEqual(overall(result), "")
+        self.assertEqual(
+            overall(result),
+            "The run and the measurements agree within their uncertainty in sinkage and "
+            "resistance.",
+        )
         run.conditions["depth"] = Condition(0.5, "m")
         message = "has 0 rows within 10 % of a depth of 0.5 m; a scatter needs three"
         with self.assertRaisesRegex(ResultsError, message):

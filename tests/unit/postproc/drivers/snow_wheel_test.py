@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""inputs/validation/snow_wheel: laws of density alone, accuracy, size zero."""
+"""inputs/validation/snow_wheel: the field snow, accuracy, size zero."""
 
 import math
+import re
 import sys
 import unittest
 
@@ -15,21 +16,43 @@ import cases
 import report
 
 
-class LawTest(unittest.TestCase):
-    def test_strength_is_the_same_function_of_density(self) -> None:
-        """Whatever the initial density; not below what carries half a metre."""
-        law = {"slope": 6.0, "d": 5e3, "beta": 22.5, "E": 13.79e6, "p_510": 130e3}
-        for density in (150.0, 300.0, 420.0):
-            hardening = cases.power_law(density, **law)["hardening"]
-            rho = density * np.exp(hardening["eps_vol_pl"])
-            expected = np.maximum(130e3 * (rho / 510) ** 6, cases.OWN_WEIGHT)
-            np.testing.assert_allclose(hardening["p"], expected, rtol=2e-3)
+def number(text: str, key: str) -> float:
+    """Of a material file's text."""
+    found = re.search(rf"\b{key}: *([-+.e\d]+)", text)
+    assert found, key
+    return float(found[1])
+
+
+def column(text: str, key: str) -> list[float]:
+    found = re.search(rf"\b{key}: *\[([^]]*)\]", text)
+    assert found, key
+    return [float(word) for word in found[1].split(",")]
+
+
+class FieldSnowTest(unittest.TestCase):
+    def test_strength_is_one_function_of_density(self) -> None:
+        """Whatever the initial density; from 525 kg/m3 on what was measured under wheels."""
+        first, second = cases.field_snow(110.0), cases.field_snow(220.0)
+        self.assertEqual((number(first, "density"), number(second, "density")), (110, 220))
+        rho, p = column(first, "rho"), column(first, "p")
+        self.assertEqual((rho, p), (column(second, "rho"), column(second, "p")))
+        self.assertAlmostEqual(p[rho.index(525)] / (0.594 * 210e3), 1.0, places=5)
+        self.assertTrue(np.all(np.diff(p) > 0))
+
+    def test_the_preset_is_what_was_identified(self) -> None:
+        preset = (SOURCE / "inputs/materials/field_snow.yaml").read_text()
+        found = cases.field_snow(220.0)
+        for key in ("rho", "p"):
+            np.testing.assert_allclose(column(preset, key), column(found, key), rtol=1e-3)
+        for key in ("M", "tension_ratio", "E", "nu"):
+            self.assertEqual(number(preset, key), number(found, key), key)
 
     def test_case_keeps_its_material_and_its_fallback(self) -> None:
-        case = cases.on_field_snow("x", "rows", "towed")
-        self.assertIn("law:\n  type: drucker_prager_cap\n", case.files["material.yaml"])
+        case = cases.on_field_snow("x", "rows", 220, 0.20)
+        self.assertIn("type: cohesive_cam_clay", case.files["material.yaml"])
+        self.assertIn("tyre/darnell", str(case.variables["body"]))
         self.assertEqual(case.fallback, {"remap_interval": 8})
-        every_step = cases.on_field_snow("y", "rows", "towed", remap_interval=1)
+        every_step = cases.on_field_snow("y", "rows", 220, 0.20, remap_interval=1)
         self.assertEqual(every_step.fallback, {})
 
 
@@ -40,30 +63,30 @@ class AccuracyTest(unittest.TestCase):
                 "used": "prediction",
                 "sinkage_m": 0.1,
                 "resistance": 0.1,
-                "towed_sinkage_m": 0.13,
-                "towed_resistance": 0.1,
+                "tyre_sinkage_m": 0.13,
+                "tyre_resistance": 0.1,
             },
             {
                 "used": "prediction",
                 "sinkage_m": 0.1,
                 "resistance": 0.1,
-                "towed_sinkage_m": 0.06,
-                "towed_resistance": 0.2,
+                "tyre_sinkage_m": 0.06,
+                "tyre_resistance": 0.2,
             },
             {
                 "used": "prediction",
                 "sinkage_m": 0.1,
                 "resistance": 0.1,
-                "towed_sinkage_m": "",
-                "towed_resistance": "",
+                "tyre_sinkage_m": "",
+                "tyre_resistance": "",
             },
         ]
-        found = report.accuracy(table, "prediction", "towed")
+        found = report.accuracy(table, "prediction", "tyre")
         self.assertEqual(found["rows"], "prediction: 2")
         self.assertAlmostEqual(found["sinkage_m_rms"], math.sqrt((9 + 16) / 2) / 100, places=4)
         self.assertAlmostEqual(found["sinkage_m_mean"], -0.005)
         self.assertAlmostEqual(found["resistance_mean"], 0.05)
-        self.assertTrue(math.isnan(report.accuracy(table, "calibration", "towed")["sinkage_m_rms"]))
+        self.assertTrue(math.isnan(report.accuracy(table, "calibration", "tyre")["sinkage_m_rms"]))
 
     def test_size_zero_is_the_mean_of_both_orders(self) -> None:
         sizes = [0.04, 0.02, 0.01]

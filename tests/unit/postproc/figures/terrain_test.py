@@ -10,7 +10,7 @@ import h5py
 import matplotlib.image
 import numpy as np
 
-from furrow_post.analyse.rut import rut_densities, rut_depth
+from furrow_post.analyse.rut import bow_wave, rut_densities, rut_depth, share_left
 from furrow_post.figures.terrain import draw_terrain
 from furrow_post.read.terrain import Outline, Terrain
 from support.command import run_post
@@ -62,6 +62,18 @@ class TerrainTest(unittest.TestCase):
         self.assertAlmostEqual(densities.in_rut, 2 * DENSITY)
         self.assertAlmostEqual(densities.shoulder, DENSITY)
         self.assertAlmostEqual(rut_depth(terrain, body), 0.5 * DEPTH)
+        self.assertAlmostEqual(share_left(terrain, body), 1.0)
+        self.assertAlmostEqual(bow_wave(terrain, body), 0.0)
+
+    def test_what_is_pushed_aside_is_missing_in_the_rut(self) -> None:
+        """Snow of the track moves outwards: over 2 |y| it has half of its mass a length left."""
+        terrain = Terrain.read(self.folder)
+        body = Outline(self.folder, terrain)
+        terrain.x[:, 1] *= 2.0
+        self.assertAlmostEqual(share_left(terrain, body), 0.5, delta=0.03)
+        terrain.x[-1] = [AXLE + 0.3, 0.3, DEPTH + 0.05 - 0.5 * SPACING]
+        terrain.density[-1] = DENSITY
+        self.assertAlmostEqual(bow_wave(terrain, body), 0.05)
 
     def test_mean_density_is_mass_over_volume(self) -> None:
         terrain = Terrain.read(self.folder)
