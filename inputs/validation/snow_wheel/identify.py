@@ -210,9 +210,9 @@ def identify(parsed: argparse.Namespace) -> None:
     path = HERE / "identified.csv"
     known = read_rows(path) if path.exists() else []
     others: list[Trial] = [dict(row) for row in known if row["mode"] != parsed.mode]
-    output = Output(HERE, page=False)
-    output.table("identified.csv", others + search.trials)
-    output.write_provenance(made, tools.root)
+    with Output(HERE, page=False) as output:
+        output.table("identified.csv", others + search.trials)
+        output.publish(made, tools.root)
 
 
 if __name__ == "__main__":
