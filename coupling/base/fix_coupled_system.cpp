@@ -17,7 +17,9 @@
 #include "coupling/base/uses_fix.h"
 #include "coupling/liggghts/contact_history.h"
 #include "coupling/liggghts/errors.h"
+#include "coupling/liggghts/first_rank.h"
 #include "coupling/liggghts/script.h"
+#include "coupling/liggghts/stream_check.h"
 #include "modify.h"
 #include "update.h"
 
@@ -158,15 +160,24 @@ void FixCoupledSystem::initial_integrate(int) {
       } catch (const StateError& problem) {
         throw StateError(fmt::format("fix {}: {}", each.name, problem.what()));
       }
-    const int sub_steps = system_.advance(update->dt);
-    scene_checks_.after_step(sub_steps);
+    scene_checks_.after_step(advance_bodies());
     time_ += update->dt;
     clear_forces();
   });
 }
 
+/// @return sub-steps
+int FixCoupledSystem::advance_bodies() try {
+  return system_.advance(update->dt);
+} catch (const StateError& problem) {
+  throw StateError(problem.what() + scene_checks_.likely_cause());
+}
+
 void FixCoupledSystem::post_run() {
-  with_collective_errors(*error, [&] { scene_checks_.after_run(); });
+  with_collective_errors(*error, [&] {
+    scene_checks_.after_run();
+    on_first_rank(world, [&] { check_streams(*lmp); });
+  });
 }
 
 void FixCoupledSystem::final_integrate() {

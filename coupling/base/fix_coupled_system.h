@@ -106,6 +106,7 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   Member& member(const Body& body);
   void checkpoint(Checkpoint& state, bool in_run, std::vector<double> contact_forces);
   void check_restored_fixes();
+  int advance_bodies();
   void clear_forces();
   void sum_over_ranks();
   void sum_forces();
