@@ -137,7 +137,9 @@ void FixCoupledSystem::setup_pre_force(int) {
   for (Member& m : members_)
     if (restored && m.restored_forces.cols() == 0) m.restored_forces = m.body->surface().f;
   clear_forces();
-  if (restored) forces_ = ForceState::restored;
+  if (!restored) return;
+  forces_ = ForceState::restored;
+  saved_histories_.save(*lmp);
 }
 
 /// The forces of the last step before the checkpoint, in place of those that the set-up has made of
@@ -146,6 +148,8 @@ void FixCoupledSystem::pre_initial_integrate() {
   if (forces_ != ForceState::restored) return;
   clear_forces();
   grain_forces_.put_back();
+  saved_histories_.put_back(*lmp);
+  saved_histories_ = {};
   for (Member& m : members_) m.body->surface().f = m.restored_forces;
   system_.restore_published_contact_forces(restored_contact_forces_);
   forces_ = ForceState::complete;

@@ -22,6 +22,7 @@
 #include "coupling/base/momentum_audit.h"
 #include "coupling/base/motion_controller.h"
 #include "coupling/checks/scene_checks.h"
+#include "coupling/liggghts/saved_histories.h"
 #include "coupling/styles.h"
 #include "fix.h"
 
@@ -121,6 +122,7 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   std::vector<NamedController> controllers_;
   std::vector<double> buffer_;
   GrainForces grain_forces_;
+  SavedHistories saved_histories_;
   SceneChecks scene_checks_;
   double time_ = 0.0;
   bool restored_ = false;
