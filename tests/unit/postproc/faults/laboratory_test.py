@@ -49,6 +49,7 @@ TESTS = (
     ("oedometer -v grains many", "variable grains: 'many' is not a number"),
     ("oedometer -v rate -1", "variable rate: -1 is not above 0"),
     ("oedometer -v strain nan", "variable strain: 'nan' is not a number"),
+    ("triaxial -v confinement -1e3", "variable confinement: -1e3 is not above 0"),
     ("oedometer -v seed 7", "variable seed: 7 is no prime above 10000"),
     ("oedometer -v friction -0.1", "variable friction: -0.1 is not 0 or more"),
     ("oedometer --series 1,2", "variable seed: 1 is no prime"),
