@@ -107,6 +107,7 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   Member& member(const Body& body);
   void checkpoint(Checkpoint& state, bool in_run, std::vector<double> contact_forces);
   void check_restored_fixes();
+  void warn_of_changed_properties();
   int advance_bodies();
   void clear_forces();
   void sum_over_ranks();
@@ -128,7 +129,8 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   bool restored_ = false;
   ForceState forces_ = ForceState::partial;
   std::vector<double> restored_contact_forces_;
-  std::string checkpointed_fixes_;  // names, a line each; empty unless the run is continued
+  std::string checkpointed_fixes_;       // names, a line each; empty unless the run is continued
+  std::string checkpointed_properties_;  // the same, with their values
 };
 
 }  // namespace furrow::coupling

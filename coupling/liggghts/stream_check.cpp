@@ -27,10 +27,18 @@ void check(FILE* stream, const std::string& name) {
                   name));
 }
 
+/// Where the screen takes nothing, what is wrong with it is said elsewhere too.
+void check_screen(FILE* screen) try {
+  check(screen, "what goes to the screen");
+} catch (const StateError& problem) {
+  std::fprintf(stderr, "ERROR: %s\n", problem.what());
+  throw;
+}
+
 }  // namespace
 
 void check_streams(const LAMMPS_NS::LAMMPS& lammps) {
-  check(lammps.screen, "what goes to the screen");
+  check_screen(lammps.screen);
   check(lammps.logfile, "the log");
   for (auto* fix : fixes_of<LAMMPS_NS::FixAveTime>(*lammps.modify))
     check(file_of(*fix), fmt::format("the file of fix ave/time '{}'", fix->id));

@@ -46,6 +46,7 @@ TESTS = (
     ("oedometer -v grains 0", "variable grains: 0 is not above 0"),
     ("oedometer -v grains 1", "variable grains: 1 is not a whole number from 50 on"),
     ("oedometer -v grains 99.5", "variable grains: 99.5 is not a whole number"),
+    ("oedometer -v grains 1000000000", "variable grains: 1000000000 is above 5000000"),
     ("oedometer -v grains many", "variable grains: 'many' is not a number"),
     ("oedometer -v rate -1", "variable rate: -1 is not above 0"),
     ("oedometer -v strain nan", "variable strain: 'nan' is not a number"),
