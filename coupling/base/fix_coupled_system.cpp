@@ -14,6 +14,7 @@
 #include "coupling/base/fixes_of.h"
 #include "coupling/base/furrow_fix.h"
 #include "coupling/base/grain_check.h"
+#include "coupling/base/has_options.h"
 #include "coupling/base/restart_record.h"
 #include "coupling/base/uses_fix.h"
 #include "coupling/bodies/fix_mesh_body.h"
@@ -32,8 +33,8 @@ namespace {
 
 constexpr char system_id[] = "furrow_system";
 
-std::string name_of(const LAMMPS_NS::Fix& fix) {
-  return fmt::format("fix {} '{}'", fix.style, fix.id);
+std::string name_of(const FixMeshBody& mesh) {
+  return fmt::format("fix {} '{}'", style_of(mesh), mesh.id);
 }
 
 /// A line each. LIGGGHTS itself keeps the contact histories of a mesh, by its id.
