@@ -212,8 +212,8 @@ std::string usage() {
          "  -var <name> <value>  sets a variable of the script\n"
          "  -log, -screen        where LIGGGHTS's messages go; without -log: log.liggghts\n"
          "  --help, --version    this text; the versions of Furrow and LIGGGHTS\n"
-         "Status: 0 the script has come to its end, 1 error, 2 wrong command line, 130 or 143 "
-         "stopped by SIGINT or SIGTERM.\n";
+         "Status: 0 the script has come to its end, 1 error, 2 wrong command line, 129, 130 "
+         "or 143 stopped by SIGHUP, SIGINT or SIGTERM.\n";
 }
 
 }  // namespace furrow::coupling

@@ -2,6 +2,7 @@
 #include "coupling/base/fix_coupled_system.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -13,11 +14,16 @@
 #include "coupling/base/fixes_of.h"
 #include "coupling/base/furrow_fix.h"
 #include "coupling/base/grain_check.h"
+#include "coupling/base/has_options.h"
 #include "coupling/base/restart_record.h"
 #include "coupling/base/uses_fix.h"
+#include "coupling/bodies/fix_mesh_body.h"
 #include "coupling/liggghts/contact_history.h"
 #include "coupling/liggghts/errors.h"
+#include "coupling/liggghts/first_rank.h"
+#include "coupling/liggghts/global_properties.h"
 #include "coupling/liggghts/script.h"
+#include "coupling/liggghts/stream_check.h"
 #include "modify.h"
 #include "update.h"
 
@@ -27,12 +33,24 @@ namespace {
 
 constexpr char system_id[] = "furrow_system";
 
-/// A line each.
+std::string name_of(const FixMeshBody& mesh) {
+  return fmt::format("fix {} '{}'", style_of(mesh), mesh.id);
+}
+
+/// A line each. LIGGGHTS itself keeps the contact histories of a mesh, by its id.
 std::string names_of_restorable_fixes(const LAMMPS_NS::Modify& modify) {
   std::string names;
   for (const auto* fix : fixes_of<const FurrowFix>(modify))
     if (fix->must_be_restored()) names += fix->name() + '\n';
+  for (const auto* mesh : fixes_of<const FixMeshBody>(modify)) names += name_of(*mesh) + '\n';
   return names;
+}
+
+/// A line each: id and values.
+std::string text_of(const std::map<std::string, std::string>& properties) {
+  std::string text;
+  for (const auto& [id, values] : properties) text += id + ' ' + values + '\n';
+  return text;
 }
 
 }  // namespace
@@ -122,12 +140,25 @@ void FixCoupledSystem::check_restored_fixes() {
       warn(*lmp, fmt::format("{} has no state in the checkpoint: it begins as its line says",
                              fix->name()));
   }
+  for (const auto* mesh : fixes_of<const FixMeshBody>(*modify)) kept.erase(name_of(*mesh));
   if (!kept.empty())
     throw StateError(fmt::format(
         "the checkpoint has the state of {}, and the script that continues has no such line "
         "before its first run; write it there, with the same id and style",
         fmt::join(kept, ", ")));
   checkpointed_fixes_.clear();
+  warn_of_changed_properties();
+}
+
+/// Properties of grains may be changed on purpose between two stages of a run.
+void FixCoupledSystem::warn_of_changed_properties() {
+  const std::map<std::string, std::string> now = global_properties(*lmp);
+  std::istringstream lines(checkpointed_properties_);
+  for (std::string property, values; lines >> property && std::getline(lines >> std::ws, values);)
+    if (const auto found = now.find(property); found != now.end() && found->second != values)
+      warn(*lmp, fmt::format("fix property/global '{}' is {}, and was {} when the checkpoint was "
+                             "written: the run goes on with other grains",
+                             property, found->second, values));
 }
 
 void FixCoupledSystem::setup_pre_force(int) {
@@ -135,7 +166,9 @@ void FixCoupledSystem::setup_pre_force(int) {
   for (Member& m : members_)
     if (restored && m.restored_forces.cols() == 0) m.restored_forces = m.body->surface().f;
   clear_forces();
-  if (restored) forces_ = ForceState::restored;
+  if (!restored) return;
+  forces_ = ForceState::restored;
+  saved_histories_.save(*lmp);
 }
 
 /// The forces of the last step before the checkpoint, in place of those that the set-up has made of
@@ -144,6 +177,8 @@ void FixCoupledSystem::pre_initial_integrate() {
   if (forces_ != ForceState::restored) return;
   clear_forces();
   grain_forces_.put_back();
+  saved_histories_.put_back(*lmp);
+  saved_histories_ = {};
   for (Member& m : members_) m.body->surface().f = m.restored_forces;
   system_.restore_published_contact_forces(restored_contact_forces_);
   forces_ = ForceState::complete;
@@ -158,15 +193,24 @@ void FixCoupledSystem::initial_integrate(int) {
       } catch (const StateError& problem) {
         throw StateError(fmt::format("fix {}: {}", each.name, problem.what()));
       }
-    const int sub_steps = system_.advance(update->dt);
-    scene_checks_.after_step(sub_steps);
+    scene_checks_.after_step(advance_bodies());
     time_ += update->dt;
     clear_forces();
   });
 }
 
+/// @return sub-steps
+int FixCoupledSystem::advance_bodies() try {
+  return system_.advance(update->dt);
+} catch (const StateError& problem) {
+  throw StateError(problem.what() + scene_checks_.likely_cause());
+}
+
 void FixCoupledSystem::post_run() {
-  with_collective_errors(*error, [&] { scene_checks_.after_run(); });
+  with_collective_errors(*error, [&] {
+    scene_checks_.after_run();
+    on_first_rank(world, [&] { check_streams(*lmp); });
+  });
 }
 
 void FixCoupledSystem::final_integrate() {
@@ -254,8 +298,11 @@ void FixCoupledSystem::checkpoint(Checkpoint& state, bool in_run,
   state.values("contact_forces", contact_forces);
   std::string fixes = names_of_restorable_fixes(*modify);
   state.value("fixes", fixes);
+  std::string properties = text_of(global_properties(*lmp));
+  state.value("properties", properties);
   if (state.saving()) return;
   checkpointed_fixes_ = fixes;
+  checkpointed_properties_ = properties;
   if (in_run) forces_ = ForceState::restored;
   restored_contact_forces_ = std::move(contact_forces);
 }

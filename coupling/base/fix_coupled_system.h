@@ -22,6 +22,7 @@
 #include "coupling/base/momentum_audit.h"
 #include "coupling/base/motion_controller.h"
 #include "coupling/checks/scene_checks.h"
+#include "coupling/liggghts/saved_histories.h"
 #include "coupling/styles.h"
 #include "fix.h"
 
@@ -106,6 +107,8 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   Member& member(const Body& body);
   void checkpoint(Checkpoint& state, bool in_run, std::vector<double> contact_forces);
   void check_restored_fixes();
+  void warn_of_changed_properties();
+  int advance_bodies();
   void clear_forces();
   void sum_over_ranks();
   void sum_forces();
@@ -120,12 +123,14 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   std::vector<NamedController> controllers_;
   std::vector<double> buffer_;
   GrainForces grain_forces_;
+  SavedHistories saved_histories_;
   SceneChecks scene_checks_;
   double time_ = 0.0;
   bool restored_ = false;
   ForceState forces_ = ForceState::partial;
   std::vector<double> restored_contact_forces_;
-  std::string checkpointed_fixes_;  // names, a line each; empty unless the run is continued
+  std::string checkpointed_fixes_;       // names, a line each; empty unless the run is continued
+  std::string checkpointed_properties_;  // the same, with their values
 };
 
 }  // namespace furrow::coupling

@@ -10,13 +10,13 @@
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/base/read_options.h"
 #include "coupling/base/restart_record.h"
-#include "coupling/base/units_check.h"
+#include "coupling/base/settings_check.h"
 
 namespace furrow::coupling {
 
 FurrowFix::FurrowFix(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema)
     : Fix(lammps, narg, arg), options_(read_options(*lammps, schema, narg, arg)) {
-  check_units(*lammps, schema.subject());
+  check_settings(*lammps, schema.subject());
 }
 
 const Outputs<FurrowFix>& FurrowFix::outputs() {

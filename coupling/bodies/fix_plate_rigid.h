@@ -15,7 +15,7 @@ class FixPlateRigid : public FixBody, public MotionController {
   static const Outputs<FixPlateRigid>& outputs();
 
   void apply(double time, double dt) override;
-  double start() const { return ramp_.start; }  ///< time at which the plate sets off [s]
+  double full_speed() const { return ramp_.end(); }  ///< time from which it has its speed [s]
 
  private:
   RigidPlate& plate() { return static_cast<RigidPlate&>(body()); }

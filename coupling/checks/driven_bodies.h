@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "coupling/bodies/fix_body.h"
@@ -11,6 +12,8 @@ namespace furrow::coupling {
 struct DrivenBody {
   const FixBody& body;
   const Options& options;  ///< with the keys "ground_level", "speed" and "start"
+  double full_speed;       ///< time from which it has its speed [s]
+  std::string stages;      ///< the keys of the time until then
 };
 
 std::vector<DrivenBody> driven_bodies(const LAMMPS_NS::Modify& modify);

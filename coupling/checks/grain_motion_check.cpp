@@ -9,16 +9,21 @@
 #include "atom.h"
 #include "core/communicator.h"
 #include "core/error.h"
+#include "core/types.h"
 #include "coupling/base/fixes_of.h"
 #include "coupling/checks/lost_grains_check.h"
 #include "coupling/contact/fix_wall_gran_body.h"
 #include "coupling/contact/grain_bed_check.h"
+#include "fix_gravity.h"
 
 namespace furrow::coupling {
 
 namespace {
 
 constexpr char remedy[] = "write 'fix move all nve/sphere'";
+
+// Of gravity: a slope of 60 degrees, steeper than any ground stands.
+constexpr double least_downward_share = 0.5;
 
 /// LIGGGHTS's multisphere moves its clumps without saying so by its flag.
 bool moves_grains(const LAMMPS_NS::Fix& fix) {
@@ -39,6 +44,15 @@ void check_gravity(const LAMMPS_NS::LAMMPS& lammps, double grains, const Warn& w
     warn("no fix gives the grains weight; write 'fix weight all gravity 9.80665 vector 0 0 -1'");
   if (count > 1)
     warn(fmt::format("{} fixes gravity act together; grains have that many weights", count));
+}
+
+/// `nve` leaves out what turns a grain.
+void warn_of_grains_that_do_not_turn(const LAMMPS_NS::Fix& mover, const Warn& warn) {
+  if (mover.style == std::string("nve"))
+    warn(
+        fmt::format("fix nve '{}' moves grains and does not turn them, whatever torque they have; "
+                    "write 'nve/sphere'",
+                    mover.id));
 }
 
 using Fixes = std::vector<const LAMMPS_NS::Fix*>;
@@ -68,6 +82,19 @@ void refuse_double_motion(const LAMMPS_NS::LAMMPS& lammps, const Fixes& movers,
 
 }  // namespace
 
+void check_weight(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
+  if (lammps.atom->natoms == 0) return;
+  for (auto* fix : fixes_of<LAMMPS_NS::FixGravity>(*lammps.modify)) {
+    Vector3 weight;
+    fix->get_gravity(weight.data());
+    if (-weight.z() < least_downward_share * weight.norm())
+      warn(
+          fmt::format("fix gravity '{}' is {:.4g} {:.4g} {:.4g} m/s^2, which does not pull grains "
+                      "down; down is 'vector 0 0 -1'",
+                      fix->id, weight.x(), weight.y(), weight.z()));
+  }
+}
+
 void check_grain_motion(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
   const Communicator ranks(&lammps.world);
   const LAMMPS_NS::Atom& atom = *lammps.atom;
@@ -75,6 +102,7 @@ void check_grain_motion(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
   int moved_or_frozen = 0;  // bits of their groups
   for (const auto* fix : fixes_of<const LAMMPS_NS::Fix>(*lammps.modify)) {
     if (fix->time_integrate != 0) movers.push_back(fix);
+    if (lammps.atom->natoms > 0) warn_of_grains_that_do_not_turn(*fix, warn);
     if (moves_grains(*fix) || freezes_grains(*fix)) moved_or_frozen |= fix->groupbit;
   }
   refuse_double_motion(lammps, movers, ranks);

@@ -11,4 +11,8 @@ namespace furrow::coupling {
 /// any grain of a bed that a body shall press on
 void check_grain_motion(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn);
 
+/// Warns of weight that does not pull down, which `vector 0 0 1` gives. Once a step was made, when
+/// a gravity of variables has its value.
+void check_weight(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn);
+
 }  // namespace furrow::coupling

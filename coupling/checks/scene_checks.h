@@ -4,6 +4,7 @@
 /// grains that nothing moves. furrow/system looks before every run; what one line shows, its fix
 /// refuses itself.
 
+#include <array>
 #include <functional>
 #include <set>
 #include <string>
@@ -12,12 +13,15 @@
 
 namespace furrow::coupling {
 
+/// Edges of the simulation box [m].
+using Box = std::array<double, 6>;
+
 /// Says what may be meant but probably is not.
 using Warn = std::function<void(const std::string&)>;
 
 class SceneChecks {
  public:
-  explicit SceneChecks(LAMMPS_NS::LAMMPS& lammps) : lammps_(lammps) {}
+  explicit SceneChecks(LAMMPS_NS::LAMMPS& lammps);
 
   /// All checks; a warning comes once, however many runs there are. Collective.
   /// @throws StateError, InputError
@@ -26,14 +30,18 @@ class SceneChecks {
   void after_run();
   /// A body may come to need shorter steps while it is deformed. Collective.
   void after_step(int sub_steps);
+  /// What may be behind an error of this run, as an end of its message; may be empty.
+  std::string likely_cause() const;
 
  private:
   void say(const std::string& warning);
 
   LAMMPS_NS::LAMMPS& lammps_;
   std::set<std::string> said_;
-  bool slow_ = false;  // that was said
-  double grains_ = 0;  // at the start of the run
+  std::string slow_step_;    // why steps are slow; empty unless that was said
+  bool first_step_ = false;  // of the run, comes next
+  double grains_ = 0;        // at the start of the run
+  Box box_;                  // when the first body was made
 };
 
 }  // namespace furrow::coupling

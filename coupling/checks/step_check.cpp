@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "coupling/base/fix_coupled_system.h"
+#include "modify.h"
 #include "update.h"
 
 namespace furrow::coupling {
@@ -17,16 +18,20 @@ constexpr double shortest_step = 1e-9;      // [s] sound passes a micrometre of 
 }  // namespace
 
 void check_step_length(const LAMMPS_NS::LAMMPS& lammps) {
+  if (!lammps.update->timestep_set && lammps.modify->n_fixes_style("dt/reset") == 0)
+    throw InputError("timestep",
+                     fmt::format("is not given, and LIGGGHTS's own is {:g} s", lammps.update->dt),
+                     "a step that the scene chooses", "write 'timestep <seconds>' before the run");
   if (!(lammps.update->dt >= shortest_step))
     throw InputError("timestep", fmt::format("is {} s", lammps.update->dt),
                      fmt::format("a number >= {:g} [s]", shortest_step),
                      "write 'timestep <seconds>' before the run");
 }
 
-void check_sub_steps(LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
+std::string check_sub_steps(LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
   const CoupledSystem::StepLimit limit = FixCoupledSystem::of(lammps).step_limit();
   const double step = lammps.update->dt, sub_steps = step / limit.step;
-  if (sub_steps <= many_sub_steps) return;
+  if (sub_steps <= many_sub_steps) return "";
   const std::string finding = fmt::format(
       "a step of {:.4g} s takes {:.3g} sub-steps of body '{}', whose stable step is "
       "{:.3g} s",
@@ -38,6 +43,7 @@ void check_sub_steps(LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
     throw InputError("timestep", fmt::format("is {:.4g} s: {}", step, finding),
                      fmt::format("at most {:g} sub-steps", CoupledSystem::max_sub_steps), remedy);
   warn(fmt::format("{}: the run will be slow; {}", finding, remedy));
+  return fmt::format("{}; {}", finding, remedy);
 }
 
 }  // namespace furrow::coupling

@@ -6,15 +6,14 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "coupling/base/fix_coupled_system.h"
 #include "coupling/base/fixes_of.h"
 #include "coupling/bodies/fix_mesh_body.h"
-#include "coupling/bodies/fix_plate_rigid.h"
-#include "coupling/contact/fix_contact.h"
+#include "coupling/contact/fix_contact_continuum.h"
+#include "coupling/contact/fix_contact_plane.h"
 #include "coupling/contact/fix_wall_gran_body.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
 #include "domain.h"
-#include "update.h"
+#include "fix_move_mesh.h"
 
 namespace furrow::coupling {
 
@@ -57,6 +56,15 @@ void check_mesh_walls(const LAMMPS_NS::LAMMPS& lammps) {
   }
 }
 
+void check_mesh_motion(const LAMMPS_NS::LAMMPS& lammps) {
+  for (auto* motion : fixes_of<LAMMPS_NS::FixMoveMesh>(*lammps.modify))
+    if (const auto* mesh = dynamic_cast<const FixMeshBody*>(motion->fixMesh()))
+      throw InputError(
+          fmt::format("fix {} '{}'", motion->style, motion->id),
+          fmt::format("moves the mesh/body '{}', which goes where its body is", mesh->id),
+          "a mesh that no body has", "drive the body: by a wheel/rig, or as a plate/rigid");
+}
+
 void warn_of_bodies_that_touch_nothing(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
   const LAMMPS_NS::Modify& modify = *lammps.modify;
   for (const auto* mesh : fixes_of<const FixMeshBody>(modify))
@@ -89,17 +97,6 @@ void warn_of_bodies_that_touch_nothing(const LAMMPS_NS::LAMMPS& lammps, const Wa
   }
 }
 
-void warn_of_plates_at_rest(LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
-  const double end = FixCoupledSystem::of(lammps).time() +
-                     static_cast<double>(lammps.update->nsteps) * lammps.update->dt;
-  for (const auto* plate : fixes_of<const FixPlateRigid>(*lammps.modify))
-    if (plate->start() >= end)
-      warn(
-          fmt::format("{}, keyword 'start' is {:.4g} s: the run ends at {:.4g} s, before the plate "
-                      "sets off; make it smaller, or the run longer",
-                      plate->name(), plate->start(), end));
-}
-
 void warn_of_bodies_in_one_place(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
   std::vector<const FixBody*> bodies;
   for (const auto* body : fixes_of<const FixBody>(*lammps.modify))
@@ -115,6 +112,22 @@ void warn_of_bodies_in_one_place(const LAMMPS_NS::LAMMPS& lammps, const Warn& wa
             fmt::format("{} and {} are in one place, and do not feel one another; move one of "
                         "them or remove its lines",
                         bodies[a]->name(), bodies[b]->name()));
+    }
+}
+
+/// A road below the base is a hard bottom; above it, it carries what the terrain should.
+void warn_of_planes_in_terrain(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
+  for (const auto* plane : fixes_of<FixContactPlane>(*lammps.modify))
+    for (auto* contact : fixes_of<FixContactContinuum>(*lammps.modify)) {
+      if (&contact->body_fix() != &plane->body_fix()) continue;
+      const double level = plane->options().number("level"),
+                   base = contact->terrain_fix().terrain().grid().axis(2).lower();
+      if (level <= base) continue;
+      warn(
+          fmt::format("{} is {:.4g} m, above the base of terrain '{}' at z = {:.4g} m: '{}' stands "
+                      "on both; remove one of the contacts",
+                      plane->options().where("level"), level, contact->terrain_fix().id, base,
+                      plane->body_fix().id));
     }
 }
 

@@ -13,7 +13,7 @@
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/base/fixes_of.h"
 #include "coupling/base/has_options.h"
-#include "coupling/base/units_check.h"
+#include "coupling/base/settings_check.h"
 #include "coupling/bodies/fix_mesh_body.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/errors.h"
@@ -50,7 +50,7 @@ FixWallGranBody::FixWallGranBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg
 /// @return narg
 int FixWallGranBody::checked(const LAMMPS_NS::LAMMPS& lammps, int narg, char** arg) {
   const std::string where = "fix wall/gran/body";
-  check_units(lammps, where);
+  check_settings(lammps, where);
   const auto word = [&](int i) { return i >= 0 && i < narg ? std::string(arg[i]) : ""; };
   int first = 0;
   while (first < narg && word(first) != "meshes") ++first;

@@ -54,6 +54,12 @@ void check_time_step(LAMMPS_NS::LAMMPS& lammps, const std::string& where) {
   shortest = -Communicator(&lammps.world).max(-shortest);
   if (std::isinf(shortest)) return;
 
+  if (!(shortest > 0.0))
+    throw StateError(where +
+                     ": a grain has a diameter or a density of 0, or no stiffness; write 'set "
+                     "group all diameter "
+                     "<m> density <kg/m3>' with numbers above 0");
+
   const double step = lammps.update->dt;
   const double share = step / shortest;
   if (share <= step_warning) return;

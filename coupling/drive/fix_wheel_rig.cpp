@@ -48,8 +48,8 @@ FixWheelRig::FixWheelRig(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
 
 /// A ramp of a few steps is a blow.
 void FixWheelRig::init() {
-  for (const char* key : {"settle_time", "accelerate_time"})
-    if (options().number(key) < min_steps_of_ramp * update->dt && !warned_) {
+  for (const char* key : {"settle_time", "load_ramp_time", "accelerate_time"})
+    if (options().has(key) && options().number(key) < min_steps_of_ramp * update->dt && !warned_) {
       warned_ = true;
       warn(*lmp,
            fmt::format("{} is {:g} s, less than {:g} steps of {:g} s: the wheel is struck, "

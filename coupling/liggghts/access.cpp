@@ -44,11 +44,23 @@ struct InputLine {
 };
 template struct Expose<InputLine, &LAMMPS_NS::Input::line>;
 
+struct InputCommand {
+  using type = char* LAMMPS_NS::Input::*;
+  friend type member(InputCommand);
+};
+template struct Expose<InputCommand, &LAMMPS_NS::Input::command>;
+
 struct FixMeshMesh {
   using type = LAMMPS_NS::AbstractMesh* LAMMPS_NS::FixMesh::*;
   friend type member(FixMeshMesh);
 };
 template struct Expose<FixMeshMesh, &LAMMPS_NS::FixMesh::mesh_>;
+
+struct AveTimeFile {
+  using type = FILE* LAMMPS_NS::FixAveTime::*;
+  friend type member(AveTimeFile);
+};
+template struct Expose<AveTimeFile, &LAMMPS_NS::FixAveTime::fp>;
 
 struct HistoryKeep {
   using type = bool** LAMMPS_NS::FixContactHistoryMesh::*;
@@ -82,6 +94,15 @@ const char* current_line(const LAMMPS_NS::LAMMPS& lammps) {
   return lammps.input->*member(InputLine{});
 }
 
+std::vector<std::string> current_command(const LAMMPS_NS::LAMMPS& lammps) {
+  const LAMMPS_NS::Input& input = *lammps.input;
+  const char* name = input.*member(InputCommand{});
+  if (!name) return {};
+  std::vector<std::string> words = {name};
+  words.insert(words.end(), input.arg, input.arg + input.narg);
+  return words;
+}
+
 std::vector<std::string> styles_in_restart_file(const LAMMPS_NS::LAMMPS& lammps) {
   const int count = lammps.modify->nfix_restart_global;
   if (count == 0) return {};
@@ -94,6 +115,8 @@ void replace_mesh(LAMMPS_NS::FixMesh& fix, LAMMPS_NS::AbstractMesh* mesh) {
   delete slot;
   slot = mesh;
 }
+
+FILE* file_of(const LAMMPS_NS::FixAveTime& fix) { return fix.*member(AveTimeFile{}); }
 
 bool contact_seen(LAMMPS_NS::FixContactHistoryMesh& history, int grain, int slot) {
   return (history.*member(HistoryKeep{}))[grain][slot];

@@ -2,11 +2,13 @@
 #pragma once
 /// Members of LIGGGHTS's classes that are not public.
 
+#include <cstdio>
 #include <string>
 #include <vector>
 
 #include "lammps.h"
 #include "fix.h"
+#include "fix_ave_time.h"
 #include "fix_contact_history_mesh.h"
 #include "fix_mesh_surface.h"
 
@@ -25,6 +27,10 @@ bool has_command(const LAMMPS_NS::LAMMPS& lammps, const std::string& name);
 /// The line being executed (Input::line, private), or null.
 const char* current_line(const LAMMPS_NS::LAMMPS& lammps);
 
+/// The command being executed with its words, as LIGGGHTS has split it: "run", "400"; empty when
+/// there is none. (Input::command, protected, and Input::arg)
+std::vector<std::string> current_command(const LAMMPS_NS::LAMMPS& lammps);
+
 /// Styles of the fixes whose state LIGGGHTS has read from a restart file and keeps for them
 /// (Modify::style_restart_global, protected); until the next run begins.
 std::vector<std::string> styles_in_restart_file(const LAMMPS_NS::LAMMPS& lammps);
@@ -32,6 +38,9 @@ std::vector<std::string> styles_in_restart_file(const LAMMPS_NS::LAMMPS& lammps)
 /// Gives a mesh fix another mesh (FixMesh::mesh_, private), which it then owns; the old one is
 /// deleted.
 void replace_mesh(LAMMPS_NS::FixMesh& fix, LAMMPS_NS::AbstractMesh* mesh);
+
+/// The file that a fix ave/time writes (FixAveTime::fp, private); null on other ranks.
+FILE* file_of(const LAMMPS_NS::FixAveTime& fix);
 
 /// Whether the contact in this slot has been found again in the present step
 /// (FixContactHistoryMesh::keepflag_, protected).

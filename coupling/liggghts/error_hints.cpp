@@ -63,6 +63,30 @@ constexpr std::array hints = {
          "that it is made of"},
     Hint{"Unable to calculate region volume",
          "nothing fits into the region: it is empty, or outside of the box"},
+    Hint{"Expected floating point parameter",
+         "a word of this line stands where a number is wanted; units are not written"},
+    Hint{"Expected integer parameter", "a word of this line stands where a whole number is wanted"},
+    Hint{"Substitution for illegal variable",
+         "a ${name} of this line has no value: write 'variable <name> index <value>' before, or "
+         "give it with -var"},
+    Hint{"Illegal run command",
+         "write 'run <steps>', with the keywords upto, start, stop, pre, post or every; '&' at the "
+         "end of a line takes the next one as a part of it"},
+    Hint{"Invalid value in set command",
+         "a type is a number from 1 to that of create_box; diameters, densities and masses are "
+         "above 0"},
+    Hint{"All masses are not set",
+         "write 'atom_style granular' before the box is made: Furrow's grains are spheres, and a "
+         "scene without any needs no masses then"},
+    Hint{"Extruded triangle count is zero",
+         "the body that mesh/body names has no surface: for a terrain write 'sheet yes' in its "
+         "line"},
+    Hint{"Too many atom sorting bins",
+         "the box is very large for its grains: check their number and size, or write 'atom_modify "
+         "sort 0 0'"},
+    Hint{"Unknown command",
+         "LIGGGHTS has no command of that name: check its spelling, and that this file is an input "
+         "script"},
     Hint{"Invalid fix style", "check its spelling; coupling/README.md lists Furrow's"},
 };
 

@@ -96,8 +96,11 @@ std::optional<std::string> variable(LAMMPS_NS::LAMMPS& lammps, std::string name)
 
 void warn(LAMMPS_NS::LAMMPS& lammps, const std::string& text) {
   if (lammps.comm->me != 0) return;
-  for (FILE* stream : {lammps.screen, lammps.logfile})
-    if (stream) std::fprintf(stream, "WARNING: %s\n", text.c_str());
+  for (FILE* stream : {lammps.screen, lammps.logfile}) {
+    if (!stream) continue;
+    std::fprintf(stream, "WARNING: %s\n", text.c_str());
+    std::fflush(stream);  // a run that then takes for ever has said why
+  }
 }
 
 }  // namespace furrow::coupling

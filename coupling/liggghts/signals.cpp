@@ -28,7 +28,9 @@ volatile std::sig_atomic_t confirms = 1;
 int agreed = 0;
 bool stop_with_checkpoint = false;
 
-const char* name_of_signal(int signal) { return signal == SIGINT ? "SIGINT" : "SIGTERM"; }
+const char* name_of_signal(int signal) {
+  return signal == SIGINT ? "SIGINT" : signal == SIGHUP ? "SIGHUP" : "SIGTERM";
+}
 
 /// Nothing can be done about a message that cannot be written.
 void say(std::string_view text) {
@@ -54,8 +56,12 @@ void handle_signals() {
   action.sa_handler = stop;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction before = {};
+  sigaction(SIGHUP, nullptr, &before);
+  if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup ignores it
   action.sa_handler = want_checkpoint;
   sigaction(SIGUSR1, &action, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);  // results are in files: whoever reads the screen may leave
 }
 
 void confirm_signals(bool confirm) { confirms = confirm; }

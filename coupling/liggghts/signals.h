@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// SIGINT and SIGTERM end a run at the next step, with a checkpoint; SIGUSR1 asks for a checkpoint.
-/// LIGGGHTS has each rank act when its own signal comes, within a step; here all ranks agree at one
-/// place of one step. See restart/command_read_restart.md.
+/// SIGINT, SIGTERM and SIGHUP end a run at the next step, with a checkpoint; SIGUSR1 asks for a
+/// checkpoint. LIGGGHTS has each rank act when its own signal comes, within a step; here all ranks
+/// agree at one place of one step. See restart/command_read_restart.md.
 
 #include "lammps.h"
 
 namespace furrow::coupling {
 
-/// A second SIGINT or SIGTERM ends the process at once.
+/// A second of them ends the process at once.
 void handle_signals();
 /// Whether this process is the one that tells the user at once that a signal has come.
 void confirm_signals(bool confirm);

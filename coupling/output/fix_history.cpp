@@ -6,9 +6,12 @@
 #include <fmt/format.h>
 
 #include "comm.h"
+#include "core/error.h"
 #include "coupling/base/refuse_double.h"
 #include "coupling/base/fix_coupled_system.h"
+#include "coupling/base/fixes_of.h"
 #include "coupling/liggghts/script.h"
+#include "coupling/output/results_folder.h"
 #include "coupling/output/style_records.h"
 #include "update.h"
 
@@ -74,11 +77,28 @@ void FixHistory::warn_of_long_intervals() {
 
 // Rank 0 alone writes, so it may fail alone.
 
+/// A terrain/history beside a wheel/history has the same folder, and its lock.
+void FixHistory::take_folder() {
+  if (comm->me != 0) return;
+  if (!resume_time_) make_results_folder(options());
+  std::error_code absent;  // the folder of a run that continues: open() says what is missing
+  for (FixHistory* other : fixes_of<FixHistory>(*modify))
+    if (other->lock_ && std::filesystem::equivalent(other->in_folder("."), in_folder("."), absent))
+      lock_ = other->lock_;
+  if (!lock_) lock_ = std::make_shared<FolderLock>(options().text("folder"));
+  if (lock_->held_by_another())
+    throw InputError(
+        options().where("folder"),
+        fmt::format("is '{}', which another run is writing to", options().text("folder")),
+        "a folder for each run", "wait until that run has ended, or name another folder");
+}
+
 void FixHistory::setup(int) {
   on_this_rank([&] {
     warn_of_long_intervals();
     if (opened_) return;
     opened_ = true;
+    take_folder();
     started_ = std::chrono::steady_clock::now();
     open(resume_time_);
     if (resume_time_) return;

@@ -4,11 +4,13 @@
 /// the end of the run, and runs that are continued from a checkpoint.
 
 #include <chrono>
+#include <memory>
 #include <optional>
 
 #include "coupling/base/fix_order.h"
 #include "coupling/base/furrow_fix.h"
 #include "coupling/liggghts/flushes_on_error.h"
+#include "io/folder_lock.h"
 #include "io/history_file.h"
 
 namespace furrow::coupling {
@@ -53,10 +55,12 @@ class FixHistory : public FurrowFix, public FollowsSystem, public FlushesOnError
 
  private:
   void warn_of_long_intervals();
+  void take_folder();
   /// A checkpoint: the rows up to it must be in the file, or a continued run would find a gap.
   void checkpoint(Checkpoint& state) override;
   bool state_needs_options() const override { return false; }
 
+  std::shared_ptr<FolderLock> lock_;  // of the folder; rank 0 only
   std::optional<double> resume_time_;
   bool opened_ = false;
   bool warned_ = false;  // of long intervals

@@ -2,7 +2,6 @@
 #include "coupling/output/fix_terrain_history.h"
 
 #include "comm.h"
-#include "coupling/output/results_folder.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
 #include "coupling/terrain/terrain_outputs.h"
 #include "mpm/terrain_snapshot.h"
@@ -45,7 +44,6 @@ void FixTerrainHistory::open(std::optional<double> resume_time) {
     if (draws()) frames_ = VtkSeries::resume(frames, series_name, *resume_time);
     return;
   }
-  make_results_folder(options());
   file_ = HistoryFile::create(path, channels(), run_info("terrain"));
   if (draws()) frames_ = VtkSeries::create(frames, series_name);
 }

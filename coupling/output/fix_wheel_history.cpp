@@ -9,7 +9,6 @@
 #include "coupling/drive/fix_wheel_rig.h"
 #include "coupling/bodies/fix_wheel_hub.h"
 #include "coupling/output/gather_grains.h"
-#include "coupling/output/results_folder.h"
 #include "io/summary.h"
 #include "update.h"
 
@@ -49,7 +48,6 @@ void FixWheelHistory::open(std::optional<double> resume_time) {
     }
     return;
   }
-  make_results_folder(options());
   file_ = HistoryFile::create(path, WheelRig::channels(), run_info(options().text("title")));
   reference_ = std::move(now);
   if (reference_.size() > 0) file_->write_reference(reference_);

@@ -112,6 +112,11 @@ void FixTerrainContinuum::warn_of_extremes() {
                            "ground will be stiff and coarse; choose smaller cells",
                            options().where("cell"), options().number("cell"), below,
                            good_cells_in_depth));
+  if (options().text("base") == "free" && options().number("gravity") > 0.0)
+    warn(*lmp,
+         fmt::format("{} is free: nothing holds the terrain up, and it falls out of its grid; "
+                     "write 'base rough' or 'smooth', or 'gravity 0'",
+                     options().where("base")));
   if (above > most_empty_cells * below)
     warn(*lmp, fmt::format("{}: {} layers of cells reach {:.4g} m above the surface, {} lie below: "
                            "they stay empty and cost time; make clearance_above smaller",

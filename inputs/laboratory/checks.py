@@ -25,6 +25,7 @@ RESERVED = {
 }
 MAY_VANISH = {"adhesion", "face_friction", "friction", "pour_friction", "restitution", "rolling"}
 FEWEST_GRAINS = 50  # a cell must be wider than the reach of its contacts
+MOST_GRAINS = 5_000_000
 LARGEST_START_FRACTION = 0.4  # of a cell, filled by grains at random places
 # LIGGGHTS wants primes above this, and these are taken: parts/grains.lig
 SMALLEST_SEED, TAKEN_SEEDS = 10000, (15485863, 15485867, 32452843, 32452867)
@@ -80,6 +81,11 @@ def require_value(name: str, text: str) -> None:
         raise ResultsError(
             f"variable grains: {text} is not a whole number from {FEWEST_GRAINS} on; fewer make a "
             "cell narrower than its contacts reach"
+        )
+    if name == "grains" and value > MOST_GRAINS:
+        raise ResultsError(
+            f"variable grains: {text} is above {MOST_GRAINS}, some gigabytes of memory; a cell of "
+            "some thousands has the properties of a large one"
         )
     if name == "start_fraction" and value > LARGEST_START_FRACTION:
         raise ResultsError(

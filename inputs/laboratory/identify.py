@@ -35,7 +35,20 @@ from furrow_post.program import run_program
 from furrow_post.read.laboratory import LaboratoryTest, cell_curve
 
 SMALLEST = 0.02  # R
+CRITICAL_STRAIN = 0.1  # axial; sands shear at constant volume from 10 to 20 % on
 LEVELS = (2e3, 5e3, 1e4, 2e4, 5e4, 1e5, 2e5, 3e5)  # [Pa] axial stresses of the hardening table
+
+
+def warn_of_short_tests(tests: Sequence[LaboratoryTest]) -> None:
+    """Of triaxial tests whose end is not yet the critical state."""
+    for test in tests:
+        reached = float(np.max(np.abs(cell_curve(test.curve())[0][:, 2])))
+        if reached < CRITICAL_STRAIN:
+            print(
+                f"warning: {test.folder} ends at {reached:.1%} of axial strain, before a critical "
+                f"state ({CRITICAL_STRAIN:.0%} and more): its friction is that of the way there",
+                file=sys.stderr,
+            )
 
 
 def friction(tests: Sequence[LaboratoryTest]) -> tuple[float, Floats]:
@@ -172,6 +185,7 @@ def material_text(parsed: argparse.Namespace) -> str:
     confined = test_of("oedometer", parsed.oedometer)
     names = ", ".join(str(test.folder) for test in (*tests, confined))
     with content_of(names, "lay other tests of this ground together"):
+        warn_of_short_tests(tests)
         return law_text(parsed, tests, confined)
 
 

@@ -18,7 +18,7 @@ sys.path.insert(0, str(PROJECT / "postproc"))
 from checks import SERIES, grounds, require_ground, require_series, require_variables
 
 from furrow_post.analyse.laboratory import report_tests
-from furrow_post.arguments import path, words
+from furrow_post.arguments import path, shield_negative_numbers, words
 from furrow_post.errors import ResultsError
 from furrow_post.figures.laboratory import draw_laboratory
 from furrow_post.program import run_program
@@ -82,7 +82,9 @@ def parse() -> argparse.Namespace:
     )
     parser.add_argument("-o", "--output", type=path)
     parser.add_argument("--build", type=path, help="default: $FURROW_BUILD, or build in the tree")
-    return parser.parse_args()
+    parsed = parser.parse_args(shield_negative_numbers(sys.argv[1:]))
+    parsed.variables = [(name, value.strip()) for name, value in parsed.variables]
+    return parsed
 
 
 def series_of(parsed: argparse.Namespace) -> list[str]:
@@ -100,9 +102,8 @@ def check(parsed: argparse.Namespace, series: list[str]) -> None:
     """Before anything runs. @raises ResultsError"""
     test: str = parsed.test
     require_ground(parsed.ground)
-    given = [(name, value) for name, value in parsed.variables]
-    require_variables(test, parsed.ground, given)
-    require_series(test, series, dict(given))
+    require_variables(test, parsed.ground, parsed.variables)
+    require_series(test, series, dict(parsed.variables))
     for material in parsed.continuum:
         if not material.is_file():
             raise ResultsError(f"--continuum {material}: no such file; name a material (YAML)")

@@ -3,7 +3,7 @@
 
 import argparse
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 
@@ -58,6 +58,19 @@ def fraction(text: str) -> float:
     if not 0 < value < 1:
         raise argparse.ArgumentTypeError(f"'{text}' does not lie between 0 and 100 %")
     return value
+
+
+def shield_negative_numbers(given: Sequence[str]) -> list[str]:
+    """Words with a blank before each negative number: argparse takes "-1e3" for an option."""
+    return [f" {word}" if _is_number(word) and word.startswith("-") else word for word in given]
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def words(text: str) -> str:

@@ -106,6 +106,26 @@ YamlTree read_with_base(const std::vector<std::string>& files) {
   return merged;
 }
 
+/// Porous elasticity and exponential hardening are one compression line, with its unloading.
+std::vector<std::string> doubts_of_sections(const MaterialFile& file) {
+  const MaterialOptions options = read_sections(file.model, file.sections);
+  const auto elasticity = options.find("elasticity"), hardening = options.find("hardening");
+  std::vector<std::string> sentences;
+  if (elasticity == options.end() || hardening == options.end() ||
+      elasticity->second.type != "porous" || hardening->second.type != "exponential")
+    return sentences;
+  for (const char* key : {"kappa", "e0"}) {
+    const double elastic = elasticity->second.options.number(key),
+                 plastic = hardening->second.options.number(key);
+    if (elastic != plastic)
+      sentences.push_back(
+          fmt::format("{} is {:g} in elasticity and {:g} in hardening: one "
+                      "compression line has one; write the same",
+                      key, elastic, plastic));
+  }
+  return sentences;
+}
+
 }  // namespace
 
 MaterialFile read_material_file(const std::string& path, const MaterialModels& models) {
@@ -166,6 +186,8 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
     return 0;
   });
   for (const std::string& doubt : doubts(*material))
+    result.warnings.push_back(fmt::format("{}: {}", path, doubt));
+  for (const std::string& doubt : doubts_of_sections(result))
     result.warnings.push_back(fmt::format("{}: {}", path, doubt));
   return result;
 }

@@ -22,6 +22,8 @@ constexpr double min_clearance_cells = 6.0;
 constexpr double clearance_of_depth = 1.0;
 constexpr double min_cells_in_depth = 2.0;
 constexpr double round_off = 1e-6;  // of a length
+// The law whose stress has jumps, as terrain/continuum's page says of `remap_interval`.
+constexpr char jumping_law[] = "crushable_foam";
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -63,6 +65,12 @@ TerrainLayer load(const Options& options, const std::filesystem::path& path, dou
   if (factor != 1.0) scale_modulus(file, factor, options.where("modulus_scale"));
   std::unique_ptr<Material> material = file.make();
   check_plausible(*material);  // with the modulus as scaled
+  const long interval = options.integer("remap_interval");
+  if (material->name() == jumping_law && interval > 1)
+    file.warnings.push_back(fmt::format(
+        "{} is {}, and the law {} answers waves with jumps, which only the smoothing of a remap in "
+        "every step damps; write 'remap_interval 1'",
+        options.where("remap_interval"), interval, jumping_law));
   return {std::move(material), thickness, describe(file), file.warnings};
 }
 

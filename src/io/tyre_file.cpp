@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "io/tyre_file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 
@@ -8,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/types.h"
 #include "io/input_kind.h"
 #include "io/yaml_tree.h"
 
@@ -48,7 +51,7 @@ Schema tread_schema() {
   schema.number("nu12", "", Range::open(-1.0, 1.0),
                 "Poisson's ratio: strain across for stress along");
   schema.number("G12", "Pa", modulus, "shear modulus");
-  schema.number("areal_mass", "kg/m2", Range{0.0, 1e4, true, false},
+  schema.number("areal_mass", "kg/m2", Range::closed(0.01, 1e4),
                 "mass of the real tread per area, rubber and belts");
   return schema;
 }
@@ -75,6 +78,20 @@ Schema sidewall_schema() {
           "the tread's width")
       .by_default("sector");
   return schema;
+}
+
+/// A sidewall leaves the rim outwards and comes back to the tread.
+void check_angles(const Options& sidewall) {
+  const double rim = sidewall.number("rim_angle"), tread = sidewall.number("tread_angle");
+  const double larger = std::max(std::abs(rim), std::abs(tread));
+  const bool radians = larger > 0.0 && larger <= 2.0 * pi;
+  if (radians || tread < rim)
+    throw InputError(
+        sidewall.where("tread_angle"),
+        fmt::format("is {:g} degrees, and rim_angle {:g}: {}", tread, rim,
+                    radians ? "they look like radians" : "the sidewall would turn backwards"),
+        "a tread_angle above the rim_angle, in degrees",
+        "a quarter circle from the rim on has 0 and 90");
 }
 
 std::string quoted(const std::string& text) {
@@ -127,6 +144,7 @@ TyreParameters read_tyre_file(const std::string& path) {
     result.sidewall.bead_width = result.bead_radius / edge;
     result.sidewall.taper = 1.0 / edge;
   }
+  check_angles(sidewall);
   check(result, fmt::format("{}: tyre '{}'", path, result.title));
   return result;
 }

@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
   CLI::App app("One material point of a law: along a path, or fitted to measured curves.",
                "furrow-point");
   app.set_version_flag("--version", furrow::version());
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);  // CLI11 does not name a word that is none
 
   std::string input, output, law;
   bool no_plot = false;
@@ -102,6 +102,10 @@ int main(int argc, char** argv) {
   laws_command->add_option("name", law, "only this law");
   CLI::App* paths_command = app.add_subcommand("paths", "list the paths and the keys of a fit");
   CLI11_PARSE(app, argc, argv);
+  if (app.get_subcommands().empty()) {
+    std::cerr << "furrow-point: needs one of the words run, fit, laws or paths; see --help\n";
+    return 1;
+  }
 
   try {
     if (*run_command) run(input, output, !no_plot);

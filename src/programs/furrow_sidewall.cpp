@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
   CLI::App app("The sidewall of a tyre file: shape, forces and stiffness, solved and looked up.",
                "furrow-sidewall");
   app.set_version_flag("--version", furrow::version());
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);  // CLI11 does not name a word that is none
 
   Request request;
   CLI::App* run_command =
@@ -84,6 +84,10 @@ int main(int argc, char** argv) {
   CLI::App* keys_command =
       app.add_subcommand("keys", "list the keys of a tyre file with units, ranges and meanings");
   CLI11_PARSE(app, argc, argv);
+  if (app.get_subcommands().empty()) {
+    std::cerr << "furrow-sidewall: needs one of the words run or keys; see --help\n";
+    return 1;
+  }
 
   try {
     if (*run_command) run(request);

@@ -99,11 +99,14 @@ double half_difference(const std::vector<double>& values) {
 }
 
 /// 0 for a history without stages.
-std::size_t first_row_of_cruise(const History& history) {
+bool has_stages(const History& history) {
   const std::vector<Channel>& channels = history.channels();
-  if (std::none_of(channels.begin(), channels.end(),
-                   [](const Channel& channel) { return channel.name == stage_channel; }))
-    return 0;
+  return std::any_of(channels.begin(), channels.end(),
+                     [](const Channel& channel) { return channel.name == stage_channel; });
+}
+
+std::size_t first_row_of_cruise(const History& history) {
+  if (!has_stages(history)) return 0;
   const std::vector<double> stages = history.column(stage_channel);
   const auto cruise = static_cast<double>(RigStage::cruise);
   const auto first = std::find(stages.begin(), stages.end(), cruise);
@@ -131,6 +134,14 @@ Window rows_between(const std::vector<double>& column, std::optional<double> fro
       std::upper_bound(column.begin(), column.end(), end + slack) - column.begin());
   window.how = fmt::format("given by {}: {} to {} {}", what, begin, end, unit);
   return window;
+}
+
+/// Of a window that was given.
+std::string doubt_of_begin(const History& history, const Window& window) {
+  const bool early = has_stages(history) && history.column(stage_channel)[window.first] <
+                                                static_cast<double>(RigStage::cruise);
+  return early ? "the window begins before the cruise, while the rig still settles or accelerates"
+               : "";
 }
 
 }  // namespace
@@ -207,6 +218,7 @@ Window select_window(const History& history, const WindowRequest& request,
   if (window.rows() < 2)
     throw Error(fmt::format("the window ({}) holds {} row(s): widen it or record more often",
                             window.how, window.rows()));
+  if (!window.automatic) window.warning = doubt_of_begin(history, window);
   window.begin = time[window.first];
   window.end = time[window.last - 1];
   window.distance = x[window.last - 1] - x[window.first];

@@ -65,7 +65,7 @@ class MaterialConformance : public ::testing::TestWithParam<ConformanceCase> {
   }
   Matrix3 random_rotation() {
     const double angle = 2 * normal_(engine_);
-    const Vector3 axis(normal_(engine_), normal_(engine_), normal_(engine_));
+    const Vector3 axis{normal_(engine_), normal_(engine_), normal_(engine_)};
     return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
   }
   /// The strain at which this law's stress is about its strength, or 1e-3.

@@ -105,8 +105,9 @@ void SidewallTable::refuse(const SidewallEnd& end, std::size_t station) const {
           degrees(grid_.rotation_max), " degrees");
   throw StateError(
       fmt::format("station {}: sidewall: {} (a = {:.6g} m, r = {:.6g} m); a tyre deformed that "
-                  "much needs a wider "
-                  "table, or the direct solution",
+                  "much has a load, a sinkage or a speed beyond what it can take, or dimensions, "
+                  "pressure or mass in other units; else it needs a wider table or the direct "
+                  "solution",
                   station, problem, end.a, end.r));
 }
 

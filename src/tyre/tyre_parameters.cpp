@@ -15,6 +15,8 @@ namespace furrow {
 namespace {
 
 constexpr std::size_t min_segments = 4, max_segments = 1000;
+// Length of a sidewall over its chord: a circle that is a sixth open, more than any tyre's.
+constexpr double max_slack = 3.0;
 
 void need(bool fulfilled, const std::string& where, const std::string& problem,
           const std::string& allowed, const std::string& remedy = "") {
@@ -37,6 +39,14 @@ void check_section(const TyreParameters& tyre, const std::string& where) {
                    distance, length),
        "a sidewall longer than that",
        "mind whether length, radii and widths belong to the same points");
+  need(
+      length <= max_slack * distance, where,
+      fmt::format("bead and tread edge are {:.4g} m apart, and the sidewall between them is {:.4g} "
+                  "m long",
+                  distance, length),
+      fmt::format("a sidewall of at most {:.4g} m, {:g} times as long", max_slack * distance,
+                  max_slack),
+      "mind the units: metres");
   // Inflated, a sidewall is near an arc, which leaves the bead at this angle from the axial
   // direction.
   const double leaves = std::atan2(chord[1], chord[0]) - arc_half_angle(distance / length);

@@ -155,9 +155,9 @@ def identify(parsed: argparse.Namespace) -> None:
     search = Search(tuple(parsed.start), make)
     best = search.run(parsed.iterations)
     print(f"best:\n{aligned([best])}\n")
-    output = Output(HERE, page=False)
-    output.table("identified.csv", search.trials)
-    output.write_provenance(made, tools.root)
+    with Output(HERE, page=False) as output:
+        output.table("identified.csv", search.trials)
+        output.publish(made, tools.root)
 
 
 if __name__ == "__main__":

@@ -183,6 +183,11 @@ def nrmm(
     """
     sizes = {"load": load, "radius": radius, "width": width, "depth": depth}
     _require_positive("NRMM", **sizes, density=density, pressure=pressure)
+    if sinkage is not None and not 0.0 <= sinkage < depth:
+        raise ResultsError(
+            f"NRMM: a sinkage of {sinkage:g} m in snow {depth:g} m deep; allowed: from 0 to below "
+            "the depth"
+        )
     z = nrmm_sinkage(depth, density, pressure) if sinkage is None else sinkage
     final = nrmm_final_density(pressure)
     why = f"within 10 % of the wheel of {NRMM_TESTS}"

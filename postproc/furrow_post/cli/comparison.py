@@ -22,8 +22,10 @@ class Labelled(NamedTuple):
 def labelled(text: str) -> Labelled:
     """Of FOLDER or LABEL=FOLDER."""
     head, equals, tail = text.partition("=")
-    words(tail if equals else head)
-    return Labelled(tail, words(head)) if equals else Labelled(head, None)
+    if equals and not (head.strip() and tail.strip()):
+        missing = "folder" if head.strip() else "label"
+        raise argparse.ArgumentTypeError(f"'{text}' has no {missing}; write LABEL=FOLDER, or FOLDER")
+    return Labelled(tail, head) if equals else Labelled(words(head), None)
 
 
 def add_comparison_arguments(parser: argparse.ArgumentParser) -> None:

@@ -110,6 +110,9 @@ class Results:
         self.meanings: dict[str, str] = {}
         for name, data in content["history"].items():
             columns[name] = data[()]
+            for attribute in ("unit", "meaning"):
+                if attribute not in data.attrs:
+                    raise ResultsError(f"{self.file}: {data.name} has no {attribute}; {REPEAT}")
             self.units[name] = decoded(data.attrs["unit"])
             self.meanings[name] = decoded(data.attrs["meaning"])
         self.columns = Fields(self.file, columns, REPEAT)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Makes one run and keeps its record."""
 
+import fcntl
 import os
 import signal
 import subprocess
@@ -76,10 +77,12 @@ def launch(case: Case, folder: Path, tools: Tools) -> Record:
     """Makes a run, whatever the folder holds, and writes its record there.
 
     A run that fails is repeated with the variables of the case's fallback, if it has one and the
-    time was not too short. @raises Interrupted; ResultsError where the program is not built
+    time was not too short. @raises Interrupted; ResultsError where the program is not built, or
+    another run is writing to the folder
     """
     program = tools.program(case.program)
     folder.mkdir(parents=True, exist_ok=True)
+    _require_free(folder)
     forget(folder)
     for name, text in case.files.items():
         (folder / name).write_text(text.replace(FOLDER, str(folder)), encoding="utf-8")
@@ -107,6 +110,19 @@ def launch(case: Case, folder: Path, tools: Tools) -> Record:
     )
     record.write(folder)
     return record
+
+
+def _require_free(folder: Path) -> None:
+    """@raises ResultsError while furrow writes to the folder: it then holds a lock of it"""
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise ResultsError(
+            f"{folder}: another run is writing to it; wait until that run has ended"
+        ) from None
+    finally:
+        os.close(handle)
 
 
 def _start(case: Case, command: list[str], folder: Path) -> _Attempt:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Where the tables, figures and page sections of a study go, with their provenance."""
 
+import shutil
+import tempfile
 import textwrap
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -31,7 +33,8 @@ def _wrapped(line: str) -> str:
 
 
 class Output:
-    """Files of a study in one folder.
+    """Files of a study for one folder, where publish() puts them together: an evaluation that
+    breaks off replaces nothing. To be used in a with statement.
 
     page: README.md is there and gets the section between its marks; else the section is a file of
     its own.
@@ -40,13 +43,20 @@ class Output:
     def __init__(self, folder: Path, page: bool) -> None:
         self.folder, self.page = folder, page
         self.files: list[str] = []
+        self._written = tempfile.TemporaryDirectory()
         folder.mkdir(parents=True, exist_ok=True)
 
+    def __enter__(self) -> "Output":
+        return self
+
+    def __exit__(self, *problem: object) -> None:
+        self._written.cleanup()
+
     def path(self, name: str) -> Path:
-        """Of a file that the study writes there."""
+        """Where the study writes the file of this name."""
         if name not in self.files:
             self.files.append(name)
-        return self.folder / name
+        return Path(self._written.name) / name
 
     def table(
         self, name: str, rows: Sequence[Mapping[str, Any]], comments: Sequence[str] = ()
@@ -62,11 +72,15 @@ class Output:
         if not self.page:
             self.path(SECTION).write_text(text + "\n", encoding="utf-8")
             return
-        page = self.path(PAGE)
-        before, begin, rest = page.read_text(encoding="utf-8").partition(BEGIN)
+        page = (self.folder / PAGE).read_text(encoding="utf-8")
+        before, begin, rest = page.partition(BEGIN)
         after = rest.partition(END)[2] if END in rest else "\n"
-        page.write_text(f"{before}{begin or BEGIN}\n\n{text}\n\n{END}{after}", encoding="utf-8")
+        new = f"{before}{begin or BEGIN}\n\n{text}\n\n{END}{after}"
+        self.path(PAGE).write_text(new, encoding="utf-8")
 
-    def write_provenance(self, records: Sequence[Record], root: Path) -> None:
-        """Of all files, which were made of these runs; root: of the project."""
+    def publish(self, records: Sequence[Record], root: Path) -> None:
+        """Puts all files into the folder, with their provenance: they were made of these runs;
+        root: of the project."""
+        for file in self.files:
+            shutil.move(Path(self._written.name) / file, self.folder / file)
         update_origins(self.folder, [origin(file, records, root) for file in self.files])

@@ -121,15 +121,18 @@ def _run(study: Study, parsed: argparse.Namespace) -> int:
 def _evaluate(study: Study, runner: Runner, chosen: Sequence[Case], check: bool) -> int:
     """Tables go beside the driver when they are complete, else into the results folder."""
     states = [runner.state(case) for case in study.cases]
-    complete = State.MISSING not in states
+    complete = State.DONE in states and all(
+        state is State.DONE or (state is State.FAILED and case.may_fail)
+        for case, state in zip(study.cases, states)
+    )
     beside = complete and not check
-    output = Output(study.folder if beside else runner.results, page=beside)
-    missed = list(study.evaluate(runner, output))
-    records = [record for case in study.cases if (record := runner.record(case))]
-    output.write_provenance(records, runner.tools.root)
+    with Output(study.folder if beside else runner.results, page=beside) as output:
+        missed = list(study.evaluate(runner, output))
+        records = [record for case in study.cases if (record := runner.record(case))]
+        output.publish(records, runner.tools.root)
     if not beside:
-        there = sum(state is not State.MISSING for state in states)
-        print(f"{there} of {len(states)} runs are there; tables are in {output.folder}")
+        done = states.count(State.DONE)
+        print(f"{done} of {len(states)} runs are there; tables are in {output.folder}")
     failed = [case for case in chosen if runner.state(case) is State.FAILED]
     for case in failed:
         failure = runner.failure(case)

@@ -11,6 +11,13 @@
 
 namespace furrow {
 
+namespace {
+
+// (1 + e0)/kappa, of peat and of rock by wide margins
+const Range possible_stiffness = Range::closed(1.0, 1e6);
+
+}  // namespace
+
 SectionSchema elasticity_section() {
   const Range poisson{-1.0, 0.5, true, true};
   Schema linear("elasticity linear");
@@ -46,6 +53,12 @@ ElasticityParameters make_elasticity(const SectionOptions& section) {
   }
   e.porous = true;
   e.stiffness = (1.0 + o.number("e0")) / o.number("kappa");
+  if (!possible_stiffness.contains(e.stiffness))
+    throw InputError(o.where("kappa"),
+                     fmt::format("is {:g} and e0 {:g}: a bulk modulus of {:.3g} times the pressure",
+                                 o.number("kappa"), o.number("e0"), e.stiffness),
+                     fmt::format("(1 + e0)/kappa {}", possible_stiffness.text()),
+                     "snow and soils have kappa 0.001 to 0.3, e0 0.3 to 10");
   e.p0 = o.number("p0");
   e.limit = o.number("pt_el");
   if (e.p0 + e.limit <= 0.0)

@@ -40,6 +40,10 @@ def damaged(furrow, table):
 def belongs_together(furrow, table):
     """The states of a checkpoint find the lines that they belong to."""
     folder, renamed = table.folder, WHEEL.replace("fix wheel ", "fix other ")
+    mesh = ("fix skin all mesh/body body wheel type 1\n"
+            "fix tread all wall/gran/body model hertz tangential history mesh n_meshes 1 meshes skin\n")
+    friction = "coefficientFriction peratomtypepair 1 0.5"
+    restitution = "coefficientRestitution peratomtypepair 1 0.3"
     states = "the checkpoint has states of Furrow's fixes"
     table.check("with a wheel", run_script(furrow, folder, GRAINS + WHEEL + "run 10\nwrite_restart ck\n"), 0)
     for name, lines, status, texts in (
@@ -50,6 +54,20 @@ def belongs_together(furrow, table):
             ("another wheel", WHEEL.replace("0.04", "0.05") + "run 5\n", 1, ["keyword 'diameter' is '0.05', and was '0.04'"])):
         script = CONTINUED.format(file="ck") + lines
         table.check(f"with a wheel: {name}", run_script(furrow, folder, script), status, *texts)
+    table.check("with a mesh",
+                run_script(furrow, folder, GRAINS + WHEEL + mesh + "run 10\nwrite_restart ck.mesh\n"), 0)
+    whole = CONTINUED.format(file="ck.mesh") + WHEEL + mesh + "run 5\n"
+    changed = "and was 0.5 when the checkpoint was written"
+    for name, script, status, texts, absent in (
+            ("continued", whole, 0, [], ["other grains"]),
+            ("the mesh renamed", whole.replace("skin", "tyre"), 1,
+             ["has the state of fix mesh/body 'skin'"], []),
+            ("another friction", whole.replace(friction, friction[:-3] + "0.9"), 0,
+             [f"WARNING: fix property/global 'm4' is 0.9, {changed}"], ["'m3'"]),
+            ("another restitution", whole.replace(restitution, restitution[:-3] + "0.4"), 0,
+             ["WARNING: fix property/global 'm3' is 0.4, and was 0.3"], ["'m4'"])):
+        table.check(f"with a mesh: {name}", run_script(furrow, folder, script), status, *texts,
+                    absent=absent)
     grains = CONTINUED.format(file="ck unchecked") + "run 5\n"
     table.check("with a wheel: grains alone", run_script(furrow, folder, grains), 0)
 

@@ -83,6 +83,7 @@ def main(furrow, *mpirun):
     table = Table()
     continues(furrow, table, "SIGTERM", signal.SIGTERM, 143)
     continues(furrow, table, "SIGINT", signal.SIGINT, 130)
+    continues(furrow, table, "SIGHUP", signal.SIGHUP, 129)
     continues(furrow, table, "SIGTERM of one rank of two", signal.SIGTERM, 143, [*mpirun, "2"])
     said = interrupted(furrow, table, going(GRAINS, 100000000), [signal.SIGUSR1, signal.SIGTERM])
     table.check("SIGUSR1", said, 143)
@@ -91,6 +92,8 @@ def main(furrow, *mpirun):
     said = interrupted(furrow, table, going(GRAINS + "write_restart_on_signal no\n", 100000000), [signal.SIGTERM])
     table.check("without checkpoint", said, 143, "without a checkpoint")
     table.expect("without checkpoint: no file", not list(table.folder.glob("restart_forced*")), "there is one")
+    said = interrupted(furrow, table, going(GRAINS, 500) , [signal.SIGPIPE])
+    table.check("SIGPIPE is ignored", said, 0)
     endless = "label again\nshell touch going\njump SELF again\n"
     table.check("second signal", interrupted(furrow, table, endless, [signal.SIGTERM, signal.SIGTERM]), 143, "ends at once")
     table.end()

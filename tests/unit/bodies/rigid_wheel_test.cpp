@@ -230,7 +230,7 @@ void expect_closed_balance(const std::array<RigidWheel::Motion, 6>& motions) {
     wheel.surface().clear_forces();
     const auto triangle = static_cast<std::size_t>(random() % wheel.surface().triangle_count());
     wheel.surface().f.col(wheel.surface().triangles[triangle][0]) +=
-        Vector3(normal(random), normal(random), normal(random));
+        Vector3{normal(random), normal(random), normal(random)};
     wheel.set_load({normal(random), normal(random), normal(random)});
     wheel.set_axle_torque(normal(random));
     const double before = work;

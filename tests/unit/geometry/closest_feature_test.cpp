@@ -29,7 +29,7 @@ TEST(ClosestPoint, AgreesWithBruteForceForTrianglesOfAnyShape) {
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto random = [&] {
-    return Vector3(uniform(generator), uniform(generator), uniform(generator));
+    return Vector3{uniform(generator), uniform(generator), uniform(generator)};
   };
   for (int i = 0; i < 20000; ++i) {
     std::array<Vector3, 3> t{random(), random(), random()};

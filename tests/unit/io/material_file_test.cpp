@@ -223,6 +223,15 @@ TEST_F(MaterialFileTest, WhatIsUnusualIsReadWithAWarning) {
                                                "rubber have one in [10, 3000]")));
 }
 
+TEST_F(MaterialFileTest, TwoSectionsOfOneCompressionLineHaveOneKappa) {
+  const std::string path = FURROW_SOURCE_DIR "/inputs/materials/fresh_snow_foam.yaml";
+  EXPECT_THAT(read_material_file(path).warnings, ::testing::IsEmpty());
+  const std::string changed = with(read_text_file(path), "kappa: 0.005      #", "kappa: 0.05 #");
+  EXPECT_THAT(read_material_file(file(changed)).warnings,
+              ::testing::ElementsAre(HasSubstr("kappa is 0.005 in elasticity and 0.05 in "
+                                               "hardening")));
+}
+
 TEST(CsvFile, ReadsNumbersAndNamesWhatIsWrong) {
   const Scratch scratch;
   const auto read = [&](const std::string& text) {

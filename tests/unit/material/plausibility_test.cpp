@@ -32,7 +32,12 @@ TEST(Plausibility, WhatNoMatterHasIsRefusedWithTheNumbers) {
        "has a stiffness at rest of 1.11e-30 Pa and a density of 200 kg/m3: compression waves of "
        "7.45e-17 m/s; allowed: a speed in [0.001, 30000] [m/s]"},
       {"elastic density 200 elasticity linear E 1e15 nu 0.2", "compression waves of 2.36e+06 m/s"},
-      {"elastic density 200 elasticity porous kappa 1e-300 e0 1e300 p0 1 nu 0.3",
+      {"elastic density 200 elasticity porous kappa 1e-9 e0 0.8 p0 1 nu 0.3",
+       "keyword 'kappa' is 1e-09 and e0 0.8: a bulk modulus of 1.8e+09 times the pressure; "
+       "allowed: (1 + e0)/kappa in [1, 1000000]"},
+      {"elastic density 200 elasticity porous kappa 5 e0 0.8 p0 1e4 nu 0.3",
+       "a bulk modulus of 0.36 times the pressure"},
+      {"elastic density 200 elasticity porous kappa 0.01 e0 0.8 p0 1e12 nu 0.3",
        "has a stiffness at rest of "},
       {"elastic density 200 elasticity linear E 5e6 nu 0.4999999999",
        "has a bulk modulus of 5e+09 times its shear modulus (Poisson's ratio 0.4999999999); "

@@ -254,6 +254,16 @@ TEST(Window, RoundingIsNoTransient) {
   EXPECT_EQ(window.warning, "");
 }
 
+TEST(Window, OneThatIsGivenAndBeginsBeforeTheCruiseIsDoubted) {
+  WindowRequest request;
+  request.to_time = 9.0;
+  request.from_time = 0.5;
+  EXPECT_THAT(select_window(rolling(0.2), request, {"force"}).warning,
+              HasSubstr("the window begins before the cruise"));
+  request.from_time = 2.0;
+  EXPECT_EQ(select_window(rolling(0.2), request, {"force"}).warning, "");
+}
+
 TEST(Window, ATransientThatFillsTheCruiseIsSaid) {
   EXPECT_THAT(select_window(rolling(20.0), {}, {"force"}).warning,
               HasSubstr("the transient of force fills nearly half of the cruise: run longer"));

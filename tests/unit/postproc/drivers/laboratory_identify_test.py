@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """inputs/laboratory/identify.py finds the law that curves were made with."""
 
+import contextlib
+import io
 import sys
 import tempfile
 import unittest
@@ -27,8 +29,8 @@ class CapLawTest(unittest.TestCase):
     def tearDown(self) -> None:
         self.temporary.cleanup()
 
-    def triaxial(self, lateral: float) -> LaboratoryTest:
-        axial = np.linspace(0, 0.2, 4000)
+    def triaxial(self, lateral: float, end: float = 0.2) -> LaboratoryTest:
+        axial = np.linspace(0, end, 4000)
         q = np.minimum(E * axial, lateral * TANGENT / (1 - TANGENT / 3))
         strain = np.column_stack((-NU * axial, -NU * axial, axial))
         rows = cell_rows(strain, triaxial_stress(lateral, lateral + q))
@@ -44,6 +46,14 @@ class CapLawTest(unittest.TestCase):
         self.assertAlmostEqual(triaxial.tangent(found), TANGENT, delta=4e-3)
         half = float(np.sin(np.radians(30.0)))
         self.assertAlmostEqual(plane.tangent(half), float(np.sqrt(0.75)), places=9)
+
+    def test_short_tests_are_said(self) -> None:
+        for end, said in ((0.2, ""), (0.02, "ends at 2.0% of axial strain")):
+            told = io.StringIO()
+            with contextlib.redirect_stderr(told):
+                identify.warn_of_short_tests([self.triaxial(1e4, end)])
+            self.assertIn(said, told.getvalue())
+            self.assertEqual(bool(said), bool(told.getvalue()))
 
     def test_elasticity(self) -> None:
         found = identify.elasticity(self.triaxial(5e4))

@@ -55,8 +55,8 @@ COMPARE = (
     (["-o", "/proc/x"], "/proc/x: no such file or directory; check path and rights"),
     (["a"], "a: is given twice; name each results folder once"),
     ([""], "argument results: is empty"),
-    (["c="], "argument results: is empty"),
-    (["=c"], "argument results: is empty"),
+    (["c="], "argument results: 'c=' has no folder; write LABEL=FOLDER, or FOLDER"),
+    (["=c"], "argument results: '=c' has no label; write LABEL=FOLDER, or FOLDER"),
     (["none"], "none: no such file; name the results folder of a run"),
 )
 

@@ -102,7 +102,7 @@ HISTORIES: tuple[tuple[str, Change, str, str], ...] = (
     ("no channels", renamed_history, "plot", "fewer than two rows"),
     ("no history", without("history"), "plot", "history.h5: has no 'history'"),
     ("no run", without("run"), "compare", "history.h5: has no 'run'"),
-    ("no unit", without_attribute("history/x", "unit"), "plot", "history.h5: has no 'unit'"),
+    ("no unit", without_attribute("history/x", "unit"), "plot", "history.h5: /history/x has no unit"),
     ("short channel", column("force_x", lambda v: v[:10]), "plot", "have 10 to 2000 rows"),
     ("a text", column("x", lambda v: np.full(len(v), b"a")), "cost", "'x' is no row of numbers"),
     ("two axes", column("x", lambda v: np.zeros((len(v), 2))), "plot", "'x' is no row of numbers"),

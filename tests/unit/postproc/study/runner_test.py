@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Runs by a fake program: made once, failures kept apart, interruptions forgotten."""
 
+import fcntl
 import json
+import os
 import signal
 import tempfile
 import unittest
@@ -46,6 +48,17 @@ class RunnerTest(unittest.TestCase):
         record = self.runner.record(changed)
         assert record
         self.assertEqual(record.facts["value"], 3.0)
+
+    def test_a_folder_that_another_run_writes_to(self) -> None:
+        case = self.tree.case("a")
+        self.runner.folder(case).mkdir(parents=True)
+        handle = os.open(self.runner.folder(case), os.O_RDONLY)
+        fcntl.flock(handle, fcntl.LOCK_EX)
+        with self.assertRaisesRegex(ResultsError, "results/a: another run is writing to it"):
+            self.runner.run([case])
+        os.close(handle)
+        self.runner.run([case])
+        self.assertEqual(self.runner.state(case), State.DONE)
 
     def test_a_moved_tree_keeps_its_runs(self) -> None:
         """Paths below the project count relative to it."""

@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from furrow_post.csv_table import read_rows
+from furrow_post.errors import ResultsError
 from furrow_post.study.case import Case
 from furrow_post.study.output import Output
 from furrow_post.study.runner import Runner
@@ -79,6 +80,42 @@ class StudyTest(unittest.TestCase):
         self.assertIn("old", self.page.read_text())
         self.assertEqual((self.results / "results.csv").read_text(), "run,value\na1,1.0\n")
         self.assertIn("1 of 2 runs are there; tables are in", printed)
+
+    def test_failed_runs_do_not_replace_tables(self) -> None:
+        old = "run,value\na1,0.5\n"
+        (self.tree.study / "results.csv").write_text(old)
+        options = ["--results", str(self.results), "--build", str(self.tree.build)]
+        one = self.tree.case("a1")
+        bad = self.tree.case("bad", fail="it broke")
+
+        def evaluate(runner: Runner, output: Output) -> list[str]:
+            output.path("results.csv").write_text("new")
+            return []
+
+        for name, cases, kept in (
+            ("a run failed", [one, bad], True),
+            ("all runs failed", [replace(bad, may_fail=True)], True),
+            ("a failure is a result", [one, replace(bad, may_fail=True)], False),
+        ):
+            study = Study(self.tree.study / "run.py", "made", cases, evaluate)
+            with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+                run_study(study, options)
+            text = (self.tree.study / "results.csv").read_text()
+            self.assertEqual(text, old if kept else "new", name)
+
+    def test_an_evaluation_that_breaks_off_replaces_nothing(self) -> None:
+        old = "run,value\na1,0.5\n"
+        (self.tree.study / "results.csv").write_text(old)
+        options = ["--results", str(self.results), "--build", str(self.tree.build)]
+
+        def evaluate(runner: Runner, output: Output) -> list[str]:
+            output.path("results.csv").write_text("new")
+            raise ResultsError("the second table cannot be made")
+
+        study = Study(self.tree.study / "run.py", "made", [self.tree.case("a1")], evaluate)
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+            self.assertEqual(run_study(study, options), 1)
+        self.assertEqual((self.tree.study / "results.csv").read_text(), old)
 
     def test_complete_tables_and_page_come_with_their_provenance(self) -> None:
         status, _ = self.run_study(a1=1, b1=2)

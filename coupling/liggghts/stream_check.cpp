@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/liggghts/stream_check.h"
+
+#include <cstdio>
+#include <string>
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include "core/error.h"
+#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/access.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+/// @param name for the error
+void check(FILE* stream, const std::string& name) {
+  if (!stream || (std::fflush(stream) == 0 && !std::ferror(stream))) return;
+  struct stat status = {};
+  if (fstat(fileno(stream), &status) == 0 && (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode)))
+    return;
+  throw StateError(
+      fmt::format("{} could not be written in full: the disk is full, or broken; make room, and "
+                  "repeat the run",
+                  name));
+}
+
+/// Where the screen takes nothing, what is wrong with it is said elsewhere too.
+void check_screen(FILE* screen) try {
+  check(screen, "what goes to the screen");
+} catch (const StateError& problem) {
+  std::fprintf(stderr, "ERROR: %s\n", problem.what());
+  throw;
+}
+
+}  // namespace
+
+void check_streams(const LAMMPS_NS::LAMMPS& lammps) {
+  check_screen(lammps.screen);
+  check(lammps.logfile, "the log");
+  for (auto* fix : fixes_of<LAMMPS_NS::FixAveTime>(*lammps.modify))
+    check(file_of(*fix), fmt::format("the file of fix ave/time '{}'", fix->id));
+}
+
+}  // namespace furrow::coupling
