@@ -63,6 +63,9 @@ constexpr std::array hints = {
          "that it is made of"},
     Hint{"Unable to calculate region volume",
          "nothing fits into the region: it is empty, or outside of the box"},
+    Hint{"Unknown normal model",
+         "snow/bond stands alone: write 'model snow/bond' without tangential, cohesion, "
+         "rolling_friction and surface"},
     Hint{"Invalid fix style", "check its spelling; coupling/README.md lists Furrow's"},
 };
 
