@@ -190,7 +190,7 @@ SnowBondModel::Response SnowBondModel::respond(const SurfacesIntersectData& touc
                                                State& state) const {
   const furrow::SnowContact contact = contact_of(touching);
   const furrow::SnowBondParameters& parameters = law(touching.itype, touching.jtype);
-  const bool sinters = !is_wall_ && sinter_ && sinter_->sinters(touching.i, touching.j);
+  const bool sinters = sinter_ && sinter_->sinters(touching.i, is_wall_ ? touching.i : touching.j);
   // Forces before the first step of a run: nothing has moved.
   if (!touching.computeflag || !touching.shearupdate)
     return sinters ? Response() : Law::hold(parameters, contact, state);

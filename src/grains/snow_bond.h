@@ -125,7 +125,7 @@ class SnowBond {
   /// Forces of a state as it is, without dampers.
   static SnowBondResponse hold(const SnowBondParameters& law, const SnowContact& contact,
                                const SnowBondState& state);
-  /// A whole bond without stress.
+  /// A whole bond without stress; where there can be none, a touch without stress.
   static SnowBondResponse sinter(const SnowBondParameters& law, const SnowContact& contact,
                                  SnowBondState& state);
   /// The clusters have parted: the state begins anew. @return its energy, which is lost [J]
@@ -373,11 +373,11 @@ inline SnowBondResponse SnowBond::sinter(const SnowBondParameters& law, const Sn
                                          SnowBondState& state) {
   SnowBondResponse response;
   response.energy.released = hold(law, contact, state).energy.stored;
-  response.made = !state.bonded;
+  response.made = contact.sinters && !state.bonded;
   state = {};
   state.plastic = state.at_sintering = state.at_break = contact.overlap;
-  state.area = sintered_area(contact.d);
-  state.bonded = true;
+  state.area = contact.sinters ? sintered_area(contact.d) : 0.0;
+  state.bonded = contact.sinters;
   return response;
 }
 

@@ -200,6 +200,26 @@ TEST(SnowBond, PressureSintersANewContact) {
   EXPECT_FALSE(wall.state.bonded);
 }
 
+TEST(SnowBond, SinteringTakesTheStressAway) {
+  Path path(0.2);
+  path.state = {};
+  path.law.Y0 = 1e6;
+  path.contact.normal_velocity = -0.1;
+  path.contact.tangential_velocity = 0.02 * Vector3::UnitX();
+  path.steps(50);
+  ASSERT_GT(path.last.force.norm(), 1.0);
+  for (const bool sinters : {true, false}) {
+    SnowBondState state = path.state;
+    SnowContact contact = touch(path.contact.overlap);
+    contact.sinters = sinters;
+    const SnowBondResponse found = SnowBond::sinter(path.law, contact, state);
+    EXPECT_EQ(state.bonded, sinters);
+    EXPECT_EQ(found.made, sinters);
+    EXPECT_NEAR(found.energy.released, path.last.energy.stored, 1e-12);
+    EXPECT_EQ(SnowBond::advance(path.law, contact, state).force.norm(), 0.0);
+  }
+}
+
 TEST(SnowBond, DampersActOnElasticMotionAlone) {
   Path path(0.2);
   path.contact.normal_velocity = -0.01;
