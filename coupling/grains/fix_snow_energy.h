@@ -23,7 +23,8 @@ class FixSnowEnergy : public FurrowFix {
 
   /// A contact in this step. @param share  that belongs to this rank: a half where another rank
   /// computes the contact too, or where the response is that of a contact and its mirror image
-  void add(const SnowBondResponse& response, bool bonded, double share);
+  void add(const SnowBondResponse& response, const SnowBondEnergy& energy, bool bonded,
+           double share);
   /// A contact has ended and its springs are lost. @param energy [J]
   void release(double energy, bool bonded, double share);
 

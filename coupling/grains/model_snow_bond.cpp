@@ -94,7 +94,8 @@ class NormalModel<furrow::coupling::model_id> : public NormalModelBase {
     return laws_[static_cast<std::size_t>(type * (atom->ntypes + 1) + other)];
   }
   furrow::SnowContact contact_of(const SurfacesIntersectData& touching) const;
-  Response respond(const SurfacesIntersectData& touching, State& state) const;
+  Response respond(const SurfacesIntersectData& touching, State& state,
+                   furrow::SnowBondEnergy* energy) const;
   /// Energy of a wall is half of that of the contact with its mirror image; a contact with a ghost
   /// is computed by both ranks.
   double share(const SurfacesCloseData& contact) const {
@@ -186,16 +187,16 @@ furrow::SnowContact SnowBondModel::contact_of(const SurfacesIntersectData& touch
   return contact;
 }
 
-SnowBondModel::Response SnowBondModel::respond(const SurfacesIntersectData& touching,
-                                               State& state) const {
+SnowBondModel::Response SnowBondModel::respond(const SurfacesIntersectData& touching, State& state,
+                                               furrow::SnowBondEnergy* energy) const {
   const furrow::SnowContact contact = contact_of(touching);
   const furrow::SnowBondParameters& parameters = law(touching.itype, touching.jtype);
   const bool sinters = sinter_ && sinter_->sinters(touching.i, is_wall_ ? touching.i : touching.j);
   // Forces before the first step of a run: nothing has moved.
   if (!touching.computeflag || !touching.shearupdate)
     return sinters ? Response() : Law::hold(parameters, contact, state);
-  return sinters ? Law::sinter(parameters, contact, state)
-                 : Law::advance(parameters, contact, state);
+  return sinters ? Law::sinter(parameters, contact, state, energy)
+                 : Law::advance(parameters, contact, state, energy);
 }
 
 void SnowBondModel::surfacesIntersect(SurfacesIntersectData& touching, ForceData& on_i,
@@ -204,10 +205,11 @@ void SnowBondModel::surfacesIntersect(SurfacesIntersectData& touching, ForceData
   if (touching.contact_flags) *touching.contact_flags |= CONTACT_NORMAL_MODEL;
   double* values = touching.contact_history + first_value_;
   State state = State::load(values);
-  const Response response = respond(touching, state);
+  furrow::SnowBondEnergy energy;
+  const Response response = respond(touching, state, energy_ ? &energy : nullptr);
   if (touching.computeflag && touching.shearupdate) {
     state.store(values);
-    if (energy_) energy_->add(response, state.bonded, share(touching));
+    if (energy_) energy_->add(response, energy, state.bonded, share(touching));
   }
 
   const Vector3 couple = furrow::coupling::vector(touching.en).cross(response.force);

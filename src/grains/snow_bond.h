@@ -40,6 +40,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/types.h"
 #include "grains/snow_bond_parameters.h"
@@ -91,7 +92,6 @@ struct SnowBondResponse {
   Vector3 force = Vector3::Zero();  ///< [N] on i; j has the opposite
   /// [N m] on i beside that of the force; j has the opposite
   Vector3 moment = Vector3::Zero();
-  SnowBondEnergy energy;
   bool broken = false;  ///< in this step
   bool made = false;    ///< in this step
 };
@@ -102,6 +102,7 @@ struct SnowStrength {
   double Fb, dFb;  ///< likewise, for A >= A0
 };
 
+/// The law. An energy that is asked for is set.
 class SnowBond {
  public:
   static constexpr double bond_radius = 0.2;    ///< of a sintered bond, of d
@@ -114,6 +115,8 @@ class SnowBond {
 
   /// Strengths at the crushing X.
   static SnowStrength strength(const SnowBondParameters& law, double d, double X);
+  /// At X = 0, where they are least.
+  static SnowStrength least_strength(const SnowBondParameters& law, double d);
   /// The part of Fb that the area gives.
   static double bonded_share(const SnowBondState& state, double d) {
     return state.bonded ? std::min(1.0, state.area / sintered_area(d)) : 0.0;
@@ -121,26 +124,15 @@ class SnowBond {
 
   /// One step.
   static SnowBondResponse advance(const SnowBondParameters& law, const SnowContact& contact,
-                                  SnowBondState& state);
+                                  SnowBondState& state, SnowBondEnergy* energy = nullptr);
   /// Forces of a state as it is, without dampers.
   static SnowBondResponse hold(const SnowBondParameters& law, const SnowContact& contact,
-                               const SnowBondState& state);
+                               const SnowBondState& state, SnowBondEnergy* energy = nullptr);
   /// A whole bond without stress; where there can be none, a touch without stress.
   static SnowBondResponse sinter(const SnowBondParameters& law, const SnowContact& contact,
-                                 SnowBondState& state);
+                                 SnowBondState& state, SnowBondEnergy* energy = nullptr);
   /// The clusters have parted: the state begins anew. @return its energy, which is lost [J]
   static double part(const SnowBondParameters& law, double d, SnowBondState& state);
-
- private:
-  struct Stiffness {
-    double bending, torsion;  // [N m/rad]
-  };
-  static Stiffness of_rotation(double k, double d, double area);
-  static double stored(double k, double d, double normal, const SnowBondState& state);
-  static void carry(Vector3& vector, const Vector3& normal, double turn);
-  static double scale_to(double limit, double size) { return size > limit ? limit / size : 1.0; }
-  template <class Excess>
-  static double solve(double start, Excess&& excess);
 };
 
 inline SnowBondState SnowBondState::load(const double* values) {
@@ -180,34 +172,160 @@ inline SnowStrength SnowBond::strength(const SnowBondParameters& law, double d, 
   return found;
 }
 
-inline SnowBond::Stiffness SnowBond::of_rotation(double k, double d, double area) {
-  const double squared_radius = std::max(area / pi, bond_radius * bond_radius * d * d);
-  return {0.25 * k * squared_radius, 0.5 * k * squared_radius};
+inline SnowStrength SnowBond::least_strength(const SnowBondParameters& law, double d) {
+  const double least = d * d * law.Y0;
+  return {least, 0.0, least, 0.0};
 }
 
-inline double SnowBond::stored(double k, double d, double normal, const SnowBondState& state) {
-  const Stiffness rotation = of_rotation(k, d, state.area);
-  return 0.5 * ((normal * normal + state.shear.squaredNorm()) / k +
-                state.bending.squaredNorm() / rotation.bending +
-                state.torsion * state.torsion / rotation.torsion);
+/// One contact in one step, phase by phase.
+class SnowBondStep {
+ public:
+  SnowBondStep(const SnowBondParameters& law, const SnowContact& contact, SnowBondState& state)
+      : law_(law),
+        contact_(contact),
+        state_(state),
+        d_(contact.d),
+        k_(SnowBond::stiffness(law, d_)) {}
+
+  SnowBondResponse advance(SnowBondEnergy* energy);
+  /// In the springs [J].
+  double stored(double normal) const;
+
+ private:
+  struct Stiffness {
+    double bending, torsion;  // [N m/rad]
+  };
+  struct Elastic {
+    double normal;  // [N]
+    Vector3 shear;  // [N]
+    Vector3 bending;
+    double torsion;  // [N m]
+  };
+
+  Stiffness of_rotation() const;
+  void carry(Vector3& vector) const;
+  void make_trial();
+  bool certainly_elastic() const;
+  double crushing(double normal) const {
+    return (state_.plastic + (trial_.normal - normal) / k_ - state_.at_sintering) / d_;
+  }
+  void break_bond(SnowBondResponse& response);
+  void slip_and_crush();
+  void slip();
+  void crush();
+  void grow(SnowBondResponse& response);
+  void bend();
+  void damp(SnowBondResponse& response, SnowBondEnergy* energy) const;
+  double plastic_work() const;
+  static double share_within(double limit, double squared_size) {
+    return squared_size > limit * limit ? limit / std::sqrt(squared_size) : 1.0;
+  }
+  template <class Excess>
+  static double solve(double start, Excess&& excess);
+
+  const SnowBondParameters& law_;
+  const SnowContact& contact_;
+  SnowBondState& state_;
+  const double d_, k_;
+
+  Elastic before_, trial_;
+  Stiffness rotation_;   // before the step
+  SnowStrength strong_;  // in the end at the crushing after the step
+  double share_;         // of the bond, before the step
+  double squared_shear_;
+  double normal_;  // [N] after the step
+  // shares of the trial's that are left
+  double shear_left_ = 1.0, bending_left_ = 1.0, torsion_left_ = 1.0;
+};
+
+inline SnowBondResponse SnowBondStep::advance(SnowBondEnergy* energy) {
+  SnowBondResponse response;
+  make_trial();
+  if (trial_.normal <= 0.0 &&
+      (!state_.bonded || -trial_.normal > law_.zeta * share_ * strong_.Fb)) {
+    if (energy) energy->released = stored(before_.normal);
+    break_bond(response);
+    return response;
+  }
+  slip_and_crush();
+  grow(response);
+  bend();
+  if (energy) {
+    energy->crushed = plastic_work();
+    energy->stored = stored(normal_);
+  }
+  damp(response, energy);
+  return response;
 }
 
-/// Turned about the normal, and then into the plane across it, at constant length.
-inline void SnowBond::carry(Vector3& vector, const Vector3& normal, double turn) {
-  const double before = vector.squaredNorm();
-  if (before == 0.0) return;
-  vector += turn * normal.cross(vector);
-  vector -= normal.dot(vector) * normal;
-  const double after = vector.squaredNorm();
-  vector *= after > 0.0 ? std::sqrt(before / after) : 0.0;
+inline SnowBondStep::Stiffness SnowBondStep::of_rotation() const {
+  const double squared_radius =
+      std::max(state_.area / pi, SnowBond::bond_radius * SnowBond::bond_radius * d_ * d_);
+  return {0.25 * k_ * squared_radius, 0.5 * k_ * squared_radius};
+}
+
+inline double SnowBondStep::stored(double normal) const {
+  const Stiffness rotation = of_rotation();
+  return 0.5 * ((normal * normal + state_.shear.squaredNorm()) / k_ +
+                state_.bending.squaredNorm() / rotation.bending +
+                state_.torsion * state_.torsion / rotation.torsion);
+}
+
+/// Turned about the normal, then into the plane across it. To second order of the angle the length
+/// stays; it never grows by more than the fourth.
+inline void SnowBondStep::carry(Vector3& vector) const {
+  const double turn = contact_.spin * contact_.dt;
+  vector = (1.0 - 0.5 * turn * turn) * vector + turn * contact_.normal.cross(vector);
+  vector -= contact_.normal.dot(vector) * contact_.normal;
+}
+
+/// All motion is elastic.
+inline void SnowBondStep::make_trial() {
+  const double dt = contact_.dt;
+  carry(state_.shear);
+  carry(state_.bending);
+  rotation_ = of_rotation();
+  share_ = SnowBond::bonded_share(state_, d_);
+  before_ = {k_ * (contact_.overlap + contact_.normal_velocity * dt - state_.plastic), state_.shear,
+             state_.bending, state_.torsion};
+  const double twist = contact_.rotation.dot(contact_.normal);
+  trial_.normal = k_ * (contact_.overlap - state_.plastic);
+  trial_.shear = state_.shear - k_ * dt * contact_.tangential_velocity;
+  trial_.bending =
+      state_.bending - rotation_.bending * dt * (contact_.rotation - twist * contact_.normal);
+  trial_.torsion = state_.torsion - rotation_.torsion * dt * twist;
+  squared_shear_ = trial_.shear.squaredNorm();
+  normal_ = trial_.normal;
+
+  strong_ = SnowBond::least_strength(law_, d_);
+  if (!certainly_elastic()) strong_ = SnowBond::strength(law_, d_, crushing(trial_.normal));
+  // not beyond the surface, where a change of parameters between runs may have left it
+  before_.normal = std::clamp(before_.normal, -law_.zeta * share_ * strong_.Fb, strong_.Fy);
+}
+
+/// Within the least strengths: no exponential is needed.
+inline bool SnowBondStep::certainly_elastic() const {
+  const double tension = -law_.zeta * share_ * strong_.Fb;
+  const double shear = law_.chi * share_ * strong_.Fb + law_.mu * std::max(0.0, trial_.normal);
+  return trial_.normal > tension && before_.normal > tension && trial_.normal < strong_.Fy &&
+         before_.normal < strong_.Fy && squared_shear_ < shear * shear;
+}
+
+inline void SnowBondStep::break_bond(SnowBondResponse& response) {
+  response.broken = state_.bonded;
+  if (state_.bonded) state_.at_break = state_.plastic;
+  state_.bonded = false;
+  state_.area = state_.torsion = 0.0;
+  state_.shear.setZero();
+  state_.bending.setZero();
 }
 
 /// Newton's method for the root of a growing concave function, from where it is not positive: no
 /// iterate passes the root. @param excess of x gives the function and its slope
 template <class Excess>
-inline double SnowBond::solve(double start, Excess&& excess) {
+inline double SnowBondStep::solve(double start, Excess&& excess) {
   constexpr int most_iterations = 60;
-  constexpr double tolerance = 1e-14;  // of x
+  constexpr double tolerance = 1e-8;  // of x; the error is of the order of its square
   double x = start;
   for (int n = 0; n < most_iterations; ++n) {
     const auto [value, slope] = excess(x);
@@ -218,162 +336,151 @@ inline double SnowBond::solve(double start, Excess&& excess) {
   return x;
 }
 
-inline SnowBondResponse SnowBond::advance(const SnowBondParameters& law, const SnowContact& contact,
-                                          SnowBondState& state) {
-  SnowBondResponse response;
-  SnowBondEnergy& energy = response.energy;
-  const double d = contact.d, k = stiffness(law, d), dt = contact.dt;
-  const Vector3& n = contact.normal;
-
-  // Elastic force and moment before the step, on today's axes.
-  const double turn = contact.spin * dt;
-  carry(state.shear, n, turn);
-  carry(state.bending, n, turn);
-  const double overlap_before = contact.overlap + contact.normal_velocity * dt;
-  const Vector3 shear_before = state.shear, bending_before = state.bending;
-  const double torsion_before = state.torsion;
-
-  // Trial: all motion is elastic.
-  const Stiffness rotation = of_rotation(k, d, state.area);
-  const double trial_normal = k * (contact.overlap - state.plastic);
-  const Vector3 trial_shear = state.shear - k * dt * contact.tangential_velocity;
-  const double twist = contact.rotation.dot(n);
-  const Vector3 trial_bending =
-      state.bending - rotation.bending * dt * (contact.rotation - twist * n);
-  const double trial_torsion = state.torsion - rotation.torsion * dt * twist;
-
-  double X = (state.plastic - state.at_sintering) / d;
-  SnowStrength strong = strength(law, d, X);
-  const double share = bonded_share(state, d);
-  // not beyond the surface, where a change of parameters between runs may have left it
-  const double normal_before =
-      std::clamp(k * (overlap_before - state.plastic), -law.zeta * share * strong.Fb, strong.Fy);
-  const double shear_size = trial_shear.norm();
-  double normal = trial_normal, shear_left = 1.0;  // of the trial's
-
-  if (trial_normal <= 0.0) {
-    if (!state.bonded || -trial_normal > law.zeta * share * strong.Fb) {
-      energy.released = stored(k, d, state.bonded ? normal_before : 0.0, state);
-      response.broken = state.bonded;
-      if (state.bonded) state.at_break = state.plastic;
-      state.bonded = false;
-      state.area = state.torsion = 0.0;
-      state.shear.setZero();
-      state.bending.setZero();
-      return response;
-    }
-    shear_left = scale_to(law.chi * share * strong.Fb, shear_size);
+inline void SnowBondStep::slip_and_crush() {
+  const double cohesion = law_.chi * share_ * strong_.Fb;
+  if (trial_.normal <= 0.0) {
+    shear_left_ = share_within(cohesion, squared_shear_);
   } else {
-    const auto crushing = [&](double force) {
-      return (state.plastic + (trial_normal - force) / k - state.at_sintering) / d;
-    };
-    const double cohesion = law.chi * share * strong.Fb;
-    if (shear_size > cohesion + law.mu * trial_normal) {
-      // share of the plastic displacement along the force
-      const double along = cohesion > 0.0 ? cohesion / (cohesion + law.mu * trial_normal) : 0.0;
-      const auto normal_at = [&](double left) {
-        return trial_normal * (1.0 - along * (1.0 - left));
-      };
-      const double slope = shear_size - law.mu * along * trial_normal;
-      if (along > 0.0) {
-        shear_left = solve(
-            std::max(0.0, (cohesion + law.mu * (1.0 - along) * trial_normal) / slope),
-            [&](double left) {
-              const double force = normal_at(left);
-              strong = strength(law, d, crushing(force));
-              const double growth = law.chi * share * strong.dFb * along * trial_normal / k;
-              return std::pair(left * shear_size - law.mu * force - law.chi * share * strong.Fb,
-                               slope + growth);
-            });
-        shear_left = std::min(1.0, shear_left);
-      } else {
-        shear_left = law.mu * trial_normal / shear_size;
-      }
-      normal = normal_at(shear_left);
-    }
-    if (normal > strong.Fy) {
-      const double limit = solve(strong.Fy, [&](double force) {
-        strong = strength(law, d, crushing(force));
-        return std::pair(force - strong.Fy, 1.0 + strong.dFy / k);
+    const double limit = cohesion + law_.mu * trial_.normal;
+    if (squared_shear_ > limit * limit) slip();
+    if (normal_ > strong_.Fy) crush();
+    state_.plastic += (trial_.normal - normal_) / k_;
+  }
+  state_.shear = shear_left_ * trial_.shear;
+}
+
+/// To the shear surface, along the force as far as the strength is cohesion.
+inline void SnowBondStep::slip() {
+  const double size = std::sqrt(squared_shear_), pressing = trial_.normal;
+  const double cohesion = law_.chi * share_ * strong_.Fb;
+  if (cohesion <= 0.0) {
+    shear_left_ = law_.mu * pressing / size;
+    return;
+  }
+  const double along = cohesion / (cohesion + law_.mu * pressing);
+  const double slope = size - law_.mu * along * pressing;
+  const auto normal_at = [&](double left) { return pressing * (1.0 - along * (1.0 - left)); };
+  const double found =
+      solve((cohesion + law_.mu * (1.0 - along) * pressing) / slope, [&](double left) {
+        const double normal = normal_at(left);
+        strong_ = SnowBond::strength(law_, d_, crushing(normal));
+        const double growth = law_.chi * share_ * strong_.dFb * along * pressing / k_;
+        return std::pair(left * size - law_.mu * normal - law_.chi * share_ * strong_.Fb,
+                         slope + growth);
       });
-      shear_left *= limit / normal;
-      normal = limit;
-    }
-    state.plastic += (trial_normal - normal) / k;
-  }
-  state.shear = shear_left * trial_shear;
-  energy.crushed = (normal * (trial_normal - normal) +
-                    shear_left * (1.0 - shear_left) * shear_size * shear_size) /
-                   k;
+  shear_left_ = std::min(1.0, found);
+  normal_ = normal_at(shear_left_);
+}
 
-  // Sintering under pressure.
-  if (contact.sinters) {
-    const double area = law.w * 0.25 * pi * d * (state.plastic - state.at_break);
-    if (area > state.area) {
-      state.area = area;
-      response.made = !state.bonded;
-      state.bonded = true;
-    }
-  }
+/// To the crush surface, along the force.
+inline void SnowBondStep::crush() {
+  const double limit = solve(strong_.Fy, [&](double normal) {
+    strong_ = SnowBond::strength(law_, d_, crushing(normal));
+    return std::pair(normal - strong_.Fy, 1.0 + strong_.dFy / k_);
+  });
+  shear_left_ *= limit / normal_;
+  normal_ = limit;
+}
 
-  // Moments, against the strength of the bond as it is now.
-  const double pressing = std::max(0.0, normal);
-  const double Fb = bonded_share(state, d) * strong.Fb;
-  const double radius = std::max(std::sqrt(state.area / pi), least_radius * d);
-  const double bending_left =
-      scale_to(bending_limit * radius * (law.zeta * Fb + pressing), trial_bending.norm());
-  const double torsion_left = scale_to(torsion_limit * radius * (law.chi * Fb + law.mu * pressing),
-                                       std::abs(trial_torsion));
-  state.bending = bending_left * trial_bending;
-  state.torsion = torsion_left * trial_torsion;
-  const double bending_energy = state.bending.squaredNorm() / rotation.bending,
-               torsion_energy = state.torsion * state.torsion / rotation.torsion;
-  if (bending_left < 1.0 && bending_left > 0.0)
-    energy.crushed += bending_energy * (1.0 / bending_left - 1.0);
-  if (torsion_left < 1.0 && torsion_left > 0.0)
-    energy.crushed += torsion_energy * (1.0 / torsion_left - 1.0);
-  // A bond that has grown holds the same moment with less energy.
-  const Stiffness grown = of_rotation(k, d, state.area);
-  energy.crushed +=
-      0.5 * (bending_energy + torsion_energy) * (1.0 - rotation.bending / grown.bending);
-  energy.stored = stored(k, d, normal, state);
+/// Sintering under pressure.
+inline void SnowBondStep::grow(SnowBondResponse& response) {
+  if (!contact_.sinters) return;
+  const double area = law_.w * 0.25 * pi * d_ * (state_.plastic - state_.at_break);
+  if (!(area > state_.area)) return;
+  state_.area = area;
+  response.made = !state_.bonded;
+  state_.bonded = true;
+}
 
-  // Dampers; those of a dry contact neither pull nor overcome friction.
-  const double relaxation = 2.0 * law.damping * std::sqrt(contact.mass / k) / dt;
-  double normal_damping = relaxation * (normal - normal_before);
-  Vector3 shear_damping = 0.5 * relaxation * (state.shear - shear_before);
-  if (!state.bonded) {
-    normal_damping = std::max(normal_damping, -normal);
-    const Vector3 all = state.shear + shear_damping;
-    shear_damping = scale_to(law.mu * (normal + normal_damping), all.norm()) * all - state.shear;
+/// Moments, against the strength of the bond as it is now.
+inline void SnowBondStep::bend() {
+  const double squared_radius =
+      std::max(state_.area / pi, SnowBond::least_radius * SnowBond::least_radius * d_ * d_);
+  const double squared_bending = trial_.bending.squaredNorm(),
+               squared_torsion = trial_.torsion * trial_.torsion;
+  const auto limits = [&] {
+    const double pressing = std::max(0.0, normal_);
+    const double Fb = SnowBond::bonded_share(state_, d_) * strong_.Fb;
+    return std::pair(SnowBond::bending_limit * (law_.zeta * Fb + pressing),
+                     SnowBond::torsion_limit * (law_.chi * Fb + law_.mu * pressing));
+  };
+  const auto within = [&](const std::pair<double, double>& limit) {
+    return squared_bending <= limit.first * limit.first * squared_radius &&
+           squared_torsion <= limit.second * limit.second * squared_radius;
+  };
+  if (!within(limits())) {
+    strong_ = SnowBond::strength(law_, d_, (state_.plastic - state_.at_sintering) / d_);
+    const double radius = std::sqrt(squared_radius);
+    const auto [bending, torsion] = limits();
+    bending_left_ = share_within(bending * radius, squared_bending);
+    torsion_left_ = share_within(torsion * radius, squared_torsion);
   }
-  const Vector3 moment_damping =
-      0.5 * relaxation * (state.bending - bending_before + (state.torsion - torsion_before) * n);
-  energy.damped =
-      -dt * (normal_damping * contact.normal_velocity +
-             shear_damping.dot(contact.tangential_velocity) + moment_damping.dot(contact.rotation));
-  response.force = (normal + normal_damping) * n + state.shear + shear_damping;
-  response.moment = state.bending + state.torsion * n + moment_damping;
-  return response;
+  state_.bending = bending_left_ * trial_.bending;
+  state_.torsion = torsion_left_ * trial_.torsion;
+}
+
+/// Force after the return times plastic displacement, and what a bond that grows holds less.
+inline double SnowBondStep::plastic_work() const {
+  const auto lost = [](double left) { return left > 0.0 ? 1.0 / left - 1.0 : 0.0; };
+  const double bending = state_.bending.squaredNorm() / rotation_.bending,
+               torsion = state_.torsion * state_.torsion / rotation_.torsion;
+  return (normal_ * (trial_.normal - normal_) +
+          shear_left_ * (1.0 - shear_left_) * squared_shear_) /
+             k_ +
+         bending * lost(bending_left_) + torsion * lost(torsion_left_) +
+         0.5 * (bending + torsion) * (1.0 - rotation_.bending / of_rotation().bending);
+}
+
+/// Dampers; those of a dry contact neither pull nor overcome friction.
+inline void SnowBondStep::damp(SnowBondResponse& response, SnowBondEnergy* energy) const {
+  const double relaxation = 2.0 * law_.damping * std::sqrt(contact_.mass / k_) / contact_.dt;
+  double normal = relaxation * (normal_ - before_.normal);
+  Vector3 shear = 0.5 * relaxation * (state_.shear - before_.shear);
+  if (!state_.bonded) {
+    normal = std::max(normal, -normal_);
+    const Vector3 all = state_.shear + shear;
+    shear = share_within(law_.mu * (normal_ + normal), all.squaredNorm()) * all - state_.shear;
+  }
+  const Vector3 moment =
+      0.5 * relaxation *
+      (state_.bending - before_.bending + (state_.torsion - before_.torsion) * contact_.normal);
+  if (energy)
+    energy->damped =
+        -contact_.dt * (normal * contact_.normal_velocity +
+                        shear.dot(contact_.tangential_velocity) + moment.dot(contact_.rotation));
+  response.force = (normal_ + normal) * contact_.normal + state_.shear + shear;
+  response.moment = state_.bending + state_.torsion * contact_.normal + moment;
+}
+
+inline SnowBondResponse SnowBond::advance(const SnowBondParameters& law, const SnowContact& contact,
+                                          SnowBondState& state, SnowBondEnergy* energy) {
+  if (energy) *energy = {};
+  return SnowBondStep(law, contact, state).advance(energy);
 }
 
 inline SnowBondResponse SnowBond::hold(const SnowBondParameters& law, const SnowContact& contact,
-                                       const SnowBondState& state) {
-  const double k = stiffness(law, contact.d);
-  double normal = k * (contact.overlap - state.plastic);
+                                       const SnowBondState& state, SnowBondEnergy* energy) {
+  double normal = stiffness(law, contact.d) * (contact.overlap - state.plastic);
   if (!state.bonded) normal = std::max(0.0, normal);
   SnowBondResponse response;
   response.force = normal * contact.normal + state.shear;
   response.moment = state.bending + state.torsion * contact.normal;
-  response.energy.stored = stored(k, contact.d, normal, state);
+  if (energy) {
+    SnowBondState same = state;
+    *energy = {};
+    energy->stored = SnowBondStep(law, contact, same).stored(normal);
+  }
   return response;
 }
 
 inline SnowBondResponse SnowBond::sinter(const SnowBondParameters& law, const SnowContact& contact,
-                                         SnowBondState& state) {
+                                         SnowBondState& state, SnowBondEnergy* energy) {
   SnowBondResponse response;
-  response.energy.released = hold(law, contact, state).energy.stored;
   response.made = contact.sinters && !state.bonded;
+  if (energy) {
+    hold(law, contact, state, energy);
+    energy->released = std::exchange(energy->stored, 0.0);
+  }
   state = {};
   state.plastic = state.at_sintering = state.at_break = contact.overlap;
   state.area = contact.sinters ? sintered_area(contact.d) : 0.0;
@@ -382,10 +489,12 @@ inline SnowBondResponse SnowBond::sinter(const SnowBondParameters& law, const Sn
 }
 
 inline double SnowBond::part(const SnowBondParameters& law, double d, SnowBondState& state) {
-  const double k = stiffness(law, d);
-  const double lost = stored(k, d, state.bonded ? -k * state.plastic : 0.0, state);
+  SnowContact apart = {};
+  apart.d = d;
+  SnowBondEnergy energy;
+  hold(law, apart, state, &energy);
   state = {};
-  return lost;
+  return energy.stored;
 }
 
 }  // namespace furrow
