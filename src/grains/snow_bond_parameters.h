@@ -7,12 +7,13 @@
 namespace furrow {
 
 /// Stresses are forces over the squared diameter of a contact, so the law is the same for clusters
-/// of any size.
+/// of any size. The defaults are fresh snow of 200 kg/m3, as inputs/laboratory/grounds/snow_bonded.lig
+/// has it.
 struct SnowBondParameters {
   double E = 2e7;        ///< [Pa] stiffness of a contact over its diameter
-  double Y0 = 1.6e3;     ///< [Pa] crush strength of a fresh bond
+  double Y0 = 1.15e3;    ///< [Pa] crush strength of a fresh bond
   double p = 3.0;        ///< its growth with the crushing X
-  double Y1 = 8.0;       ///< [Pa] crush strength of dense snow ...
+  double Y1 = 5.6;       ///< [Pa] crush strength of dense snow ...
   double q = 27.0;       ///< ... and its growth with X
   double pc = 13.0;      ///< growth of the strength of a bond with X
   double chi = 0.7;      ///< shear strength of a bond over its crush strength
