@@ -7,8 +7,8 @@
 namespace furrow {
 
 /// Stresses are forces over the squared diameter of a contact, so the law is the same for clusters
-/// of any size. The defaults are fresh snow of 200 kg/m3, as inputs/laboratory/grounds/snow_bonded.lig
-/// has it.
+/// of any size. The defaults are fresh snow of 200 kg/m3: the ground snow_bonded of
+/// inputs/laboratory.
 struct SnowBondParameters {
   double E = 2e7;        ///< [Pa] stiffness of a contact over its diameter
   double Y0 = 1.15e3;    ///< [Pa] crush strength of a fresh bond
