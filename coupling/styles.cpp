@@ -14,6 +14,9 @@
 #include "coupling/contact/fix_contact_plane.h"
 #include "coupling/contact/fix_wall_gran_body.h"
 #include "coupling/drive/fix_wheel_rig.h"
+#include "coupling/grains/fix_snow_energy.h"
+#include "coupling/grains/fix_snow_sinter.h"
+#include "coupling/grains/model_snow_bond.h"
 #include "coupling/laboratory/fix_cell_servo.h"
 #include "coupling/laboratory/fix_layer_shear.h"
 #include "coupling/liggghts/errors.h"
@@ -68,13 +71,27 @@ Style fix(const char* name, Kind kind, const char* page,
           [] { return as_table(FixStyle::outputs()); },
           create_fix<FixStyle>,
           nullptr,
+          nullptr,
           std::move(former_names)};
 }
 
 template <class Command>
 Style command(const char* name, const char* page) {
-  return {name,    Kind::command,        page, Command::schema, Command::outputs,
-          nullptr, run_command<Command>, {}};
+  return {name,
+          Kind::command,
+          page,
+          Command::schema,
+          Command::outputs,
+          nullptr,
+          run_command<Command>,
+          nullptr,
+          {}};
+}
+
+template <class Model>
+Style model(const char* page) {
+  return {Model::name, Kind::model, page, Model::schema, [] { return OutputTable(); }, nullptr,
+          nullptr,     Model::add,  {}};
 }
 
 }  // namespace
@@ -93,6 +110,9 @@ const std::vector<Style>& styles() {
       fix<FixContactPlane>("contact/plane", Kind::contact, "contact/fix_contact_plane.md"),
       fix<FixMeshBody>("mesh/body", Kind::mesh, "bodies/fix_mesh_body.md"),
       fix<FixWallGranBody>("wall/gran/body", Kind::wall, "contact/fix_wall_gran_body.md"),
+      model<ModelSnowBond>("grains/model_snow_bond.md"),
+      fix<FixSnowSinter>("snow/sinter", Kind::snow, "grains/fix_snow_sinter.md"),
+      fix<FixSnowEnergy>("snow/energy", Kind::snow, "grains/fix_snow_energy.md"),
       fix<FixWheelRig>("wheel/rig", Kind::rig, "drive/fix_wheel_rig.md"),
       fix<FixWheelHistory>("wheel/history", Kind::history, "output/fix_wheel_history.md"),
       fix<FixTerrainHistory>("terrain/history", Kind::history, "output/fix_terrain_history.md"),
@@ -146,12 +166,16 @@ std::string name_of(Kind kind) {
       return "history";
     case Kind::progress:
       return "progress";
+    case Kind::snow:
+      return "snow";
     case Kind::laboratory:
       return "laboratory";
     case Kind::internal:
       return "internal";
     case Kind::command:
       return "command";
+    case Kind::model:
+      return "model";
   }
   return {};
 }
@@ -159,6 +183,7 @@ std::string name_of(Kind kind) {
 void add_styles(LAMMPS_NS::LAMMPS& lammps) {
   with_collective_errors(*lammps.error, [&] { check_library(lammps); });
   for (const Style& style : styles()) {
+    if (style.add_model) style.add_model();
     if (style.run_command) add_command(lammps, style.name, style.run_command);
     if (!style.create_fix) continue;
     add_fix_style(lammps, style.name, style.create_fix);

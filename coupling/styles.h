@@ -28,9 +28,11 @@ enum class Kind {
   rig,         ///< drives a wheel
   history,     ///< writes results
   progress,    ///< tells how far a run is
+  snow,        ///< looks after bonds of snow
   laboratory,  ///< element tests on grains
   internal,    ///< made by Furrow itself
   command,     ///< a command, not a fix
+  model,       ///< a contact model of grains, not a fix
 };
 std::string name_of(Kind kind);
 
@@ -47,8 +49,10 @@ struct Style {
   std::string page;  ///< in coupling/, "bodies/fix_wheel_rigid.md"; empty for internal styles
   Schema (*schema)();
   OutputTable (*outputs)();
-  FixCreator create_fix;                  ///< null for a command
-  CommandCreator run_command;             ///< null for a fix
+  // one of them, the others are null
+  FixCreator create_fix;
+  CommandCreator run_command;
+  void (*add_model)();
   std::vector<std::string> former_names;  ///< accepted with a warning
 };
 

@@ -9,6 +9,7 @@
 
 #include "atom.h"
 #include "core/communicator.h"
+#include "coupling/grains/model_snow_bond.h"
 #include "coupling/liggghts/script.h"
 #include "domain.h"
 #include "modify.h"
@@ -49,8 +50,7 @@ void GrainBedCheck::start(const Surface& surface) {
   if (sums[2] < GrainBedLimits::min_grains) return;
   mean_diameter_ = sums[0] / sums[2];
   density_ = sums[1] / sums[2];
-  elastic_ = lammps_.modify->find_fix_property("youngsModulus", "property/global", "peratomtype",
-                                               atom.ntypes, 0, "furrow", false) != nullptr;
+  choose_overlap_limit();
 
   const auto [lower, upper] = surface.bounds();
   const double width = upper[1] - lower[1],
@@ -64,6 +64,22 @@ void GrainBedCheck::start(const Surface& surface) {
     warn(once_more, fmt::format("the bed is {:.3g} bodies wide (recommended: at least {:g}); its "
                                 "walls hold the ground together",
                                 bed / width, GrainBedLimits::bed_widths));
+}
+
+void GrainBedCheck::choose_overlap_limit() {
+  const bool elastic =
+      lammps_.modify->find_fix_property("youngsModulus", "property/global", "peratomtype",
+                                        lammps_.atom->ntypes, 0, "furrow", false) != nullptr;
+  if (ModelSnowBond::is_pair_style(lammps_)) {
+    overlap_limit_ = GrainBedLimits::snow_overlap;
+    overlap_remedy_ = "the snow is crushed to ice: lower the load, or raise snowDenseStrength";
+  } else if (elastic) {
+    overlap_limit_ = GrainBedLimits::overlap;
+    overlap_remedy_ =
+        "the grains are too soft for this load: raise youngsModulus and settle the bed again";
+  } else {
+    overlap_limit_ = std::numeric_limits<double>::infinity();
+  }
 }
 
 void GrainBedCheck::contact(double overlap, double radius, const Vector3& point,
@@ -94,12 +110,11 @@ void GrainBedCheck::finish_step(const Surface& surface) {
   force_.setZero();
   looks_ = false;
 
-  if (elastic_ && deepest > GrainBedLimits::overlap)
+  if (deepest > overlap_limit_)
     warn(warned_overlap_,
          fmt::format("a grain overlaps the body by {:.3g} of its diameter (recommended: at most "
-                     "{:g}); the grains are too soft for this load: raise youngsModulus and settle "
-                     "the bed again",
-                     deepest, GrainBedLimits::overlap));
+                     "{:g}); {}",
+                     deepest, overlap_limit_, overlap_remedy_));
   const double area = extent[0] * extent[1];
   const double force = std::abs(sum[2]);
   if (!(area > min_area * mean_diameter_ * mean_diameter_) || !(force > 0.0)) return;

@@ -14,6 +14,8 @@ namespace furrow::coupling {
 struct GrainBedLimits {
   static constexpr double min_grains = 100;  ///< fewer are no bed: a few grains meet a body
   static constexpr double overlap = 0.05;    ///< of a grain's diameter, elastic contacts
+  /// likewise, of clusters of snow (model snow/bond): beyond, less is left of them than solid ice
+  static constexpr double snow_overlap = 0.4;
   /// speed / length x diameter x sqrt(grain density / pressure) under a body
   static constexpr double inertial_number = 0.05;
   static constexpr double grains_per_width = 8.0;  ///< width of the body over mean diameter
@@ -35,11 +37,14 @@ class GrainBedCheck {
   void finish_step(const Surface& surface);
 
  private:
+  void choose_overlap_limit();
   void warn(bool& done, const std::string& text);
 
   LAMMPS_NS::LAMMPS& lammps_;
   std::string where_;
-  bool elastic_ = false;  // contacts with Young's modulus; plastic ones overlap by design
+  // of a grain's diameter, and why; infinite for plastic contacts, which overlap by design
+  double overlap_limit_ = 0.0;
+  std::string overlap_remedy_;
   double mean_diameter_ = 0.0, density_ = 0.0;
   double deepest_ = 0.0;
   Vector3 force_ = Vector3::Zero(), lower_, upper_;

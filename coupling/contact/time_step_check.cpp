@@ -31,7 +31,61 @@ double rounded_down(double value) {
   return std::floor(value / unit) * unit;
 }
 
+/// What a step is measured by.
+struct Measure {
+  const char* what;  // "the Rayleigh time"
+  double warning, limit, recommended;
+  const char* stiffness;  // the property that makes it short
+};
+constexpr Measure rayleigh = {"the Rayleigh time", step_warning, step_limit, step_recommended,
+                              "youngsModulus"};
+constexpr Measure snow = {"the contact time", snow_step_warning, snow_step_limit, snow_step_warning,
+                          "snowModulus"};
+
+/// The shortest time of all grains. Collective.
+template <class TimeOfGrain>
+double shortest_time(const LAMMPS_NS::LAMMPS& lammps, TimeOfGrain&& time_of_grain) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < lammps.atom->nlocal; ++i) shortest = std::min(shortest, time_of_grain(i));
+  return -Communicator(&lammps.world).max(-shortest);
+}
+
+/// @throws StateError
+void compare(double step, double shortest, const Measure& measure, const std::string& where,
+             const Warn& warn) {
+  if (std::isinf(shortest)) return;  // no grains
+  if (!(shortest > 0.0))
+    throw StateError(where +
+                     ": a grain has a diameter or a density of 0, or no stiffness; write 'set "
+                     "group all diameter "
+                     "<m> density <kg/m3>' with numbers above 0");
+  const double share = step / shortest;
+  if (share <= measure.warning) return;
+  const std::string finding = fmt::format(
+      "{}: timestep {:.4g} s is {:.3g} of {} of the smallest, lightest or stiffest grain, {:.4g} s",
+      where, step, share, measure.what, shortest);
+  const std::string remedy =
+      fmt::format("write 'timestep {:.2g}' or less, or lower {}",
+                  rounded_down(measure.recommended * shortest), measure.stiffness);
+  if (!(share <= measure.limit))
+    throw StateError(fmt::format("{} (limit {:g}); {}", finding, measure.limit, remedy));
+  warn(fmt::format("{} (recommended: at most {:g}); {}", finding, measure.warning, remedy));
+}
+
 }  // namespace
+
+double snow_contact_time(double radius, double density, double modulus) {
+  return 2.0 * radius * std::sqrt(M_PI / 6.0 * density / modulus);
+}
+
+void check_snow_time_step(const LAMMPS_NS::LAMMPS& lammps, const std::string& where,
+                          const std::function<double(int type)>& modulus, const Warn& warn) {
+  const LAMMPS_NS::Atom& atom = *lammps.atom;
+  const double shortest = shortest_time(lammps, [&](int i) {
+    return snow_contact_time(atom.radius[i], atom.density[i], modulus(atom.type[i]));
+  });
+  compare(lammps.update->dt, shortest, snow, where, warn);
+}
 
 double rayleigh_time(double radius, double density, double young, double poisson) {
   const double shear = young / (2.0 * (1.0 + poisson));
@@ -44,34 +98,13 @@ void check_time_step(LAMMPS_NS::LAMMPS& lammps, const std::string& where) {
   if (!young || !poisson) return;
 
   const LAMMPS_NS::Atom& atom = *lammps.atom;
-  double shortest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < atom.nlocal; ++i) {
+  const double shortest = shortest_time(lammps, [&](int i) {
     const auto type = atom.type[i] - 1;
-    shortest =
-        std::min(shortest, rayleigh_time(atom.radius[i], atom.density[i], young->get_values()[type],
-                                         poisson->get_values()[type]));
-  }
-  shortest = -Communicator(&lammps.world).max(-shortest);
-  if (std::isinf(shortest)) return;
-
-  if (!(shortest > 0.0))
-    throw StateError(where +
-                     ": a grain has a diameter or a density of 0, or no stiffness; write 'set "
-                     "group all diameter "
-                     "<m> density <kg/m3>' with numbers above 0");
-
-  const double step = lammps.update->dt;
-  const double share = step / shortest;
-  if (share <= step_warning) return;
-  const std::string finding = fmt::format(
-      "{}: timestep {:.4g} s is {:.3g} of the Rayleigh time of the smallest, lightest or stiffest "
-      "grain, {:.4g} s",
-      where, step, share, shortest);
-  const std::string remedy = fmt::format("write 'timestep {:.2g}' or less, or lower youngsModulus",
-                                         rounded_down(step_recommended * shortest));
-  if (!(share <= step_limit))
-    throw StateError(fmt::format("{} (limit {:g}); {}", finding, step_limit, remedy));
-  warn(lammps, fmt::format("{} (recommended: at most {:g}); {}", finding, step_warning, remedy));
+    return rayleigh_time(atom.radius[i], atom.density[i], young->get_values()[type],
+                         poisson->get_values()[type]);
+  });
+  compare(lammps.update->dt, shortest, rayleigh, where,
+          [&](const std::string& text) { warn(lammps, text); });
 }
 
 }  // namespace furrow::coupling

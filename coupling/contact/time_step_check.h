@@ -2,8 +2,10 @@
 #pragma once
 /// Is the step short enough for the stiffness of the grains?
 
+#include <functional>
 #include <string>
 
+#include "coupling/checks/scene_checks.h"
 #include "lammps.h"
 
 namespace furrow::coupling {
@@ -24,5 +26,23 @@ double rayleigh_time(double radius, double density, double young, double poisson
 /// models that have none), there is nothing to compare.
 /// @throws StateError above step_limit of it
 void check_time_step(LAMMPS_NS::LAMMPS& lammps, const std::string& where);
+
+// Shares of the contact time of snow (below): at 0.33 strengths are those of shorter steps, at 0.44
+// bonds break of themselves, which nothing else shows.
+inline constexpr double snow_step_warning = 0.22;
+inline constexpr double snow_step_limit = 0.33;
+
+/// sqrt(m/k) of a cluster whose contacts have the stiffness k = E d (model snow/bond) [s]:
+///   T = d sqrt(pi/6 rho/E)
+/// Its stiffest motion is to turn against the springs across its Z contacts, with the frequency
+/// sqrt(2.5 Z)/T; leapfrog with dampers is stable to about 0.45 T.
+double snow_contact_time(double radius, double density, double modulus);
+
+/// Compares the step with the contact time of the worst grain; warns above snow_step_warning of it.
+/// Collective.
+/// @param modulus  E of the stiffest contact that grains of a type may have [Pa]
+/// @throws StateError above snow_step_limit
+void check_snow_time_step(const LAMMPS_NS::LAMMPS& lammps, const std::string& where,
+                          const std::function<double(int type)>& modulus, const Warn& warn);
 
 }  // namespace furrow::coupling

@@ -87,6 +87,9 @@ constexpr std::array hints = {
     Hint{"Unknown command",
          "LIGGGHTS has no command of that name: check its spelling, and that this file is an input "
          "script"},
+    Hint{"Unknown normal model",
+         "snow/bond stands alone: write 'model snow/bond' without tangential, cohesion, "
+         "rolling_friction and surface"},
     Hint{"Invalid fix style", "check its spelling; coupling/README.md lists Furrow's"},
 };
 

@@ -104,6 +104,10 @@ void check_step(const Options& options) {
     const double time = M_PI * std::sqrt(0.5 * mass / stiffness);
     if (!(step <= linear_step_limit * time))
       refuse_step(options, step / time, "half a period of a contact", time, linear_step_limit);
+  } else if (has(options, {"modulus"})) {
+    const double time = snow_contact_time(0.5 * diameter, density, options.number("modulus"));
+    if (!(step <= snow_step_limit * time))
+      refuse_step(options, step / time, "the contact time", time, snow_step_limit);
   }
 }
 

@@ -9,7 +9,7 @@ namespace furrow::coupling {
 
 /// Sizes against grains, memory, and time step, as far as the parameters have the names that the
 /// beds of inputs/beds have: length, width, depth, diameter, density, bulk, step; young and
-/// poisson, or stiffness and unloading.
+/// poisson, or stiffness and unloading, or modulus.
 /// @throws InputError
 void check_bed_parameters(const Options& options);
 

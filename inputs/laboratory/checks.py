@@ -13,6 +13,8 @@ HERE = Path(__file__).resolve().parent
 SERIES = {  # test -> the variable of which several values make a series
     "oedometer": "seed",
     "triaxial": "confinement",
+    "unconfined": "seed",
+    "tension": "seed",
     "shear": "confinement",
     "plate": "size",
     "repose": "seed",
@@ -23,7 +25,7 @@ RESERVED = {
     "ground": "--ground for the ground",
     "here": "the tests of the source tree",
 }
-MAY_VANISH = {"adhesion", "face_friction", "friction", "pour_friction", "restitution", "rolling"}
+MAY_VANISH = {"adhesion", "compaction", "damping", "face_friction", "friction", "pour_friction", "restitution", "rolling"}
 FEWEST_GRAINS = 50  # a cell must be wider than the reach of its contacts
 MOST_GRAINS = 5_000_000
 LARGEST_START_FRACTION = 0.4  # of a cell, filled by grains at random places
@@ -41,8 +43,18 @@ def require_ground(ground: str) -> None:
         raise ResultsError(f"there is no ground '{ground}'; there are {', '.join(grounds())}")
 
 
+def require_preparation(test: str, ground: str) -> None:
+    """Clusters of snow_bonded are sintered in cells and beds, not in a box. @raises ResultsError"""
+    if ground == "snow_bonded" and test in ("repose", "collapse"):
+        raise ResultsError(
+            f"the test {test} has no sintered clusters: snow_bonded is for cells and plates; take "
+            "--ground snow"
+        )
+
+
 def require_variables(test: str, ground: str, given: Sequence[tuple[str, str]]) -> None:
     """Of a test: each is read by its scripts and has a value in its range. @raises ResultsError"""
+    require_preparation(test, ground)
     script = HERE / f"{test}.lig"
     surroundings = {"here": str(HERE), "ground": ground}
     check_variables(script, given, RESERVED, surroundings)

@@ -176,7 +176,10 @@ TEST(Styles, NamesAreUnambiguousAndDeclarationsComplete) {
     EXPECT_TRUE(names.insert(style.name).second) << style.name;
     for (const std::string& former : style.former_names)
       EXPECT_TRUE(names.insert(former).second) << former;
-    EXPECT_NE(style.create_fix == nullptr, style.run_command == nullptr) << style.name;
+    EXPECT_EQ((style.create_fix != nullptr) + (style.run_command != nullptr) +
+                  (style.add_model != nullptr),
+              1)
+        << style.name;
     EXPECT_EQ(find_style(style.name), &style);
     std::set<std::string> keys, outputs;
     const Schema schema = style.schema();

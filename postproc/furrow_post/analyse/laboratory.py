@@ -172,6 +172,44 @@ def triaxial(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     ]
 
 
+def unconfined(test: LaboratoryTest) -> list[LaboratoryQuantity]:
+    """Stress and lateral strain where the axial strain has grown to levels."""
+    strain, stress, density = cell_curve(test.curve())
+    _require_compressed(strain, stress)
+    axial, lateral = strain[:, 2], strain[:, :2].mean(axis=1)
+    quantity = LaboratoryQuantity
+    quantities = [quantity("initial_density", density[0], 0.0, "kg/m3", "at the start of the test")]
+    for level in (0.05, 0.1, 0.2, 0.4):
+        near = np.flatnonzero(np.abs(axial - level) < 0.1 * level)
+        if axial[-1] < 1.05 * level or len(near) < 3:
+            continue
+        name = f"{100 * level:.0f}%"
+        ratio = -lateral[near] / axial[near]
+        mean_stress, error = block_mean(stress[near, 2])
+        at_strain = f"at an axial strain of {level:g}"
+        quantities += [
+            quantity(f"stress_{name}", mean_stress, error, "Pa", f"axial, {at_strain}"),
+            quantity(f"lateral_ratio_{name}", *block_mean(ratio), "", "lateral growth over axial"),
+            quantity(f"density_{name}", float(density[near].mean()), 0.0, "kg/m3", at_strain),
+        ]
+    return quantities
+
+
+def tension(test: LaboratoryTest) -> list[LaboratoryQuantity]:
+    """Peak of the tensile stress."""
+    strain, stress, density = cell_curve(test.curve())
+    pulled, pull = -strain[:, 2], -stress[:, 2]
+    if not (pulled.max() > 0 and pull.max() > 0):
+        raise ValueError("the cell is not pulled, or bears nothing")
+    peak = int(np.argmax(pull))
+    quantity = LaboratoryQuantity
+    at_strain = f"at an axial strain of {pulled[peak]:.2g}"
+    return [
+        quantity("initial_density", density[0], 0.0, "kg/m3", "at the start of the test"),
+        quantity("tensile_strength", float(pull[peak]), math.nan, "Pa", at_strain),
+    ]
+
+
 def _janosi(travel: Floats, top: float, length: float) -> Floats:
     """tau = tau_max (1 - exp(-j/K)) of Z. Janosi and B. Hanamoto (1961)."""
     tau: Floats = top * (1 - np.exp(-travel / length))
@@ -320,6 +358,8 @@ def plate(test: LaboratoryTest) -> list[LaboratoryQuantity]:
 EVALUATIONS: dict[str, Callable[[LaboratoryTest], list[LaboratoryQuantity]]] = {
     "oedometer": oedometer,
     "triaxial": triaxial,
+    "unconfined": unconfined,
+    "tension": tension,
     "shear": shear,
     "collapse": collapse,
     "repose": repose,

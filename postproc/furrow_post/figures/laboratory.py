@@ -89,6 +89,23 @@ def _draw_triaxial(report: LaboratoryReport) -> Figure:
     return figure
 
 
+def _draw_free_sides(report: LaboratoryReport) -> Figure:
+    """Compression and tension of cells without lateral stress."""
+    figure, left, right = _pair()
+    for test in report.tests:
+        strain, stress, _ = cell_curve(test.curve())
+        sign = -1 if test.kind == "tension" else 1
+        axial = 100 * sign * strain[:, 2]
+        left.plot(axial, KILOPASCAL * sign * stress[:, 2], lw=1.1, label=f"grains: {test.label}")
+        right.plot(axial, -100 * sign * strain[:, :2].mean(axis=1), lw=1.1)
+    left.set(xlabel="axial strain [%]", ylabel="axial stress [kPa]")
+    right.set(xlabel="axial strain [%]", ylabel="lateral strain, against the axial [%]")
+    left.legend(fontsize=8)
+    annotate_panel(left, "a", "free sides")
+    annotate_panel(right, "b", "lateral strain")
+    return figure
+
+
 def _draw_shear(report: LaboratoryReport) -> Figure:
     figure, left, right = _pair()
     for test in report.tests:
@@ -148,6 +165,8 @@ def _draw_heaps(report: LaboratoryReport) -> Figure:
 FIGURES: dict[str, Callable[[LaboratoryReport], Figure]] = {
     "oedometer": _draw_oedometers,
     "triaxial": _draw_triaxial,
+    "unconfined": _draw_free_sides,
+    "tension": _draw_free_sides,
     "shear": _draw_shear,
     "plate": _draw_plates,
     "repose": _draw_heaps,

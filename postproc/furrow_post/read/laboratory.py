@@ -11,8 +11,18 @@ from ..errors import ResultsError, content_of
 from ..fields import Fields
 
 REMEDY = "run the test again, with inputs/laboratory/run.py"
-KINDS = ("oedometer", "triaxial", "shear", "collapse", "repose", "plate")
-COLUMNS = {"oedometer": 8, "triaxial": 9, "shear": 10, "plate": 4}  # of curve.txt, at least
+KINDS = (
+    *("oedometer", "triaxial", "unconfined", "tension", "shear"),
+    *("collapse", "repose", "plate"),
+)
+COLUMNS = {  # of curve.txt, at least
+    "oedometer": 8,
+    "triaxial": 9,
+    "unconfined": 8,
+    "tension": 8,
+    "shear": 10,
+    "plate": 4,
+}
 
 
 class LaboratoryTest:

@@ -54,6 +54,22 @@ class LaboratoryTests(unittest.TestCase):
         self.assertAlmostEqual(found["cohesion_end"].value, COHESION, delta=5)
         self.assertAlmostEqual(self.values(folders[0])["dilation"], 0.2, places=6)
 
+    def test_free_sides(self) -> None:
+        """Sides that give way by 0.05 of the axial strain; a linear, then a brittle pull."""
+        axial = np.linspace(0, 0.45, 500)
+        strain = np.column_stack((-0.06 * axial, -0.04 * axial, axial))
+        density = 200.0 * np.exp(0.9 * axial)
+        rows = cell_rows(strain, triaxial_stress(0.0, 2e4 * axial), density)
+        found = self.values(write_test(self.folder / "unconfined", "test unconfined", rows))
+        for level in (5, 10, 20, 40):
+            self.assertAlmostEqual(found[f"lateral_ratio_{level}%"], 0.05, places=6)
+            self.assertAlmostEqual(found[f"stress_{level}%"] / (200.0 * level), 1, delta=0.01)
+        self.assertAlmostEqual(found["density_20%"], 200 * np.exp(0.18), delta=0.5)
+        pull = np.where(axial < 0.2, 3e3 * axial, 0.0)
+        rows = cell_rows(-0.1 * strain, triaxial_stress(0.0, -pull), 200.0)
+        found = self.values(write_test(self.folder / "tension", "test tension", rows))
+        self.assertAlmostEqual(found["tensile_strength"] / 600, 1, delta=0.02)
+
     def shear(self, sigma: float) -> Path:
         j = np.linspace(0, 0.05, 400)
         strength = COHESION + sigma * np.tan(np.radians(PHI))

@@ -33,6 +33,7 @@ TESTS = (
     ("odometer", "invalid choice: 'odometer'"),
     ("oedometer --ground snoww", "there is no ground 'snoww'; there are sand_cmu"),
     ("oedometer --ground=", "there is no ground ''"),
+    ("repose --ground snow_bonded", "the test repose has no sintered clusters"),
     ("oedometer -v grians 100", "no line reads 'grians'; did you mean grains?"),
     ("oedometer -v steps 3", "computes 'steps' itself"),
     ("oedometer -v stiffness 3e6", "no line reads 'stiffness'"),  # of snow, not of sand
@@ -136,10 +137,13 @@ NO_CALIBRATIONS = (
 STRAIN = np.linspace(0, 0.2, 400)
 SIDE = -0.2 * STRAIN
 Z = np.linspace(-0.001, 0.02, 400)
-CELL = cell_rows(np.column_stack((SIDE, SIDE, STRAIN)), triaxial_stress(1e4, 1e4 + 2e5 * STRAIN))
+CELL_STRAIN = np.column_stack((SIDE, SIDE, STRAIN))
+CELL = cell_rows(CELL_STRAIN, triaxial_stress(1e4, 1e4 + 2e5 * STRAIN))
 CURVES: Mapping[str, Floats] = {
     "triaxial": CELL,
     "oedometer": CELL,
+    "unconfined": CELL,
+    "tension": cell_rows(-CELL_STRAIN, triaxial_stress(0.0, -2e5 * STRAIN)),
     "shear": np.column_stack((CELL[:, :8], np.linspace(0, 0.05, 401), np.full(401, 5e3))),
     "plate": np.column_stack((np.arange(400), Z, 1e4 * np.maximum(Z, 0), 1e6 * np.maximum(Z, 0))),
 }

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/grains/fix_snow_energy.h"
+
+#include "core/communicator.h"
+#include "core/error.h"
+#include "coupling/base/refuse_double.h"
+#include "coupling/grains/model_snow_bond.h"
+
+namespace furrow::coupling {
+
+const Outputs<FixSnowEnergy>& FixSnowEnergy::outputs() {
+  using Fix = FixSnowEnergy;
+  static const Outputs<Fix> list = {
+      {"stored", "J", "elastic energy of the contacts",
+       [](Fix& fix) { return fix.over_ranks(fix.present_.stored); }},
+      {"crushed", "J", "plastic work since the start: crushing, slip, yielding bonds",
+       [](Fix& fix) { return fix.over_ranks(fix.total_.crushed); }},
+      {"damped", "J", "taken by dampers since the start",
+       [](Fix& fix) { return fix.over_ranks(fix.total_.damped); }},
+      {"released", "J", "elastic energy lost with bonds that broke or were sintered anew",
+       [](Fix& fix) { return fix.over_ranks(fix.total_.released); }},
+      {"bonds", "", "bonds that there are",
+       [](Fix& fix) { return fix.over_ranks(fix.present_.bonds); }},
+      {"made", "", "bonds made since the start",
+       [](Fix& fix) { return fix.over_ranks(fix.total_.made); }},
+      {"broken", "", "bonds broken since the start",
+       [](Fix& fix) { return fix.over_ranks(fix.total_.broken); }},
+  };
+  return list;
+}
+
+FixSnowEnergy::FixSnowEnergy(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+    : FurrowFix(lammps, narg, arg, schema()) {
+  refuse_double<FixSnowEnergy>(*modify, options().subject(), "counts the energy of contacts",
+                               "one fix snow/energy", [](FixSnowEnergy&) { return true; });
+  provide(outputs());
+  keep_state();
+}
+
+double FixSnowEnergy::over_ranks(double value) const { return Communicator(&world).sum(value); }
+
+int FixSnowEnergy::setmask() { return LAMMPS_NS::FixConst::PRE_FORCE; }
+
+void FixSnowEnergy::init() {
+  collectively([&] {
+    if (!ModelSnowBond::is_pair_style(*lmp))
+      throw InputError(name(), "has no contacts whose energy it could count",
+                       "pair_style gran model snow/bond", "write that pair style before the run");
+  });
+}
+
+void FixSnowEnergy::setup_pre_force(int) { begin_step(); }
+void FixSnowEnergy::pre_force(int) { begin_step(); }
+void FixSnowEnergy::begin_step() { present_ = {}; }
+
+void FixSnowEnergy::add(const SnowBondResponse& response, const SnowBondEnergy& energy, bool bonded,
+                        double share) {
+  present_.stored += share * energy.stored;
+  present_.bonds += bonded ? share : 0.0;
+  total_.crushed += share * energy.crushed;
+  total_.damped += share * energy.damped;
+  total_.released += share * energy.released;
+  total_.made += response.made ? share : 0.0;
+  total_.broken += response.broken ? share : 0.0;
+}
+
+void FixSnowEnergy::release(double energy, bool bonded, double share) {
+  total_.released += share * energy;
+  total_.broken += bonded ? share : 0.0;
+}
+
+/// The sums of all ranks; the first one goes on with them.
+void FixSnowEnergy::checkpoint(Checkpoint& state) {
+  const Communicator ranks(&world);
+  double sums[] = {total_.crushed, total_.damped, total_.released, total_.made, total_.broken};
+  if (state.saving()) ranks.sum(sums, 5);
+  state.values("totals", sums, 5);
+  if (state.saving()) return;
+  total_ = {};
+  if (ranks.rank() == 0) total_ = {sums[0], sums[1], sums[2], sums[3], sums[4]};
+}
+
+}  // namespace furrow::coupling

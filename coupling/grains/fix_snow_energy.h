@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// fix snow/energy: where the energy of contacts of snow goes, and their bonds. See
+/// fix_snow_energy.md.
+
+#include <array>
+
+#include "coupling/base/furrow_fix.h"
+#include "grains/snow_bond.h"
+
+namespace furrow::coupling {
+
+class FixSnowEnergy : public FurrowFix {
+ public:
+  FixSnowEnergy(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
+  static Schema schema() { return Schema("fix snow/energy"); }
+  static const Outputs<FixSnowEnergy>& outputs();
+
+  int setmask() override;
+  void init() override;
+  void setup_pre_force(int vflag) override;
+  void pre_force(int vflag) override;
+
+  /// A contact in this step. @param share  that belongs to this rank: a half where another rank
+  /// computes the contact too, or where the response is that of a contact and its mirror image
+  void add(const SnowBondResponse& response, const SnowBondEnergy& energy, bool bonded,
+           double share);
+  /// A contact has ended and its springs are lost. @param energy [J]
+  void release(double energy, bool bonded, double share);
+
+ protected:
+  void checkpoint(Checkpoint& state) override;
+
+ private:
+  void begin_step();
+  double over_ranks(double value) const;
+
+  // Of this rank: in the present step, and since the start.
+  struct Present {
+    double stored = 0.0, bonds = 0.0;
+  } present_;
+  struct Total {
+    double crushed = 0.0, damped = 0.0, released = 0.0, made = 0.0, broken = 0.0;
+  } total_;
+};
+
+}  // namespace furrow::coupling

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/grains/fix_snow_sinter.h"
+
+#include "atom.h"
+#include "core/error.h"
+#include "coupling/base/refuse_double.h"
+#include "coupling/grains/model_snow_bond.h"
+
+namespace furrow::coupling {
+
+FixSnowSinter::FixSnowSinter(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+    : FurrowFix(lammps, narg, arg, schema()) {
+  refuse_double<FixSnowSinter>(*modify, options().subject(), "sinters clusters",
+                               "one fix snow/sinter at a time",
+                               [](FixSnowSinter&) { return true; });
+}
+
+void FixSnowSinter::init() {
+  collectively([&] {
+    if (!ModelSnowBond::is_pair_style(*lmp))
+      throw InputError(name(), "has no contacts that it could sinter",
+                       "pair_style gran model snow/bond", "write that pair style before the run");
+  });
+}
+
+bool FixSnowSinter::sinters(int i, int j) const {
+  return (atom->mask[i] & groupbit) && (atom->mask[j] & groupbit);
+}
+
+}  // namespace furrow::coupling

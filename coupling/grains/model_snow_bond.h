@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The contact model snow/bond of grains: snow that crushes in place. See model_snow_bond.md.
+
+#include "core/options.h"
+#include "lammps.h"
+
+namespace furrow::coupling {
+
+struct ModelSnowBond {
+  static constexpr const char* name = "snow/bond";
+  static Schema schema();
+  /// Makes the model known to LIGGGHTS, for pairs of grains and for walls.
+  static void add();
+  /// Are the contacts between the grains of this model?
+  static bool is_pair_style(const LAMMPS_NS::LAMMPS& lammps);
+};
+
+}  // namespace furrow::coupling
