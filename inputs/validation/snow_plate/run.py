@@ -56,12 +56,14 @@ def on_snow(name: str, what: str, stage: str, variables: Mapping[str, Value]) ->
 
 def plate(name: str, what: str, **variables: Value) -> Case:
     """The scene with a cap law, fresh_snow unless a material is given."""
-    return on_snow(name, what, "cap", {"material": FRESH, **variables})
+    given: dict[str, Value] = {"material": FRESH, **variables}
+    return on_snow(name, what, "cap", given)
 
 
 def report(name: str, what: str, **variables: Value) -> Case:
     """The scene with the report's reading of the cap law."""
-    return plate(name, what, **{"material": REPORT, **variables})
+    given: dict[str, Value] = {"material": REPORT, **variables}
+    return plate(name, what, **given)
 
 
 def foam(name: str, what: str, **variables: Value) -> Case:

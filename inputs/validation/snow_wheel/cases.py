@@ -46,7 +46,8 @@ CALIBRATION_DEPTHS = (0.18, 0.22)
 
 PRESSURE = 179e3  # [Pa] of the measured tyre
 RIGID: dict[str, Value] = {  # of [Shoop2001]
-    "body": "wheel/rigid diameter 0.74 width 0.272 shoulder 0.051 mass 636 inertia 2.15 segments 72",
+    "body": "wheel/rigid diameter 0.74 width 0.272 shoulder 0.051 mass 636 inertia 2.15 "
+    "segments 72",
     "load": f"load_mass {LOAD_MASS:g}",
     "radius": 0.37,
     "damping": 10000,
@@ -57,7 +58,8 @@ def tyre(pressure: float = PRESSURE, mesh: str = "4 36") -> dict[str, Value]:
     """The tyre of [Shoop2001] at a pressure [Pa]."""
     file = INPUTS / "tyres" / "p235_75r15.yaml"
     return {
-        "body": f"tyre/darnell file {file} pressure {pressure:g} mesh {mesh} half yes mass 30 inertia 1",
+        "body": f"tyre/darnell file {file} pressure {pressure:g} mesh {mesh} half yes mass 30 "
+        "inertia 1",
         "load": "load_force 6227",
         "radius": 0.3483,
     }
@@ -146,7 +148,7 @@ def on_preset(
     **changes: Value,
 ) -> Case:
     """On snow of a file of inputs/materials."""
-    given = {**wheel, "material": MATERIALS / f"{material}.yaml", **changes}
+    given: dict[str, Value] = {**wheel, "material": MATERIALS / f"{material}.yaml", **changes}
     return case(name, stage, depth, given, cells, what)
 
 
@@ -162,7 +164,11 @@ def on_field_snow(
     **changes: Value,
 ) -> Case:
     """The tyre, unless another wheel is given, on the field's snow."""
-    given = {**(wheel or tyre()), "material": f"{FOLDER}/material.yaml", **changes}
+    given: dict[str, Value] = {
+        **(wheel or tyre()),
+        "material": f"{FOLDER}/material.yaml",
+        **changes,
+    }
     text = field_snow(density, beginning, f"field snow of {density:g} kg/m3")
     return case(name, stage, depth, given, cells, what, {"material.yaml": text})
 
@@ -172,19 +178,19 @@ ZERO_SLIP = "slip slip 0"
 
 def predictions() -> list[Case]:
     """From the oedometer alone; what the report's reading of it and of friction change."""
-    stage, slip = "predict", {"mode": ZERO_SLIP}
+    stage = "predict"
     fresh, clay, report = "fresh_snow", "fresh_snow_cam_clay", "fresh_snow_shoop"
     return [
         on_preset("rigid_towed", stage, fresh, RIGID, "`fresh_snow`, towed"),
-        on_preset("rigid_zero_slip", stage, fresh, RIGID, "the same, zero slip", **slip),
+        on_preset("rigid_zero_slip", stage, fresh, RIGID, "the same, zero slip", mode=ZERO_SLIP),
         on_preset("tyre_towed", stage, fresh, tyre(), "`fresh_snow`, the tyre, towed"),
         on_preset("clay_towed", stage, clay, RIGID, "`fresh_snow_cam_clay`, towed"),
-        on_preset("clay_zero_slip", stage, clay, RIGID, "the same, zero slip", **slip),
+        on_preset("clay_zero_slip", stage, clay, RIGID, "the same, zero slip", mode=ZERO_SLIP),
         on_preset("clay_tyre_towed", stage, clay, tyre(), "`fresh_snow_cam_clay`, the tyre, towed"),
         on_preset("report_towed", stage, report, RIGID, "`fresh_snow_shoop`, towed"),
-        on_preset("report_zero_slip", stage, report, RIGID, "the same, zero slip", **slip),
-        on_preset("rigid_deep", stage, clay, RIGID, "`fresh_snow_cam_clay`, 0.50 m deep, towed", 0.50),
-        on_field_snow("rigid_field", stage, 220, 0.20, RIGID, what="field snow, rigid wheel, towed"),
+        on_preset("report_zero_slip", stage, report, RIGID, "the same, zero slip", mode=ZERO_SLIP),
+        on_preset("rigid_deep", stage, clay, RIGID, f"`{clay}`, 0.50 m deep, towed", 0.50),
+        on_field_snow("rigid_field", stage, 220, 0.20, RIGID, what="`field_snow`, towed"),
     ]
 
 

@@ -152,7 +152,8 @@ def identify(parsed: argparse.Namespace) -> None:
         made.append(record)
         return report.row_of(case, runner.folder(case), record)
 
-    search = Search(tuple(parsed.start), make)
+    first, second, third = parsed.start
+    search = Search((first, second, third), make)
     best = search.run(parsed.iterations)
     print(f"best:\n{aligned([best])}\n")
     with Output(HERE, page=False) as output:

@@ -166,7 +166,8 @@ def draw_comparison(table: Sequence[Row], path: Path) -> None:
         (panels[0], "sinkage_m", "sinkage [m]"),
         (panels[1], "resistance", "resistance over load"),
     ):
-        top = 1.08 * max(r[source] or 0 for r in table for source in (what, f"nrmm_{what}", f"tyre_{what}"))
+        sources = (what, f"nrmm_{what}", f"tyre_{what}")
+        top = 1.08 * max(r[source] or 0 for r in table for source in sources)
         axes.plot([0, top], [0, top], color="0.5", lw=0.8)
         for used, how, fill in (
             ("calibration", "identified on", "none"),
@@ -174,8 +175,8 @@ def draw_comparison(table: Sequence[Row], path: Path) -> None:
         ):
             mine = [r for r in table if r["used"] == used and r[f"tyre_{what}"] != ""]
             measured, computed = [r[what] for r in mine], [r[f"tyre_{what}"] for r in mine]
-            look = {"ms": 5, "color": "tab:blue", "mfc": fill, "label": f"tyre on field snow, {how}"}
-            axes.plot(measured, computed, "s", **look)
+            look = {"ms": 5, "color": "tab:blue", "mfc": fill}
+            axes.plot(measured, computed, "s", **look, label=f"tyre on field snow, {how}")
         measured, nrmm = [r[what] for r in table], [r[f"nrmm_{what}"] for r in table]
         axes.plot(measured, nrmm, "x", ms=4, color="0.4", label="NRMM")
         axes.set(xlabel=f"measured {title}", ylabel=f"computed {title}")

@@ -112,4 +112,5 @@ def share_left(terrain: Terrain, body: Outline) -> float:
 def _tops(terrain: Terrain, inside: Booleans) -> Floats:
     """z of the upper sides of particles [m]."""
     squeeze = terrain.undisturbed / terrain.density[inside]
-    return terrain.x[inside, 2] + 0.5 * terrain.spacing * squeeze
+    tops: Floats = terrain.x[inside, 2] + 0.5 * terrain.spacing * squeeze
+    return tops
