@@ -96,9 +96,9 @@ TEST(BadOptions, OfFurrowSidewall) {
   write_text_file(scratch.path("taken"), "");
   const std::string run = "run --no-plot " + inputs + "tyres/p235_75r15.yaml ";
   const Case cases[] = {
-      {"", "subcommand"},
+      {"", "needs one of the words run or keys"},
       {"run", "file is required"},
-      {"bend", "subcommand"},
+      {"bend", "not expected: bend"},
       {run + "-p nan", "--pressure: is 'nan'; allowed: a number in [0, 2000000] [Pa]"},
       {run + "-p 1e9", "--pressure: is '1e9'; allowed: a number in [0, 2000000] [Pa]"},
       {run + "-n 1000", "--nodes: Value 1000 not in range"},
