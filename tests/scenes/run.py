@@ -192,7 +192,7 @@ def two_grounds(results):
     comparison = inputs_run("--quick", "-o", folder / "run", FURROW_CACHE=str(folder / "cache"))
     check_scene(SCENES / "tyre_on_snow.lig", folder / "run" / "tyre")
     check_scene(SCENES / "wheel_on_snow.lig", folder / "run" / "continuum")
-    check_scene(SCENES / "wheel_on_snow_grains.lig", folder / "run" / "grains")
+    check_scene(SCENES / "wheel_on_sintered_snow.lig", folder / "run" / "grains")
     for report, words in (("report.html", ("continuum", "grains", "sinkage")),
                           ("measured/report.html", ("tyre", "measured", "NRMM", "sinkage"))):
         text = (folder / "run" / report).read_text()
