@@ -145,7 +145,19 @@ def kill_at_any_moment(folder: Path, duration: float, number: int) -> Path | Non
     status = end(run)
     if number == signal.SIGTERM and status == 0:
         sys.exit("the status after SIGTERM is 0")
-    return newest(list(folder.glob("restart_forced*")) or [folder / "ck.1", folder / "ck.2"])
+    forced = [file for file in folder.glob("restart_forced*") if step_of(file) >= prepared_steps()]
+    return newest(forced or [folder / "ck.1", folder / "ck.2"])
+
+
+def step_of(forced: Path) -> int:
+    """Of the checkpoint of a signal, which has it in its name."""
+    return int(re.findall(r"\d+", forced.name)[-1])
+
+
+def prepared_steps() -> int:
+    """Steps of the runs before the last: a checkpoint of theirs is continued by what the script
+    does then, which continued_script() leaves out."""
+    return sum(int(steps) for steps in re.findall(r"^run +(\d+)$", whole_script(), flags=re.M))
 
 
 def largest(values: np.ndarray) -> float:
