@@ -5,8 +5,8 @@
 
 #include "atom.h"
 #include "core/error.h"
+#include "coupling/liggghts/global_properties.h"
 #include "fix_property_global.h"
-#include "modify.h"
 
 namespace furrow::coupling {
 
@@ -22,8 +22,7 @@ constexpr const char* not_negative[] = {"coefficientFriction", "coefficientRolli
 void check_contact_properties(LAMMPS_NS::LAMMPS& lammps) {
   const int types = lammps.atom->ntypes;
   for (const char* name : not_negative) {
-    auto* property = dynamic_cast<LAMMPS_NS::FixPropertyGlobal*>(lammps.modify->find_fix_property(
-        name, "property/global", "peratomtypepair", types, types, "furrow", false));
+    auto* property = property_of_pairs(lammps, name);
     if (!property) continue;
     const double* const* values = property->get_array();
     for (int a = 0; a < types; ++a)

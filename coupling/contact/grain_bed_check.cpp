@@ -10,9 +10,9 @@
 #include "atom.h"
 #include "core/communicator.h"
 #include "coupling/grains/model_snow_bond.h"
+#include "coupling/liggghts/global_properties.h"
 #include "coupling/liggghts/script.h"
 #include "domain.h"
-#include "modify.h"
 
 namespace furrow::coupling {
 
@@ -67,13 +67,10 @@ void GrainBedCheck::start(const Surface& surface) {
 }
 
 void GrainBedCheck::choose_overlap_limit() {
-  const bool elastic =
-      lammps_.modify->find_fix_property("youngsModulus", "property/global", "peratomtype",
-                                        lammps_.atom->ntypes, 0, "furrow", false) != nullptr;
   if (ModelSnowBond::is_pair_style(lammps_)) {
     overlap_limit_ = GrainBedLimits::snow_overlap;
     overlap_remedy_ = "the snow is crushed to ice: lower the load, or raise snowDenseStrength";
-  } else if (elastic) {
+  } else if (property_of_types(lammps_, "youngsModulus")) {
     overlap_limit_ = GrainBedLimits::overlap;
     overlap_remedy_ =
         "the grains are too soft for this load: raise youngsModulus and settle the bed again";

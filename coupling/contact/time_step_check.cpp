@@ -9,9 +9,9 @@
 #include "atom.h"
 #include "core/communicator.h"
 #include "core/error.h"
+#include "coupling/liggghts/global_properties.h"
 #include "coupling/liggghts/script.h"
 #include "fix_property_global.h"
-#include "modify.h"
 #include "update.h"
 
 namespace furrow::coupling {
@@ -19,11 +19,6 @@ namespace furrow::coupling {
 namespace {
 
 constexpr double step_recommended = 0.2;  // of the Rayleigh time
-
-LAMMPS_NS::FixPropertyGlobal* property_of_types(LAMMPS_NS::LAMMPS& lammps, const char* name) {
-  return static_cast<LAMMPS_NS::FixPropertyGlobal*>(lammps.modify->find_fix_property(
-      name, "property/global", "peratomtype", lammps.atom->ntypes, 0, "furrow", false));
-}
 
 /// Largest number of two digits that is not above value.
 double rounded_down(double value) {

@@ -2,7 +2,6 @@
 #include "coupling/grains/fix_snow_energy.h"
 
 #include "core/communicator.h"
-#include "core/error.h"
 #include "coupling/base/refuse_double.h"
 #include "coupling/grains/model_snow_bond.h"
 
@@ -42,11 +41,7 @@ double FixSnowEnergy::over_ranks(double value) const { return Communicator(&worl
 int FixSnowEnergy::setmask() { return LAMMPS_NS::FixConst::PRE_FORCE; }
 
 void FixSnowEnergy::init() {
-  collectively([&] {
-    if (!ModelSnowBond::is_pair_style(*lmp))
-      throw InputError(name(), "has no contacts whose energy it could count",
-                       "pair_style gran model snow/bond", "write that pair style before the run");
-  });
+  collectively([&] { ModelSnowBond::require(*lmp, name(), "whose energy it could count"); });
 }
 
 void FixSnowEnergy::setup_pre_force(int) { begin_step(); }

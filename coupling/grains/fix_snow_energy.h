@@ -3,8 +3,6 @@
 /// fix snow/energy: where the energy of contacts of snow goes, and their bonds. See
 /// fix_snow_energy.md.
 
-#include <array>
-
 #include "coupling/base/furrow_fix.h"
 #include "grains/snow_bond.h"
 

@@ -2,7 +2,6 @@
 #include "coupling/grains/fix_snow_sinter.h"
 
 #include "atom.h"
-#include "core/error.h"
 #include "coupling/base/refuse_double.h"
 #include "coupling/grains/model_snow_bond.h"
 
@@ -16,11 +15,7 @@ FixSnowSinter::FixSnowSinter(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
 }
 
 void FixSnowSinter::init() {
-  collectively([&] {
-    if (!ModelSnowBond::is_pair_style(*lmp))
-      throw InputError(name(), "has no contacts that it could sinter",
-                       "pair_style gran model snow/bond", "write that pair style before the run");
-  });
+  collectively([&] { ModelSnowBond::require(*lmp, name(), "that it could sinter"); });
 }
 
 bool FixSnowSinter::sinters(int i, int j) const {

@@ -15,6 +15,7 @@
 #include "coupling/grains/fix_snow_sinter.h"
 #include "coupling/liggghts/add_contact_model.h"
 #include "coupling/liggghts/errors.h"
+#include "coupling/liggghts/global_properties.h"
 #include "coupling/liggghts/script.h"
 #include "fix_property_global.h"
 #include "force.h"
@@ -43,8 +44,7 @@ SnowBondParameters read_parameters(LAMMPS_NS::LAMMPS& lammps, int type, int othe
     const std::string remedy =
         fmt::format("write 'fix <id> all property/global {} peratomtypepair {} <{} values>'",
                     key.name, types, types * types);
-    auto* property = static_cast<LAMMPS_NS::FixPropertyGlobal*>(lammps.modify->find_fix_property(
-        key.name.c_str(), "property/global", "peratomtypepair", types, types, "furrow", false));
+    auto* property = property_of_pairs(lammps, key.name);
     if (!property) throw InputError(where, "is missing", key.allowed(), remedy);
     const double value = property->compute_array(type - 1, other - 1);
     if (!key.range.contains(value))
@@ -64,6 +64,13 @@ void ModelSnowBond::add() { add_normal_model<model_id>(name); }
 bool ModelSnowBond::is_pair_style(const LAMMPS_NS::LAMMPS& lammps) {
   auto* pair = dynamic_cast<LAMMPS_NS::PairGranProxy*>(lammps.force->pair);
   return pair && pair->hashcode() == LIGGGHTS::ContactModels::GranStyle<model_id>::HASHCODE;
+}
+
+void ModelSnowBond::require(const LAMMPS_NS::LAMMPS& lammps, const std::string& where,
+                            const std::string& lacking) {
+  if (!is_pair_style(lammps))
+    throw InputError(where, "has no contacts " + lacking, "pair_style gran model snow/bond",
+                     "write that pair style before the run");
 }
 
 }  // namespace furrow::coupling

@@ -2,6 +2,8 @@
 #pragma once
 /// The contact model snow/bond of grains: snow that crushes in place. See model_snow_bond.md.
 
+#include <string>
+
 #include "core/options.h"
 #include "lammps.h"
 
@@ -14,6 +16,9 @@ struct ModelSnowBond {
   static void add();
   /// Are the contacts between the grains of this model?
   static bool is_pair_style(const LAMMPS_NS::LAMMPS& lammps);
+  /// For a fix of its contacts. @param lacking  "that it could sinter". @throws InputError
+  static void require(const LAMMPS_NS::LAMMPS& lammps, const std::string& where,
+                      const std::string& lacking);
 };
 
 }  // namespace furrow::coupling

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "atom.h"
 #include "coupling/base/fixes_of.h"
 #include "fix_property_global.h"
 
@@ -23,6 +24,19 @@ std::map<std::string, std::string> global_properties(const LAMMPS_NS::LAMMPS& la
     properties[fix->id] = fmt::format("{}", fmt::join(values, " "));
   }
   return properties;
+}
+
+LAMMPS_NS::FixPropertyGlobal* property_of_types(LAMMPS_NS::LAMMPS& lammps,
+                                                const std::string& name) {
+  return dynamic_cast<LAMMPS_NS::FixPropertyGlobal*>(lammps.modify->find_fix_property(
+      name.c_str(), "property/global", "peratomtype", lammps.atom->ntypes, 0, "furrow", false));
+}
+
+LAMMPS_NS::FixPropertyGlobal* property_of_pairs(LAMMPS_NS::LAMMPS& lammps,
+                                                const std::string& name) {
+  const int types = lammps.atom->ntypes;
+  return dynamic_cast<LAMMPS_NS::FixPropertyGlobal*>(lammps.modify->find_fix_property(
+      name.c_str(), "property/global", "peratomtypepair", types, types, "furrow", false));
 }
 
 }  // namespace furrow::coupling

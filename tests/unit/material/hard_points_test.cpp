@@ -6,17 +6,17 @@
 
 #include "core/error.h"
 #include "material/models/drucker_prager_cap/drucker_prager_cap.h"
-#include "paths.h"
+#include "sound_steps.h"
 
 namespace furrow {
 namespace {
 
+using testing_paths::expect_sound_step;
+using testing_paths::jumps_of_one_half;
 using testing_paths::material_of;
+using testing_paths::small_then_large;
+using testing_paths::strain_of;
 using testing_paths::stretch;
-
-Vector6 strain_of(double xx, double yy, double zz, double xz = 0) {
-  return (Vector6() << xx, yy, zz, 0, 0, xz).finished();
-}
 
 std::string snow(const std::string& more, const std::string& interpolation = "linear",
                  const std::string& beyond = "extrapolate") {
@@ -26,21 +26,10 @@ std::string snow(const std::string& more, const std::string& interpolation = "li
          interpolation + " beyond " + beyond + " beta 22.53 " + more;
 }
 
-/// Takes the steps; after each the state must be finite, on or inside its surface, and no heat may
-/// be negative.
 Branch expect_sound_steps(const Material& material, VectorX& state,
                           const std::vector<Vector6>& strains) {
   Branch branch{};
-  for (const Vector6& strain : strains) {
-    const double heat = state[field::dissipated_energy];
-    const UpdateReport report = material.update_point(stretch(strain), state, &branch);
-    EXPECT_TRUE(state.allFinite());
-    EXPECT_LE(material.yield_function(state), 1e-8 * material.stress_scale(state))
-        << "after strain " << strain.transpose();
-    EXPECT_GE(state[field::dissipated_energy] - heat, -1e-14 * material.stress_scale(state))
-        << "after strain " << strain.transpose();
-    EXPECT_LT(report.max_iterations, 200u);
-  }
+  for (const Vector6& strain : strains) branch = expect_sound_step(material, state, strain, 200);
   return branch;
 }
 
@@ -51,10 +40,7 @@ TEST(HardPoints, NearlyZeroStrength) {
   for (const std::string d : {"0", "1e-3", "1"}) {
     const auto material = material_of(snow("R 0.02 d " + d));
     VectorX state = material->initial_state();
-    expect_sound_steps(*material, state,
-                       {strain_of(0, 0, -1e-5), strain_of(0, 0, -1e-2), strain_of(1e-3, 0, 0, 0.01),
-                        strain_of(0.01, 0.01, 0.01), strain_of(0, 0, -0.2), strain_of(0, 0, 0, 0.1),
-                        strain_of(0.3, 0.3, 0.3), strain_of(-0.3, -0.3, -0.3)});
+    expect_sound_steps(*material, state, small_then_large());
   }
 }
 
@@ -159,14 +145,9 @@ TEST(HardPoints, JumpsOfOneHalf) {
   for (const std::string more :
        {"R 0.02 d 5e3", "R 1e-4 d 0", "R 1 d 1e5 alpha 0.05", "R 0.02 d 5e3 K 0.8 tension 0"}) {
     const auto material = material_of(snow(more));
-    const double jump = 0.5;
-    for (const Vector6& first :
-         {strain_of(-jump, 0, 0), strain_of(-jump, -jump, -jump), strain_of(jump, jump, jump),
-          strain_of(0, 0, 0, jump), strain_of(jump, -jump, 0), strain_of(0, 0, jump)}) {
+    for (const std::vector<Vector6>& path : jumps_of_one_half()) {
       VectorX state = material->initial_state();
-      expect_sound_steps(*material, state,
-                         {first, strain_of(0, -jump, 0), strain_of(jump, 0, -jump, jump),
-                          strain_of(jump, jump, jump), strain_of(-jump, -jump, -jump)});
+      expect_sound_steps(*material, state, path);
     }
   }
 }

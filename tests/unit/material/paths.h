@@ -34,6 +34,10 @@ inline std::string mccormick_sand(const std::string& more = "") {
 
 using furrow::stretch;
 
+inline Vector6 strain_of(double xx, double yy, double zz, double xz = 0) {
+  return (Vector6() << xx, yy, zz, 0, 0, xz).finished();
+}
+
 /// One step with the components of `strain`, except that the normal components marked in `held`
 /// take whatever keeps their stress at `target` (Newton's method with differences). Returns the
 /// strain increment.

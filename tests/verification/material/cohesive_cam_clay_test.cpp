@@ -14,11 +14,8 @@ namespace {
 
 using testing_paths::material_of;
 using testing_paths::mixed_step;
+using testing_paths::strain_of;
 using testing_paths::stretch;
-
-Vector6 strain_of(double xx, double yy, double zz, double xz = 0) {
-  return (Vector6() << xx, yy, zz, 0, 0, xz).finished();
-}
 
 /// p0 = 1 kPa exp(10 eps), whatever the sign of eps.
 constexpr double first_strength = 1e3, growth = 10;
