@@ -15,7 +15,11 @@ class FixSnowEnergy : public FurrowFix {
   static const Outputs<FixSnowEnergy>& outputs();
 
   int setmask() override;
+  void post_create() override;
   void init() override;
+  /// And the coupled system: with it a continued run begins with the forces of the checkpoint's
+  /// step, also without a body.
+  bool uses(const LAMMPS_NS::Fix& other) const override;
   void setup_pre_force(int vflag) override;
   void pre_force(int vflag) override;
 

@@ -10,45 +10,24 @@
 #include <gtest/gtest.h>
 
 #include "atom.h"
-#include "modify.h"
 #include "tests/coupled/support/scene.h"
+#include "tests/coupled/support/snow.h"
 
 namespace furrow::test {
 namespace {
 
 constexpr double dt = 1e-5, density = 340.0;
-constexpr char contact[] = "model snow/bond";
-
-void snow_properties(Scene& scene, const SnowBondParameters& law) {
-  const auto property = [&](const char* name, double value) {
-    scene.command(fmt::format("fix {0} all property/global {0} peratomtypepair 2 {1} {1} {1} {1}",
-                              name, value));
-  };
-  property("snowModulus", law.E);
-  property("snowCrushStrength", law.Y0);
-  property("snowCrushHardening", law.p);
-  property("snowDenseStrength", law.Y1);
-  property("snowDenseHardening", law.q);
-  property("snowBondHardening", law.pc);
-  property("snowShearStrength", law.chi);
-  property("snowTensileStrength", law.zeta);
-  property("snowSintering", law.w);
-  property("snowDamping", law.damping);
-  property("coefficientFriction", law.mu);
-}
 
 void snow_box(Scene& scene, const SnowBondParameters& law) {
   scene.granular_box(Vector3::Constant(-0.1), Vector3::Constant(0.1), 0.004);
-  snow_properties(scene, law);
-  scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep {}", contact, dt));
+  snow_contacts(scene, law);
+  scene.command(fmt::format("timestep {}", dt));
 }
 
 void add_grain(Scene& scene, const Vector3& x) {
   scene.command(
       fmt::format("create_atoms 1 single {:.17g} {:.17g} {:.17g} units box", x[0], x[1], x[2]));
 }
-
-void sinter(Scene& scene) { scene.commands("fix sinter all snow/sinter\nrun 1\nunfix sinter"); }
 
 /// A sphere that moves as fix nve/sphere moves it.
 struct Sphere {
@@ -186,9 +165,10 @@ TEST(SnowBondModel, AWallIsHalfOfAContact) {
                                                                [](double, Surface&) {}));
       scene.command("fix skin all mesh/body body sheet type 2");
       scene.command(
-          fmt::format("fix floor all wall/gran/body {} mesh n_meshes 1 meshes skin", contact));
+          fmt::format("fix floor all wall/gran/body {} mesh n_meshes 1 meshes skin", snow_model));
     } else {
-      scene.command(fmt::format("fix floor all wall/gran {} primitive type 2 zplane 0", contact));
+      scene.command(
+          fmt::format("fix floor all wall/gran {} primitive type 2 zplane 0", snow_model));
     }
     set_motion(scene, 1, pair.i);
     scene.command("run 1500");
@@ -266,10 +246,6 @@ void two_lumps(Scene& scene) {
   for (int i = 0; i < atom.nlocal; ++i) atom.v[i][0] = atom.x[i][0] < -0.005 ? 3.0 : -3.0;
 }
 
-double energy_entry(Scene& scene, int n) {
-  return scene.lammps().modify->find_fix_id("energy")->compute_vector(n - 1);
-}
-
 /// Nothing acts on the lumps from outside while they collide and break up.
 TEST(SnowBondModel, LumpsThatCollideKeepMomentumAndMoment) {
   Scene scene;
@@ -280,24 +256,24 @@ TEST(SnowBondModel, LumpsThatCollideKeepMomentumAndMoment) {
   const Sums after(scene);
   EXPECT_LT((after.momentum - before.momentum).norm() / before.scale, 1e-13);
   EXPECT_LT((after.moment - before.moment).norm() / before.moment_scale, 1e-12);
-  EXPECT_GT(energy_entry(scene, 7), 50.0);  // bonds broken
+  EXPECT_GT(snow_energy(scene, 7), 50.0);  // bonds broken
 }
 
 TEST(SnowBondModel, TheEnergyOfLumpsThatCollideIsAccountedFor) {
   Scene scene;
   snow_box(scene, {});
   two_lumps(scene);
-  const double bonds = energy_entry(scene, 5);
-  EXPECT_EQ(bonds, energy_entry(scene, 6));  // made by sintering
-  const double kinetic = scene.grain_kinetic_energy(), released = energy_entry(scene, 4);
+  const double bonds = snow_energy(scene, 5);
+  EXPECT_EQ(bonds, snow_energy(scene, 6));  // made by sintering
+  const double kinetic = scene.grain_kinetic_energy(), released = snow_energy(scene, 4);
   scene.command("run 5000");
-  const double left = scene.grain_kinetic_energy(), stored = energy_entry(scene, 1),
-               crushed = energy_entry(scene, 2), damped = energy_entry(scene, 3),
-               lost = energy_entry(scene, 4) - released;
+  const double left = scene.grain_kinetic_energy(), stored = snow_energy(scene, 1),
+               crushed = snow_energy(scene, 2), damped = snow_energy(scene, 3),
+               lost = snow_energy(scene, 4) - released;
   EXPECT_LT(left, 0.5 * kinetic);
   EXPECT_GT(crushed, 0.3 * kinetic);
   EXPECT_NEAR((left + stored + crushed + damped + lost) / kinetic, 1.0, 0.03);
-  EXPECT_NEAR(energy_entry(scene, 5), energy_entry(scene, 6) - energy_entry(scene, 7), 1e-9);
+  EXPECT_NEAR(snow_energy(scene, 5), snow_energy(scene, 6) - snow_energy(scene, 7), 1e-9);
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A block of sintered snow that is crushed and torn: the same on several ranks, and the same when
-it is continued from a checkpoint.
+"""A block of sintered snow that is crushed and torn, with what grains may meet.
 
-    run.py ranks <furrow> <mpirun -n>      on 1, 2 and 3 ranks: to rounding, and the same bonds
-    run.py restart <furrow> <mpirun -n>    continued after half of it, on 1 and 2 ranks: every bit
+    run.py ranks.<load> <furrow> <mpirun -n>      on 1, 2 and 3 ranks: to rounding, and the same bonds
+    run.py restart.<load> <furrow> <mpirun -n>    continued after half of it, on 1 and 2 ranks: every bit
+    run.py same <furrow> <mpirun -n>              thrown at a mesh of LIGGGHTS as at a plane
+
+Loads: plate (crushed on a plane by a body of Furrow), hybrid (on a continuum), plane and mesh (thrown
+at walls of LIGGGHTS, without a body of Furrow).
 """
 
 import subprocess
@@ -16,11 +19,28 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 TIME_LIMIT = 120  # s
 ROUNDING = 1e-9  # m; sums over ranks and ghosts come in another order, and differences grow
+THROWN = {"velocity": "1 0.3 -3"}  # m/s
+VELOCITY = {"plate": {}, "hybrid": {}, "plane": THROWN, "mesh": THROWN}
 
 
-def run(furrow, mpirun, folder, ranks, **variables):
+def write_floor(path):
+    """A level square of 0.24 m at z = 0, in 5 x 5 squares of two triangles."""
+    side, cells = 0.24, 5
+    knots = [side * (k / cells - 0.5) for k in range(cells + 1)]
+    lines = ["solid floor"]
+    for x, right in zip(knots, knots[1:]):
+        for y, back in zip(knots, knots[1:]):
+            for corners in (((x, y), (right, y), (right, back)), ((x, y), (right, back), (x, back))):
+                vertices = [f"vertex {px:.17g} {py:.17g} 0" for px, py in corners]
+                lines += ["facet normal 0 0 1", "outer loop", *vertices, "endloop", "endfacet"]
+    path.write_text("\n".join([*lines, "endsolid floor", ""]))
+
+
+def run(furrow, mpirun, folder, ranks, load, **more):
     folder.mkdir(exist_ok=True)
-    words = [word for pair in {"here": HERE, **variables}.items() for word in ("-var", *map(str, pair))]
+    write_floor(folder / "floor.stl")
+    variables = {"here": HERE, "load": load, **VELOCITY[load], **more}
+    words = [word for pair in variables.items() for word in ("-var", *map(str, pair))]
     done = subprocess.run([*mpirun, str(ranks), furrow, "-in", HERE / "crushed.lig", "-log", "none", *words],
                           cwd=folder, timeout=TIME_LIMIT, text=True, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
@@ -35,29 +55,38 @@ def check_that_it_happens(grains, bonds):
     assert grains[:, 3].max() < 0.115, "the block is not crushed"
 
 
-def ranks(furrow, mpirun, folder):
-    alone, bonds = run(furrow, mpirun, folder / "one", 1)
-    check_that_it_happens(alone, bonds)
+def compare(what, one, other, tolerance):
+    difference = np.abs(one[0][:, 1:4] - other[0][:, 1:4]).max()
+    print(f"{what}: largest difference {difference:.1e} m; {other[1].strip()}")
+    assert difference <= tolerance
+    assert one[1] == other[1], f"{one[1]} and {other[1]}"
+
+
+def ranks(furrow, mpirun, folder, load):
+    alone = run(furrow, mpirun, folder / "one", 1, load)
+    check_that_it_happens(*alone)
     for number in (2, 3):
-        grains, others = run(furrow, mpirun, folder / str(number), number)
-        difference = np.abs(grains[:, 1:4] - alone[:, 1:4]).max()
-        print(f"{number} ranks: largest difference {difference:.1e} m; {others.strip()}")
-        assert difference < ROUNDING
-        assert others == bonds, f"{bonds} and {others}"
+        compare(f"{number} ranks", alone, run(furrow, mpirun, folder / str(number), number, load), ROUNDING)
 
 
-def restart(furrow, mpirun, folder):
+def restart(furrow, mpirun, folder, load):
     for number in (1, 2):
         place = folder / str(number)
-        whole, bonds = run(furrow, mpirun, place, number)
-        check_that_it_happens(whole, bonds)
-        continued, others = run(furrow, mpirun, place, number, start="continued", **{"from": "checkpoint.2000"})
-        print(f"{number} ranks: largest difference {np.abs(continued - whole).max():g}")
-        assert np.array_equal(continued, whole)
-        assert others == bonds, f"{bonds} and {others}"
+        whole = run(furrow, mpirun, place, number, load)
+        check_that_it_happens(*whole)
+        continued = run(furrow, mpirun, place, number, load, start="continued", **{"from": "checkpoint.2000"})
+        assert np.array_equal(continued[0], whole[0])
+        compare(f"{number} ranks", whole, continued, 0.0)
+
+
+def same(furrow, mpirun, folder):
+    plane, mesh = (run(furrow, mpirun, folder / load, 1, load) for load in ("plane", "mesh"))
+    check_that_it_happens(*plane)
+    compare("mesh and plane", plane, mesh, ROUNDING)
 
 
 if __name__ == "__main__":
     case, program, *launcher = sys.argv[1:]
+    check, *loads = case.split(".")
     with tempfile.TemporaryDirectory() as scratch:
-        {"ranks": ranks, "restart": restart}[case](program, launcher, Path(scratch))
+        {"ranks": ranks, "restart": restart, "same": same}[check](program, launcher, Path(scratch), *loads)
