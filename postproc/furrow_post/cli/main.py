@@ -55,6 +55,7 @@ SUBCOMMANDS = (
     ),
     Subcommand("point", "the figure of furrow-point -> point.png or fit.png"),
     Subcommand("sidewall", "the figure of furrow-sidewall -> sidewall.png"),
+    Subcommand("modes", "the natural modes of furrow-tyre --modes -> <state>_modes.png"),
     Subcommand(
         "empirical", "what an empirical formula says: NRMM for snow, Bekker and Wong-Reece for sand"
     ),
