@@ -66,6 +66,7 @@ SUBCOMMANDS = (
     Subcommand(
         "cost", "error against cost of the runs of a scene, and which to take -> cost.png, cost.csv"
     ),
+    Subcommand("plan", "the runs that bring a scene's error down to a goal most cheaply"),
     Subcommand(
         "choose",
         "for 'inputs/run SCENE --error': the run of a table to make, and whether its estimate held",
