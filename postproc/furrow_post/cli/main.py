@@ -64,6 +64,11 @@ SUBCOMMANDS = (
         "the same scene on several grounds: table, verdict, figure -> compare.txt, .csv, .h5, .png",
     ),
     Subcommand(
+        "flow",
+        "displacement and density of two grounds under one wheel, and their difference "
+        "-> flow.csv, .h5, .png",
+    ),
+    Subcommand(
         "cost", "error against cost of the runs of a scene, and which to take -> cost.png, cost.csv"
     ),
     Subcommand("plan", "the runs that bring a scene's error down to a goal most cheaply"),
