@@ -74,6 +74,11 @@ void write_poly_data(const std::string& path, vtkPolyData* data) {
 }  // namespace
 
 void write_vtp(const std::string& path, const Surface& surface) {
+  write_vtp(path, surface, {{"velocity", surface.v}, {"force", surface.f}});
+}
+
+void write_vtp(const std::string& path, const Surface& surface,
+               const std::vector<NodeField>& fields) {
   vtkNew<vtkCellArray> triangles;
   triangles->AllocateExact(vtkIdType(surface.triangle_count()),
                            3 * vtkIdType(surface.triangle_count()));
@@ -84,8 +89,8 @@ void write_vtp(const std::string& path, const Surface& surface) {
   vtkNew<vtkPolyData> data;
   data->SetPoints(points_of(surface.x));
   data->SetPolys(triangles);
-  data->GetPointData()->AddArray(array_of("velocity", surface.v));
-  data->GetPointData()->AddArray(array_of("force", surface.f));
+  for (const NodeField& field : fields)
+    data->GetPointData()->AddArray(array_of(field.name.c_str(), field.values));
   write_poly_data(path, data);
 }
 

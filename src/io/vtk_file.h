@@ -16,6 +16,14 @@ struct TerrainSnapshot;
 /// Triangles with point data velocity [m/s] and force [N]. Written beside and renamed: never half a
 /// file. @throws Error
 void write_vtp(const std::string& path, const Surface& surface);
+/// A vector at every node.
+struct NodeField {
+  std::string name;
+  Matrix3X values;
+};
+/// Triangles with fields of their nodes as point data. @throws Error
+void write_vtp(const std::string& path, const Surface& surface,
+               const std::vector<NodeField>& fields);
 /// One vertex for each grain, with point data id, radius [m], velocity [m/s] and, with a reference,
 /// displacement [m]. @throws Error
 void write_vtp(const std::string& path, const Grains& grains, const Grains* reference = nullptr);

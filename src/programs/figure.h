@@ -7,7 +7,7 @@
 namespace furrow {
 
 /// Runs a subcommand of furrow-post, which lies beside this program, for a results folder.
-/// @param subcommand "point" or "sidewall"
+/// @param subcommand "point", "sidewall" or "modes"
 /// @throws Error when furrow-post is missing or fails; the results stay
 void draw_figure(const std::string& subcommand, const std::string& folder);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // furrow-tyre: a tyre at rest, inflated and pressed on a rigid plane: deflection, footprint,
-// section, forces.
+// section, forces, natural modes.
 
 #include <cstdio>
 #include <optional>
@@ -13,7 +13,9 @@
 
 #include "core/error.h"
 #include "end_output.h"
+#include "figure.h"
 #include "io/make_folder.h"
+#include "io/mode_results.h"
 #include "io/tyre_file.h"
 #include "io/version.h"
 #include "io/vtk_file.h"
@@ -42,7 +44,11 @@ struct Request {
   std::optional<double> tread_stiffness;  // [N m/rad/m]
   std::vector<double> link;               // [m] axial and radial; empty: the tyre file's
   std::string folder;                     // empty: nothing is written
+  int modes = 0;                          // of each state
+  bool no_plot = false;
 };
+
+constexpr int largest_mode_count = 200;
 
 void declare(CLI::App& app, Request& request) {
   app.set_version_flag("--version", version());
@@ -76,6 +82,13 @@ void declare(CLI::App& app, Request& request) {
       ->expected(2);
   app.add_option("--folder", request.folder,
                  "write shapes (VTK) and contact pressures (CSV) into this folder");
+  app.add_option("--modes", request.modes,
+                 "so many natural modes of each state, into --folder: table (CSV), shapes (VTK, "
+                 "HDF5) and a figure")
+      ->needs("--folder")
+      ->excludes("--half")
+      ->check(within(Range::closed(1, largest_mode_count)));
+  app.add_flag("--no-plot", request.no_plot, "leave out the figure of the modes")->needs("--modes");
 }
 
 TyreParameters parameters_of(const Request& request) {
@@ -131,21 +144,23 @@ void write_pressures(const std::string& path, const Tyre& tyre, const RigidPlane
 
 /// Prints and writes one state. @param plane null for the inflated tyre
 void report(Tyre& tyre, double load, const Relaxation& rest, const RigidPlane* plane,
-            const std::string& folder) {
+            const Request& request) {
   const ContactPatch patch = plane ? contact_patch(tyre, *plane) : ContactPatch();
   fmt::print("{}\n", line(tyre, load, patch, rest));
   std::fflush(stdout);
-  if (folder.empty()) return;
+  if (request.folder.empty()) return;
   const std::string name =
-      fmt::format("{}/{:.0f}kPa_{:.0f}N", folder, 1e-3 * tyre.pressure(), load);
+      fmt::format("{}/{:.0f}kPa_{:.0f}N", request.folder, 1e-3 * tyre.pressure(), load);
   write_vtp(name + ".vtp", tyre.surface());
   if (plane) write_pressures(name + "_pressure.csv", tyre, *plane);
+  if (request.modes > 0)
+    write_modes(name, tyre, tyre.natural_modes(plane, request.modes), request.file, load);
 }
 
 /// Inflates a tyre and presses it down under one load after the other.
 void press(Tyre& tyre, const Request& request) {
   const SettleOptions options{request.tolerance};
-  report(tyre, 0.0, tyre.settle(nullptr, options), nullptr, request.folder);
+  report(tyre, 0.0, tyre.settle(nullptr, options), nullptr, request);
   RigidPlaneParameters floor;
   floor.height = tyre.lowest_tread_height();
   floor.friction = request.friction;
@@ -154,7 +169,7 @@ void press(Tyre& tyre, const Request& request) {
   for (const double load : request.loads) {
     tyre.set_load({0.0, 0.0, -load});
     try {
-      report(tyre, load, tyre.settle(&plane, options), &plane, request.folder);
+      report(tyre, load, tyre.settle(&plane, options), &plane, request);
     } catch (const StateError& error) {
       throw StateError(fmt::format(
           "--load {:.6g} at {:.6g} kPa: the tyre does not come to rest: {}; lower the load, reach "
@@ -192,6 +207,7 @@ void run(const Request& request) {
     DarnellTyre tyre(parameters, settings, rim, request.file);
     press(tyre, request);
   }
+  if (request.modes > 0 && !request.no_plot) draw_figure("modes", request.folder);
 }
 
 }  // namespace
@@ -199,7 +215,7 @@ void run(const Request& request) {
 int main(int argc, char** argv) {
   CLI::App app(
       "Brings a tyre to rest: inflated, then pressed on a rigid plane under each load. Prints one "
-      "line of comma-separated values for each state.",
+      "line of comma-separated values for each state; --modes adds its natural modes.",
       "furrow-tyre");
   Request request;
   declare(app, request);

@@ -100,6 +100,7 @@ class DarnellTyre : public Tyre {
   Wrench of_whole(const Wrench& computed) const;
 
   Relaxation relax(RigidPlane* plane, const SettleOptions& options) override;
+  NaturalModes modes_with(const std::vector<int>& held, int count) override;
   void follow_placement(const Vector3& old_centre, const Matrix3& old_attitude) override;
   void follow_velocity() override;
   double kinetic_energy() const override;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How a DarnellTyre comes to rest: its tread relaxes, its rim is the support.
+// How a DarnellTyre comes to rest, and vibrates about it: its tread relaxes, its rim is the
+// support.
 
 #include <algorithm>
 #include <cmath>
@@ -89,6 +90,17 @@ Relaxation DarnellTyre::relax(RigidPlane* plane, const SettleOptions& options) {
   const Relaxation result = DynamicRelaxation(structure, rim, settings).run();
   structure.finish();
   return result;
+}
+
+NaturalModes DarnellTyre::modes_with(const std::vector<int>& held, int count) {
+  const ShellNodes rest = nodes_;
+  for (const int node : held) nodes_.hold(node);
+  Relaxing structure(*this, nullptr, false);
+  NaturalModes modes =
+      furrow::natural_modes(structure, neighbours_of(shell_.quads(), nodes_.count()), count);
+  nodes_ = rest;
+  compute_internal();
+  return modes;
 }
 
 }  // namespace furrow

@@ -19,6 +19,17 @@ Relaxation Tyre::settle(RigidPlane* plane, const SettleOptions& options) {
   return result;
 }
 
+NaturalModes Tyre::natural_modes(const RigidPlane* plane, int count) {
+  if (half_model())
+    throw InputError("natural modes: the tyre", "is a half model, which has only symmetric modes",
+                     "a whole tyre", "leave out 'half'");
+  std::vector<int> held;
+  if (plane)
+    for (int node = 0; node < tread_grid().count(); ++node)
+      if (plane->pressure()[node] > 0.0) held.push_back(node);
+  return modes_with(held, count);
+}
+
 double Tyre::lowest_tread_height() const {
   return surface().x.row(2).head(tread_grid().count()).minCoeff();
 }

@@ -13,6 +13,7 @@
 #include "bodies/rigid_plane.h"
 #include "bodies/wheel_hub.h"
 #include "shell/dynamic_relaxation.h"
+#include "shell/natural_modes.h"
 #include "tyre/tread_grid.h"
 
 namespace furrow {
@@ -40,6 +41,14 @@ class Tyre : public WheelHub {
   /// @throws StateError when max_steps do not suffice, and as advance()
   Relaxation settle(RigidPlane* plane, const SettleOptions& options = {});
 
+  /// Small undamped vibrations of the tread about the present state, in which the tyre is at rest,
+  /// not turning; the rim is held, and so are nodes that press on a plane.
+  /// @param plane that it stands on, or null
+  /// @returns shapes at the nodes of tread_grid()
+  /// @throws InputError for a half model, which has half of the modes, and as natural_modes() of
+  /// shell/natural_modes.h
+  NaturalModes natural_modes(const RigidPlane* plane, int count);
+
   /// Nodes of the outside of the tread. They are the first of surface(), in the grid's order.
   virtual const TreadGrid& tread_grid() const = 0;
   double lowest_tread_height() const;  ///< [m] z of the lowest node of the tread
@@ -58,6 +67,8 @@ class Tyre : public WheelHub {
  private:
   /// settle() without the refusal of what has not converged.
   virtual Relaxation relax(RigidPlane* plane, const SettleOptions& options) = 0;
+  /// natural_modes() with nodes of the tread held.
+  virtual NaturalModes modes_with(const std::vector<int>& held, int count) = 0;
 };
 
 }  // namespace furrow

@@ -19,6 +19,7 @@ PACKAGES = {
     r"mpi\.h": "MPI::MPI_C",
     r"hdf5\.h": "HDF5::HDF5",
     r"yaml-cpp/": "yaml-cpp",
+    r"Spectra/": "Spectra::Spectra",
     r"nlohmann/": "nlohmann_json::nlohmann_json",
     r"vtk\w+\.h": "VTK",
     r"g(test|mock)/g(test|mock)\.h": "GTest::gmock",

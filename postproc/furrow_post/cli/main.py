@@ -55,6 +55,7 @@ SUBCOMMANDS = (
     ),
     Subcommand("point", "the figure of furrow-point -> point.png or fit.png"),
     Subcommand("sidewall", "the figure of furrow-sidewall -> sidewall.png"),
+    Subcommand("modes", "the natural modes of furrow-tyre --modes -> <state>_modes.png"),
     Subcommand(
         "empirical", "what an empirical formula says: NRMM for snow, Bekker and Wong-Reece for sand"
     ),
@@ -63,8 +64,14 @@ SUBCOMMANDS = (
         "the same scene on several grounds: table, verdict, figure -> compare.txt, .csv, .h5, .png",
     ),
     Subcommand(
+        "flow",
+        "displacement and density of two grounds under one wheel, and their difference "
+        "-> flow.csv, .h5, .png",
+    ),
+    Subcommand(
         "cost", "error against cost of the runs of a scene, and which to take -> cost.png, cost.csv"
     ),
+    Subcommand("plan", "the runs that bring a scene's error down to a goal most cheaply"),
     Subcommand(
         "choose",
         "for 'inputs/run SCENE --error': the run of a table to make, and whether its estimate held",

@@ -17,30 +17,9 @@ namespace {
 
 Vector3 along_x(const Vector3&) { return Vector3::UnitX(); }
 Vector3 along_y(const Vector3&) { return Vector3::UnitY(); }
-Vector3 around_y(const Vector3& x) { return Vector3(-x.z(), 0.0, x.x()); }
 
 /// The belt of the tyre of [Shoop2001]: E1 3.62e10, E2 1.98e10 Pa, h 1.11 mm; nu12 and G assumed.
 OrthotropicLayer belt() { return {3.62e10, 1.98e10, 0.3, 1e10, 1e10, 1e10, 1.11e-3}; }
-
-/// A ring round the y axis, normals outwards: n elements around, m across.
-ShellModel ring(double R, double width, int n, int m, const ShellSection& section) {
-  Matrix3X x(3, n * (m + 1));
-  std::vector<Shell4::Quad> quads;
-  const auto node = [&](int i, int j) { return (i % n) * (m + 1) + j; };
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j <= m; ++j) {
-      const double angle = 2.0 * pi * i / n;
-      x.col(node(i, j)) << R * std::sin(angle), width * (double(j) / m - 0.5), -R * std::cos(angle);
-      if (j < m) quads.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
-    }
-  // The sense must make outward normals: checked by the volume below.
-  for (Shell4::Quad& quad : quads) {
-    const Vector3 normal =
-        Vector3(x.col(quad[1]) - x.col(quad[0])).cross(Vector3(x.col(quad[3]) - x.col(quad[0])));
-    if (normal.dot(Vector3(x(0, quad[0]), 0.0, x(2, quad[0]))) < 0.0) std::swap(quad[1], quad[3]);
-  }
-  return ShellModel(x, quads, section, around_y);
-}
 
 /// MacNeal and Harder's patch of five distorted elements, 0.24 x 0.12.
 ShellModel patch(const ShellSection& section) {

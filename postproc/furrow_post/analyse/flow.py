@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Flow fields of two runs of one wheel on the same axes: displacement and density in its plane.
+
+Both grounds, grains and continuum particles alike, are coarse-grained with one kernel (I.
+Goldhirsch, Granular Matter 12, 239 (2010), section 3):
+
+    rho(r) = sum_i m_i phi(r - r_i),   u(r) = sum_i m_i u_i phi(r - r_i)/rho(r)
+
+with r in the wheel's plane (x along, z up, from the axle and the undisturbed ground), phi a
+Gaussian of standard deviation w, cut at 3 w, over the middle half of the wheel's width, and u_i the
+displacement since the start of the run. Masses stand for the places where they are at the end. The
+part of phi below the floor is left out of its norm. A wider kernel sees less: w is written with
+every result.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import h5py
+import numpy as np
+from scipy.stats import norm
+
+from ..arrays import Booleans, Floats
+from ..csv_table import write_rows
+from ..errors import ResultsError
+from ..read.terrain import read_terrain_fields
+from ..read.wheel_run import WheelRun
+from .density import ground_points
+
+REACH = 3.0  # of the kernel, in standard deviations
+CELLS_PER_WIDTH = 2.0  # of the picture, for each standard deviation
+GRAINS_PER_WIDTH = 1.0  # least width of the kernel over the size of the coarser ground
+# of the density that a kernel's room would have at the typical density: less is the surface's blur
+COVERED = 0.5
+
+
+class Window(NamedTuple):
+    """A grid of points in the wheel's plane [m]."""
+
+    x: Floats
+    z: Floats
+
+
+@dataclass
+class Flow:
+    """Fields of a run: displacement (rows up, columns along, x and z) [m], density [kg/m3].
+
+    NaN where no ground is.
+    """
+
+    label: str
+    displacement: Floats
+    density: Floats
+
+    @property
+    def covered(self) -> Booleans:
+        there: Booleans = np.isfinite(self.density)
+        return there
+
+    @property
+    def length(self) -> Floats:
+        """[m] of the displacement."""
+        length: Floats = np.linalg.norm(self.displacement, axis=2)
+        return length
+
+
+@dataclass
+class FlowComparison:
+    """Two flows on one grid, and how far they are apart where both have ground.
+
+    displacement_difference: mass that moves differently: integral of rho |u_a - u_b| over that of
+    rho (|u_a| + |u_b|)/2, so 0 for equal fields and 2 for opposite ones; density_difference: mean
+    of |rho_a - rho_b| over the mean of both.
+    """
+
+    window: Window
+    width: float  # [m] standard deviation of the kernel
+    flows: tuple[Flow, Flow]
+    displacement_difference: float
+    density_difference: float
+
+
+class _Points(NamedTuple):
+    x: Floats  # (n, 2) in the wheel's plane [m]
+    mass: Floats  # (n) [kg]
+    displacement: Floats  # (n, 2) [m]
+
+
+def displacements(run: WheelRun) -> Floats:
+    """(n, 3) of the points of density.ground_points [m], in their order."""
+    if run.ground == "continuum":
+        fields = read_terrain_fields(run.folder)
+        moved: Floats = fields["x"] - fields["initial_position"]
+        return np.concatenate([moved, moved * [1, -1, 1]]) if run.half else moved
+    grains, reference = run.results.grains("final"), run.results.grains("reference")
+    return grains.displacement_from(reference)
+
+
+def _points_in_plane(run: WheelRun) -> tuple[_Points, float]:
+    """Those of the middle half of the wheel's width, and their mean size [m]."""
+    ground, moved = ground_points(run), displacements(run)
+    middle = np.abs(ground.x[:, 1]) < 0.25 * run.number("wheel_width")
+    followed = middle & np.isfinite(moved).all(axis=1)
+    if not followed.any():
+        raise ResultsError(
+            f"{run.label}: has no ground under the wheel whose displacement is known; repeat the "
+            "run with its history and terrain written to the end"
+        )
+    plane = [0, 2]
+    points = _Points(
+        ground.x[followed][:, plane], ground.mass[followed], moved[followed][:, plane]
+    )
+    return points, float(np.mean(ground.size[followed]))
+
+
+def _coarse_grained(
+    label: str, points: _Points, window: Window, width: float, slab: float, depth: float
+) -> Flow:
+    """slab: [m] across, over which the masses are spread; depth: [m] of the floor"""
+    columns, rows = len(window.x), len(window.z)
+    # mass, and mass times displacement along x and z
+    sums = np.zeros((3, rows * columns))
+    step_x, step_z = window.x[1] - window.x[0], window.z[1] - window.z[0]
+    near_x, near_z = (math.ceil(REACH * width / step) for step in (step_x, step_z))
+    centre_x = np.rint((points.x[:, 0] - window.x[0]) / step_x).astype(int)
+    centre_z = np.rint((points.x[:, 1] - window.z[0]) / step_z).astype(int)
+    for down in range(-near_z, near_z + 1):
+        for along in range(-near_x, near_x + 1):
+            i, j = centre_z + down, centre_x + along
+            inside = (i >= 0) & (i < rows) & (j >= 0) & (j < columns)
+            i, j = i[inside], j[inside]
+            x, z = points.x[inside].T
+            square = (window.x[j] - x) ** 2 + (window.z[i] - z) ** 2
+            weight = np.where(
+                square <= (REACH * width) ** 2, np.exp(-square / (2 * width**2)), 0.0
+            )
+            share = weight * points.mass[inside]
+            for total, values in zip(sums, (1.0, *points.displacement[inside].T)):
+                total += np.bincount(i * columns + j, share * values, rows * columns)
+    mass = sums[0].reshape(rows, columns)
+    momentum = sums[1:].T.reshape(rows, columns, 2)
+    volume = 2 * math.pi * width**2 * (1 - math.exp(-(REACH**2) / 2)) * slab
+    density = mass / (volume * norm.cdf((window.z + depth) / width)[:, None])
+    there = density > COVERED * np.median(density[density > 0])
+    with np.errstate(invalid="ignore", divide="ignore"):
+        displacement = np.where(there[:, :, None], momentum / mass[:, :, None], np.nan)
+    return Flow(label, displacement, np.where(there, density, np.nan))
+
+
+def compare_flows(runs: Sequence[WheelRun], width: float | None = None) -> FlowComparison:
+    """Of two runs. width [m] of the kernel; without it the size of the coarser ground.
+
+    @raises ResultsError for other than two runs, a run without ground, a kernel finer than it
+    """
+    if len(runs) != 2:
+        raise ResultsError(f"flow compares two results folders, not {len(runs)}")
+    for run in runs:
+        if run.ground == "none":
+            raise ResultsError(f"{run.label}: has no terrain, and so no flow")
+    taken = [_points_in_plane(run) for run in runs]
+    least = GRAINS_PER_WIDTH * max(size for _, size in taken)
+    kernel = least if width is None else width
+    if kernel < least * (1 - 1e-9):
+        raise ResultsError(
+            f"--width is {1e3 * kernel:.3g} mm; allowed: at least {1e3 * least:.3g} mm, the size "
+            "of the coarser ground"
+        )
+    radius, depth = runs[0].radius, runs[0].number("depth")
+    slab = 0.5 * runs[0].number("wheel_width")
+    cell = kernel / CELLS_PER_WIDTH
+    window = Window(
+        np.arange(-1.5 * radius, 1.5 * radius, cell),
+        np.arange(-depth + 0.5 * cell, 0.4 * depth, cell),
+    )
+    a, b = (
+        _coarse_grained(run.label, points, window, kernel, slab, depth)
+        for run, (points, _) in zip(runs, taken)
+    )
+    both = a.covered & b.covered
+    if not both.any():
+        raise ResultsError("the two runs have no ground in common under the wheel")
+    rho = 0.5 * (a.density + b.density)[both]
+    apart = np.linalg.norm(a.displacement - b.displacement, axis=2)[both]
+    mean = 0.5 * (a.length + b.length)[both]
+    moved = float(np.sum(rho * mean))
+    return FlowComparison(
+        window,
+        kernel,
+        (a, b),
+        float(np.sum(rho * apart)) / moved if moved > 0 else math.nan,
+        float(np.mean(np.abs(a.density - b.density)[both]) / np.mean(rho)),
+    )
+
+
+def flow_report(result: FlowComparison) -> str:
+    """The numbers, for a person."""
+    a, b = result.flows
+    return "\n".join(
+        [
+            f"{a.label} and {b.label} in the wheel's plane, kernel of {1e3 * result.width:.3g} mm",
+            f"  displacement  differs by {100 * result.displacement_difference:.0f} % of its mean "
+            "(0: equal fields, 200 %: opposite)",
+            f"  density       differs by {100 * result.density_difference:.1f} % of its mean",
+        ]
+    )
+
+
+def write_flow(result: FlowComparison, folder: Path) -> None:
+    """flow.csv: the numbers; flow.h5: the fields."""
+    folder.mkdir(parents=True, exist_ok=True)
+    a, b = result.flows
+    write_rows(
+        folder / "flow.csv",
+        [
+            {
+                "first": a.label,
+                "second": b.label,
+                "kernel_m": result.width,
+                "displacement_difference": result.displacement_difference,
+                "density_difference": result.density_difference,
+            }
+        ],
+        ["# differences as furrow_post/analyse/flow.py defines them"],
+    )
+    with h5py.File(folder / "flow.h5", "w") as content:
+        content.attrs["kernel"] = result.width
+        content["x"], content["z"] = result.window
+        for place, flow in zip(("first", "second"), result.flows):
+            group: Any = content.create_group(place)
+            group.attrs["label"] = flow.label
+            group["displacement"], group["density"] = flow.displacement, flow.density

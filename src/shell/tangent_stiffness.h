@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The stiffness of a shell structure about its present state, whatever its forces come from.
+
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include "shell/dynamic_relaxation.h"
+#include "shell/shell4.h"
+
+namespace furrow {
+
+/// The components of nodes that can move: x, y, z and turns about them, node by node, numbered
+/// without those that are held.
+class FreeComponents {
+ public:
+  explicit FreeComponents(const ShellNodes& nodes);
+
+  Eigen::Index count() const { return static_cast<Eigen::Index>(component_.size()); }
+  /// @param k 0 to 2: place, 3 to 5: turn @returns -1 where it is held
+  Eigen::Index index(Eigen::Index node, int k) const {
+    return index_[static_cast<std::size_t>(6 * node + k)];
+  }
+  /// [kg] and [kg m^2] of each
+  const VectorX& mass() const { return mass_; }
+  /// [N] and [N m] on each
+  VectorX forces(const ShellNodes& nodes) const;
+  /// Moves places by a value [m] and turns by a vector of rotation [rad].
+  void move(const VectorX& by, ShellNodes& nodes) const;
+  /// The displacement part, zero where nodes are held.
+  Matrix3X displacements(const VectorX& values, Eigen::Index nodes) const;
+
+ private:
+  std::vector<Eigen::Index> component_;  // 6 node + k of each
+  std::vector<Eigen::Index> index_;      // of 6 node + k
+  VectorX mass_;
+};
+
+/// For each node those whose forces change when it moves, itself included.
+using NodeNeighbours = std::vector<std::vector<int>>;
+
+/// Nodes that share an element.
+NodeNeighbours neighbours_of(const std::vector<Shell4::Quad>& quads, Eigen::Index nodes);
+
+/// K = -df/du [N/m, N, N m] about the present state.
+struct TangentStiffness {
+  Eigen::SparseMatrix<double> matrix;  ///< symmetric: the mean of K and its transpose
+  /// largest entry of K - K^T over the largest of K. Where forces have a potential it is that of
+  /// the moments that are left unbalanced, and of the differences.
+  double asymmetry = 0.0;
+};
+
+/// By central differences: nodes that have no neighbour in common are moved together (A. R. Curtis,
+/// M. J. D. Powell, J. K. Reid, J. Inst. Maths Applics 13, 117 (1974)), so the cost does not grow
+/// with the mesh beyond that of its forces. A motion of all nodes at once checks the neighbours.
+/// The nodes are left as they were.
+/// @throws StateError when forces depend on nodes that are not neighbours, and as compute_forces()
+TangentStiffness tangent_stiffness(RelaxingStructure& structure, const FreeComponents& free,
+                                   const NodeNeighbours& neighbours);
+
+}  // namespace furrow

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Flow fields of ground that moves in closed form: kernel, floor, differences, refusals."""
+
+import tempfile
+import unittest
+from collections.abc import Callable
+from pathlib import Path
+
+import h5py
+import matplotlib.image
+import numpy as np
+
+from furrow_post.analyse.flow import FlowComparison, compare_flows
+from furrow_post.arrays import Floats
+from furrow_post.csv_table import read_rows
+from furrow_post.errors import ResultsError
+from furrow_post.read.wheel_run import read_wheel_run
+from support.command import run_post
+from support.runs import rig, rigid_wheel, style, write_run
+
+CELL, DEPTH, DENSITY = 0.02, 0.2, 200.0  # [m], [m], [kg/m3]
+
+Move = Callable[[Floats], Floats]  # (n, 3) -> (n, 3) [m]
+
+
+def write_moved(folder: Path, move: Move, density: float = DENSITY) -> None:
+    """A layer of terrain that has moved; its particles fill the same places in the end."""
+    soil = {"length": 4, "width": 0.8, "depth": DEPTH, "surface": 0, "cell": CELL, "symmetry": "no"}
+    styles = [rigid_wheel(), rig(), style("terrain", "terrain/continuum", "soil", **soil)]
+    write_run(folder, styles=styles)
+    edges = ((0.2, 2.4), (-0.06, 0.06), (-DEPTH, 0.0))
+    axes = [np.arange(low + CELL / 4, high, CELL / 2) for low, high in edges]
+    x = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    one = np.ones(len(x))
+    with h5py.File(folder / "terrain.h5", "w") as content:
+        content["terrain/x"], content["terrain/initial_position"] = x, x - move(x)
+        content["terrain/density"], content["terrain/volume"] = density * one, CELL**3 / 8 * one
+        content["terrain/compaction"] = 0 * one
+
+
+def shear(x: Floats) -> Floats:
+    """Along the travel, in proportion to the height above the floor."""
+    moved = np.zeros_like(x)
+    moved[:, 0] = 0.1 * (x[:, 2] + DEPTH)
+    return moved
+
+
+class FlowTest(unittest.TestCase):
+    def setUp(self) -> None:
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+
+    def of(self, a: Move, b: Move, density: float = DENSITY) -> FlowComparison:
+        write_moved(self.folder / "a", a)
+        write_moved(self.folder / "b", b, density)
+        return compare_flows([read_wheel_run(self.folder / name) for name in "ab"], 0.02)
+
+    def test_a_field_is_found_again(self) -> None:
+        result = self.of(shear, shear)
+        flow = result.flows[0]
+        x, z = np.meshgrid(*result.window)
+        inner = (z < -0.06) & (np.abs(x) < 0.3)
+        np.testing.assert_allclose(flow.density[inner], DENSITY, rtol=0.01)
+        inner &= z > -DEPTH + 0.06  # the kernel is whole, the mean of a line is the line
+        exact = 0.1 * (z[inner] + DEPTH)
+        np.testing.assert_allclose(flow.displacement[inner][:, 0], exact, atol=2e-4)
+        np.testing.assert_allclose(flow.displacement[inner][:, 1], 0, atol=1e-12)
+        self.assertTrue(np.isnan(flow.density[z > 0.03]).all())
+        self.assertEqual(result.displacement_difference, 0.0)
+        self.assertEqual(result.density_difference, 0.0)
+
+    def test_differences_have_their_known_values(self) -> None:
+        self.assertAlmostEqual(self.of(shear, lambda x: -shear(x)).displacement_difference, 2.0)
+        half = self.of(shear, lambda x: 0.5 * shear(x))
+        self.assertAlmostEqual(half.displacement_difference, 0.5 / 0.75)
+        denser = self.of(shear, shear, 1.1 * DENSITY)
+        self.assertAlmostEqual(denser.density_difference, 0.1 / 1.05)
+
+    def test_as_a_command(self) -> None:
+        write_moved(self.folder / "a", shear)
+        write_moved(self.folder / "b", lambda x: 0.5 * shear(x))
+        done = run_post("flow", self.folder / "a", self.folder / "b")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("differs by 67 % of its mean", done.stdout)
+        (row,) = read_rows(self.folder / "flow/flow.csv")
+        self.assertAlmostEqual(float(row["displacement_difference"]), 2 / 3, places=4)
+        with h5py.File(self.folder / "flow/flow.h5") as content:
+            self.assertEqual(content["second/displacement"].shape[2], 2)
+        pixels = matplotlib.image.imread(self.folder / "flow/flow.png")[:, :, :3]
+        self.assertGreater(len(np.unique((pixels * 15).astype(int).reshape(-1, 3), axis=0)), 50)
+
+    def test_refusals(self) -> None:
+        write_moved(self.folder / "a", shear)
+        run = read_wheel_run(self.folder / "a")
+        with self.assertRaisesRegex(ResultsError, "is 1 mm; allowed: at least 10 mm"):
+            compare_flows([run, run], 1e-3)
+        write_run(self.folder / "bare")
+        with self.assertRaisesRegex(ResultsError, "has no terrain"):
+            compare_flows([run, read_wheel_run(self.folder / "bare")])
+
+
+if __name__ == "__main__":
+    unittest.main()
