@@ -29,7 +29,8 @@ def report(folder: Path, cluster_density: float) -> str:
     axle = surface.x[:, 0].mean()
     x, y, z = grains.x.T
     low, high = axle + BEHIND[0], axle + BEHIND[1]
-    inside = (abs(y) < HALF_WIDTH) & (x > low) & (x < high)
+    # below z = 0 is what a bed froze to its ground
+    inside = (abs(y) < HALF_WIDTH) & (x > low) & (x < high) & (z > 0)
     # Surface: mean of the highest cluster's top in squares of two diameters
     size = 4 * np.median(grains.radius)
     tops: dict[tuple[int, int], float] = {}

@@ -75,9 +75,8 @@ def ground_points(run: WheelRun) -> GroundPoints:
             x = np.concatenate([x, x * [1, -1, 1]])
             density, volume = np.tile(density, 2), np.tile(volume, 2)
         return GroundPoints(x - origin, density * volume, volume, np.cbrt(volume), False)
-    grains = run.results.grains("final")
+    grains, reference = run.grains("final"), run.grains("reference")
     volume = 4 / 3 * np.pi * grains.radius**3
-    reference = run.results.grains("reference")
     solid = np.sum(4 / 3 * np.pi * reference.radius**3)
     low, high = reference.corners
     space = (high - low)[0] * (high - low)[1] * run.number("depth")

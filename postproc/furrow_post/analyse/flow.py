@@ -95,8 +95,7 @@ def displacements(run: WheelRun) -> Floats:
         fields = read_terrain_fields(run.folder)
         moved: Floats = fields["x"] - fields["initial_position"]
         return np.concatenate([moved, moved * [1, -1, 1]]) if run.half else moved
-    grains, reference = run.results.grains("final"), run.results.grains("reference")
-    return grains.displacement_from(reference)
+    return run.grains("final").displacement_from(run.grains("reference"))
 
 
 def _points_in_plane(run: WheelRun) -> tuple[_Points, float]:

@@ -2,13 +2,13 @@
 """Reading history.h5, the results file of a run (its layout: src/io/history_file.h)."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..arrays import Floats, Integers
+from ..arrays import Booleans, Floats, Integers
 from ..errors import ResultsError
 from ..fields import Fields
 from .hdf5 import opened
@@ -75,6 +75,12 @@ class Grains:
                 moved[:, axis] -= period * np.round(moved[:, axis] / period)
         moved[reference.id[match] != self.id] = np.nan
         return moved
+
+    def only(self, chosen: Booleans) -> "Grains":
+        """Those that are chosen (n)."""
+        return replace(
+            self, id=self.id[chosen], x=self.x[chosen], radius=self.radius[chosen]
+        )
 
     @property
     def corners(self) -> tuple[Floats, Floats]:
