@@ -75,16 +75,17 @@ def ground_points(run: WheelRun) -> GroundPoints:
             x = np.concatenate([x, x * [1, -1, 1]])
             density, volume = np.tile(density, 2), np.tile(volume, 2)
         return GroundPoints(x - origin, density * volume, volume, np.cbrt(volume), False)
-    grains, reference = run.grains("final"), run.grains("reference")
+    grains, reference = run.results.grains("final"), run.results.grains("reference")
     volume = 4 / 3 * np.pi * grains.radius**3
-    solid = np.sum(4 / 3 * np.pi * reference.radius**3)
+    solid = np.sum(reference.volume_above(run.floor))
     low, high = reference.corners
     space = (high - low)[0] * (high - low)[1] * run.number("depth")
     # without a bulk density: density over that at the start
     substance = (
         run.number("density") * space / solid if "density" in run.conditions else space / solid
     )
-    return GroundPoints(grains.x - origin, substance * volume, volume, 2 * grains.radius, True)
+    x = grains.nearest_image(grains.x - origin)
+    return GroundPoints(x, substance * volume, volume, 2 * grains.radius, True)
 
 
 def _convolved(line: Floats, kernel: Floats, reach: int) -> Floats:
@@ -187,7 +188,7 @@ def track_density(run: WheelRun) -> tuple[float, float]:
     """
     ground = ground_points(run)
     radius, width = run.radius, run.number("wheel_width")
-    left = height_left(run)
+    left, bottom = height_left(run), run.floor - run.ground_level
     x, y, size = ground.x[:, 0], ground.x[:, 1], ground.size
     parts = []
     stations = np.linspace(-1.3 * radius, -0.6 * radius, 5)
@@ -197,8 +198,7 @@ def track_density(run: WheelRun) -> tuple[float, float]:
         reach = 0.5 * size[near, None, None] * _IN_SPHERE
         points = (ground.x[near, None, :] + reach).reshape(-1, 3)
         mass = np.repeat(ground.mass[near] / len(_IN_SPHERE), len(_IN_SPHERE))
-        inside = (
-            (points[:, 0] > low) & (points[:, 0] < high) & (np.abs(points[:, 1]) < 0.25 * width)
-        )
+        along, across, z = points.T
+        inside = (along > low) & (along < high) & (np.abs(across) < 0.25 * width) & (z > bottom)
         parts.append(mass[inside].sum() / ((high - low) * 0.5 * width * left))
     return float(np.mean(parts)), float(np.std(parts, ddof=1) / np.sqrt(len(parts)))

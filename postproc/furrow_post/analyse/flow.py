@@ -95,14 +95,15 @@ def displacements(run: WheelRun) -> Floats:
         fields = read_terrain_fields(run.folder)
         moved: Floats = fields["x"] - fields["initial_position"]
         return np.concatenate([moved, moved * [1, -1, 1]]) if run.half else moved
-    return run.grains("final").displacement_from(run.grains("reference"))
+    return run.results.grains("final").displacement_from(run.results.grains("reference"))
 
 
 def _points_in_plane(run: WheelRun) -> tuple[_Points, float]:
     """Those of the middle half of the wheel's width, and their mean size [m]."""
     ground, moved = ground_points(run), displacements(run)
     middle = np.abs(ground.x[:, 1]) < 0.25 * run.number("wheel_width")
-    followed = middle & np.isfinite(moved).all(axis=1)
+    above = ground.x[:, 2] > run.floor - run.ground_level
+    followed = middle & above & np.isfinite(moved).all(axis=1)
     if not followed.any():
         raise ResultsError(
             f"{run.label}: has no ground under the wheel whose displacement is known; repeat the "

@@ -2,13 +2,13 @@
 """Reading history.h5, the results file of a run (its layout: src/io/history_file.h)."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..arrays import Booleans, Floats, Integers
+from ..arrays import Floats, Integers
 from ..errors import ResultsError
 from ..fields import Fields
 from .hdf5 import opened
@@ -68,19 +68,23 @@ class Grains:
         order = np.argsort(reference.id)
         place = np.searchsorted(reference.id, self.id, sorter=order).clip(max=len(order) - 1)
         match = order[place]
-        moved: Floats = self.x - reference.x[match]
-        for axis in range(3):
-            period = reference.period[axis]
-            if period > 0:
-                moved[:, axis] -= period * np.round(moved[:, axis] / period)
+        moved = reference.nearest_image(self.x - reference.x[match])
         moved[reference.id[match] != self.id] = np.nan
         return moved
 
-    def only(self, chosen: Booleans) -> "Grains":
-        """Those that are chosen (n)."""
-        return replace(
-            self, id=self.id[chosen], x=self.x[chosen], radius=self.radius[chosen]
+    def nearest_image(self, apart: Floats) -> Floats:
+        """Distances (n, 3) [m] to the nearest image in a periodic box."""
+        period = np.where(self.period > 0, self.period, np.inf)
+        nearest: Floats = apart - np.where(
+            self.period > 0, self.period * np.round(apart / period), 0.0
         )
+        return nearest
+
+    def volume_above(self, z: float) -> Floats:
+        """(n) [m3] of the spheres' parts above a plane."""
+        height = np.clip(self.x[:, 2] - z, -self.radius, self.radius)
+        volume: Floats = np.pi / 3 * (self.radius + height) ** 2 * (2 * self.radius - height)
+        return volume
 
     @property
     def corners(self) -> tuple[Floats, Floats]:

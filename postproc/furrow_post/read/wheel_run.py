@@ -64,7 +64,7 @@ class WheelRun:
     half: bool = False  # half model, mirrored at y = 0
     domain: tuple[float, ...] = ()  # length and width of the ground [m]
     seed: str = ""  # of the packing of grains
-    floor: float = float("-inf")  # z above which grains are the bed, not frozen to its ground [m]
+    floor: float = float("-inf")  # z of the ground under a bed whose lowest grains are frozen [m]
     values: dict[str, SteadyValue] = field(default_factory=dict)  # STEADY_QUANTITIES
     wall_time: float = float("nan")  # [s]
     cpu_time: float = float("nan")  # measured by the runner, else wall time x ranks [s]
@@ -100,11 +100,6 @@ class WheelRun:
     @property
     def elements_name(self) -> str:
         return "particles" if self.ground == "continuum" else "grains"
-
-    def grains(self, when: str) -> Grains:
-        """Of the bed, without those that are frozen to the ground below; when: reference, final."""
-        reference, grains = self.results.grains("reference"), self.results.grains(when)
-        return grains.only(np.isin(grains.id, reference.id[reference.x[:, 2] >= self.floor]))
 
     def describe_size(self) -> str:
         kind = "cells" if self.ground == "continuum" else "grains"
@@ -222,7 +217,7 @@ def _read_grains(run: WheelRun, bed: Style | None, reference: Grains) -> None:
         return
     run.domain = (bed.number("length", run.domain[0]), bed.number("width", run.domain[1]))
     if bed.has("density"):
-        solid = 4 / 3 * np.pi * np.sum(run.grains("reference").radius ** 3)
+        solid = np.sum(reference.volume_above(run.floor))
         bulk = float(bed.number("density") * solid / (inner[0] * inner[1] * depth))
         run.conditions["density"] = Condition(bulk, "kg/m3")
     if bed.has("seed"):
