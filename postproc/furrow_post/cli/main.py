@@ -80,6 +80,10 @@ SUBCOMMANDS = (
         "variables", "the variables of a script that 'inputs/run SCRIPT -v NAME VALUE' may set"
     ),
     Subcommand(
+        "view",
+        "one or two runs in 3D, in one self-contained page: time, colours, cut -> view.html",
+    ),
+    Subcommand(
         "report",
         "one self-contained page on runs and their comparison "
         "-> report.html, report.csv, report.h5",
