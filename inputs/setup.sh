@@ -10,7 +10,8 @@ furrow_packages="g++ cmake ninja-build liggghts libliggghts-dev libopenmpi-dev o
   libvtk9-dev libyaml-cpp-dev libfmt-dev libcli11-dev nlohmann-json3-dev libspectra-dev python3 python3-numpy python3-h5py python3-matplotlib
   python3-scipy libjs-three"
 # To test as well.
-furrow_test_packages="libgtest-dev libgmock-dev libbenchmark-dev mypy chromium-headless-shell"
+furrow_test_packages="libgtest-dev libgmock-dev libbenchmark-dev mypy chromium-headless-shell
+  ffmpeg"
 # To build with sanitizers: gcc takes half an hour for the kernels then, and has no libFuzzer.
 furrow_sanitizer_packages="clang libclang-rt-dev"
 furrow_format_packages="clang-format"

@@ -83,6 +83,7 @@ SUBCOMMANDS = (
         "view",
         "one or two runs in 3D, in one self-contained page: time, colours, cut -> view.html",
     ),
+    Subcommand("film", "the frames of a run as a film (ffmpeg) -> film.mp4"),
     Subcommand(
         "report",
         "one self-contained page on runs and their comparison "

@@ -17,43 +17,17 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ResultsError
-from ..read.motion import Cloud, Motion, Points
+from ..read.motion import Cloud, Motion, Points, evenly_chosen
 from .page import escaped, html_page
-from .render import round_up
+from .quantities import COLOURS, Quantity, quantities_of
 from .style import GROUND_COLOURS, MILLIMETRE
 
 LARGEST = 12e6  # [byte] of a view; a report has its figures beside it
 THREE = Path("/usr/share/javascript/three")  # Debian's libjs-three
 LIBRARY = ("three.min.js", "examples/js/controls/OrbitControls.js")
 LEVELS = 65535  # of a position: 0 ... 65534; 65535: the point is not there
-COLOURS = 255  # of a quantity: 0 ... 254; 255: not known
 FEWEST_FRAMES = 12  # below which points are left out instead of frames
 MOST_VALUES = 6_000_000  # points times frames that are read at all
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """What points are coloured by; the scale is shared by all runs of a page."""
-
-    key: str
-    name: str
-    unit: str
-    factor: float  # from SI to this unit
-    low: float  # [unit]
-    high: float
-
-    def levels(self, values: Floats) -> Any:
-        """0 ... 254, or 255 where a value is NaN."""
-        share = (self.factor * values - self.low) / (self.high - self.low)
-        level = np.round((COLOURS - 1) * np.clip(np.nan_to_num(share), 0, 1))
-        return np.where(np.isfinite(values), level, COLOURS).astype(np.uint8)
-
-
-QUANTITIES = (  # key, name, unit, factor, whether its scale begins at 0
-    ("density", "density", "kg/m³", 1.0, False),
-    ("displacement", "displacement", "mm", MILLIMETRE, True),
-    ("speed", "speed", "m/s", 1.0, True),
-)
 
 
 @dataclass
@@ -105,10 +79,10 @@ def view_section(motions: Sequence[Motion], labels: Sequence[str], largest: floa
     library = _library()
     share = (largest - sum(map(len, library))) / len(motions)
     chosen = [
-        _Selection(motion, label, _spread(motion.times, _readable(motion)))
+        _Selection(motion, label, evenly_chosen(motion.times, _readable(motion)))
         for motion, label in zip(motions, labels)
     ]
-    quantities = _quantities(chosen)
+    quantities = quantities_of(motions)
     runs = [_fitted(selection, quantities, share) for selection in chosen]
     centre, size, cut = _place(chosen)
     data = {
@@ -165,39 +139,6 @@ def _readable(motion: Motion) -> int:
     return max(MOST_VALUES // max(count, 1), 2)
 
 
-def _spread(times: Floats, number: int) -> Floats:
-    """At most this number of times, evenly chosen, the first and the last among them."""
-    if number >= len(times):
-        return times
-    chosen: Floats = times[np.unique(np.round(np.linspace(0, len(times) - 1, number)).astype(int))]
-    return chosen
-
-
-def _quantities(chosen: Sequence[_Selection]) -> list[Quantity]:
-    """Those that a run has, each with one scale for all runs."""
-    samples: dict[str, list[Floats]] = {}
-    for selection in chosen:
-        for cloud in selection.motion.clouds:
-            for time in _spread(selection.times, FEWEST_FRAMES):
-                for key, values in cloud.at(time).fields.items():
-                    samples.setdefault(key, []).append(values[np.isfinite(values)])
-    found = []
-    for key, name, unit, factor, from_zero in QUANTITIES:
-        values = factor * np.concatenate(samples.get(key, [np.empty(0)]))
-        if not len(values):
-            continue
-        low, high = (float(value) for value in np.percentile(values, [0.5, 99.8]))
-        low, high = (0.0, round_up(high)) if from_zero else (float(np.floor(low)), high)
-        found.append(Quantity(key, name, unit, factor, low, max(high, low + 1e-6)))
-    # first what all runs have: it is what the page begins with
-    return sorted(found, key=lambda one: not all(_has(each.motion, one.key) for each in chosen))
-
-
-def _has(motion: Motion, key: str) -> bool:
-    """Whether all points of a run have this quantity."""
-    return all(key in cloud.at(motion.times[-1]).fields for cloud in motion.clouds)
-
-
 def _fitted(
     selection: _Selection, quantities: Sequence[Quantity], largest: float
 ) -> dict[str, Any]:
@@ -209,9 +150,9 @@ def _fitted(
             return data
         frames = int(0.95 * len(selection.times) * largest / size)
         if frames >= FEWEST_FRAMES:
-            selection.times = _spread(selection.motion.times, frames)
+            selection.times = evenly_chosen(selection.motion.times, frames)
         elif len(selection.times) > FEWEST_FRAMES:
-            selection.times = _spread(selection.motion.times, FEWEST_FRAMES)
+            selection.times = evenly_chosen(selection.motion.times, FEWEST_FRAMES)
         else:
             selection.stride += max(int(size / largest), 1)
 

@@ -178,3 +178,12 @@ def _lengths(vectors: Floats) -> Floats:
 def _radius_of(volume: Floats) -> Floats:
     radius: Floats = np.cbrt(0.75 / np.pi * np.asarray(volume, float))
     return radius
+
+
+def evenly_chosen(times: Floats, number: int) -> Floats:
+    """At most this number of times, the first and the last among them."""
+    if number >= len(times):
+        return times
+    places = np.round(np.linspace(0, len(times) - 1, number)).astype(int)
+    chosen: Floats = times[np.unique(places)]
+    return chosen
