@@ -11,7 +11,7 @@ furrow_packages="g++ cmake ninja-build liggghts libliggghts-dev libopenmpi-dev o
   python3-scipy libjs-three"
 # To test as well.
 furrow_test_packages="libgtest-dev libgmock-dev libbenchmark-dev mypy chromium-headless-shell
-  ffmpeg"
+  ffmpeg python3-pandas python3-pip python3-setuptools python3-wheel"
 # To build with sanitizers: gcc takes half an hour for the kernels then, and has no libFuzzer.
 furrow_sanitizer_packages="clang libclang-rt-dev"
 furrow_format_packages="clang-format"

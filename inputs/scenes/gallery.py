@@ -97,9 +97,9 @@ def write_picture(scene: str, results: Path) -> None:
         pixels = _curve(curve)
     else:
         motion = read_motion(results)
-        pixels = MovingPictures(motion, size=SIZE).rgb(motion.times[-1])
+        pixels = MovingPictures(motion, size=SIZE, title=scene).rgb(motion.times[-1])
     content = io.BytesIO()
-    Image.fromarray(pixels).quantize(64).save(content, "png", optimize=True)
+    Image.fromarray(pixels).quantize(128).save(content, "png", optimize=True)
     if content.tell() > LARGEST:
         raise ResultsError(f"the picture of {scene} has {content.tell()} bytes, not {LARGEST}")
     PICTURES.mkdir(exist_ok=True)

@@ -17,6 +17,7 @@ from .quantities import COLOURS, Quantity, quantities_of
 from .style import GROUND_COLOURS, use_style
 
 DOTS = 100  # per inch
+ROOM_ABOVE = 0.2  # for words and scale, of the height of what is shown
 VIEW = render.View.of_angles(-62.0, 24.0)
 GREY = (0.62, 0.62, 0.60)  # of points whose quantity is not known
 
@@ -41,13 +42,15 @@ class MovingPictures:
         key: str | None = None,
         cut: float = -np.inf,
         size: tuple[int, int] = (960, 540),
+        title: str = "",
     ) -> None:
-        """key: of the quantity of the colours, None: the first; size: [pixel]
+        """key: of the quantity of the colours, None: the first; size: [pixel]; title: or the run's
 
         cut: points of smaller y are left out [m]. @raises ResultsError
         """
         self.motion, self.quantity, self.cut = motion, _chosen(motion, key), cut
         self.width, self.height = size
+        self.title = title or motion.title
         use_style()
         first, last = (self._parts(time) for time in motion.times[[0, -1]])
         shown = VIEW.project(np.concatenate([first[0], last[0]]))[:, :2]
@@ -55,6 +58,7 @@ class MovingPictures:
         if bodies:
             shown = np.concatenate([shown, VIEW.project(np.concatenate(bodies))[:, :2]])
         low, high = shown.min(axis=0), shown.max(axis=0)
+        high[1] += ROOM_ABOVE * (high[1] - low[1])
         centre, half = 0.5 * (low + high), 0.53 * (high - low)
         half = np.maximum(half, half[::-1] * [self.width / self.height, self.height / self.width])
         self.corners = centre - half, centre + half
@@ -104,7 +108,7 @@ class MovingPictures:
         )
         figure = plt.figure(figsize=(self.width / DOTS, self.height / DOTS), dpi=DOTS)
         figure.figimage(image[-self.height :, : self.width], origin="upper", zorder=-1)
-        figure.text(0.02, 0.94, f"{self.motion.title}   t = {time:.3f} s", fontsize=10)
+        figure.text(0.02, 0.94, f"{self.title}   t = {time:.3f} s", fontsize=10)
         if self.quantity is not None:
             axes = figure.add_axes((0.66, 0.94, 0.31, 0.025))
             scale = Normalize(self.quantity.low, self.quantity.high)

@@ -14,7 +14,7 @@ from ..arrays import Floats, Integers
 from ..errors import ResultsError
 from .results import Results, Surface
 from .styles import Styles
-from .terrain import read_terrain_fields, terrain_file
+from .terrain import read_terrain_fields, read_terrain_history, terrain_file
 from .vtk import Series, read_series, read_vtp
 
 REMEDY = (
@@ -91,7 +91,7 @@ def read_motion(folder: Path) -> Motion:
     if body is None and grains is None and terrain is None:
         body_end = results.surface() if results else None
         clouds = _clouds_at_the_end(folder, results)
-        times = results.columns["time"][-1:] if results else np.zeros(1)
+        times = (results.columns if results else read_terrain_history(folder))["time"][-1:]
     else:
         series = [one for one in (body, grains, terrain) if one]
         times = max(series, key=lambda one: len(one.files)).times

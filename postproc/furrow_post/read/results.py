@@ -122,6 +122,23 @@ class Results:
         return self.run.get("title") or self.folder.resolve().name
 
     @property
+    def channels(self) -> Any:
+        """The history as a data frame of pandas, a row for each time; units in .attrs["units"].
+
+        @raises ResultsError without pandas; columns has the same in arrays of numpy
+        """
+        try:
+            import pandas
+        except ImportError:
+            raise ResultsError(
+                "channels needs pandas; install Debian's python3-pandas, or use .columns, which has "
+                "the same in arrays of numpy"
+            ) from None
+        frame = pandas.DataFrame(dict(self.columns))
+        frame.attrs.update(units=self.units, meanings=self.meanings)
+        return frame
+
+    @property
     def has_grains(self) -> bool:
         """Whether the run kept grains; continuum terrain has its own file, terrain.h5."""
         with opened(self.file) as content:
