@@ -6,8 +6,8 @@
 
 namespace furrow {
 
-/// Assumes that the rest goes on as the last third of the time so far: what a run costs a step
-/// changes when its wheel touches the ground, and the mean since the start would not forget that.
+/// Assumes that the rest goes on as the last third of the time so far: what a step costs changes
+/// when the wheel touches the ground, and the mean since the start would not forget that.
 class TimeLeft {
  public:
   /// @param done share of the job, 0 ... 1, not less than before; @param elapsed [s] since its
