@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Reading history.h5, the results file of a run (its layout: src/io/history_file.h)."""
 
+import importlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -128,7 +129,7 @@ class Results:
         @raises ResultsError without pandas; columns has the same in arrays of numpy
         """
         try:
-            import pandas
+            pandas = importlib.import_module("pandas")  # nothing else needs it
         except ImportError:
             raise ResultsError(
                 "channels needs pandas; install Debian's python3-pandas, or use .columns, which has "
