@@ -40,7 +40,7 @@ endforeach()
 # A test of a driver imports the modules of its folder
 foreach(pair crosscheck=crosscheck grains=validation/grains laboratory_identify=laboratory
              report_wheel=validation/report_wheel snow_wheel=validation/snow_wheel
-             tyre_table6=validation/tyre_table6 start=)
+             tyre_table6=validation/tyre_table6 validation=validation start=)
   string(REPLACE "=" ";" pair ${pair})
   list(GET pair 0 name)
   list(LENGTH pair length)

@@ -18,6 +18,7 @@ TOOLS = (
     INPUTS / "laboratory" / "identify.py",
     INPUTS / "validation" / "snow_wheel" / "identify.py",
     INPUTS / "validation" / "grains" / "track_density.py",
+    INPUTS / "validation" / "run",
 )
 
 
