@@ -201,7 +201,9 @@ void FixCoupledSystem::initial_integrate(int) {
 
 /// @return sub-steps
 int FixCoupledSystem::advance_bodies() try {
-  return system_.advance(update->dt);
+  const int sub_steps = system_.advance(update->dt);
+  sub_steps_ += sub_steps;
+  return sub_steps;
 } catch (const StateError& problem) {
   throw StateError(problem.what() + scene_checks_.likely_cause());
 }

@@ -56,8 +56,9 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   const Vector3& moment_reference(const Body& body) { return member(body).reference; }
   const MomentumAudit& audit(const Body& body) { return member(body).audit; }
 
-  double time() const { return time_; }        ///< of the scene [s], also after a restart
-  bool restored() const { return restored_; }  ///< from a checkpoint
+  double time() const { return time_; }            ///< of the scene [s], also after a restart
+  bool restored() const { return restored_; }      ///< from a checkpoint
+  double sub_steps() const { return sub_steps_; }  ///< of the bodies, in this process
   /// Of the body whose stable step is the smallest now. Collective.
   CoupledSystem::StepLimit step_limit() const { return system_.step_limit(); }
   /// Whether anything has pressed on a body in this process.
@@ -125,7 +126,7 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   GrainForces grain_forces_;
   SavedHistories saved_histories_;
   SceneChecks scene_checks_;
-  double time_ = 0.0;
+  double time_ = 0.0, sub_steps_ = 0.0;
   bool restored_ = false;
   ForceState forces_ = ForceState::partial;
   std::vector<double> restored_contact_forces_;

@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/output/fix_progress.h"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "atom.h"
 #include "comm.h"
+#include "coupling/base/fix_coupled_system.h"
+#include "coupling/base/fixes_of.h"
+#include "coupling/bodies/fix_tyre_darnell.h"
+#include "coupling/terrain/fix_terrain_continuum.h"
 #include "update.h"
 
 namespace furrow::coupling {
@@ -19,6 +28,13 @@ std::string clock_text(double seconds) {
   const long s = std::lround(seconds);
   return s < 3600 ? fmt::format("{}:{:02}", s / 60, s % 60)
                   : fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+}
+
+/// "3.1 M" of 3.1e6.
+std::string count_text(double count) {
+  for (const auto& [unit, name] : {std::pair(1e9, "G"), {1e6, "M"}, {1e3, "k"}})
+    if (count >= unit) return fmt::format("{:.1f} {}", count / unit, name);
+  return fmt::format("{:.0f}", count);
 }
 
 }  // namespace
@@ -38,30 +54,64 @@ FixProgress::FixProgress(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
 
 int FixProgress::setmask() { return LAMMPS_NS::FixConst::END_OF_STEP; }
 
-void FixProgress::setup(int) { started_ = last_ = Clock::now(); }
-
-void FixProgress::end_of_step() {
-  if (comm->me != 0) return;
-  const Clock::time_point now = Clock::now();
-  const bool last = update->ntimestep > update->laststep - nevery;
-  if (!last && std::chrono::duration<double>(now - last_).count() < interval_) return;
-  last_ = now;
-  print(now);
+void FixProgress::setup(int) {
+  started_ = Clock::now();
+  printed_ = 0.0;
+  left_ = {};
+  work_ = {};
+  const FixCoupledSystem* system = FixCoupledSystem::find(*lmp);
+  sub_steps_ = system ? system->sub_steps() : 0.0;
 }
 
-void FixProgress::print(Clock::time_point now) const {
-  const double elapsed = std::chrono::duration<double>(now - started_).count();
-  const double done = static_cast<double>(update->ntimestep - update->firststep),
-               all = static_cast<double>(update->laststep - update->firststep);
-  const double left = done > 0.0 ? elapsed * (all - done) / done : 0.0;
+/// Of the steps since the last look. Collective: particles are spread over the ranks.
+void FixProgress::add_work() {
+  work_.grain_steps += nevery * static_cast<double>(atom->natoms);
+  const FixCoupledSystem* system = FixCoupledSystem::find(*lmp);
+  if (!system) return;
+  const double sub_steps = system->sub_steps() - sub_steps_;
+  sub_steps_ = system->sub_steps();
+  for (const FixTerrainContinuum* soil : fixes_of<FixTerrainContinuum>(*modify))
+    work_.particle_updates += sub_steps * soil->terrain().particle_count();
+  work_.tyre_steps += sub_steps * static_cast<double>(fixes_of<FixTyreDarnell>(*modify).size());
+}
+
+double FixProgress::share_done() const {
+  return static_cast<double>(update->ntimestep - update->firststep) /
+         static_cast<double>(update->laststep - update->firststep);
+}
+
+void FixProgress::end_of_step() {
+  add_work();
+  if (comm->me != 0) return;
+  const double elapsed = std::chrono::duration<double>(Clock::now() - started_).count();
+  left_.note(share_done(), elapsed);
+  const bool last = update->ntimestep > update->laststep - nevery;
+  if (last || elapsed - printed_ >= interval_) print(elapsed, last);
+}
+
+/// What is computed a second, each in its own unit; LIGGGHTS's steps where there is nothing else.
+std::string FixProgress::rates(double elapsed) const {
+  const std::pair<double, const char*> all[] = {{work_.grain_steps, "grain steps/s"},
+                                                {work_.particle_updates, "particle updates/s"},
+                                                {work_.tyre_steps, "tyre steps/s"}};
+  std::string text;
+  for (const auto& [count, unit] : all)
+    if (count > 0.0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count_text(count / elapsed), unit);
+  const double steps = static_cast<double>(update->ntimestep - update->firststep);
+  return text.empty() ? count_text(steps / elapsed) + " steps/s" : text;
+}
+
+/// On a terminal each line takes the place of the one before.
+void FixProgress::print(double elapsed, bool last) {
+  printed_ = elapsed;
+  if (!screen) return;
   const std::string line = fmt::format(
-      "[{}] {:5.1f} %  elapsed {}  left {}  {:.1f} M grain steps/s\n", options().text("label"),
-      100.0 * done / all, clock_text(elapsed), clock_text(left),
-      elapsed > 0.0 ? 1e-6 * done * static_cast<double>(atom->natoms) / elapsed : 0.0);
-  if (screen) {
-    std::fputs(line.c_str(), screen);
-    std::fflush(screen);
-  }
+      "[{}] {:5.1f} %  elapsed {}  left {}  {}", options().text("label"), 100.0 * share_done(),
+      clock_text(elapsed), clock_text(left_.estimate()), rates(std::max(elapsed, 1e-9)));
+  const bool terminal = isatty(fileno(screen)) == 1;
+  fmt::print(screen, terminal ? "\r{}\033[K{}" : "{}{}", line, terminal && !last ? "" : "\n");
+  std::fflush(screen);
 }
 
 }  // namespace furrow::coupling

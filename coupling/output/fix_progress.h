@@ -3,7 +3,9 @@
 /// fix progress: how far a run is and how long it will take. See fix_progress.md.
 
 #include <chrono>
+#include <string>
 
+#include "core/time_left.h"
 #include "coupling/base/furrow_fix.h"
 
 namespace furrow::coupling {
@@ -19,11 +21,21 @@ class FixProgress : public FurrowFix {
 
  private:
   using Clock = std::chrono::steady_clock;
-  void print(Clock::time_point now) const;
+  /// What was computed since the start of the run.
+  struct Work {
+    double grain_steps = 0.0, particle_updates = 0.0, tyre_steps = 0.0;
+  };
+  void add_work();
+  double share_done() const;
+  std::string rates(double elapsed) const;
+  void print(double elapsed, bool last);
 
   double interval_;  // [s] of wall time between lines
   Clock::time_point started_;
-  Clock::time_point last_;
+  double printed_ = 0.0;  // [s] since the start, the last line
+  TimeLeft left_;
+  Work work_;
+  double sub_steps_ = 0.0;  // of the bodies, of which the work is counted
 };
 
 }  // namespace furrow::coupling

@@ -8,6 +8,11 @@ errors come from the program furrow-resistance, never from here.
 
 import sys
 from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .read.results import Results
 
 __version__ = "0.1.0"  # of the whole project: pyproject.toml and CMakeLists.txt read this line
 
@@ -18,3 +23,13 @@ if _absent:
         f"furrow_post: {sys.executable} has no {', '.join(_absent)}; use Debian's /usr/bin/python3 "
         f"with {' '.join('python3-' + name for name in _absent)}, or 'pip install ./postproc'"
     )
+
+
+def load(where: "Path | str") -> "Results":
+    """A results folder, or its history.h5: load("results/x").channels is its history.
+
+    @raises ResultsError where there is no such file, or it is damaged
+    """
+    from .read.results import Results  # a command that reads nothing does not wait for h5py
+
+    return Results(where)

@@ -7,7 +7,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 
-def _number(text: str) -> float:
+def number(text: str) -> float:
+    """A finite number."""
     try:
         value = float(text)
     except ValueError:
@@ -19,7 +20,7 @@ def _number(text: str) -> float:
 
 def positive(text: str) -> float:
     """A number above 0."""
-    value = _number(text)
+    value = number(text)
     if value <= 0:
         raise argparse.ArgumentTypeError(f"{text} is not above 0")
     return value
@@ -29,7 +30,7 @@ def between(low: float, high: float) -> Callable[[str], float]:
     """A number in [low, high]."""
 
     def value_of(text: str) -> float:
-        value = _number(text)
+        value = number(text)
         if not low <= value <= high:
             raise argparse.ArgumentTypeError(f"{text} does not lie between {low:g} and {high:g}")
         return value
@@ -54,7 +55,7 @@ def at_least(low: int) -> Callable[[str], int]:
 
 def fraction(text: str) -> float:
     """0.1 of "10%" or "0.1", between 0 and 1."""
-    value = _number(text[:-1]) / 100 if text.endswith("%") else _number(text)
+    value = number(text[:-1]) / 100 if text.endswith("%") else number(text)
     if not 0 < value < 1:
         raise argparse.ArgumentTypeError(f"'{text}' does not lie between 0 and 100 %")
     return value

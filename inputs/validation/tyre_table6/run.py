@@ -10,6 +10,7 @@ deflection within 10 % at 103 and 241 kPa and 15 % at 138 and 179 kPa.
 
 import csv
 import itertools
+import math
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -19,9 +20,11 @@ HERE = Path(__file__).resolve().parent
 PROJECT = HERE.parents[2]
 sys.path.insert(0, str(PROJECT / "postproc"))
 
-from furrow_post.analyse.statistics import rms
+from furrow_post.analyse.statistics import block_mean, rms
 from furrow_post.csv_table import read_numbers, read_rows
+from furrow_post.read.results import Results
 from furrow_post.study.case import FOLDER, Case, Value
+from furrow_post.study.furrow_cases import script_case
 from furrow_post.study.launch import SCREEN
 from furrow_post.study.output import Output
 from furrow_post.study.runner import Runner
@@ -32,6 +35,7 @@ LOAD = 6227  # [N]
 AREA_GOAL = 0.10
 DEFLECTION_GOAL = {"identification": 0.10, "prediction": 0.15}
 HALF_TREAD = 0.0785  # [m] width of half the tread
+BELT_RADIUS = 0.3475  # [m] as made
 MIDDLE_OF_PRINT = 0.05  # [m] to both sides of its middle along the travel
 
 PRESSURES = (103, 138, 179, 241)  # [kPa] of Table 6
@@ -169,7 +173,28 @@ IDENTIFICATION = tuple(
     )
     for rim, tread, axial in SPRINGS_AND_LINKS
 )
-CASES = (TABLE6, *MESH_CASES, LOAD_DEFLECTION, *STRESS_CASES, *HARD, *IDENTIFICATION)
+# Rolling on the plane at 8 km/h, friction 0.825 as in the report, two turns: damping of the tread
+# [1/s]
+DAMPINGS = (20, 100, 300)
+ROLLING_DISTANCE = 4.5  # [m]
+ROLLING = tuple(
+    script_case(
+        f"rolling/{damping}",
+        PROJECT / "inputs/scenes/tyre_on_plane.lig",
+        {"damping": damping, "length": ROLLING_DISTANCE, "friction": 0.825},
+        stage="rolling",
+    )
+    for damping in DAMPINGS
+)
+CASES = (
+    TABLE6,
+    *MESH_CASES,
+    LOAD_DEFLECTION,
+    *STRESS_CASES,
+    *HARD,
+    *IDENTIFICATION,
+    *ROLLING,
+)
 
 
 def states(runner: Runner, case: Case) -> list[dict[str, float]]:
@@ -256,6 +281,47 @@ def stress_table(runner: Runner) -> list[dict[str, object]]:
     return found
 
 
+def inflated_table(runner: Runner) -> list[dict[str, object]]:
+    """Size of the tyre without load, of cords and belts, without the rubber outside of them;
+    growth from the lowest pressure on."""
+    unloaded = [row for row in states(runner, TABLE6) if row["load_N"] == 0]
+    return [
+        {
+            "pressure_kPa": row["pressure_kPa"],
+            "diameter_cm": round(2 * row["crown_radius_cm"], 3),
+            "growth": round(row["crown_radius_cm"] / unloaded[0]["crown_radius_cm"] - 1, 5),
+            "section_width_cm": row["section_width_cm"],
+        }
+        for row in unloaded
+    ]
+
+
+def rolling_table(runner: Runner) -> list[dict[str, object]]:
+    """Resistance of rolling, mean over the last turn, with the error of eight blocks."""
+    found: list[dict[str, object]] = []
+    for case, damping in zip(ROLLING, DAMPINGS):
+        if record := runner.record(case):
+            wheel = Results(runner.folder(case)).columns
+            turn = wheel["x"] > wheel["x"][-1] - 2 * math.pi * BELT_RADIUS
+            mean, error = block_mean(-wheel["force_x"][turn])
+            found.append(
+                {
+                    "damping": damping,
+                    "resistance_N": round(mean, 2),
+                    "resistance_error_N": round(error, 2),
+                    "deflection_mm": round(1e3 * float(wheel["sinkage"][turn].mean()), 2),
+                    "user_s": round(record.cpu_time, 1),
+                }
+            )
+    return found
+
+
+def cost_table(runner: Runner) -> list[dict[str, object]]:
+    """Of every run, failed ones too."""
+    known = ((case, runner.record(case) or runner.failure(case)) for case in CASES)
+    return [{"run": c.name, "user_s": round(r.cpu_time, 1)} for c, r in known if r]
+
+
 def hard_table(runner: Runner) -> list[dict[str, object]]:
     """States of the hard cases; a refused one has the unloaded state alone."""
     return [
@@ -293,6 +359,9 @@ def evaluate(runner: Runner, output: Output) -> Sequence[str]:
     output.table("contact_stress.csv", stress_table(runner))
     output.table("hard_cases.csv", hard_table(runner))
     output.table("identification.csv", identification_table(runner))
+    output.table("inflated.csv", inflated_table(runner))
+    output.table("rolling.csv", rolling_table(runner))
+    output.table("costs.csv", cost_table(runner))
     return list(missed_goals(table))
 
 

@@ -143,7 +143,7 @@ NRMM_COEFFICIENT_RMS, NRMM_SINKAGE_RMS = 0.031, 0.0126
 def nrmm_final_density(pressure: float) -> float:
     """Density [kg/m3] under the largest contact pressure [Pa]: 0.519 + 0.0023 p, at most ice.
 
-    Eq 33, in Mg/m3 and kPa.
+    Eq 31, in Mg/m3 and kPa.
     """
     return 1e3 * min(0.519 + 0.0023 * pressure / 1e3, DENSEST)
 

@@ -10,6 +10,7 @@ from typing import Protocol, cast
 
 from .. import __version__
 from ..program import run_program
+from .examples import epilog
 
 DESCRIPTION = "Steady values, plots, pictures and comparisons of Furrow's results folders."
 
@@ -80,6 +81,11 @@ SUBCOMMANDS = (
         "variables", "the variables of a script that 'inputs/run SCRIPT -v NAME VALUE' may set"
     ),
     Subcommand(
+        "view",
+        "one or two runs in 3D, in one self-contained page: time, colours, cut -> view.html",
+    ),
+    Subcommand("film", "the frames of a run as a film (ffmpeg) -> film.mp4"),
+    Subcommand(
         "report",
         "one self-contained page on runs and their comparison "
         "-> report.html, report.csv, report.h5",
@@ -97,7 +103,12 @@ def parser(chosen: str) -> argparse.ArgumentParser:
     commands = whole.add_subparsers(dest="command", required=True, metavar="command")
     for entry in SUBCOMMANDS:
         command = commands.add_parser(
-            entry.name, aliases=entry.aliases, help=entry.help, description=entry.help
+            entry.name,
+            aliases=entry.aliases,
+            help=entry.help,
+            description=entry.help,
+            epilog=epilog(entry.name),
+            formatter_class=argparse.RawDescriptionHelpFormatter,
         )
         if chosen in (entry.name, *entry.aliases):
             module = cast(Module, importlib.import_module(f".{entry.name}", __package__))

@@ -41,3 +41,15 @@ def require_picture(file: Path) -> None:
         raise ResultsError(f"-o {file}: its name ends in none of .{', .'.join(FORMATS)}")
     if not file.parent.is_dir():
         raise ResultsError(f"-o {file}: there is no folder {file.parent}; make it first")
+
+
+def prepare_page(file: Path, what: str) -> None:
+    """Makes the folder of an HTML page. what: whose name it is, e.g. "a report".
+
+    @raises ResultsError for a name that no page can have; OSError
+    """
+    if file.suffix != ".html":
+        raise ResultsError(f"{file}: {what}'s name ends in .html")
+    if file.is_dir():
+        raise ResultsError(f"-o {file}: is a folder; name a file in it")
+    file.parent.mkdir(parents=True, exist_ok=True)

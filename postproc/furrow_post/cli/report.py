@@ -22,13 +22,17 @@ from ..figures.page import (
     results_tables,
     run_section,
 )
+from ..figures.view import view_section, view_style
+from ..read.motion import read_motion
 from .comparison import add_comparison_arguments, compared
+from .output import prepare_page
 
 COMPARISON_CAPTION = (
     "a, b: values with two standard deviations. c to e: histories, datum of the sinkage the top of "
     "the undisturbed ground. Below: density, same scale; grains are smoothed over about one grain."
 )
 COST_CAPTION = "Numerical error of the runs of this scene against their cost; values against size."
+MOST_IN_3D = 2  # runs that stand side by side
 WANTED_ERROR = 0.1  # relative, of the section on cost
 
 
@@ -47,11 +51,7 @@ def run(arguments: argparse.Namespace) -> None:
     runs = result.runs
     folder = runs[0].folder if len(runs) == 1 else runs[0].folder.resolve().parent
     target: Path = arguments.output or folder / "report.html"
-    if target.suffix != ".html":
-        raise ResultsError(f"{target}: a report's name ends in .html")
-    if target.is_dir():
-        raise ResultsError(f"-o {target}: is a folder; name a file in it")
-    target.parent.mkdir(parents=True, exist_ok=True)
+    prepare_page(target, "a report")
     with tempfile.TemporaryDirectory() as scratch:
         numbers = Path(scratch) / "numbers"
         write_comparison(result, numbers)
@@ -84,8 +84,23 @@ def _page_text(result: Comparison, errors: Path | None, scratch: Path, target: P
     for one in runs:
         draw_histories(one.results, scratch / "histories.png")
         sections.append(run_section(one, scratch / "histories.png"))
+    sections.insert(0, _in_3d(result))
     sections.append(footer(first, target))
     title = first.results.title if len(runs) == 1 else " and ".join(run.label for run in runs)
     size = f"{first.text('wheel_diameter')} x {first.text('wheel_width')}"
     lead = f"{first.wheel} {size}, load {first.text('load')}, {first.text('speed')}"
-    return page(result, title, lead, sections)
+    return page(result, title, lead, sections, view_style())
+
+
+def _in_3d(result: Comparison) -> str:
+    """The first runs that wrote frames, at most two, or why there are none."""
+    head = "<h2>In 3D</h2>"
+    try:
+        motions = [(read_motion(run.folder), run.label) for run in result.runs]
+        moving = [one for one in motions if one[0].has_frames][:MOST_IN_3D]
+        if not moving:
+            return head + paragraph("No run wrote frames ('vtk N' in its lines of histories).")
+        shown, labels = zip(*moving)
+        return head + view_section(shown, labels)
+    except ResultsError as error:  # the numbers of a report stand without it
+        return head + paragraph(str(error))

@@ -151,8 +151,10 @@ def footer(run: WheelRun, target: Path) -> str:
     )
 
 
-def page(result: Comparison, title: str, lead: str, sections: Iterable[str]) -> str:
-    """The whole page: title, verdict, warnings, sections."""
+def page(
+    result: Comparison, title: str, lead: str, sections: Iterable[str], style: str = ""
+) -> str:
+    """The whole page: title, verdict, warnings, sections. style: CSS of the sections"""
     body = [f"<h1>{escaped(title)}</h1>", f'<p class="lead">{escaped(lead)}</p>']
     verdict = overall(result)
     if verdict:
@@ -168,10 +170,14 @@ def page(result: Comparison, title: str, lead: str, sections: Iterable[str]) -> 
             '<div class="warning"><strong>Compared although conditions differ.</strong>'
             f"<ul>{points}</ul></div>"
         )
-    content = "\n".join([*body, *sections])
+    return html_page(title, "\n".join([*body, *sections]), style)
+
+
+def html_page(title: str, content: str, style: str = "") -> str:
+    """The frame of a page that needs no other file. style: CSS beside that of all pages"""
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8"/>\n'
-        '<meta name="viewport" content="width=device-width"/>\n'
-        f"<title>{escaped(title)}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n"
+        '<meta name="viewport" content="width=device-width"/>\n<link rel="icon" href="data:,"/>\n'
+        f"<title>{escaped(title)}</title>\n<style>{STYLE}{style}</style>\n</head>\n<body>\n"
         f"{content}\n</body>\n</html>\n"
     )

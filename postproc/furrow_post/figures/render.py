@@ -215,15 +215,18 @@ def shaded_picture(
     view: View,
     pixel: float,
     sun: View = SUN,
+    corners: tuple[Floats, Floats] | None = None,
 ) -> tuple[Floats, tuple[float, float, float, float]]:
     """An RGBA picture (rows from the top, 0 ... 1) of spheres and a surface.
 
-    x (n, 3), radius (n), colours (n, 3) of the spheres; pixel: world units per pixel. The second
+    x (n, 3), radius (n), colours (n, 3) of the spheres; pixel: world units per pixel; corners: of
+    the picture in the view's plane (right, up), by default around all that is there. The second
     is its extent (left, right, bottom, top) in the view's plane, world units.
     """
     everything = x if surface is None else np.concatenate([x, surface.x])
     margin = 2 * radius.max()
-    canvas = Canvas(view, *_bounds(view, everything, margin), pixel / SUPERSAMPLE)
+    seen_part = corners or _bounds(view, everything, margin)
+    canvas = Canvas(view, *seen_part, pixel / SUPERSAMPLE)
     canvas.add_spheres(x, radius)
     normal = canvas.sphere_normals(x, radius)
     shadow_map = Canvas(sun, *_bounds(sun, everything, margin), max(pixel, 0.35 * radius.mean()))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Reading history.h5, the results file of a run (its layout: src/io/history_file.h)."""
 
+import importlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -130,6 +131,23 @@ class Results:
     @property
     def title(self) -> str:
         return self.run.get("title") or self.folder.resolve().name
+
+    @property
+    def channels(self) -> Any:
+        """The history as a data frame of pandas, a row for each time; units in .attrs["units"].
+
+        @raises ResultsError without pandas; columns has the same in arrays of numpy
+        """
+        try:
+            pandas = importlib.import_module("pandas")  # nothing else needs it
+        except ImportError:
+            raise ResultsError(
+                "channels needs pandas; install Debian's python3-pandas, or use .columns, which has "
+                "the same in arrays of numpy"
+            ) from None
+        frame = pandas.DataFrame(dict(self.columns))
+        frame.attrs.update(units=self.units, meanings=self.meanings)
+        return frame
 
     @property
     def has_grains(self) -> bool:

@@ -32,6 +32,14 @@ def _wrapped(line: str) -> str:
     )
 
 
+def with_section(page: str, lines: Sequence[str], begin: str = BEGIN, end: str = END) -> str:
+    """The page with these lines between its marks, which are added where it has none."""
+    text = "\n".join(_wrapped(line) for line in lines).strip()
+    before, found, rest = page.partition(begin)
+    after = rest.partition(end)[2] if end in rest else "\n"
+    return f"{before}{found or begin}\n\n{text}\n\n{end}{after}"
+
+
 class Output:
     """Files of a study for one folder, where publish() puts them together: an evaluation that
     breaks off replaces nothing. To be used in a with statement.
@@ -68,15 +76,12 @@ class Output:
 
     def section(self, lines: Sequence[str]) -> None:
         """Writes the generated part of the study's page."""
-        text = "\n".join(_wrapped(line) for line in lines).strip()
         if not self.page:
+            text = "\n".join(_wrapped(line) for line in lines).strip()
             self.path(SECTION).write_text(text + "\n", encoding="utf-8")
             return
         page = (self.folder / PAGE).read_text(encoding="utf-8")
-        before, begin, rest = page.partition(BEGIN)
-        after = rest.partition(END)[2] if END in rest else "\n"
-        new = f"{before}{begin or BEGIN}\n\n{text}\n\n{END}{after}"
-        self.path(PAGE).write_text(new, encoding="utf-8")
+        self.path(PAGE).write_text(with_section(page, lines), encoding="utf-8")
 
     def publish(self, records: Sequence[Record], root: Path) -> None:
         """Puts all files into the folder, with their provenance: they were made of these runs;

@@ -33,7 +33,7 @@ TEST_F(TyreFileTest, TheTyresOfTheInputsAreRead) {
   EXPECT_EQ(tyre.title, "P235/75 R15");
   EXPECT_EQ(tyre.sidewall.segments(), 10u);
   EXPECT_DOUBLE_EQ(tyre.sidewall.rim_angle, radians(23));
-  // [Shoop2001] Table 7: 4.1261 N m along and 2.259 N m across
+  // [Shoop2001] Table 8: 4.1261 N m along and 2.259 N m across
   const double h3 = std::pow(tyre.tread.thickness, 3);
   EXPECT_NEAR(tyre.tread.E1 * h3 / 12, 4.1261, 0.001);
   EXPECT_NEAR(tyre.tread.E2 * h3 / 12, 2.259, 0.003);

@@ -18,6 +18,7 @@ TOOLS = (
     INPUTS / "laboratory" / "identify.py",
     INPUTS / "validation" / "snow_wheel" / "identify.py",
     INPUTS / "validation" / "grains" / "track_density.py",
+    INPUTS / "validation" / "run",
 )
 
 
@@ -29,7 +30,7 @@ def start(*words: object) -> "subprocess.CompletedProcess[str]":
 
 class DriversTest(unittest.TestCase):
     def test_there_are_all_studies(self) -> None:
-        self.assertEqual(len(STUDIES), 8)
+        self.assertEqual(len(STUDIES), 10)
 
     def test_help(self) -> None:
         for driver in (*STUDIES, *TOOLS):

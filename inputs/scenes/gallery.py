@@ -1,0 +1,148 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Writes the gallery of scenes, README.md beside this file, from the heads of the scenes.
+
+    gallery.py                          the page
+    gallery.py --picture SCENE RESULTS  the picture of a scene, from a results folder of it
+    gallery.py --check                  refuses a page that is not what this command writes
+"""
+
+import argparse
+import io
+import sys
+import textwrap
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "postproc"))
+
+from furrow_post.errors import ResultsError
+from furrow_post.figures.moving import MovingPictures
+from furrow_post.program import run_program
+from furrow_post.read.motion import read_motion
+
+PAGE = HERE / "README.md"
+PICTURES = HERE / "pictures"
+SIZE = (480, 270)  # [pixel]
+LARGEST = 60_000  # [byte] of a picture
+ENTRIES = ("Shows", "Run time", "Expect", "Limits")  # of a head, in the order of the page
+HEAD = """# Scenes
+
+Made by `inputs/scenes/gallery.py` from the heads of the scenes; a test compares. The pictures are
+of the quick versions (`--quick`), at their end, but for that of the plate on sand: its curve. A
+scene's results, its own picture and its numbers go to `results/SCENE`; `furrow-post view` shows
+them in 3D.
+"""
+
+
+def head_of(script: Path) -> tuple[str, dict[str, str]]:
+    """The title of a scene and the entries of its head. @raises ResultsError"""
+    title, entries, last = "", dict[str, str](), ""
+    for line in script.read_text(encoding="utf-8").splitlines():
+        if not line.startswith("#"):
+            break
+        text = line[1:].strip()
+        name, colon, rest = text.partition(":")
+        if not title:
+            title = rest.strip()
+        elif colon and line.startswith("# ") and line[2] != " " and name[:1].isupper():
+            last = name
+            entries[last] = rest.strip()
+        elif last and text:
+            entries[last] += f" {text}"
+    for name in ("Shows", "Run time", "Expect"):
+        if name not in entries:
+            raise ResultsError(f"{script}: its head has no '{name}:'")
+    return title, entries
+
+
+def page() -> str:
+    """The page of all scenes that are there."""
+    parts = [HEAD]
+    for script in sorted(HERE.glob("*.lig")):
+        title, entries = head_of(script)
+        name = script.stem
+        picture = PICTURES / f"{name}.png"
+        parts.append(f"## [{name}]({script.name})\n{_wrapped(_sentence(title))}\n")
+        if picture.is_file():
+            parts.append(f"![{name}](pictures/{picture.name})\n")
+        parts.append(f"```\nbash inputs/run {name}\n```\n")
+        rows = [f"- {entry}: {entries[entry]}" for entry in ENTRIES if entry in entries]
+        parts.append("\n".join(_wrapped(row, "  ") for row in rows) + "\n")
+    return "\n".join(parts)
+
+
+def _sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}."
+
+
+def _wrapped(text: str, indent: str = "") -> str:
+    """In lines of 100; what Markdown would take for markup or a link stays text."""
+    for letter in "[]<>*":
+        text = text.replace(letter, f"\\{letter}")
+    return textwrap.fill(
+        text, 100, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+    )
+
+
+def write_picture(scene: str, results: Path) -> None:
+    """@raises ResultsError for a scene or results that are not there, or a picture too large"""
+    if not (HERE / f"{scene}.lig").is_file():
+        raise ResultsError(f"there is no scene '{scene}'")
+    curve = results / "curve.txt"
+    if curve.is_file() and not (results / "terrain.h5").is_file():
+        pixels = _curve(curve)
+    else:
+        motion = read_motion(results)
+        pixels = MovingPictures(motion, size=SIZE, title=scene).rgb(motion.times[-1])
+    content = io.BytesIO()
+    Image.fromarray(pixels).quantize(128).save(content, "png", optimize=True)
+    if content.tell() > LARGEST:
+        raise ResultsError(f"the picture of {scene} has {content.tell()} bytes, not {LARGEST}")
+    PICTURES.mkdir(exist_ok=True)
+    (PICTURES / f"{scene}.png").write_bytes(content.getvalue())
+    print(PICTURES / f"{scene}.png")
+
+
+def _curve(file: Path) -> np.ndarray[tuple[int, ...], np.dtype[np.uint8]]:
+    """Pressure against sinkage of a plate, as pixels."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    rows = np.loadtxt(file)
+    figure = Figure(figsize=(SIZE[0] / 100, SIZE[1] / 100), dpi=100, layout="constrained")
+    canvas = FigureCanvasAgg(figure)
+    axes = figure.add_subplot()
+    axes.plot(1e3 * rows[:, 1], 1e-3 * rows[:, 3], color="#1f5a8a")
+    axes.set_xlabel("sinkage [mm]")
+    axes.set_ylabel("pressure [kPa]")
+    canvas.draw()
+    return np.asarray(canvas.buffer_rgba())[:, :, :3].copy()
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--picture", nargs=2, metavar=("SCENE", "RESULTS"))
+    parser.add_argument("--check", action="store_true")
+    arguments = parser.parse_args()
+    if arguments.picture:
+        write_picture(arguments.picture[0], Path(arguments.picture[1]))
+        return
+    text = page()
+    if not arguments.check:
+        PAGE.write_text(text, encoding="utf-8")
+    elif text != PAGE.read_text(encoding="utf-8"):
+        raise ResultsError(f"{PAGE}: is not what the heads of the scenes say; run {Path(__file__)}")
+    for script in HERE.glob("*.lig") if arguments.check else ():
+        picture = PICTURES / f"{script.stem}.png"
+        if not picture.is_file() or picture.stat().st_size > LARGEST:
+            raise ResultsError(f"{picture}: is missing, or larger than {LARGEST} bytes")
+
+
+if __name__ == "__main__":
+    sys.exit(run_program("gallery", main))

@@ -1,0 +1,413 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Every experiment of [Shoop2001] that has a number or a finding, and where ours is stored.
+
+Numbers of the report are those of its text, tables and captions; curves that are only drawn there
+are not at hand.
+"""
+
+from overview import Experiment, Group, Stored
+
+WHEEL, SNOW_WHEEL = "report_wheel/results.csv", "snow_wheel/results.csv"
+ERROR, ACCURACY = "snow_wheel/error.csv", "snow_wheel/accuracy.csv"
+PLATE, TYRE_ON_SNOW = "snow_plate/results.csv", "tyre_on_snow/results.csv"
+SAND, TABLE6 = "tyre_on_sand_ground/results.csv", "tyre_table6/table6.csv"
+OEDOMETER = "snow_oedometer/results.csv"
+
+PERCENT = 100.0
+
+
+def of(table: str, run: str, column: str, scale: float = 1.0, key: str = "run") -> Stored:
+    return Stored(table, {key: run}, column, scale)
+
+
+def not_done(
+    place: str, what: str, quantity: str, reason: str, report: str = "", measured: str = ""
+) -> Experiment:
+    return Experiment(place, what, quantity, report=report, measured=measured, remark=reason)
+
+
+# ---- material models
+
+
+def oedometer(law: str, what: str, remark: str = "") -> Experiment:
+    return Experiment(
+        "Table 2, Fig 27",
+        what,
+        "density under 100 kPa",
+        "kg/m3",
+        measured="410",
+        ours=of(OEDOMETER, law, "density_100kPa", key="law"),
+        remark=remark,
+    )
+
+
+MATERIAL = Group(
+    "Material models",
+    (
+        oedometer("fresh_snow", "confined compression, cap law with K0 of eq 24"),
+        oedometer("fresh_snow_shoop", "the same by Tables 1 and 3"),
+        oedometer("fresh_snow_cam_clay", "the same by cohesive Cam clay"),
+        oedometer(
+            "fresh_snow_foam",
+            "the same by the foam of Table 1",
+            "the report calls its foam good (Fig 27); by eq 18 it needs twice the stress",
+        ),
+        oedometer("fresh_snow_foam_oedometer", "the same, lambda fitted"),
+        Experiment(
+            "eq 24",
+            "lateral over axial stress, cap law with K0 of eq 24",
+            "K0",
+            measured="0.12",
+            ours=of(OEDOMETER, "fresh_snow", "k0", key="law"),
+        ),
+        Experiment(
+            "eq 24",
+            "the same by Tables 1 and 3",
+            "K0",
+            measured="0.12",
+            ours=of(OEDOMETER, "fresh_snow_shoop", "k0", key="law"),
+            remark="beta 22.53 degrees and K0 0.12 exclude each other",
+        ),
+        not_done("p. 13, Fig 21", "modulus that follows density", "E", "no law has it"),
+        not_done("Figs 21-25", "compilations of E, strength, compression", "", "only drawn"),
+        not_done("Fig 34", "McCormick sand, uniaxial strain", "axial stress", "only drawn"),
+        not_done("pp. 5-23", "snow pressed slowly widens", "", "no law depends on the rate"),
+    ),
+)
+
+# ---- plates
+
+
+def plate(case: str, what: str, near: str, remark: str) -> Experiment:
+    return Experiment(
+        "Fig 31",
+        what,
+        "largest force",
+        "N",
+        measured="1867",
+        ours=of(PLATE, case, "peak_N", key="case"),
+        near=of(PLATE, near, "peak_N", key="case"),
+        cost=of(PLATE, case, "user_s", key="case"),
+        remark=remark,
+    )
+
+
+SLIDE = "needs the slide surface, which this study does not have yet"
+PLATES = Group(
+    "Plates on snow",
+    (
+        plate("fresh_finer", "plate of 20.32 cm, `fresh_snow`", "fresh_fine", "200 kg/m3"),
+        plate("clay_finer", "the same, Cam clay", "clay_fine", "200 kg/m3"),
+        plate("finer", "the same, cap law of Tables 1 and 3", "fine", "200 kg/m3"),
+        plate("foam_fine", "the same, foam of Table 1", "foam", "without the slide surface"),
+        not_done("Fig 28b", "cap law, slide surface, friction 0.3", "force", SLIDE),
+        not_done("Fig 28c", "foam, slide surface, friction 0.3", "force", SLIDE),
+        not_done("Fig 30", "density, isolated places", "kg/m3", "not scored", report="420"),
+        not_done(
+            "Fig 31",
+            "density within 5 cm below the plate",
+            "kg/m3",
+            "not scored: the study has 200 kg/m3, the measured snow 180",
+            measured="480",
+        ),
+        not_done("Fig 29b", "field plate, 20 cm on 40 cm of snow", "force", "no run yet"),
+    ),
+)
+
+# ---- tyre on a hard surface
+
+
+def table6(pressure: int, what: str, column: str, unit: str, measured: str) -> Experiment:
+    row = {"pressure_kPa": f"{pressure}.0"}
+    used = "identified on" if pressure in (103, 241) and what != "section width" else ""
+    return Experiment(
+        "Table 6",
+        f"{what} under 6227 N, {pressure} kPa",
+        what,
+        unit,
+        measured=measured,
+        ours=Stored(TABLE6, row, column),
+        near=Stored("tyre_table6/meshes.csv", {**row, "mesh": "12x144"}, column),
+        remark=used,
+    )
+
+
+def rolling(damping: int, column: str = "resistance_N") -> Stored:
+    return Stored("tyre_table6/rolling.csv", {"damping": str(damping)}, column)
+
+
+def stress(column: str) -> Stored:
+    row = {"mesh": "12x144", "tread_stiffness": "10"}
+    return Stored("tyre_table6/contact_stress.csv", row, column)
+
+
+DEFLECTIONS = {103: "6.3", 138: "5.4", 179: "4.6", 241: "3.1"}  # [cm]
+AREAS = {103: "509.7", 138: "419.4", 179: "364.5", 241: "281.7"}  # [cm2]
+WIDTHS = {103: "27.9", 138: "25.9", 179: "26.0", 241: "25.1"}  # [cm]
+BRICK = "no tyre with a brick tread yet"
+NO_RUBBER = "ours is of cords and belts, without the rubber outside of them"
+
+HARD_SURFACE = Group(
+    "Tyre 235/75 R15 on a hard surface",
+    (
+        *(table6(p, "deflection", "deflection_cm", "cm", m) for p, m in DEFLECTIONS.items()),
+        *(table6(p, "contact area", "area_cm2", "cm2", m) for p, m in AREAS.items()),
+        *(table6(p, "section width", "section_width_cm", "cm", m) for p, m in WIDTHS.items()),
+        Experiment(
+            "Table 6",
+            "inflated to 241 kPa, no load",
+            "largest width",
+            "cm",
+            measured="24.9",
+            ours=of("tyre_table6/inflated.csv", "241.0", "section_width_cm", key="pressure_kPa"),
+            remark=NO_RUBBER,
+        ),
+        Experiment(
+            "Table 6",
+            "inflated from 103 to 241 kPa, no load",
+            "growth of the diameter",
+            "%",
+            measured="0.8",
+            ours=of("tyre_table6/inflated.csv", "241.0", "growth", PERCENT, key="pressure_kPa"),
+            remark="74.7 to 75.3 cm; the belt is as stiff along as Table 8 gives it",
+        ),
+        Experiment(
+            "Fig 52",
+            "contact stress, 207 kPa, 6627 N",
+            "largest",
+            "kPa",
+            measured="765",
+            ours=stress("largest_kPa"),
+            remark="a line force of the sidewall, which grows with the mesh",
+        ),
+        Experiment(
+            "Fig 52",
+            "the same, middle of the tread",
+            "stress",
+            "kPa",
+            ours=stress("middle_kPa"),
+            remark="measured: a ridge above the inflation; the belt is a membrane",
+        ),
+        Experiment(
+            "pp. 24-41",
+            "rolling resistance at 8 km/h, 241 kPa, friction 0.825",
+            "force",
+            "N",
+            report="10",
+            ours=rolling(100),
+            uncertainty=rolling(100, "resistance_error_N"),
+            limit=True,
+            remark="the report's model is below this; damping 100 1/s",
+        ),
+        Experiment(
+            "pp. 24-41",
+            "the same, damping 300 1/s",
+            "force",
+            "N",
+            measured="25",
+            ours=rolling(300),
+            uncertainty=rolling(300, "resistance_error_N"),
+            remark="calibrates the damping",
+        ),
+        Experiment(
+            "Table 10",
+            "rolling, 20 m in the report, 4.5 m of half the tyre here",
+            "deflection",
+            "mm",
+            ours=rolling(100, "deflection_mm"),
+            hours="0.18",
+            cost=rolling(100, "user_s"),
+            remark="20 m of the whole tyre: 100 core s",
+        ),
+        not_done("Tables 9, 10", "brick treads: modes, area, stress, 2 m of rolling", "", BRICK),
+        not_done("Figs 45-51", "load, deflection and area at other loads", "", "only drawn"),
+        not_done("Fig 55", "sidewall profiles", "", "only drawn"),
+        not_done("Table 7", "cantilever tests of sidewall sections", "EI", "taken from Table 8"),
+    ),
+)
+
+# ---- rigid wheel on snow
+
+OTHER_CELLS = {"d_5": "cell_10", "d_30": "d_30_cell_4", "d_40": "d_40_cell_10"}
+REPORT_S, MEASURED = ("8", "0.1"), ("15.8", "0.074")  # z [cm], c of the wheel in 20 cm
+
+
+def wheel(run: str, what: str, remark: str = "", measured: bool = False) -> tuple[Experiment, ...]:
+    """Sinkage and resistance of the report's wheel, against the report's or the measured ones."""
+    numbers = (("z", "cm", "sinkage_m", 100.0), ("c", "", "resistance", 1.0))
+    return tuple(
+        Experiment(
+            "Fig 63" if measured else "Figs 61, 62",
+            what,
+            quantity,
+            unit,
+            report="" if measured else REPORT_S[index],
+            measured=MEASURED[index] if measured else "",
+            ours=of(WHEEL, run, column, scale),
+            near=of(WHEEL, OTHER_CELLS[run], column, scale) if run in OTHER_CELLS else None,
+            hours="24" if index == 0 else "",
+            cost=of(WHEEL, run, "user_s") if index == 0 else None,
+            remark=remark if index == 0 or measured else "upper edge of the measured",
+        )
+        for index, (quantity, unit, column, scale) in enumerate(numbers)
+    )
+
+
+def deep(depth: int) -> Experiment:
+    """Resistance over depth, zero slip, d 30 kPa."""
+    run = f"depth_{depth}_zero_d30"
+    formula = {"density_kgm3": "240.0", "depth_m": f"{depth / 100:g}"}
+    return Experiment(
+        "Fig 63",
+        f"rigid wheel, {depth} cm, zero slip, d 30 kPa, as the report ran it",
+        "c",
+        report=Stored("report_wheel/nrmm.csv", formula, "resistance"),
+        ours=of(WHEEL, run, "resistance"),
+        cost=of(WHEEL, run, "user_s"),
+        remark="report: NRMM at 240 kg/m3, its 'excellent match'",
+    )
+
+
+def density(run: str, what: str, column: str, report: str, measured: str) -> Experiment:
+    return Experiment(
+        "Fig 67",
+        what,
+        "density",
+        "kg/m3",
+        report=report,
+        measured=measured,
+        ours=of(SNOW_WHEEL, run, column),
+        cost=of(SNOW_WHEEL, run, "user_s"),
+    )
+
+
+def rms(column: str, model: str, rows: str, what: str, limit: str, scale: float) -> Experiment:
+    return Experiment(
+        "Table 11",
+        what,
+        "rms error",
+        "cm" if scale != 1 else "",
+        report=limit,
+        ours=Stored(ACCURACY, {"model": model, "rows": rows}, column, scale),
+        limit=True,
+        remark="limit: NRMM's error on the same tests",
+    )
+
+
+TYRE_RUN = {"change": "base: cells of 4 cm, tyre of 4 x 36 elements"}
+RIGID_WHEEL = Group(
+    "Wheel on snow",
+    (
+        *wheel("d_5", "rigid wheel, 20 cm, zero slip, d 5 kPa", remark="Table 1, smallest d"),
+        *wheel("d_30", "the same, d 30 kPa", remark="Table 1, largest d"),
+        *wheel("d_40", "the same, d 40 kPa", remark="beyond Table 1"),
+        *wheel("d_30_cell_10", "d 30 kPa, cells of 10 cm", remark="two cells in the depth"),
+        *wheel("d_72", "the same, d 72 kPa", remark="eq 20 with the c of the CIV tests, 43 kPa"),
+        *wheel("slip_free", "free wheel, d 30 kPa", "measured with a tyre", measured=True),
+        *(deep(depth) for depth in (20, 30, 40, 50)),
+        Experiment(
+            "Table 11",
+            "the tyre on `field_snow`, 20 cm, 220 kg/m3",
+            "z",
+            "cm",
+            measured="15.8",
+            ours=Stored(ERROR, TYRE_RUN, "sinkage_m", 100.0),
+            near=Stored(ERROR, {"change": "cells of 3.33 cm"}, "sinkage_m", 100.0),
+            cost=Stored(ERROR, TYRE_RUN, "user_s"),
+            remark="identified on",
+        ),
+        Experiment(
+            "Table 11",
+            "the same",
+            "c",
+            measured="0.074",
+            ours=Stored(ERROR, TYRE_RUN, "resistance"),
+            near=Stored(ERROR, {"change": "cells of 3.33 cm"}, "resistance"),
+            remark="identified on",
+        ),
+        rms("sinkage_m_rms", "tyre", "prediction: 12", "z of 12 predicted tests", "1.6", 100.0),
+        rms("resistance_rms", "tyre", "prediction: 12", "c of the same", "0.018", 1.0),
+        rms("sinkage_m_rms", "tyre", "all: 24", "z of all 24 tests", "1.3", 100.0),
+        rms("resistance_rms", "tyre", "all: 24", "c of all 24 tests", "0.0284", 1.0),
+        density("row_220_20cm", "under the tyre, `field_snow`", "density_under", "460", "510"),
+        density("row_220_20cm", "at its shoulder", "density_shoulder", "335", "290"),
+        density("clay_towed", "under the rigid wheel, Cam clay", "density_under", "460", "510"),
+        density("clay_towed", "at its shoulder", "density_shoulder", "335", "290"),
+        not_done("Fig 65", "displacements along the track", "", "tracers drawn, not scored"),
+        not_done("Fig 66", "displacements across the track", "", "no tracers across"),
+        not_done("Fig 65", "arc of deviatoric stress ahead", "", "not drawn"),
+        not_done("p. 43", "infinite elements at the sides", "", "needs absorbing sides that move"),
+        not_done("p. 44", "implicit solution, adaptive mesh", "", "explicit material points here"),
+    ),
+)
+
+# ---- tyre on ground
+
+
+def tyre(run: str, what: str, remark: str = "") -> tuple[Experiment, ...]:
+    numbers = (
+        ("z", "cm", "sinkage_mm", 0.1, "8"),
+        ("deflection", "mm", "deflection_mm", 1.0, "3"),
+        ("deflection over section height", "%", "deflection_share_section", PERCENT, "1.8"),
+    )
+    finer = "tyre_241_40" if run == "tyre_241_50" else ""
+    return tuple(
+        Experiment(
+            "p. 54",
+            what,
+            quantity,
+            unit,
+            report=report,
+            ours=of(TYRE_ON_SNOW, run, column, scale, key="case"),
+            near=of(TYRE_ON_SNOW, finer, column, scale, key="case") if finer else None,
+            cost=of(TYRE_ON_SNOW, run, "user_s", key="case"),
+            remark=remark,
+        )
+        for quantity, unit, column, scale, report in numbers
+    )
+
+
+def ahead(state: str, what: str) -> Experiment:
+    return Experiment(
+        "Fig 69",
+        what,
+        "share of vertical stress ahead of the axle, 2.5 cm deep",
+        "%",
+        ours=Stored(SAND, {"quantity": "sz_25_front"}, state, PERCENT),
+        cost=Stored(SAND, {"quantity": "user_s"}, state),
+        remark="the report: slightly ahead, no number",
+    )
+
+
+TYRE_ON_GROUND = Group(
+    "Tyre on snow and on sand",
+    (
+        *tyre("tyre_241_50", "tyre, 241 kPa, 20 cm of snow, zero slip, d 5 kPa"),
+        *tyre("tyre_241_d30_50", "the same, d 30 kPa"),
+        ahead("cap_rolled", "the tyre rolling on McCormick sand, cap law"),
+        ahead("elastic_rolled", "the same, elastic sand"),
+        not_done(
+            "Fig 69",
+            "least principal stress tensile below and at the sides",
+            "",
+            "principal stresses are not written",
+        ),
+        not_done("Fig 1", "zones under a towed wheel (Wong and Reece)", "", "not drawn"),
+        not_done("p. 40", "buckling of the tread disappears on soft ground", "", "not counted"),
+    ),
+)
+
+# ---- what the report plans
+
+FUTURE = Group(
+    "What the report leaves to others (pp. 41, 55)",
+    (
+        not_done("pp. 55-56", "design: width, diameter, pressure", "c", "load and pressure only"),
+        not_done("pp. 55-56", "tread blocks on snow", "", BRICK),
+        not_done("pp. 55-56", "temperature, melting, sintering in time", "", "no law has it"),
+        not_done("pp. 55-56", "rate effects, wet snow, thawing soil", "", "no law has it"),
+        not_done("pp. 55-56", "repeated passes", "z", "stable, not scored"),
+    ),
+)
+
+GROUPS = (MATERIAL, PLATES, HARD_SURFACE, RIGID_WHEEL, TYRE_ON_GROUND, FUTURE)

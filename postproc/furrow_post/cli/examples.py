@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Examples of every subcommand, for its --help."""
+
+EXAMPLES: dict[str, tuple[str, ...]] = {
+    "resistance": ("results/a", "--csv results/a results/b", "--distance 0.5 1.2 results/a"),
+    "plot": ("results/a", "results/a -o forces.svg"),
+    "picture": ("results/a",),
+    "terrain": ("results/a --format pdf",),
+    "laboratory": ("results/laboratory/oedometer_sand_dry",),
+    "point": ("results/snow_oedometer",),
+    "sidewall": ("results/p235_75r15",),
+    "modes": ("results/at_rest",),
+    "empirical": ("nrmm --help",),
+    "compare": ("continuum=results/a grains=results/b -o results/both",),
+    "flow": ("results/a results/b",),
+    "cost": ("coarse=results/a fine=results/b", "inputs/costs/wheel_on_snow.csv"),
+    "plan": ("inputs/costs/wheel_on_snow.csv --sinkage 3% --coefficient 0.01",),
+    "choose": ("inputs/costs/wheel_on_snow.csv --error 10%",),
+    "variables": ("inputs/scenes/wheel_on_snow.lig",),
+    "view": ("results/a", "results/a results/b -o both.html"),
+    "film": ("results/a film.mp4", "results/a --colour displacement --cut 0 --seconds 5"),
+    "report": ("results/a", "continuum=results/a grains=results/b -o both.html"),
+}
+
+
+def epilog(name: str) -> str:
+    """What --help of a subcommand ends with."""
+    lines = "".join(f"\n  furrow-post {name} {words}" for words in EXAMPLES[name])
+    return f"examples:{lines}"

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Pictures of a run at any of its frames, for films and for the gallery of scenes."""
+
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+
+from ..arrays import Floats
+from ..errors import ResultsError
+from ..read.motion import Motion
+from ..read.results import Surface
+from . import render
+from .quantities import COLOURS, Quantity, quantities_of
+from .style import GROUND_COLOURS, use_style
+
+DOTS = 100  # per inch
+ROOM_ABOVE = 0.2  # for words and scale, of the height of what is shown
+VIEW = render.View.of_angles(-62.0, 24.0)
+GREY = (0.62, 0.62, 0.60)  # of points whose quantity is not known
+
+
+def _chosen(motion: Motion, key: str | None) -> Quantity | None:
+    quantities = quantities_of([motion])
+    if key is None:
+        return quantities[0] if quantities else None
+    for quantity in quantities:
+        if quantity.key == key:
+            return quantity
+    known = ", ".join(quantity.key for quantity in quantities) or "none"
+    raise ResultsError(f"{motion.folder}: has no {key} of its points; it has {known}")
+
+
+class MovingPictures:
+    """Pictures of one run that all show the same part of the surroundings of its wheel."""
+
+    def __init__(
+        self,
+        motion: Motion,
+        key: str | None = None,
+        cut: float = -np.inf,
+        size: tuple[int, int] = (960, 540),
+        title: str = "",
+    ) -> None:
+        """key: of the quantity of the colours, None: the first; size: [pixel]; title: or the run's
+
+        cut: points of smaller y are left out [m]. @raises ResultsError
+        """
+        self.motion, self.quantity, self.cut = motion, _chosen(motion, key), cut
+        self.width, self.height = size
+        self.title = title or motion.title
+        use_style()
+        first, last = (self._parts(time) for time in motion.times[[0, -1]])
+        shown = VIEW.project(np.concatenate([first[0], last[0]]))[:, :2]
+        bodies = [part[3].x for part in (first, last) if part[3] is not None]
+        if bodies:
+            shown = np.concatenate([shown, VIEW.project(np.concatenate(bodies))[:, :2]])
+        low, high = shown.min(axis=0), shown.max(axis=0)
+        high[1] += ROOM_ABOVE * (high[1] - low[1])
+        centre, half = 0.5 * (low + high), 0.53 * (high - low)
+        half = np.maximum(half, half[::-1] * [self.width / self.height, self.height / self.width])
+        self.corners = centre - half, centre + half
+        self.pixel = float(2 * half[0] / self.width)
+
+    def _parts(self, time: float) -> tuple[Floats, Floats, Floats, Surface | None]:
+        """Centres, radii, colours of spheres, and the body; x counted from the body's middle."""
+        body = self.motion.body(time)
+        if body is not None and self.motion.body_mirrored:
+            other = body.triangles[:, ::-1] + len(body.x)
+            body = Surface(
+                np.concatenate([body.triangles, other]),
+                np.concatenate([body.x, body.x * [1, -1, 1]]),
+            )
+        x, radius, colours = [np.empty((0, 3))], [np.empty(0)], [np.empty((0, 3))]
+        for cloud in self.motion.clouds:
+            points = cloud.at(time)
+            colour = self._colours(points.fields, len(points.id))
+            for side in (1, -1) if cloud.mirrored else (1,):
+                place = points.x * [1, side, 1]
+                kept = place[:, 1] >= self.cut
+                x.append(place[kept])
+                radius.append(points.radius[kept])
+                colours.append(colour[kept])
+        places = np.concatenate(x)
+        if body is not None:
+            shift = np.array([0.5 * (body.x[:, 0].min() + body.x[:, 0].max()), 0, 0])
+            body, places = Surface(body.triangles, body.x - shift), places - shift
+        return places, np.concatenate(radius), np.concatenate(colours), body
+
+    def _colours(self, fields: dict[str, Floats], count: int) -> Floats:
+        if self.quantity is None or self.quantity.key not in fields:
+            return np.tile(GREY, (count, 1))
+        levels = self.quantity.levels(fields[self.quantity.key])
+        colours: Floats = GROUND_COLOURS(levels / (COLOURS - 1))[:, :3]
+        colours[levels == COLOURS] = GREY
+        return colours
+
+    def rgb(self, time: float) -> Any:
+        """(height, width, 3) of bytes, rows from the top."""
+        x, radius, colours, body = self._parts(time)
+        if not len(x):  # a wheel on a road: the renderer takes its scale from spheres
+            assert body is not None
+            x, radius, colours = body.x[:1], np.full(1, 1e-3), np.array([render.SURFACE_COLOUR])
+        image, _ = render.shaded_picture(
+            x, radius, colours, body, VIEW, self.pixel, corners=self.corners
+        )
+        figure = plt.figure(figsize=(self.width / DOTS, self.height / DOTS), dpi=DOTS)
+        figure.figimage(image[-self.height :, : self.width], origin="upper", zorder=-1)
+        figure.text(0.02, 0.94, f"{self.title}   t = {time:.3f} s", fontsize=10)
+        if self.quantity is not None:
+            axes = figure.add_axes((0.66, 0.94, 0.31, 0.025))
+            scale = Normalize(self.quantity.low, self.quantity.high)
+            figure.colorbar(
+                ScalarMappable(scale, GROUND_COLOURS),
+                cax=axes,
+                orientation="horizontal",
+                label=f"{self.quantity.name} [{self.quantity.unit}]",
+            )
+        figure.canvas.draw()
+        pixels = np.asarray(figure.canvas.buffer_rgba())[: self.height, : self.width, :3].copy()
+        plt.close(figure)
+        return pixels

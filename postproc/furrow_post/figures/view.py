@@ -1,0 +1,323 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs in 3D in one self-contained HTML page: three.js draws what is quantised here (view.js).
+
+Positions are kept in 65535 steps of the range along each axis, colours in 255; differences between
+frames are packed by zlib. Frames, and at last points, are left out until the page is small enough.
+"""
+
+import base64
+import json
+import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..arrays import Floats
+from ..errors import ResultsError
+from ..read.motion import Cloud, Motion, Points, evenly_chosen
+from .page import escaped, html_page
+from .quantities import COLOURS, Quantity, quantities_of
+from .style import GROUND_COLOURS, MILLIMETRE
+
+LARGEST = 12e6  # [byte] of a view; a report has its figures beside it
+THREE = Path("/usr/share/javascript/three")  # Debian's libjs-three
+LIBRARY = ("three.min.js", "examples/js/controls/OrbitControls.js")
+LEVELS = 65535  # of a position: 0 ... 65534; 65535: the point is not there
+FEWEST_FRAMES = 12  # below which points are left out instead of frames
+MOST_VALUES = 6_000_000  # points times frames that are read at all
+
+
+@dataclass
+class _Selection:
+    """The frames and points of one run that go into the page."""
+
+    motion: Motion
+    label: str
+    times: Floats
+    stride: int = 1  # every how many points
+
+    def points(self, cloud: Cloud) -> list[Points]:
+        return [self._thinned(cloud.at(time)) for time in self.times]
+
+    def _thinned(self, points: Points) -> Points:
+        if self.stride == 1:
+            return points
+        kept = points.id % self.stride == 0
+        fields = {name: values[kept] for name, values in points.fields.items()}
+        # larger, so that what is left fills the same volume
+        radius = points.radius[kept] * self.stride ** (1 / 3)
+        return Points(points.id[kept], points.x[kept], radius, fields)
+
+    def note(self) -> str:
+        """What is shown, for the reader."""
+        motion = self.motion
+        if not motion.has_frames:
+            return f"{self.label}: the run wrote no frames ('vtk N'); this is its end."
+        frames, all_frames = len(self.times), len(motion.times)
+        text = f"{self.label}: {'all ' if frames == all_frames else ''}{frames}"
+        text += "" if frames == all_frames else f" of {all_frames}"
+        text += " frames"
+        if self.stride > 1:
+            text += f", one of {self.stride} points, enlarged"
+        return text + "."
+
+
+def view_page(motions: Sequence[Motion], labels: Sequence[str], largest: float = LARGEST) -> str:
+    """The whole page. @raises ResultsError, OSError"""
+    title = " and ".join(labels)
+    return html_page(title, view_section(motions, labels, largest), _file("view.css"))
+
+
+def view_section(motions: Sequence[Motion], labels: Sequence[str], largest: float = LARGEST) -> str:
+    """The part of a page that shows these runs side by side, with all it needs but its style.
+
+    largest: [byte] @raises ResultsError where frames are damaged, or three.js is not installed
+    """
+    library = _library()
+    share = (largest - sum(map(len, library))) / len(motions)
+    chosen = [
+        _Selection(motion, label, evenly_chosen(motion.times, _readable(motion)))
+        for motion, label in zip(motions, labels)
+    ]
+    quantities = quantities_of(motions)
+    runs = [_fitted(selection, quantities, share) for selection in chosen]
+    centre, size, cut = _place(chosen)
+    data = {
+        "runs": runs,
+        "quantities": [vars(quantity) for quantity in quantities],
+        "colours": _text(_colour_table()),
+        "centre": centre,
+        "size": size,
+        "cut": cut,
+    }
+    return "\n".join(
+        [
+            '<div class="furrow-view">',
+            _stage(labels),
+            _notes(chosen, runs),
+            # "<" is escaped: no text in the data can end the script
+            '<script type="application/json">',
+            json.dumps(data).replace("<", "\\u003c"),
+            "</script>",
+            "</div>",
+            *(f"<script>\n{_harmless(text)}\n</script>" for text in (*library, _file("view.js"))),
+        ]
+    )
+
+
+def view_style() -> str:
+    """CSS of view_section()."""
+    return _file("view.css")
+
+
+def _file(name: str) -> str:
+    return (Path(__file__).parent / name).read_text(encoding="utf-8")
+
+
+def _library() -> list[str]:
+    """three.js and its OrbitControls. @raises ResultsError where they are not installed"""
+    files = [THREE / name for name in LIBRARY]
+    for file in files:
+        if not file.is_file():
+            raise ResultsError(
+                f"{file}: is missing; install Debian's package libjs-three (apt-get install "
+                "libjs-three)"
+            )
+    return [file.read_text(encoding="utf-8") for file in files]
+
+
+def _harmless(script: str) -> str:
+    return script.replace("</script", "<\\/script")
+
+
+def _readable(motion: Motion) -> int:
+    """How many frames are read at all, by the number of points in the last one."""
+    count = sum(len(cloud.at(motion.times[-1]).id) for cloud in motion.clouds)
+    return max(MOST_VALUES // max(count, 1), 2)
+
+
+def _fitted(
+    selection: _Selection, quantities: Sequence[Quantity], largest: float
+) -> dict[str, Any]:
+    """The data of a run in no more bytes than this; leaves out frames, then points."""
+    while True:
+        data = _run_data(selection, quantities)
+        size = len(json.dumps(data))
+        if size <= largest:
+            return data
+        frames = int(0.95 * len(selection.times) * largest / size)
+        if frames >= FEWEST_FRAMES:
+            selection.times = evenly_chosen(selection.motion.times, frames)
+        elif len(selection.times) > FEWEST_FRAMES:
+            selection.times = evenly_chosen(selection.motion.times, FEWEST_FRAMES)
+        else:
+            selection.stride += max(int(size / largest), 1)
+
+
+def _run_data(selection: _Selection, quantities: Sequence[Quantity]) -> dict[str, Any]:
+    clouds = []
+    for cloud in selection.motion.clouds:
+        frames = selection.points(cloud)
+        if any(len(frame.id) for frame in frames):
+            clouds.append(_cloud_data(cloud, frames, quantities))
+    return {
+        "label": selection.label,
+        "times": selection.times.tolist(),
+        "body": _body_data(selection),
+        "clouds": clouds,
+    }
+
+
+def _cloud_data(
+    cloud: Cloud, frames: Sequence[Points], quantities: Sequence[Quantity]
+) -> dict[str, Any]:
+    every = np.unique(np.concatenate([frame.id for frame in frames]))
+    low, span = _range(np.concatenate([frame.x for frame in frames]))
+    places = np.full((len(frames), 3, len(every)), LEVELS, np.uint16)
+    radius = np.zeros(len(every), np.float32)
+    named = [q for q in quantities if any(q.key in frame.fields for frame in frames)]
+    values = {q.key: np.full((len(frames), len(every)), COLOURS, np.uint8) for q in named}
+    for k, frame in enumerate(frames):
+        column = np.searchsorted(every, frame.id)
+        places[k][:, column] = np.round((LEVELS - 1) * ((frame.x - low) / span)).T
+        radius[column] = frame.radius
+        for q in named:
+            if q.key in frame.fields:
+                values[q.key][k, column] = q.levels(frame.fields[q.key])
+    return {
+        "kind": cloud.kind,
+        "count": len(every),
+        "mirrored": cloud.mirrored,
+        "radius": _packed(radius),
+        "low": low.tolist(),
+        "span": (span * LEVELS / (LEVELS - 1)).tolist(),  # of level 65535, as the shader takes it
+        "places": _packed_levels(places),
+        "values": {key: _packed(_differences(levels)) for key, levels in values.items()},
+    }
+
+
+def _body_data(selection: _Selection) -> dict[str, Any] | None:
+    surfaces = [selection.motion.body(time) for time in selection.times]
+    shown = [surface for surface in surfaces if surface is not None]
+    if not shown:
+        return None
+    x = np.stack([surface.x for surface in shown])
+    low, span = _range(x.reshape(-1, 3))
+    levels = np.round(LEVELS * ((x - low) / span)).astype(np.uint16).transpose(0, 2, 1)
+    return {
+        "nodes": x.shape[1],
+        "mirrored": selection.motion.body_mirrored,
+        "triangles": _packed(shown[0].triangles.astype(np.uint32)),
+        "low": low.tolist(),
+        "span": span.tolist(),
+        "places": _packed_levels(levels),
+    }
+
+
+def _range(x: Floats) -> tuple[Floats, Floats]:
+    """Lowest coordinates and extents (3) of points (n, 3)."""
+    low = x.min(axis=0)
+    span: Floats = np.maximum(x.max(axis=0) - low, 1e-9)
+    return low, span
+
+
+def _differences(levels: Any) -> Any:
+    """Of each frame to the one before, modulo the type."""
+    differences = levels.copy()
+    differences[1:] -= levels[:-1]
+    return differences
+
+
+def _packed_levels(levels: Any) -> str:
+    """Of 16 bits: zigzag (0, -1, 1, -2 ... become 0, 1, 2, 3 ...), low bytes before high bytes."""
+    signed = _differences(levels).reshape(-1).view(np.int16)
+    zigzag = ((signed << 1) ^ (signed >> 15)).view(np.uint16)
+    return _packed(np.concatenate([zigzag & 255, zigzag >> 8]).astype(np.uint8))
+
+
+def _packed(values: Any) -> str:
+    return _text(zlib.compress(values.astype(values.dtype.newbyteorder("<")).tobytes(), 9))
+
+
+def _text(content: bytes) -> str:
+    return base64.b64encode(content).decode()
+
+
+def _colour_table() -> bytes:
+    """256 colours in RGB."""
+    colours = np.round(255 * GROUND_COLOURS(np.linspace(0, 1, 256))[:, :3])
+    return bytes(colours.astype(np.uint8).tobytes())
+
+
+def _place(chosen: Sequence[_Selection]) -> tuple[list[float], float, list[float]]:
+    """What the camera looks at (3) and its size [m], and the range of the cut plane's y [m]."""
+    centres, sizes, sides = [], [], []
+    for selection in chosen:
+        motion = selection.motion
+        body = motion.body(selection.times[-1])
+        parts = [] if body is None else [body.x]
+        for cloud in motion.clouds:
+            x = cloud.at(selection.times[-1]).x
+            parts.append(np.concatenate([x, x * [1, -1, 1]]) if cloud.mirrored else x)
+        together = np.concatenate([part for part in parts if len(part)])
+        low, high = together.min(axis=0), together.max(axis=0)
+        middle = 0.5 * (low + high)
+        middle[1] = 0.0 if motion.body_mirrored else middle[1]
+        centres.append(middle)
+        sizes.append(float(np.linalg.norm(high - low)))
+        sides += [low[1], high[1]]
+    reach = 0.01 * (max(sides) - min(sides))
+    cut = [float(min(sides)) - reach, float(max(sides)) + reach]
+    centre: list[float] = np.mean(centres, axis=0).tolist()
+    return centre, max(sizes), cut
+
+
+def _stage(labels: Sequence[str]) -> str:
+    """Canvas, labels, legend and controls."""
+    names = "".join(f'<div class="furrow-label">{escaped(label)}</div>' for label in labels)
+    looks = "".join(
+        f'<button type="button" data-look="{look}">{look}</button>'
+        for look in ("oblique", "side", "front", "above")
+    )
+    speeds = "".join(
+        f'<option value="{speed}"{" selected" if speed == 1 else ""}>{speed} x</option>'
+        for speed in (0.25, 0.5, 1, 2)
+    )
+    return f"""<div class="furrow-stage">
+<canvas class="furrow-canvas" aria-label="runs in 3D"></canvas>
+<div class="furrow-labels">{names}</div>
+<div class="furrow-legend"><div class="furrow-unit"></div><div class="furrow-bar"></div>
+<div class="furrow-ticks"></div></div>
+<div class="furrow-message">loading</div>
+</div>
+<div class="furrow-input">
+<button type="button" class="furrow-play">play</button>
+<input class="furrow-time" type="range" min="0" max="0" value="0" aria-label="time"/>
+<span class="furrow-clock"></span>
+<label>speed <select class="furrow-speed">{speeds}</select></label>
+</div>
+<div class="furrow-input">
+<label>colour <select class="furrow-quantity"></select></label>
+<label>cut along the track <input class="furrow-cut" type="range" aria-label="cut plane"/></label>
+<span class="furrow-cut-text">none</span>
+<label><input class="furrow-body" type="checkbox" checked/> wheel</label>
+<label><input class="furrow-follow" type="checkbox" checked/> follow the wheel</label>
+<span>{looks}</span>
+</div>"""
+
+
+def _notes(chosen: Sequence[_Selection], runs: Sequence[dict[str, Any]]) -> str:
+    finest = max(
+        (max(cloud["span"]) / LEVELS for run in runs for cloud in run["clouds"]), default=0.0
+    )
+    parts = [selection.note() for selection in chosen]
+    if finest:
+        parts.append(
+            f"Positions to {MILLIMETRE * finest:.1g} mm; each grain, or particle of a continuum, is "
+            "a sphere of its volume."
+        )
+    parts.append("Drag: turn; wheel: zoom; right button: move; arrows and blank: frames, play.")
+    return "".join(f'<p class="furrow-notes">{escaped(part)}</p>' for part in parts)

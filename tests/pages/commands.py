@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Every command in a code block of a page works: commands.py <source> <build> <scratch>.
+
+What takes seconds is run, in a scratch folder that looks like the source tree. Of what takes
+minutes, what can be seen without running is checked: RULES says how, for each kind of command. A
+command that no rule knows fails.
+"""
+
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+PAGES_OF = ("src", "coupling", "inputs", "tests", "postproc")
+PROGRAM = re.compile(
+    r"([A-Z_]+=\S+ )*(bash |cd |mpirun |furrow(-\w+)? |build/|postproc/|inputs/|paraview |pvpython )"
+)
+PLACEHOLDER = re.compile(r"\[|\.\.\.|<|FILE|FOLDER|LABEL")  # of a line that shows the syntax
+OWN_RUN = "inputs/own_script/results/own_script"  # stands for any results/SCENE of a page
+SECONDS = 300  # of one command
+
+
+def commands(page: Path) -> Iterator[str]:
+    """Of the code blocks without a language, comments and placeholders left out."""
+    blocks = re.findall(r"^```\n(.*?)^```", page.read_text(encoding="utf-8"), re.M | re.S)
+    for line in "".join(blocks).replace("\\\n", " ").splitlines():
+        text = line.split(" #")[0].strip()
+        if PROGRAM.match(text) and not PLACEHOLDER.search(text):
+            yield text
+
+
+class Tree:
+    """A folder with links to what the commands of pages name; they write into it alone."""
+
+    def __init__(self, source: Path, build: Path, scratch: Path) -> None:
+        self.source, self.root = source, scratch
+        shutil.rmtree(scratch, ignore_errors=True)
+        (scratch / "inputs").mkdir(parents=True)
+        for name in ("src", "coupling", "tests", "postproc"):
+            (scratch / name).symlink_to(source / name)
+        (scratch / "build").symlink_to(build)
+        for entry in (source / "inputs").iterdir():
+            if entry.name != "own_script":
+                (scratch / "inputs" / entry.name).symlink_to(entry)
+        own = scratch / "inputs" / "own_script"
+        own.mkdir()
+        for script in (source / "inputs" / "own_script").glob("*.lig"):
+            shutil.copy(script, own)
+
+    def run(self, command: str) -> str:
+        """What it says; the test ends where its status is not 0."""
+        print(f"+ {command}", flush=True)
+        done = subprocess.run(
+            ["bash", "-c", f'PATH="$PWD/build/bin:$PATH"; {command}'],
+            cwd=self.root,
+            text=True,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            timeout=SECONDS,
+        )
+        if done.returncode:
+            sys.exit(f"{done.stdout}\n'{command}' ended with status {done.returncode}")
+        return done.stdout
+
+
+def run(tree: Tree, command: str) -> None:
+    """Really."""
+    for name in re.findall(r"results/(\w+)", command):
+        place = tree.root / "results" / name
+        if (tree.source / "inputs" / "scenes" / f"{name}.lig").is_file() and not place.exists():
+            place.parent.mkdir(exist_ok=True)
+            place.symlink_to(tree.root / OWN_RUN)
+    tree.run(command)
+
+
+def scene(tree: Tree, command: str) -> None:
+    """bash inputs/run SCENE -v NAME VALUE, or furrow -in SCRIPT ...: both are there."""
+    words = shlex.split(command)
+    named = words[words.index("-in") + 1] if "-in" in words else (words[2:] or [""])[0]
+    if not named:
+        return tree.run("bash inputs/run --help") and None
+    script = named if named.endswith(".lig") else f"inputs/scenes/{named}.lig"
+    given = [w for k, word in enumerate(words) if word == "-v" for w in words[k + 1 : k + 3]]
+    tree.run(f"postproc/furrow-post variables -- {shlex.join([script, *given])}")
+    return None
+
+
+def options(tree: Tree, command: str) -> None:
+    """A long study or film: its help has every option of the command."""
+    words = shlex.split(command)
+    program = words[: 2 if words[0].endswith("furrow-post") else 1]
+    said = tree.run(f"{shlex.join(program)} --help")
+    for word in words:
+        if re.match(r"--?[a-z]", word) and word not in said:
+            sys.exit(f"'{command}': the help of {words[0]} has no {word}")
+
+
+def benchmark(tree: Tree, command: str) -> None:
+    """A benchmark, which is built only where its library is installed: its source."""
+    found = re.search(r"benchmarks/([\w/]+)", command)
+    if not found or not (tree.source / "tests" / "benchmarks" / f"{found[1]}.cpp").is_file():
+        sys.exit(f"'{command}': there is no such benchmark")
+
+
+def compiled(tree: Tree, command: str) -> None:
+    """A script of ParaView, which the tests do not install."""
+    found = re.search(r"\S+/(\w+\.py)", command)
+    assert found
+    script = next(word.split("=")[-1] for word in command.split() if word.endswith(found[1]))
+    compile((tree.root / script).read_text(encoding="utf-8"), script, "exec")
+
+
+def tests_run(tree: Tree, command: str) -> None:
+    """bash tests/run: this test is part of it."""
+    tree.run("bash -n tests/run")
+
+
+RULES: tuple[tuple[str, Callable[[Tree, str], None]], ...] = (
+    (r"cd inputs/own_script && ", run),
+    (r"(\w+=\S+ )?paraview |pvpython ", compiled),
+    (r"bash tests/run", tests_run),
+    (r"bash inputs/run|furrow -in ", scene),
+    (r"(\w+=\S+ )?build/tests/benchmarks/", benchmark),
+    (r"(postproc/)?furrow-post (film|flow|plan|laboratory|cost) ", options),
+    (r"inputs/\S+\.py --list$", run),
+    (r"inputs/(laboratory|validation)/\S+\.py", options),
+    (r"(\w+=\S+ )?(build/bin/)?furrow-(point|sidewall|tyre|resistance) ", run),
+    (r"postproc/furrow-post |postproc/examples/", run),
+)
+
+
+def main(source: Path, build: Path, scratch: Path) -> None:
+    pages = [source / "README.md", source / "CONTRIBUTING.md"]
+    pages += sorted(page for part in PAGES_OF for page in (source / part).rglob("*.md"))
+    found = list(dict.fromkeys(command for page in pages for command in commands(page)))
+    # first the run whose results others look at
+    found.sort(key=lambda command: not command.startswith("cd inputs/own_script"))
+    tree = Tree(source, build, scratch)
+    for command in found:
+        rule = next((rule for start, rule in RULES if re.match(start, command)), None)
+        if rule is None:
+            sys.exit(f"'{command}': no rule of {Path(__file__).name} says how it is checked")
+        rule(tree, command)
+    if len(found) < 40:
+        sys.exit(f"only {len(found)} commands were found in {len(pages)} pages")
+    print(f"{len(found)} commands")
+
+
+if __name__ == "__main__":
+    main(*(Path(word).resolve() for word in sys.argv[1:4]))

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""inputs/validation/report_wheel: the closed form, and the snow that differs from the report's."""
+
+import math
+import sys
+import unittest
+from unittest.mock import patch
+
+import numpy as np
+
+from furrow_post.arrays import Floats
+from support.command import SOURCE
+
+sys.path.insert(0, str(SOURCE / "inputs" / "validation" / "report_wheel"))
+
+import cases
+import closed_form
+
+
+def linear(strain: Floats, d: float) -> Floats:
+    """A spring bed in the compressed depth w: 1 MPa/m."""
+    pressure: Floats = 1e6 * closed_form.DEPTH * (1 - np.exp(-strain))
+    return pressure
+
+
+class ClosedFormTest(unittest.TestCase):
+    def test_spring_bed_is_bekkers_wheel(self) -> None:
+        # p = k w under a circle: the integral of k (sqrt(r^2 - x^2) - (r - z)) in closed form
+        r, z, k = closed_form.RADIUS, 0.08, 1e6
+        half = math.sqrt(2 * r * z - z * z)
+        segment = 0.5 * (half * (r - z) + r * r * math.asin(half / r)) - (r - z) * half
+        with patch.object(closed_form, "axial_stress", linear):
+            load = closed_form.carried(z, 0.0, 1)
+            self.assertAlmostEqual(load / (closed_form.WIDTH * k * segment), 1, places=5)
+            work = closed_form.resistance(z, 0.0) * closed_form.LOAD
+            self.assertAlmostEqual(work / (closed_form.WIDTH * k * z * z / 2), 1, places=5)
+
+    def test_sunk_wheel_carries_its_load(self) -> None:
+        for sides in (1, 2):
+            z = closed_form.sunk(5e3, sides, False)
+            self.assertAlmostEqual(closed_form.carried(z, 5e3, sides) / closed_form.LOAD, 1, 6)
+            self.assertLess(closed_form.sunk(5e3, sides, True), z)
+
+    def test_bearing_capacity_is_prandtls(self) -> None:
+        self.assertAlmostEqual(math.degrees(closed_form.PHI), 13.86, places=2)
+        self.assertAlmostEqual(closed_form.NC, 10.29, places=2)  # tables: 10.37 at 14 degrees
+
+
+class CasesTest(unittest.TestCase):
+    def test_changed_snow_starts_from_the_report_s(self) -> None:
+        text = cases.changed(20e3)
+        self.assertIn("base: ", text)
+        self.assertIn(f"{cases.REPORT_SNOW}.yaml", text)
+        self.assertIn("law: {d: 20000, beta: 22.53, R: 0.00011}", text)
+
+    def test_depths_follow_the_report_s_schedule(self) -> None:
+        depths = [case for case in cases.all_cases() if case.stage == "depth"]
+        self.assertTrue(depths)
+        for case in depths:
+            values = {name: float(str(case.variables[name])) for name in cases.REPORT}
+            end = values["settle"] + 0.5 * values["accelerate"] + values["distance"] / 2.235
+            self.assertAlmostEqual(end, 5.0, places=1)  # [s]
+            cells = float(str(case.variables["depth"])) / float(str(case.variables["cell"]))
+            self.assertAlmostEqual(cells, round(cells), places=3)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""inputs/validation: the table of all experiments is what the stored tables of the studies say."""
+
+import contextlib
+import io
+import subprocess
+import sys
+import tempfile
+import unittest
+from dataclasses import replace
+from pathlib import Path
+from unittest.mock import patch
+
+from support.command import SOURCE
+
+VALIDATION = SOURCE / "inputs" / "validation"
+sys.path.insert(0, str(VALIDATION))
+
+import command
+import experiments
+import overview
+
+from furrow_post.errors import ResultsError
+from overview import Experiment, Stored, number
+
+
+class PageTest(unittest.TestCase):
+    def test_page_is_what_the_command_writes(self) -> None:
+        text = command.PAGE.read_text(encoding="utf-8")
+        self.assertEqual(
+            text, command.page_of(text), "run inputs/validation/run --table and look at the change"
+        )
+
+    def test_every_number_is_a_study_s_that_has_a_page(self) -> None:
+        for group in experiments.GROUPS:
+            for row in group.rows:
+                with self.subTest(row=row.what, quantity=row.quantity):
+                    for stored in (row.ours, row.cost, row.uncertainty, row.near):
+                        if stored:
+                            stored.value()
+                            self.assertTrue((VALIDATION / stored.study / "README.md").is_file())
+                    self.assertTrue(row.ours or row.remark, "a row that is not done says why")
+
+    def test_one_number_a_cell(self) -> None:
+        for group in experiments.GROUPS:
+            for row in group.rows:
+                cells = dict(zip(overview.HEAD, row.cells()))
+                for column in ("report", "measured", "ours", "±", "difference %", "ours core s"):
+                    text = cells[column].removeprefix("< ")
+                    if text:
+                        float(text)
+
+    def test_every_study_but_those_beyond_the_report_has_a_row(self) -> None:
+        named = {
+            row.ours.study for group in experiments.GROUPS for row in group.rows if row.ours
+        }
+        self.assertEqual(named | {"cmu_sand", "grains"}, set(command.studies()))
+
+
+class VerdictTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.temporary = tempfile.TemporaryDirectory()
+        folder = Path(self.temporary.name)
+        (folder / "made").mkdir()
+        (folder / "made" / "results.csv").write_text("run,z\na,0.108\nb,0.100\nc,0.15\nd,\nd,1\n")
+        self.patched = patch.object(overview, "HERE", folder)
+        self.patched.start()
+
+    def tearDown(self) -> None:
+        self.patched.stop()
+        self.temporary.cleanup()
+
+    def stored(self, run: str, column: str = "z") -> Stored:
+        return Stored("made/results.csv", {"run": run}, column, 100.0)
+
+    def test_verdicts(self) -> None:
+        row = Experiment("", "", "", ours=self.stored("a"))
+        uncertain = replace(row, near=self.stored("c"))  # by 4.2
+        limited = replace(row, limit=True)
+        for expected, measured, given in (
+            ("agrees", "10", row),
+            ("near", "9", row),
+            ("differs", "8", row),
+            ("agrees", "8", uncertain),
+            ("met", "11", limited),
+            ("missed", "10", limited),
+            ("nothing to compare", "", row),
+            ("not done", "10", replace(row, ours=None)),
+        ):
+            with self.subTest(expected=expected, measured=measured):
+                self.assertEqual(replace(given, measured=measured).verdict(), expected)
+
+    def test_measured_goes_before_the_report(self) -> None:
+        row = Experiment("", "", "", report="8", measured="12", ours=self.stored("a"))
+        self.assertEqual(row.cells()[overview.HEAD.index("difference %")], "-10")
+
+    def test_what_is_not_stored_is_an_error_with_a_remedy(self) -> None:
+        with self.assertRaisesRegex(ResultsError, "inputs/validation/run other makes it"):
+            Stored("other/results.csv", {}, "z").value()
+        with self.assertRaisesRegex(ResultsError, "2 rows have"):
+            self.stored("d").value()
+        with self.assertRaisesRegex(ResultsError, "no number in 'c'"):
+            self.stored("a", "c").value()
+
+    def test_numbers_have_no_exponent(self) -> None:
+        self.assertEqual(
+            [number(value) for value in (12345.6, 0.00123, 10.0, 0.15649)],
+            ["12300", "0.00123", "10", "0.156"],
+        )
+
+
+class StudiesTest(unittest.TestCase):
+    """Which studies the command makes; their drivers are replaced."""
+
+    def setUp(self) -> None:
+        self.made: list[str] = []
+        self.listed = {
+            "whole": "done a\ndone b\n",
+            "half": "done a\nmissing b\n",
+            "none": "missing a\n",
+        }
+        replaced = patch.multiple(command, driver=self.driver, known_cost=lambda study: 100.0)
+        replaced.start()
+        self.addCleanup(replaced.stop)
+
+    def driver(self, study: str, *options: str) -> "subprocess.CompletedProcess[str]":
+        if "--list" in options:
+            return subprocess.CompletedProcess([], 0, stdout=self.listed[study])
+        self.made.append(study)
+        return subprocess.CompletedProcess([], 1 if study == "none" else 0)
+
+    def test_only_what_is_missing_is_made(self) -> None:
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            failed = command.make(list(self.listed), [])
+        self.assertEqual(self.made, ["half", "none"])
+        self.assertEqual(failed, 1)
+        self.assertRegex(printed.getvalue(), r"half: about 2.5 min left\n.*none: about 100 s left")
+
+    def test_list_says_how_many_runs_are_there(self) -> None:
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            command.list_studies(["half"], [])
+        self.assertRegex(printed.getvalue(), r"half +1 of +2 runs are there; about 100 s")
+        self.assertEqual(self.made, [])
+
+    def test_a_driver_that_does_not_start_is_an_error(self) -> None:
+        broken = subprocess.CompletedProcess([], 2, stdout="")
+        with patch.object(command, "driver", lambda *words: broken):
+            with self.assertRaisesRegex(ResultsError, "half/run.py --list does not work"):
+                command.missing("half", [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Frames of a run: what VTK wrote is what is read; frames that are damaged or not there."""
+
+import shutil
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from furrow_post.errors import ResultsError
+from furrow_post.read.motion import read_motion
+from furrow_post.read.vtk import read_series, read_vtp
+from support.motion import FRAMES, INTERVAL, ground, settlement, wheel, write_moving_run, write_vtp
+from support.runs import write_run
+
+
+class MotionTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.folder = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def test_a_file_of_vtk_has_its_points_triangles_and_fields(self) -> None:
+        random = np.random.default_rng(5)
+        for count in (1, 7, 9000):  # the last in several blocks of zlib
+            with self.subTest(count=count):
+                x = random.normal(size=(count, 3))
+                triangles = random.integers(0, count, (2 * count, 3))
+                number, force = np.arange(count), random.normal(size=(count, 3))
+                write_vtp(self.folder / "a.vtp", x, triangles, id=number, force=force)
+                found = read_vtp(self.folder / "a.vtp")
+                np.testing.assert_array_equal(found.x, x)
+                np.testing.assert_array_equal(found.triangles, triangles)
+                np.testing.assert_array_equal(found.fields["id"], number)
+                np.testing.assert_array_equal(found.fields["force"], force)
+
+    def test_frames_are_those_of_the_run(self) -> None:
+        for kind in ("grains", "continuum"):
+            motion = read_motion(write_moving_run(self.folder / kind, kind))
+            np.testing.assert_allclose(motion.times, INTERVAL * np.arange(FRAMES))
+            (cloud,) = motion.clouds
+            self.assertEqual(cloud.kind, kind)
+            self.assertEqual(cloud.mirrored, kind == "continuum")
+            for time in motion.times:
+                points, moved = cloud.at(time), settlement(ground(), time)
+                np.testing.assert_allclose(points.x, ground() + moved)
+                np.testing.assert_allclose(
+                    points.fields["displacement"], np.linalg.norm(moved, axis=1)
+                )
+                body = motion.body(time)
+                assert body is not None
+                np.testing.assert_allclose(body.x, wheel(time)[0])
+            # between two frames: the earlier one
+            np.testing.assert_array_equal(cloud.at(0.19).x, cloud.at(0.1).x)
+
+    def test_a_run_without_frames_has_its_end(self) -> None:
+        write_run(self.folder / "still")
+        with self.assertRaisesRegex(ResultsError, "has nothing to look at; .*'vtk N'"):
+            read_motion(self.folder / "still")
+        with self.assertRaisesRegex(ResultsError, "has no results; name the results folder"):
+            read_motion(self.folder)
+        self.assertIsNone(read_series(self.folder / "wheel.pvd"))
+
+    def test_damaged_frames_are_named(self) -> None:
+        motion = read_motion(write_moving_run(self.folder / "run"))
+        frame = self.folder / "run" / "vtk" / "grains_0.vtp"
+        whole = frame.read_bytes()
+        spot = whole.index(b"_", whole.index(b"<AppendedData")) + 40  # in the first array
+        cases = {
+            "cut short": whole[: 2 * len(whole) // 3],
+            "no head": whole[200:],
+            "a byte changed": whole[:spot] + bytes([whole[spot] ^ 255]) + whole[spot + 1 :],
+            "empty": b"",
+            "one field shorter": whole.replace(b'Name="radius"', b'Name="radios"'),
+        }
+        for what, content in cases.items():
+            with self.subTest(what):
+                frame.write_bytes(content)
+                with self.assertRaisesRegex(ResultsError, r"grains_0\.vtp: .*; repeat the run"):
+                    motion.clouds[0].at(0.0)
+        (self.folder / "run" / "vtk" / "grains.pvd").write_text("<VTKFile>")
+        with self.assertRaisesRegex(ResultsError, r"grains\.pvd: is damaged"):
+            read_motion(self.folder / "run")
+
+
+if __name__ == "__main__":
+    unittest.main()
