@@ -153,7 +153,7 @@ def footer(run: WheelRun, target: Path) -> str:
 
 def page(result: Comparison, title: str, lead: str, sections: Iterable[str]) -> str:
     """The whole page: title, verdict, warnings, sections."""
-    body = [f"<h1>{escaped(title)}</h1>", f'<p class="lead">{escaped(lead)}</p>']
+    body = []
     verdict = overall(result)
     if verdict:
         points = "".join(f"<li>{escaped(sentence)}</li>" for sentence in findings(result))
@@ -168,7 +168,13 @@ def page(result: Comparison, title: str, lead: str, sections: Iterable[str]) -> 
             '<div class="warning"><strong>Compared although conditions differ.</strong>'
             f"<ul>{points}</ul></div>"
         )
-    content = "\n".join([*body, *sections])
+    return document(title, lead, [*body, *sections])
+
+
+def document(title: str, lead: str, sections: Iterable[str]) -> str:
+    """The frame of a page; lead: may be empty."""
+    head = [f"<h1>{escaped(title)}</h1>", f'<p class="lead">{escaped(lead)}</p>' if lead else ""]
+    content = "\n".join([*head, *sections])
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8"/>\n'
         '<meta name="viewport" content="width=device-width"/>\n'
