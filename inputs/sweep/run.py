@@ -141,7 +141,8 @@ def ended(
     runner: Runner, cases: Sequence[Case], remarks: Sequence[str], folder: Path, wanted: Wanted
 ) -> int:
     """Draws what there is, then tells what failed; the exit status."""
-    failures = [f"{case.name}: {failure.error}" for case in cases if (failure := runner.failure(case))]
+    records = {case.name: runner.failure(case) for case in cases}
+    failures = [f"{name}: {failure.error}" for name, failure in records.items() if failure]
     done = sum(runner.state(case) is State.DONE for case in cases)
     trouble = ""
     if done:

@@ -81,7 +81,10 @@ def _word_of(settable: Sequence[str], name: str, value: str) -> tuple[str, str]:
 
 
 def _seeds(
-    request: Request, variables: Sequence[Variable], known: ScriptVariables, fixed: Mapping[str, str]
+    request: Request,
+    variables: Sequence[Variable],
+    known: ScriptVariables,
+    fixed: Mapping[str, str],
 ) -> list[int]:
     """Of the packings after the first. @raises ResultsError"""
     if request.packings == 1:

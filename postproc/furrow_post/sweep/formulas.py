@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Empirical formulas beside the curves, for the conditions of each point and within their ranges."""
+"""Empirical formulas beside the curves, for the conditions of each point within their ranges."""
 
 import math
 from collections.abc import Sequence

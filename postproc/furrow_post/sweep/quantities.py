@@ -4,7 +4,8 @@
 torque coefficient = T/(W r), drawbar coefficient = P/W, tractive efficiency = P v/(T omega), with
 the drawbar pull P, the torque T, the vertical force W, the radius r of the undeformed wheel, and
 v/(omega r) from the slip (v_rim - v)/max(|v_rim|, |v|). Errors of ratios take both parts as
-independent, which is too much where both rise and fall together. The efficiency is that of a wheel that pulls: P and T above 0.
+independent, which is too much where both rise and fall together. The efficiency is that of a wheel
+that pulls: P and T above 0.
 
 Several packings of one point are averaged. Their variance is that of the time averages and that
 of the packing; the packing's part is what the time averages leave of it.

@@ -70,8 +70,8 @@ def units(series: Sequence[Series]) -> dict[str, str]:
 def write_table(series: Sequence[Series], csv: Path, hdf5: Path) -> None:
     rows, unit = table_rows(series), units(series)
     names = column_names(rows)
-    with_units = [f"{name} [{unit[name]}]" for name in names if name in unit and "_error" not in name]
-    comments = [*CSV_HEAD, *(f"# {text}" for text in with_units)]
+    listed = [name for name in names if name in unit and "_error" not in name]
+    comments = [*CSV_HEAD, *(f"# {name} [{unit[name]}]" for name in listed)]
     write_rows(csv, [{k: _text(v) for k, v in row.items()} for row in rows], comments)
     with h5py.File(hdf5, "w") as content:
         content.attrs["unit"] = "SI; errors are standard deviations, NaN: not known"

@@ -61,7 +61,7 @@ class OutputTest(unittest.TestCase):
         for (_, _, value), (_, _, torque) in zip(line.values(TORQUE), PULLING):
             self.assertAlmostEqual(value.mean, torque / (LOAD * RADIUS), 9)
         efficiency = [value.mean for _, _, value in line.values(EFFICIENCY)]
-        expected = [p * LOAD * (1 - s) * RADIUS / t for s, p, t in PULLING[1:]]  # of those that pull
+        expected = [p * LOAD * (1 - s) * RADIUS / t for s, p, t in PULLING[1:]]
         self.assertEqual([round(e, 9) for e in efficiency], [round(e, 9) for e in expected])
 
     def test_packings_are_averaged_and_give_an_error(self) -> None:

@@ -101,7 +101,8 @@ class SlurmTest(unittest.TestCase):
             "exec run -o 'x y' --point \"${points[$SLURM_ARRAY_TASK_ID]}\"",
         ):
             self.assertIn(line + "\n", text)
-        self.assertIn("#SBATCH --array=0-0\n", slurm.batch_text(self.results, ["a"], ["r"], {}, 1, None))
+        alone = slurm.batch_text(self.results, ["a"], ["run"], {}, 1, None)
+        self.assertIn("#SBATCH --array=0-0\n", alone)
 
     def test_refusals(self) -> None:
         with mock.patch.dict(os.environ, {**self.path, "REFUSES": "Invalid account"}):
