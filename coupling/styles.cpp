@@ -13,6 +13,7 @@
 #include "coupling/contact/fix_contact_continuum.h"
 #include "coupling/contact/fix_contact_plane.h"
 #include "coupling/contact/fix_wall_gran_body.h"
+#include "coupling/drive/command_run_until_steady.h"
 #include "coupling/drive/fix_wheel_rig.h"
 #include "coupling/grains/fix_snow_energy.h"
 #include "coupling/grains/fix_snow_sinter.h"
@@ -114,6 +115,7 @@ const std::vector<Style>& styles() {
       fix<FixSnowSinter>("snow/sinter", Kind::snow, "grains/fix_snow_sinter.md"),
       fix<FixSnowEnergy>("snow/energy", Kind::snow, "grains/fix_snow_energy.md"),
       fix<FixWheelRig>("wheel/rig", Kind::rig, "drive/fix_wheel_rig.md"),
+      command<CommandRunUntilSteady>("run_until_steady", "drive/command_run_until_steady.md"),
       fix<FixWheelHistory>("wheel/history", Kind::history, "output/fix_wheel_history.md"),
       fix<FixTerrainHistory>("terrain/history", Kind::history, "output/fix_terrain_history.md"),
       command<CommandReadRestart>("read_restart", "restart/command_read_restart.md"),

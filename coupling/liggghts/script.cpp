@@ -94,13 +94,17 @@ std::optional<std::string> variable(LAMMPS_NS::LAMMPS& lammps, std::string name)
   return value ? std::optional<std::string>(value) : std::nullopt;
 }
 
-void warn(LAMMPS_NS::LAMMPS& lammps, const std::string& text) {
+void announce(LAMMPS_NS::LAMMPS& lammps, const std::string& text) {
   if (lammps.comm->me != 0) return;
   for (FILE* stream : {lammps.screen, lammps.logfile}) {
     if (!stream) continue;
-    std::fprintf(stream, "WARNING: %s\n", text.c_str());
+    std::fprintf(stream, "%s\n", text.c_str());
     std::fflush(stream);  // a run that then takes for ever has said why
   }
+}
+
+void warn(LAMMPS_NS::LAMMPS& lammps, const std::string& text) {
+  announce(lammps, "WARNING: " + text);
 }
 
 }  // namespace furrow::coupling

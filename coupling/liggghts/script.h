@@ -32,7 +32,9 @@ void set_variable(LAMMPS_NS::LAMMPS& lammps, std::string name, std::string value
 /// Value of a variable; nothing when there is none of that name.
 std::optional<std::string> variable(LAMMPS_NS::LAMMPS& lammps, std::string name);
 
-/// Prints "WARNING: <text>" to screen and log, on rank 0.
+/// Prints a line to screen and log, on rank 0.
+void announce(LAMMPS_NS::LAMMPS& lammps, const std::string& text);
+/// The same with "WARNING: " before it.
 void warn(LAMMPS_NS::LAMMPS& lammps, const std::string& text);
 
 }  // namespace furrow::coupling

@@ -29,6 +29,8 @@ class FixHistory : public FurrowFix, public FollowsSystem, public FlushesOnError
   /// An error ends the run: the rows since the last flush are still useful.
   void flush_results() override;
 
+  bool is_open() const { return opened_; }  ///< since the first run
+
  protected:
   /// @param schema with the keys of add_keys()
   FixHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema);

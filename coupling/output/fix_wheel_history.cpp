@@ -27,6 +27,8 @@ FixWheelHistory::FixWheelHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg
 
 OutputTable FixWheelHistory::outputs() { return {"channel", WheelRig::channels()}; }
 
+const WheelHub& FixWheelHistory::wheel() const { return rig_fix_.wheel_fix().hub(); }
+
 void FixWheelHistory::open(std::optional<double> resume_time) {
   first_step_ = update->ntimestep;
   first_time_ = time();

@@ -5,6 +5,10 @@
 #include "coupling/output/fix_history.h"
 #include "io/vtk_file.h"
 
+namespace furrow {
+class WheelHub;
+}
+
 namespace furrow::coupling {
 
 class FixWheelRig;
@@ -14,6 +18,9 @@ class FixWheelHistory : public FixHistory {
   FixWheelHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
   static OutputTable outputs();
+
+  const std::string& folder() const { return options().text("folder"); }
+  const WheelHub& wheel() const;
 
  private:
   void open(std::optional<double> resume_time) override;

@@ -61,6 +61,17 @@ def fraction(text: str) -> float:
     return value
 
 
+UNITS_OF_TIME = {"min": 60.0, "h": 3600.0, "s": 1.0}
+
+
+def seconds(text: str) -> float:
+    """7200 of "2h", "120min", "7200s" or "7200"."""
+    for unit, length in UNITS_OF_TIME.items():
+        if text.endswith(unit):
+            return length * positive(text.removesuffix(unit).strip())
+    return positive(text)
+
+
 def shield_negative_numbers(given: Sequence[str]) -> list[str]:
     """Words with a blank before each negative number: argparse takes "-1e3" for an option."""
     return [f" {word}" if _is_number(word) and word.startswith("-") else word for word in given]

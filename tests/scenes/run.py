@@ -4,6 +4,8 @@
     run.py scene <script> <ranks> <results>     bash inputs/run <script> --quick
     run.py two_grounds <results>                bash inputs/run --quick: two scenes and their report
     run.py laboratory <script> <results>        inputs/laboratory/run.py, for a test or a ground
+    run.py sweep <results>                      the page of sweeps, one of them killed and resumed
+    run.py until_steady <results>               a run that goes on until it is steady
     run.py usage                                the list of scenes, and what inputs/run refuses
 
 The head of a script says what is run and what must come out, in SI units:
@@ -24,6 +26,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import h5py
@@ -87,10 +90,11 @@ class Head:
             sys.exit(f"{self.script}: {'; '.join(missed)}")
 
 
-def run(command, status=0, **environment):
-    """What a command says that ends with this status; else the test ends with it."""
+def run(command, status=0, folder=None, **environment):
+    """What a command says that ends with this status; else the test ends with it. folder: where it
+    is started"""
     print("+", shlex.join(map(str, command)), flush=True)
-    done = subprocess.run(command, env={**os.environ, **environment}, text=True,
+    done = subprocess.run(command, env={**os.environ, **environment}, text=True, cwd=folder,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT)
     if done.returncode != status:
@@ -215,6 +219,90 @@ def laboratory(script, results):
                 for name, quantity in quantities.items()})
 
 
+PAGE = PROJECT / "inputs" / "sweep" / "README.md"
+
+
+def commands_of_page():
+    """Of its code blocks, a list for each, of words; paths below the project are absolute."""
+    def word(text):
+        return str(PROJECT / text) if text.startswith(("inputs/", "postproc/")) else text
+
+    blocks = re.findall(r"```\n(.*?)```", PAGE.read_text(), re.DOTALL)
+    lines = [block.replace("\\\n", " ").splitlines() for block in blocks]
+    commands = [[shlex.split(line, comments=True) for line in block] for block in lines]
+    return [[[word(text) for text in words] for words in block if words] for block in commands]
+
+
+def records(folder):
+    """Folder of each point that has ended -> when its run was started."""
+    return {path.parent.name: json.loads(path.read_text())["started"]
+            for path in folder.glob("*/run.json")}
+
+
+def sweep(results):
+    """The first block of the page is run, its first command killed in the middle and begun again;
+    the commands of the others are checked."""
+    folder = empty(results)
+    blocks = commands_of_page()
+    (first, *others), *checked = blocks
+    out = folder / first[first.index("-o") + 1]
+    first.insert(2, "--no-build")
+    print("+", shlex.join(first), "(killed)", flush=True)
+    # inputs/run becomes the driver, which is killed with no chance to clean up
+    begun = subprocess.Popen(first, cwd=folder, stdin=subprocess.DEVNULL)
+    until = time.monotonic() + 120
+    while not records(out) or begun.poll() is not None:
+        if time.monotonic() > until or begun.poll() is not None:
+            sys.exit(f"no point of {out} has ended before the others")
+        time.sleep(0.05)
+    begun.kill()
+    begun.wait()
+    before = records(out)
+    said = run(first, folder=folder)
+    after = records(out)
+    plan = json.loads((out / "sweep.json").read_text())
+    if set(after) != {point["folder"] for point in plan["points"]} or not len(before) < len(after):
+        sys.exit(f"{len(before)} points had ended before the kill, {len(after)} after the second start")
+    changed = [name for name in before if before[name] != after[name]]
+    if changed or f"{len(before)} of them are there" not in said:
+        sys.exit(f"made again after the kill: {changed}\n{said}")
+    for words in others:
+        run(words, folder=folder)
+    for name in ("sweep.csv", "sweep.h5", "sweep.png", "report.html"):
+        if not (out / name).stat().st_size:
+            sys.exit(f"{out / name} is empty")
+    with h5py.File(out / "sweep.h5") as content:
+        pull, slip = content["drawbar_coefficient"][()], content["set_slip"][()]
+    if not np.all(np.diff(pull[np.argsort(slip)]) > 0):
+        sys.exit(f"the pull of a tyre on a road does not grow with the slip: {pull} at {slip}")
+    for words in (words for block in checked for words in block):
+        check_command(words, folder)
+
+
+def check_command(words, folder):
+    """A command of the page that takes too long to be run."""
+    if words[1:2] == [str(PROJECT / "inputs" / "run")]:
+        run([*words[:2], "--no-build", *words[2:], "--check"], folder=folder)
+        return
+    said = run(words, status=1, folder=folder)
+    if "is no folder" not in said:  # its options are right, the results are not there
+        sys.exit(f"{PAGE}: '{shlex.join(words)}' says\n{said}")
+
+
+def until_steady(results):
+    """A short roll is not steady; it goes on until it is, or says why it does not."""
+    folder = empty(results)
+    words = ["tyre_on_plane", "--quick", "-o", folder / BLANKS, "--until-steady"]
+    said = inputs_run(*words, "20%", "--time-limit", "60")
+    summary = json.loads((folder / BLANKS / "summary.json").read_text())
+    values = [summary["quantities"][name] for name in ("sinkage", "resistance_coefficient")]
+    if not all(value["steady"] for value in values) or "are steady within 20 %" not in said:
+        sys.exit(f"it did not go on until it was steady:\n{said}")
+    said = inputs_run(*words, "0.01%", "--time-limit", "1")
+    if "WARNING: run_until_steady: not steady within 0.01 %" not in said or "wall_time" not in said:
+        sys.exit(f"it does not say why it is not steady:\n{said}")
+
+
 SCENE = "wheel_on_snow"
 # (words of inputs/run, what is said); everything is refused before anything runs
 REFUSED = (
@@ -252,6 +340,25 @@ REFUSED = (
     ([SCENE, "--error", ""], "--error needs a relative error"),
     (["plate_on_sand", "--error", "10%"], "errors of 'plate_on_sand' are not known"),
     ([SCENE, "--quick", "--error", "10%"], "give one of them"),
+    ([SCENE, "--sweep"], "--sweep needs a variable and its values"),
+    (["--sweep", "slip=0,1"], "--sweep and --until-steady belong to a scene"),
+    ([SCENE, "--sweep", "slip"], "'slip' has no ="),
+    ([SCENE, "--sweep", "slip=0:1:0.1"], "not the step"),
+    ([SCENE, "--sweep", "sell=0.1,0.2"], "no line reads 'sell'; did you mean cell?"),
+    ([SCENE, "--sweep", "results=a,b"], "--sweep results: use -o"),
+    ([SCENE, "--sweep", "cell=0.1,0.2", "-v", "cell", "0.1"], "given both by -v and by --sweep"),
+    ([SCENE, "--sweep", "cell=0.1,0.2", "--packings", "2"], "no line of"),
+    ([SCENE, "--sweep", "cell=0.1,0.2", "--jobs", "0"], "0 is below 1"),
+    ([SCENE, "--sweep", "cell=0.1,0.2", "--error", "10%"], "--error chooses one run"),
+    ([SCENE, "--sweep", "cell=0.1,0.2", "--submit", "pbs"], "invalid choice: 'pbs'"),
+    ([SCENE, "--sweep", "cell=0.1,0.2", "--formula", "x"], "there is no formula 'x'"),
+    ([SCENE, "--sweep", "cell=0.1,0.2", "--measured", "x.csv"], "x.csv: no such file"),
+    ([SCENE, "--jobs", "2"], "--jobs belongs to --sweep"),
+    ([SCENE, "--again"], "--again belongs to --sweep"),
+    ([SCENE, "--until-steady", "much"], "'much' is not a number"),
+    ([SCENE, "--until-steady", "3%", "--until-steady", "4%"], "--until-steady is given twice"),
+    ([SCENE, "--time-limit", "2h"], "--time-limit belongs to --until-steady or --sweep"),
+    ([SCENE, "--until-steady", "3%", "--time-limit", "long"], "'long' is not a number"),
 )
 
 
@@ -268,5 +375,6 @@ def usage():
 
 
 if __name__ == "__main__":
-    tests = {"scene": scene, "two_grounds": two_grounds, "laboratory": laboratory, "usage": usage}
+    tests = {"scene": scene, "two_grounds": two_grounds, "laboratory": laboratory, "usage": usage,
+             "sweep": sweep, "until_steady": until_steady}
     tests[sys.argv[1]](*sys.argv[2:])

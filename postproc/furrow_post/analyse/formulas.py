@@ -17,7 +17,33 @@ def predictions_for(run: WheelRun, names: Iterable[str], extrapolate: bool) -> l
     return [_prediction(run, name, extrapolate) for name in names]
 
 
+def require_formulas(names: Iterable[str]) -> None:
+    """@raises ResultsError for a name that is none, whatever the run"""
+    for name in names:
+        method, _, what = name.partition(":")
+        if method == "nrmm":
+            _nrmm_pressure(name)
+        elif method in ("bekker", "wong_reece"):
+            empirical.terrain(what)
+        else:
+            raise ResultsError(
+                f"there is no formula '{method}'; there are nrmm:PRESSURE, bekker:TERRAIN, "
+                "wong_reece:TERRAIN"
+            )
+
+
+def _nrmm_pressure(name: str) -> float:
+    try:
+        return float(name.partition(":")[2])
+    except ValueError:
+        raise ResultsError(
+            f"formula '{name}': write nrmm:PRESSURE with the largest contact pressure in Pa, "
+            "e.g. nrmm:179e3"
+        ) from None
+
+
 def _prediction(run: WheelRun, name: str, extrapolate: bool) -> Prediction:
+    require_formulas([name])
     method, _, what = name.partition(":")
     load, diameter, width = run.number("load"), 2 * run.radius, run.number("wheel_width")
     if method == "nrmm":
@@ -26,22 +52,12 @@ def _prediction(run: WheelRun, name: str, extrapolate: bool) -> Prediction:
                 f"{run.label}: the density of its ground is not known; NRMM needs it"
             )
         depth, density = run.number("depth"), run.number("density")
-        try:
-            pressure = float(what)
-        except ValueError:
-            raise ResultsError(
-                f"formula '{name}': write nrmm:PRESSURE with the largest contact pressure in Pa, "
-                "e.g. nrmm:179e3"
-            ) from None
+        pressure = _nrmm_pressure(name)
         return empirical.nrmm(
             load, run.radius, width, depth, density, pressure, extrapolate=extrapolate
         )
+    ground = empirical.terrain(what)
     if method == "bekker":
-        return empirical.bekker(load, diameter, width, empirical.terrain(what), extrapolate)
-    if method == "wong_reece":
-        ground, slip = empirical.terrain(what), run.number("slip")
-        return empirical.wong_reece(load, diameter, width, slip, ground, extrapolate)
-    raise ResultsError(
-        f"there is no formula '{method}'; there are nrmm:PRESSURE, bekker:TERRAIN, "
-        "wong_reece:TERRAIN"
-    )
+        return empirical.bekker(load, diameter, width, ground, extrapolate)
+    slip = run.number("slip")
+    return empirical.wong_reece(load, diameter, width, slip, ground, extrapolate)

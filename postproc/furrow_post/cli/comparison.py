@@ -30,6 +30,19 @@ def labelled(text: str) -> Labelled:
 
 def add_comparison_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("results", nargs="+", type=labelled, help="results folder, or LABEL=FOLDER")
+    add_references(parser)
+    parser.add_argument(
+        "--measured",
+        type=path,
+        help="reference.csv with depth_m, sinkage_m, resistance, density_kgm3",
+    )
+    parser.add_argument(
+        "--anyway", action="store_true", help="compare runs whose conditions differ"
+    )
+
+
+def add_references(parser: argparse.ArgumentParser) -> None:
+    """What runs are laid beside: errors of other sizes, formulas."""
     parser.add_argument(
         "--errors",
         type=path,
@@ -42,15 +55,7 @@ def add_comparison_arguments(parser: argparse.ArgumentParser) -> None:
         help="nrmm:PRESSURE, bekker:TERRAIN or wong_reece:TERRAIN; may be repeated",
     )
     parser.add_argument(
-        "--measured",
-        type=path,
-        help="reference.csv with depth_m, sinkage_m, resistance, density_kgm3",
-    )
-    parser.add_argument(
         "--extrapolate", action="store_true", help="formulas outside of their range too"
-    )
-    parser.add_argument(
-        "--anyway", action="store_true", help="compare runs whose conditions differ"
     )
 
 

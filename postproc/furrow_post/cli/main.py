@@ -70,6 +70,11 @@ SUBCOMMANDS = (
         "-> flow.csv, .h5, .png",
     ),
     Subcommand(
+        "sweep",
+        "curves over slip, load, pressure, depth or speed of folders of runs "
+        "-> sweep.csv, .h5, .png, report.html",
+    ),
+    Subcommand(
         "cost", "error against cost of the runs of a scene, and which to take -> cost.png, cost.csv"
     ),
     Subcommand("plan", "the runs that bring a scene's error down to a goal most cheaply"),

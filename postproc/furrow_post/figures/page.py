@@ -155,7 +155,7 @@ def page(
     result: Comparison, title: str, lead: str, sections: Iterable[str], style: str = ""
 ) -> str:
     """The whole page: title, verdict, warnings, sections. style: CSS of the sections"""
-    body = [f"<h1>{escaped(title)}</h1>", f'<p class="lead">{escaped(lead)}</p>']
+    body = []
     verdict = overall(result)
     if verdict:
         points = "".join(f"<li>{escaped(sentence)}</li>" for sentence in findings(result))
@@ -170,11 +170,17 @@ def page(
             '<div class="warning"><strong>Compared although conditions differ.</strong>'
             f"<ul>{points}</ul></div>"
         )
-    return html_page(title, "\n".join([*body, *sections]), style)
+    return document(title, lead, [*body, *sections], style)
+
+
+def document(title: str, lead: str, sections: Iterable[str], style: str = "") -> str:
+    """A page that needs no other file. lead: may be empty; style: CSS beside that of all pages"""
+    head = [f"<h1>{escaped(title)}</h1>", f'<p class="lead">{escaped(lead)}</p>' if lead else ""]
+    return html_page(title, "\n".join([*head, *sections]), style)
 
 
 def html_page(title: str, content: str, style: str = "") -> str:
-    """The frame of a page that needs no other file. style: CSS beside that of all pages"""
+    """The frame of a page. style: CSS beside that of all pages"""
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8"/>\n'
         '<meta name="viewport" content="width=device-width"/>\n<link rel="icon" href="data:,"/>\n'

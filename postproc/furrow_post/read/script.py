@@ -27,6 +27,7 @@ class ScriptVariables:
     defaults: dict[str, str] = field(default_factory=dict)  # settable name -> its value, as written
     computed: set[str] = field(default_factory=set)  # the script makes these itself
     read: set[str] = field(default_factory=set)  # used somewhere
+    files: list[Path] = field(default_factory=list)  # the script and what it includes
     not_found: list[str] = field(default_factory=list)  # included files that could not be read
 
     @property
@@ -51,27 +52,29 @@ def check_variables(
     given: Sequence[tuple[str, str]],
     reserved: Mapping[str, str],
     surroundings: Mapping[str, str] | None = None,
+    option: str = "-v",
 ) -> list[str]:
     """Refuses variables that no line of the script reads; the result are warnings.
 
     reserved: names that the caller sets -> what to use instead; surroundings: values that it sets,
-    on which the names of included files depend. @raises ResultsError, OSError
+    on which the names of included files depend; option: of the command line that gives the variables.
+    @raises ResultsError, OSError
     """
     known = script_variables(script, {**dict(given), **(surroundings or {})})
     settable = [name for name in known.settable if name not in reserved]
     names = [name for name, _ in given]
     for name, value in given:
         if not name.strip():
-            raise ResultsError("-v has an empty name; it takes a name and a value")
+            raise ResultsError(f"{option} has an empty name; it takes a name and a value")
         if names.count(name) > 1:
-            raise ResultsError(f"-v {name} is given {names.count(name)} times; give it once")
+            raise ResultsError(f"{option} {name} is given {names.count(name)} times; give it once")
         if name in reserved:
-            raise ResultsError(f"-v {name}: use {reserved[name]}")
+            raise ResultsError(f"{option} {name}: use {reserved[name]}")
         if not value.strip() and known.defaults.get(name, "") not in ('""', "''"):
-            raise ResultsError(f"-v {name} has an empty value; give one, or leave it out")
+            raise ResultsError(f"{option} {name} has an empty value; give one, or leave it out")
         if name in known.computed and name not in known.defaults:
             raise ResultsError(
-                f"{script}: computes '{name}' itself, so that -v cannot set it; "
+                f"{script}: computes '{name}' itself, so that {option} cannot set it; "
                 f"it takes {_listed(settable)}"
             )
         if name not in settable and not known.not_found:
@@ -94,10 +97,9 @@ class _Reader:
 
     def __init__(self, values: dict[str, str], found: ScriptVariables) -> None:
         self.values, self.found = values, found
-        self.seen: set[Path] = set()
 
     def read(self, file: Path) -> None:
-        self.seen.add(file.resolve())
+        self.found.files.append(file.resolve())
         with content_of(file, "name a LIGGGHTS script"):
             lines = list(_lines(file.read_text(encoding="utf-8")))
         for line in lines:
@@ -122,7 +124,7 @@ class _Reader:
     def _follow(self, file: Path) -> None:
         if not file.is_file():
             self.found.not_found.append(str(file))
-        elif file.resolve() not in self.seen:
+        elif file.resolve() not in self.found.files:
             self.read(file)
 
     def _substituted(self, word: str) -> str:

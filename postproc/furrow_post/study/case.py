@@ -35,10 +35,14 @@ class Case:
     time_limit: float = math.inf  # [s]
     may_fail: bool = False  # its failure is a result of the study too
     fallback: Mapping[str, Value] = field(default_factory=dict)  # variables of a second attempt
+    ranks: int = 1  # of MPI; the results do not depend on them but for rounding
+    reads: tuple[Path, ...] = ()  # further files that it is made from
 
     def command(self, program: Path, folder: Path, changes: Mapping[str, Value]) -> list[str]:
         """The command line. changes: variables that differ in this attempt. @raises ResultsError"""
-        words = [str(program), *(str(word).replace(FOLDER, str(folder)) for word in self.arguments)]
+        launcher = ["mpirun", "-n", str(self.ranks)] if self.ranks > 1 else []
+        given = (str(word).replace(FOLDER, str(folder)) for word in self.arguments)
+        words = [*launcher, str(program), *given]
         # A run starts in its folder, which has a name without blanks from there
         inside = str(folder) if not _has_blanks(folder) else "."
         for name, value in {**self.variables, **changes}.items():
@@ -64,6 +68,7 @@ class Case:
         }
 
     def input_files(self) -> list[Path]:
-        """Files that the command line names: scripts, materials, tyres."""
-        paths = [Path(str(value)) for value in (*self.arguments, *self.variables.values())]
+        """Files that the command line names: scripts, materials, tyres; and those of reads."""
+        named = [Path(str(value)) for value in (*self.arguments, *self.variables.values())]
+        paths = dict.fromkeys((*named, *self.reads))
         return [path for path in paths if path.is_absolute() and path.is_file()]

@@ -16,7 +16,9 @@ from ..errors import Interrupted, ResultsError
 from .case import FOLDER, Case, Value
 from .record import Record, digest, forget
 
-NICE = ("nice", "-n", "10")  # a study yields to other work
+# A study yields to other work; its runs end, with a checkpoint, when it is killed
+PREFIX = ("setpriv", "--pdeathsig", "TERM", "nice", "-n", "10")
+PATIENCE = 10.0  # [s] in which a run that is being stopped leaves its folder
 SCREEN, ERRORS = "screen.txt", "errors.txt"  # stdout and stderr of the program
 INTERRUPTIONS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
@@ -114,15 +116,25 @@ def launch(case: Case, folder: Path, tools: Tools) -> Record:
 
 def _require_free(folder: Path) -> None:
     """@raises ResultsError while furrow writes to the folder: it then holds a lock of it"""
+    until = time.monotonic() + PATIENCE
+    while is_busy(folder):
+        if time.monotonic() > until:
+            raise ResultsError(
+                f"{folder}: another run is writing to it; wait until that run has ended"
+            )
+        time.sleep(0.1)
+
+
+def is_busy(folder: Path) -> bool:
+    """Whether furrow writes to the folder."""
     handle = os.open(folder, os.O_RDONLY)
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
-        raise ResultsError(
-            f"{folder}: another run is writing to it; wait until that run has ended"
-        ) from None
+        return True
     finally:
         os.close(handle)
+    return False
 
 
 def _start(case: Case, command: list[str], folder: Path) -> _Attempt:
@@ -130,7 +142,7 @@ def _start(case: Case, command: list[str], folder: Path) -> _Attempt:
     began = time.monotonic()
     late = threading.Event()
     with open(folder / SCREEN, "wb") as screen, open(folder / ERRORS, "wb") as errors:
-        process = subprocess.Popen([*NICE, *command], cwd=folder, stdout=screen, stderr=errors)
+        process = subprocess.Popen([*PREFIX, *command], cwd=folder, stdout=screen, stderr=errors)
 
         def stop() -> None:
             late.set()

@@ -2,16 +2,17 @@
 """Makes the runs of a study that are not there yet, several at a time."""
 
 import enum
-import time
 from collections.abc import Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from pathlib import Path
 
 from ..errors import Interrupted
-from ..formatting import duration
 from .case import Case
 from .launch import Tools, launch
+from .progress import Progress
 from .record import FAILED, FINISHED, Record, digest, read_record
+
+LOOK_EVERY = 1.0  # [s] at what is running
 
 
 class State(enum.Enum):
@@ -26,7 +27,7 @@ class Runner:
     """The runs of a study in its results folder.
 
     same_program: a run counts only when it was made by the executable and the input files as they
-    are now (for tests); again: failed runs are made again.
+    are now (for tests); same_inputs: the input files alone; again: failed runs are made again.
     """
 
     def __init__(
@@ -36,8 +37,10 @@ class Runner:
         jobs: int = 1,
         same_program: bool = False,
         again: bool = False,
+        same_inputs: bool = False,
     ) -> None:
         self.results, self.tools = results.resolve(), tools
+        self.same_inputs = same_inputs or same_program
         self.jobs, self.same_program, self.again = jobs, same_program, again
 
     def folder(self, case: Case) -> Path:
@@ -56,11 +59,10 @@ class Runner:
         record = read_record(self.folder(case) / file)
         if record is None or record.job != case.identity(self.tools.root):
             return None
-        if self.same_program:
-            present = {path.name: digest(path) for path in case.input_files()}
-            program = self.tools.program(case.program)
-            if record.program != digest(program) or record.inputs != present:
-                return None
+        if self.same_program and record.program != digest(self.tools.program(case.program)):
+            return None
+        if self.same_inputs and record.inputs != {p.name: digest(p) for p in case.input_files()}:
+            return None
         return record
 
     def state(self, case: Case) -> State:
@@ -73,6 +75,11 @@ class Runner:
         wanted = {State.MISSING, State.FAILED} if self.again else {State.MISSING}
         return [case for case in cases if self.state(case) in wanted]
 
+    def forget(self, cases: Sequence[Case]) -> None:
+        """Removes the records of failed runs, which are then missing."""
+        for case in cases:
+            (self.folder(case) / FAILED).unlink(missing_ok=True)
+
     def run(self, cases: Sequence[Case]) -> None:
         """Makes what is missing. Of cases that share something the first runs before the others.
 
@@ -81,19 +88,25 @@ class Runner:
         missing = self.missing(cases)
         for program in {case.program for case in missing}:
             self.tools.program(program)
-        progress = _Progress(len(missing), self.jobs)
+        progress = Progress(len(missing), self.jobs)
         for wave in _waves(missing):
             self._run_together(wave, progress)
 
-    def _run_together(self, cases: Sequence[Case], progress: "_Progress") -> None:
+    def _run_together(self, cases: Sequence[Case], progress: "Progress") -> None:
         with ThreadPoolExecutor(self.jobs) as pool:
             futures: dict[Future[Record], Case] = {
                 pool.submit(launch, case, self.folder(case), self.tools): case for case in cases
             }
+            pending = set(futures)
             try:
-                for future in as_completed(futures):
-                    progress.report(futures[future], future.result())
+                while pending:
+                    done, pending = wait(pending, LOOK_EVERY, FIRST_COMPLETED)
+                    for future in done:
+                        progress.report(futures[future].name, future.result())
+                    running = [futures[future] for future in pending if future.running()]
+                    progress.show([self.folder(case) for case in running])
             except (Interrupted, KeyboardInterrupt):
+                progress.clear()
                 pool.shutdown(cancel_futures=True)
                 raise
 
@@ -108,24 +121,3 @@ def _waves(cases: Sequence[Case]) -> list[list[Case]]:
             first.append(case)
             seen.add(case.shares)
     return [wave for wave in (first, others) if wave]
-
-
-class _Progress:
-    """Prints a line per run with the time that is left, from the mean of those before."""
-
-    def __init__(self, runs: int, jobs: int) -> None:
-        self.runs, self.jobs, self.done = runs, jobs, 0
-        self.wall_time = 0.0  # of all that are done [s]
-
-    def report(self, case: Case, record: Record) -> None:
-        self.done += 1
-        self.wall_time += record.wall_time
-        left = self.runs - self.done
-        seconds = self.wall_time / self.done * left / min(self.jobs, max(left, 1))
-        rest = f", about {duration(seconds)} left" if left else ""
-        print(
-            f"{time.strftime('%H:%M:%S')}  {case.name:34} {record.wall_time:7.1f} s wall "
-            f"{record.cpu_time:7.1f} s user  ({self.done} of {self.runs}{rest})"
-            f"{'  ' + record.error if record.error else ''}",
-            flush=True,
-        )

@@ -43,7 +43,8 @@ EMPIRICAL = (
 
 # (words after two runs "a b", what is said)
 COMPARE = (
-    (["--formula", "nrmm:"], "a: the density of its ground is not known"),
+    (["--formula", "nrmm:179e3"], "a: the density of its ground is not known"),
+    (["--formula", "nrmm:"], "write nrmm:PRESSURE with the largest contact pressure"),
     (["--formula", "bekker:no sand"], "there is no terrain 'no sand'"),
     (["--formula", "guess:1"], "there is no formula 'guess'"),
     (["--formula", ""], "there is no formula ''"),

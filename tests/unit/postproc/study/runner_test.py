@@ -6,13 +6,16 @@ import json
 import os
 import signal
 import tempfile
+import threading
 import unittest
 from dataclasses import replace
 from pathlib import Path
+from unittest import mock
 
 from furrow_post.errors import ResultsError
 from furrow_post.study.case import FOLDER
 from furrow_post.errors import Interrupted
+from furrow_post.study import launch as module
 from furrow_post.study.launch import launch
 from furrow_post.study.runner import Runner, State
 from support.fake import FakeTree
@@ -54,9 +57,11 @@ class RunnerTest(unittest.TestCase):
         self.runner.folder(case).mkdir(parents=True)
         handle = os.open(self.runner.folder(case), os.O_RDONLY)
         fcntl.flock(handle, fcntl.LOCK_EX)
-        with self.assertRaisesRegex(ResultsError, "results/a: another run is writing to it"):
-            self.runner.run([case])
-        os.close(handle)
+        with mock.patch.object(module, "PATIENCE", 0.1):
+            with self.assertRaisesRegex(ResultsError, "results/a: another run is writing to it"):
+                self.runner.run([case])
+        leaves = threading.Timer(0.5, os.close, [handle])  # one that is being stopped
+        leaves.start()
         self.runner.run([case])
         self.assertEqual(self.runner.state(case), State.DONE)
 

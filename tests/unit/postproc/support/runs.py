@@ -66,18 +66,27 @@ def write_head(content: Any, styles: list[Entry] | None, title: str = "made") ->
         run["styles"] = np.bytes_(json.dumps(styles).encode())
 
 
-def write_summary(folder: Path, sinkage: float, load: float) -> None:
+def write_summary(
+    folder: Path,
+    sinkage: float,
+    load: float,
+    slip: float = 0.2,
+    pull: float = -0.2,
+    torque: float = 0.0,
+) -> None:
+    """pull: over the load; torque [N m]"""
+
     def quantity(mean: float, error: float, unit: str) -> dict[str, Any]:
         entry = {"mean": mean, "standard_error": error, "unit": unit}
         return {**entry, "steady": True, "verdict": "steady"}
 
     quantities = {
         "sinkage": quantity(sinkage, 1e-3, "m"),
-        "resistance_coefficient": quantity(0.2, 0.01, ""),
+        "resistance_coefficient": quantity(-pull, 0.01, ""),
         "force_z": quantity(load, 1.0, "N"),
-        "drawbar_pull": quantity(-0.2 * load, 1.0, "N"),
-        "drive_torque": quantity(0.0, 0.0, "N m"),
-        "slip": quantity(0.2, 0.0, ""),
+        "drawbar_pull": quantity(pull * load, 1.0, "N"),
+        "drive_torque": quantity(torque, 0.01 * torque, "N m"),
+        "slip": quantity(slip, 0.0, ""),
     }
     content = {"window": {"start": 1.0, "end": 1.9}, "steady": True, "quantities": quantities}
     (folder / "summary.json").write_text(json.dumps(content))
@@ -89,16 +98,20 @@ def write_run(
     sinkage: float = 0.05,
     styles: list[Entry] | None = None,
     datum: float = 0.0,
+    slip: float = 0.2,
+    pull: float = -0.2,
+    torque: float = 0.0,
 ) -> None:
     """A wheel of RADIUS and WIDTH on ground without grains, steady from 1 s on.
 
-    It settles until 0.5 s, accelerates until 0.8 s; the slip is 0.2. styles: instead of a rigid
-    wheel on a rig
+    It settles until 0.5 s, accelerates until 0.8 s. styles: instead of a rigid wheel on a rig;
+    pull: over the load; torque [N m]
     """
     folder.mkdir(parents=True, exist_ok=True)
     time = np.arange(2000) * 1e-3
     stage = np.where(time < 0.5, 0.0, np.where(time < 0.8, 1.0, 2.0))
     v = np.where(time > 0.65, 1.0, 0.0)
+    rim = v / (1 - slip) if slip >= 0 else v * (1 + slip)
     one = np.ones_like(time)
     columns = {
         "time": time,
@@ -107,19 +120,19 @@ def write_run(
         "y": 0 * one,
         "z": RADIUS * one,
         "velocity_x": v,
-        "spin_rate": v / RADIUS * 1.25,
+        "spin_rate": rim / RADIUS,
         "sinkage": sinkage * np.minimum(time / 0.5, 1),
-        "force_x": -0.2 * load * v,
+        "force_x": pull * load * v,
         "force_y": 0 * one,
         "force_z": load * one,
-        "drawbar_pull": -0.2 * load * v,
-        "drive_torque": 0 * one,
-        "slip": 0.2 * v,
+        "drawbar_pull": pull * load * v,
+        "drive_torque": torque * one,
+        "slip": slip * v,
     }
     with h5py.File(folder / "history.h5", "w") as content:
         write_head(content, styles or [rigid_wheel(), rig(load, datum=datum)])
         write_columns(content.create_group("history", track_order=True), columns)
-    write_summary(folder, sinkage, load)
+    write_summary(folder, sinkage, load, slip, pull, torque)
 
 
 def write_noisy_history(path: Path, rows: int = 4000) -> None:

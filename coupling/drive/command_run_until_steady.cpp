@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/drive/command_run_until_steady.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "atom.h"
+#include "bodies/wheel_hub.h"
+#include "core/error.h"
+#include "coupling/base/fix_coupled_system.h"
+#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/first_rank.h"
+#include "coupling/liggghts/script.h"
+#include "coupling/liggghts/signals.h"
+#include "coupling/output/fix_wheel_history.h"
+#include "coupling/terrain/fix_terrain_continuum.h"
+#include "domain.h"
+#include "input.h"
+#include "io/summary.h"
+#include "update.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+constexpr double stretch = 0.25;        // of the time so far that is added at once
+constexpr double smallest_scale = 0.1;  // of a coefficient near 0, as summaries judge its drift
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+using Clock = std::chrono::steady_clock;
+
+/// Reasons why the two values that a wheel is run for are not steady within this error.
+std::vector<std::string> reasons(const Summary& summary, double error) {
+  if (!summary.trouble.empty()) return {summary.trouble};
+  std::vector<std::string> found;
+  for (const char* name : {"sinkage", "resistance_coefficient"}) {
+    const SteadyValue& value = summary.resistance.value(name);
+    const double least = value.unit.empty() ? smallest_scale : 0.0;
+    const double share = value.standard_error / std::max(std::abs(value.mean), least);
+    if (!value.steady)
+      found.push_back(fmt::format("{}: {}", name, value.verdict));
+    else if (!(share <= error))
+      found.push_back(fmt::format("{}: its standard error is {:.2g} % of it", name, 100.0 * share));
+  }
+  return found;
+}
+
+}  // namespace
+
+Schema CommandRunUntilSteady::schema() {
+  Schema schema("command run_until_steady");
+  schema.number("error", "", Range::open(0.0, 1.0),
+                "largest standard error of sinkage and resistance coefficient, over the value; of "
+                "a coefficient below 0.1 over 0.1");
+  schema
+      .number("wall_time", "s", Range::positive(),
+              "time after which no further stretch begins, from this line on; without it none")
+      .optional();
+  return schema;
+}
+
+void CommandRunUntilSteady::command(int narg, char** arg) {
+  const Options options = schema().read(std::vector<std::string>(arg, arg + narg));
+  const std::vector<FixWheelHistory*> histories = fixes_of<FixWheelHistory>(*modify);
+  if (histories.empty() || !histories.front()->is_open())
+    throw InputError("command run_until_steady", "has no history of a wheel that has run",
+                     "a fix wheel/history and a run before it");
+  const double error = options.number("error");
+  const double limit = options.has("wall_time") ? options.number("wall_time") : unlimited;
+  const Clock::time_point began = Clock::now();
+  const long first = static_cast<long>(update->ntimestep);
+  std::string problem, end;
+  while (end.empty() && !agreed_signal()) {
+    problem = unsteady(histories, error);
+    if (problem.empty()) break;
+    double elapsed = std::chrono::duration<double>(Clock::now() - began).count();
+    MPI_Bcast(&elapsed, 1, MPI_DOUBLE, 0, world);
+    const double duration =
+        std::min(stretch * FixCoupledSystem::of(*lmp).time(), time_left(histories));
+    const long steps = static_cast<long>(duration / update->dt);
+    if (elapsed >= limit)
+      end = fmt::format("the wall_time of {:g} s is over", limit);
+    else if (steps < 10)
+      end = "the ground ends ahead of the wheel; make it longer";
+    else
+      run(steps);
+  }
+  if (agreed_signal()) return;
+  const long added = static_cast<long>(update->ntimestep) - first;
+  if (end.empty())
+    announce(*lmp, fmt::format("run_until_steady: sinkage and resistance coefficient are steady "
+                               "within {:g} %, after {} steps more",
+                               100.0 * error, added));
+  else
+    warn(*lmp, fmt::format("run_until_steady: not steady within {:g} % after {} steps more: {}. {}",
+                           100.0 * error, added, end, problem));
+}
+
+std::string CommandRunUntilSteady::unsteady(const std::vector<FixWheelHistory*>& histories,
+                                            double error) const {
+  std::string text;
+  on_first_rank(world, [&] {
+    std::vector<std::string> found;
+    for (const FixWheelHistory* history : histories)
+      for (const std::string& reason : reasons(summarise(history->folder()), error))
+        found.push_back(reason);
+    text = fmt::format("{}", fmt::join(found, "; "));
+  });
+  return broadcast(text, world);
+}
+
+double CommandRunUntilSteady::time_left(const std::vector<FixWheelHistory*>& histories) const {
+  double end = unlimited;  // [m]
+  if (atom->natoms > 0 && !domain->xperiodic) end = domain->boxhi[0];
+  for (const FixTerrainContinuum* soil : fixes_of<FixTerrainContinuum>(*modify))
+    if (!soil->options().has("follow"))
+      end = std::min(end,
+                     soil->options().numbers("centre")[0] + 0.5 * soil->options().number("length"));
+  double left = unlimited;
+  for (const FixWheelHistory* history : histories) {
+    const WheelHub& wheel = history->wheel();
+    const double speed = wheel.velocity().x();
+    const double room = end - 2.0 * wheel.nominal_radius() - wheel.centre().x();
+    if (speed > 0.0) left = std::min(left, std::max(room, 0.0) / speed);
+  }
+  return left;
+}
+
+void CommandRunUntilSteady::run(long steps) { input->one(fmt::format("run {}", steps).c_str()); }
+
+}  // namespace furrow::coupling

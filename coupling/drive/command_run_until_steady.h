@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// run_until_steady: goes on with the scene until the values of its wheels are steady. See
+/// command_run_until_steady.md.
+
+#include <string>
+#include <vector>
+
+#include "coupling/styles.h"
+#include "pointers.h"
+
+namespace furrow::coupling {
+
+class FixWheelHistory;
+
+class CommandRunUntilSteady : protected LAMMPS_NS::Pointers {
+ public:
+  explicit CommandRunUntilSteady(LAMMPS_NS::LAMMPS* lammps) : Pointers(lammps) {}
+  static Schema schema();
+  static OutputTable outputs() { return {}; }
+
+  void command(int narg, char** arg);
+
+ private:
+  /// What is not steady yet, in words; empty when all is. Collective.
+  std::string unsteady(const std::vector<FixWheelHistory*>& histories, double error) const;
+  /// [s] until the first of the wheels comes to the end of the ground; infinite without one.
+  double time_left(const std::vector<FixWheelHistory*>& histories) const;
+  void run(long steps);
+};
+
+}  // namespace furrow::coupling

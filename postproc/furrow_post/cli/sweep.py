@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""furrow-post sweep: the curves of sweeps, or of folders with several runs, in one figure."""
+
+import argparse
+from pathlib import Path
+
+from ..arguments import path, words
+from ..read.results import require_different
+from ..sweep.output import Named, Wanted, evaluate, report_lines, write_sweep
+from .comparison import Labelled, add_references, labelled
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "results", nargs="+", type=labelled, help="folder of a sweep or of runs, or LABEL=FOLDER"
+    )
+    parser.add_argument(
+        "--against",
+        type=words,
+        help="what lies on the x axis (default: the first variable of the sweep, or the one "
+        "condition that differs)",
+    )
+    add_references(parser)
+    parser.add_argument(
+        "--measured",
+        action="append",
+        default=[],
+        type=labelled,
+        help="CSV with columns named as in sweep.csv, or LABEL=FILE; may be repeated",
+    )
+    parser.add_argument(
+        "-o", "--output", type=path, help="folder to write (default: the first one)"
+    )
+
+
+def run(arguments: argparse.Namespace) -> None:
+    given: list[Labelled] = arguments.results
+    require_different([folder for folder, _ in given])
+    wanted = Wanted(
+        arguments.against,
+        arguments.errors,
+        arguments.formula,
+        [Named(Path(file), label) for file, label in arguments.measured],
+        arguments.extrapolate,
+    )
+    result = evaluate([Named(Path(folder), label) for folder, label in given], wanted)
+    target: Path = arguments.output or Path(given[0].folder)
+    write_sweep(result, target)
+    print("\n".join(report_lines(result)))
+    print(f"\n{target}: sweep.csv, sweep.h5, sweep.png, report.html")

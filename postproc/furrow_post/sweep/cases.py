@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The runs of a sweep: what is asked for, checked against the script, and their cases."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import ResultsError
+from ..read.script import ScriptVariables, check_variables, script_variables
+from ..study.case import FOLDER, Case
+from .plan import Plan, Point, points_of
+from .values import Variable, further_seeds, parse_variables
+
+SEED = "seed"  # the variable of a script that chooses the packing of its grains
+RESULTS = "results"  # the variable of a script that is its results folder
+MOTION = "motion"  # the variable of a script that has the mode of its rig
+DRIVEN = {"slip": "mode slip slip {}", "torque": "mode torque torque {}"}  # values of MOTION
+CONTINUED = "until_steady.lig"  # the script of a run that goes on until it is steady
+
+
+@dataclass(frozen=True)
+class Request:
+    """What the command line asks for."""
+
+    script: Path
+    sweep: Sequence[str]  # as --sweep has them
+    given: Sequence[tuple[str, str]] = ()  # as -v has them
+    preset: Sequence[tuple[str, str]] = ()  # of --quick: what is given or swept comes first
+    packings: int = 1
+    ranks: int = 1
+    until_steady: float = 0.0
+    time_limit: float = 0.0
+
+
+def plan_of(request: Request) -> tuple[Plan, list[str]]:
+    """The plan, and warnings. @raises ResultsError for what the script does not take; OSError"""
+    variables = parse_variables(request.sweep)
+    names = [variable.name for variable in variables]
+    given = dict(request.given)
+    reserved = {RESULTS: "-o for the results folder"}
+    warnings = check_variables(request.script, request.given, reserved)
+    settable = script_variables(request.script, given).settable
+    words = [_word_of(settable, v.name, v.values[0]) for v in variables]
+    swept = dict(words)
+    for name in swept:
+        if name in given:
+            raise ResultsError(f"{name} is given both by -v and by --sweep; give it once")
+    if len(swept) < len(words):
+        raise ResultsError(f"--sweep {' and '.join(names)} set the same variable of the script")
+    check_variables(request.script, words, reserved, given, "--sweep")
+    fixed = {**dict(request.preset), **given}
+    fixed = {name: value for name, value in fixed.items() if name not in swept}
+    known = script_variables(request.script, fixed)
+    if RESULTS not in known.settable:
+        raise ResultsError(
+            f"{request.script}: no line reads '{RESULTS}', so that all points would write to one "
+            f"folder; give the script 'variable {RESULTS} index ...' as the folder of its results"
+        )
+    seeds = _seeds(request, variables, known, fixed)
+    plan = Plan(
+        str(request.script.resolve()),
+        tuple(names),
+        fixed,
+        points_of(variables, seeds),
+        request.ranks,
+        request.until_steady,
+        request.time_limit,
+    )
+    return plan, warnings
+
+
+def _word_of(settable: Sequence[str], name: str, value: str) -> tuple[str, str]:
+    """The variable of the script that takes a value of the sweep, and what it takes.
+
+    Slip and torque belong to the mode of the rig.
+    """
+    if name in DRIVEN and name not in settable and MOTION in settable:
+        return MOTION, DRIVEN[name].format(value)
+    return name, value
+
+
+def _seeds(
+    request: Request,
+    variables: Sequence[Variable],
+    known: ScriptVariables,
+    fixed: Mapping[str, str],
+) -> list[int]:
+    """Of the packings after the first. @raises ResultsError"""
+    if request.packings == 1:
+        return []
+    if SEED not in known.settable:
+        raise ResultsError(
+            f"--packings {request.packings}: no line of {request.script} reads '{SEED}', which "
+            "chooses the packing of grains; leave --packings out"
+        )
+    if SEED in {variable.name for variable in variables}:
+        raise ResultsError(f"--packings chooses '{SEED}', which is swept too; give one of them")
+    first = fixed.get(SEED, known.defaults.get(SEED, ""))
+    try:
+        return further_seeds(int(first), request.packings - 1)
+    except ValueError:
+        raise ResultsError(f"--packings: '{SEED}' is '{first}', no whole number") from None
+
+
+def case_of(plan: Plan, point: Point) -> Case:
+    """The run of a point."""
+    script = Path(plan.script)
+    seed = {SEED: point.seed} if point.seed else {}
+    settable = script_variables(script, plan.fixed).settable
+    swept = dict(_word_of(settable, *item) for item in point.values.items())
+    variables = {**plan.fixed, **swept, **seed}
+    files = {}
+    arguments: tuple[str | Path, ...] = ("-in", script, "-log", f"{FOLDER}/log.liggghts")
+    if plan.until_steady:
+        files = {CONTINUED: continued_script(script, plan.until_steady, plan.time_limit)}
+        arguments = ("-in", f"{FOLDER}/{CONTINUED}", *arguments[2:])
+    return Case(
+        point.folder,
+        "furrow",
+        arguments,
+        {RESULTS: FOLDER, **{name: _as_word(script, value) for name, value in variables.items()}},
+        files,
+        ranks=plan.ranks,
+        reads=tuple(_files_of(script, variables)),
+        # A run until it is steady ends by itself
+        time_limit=math.inf if plan.until_steady or not plan.time_limit else plan.time_limit,
+    )
+
+
+def continued_script(script: Path, error: float, time_limit: float) -> str:
+    """A script that runs another one, and on until sinkage and resistance are steady.
+
+    @raises ResultsError for a path that LIGGGHTS cannot include
+    """
+    if len(str(script).split()) > 1:
+        raise ResultsError(
+            f"--until-steady: {script} has blanks in its path, from which LIGGGHTS cannot include; "
+            "move it"
+        )
+    limit = f" wall_time {time_limit:.10g}" if time_limit else ""
+    return f"include {script}\nrun_until_steady error {error:.10g}{limit}\n"
+
+
+def _as_word(script: Path, value: str) -> str:
+    """LIGGGHTS splits a value at blanks: the path of a file that is there gets quotes."""
+    if len(value.split()) > 1 and (script.parent / value).exists():
+        return f'"{value}"'
+    return value
+
+
+def _files_of(script: Path, given: Mapping[str, str]) -> list[Path]:
+    """What a run is made from: the script, what it includes, and files that variables name."""
+    known = script_variables(script, given)
+    values = {**known.defaults, **given}
+    named = [script.parent / value for value in values.values() if Path(value).suffix]
+    return [*known.files, *(path.resolve() for path in named if path.is_file())]

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What comes of a sweep: sweep.csv, sweep.h5, sweep.png and report.html in a folder."""
+
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..analyse import cost_table
+from ..analyse.formulas import require_formulas
+from ..errors import ResultsError
+from ..figures.page import document, escaped, html_table, inline_picture
+from .curves import Figure, arrange
+from .drawing import CAPTION, draw_sweep
+from .formulas import FormulaLine, formula_lines
+from .measured import MeasuredPoints, read_measured_points
+from .series import Series, read_series, uniquely_labelled
+from .table import shown_rows, write_table
+
+TABLE, NUMBERS, PICTURE, REPORT = "sweep.csv", "sweep.h5", "sweep.png", "report.html"
+
+
+@dataclass(frozen=True)
+class Named:
+    """A folder or file, and its name in tables and legends."""
+
+    path: Path
+    label: str | None = None
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What lies beside the curves."""
+
+    against: str | None = None  # condition on the x axis; None: the first variable of the sweep
+    errors: Path | None = None  # table of runs of the scene (inputs/costs)
+    formulas: Sequence[str] = ()
+    measured: Sequence[Named] = ()
+    extrapolate: bool = False
+
+    def check(self) -> None:
+        """@raises ResultsError for a formula or a file that there is none of"""
+        require_formulas(self.formulas)
+        for file in (*self.measured, *([Named(self.errors)] if self.errors else [])):
+            if not file.path.is_file():
+                raise ResultsError(f"{file.path}: no such file")
+
+
+@dataclass(frozen=True)
+class Result:
+    """A sweep as it is drawn."""
+
+    series: Sequence[Series]
+    figure: Figure
+    formulas: Sequence[FormulaLine]
+    measured: Sequence[MeasuredPoints]
+
+    def remarks(self) -> list[str]:
+        """What is not in the curves, a sentence each."""
+        found = []
+        for one in self.series:
+            found += [f"{one.label}: {r.folder} failed: {r.text}" for r in one.failures]
+            found += [f"{one.label}: {r.folder} gave no values: {r.text}" for r in one.unread]
+            found += [f"{one.label}: {r.folder}: {r.text}" for r in one.unsteady]
+            if one.missing:
+                names = ", ".join(one.missing)
+                found.append(f"{one.label}: {len(one.missing)} points were not run: {names}")
+        points = [point for one in self.series for point in one.points]
+        moving = sum(not point.steady for point in points)
+        if moving:
+            found.append(
+                f"{moving} of {len(points)} points are not called steady in sinkage and "
+                "resistance; the reasons are in their summary.txt"
+            )
+        return found + [one.note for one in self.formulas if one.note]
+
+
+def evaluate(folders: Sequence[Named], wanted: Wanted) -> Result:
+    """@raises ResultsError where no point has values, or the axes are not determined"""
+    wanted.check()
+    families = {}
+    if wanted.errors:
+        families = cost_table.families(cost_table.read_table(wanted.errors)[0])
+    series = uniquely_labelled([read_series(f.path, f.label, families) for f in folders])
+    if not any(one.points for one in series):
+        reasons = [r.text for one in series for r in (*one.failures, *one.unread)]
+        why = f": {reasons[0]}" if reasons else ""
+        raise ResultsError(f"{folders[0].path}: no point has steady values of a wheel{why}")
+    figure = arrange(series, wanted.against)
+    measured = [
+        points
+        for file in wanted.measured
+        for points in read_measured_points(file.path, file.label, figure)
+    ]
+    formulas = formula_lines(figure.lines, wanted.formulas, wanted.extrapolate)
+    return Result(series, figure, formulas, measured)
+
+
+def write_sweep(result: Result, folder: Path) -> None:
+    """All files of the result, each in one step."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=folder, prefix=".sweep") as scratch:
+        part = Path(scratch)
+        write_table(result.series, part / TABLE, part / NUMBERS)
+        draw_sweep(result.figure, result.formulas, result.measured, part / PICTURE)
+        (part / REPORT).write_text(_page(result, part / PICTURE), encoding="utf-8")
+        for name in (TABLE, NUMBERS, PICTURE, REPORT):
+            (part / name).replace(folder / name)
+
+
+def report_lines(result: Result) -> list[str]:
+    """The table of the figure for a terminal, and the remarks."""
+    head, rows = shown_rows(result.figure)
+    widths = [max(map(len, column)) for column in zip(head, *rows)]
+    lines = [
+        "  ".join(cell.rjust(width) for cell, width in zip(row, widths)).rstrip()
+        for row in (head, *rows)
+    ]
+    return [*lines, "", CAPTION_OF_TABLE, *result.remarks()]
+
+
+CAPTION_OF_TABLE = "± is one standard deviation, from the parts that are known."
+
+
+def _page(result: Result, picture: Path) -> str:
+    names = [curve.name for curve in result.figure.curves]
+    title = " and ".join(dict.fromkeys(one.title for one in result.series))
+    head, rows = shown_rows(result.figure)
+    remarks = "".join(f"<li>{escaped(text)}</li>" for text in result.remarks())
+    sections = [
+        inline_picture(picture, CAPTION),
+        "<h2>Points</h2>",
+        html_table(head, rows, range(1, len(head))),
+        f"<p>{escaped(CAPTION_OF_TABLE)}</p>",
+        "<h2>Remarks</h2>" if remarks else "",
+        f"<ul>{remarks}</ul>" if remarks else "",
+        "<h2>Conditions</h2>",
+        _conditions(result),
+        f"<footer>furrow-post sweep. The numbers of this page: {TABLE}, {NUMBERS}; those of a "
+        "point: its folder. SI units; slip positive when driving, (v_rim - v)/max(|v_rim|, |v|)."
+        "</footer>",
+    ]
+    return document(f"{title}: {', '.join(names)}", "", sections)
+
+
+def _conditions(result: Result) -> str:
+    """Of the first point of each line; what the sweep changes is in the points."""
+    lines = [line for line in result.figure.lines if line.points]
+    runs = [line.points[0].runs[0] for line in lines]
+    names = dict.fromkeys(name for run in runs for name in run.conditions)
+    rows = [
+        [name.replace("_", " "), *(run.text(name) for run in runs)]
+        for name in names
+        if name != result.figure.x.key
+    ]
+    rows += [
+        ["ground", *(run.ground for run in runs)],
+        ["discretisation", *(run.describe_size() for run in runs)],
+    ]
+    return html_table(["", *(line.label for line in lines)], rows)

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What a sweep consists of: sweep.json in its folder, from which every other program takes it."""
+
+import json
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+from ..errors import ResultsError, content_of
+from .values import Variable, folder_name, product
+
+FILE = "sweep.json"
+
+
+@dataclass(frozen=True)
+class Point:
+    """One run of a sweep."""
+
+    folder: str  # below that of the sweep
+    values: Mapping[str, str]  # of the variables of the sweep
+    seed: str = ""  # of a further packing of grains
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The runs of a sweep."""
+
+    script: str  # absolute path
+    variables: tuple[str, ...]  # names, as they were given
+    fixed: Mapping[str, str] = field(default_factory=dict)  # further variables of the script
+    points: tuple[Point, ...] = ()
+    ranks: int = 1
+    until_steady: float = 0.0  # relative error; 0: as long as the script says
+    time_limit: float = 0.0  # [s] of one run; 0: none
+
+    def joined(self, other: "Plan") -> "Plan":
+        """With the points of the other too, where that is the same scene in other respects."""
+        if other.settings() != self.settings():
+            return self
+        points = {point.folder: point for point in (*other.points, *self.points)}
+        return Plan(
+            self.script,
+            self.variables,
+            self.fixed,
+            tuple(points.values()),
+            self.ranks,
+            self.until_steady,
+            self.time_limit,
+        )
+
+    def settings(self) -> tuple[object, ...]:
+        """What all points have in common."""
+        return self.script, self.variables, dict(self.fixed), self.until_steady
+
+    def write(self, folder: Path) -> None:
+        """In one step: a killed program leaves the former file."""
+        folder.mkdir(parents=True, exist_ok=True)
+        part = folder / f"{FILE}.part"
+        part.write_text(json.dumps(asdict(self), indent=1) + "\n", encoding="utf-8")
+        os.replace(part, folder / FILE)
+
+
+def read_plan(folder: Path) -> Plan | None:
+    """None where the folder is not that of a sweep. @raises ResultsError for a damaged file"""
+    path = folder / FILE
+    if not path.is_file():
+        return None
+    with content_of(path, "start the sweep again, which writes it"):
+        content = json.loads(path.read_text(encoding="utf-8"))
+        points = tuple(Point(**point) for point in content.pop("points"))
+        variables = tuple(content.pop("variables"))
+        return Plan(variables=variables, points=points, **content)
+
+
+def points_of(variables: Sequence[Variable], seeds: Sequence[int]) -> tuple[Point, ...]:
+    """All combinations; seeds: of further packings, the first one is that of the script."""
+    points = []
+    for values in product(variables):
+        points.append(Point(folder_name(values), values))
+        for seed in seeds:
+            points.append(Point(folder_name({**values, "seed": str(seed)}), values, str(seed)))
+    folders = [point.folder for point in points]
+    twice = [folder for folder in folders if folders.count(folder) > 1]
+    if twice:
+        raise ResultsError(f"two points of the sweep would share the folder {twice[0]}")
+    return tuple(points)

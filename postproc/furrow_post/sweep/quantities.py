@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What a point of a sweep gave: the steady values of its run and what follows from them.
+
+torque coefficient = T/(W r), drawbar coefficient = P/W, tractive efficiency = P v/(T omega), with
+the drawbar pull P, the torque T, the vertical force W, the radius r of the undeformed wheel, and
+v/(omega r) from the slip (v_rim - v)/max(|v_rim|, |v|). Errors of ratios take both parts as
+independent, which is too much where both rise and fall together. The efficiency is that of a wheel
+that pulls: P and T above 0.
+
+Several packings of one point are averaged. Their variance is that of the time averages and that
+of the packing; the packing's part is what the time averages leave of it.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..analyse.comparison import NAME_IN_RUN, entries_of_run
+from ..analyse.cost_table import Components, Family, FamilyKey
+from ..read.summary import Summary
+from ..read.wheel_run import WheelRun
+
+Families = Mapping[FamilyKey, Family]
+
+
+@dataclass(frozen=True)
+class Value:
+    """One quantity of a point, SI."""
+
+    mean: float
+    unit: str
+    parts: Components
+    steady: bool = True
+
+    @property
+    def uncertainty(self) -> float:
+        """Standard deviation from the parts that are known; NaN where none is."""
+        return self.parts.total
+
+
+def quantities(runs: Sequence[WheelRun], families: Families) -> dict[str, Value]:
+    """Name -> value of a point; runs: its packings. families: of a table of errors, may be empty"""
+    each = [_of_run(run, families) for run in runs]
+    names = [name for name in each[0] if all(name in one for one in each)]
+    return {name: _averaged([one[name] for one in each]) for name in names}
+
+
+def _of_run(run: WheelRun, families: Families) -> dict[str, Value]:
+    packing = math.nan if run.ground == "grains" else 0.0
+    summary = Summary(run.folder)
+    found: dict[str, Value] = {}
+    for name in summary.quantities:
+        steady = run.values.get(name) or summary.quantity(name)
+        if steady:
+            parts = Components(time=steady.standard_error, packing=packing)
+            found[name] = Value(steady.mean, steady.unit, parts, steady.steady)
+    for entry in entries_of_run(run, families):
+        name = NAME_IN_RUN[entry.quantity.key]
+        found[name] = Value(entry.value, found[name].unit, entry.parts, found[name].steady)
+    load, pull, torque = found["force_z"], found["drawbar_pull"], found["drive_torque"]
+    if "drawbar_coefficient" not in found:
+        found["drawbar_coefficient"] = _ratio(pull, load)
+    found["torque_coefficient"] = _ratio(torque, load, 1 / run.radius)
+    if pull.mean > 0 and torque.mean > 0:
+        speed_ratio = speed_over_rim(found["slip"].mean)
+        found["tractive_efficiency"] = _ratio(pull, torque, run.radius * speed_ratio)
+    return found
+
+
+def speed_over_rim(slip: float) -> float:
+    """v/v_rim of a slip (v_rim - v)/max(|v_rim|, |v|) of a wheel that rolls forwards."""
+    return 1 - slip if slip >= 0 else 1 / (1 + slip)
+
+
+def _ratio(above: Value, below: Value, factor: float = 1.0) -> Value:
+    if not below.mean:
+        return Value(math.nan, "", Components(), False)
+    ratio = factor * above.mean / below.mean
+    error = math.hypot(
+        factor * above.parts.time / below.mean, ratio * below.parts.time / below.mean
+    )
+    parts = Components(time=error, packing=above.parts.packing)
+    return Value(ratio, "", parts, above.steady and below.steady)
+
+
+def _averaged(values: Sequence[Value]) -> Value:
+    """Over packings; the other parts are those of each."""
+    first, number = values[0], len(values)
+    if number == 1:
+        return first
+    means = np.array([value.mean for value in values])
+    time = math.sqrt(sum(value.parts.time**2 for value in values)) / number
+    packing = math.sqrt(max(float(np.var(means, ddof=1)) / number - time**2, 0.0))
+    parts = Components(time, first.parts.size, first.parts.domain, packing)
+    steady = all(value.steady for value in values)
+    return Value(float(means.mean()), first.unit, parts, steady)

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The points of a folder: of a sweep, or of runs that were made one by one."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from ..errors import ResultsError
+from ..read.wheel_run import WheelRun, read_wheel_run
+from ..study.launch import SCREEN
+from ..study.record import FAILED, FINISHED
+from .plan import Plan, read_plan
+from .quantities import Families, Value, quantities
+
+WARNED = "WARNING: run_until_steady: "
+
+
+@dataclass(frozen=True)
+class SweepPoint:
+    """One point with all its packings."""
+
+    name: str  # folder of its first run
+    values: Mapping[str, str]  # of the variables that were set
+    runs: tuple[WheelRun, ...]
+    quantities: Mapping[str, Value]
+
+    @property
+    def steady(self) -> bool:
+        """Whether sinkage and resistance are steady in all runs."""
+        return all(self.quantities[name].steady for name in ("sinkage", "resistance_coefficient"))
+
+    @property
+    def cpu_time(self) -> float:
+        """Of all packings [s]."""
+        return sum(run.cpu_time for run in self.runs)
+
+    def number(self, condition: str) -> float:
+        """Of a condition, the same in all packings but for rounding; NaN where it is not known."""
+        return sum(run.number(condition) for run in self.runs) / len(self.runs)
+
+
+@dataclass(frozen=True)
+class Remark:
+    """A run that is not among the points, and why."""
+
+    folder: str
+    text: str
+
+
+@dataclass
+class Series:
+    """The points of one folder."""
+
+    label: str
+    variables: tuple[str, ...] = ()  # that were set; none for a folder without sweep.json
+    points: list[SweepPoint] = field(default_factory=list)
+    failures: list[Remark] = field(default_factory=list)  # runs that stopped with an error
+    missing: list[str] = field(default_factory=list)  # runs that did not come to their end
+    unread: list[Remark] = field(default_factory=list)  # runs that gave no steady values
+    unsteady: list[Remark] = field(default_factory=list)  # what run_until_steady says of a run
+
+    @property
+    def title(self) -> str:
+        """Of the scene."""
+        return self.points[0].runs[0].results.title if self.points else self.label
+
+
+def read_series(folder: Path, label: str | None, families: Families) -> Series:
+    """@raises ResultsError where there is no such folder, or no run in it"""
+    if not folder.is_dir():
+        raise ResultsError(f"{folder}: is no folder; name one of a sweep, or one of several runs")
+    name = label or folder.resolve().name
+    plan = read_plan(folder)
+    if plan:
+        return _of_plan(folder, name, plan, families)
+    found = sorted(path.parent for path in folder.glob("*/history.h5"))
+    if not found:
+        raise ResultsError(f"{folder}: has neither sweep.json nor results folders of runs")
+    series = Series(name)
+    for run_folder in found:
+        _add(series, run_folder.name, {}, [run_folder], families)
+    return series
+
+
+def _of_plan(folder: Path, label: str, plan: Plan, families: Families) -> Series:
+    series = Series(label, plan.variables)
+    groups: dict[tuple[str, ...], list[str]] = {}
+    values: dict[tuple[str, ...], Mapping[str, str]] = {}
+    for point in plan.points:
+        key = tuple(point.values[name] for name in plan.variables)
+        groups.setdefault(key, []).append(point.folder)
+        values[key] = point.values
+    for key, names in groups.items():
+        ended = []
+        for name in names:
+            if (folder / name / FINISHED).is_file():
+                ended.append(folder / name)
+            elif (folder / name / FAILED).is_file():
+                series.failures.append(Remark(name, _error_of(folder / name / FAILED)))
+            else:
+                series.missing.append(name)
+        if ended:
+            _add(series, names[0], values[key], ended, families)
+    return series
+
+
+def _add(
+    series: Series,
+    name: str,
+    values: Mapping[str, str],
+    folders: list[Path],
+    families: Families,
+) -> None:
+    runs = []
+    for folder in folders:
+        series.unsteady += [Remark(folder.name, text) for text in _not_reached(folder)]
+        try:
+            runs.append(read_wheel_run(folder))
+        except ResultsError as error:
+            series.unread.append(Remark(folder.name, str(error)))
+    if runs:
+        point = SweepPoint(name, values, tuple(runs), quantities(runs, families))
+        series.points.append(point)
+
+
+def _not_reached(folder: Path) -> list[str]:
+    """What the command run_until_steady warned of."""
+    try:
+        lines = (folder / SCREEN).read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        return []
+    return [line.removeprefix(WARNED) for line in lines if line.startswith(WARNED)]
+
+
+def _error_of(path: Path) -> str:
+    try:
+        return str(json.loads(path.read_text(encoding="utf-8"))["error"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return f"{path}: cannot be read"
+
+
+def uniquely_labelled(series: list[Series]) -> list[Series]:
+    """Where labels are equal each gets a number."""
+    labels = [one.label for one in series]
+    return [
+        replace(one, label=f"{one.label} ({k + 1})") if labels.count(one.label) > 1 else one
+        for k, one in enumerate(series)
+    ]

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""From a command line to the runs of a sweep, by a fake program: checked, kept, continued."""
+
+import tempfile
+import unittest
+from dataclasses import replace
+from pathlib import Path
+
+from furrow_post.errors import ResultsError
+from furrow_post.study.runner import Runner, State
+from furrow_post.sweep.cases import Request, case_of, plan_of
+from furrow_post.sweep.plan import Plan, read_plan
+from support.fake import FakeTree
+
+SCRIPT = """variable results index x
+variable value index 1
+variable seed index 10007
+variable material index sand.yaml
+variable motion index "mode towed"
+variable fail index none
+print "${value} ${seed} ${material} ${motion} ${fail}"
+variable steps equal 3
+run ${steps}
+"""
+# what is asked for, what is said
+REFUSED: tuple[tuple[dict[str, object], str], ...] = (
+    ({"sweep": ["valeu=1,2"]}, "no line reads 'valeu'; did you mean value?"),
+    ({"sweep": ["steps=1,2"]}, "computes 'steps' itself, so that --sweep cannot set it"),
+    ({"sweep": ["results=a,b"]}, "--sweep results: use -o"),
+    ({"sweep": ["value=1,2"], "given": [("value", "3")]}, "given both by -v and by --sweep"),
+    ({"sweep": ["slip=0,1"], "given": [("motion", "x")]}, "motion is given both by -v and by"),
+    ({"sweep": ["slip=0,1", "torque=1,2"]}, "slip and torque set the same variable"),
+    ({"sweep": ["value=1,2"], "given": [("valeu", "3")]}, "did you mean value?"),
+    ({"sweep": ["seed=10007,10009"], "packings": 2}, "--packings chooses 'seed', which is swept"),
+    ({"sweep": ["value=1"], "packings": 2, "given": [("seed", "x")]}, "'seed' is 'x', no whole"),
+)
+
+
+class CasesTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.temporary = tempfile.TemporaryDirectory()
+        self.tree = FakeTree(Path(self.temporary.name))
+        self.tree.script.write_text(SCRIPT)
+        self.sand = self.tree.script.with_name("sand.yaml")
+        self.sand.write_text("loose")
+        self.results = Path(self.temporary.name) / "results"
+
+    def tearDown(self) -> None:
+        self.temporary.cleanup()
+
+    def plan(self, *sweep: str, **more: object) -> Plan:
+        return plan_of(replace(Request(self.tree.script, sweep), **more))[0]
+
+    def runner(self) -> Runner:
+        return Runner(self.results, self.tree.tools, same_inputs=True)
+
+    def test_refusals(self) -> None:
+        for words, message in REFUSED:
+            with self.subTest(words), self.assertRaises(ResultsError) as refused:
+                plan_of(replace(Request(self.tree.script, ()), **words))
+            self.assertIn(message, str(refused.exception))
+
+    def test_a_script_without_seed_or_results(self) -> None:
+        self.tree.script.write_text(SCRIPT.replace("seed", "other"))
+        with self.assertRaisesRegex(ResultsError, "--packings 3: no line of .* reads 'seed'"):
+            self.plan("value=1,2", packings=3)
+        self.tree.script.write_text(SCRIPT.replace("results", "folder"))
+        with self.assertRaisesRegex(ResultsError, "all points would write to one folder"):
+            self.plan("value=1,2")
+
+    def test_what_is_run(self) -> None:
+        plan = self.plan(
+            "slip=-0.1,0.2",
+            packings=2,
+            given=[("value", "5")],
+            preset=[("value", "7"), ("material", "other.yaml"), ("motion", "mode towed")],
+        )
+        folders = [point.folder for point in plan.points]
+        self.assertEqual(
+            folders, ["slip_-0.1", "slip_-0.1_seed_10009", "slip_0.2", "slip_0.2_seed_10009"]
+        )
+        variables = case_of(plan, plan.points[1]).variables
+        self.assertEqual(variables["motion"], "mode slip slip -0.1")
+        self.assertEqual((variables["value"], variables["seed"]), ("5", "10009"))
+        self.assertEqual(variables["material"], "other.yaml")
+        self.assertNotIn("seed", case_of(plan, plan.points[0]).variables)
+
+    def test_failures_are_kept_until_they_are_forgotten(self) -> None:
+        plan = self.plan("value=1,2", "fail=none", given=[("seed", "10009")])
+        cases = [case_of(plan, point) for point in plan.points]
+        self.runner().run(cases[:1])
+        self.assertEqual(self.runner().missing(cases), cases[1:])
+        # The fake program fails where it has a variable of this name
+        self.assertEqual(self.runner().state(cases[0]), State.FAILED)
+        self.runner().forget(cases)
+        self.assertEqual(self.runner().missing(cases), cases)
+
+    def test_a_point_of_another_script_or_material_is_made_again(self) -> None:
+        plan = self.plan("value=1,2")
+        cases = [case_of(plan, point) for point in plan.points]
+        self.runner().run(cases)
+        self.assertEqual(self.runner().missing(cases), [])
+        self.tree.install("another build")
+        self.assertEqual(self.runner().missing(cases), [])
+        self.sand.write_text("dense")
+        again = [case_of(plan, point) for point in plan.points]
+        self.assertEqual(len(self.runner().missing(again)), 2)
+        self.sand.write_text("loose")
+        self.tree.script.write_text(SCRIPT + "run 1\n")
+        self.assertEqual(len(self.runner().missing(again)), 2)
+
+    def test_a_later_command_adds_points_of_the_same_scene(self) -> None:
+        first = self.plan("value=1,2")
+        first.write(self.results)
+        former = read_plan(self.results)
+        assert former
+        self.assertEqual(former, first)
+        both = self.plan("value=2,3").joined(former)
+        self.assertEqual([p.folder for p in both.points], ["value_1", "value_2", "value_3"])
+        other = self.plan("value=3", given=[("seed", "10009")]).joined(former)
+        self.assertEqual([p.folder for p in other.points], ["value_3"])
+
+    def test_until_steady_runs_a_script_of_its_own(self) -> None:
+        plan = self.plan("value=1", until_steady=0.03, time_limit=60.0)
+        case = case_of(plan, plan.points[0])
+        (text,) = case.files.values()
+        self.assertEqual(
+            text,
+            f"include {self.tree.script.resolve()}\nrun_until_steady error 0.03 wall_time 60\n",
+        )
+        self.assertIn(self.tree.script.resolve(), case.input_files())
+
+    def test_ranks(self) -> None:
+        plan = self.plan("value=1", ranks=2)
+        command = case_of(plan, plan.points[0]).command(Path("/x/furrow"), Path("/y"), {})
+        self.assertEqual(command[:4], ["mpirun", "-n", "2", "/x/furrow"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Tables and curves of made runs with known answers: coefficients, errors, packings, axes."""
+
+import math
+import tempfile
+import unittest
+from html.parser import HTMLParser
+from pathlib import Path
+
+import h5py
+
+from furrow_post.csv_table import read_rows
+from furrow_post.errors import ResultsError
+from furrow_post.study.record import Record
+from furrow_post.sweep.curves import EFFICIENCY, PULL, SINKAGE, TORQUE
+from furrow_post.sweep.output import Named, Wanted, evaluate, report_lines, write_sweep
+from furrow_post.sweep.plan import Plan, Point
+from support.runs import RADIUS, write_run
+
+LOAD = 2000.0  # [N]
+# slip, drawbar pull over load, torque [N m]
+PULLING = ((-0.2, -0.3, -60.0), (0.1, 0.1, 120.0), (0.3, 0.25, 240.0))
+
+
+def finished(folder: Path, error: str = "") -> None:
+    Record({}, "", {}, "", "2026-01-01T00:00:00Z", 1.0, 1.5, 0.1, error=error).write(folder)
+
+
+def write_pulling(folder: Path, sinkage: float = 0.05) -> None:
+    """A sweep over slip of three points."""
+    points = []
+    for slip, pull, torque in PULLING:
+        name = f"slip_{slip:g}"
+        write_run(folder / name, LOAD, sinkage, slip=slip, pull=pull, torque=torque)
+        finished(folder / name)
+        points.append(Point(name, {"slip": f"{slip:g}"}))
+    Plan("scene.lig", ("slip",), points=tuple(points)).write(folder)
+
+
+class OutputTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+
+    def tearDown(self) -> None:
+        self.temporary.cleanup()
+
+    def test_pull_slip_has_its_coefficients(self) -> None:
+        write_pulling(self.folder / "a")
+        result = evaluate([Named(self.folder / "a")], Wanted())
+        self.assertEqual(
+            [curve.name for curve in result.figure.curves],
+            ["pull–slip", "torque–slip", "tractive efficiency", "sinkage–slip"],
+        )
+        (line,) = result.figure.lines
+        for (x, _, value), (slip, pull, torque) in zip(line.values(PULL), PULLING):
+            self.assertAlmostEqual(x, slip, 9)
+            self.assertAlmostEqual(value.mean, pull, 9)
+            error = math.hypot(1.0 / LOAD, pull * 1.0 / LOAD)  # 1 N of each of them
+            self.assertAlmostEqual(value.parts.time, error, 12)
+        for (_, _, value), (_, _, torque) in zip(line.values(TORQUE), PULLING):
+            self.assertAlmostEqual(value.mean, torque / (LOAD * RADIUS), 9)
+        efficiency = [value.mean for _, _, value in line.values(EFFICIENCY)]
+        expected = [p * LOAD * (1 - s) * RADIUS / t for s, p, t in PULLING[1:]]
+        self.assertEqual([round(e, 9) for e in efficiency], [round(e, 9) for e in expected])
+
+    def test_packings_are_averaged_and_give_an_error(self) -> None:
+        sinkages = (0.050, 0.056, 0.053)  # s 3 mm; 1 mm of time average each
+        points = []
+        for k, sinkage in enumerate(sinkages):
+            name = f"load_2000_{k}"
+            write_run(self.folder / name, LOAD, sinkage)
+            finished(self.folder / name)
+            points.append(Point(name, {"load": "2000"}, str(k) if k else ""))
+        Plan("scene.lig", ("load",), points=tuple(points)).write(self.folder)
+        result = evaluate([Named(self.folder)], Wanted())
+        (point,) = result.series[0].points
+        value = point.quantities["sinkage"]
+        self.assertAlmostEqual(value.mean, 0.053, 9)
+        self.assertAlmostEqual(value.parts.time, 1e-3 / math.sqrt(3), 9)
+        self.assertAlmostEqual(value.uncertainty, 3e-3 / math.sqrt(3), 9)  # of the three means
+        self.assertEqual(len(point.runs), 3)
+
+    def test_two_grounds_measurements_and_formulas_lie_in_one_figure(self) -> None:
+        write_pulling(self.folder / "a")
+        write_pulling(self.folder / "b", 0.06)
+        measured = self.folder / "test.csv"
+        measured.write_text(
+            "# a test\nlabel,slip_percent,drawbar_coefficient,sinkage_mm,sinkage_mm_error\n"
+            "one,10,0.12,40,2\none,20,,45,\ntwo,10,0.2,50,1\n"
+        )
+        wanted = Wanted(formulas=["wong_reece:Wong-Reece loose sand"], measured=[Named(measured)])
+        result = evaluate([Named(self.folder / "a", "snow"), Named(self.folder / "b")], wanted)
+        self.assertEqual([line.label for line in result.figure.lines], ["snow", "b"])
+        one, two = result.measured
+        self.assertEqual((one.label, two.label), ("one", "two"))
+        self.assertEqual(len(one.values(PULL)), 1)
+        x, value, error = one.values(SINKAGE)[0]
+        self.assertAlmostEqual(x, 0.1)
+        self.assertAlmostEqual(value, 0.04)
+        self.assertAlmostEqual(error, 0.002)
+        (formula,) = result.formulas  # both lines have the same conditions
+        self.assertEqual(formula.label, "Wong–Reece, Wong-Reece loose sand")
+        self.assertEqual([x for x, _ in formula.values(PULL)], [0.1, 0.3])
+        self.assertIn("no answer at 1 of 3 points", "\n".join(result.remarks()))
+        write_sweep(result, self.folder / "out")
+        for name in ("sweep.png", "report.html", "sweep.csv", "sweep.h5"):
+            self.assertTrue((self.folder / "out" / name).is_file(), name)
+        self.assertEqual(len(list((self.folder / "out").iterdir())), 4)
+
+    def test_a_formula_follows_each_line(self) -> None:
+        points = []
+        for load in (1000.0, 2000.0):
+            for slip in (0.1, 0.2):
+                name = f"slip_{slip:g}_load_{load:g}"
+                write_run(self.folder / name, load, slip=slip)
+                finished(self.folder / name)
+                points.append(Point(name, {"slip": f"{slip:g}", "load": f"{load:g}"}))
+        Plan("scene.lig", ("slip", "load"), points=tuple(points)).write(self.folder)
+        result = evaluate([Named(self.folder)], Wanted(formulas=["bekker:LETE sand"]))
+        light, heavy = result.formulas
+        self.assertEqual(light.label, "Bekker, LETE sand (load 1000)")
+        self.assertLess(light.predictions[0].sinkage, heavy.predictions[0].sinkage)
+        self.assertEqual(heavy.values(PULL), [])  # Bekker's wheel is towed
+
+    def test_the_table_has_units_and_can_be_read_as_measured(self) -> None:
+        write_pulling(self.folder / "a")
+        write_sweep(evaluate([Named(self.folder / "a")], Wanted()), self.folder / "a")
+        rows = read_rows(self.folder / "a" / "sweep.csv")
+        self.assertEqual([row["set_slip"] for row in rows], ["-0.2", "0.1", "0.3"])
+        self.assertEqual(float(rows[1]["sinkage"]), 0.05)
+        self.assertEqual(float(rows[1]["sinkage_error"]), 0.001)
+        self.assertEqual(rows[0]["tractive_efficiency"], "")
+        with h5py.File(self.folder / "a" / "sweep.h5") as content:
+            self.assertEqual(content["sinkage"].attrs["unit"], "m")
+            self.assertEqual(content["drive_torque_error_time"].attrs["unit"], "N m")
+            self.assertAlmostEqual(content["load"][1], LOAD)
+        wanted = Wanted(measured=[Named(self.folder / "a" / "sweep.csv")])
+        (again,) = evaluate([Named(self.folder / "a")], wanted).measured
+        self.assertEqual([round(x, 9) for x, _, _ in again.values(PULL)], [-0.2, 0.1, 0.3])
+
+    def test_failures_and_what_is_missing_are_told_apart(self) -> None:
+        write_pulling(self.folder)
+        (self.folder / "slip_0.1" / "run.json").unlink()
+        finished(self.folder / "slip_0.1", "ERROR: it broke")
+        (self.folder / "slip_0.3" / "run.json").unlink()
+        result = evaluate([Named(self.folder)], Wanted())
+        text = "\n".join(report_lines(result))
+        self.assertIn("slip_0.1 failed: ERROR: it broke", text)
+        self.assertIn("1 points were not run: slip_0.3", text)
+        self.assertEqual(len(result.series[0].points), 1)
+
+    def test_what_ran_on_and_is_not_steady_is_told(self) -> None:
+        write_pulling(self.folder)
+        told = "WARNING: run_until_steady: not steady within 3 %: the ground ends\n"
+        (self.folder / "slip_0.1" / "screen.txt").write_text(f"x\n{told}y\n")
+        text = "\n".join(report_lines(evaluate([Named(self.folder)], Wanted())))
+        self.assertIn("slip_0.1: not steady within 3 %: the ground ends", text)
+
+    def test_folders_that_no_sweep_made(self) -> None:
+        for load in (1000.0, 2000.0):
+            write_run(self.folder / f"run_{load:g}", load)
+        result = evaluate([Named(self.folder)], Wanted())
+        self.assertEqual(result.figure.x.key, "load")
+        self.assertEqual(result.figure.lines[0].x, (1000.0, 2000.0))
+        self.assertEqual(
+            [curve.name for curve in result.figure.curves],
+            ["resistance against load", "sinkage against load"],
+        )
+
+    def test_words_are_categories(self) -> None:
+        points = []
+        for k, name in enumerate(("loose.yaml", "dense.yaml")):
+            write_run(self.folder / name, LOAD, 0.05 + 0.01 * k)
+            finished(self.folder / name)
+            points.append(Point(name, {"material": name}))
+        Plan("scene.lig", ("material",), points=tuple(points)).write(self.folder)
+        result = evaluate([Named(self.folder)], Wanted())
+        self.assertEqual(result.figure.categories, ("loose.yaml", "dense.yaml"))
+        write_sweep(result, self.folder)
+
+    def test_the_page_is_sound(self) -> None:
+        write_pulling(self.folder)
+        write_sweep(evaluate([Named(self.folder)], Wanted()), self.folder)
+        text = (self.folder / "report.html").read_text()
+        for word in ("pull–slip", "tractive efficiency", "data:image/png;base64", "Conditions"):
+            self.assertIn(word, text)
+        HTMLParser().feed(text)
+
+    def test_refusals(self) -> None:
+        write_pulling(self.folder / "a")
+        (self.folder / "empty").mkdir()
+        write_run(self.folder / "same" / "x")
+        write_run(self.folder / "same" / "y")
+        (self.folder / "bad.csv").write_text("a,b\n1,2\n")
+        (self.folder / "word.csv").write_text("slip,sinkage\n0.1,deep\n")
+        a = [Named(self.folder / "a")]
+        for folders, wanted, message in (
+            ([Named(self.folder / "none")], Wanted(), "is no folder"),
+            ([Named(self.folder / "empty")], Wanted(), "has neither sweep.json nor results"),
+            ([Named(self.folder / "same")], Wanted(), "no condition differs among these runs"),
+            (a, Wanted("colour"), "has no colour; --against takes"),
+            (a, Wanted(formulas=["foo"]), "there is no formula 'foo'"),
+            (a, Wanted(formulas=["bekker:moon"]), "there is no terrain 'moon'"),
+            (a, Wanted(measured=[Named(self.folder / "none.csv")]), "no such file"),
+            (a, Wanted(measured=[Named(self.folder / "bad.csv")]), "needs a column slip and one"),
+            (a, Wanted(measured=[Named(self.folder / "word.csv")]), "could not convert"),
+        ):
+            with self.subTest(message), self.assertRaises(ResultsError) as refused:
+                evaluate(folders, wanted)
+            self.assertIn(message, str(refused.exception))
+
+
+if __name__ == "__main__":
+    unittest.main()
