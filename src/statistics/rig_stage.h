@@ -10,4 +10,7 @@ enum class RigStage { settle = 0, accelerate = 1, cruise = 2 };
 /// Name of the channel that holds the stage of every row, as a number.
 constexpr char stage_channel[] = "stage";
 
+/// Name of the channel that is 1 where the axle is free along x: speed and slip are then answers.
+constexpr char axle_free_channel[] = "axle_free";
+
 }  // namespace furrow
