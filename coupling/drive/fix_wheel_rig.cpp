@@ -7,8 +7,11 @@
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/base/fixes_of.h"
 #include "coupling/bodies/fix_wheel_hub.h"
+#include "coupling/contact/fix_contact_continuum.h"
 #include "coupling/drive/tilted_gravity.h"
 #include "coupling/liggghts/script.h"
+#include "coupling/terrain/fix_bed_window.h"
+#include "coupling/terrain/fix_terrain_continuum.h"
 #include "update.h"
 
 namespace furrow::coupling {
@@ -53,7 +56,27 @@ int FixWheelRig::setmask() { return on_slope() ? LAMMPS_NS::FixConst::POST_FORCE
 
 void FixWheelRig::init() {
   warn_of_short_ramps();
-  collectively([&] { check_slope(); });
+  collectively([&] {
+    check_slope();
+    check_passes();
+  });
+}
+
+/// A rut is kept only by ground that stays where it is.
+void FixWheelRig::check_passes() {
+  if (rig_.passes() == 1) return;
+  const auto refuse = [&](const LAMMPS_NS::Fix& ground) {
+    throw InputError(
+        options().where("passes"),
+        fmt::format("is {} on ground that moves along and drops what is behind, fix {}",
+                    rig_.passes(), ground.id),
+        "fixed ground, longer than pass_length",
+        "leave out 'follow' or the window, and make terrain or bed longer");
+  };
+  for (const auto* contact : fixes_of<FixContactContinuum>(*modify))
+    if (&contact->body_fix() == &wheel_fix_ && contact->terrain_fix().options().given("follow"))
+      refuse(contact->terrain_fix());
+  for (const auto* window : fixes_of<FixBedWindow>(*modify)) refuse(*window);
 }
 
 /// One ground has one slope. LIGGGHTS takes the gravity of clumps from fix gravity itself.

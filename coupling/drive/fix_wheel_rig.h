@@ -29,6 +29,7 @@ class FixWheelRig : public FurrowFix, public MotionController {
   bool on_slope() const { return options().number("slope") != 0.0; }
   void warn_of_short_ramps();
   void check_slope();
+  void check_passes();
 
   FixWheelHub& wheel_fix_;
   WheelRig rig_;

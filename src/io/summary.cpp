@@ -75,11 +75,27 @@ std::string steady_table(const Resistance& r) {
   return text;
 }
 
+std::string passes_table(const std::vector<Resistance>& passes) {
+  if (passes.empty()) return "";
+  std::string text =
+      "\nPasses in the same rut (all else here is of the first)\n"
+      "  pass        sinkage z [m]   resistance coefficient c   verdict\n";
+  for (std::size_t n = 0; n < passes.size(); ++n) {
+    const SteadyValue &z = passes[n].value("sinkage"),
+                      &c = passes[n].value("resistance_coefficient");
+    text += fmt::format("  {:>4} {:>21} {:>26}   {}\n", n + 1, with_error(z.mean, z.standard_error),
+                        with_error(c.mean, c.standard_error),
+                        passes[n].steady ? "steady" : "not steady");
+  }
+  return text;
+}
+
 std::string parts_table(const ResistanceParts& parts) {
   if (!parts.known()) return "";
   const auto row = [&](const std::string& name, double force) {
-    return fmt::format("  {:<38} {:>14.4g} N  {:>6.1f} %\n", name, force,
-                       100.0 * force / parts.whole);
+    const double share = 100.0 * force / parts.whole;  // of a wheel without resistance: no number
+    return fmt::format("  {:<38} {:>14.4g} N  {:>8}\n", name, force,
+                       std::abs(share) < 1e4 ? fmt::format("{:.1f} %", share) : "");
   };
   std::string text = "\nWhat the resistance is made of (energy over travel, in the window)\n";
   for (const ResistancePart& part : parts.parts) text += row(part.name, part.force);
@@ -136,7 +152,10 @@ Summary summarise(const std::string& folder, const ResistanceOptions& options) {
   if (summary.closed) summary.closing = read_closing(path);
   const History history = read_history(path);
   try {
-    summary.resistance = measure_resistance(history, options);
+    if (count_passes(history) > 1 && !options.window.given())
+      summary.passes = measure_passes(history, options);
+    summary.resistance =
+        summary.passes.empty() ? measure_resistance(history, options) : summary.passes.front();
   } catch (const InputError&) {
     throw;  // the user asked for a window that is not there
   } catch (const Error& error) {
@@ -150,7 +169,7 @@ std::string summary_text(const Summary& s) {
   if (!s.closed)
     text += "THE RUN DID NOT COME TO ITS END: what follows is what there was when it stopped.\n\n";
   text += s.trouble.empty() ? answer(s.resistance) + "\n" + steady_table(s.resistance) +
-                                  parts_table(s.resistance.parts)
+                                  passes_table(s.passes) + parts_table(s.resistance.parts)
                             : fmt::format("No steady values: {}\n", s.trouble);
   if (s.closed) text += "\n" + audit_text(s.closing.audit) + "\n" + cost_text(s.closing.cost);
   for (const std::string& warning : s.closing.warnings) text += "\nWARNING: " + warning + "\n";
@@ -185,6 +204,12 @@ std::string summary_json(const Summary& s) {
                       {"how", r.window.how},
                       {"warning", r.window.warning}};
     for (const SteadyValue& v : r.values) json["quantities"][v.name] = json_of(v);
+    for (const Resistance& pass : s.passes) {
+      nlohmann::ordered_json values;
+      for (const SteadyValue& v : pass.values) values[v.name] = json_of(v);
+      json["passes"].push_back(
+          {{"steady", pass.steady}, {"verdict", pass.verdict}, {"quantities", values}});
+    }
     if (r.parts.known()) {
       nlohmann::ordered_json& parts = json["resistance_parts"];
       parts["unit"] = "N";

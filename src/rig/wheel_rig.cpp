@@ -20,6 +20,8 @@ constexpr double least_travel = 1e-3;
 constexpr double largest_torque = 100.0;
 // Of the load.
 constexpr double largest_drawbar_load = 100.0;
+// Of the load: what the ground bears when a lowered wheel has come down on it.
+constexpr double touching_share = 0.02;
 
 /// @throws InputError when key is missing (needed) or given (not needed)
 void expect_key(const Options& options, const std::string& key, bool needed,
@@ -81,6 +83,20 @@ Schema WheelRig::schema(const std::string& subject) {
           "slope", "degrees", Range::closed(-45, 45),
           "rise of the ground along the travel; turns the weight of wheel, grains and continuum")
       .by_default(0.0);
+  schema.integer("passes", Range::closed(1, 1000), "times that the wheel rolls in the same rut")
+      .by_default("1");
+  schema
+      .number("pass_length", "m", Range::positive(),
+              "travel of each pass but the last, which goes on; with passes > 1")
+      .optional();
+  schema
+      .number("return_time", "s", Range::positive(),
+              "a third each to lift the wheel, bring it back and lower it; with passes > 1")
+      .optional();
+  schema
+      .number("lift", "m", Range::non_negative(),
+              "height above its start at which it goes back; by default a tenth of its diameter")
+      .optional();
   schema
       .number("slip_angle", "degrees", Range::open(-90, 90),
               "angle from the travel to the wheel plane about z")
@@ -132,6 +148,7 @@ WheelRig::WheelRig(const Options& options, WheelHub& wheel) : wheel_(wheel) {
   read_vertical(options);
   read_travel(options);
   read_drive(options);
+  read_passes(options);
   wheel_.set_vertical_damping(options.number("damping"));
   wheel_.set_axle_torque(0.0);
   for (const auto coordinate : {Coordinate::y, Coordinate::yaw, Coordinate::camber})
@@ -267,22 +284,96 @@ void WheelRig::read_drive(const Options& options) {
   }
 }
 
+void WheelRig::read_passes(const Options& options) {
+  const int passes = static_cast<int>(options.integer("passes"));
+  const bool several = passes > 1;
+  const std::string context = fmt::format("with passes {}", passes);
+  for (const char* key : {"pass_length", "return_time"})
+    expect_key(options, key, several, context, "with passes > 1, and only there");
+  if (!several) {
+    expect_key(options, "lift", false, context, "with passes > 1, and only there");
+    return;
+  }
+  if (travel_free_ || sinkage_prescribed_)
+    throw InputError(
+        options.where("passes"),
+        fmt::format("is {} with {}", passes, travel_free_ ? "travel free" : "a prescribed sinkage"),
+        "1, or more with a speed and a load", "passes are compared at the same speed and load");
+  const double least = speed_ * speed_ramp_.integral(speed_ramp_.end());
+  const double length = options.number("pass_length");
+  if (!(speed_ > 0.0 && length > least))
+    throw InputError(options.where("pass_length"), fmt::format("is {:g} m", length),
+                     speed_ > 0.0
+                         ? fmt::format("more than {:.4g} m, the travel of the acceleration", least)
+                         : std::string("a speed > 0"),
+                     "each pass needs a cruise");
+  const double start = load_ramp_.start, back = options.number("return_time");
+  passes_ =
+      PassSchedule(passes, start, speed_ramp_.end() - start + (length - least) / speed_, back);
+  const double diameter = 2.0 * wheel_.nominal_radius();
+  const double lift = options.has("lift") ? options.number("lift") : 0.1 * diameter;
+  first_x_ = wheel_.centre().x();
+  lifted_z_ = wheel_.centre().z() + lift;
+  // to half a diameter below the start in most of the time for it
+  lowering_speed_ = (lift + 0.5 * diameter) / (0.9 * passes_.lowering().duration);
+}
+
 RigStage WheelRig::stage(double time) const {
+  const double delay = passes_.delay(time);
+  if (passes_.goes_back(time - delay, passes_.index(time))) return RigStage::back;
+  time -= delay;
   return time < speed_ramp_.start   ? RigStage::settle
          : time < speed_ramp_.end() ? RigStage::accelerate
                                     : RigStage::cruise;
 }
 
 void WheelRig::apply(double time, double dt) {
-  drive_vertical(time, dt);
   // by the middle of the step: safe against rounding of its ends
-  if (stage(time + 0.5 * dt) == RigStage::settle) {
-    wheel_.hold(Coordinate::x);
-    wheel_.hold(Coordinate::spin);
-  } else {
-    drive_travel(time, dt);
-    drive_spin(time, dt);
+  const double middle = time + 0.5 * dt, clock = time - passes_.delay(middle);
+  switch (stage(middle)) {
+    case RigStage::settle:
+      drive_vertical(clock, dt);
+      wheel_.hold(Coordinate::x);
+      wheel_.hold(Coordinate::spin);
+      return;
+    case RigStage::accelerate:
+    case RigStage::cruise:
+      drive_vertical(clock, dt);
+      drive_travel(clock, dt);
+      drive_spin(clock, dt);
+      return;
+    case RigStage::back:
+      go_back(clock, dt);
+      return;
   }
+}
+
+/// What the wheel does depends on where it is and how the ground bears it, so that nothing else
+/// needs to be remembered.
+void WheelRig::go_back(double time, double dt) {
+  const Ramp lifting = passes_.lifting(), returning = passes_.returning();
+  const double middle = time + 0.5 * dt;
+  wheel_.set_load(Vector3::Zero());
+  wheel_.set_axle_torque(0.0);
+  if (middle < lifting.end()) {
+    for (const Coordinate motion : {Coordinate::x, Coordinate::spin})
+      wheel_.prescribe(motion, wheel_.rate(motion) * fading(lifting, time, dt));
+    wheel_.prescribe(Coordinate::z,
+                     approach(lifting, wheel_.position(Coordinate::z), lifted_z_, time, dt));
+    return;
+  }
+  wheel_.hold(Coordinate::spin);
+  if (middle < returning.end()) {
+    wheel_.hold(Coordinate::z);
+    wheel_.prescribe(Coordinate::x,
+                     approach(returning, wheel_.position(Coordinate::x), first_x_, time, dt));
+    return;
+  }
+  wheel_.hold(Coordinate::x);
+  if (wheel_.ground_wrench().force.z() > touching_share * load_)
+    wheel_.hold(Coordinate::z);
+  else
+    wheel_.prescribe(Coordinate::z, -lowering_speed_);
 }
 
 void WheelRig::drive_travel(double time, double dt) {

@@ -10,6 +10,7 @@
 #include "core/outputs.h"
 #include "statistics/rig_stage.h"
 #include "rig/ground_losses.h"
+#include "rig/pass_schedule.h"
 #include "rig/ramp.h"
 #include "rig/slip.h"
 
@@ -29,6 +30,10 @@ namespace furrow {
 ///
 /// On a slope the axes stay with the ground, x uphill along it and z off it, and weights are
 /// turned: that of the load here, those of grains and continuum by tilt().
+///
+/// With several passes the wheel goes back after the cruise of each but the last: it is stopped and
+/// lifted, brought back to where it began, and lowered until the ground bears a small part of the
+/// load; then it settles again, and rolls in its rut.
 ///
 /// y, yaw and camber are held throughout. Before `start` the wheel is held where it is. Travel is
 /// along +x.
@@ -60,6 +65,8 @@ class WheelRig {
   std::vector<double> measure(double time, const GroundLosses& losses = {}) const;
 
   RigStage stage(double time) const;
+  int pass(double time) const { return passes_.index(time) + 1; }  ///< from 1
+  int passes() const { return passes_.passes(); }
   /// [rad] by which gravity is turned at a time: up to the slope while the load grows
   double tilt(double time) const { return slope_ * load_ramp_.value(time); }
   Mode mode() const { return mode_; }
@@ -76,7 +83,9 @@ class WheelRig {
   void read_vertical(const Options& options);
   void read_travel(const Options& options);
   void read_drive(const Options& options);
+  void read_passes(const Options& options);
   void drive_vertical(double time, double dt);
+  void go_back(double time, double dt);
   void drive_travel(double time, double dt);
   void drive_spin(double time, double dt);
 
@@ -93,8 +102,12 @@ class WheelRig {
   double rim_speed_ = 0.0;     // [m/s]
   double torque_ = 0.0;        // [N m]
   double ground_level_ = 0.0;  // [m]
-  Ramp load_ramp_;             // begins with the settling
+  Ramp load_ramp_;             // begins with the settling; as all ramps, on the first pass's clock
   Ramp speed_ramp_;            // begins with the acceleration
+  PassSchedule passes_;
+  double first_x_ = 0.0;         // [m] of the axle, where every pass begins
+  double lifted_z_ = 0.0;        // [m] of the axle on its way back
+  double lowering_speed_ = 0.0;  // [m/s]
 };
 
 }  // namespace furrow

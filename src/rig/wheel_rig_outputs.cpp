@@ -34,7 +34,9 @@ const Outputs<const WheelRig::Reading>& WheelRig::outputs() {
   using R = const Reading;
   static const Outputs<R> list = {
       {"time", "s", "time since the start of the run", [](R& r) { return r.time; }},
-      {stage_channel, "", "0 settle, 1 accelerate, 2 cruise",
+      {pass_channel, "", "number of the pass in one rut, from 1",
+       [](R& r) { return static_cast<double>(r.rig.pass(r.time)); }},
+      {stage_channel, "", "0 settle, 1 accelerate, 2 cruise, 3 back for another pass",
        [](R& r) { return static_cast<double>(r.rig.stage(r.time)); }},
       {axle_free_channel, "", "1 where the axle is free along x, else 0",
        [](R& r) { return r.rig.travel_free_ ? 1.0 : 0.0; }},
