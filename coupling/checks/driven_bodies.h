@@ -11,7 +11,7 @@ namespace furrow::coupling {
 /// A body and the line that drives it: a wheel and its rig, or a plate.
 struct DrivenBody {
   const FixBody& body;
-  const Options& options;  ///< with the keys "ground_level", "speed" and "start"
+  const Options& options;  ///< with the keys "ground_level", "start" and, unless free, "speed"
   double full_speed;       ///< time from which it has its speed [s]
   std::string stages;      ///< the keys of the time until then
 };

@@ -19,7 +19,8 @@ void check_schedules(LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
           fmt::format("{} is {:.4g} s: this run ends before, and '{}' does not set off; make it "
                       "smaller, or the run longer",
                       driven.options.where("start"), start, driven.body.id));
-    else if (driven.options.number("speed") > 0.0 && driven.full_speed > end + 0.5 * step)
+    else if ((!driven.options.has("speed") || driven.options.number("speed") > 0.0) &&
+             driven.full_speed > end + 0.5 * step)
       warn(
           fmt::format("{}: '{}' has its speed from {:.4g} s on, after the end of this run, which "
                       "then has no steady values; run longer, or shorten {}",

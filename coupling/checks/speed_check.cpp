@@ -71,6 +71,7 @@ void check_against_grains(const LAMMPS_NS::LAMMPS& lammps, const DrivenBody& spe
 
 void check_speeds(LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
   for (const DrivenBody& speed : driven_bodies(*lammps.modify)) {
+    if (!speed.options.has("speed")) continue;  // free travel: it is an answer
     check_against_waves(lammps, speed, warn);
     check_against_grains(lammps, speed, warn);
   }

@@ -4,8 +4,14 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "coupling/base/fix_coupled_system.h"
+#include "coupling/base/fixes_of.h"
 #include "coupling/bodies/fix_wheel_hub.h"
+#include "coupling/contact/fix_contact_continuum.h"
+#include "coupling/drive/tilted_gravity.h"
 #include "coupling/liggghts/script.h"
+#include "coupling/terrain/fix_bed_window.h"
+#include "coupling/terrain/fix_terrain_continuum.h"
 #include "update.h"
 
 namespace furrow::coupling {
@@ -46,8 +52,68 @@ FixWheelRig::FixWheelRig(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
   contribute(static_cast<MotionController&>(*this));
 }
 
-/// A ramp of a few steps is a blow.
+int FixWheelRig::setmask() { return on_slope() ? LAMMPS_NS::FixConst::POST_FORCE : 0; }
+
 void FixWheelRig::init() {
+  warn_of_short_ramps();
+  collectively([&] {
+    check_slope();
+    check_passes();
+  });
+}
+
+/// A rut is kept only by ground that stays where it is.
+void FixWheelRig::check_passes() {
+  if (rig_.passes() == 1) return;
+  const auto refuse = [&](const LAMMPS_NS::Fix& ground) {
+    throw InputError(
+        options().where("passes"),
+        fmt::format("is {} on ground that moves along and drops what is behind, fix {}",
+                    rig_.passes(), ground.id),
+        "fixed ground, longer than pass_length",
+        "leave out 'follow' or the window, and make terrain or bed longer");
+  };
+  for (const auto* contact : fixes_of<FixContactContinuum>(*modify))
+    if (&contact->body_fix() == &wheel_fix_ && contact->terrain_fix().options().given("follow"))
+      refuse(contact->terrain_fix());
+  for (const auto* window : fixes_of<FixBedWindow>(*modify)) refuse(*window);
+}
+
+/// One ground has one slope. LIGGGHTS takes the gravity of clumps from fix gravity itself.
+void FixWheelRig::check_slope() {
+  for (const FixWheelRig* other : fixes_of<FixWheelRig>(*modify))
+    if (other->options().number("slope") != options().number("slope"))
+      throw InputError(
+          options().where("slope"),
+          fmt::format("is {:g} degrees, and that of fix {} is {:g}", options().number("slope"),
+                      other->id, other->options().number("slope")),
+          "one slope for all rigs", "gravity is turned for the whole scene");
+  if (on_slope() && modify->n_fixes_style("multisphere") > 0)
+    throw InputError(options().where("slope"), "is given with a fix multisphere",
+                     "a slope with single grains",
+                     "turn the vector of fix gravity in the script, and leave out the slope");
+}
+
+void FixWheelRig::apply(double time, double dt) {
+  rig_.apply(time, dt);
+  if (!on_slope()) return;
+  tilt_ = rig_.tilt(time + dt);
+  tilt_gravity_of_terrain(*lmp, tilt_);
+}
+
+void FixWheelRig::setup(int vflag) {
+  tilt_ = rig_.tilt(FixCoupledSystem::of(*lmp).time());
+  post_force(vflag);
+}
+
+void FixWheelRig::post_force(int) {
+  // every rig has the same slope: the first turns the gravity of all grains
+  if (on_slope() && fixes_of<FixWheelRig>(*modify).front() == this)
+    tilt_gravity_of_grains(*lmp, tilt_);
+}
+
+/// A ramp of a few steps is a blow.
+void FixWheelRig::warn_of_short_ramps() {
   for (const char* key : {"settle_time", "load_ramp_time", "accelerate_time"})
     if (options().has(key) && options().number(key) < min_steps_of_ramp * update->dt && !warned_) {
       warned_ = true;

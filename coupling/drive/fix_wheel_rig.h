@@ -14,17 +14,26 @@ class FixWheelRig : public FurrowFix, public MotionController {
   FixWheelRig(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
 
+  int setmask() override;
   void init() override;
-  void apply(double time, double dt) override { rig_.apply(time, dt); }
+  void setup(int vflag) override;
+  void apply(double time, double dt) override;
+  /// Of grains on a slope.
+  void post_force(int) override;
 
   const WheelRig& rig() const { return rig_; }
   FixWheelHub& wheel_fix() { return wheel_fix_; }
 
  private:
   FixWheelHub& find_free_wheel();
+  bool on_slope() const { return options().number("slope") != 0.0; }
+  void warn_of_short_ramps();
+  void check_slope();
+  void check_passes();
 
   FixWheelHub& wheel_fix_;
   WheelRig rig_;
+  double tilt_ = 0.0;    // [rad] of gravity at the end of the step
   bool warned_ = false;  // of short ramps
 };
 

@@ -6,9 +6,14 @@
 #include "atom.h"
 #include "comm.h"
 #include "coupling/base/fix_coupled_system.h"
+#include "coupling/base/fixes_of.h"
+#include "coupling/checks/touch_check.h"
+#include "coupling/contact/fix_contact_continuum.h"
+#include "coupling/contact/fix_contact_plane.h"
 #include "coupling/drive/fix_wheel_rig.h"
 #include "coupling/bodies/fix_wheel_hub.h"
 #include "coupling/output/gather_grains.h"
+#include "coupling/terrain/fix_terrain_continuum.h"
 #include "io/summary.h"
 #include "update.h"
 
@@ -60,7 +65,8 @@ void FixWheelHistory::open(std::optional<double> resume_time) {
 }
 
 void FixWheelHistory::record() {
-  if (file_) file_->append(rig_fix_.rig().measure(time()));
+  const GroundLosses losses = ground_losses();
+  if (file_) file_->append(rig_fix_.rig().measure(time(), losses));
 }
 
 void FixWheelHistory::write_frame() {
@@ -81,6 +87,33 @@ void FixWheelHistory::close() {
   const Summary summary = summarise(folder);
   write_summary(folder, summary);
   if (screen) fmt::print(screen, "\n{}\n", summary_text(summary));
+}
+
+GroundLosses FixWheelHistory::ground_losses() {
+  const FixWheelHub& wheel = rig_fix_.wheel_fix();
+  GroundLosses losses;
+  double known = 0.0;  // [J] work on what is no grain
+  for (auto* contact : fixes_of<FixContactContinuum>(*modify)) {
+    if (&contact->body_fix() != &wheel) continue;
+    FixTerrainContinuum& terrain = contact->terrain_fix();
+    const double halves = terrain.options().flag("symmetry") ? 2.0 : 1.0;
+    const TerrainWork work = terrain.terrain().work();
+    losses.compaction += halves * work.compaction;
+    losses.bulldozing += halves * work.bulldozing;
+    losses.kinetic += halves * work.kinetic;
+    losses.numerical += halves * work.numerical_loss;
+    losses.radiated += halves * work.radiated;
+    losses.friction += contact->contact().friction_loss();
+    losses.contact_damping += contact->contact().damping_loss();
+    known += halves * work.contact;
+  }
+  for (auto* contact : fixes_of<FixContactPlane>(*modify))
+    if (&contact->body_fix() == &wheel)
+      losses.friction += (wheel.body().half_model() ? 2.0 : 1.0) * contact->friction_loss();
+  known += losses.friction + losses.contact_damping;
+  if (touches_grains(*lmp, wheel))
+    losses.grains = -rig_fix_.wheel_fix().hub().energy_budget().contact_work - known;
+  return losses;
 }
 
 RunClosing FixWheelHistory::closing() {

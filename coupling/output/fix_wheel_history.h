@@ -4,6 +4,7 @@
 
 #include "coupling/output/fix_history.h"
 #include "io/vtk_file.h"
+#include "rig/ground_losses.h"
 
 namespace furrow {
 class WheelHub;
@@ -28,6 +29,8 @@ class FixWheelHistory : public FixHistory {
   void write_frame() override;
   void close() override;
   RunClosing closing();
+  /// Of everything that the wheel touches. Collective.
+  GroundLosses ground_losses();
 
   FixWheelRig& rig_fix_;
 

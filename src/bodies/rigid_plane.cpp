@@ -49,7 +49,9 @@ void RigidPlane::press_on(Surface& surface) {
     Vector2 shear = k * (anchor_.col(n) - point);
     if (const double size = shear.norm(); size > limit) {
       shear *= limit / size;
-      anchor_.col(n) = point + shear / k;
+      const Vector2 dragged_to = point + shear / k;
+      friction_loss_ += area_[n] * limit * (dragged_to - anchor_.col(n)).norm();
+      anchor_.col(n) = dragged_to;
     }
     const Vector3 force(area_[n] * shear.x(), area_[n] * shear.y(), area_[n] * pressure_[n]);
     surface.f.col(n) += force;
@@ -64,6 +66,7 @@ void RigidPlane::checkpoint(Checkpoint& state) {
   std::transform(sticking.begin(), sticking.end(), sticking_.begin(),
                  [](double number) { return static_cast<unsigned char>(number != 0.0); });
   state.values("area", area_);
+  state.value("friction_loss", friction_loss_);
 }
 
 }  // namespace furrow

@@ -33,6 +33,8 @@ class RigidPlane {
 
   const VectorX& area() const { return area_; }          ///< [m^2] of every node
   const VectorX& pressure() const { return pressure_; }  ///< [Pa] normal, of the last press_on
+  /// [J] taken by sliding friction since the start
+  double friction_loss() const { return friction_loss_; }
   /// [N] on the surface, of the last press_on
   Vector3 total_force() const { return total_; }
   const RigidPlaneParameters& parameters() const { return parameters_; }
@@ -44,6 +46,7 @@ class RigidPlane {
   VectorX pressure_;                     // [Pa]
   Eigen::Matrix2Xd anchor_;              // [m] where the spring of a sticking node has no force
   std::vector<unsigned char> sticking_;  // 1: the node sticks
+  double friction_loss_ = 0.0;           // [J]
   Vector3 total_ = Vector3::Zero();      // [N]
 };
 

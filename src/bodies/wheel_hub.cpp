@@ -64,6 +64,12 @@ void WheelHub::set_vertical_damping(double coefficient) {
   vertical_damping_ = coefficient;
 }
 
+void WheelHub::set_dragged_mass(double mass) {
+  if (!(std::isfinite(mass) && mass >= 0.0))
+    throw Error(fmt::format("{}: the dragged mass is {} kg; allowed: a number >= 0", name_, mass));
+  dragged_mass_ = mass;
+}
+
 void WheelHub::place(const Vector3& axle_centre, double yaw_angle, double camber_angle) {
   if (!(axle_centre.allFinite() && std::isfinite(yaw_angle) &&
         std::abs(camber_angle) < largest_camber))
@@ -149,16 +155,18 @@ void WheelHub::advance_translation(double dt, const Vector3& force) {
   for (const Coordinate axis : translations) {
     const int k = component(axis);
     const double inertia = inertia_.mass / dt;
+    const double dragged = axis == Coordinate::x ? dragged_mass_ / dt : 0.0;
     const double damping = axis == Coordinate::z ? vertical_damping_ : 0.0;
     const double before = velocity_[k];
     const double applied = force[k] + load_[k];
-    const double after =
-        motion_[axis] == Motion::free
-            ? ((inertia - 0.5 * damping) * before + applied) / (inertia + 0.5 * damping)
-            : prescribed_[axis];
+    const double after = motion_[axis] == Motion::free
+                             ? ((inertia + dragged - 0.5 * damping) * before + applied) /
+                                   (inertia + dragged + 0.5 * damping)
+                             : prescribed_[axis];
     const double mean = 0.5 * (before + after);
-    constraint_[axis] =
-        motion_[axis] == Motion::free ? 0.0 : inertia * (after - before) - applied + damping * mean;
+    constraint_[axis] = motion_[axis] == Motion::free
+                            ? dragged * (before - after)
+                            : inertia * (after - before) - applied + damping * mean;
     given_work_ += force[k] * mean * dt;
     load_work_ += load_[k] * mean * dt;
     drive_work_ += constraint_[axis] * mean * dt;

@@ -68,6 +68,10 @@ class WheelHub : public Body {
   /// Torque of a motor or brake between carrier and wheel, > 0 drives forward [N m]; has no effect
   /// while the spin is held or prescribed.
   void set_axle_torque(double torque) { axle_torque_ = torque; }
+  /// What is dragged along x by a wheel that is free along x, beside its own mass [kg]: a vehicle's
+  /// share. Its inertia acts as the constraint of x, its kinetic energy is work of the drive.
+  /// @throws Error for a negative mass
+  void set_dragged_mass(double mass);
   /// Viscous resistance to vertical motion, taken implicitly [N s/m]; its loss is part of the
   /// balance's dissipated_energy.
   /// @throws Error for a negative coefficient
@@ -96,8 +100,11 @@ class WheelHub : public Body {
   }
   /// Force [N] or torque [N m] with which whatever holds or prescribes a coordinate acts on the
   /// wheel, mean of the last step or interval; for the spin of a free wheel this is the axle
-  /// torque. Zero for other free coordinates.
+  /// torque, for the x of a free wheel the inertia of what it drags. Zero for other free
+  /// coordinates.
   double constraint(Coordinate coordinate) const { return constraint_[coordinate]; }
+  /// [J] taken out by the vertical damping since the start
+  double damping_loss() const { return dissipated_; }
   void begin_interval() override;
   void end_interval() override;
 
@@ -151,6 +158,7 @@ class WheelHub : public Body {
   Vector3 load_ = Vector3::Zero();            // [N]
   double axle_torque_ = 0.0;                  // [N m]
   double vertical_damping_ = 0.0;             // [N s/m]
+  double dragged_mass_ = 0.0;                 // [kg] along x
   // [J] since the start
   double given_work_ = 0.0;
   double load_work_ = 0.0;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,6 +18,8 @@ namespace {
 
 /// Standard error to two digits and the value to the same place: "0.01712 +- 0.00043".
 std::string with_error(double value, double error) {
+  constexpr double rounding = 1e-12;  // of what vanishes by symmetry
+  if (std::abs(value) < rounding && error < rounding) return "0";
   if (!(error > 0.0)) return fmt::format("{:.6g}", value);
   const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(error))));
   return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, error, decimals);
@@ -35,23 +38,69 @@ std::string title_of(const std::string& name) {
   return text;
 }
 
+std::string row_of(const std::string& name, const SteadyValue& v, const std::string& word) {
+  return fmt::format("  {:<26} {:>24} {:<5}  {}\n", name, with_error(v.mean, v.standard_error),
+                     v.unit, word);
+}
+
+/// What a run is made for, first.
+std::string answer(const Resistance& r) {
+  std::string text;
+  for (const auto& [name, quantity] : {std::pair{"sinkage z", "sinkage"},
+                                       {"resistance coefficient c", "resistance_coefficient"},
+                                       {"slip", "slip"},
+                                       {"drive torque", "drive_torque"}}) {
+    const SteadyValue& value = r.value(quantity);
+    text += row_of(name, value, value.steady ? "steady" : "not steady");
+  }
+  return text;
+}
+
 std::string steady_table(const Resistance& r) {
   std::string text =
-      fmt::format("Steady values: {}\nWindow: {:.4g} s to {:.4g} s, {:.4g} m of travel ({})\n",
-                  r.verdict, r.window.begin, r.window.end, r.window.distance, r.window.how);
+      fmt::format("Verdict: {}\nWindow: {:.4g} s to {:.4g} s, {:.4g} m of travel ({})\n", r.verdict,
+                  r.window.begin, r.window.end, r.window.distance, r.window.how);
   if (!r.window.warning.empty()) text += "  note: " + r.window.warning + "\n";
-  text += "\n";
+  text += "\nAll values\n";
   for (const SteadyValue& v : r.values)
-    text += fmt::format(
-        "  {:<24} {:>24} {:<5}  {}\n", title_of(v.name), with_error(v.mean, v.standard_error),
-        v.unit,
-        v.steady ? fmt::format("steady, {:.0f} independent samples", v.independent_samples)
-                 : "not steady");
+    text +=
+        row_of(title_of(v.name), v,
+               v.steady ? fmt::format("steady, {:.0f} independent samples", v.independent_samples)
+                        : "not steady");
   text +=
       "\n  ± is one standard error of the mean over time (block averages). It does not hold the "
       "influence of grain size, "
       "box or\n"
       "  packing: compare runs for that.\n";
+  return text;
+}
+
+std::string passes_table(const std::vector<Resistance>& passes) {
+  if (passes.empty()) return "";
+  std::string text =
+      "\nPasses in the same rut (all else here is of the first)\n"
+      "  pass        sinkage z [m]   resistance coefficient c   verdict\n";
+  for (std::size_t n = 0; n < passes.size(); ++n) {
+    const SteadyValue &z = passes[n].value("sinkage"),
+                      &c = passes[n].value("resistance_coefficient");
+    text += fmt::format("  {:>4} {:>21} {:>26}   {}\n", n + 1, with_error(z.mean, z.standard_error),
+                        with_error(c.mean, c.standard_error),
+                        passes[n].steady ? "steady" : "not steady");
+  }
+  return text;
+}
+
+std::string parts_table(const ResistanceParts& parts) {
+  if (!parts.known()) return "";
+  const auto row = [&](const std::string& name, double force) {
+    const double share = 100.0 * force / parts.whole;  // of a wheel without resistance: no number
+    return fmt::format("  {:<38} {:>14.4g} N  {:>8}\n", name, force,
+                       std::abs(share) < 1e4 ? fmt::format("{:.1f} %", share) : "");
+  };
+  std::string text = "\nWhat the resistance is made of (energy over travel, in the window)\n";
+  for (const ResistancePart& part : parts.parts) text += row(part.name, part.force);
+  text += row("not accounted for", parts.unexplained);
+  text += row("whole: put in by axle and load", parts.whole);
   return text;
 }
 
@@ -103,7 +152,10 @@ Summary summarise(const std::string& folder, const ResistanceOptions& options) {
   if (summary.closed) summary.closing = read_closing(path);
   const History history = read_history(path);
   try {
-    summary.resistance = measure_resistance(history, options);
+    if (count_passes(history) > 1 && !options.window.given())
+      summary.passes = measure_passes(history, options);
+    summary.resistance =
+        summary.passes.empty() ? measure_resistance(history, options) : summary.passes.front();
   } catch (const InputError&) {
     throw;  // the user asked for a window that is not there
   } catch (const Error& error) {
@@ -116,7 +168,8 @@ std::string summary_text(const Summary& s) {
   std::string text = fmt::format("{}\n{}\n\n", s.info.title, std::string(s.info.title.size(), '='));
   if (!s.closed)
     text += "THE RUN DID NOT COME TO ITS END: what follows is what there was when it stopped.\n\n";
-  text += s.trouble.empty() ? steady_table(s.resistance)
+  text += s.trouble.empty() ? answer(s.resistance) + "\n" + steady_table(s.resistance) +
+                                  passes_table(s.passes) + parts_table(s.resistance.parts)
                             : fmt::format("No steady values: {}\n", s.trouble);
   if (s.closed) text += "\n" + audit_text(s.closing.audit) + "\n" + cost_text(s.closing.cost);
   for (const std::string& warning : s.closing.warnings) text += "\nWARNING: " + warning + "\n";
@@ -126,7 +179,10 @@ std::string summary_text(const Summary& s) {
       "Signs: force_z carries the wheel; resistance coefficient = -force_x/force_z; drawbar pull > "
       "0 pulls the vehicle "
       "forward;\n"
-      "slip > 0 when driving, (v_rim - v)/max(|v_rim|, |v|). Effective input: "
+      "slip > 0 when driving, (v_rim - v)/max(|v_rim|, |v|); lateral force > 0 to the left of the "
+      "heading, moments of the ground\n"
+      "about the axle centre: overturning > 0 tips the top to the right, aligning > 0 turns to the "
+      "left. Effective input: "
       "/run/effective_input of history.h5.\n";
   return text;
 }
@@ -148,6 +204,19 @@ std::string summary_json(const Summary& s) {
                       {"how", r.window.how},
                       {"warning", r.window.warning}};
     for (const SteadyValue& v : r.values) json["quantities"][v.name] = json_of(v);
+    for (const Resistance& pass : s.passes) {
+      nlohmann::ordered_json values;
+      for (const SteadyValue& v : pass.values) values[v.name] = json_of(v);
+      json["passes"].push_back(
+          {{"steady", pass.steady}, {"verdict", pass.verdict}, {"quantities", values}});
+    }
+    if (r.parts.known()) {
+      nlohmann::ordered_json& parts = json["resistance_parts"];
+      parts["unit"] = "N";
+      parts["whole"] = r.parts.whole;
+      for (const ResistancePart& part : r.parts.parts) parts["parts"][part.name] = part.force;
+      parts["unexplained"] = r.parts.unexplained;
+    }
   } else {
     json["steady"] = false;
     json["verdict"] = s.trouble;

@@ -4,16 +4,19 @@
 /// it cost.
 
 #include <string>
+#include <vector>
 
 #include "io/run_report.h"
-#include "statistics/resistance.h"
+#include "statistics/passes.h"
 
 namespace furrow {
 
 /// Everything a summary says. The closing is missing when the run did not come to its end.
 struct Summary {
   RunInfo info;
-  Resistance resistance;
+  Resistance resistance;  ///< of the first pass where there are several
+  /// each pass of several in one rut; empty for a single one
+  std::vector<Resistance> passes;
   /// why there is no resistance ("the history ends before the cruise"); empty if there is
   std::string trouble;
   RunClosing closing;

@@ -52,9 +52,13 @@ class ContinuumTerrain : public Body {
   /// The triangles of a free surface mesh, if there is one; a contact presses on the particles.
   Surface& surface() override { return free_surface_.surface(); }
   EnergyBudget energy_budget() const override;
+  /// Where the work of contacts went since the start.
+  TerrainWork work() const { return energy_.work(boundary_.work(), ranks()); }
   void checkpoint(Checkpoint& state) override;
 
   // Not collective.
+  /// [m/s^2] from the next step on, in the place of that of the parameters.
+  void set_gravity(const Vector3& gravity) { step_.set_gravity(gravity); }
   const TerrainParameters& parameters() const { return parameters_; }
   const Grid& grid() const { return discretisation_.grid; }
   const Communicator& ranks() const { return discretisation_.ranks(); }

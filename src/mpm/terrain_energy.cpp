@@ -57,11 +57,35 @@ EnergyBudget TerrainEnergy::energy_budget(const std::vector<ParticleGroup>& grou
   return budget;
 }
 
+TerrainWork TerrainEnergy::work(double boundary_work, const Communicator& ranks) const {
+  const double kinetic = nodes_.kinetic_energy + removed_kinetic_;
+  double sums[] = {contact_work_, stress_work_, vertical_stress_work_,
+                   gravity_work_, kinetic,      boundary_work};
+  ranks.sum(sums, std::size(sums));
+  TerrainWork work;
+  work.contact = sums[0];
+  work.compaction = sums[2];
+  work.bulldozing = sums[1] - sums[2] - sums[3];
+  work.kinetic = sums[4];
+  work.radiated = -sums[5];
+  work.numerical_loss =
+      work.contact - work.compaction - work.bulldozing - work.kinetic - work.radiated;
+  return work;
+}
+
 void TerrainEnergy::checkpoint(Checkpoint& state, const Communicator& ranks) {
-  double* totals[] = {&nodes_.kinetic_energy, &nodes_.momentum[0], &nodes_.momentum[1],
-                      &nodes_.momentum[2],    &initial_,           &stress_work_,
-                      &contact_work_,         &gravity_work_,      &removed_kinetic_,
-                      &removed_internal_,     &removed_dissipated_};
+  double* totals[] = {&nodes_.kinetic_energy,
+                      &nodes_.momentum[0],
+                      &nodes_.momentum[1],
+                      &nodes_.momentum[2],
+                      &initial_,
+                      &stress_work_,
+                      &contact_work_,
+                      &gravity_work_,
+                      &removed_kinetic_,
+                      &removed_internal_,
+                      &removed_dissipated_,
+                      &vertical_stress_work_};
   std::vector<double> sums;
   for (const double* total : totals) sums.push_back(*total);
   if (state.saving()) ranks.sum(sums.data(), sums.size());

@@ -10,6 +10,7 @@
 #include "core/communicator.h"
 #include "mpm/grid.h"
 #include "mpm/particle_group.h"
+#include "mpm/transfer.h"
 
 namespace furrow {
 
@@ -20,11 +21,31 @@ double sum_energy(const std::vector<ParticleGroup>& groups, std::size_t field);
 double internal_energy(const std::vector<ParticleGroup>& groups);
 Vector3 momentum_of(const std::vector<ParticleGroup>& groups);  ///< this rank's share [N s]
 
+/// Where the work of contacts on a terrain went since the start [J].
+///
+/// The work of the stress, what deforms the ground, is split by directions:
+///   compaction  = int sigma_zz D_zz dV dt, all of it where ground is confined sideways
+///   bulldozing  = int (sigma : D - sigma_zz D_zz) dV dt - work of gravity: shear, ground pushed
+///                 ahead and aside, and its weight that is lifted
+/// contact = compaction + bulldozing + kinetic + numerical_loss + radiated.
+struct TerrainWork {
+  double contact = 0.0;         ///< of contacts on the terrain
+  double compaction = 0.0;      ///< by pressing down
+  double bulldozing = 0.0;      ///< by all other deformation and by lifting
+  double kinetic = 0.0;         ///< energy of its motion, that of removed ground included
+  double numerical_loss = 0.0;  ///< what the discretisation takes
+  double radiated = 0.0;        ///< through absorbing faces
+};
+
 /// Holds this rank's share of every sum; energy_budget() adds up the ranks.
 class TerrainEnergy {
  public:
   // Works of a step [J].
-  void add_stress_work(double work) { stress_work_ += work; }
+  /// Half of what the stress at one end of the step would do in it.
+  void add_half(const StressWork& work) {
+    stress_work_ += 0.5 * work.total;
+    vertical_stress_work_ += 0.5 * work.vertical;
+  }
   void add_contact_work(double work) { contact_work_ += work; }
   void add_gravity_work(double work) { gravity_work_ += work; }
   /// Momentum and kinetic energy of the nodes after a step.
@@ -43,6 +64,9 @@ class TerrainEnergy {
   EnergyBudget energy_budget(const std::vector<ParticleGroup>& groups, const Vector3& momentum,
                              double boundary_work, const Communicator& ranks) const;
 
+  /// The same work by what it did. Collective, and cheap: no particle is looked at.
+  TerrainWork work(double boundary_work, const Communicator& ranks) const;
+
   /// Saves the sums over all ranks. Whether it saves or restores, they are rank 0's share
   /// afterwards: the run that goes on then adds up in the order of one that is continued.
   /// Collective.
@@ -52,6 +76,7 @@ class TerrainEnergy {
   NodeTotals nodes_;  // of this rank's nodes after the last step
   double initial_ = 0.0;
   double stress_work_ = 0.0;
+  double vertical_stress_work_ = 0.0;
   double contact_work_ = 0.0;
   double gravity_work_ = 0.0;
   double removed_kinetic_ = 0.0;

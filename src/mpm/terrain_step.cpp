@@ -123,7 +123,7 @@ void TerrainStep::update_stress(ParticleGroup& group, std::size_t first, const G
   kernels_.gather_strain(grid, particles, weights_.data(), dt, gradient_.data());
   // The work of the mean of the stresses before and after the step: with either alone, the audit of
   // a vibrating body drifts by O(dt).
-  energy_.add_stress_work(0.5 * kernels_.stress_work(particles, gradient_.data()));
+  energy_.add_half(kernels_.stress_work(particles, gradient_.data()));
   PointBlock block;
   block.size = count;
   std::copy(gradient_.begin(), gradient_.end(), block.gradient.begin());
@@ -137,7 +137,7 @@ void TerrainStep::update_stress(ParticleGroup& group, std::size_t first, const G
     throw StateError(
         fmt::format("the particle at {:.4g} {:.4g} {:.4g} m: {}", x[0], x[1], x[2], error.what()));
   }
-  energy_.add_stress_work(0.5 * kernels_.stress_work(particles, gradient_.data()));
+  energy_.add_half(kernels_.stress_work(particles, gradient_.data()));
   if (!remap_.last_step()) kernels_.scatter_force(grid, particles, weights_.data());
 }
 

@@ -62,6 +62,9 @@ class TerrainStep {
   /// material refuses its strain
   void advance(double dt);
 
+  /// [m/s^2] from the next step on. Not collective.
+  void set_gravity(const Vector3& gravity) { gravity_ = gravity; }
+
   /// Positions and motion of the particles from the grid, if they lag behind it. Not collective.
   void grid_to_particles();
   /// Before the first step: lets absorbing faces take the tractions of the initial stress.

@@ -79,6 +79,12 @@ struct PointMotion {
   double affine[12];         ///< C, three columns of four numbers [1/s]
 };
 
+/// Work of the stress in a displacement gradient H [J].
+struct StressWork {
+  double total = 0.0;     ///< sum V sigma : H
+  double vertical = 0.0;  ///< sum V sigma_zz H_zz, all of it in confined compression
+};
+
 /// Kernels of transfer_kernel.h.
 struct TransferKernels : KernelTable {
   /// Weights with slope G, for scatter_force and gather_strain.
@@ -98,8 +104,8 @@ struct TransferKernels : KernelTable {
   /// @param gradient  nine arrays for H, row by row (PointBlock)
   void (*gather_strain)(const GridView&, const ParticleView&, const Weights*, double dt,
                         double* const* gradient) = nullptr;
-  /// sum V sigma : H of the particles with their present stress [J]
-  double (*stress_work)(const ParticleView&, const double* const* gradient) = nullptr;
+  /// Of the particles with their present stress.
+  StressWork (*stress_work)(const ParticleView&, const double* const* gradient) = nullptr;
   /// Moves the particles by the nodes' displacement and takes the nodes' velocity.
   void (*gather_motion)(const GridView&, const ParticleView&) = nullptr;
   void (*interpolate_motion)(const GridView&, PointMotion*, std::size_t count) = nullptr;

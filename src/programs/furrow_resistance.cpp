@@ -18,19 +18,34 @@
 
 namespace {
 
+constexpr const char* quantities[] = {"sinkage",
+                                      "force_z",
+                                      "resistance_coefficient",
+                                      "drawbar_pull",
+                                      "drawbar_coefficient",
+                                      "drive_torque",
+                                      "slip",
+                                      "lateral_force",
+                                      "overturning_moment",
+                                      "aligning_moment"};
+
 void print_csv_header() {
   fmt::print("folder,steady,begin_s,end_s,distance_m");
-  for (const char* name : {"sinkage", "force_z", "resistance_coefficient", "drawbar_pull",
-                           "drawbar_coefficient", "drive_torque", "slip"})
-    fmt::print(",{0},{0}_error,{0}_steady", name);
+  for (const char* name : quantities) fmt::print(",{0},{0}_error,{0}_steady", name);
   fmt::print("\n");
 }
 
 void print_csv(const std::string& folder, const furrow::Resistance& r) {
   fmt::print("{},{},{:.9g},{:.9g},{:.9g}", folder, r.steady ? 1 : 0, r.window.begin, r.window.end,
              r.window.distance);
-  for (const furrow::SteadyValue& v : r.values)
+  for (const char* name : quantities) {
+    if (!r.has(name)) {
+      fmt::print(",,,");
+      continue;
+    }
+    const furrow::SteadyValue& v = r.value(name);
     fmt::print(",{:.9g},{:.9g},{}", v.mean, v.standard_error, v.steady ? 1 : 0);
+  }
   fmt::print("\n");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "rig/wheel_rig.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,14 +12,16 @@ namespace furrow {
 
 namespace {
 
-// [m/s] below it, rim and axle both rest and the recorded slip is 0
-constexpr double standstill = 1e-12;
 // Load over the weight of the wheel: beyond, it does not move, or is shot away.
 constexpr double least_load = 1e-3, largest_load = 1e5;
 // Of the diameter: a rig's damping that lets the wheel go down by less while it settles holds it.
 constexpr double least_travel = 1e-3;
 // Of load x radius: no ground holds it.
 constexpr double largest_torque = 100.0;
+// Of the load.
+constexpr double largest_drawbar_load = 100.0;
+// Of the load: what the ground bears when a lowered wheel has come down on it.
+constexpr double touching_share = 0.02;
 
 /// @throws InputError when key is missing (needed) or given (not needed)
 void expect_key(const Options& options, const std::string& key, bool needed,
@@ -37,19 +40,26 @@ Schema WheelRig::schema(const std::string& subject) {
   Schema schema(subject);
   schema
       .number("load_mass", "kg", Range::positive(),
-              "load as a mass: the ground carries load_mass x gravity, wheel included")
+              "load as a mass: level ground carries load_mass x gravity, wheel included")
       .optional();
   schema
       .number("load_force", "N", Range::positive(),
-              "load as a force: what the ground carries at rest, weight of the wheel included")
+              "load as a force: what level ground carries at rest, weight of the wheel included")
       .optional();
   schema
       .number("sinkage", "m", Range::any(),
               "instead of a load: the wheel is lowered to this sinkage and held there")
       .optional();
-  schema.number("speed", "m/s", Range::closed(0.0, 1000.0), "speed of the axle along x in cruise");
-  schema.choice("mode", {"towed", "slip", "torque"},
-                "free spin, prescribed slip, or prescribed axle torque");
+  schema
+      .choice("travel", {"prescribed", "free"},
+              "along x: at a speed, or free under drawbar_load, slope and inertia")
+      .by_default("prescribed");
+  schema
+      .number("speed", "m/s", Range::closed(0.0, 1000.0),
+              "speed of the axle along x in cruise, with travel prescribed")
+      .optional();
+  schema.choice("mode", {"towed", "slip", "torque", "spin"},
+                "free spin, prescribed slip, prescribed axle torque, or prescribed spin");
   schema.number("slip", "", Range::any(), "slip in mode slip, driving positive").optional();
   schema
       .choice(
@@ -58,6 +68,35 @@ Schema WheelRig::schema(const std::string& subject) {
           "in the wheel plane)")
       .by_default("larger_speed");
   schema.number("torque", "N m", Range::any(), "axle torque in mode torque; < 0 brakes").optional();
+  schema.number("spin_rate", "rad/s", Range::any(), "in mode spin; > 0 rolls forward").optional();
+  schema
+      .number("drawbar_load", "N", Range::any(),
+              "with travel free: what holds the axle back along x; < 0 pushes it")
+      .by_default(0.0);
+  schema
+      .number("dragged_mass", "kg", Range::positive(),
+              "with travel free: all that moves along x with the axle, wheel included; by default "
+              "that of the load")
+      .optional();
+  schema
+      .number(
+          "slope", "degrees", Range::closed(-45, 45),
+          "rise of the ground along the travel; turns the weight of wheel, grains and continuum")
+      .by_default(0.0);
+  schema.integer("passes", Range::closed(1, 1000), "times that the wheel rolls in the same rut")
+      .by_default("1");
+  schema
+      .number("pass_length", "m", Range::positive(),
+              "travel of each pass but the last, which goes on; with passes > 1")
+      .optional();
+  schema
+      .number("return_time", "s", Range::positive(),
+              "a third each to lift the wheel, bring it back and lower it; with passes > 1")
+      .optional();
+  schema
+      .number("lift", "m", Range::non_negative(),
+              "height above its start at which it goes back; by default a tenth of its diameter")
+      .optional();
   schema
       .number("slip_angle", "degrees", Range::open(-90, 90),
               "angle from the travel to the wheel plane about z")
@@ -105,8 +144,11 @@ WheelRig::WheelRig(const Options& options, WheelHub& wheel) : wheel_(wheel) {
                        "0 degrees", "model the whole: 'half no', and ground without symmetry");
   wheel_.place(wheel_.centre(), radians(options.number("slip_angle")),
                radians(options.number("camber")));
+  slope_ = radians(options.number("slope"));
   read_vertical(options);
+  read_travel(options);
   read_drive(options);
+  read_passes(options);
   wheel_.set_vertical_damping(options.number("damping"));
   wheel_.set_axle_torque(0.0);
   for (const auto coordinate : {Coordinate::y, Coordinate::yaw, Coordinate::camber})
@@ -163,18 +205,57 @@ void WheelRig::check_load(const Options& options) const {
                      "it is there to calm the wheel, not to hold it");
 }
 
+void WheelRig::read_travel(const Options& options) {
+  travel_free_ = options.text("travel") == "free";
+  const std::string context = fmt::format("with travel {}", options.text("travel"));
+  expect_key(options, "speed", !travel_free_, context,
+             "a speed with travel prescribed, and only there");
+  if (!travel_free_) {
+    for (const char* key : {"drawbar_load", "dragged_mass"})
+      expect_key(options, key, false, context, "only with travel free");
+    speed_ = options.number("speed");
+    plane_speed_ = speed_ * std::cos(radians(options.number("slip_angle")));
+    return;
+  }
+  if (sinkage_prescribed_)
+    throw InputError(options.where("travel"), "is free with a prescribed sinkage",
+                     "travel free with load_mass or load_force",
+                     "say what the wheel carries: its weight drives it on a slope");
+  drawbar_load_ = options.number("drawbar_load");
+  const double most = largest_drawbar_load * load_;
+  if (std::abs(drawbar_load_) > most)
+    throw InputError(
+        options.where("drawbar_load"),
+        fmt::format("is {:g} N under a load of {:.4g} N", drawbar_load_, load_),
+        fmt::format("{:.3g} to {:.3g} N, {:g} times the load", -most, most, largest_drawbar_load),
+        "the ground holds a pull of about the load");
+  const double own = wheel_.total_mass();
+  const double dragged = options.has("dragged_mass")
+                             ? options.number("dragged_mass")
+                             : std::max(own, load_ / options.number("gravity"));
+  if (dragged < own)
+    throw InputError(options.where("dragged_mass"), fmt::format("is {:g} kg", dragged),
+                     fmt::format("at least {:.4g} kg, the mass of the wheel", own),
+                     "the wheel is part of what moves");
+  wheel_.set_dragged_mass(dragged - own);
+}
+
 void WheelRig::read_drive(const Options& options) {
-  speed_ = options.number("speed");
-  plane_speed_ = speed_ * std::cos(radians(options.number("slip_angle")));
   const std::string& mode = options.text("mode");
-  mode_ = mode == "towed" ? Mode::towed : mode == "slip" ? Mode::slip : Mode::torque;
+  mode_ = mode == "towed"    ? Mode::towed
+          : mode == "slip"   ? Mode::slip
+          : mode == "torque" ? Mode::torque
+                             : Mode::spin;
   const std::string context = fmt::format("in mode {}", mode);
   expect_key(options, "slip", mode_ == Mode::slip, context, "a slip in mode slip, and only there");
   expect_key(options, "slip_definition", mode_ == Mode::slip, context,
              "a slip_definition in mode slip, and only there");
   expect_key(options, "torque", mode_ == Mode::torque, context,
              "a torque in mode torque, and only there");
+  expect_key(options, "spin_rate", mode_ == Mode::spin, context,
+             "a spin_rate in mode spin, and only there");
   if (mode_ == Mode::torque) torque_ = options.number("torque");
+  if (mode_ == Mode::spin) rim_speed_ = options.number("spin_rate") * wheel_.nominal_radius();
   const double most = largest_torque * load_ * wheel_.nominal_radius();
   if (!sinkage_prescribed_ && std::abs(torque_) > most)
     throw InputError(
@@ -183,6 +264,10 @@ void WheelRig::read_drive(const Options& options) {
         fmt::format("{:.3g} to {:.3g} N m, {:g} times load x radius", -most, most, largest_torque),
         "the ground holds a torque of about load x radius");
   if (mode_ != Mode::slip) return;
+  if (travel_free_)
+    throw InputError(options.where("mode"), "is slip with travel free",
+                     "towed, torque or spin: with travel free the slip is an answer",
+                     "write 'mode spin spin_rate <rad/s>', or 'travel prescribed'");
   if (speed_ == 0.0)
     throw InputError(options.where("speed"), "is 0 m/s in mode slip", "a number > 0 [m/s]",
                      "give a speed, or drive a standing wheel with mode torque");
@@ -199,22 +284,105 @@ void WheelRig::read_drive(const Options& options) {
   }
 }
 
+void WheelRig::read_passes(const Options& options) {
+  const int passes = static_cast<int>(options.integer("passes"));
+  const bool several = passes > 1;
+  const std::string context = fmt::format("with passes {}", passes);
+  for (const char* key : {"pass_length", "return_time"})
+    expect_key(options, key, several, context, "with passes > 1, and only there");
+  if (!several) {
+    expect_key(options, "lift", false, context, "with passes > 1, and only there");
+    return;
+  }
+  if (travel_free_ || sinkage_prescribed_)
+    throw InputError(
+        options.where("passes"),
+        fmt::format("is {} with {}", passes, travel_free_ ? "travel free" : "a prescribed sinkage"),
+        "1, or more with a speed and a load", "passes are compared at the same speed and load");
+  const double least = speed_ * speed_ramp_.integral(speed_ramp_.end());
+  const double length = options.number("pass_length");
+  if (!(speed_ > 0.0 && length > least))
+    throw InputError(options.where("pass_length"), fmt::format("is {:g} m", length),
+                     speed_ > 0.0
+                         ? fmt::format("more than {:.4g} m, the travel of the acceleration", least)
+                         : std::string("a speed > 0"),
+                     "each pass needs a cruise");
+  const double start = load_ramp_.start, back = options.number("return_time");
+  passes_ =
+      PassSchedule(passes, start, speed_ramp_.end() - start + (length - least) / speed_, back);
+  const double diameter = 2.0 * wheel_.nominal_radius();
+  const double lift = options.has("lift") ? options.number("lift") : 0.1 * diameter;
+  first_x_ = wheel_.centre().x();
+  lifted_z_ = wheel_.centre().z() + lift;
+  // to half a diameter below the start in most of the time for it
+  lowering_speed_ = (lift + 0.5 * diameter) / (0.9 * passes_.lowering().duration);
+}
+
 RigStage WheelRig::stage(double time) const {
+  const double delay = passes_.delay(time);
+  if (passes_.goes_back(time - delay, passes_.index(time))) return RigStage::back;
+  time -= delay;
   return time < speed_ramp_.start   ? RigStage::settle
          : time < speed_ramp_.end() ? RigStage::accelerate
                                     : RigStage::cruise;
 }
 
 void WheelRig::apply(double time, double dt) {
-  drive_vertical(time, dt);
   // by the middle of the step: safe against rounding of its ends
-  if (stage(time + 0.5 * dt) == RigStage::settle) {
-    wheel_.hold(Coordinate::x);
-    wheel_.hold(Coordinate::spin);
-  } else {
-    wheel_.prescribe(Coordinate::x, speed_ * speed_ramp_.mean(time, time + dt));
-    drive_spin(time, dt);
+  const double middle = time + 0.5 * dt, clock = time - passes_.delay(middle);
+  switch (stage(middle)) {
+    case RigStage::settle:
+      drive_vertical(clock, dt);
+      wheel_.hold(Coordinate::x);
+      wheel_.hold(Coordinate::spin);
+      return;
+    case RigStage::accelerate:
+    case RigStage::cruise:
+      drive_vertical(clock, dt);
+      drive_travel(clock, dt);
+      drive_spin(clock, dt);
+      return;
+    case RigStage::back:
+      go_back(clock, dt);
+      return;
   }
+}
+
+/// What the wheel does depends on where it is and how the ground bears it, so that nothing else
+/// needs to be remembered.
+void WheelRig::go_back(double time, double dt) {
+  const Ramp lifting = passes_.lifting(), returning = passes_.returning();
+  const double middle = time + 0.5 * dt;
+  wheel_.set_load(Vector3::Zero());
+  wheel_.set_axle_torque(0.0);
+  if (middle < lifting.end()) {
+    for (const Coordinate motion : {Coordinate::x, Coordinate::spin})
+      wheel_.prescribe(motion, wheel_.rate(motion) * fading(lifting, time, dt));
+    wheel_.prescribe(Coordinate::z,
+                     approach(lifting, wheel_.position(Coordinate::z), lifted_z_, time, dt));
+    return;
+  }
+  wheel_.hold(Coordinate::spin);
+  if (middle < returning.end()) {
+    wheel_.hold(Coordinate::z);
+    wheel_.prescribe(Coordinate::x,
+                     approach(returning, wheel_.position(Coordinate::x), first_x_, time, dt));
+    return;
+  }
+  wheel_.hold(Coordinate::x);
+  if (wheel_.ground_wrench().force.z() > touching_share * load_)
+    wheel_.hold(Coordinate::z);
+  else
+    wheel_.prescribe(Coordinate::z, -lowering_speed_);
+}
+
+void WheelRig::drive_travel(double time, double dt) {
+  if (!travel_free_) {
+    wheel_.prescribe(Coordinate::x, speed_ * speed_ramp_.mean(time, time + dt));
+    return;
+  }
+  wheel_.release(Coordinate::x);
+  wheel_.set_load(wheel_.load() - Vector3(drawbar_load_ * speed_ramp_.value(time), 0.0, 0.0));
 }
 
 void WheelRig::drive_vertical(double time, double dt) {
@@ -225,7 +393,8 @@ void WheelRig::drive_vertical(double time, double dt) {
     wheel_.prescribe(Coordinate::z, lowering_ * load_ramp_.mean_rate(time, time + dt));
   } else {
     wheel_.release(Coordinate::z);
-    wheel_.set_load({0.0, 0.0, -load_ * load_ramp_.value(time)});
+    wheel_.set_load(load_ * load_ramp_.value(time) *
+                    Vector3(-std::sin(slope_), 0.0, -std::cos(slope_)));
   }
 }
 
@@ -235,6 +404,7 @@ void WheelRig::drive_spin(double time, double dt) {
       wheel_.release(Coordinate::spin);
       return;
     case Mode::slip:
+    case Mode::spin:
       wheel_.prescribe(Coordinate::spin,
                        rim_speed_ / wheel_.nominal_radius() * speed_ramp_.mean(time, time + dt));
       return;
@@ -243,91 +413,6 @@ void WheelRig::drive_spin(double time, double dt) {
       wheel_.set_axle_torque(torque_ * speed_ramp_.value(time));
       return;
   }
-}
-
-/// What a row is computed from.
-struct WheelRig::Reading {
-  const WheelRig& rig;
-  const WheelHub& wheel;
-  double time;            // [s]
-  Wrench ground;          // of the ground on the wheel, moment about the axle centre
-  EnergyBudget budget;    // of the wheel
-  double rim_speed;       // [m/s]
-  double speed_in_plane;  // [m/s] of the axle in the wheel plane
-};
-
-const Outputs<const WheelRig::Reading>& WheelRig::outputs() {
-  using R = const Reading;
-  static const Outputs<R> list = {
-      {"time", "s", "time since the start of the run", [](R& r) { return r.time; }},
-      {stage_channel, "", "0 settle, 1 accelerate, 2 cruise",
-       [](R& r) { return static_cast<double>(r.rig.stage(r.time)); }},
-      {"x", "m", "axle centre, along the travel", [](R& r) { return r.wheel.centre().x(); }},
-      {"y", "m", "axle centre, lateral", [](R& r) { return r.wheel.centre().y(); }},
-      {"z", "m", "axle centre, upwards", [](R& r) { return r.wheel.centre().z(); }},
-      {"velocity_x", "m/s", "of the axle centre, half a step before time",
-       [](R& r) { return r.wheel.velocity().x(); }},
-      {"velocity_y", "m/s", "of the axle centre, half a step before time",
-       [](R& r) { return r.wheel.velocity().y(); }},
-      {"velocity_z", "m/s", "of the axle centre, half a step before time",
-       [](R& r) { return r.wheel.velocity().z(); }},
-      {"spin_angle", "rad", "turn about the axle since the start, > 0 rolling forward",
-       [](R& r) { return r.wheel.position(Coordinate::spin); }},
-      {"spin_rate", "rad/s", "rate of spin_angle, half a step before time",
-       [](R& r) { return r.wheel.rate(Coordinate::spin); }},
-      {"slip", "",
-       slip_formula(SlipDefinition::larger_speed) +
-           ", v_rim = spin_rate x radius without grousers, v = speed of the axle in the "
-           "wheel plane; 0 at standstill",
-       [](R& r) {
-         const bool at_rest =
-             std::abs(r.rim_speed) < standstill && std::abs(r.speed_in_plane) < standstill;
-         return at_rest ? 0.0
-                        : furrow::slip(SlipDefinition::larger_speed, r.rim_speed, r.speed_in_plane);
-       }},
-      {"sinkage", "m", "ground level minus lowest point of the wheel without grousers",
-       [](R& r) { return r.rig.ground_level_ - r.wheel.lowest_point(); }},
-      {"force_x", "N", "force of the ground on the wheel", [](R& r) { return r.ground.force.x(); }},
-      {"force_y", "N", "force of the ground on the wheel", [](R& r) { return r.ground.force.y(); }},
-      {"force_z", "N", "force of the ground on the wheel", [](R& r) { return r.ground.force.z(); }},
-      {"moment_x", "N m", "moment of the ground on the wheel about the axle centre",
-       [](R& r) { return r.ground.moment.x(); }},
-      {"moment_y", "N m", "moment of the ground on the wheel about the axle centre",
-       [](R& r) { return r.ground.moment.y(); }},
-      {"moment_z", "N m", "moment of the ground on the wheel about the axle centre",
-       [](R& r) { return r.ground.moment.z(); }},
-      {"drive_torque", "N m",
-       "torque of the axle on the wheel, mean of the last step, > 0 drives forward",
-       [](R& r) { return r.wheel.constraint(Coordinate::spin); }},
-      {"drawbar_pull", "N",
-       "force of the axle on the vehicle along x, mean of the last step, > 0 pulls it forward",
-       [](R& r) { return -r.wheel.constraint(Coordinate::x); }},
-      {"load", "N", "downward force on the wheel, its weight included, mean of the last step",
-       [](R& r) { return -r.wheel.load().z() - r.wheel.constraint(Coordinate::z); }},
-      {"kinetic_energy", "J", "of the wheel", [](R& r) { return r.budget.kinetic_energy; }},
-      {"contact_work", "J", "of the ground on the wheel, since the start",
-       [](R& r) { return r.budget.contact_work; }},
-      {"load_work", "J", "of the load on the wheel, weight included, since the start",
-       [](R& r) { return r.budget.load_work; }},
-      {"drive_work", "J", "of the axle on the wheel by speed, torque and guides, since the start",
-       [](R& r) { return r.budget.drive_work; }},
-      {"damping_loss", "J", "taken out by the rig's vertical damping, since the start",
-       [](R& r) { return r.budget.dissipated_energy; }},
-  };
-  return list;
-}
-
-std::vector<Channel> WheelRig::channels() { return outputs().channels(); }
-
-std::vector<double> WheelRig::measure(double time) const {
-  const Vector3& velocity = wheel_.velocity();
-  const double yaw = wheel_.position(Coordinate::yaw);
-  const double rim_speed = wheel_.rate(Coordinate::spin) * wheel_.nominal_radius();
-  const double speed_in_plane = velocity.x() * std::cos(yaw) + velocity.y() * std::sin(yaw);
-  const Reading reading{
-      *this,     wheel_,        time, wheel_.ground_wrench(), wheel_.energy_budget(),
-      rim_speed, speed_in_plane};
-  return outputs().values(reading);
 }
 
 }  // namespace furrow

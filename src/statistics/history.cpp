@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "statistics/history.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/error.h"
@@ -21,6 +23,11 @@ double History::at(std::size_t row, std::size_t channel) const {
     throw Error(fmt::format("the history has {} rows and {} channels, none at row {}, channel {}",
                             size(), channels_.size(), row, channel));
   return values_[row * channels_.size() + channel];
+}
+
+bool History::has(const std::string& name) const {
+  return std::any_of(channels_.begin(), channels_.end(),
+                     [&](const Channel& channel) { return channel.name == name; });
 }
 
 std::size_t History::index(const std::string& name) const {

@@ -23,6 +23,7 @@ class History {
   double at(std::size_t row, std::size_t channel) const;
   /// @throws Error for an unknown channel
   std::vector<double> column(const std::string& name) const;
+  bool has(const std::string& name) const;
   /// @throws Error for an unknown channel
   std::size_t index(const std::string& name) const;
   /// The same rows under other channels. @throws Error when their number differs

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "statistics/free_travel.h"
 
 namespace furrow {
 
@@ -16,6 +17,13 @@ namespace {
 
 // of the vertical force, below which a force or a coefficient counts as small
 constexpr double min_coefficient = 0.1;
+// the same, below which a lateral force is that of a wheel that runs straight
+constexpr double noise_sideways = 0.02;
+
+bool is_sideways(const SteadyValue& value) {
+  return value.name == "lateral_force" || value.name == "overturning_moment" ||
+         value.name == "aligning_moment";
+}
 
 std::vector<double> part_of(const History& history, const std::string& channel,
                             const Window& window) {
@@ -40,6 +48,11 @@ double spacing_of(const std::vector<double>& time) {
 
 }  // namespace
 
+bool Resistance::has(const std::string& name) const {
+  return std::any_of(values.begin(), values.end(),
+                     [&](const SteadyValue& value) { return value.name == name; });
+}
+
 const SteadyValue& Resistance::value(const std::string& name) const {
   const auto found = std::find_if(values.begin(), values.end(),
                                   [&](const SteadyValue& value) { return value.name == name; });
@@ -61,6 +74,10 @@ std::vector<double> linearised_ratio(const std::vector<double>& a, const std::ve
 
 Resistance measure_resistance(const History& history, const ResistanceOptions& options) {
   Resistance result;
+  if (!options.window.given()) {
+    const TravelVerdict verdict = judge_travel(history, first_row_of_cruise(history));
+    if (!verdict.sentence.empty()) throw StateError(verdict.sentence);
+  }
   result.window = select_window(history, options.window,
                                 {"sinkage", "force_x", "force_z", "drive_torque", "slip"});
   const Window& window = result.window;
@@ -89,6 +106,15 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
   add("drawbar_coefficient", "", linearised_ratio(drawbar_pull, force_z), min_coefficient);
   add("drive_torque", "N m", part("drive_torque"), 0.0);
   add("slip", "", part("slip"), min_coefficient);
+  const bool sideways = history.has("lateral_force");
+  if (sideways) {
+    add("lateral_force", "N", part("lateral_force"), small_force);
+    add("overturning_moment", "N m", part("overturning_moment"), 0.0);
+    add("aligning_moment", "N m", part("aligning_moment"), 0.0);
+  }
+  const bool straight = !sideways || std::abs(result.value("lateral_force").mean) <
+                                         noise_sideways * std::abs(result.value("force_z").mean);
+  result.parts = resistance_parts(history, window);
 
   std::string reason;
   const auto because = [&](const std::string& text) {
@@ -102,7 +128,7 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
   // Values that are not steady for the same reason share it.
   std::vector<std::pair<std::string, std::string>> names_of_reason;
   for (const SteadyValue& value : result.values) {
-    if (value.steady) continue;
+    if (value.steady || (straight && is_sideways(value))) continue;
     const std::string why = value.verdict.substr(std::string("not steady: ").size());
     const auto same = std::find_if(names_of_reason.begin(), names_of_reason.end(),
                                    [&](const auto& known) { return known.first == why; });

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "statistics/resistance_parts.h"
 #include "statistics/steady_state.h"
 
 namespace furrow {
@@ -20,11 +21,15 @@ struct ResistanceOptions {
 struct Resistance {
   Window window;
   /// sinkage [m], force_z [N], resistance_coefficient, drawbar_pull [N], drawbar_coefficient,
-  /// drive_torque [N m], slip
+  /// drive_torque [N m], slip; where the history has them also lateral_force [N],
+  /// overturning_moment and aligning_moment [N m], which count for the verdict where the lateral
+  /// force is more than 2 % of force_z: of a wheel without slip angle and camber they are noise
   std::vector<SteadyValue> values;
+  ResistanceParts parts;
   bool steady = false;  ///< the window is good and every value is steady
   std::string verdict;  ///< "steady", or "not steady: " and what is not, and why
 
+  bool has(const std::string& name) const;
   const SteadyValue& value(const std::string& name) const;  ///< @throws Error for an unknown name
 };
 
@@ -40,8 +45,10 @@ std::vector<double> linearised_ratio(const std::vector<double>& a, const std::ve
 /// run drawbar pull and force_x agree; the first is what a load cell between vehicle and wheel
 /// sees, inertia included. Negligible drifts are measured against the value itself, and at least
 /// against a tenth of force_z for the pull, a tenth for the coefficients and the slip.
-/// @throws Error for a missing channel, a history that ends before the cruise, or rows that are
-/// missing
+/// Of a wheel that is free along x and does not get anywhere (free_travel.h) nothing is averaged,
+/// unless the window is given.
+/// @throws StateError for such a wheel, Error for a missing channel, a history that ends before the
+/// cruise, or rows that are missing
 Resistance measure_resistance(const History& history, const ResistanceOptions& options = {});
 
 }  // namespace furrow

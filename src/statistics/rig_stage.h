@@ -4,10 +4,16 @@
 
 namespace furrow {
 
-/// One after the other; steady values are those of the cruise.
-enum class RigStage { settle = 0, accelerate = 1, cruise = 2 };
+/// One after the other, and again in each pass; steady values are those of the cruise.
+enum class RigStage { settle = 0, accelerate = 1, cruise = 2, back = 3 };
 
 /// Name of the channel that holds the stage of every row, as a number.
 constexpr char stage_channel[] = "stage";
+
+/// Name of the channel that counts the passes in one rut, from 1.
+constexpr char pass_channel[] = "pass";
+
+/// Name of the channel that is 1 where the axle is free along x: speed and slip are then answers.
+constexpr char axle_free_channel[] = "axle_free";
 
 }  // namespace furrow

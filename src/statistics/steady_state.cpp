@@ -98,24 +98,7 @@ double half_difference(const std::vector<double>& values) {
          std::accumulate(values.begin(), middle, 0.0) / early;
 }
 
-/// 0 for a history without stages.
-bool has_stages(const History& history) {
-  const std::vector<Channel>& channels = history.channels();
-  return std::any_of(channels.begin(), channels.end(),
-                     [](const Channel& channel) { return channel.name == stage_channel; });
-}
-
-std::size_t first_row_of_cruise(const History& history) {
-  if (!has_stages(history)) return 0;
-  const std::vector<double> stages = history.column(stage_channel);
-  const auto cruise = static_cast<double>(RigStage::cruise);
-  const auto first = std::find(stages.begin(), stages.end(), cruise);
-  if (first == stages.end())
-    throw Error(
-        "the history ends before the cruise begins: run longer, or shorten settle_time and "
-        "accelerate_time");
-  return static_cast<std::size_t>(first - stages.begin());
-}
+bool has_stages(const History& history) { return history.has(stage_channel); }
 
 /// Rows whose value lies in [from, to] of a growing column.
 Window rows_between(const std::vector<double>& column, std::optional<double> from,
@@ -145,6 +128,18 @@ std::string doubt_of_begin(const History& history, const Window& window) {
 }
 
 }  // namespace
+
+std::size_t first_row_of_cruise(const History& history) {
+  if (!has_stages(history)) return 0;
+  const std::vector<double> stages = history.column(stage_channel);
+  const auto cruise = static_cast<double>(RigStage::cruise);
+  const auto first = std::find(stages.begin(), stages.end(), cruise);
+  if (first == stages.end())
+    throw Error(
+        "the history ends before the cruise begins: run longer, or shorten settle_time and "
+        "accelerate_time");
+  return static_cast<std::size_t>(first - stages.begin());
+}
 
 std::size_t mser_truncation(const std::vector<double>& values) {
   const std::size_t batches = values.size() / mser_batch;

@@ -16,6 +16,8 @@ namespace furrow {
 struct WindowRequest {
   std::optional<double> from_time, to_time;          ///< [s]
   std::optional<double> from_distance, to_distance;  ///< [m] travelled along x since the first row
+
+  bool given() const { return from_time || to_time || from_distance || to_distance; }
 };
 
 /// Rows [first, last) of a history.
@@ -30,6 +32,9 @@ struct Window {
 
   std::size_t rows() const { return last - first; }
 };
+
+/// Where the cruise begins; 0 for a history without stages. @throws Error when it ends before
+std::size_t first_row_of_cruise(const History& history);
 
 /// MSER-5, K. P. White, Simulation 69 (1997) 323: with means of five values, the truncation d <=
 /// n/2 that minimises sum_{i >= d} (x_i - mean)^2 / (n - d)^2, the squared standard error that

@@ -52,6 +52,7 @@ TOLERANCES = {
     "slip": Tolerance(0.0, 0.03),
     "slip_angle": Tolerance(0.0, 0.5),
     "camber": Tolerance(0.0, 0.5),
+    "slope": Tolerance(0.0, 0.5),
     "gravity": Tolerance(0.01, 0.0),
 }
 
@@ -112,16 +113,19 @@ def incomparable(
 ) -> list[Difference]:
     """Every condition in which runs differ beyond its tolerance.
 
-    Slip counts unless it is the ground's answer in all of them: wheels that are towed.
+    Slip counts unless it is the ground's answer in all of them: wheels that are towed; so does the
+    speed, unless all travel freely.
     """
     found = []
+    free = all(run.text("travel") == "free" for run in runs)
     towed = all(run.text("mode") == "towed" for run in runs)
+    answers = {"slip": towed or free, "speed": free}
     if len({run.wheel for run in runs}) > 1:
         text = "; ".join(f"{run.label}: {run.wheel}" for run in runs)
         found.append(Difference("wheel", text))
     for name, (relative, absolute) in tolerances.items():
         have = [run for run in runs if np.isfinite(run.number(name))]
-        if len(have) < 2 or (name == "slip" and towed):
+        if len(have) < 2 or answers.get(name, False):
             continue
         values = [run.number(name) for run in have]
         allowed = max(relative * max(abs(v) for v in values), absolute)

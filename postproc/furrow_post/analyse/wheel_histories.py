@@ -17,6 +17,7 @@ class Stage(enum.IntEnum):
     SETTLE = 0
     ACCELERATE = 1
     CRUISE = 2
+    BACK = 3
 
 
 class CruiseHistory(NamedTuple):
@@ -34,10 +35,20 @@ class SettlingCurve(NamedTuple):
     pressure: Floats  # mean over the projected contact [Pa]
 
 
+def _rows_of_first_pass(stage: Floats) -> int:
+    """All rows, unless the wheel goes back for another pass."""
+    back = np.flatnonzero(stage == Stage.BACK)
+    return int(back[0]) if len(back) else len(stage)
+
+
 def cruise_history(run: WheelRun) -> CruiseHistory:
-    """Sinkage and resistance coefficient over travel, the latter smoothed over 0.1 radius."""
+    """Sinkage and resistance coefficient over travel, the latter smoothed over 0.1 radius.
+
+    Of several passes, the first.
+    """
     columns = run.results.columns
     stage, x = columns["stage"], columns["x"]
+    stage = stage[: _rows_of_first_pass(stage)]
     cruise = np.flatnonzero(stage == Stage.CRUISE)
     begin = x[cruise[0]] if len(cruise) else x[-1]
     moving = np.flatnonzero(stage >= Stage.ACCELERATE)
@@ -57,7 +68,8 @@ def settling_curve(run: WheelRun) -> SettlingCurve:
     """Force over the projected contact of a rigid cylinder, 2 b sqrt(2 r z - z^2), against z."""
     columns = run.results.columns
     deep_enough = columns["sinkage"] > 0.02 * run.radius
-    chosen = np.flatnonzero((columns["stage"] == Stage.SETTLE) & deep_enough)
+    rows = _rows_of_first_pass(columns["stage"])
+    chosen = np.flatnonzero((columns["stage"] == Stage.SETTLE)[:rows] & deep_enough[:rows])
     z = columns["sinkage"][chosen]
     chord = np.sqrt(np.maximum(2 * run.radius * z - z * z, 1e-12))
     area = 2 * run.number("wheel_width") * chord

@@ -84,11 +84,12 @@ def _shade_stages(axes: Axes, time: Floats, stage: Floats, named: bool) -> None:
         rows = np.flatnonzero(stage == number)
         if len(rows) == 0:
             continue
-        begin, end = time[rows[0]], time[rows[-1]]
-        axes.axvspan(begin, end, color=colour, lw=0, zorder=0)
+        bands = np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1)  # one in each pass
+        for band in bands:
+            axes.axvspan(time[band[0]], time[band[-1]], color=colour, lw=0, zorder=0)
         if named:
             axes.text(
-                0.5 * (begin + end),
+                0.5 * (time[bands[0][0]] + time[bands[0][-1]]),
                 1.03,
                 number.name.lower(),
                 transform=axes.get_xaxis_transform(),

@@ -154,10 +154,12 @@ def _rig_conditions(rig: Style) -> dict[str, Condition]:
         load = rig.number("load_mass", float("nan")) * gravity
     return {
         "load": Condition(load, "N"),
-        "speed": Condition(rig.number("speed"), "m/s"),
+        "speed": Condition(rig.number("speed", float("nan")), "m/s"),
         "mode": Condition(rig.text("mode")),
         "slip_angle": Condition(rig.number("slip_angle", 0.0), "deg"),
         "camber": Condition(rig.number("camber", 0.0), "deg"),
+        "slope": Condition(rig.number("slope", 0.0), "deg"),
+        "travel": Condition(rig.text("travel") if rig.has("travel") else "prescribed"),
         "gravity": Condition(gravity, "m/s2"),
         "ground_level": Condition(rig.number("ground_level"), "m"),
     }
@@ -246,6 +248,8 @@ def _read_values(run: WheelRun, reference: Grains | None) -> None:
         )
     v = columns["velocity_x"][inside].mean()
     rim = run.radius * columns["spin_rate"][inside].mean()
+    if run.text("travel") == "free":  # an answer of the ground
+        run.conditions["speed"] = Condition(float(v), "m/s")
     run.conditions["slip"] = Condition(float(run.values["slip"].mean))
     by_speed = float((rim - v) / v) if v else float("nan")
     run.conditions["slip_by_vehicle_speed"] = Condition(by_speed)

@@ -25,24 +25,27 @@ inline void gather_strain(const GridView& grid, const ParticleView& all, const W
   });
 }
 
-inline double stress_work(const ParticleView& particles, const double* const* h) {
+inline StressWork stress_work(const ParticleView& particles, const double* const* h) {
   const double* const* s = particles.stress;
   // Sums side by side: the order of the additions is fixed, however the loop is vectorised.
   constexpr std::size_t lanes = 8;
-  double work[lanes] = {};
-  const auto of = [&](std::size_t p) {
-    return particles.volume[p] * particles.volume_ratio[p] *
-           (s[0][p] * h[0][p] + s[1][p] * h[4][p] + s[2][p] * h[8][p] +
-            s[3][p] * (h[1][p] + h[3][p]) + s[4][p] * (h[5][p] + h[7][p]) +
-            s[5][p] * (h[2][p] + h[6][p]));
+  double vertical[lanes] = {}, rest[lanes] = {};
+  const auto add = [&](std::size_t p, std::size_t lane) {
+    const double volume = particles.volume[p] * particles.volume_ratio[p];
+    vertical[lane] += volume * (s[2][p] * h[8][p]);
+    rest[lane] += volume * (s[0][p] * h[0][p] + s[1][p] * h[4][p] + s[3][p] * (h[1][p] + h[3][p]) +
+                            s[4][p] * (h[5][p] + h[7][p]) + s[5][p] * (h[2][p] + h[6][p]));
   };
   const std::size_t whole = particles.size - particles.size % lanes;
   for (std::size_t p = 0; p < whole; p += lanes)
-    for (std::size_t lane = 0; lane < lanes; ++lane) work[lane] += of(p + lane);
-  for (std::size_t p = whole; p < particles.size; ++p) work[p - whole] += of(p);
-  double sum = 0.0;
-  for (const double w : work) sum += w;
-  return sum;
+    for (std::size_t lane = 0; lane < lanes; ++lane) add(p + lane, lane);
+  for (std::size_t p = whole; p < particles.size; ++p) add(p, p - whole);
+  StressWork work;
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    work.vertical += vertical[lane];
+    work.total += vertical[lane] + rest[lane];
+  }
+  return work;
 }
 
 /// Velocity and C of a particle. The fourth numbers of C, which would be slopes of the nodes' mass,

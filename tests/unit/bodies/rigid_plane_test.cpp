@@ -68,6 +68,24 @@ TEST(RigidPlane, DampingPushesButNeverPulls) {
   EXPECT_EQ(plane.pressure().maxCoeff(), 0.0);
 }
 
+// Dragged along, a plate loses mu N for each metre that it slides; what the springs give way is
+// kept.
+TEST(RigidPlane, SlidingLosesFrictionForceTimesItsWay) {
+  Surface surface = plate_at(-1e-4);
+  RigidPlane plane({0.0, 1e8, 0.0, 0.5, 1e8}, surface);
+  plane.press_on(surface);
+  const double give = 0.5 * 1e-4;  // mu p/k
+  EXPECT_EQ(plane.friction_loss(), 0.0);
+  for (int i = 0; i < 100; ++i) {
+    surface.clear_forces();
+    surface.x.row(0).array() += 1e-5;
+    plane.press_on(surface);
+  }
+  const double limit = std::abs(plane.total_force().x());
+  EXPECT_NEAR(limit, 0.5 * plane.total_force().z(), 1e-9 * limit);
+  EXPECT_NEAR(plane.friction_loss(), limit * (1e-3 - give), 1e-9 * limit * 1e-3);
+}
+
 TEST(RigidPlane, ContinuesFromItsState) {
   Surface surface = plate_at(-1e-4);
   const RigidPlaneParameters parameters{0.0, 1e8, 0.0, 0.5, 1e8};

@@ -126,7 +126,9 @@ TEST(Transfer, AllInstructionSetsAgree) {
     grid.move(grid.all_planes(), grid.all_planes(), dt);
     kernels.gather_strain(grid.view(), particles, cloud.weights.data(), dt, cloud.gradients);
     std::vector<double> after = cloud.gradient;
-    after.push_back(kernels.stress_work(particles, cloud.gradients));
+    const StressWork work = kernels.stress_work(particles, cloud.gradients);
+    after.push_back(work.total);
+    after.push_back(work.vertical);
     PointMotion point{{0.5, 0.1, 0.3}, {}, {}, {}};
     kernels.interpolate_motion(grid.view(), &point, 1);
     after.insert(after.end(), point.displacement, point.displacement + 3);
@@ -265,7 +267,7 @@ TEST(Transfer, ForceAndVelocityGradientAreAdjoint) {
     }
   });
   cloud.take_strain(dt);
-  EXPECT_NEAR(transfer_kernels().stress_work(cloud.view(), cloud.gradients), -dt * power,
+  EXPECT_NEAR(transfer_kernels().stress_work(cloud.view(), cloud.gradients).total, -dt * power,
               1e-13 * dt * size);
 }
 

@@ -2,6 +2,7 @@
 #include "statistics/resistance.h"
 
 #include <cmath>
+#include <map>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -145,6 +146,40 @@ TEST(Resistance, ValuesThatAreNotSteadyForTheSameReasonShareIt) {
   EXPECT_LT(times, unsteady);
   for (const SteadyValue& value : result.values)
     if (!value.steady) EXPECT_THAT(result.verdict, HasSubstr(value.name));
+}
+
+/// A run of 10 m in which every energy grows at its own constant rate [J/m], with the rig's
+/// channels.
+TEST(Resistance, ItsPartsAreEnergiesOverTravelAndSumToTheWhole) {
+  const std::map<std::string, double> rates = {
+      {"compaction_work", 50.0}, {"bulldozing_work", 20.0}, {"friction_loss", 8.0},
+      {"wheel_loss", 3.0},       {"stored_energy", 1.0},    {"damping_loss", 0.5},
+      {"kinetic_energy", 2.0},   {"grid_loss", 4.0},        {"contact_damping_loss", 1.0},
+      {"drive_work", 85.0},      {"load_work", 5.0}};
+  History history(WheelRig::channels());
+  for (int i = 0; i <= 500; ++i) {
+    const double x = 0.02 * i;
+    std::vector<double> row(history.channels().size(), 0.0);
+    const auto set = [&](const std::string& name, double value) {
+      row[history.index(name)] = value;
+    };
+    set("time", x);
+    set("stage", 2.0);
+    set("x", x);
+    set("force_z", 100.0);
+    for (const auto& [name, rate] : rates) set(name, 7.0 + rate * x);
+    history.append(row);
+  }
+  const ResistanceParts parts = measure_resistance(history).parts;
+  EXPECT_NEAR(parts.whole, 90.0, 1e-9);
+  EXPECT_NEAR(parts.unexplained, 0.5, 1e-9);
+  std::map<std::string, double> found;
+  for (const ResistancePart& part : parts.parts) found[part.name] = part.force;
+  EXPECT_EQ(found.size(), 7u);  // neither grains nor radiation
+  EXPECT_NEAR(found["compaction"], 50.0, 1e-9);
+  EXPECT_NEAR(found["wheel or tyre"], 4.0, 1e-9);
+  EXPECT_NEAR(found["grid and contact damping"], 5.0, 1e-9);
+  EXPECT_FALSE(measure_resistance(SyntheticRun().history()).parts.known());
 }
 
 TEST(Resistance, AShortTravelIsSaid) {

@@ -140,6 +140,12 @@ TEST_P(Column, FollowsTheLawInConfinedCompression) {
       force / expected_force, 1.0,
       0.03);  // the particles under the lid are not strained as those below: one layer of ten
   EXPECT_LT(std::abs(b.residual()), 1e-3 * b.contact_work);
+  // ground that is confined only compacts
+  const TerrainWork work = ground.work();
+  EXPECT_NEAR(work.compaction, b.stored_energy + b.dissipated_energy, 2e-3 * b.contact_work);
+  EXPECT_LT(std::abs(work.bulldozing), 1e-6 * b.contact_work);
+  EXPECT_EQ(work.contact, b.contact_work);
+  EXPECT_NEAR(work.numerical_loss, b.numerical_loss, 1e-9 * b.contact_work);
 }
 
 /// Force of a lid at a given height on an elastic column, over the closed form A M ln(height left).

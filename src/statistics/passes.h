@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The passes of a wheel in one rut, one by one.
+
+#include <vector>
+
+#include "statistics/resistance.h"
+
+namespace furrow {
+
+/// 1 for a history without the channel `pass`.
+int count_passes(const History& history);
+/// The rows of a pass, from 1, up to its way back.
+History rows_of_pass(const History& history, int number);
+
+/// Steady values of each pass that has a cruise, as measure_resistance() has them for a run of one.
+std::vector<Resistance> measure_passes(const History& history, const ResistanceOptions& options);
+
+}  // namespace furrow

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// What the resistance is made of: the energies of a run over a window, per metre of travel.
+
+#include <string>
+#include <vector>
+
+#include "statistics/steady_state.h"
+
+namespace furrow {
+
+/// One part of the resistance.
+struct ResistancePart {
+  std::string name;
+  double force = 0.0;  ///< [N] energy over travel
+};
+
+/// whole = sum of parts + unexplained. The whole is what axle and load put in: torque, pull, slope
+/// and sinking; of a towed wheel on level ground it is the force that tows it.
+struct ResistanceParts {
+  double whole = 0.0;                 ///< [N]
+  std::vector<ResistancePart> parts;  ///< those that the scene has
+  double unexplained = 0.0;           ///< [N]
+
+  bool known() const { return !parts.empty(); }
+};
+
+/// Without parts for a history without the channels of rig/wheel_rig_outputs.cpp, or a window
+/// without travel.
+ResistanceParts resistance_parts(const History& history, const Window& window);
+
+}  // namespace furrow

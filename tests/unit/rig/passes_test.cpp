@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A wheel that rolls three times over the same floor: the way back is exact, the passes are alike,
+// and energy closes over all of them.
+
+#include "statistics/passes.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+#include "tests/support/checkpoints.h"
+#include "tests/support/error_of.h"
+#include "wheel_on_floor.h"
+
+namespace furrow {
+namespace {
+
+using test::error_of;
+using ::testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+constexpr double dt = 1e-4, height = 0.2003;  // [s], [m] of the axle at the start
+// settle 0.3 s, accelerate 0.1 s over 0.05 m, cruise 0.35 s; back 0.3 s: a period of 1.05 s
+const Words three{
+    "load_force",  "60",  "speed",           "1",   "mode",         "towed", "damping", "600",
+    "settle_time", "0.3", "accelerate_time", "0.1", "ground_level", "0",     "passes",  "3",
+    "pass_length", "0.4", "return_time",     "0.3"};
+
+Floor soft_floor() {
+  Floor floor;
+  floor.creep = 5e-3;
+  return floor;
+}
+
+History history_of(RigidWheel& wheel, double end) {
+  WheelRig rig(WheelRig::schema().read(three), wheel);
+  History history(WheelRig::channels());
+  const Floor floor = soft_floor();
+  run(rig, wheel, end, dt, &floor, [&](const std::vector<double>& row) { history.append(row); });
+  return history;
+}
+
+TEST(Passes, EachBeginsWhereTheFirstBeganAndIsAsLong) {
+  RigidWheel wheel = make_wheel(height);
+  const History history = history_of(wheel, 2.85);
+  const std::vector<double> time = history.column("time"), pass = history.column("pass"),
+                            stage = history.column("stage"), x = history.column("x"),
+                            z = history.column("z"), force = history.column("force_z");
+  double highest = 0.0, longest[4] = {};
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    const double clock = std::fmod(time[i] - 0.5 * dt, 1.05);
+    ASSERT_EQ(pass[i], 1.0 + std::floor(time[i] / 1.05 + 1e-9)) << time[i];
+    if (stage[i] == 0.0) {
+      ASSERT_NEAR(x[i], 0.0, 1e-12) << time[i];
+    }
+    if (stage[i] == 3.0) {
+      highest = std::max(highest, z[i]);
+      // lifted: clear of the floor while it goes back
+      if (clock > 0.85 && clock < 0.95) {
+        ASSERT_EQ(force[i], 0.0) << time[i];
+      }
+    } else {
+      longest[static_cast<int>(pass[i])] = std::max(longest[static_cast<int>(pass[i])], x[i]);
+    }
+  }
+  EXPECT_NEAR(highest, height + 0.04, 1e-9);  // a tenth of the diameter
+  for (int n = 1; n <= 3; ++n) EXPECT_NEAR(longest[n], 0.4, 1e-3) << n;
+  EXPECT_EQ(stage.back(), 2.0);
+  // the audit runs over all of it
+  const EnergyBudget budget = wheel.energy_budget();
+  EXPECT_NEAR(budget.residual(), 0.0, 1e-10 * std::abs(budget.drive_work));
+}
+
+// On a rigid floor every pass has the sinkage and the resistance of the first.
+TEST(Passes, OnARigidFloorAreAlike) {
+  RigidWheel wheel = make_wheel(height);
+  const History history = history_of(wheel, 2.85);
+  EXPECT_EQ(count_passes(history), 3);
+  const std::vector<Resistance> passes = measure_passes(history, {});
+  ASSERT_EQ(passes.size(), 3u);
+  for (const Resistance& pass : passes) {
+    EXPECT_NEAR(pass.value("sinkage").mean, passes[0].value("sinkage").mean, 1e-5);
+    EXPECT_NEAR(pass.value("force_z").mean, 60.0, 1.0);
+    EXPECT_NEAR(pass.value("resistance_coefficient").mean, 0.0, 0.02);
+  }
+}
+
+TEST(Passes, ARigMadeAgainOnTheWayBackContinuesBitwise) {
+  const Floor floor = soft_floor();
+  const auto step = [&](WheelRig& rig, RigidWheel& wheel, long i) {
+    rig.apply(static_cast<double>(i) * dt, dt);
+    wheel.advance(dt);
+    floor.press_on(wheel.surface());
+  };
+  for (const long from : {8000L, 9000L, 10000L}) {  // lifted, brought back, lowered
+    RigidWheel wheel = make_wheel(height), continued = make_wheel(height);
+    WheelRig rig(WheelRig::schema().read(three), wheel),
+        again(WheelRig::schema().read(three), continued);
+    for (long i = 0; i < from; ++i) step(rig, wheel, i);
+    test::hand_over(wheel, continued);
+    for (long i = from; i < from + 3000; ++i) {
+      step(rig, wheel, i);
+      step(again, continued, i);
+    }
+    EXPECT_EQ(test::state_of(wheel), test::state_of(continued)) << from;
+  }
+}
+
+TEST(Passes, RefusesWhatMakesNoSense) {
+  const auto refusal_of = [](const std::string& key, const std::string& value) {
+    Words words = three;
+    const auto found = std::find(words.begin(), words.end(), key);
+    if (value.empty())
+      words.erase(found, found + 2);
+    else if (found == words.end())
+      words.insert(words.end(), {key, value});
+    else
+      found[1] = value;
+    RigidWheel wheel = make_wheel();
+    return error_of<InputError>(
+        [&] { WheelRig(WheelRig::schema("fix wheel/rig").read(words), wheel); });
+  };
+  EXPECT_THAT(refusal_of("passes", "0"), HasSubstr("keyword 'passes' is 0"));
+  EXPECT_THAT(refusal_of("passes", "1"), HasSubstr("keyword 'pass_length' is given with passes 1"));
+  EXPECT_THAT(refusal_of("pass_length", ""),
+              HasSubstr("keyword 'pass_length' is missing with passes 3"));
+  EXPECT_THAT(refusal_of("return_time", ""), HasSubstr("keyword 'return_time' is missing"));
+  EXPECT_THAT(refusal_of("pass_length", "0.05"),
+              HasSubstr("keyword 'pass_length' is 0.05 m; allowed: more than 0.05 m, the travel of "
+                        "the acceleration"));
+  EXPECT_THAT(refusal_of("speed", "0"), HasSubstr("allowed: a speed > 0"));
+}
+
+}  // namespace
+}  // namespace furrow
