@@ -17,6 +17,7 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     "plan": ("inputs/costs/wheel_on_snow.csv --sinkage 3% --coefficient 0.01",),
     "choose": ("inputs/costs/wheel_on_snow.csv --error 10%",),
     "variables": ("inputs/scenes/wheel_on_snow.lig",),
+    "sweep": ("results/sweep", "continuum=results/a grains=results/b -o results/both"),
     "view": ("results/a", "results/a results/b -o both.html"),
     "film": ("results/a film.mp4", "results/a --colour displacement --cut 0 --seconds 5"),
     "report": ("results/a", "continuum=results/a grains=results/b -o both.html"),
