@@ -38,13 +38,13 @@ void TerrainEnergy::add_removed(double internal, double dissipated) {
 EnergyBudget TerrainEnergy::energy_budget(const std::vector<ParticleGroup>& groups,
                                           const Vector3& momentum, double boundary_work,
                                           const Communicator& ranks) const {
-  const double dissipated = sum_energy(groups, field::dissipated_energy) + removed_dissipated_;
+  const double plastic = sum_energy(groups, field::dissipated_energy) + removed_dissipated_;
   const double kinetic = nodes_.kinetic_energy + removed_kinetic_;
-  const double stored = internal_energy(groups) - initial_ + removed_internal_ - dissipated;
+  const double stored = internal_energy(groups) - initial_ + removed_internal_ - plastic;
   const double load_work = gravity_work_ + boundary_work;
-  const double numerical_loss = contact_work_ + load_work - stress_work_ - kinetic;
-  double sums[] = {kinetic,        stored,       dissipated,   contact_work_, load_work,
-                   numerical_loss, momentum.x(), momentum.y(), momentum.z()};
+  const double numerical_loss = contact_work_ + load_work - stress_work_ - slide_loss_ - kinetic;
+  double sums[] = {kinetic,        stored,       plastic + slide_loss_, contact_work_, load_work,
+                   numerical_loss, momentum.x(), momentum.y(),          momentum.z()};
   ranks.sum(sums, std::size(sums));
   EnergyBudget budget;
   budget.kinetic_energy = sums[0];
@@ -58,10 +58,18 @@ EnergyBudget TerrainEnergy::energy_budget(const std::vector<ParticleGroup>& grou
 }
 
 void TerrainEnergy::checkpoint(Checkpoint& state, const Communicator& ranks) {
-  double* totals[] = {&nodes_.kinetic_energy, &nodes_.momentum[0], &nodes_.momentum[1],
-                      &nodes_.momentum[2],    &initial_,           &stress_work_,
-                      &contact_work_,         &gravity_work_,      &removed_kinetic_,
-                      &removed_internal_,     &removed_dissipated_};
+  double* totals[] = {&nodes_.kinetic_energy,
+                      &nodes_.momentum[0],
+                      &nodes_.momentum[1],
+                      &nodes_.momentum[2],
+                      &initial_,
+                      &stress_work_,
+                      &contact_work_,
+                      &gravity_work_,
+                      &removed_kinetic_,
+                      &removed_internal_,
+                      &removed_dissipated_,
+                      &slide_loss_};
   std::vector<double> sums;
   for (const double* total : totals) sums.push_back(*total);
   if (state.saving()) ranks.sum(sums.data(), sums.size());

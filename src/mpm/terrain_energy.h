@@ -27,6 +27,9 @@ class TerrainEnergy {
   void add_stress_work(double work) { stress_work_ += work; }
   void add_contact_work(double work) { contact_work_ += work; }
   void add_gravity_work(double work) { gravity_work_ += work; }
+  /// What friction on a slide surface turned into heat in a step [J].
+  void add_slide_loss(double loss) { slide_loss_ += loss; }
+  double slide_loss() const { return slide_loss_; }  ///< this rank's share [J]
   /// Momentum and kinetic energy of the nodes after a step.
   void set_node_totals(const NodeTotals& totals) { nodes_ = totals; }
   const NodeTotals& node_totals() const { return nodes_; }
@@ -54,6 +57,7 @@ class TerrainEnergy {
   double stress_work_ = 0.0;
   double contact_work_ = 0.0;
   double gravity_work_ = 0.0;
+  double slide_loss_ = 0.0;
   double removed_kinetic_ = 0.0;
   double removed_internal_ = 0.0;
   double removed_dissipated_ = 0.0;

@@ -35,8 +35,7 @@ std::size_t compaction_column(const Material& material) {
 TerrainSnapshot take_snapshot(ContinuumTerrain& terrain) {
   std::vector<double> records;
   const std::vector<ParticleGroup>& groups = terrain.groups();
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    const ParticleGroup& group = groups[g];
+  for (const ParticleGroup& group : groups) {
     const Particles& particles = group.particles;
     const std::size_t compacted = compaction_column(*group.material);
     for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -53,7 +52,7 @@ TerrainSnapshot take_snapshot(ContinuumTerrain& terrain) {
         r[initial_position + a] = particles.data(column::initial_x + a)[p];
         r[v + a] = particles.data(column::velocity)[4 * p + a];
       }
-      r[layer] = static_cast<double>(g);
+      r[layer] = static_cast<double>(group.layer);
       r[volume] = particles.data(column::volume)[p] * ratio;
       r[density] = group.material->density() / ratio;
       r[pressure] = invariant.p;
