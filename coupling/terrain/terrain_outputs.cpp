@@ -12,7 +12,7 @@ const Outputs<TerrainReading>& terrain_outputs() {
        [](R& r) { return r.energy().kinetic_energy; }},
       {"stored_energy", "J", "elastic and frozen, since the start",
        [](R& r) { return r.energy().stored_energy; }},
-      {"dissipated_energy", "J", "plastic, turned into heat since the start",
+      {"dissipated_energy", "J", "plastic and on a slide surface, turned into heat since the start",
        [](R& r) { return r.energy().dissipated_energy; }},
       {"contact_work", "J", "of contacts on the terrain",
        [](R& r) { return r.energy().contact_work; }},
@@ -28,6 +28,8 @@ const Outputs<TerrainReading>& terrain_outputs() {
        [](R& r) { return r.terrain().stable_time_step(); }},
       {"base_impulse", "N s", "vertical impulse of the lower face on the terrain since the start",
        [](R& r) { return r.terrain().boundary_impulse(Face::z_lower).z(); }},
+      {"slide_loss", "J", "the part of the dissipated energy that friction on a slide surface took",
+       [](R& r) { return r.terrain().slide_loss(); }},
   };
   return list;
 }

@@ -29,10 +29,15 @@ inline constexpr std::array<TerrainField<std::vector<double>>, 8> scalar_terrain
      &TerrainSnapshot::compaction},
 }};
 
-inline constexpr std::array<TerrainField<Matrix3X>, 3> vector_terrain_fields{{
+inline constexpr std::array<TerrainField<Matrix3X>, 6> vector_terrain_fields{{
     {"x", "m", "position now", &TerrainSnapshot::x},
     {"initial_position", "m", "position at the start", &TerrainSnapshot::initial_position},
     {"v", "m/s", "velocity now", &TerrainSnapshot::v},
+    {"principal_stress", "Pa", "largest first, tension positive",
+     &TerrainSnapshot::principal_stress},
+    {"tension_axis", "", "direction of the first principal stress", &TerrainSnapshot::tension_axis},
+    {"compression_axis", "", "direction of the last principal stress",
+     &TerrainSnapshot::compression_axis},
 }};
 
 }  // namespace furrow

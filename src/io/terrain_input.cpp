@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "io/material_file.h"
+#include "io/slide_input.h"
 #include "material/plausibility.h"
 
 namespace furrow {
@@ -214,6 +215,7 @@ Schema terrain_schema(const std::string& subject) {
       .by_default(standard_gravity);
   schema.flag("initial_stress", "start with the stress of the terrain's own weight")
       .by_default("yes");
+  declare_slide_surface(schema);
   schema.flag("sheet", "carry triangles on the upper face, for grains that lie on the ground");
   schema.number("cfl", "", Range::closed(0.01, 1.0), "step over shortest cell and wave speed")
       .by_default(0.4)
@@ -255,6 +257,7 @@ TerrainParameters read_terrain(const Options& options, const std::string& folder
   ground.particles_per_cell = {particles, particles, particles};
   ground.gravity = {0.0, 0.0, -options.number("gravity")};
   ground.initial_stress = options.flag("initial_stress");
+  ground.slide = read_slide_surface(options);
   ground.surface_mesh = options.flag("sheet");
   ground.cfl = options.number("cfl");
   ground.remap_interval = static_cast<int>(options.integer("remap_interval"));

@@ -119,6 +119,9 @@ void write_vtp(const std::string& path, const TerrainSnapshot& terrain) {
   data->GetPointData()->AddArray(
       array_of("displacement", Matrix3X(terrain.x - terrain.initial_position)));
   data->GetPointData()->AddArray(array_of("velocity", terrain.v));
+  data->GetPointData()->AddArray(array_of("principal_stress", terrain.principal_stress));
+  data->GetPointData()->AddArray(array_of("tension_axis", terrain.tension_axis));
+  data->GetPointData()->AddArray(array_of("compression_axis", terrain.compression_axis));
   for (const auto& field : scalar_terrain_fields) {
     const std::vector<double>& values = terrain.*field.values;
     data->GetPointData()->AddArray(array_of(

@@ -2,6 +2,8 @@
 #include "mpm/boundary.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -63,12 +65,19 @@ Boundary::Boundary(const Grid& grid, const FaceArray<BoundaryKind>& kinds,
                    std::vector<WaveSpeeds> speeds_of_level)
     : kinds_(kinds), speeds_(std::move(speeds_of_level)) {
   impulse_.fill(Vector3::Zero());
+  far_.assign(static_cast<std::size_t>(grid.fields()), far_fields(grid, particles_per_cell));
+  has_initial_tractions_ =
+      std::find(kinds_.begin(), kinds_.end(), BoundaryKind::absorbing) == kinds_.end();
+}
+
+Boundary::FarFields Boundary::far_fields(const Grid& grid,
+                                         const std::array<int, 3>& particles_per_cell) const {
+  FarFields far_fields;
   for (const Face face : all_faces) {
     if (kinds_[face] != BoundaryKind::absorbing) continue;
-    has_initial_tractions_ = false;
     const FacePlane plane = plane_of(grid, face);
     const Axis& axis = grid.axis(plane.axis);
-    FarField& far = far_field_[face];
+    FarField& far = far_fields[face];
     far.axis = plane.axis;
     far.plane = plane.plane;
     far.nodes[0] = grid.nodes(plane.slow);
@@ -81,32 +90,91 @@ Boundary::Boundary(const Grid& grid, const FaceArray<BoundaryKind>& kinds,
     // For a load in the middle of the top, the far field begins half a width away sideways and a
     // depth away downwards.
     far.inverse_length = (plane.axis == 2 ? 1.0 : 2.0) / (axis.upper() - axis.lower());
+    far.decay = std::exp(-cell * far.inverse_length);
     far.initial_force.assign(static_cast<std::size_t>(3 * far.nodes[0] * far.nodes[1]), 0.0);
     far.displacement = far.initial_force;
   }
+  return far_fields;
+}
+
+/// Calls visit(far field) for the absorbing faces of each velocity field.
+template <class Visit>
+void Boundary::for_far_fields(Visit visit) {
+  for (FarFields& of_field : far_)
+    for (FarField& far : of_field)
+      if (!far.initial_force.empty()) visit(far);
 }
 
 void Boundary::capture_initial_tractions(Grid& grid, const PlaneRange& local,
                                          const Vector3& gravity) {
   has_initial_tractions_ = true;
+  for (int field = 0; field < grid.fields(); ++field)
+    for (const Face face : all_faces) {
+      if (kinds_[face] != BoundaryKind::absorbing) continue;
+      FarField& far = far_[static_cast<std::size_t>(field)][face];
+      for_face(grid, plane_of(grid, face), local, [&](std::size_t number, const NodeIndex& node) {
+        NodeSum& sum = grid.sum(node[0], node[1], node[2], field);
+        double& mass = grid.motion(node[0], node[1], node[2], field).mass;
+        for (int c = 0; c < 3; ++c)
+          far.initial_force[3 * number + static_cast<std::size_t>(c)] =
+              -sum.total[c] - mass * gravity[c];
+        sum = NodeSum{};  // a node on an edge is held by one face only
+        mass = 0.0;
+      });
+    }
+}
+
+double Boundary::speed_of(const FarField& far, const NodeIndex& node, int component) const {
+  const WaveSpeeds& speeds = speeds_[static_cast<std::size_t>(node[2])];
+  return component == far.axis ? speeds.pressure : speeds.shear;
+}
+
+/// Of the spring and of t_0, in a component n of the far field [m/s^2].
+double Boundary::held_acceleration(const FarField& far, std::size_t n, double speed, double mass) {
+  return far.initial_force[n] / mass -
+         speed * speed * far.inverse_extent * far.inverse_length * far.displacement[n];
+}
+
+/// A node on an edge is held by one face only: the others forget what they hold there.
+void Boundary::release(const Grid& grid, FarFields& far_fields, Face holder,
+                       const NodeIndex& node) const {
+  const auto along = [&](int axis) { return node[static_cast<std::size_t>(axis)]; };
   for (const Face face : all_faces) {
-    if (kinds_[face] != BoundaryKind::absorbing) continue;
-    FarField& far = far_field_[face];
-    for_face(grid, plane_of(grid, face), local, [&](std::size_t number, const NodeIndex& node) {
-      NodeSum& sum = grid.sum(node[0], node[1], node[2]);
-      double& mass = grid.motion(node[0], node[1], node[2]).mass;
-      for (int c = 0; c < 3; ++c)
-        far.initial_force[3 * number + static_cast<std::size_t>(c)] =
-            -sum.total[c] - mass * gravity[c];
-      sum = NodeSum{};  // a node on an edge is held by one face only
-      mass = 0.0;
+    const FacePlane plane = plane_of(grid, face);
+    if (face == holder || kinds_[face] != BoundaryKind::absorbing ||
+        along(plane.axis) != plane.plane)
+      continue;
+    const auto number =
+        static_cast<std::size_t>(along(plane.slow) * grid.nodes(plane.fast) + along(plane.fast));
+    for (std::size_t n = 3 * number; n < 3 * number + 3; ++n)
+      far_fields[face].initial_force[n] = far_fields[face].displacement[n] = 0.0;
+  }
+}
+
+void Boundary::renew_tractions(Grid& grid, const PlaneRange& local, const Vector3& gravity) {
+  if (!std::exchange(renewal_due_, false)) return;
+  constexpr Face behind = Face::x_lower;
+  for (int field = 0; field < grid.fields(); ++field) {
+    FarFields& far_fields = far_[static_cast<std::size_t>(field)];
+    FarField& far = far_fields[behind];
+    for_face(grid, plane_of(grid, behind), local, [&](std::size_t number, const NodeIndex& node) {
+      release(grid, far_fields, behind, node);
+      const NodeSum& sum = grid.sum(node[0], node[1], node[2], field);
+      const NodeMotion& motion = grid.motion(node[0], node[1], node[2], field);
+      for (int c = 0; c < 3; ++c) {
+        const std::size_t n = 3 * number + static_cast<std::size_t>(c);
+        const double dashpot = speed_of(far, node, c) * far.inverse_extent * motion.velocity[c];
+        far.initial_force[n] = motion.mass * (dashpot - gravity[c]) - sum.total[c];
+        far.displacement[n] = 0.0;
+      }
     });
   }
 }
 
 void Boundary::apply(Grid& grid, const PlaneRange& local, const PlaneRange& owned, double dt) {
-  for (const Face face : all_faces)
-    if (kinds_[face] == BoundaryKind::absorbing) absorb(grid, face, local, owned, dt);
+  for (int field = 0; field < grid.fields(); ++field)
+    for (const Face face : all_faces)
+      if (kinds_[face] == BoundaryKind::absorbing) absorb(grid, field, face, local, owned, dt);
   for (const Face face : all_faces) constrain(grid, face, local, owned);
 }
 
@@ -114,16 +182,17 @@ void Boundary::constrain(Grid& grid, Face face, const PlaneRange& local, const P
   if (kinds_[face] != BoundaryKind::smooth && kinds_[face] != BoundaryKind::rough) return;
   const FacePlane plane = plane_of(grid, face);
   for_face(grid, plane, local, [&](std::size_t, const NodeIndex& index) {
-    NodeMotion& node = grid.motion(index[0], index[1], index[2]);
-    for (int c = 0; c < 3; ++c) {
-      if (kinds_[face] == BoundaryKind::smooth && c != plane.axis) continue;
-      if (owned.contains(index[0])) impulse_[face][c] -= node.mass * node.velocity[c];
-      node.velocity[c] = 0.0;
+    for (int field = 0; field < grid.fields(); ++field) {
+      NodeMotion& node = grid.motion(index[0], index[1], index[2], field);
+      for (int c = 0; c < 3; ++c) {
+        if (kinds_[face] == BoundaryKind::smooth && c != plane.axis) continue;
+        if (owned.contains(index[0])) impulse_[face][c] -= node.mass * node.velocity[c];
+        node.velocity[c] = 0.0;
+      }
     }
   });
 }
 
-/// Whether a smooth or rough face fixes a component of a node's velocity.
 bool Boundary::is_fixed(const Grid& grid, const std::array<int, 3>& node, int component) const {
   for (const Face face : all_faces) {
     const FacePlane plane = plane_of(grid, face);
@@ -135,21 +204,18 @@ bool Boundary::is_fixed(const Grid& grid, const std::array<int, 3>& node, int co
   return false;
 }
 
-void Boundary::absorb(Grid& grid, Face face, const PlaneRange& local, const PlaneRange& owned,
-                      double dt) {
-  FarField& far = far_field_[face];
+void Boundary::absorb(Grid& grid, int field, Face face, const PlaneRange& local,
+                      const PlaneRange& owned, double dt) {
+  FarField& far = far_[static_cast<std::size_t>(field)][face];
   for_face(grid, plane_of(grid, face), local, [&](std::size_t number, const NodeIndex& index) {
-    NodeMotion& node = grid.motion(index[0], index[1], index[2]);
+    NodeMotion& node = grid.motion(index[0], index[1], index[2], field);
     if (!(node.mass > 0.0)) return;
-    const WaveSpeeds& speeds = speeds_[static_cast<std::size_t>(index[2])];
     for (int c = 0; c < 3; ++c) {
       if (is_fixed(grid, index, c)) continue;
-      const double speed = c == far.axis ? speeds.pressure : speeds.shear;
+      const double speed = speed_of(far, index, c);
       const std::size_t n = 3 * number + static_cast<std::size_t>(c);
       const double before = node.velocity[c];
-      const double pull =
-          dt * (far.initial_force[n] / node.mass -
-                speed * speed * far.inverse_extent * far.inverse_length * far.displacement[n]);
+      const double pull = dt * held_acceleration(far, n, speed, node.mass);
       const double after = (before + pull) / (1.0 + dt * speed * far.inverse_extent);
       node.velocity[c] = after;
       far.displacement[n] += dt * after;
@@ -163,9 +229,14 @@ void Boundary::absorb(Grid& grid, Face face, const PlaneRange& local, const Plan
 }
 
 void Boundary::shift_x(int cells) {
-  for (FarField& far : far_field_) {
-    if (far.initial_force.empty()) continue;
-    if (far.axis == 0) throw Error("a face across x that absorbs cannot move");
+  for_far_fields([&](FarField& far) {
+    if (far.axis == 0) {
+      if (far.plane == 0)
+        renewal_due_ = true;
+      else
+        for (double& u : far.displacement) u *= std::pow(far.decay, cells);
+      return;
+    }
     // The two outermost rows of nodes at each end stay, as their splines are those of the ends; the
     // rows between move with the ground. A row that enters ahead is undisturbed: it has the initial
     // force of the row beside it and no displacement.
@@ -180,13 +251,12 @@ void Boundary::shift_x(int cells) {
       for (int i = 0; i < cells; ++i)
         values->insert(values->end() - 2 * row, entering->begin(), entering->end());
     }
-  }
+  });
 }
 
 void Boundary::synchronise(const Communicator& ranks, const PlaneRange& owned) {
   if (ranks.size() == 1) return;
-  for (FarField& far : far_field_) {
-    if (far.initial_force.empty()) continue;
+  for_far_fields([&](FarField& far) {
     for (std::vector<double>* values : {&far.initial_force, &far.displacement}) {
       const std::size_t row = 3 * static_cast<std::size_t>(far.nodes[1]);
       for (std::size_t n = 0; n < values->size(); ++n) {
@@ -195,7 +265,7 @@ void Boundary::synchronise(const Communicator& ranks, const PlaneRange& owned) {
       }
       ranks.sum(values->data(), values->size());
     }
-  }
+  });
 }
 
 void Boundary::sum_over_ranks(const Communicator& ranks) {
@@ -205,17 +275,17 @@ void Boundary::sum_over_ranks(const Communicator& ranks) {
 
 void Boundary::checkpoint(Checkpoint& state, bool keep_sums) {
   state.value("has_initial_tractions", has_initial_tractions_);
+  state.value("renewal_due", renewal_due_);
   state.value("work", work_);
   for (Vector3& impulse : impulse_) state.values("impulse", impulse);
   if (!keep_sums) {
     work_ = 0.0;
     impulse_.fill(Vector3::Zero());
   }
-  for (FarField& far : far_field_) {
-    if (far.initial_force.empty()) continue;
+  for_far_fields([&](FarField& far) {
     state.values("initial_force", far.initial_force.data(), far.initial_force.size());
     state.values("far_displacement", far.displacement.data(), far.displacement.size());
-  }
+  });
 }
 
 }  // namespace furrow

@@ -34,7 +34,16 @@ struct WaveSpeeds {
 /// with c = c_p across the face and c_s along it, t_0 the traction that held the ground at the
 /// start, u the displacement since then, and L the distance over which the far field gives way. The
 /// dashpot is quiet for plane waves, the spring holds statically. With a node's mass m and the
-/// extent l of its B-spline across the face, rho A = m/l. Integrated implicitly.
+/// extent l of its B-spline across the face, rho A = m/l. Integrated implicitly. Of ground with two
+/// velocity fields, each has a far field of its own.
+///
+/// When the grid moves along x by a cell, values of the far field stay with the ground, and faces
+/// across x come to ground that they have not held yet:
+///   ahead   it is undisturbed: t_0 stays; the displacement of the far field falls off over L, so
+///           that u becomes u exp(-h/L) in a cell of length h
+///   behind  it is deformed for good and carries another stress: t_0 becomes what holds it beside
+///           the dashpot, t_0 = t + rho c v with t the traction that leaves the node at its
+///           velocity, and u = 0
 ///
 /// Plane ranges: `local` planes are those that this rank's particles reach; sums (impulse, work)
 /// count the `owned` planes only, so that their sum over the ranks counts each node once.
@@ -46,12 +55,17 @@ class Boundary {
            const std::array<int, 3>& particles_per_cell, std::vector<WaveSpeeds> speeds_of_level);
 
   BoundaryKind kind(Face face) const { return kinds_[face]; }
+  /// Whether a smooth or rough face fixes a component of a node's velocity.
+  bool is_fixed(const Grid& grid, const std::array<int, 3>& node, int component) const;
 
   /// False until an absorbing face knows t_0.
   bool has_initial_tractions() const { return has_initial_tractions_; }
   /// Takes t_0 from the node sums (forces of the initial stress) and gravity [m/s^2] before the
   /// first step; the sums and masses of the absorbing nodes are set to zero.
   void capture_initial_tractions(Grid& grid, const PlaneRange& local, const Vector3& gravity);
+
+  /// After a move of the grid, lets the face behind take t_0 from node sums and gravity [m/s^2].
+  void renew_tractions(Grid& grid, const PlaneRange& local, const Vector3& gravity);
 
   /// Changes the velocities of the face nodes over a step dt [s].
   void apply(Grid& grid, const PlaneRange& local, const PlaneRange& owned, double dt);
@@ -61,8 +75,7 @@ class Boundary {
   /// Work of the absorbing faces on the ground since the start, this rank's share [J].
   double work() const { return work_; }
 
-  /// The grid moved by whole cells along x: the values of the far field stay with the ground.
-  /// @throws Error when a face across x absorbs
+  /// The grid moved by whole cells along x.
   void shift_x(int cells);
   /// Every rank takes the displacements of the rank that owns a plane. Collective.
   void synchronise(const Communicator& ranks, const PlaneRange& owned);
@@ -79,19 +92,29 @@ class Boundary {
     int nodes[2] = {0, 0};              // along the face: slow, fast
     double inverse_extent = 0.0;        // 1/l [1/m]
     double inverse_length = 0.0;        // 1/L [1/m]
+    double decay = 0.0;                 // exp(-h/L) of the outermost cell
     std::vector<double> initial_force;  // t_0 A [N]
     std::vector<double> displacement;   // u [m]
   };
+  using FarFields = FaceArray<FarField>;
+  double speed_of(const FarField& far, const std::array<int, 3>& node, int component) const;
+  static double held_acceleration(const FarField& far, std::size_t n, double speed, double mass);
+  void release(const Grid& grid, FarFields& far_fields, Face holder,
+               const std::array<int, 3>& node) const;
+  FarFields far_fields(const Grid& grid, const std::array<int, 3>& particles_per_cell) const;
   void constrain(Grid& grid, Face face, const PlaneRange& local, const PlaneRange& owned);
-  void absorb(Grid& grid, Face face, const PlaneRange& local, const PlaneRange& owned, double dt);
-  bool is_fixed(const Grid& grid, const std::array<int, 3>& node, int component) const;
+  void absorb(Grid& grid, int field, Face face, const PlaneRange& local, const PlaneRange& owned,
+              double dt);
+  template <class Visit>
+  void for_far_fields(Visit visit);
 
   FaceArray<BoundaryKind> kinds_;
   std::vector<WaveSpeeds> speeds_;
-  FaceArray<FarField> far_field_;  // empty vectors unless the face absorbs
+  std::vector<FarFields> far_;  // of each velocity field; empty vectors unless the face absorbs
   FaceArray<Vector3> impulse_;
   double work_ = 0.0;
   bool has_initial_tractions_ = true;
+  bool renewal_due_ = false;  // the face behind stands in ground whose traction it does not know
 };
 
 }  // namespace furrow

@@ -18,9 +18,24 @@ Discretisation discretise(const TerrainParameters& parameters, const Communicato
   Grid grid = make_grid(parameters, where);
   const int x_cells = grid.axis(0).cells();
   std::vector<ParticleGroup> groups;
-  for (const TerrainLayer& layer : parameters.layers)
-    groups.push_back({layer.material, Particles(*layer.material)});
+  for (int field = 0; field < grid.fields(); ++field)
+    for (std::size_t n = 0; n < parameters.layers.size(); ++n) {
+      const std::shared_ptr<const Material>& material = parameters.layers[n].material;
+      groups.push_back({material, Particles(*material), n, field});
+    }
   return {std::move(grid), std::move(groups), Partition(ranks, x_cells)};
+}
+
+/// Collective.
+void check_both_sides(const Discretisation& discretisation, const std::string& where) {
+  double count[2] = {0.0, 0.0};
+  for (const ParticleGroup& group : discretisation.groups)
+    count[group.field] += static_cast<double>(group.particles.size());
+  discretisation.ranks().sum(count, 2);
+  if (!(count[0] > 0.0) || !(count[1] > 0.0))
+    throw InputError(where, "has a slide surface that leaves all of it on one side",
+                     "a surface that goes through the ground",
+                     "look at the surface's place, and at 'centre' and 'surface' of the ground");
 }
 
 }  // namespace
@@ -35,17 +50,20 @@ ContinuumTerrain::ContinuumTerrain(const TerrainParameters& parameters, const Co
       distribution_(discretisation_, boundary_),
       remap_(discretisation_, parameters.remap_interval),
       loads_(discretisation_, remap_),
-      step_(discretisation_, boundary_, distribution_, remap_, loads_, energy_, parameters.gravity),
+      slide_(parameters.slide),
+      step_(discretisation_, boundary_, distribution_, remap_, loads_, energy_, parameters.gravity,
+            slide_ ? &*slide_ : nullptr),
       window_(parameters, discretisation_, boundary_, fill_, energy_, where) {
-  fill();
+  fill(where);
   step_.capture_initial_tractions();
 }
 
-void ContinuumTerrain::fill() {
+void ContinuumTerrain::fill(const std::string& where) {
   const Grid& grid = discretisation_.grid;
   const int cells = grid.axis(0).cells();
   discretisation_.partition.rebalance(std::vector<double>(static_cast<std::size_t>(cells), 1.0));
   for (int cell = 0; cell < cells; ++cell) fill_.add_cells(cell, discretisation_);
+  if (slide_) check_both_sides(discretisation_, where);
   energy_.add_initial(internal_energy(discretisation_.groups));
   if (parameters_.surface_mesh)
     free_surface_ = FreeSurfaceMesh(fill_.surface_ids(grid), fill_.surface_rows(grid),
@@ -116,6 +134,8 @@ Vector3 ContinuumTerrain::boundary_impulse(Face face) const {
   ranks().sum(impulse.data(), 3);
   return impulse;
 }
+
+double ContinuumTerrain::slide_loss() const { return ranks().sum(energy_.slide_loss()); }
 
 double ContinuumTerrain::particle_count() const {
   double count = 0.0;

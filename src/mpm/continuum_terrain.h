@@ -4,6 +4,7 @@
 /// affine transfers (APIC) and a remap every few steps, for any material of the library and any
 /// surface that presses on it. terrain_step.h explains the method.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ namespace furrow {
 ///   Discretisation        grid, particles, and the partition of both over the ranks
 ///   ParticleDistribution  particles in the order of their cells, on the ranks of their cells
 ///   Boundary              conditions at the faces of the grid
+///   SlideContact          friction between two pieces of ground
 ///   TerrainStep           one step; RemapControl: when particles and grid are remapped
 ///   PointLoads            forces at points and the motion there: contact
 ///   MovingWindow          ground that moves along with a body, and the rut behind it
@@ -65,6 +67,8 @@ class ContinuumTerrain : public Body {
 
   /// Impulse that a face of the grid gave to the ground since the start [N s].
   Vector3 boundary_impulse(Face face) const;
+  /// What friction on the slide surface turned into heat since the start [J].
+  double slide_loss() const;
   double particle_count() const;  ///< of all ranks
 
   // ---- this rank's particles; not collective ----------------------------------------------------
@@ -95,7 +99,7 @@ class ContinuumTerrain : public Body {
   double travelled() const { return window_.travelled(); }  ///< of the grid since the start [m]
 
  private:
-  void fill();
+  void fill(const std::string& where);
   void sort_particles();
   void checkpoint_boundary(Checkpoint& state);
   static void match_layer(const TerrainLayer& layer, Checkpoint& state);
@@ -109,6 +113,7 @@ class ContinuumTerrain : public Body {
   ParticleDistribution distribution_;
   RemapControl remap_;
   PointLoads loads_;
+  std::optional<SlideContact> slide_;
   TerrainStep step_;
   MovingWindow window_;
   FreeSurfaceMesh free_surface_;

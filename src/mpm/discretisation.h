@@ -15,12 +15,13 @@ namespace furrow {
 /// have values here; `groups` holds this rank's particles.
 struct Discretisation {
   Grid grid;
-  std::vector<ParticleGroup> groups;  ///< one for each layer, from the top
+  /// one for each layer, from the top; with a slide surface, first those of its inner side
+  std::vector<ParticleGroup> groups;
   Partition partition;
 
   const Communicator& ranks() const { return partition.ranks(); }
   /// The grid as this rank's kernels may use it: particles in its slab and one cell beyond.
-  GridView local_view();
+  GridView local_view(int field = 0);
 };
 
 }  // namespace furrow

@@ -6,8 +6,9 @@
 
 namespace furrow {
 
-Grid::Grid(Axis x, Axis y, Axis z) : axes_{std::move(x), std::move(y), std::move(z)} {
-  const std::size_t count = static_cast<std::size_t>(nodes(0)) * plane_size();
+Grid::Grid(Axis x, Axis y, Axis z, int fields)
+    : axes_{std::move(x), std::move(y), std::move(z)}, fields_(fields) {
+  const std::size_t count = static_cast<std::size_t>(fields * nodes(0)) * plane_size();
   sums_.resize(count);
   motions_.resize(count);
   displacements_.resize(count);
@@ -17,67 +18,73 @@ double Grid::shortest_cell() const {
   return std::min({axis(0).shortest(), axis(1).shortest(), axis(2).shortest()});
 }
 
-std::size_t Grid::last(const PlaneRange& planes) const {
-  return static_cast<std::size_t>(std::max(planes.from, planes.to)) * plane_size();
+template <class Visit>
+void Grid::for_nodes(const PlaneRange& planes, Visit&& visit) const {
+  for (int field = 0; field < fields_; ++field)
+    for (std::size_t n = index(planes.from, 0, 0, field),
+                     end = index(std::max(planes.from, planes.to), 0, 0, field);
+         n < end; ++n)
+      visit(n);
 }
 
 void Grid::clear_sums(const PlaneRange& planes) {
-  std::fill(sums_.data() + first(planes), sums_.data() + last(planes), NodeSum{});
+  for_nodes(planes, [&](std::size_t n) { sums_[n] = NodeSum{}; });
 }
 
 void Grid::compute_velocities(const PlaneRange& planes) {
-  for (std::size_t n = first(planes), end = last(planes); n < end; ++n) {
+  for_nodes(planes, [&](std::size_t n) {
     const NodeSum sum = std::exchange(sums_[n], NodeSum{});
     const double inverse = sum.mass > 0.0 ? 1.0 / sum.mass : 0.0;
     for (int a = 0; a < 3; ++a) motions_[n].velocity[a] = inverse * sum.total[a];
     motions_[n].mass = sum.mass;
-  }
+  });
 }
 
 void Grid::accelerate(const PlaneRange& planes, double dt, const Vector3& gravity) {
-  for (std::size_t n = first(planes), end = last(planes); n < end; ++n) {
+  for_nodes(planes, [&](std::size_t n) {
     const NodeSum sum = std::exchange(sums_[n], NodeSum{});
     NodeMotion& node = motions_[n];
-    if (!(node.mass > 0.0)) continue;
+    if (!(node.mass > 0.0)) return;
     const double per_mass = dt / node.mass;
     for (int a = 0; a < 3; ++a) node.velocity[a] += per_mass * sum.total[a] + dt * gravity[a];
-  }
+  });
 }
 
 NodeTotals Grid::move(const PlaneRange& planes, const PlaneRange& owned, double dt) {
-  for (std::size_t n = first(planes), end = last(planes); n < end; ++n)
+  for_nodes(planes, [&](std::size_t n) {
     for (int a = 0; a < 3; ++a) displacements_[n].u[a] += dt * motions_[n].velocity[a];
+  });
   NodeTotals totals;
-  for (std::size_t n = first(owned), end = last(owned); n < end; ++n) {
+  for_nodes(owned, [&](std::size_t n) {
     const NodeMotion& node = motions_[n];
     const Vector3 v(node.velocity[0], node.velocity[1], node.velocity[2]);
     totals.momentum += node.mass * v;
     totals.kinetic_energy += 0.5 * node.mass * v.squaredNorm();
-  }
+  });
   return totals;
 }
 
 void Grid::clear_displacement(const PlaneRange& planes) {
-  std::fill(displacements_.data() + first(planes), displacements_.data() + last(planes),
-            NodeDisplacement{});
+  for_nodes(planes, [&](std::size_t n) { displacements_[n] = NodeDisplacement{}; });
 }
 
-GridView Grid::view() {
+GridView Grid::view(int field) {
+  const std::size_t n = index(0, 0, 0, field);
   return {{axes_[0].view(), axes_[1].view(), axes_[2].view()},
-          sums_.front().total,
-          motions_.front().velocity,
-          displacements_.front().u};
+          sums_[n].total,
+          motions_[n].velocity,
+          displacements_[n].u};
 }
 
 void Grid::checkpoint(Checkpoint& state, const Communicator& ranks, const PlaneRange& owned) {
   constexpr std::size_t length = 8;  // of a node: velocity, mass, displacement
   std::vector<double> numbers(length * motions_.size(), 0.0);
   if (state.saving()) {
-    for (std::size_t n = first(owned); n < last(owned); ++n) {
+    for_nodes(owned, [&](std::size_t n) {
       std::copy_n(motions_[n].velocity, 3, numbers.data() + length * n);
       numbers[length * n + 3] = motions_[n].mass;
       std::copy_n(displacements_[n].u, 4, numbers.data() + length * n + 4);
-    }
+    });
     ranks.sum(numbers.data(), numbers.size());
   }
   state.values("nodes", numbers.data(), numbers.size());

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The background grid on three axes: sums of the particles at its nodes, and the motion of the
-/// nodes.
+/// nodes. Ground that slides on a surface inside of it has two velocity fields, one for each side
+/// (slide_contact.h); otherwise there is one.
 
 #include <array>
 #include <cstddef>
@@ -43,8 +44,10 @@ struct PlaneRange {
 
 class Grid {
  public:
-  Grid(Axis x, Axis y, Axis z);
+  /// @param fields  velocity fields at each node
+  Grid(Axis x, Axis y, Axis z, int fields = 1);
 
+  int fields() const { return fields_; }
   const Axis& axis(int a) const { return axes_[static_cast<std::size_t>(a)]; }
   int nodes(int a) const { return axis(a).nodes(); }
   PlaneRange all_planes() const { return {0, nodes(0)}; }
@@ -53,9 +56,11 @@ class Grid {
   }
   double shortest_cell() const;  ///< [m]
 
-  NodeSum& sum(int i, int j, int k) { return sums_[index(i, j, k)]; }
-  NodeMotion& motion(int i, int j, int k) { return motions_[index(i, j, k)]; }
-  double* plane_sums(int i) { return sums_[index(i, 0, 0)].total; }  ///< four numbers a node
+  NodeSum& sum(int i, int j, int k, int field = 0) { return sums_[index(i, j, k, field)]; }
+  NodeMotion& motion(int i, int j, int k, int field = 0) { return motions_[index(i, j, k, field)]; }
+  double* plane_sums(int i, int field) {  ///< four numbers a node
+    return sums_[index(i, 0, 0, field)].total;
+  }
 
   void clear_sums(const PlaneRange& planes);
   /// Takes the masses; velocity = momentum/mass. The sums are zero afterwards.
@@ -69,24 +74,24 @@ class Grid {
   /// The axis moves along x by whole cells; the numbers of the nodes stay where they are in memory.
   void shift_x(int cells) { axes_[0].shift(cells); }
   /// Valid until the grid is shifted.
-  GridView view();
+  GridView view(int field = 0);
 
   /// Motion and displacement of all nodes, as of the rank that owns their plane. Collective.
   void checkpoint(Checkpoint& state, const Communicator& ranks, const PlaneRange& owned);
 
  private:
-  std::size_t index(int i, int j, int k) const {
-    return (static_cast<std::size_t>(i) * static_cast<std::size_t>(nodes(1)) +
+  std::size_t index(int i, int j, int k, int field) const {
+    return ((static_cast<std::size_t>(field * nodes(0) + i)) * static_cast<std::size_t>(nodes(1)) +
             static_cast<std::size_t>(j)) *
                static_cast<std::size_t>(nodes(2)) +
            static_cast<std::size_t>(k);
   }
-  std::size_t first(const PlaneRange& planes) const {
-    return static_cast<std::size_t>(planes.from) * plane_size();
-  }
-  std::size_t last(const PlaneRange& planes) const;
+  /// Calls visit(n) for the nodes of some planes, field by field.
+  template <class Visit>
+  void for_nodes(const PlaneRange& planes, Visit&& visit) const;
 
   std::array<Axis, 3> axes_;
+  int fields_;
   std::vector<NodeSum> sums_;
   std::vector<NodeMotion> motions_;
   std::vector<NodeDisplacement> displacements_;

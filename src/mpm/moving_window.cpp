@@ -22,10 +22,6 @@ MovingWindow::MovingWindow(const TerrainParameters& parameters, Discretisation& 
   if (!discretisation.grid.axis(0).uniform())
     throw InputError(where, "moves along a graded x axis",
                      "a uniform x axis for ground that moves");
-  for (const Face face : {Face::x_lower, Face::x_upper})
-    if (boundary.kind(face) == BoundaryKind::absorbing)
-      throw InputError(where, "moves along x and absorbs there",
-                       "smooth, rough or free faces across x for ground that moves");
   if (parameters.surface_mesh)
     throw InputError(where, "moves along x and carries a sheet", "one of the two",
                      "grains on moving ground would be left behind");

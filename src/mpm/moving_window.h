@@ -18,8 +18,7 @@ namespace furrow {
 class MovingWindow {
  public:
   /// All parts must outlive the window. @param where  names the terrain in errors
-  /// @throws InputError for a window with a graded x axis, absorbing faces across x or a surface
-  /// mesh
+  /// @throws InputError for a window with a graded x axis or a surface mesh
   MovingWindow(const TerrainParameters& parameters, Discretisation& discretisation,
                Boundary& boundary, TerrainFill& fill, TerrainEnergy& energy,
                const std::string& where);

@@ -10,10 +10,13 @@
 
 namespace furrow {
 
-/// All particles of one material (one layer) on this rank.
+/// All particles of one material (one layer) on this rank; of those on one side of a slide surface,
+/// where there is one.
 struct ParticleGroup {
   std::shared_ptr<const Material> material;
   Particles particles;
+  std::size_t layer = 0;  ///< from the top
+  int field = 0;          ///< of the velocity fields of the grid
 
   double mass(std::size_t particle) const {  ///< [kg]
     return material->density() * particles.data(column::volume)[particle];

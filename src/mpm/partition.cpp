@@ -50,6 +50,10 @@ PlaneRange Partition::owned_planes() const {
 
 void Partition::sum_shared(Grid& grid) const {
   if (ranks_.size() == 1) return;
+  for (int field = 0; field < grid.fields(); ++field) sum_shared(grid, field);
+}
+
+void Partition::sum_shared(Grid& grid, int field) const {
   const PlaneRange mine = local_planes();
   const std::size_t length = 4 * grid.plane_size();
   const auto shared = [&](int rank) {
@@ -57,7 +61,7 @@ void Partition::sum_shared(Grid& grid) const {
     return PlaneRange{std::max(mine.from, theirs.from), std::min(mine.to, theirs.to)};
   };
   const auto numbers = [&](const PlaneRange& planes) {
-    const double* first = grid.plane_sums(planes.from);
+    const double* first = grid.plane_sums(planes.from, field);
     return std::vector<double>(first,
                                first + length * static_cast<std::size_t>(planes.to - planes.from));
   };
@@ -85,7 +89,7 @@ void Partition::sum_shared(Grid& grid) const {
     own = numbers({plane, plane + 1});
     std::replace(parts.begin(), parts.end(), static_cast<const double*>(nullptr),
                  static_cast<const double*>(own.data()));
-    double* sum = grid.plane_sums(plane);
+    double* sum = grid.plane_sums(plane, field);
     std::copy_n(parts[0], length, sum);
     for (std::size_t p = 1; p < parts.size(); ++p)
       for (std::size_t n = 0; n < length; ++n) sum[n] += parts[p][n];

@@ -39,6 +39,7 @@ class Partition {
 
  private:
   PlaneRange local_planes_of(int rank) const;
+  void sum_shared(Grid& grid, int field) const;
 
   Communicator ranks_;
   std::vector<int> bounds_;  // slab r: cells bounds_[r] to bounds_[r + 1] - 1

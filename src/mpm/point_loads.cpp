@@ -4,22 +4,28 @@
 namespace furrow {
 
 PointLoads::PointLoads(Discretisation& discretisation, RemapControl& remap)
-    : discretisation_(discretisation), remap_(remap), kernels_(transfer_kernels()) {}
+    : discretisation_(discretisation),
+      remap_(remap),
+      kernels_(transfer_kernels()),
+      forces_(static_cast<std::size_t>(discretisation.grid.fields())),
+      grid_motions_(forces_.size()) {}
 
 void PointLoads::add(const ParticleIndex& near, const Vector3& force, const Vector3& point) {
   loads_.push_back({near, force, point});
 }
 
 void PointLoads::scatter_to_grid() {
-  forces_.clear();
+  for (std::vector<PointForce>& forces : forces_) forces.clear();
   for (const PointLoad& load : loads_) {
     const Vector3 shape = particles_of(load.near).shape_position(load.near.particle);
     const Vector3 arm = load.point - shape;
-    forces_.push_back({{shape[0], shape[1], shape[2]},
-                       {load.force[0], load.force[1], load.force[2]},
-                       {arm[0], arm[1], arm[2]}});
+    forces_[field_of(load.near)].push_back({{shape[0], shape[1], shape[2]},
+                                            {load.force[0], load.force[1], load.force[2]},
+                                            {arm[0], arm[1], arm[2]}});
   }
-  kernels_.scatter_point_forces(discretisation_.local_view(), forces_.data(), forces_.size());
+  for (std::size_t field = 0; field < forces_.size(); ++field)
+    kernels_.scatter_point_forces(discretisation_.local_view(static_cast<int>(field)),
+                                  forces_[field].data(), forces_[field].size());
 }
 
 void PointLoads::count_work(double dt, TerrainEnergy& energy) {
@@ -48,13 +54,19 @@ void PointLoads::interpolate_motion(const std::vector<ParticleIndex>& particles,
     }
     return;
   }
-  grid_motions_.resize(particles.size());
-  for (std::size_t n = 0; n < particles.size(); ++n)
-    Eigen::Map<Vector3>(grid_motions_[n].shape_position) =
-        particles_of(particles[n]).shape_position(particles[n].particle);
-  kernels_.interpolate_motion(discretisation_.local_view(), grid_motions_.data(), particles.size());
+  for (std::vector<PointMotion>& of_field : grid_motions_) of_field.clear();
+  for (const ParticleIndex& particle : particles) {
+    std::vector<PointMotion>& of_field = grid_motions_[field_of(particle)];
+    Eigen::Map<Vector3>(of_field.emplace_back().shape_position) =
+        particles_of(particle).shape_position(particle.particle);
+  }
+  for (std::size_t field = 0; field < grid_motions_.size(); ++field)
+    kernels_.interpolate_motion(discretisation_.local_view(static_cast<int>(field)),
+                                grid_motions_[field].data(), grid_motions_[field].size());
+  std::vector<std::size_t> next(grid_motions_.size(), 0);
   for (std::size_t n = 0; n < particles.size(); ++n) {
-    const PointMotion& grid = grid_motions_[n];
+    const std::size_t field = field_of(particles[n]);
+    const PointMotion& grid = grid_motions_[field][next[field]++];
     motions[n].shape_position = Eigen::Map<const Vector3>(grid.shape_position);
     motions[n].position = particles_of(particles[n]).position(particles[n].particle) +
                           Eigen::Map<const Vector3>(grid.displacement);

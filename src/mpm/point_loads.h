@@ -49,14 +49,17 @@ class PointLoads {
   const Particles& particles_of(const ParticleIndex& index) const {
     return discretisation_.groups[index.group].particles;
   }
+  std::size_t field_of(const ParticleIndex& index) const {
+    return static_cast<std::size_t>(discretisation_.groups[index.group].field);
+  }
 
   Discretisation& discretisation_;
   RemapControl& remap_;
   const TransferKernels& kernels_;
   std::vector<PointLoad> loads_;
-  // Buffers of a step.
-  std::vector<PointForce> forces_;
-  std::vector<PointMotion> grid_motions_;
+  // Buffers of a step; forces and motions by velocity field.
+  std::vector<std::vector<PointForce>> forces_;
+  std::vector<std::vector<PointMotion>> grid_motions_;
   std::vector<ParticleIndex> loaded_;
   std::vector<ParticleMotion> loaded_motions_;
 };

@@ -38,13 +38,13 @@ void TerrainEnergy::add_removed(double internal, double dissipated) {
 EnergyBudget TerrainEnergy::energy_budget(const std::vector<ParticleGroup>& groups,
                                           const Vector3& momentum, double boundary_work,
                                           const Communicator& ranks) const {
-  const double dissipated = sum_energy(groups, field::dissipated_energy) + removed_dissipated_;
+  const double plastic = sum_energy(groups, field::dissipated_energy) + removed_dissipated_;
   const double kinetic = nodes_.kinetic_energy + removed_kinetic_;
-  const double stored = internal_energy(groups) - initial_ + removed_internal_ - dissipated;
+  const double stored = internal_energy(groups) - initial_ + removed_internal_ - plastic;
   const double load_work = gravity_work_ + boundary_work;
-  const double numerical_loss = contact_work_ + load_work - stress_work_ - kinetic;
-  double sums[] = {kinetic,        stored,       dissipated,   contact_work_, load_work,
-                   numerical_loss, momentum.x(), momentum.y(), momentum.z()};
+  const double numerical_loss = contact_work_ + load_work - stress_work_ - slide_loss_ - kinetic;
+  double sums[] = {kinetic,        stored,       plastic + slide_loss_, contact_work_, load_work,
+                   numerical_loss, momentum.x(), momentum.y(),          momentum.z()};
   ranks.sum(sums, std::size(sums));
   EnergyBudget budget;
   budget.kinetic_energy = sums[0];
@@ -59,8 +59,8 @@ EnergyBudget TerrainEnergy::energy_budget(const std::vector<ParticleGroup>& grou
 
 TerrainWork TerrainEnergy::work(double boundary_work, const Communicator& ranks) const {
   const double kinetic = nodes_.kinetic_energy + removed_kinetic_;
-  double sums[] = {contact_work_, stress_work_, vertical_stress_work_,
-                   gravity_work_, kinetic,      boundary_work};
+  double sums[] = {contact_work_, stress_work_ + slide_loss_, vertical_stress_work_,
+                   gravity_work_, kinetic,                    boundary_work};
   ranks.sum(sums, std::size(sums));
   TerrainWork work;
   work.contact = sums[0];
@@ -85,7 +85,8 @@ void TerrainEnergy::checkpoint(Checkpoint& state, const Communicator& ranks) {
                       &removed_kinetic_,
                       &removed_internal_,
                       &removed_dissipated_,
-                      &vertical_stress_work_};
+                      &vertical_stress_work_,
+                      &slide_loss_};
   std::vector<double> sums;
   for (const double* total : totals) sums.push_back(*total);
   if (state.saving()) ranks.sum(sums.data(), sums.size());

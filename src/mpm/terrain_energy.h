@@ -25,8 +25,8 @@ Vector3 momentum_of(const std::vector<ParticleGroup>& groups);  ///< this rank's
 ///
 /// The work of the stress, what deforms the ground, is split by directions:
 ///   compaction  = int sigma_zz D_zz dV dt, all of it where ground is confined sideways
-///   bulldozing  = int (sigma : D - sigma_zz D_zz) dV dt - work of gravity: shear, ground pushed
-///                 ahead and aside, and its weight that is lifted
+///   bulldozing  = int (sigma : D - sigma_zz D_zz) dV dt + slide loss - work of gravity: shear, also
+///                 on slide surfaces, ground pushed ahead and aside, and its weight that is lifted
 /// contact = compaction + bulldozing + kinetic + numerical_loss + radiated.
 struct TerrainWork {
   double contact = 0.0;         ///< of contacts on the terrain
@@ -48,6 +48,9 @@ class TerrainEnergy {
   }
   void add_contact_work(double work) { contact_work_ += work; }
   void add_gravity_work(double work) { gravity_work_ += work; }
+  /// What friction on a slide surface turned into heat in a step [J].
+  void add_slide_loss(double loss) { slide_loss_ += loss; }
+  double slide_loss() const { return slide_loss_; }  ///< this rank's share [J]
   /// Momentum and kinetic energy of the nodes after a step.
   void set_node_totals(const NodeTotals& totals) { nodes_ = totals; }
   const NodeTotals& node_totals() const { return nodes_; }
@@ -79,6 +82,7 @@ class TerrainEnergy {
   double vertical_stress_work_ = 0.0;
   double contact_work_ = 0.0;
   double gravity_work_ = 0.0;
+  double slide_loss_ = 0.0;
   double removed_kinetic_ = 0.0;
   double removed_internal_ = 0.0;
   double removed_dissipated_ = 0.0;

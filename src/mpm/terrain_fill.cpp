@@ -55,7 +55,7 @@ void check_layers(const TerrainParameters& parameters, const std::vector<Particl
 
 Grid make_grid(const TerrainParameters& parameters, const std::string& where) {
   Grid grid(Axis(parameters.x, where + ", x axis"), Axis(parameters.y, where + ", y axis"),
-            Axis(parameters.z, where + ", z axis"));
+            Axis(parameters.z, where + ", z axis"), parameters.velocity_fields());
   const Axis& z = grid.axis(2);
   const double surface = parameters.surface;
   const int cell = z.cell_of(surface);
@@ -74,6 +74,7 @@ Grid make_grid(const TerrainParameters& parameters, const std::string& where) {
 TerrainFill::TerrainFill(const TerrainParameters& parameters, const Grid& grid,
                          const std::string& where)
     : layers_(parameters.layers),
+      slide_(parameters.slide),
       particles_per_cell_(parameters.particles_per_cell),
       levels_(make_levels(parameters, grid)) {
   check_layers(parameters, levels_, where);
@@ -105,12 +106,14 @@ void TerrainFill::add_cells(int x_cell, Discretisation& discretisation) {
         for (const ParticleLevel& level : levels_) {
           const double id = next_id_++;
           if (!mine) continue;
-          Particles& particles = discretisation.groups[level.layer].particles;
-          const std::size_t p = particles.append(1);
           const double half[3] = {0.5 * x.length(x_cell) / particles_per_cell_[0],
                                   0.5 * y.length(y_cell) / particles_per_cell_[1], level.half};
           const double position[3] = {x.knot(x_cell) + (2 * i + 1) * half[0],
                                       y.knot(y_cell) + (2 * j + 1) * half[1], level.z};
+          const std::size_t side = slide_ ? slide_->side(Eigen::Map<const Vector3>(position)) : 0;
+          Particles& particles =
+              discretisation.groups[side * layers_.size() + level.layer].particles;
+          const std::size_t p = particles.append(1);
           for (std::size_t a = 0; a < 3; ++a) {
             particles.data(column::x + a)[p] = position[a];
             particles.data(column::initial_x + a)[p] = position[a];

@@ -3,6 +3,7 @@
 /// Undisturbed ground: the grid of a terrain and the particles that fill its cells at the start and
 /// ahead of a moving window.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ class TerrainFill {
   std::vector<WaveSpeeds> wave_speeds(const Grid& grid) const;
 
   /// Appends the particles of a layer of cells across x, if this rank owns it. Ids are counted on
-  /// all ranks; every rank calls it for every layer.
+  /// all ranks; every rank calls it for every layer. A slide surface gives each particle its side.
   void add_cells(int x_cell, Discretisation& discretisation);
 
   /// Ids of the uppermost particles after the first fill, ascending: all rows along y of the first
@@ -41,6 +42,7 @@ class TerrainFill {
 
  private:
   std::vector<TerrainLayer> layers_;
+  std::optional<SlideSurface> slide_;
   std::array<int, 3> particles_per_cell_;
   std::vector<ParticleLevel> levels_;  // from the surface down
   double next_id_ = 0.0;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "material/material.h"
 #include "mpm/axis.h"
 #include "mpm/boundary.h"
+#include "mpm/slide_surface.h"
 
 namespace furrow {
 
@@ -40,8 +42,11 @@ struct TerrainParameters {
   double cfl = 0.4;  ///< step over (shortest cell)/(wave speed + speed of the ground)
   /// most steps between two remaps of particles and grid (terrain_step.h)
   int remap_interval = 16;
-  bool surface_mesh = false;  ///< carries triangles on its free surface, for grains
-  bool window = false;        ///< moves along x with what ContinuumTerrain::follow() names
+  std::optional<SlideSurface> slide = {};  ///< along which the ground slides on itself
+  bool surface_mesh = false;               ///< carries triangles on its free surface, for grains
+  bool window = false;  ///< moves along x with what ContinuumTerrain::follow() names
+
+  int velocity_fields() const { return slide ? 2 : 1; }
 };
 
 }  // namespace furrow

@@ -13,7 +13,8 @@ namespace furrow {
 
 namespace {
 
-// Of a rank, for every node of the whole grid; boundaries and sums of a message come on top.
+// Of a rank, for every node of the whole grid and each velocity field; boundaries and sums of a
+// message come on top.
 constexpr double bytes_of_node = sizeof(NodeSum) + sizeof(NodeMotion) + sizeof(NodeDisplacement);
 // Measured, of a cap law in contact: 46 numbers of each, room to grow and to sort, candidates.
 constexpr double bytes_of_particle = 950.0;
@@ -32,7 +33,7 @@ TerrainSize size_of(const TerrainParameters& parameters) {
   const double x = Axis::cell_count(parameters.x), y = Axis::cell_count(parameters.y),
                z = Axis::cell_count(parameters.z);
   const std::array<int, 3>& per_cell = parameters.particles_per_cell;
-  return {x * y * z, (x + 2.0) * (y + 2.0) * (z + 2.0),
+  return {x * y * z, parameters.velocity_fields() * (x + 2.0) * (y + 2.0) * (z + 2.0),
           x * y * cells_below_surface(parameters) * per_cell[0] * per_cell[1] * per_cell[2]};
 }
 

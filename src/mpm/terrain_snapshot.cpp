@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
 
 namespace furrow {
 
@@ -22,8 +25,25 @@ enum : std::size_t {
   mises,
   vertical,
   compaction,
-  length
+  principal,
+  tension_axis = principal + 3,
+  compression_axis = tension_axis + 3,
+  length = compression_axis + 3
 };
+
+/// An axis has no sign: the one that points up, along x or along y.
+Vector3 upward(const Vector3& axis) {
+  const double sign = axis.z() != 0.0 ? axis.z() : axis.x() != 0.0 ? axis.x() : axis.y();
+  return sign < 0.0 ? Vector3(-axis) : axis;
+}
+
+/// Principal stresses and axes as a record has them.
+void put_principal(const Vector6& stress, double* record) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(to_matrix(stress));
+  Eigen::Map<Vector3>(record + principal) = solver.eigenvalues().reverse();
+  Eigen::Map<Vector3>(record + tension_axis) = upward(solver.eigenvectors().col(2));
+  Eigen::Map<Vector3>(record + compression_axis) = upward(solver.eigenvectors().col(0));
+}
 
 /// Column of the material's compaction, or that of the volume ratio.
 std::size_t compaction_column(const Material& material) {
@@ -35,8 +55,7 @@ std::size_t compaction_column(const Material& material) {
 TerrainSnapshot take_snapshot(ContinuumTerrain& terrain) {
   std::vector<double> records;
   const std::vector<ParticleGroup>& groups = terrain.groups();
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    const ParticleGroup& group = groups[g];
+  for (const ParticleGroup& group : groups) {
     const Particles& particles = group.particles;
     const std::size_t compacted = compaction_column(*group.material);
     for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -53,12 +72,13 @@ TerrainSnapshot take_snapshot(ContinuumTerrain& terrain) {
         r[initial_position + a] = particles.data(column::initial_x + a)[p];
         r[v + a] = particles.data(column::velocity)[4 * p + a];
       }
-      r[layer] = static_cast<double>(g);
+      r[layer] = static_cast<double>(group.layer);
       r[volume] = particles.data(column::volume)[p] * ratio;
       r[density] = group.material->density() / ratio;
       r[pressure] = invariant.p;
       r[mises] = invariant.q;
       r[vertical] = stress[2];
+      put_principal(stress, r);
       r[compaction] = compacted == column::state + field::volume_ratio ? -std::log(value) : value;
       records.insert(records.end(), r, r + length);
     }
@@ -72,14 +92,18 @@ TerrainSnapshot take_snapshot(ContinuumTerrain& terrain) {
   });
 
   TerrainSnapshot snapshot;
-  for (Matrix3X* columns : {&snapshot.x, &snapshot.initial_position, &snapshot.v})
-    columns->resize(3, static_cast<Eigen::Index>(count));
+  const std::pair<Matrix3X*, std::size_t> vectors[] = {
+      {&snapshot.x, x},
+      {&snapshot.initial_position, initial_position},
+      {&snapshot.v, v},
+      {&snapshot.principal_stress, principal},
+      {&snapshot.tension_axis, tension_axis},
+      {&snapshot.compression_axis, compression_axis}};
+  for (auto [columns, at] : vectors) columns->resize(3, static_cast<Eigen::Index>(count));
   for (std::size_t n = 0; n < count; ++n) {
     const double* r = records.data() + order[n] * length;
-    const auto column = static_cast<Eigen::Index>(n);
-    snapshot.x.col(column) = Eigen::Map<const Vector3>(r + x);
-    snapshot.initial_position.col(column) = Eigen::Map<const Vector3>(r + initial_position);
-    snapshot.v.col(column) = Eigen::Map<const Vector3>(r + v);
+    for (auto [columns, at] : vectors)
+      columns->col(static_cast<Eigen::Index>(n)) = Eigen::Map<const Vector3>(r + at);
     for (auto [values, at] :
          {std::pair{&snapshot.id, id}, std::pair{&snapshot.layer, layer},
           std::pair{&snapshot.volume, volume}, std::pair{&snapshot.density, density},

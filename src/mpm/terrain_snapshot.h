@@ -21,6 +21,9 @@ struct TerrainSnapshot {
   std::vector<double> pressure;         ///< p, compression positive [Pa]
   std::vector<double> mises;            ///< q [Pa]
   std::vector<double> vertical_stress;  ///< sigma_zz, tension positive [Pa]
+  Matrix3X principal_stress;            ///< largest first, tension positive [Pa]
+  Matrix3X tension_axis;                ///< direction of the first, of length 1, z >= 0
+  Matrix3X compression_axis;            ///< of the last
   std::vector<double> compaction;       ///< eps_vol_pl of materials that have it, otherwise -ln J
   std::size_t size() const { return id.size(); }
 };

@@ -18,7 +18,7 @@ constexpr std::size_t chunk = 256;
 
 TerrainStep::TerrainStep(Discretisation& discretisation, Boundary& boundary,
                          ParticleDistribution& distribution, RemapControl& remap, PointLoads& loads,
-                         TerrainEnergy& energy, const Vector3& gravity)
+                         TerrainEnergy& energy, const Vector3& gravity, const SlideContact* slide)
     : discretisation_(discretisation),
       boundary_(boundary),
       distribution_(distribution),
@@ -26,6 +26,7 @@ TerrainStep::TerrainStep(Discretisation& discretisation, Boundary& boundary,
       loads_(loads),
       energy_(energy),
       gravity_(gravity),
+      slide_(slide),
       kernels_(transfer_kernels()),
       gradient_storage_(9 * chunk),
       weights_(batches(chunk)) {
@@ -41,7 +42,9 @@ void TerrainStep::advance(double dt) {
   if (!remap_.interval_running()) begin_remap_interval(dt);
   loads_.scatter_to_grid();
   partition.sum_shared(grid);
+  boundary_.renew_tractions(grid, local, gravity_);
   grid.accelerate(local, dt, gravity_);
+  if (slide_) energy_.add_slide_loss(slide_->apply(grid, boundary_, local, owned));
   boundary_.apply(grid, local, owned, dt);
   const NodeTotals totals = grid.move(local, owned, dt);
   remap_.grid_moved();
@@ -85,9 +88,9 @@ void TerrainStep::particles_to_grid() {
   Grid& grid = discretisation_.grid;
   const Partition& partition = discretisation_.partition;
   grid.clear_sums(partition.local_planes());
-  const GridView view = discretisation_.local_view();
   for (ParticleGroup& group : discretisation_.groups)
-    if (kernels_.scatter_momentum(view, group.particles.view(), group.material->density()) > 0)
+    if (kernels_.scatter_momentum(discretisation_.local_view(group.field), group.particles.view(),
+                                  group.material->density()) > 0)
       distribution_.report_outside(group);
   partition.sum_shared(grid);
   grid.compute_velocities(partition.local_planes());
@@ -96,21 +99,23 @@ void TerrainStep::particles_to_grid() {
 
 /// With weights of its own; within an interval, update_stress() does it with those of the strain.
 void TerrainStep::scatter_stress_forces() {
-  const GridView view = discretisation_.local_view();
-  for (ParticleGroup& group : discretisation_.groups)
+  for (ParticleGroup& group : discretisation_.groups) {
+    const GridView view = discretisation_.local_view(group.field);
     for (std::size_t first = 0; first < group.particles.size(); first += chunk) {
       const ParticleView particles =
           group.particles.view(first, std::min(chunk, group.particles.size() - first));
       kernels_.find_weights(view, particles, weights_.data());
       kernels_.scatter_force(view, particles, weights_.data());
     }
+  }
 }
 
 void TerrainStep::update_stress(double dt) {
-  const GridView view = discretisation_.local_view();
-  for (ParticleGroup& group : discretisation_.groups)
+  for (ParticleGroup& group : discretisation_.groups) {
+    const GridView view = discretisation_.local_view(group.field);
     for (std::size_t first = 0; first < group.particles.size(); first += chunk)
       update_stress(group, first, view, dt);
+  }
 }
 
 /// Strain, stress and, unless this step ends the interval, the force of the new stress for the next
@@ -144,9 +149,8 @@ void TerrainStep::update_stress(ParticleGroup& group, std::size_t first, const G
 void TerrainStep::grid_to_particles() {
   if (!remap_.particles_lag()) return;
   remap_.particles_updated();
-  const GridView view = discretisation_.local_view();
   for (ParticleGroup& group : discretisation_.groups)
-    kernels_.gather_motion(view, group.particles.view());
+    kernels_.gather_motion(discretisation_.local_view(group.field), group.particles.view());
   discretisation_.grid.clear_displacement(discretisation_.partition.local_planes());
 }
 

@@ -20,7 +20,7 @@
 ///              shape positions x_s = x_p + (m - 1)/2 dt v_p
 ///              particles_to_grid: m_i, v_i from m, v_p, C_p; u_i = 0; f_i of the stress
 ///   each step  f_i += contact forces
-///              v_i += dt (f_i/m_i + g), boundary conditions on v_i
+///              v_i += dt (f_i/m_i + g), slide surface, boundary conditions on v_i
 ///              u_i += dt v_i
 ///              update_stress: H = dt sum v_i G_i^T, material with H, f_i of the new stress
 ///   end        grid_to_particles: x_p += sum N_i u_i, and v_p, C_p from v_i
@@ -44,6 +44,7 @@
 #include "mpm/particle_distribution.h"
 #include "mpm/point_loads.h"
 #include "mpm/remap_control.h"
+#include "mpm/slide_contact.h"
 #include "mpm/terrain_energy.h"
 #include "mpm/transfer.h"
 
@@ -52,10 +53,11 @@ namespace furrow {
 /// Every call is collective unless said otherwise.
 class TerrainStep {
  public:
-  /// The other parts must outlive the step. @param gravity  [m/s^2]
+  /// The other parts must outlive the step.
+  /// @param gravity  [m/s^2]; @param slide  null: the ground is of one piece
   TerrainStep(Discretisation& discretisation, Boundary& boundary,
               ParticleDistribution& distribution, RemapControl& remap, PointLoads& loads,
-              TerrainEnergy& energy, const Vector3& gravity);
+              TerrainEnergy& energy, const Vector3& gravity, const SlideContact* slide);
 
   /// From t_n to t_n + dt [s]. Afterwards particles are up to date only if
   /// remap.interval_running() is false. @throws StateError when a particle leaves the grid or a
@@ -87,6 +89,7 @@ class TerrainStep {
   PointLoads& loads_;
   TerrainEnergy& energy_;
   Vector3 gravity_;  // [m/s^2]
+  const SlideContact* slide_;
   const TransferKernels& kernels_;
 
   // Buffers of a chunk of particles.

@@ -46,7 +46,8 @@ SUBCOMMANDS = (
     ),
     Subcommand(
         "terrain",
-        "density sections, tracers and densities of the rut of continuum terrain -> terrain.png",
+        "density, tracers, stress and densities of the rut of continuum terrain "
+        "-> terrain.png, terrain_stress.png",
         ("ground",),
     ),
     Subcommand(

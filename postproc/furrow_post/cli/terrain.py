@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""furrow-post terrain: density sections, tracers and densities of continuum terrain."""
+"""furrow-post terrain: density, tracers and stress of continuum terrain in sections."""
 
 import argparse
 from pathlib import Path
 
 from ..errors import ResultsError
 from ..figures.terrain import draw_terrain
+from ..figures.terrain_stress import draw_stress
 from ..read.results import Results
 from ..read.summary import Summary
+from ..read.terrain import read_terrain_fields
 from .output import add_output, add_results, target
 
 
@@ -26,3 +28,10 @@ def run(arguments: argparse.Namespace) -> None:
     file = target(arguments, folder, "terrain")
     print(draw_terrain(folder, title, Summary(folder).line(), file).report())
     print(file)
+    if "principal_stress" not in read_terrain_fields(folder):
+        print("No stress is drawn: the run is of an older Furrow, which kept no principal stresses")
+        return
+    stress_file = file.with_name(f"{file.stem}_stress{file.suffix}")
+    arc = draw_stress(folder, title, stress_file)
+    print(f"Deviatoric stress ahead of the wheel: greatest, {arc.text()}")
+    print(stress_file)

@@ -63,7 +63,7 @@ def draw_terrain(
     under, rut = figure.add_subplot(grid[3, 0]), figure.add_subplot(grid[3, 1])
     middle = float(body.centre[1] + 0.5 * terrain.spacing)
     _draw_section(lengthwise, terrain, body.surface, norm, 1, middle)
-    _draw_tracers(tracks, terrain, body.surface, 1, middle)
+    draw_tracers(tracks, terrain, body.surface, 1, middle)
     _draw_section(under, terrain, body.surface, norm, 0, axle)
     _draw_section(rut, terrain, body.surface, norm, 0, behind)
     tracers = "tracers of the same plane that stood on vertical lines; grey: from where they stood"
@@ -106,10 +106,10 @@ def _draw_oblique(
     axes.set_axis_off()
 
 
-def _nearest(
-    terrain: Terrain, axis: int, position: float, pixel: float = 0.002
+def section_image(
+    terrain: Terrain, values: Floats, axis: int, position: float, pixel: float = 0.002
 ) -> tuple[Floats, Extent]:
-    """Densities on the plane x[axis] = position, of the particle that is nearest in the plane.
+    """Values (n) on the plane x[axis] = position, of the particle that is nearest in the plane.
 
     NaN outside of the terrain; and the extent. position, pixel [m]
     """
@@ -132,7 +132,7 @@ def _nearest(
     beside = offset[..., 0] < reach
     above = offset[..., 1] < reach * squeeze[nearest] + 0.25 * pixel
     covered = (beside & above).any(axis=1) | (distance[:, 0] < 0.35 * terrain.spacing)
-    image = np.where(covered, terrain.density[slab][nearest[:, 0]], np.nan)
+    image = np.where(covered, values[slab][nearest[:, 0]], np.nan)
     right, top = low[0] + columns * pixel, low[1] + rows * pixel
     return image.reshape(rows, columns), (float(low[0]), float(right), float(low[1]), float(top))
 
@@ -146,7 +146,7 @@ def _draw_section(
     position: float,
 ) -> None:
     """Densities on the plane x[axis] = position [m]; surface: of the body, or None."""
-    image, extent = _nearest(terrain, axis, position)
+    image, extent = section_image(terrain, terrain.density, axis, position)
     axes.imshow(
         image,
         origin="lower",
@@ -155,10 +155,10 @@ def _draw_section(
         norm=norm,
         interpolation="nearest",
     )
-    _draw_frame(axes, terrain, surface, axis, position)
+    draw_frame(axes, terrain, surface, axis, position)
 
 
-def _draw_frame(
+def draw_frame(
     axes: Axes, terrain: Terrain, surface: Surface | None, axis: int, position: float
 ) -> None:
     """Level of the ground before, outline of the body, limits and names of the axes."""
@@ -176,7 +176,7 @@ def _draw_frame(
     axes.set_ylabel("z [cm]")
 
 
-def _draw_tracers(
+def draw_tracers(
     axes: Axes, terrain: Terrain, surface: Surface | None, axis: int, position: float
 ) -> None:
     """Where tracers are now that stood in the plane x[axis] = position on vertical lines.
@@ -195,4 +195,4 @@ def _draw_tracers(
         order = np.argsort(before[line, 1])
         x, z = CENTIMETRE * now[line][order].T
         axes.plot(x, z, "-o", ms=2, lw=0.9, color=GROUND_COLOURS(0.62))
-    _draw_frame(axes, terrain, surface, axis, position)
+    draw_frame(axes, terrain, surface, axis, position)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..arrays import Booleans, Floats
+from ..arrays import Booleans, Floats, Integers
 from ..errors import ResultsError
 from ..fields import Fields
 from .hdf5 import opened
@@ -106,6 +106,36 @@ class Terrain:
         volume = self.volume[inside].sum()
         mass = (self.density[inside] * self.volume[inside]).sum()
         return float(mass / volume) if volume > 0 else np.nan
+
+
+@dataclass
+class TerrainStress:
+    """Stress of the particles of a Terrain, in its order; half models are mirrored."""
+
+    mises: Floats  # (n) q [Pa]
+    principal: Floats  # (n, 3) the largest first, tension positive [Pa]
+    tension_axis: Floats  # (n, 3) direction of the first
+    compression_axis: Floats  # (n, 3) of the last
+
+    @classmethod
+    def read(cls, folder: Path) -> "TerrainStress":
+        """@raises ResultsError when the run kept no principal stresses"""
+        fields = read_terrain_fields(folder)
+        names = ("mises", "principal_stress", "tension_axis", "compression_axis")
+        fields.require_finite(*names)
+        mises, principal, tension, compression = (fields[name] for name in names)
+        if fields["initial_position"][:, 1].min() > 0:
+            flip = np.array([1.0, -1.0, 1.0])
+            mises, principal = np.tile(mises, 2), np.tile(principal, (2, 1))
+            tension, compression = (np.vstack([a, a * flip]) for a in (tension, compression))
+        return cls(mises, principal, tension, compression)
+
+    def tensor(self, particles: Integers) -> Floats:
+        """(n, 3, 3) of some particles [Pa]."""
+        first, last = self.tension_axis[particles], self.compression_axis[particles]
+        axes = np.stack([first, np.cross(last, first), last], axis=2)
+        stress: Floats = np.einsum("nik,nk,njk->nij", axes, self.principal[particles], axes)
+        return stress
 
 
 def _lattice_spacing(coordinates: Floats) -> float:

@@ -99,7 +99,8 @@ TEST(HistoryFile, ParticlesOfTheTerrainHaveUnitsAndMeanings) {
   const Scratch scratch;
   const std::string path = scratch.path("terrain.h5");
   TerrainSnapshot snapshot;
-  snapshot.x = snapshot.initial_position = snapshot.v = Matrix3X::Ones(3, 2);
+  snapshot.x = snapshot.initial_position = snapshot.v = snapshot.principal_stress =
+      snapshot.tension_axis = snapshot.compression_axis = Matrix3X::Ones(3, 2);
   snapshot.id = {0, 1};
   snapshot.layer = snapshot.volume = snapshot.density = snapshot.pressure = snapshot.mises =
       snapshot.vertical_stress = snapshot.compaction = {3.0, 4.0};
@@ -108,7 +109,7 @@ TEST(HistoryFile, ParticlesOfTheTerrainHaveUnitsAndMeanings) {
     file.write_terrain(snapshot, {{0.5, 0.0, -0.1, 400.0}});
   }
   const Hdf5File file(path, Hdf5File::Mode::read);
-  EXPECT_EQ(file.members("/terrain").size(), 11u);
+  EXPECT_EQ(file.members("/terrain").size(), 14u);
   for (const std::string& field : file.members("/terrain")) {
     const std::string dataset = "/terrain/" + field;
     EXPECT_TRUE(file.has_attribute(dataset, "unit")) << field;

@@ -238,8 +238,55 @@ TEST(Boundary, StateIsRestoredAndMovesWithTheGrid) {
                                                    : 0.0;
     EXPECT_EQ(after[r * row], expected) << "row " << r;
   }
-  Boundary across(grid, only(Face::x_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
-  EXPECT_THROW(across.shift_x(1), Error);
+}
+
+/// Ahead, the displacement of the far field falls off over L = 2 m by each cell of 1 m.
+TEST(Boundary, TheFaceAheadComesToUndisturbedGround) {
+  Grid grid = small_grid();
+  Boundary boundary(grid, only(Face::x_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
+  give_sums(grid, {7, 8, 9});
+  boundary.capture_initial_tractions(grid, grid.all_planes(), weightless);
+  give_velocity(grid, {1, 2, 3});
+  boundary.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+  const auto count = static_cast<std::size_t>(6 * grid.nodes(1) * grid.nodes(2));
+  const std::vector<double> before = last_numbers(state_of(boundary), count);
+  boundary.shift_x(2);
+  const std::vector<double> after = last_numbers(state_of(boundary), count);
+  for (std::size_t n = 0; n < count / 2; ++n) {
+    EXPECT_EQ(after[n], before[n]) << "t_0";
+    EXPECT_NE(before[count / 2 + n], 0.0);
+    EXPECT_NEAR(after[count / 2 + n] / before[count / 2 + n], std::exp(-1.0), 1e-14) << "u";
+  }
+}
+
+/// Behind, the face holds whatever the ground carries there: nodes at rest stay at rest, also those
+/// that another face held; nodes that move go on.
+TEST(Boundary, TheFaceBehindHoldsWhatTheGroundCarriesThere) {
+  Grid grid = small_grid();
+  FaceArray<BoundaryKind> kinds = only(Face::x_lower, BoundaryKind::absorbing);
+  kinds[Face::y_upper] = BoundaryKind::absorbing;
+  Boundary boundary(grid, kinds, {2, 2, 2}, speeds(grid));
+  give_sums(grid, {1, 2, 3});
+  boundary.capture_initial_tractions(grid, grid.all_planes(), weightless);
+  give_velocity(grid, {1, 2, 3});
+  boundary.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+  boundary.shift_x(1);
+  const Vector3 force(10, -20, 30), gravity(0, 1, -9);
+  for (const Vector3& v : {Vector3(0, 0, 0), Vector3(0.1, -0.2, 0.3)}) {
+    Boundary here = boundary;
+    give_sums(grid, force);
+    give_velocity(grid, v);
+    here.renew_tractions(grid, grid.all_planes(), gravity);
+    grid.accelerate(grid.all_planes(), dt, gravity);
+    here.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+    for (int k = 0; k < grid.nodes(2); ++k) {
+      const double at_face = (Eigen::Map<const Vector3>(grid.motion(0, 2, k).velocity) - v).norm(),
+                   at_edge = Eigen::Map<const Vector3>(grid.motion(0, 4, k).velocity).norm();
+      EXPECT_LT(at_face, 1e-14);
+      // there the dashpot of the other face slows what moves
+      EXPECT_LE(at_edge, v.norm() + 1e-14);
+    }
+  }
 }
 
 }  // namespace

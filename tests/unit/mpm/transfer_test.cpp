@@ -97,7 +97,7 @@ struct Cloud {
 };
 
 std::vector<double> numbers_of(Grid& grid) {
-  const double* first = grid.plane_sums(0);
+  const double* first = grid.plane_sums(0, 0);
   return std::vector<double>(
       first, first + 4 * grid.plane_size() * static_cast<std::size_t>(grid.nodes(0)));
 }

@@ -24,26 +24,33 @@ Communicator world_ranks() {
   return Communicator(&all);
 }
 
+/// What makes the scene another.
+struct Variant {
+  const char* name;
+  bool window, slide;
+  const char* ends;
+};
+
 /// A plate pressed into snow beside the middle of a bed with absorbing sides, then shaken:
 /// particles change cells and ranks.
 struct Scene {
-  Scene(const Communicator& ranks, bool window)
-      : ground(parameters(window), ranks),
+  Scene(const Communicator& ranks, const Variant& variant)
+      : ground(parameters(variant), ranks),
         plate({PlateShape::square, 0.1, 0.05, 4}, {0.03, 0.0, 0.1 + 1e-4}),
         contact(plate, ground, ContactParameters{}, true, "foot") {
     system.add(plate, "plate");
     system.add(ground, "ground");
     system.add(contact, "foot");
   }
-  static TerrainParameters parameters(bool window) {
+  static TerrainParameters parameters(const Variant& variant) {
     const double cell = 0.02;
     TerrainParameters p = box(material_of(snow()), {-0.2, 0.0, 0}, {0.2, 0.1, 0.1}, cell);
     p.z = even(0, 0.14, cell);
     p.gravity = {0, 0, -standard_gravity};
     p.initial_stress = true;
-    p.window = window;
-    set_boundary(p, {window ? "smooth" : "absorbing", window ? "smooth" : "absorbing", "smooth",
-                     "absorbing", "rough", "free"});
+    p.window = variant.window;
+    if (variant.slide) p.slide = SlideSurface{SlideBox{0.03, 0.0, 0.1, 0.1}, 0.3};
+    set_boundary(p, {variant.ends, variant.ends, "smooth", "absorbing", "rough", "free"});
     return p;
   }
   void run(int intervals) {
@@ -102,6 +109,7 @@ void expect_alike(Scene& many, Scene& one) {
   expect_near(m.stored_energy, o.stored_energy, o.contact_work, "stored energy");
   expect_near(m.dissipated_energy, o.dissipated_energy, o.contact_work, "dissipated energy");
   expect_near(m.contact_work, o.contact_work, o.contact_work, "contact work");
+  expect_near(many.ground.slide_loss(), one.ground.slide_loss(), o.contact_work, "slide loss");
   expect_near(m.load_work, o.load_work, o.contact_work, "load work");
   expect_near(m.numerical_loss, o.numerical_loss, o.contact_work, "numerical loss");
   for (const Face face : all_faces) {
@@ -111,16 +119,24 @@ void expect_alike(Scene& many, Scene& one) {
   }
 }
 
-class Windows : public ::testing::TestWithParam<bool> {};
-INSTANTIATE_TEST_SUITE_P(Ranks, Windows, ::testing::Bool());
+class Variants : public ::testing::TestWithParam<Variant> {};
+INSTANTIATE_TEST_SUITE_P(Ranks, Variants,
+                         ::testing::Values(Variant{"at_rest", false, false, "absorbing"},
+                                           Variant{"moving", true, false, "smooth"},
+                                           Variant{"sliding", false, true, "smooth"},
+                                           Variant{"all", true, true, "absorbing"}),
+                         [](const auto& one) { return one.param.name; });
 
-TEST_P(Windows, GiveTheAnswerOfOne) {
+TEST_P(Variants, GiveTheAnswerOfOne) {
   Scene many(world_ranks(), GetParam()), one(Communicator(), GetParam());
   many.run(30);
   one.run(30);
   EXPECT_GT(one.contact.contacts(), 20.0);
   expect_alike(many, one);
-  if (GetParam()) {
+  if (GetParam().slide) {
+    EXPECT_GT(one.ground.slide_loss(), 0.0);
+  }
+  if (GetParam().window) {
     EXPECT_GT(one.ground.travelled(), 0.03);
     const double mine = static_cast<double>(many.ground.rut().points().size());
     EXPECT_EQ(many.ground.ranks().sum(mine), static_cast<double>(one.ground.rut().points().size()));
@@ -128,7 +144,7 @@ TEST_P(Windows, GiveTheAnswerOfOne) {
 }
 
 /// A run of one rank goes on with all of them, and the other way round.
-TEST_P(Windows, TakeOverTheStateOfOne) {
+TEST_P(Variants, TakeOverTheStateOfOne) {
   Scene many(world_ranks(), GetParam()), one(Communicator(), GetParam()),
       back(Communicator(), GetParam());
   one.run(12);

@@ -11,8 +11,11 @@ import matplotlib.image
 import numpy as np
 
 from furrow_post.analyse.rut import bow_wave, rut_densities, rut_depth, share_left
+from furrow_post.analyse.stress import arc_ahead, in_plane
+from furrow_post.errors import ResultsError
 from furrow_post.figures.terrain import draw_terrain
-from furrow_post.read.terrain import Outline, Terrain
+from furrow_post.figures.terrain_stress import draw_stress
+from furrow_post.read.terrain import Outline, Terrain, TerrainStress
 from support.command import run_post
 from support.rut import wheel
 
@@ -36,6 +39,25 @@ def write_terrain(path: Path) -> None:
         group["x"] = initial * np.stack([one, one, ratio], axis=1)
         group["initial_position"] = initial
         group["density"], group["volume"] = DENSITY / ratio, SPACING**3 * ratio
+
+
+ARC = 0.15  # [m]
+
+
+def write_stress(path: Path) -> None:
+    """Compression along a line that goes down and ahead by 45 degrees, tension across it.
+
+    q is greatest on a circle of radius ARC around the lowest point of the wheel.
+    """
+    with h5py.File(path, "a") as content:
+        group = content["terrain"]
+        x = group["x"][()]
+        count = len(x)
+        distance = np.hypot(x[:, 0] - AXLE, x[:, 2] - 0.5 * DEPTH)
+        group["mises"] = 3e3 * np.exp(-(((distance - ARC) / 0.03) ** 2))
+        group["principal_stress"] = np.tile([1e3, -2e3, -5e3], (count, 1))
+        group["tension_axis"] = np.tile([0.5**0.5, 0.0, 0.5**0.5], (count, 1))
+        group["compression_axis"] = np.tile([-(0.5**0.5), 0.0, 0.5**0.5], (count, 1))
 
 
 class TerrainTest(unittest.TestCase):
@@ -93,6 +115,38 @@ class TerrainTest(unittest.TestCase):
         dark = (picture.sum(axis=2) < 1.2).mean()
         self.assertGreater(dark, 0.01)
         self.assertLess(dark, 0.5)
+
+    def test_stress_is_put_together_from_its_principal_values(self) -> None:
+        write_stress(self.folder / "terrain.h5")
+        stress = TerrainStress.read(self.folder)
+        self.assertEqual(len(stress.mises), 2 * 70 * 20 * 10)
+        tensor = stress.tensor(np.array([7]))
+        # (1 - 5)/2 on the diagonal, (1 + 5)/2 beside it, -2 across the plane
+        expected = 1e3 * np.array([[-2, 0, 3], [0, -2, 0], [3, 0, -2]])
+        np.testing.assert_allclose(tensor[0], expected, atol=1e-9)
+        values, directions = in_plane(tensor, 0)
+        np.testing.assert_allclose(values[0], [-5e3, 1e3])
+        self.assertAlmostEqual(abs(directions[0, :, 1] @ np.array([0.5**0.5, 0.5**0.5])), 1.0)
+        np.testing.assert_allclose(in_plane(tensor, 1)[0][0], [-2e3, -2e3])
+
+    def test_arc_is_where_the_deviatoric_stress_is_greatest(self) -> None:
+        write_stress(self.folder / "terrain.h5")
+        terrain, stress = Terrain.read(self.folder), TerrainStress.read(self.folder)
+        arc = arc_ahead(terrain, stress, Outline(self.folder, terrain))
+        self.assertGreater(len(arc.x), 2)
+        radius = np.hypot(arc.x - AXLE, arc.z - 0.5 * DEPTH)
+        np.testing.assert_allclose(radius, ARC, atol=0.75 * SPACING)
+        self.assertGreater(arc.ahead, 0.5 * ARC)
+
+    def test_stress_is_drawn_where_the_run_kept_it(self) -> None:
+        target = self.folder / "stress.png"
+        with self.assertRaisesRegex(ResultsError, "has no 'mises'"):
+            draw_stress(self.folder, "synthetic", target)
+        write_stress(self.folder / "terrain.h5")
+        draw_stress(self.folder, "synthetic", target)
+        picture = matplotlib.image.imread(target)[..., :3]
+        red = (picture[..., 0] > 0.6) & (picture[..., 1] < 0.3) & (picture[..., 2] < 0.3)
+        self.assertGreater(red.mean(), 1e-3)  # tension
 
     def test_folder_without_terrain_is_refused(self) -> None:
         for name in ("terrain.h5", "history.h5"):

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Stress in continuum terrain at the end of a run, along and across, under the wheel.
+
+As in [Shoop2001] Figs 65 and 69: deviatoric stress with the arc that it has ahead of the wheel, and
+the principal stresses as crosses. And displacements, across and along.
+"""
+
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import LineCollection
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+
+from ..analyse.stress import Arc, arc_ahead, in_plane
+from ..arrays import Floats
+from ..read.terrain import Outline, Terrain, TerrainStress
+from . import render
+from .style import CENTIMETRE, GROUND_COLOURS, KILOPASCAL, annotate_panel, save, use_style
+from .terrain import draw_frame, draw_tracers, section_image
+
+COMPRESSION_COLOUR, TENSION_COLOUR = "#1f3a5f", "#c0281c"
+ARC_COLOUR = "#12a5a0"
+PERCENTILE = 99.0  # of the stresses in view that a scale reaches to
+
+
+def draw_stress(folder: Path, title: str, target: Path, dpi: float = 150) -> Arc:
+    """Draws the stress at the end of the run in folder, and returns the arc ahead of the wheel.
+
+    @raises ResultsError when the run kept no principal stresses
+    """
+    use_style()
+    terrain, stress = Terrain.read(folder), TerrainStress.read(folder)
+    body = Outline(folder, terrain)
+    middle = float(body.centre[1] + 0.5 * terrain.spacing)
+    axle = float(body.centre[0])
+    arc = arc_ahead(terrain, stress, body)
+
+    figure = plt.figure(figsize=(11, 9.5), layout="constrained")
+    grid = figure.add_gridspec(4, 2)
+    along, crosses = figure.add_subplot(grid[0, :]), figure.add_subplot(grid[1, :])
+    across, beside = figure.add_subplot(grid[2, 0]), figure.add_subplot(grid[2, 1])
+    tracks, aside = figure.add_subplot(grid[3, 0]), figure.add_subplot(grid[3, 1])
+    _draw_mises(figure, along, terrain, stress, body, 1, middle)
+    along.plot(CENTIMETRE * arc.x, CENTIMETRE * arc.z, "--", color=ARC_COLOUR, lw=1.4)
+    _draw_crosses(crosses, terrain, stress, body, 1, middle)
+    _draw_mises(figure, across, terrain, stress, body, 0, axle)
+    _draw_crosses(beside, terrain, stress, body, 0, axle)
+    draw_tracers(tracks, terrain, body.surface, 1, middle)
+    draw_tracers(aside, terrain, body.surface, 0, axle)
+    annotate_panel(
+        along, "a", f"deviatoric stress q lengthwise; dashed: where it is greatest, {arc.text()}"
+    )
+    annotate_panel(crosses, "b", "principal stresses in the plane: dark compression, red tension")
+    annotate_panel(across, "c", "q across, under the axle")
+    annotate_panel(beside, "d", "principal stresses across")
+    annotate_panel(tracks, "e", "tracers lengthwise; grey: from where they stood")
+    annotate_panel(aside, "f", "tracers that stood under the axle, across")
+    figure.suptitle(title)
+    save(figure, target, dpi)
+    return arc
+
+
+def _draw_mises(
+    figure: Figure,
+    axes: Axes,
+    terrain: Terrain,
+    stress: TerrainStress,
+    body: Outline,
+    axis: int,
+    position: float,
+) -> None:
+    """q on the plane x[axis] = position [m], with its scale."""
+    q = KILOPASCAL * stress.mises
+    near = np.abs(terrain.x[:, axis] - position) < 0.75 * terrain.spacing
+    norm = Normalize(0.0, render.round_up(float(np.percentile(q[near], PERCENTILE))))
+    image, extent = section_image(terrain, q, axis, position)
+    axes.imshow(
+        image,
+        origin="lower",
+        extent=[CENTIMETRE * e for e in extent],
+        cmap=GROUND_COLOURS,
+        norm=norm,
+        interpolation="nearest",
+    )
+    scale = ScalarMappable(norm, GROUND_COLOURS)
+    figure.colorbar(scale, ax=axes, shrink=0.7, extend="max").set_label("q [kPa]")
+    draw_frame(axes, terrain, body.surface, axis, position)
+
+
+def _draw_crosses(
+    axes: Axes,
+    terrain: Terrain,
+    stress: TerrainStress,
+    body: Outline,
+    axis: int,
+    position: float,
+) -> None:
+    """Principal stresses of the plane x[axis] = position [m], a cross for each particle.
+
+    Arms are as long as the square root of the stress, the longest as long as a particle is wide.
+    """
+    along = 1 - axis
+    near = np.flatnonzero(np.abs(terrain.x[:, axis] - position) < 0.5 * terrain.spacing)
+    values, directions = in_plane(stress.tensor(near), along)
+    greatest = float(np.percentile(np.abs(values), PERCENTILE))
+    place = terrain.x[near][:, [along, 2]]
+    for k in range(2):
+        size = np.sqrt(np.clip(np.abs(values[:, k]) / greatest, 0.0, 1.0))
+        arm = 0.6 * terrain.spacing * size[:, None] * directions[:, :, k]
+        segments = CENTIMETRE * np.stack([place - arm, place + arm], axis=1)
+        for colour, chosen in (
+            (COMPRESSION_COLOUR, values[:, k] <= 0),
+            (TENSION_COLOUR, values[:, k] > 0),
+        ):
+            axes.add_collection(LineCollection(list(segments[chosen]), colors=colour, lw=0.7))
+    axes.text(
+        0.99,
+        0.9,
+        f"longest arm: {KILOPASCAL * greatest:.3g} kPa",
+        transform=axes.transAxes,
+        ha="right",
+        fontsize=8,
+    )
+    draw_frame(axes, terrain, body.surface, axis, position)
