@@ -59,8 +59,9 @@ EnergyBudget TerrainEnergy::energy_budget(const std::vector<ParticleGroup>& grou
 
 TerrainWork TerrainEnergy::work(double boundary_work, const Communicator& ranks) const {
   const double kinetic = nodes_.kinetic_energy + removed_kinetic_;
-  double sums[] = {contact_work_, stress_work_ + slide_loss_, vertical_stress_work_,
-                   gravity_work_, kinetic,                    boundary_work};
+  double sums[] = {
+      contact_work_, stress_work_ + slide_loss_, vertical_stress_work_, gravity_work_, kinetic,
+      boundary_work};
   ranks.sum(sums, std::size(sums));
   TerrainWork work;
   work.contact = sums[0];
