@@ -9,8 +9,10 @@ only evaluated again. The result goes to CALIBRATION.result.json, beside the inp
 
 The input: "test", "ground", "variables" of all runs, "parameters": {name: [start, lower, upper]},
 "seeds" for the scatter, and the target, either "reference" (reference.csv of an oedometer: ln of
-stress at the measured densities from "lowest" to "highest" Pa) or "quantities": {name: [value,
-deviation]} of the evaluation, with "series" of confinements whose "together" values are used.
+stress at the measured densities from "lowest" to "highest" Pa, over "deviation", default 1) or
+"quantities": {name: [value, deviation]} of the evaluation, with "series" of confinements whose
+"together" values are used. Several tests at once: "tests", a list of {"test", "variables",
+"series", target}; "variables" beside it are those of all.
 """
 
 import argparse
@@ -74,8 +76,7 @@ class Runs:
 
     def identity(self) -> Task:
         """What the runs of a log must have in common."""
-        target = self.task.get("reference") or self.task.get("quantities")
-        return {key: self.task[key] for key in ("test", "ground", "variables")} | {"target": target}
+        return {key: self.task[key] for key in ("ground", "tests")}
 
     @staticmethod
     def key(values: Sequence[float], seed: int) -> tuple[str | int, ...]:
@@ -113,59 +114,77 @@ class Runs:
         print(f"run {len(self.known):3}  {numbers}  seed {seed}  {misfit}", flush=True)
 
     def run(self, values: Floats, seed: int) -> list[float]:
-        """Residuals of a new run. @raises ResultsError where it failed, Interrupted"""
-        tests = []
-        for confinement in self.task.get("series") or [None]:
-            given = {
-                **self.task["variables"],
-                "ground": self.task["ground"],
-                "seed": seed,
-                **dict(zip(self.names, (float(v) for v in values))),
-            }
+        """Residuals of new runs of all tests. @raises ResultsError where one failed, Interrupted"""
+        parameters = {"seed": seed, **dict(zip(self.names, (float(v) for v in values)))}
+        residuals = []
+        for number, test in enumerate(self.task["tests"], 1):
+            residuals += misfit(test, self.results_of(test, f"run_{number}", parameters))
+        return residuals
+
+    def results_of(self, test: Task, name: str, parameters: Task) -> list[LaboratoryTest]:
+        """One test, or one for each value of its series."""
+        results = []
+        for confinement in test.get("series") or [None]:
+            given = {**test["variables"], "ground": self.task["ground"], **parameters}
             if confinement:
                 given["confinement"] = confinement
             variables: dict[str, Value] = {
-                name: f"{value:.6g}" if isinstance(value, float) else str(value)
-                for name, value in given.items()
+                key: f"{value:.6g}" if isinstance(value, float) else str(value)
+                for key, value in given.items()
             }
-            name = f"run_{confinement}" if confinement else "run"
-            case = laboratory_case(name, self.task["test"], PROJECT, variables)
-            folder = self.folder / name
+            case_name = f"{name}_{confinement}" if confinement else name
+            case = laboratory_case(case_name, test["test"], PROJECT, variables)
+            folder = self.folder / case_name
             record = launch(case, folder, self.tools)
             if record.error:
                 raise ResultsError(f"{folder} failed: {record.error}")
-            tests.append(LaboratoryTest(folder))
-        if "reference" in self.task:
-            return self.misfit_of_curve(tests[0])
-        shared = {q.name: q.value for q in together(tests)}
-        found = shared or values_of(tests[0])
-        targets = self.task["quantities"].items()
-        absent = [name for name, _ in targets if not math.isfinite(found.get(name, math.nan))]
-        if absent:
-            raise ResultsError(
-                f"{tests[0].folder}: the test gives no {', '.join(absent)} for 'quantities'; "
-                f"it gives {', '.join(found)}"
-            )
-        return [(found[name] - value) / deviation for name, (value, deviation) in targets]
+            results.append(LaboratoryTest(folder))
+        return results
 
-    def misfit_of_curve(self, test: LaboratoryTest) -> list[float]:
-        """ln of computed over measured stress at the measured densities."""
-        _, stress, density = cell_curve(test.curve())
-        end = int(np.argmax(stress[:, 2])) + 1
-        axial = np.maximum.accumulate(np.maximum(stress[:end, 2], 1.0))
-        reference = read_oedometer_reference(HERE / self.task["reference"])
-        misfit = []
-        for rho, sigma in reference:
-            if not self.task["lowest"] <= sigma <= self.task["highest"]:
-                continue
-            if rho <= density[end - 1]:
-                computed = np.interp(rho, density[:end], axial)
-                misfit.append(math.log(computed / sigma))
-            else:
-                # A test that ended before the density was reached was too stiff, at least so much
-                beyond = FAILED * (rho / density[end - 1] - 1)
-                misfit.append(max(math.log(axial[-1] / sigma), float(beyond)))
-        return misfit
+
+def targets(test: Task) -> list[str]:
+    """What its residuals are of."""
+    if "reference" in test:
+        return [f"{test['test']} at {rho:g} kg/m3" for rho, _ in reference_of(test)]
+    return [f"{test['test']} {name}" for name in test["quantities"]]
+
+
+def misfit(test: Task, results: Sequence[LaboratoryTest]) -> list[float]:
+    """Residuals of a test and its series."""
+    if "reference" in test:
+        return misfit_of_curve(test, results[0])
+    shared = {q.name: q.value for q in together(results)}
+    found = shared or values_of(results[0])
+    wanted = test["quantities"].items()
+    absent = [name for name, _ in wanted if not math.isfinite(found.get(name, math.nan))]
+    if absent:
+        raise ResultsError(
+            f"{results[0].folder}: the test gives no {', '.join(absent)} for 'quantities'; "
+            f"it gives {', '.join(found)}"
+        )
+    return [(found[name] - value) / deviation for name, (value, deviation) in wanted]
+
+
+def reference_of(test: Task) -> list[tuple[float, float]]:
+    """Density and stress of the rows that count."""
+    rows = read_oedometer_reference(HERE / test["reference"])
+    return [(rho, sigma) for rho, sigma in rows if test["lowest"] <= sigma <= test["highest"]]
+
+
+def misfit_of_curve(test: Task, result: LaboratoryTest) -> list[float]:
+    """ln of computed over measured stress at the measured densities, over its deviation."""
+    _, stress, density = cell_curve(result.curve())
+    end = int(np.argmax(stress[:, 2])) + 1
+    axial = np.maximum.accumulate(np.maximum(stress[:end, 2], 1.0))
+    found = []
+    for rho, sigma in reference_of(test):
+        if rho <= density[end - 1]:
+            found.append(math.log(np.interp(rho, density[:end], axial) / sigma))
+        else:
+            # A test that ended before the density was reached was too stiff, at least so much
+            beyond = FAILED * (rho / density[end - 1] - 1)
+            found.append(max(math.log(axial[-1] / sigma), float(beyond)))
+    return [value / test.get("deviation", 1.0) for value in found]
 
 
 class Bounds:
@@ -193,23 +212,25 @@ def jacobian(runs: Runs, bounds: Bounds, logs: Floats) -> Floats:
 def calibrate(task: Task, runs: Runs) -> dict[str, Any]:
     """The result, as it is written."""
     bounds = Bounds(task)
+    # From the start on: the size of a logarithm, by which xtol is measured, depends on units
     fit = least_squares(
-        lambda logs: runs.residuals(np.exp(logs)),
-        bounds.start,
-        jac=lambda logs: jacobian(runs, bounds, logs),
-        bounds=(bounds.lower, bounds.upper),
+        lambda way: runs.residuals(np.exp(bounds.start + way)),
+        np.zeros(len(bounds.start)),
+        jac=lambda way: jacobian(runs, bounds, bounds.start + way),
+        bounds=(bounds.lower - bounds.start, bounds.upper - bounds.start),
         x_scale=0.5,
         ftol=0.02,
         xtol=0.03,
         max_nfev=task.get("iterations", 6),
     )
-    best = np.exp(fit.x)
+    logs = bounds.start + fit.x
+    best = np.exp(logs)
     residuals = [runs.residuals(best, seed) for seed in task["seeds"]]
     scatter = math.nan
     if len(residuals) > 1:
         scatter = float(np.sqrt(np.mean(np.var(residuals, axis=0, ddof=1))))
-    slopes = jacobian(runs, bounds, fit.x)
-    spread, findings = uncertainty(runs.names, bounds, fit.x, fit.fun, slopes, scatter)
+    slopes = jacobian(runs, bounds, logs)
+    spread, findings = uncertainty(runs.names, bounds, logs, fit.fun, slopes, scatter)
     return {
         "parameters": {
             name: {
@@ -218,6 +239,7 @@ def calibrate(task: Task, runs: Runs) -> dict[str, Any]:
             }
             for name, value, error in zip(runs.names, best, spread)
         },
+        "targets": [name for test in task["tests"] for name in targets(test)],
         "rms_by_seed": [round(rms(r), 3) for r in residuals],
         "scatter_of_seeds": round(scatter, 3) if np.isfinite(scatter) else None,
         "residuals": [[round(float(v), 3) for v in r] for r in residuals],

@@ -44,10 +44,10 @@ def require_ground(ground: str) -> None:
 
 
 def require_preparation(test: str, ground: str) -> None:
-    """Clusters of snow_bonded are sintered in cells and beds, not in a box. @raises ResultsError"""
-    if ground == "snow_bonded" and test in ("repose", "collapse"):
+    """Clusters of sintered snow need a cell or a bed, not a box. @raises ResultsError"""
+    if ground.startswith("snow_bonded") and test in ("repose", "collapse"):
         raise ResultsError(
-            f"the test {test} has no sintered clusters: snow_bonded is for cells and plates; take "
+            f"the test {test} has no sintered clusters: {ground} is for cells and plates; take "
             "--ground snow"
         )
 

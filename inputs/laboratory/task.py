@@ -14,29 +14,37 @@ from furrow_post.read.laboratory import read_oedometer_reference
 
 Task = dict[str, Any]
 
-NEEDED = ("test", "ground", "parameters", "seeds")
-FURTHER = (
-    *("title", "variables", "series", "iterations", "reference", "lowest", "highest"),
-    "quantities",
-)
+NEEDED = ("ground", "parameters", "seeds")
+FURTHER = ("title", "variables", "iterations", "tests")
+TARGET = ("reference", "lowest", "highest", "deviation", "quantities")
+OF_TEST = ("test", "variables", "series", *TARGET)
 FORM = (
     'a calibration is a JSON object with "test", "ground", "parameters" {name: [start, lower, '
     'upper]}, "seeds" [...] and "reference" with "lowest" and "highest", or "quantities" {name: '
-    "[value, deviation]}; see calibrations/snow.json"
+    '[value, deviation]}; for several tests "tests" [...] with "test" and target of each; see '
+    "calibrations/snow.json and snow_bonded.json"
 )
 
 
 def read_task(path: Path) -> Task:
-    """@raises ResultsError; OSError without the file"""
+    """With "tests", a list of one or more, each with all its "variables".
+
+    @raises ResultsError; OSError without the file
+    """
     try:
         task = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=_without_repetition)
     except (ValueError, ResultsError) as error:
         raise ResultsError(f"{path}: is no JSON ({error}); {FORM}") from error
     try:
+        _check_keys(task)
+        common = _object(task, "variables")
+        tests = task.get("tests", [{key: task[key] for key in OF_TEST if key in task}])
+        task["tests"] = [
+            {**test, "variables": {**common, **_object(test, "variables")}} for test in tests
+        ]
         _check(task)
     except ResultsError as error:
         raise ResultsError(f"{path}: {error}") from error
-    task.setdefault("variables", {})
     return dict(task)
 
 
@@ -48,27 +56,51 @@ def _without_repetition(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return dict(pairs)
 
 
-def _check(task: Any) -> None:
-    """@raises ResultsError"""
+def _check_keys(task: Any) -> None:
+    """Of the whole and of each of its tests. @raises ResultsError"""
     if not isinstance(task, dict):
         raise ResultsError(f"is no object; {FORM}")
-    for key in task:
-        if key not in (*NEEDED, *FURTHER):
-            near = difflib.get_close_matches(key, (*NEEDED, *FURTHER), n=1)
-            hint = f"did you mean '{near[0]}'?" if near else FORM
-            raise ResultsError(f"there is no key '{key}'; {hint}")
+    _refuse_unknown(task, (*NEEDED, *FURTHER, *OF_TEST))
     for key in NEEDED:
         if not task.get(key):
             raise ResultsError(f"'{key}' is missing or empty; {FORM}")
-    if task["test"] not in list(SERIES):
-        raise ResultsError(f"'test' is {_shown(task['test'])}; tests are {', '.join(SERIES)}")
+    if "tests" not in task:
+        if not task.get("test"):
+            raise ResultsError(f"'test' is missing or empty; {FORM}")
+        return
+    for key in ("test", "series", *TARGET):
+        if key in task:
+            raise ResultsError(f"'{key}' stands beside 'tests'; write it for each of them")
+    tests = task["tests"]
+    if not isinstance(tests, list) or not tests or not all(isinstance(t, dict) for t in tests):
+        raise ResultsError(f"'tests' is {_shown(tests)}, a list of objects is needed; {FORM}")
+    for test in tests:
+        _refuse_unknown(test, OF_TEST)
+        if not test.get("test"):
+            raise ResultsError(f"'test' is missing or empty in one of 'tests'; {FORM}")
+
+
+def _refuse_unknown(task: Task, known: tuple[str, ...]) -> None:
+    for key in task:
+        if key not in known:
+            near = difflib.get_close_matches(key, known, n=1)
+            hint = f"did you mean '{near[0]}'?" if near else FORM
+            raise ResultsError(f"there is no key '{key}'; {hint}")
+
+
+def _check(task: Task) -> None:
+    """@raises ResultsError"""
     if not isinstance(task["ground"], str):
         raise ResultsError(f"'ground' is {_shown(task['ground'])}, the name of a ground is needed")
+    for test in task["tests"]:
+        if test["test"] not in list(SERIES):
+            raise ResultsError(f"'test' is {_shown(test['test'])}; tests are {', '.join(SERIES)}")
     require_ground(task["ground"])
     _check_parameters(task)
-    _check_variables(task)
+    for test in task["tests"]:
+        _check_variables(task, test)
+        _check_target(test)
     _check_seeds(task)
-    _check_target(task)
     iterations = task.get("iterations", 1)
     if not isinstance(iterations, int) or isinstance(iterations, bool) or iterations < 1:
         raise ResultsError(f"'iterations' is {_shown(iterations)}, a whole number from 1 is needed")
@@ -89,17 +121,17 @@ def _check_parameters(task: Task) -> None:
             )
         if name == "seed":
             raise ResultsError("parameter 'seed': seeds stand in 'seeds'")
-        if name in task.get("variables", {}):
+        if any(name in test["variables"] for test in task["tests"]):
             raise ResultsError(f"'{name}' is a parameter and a variable; give it once")
 
 
-def _check_variables(task: Task) -> None:
+def _check_variables(task: Task, test: Task) -> None:
     """Variables, parameters and series with what the test's scripts read."""
-    values = {name: str(value) for name, value in _object(task, "variables").items()}
-    series = task.get("series", [])
-    name = SERIES[task["test"]]
+    values = {name: str(value) for name, value in test["variables"].items()}
+    series = test.get("series", [])
+    name = SERIES[test["test"]]
     if series and name != "confinement":
-        raise ResultsError(f"'series' is of confinements; the test {task['test']} has none")
+        raise ResultsError(f"'series' is of confinements; the test {test['test']} has none")
     if not isinstance(series, list) or not all(_is_number(value) for value in series):
         raise ResultsError(f"'series' is {_shown(series)}, a list of confinements [Pa] is needed")
     for value in series:
@@ -107,7 +139,7 @@ def _check_variables(task: Task) -> None:
     if "seed" in values:
         raise ResultsError("variable 'seed': seeds stand in 'seeds'")
     starts = {name: str(value[0]) for name, value in task["parameters"].items()}
-    require_variables(task["test"], task["ground"], list({**values, **starts}.items()))
+    require_variables(test["test"], task["ground"], list({**values, **starts}.items()))
 
 
 def _check_seeds(task: Task) -> None:
@@ -120,28 +152,33 @@ def _check_seeds(task: Task) -> None:
         raise ResultsError("'seeds' has a seed twice: its packings would not scatter")
 
 
-def _check_target(task: Task) -> None:
-    if ("reference" in task) == ("quantities" in task):
+def _check_target(test: Task) -> None:
+    if ("reference" in test) == ("quantities" in test):
         raise ResultsError(f"one of 'reference' and 'quantities' is needed; {FORM}")
-    if "quantities" in task:
-        for name, values in _object(task, "quantities").items():
+    if "quantities" in test:
+        for name, values in _object(test, "quantities").items():
             if not (_is_numbers(values, 2) and values[1] > 0):
                 raise ResultsError(
                     f"quantity '{name}' is {_shown(values)}; [value, deviation] with a deviation "
                     "above 0 is needed"
                 )
-        if not task["quantities"]:
+        if not test["quantities"]:
             raise ResultsError("'quantities' is empty; name at least one with [value, deviation]")
         return
-    limits: list[Any] = [task.get("lowest"), task.get("highest")]
+    limits: list[Any] = [test.get("lowest"), test.get("highest")]
     if not (_is_numbers(limits, 2) and 0 < limits[0] < limits[1]):
         raise ResultsError(
             f"'lowest' and 'highest' are {_shown(limits[0])} and {_shown(limits[1])}; stresses "
             "[Pa] with 0 < lowest < highest are needed"
         )
-    if task["test"] != "oedometer":
+    deviation = test.get("deviation", 1)
+    if not _is_number(deviation) or deviation <= 0:
+        raise ResultsError(
+            f"'deviation' is {_shown(deviation)}; one of the stresses' logarithms, above 0, is needed"
+        )
+    if test["test"] != "oedometer":
         raise ResultsError("'reference' is of an oedometer; other tests have 'quantities'")
-    file = HERE / str(task["reference"])
+    file = HERE / str(test["reference"])
     if not file.is_file():
         raise ResultsError(f"'reference': {file} is no file; the path is relative to {HERE}")
     rows = read_oedometer_reference(file)

@@ -84,6 +84,8 @@ GOOD: dict[str, Any] = {
     "highest": 1.01e6,
 }
 QUANTITIES: dict[str, Any] = {"reference": None, "lowest": None, "highest": None}
+SEVERAL: dict[str, Any] = {"test": None, **QUANTITIES}
+PULL = {"tensile_strength": [1e3, 100]}
 
 # (changed keys, None: left out; what is said)
 CALIBRATIONS: tuple[tuple[dict[str, Any], str], ...] = (
@@ -123,6 +125,15 @@ CALIBRATIONS: tuple[tuple[dict[str, Any], str], ...] = (
     ({**QUANTITIES, "quantities": {"K0": 0.4}}, "[value, deviation] with a deviation above 0"),
     ({**QUANTITIES, "quantities": {"K0": [0.4, 0]}}, "[value, deviation] with a deviation above 0"),
     ({"series": [1e4]}, "'series' is of confinements; the test oedometer has none"),
+    ({"deviation": 0}, "'deviation' is 0; one of the stresses' logarithms, above 0, is needed"),
+    ({"tests": [{"test": "tension"}]}, "'test' stands beside 'tests'; write it for each of them"),
+    ({**SEVERAL, "tests": []}, "'tests' is [], a list of objects is needed"),
+    ({**SEVERAL, "tests": ["tension"]}, "'tests' is [\"tension\"], a list of objects is needed"),
+    ({**SEVERAL, "tests": [{"variables": {}}]}, "'test' is missing or empty in one of 'tests'"),
+    ({**SEVERAL, "tests": [{"test": "oedometer"}]}, "one of 'reference' and 'quantities'"),
+    ({**SEVERAL, "tests": [{"test": "tension", "seeds": [3]}]}, "there is no key 'seeds'"),
+    ({**SEVERAL, "tests": [{"test": "pull", "quantities": PULL}]}, "'test' is \"pull\"; tests are"),
+    ({**SEVERAL, "tests": [{"test": "tension", "quantities": PULL}]}, "no line reads 'stress'"),
     ({"iterations": 0}, "'iterations' is 0, a whole number from 1 is needed"),
 )
 
