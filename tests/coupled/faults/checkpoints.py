@@ -68,7 +68,7 @@ def belongs_together(furrow, table):
              ["WARNING: fix property/global 'm3' is 0.4, and was 0.3"], ["'m4'"])):
         table.check(f"with a mesh: {name}", run_script(furrow, folder, script), status, *texts,
                     absent=absent)
-    rig = "fix rig all wheel/rig wheel wheel load_force 5 speed 0.1 mode towed ground_level 0.12 settle_time 1\n"
+    rig = "fix rig all wheel/rig wheel wheel load_force 5 speed 0.1 mode towed ground_level 0.12 settle_time 1 accelerate_time 1\n"
     table.check("with a rig", run_script(furrow, folder, GRAINS + WHEEL + rig + "run 10\nwrite_restart ck.rig\n"), 0)
     whole = CONTINUED.format(file="ck.rig") + WHEEL + rig + "run 5\n"
     for name, script, texts, absent in (
