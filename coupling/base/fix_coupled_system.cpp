@@ -5,10 +5,12 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "atom.h"
 #include "core/error.h"
 #include "coupling/base/fix_order.h"
 #include "coupling/base/fixes_of.h"
@@ -20,7 +22,6 @@
 #include "coupling/bodies/fix_mesh_body.h"
 #include "coupling/liggghts/contact_history.h"
 #include "coupling/liggghts/errors.h"
-#include "coupling/liggghts/first_rank.h"
 #include "coupling/liggghts/global_properties.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/stream_check.h"
@@ -113,8 +114,9 @@ void FixCoupledSystem::pre_delete(bool unfixing) {
 
 int FixCoupledSystem::setmask() {
   using namespace LAMMPS_NS::FixConst;
-  return PRE_INITIAL_INTEGRATE | INITIAL_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE | END_OF_STEP |
-         POST_RUN;  // PRE_FORCE: for setup_pre_force
+  // PRE_EXCHANGE and PRE_FORCE: for the set-up
+  return PRE_INITIAL_INTEGRATE | INITIAL_INTEGRATE | PRE_EXCHANGE | PRE_FORCE | FINAL_INTEGRATE |
+         END_OF_STEP | POST_RUN;
 }
 
 /// Before the first neighbour lists: a position that is no number would crash them.
@@ -148,6 +150,7 @@ void FixCoupledSystem::check_restored_fixes() {
         fmt::join(kept, ", ")));
   checkpointed_fixes_.clear();
   warn_of_changed_properties();
+  warn_of_changed_controllers();
 }
 
 /// Properties of grains may be changed on purpose between two stages of a run.
@@ -161,8 +164,55 @@ void FixCoupledSystem::warn_of_changed_properties() {
                              property, found->second, values));
 }
 
+/// Of those that keep no state: rigs. A line for each keyword: name of the fix, keyword, value.
+std::string FixCoupledSystem::lines_of_controllers() const {
+  std::string lines;
+  for (const NamedController& each : controllers_) {
+    const auto* fix = dynamic_cast<const FurrowFix*>(modify->find_fix_id(each.name.c_str()));
+    if (!fix || fix->must_be_restored()) continue;
+    for (const auto& [key, value] : fix->settings())
+      lines += fmt::format("{}\t{}\t{}\n", fix->name(), key, value);
+  }
+  return lines;
+}
+
+/// A wheel may be driven in another way on purpose, in a second stage of a run.
+void FixCoupledSystem::warn_of_changed_controllers() {
+  std::map<std::string, std::map<std::string, std::string>> now;
+  std::istringstream present(lines_of_controllers()), saved(checkpointed_controllers_);
+  std::string fix, key, value;
+  const auto read = [&](std::istringstream& lines) -> bool {
+    return std::getline(lines, fix, '\t') && std::getline(lines, key, '\t') &&
+           std::getline(lines, value);
+  };
+  while (read(present)) now[fix][key] = value;
+  std::set<std::string> missing;
+  while (read(saved)) {
+    if (!now.count(fix))
+      missing.insert(fix);
+    else if (now[fix][key] != value)
+      warn(*lmp, fmt::format("{}, keyword '{}' is {}, and was {} when the checkpoint was written: "
+                             "the run goes on as this line says",
+                             fix, key, now[fix][key], value));
+  }
+  if (!missing.empty())
+    warn(*lmp, fmt::format("the run of the checkpoint had {}, and the script that continues has no "
+                           "such line: the run goes on without",
+                           fmt::join(missing, ", ")));
+}
+
+/// The checkpoint has the grains in the order in which the run without a break goes on to add up
+/// their forces; the set-up would sort them.
+void FixCoupledSystem::setup_pre_exchange() {
+  if (forces_ == ForceState::restored) sort_interval_ = std::exchange(atom->sortfreq, 0);
+}
+
 void FixCoupledSystem::setup_pre_force(int) {
   const bool restored = forces_ == ForceState::restored;
+  if (restored) {
+    atom->sortfreq = sort_interval_;
+    atom->nextsort = next_sort_;
+  }
   for (Member& m : members_)
     if (restored && m.restored_forces.cols() == 0) m.restored_forces = m.body->surface().f;
   clear_forces();
@@ -211,7 +261,7 @@ int FixCoupledSystem::advance_bodies() try {
 void FixCoupledSystem::post_run() {
   with_collective_errors(*error, [&] {
     scene_checks_.after_run();
-    on_first_rank(world, [&] { check_streams(*lmp); });
+    check_streams(*lmp);
   });
 }
 
@@ -297,14 +347,19 @@ void FixCoupledSystem::checkpoint(Checkpoint& state, bool in_run,
   state.match("the parameters of the bed", variable(*lmp, bed_variable).value_or("none"));
   state.value("time", time_);
   state.value("in_run", in_run);
+  if (state.saving()) next_sort_ = atom->nextsort;
+  state.value("next_sort", next_sort_);
   state.values("contact_forces", contact_forces);
   std::string fixes = names_of_restorable_fixes(*modify);
   state.value("fixes", fixes);
   std::string properties = text_of(global_properties(*lmp));
   state.value("properties", properties);
+  std::string controllers = lines_of_controllers();
+  state.value("controllers", controllers);
   if (state.saving()) return;
   checkpointed_fixes_ = fixes;
   checkpointed_properties_ = properties;
+  checkpointed_controllers_ = controllers;
   if (in_run) forces_ = ForceState::restored;
   restored_contact_forces_ = std::move(contact_forces);
 }

@@ -11,6 +11,7 @@
 ///   final_integrate    one sum over the ranks; forces on bodies and on grains must cancel
 ///   end_of_step        histories write their rows
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,8 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   void pre_delete(bool unfixing) override;
   int setmask() override;
   void init() override;
+  void setup_pre_exchange() override;
+  void pre_exchange() override {}
   void setup_pre_force(int) override;
   void pre_initial_integrate() override;
   void initial_integrate(int) override;
@@ -109,6 +112,8 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   void checkpoint(Checkpoint& state, bool in_run, std::vector<double> contact_forces);
   void check_restored_fixes();
   void warn_of_changed_properties();
+  std::string lines_of_controllers() const;
+  void warn_of_changed_controllers();
   int advance_bodies();
   void clear_forces();
   void sum_over_ranks();
@@ -129,9 +134,12 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   double time_ = 0.0, sub_steps_ = 0.0;
   bool restored_ = false;
   ForceState forces_ = ForceState::partial;
+  int sort_interval_ = 0;       // [steps], while the set-up of a continued run must not sort
+  std::int64_t next_sort_ = 0;  // step, of the checkpoint
   std::vector<double> restored_contact_forces_;
-  std::string checkpointed_fixes_;       // names, a line each; empty unless the run is continued
-  std::string checkpointed_properties_;  // the same, with their values
+  std::string checkpointed_fixes_;        // names, a line each; empty unless the run is continued
+  std::string checkpointed_properties_;   // the same, with their values
+  std::string checkpointed_controllers_;  // a keyword each
 };
 
 }  // namespace furrow::coupling

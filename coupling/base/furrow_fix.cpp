@@ -67,19 +67,24 @@ void FurrowFix::restart(char* buffer) {
 }
 
 /// Numbers are compared as numbers: 0.2 is 0.20.
-void FurrowFix::match_options(Checkpoint& state) const {
-  if (!state_needs_options()) return;
+std::vector<std::pair<std::string, std::string>> FurrowFix::settings() const {
+  std::vector<std::pair<std::string, std::string>> list;
   for (const Key& key : options_.keys()) {
     if (key.may_change) continue;
-    const std::string what = fmt::format("keyword '{}'", key.name);
     const bool numbers = key.kind == Key::Kind::number || key.kind == Key::Kind::numbers;
     if (!options_.has(key.name))
-      state.match(what, "not given");
+      list.emplace_back(key.name, "not given");
     else if (numbers)
-      state.match(what, fmt::format("{}", fmt::join(options_.numbers(key.name), " ")));
+      list.emplace_back(key.name, fmt::format("{}", fmt::join(options_.numbers(key.name), " ")));
     else
-      state.match(what, options_.text(key.name));
+      list.emplace_back(key.name, options_.text(key.name));
   }
+  return list;
+}
+
+void FurrowFix::match_options(Checkpoint& state) const {
+  if (!state_needs_options()) return;
+  for (const auto& [key, value] : settings()) state.match(fmt::format("keyword '{}'", key), value);
 }
 
 void FurrowFix::announce_vector(std::size_t size) {

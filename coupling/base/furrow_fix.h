@@ -13,6 +13,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -41,6 +42,9 @@ class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix {
   std::string name() const;
   /// A checkpoint keeps a state of it that a continued run cannot do without.
   bool must_be_restored() const { return restart_global && state_needs_options(); }
+  /// Keywords with their values, equal for equal numbers, but for those that may change when a run
+  /// is continued.
+  std::vector<std::pair<std::string, std::string>> settings() const;
   /// It has the state of a checkpoint.
   bool restored() const { return restored_; }
 

@@ -6,6 +6,7 @@
 #include "coupling/base/fixes_of.h"
 #include "coupling/checks/box_check.h"
 #include "coupling/checks/grain_motion_check.h"
+#include "coupling/checks/grain_place_check.h"
 #include "coupling/checks/ground_level_check.h"
 #include "coupling/checks/lost_grains_check.h"
 #include "coupling/checks/properties_check.h"
@@ -30,7 +31,10 @@ void SceneChecks::say(const std::string& warning) {
 
 void SceneChecks::after_step(int sub_steps) {
   const Warn warn = [this](const std::string& text) { say(text); };
-  if (first_step_) check_weight(lammps_, warn);
+  if (first_step_) {
+    check_weight(lammps_, warn);
+    warn_of_grains_without_floor(lammps_, warn);
+  }
   first_step_ = false;
   if (slow_step_.empty() && sub_steps > many_sub_steps) slow_step_ = check_sub_steps(lammps_, warn);
 }
@@ -58,6 +62,7 @@ void SceneChecks::before_run() {
   slow_step_ = check_sub_steps(lammps_, warn);
   warn_of_changed_box(lammps_, box_, warn);
   check_grain_motion(lammps_, warn);
+  check_grains_in_terrain(lammps_, warn);
   warn_of_bodies_that_touch_nothing(lammps_, warn);
   warn_of_bodies_in_one_place(lammps_, warn);
   warn_of_planes_in_terrain(lammps_, warn);

@@ -19,6 +19,7 @@
 #include "coupling/liggghts/errors.h"
 #include "coupling/liggghts/wall_meshes.h"
 #include "fix_neighlist_mesh.h"
+#include "geometry/winding_number.h"
 #include "neighbor.h"
 #include "update.h"
 
@@ -105,7 +106,11 @@ void FixWallGranBody::setup(int vflag) {
       if (fresh) check->second.start(mesh_fix->body().surface());
     }
   FixWallGran::setup(vflag);
-  if (starting_) with_collective_errors(*error, [&] { refuse_deep_start(); });
+  if (starting_)
+    with_collective_errors(*error, [&] {
+      refuse_deep_start();
+      refuse_grains_inside();
+    });
   starting_ = false;
 }
 
@@ -117,6 +122,30 @@ void FixWallGranBody::refuse_deep_start() const {
                     "{:.3g} of its radius (limit {:g}); start the body higher, just above the "
                     "surface of the bed",
                     id, deepest, max_overlap_at_start));
+}
+
+/// Grains too far from the surface to touch it; it would never let them out.
+void FixWallGranBody::refuse_grains_inside() const {
+  constexpr double inside = 0.5;  // winding number
+  for (int m = 0; m < n_FixMesh_; ++m) {
+    const auto* mesh = dynamic_cast<const FixMeshBody*>(FixMesh_list_[m]);
+    if (!mesh) continue;
+    const Surface& surface = mesh->body().surface();
+    const auto [lower, upper] = surface.bounds();
+    double count = 0.0;
+    for (int i = 0; i < atom->nlocal; ++i) {
+      const Vector3 centre = Eigen::Map<const Vector3>(atom->x[i]);
+      if ((centre.array() > lower.array()).all() && (centre.array() < upper.array()).all() &&
+          winding_number(surface, centre) > inside)
+        count += 1.0;
+    }
+    count = FixCoupledSystem::of(*lmp).communicator().sum(count);
+    if (count > 0.0)
+      throw StateError(
+          fmt::format("fix wall/gran/body '{}': {:.0f} grain(s) start inside the body of mesh "
+                      "'{}'; start the body where no grains are, just above the surface of the bed",
+                      id, count, mesh->id));
+  }
 }
 
 void FixWallGranBody::post_force_mesh(int vflag) {

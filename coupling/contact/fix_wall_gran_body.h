@@ -51,6 +51,7 @@ class FixWallGranBody : public LAMMPS_NS::FixWallGran, public UsesFix {
                      const ContactCandidate& contact, bool touching) const;
   GrainBedCheck* check_of(int mesh_number);
   void refuse_deep_start() const;
+  void refuse_grains_inside() const;
 
   ContactSelection selection_;
   std::vector<LAMMPS_NS::FixMeshSurface*> stock_meshes_;

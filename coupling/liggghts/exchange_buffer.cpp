@@ -7,7 +7,6 @@
 #include "atom_vec.h"
 #include "comm.h"
 #include "core/error.h"
-#include "coupling/liggghts/contact_history.h"
 #include "coupling/liggghts/packed_integer.h"
 #include "modify.h"
 
@@ -25,6 +24,13 @@ constexpr std::size_t own_room = 64, room_for_each_fix = 64;
 int packed_tag(const double* grain) { return unpack_integer(grain[at_tag]); }
 void set_packed_tag(double* grain, int tag) { grain[at_tag] = pack_integer(tag); }
 
+std::vector<std::string> riders(const LAMMPS_NS::LAMMPS& lammps) {
+  std::vector<std::string> ids;
+  for (int e = 0; e < lammps.atom->nextra_grow; ++e)
+    ids.emplace_back(lammps.modify->fix[lammps.atom->extra_grow[e]]->id);
+  return ids;
+}
+
 PackedGrain pack_grain(LAMMPS_NS::LAMMPS& lammps, int i) {
   LAMMPS_NS::Atom& atom = *lammps.atom;
   LAMMPS_NS::Modify& modify = *lammps.modify;
@@ -38,13 +44,13 @@ PackedGrain pack_grain(LAMMPS_NS::LAMMPS& lammps, int i) {
     throw StateError(
         "LIGGGHTS packs a grain in an order that is not atom_style granular's; use that style");
   // The fixes' parts come last, in the order of extra_grow.
-  const LAMMPS_NS::Fix* history = find_contact_history(lammps);
   std::vector<double> part(room);
+  packed.parts_at.resize(static_cast<std::size_t>(atom.nextra_grow));
   std::size_t end = size;
   for (int e = atom.nextra_grow - 1; e >= 0; --e) {
     LAMMPS_NS::Fix* rider = modify.fix[atom.extra_grow[e]];
     end -= static_cast<std::size_t>(rider->pack_exchange(i, part.data()));
-    if (rider == history) packed.contacts_at = end;
+    packed.parts_at[static_cast<std::size_t>(e)] = end;
   }
   packed.numbers.resize(size);
   return packed;

@@ -7,6 +7,7 @@
 /// pack_grain() compares it with the grain.
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "lammps.h"
@@ -15,8 +16,11 @@ namespace furrow::coupling {
 
 struct PackedGrain {
   std::vector<double> numbers;
-  std::size_t contacts_at = 0;  ///< where its PackedContacts begin; 0: it has none
+  std::vector<std::size_t> parts_at;  ///< where the numbers of each rider begin
 };
+
+/// Ids of the fixes that ride with the grains, in the order of their parts.
+std::vector<std::string> riders(const LAMMPS_NS::LAMMPS& lammps);
 
 // Of a packed grain.
 inline const double* packed_position(const double* grain) { return grain + 1; }  ///< [m]

@@ -39,8 +39,9 @@ void check_library(const LAMMPS_NS::LAMMPS& lammps) {
   const std::string version = lammps.universe->version;
   if (version.find(liggghts_version) == std::string::npos)
     refuse(fmt::format("it calls itself '{}'", version));
-  for (const char* name : {symbol::create, symbol::write_restart, symbol::read_int,
-                           symbol::nread_double, symbol::restart_requested})
+  for (const char* name :
+       {symbol::create, symbol::write_restart, symbol::read_int, symbol::nread_double,
+        symbol::restart_requested, symbol::decide, symbol::write_output, symbol::open_dump})
     if (!next_definition(name)) refuse(fmt::format("it has no symbol {}", name));
   check_room(lammps.modify, "Modify");
   check_room(lammps.input, "Input");

@@ -18,6 +18,9 @@ inline constexpr char write_restart[] = "_ZN9LAMMPS_NS12WriteRestart5writeEPc";
 inline constexpr char read_int[] = "_ZN9LAMMPS_NS11ReadRestart8read_intEv";
 inline constexpr char nread_double[] = "_ZN9LAMMPS_NS11ReadRestart12nread_doubleEPdiP8_IO_FILE";
 inline constexpr char restart_requested[] = "_ZN9LAMMPS_NS6Output17restart_requestedEl";
+inline constexpr char write_output[] = "_ZN9LAMMPS_NS6Output5writeEl";
+inline constexpr char open_dump[] = "_ZN9LAMMPS_NS4Dump8openfileEv";
+inline constexpr char decide[] = "_ZN9LAMMPS_NS8Neighbor6decideEv";
 }  // namespace symbol
 
 /// The start-up self-test: version, symbols, and members that are reached by layout.

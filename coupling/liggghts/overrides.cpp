@@ -7,15 +7,19 @@
 
 #include <mpi.h>
 
+#include "coupling/liggghts/checked_stream.h"
 #include "coupling/liggghts/checkpoint_file.h"
 #include "coupling/liggghts/error_policy.h"
 #include "coupling/liggghts/errors.h"
 #include "coupling/liggghts/library_check.h"
 #include "coupling/liggghts/signals.h"
+#include "coupling/liggghts/stream_check.h"
 #include "coupling/styles.h"
+#include "dump.h"
 #include "error.h"
 #include "fix.h"
 #include "lammps.h"
+#include "neighbor.h"
 #include "output.h"
 #include "read_restart.h"
 #include "update.h"
@@ -77,12 +81,29 @@ FURROW_EXPORTED void ReadRestart::nread_double(double* numbers, int count, FILE*
   if (std::feof(file)) error->one(FLERR, cut_short);
 }
 
-/// Asked in every step, before it is decided whether neighbour lists are made.
+/// Whether neighbour lists are made in this step.
+FURROW_EXPORTED int Neighbor::decide() {
+  const bool due = next_function<int(Neighbor*)>(symbol::decide)(this) != 0;
+  return furrow::coupling::follow_signals(*lmp, due) || due;
+}
+
 FURROW_EXPORTED bool Output::restart_requested(const bigint step) {
-  furrow::coupling::agree_on_signals(*lmp);
   // Without this LIGGGHTS, after a checkpoint that a signal asked for, has no further output.
   if (!restart_flag) next_restart_single = next_restart_double = update->laststep + 1;
   return next_function<bool(Output*, bigint)>(symbol::restart_requested)(this, step);
+}
+
+/// Dumps, checkpoints and curves of a step.
+FURROW_EXPORTED void Output::write(bigint step) {
+  next_function<void(Output*, bigint)>(symbol::write_output)(this, step);
+  with_collective_errors(*error, [&] { furrow::coupling::check_streams(*lmp); });
+}
+
+FURROW_EXPORTED void Dump::openfile() {
+  const bool is_open = singlefile_opened;
+  next_function<void(Dump*)>(symbol::open_dump)(this);
+  if (!is_open && fp && !compressed)
+    fp = furrow::coupling::checked_stream(fp, std::string("dump '") + id + "', file " + filename);
 }
 
 FURROW_EXPORTED void Error::all(const char* file, int line, const char* text) {

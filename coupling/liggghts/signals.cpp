@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/liggghts/signals.h"
 
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
 #include <mpi.h>
 #include <unistd.h>
 
+#include "atom.h"
+#include "comm.h"
 #include "coupling/liggghts/script.h"
+#include "output.h"
 #include "signal_handling.h"
 #include "update.h"
 
@@ -25,8 +30,28 @@ volatile std::sig_atomic_t stop_wanted = 0;  // the signal
 volatile std::sig_atomic_t checkpoint_wanted = 0;
 volatile std::sig_atomic_t confirms = 1;
 
+using Clock = std::chrono::steady_clock;
+
+// [ms] For a step that makes neighbour lists. mpirun that passes a signal on to all its ranks kills
+// them a second later.
+constexpr int patience = 5000, patience_under_mpirun = 500;
+
 int agreed = 0;
-bool stop_with_checkpoint = false;
+bool stop_with_checkpoint = false, lists_for_checkpoint = false;
+std::optional<Clock::time_point> waits_since;
+
+/// [ms]
+int time_waited() {
+  if (!waits_since) waits_since = Clock::now();
+  const auto waited =
+      std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - *waits_since);
+  return static_cast<int>(waited.count());
+}
+
+constexpr char off_the_lists[] =
+    ". No neighbour lists were due for so long that they were made for it: the run will differ "
+    "from "
+    "one without a break, at first by the last digits of forces between grains";
 
 const char* name_of_signal(int signal) {
   return signal == SIGINT ? "SIGINT" : signal == SIGHUP ? "SIGHUP" : "SIGTERM";
@@ -44,7 +69,7 @@ void stop(int signal) {
   }
   stop_wanted = signal;
   if (confirms)
-    say("\nThe run stops at the next step, with a checkpoint; a second signal ends it at once.\n");
+    say("\nThe run stops within seconds, with a checkpoint; a second signal ends it at once.\n");
 }
 
 void want_checkpoint(int) { checkpoint_wanted = 1; }
@@ -66,19 +91,27 @@ void handle_signals() {
 
 void confirm_signals(bool confirm) { confirms = confirm; }
 
-void agree_on_signals(const LAMMPS& lammps) {
-  int wanted[2] = {stop_wanted, checkpoint_wanted};
-  MPI_Allreduce(MPI_IN_PLACE, wanted, 2, MPI_INT, MPI_MAX, lammps.world);
+bool follow_signals(const LAMMPS& lammps, bool lists) {
+  const bool wanted_here = stop_wanted || checkpoint_wanted;
+  int wanted[4] = {stop_wanted, checkpoint_wanted, !wanted_here, wanted_here ? time_waited() : 0};
+  MPI_Allreduce(MPI_IN_PLACE, wanted, 4, MPI_INT, MPI_MAX, lammps.world);
+  const auto [stops, writes, not_to_all, waited] = wanted;
+  if ((!stops && !writes) || agreed) return false;
+  const bool by_mpirun = lammps.comm->nprocs > 1 && !not_to_all;
+  const bool out_of_patience = waited >= (by_mpirun ? patience_under_mpirun : patience);
   const bool may_write = SignalHandler::enable_restart_writing;
-  if (wanted[1]) {
-    checkpoint_wanted = 0;
-    SignalHandler::request_write_restart = may_write;
-  }
-  if (!wanted[0] || agreed) return;
-  agreed = wanted[0];
+  const bool has_lists = lists || lammps.atom->natoms == 0;
+  const bool last_step = lammps.update->ntimestep == lammps.update->laststep;
+  if (may_write && !has_lists && !last_step && !out_of_patience) return false;
+
+  agreed = stops;
   stop_with_checkpoint = may_write;
-  SignalHandler::request_quit = true;
+  lists_for_checkpoint = may_write && !has_lists;
+  checkpoint_wanted = 0;
+  waits_since.reset();
+  SignalHandler::request_quit = stops != 0;
   SignalHandler::request_write_restart = may_write;
+  return lammps.output->restart_requested(lammps.update->ntimestep);
 }
 
 int agreed_signal() { return agreed; }
@@ -95,8 +128,9 @@ void report_stop(LAMMPS& lammps) {
   warn(lammps, stop_with_checkpoint
                    ? fmt::format("{} stopped the run after step {}; to continue it, write "
                                  "'read_restart {}' in the place of what makes the box, or "
-                                 "'from {}' in the line 'bed'",
-                                 name_of_signal(agreed), step, file, file)
+                                 "'from {}' in the line 'bed'{}",
+                                 name_of_signal(agreed), step, file, file,
+                                 lists_for_checkpoint ? off_the_lists : "")
                    : fmt::format("{} stopped the run after step {}, without a checkpoint",
                                  name_of_signal(agreed), step));
 }

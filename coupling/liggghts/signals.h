@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// SIGINT, SIGTERM and SIGHUP end a run at the next step, with a checkpoint; SIGUSR1 asks for a
-/// checkpoint. LIGGGHTS has each rank act when its own signal comes, within a step; here all ranks
-/// agree at one place of one step. See restart/command_read_restart.md.
+/// SIGINT, SIGTERM and SIGHUP end a run with a checkpoint; SIGUSR1 asks for a checkpoint. LIGGGHTS
+/// has each rank act when its own signal comes, within a step, and makes neighbour lists for it;
+/// here all ranks agree at one place of one step, which makes its lists anyway.
+/// See restart/command_read_restart.md.
 
 #include "lammps.h"
 
@@ -13,9 +14,12 @@ void handle_signals();
 /// Whether this process is the one that tells the user at once that a signal has come.
 void confirm_signals(bool confirm);
 
-/// At the one place of a step where LIGGGHTS asks whether a checkpoint is wanted: if any rank has
-/// had a signal, all ranks follow it now. Collective.
-void agree_on_signals(const LAMMPS_NS::LAMMPS& lammps);
+/// At the one place of a step where it is decided whether neighbour lists are made: if any rank has
+/// had a signal, all ranks follow it in this step, or wait for one that makes lists, so that a
+/// continued run makes them at the same steps as one without a break. Collective.
+/// @param lists are made in this step, whatever signals say
+/// @return whether a checkpoint is written in this step, which takes new lists
+bool follow_signals(const LAMMPS_NS::LAMMPS& lammps, bool lists);
 
 /// The signal that all ranks have agreed to end on; 0: none.
 int agreed_signal();

@@ -7,9 +7,12 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include "core/communicator.h"
 #include "core/error.h"
 #include "coupling/base/fixes_of.h"
 #include "coupling/liggghts/access.h"
+#include "coupling/liggghts/checked_stream.h"
+#include "coupling/liggghts/first_rank.h"
 
 namespace furrow::coupling {
 
@@ -38,10 +41,17 @@ void check_screen(FILE* screen) try {
 }  // namespace
 
 void check_streams(const LAMMPS_NS::LAMMPS& lammps) {
-  check_screen(lammps.screen);
-  check(lammps.logfile, "the log");
-  for (auto* fix : fixes_of<LAMMPS_NS::FixAveTime>(*lammps.modify))
-    check(file_of(*fix), fmt::format("the file of fix ave/time '{}'", fix->id));
+  on_first_rank(lammps.world, [&] {
+    check_screen(lammps.screen);
+    check(lammps.logfile, "the log");
+    for (auto* fix : fixes_of<LAMMPS_NS::FixAveTime>(*lammps.modify))
+      check(file_of(*fix), fmt::format("the file of fix ave/time '{}'", fix->id));
+  });
+  const std::string failure = take_stream_failure();
+  const Communicator ranks(&lammps.world);
+  if (ranks.max(failure.empty() ? 0.0 : 1.0) == 0.0) return;
+  throw StateError(fmt::format("{}; it was not written in full: make room, and repeat the run",
+                               failure.empty() ? "a dump of another rank" : failure));
 }
 
 }  // namespace furrow::coupling

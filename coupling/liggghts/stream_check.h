@@ -6,8 +6,9 @@
 
 namespace furrow::coupling {
 
-/// On the first rank, which has the streams. A pipe whose reader has gone is no fault.
-/// @throws StateError when something of the screen, the log or a fix ave/time could not be written
+/// A pipe whose reader has gone is no fault. Collective.
+/// @throws Error when something of the screen, the log, a fix ave/time or a dump could not be
+/// written
 void check_streams(const LAMMPS_NS::LAMMPS& lammps);
 
 }  // namespace furrow::coupling

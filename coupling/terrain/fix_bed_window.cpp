@@ -12,7 +12,6 @@
 #include "core/error.h"
 #include "coupling/base/refuse_double.h"
 #include "coupling/bodies/fix_body.h"
-#include "coupling/liggghts/contact_history.h"
 #include "coupling/liggghts/exchange_buffer.h"
 #include "domain.h"
 #include "modify.h"
@@ -25,10 +24,6 @@ namespace {
 // A grain of the rut that lies deeper than this share of the sum of radii in a renewed grain is
 // taken out.
 constexpr double seam_overlap = 0.05;
-
-int place_of_fix(const LAMMPS_NS::Modify& modify, const LAMMPS_NS::Fix* fix) {
-  return static_cast<int>(std::find(modify.fix, modify.fix + modify.nfix, fix) - modify.fix);
-}
 
 }  // namespace
 
@@ -83,11 +78,27 @@ FixBedWindow::FixBedWindow(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
   keep_state();
 }
 
-/// The grains that it remembers would be those of the rut: they are not in the checkpoint.
+/// The undisturbed bed is in no grain of the checkpoint any more.
 void FixBedWindow::checkpoint(Checkpoint& state) {
-  if (!state.saving())
-    throw StateError(
-        "fix bed/window cannot be continued from a checkpoint: start the run from its beginning");
+  bool remembered = bed_.has_value();
+  state.value("remembered", remembered);
+  if (!remembered) return;
+  if (!bed_) bed_.emplace();
+  bed_->checkpoint(state);
+  state.value("next", next_);
+  state.value("renewed", renewed_);
+  const Communicator ranks(&world);
+  std::int64_t difference = inserted_minus_removed_;
+  if (state.saving())
+    difference = static_cast<std::int64_t>(ranks.sum(static_cast<double>(difference)));
+  state.value("inserted_minus_removed", difference);
+  state.value("first_frozen_tag", first_frozen_tag_);
+  state.value("last_frozen_tag", last_frozen_tag_);
+  std::vector<double> frozen(frozen_.begin(), frozen_.end());
+  state.values("frozen", frozen);
+  if (state.saving()) return;
+  inserted_minus_removed_ = ranks.rank() == 0 ? difference : 0;
+  frozen_.assign(frozen.begin(), frozen.end());
 }
 
 int FixBedWindow::setmask() {
@@ -95,27 +106,23 @@ int FixBedWindow::setmask() {
   return INITIAL_INTEGRATE | PRE_EXCHANGE | PRE_NEIGHBOR | POST_FORCE;
 }
 
-/// Contact histories are gathered into the grains by fix contacthistory; grains may be exchanged
-/// only after that.
-void FixBedWindow::init() {
-  const LAMMPS_NS::Fix* history = find_contact_history(*lmp);
+/// Grains have just been exchanged and carry their histories; forces and lists come later.
+void FixBedWindow::setup_pre_neighbor() {
   collectively([&] {
-    if (history && place_of_fix(*modify, history) > place_of_fix(*modify, this))
-      throw InputError("fix bed/window", "comes before the pair style was set up",
-                       "bed/window after a run", "write 'run 0' before this line");
+    if (bed_) {
+      bed_->follow_riders(*lmp);
+      return;
+    }
+    bed_.emplace();
+    bed_->remember(*lmp);
+    next_ = static_cast<std::int64_t>(
+        std::floor((middle_of_body() - behind_ - domain->boxlo[0]) / slab_length_));
   });
 }
 
-/// Grains have just been exchanged and carry their histories; forces and lists come later.
-void FixBedWindow::setup_pre_neighbor() {
-  if (bed_) return;
-  collectively([&] { bed_.emplace(*lmp); });
-  next_ =
-      static_cast<long>(std::floor((middle_of_body() - behind_ - domain->boxlo[0]) / slab_length_));
-}
-
-long FixBedWindow::slab_of(double x) const {
-  const long slab = static_cast<long>(std::floor((x - domain->boxlo[0]) / slab_length_)) % slabs_;
+std::int64_t FixBedWindow::slab_of(double x) const {
+  const auto slab =
+      static_cast<std::int64_t>(std::floor((x - domain->boxlo[0]) / slab_length_)) % slabs_;
   return slab < 0 ? slab + slabs_ : slab;
 }
 
@@ -129,15 +136,16 @@ void FixBedWindow::initial_integrate(int) {
   if (due_) next_reneighbor = update->ntimestep;
 }
 
-/// Lists are about to be made, on all ranks.
+/// Lists are about to be made, on all ranks. LIGGGHTS has fix contacthistory gather its values into
+/// the grains before any other fix has its turn (Modify::list_init_pre_exchange).
 void FixBedWindow::pre_exchange() {
   if (!due_) return;
   due_ = false;
   collectively([&] { renew(next_++); });
 }
 
-void FixBedWindow::renew(long slab) {
-  const long here = ((slab % slabs_) + slabs_) % slabs_;
+void FixBedWindow::renew(std::int64_t slab) {
+  const std::int64_t here = ((slab % slabs_) + slabs_) % slabs_;
   std::vector<std::size_t> fresh;
   for (std::size_t g = 0; g < bed_->size(); ++g)
     if (slab_of_grain(g) == here) fresh.push_back(g);
@@ -157,7 +165,7 @@ void FixBedWindow::renew(long slab) {
 
 /// What stands in the slab, the slab frozen until now, and grains of the rut that lie in the grains
 /// to come.
-void FixBedWindow::take_out(long slab, const std::vector<std::size_t>& fresh) {
+void FixBedWindow::take_out(std::int64_t slab, const std::vector<std::size_t>& fresh) {
   const double middle = domain->boxlo[0] + (static_cast<double>(slab) + 0.5) * slab_length_;
   const auto from_middle = [&](double x) {
     return std::abs(std::remainder(x - middle, domain->prd[0]));
@@ -194,7 +202,7 @@ bool FixBedWindow::overlaps(int i, const std::vector<std::size_t>& grains) const
 }
 
 /// @param rut slab whose grains are no partners: they are gone
-void FixBedWindow::put_in(const std::vector<std::size_t>& grains, std::optional<long> rut) {
+void FixBedWindow::put_in(const std::vector<std::size_t>& grains, std::optional<std::int64_t> rut) {
   const auto is_gone = [&](std::size_t partner) { return rut && slab_of_grain(partner) == *rut; };
   for (const std::size_t g : grains) {
     const double* x = bed_->position(g);

@@ -3,6 +3,7 @@
 /// fix bed/window: the bed behind a body is renewed, so that a periodic bed of few wheel lengths
 /// serves a roll of any length. See fix_bed_window.md.
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -22,7 +23,6 @@ class FixBedWindow : public FurrowFix, public FollowsSystem {
     return "slabs are renewed by where the body has come to";
   }
   int setmask() override;
-  void init() override;
   void setup_pre_neighbor() override;
   void initial_integrate(int vflag) override;
   void pre_exchange() override;
@@ -33,21 +33,21 @@ class FixBedWindow : public FurrowFix, public FollowsSystem {
  private:
   void checkpoint(Checkpoint& state) override;
   double middle_of_body() const { return body_.surface().x.row(0).mean(); }  // [m] along x
-  long slab_of(double x) const;  // 0 to slabs_-1, x anywhere
-  long slab_of_grain(std::size_t grain) const { return slab_of(bed_->position(grain)[0]); }
+  std::int64_t slab_of(double x) const;  // 0 to slabs_-1, x anywhere
+  std::int64_t slab_of_grain(std::size_t grain) const { return slab_of(bed_->position(grain)[0]); }
   bool is_frozen(int local_grain) const;
-  void renew(long slab);
-  void take_out(long slab, const std::vector<std::size_t>& fresh);
+  void renew(std::int64_t slab);
+  void take_out(std::int64_t slab, const std::vector<std::size_t>& fresh);
   bool overlaps(int local_grain, const std::vector<std::size_t>& grains) const;
-  void put_in(const std::vector<std::size_t>& grains, std::optional<long> rut);
+  void put_in(const std::vector<std::size_t>& grains, std::optional<std::int64_t> rut);
 
   const Body& body_;
   double behind_;  // [m]
-  long slabs_;
-  double slab_length_;  // [m]
-  long next_ = 0;       // slab to be renewed
-  long renewed_ = 0;
-  long inserted_minus_removed_ = 0;  // grains of this rank
+  std::int64_t slabs_;
+  double slab_length_;     // [m]
+  std::int64_t next_ = 0;  // slab to be renewed
+  std::int64_t renewed_ = 0;
+  std::int64_t inserted_minus_removed_ = 0;  // grains of this rank
   bool due_ = false;
 
   std::optional<RememberedBed> bed_;  // from the first set-up on

@@ -76,8 +76,7 @@ void FixTerrainContinuum::refuse_overlap() {
                                      overlaps);
 }
 
-/// Of the undisturbed terrain [m].
-std::pair<double, double> FixTerrainContinuum::extent(int direction) {
+std::pair<double, double> FixTerrainContinuum::extent(int direction) const {
   const Axis& axis = terrain().grid().axis(direction);
   return {axis.lower(), direction == 2 ? options().number("surface") : axis.upper()};
 }

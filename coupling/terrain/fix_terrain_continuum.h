@@ -18,6 +18,8 @@ class FixTerrainContinuum : public FixBody, public MotionController {
 
   ContinuumTerrain& terrain() const { return static_cast<ContinuumTerrain&>(body()); }
   bool half_model() const { return options().flag("symmetry"); }
+  /// Of the undisturbed terrain along x, y or z [m].
+  std::pair<double, double> extent(int direction) const;
 
   int setmask() override;
   void end_of_step() override;
@@ -26,7 +28,6 @@ class FixTerrainContinuum : public FixBody, public MotionController {
 
  private:
   void refuse_overlap();
-  std::pair<double, double> extent(int direction);
   void report();
   void warn_of_extremes();
   void check_energy();

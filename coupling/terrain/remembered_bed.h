@@ -4,8 +4,11 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "core/checkpoint.h"
 #include "lammps.h"
 
 namespace furrow::coupling {
@@ -17,9 +20,14 @@ class RememberedBed {
   /// The bed that stands in the box now, its grains at rest. Collective; grains have just been
   /// exchanged and carry their contact histories.
   /// @throws StateError for an atom style whose grains are packed in another way
-  explicit RememberedBed(LAMMPS_NS::LAMMPS& lammps);
+  void remember(LAMMPS_NS::LAMMPS& lammps);
+  /// Before every run that puts grains in: the fixes that ride with the grains, and their order,
+  /// may be others than when the bed was remembered.
+  /// @throws StateError for one that the bed's grains have no numbers of
+  void follow_riders(const LAMMPS_NS::LAMMPS& lammps);
+  void checkpoint(Checkpoint& state);
 
-  std::size_t size() const { return offset_.size(); }
+  std::size_t size() const { return latest_tag_.size(); }
   const double* position(std::size_t grain) const;  ///< [m]
   double radius(std::size_t grain) const;           ///< [m]
 
@@ -36,16 +44,23 @@ class RememberedBed {
  private:
   void gather(LAMMPS_NS::LAMMPS& lammps);
   void refer_partners_by_index();
-  double* packed(std::size_t grain) { return &packed_[offset_[grain]]; }
-  const double* packed(std::size_t grain) const { return &packed_[offset_[grain]]; }
-  std::size_t packed_size(std::size_t grain) const;
+  /// Where a grain's own numbers begin in packed_; of the one behind the last: where all end.
+  std::size_t begin(std::size_t grain) const {
+    return grain == 0 ? 0 : bounds_[grain * (riders_.size() + 1) - 1];
+  }
+  /// Where the numbers of a rider begin; of the one behind the last: where the grain ends.
+  std::size_t begin(std::size_t grain, std::size_t rider) const {
+    return bounds_[grain * (riders_.size() + 1) + rider];
+  }
+  double* packed(std::size_t grain) { return &packed_[begin(grain)]; }
+  const double* packed(std::size_t grain) const { return &packed_[begin(grain)]; }
 
-  bool has_contacts_;                     // the contact model keeps histories
-  std::size_t contact_values_ = 0;        // of each contact
-  std::vector<double> packed_;            // exchange_buffer.h, one grain after the other
-  std::vector<std::size_t> offset_;       // of each grain in packed_
-  std::vector<std::size_t> contacts_at_;  // of its contacts, from its own beginning
-  std::vector<int> latest_tag_;           // of each grain
+  std::vector<std::string> riders_;      // exchange_buffer.h
+  std::optional<std::size_t> contacts_;  // the rider with the contact histories, if there are
+  std::size_t contact_values_ = 0;       // of each contact
+  std::vector<double> packed_;           // exchange_buffer.h, one grain after the other
+  std::vector<std::size_t> bounds_;      // in packed_: of the riders, and the end, each grain
+  std::vector<int> latest_tag_;          // of each grain
   int largest_tag_ = 0;
 };
 

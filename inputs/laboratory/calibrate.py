@@ -24,12 +24,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from scipy.optimize import least_squares
-
 HERE = Path(__file__).resolve().parent
 PROJECT = HERE.parents[1]
 sys.path.insert(0, str(PROJECT / "postproc"))
+
+import furrow_post  # first: says which of the next ones are missing
+
+import numpy as np
+from scipy.optimize import least_squares
 
 from task import Task, read_task
 

@@ -23,9 +23,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
-
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postproc"))
+
+import furrow_post  # first: says which of the next ones are missing
+
+import numpy as np
 
 from furrow_post.analyse.laboratory import values_of
 from furrow_post.arguments import between, path, positive

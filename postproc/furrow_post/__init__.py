@@ -16,12 +16,14 @@ if TYPE_CHECKING:
 
 __version__ = "0.1.0"  # of the whole project: pyproject.toml and CMakeLists.txt read this line
 
-# Said here, before any module imports them: a program then ends with one line.
+# Said here, before any module imports them, and imported first by programs that need them
+# themselves: a program then ends with one line.
 _absent = [name for name in ("numpy", "h5py", "matplotlib", "scipy") if not find_spec(name)]
 if _absent:
     sys.exit(
-        f"furrow_post: {sys.executable} has no {', '.join(_absent)}; use Debian's /usr/bin/python3 "
-        f"with {' '.join('python3-' + name for name in _absent)}, or 'pip install ./postproc'"
+        f"furrow_post: {sys.executable} has no {', '.join(_absent)}; write 'apt install "
+        f"{' '.join('python3-' + name for name in _absent)}' and use Debian's /usr/bin/python3, "
+        "or 'pip install ./postproc'"
     )
 
 

@@ -107,8 +107,7 @@ YamlTree read_with_base(const std::vector<std::string>& files) {
 }
 
 /// Porous elasticity and exponential hardening are one compression line, with its unloading.
-std::vector<std::string> doubts_of_sections(const MaterialFile& file) {
-  const MaterialOptions options = read_sections(file.model, file.sections);
+std::vector<std::string> doubts_of_compression_line(const MaterialOptions& options) {
   const auto elasticity = options.find("elasticity"), hardening = options.find("hardening");
   std::vector<std::string> sentences;
   if (elasticity == options.end() || hardening == options.end() ||
@@ -187,8 +186,12 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
   });
   for (const std::string& doubt : doubts(*material))
     result.warnings.push_back(fmt::format("{}: {}", path, doubt));
-  for (const std::string& doubt : doubts_of_sections(result))
+  const MaterialOptions options = read_sections(model, result.sections);
+  for (const std::string& doubt : doubts_of_compression_line(options))
     result.warnings.push_back(fmt::format("{}: {}", path, doubt));
+  if (model.doubts)
+    for (const std::string& doubt : model.doubts(options))
+      result.warnings.push_back(fmt::format("{}: {}", path, doubt));
   return result;
 }
 

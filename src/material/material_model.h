@@ -47,6 +47,8 @@ struct MaterialModel {
   std::string meaning;  ///< one line
   std::vector<SectionSchema> sections;
   std::function<std::unique_ptr<Material>(const MaterialOptions&)> create;
+  /// What hardly fits together though a law can be made of it, a sentence each; may be empty.
+  std::function<std::vector<std::string>(const MaterialOptions&)> doubts;
   /// Parameters that the conformance suite is run with (src/testing/material_conformance.h), each
   /// a flat list of keys: "density 1600 elasticity linear E 5e6 nu 0.2". One for each branch of the
   /// law's code that the parameters choose.

@@ -21,9 +21,12 @@
 
 namespace {
 
+void show_warning(const std::string& warning) {
+  std::cerr << "furrow-point: warning: " << warning << '\n';
+}
+
 void show_warnings(const furrow::MaterialFile& material) {
-  for (const std::string& warning : material.warnings)
-    std::cerr << "furrow-point: warning: " << warning << '\n';
+  for (const std::string& warning : material.warnings) show_warning(warning);
 }
 
 std::string folder_for(const std::string& wish, const std::string& input) {
@@ -37,6 +40,8 @@ void run(const std::string& input, const std::string& output, bool plot) {
   show_warnings(run.material);
   const auto material = run.material.make();
   const furrow::PointHistory history = furrow::drive_point(*material, run.path);
+  if (const std::string doubt = furrow::doubt_of_strains(history); !doubt.empty())
+    show_warning(fmt::format("{}: {}", input, doubt));
   const std::string folder = folder_for(output, input);
   furrow::write_point_run(folder, run, *material, history);
   std::optional<furrow::StepError> error;

@@ -15,11 +15,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
-
 HERE = Path(__file__).resolve().parent
 PROJECT = HERE.parents[2]
 sys.path.insert(0, str(PROJECT / "postproc"))
+
+import furrow_post  # first: says which of the next ones are missing
+
+import numpy as np
 
 from furrow_post.analyse.laboratory import evaluate as evaluate_test
 from furrow_post.analyse.laboratory import reference_error

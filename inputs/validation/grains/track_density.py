@@ -7,9 +7,11 @@ import argparse
 import sys
 from pathlib import Path
 
-import numpy as np
-
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "postproc"))
+
+import furrow_post  # first: says which of the next ones are missing
+
+import numpy as np
 
 from furrow_post.arguments import path, positive
 from furrow_post.errors import ResultsError

@@ -13,13 +13,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-import matplotlib.pyplot as plt
-import numpy as np
-from matplotlib.axes import Axes
-
 HERE = Path(__file__).resolve().parent
 PROJECT = HERE.parents[2]
 sys.path.insert(0, str(PROJECT / "postproc"))
+
+import furrow_post  # first: says which of the next ones are missing
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
 
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_numbers

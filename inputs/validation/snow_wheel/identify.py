@@ -16,10 +16,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[2] / "postproc"))
+
+import furrow_post  # first: says which of the next ones are missing
+
+import numpy as np
 
 import cases
 import report

@@ -10,12 +10,14 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-import matplotlib.pyplot as plt
-import numpy as np
-
 HERE = Path(__file__).resolve().parent
 PROJECT = HERE.parents[2]
 sys.path.insert(0, str(PROJECT / "postproc"))
+
+import furrow_post  # first: says which of the next ones are missing
+
+import matplotlib.pyplot as plt
+import numpy as np
 
 from furrow_post.analyse.statistics import block_mean
 from furrow_post.arrays import Booleans, Floats

@@ -345,6 +345,28 @@ PointChannel find_point_channel(const Material& material, const std::string& nam
                    fmt::format("{}", fmt::join(names, ", ")));
 }
 
+/// Fresh snow of 100 kg/m3 is ice after -2.2; a shear strain gamma of 20 is 3.
+std::string doubt_of_strains(const PointHistory& history) {
+  constexpr double large = 3.0;
+  const PointRecord* worst = nullptr;
+  Eigen::Index component = 0;
+  double largest = large;
+  for (const PointRecord& record : history.records) {
+    Eigen::Index at = 0;
+    const double strain = record.strain.cwiseAbs().maxCoeff(&at);
+    if (!(strain > largest)) continue;
+    largest = strain;
+    worst = &record;
+    component = at;
+  }
+  if (!worst) return "";
+  return fmt::format(
+      "segment {} comes to a logarithmic strain {} of {:.4g}, and no ground beyond {:g}: lengths "
+      "change by a factor of {:.3g}; targets are numbers, not per cent",
+      worst->segment, components[static_cast<std::size_t>(component)], worst->strain[component],
+      large, std::exp(largest));
+}
+
 StepError step_error(const Material& material, const PointPath& path, const PointHistory& history) {
   PointPath finer = path;
   for (PathSegment& segment : finer.segments) segment.steps *= 2;

@@ -62,6 +62,9 @@ PointChannel find_point_channel(const Material& material, const std::string& nam
 ///         stress and the cause
 PointHistory drive_point(const Material& material, const PointPath& path);
 
+/// Strains that no ground comes to, in a sentence; empty without.
+std::string doubt_of_strains(const PointHistory& history);
+
 /// What the size of the steps costs: the same path with every step halved, compared at the ends of
 /// the segments.
 struct StepError {

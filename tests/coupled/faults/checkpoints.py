@@ -24,7 +24,7 @@ def damaged(furrow, table):
     lengths = [0, 1, 8, 50, 68, 69, 100, 300, 1000, len(whole) // 2, len(whole) - 70, len(whole) - 69, len(whole) - 1]
     for length in lengths:
         file.write_bytes(whole[:length])
-        table.check(f"cut to {length}", continued(furrow, table, "damaged"), 1, "checkpoint 'damaged'", "line 4: read_restart")
+        table.check(f"cut to {length}", continued(furrow, table, "damaged"), 1, "checkpoint 'damaged'", "line 3: read_restart")
     for length in lengths[:-3]:  # no hang where LIGGGHTS's own reader is left alone
         file.write_bytes(whole[:length])
         table.check(f"cut to {length}, unchecked", continued(furrow, table, "damaged", mode="unchecked"), 1, "ERROR: ")
@@ -68,6 +68,17 @@ def belongs_together(furrow, table):
              ["WARNING: fix property/global 'm3' is 0.4, and was 0.3"], ["'m4'"])):
         table.check(f"with a mesh: {name}", run_script(furrow, folder, script), status, *texts,
                     absent=absent)
+    rig = "fix rig all wheel/rig wheel wheel load_force 5 speed 0.1 mode towed ground_level 0.12 settle_time 1 accelerate_time 1\n"
+    table.check("with a rig", run_script(furrow, folder, GRAINS + WHEEL + rig + "run 10\nwrite_restart ck.rig\n"), 0)
+    whole = CONTINUED.format(file="ck.rig") + WHEEL + rig + "run 5\n"
+    for name, script, texts, absent in (
+            ("continued", whole, [], ["checkpoint was written"]),
+            ("another load", whole.replace("load_force 5", "load_force 6"),
+             ["WARNING: fix wheel/rig 'rig', keyword 'load_force' is 6, and was 5 when the checkpoint was written"],
+             ["'speed'"]),
+            ("no line", whole.replace(rig, ""),
+             ["WARNING: the run of the checkpoint had fix wheel/rig 'rig', and the script that continues has no"], [])):
+        table.check(f"with a rig: {name}", run_script(furrow, folder, script), 0, *texts, absent=absent)
     grains = CONTINUED.format(file="ck unchecked") + "run 5\n"
     table.check("with a wheel: grains alone", run_script(furrow, folder, grains), 0)
 
@@ -108,6 +119,11 @@ def main(furrow, liggghts, *mpirun):
                 "'ck.10' is not written", "No space left on device", "write_restart ck.10")
     table.expect("disk full: the last good one stays", (table.folder / "ck.10").read_bytes() == good, "changed")
     table.expect("disk full: no part stays", not os.path.lexists(full), "there is one")
+    frame = table.folder / "frame.20"
+    frame.symlink_to("/dev/full")
+    table.check("disk full, a dump with a file for each step",
+                run_script(furrow, table.folder, GRAINS + "dump d all custom 20 frame.* id x\nrun 100\n"), 1,
+                "dump 'd', file frame.*: No space left on device")
     full.symlink_to("/dev/full")
     said = run_script(furrow, table.folder, GRAINS + "run 10\nwrite_restart ck.10\n", launcher=[*mpirun, 2])
     table.check("disk full, two ranks", said, 1, "'ck.10' is not written", "No space left on device")

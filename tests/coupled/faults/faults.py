@@ -14,7 +14,7 @@ SIZE_LIMIT = 1e6  # of what is said [bytes]: no endless warnings
 # A box with grains that fall on a floor, and the same continued.
 GRAINS = """units si
 atom_style granular
-atom_modify map array sort 0 0
+atom_modify map array
 boundary f f f
 newton off
 communicate single vel yes
@@ -40,7 +40,7 @@ fix floor all wall/gran model hertz tangential history primitive type 1 zplane 0
 fix move all nve/sphere
 """
 GRAINS = GRAINS.format(properties=PROPERTIES)
-CONTINUED = "newton off\ncommunicate single vel yes\natom_modify sort 0 0\nread_restart {file}\n" + PROPERTIES
+CONTINUED = "newton off\ncommunicate single vel yes\nread_restart {file}\n" + PROPERTIES
 # A wheel far above the grains: its state is a part of a checkpoint, and so are all forces.
 WHEEL = ("fix wheel all wheel/rigid diameter 0.04 width 0.02 shoulder 0.005 mass 1 inertia 2e-4 segments 24 "
          "axle 0 0 0.17\n")

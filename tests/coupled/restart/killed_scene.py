@@ -12,10 +12,9 @@ writes begins again with the continued run: its rows must be among those of the 
 the first, the mean of an interval that the kill has cut.
 
 One kill comes some time after the second checkpoint. Of several, each comes at any moment of the
-run, every other one as SIGTERM; then the checkpoint is that of the signal, and a scene with grains,
-whose neighbour lists it has made at a step of their own, must have as many rows, frames and values,
-not the same; without grains, several ranks, whose sums it has added up at that step, agree to 1e-9
-of the largest number of a unit.
+run, every other one as SIGTERM; then the checkpoint is that of the signal. After it several ranks
+of a continuum, whose sums it has added up at that step, agree to 1e-9 of the largest number of a
+unit.
 """
 
 import argparse
@@ -47,7 +46,6 @@ words = parser.parse_args()
 furrow, scene, every, ranks, variables = words.furrow, words.scene, words.every, words.ranks, words.variables
 launch = [*words.mpirun, ranks] if int(ranks) > 1 else []
 has_bed = "from ${from}" in Path(scene).read_text()
-has_grains = "nve/sphere" in Path(scene).read_text()
 # A bed that was made in the first run is read in the others.
 cache = tempfile.TemporaryDirectory()
 
@@ -55,7 +53,6 @@ cache = tempfile.TemporaryDirectory()
 def whole_script() -> str:
     """The scene with absolute paths, that writes checkpoints in turn to ck.1 and ck.2."""
     text = Path(scene).read_text().replace("../", f"{INPUTS}/")
-    text = re.sub(r"^atom_modify( map array)?.*$", r"atom_modify\1 sort 0 0", text, flags=re.M)
     head, run, tail = text.rpartition("\nrun ")
     return f"{head}\nrestart {every} ck.1 ck.2{run}{tail}"
 
@@ -181,7 +178,7 @@ def numbers(folder: Path) -> tuple[dict[str, np.ndarray], dict[str, float]]:
     return found, scales
 
 
-def compare(whole: Path, killed: Path, values_too: bool, tolerance: float) -> int:
+def compare(whole: Path, killed: Path, tolerance: float) -> int:
     """@param tolerance  of the largest number of a unit
     @return how many arrays are the same"""
     (expected, scales), (got, _) = numbers(whole), numbers(killed)
@@ -191,20 +188,19 @@ def compare(whole: Path, killed: Path, values_too: bool, tolerance: float) -> in
         shapes = np.shape(values), np.shape(got[item])
         if shapes[0] != shapes[1]:
             sys.exit(f"{item} is not the same: shapes {shapes[0]}, {shapes[1]}")
-        if values_too and not np.allclose(values, got[item], rtol=0.0, atol=tolerance * scales[item],
-                                          equal_nan=True):
+        if not np.allclose(values, got[item], rtol=0.0, atol=tolerance * scales[item], equal_nan=True):
             sys.exit(f"{item} is not the same, by {np.nanmax(np.abs(values - got[item])):.3g}")
-    return len(expected) + compare_curves(whole, killed, values_too)
+    return len(expected) + compare_curves(whole, killed)
 
 
-def compare_curves(whole: Path, killed: Path, values_too: bool) -> int:
-    """Rows, or their steps alone. @return how many curves there are"""
+def compare_curves(whole: Path, killed: Path) -> int:
+    """@return how many there are"""
     curves = sorted((whole / "results").glob("*.txt"))
     curves = [curve for curve in curves if curve.name != "summary.txt"]
     for curve in curves:
         expected, rows = (
-            [row if values_too else row.split()[0] for row in path.read_text().splitlines()
-             if not row.startswith("#")] for path in (curve, killed / "results" / curve.name))
+            [row for row in path.read_text().splitlines() if not row.startswith("#")]
+            for path in (curve, killed / "results" / curve.name))
         rows = rows[1:]
         if not rows or not set(expected).issuperset(rows):
             other = sorted(set(rows) - set(expected))
@@ -232,8 +228,7 @@ with tempfile.TemporaryDirectory() as name:
             continue
         finish(killed, continued_script(checkpoint))
         exact = number == signal.SIGKILL or ranks == "1"
-        same = compare(whole, killed, number == signal.SIGKILL or not has_grains,
-                       tolerance=0.0 if exact else 1e-9)
+        same = compare(whole, killed, tolerance=0.0 if exact else 1e-9)
         if same == 0:
             sys.exit("there are no results")
         continued += 1

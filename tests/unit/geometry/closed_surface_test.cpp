@@ -6,6 +6,7 @@
 
 #include "geometry/closed_surface.h"
 #include "geometry/wheel_mesh.h"
+#include "geometry/winding_number.h"
 #include "core/error.h"
 
 namespace furrow {
@@ -33,6 +34,27 @@ TEST(ClosedSurface, TetrahedronAndWheelAreClosed) {
   wheel.shoulder = 0.03;
   wheel.grousers = {12, 0.02, 0.01, 0.3};
   EXPECT_NO_THROW(check_closed(make_wheel_mesh(wheel), "wheel"));
+}
+
+TEST(WindingNumber, IsOneInsideAndZeroOutside) {
+  EXPECT_NEAR(winding_number(tetrahedron(), Vector3(0.1, 0.2, 0.3)), 1.0, 1e-14);
+  EXPECT_NEAR(winding_number(tetrahedron(), Vector3(0.5, 0.5, 0.5)), 0.0, 1e-14);
+  WheelGeometry wheel;
+  wheel.diameter = 0.6;
+  wheel.width = 0.2;
+  wheel.shoulder = 0.03;
+  const Surface surface = make_wheel_mesh(wheel);
+  for (const double radius : {0.0, 0.1, 0.29, 0.31, 0.4})
+    EXPECT_NEAR(winding_number(surface, Vector3(0.0, 0.02, radius)), radius < 0.3 ? 1.0 : 0.0,
+                1e-12)
+        << radius;
+}
+
+/// From the right corner of the tetrahedron the opposite face fills an octant.
+TEST(WindingNumber, OfASurfaceWithAHoleIsTheSolidAngleOfTheRest) {
+  Surface surface = tetrahedron();
+  surface.triangles = {{1, 2, 3}};
+  EXPECT_NEAR(winding_number(surface, Vector3::Zero()), 1.0 / 8.0, 1e-14);
 }
 
 TEST(ClosedSurface, MissingTriangleIsAnOpenEdge) {

@@ -46,7 +46,7 @@ TEST(Surface, ForcesByBarycentricWeightsKeepForceAndMomentToRoundOff) {
     // also outside of the triangle, on its plane
     const double beta = unit(random), gamma = unit(random);
     const Vector3 weights(1.0 - beta - gamma, beta, gamma);
-    const Vector3 applied(unit(random), unit(random), unit(random));
+    const Vector3 applied{unit(random), unit(random), unit(random)};
     Vector3 point = Vector3::Zero();
     for (int corner = 0; corner < 3; ++corner) {
       point += weights[corner] * surface.x.col(nodes[corner]);

@@ -33,7 +33,7 @@ std::vector<Vector3> random_points(std::size_t count, double half) {
   std::uniform_real_distribution<double> place(-half, half);
   std::vector<Vector3> points;
   for (std::size_t n = 0; n < count; ++n)
-    points.emplace_back(place(random), place(random), place(random));
+    points.push_back(Vector3{place(random), place(random), place(random)});
   return points;
 }
 

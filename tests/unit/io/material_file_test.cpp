@@ -232,6 +232,18 @@ TEST_F(MaterialFileTest, TwoSectionsOfOneCompressionLineHaveOneKappa) {
                                                "hardening")));
 }
 
+TEST_F(MaterialFileTest, SectionsOfAFoamThatHardlyBelongTogetherAreReadWithAWarning) {
+  const std::string foam =
+      read_text_file(FURROW_SOURCE_DIR "/inputs/materials/fresh_snow_foam.yaml");
+  EXPECT_THAT(read_material_file(file(with(foam, "pc0: 113.76 ", "pc0: 113.76e3"))).warnings,
+              ::testing::ElementsAre(HasSubstr("sigma0/pc0 is 0.00242, usual is a number in [0.3, "
+                                               "2.8]; the sections hardly belong to one")));
+  EXPECT_THAT(read_material_file(file(with(foam, "sigma0: 275.79", "sigma0: 335"))).warnings,
+              ::testing::ElementsAre(HasSubstr("sigma0/pc0 is 2.94")));
+  EXPECT_THAT(read_material_file(file(with(foam, "pt: 11.376", "pt: 150"))).warnings,
+              ::testing::ElementsAre(HasSubstr("pt is 150 Pa in law, above pc0 = 113.76 Pa")));
+}
+
 TEST(CsvFile, ReadsNumbersAndNamesWhatIsWrong) {
   const Scratch scratch;
   const auto read = [&](const std::string& text) {

@@ -124,6 +124,14 @@ TEST(BadOptions, OfFurrowPoint) {
       {"run --no-plott " + run, "--no-plott"},
       {"laws > /dev/full", "furrow-point: the standard output cannot be written"}};
   expect_refusals(FURROW_POINT, cases);
+
+  write_text_file(scratch.path("p.yaml"),
+                  "material: " + inputs +
+                      "materials/compacted_sand_elastic.yaml\npath: {type: tension, strain: 19}\n");
+  const Outcome strained = furrow::run(FURROW_POINT " run --no-plot -o " + scratch.path("out") +
+                                       " " + scratch.path("p.yaml"));
+  EXPECT_EQ(strained.status, 0);
+  EXPECT_THAT(strained.text, HasSubstr("p.yaml: segment 1 comes to a logarithmic strain zz of 19"));
 }
 
 TEST(BadOptions, OfFurrowResistance) {

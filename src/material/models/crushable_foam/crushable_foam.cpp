@@ -47,6 +47,31 @@ std::unique_ptr<Material> create(const MaterialOptions& sections) {
   return std::make_unique<CrushableFoam>(o.number("density"), parameters);
 }
 
+// Of pc0: beyond the upper, M is nearly singular; below the lower, the foam would carry a pressure
+// from all sides that is many times what crushes it from one.
+const Range usual_sigma0 = Range::closed(0.3, 2.8);
+
+/// Of sections that belong to two foams, or have another unit.
+std::vector<std::string> doubts(const MaterialOptions& sections) {
+  const std::unique_ptr<Material> material = create(sections);
+  const double pc0 = static_cast<const CrushableFoam&>(*material).pc(0.0);
+  const Options& law = sections.at("law").options;
+  const double sigma0 = law.number("sigma0"), pt = law.number("pt");
+  std::vector<std::string> sentences;
+  if (!usual_sigma0.contains(sigma0 / pc0))
+    sentences.push_back(
+        fmt::format("sigma0 is {:g} Pa in law, and the hardening begins at pc0 = {:.6g} Pa: "
+                    "sigma0/pc0 is {:.3g}, usual is a number {}; the sections hardly belong to one "
+                    "material",
+                    sigma0, pc0, sigma0 / pc0, usual_sigma0.text()));
+  if (pt > pc0)
+    sentences.push_back(
+        fmt::format("pt is {:g} Pa in law, above pc0 = {:.6g} Pa of the hardening: stronger in "
+                    "tension than in compression; the sections hardly belong to one material",
+                    pt, pc0));
+  return sentences;
+}
+
 }  // namespace
 
 MaterialModel CrushableFoam::model() {
@@ -68,6 +93,7 @@ MaterialModel CrushableFoam::model() {
   model.meaning = "snow and foams: ellipse hardening by compaction (ABAQUS, [Shoop2001] eq 17-18)";
   model.sections = {law_section(schema), elasticity_section(), hardening_section()};
   model.create = create;
+  model.doubts = doubts;
   model.examples = {
       "density 200 pt 11.376 sigma0 275.79 K 0.9 "
       "elasticity porous elasticity.kappa 0.005 elasticity.e0 3.5 pt_el 113.76 nu 0.3 "

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from furrow_post.analyse.cost_table import write_table
 from furrow_post.cli.main import main
-from support.command import FURROW_POST
+from support.command import FURROW_POST, SOURCE
 from support.faults import FaultsTest, outcome
 from support.laboratory import write_plate
 from support.runs import write_run
@@ -197,6 +197,24 @@ class ArgumentsFaultsTest(FaultsTest):
         done = post("report", os.fsdecode(b"l\xe4uf"), "-o", "x.html")
         self.assertEqual(done.returncode, 1)
         self.assertIn(b"is a name that is not UTF-8; rename", done.stderr.splitlines()[-1])
+
+    def test_pythons_without_packages(self) -> None:
+        """Every program says which packages are missing, in one line with what to install."""
+        programs = [
+            file
+            for file in SOURCE.glob("inputs/**/*.py")
+            if '__name__ == "__main__"' in file.read_text(encoding="utf-8")
+        ]
+        self.assertGreater(len(programs), 10)
+        for program in (*programs, FURROW_POST):
+            with self.subTest(program=program):
+                # -S leaves out the folders of packages
+                command = [sys.executable, "-S", str(program), "--help"]
+                done = subprocess.run(command, capture_output=True, text=True)
+                self.assertEqual(done.returncode, 1)
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                self.assertIn("has no numpy", done.stderr)
+                self.assertIn("write 'apt install python3-numpy", done.stderr)
 
 
 if __name__ == "__main__":
