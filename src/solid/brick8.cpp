@@ -19,42 +19,63 @@ namespace {
 // Shapes count as the same when their nodes agree to this share of their size
 constexpr double same_shape = 1e-9;
 
-bool alike(const Matrix38& a, const Matrix38& b) {
-  return (a - b).cwiseAbs().maxCoeff() < same_shape * a.cwiseAbs().maxCoeff();
+/// For each node of a brick the first that is the same, so that a wedge moves as one.
+using Repeats = std::array<std::size_t, 8>;
+
+Repeats repeats_of(const Brick8::Hexahedron& nodes) {
+  Repeats first;
+  for (std::size_t n = 0; n < 8; ++n)
+    first[n] =
+        static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), nodes[n]) - nodes.begin());
+  return first;
 }
 
-/// Largest omega^2 of K u = omega^2 M u [1/s^2].
-double highest_rate(const Matrix24& K, const std::array<double, 8>& mass) {
-  Eigen::Matrix<double, 24, 1> scale;
-  for (int n = 0; n < 8; ++n)
-    scale.segment<3>(3 * n).setConstant(1.0 / std::sqrt(mass[static_cast<std::size_t>(n)]));
-  return Eigen::SelfAdjointEigenSolver<Matrix24>(scale.asDiagonal() * K * scale.asDiagonal(),
-                                                 Eigen::EigenvaluesOnly)
+struct Likeness {
+  Matrix38 shape;
+  Repeats repeats;
+
+  bool operator==(const Likeness& other) const {
+    return repeats == other.repeats &&
+           (shape - other.shape).cwiseAbs().maxCoeff() < same_shape * shape.cwiseAbs().maxCoeff();
+  }
+};
+
+/// Largest omega^2 of K u = omega^2 M u [1/s^2], nodes that are repeated taken as one.
+double highest_rate(const Matrix24& K, const std::array<double, 8>& mass, const Repeats& first) {
+  Matrix24 merged = Matrix24::Zero();  // of the distinct nodes; zero elsewhere
+  for (std::size_t a = 0; a < 8; ++a)
+    for (std::size_t b = 0; b < 8; ++b) {
+      const auto at = [](std::size_t node) { return 3 * static_cast<Eigen::Index>(node); };
+      merged.block<3, 3>(at(first[a]), at(first[b])) +=
+          K.block<3, 3>(at(a), at(b)) / std::sqrt(mass[first[a]] * mass[first[b]]);
+    }
+  return Eigen::SelfAdjointEigenSolver<Matrix24>(merged, Eigen::EigenvaluesOnly)
       .eigenvalues()
       .maxCoeff();
 }
 
 /// All but where its elements are.
-Brick8Kind make_kind(const Brick8Shape& shape, const Rubber& rubber) {
-  Brick8Kind kind;
-  std::array<double, 8> mass;
+Brick8Kind make_kind(const Brick8Shape& shape, const Rubber& rubber, const Repeats& first) {
+  Brick8Kind kind = {};
+  std::array<double, 8> mass = {};  // a repeated node's stands at its first place
   for (std::size_t n = 0; n < 8; ++n) {
-    mass[n] = rubber.density * shape.share[n];
-    kind.inverse_mass[n] = 1.0 / mass[n];
+    mass[first[n]] += rubber.density * shape.share[n];
     kind.weight[n] = shape.weight[n];
     for (std::size_t k = 0; k < 3; ++k) {
       const auto row = static_cast<Eigen::Index>(k);
       const auto column = static_cast<Eigen::Index>(n);
-      kind.mean_gradient[n][k] = shape.mean_gradient(row, column);
+      kind.mean_gradient[first[n]][k] += shape.mean_gradient(row, column);
       for (std::size_t q = 0; q < 8; ++q) kind.gradient[q][n][k] = shape.gradient[q](row, column);
     }
   }
+  for (std::size_t n = 0; n < 8; ++n) kind.inverse_mass[n] = mass[n] > 0.0 ? 1.0 / mass[n] : 0.0;
   kind.volume = shape.volume;
   kind.shear = rubber.law.shear;
   kind.bulk = rubber.law.bulk;
   const Matrix24 deviatoric = deviatoric_stiffness(shape, kind.shear);
-  kind.deviatoric_rate = highest_rate(deviatoric, mass);
-  kind.highest_rate = highest_rate(deviatoric + volumetric_stiffness(shape, kind.bulk), mass);
+  const Matrix24 volumetric = volumetric_stiffness(shape, kind.bulk);
+  kind.deviatoric_rate = highest_rate(deviatoric, mass, first);
+  kind.highest_rate = highest_rate(deviatoric + volumetric, mass, first);
   return kind;
 }
 
@@ -90,23 +111,22 @@ Brick8::Brick8(const Matrix3X& reference, std::vector<Hexahedron> bricks, const 
   check_number(rubber.law.shear, Range::positive(), "rubber, shear modulus", "Pa");
   check_number(rubber.law.bulk, Range::positive(), "rubber, bulk modulus", "Pa");
   check_number(rubber.density, Range::positive(), "rubber, density", "kg/m3");
-  std::vector<Matrix38> shapes;           // one of each kind
-  std::vector<std::vector<int>> members;  // elements of each kind
+  std::vector<Likeness> kinds;            // what the elements of each have in common
+  std::vector<std::vector<int>> members;  // elements of each
   for (std::size_t e = 0; e < bricks_.size(); ++e) {
     Matrix38 nodes;
     for (std::size_t n = 0; n < 8; ++n)
       nodes.col(static_cast<Eigen::Index>(n)) = reference.col(bricks_[e][n]);
-    const Matrix38 shape = in_own_axes(nodes);
-    const auto kind = std::find_if(shapes.begin(), shapes.end(),
-                                   [&](const Matrix38& other) { return alike(other, shape); });
-    if (kind == shapes.end()) {
-      shapes.push_back(shape);
+    const Likeness own = {in_own_axes(nodes), repeats_of(bricks_[e])};
+    const auto kind = std::find(kinds.begin(), kinds.end(), own);
+    if (kind == kinds.end()) {
+      kinds.push_back(own);
       members.push_back({static_cast<int>(e)});
     } else {
-      members[static_cast<std::size_t>(kind - shapes.begin())].push_back(static_cast<int>(e));
+      members[static_cast<std::size_t>(kind - kinds.begin())].push_back(static_cast<int>(e));
     }
   }
-  for (std::size_t k = 0; k < shapes.size(); ++k) add_kind(members[k], shapes[k], rubber);
+  for (std::size_t k = 0; k < kinds.size(); ++k) add_kind(members[k], kinds[k].shape, rubber);
 }
 
 /// @param members elements that are alike
@@ -117,7 +137,7 @@ void Brick8::add_kind(const std::vector<int>& members, const Matrix38& shape,
   };
   try {
     const Brick8Shape functions(shape);
-    Brick8Kind kind = make_kind(functions, rubber);
+    Brick8Kind kind = make_kind(functions, rubber, repeats_of(nodes_of(members[0])));
     for (const int e : members)
       for (std::size_t n = 0; n < 8; ++n)
         mass_[nodes_of(e)[n]] += rubber.density * functions.share[n];
