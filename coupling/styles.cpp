@@ -8,6 +8,7 @@
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/bodies/fix_mesh_body.h"
 #include "coupling/bodies/fix_plate_rigid.h"
+#include "coupling/bodies/fix_tyre_brick.h"
 #include "coupling/bodies/fix_tyre_darnell.h"
 #include "coupling/bodies/fix_wheel_rigid.h"
 #include "coupling/contact/fix_contact_continuum.h"
@@ -101,6 +102,7 @@ const std::vector<Style>& styles() {
   static const std::vector<Style> table = {
       fix<FixWheelRigid>("wheel/rigid", Kind::wheel, "bodies/fix_wheel_rigid.md"),
       fix<FixTyreDarnell>("tyre/darnell", Kind::wheel, "bodies/fix_tyre_darnell.md"),
+      fix<FixTyreBrick>("tyre/brick", Kind::wheel, "bodies/fix_tyre_brick.md"),
       fix<FixPlateRigid>("plate/rigid", Kind::body, "bodies/fix_plate_rigid.md"),
       fix<FixTerrainContinuum>("terrain/continuum", Kind::terrain,
                                "terrain/fix_terrain_continuum.md"),

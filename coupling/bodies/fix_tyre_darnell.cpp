@@ -1,74 +1,29 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/bodies/fix_tyre_darnell.h"
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <sstream>
 
 #include <fmt/format.h>
 
-#include "bodies/hub_parameters.h"
 #include "core/error.h"
-#include "coupling/bodies/fix_mesh_body.h"
-#include "coupling/liggghts/script.h"
 #include "io/sidewall_cache.h"
 #include "io/tyre_file.h"
-#include "update.h"
 
 namespace furrow::coupling {
 
 namespace {
 
-constexpr double min_pressure = 1e3, max_pressure = 1e7;  // [Pa] of any tyre, with room
-// Radius of gyration of a rim, and what turns with it, over the radius of its beads.
-constexpr double min_gyration = 0.05, max_gyration = 30.0;
 constexpr double largest_mesh = 40000;  // elements, which take an hour to inflate
-constexpr int max_sub_steps = 4;  // in a step on grains, shown to be quiet: fix_tyre_darnell.md
-
 int whole_number(const Options& options, const char* key, double value) {
   if (value != std::floor(value) || std::abs(value) > 1e6)
     throw InputError(options.where(key), fmt::format("is {}", value), "whole numbers");
   return static_cast<int>(value);
 }
 
-/// Psi, bar and kPa are told from Pa by their size.
-void check_pressure(const Options& options, double pressure) {
-  if (pressure < min_pressure || pressure > max_pressure)
-    throw InputError(options.where("pressure"), fmt::format("is {:g} Pa", pressure),
-                     fmt::format("{:g} to {:g} Pa", min_pressure, max_pressure),
-                     "35 psi, 2.41 bar and 241 kPa are 241e3 Pa; a tyre without pressure is not "
-                     "modelled");
-}
-
-/// Tread and sidewalls turn the rim to and fro in the steps of the tread.
-void check_inertia(const Options& options, const HubParameters& hub, double bead_radius) {
-  const double usual = hub.inertia.mass * bead_radius * bead_radius,
-               least = min_gyration * min_gyration * usual,
-               most = max_gyration * max_gyration * usual;
-  if (!(hub.inertia.axial >= least && hub.inertia.axial <= most))
-    throw InputError(options.where("inertia"), fmt::format("is {:g} kg m^2", hub.inertia.axial),
-                     fmt::format("{:.3g} to {:.3g} kg m^2", least, most),
-                     fmt::format("a rim of {:g} kg at {:g} m has about {:.3g} kg m^2",
-                                 hub.inertia.mass, bead_radius, usual));
-}
-
-/// An explicit damping of the rate c is stable up to c dt = 1.
-void check_damping(const Options& options, double stable_step) {
-  if (options.number("damping") * stable_step > 1.0)
-    throw InputError(options.where("damping"),
-                     fmt::format("is {:g} 1/s", options.number("damping")),
-                     fmt::format("at most {:.2g} 1/s with this mesh", 1.0 / stable_step),
-                     "20 to 200 1/s is the range of rubber's losses");
-}
-
 /// Read, made and inflated.
 std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
-  const std::filesystem::path path =
-      std::filesystem::path(script_folder(lammps)) / options.text("file");
-  TyreParameters parameters = read_tyre_file(path.string());
-  if (options.has("pressure")) parameters.pressure = options.number("pressure");
-  check_pressure(options, parameters.pressure);
+  TyreParameters parameters = read_tyre_file(tyre_path(lammps, options));
+  parameters.pressure = read_pressure(options, parameters.pressure);
 
   DarnellTyreSettings settings;
   settings.across = whole_number(options, "mesh", options.numbers("mesh")[0]);
@@ -84,14 +39,9 @@ std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& op
   settings.damping_rate = options.number("damping");
 
   const HubParameters hub = read_hub(options, parameters.bead_spacing);
-  if (settings.half && hub.centre.y() != 0.0)
-    throw InputError(options.where("axle"),
-                     fmt::format("has y = {} m with a half model", hub.centre.y()),
-                     "y = 0: the plane of symmetry");
-
+  check_rim(options, hub, parameters.bead_radius);
   auto tyre = std::make_unique<DarnellTyre>(parameters, settings, hub, options.subject(),
                                             open_sidewall_table);
-  check_inertia(options, hub, parameters.bead_radius);
   check_damping(options, tyre->stable_time_step());
   tyre->settle(nullptr);
   return tyre;
@@ -101,12 +51,7 @@ std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& op
 
 Schema FixTyreDarnell::schema() {
   Schema schema("fix tyre/darnell");
-  schema.text("file", "tyre file, relative to the folder of the script")
-      .may_change();  // of place and name: checkpoints compare what is in it
-  schema
-      .number("pressure", "Pa", Range::non_negative(),
-              "inflation pressure; by default that of the tyre file")
-      .optional();
+  declare_file_and_pressure(schema);
   schema.numbers("mesh", 2, "", Range::closed(2, 2000), "elements across the tread and around it")
       .by_default(std::vector<double>{6, 72});
   schema.flag("half", "only the half y >= 0, mirrored");
@@ -119,56 +64,14 @@ Schema FixTyreDarnell::schema() {
                "rows of nodes on each sidewall, for contact; 0: only the tread can touch")
       .by_default("4");
   declare_hub(schema);
-  schema
-      .number("damping", "1/s", Range::non_negative(),
-              "rate at which the tread's motion relative to the rim is damped")
-      .by_default(100.0);
+  declare_damping(schema);
   return schema;
 }
 
-const Outputs<FixTyreDarnell>& FixTyreDarnell::outputs() {
-  using Fix = FixTyreDarnell;
-  static const Outputs<Fix> list = {
-      {"deflection", "m", "of the tread's lowest node, against the unloaded tread",
-       [](Fix& fix) { return fix.tyre().deflection(); }},
-      {"pressure", "Pa", "of the inflation now", [](Fix& fix) { return fix.tyre().pressure(); }},
-      {"section_width", "m", "largest width of the sidewalls' profiles",
-       [](Fix& fix) { return fix.tyre().section_width(); }},
-      {"tread_energy", "J", "elastic energy of the tread; of a half model, of both halves",
-       [](Fix& fix) { return fix.tyre().tread_energy(); }},
-      {"sidewall_chord", "", "longest sidewall chord over the sidewall's length",
-       [](Fix& fix) { return fix.tyre().largest_sidewall_chord(); }},
-  };
-  return list;
-}
-
 FixTyreDarnell::FixTyreDarnell(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixWheelHub(lammps, narg, arg, schema(),
-                  [lammps](const Options& options) { return make_tyre(*lammps, options); }) {
-  provide(outputs());
-}
+    : FixTyre(lammps, narg, arg, schema(),
+              [lammps](const Options& options) { return make_tyre(*lammps, options); }) {}
 
-/// Line by line, so that an error names the value of the tyre file that differs.
-void FixTyreDarnell::checkpoint(Checkpoint& state) {
-  std::istringstream lines(tyre_file_text(tyre().parameters()));
-  for (std::string line; std::getline(lines, line);)
-    state.match("line '" + line.substr(0, line.find(':')) + "' of the tyre file", line);
-  FixBody::checkpoint(state);
-}
-
-/// Grain forces that come only once in many sub-steps may feed energy into a light tread:
-/// fix_tyre_darnell.md.
-void FixTyreDarnell::init() {
-  const double stable = tyre().stable_time_step();
-  const auto meshes = fixes_of<const FixMeshBody>(*modify);
-  const bool on_grains = std::any_of(meshes.begin(), meshes.end(),
-                                     [&](const FixMeshBody* mesh) { return mesh->uses(*this); });
-  if (on_grains && update->dt > max_sub_steps * stable)
-    warn(*lmp,
-         fmt::format("{}: the time step {:.3g} s is more than {} of the tyre's own, {:.3g} s; "
-                     "grain forces come once a step and may shake the tread: choose a step "
-                     "of at most {:.2g} s",
-                     name(), update->dt, max_sub_steps, stable, max_sub_steps * stable));
-}
+std::string FixTyreDarnell::tyre_text() { return tyre_file_text(tyre().parameters()); }
 
 }  // namespace furrow::coupling

@@ -6,7 +6,7 @@
 
 namespace furrow {
 
-enum class InputKind { material, tyre, point_run, point_fit };
+enum class InputKind { material, tyre, brick_tyre, point_run, point_fit };
 
 /// @throws InputError when a file has no section of the kind that is expected, but one of another
 /// kind: which one it looks like, and what reads that

@@ -43,13 +43,6 @@ const YamlTree& text_of(const YamlTree& map, const std::string& key, const std::
   return *value;
 }
 
-/// A text as YAML reads it back, whatever it contains.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
-  return result + "'";
-}
-
 constexpr std::size_t most_bases = 8;
 
 /// The file that `base` names, beside the file at the end of `files`: each the base of the one

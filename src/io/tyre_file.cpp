@@ -94,12 +94,6 @@ void check_angles(const Options& sidewall) {
         "a quarter circle from the rim on has 0 and 90");
 }
 
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
-  return result + "'";
-}
-
 }  // namespace
 
 std::vector<std::pair<std::string, Schema>> tyre_schemas() {

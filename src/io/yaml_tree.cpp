@@ -205,4 +205,10 @@ void refuse_other_keys(const YamlTree& map, const std::vector<std::string>& know
     if (!contains(known, key)) refuse_key(value.origin, key, known);
 }
 
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
+  return result + "'";
+}
+
 }  // namespace furrow

@@ -43,4 +43,7 @@ Options read_map(const Schema& schema, const YamlTree& map,
 /// @throws InputError when a map has a key that is not in `known`
 void refuse_other_keys(const YamlTree& map, const std::vector<std::string>& known);
 
+/// A text as YAML has it in single quotes.
+std::string quoted(const std::string& text);
+
 }  // namespace furrow

@@ -14,12 +14,14 @@
 #include "core/error.h"
 #include "end_output.h"
 #include "figure.h"
+#include "io/brick_tyre_file.h"
 #include "io/make_folder.h"
 #include "io/mode_results.h"
 #include "io/tyre_file.h"
 #include "io/version.h"
 #include "io/vtk_file.h"
 #include "number_option.h"
+#include "tyre/brick_tyre.h"
 #include "tyre/contact_patch.h"
 #include "tyre/darnell_tyre.h"
 
@@ -36,6 +38,7 @@ struct Request {
   std::vector<double> pressures;  // [kPa]
   std::vector<double> loads;      // [N]
   std::vector<int> mesh{6, 72};   // elements across and around
+  int sections = BrickTyreSettings().sections;
   bool half = false;
   bool direct = false;
   double friction = 0.0;
@@ -61,6 +64,10 @@ void declare(CLI::App& app, Request& request) {
       ->check(within(Range::positive(), "N"));
   app.add_option("--mesh", request.mesh, "elements across and around")
       ->expected(2)
+      ->capture_default_str();
+  app.add_option("--sections", request.sections,
+                 "round a tyre with a tread of bricks, instead of --mesh")
+      ->check(within(Range::closed(12, 1000)))
       ->capture_default_str();
   app.add_flag("--half", request.half, "only half of the tyre, mirrored");
   app.add_flag("--direct", request.direct,
@@ -180,10 +187,10 @@ void press(Tyre& tyre, const Request& request) {
 }
 
 /// Refuses a load that would not be carried if the whole tread, seen from above, lay on the plane.
+/// @param width, diameter of the tread [m]
 /// @param pressure [Pa]
-void check_loads(const TyreParameters& tyre, double pressure, const Request& request) {
-  const double area = 2.0 * tyre.tread.radius * 2.0 * tyre.tread.half_width;
-  const double largest = (pressure + own_stiffness) * area;
+void check_loads(double width, double diameter, double pressure, const Request& request) {
+  const double largest = (pressure + own_stiffness) * width * diameter;
   for (const double load : request.loads)
     if (load > largest)
       throw InputError(fmt::format("--load, at {:.6g} kPa,", 1e-3 * pressure),
@@ -194,20 +201,37 @@ void check_loads(const TyreParameters& tyre, double pressure, const Request& req
                        "lower the load, or raise --pressure");
 }
 
-void run(const Request& request) {
-  TyreParameters parameters = parameters_of(request);
-  const DarnellTyreSettings settings = settings_of(request);
+/// @param make makes the tyre of the present pressure
+template <class Parameters, class Make>
+void press_all(Parameters& parameters, double width, double diameter, const Request& request,
+               Make make) {
   std::vector<double> pressures = request.pressures;
   if (pressures.empty()) pressures = {1e-3 * parameters.pressure};
-  for (const double kilopascal : pressures) check_loads(parameters, 1e3 * kilopascal, request);
+  for (const double kilopascal : pressures) check_loads(width, diameter, 1e3 * kilopascal, request);
   if (!request.folder.empty()) make_folder(request.folder);
   fmt::print("{}\n", header);
   for (const double kilopascal : pressures) {
     parameters.pressure = 1e3 * kilopascal;
-    DarnellTyre tyre(parameters, settings, rim, request.file);
+    auto tyre = make();
     press(tyre, request);
   }
   if (request.modes > 0 && !request.no_plot) draw_figure("modes", request.folder);
+}
+
+void run(const Request& request) {
+  if (is_brick_tyre_file(request.file)) {
+    BrickTyreParameters parameters = read_brick_tyre_file(request.file);
+    BrickTyreSettings settings;
+    settings.sections = request.sections;
+    settings.half = request.half;
+    press_all(parameters, 2.0 * parameters.tread.end(), 2.0 * parameters.radius(), request,
+              [&] { return BrickTyre(parameters, settings, rim, request.file); });
+    return;
+  }
+  TyreParameters parameters = parameters_of(request);
+  const DarnellTyreSettings settings = settings_of(request);
+  press_all(parameters, 2.0 * parameters.tread.half_width, 2.0 * parameters.tread.radius, request,
+            [&] { return DarnellTyre(parameters, settings, rim, request.file); });
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace furrow {
 
 struct NaturalModes {
   VectorX frequency;            ///< [Hz] ascending
-  std::vector<Matrix3X> shape;  ///< displacement of each node; the largest component is 1
+  std::vector<Matrix3X> shape;  ///< displacement of each node; the largest component of all is 1
   double asymmetry = 0.0;       ///< of the stiffness, see tangent_stiffness.h
 };
 

@@ -22,34 +22,10 @@
 ///   scatter      to the nodes, one element after the other
 
 #include "shell/shell4_block.h"
-#include "simd/lanes.h"
+#include "simd/triple.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {
-
-/// A vector for each element.
-struct Triple {
-  Lanes x, y, z;
-};
-FURROW_INLINE Triple operator+(const Triple& a, const Triple& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-FURROW_INLINE Triple operator-(const Triple& a, const Triple& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-FURROW_INLINE Triple operator*(const Lanes& s, const Triple& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
-FURROW_INLINE Lanes dot(const Triple& a, const Triple& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-FURROW_INLINE Triple cross(const Triple& a, const Triple& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-FURROW_INLINE Lanes gather(const double* values, const int* index, int stride, int offset) {
-  return Lanes([&](auto lane) { return values[stride * index[lane] + offset]; });
-}
-FURROW_INLINE Lanes load(const double* values) { return Lanes(values, stdx::element_aligned); }
 
 // Parameter coordinates of the nodes.
 constexpr double shell4_xi[4] = {-1, 1, 1, -1};

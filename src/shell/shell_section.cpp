@@ -10,6 +10,14 @@
 
 namespace furrow {
 
+namespace {
+
+void check_positive(double value, const char* name, const char* unit) {
+  check_number(value, Range::positive(), fmt::format("shell section, {}", name), unit);
+}
+
+}  // namespace
+
 OrthotropicLayer OrthotropicLayer::isotropic(double E, double nu, double thickness) {
   const double G = 0.5 * E / (1.0 + nu);
   return {E, E, nu, G, G, G, thickness};
@@ -17,16 +25,13 @@ OrthotropicLayer OrthotropicLayer::isotropic(double E, double nu, double thickne
 
 ShellSection::ShellSection(const OrthotropicLayer& layer, double mass)
     : thickness(layer.thickness), areal_mass(mass) {
-  const auto positive = [](double value, const char* name, const char* unit) {
-    check_number(value, Range::positive(), fmt::format("shell section, {}", name), unit);
-  };
-  positive(layer.E1, "E1", "Pa");
-  positive(layer.E2, "E2", "Pa");
-  positive(layer.G12, "G12", "Pa");
-  positive(layer.G13, "G13", "Pa");
-  positive(layer.G23, "G23", "Pa");
-  positive(layer.thickness, "thickness", "m");
-  positive(mass, "areal_mass", "kg/m^2");
+  check_positive(layer.E1, "E1", "Pa");
+  check_positive(layer.E2, "E2", "Pa");
+  check_positive(layer.G12, "G12", "Pa");
+  check_positive(layer.G13, "G13", "Pa");
+  check_positive(layer.G23, "G23", "Pa");
+  check_positive(layer.thickness, "thickness", "m");
+  check_positive(mass, "areal_mass", "kg/m^2");
   const double nu21 = layer.nu12 * layer.E2 / layer.E1;
   const double definite = 1.0 - layer.nu12 * nu21;
   if (!(definite > 0.0))
@@ -42,6 +47,20 @@ ShellSection::ShellSection(const OrthotropicLayer& layer, double mass)
   bending = std::pow(layer.thickness, 3) / 12.0 * plane_stress;
   shear.diagonal() << 5.0 / 6.0 * layer.thickness * layer.G13,
       5.0 / 6.0 * layer.thickness * layer.G23;
+}
+
+ShellSection::ShellSection(const OrthotropicWall& wall, double mass)
+    : thickness(std::sqrt(12.0 * wall.bending2 / wall.stretch2)), areal_mass(mass) {
+  check_positive(wall.stretch1, "stretch1", "N/m");
+  check_positive(wall.stretch2, "stretch2", "N/m");
+  check_positive(wall.shear, "shear", "N/m");
+  check_positive(wall.bending1, "bending1", "N m");
+  check_positive(wall.bending2, "bending2", "N m");
+  check_positive(mass, "areal_mass", "kg/m^2");
+  membrane.diagonal() << wall.stretch1, wall.stretch2, wall.shear;
+  bending.diagonal() << wall.bending1, wall.bending2,
+      0.5 * std::sqrt(wall.bending1 * wall.bending2);
+  shear.diagonal().setConstant(5.0 / 6.0 * wall.shear);
 }
 
 }  // namespace furrow

@@ -18,6 +18,14 @@ struct OrthotropicLayer {
   static OrthotropicLayer isotropic(double E, double nu, double thickness);
 };
 
+/// A wall of cords in rubber, whose bending does not follow from its stretching: per unit of width,
+/// 1 and 2 without Poisson's coupling.
+struct OrthotropicWall {
+  double stretch1 = 0.0, stretch2 = 0.0;  ///< [N/m]
+  double shear = 0.0;                     ///< [N/m] in the wall; across it 5/6 of that
+  double bending1 = 0.0, bending2 = 0.0;  ///< [N m]; twist sqrt(bending1 bending2)/2
+};
+
 /// Resultants of a plate in its material axes: N = A eps, M = D kappa, Q = S gamma, engineering
 /// shears.
 struct ShellSection {
@@ -30,6 +38,8 @@ struct ShellSection {
   /// A = h Q, D = h^3/12 Q with the plane-stress Q of the layer.
   /// @throws InputError for a layer that is not positive definite or a mass that is not positive
   ShellSection(const OrthotropicLayer& layer, double areal_mass);
+  /// @throws InputError for a stiffness or a mass that is not positive
+  ShellSection(const OrthotropicWall& wall, double areal_mass);
 };
 
 }  // namespace furrow

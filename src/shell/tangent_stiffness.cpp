@@ -136,13 +136,7 @@ Matrix3X FreeComponents::displacements(const VectorX& values, Eigen::Index nodes
 
 NodeNeighbours neighbours_of(const std::vector<Shell4::Quad>& quads, Eigen::Index nodes) {
   NodeNeighbours neighbours(static_cast<std::size_t>(nodes));
-  for (const Shell4::Quad& quad : quads)
-    for (const int a : quad)
-      for (const int b : quad) neighbours[static_cast<std::size_t>(a)].push_back(b);
-  for (std::vector<int>& near : neighbours) {
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
-  }
+  add_neighbours(quads, neighbours);
   return neighbours;
 }
 

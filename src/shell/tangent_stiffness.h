@@ -2,6 +2,7 @@
 #pragma once
 /// The stiffness of a shell structure about its present state, whatever its forces come from.
 
+#include <set>
 #include <vector>
 
 #include <Eigen/SparseCore>
@@ -38,9 +39,17 @@ class FreeComponents {
 };
 
 /// For each node those whose forces change when it moves, itself included.
-using NodeNeighbours = std::vector<std::vector<int>>;
+using NodeNeighbours = std::vector<std::set<int>>;
 
-/// Nodes that share an element.
+/// Adds nodes that share an element. @tparam Element indices of its nodes
+template <class Element>
+void add_neighbours(const std::vector<Element>& elements, NodeNeighbours& neighbours) {
+  for (const Element& element : elements)
+    for (const int node : element)
+      neighbours[static_cast<std::size_t>(node)].insert(element.begin(), element.end());
+}
+
+/// Of a structure of shells alone.
 NodeNeighbours neighbours_of(const std::vector<Shell4::Quad>& quads, Eigen::Index nodes);
 
 /// K = -df/du [N/m, N, N m] about the present state.

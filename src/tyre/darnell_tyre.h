@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "shell/shell4.h"
-#include "tyre/rim_damping.h"
+#include "tyre/nodal_tyre.h"
 #include "tyre/sidewall_ring.h"
 #include "tyre/sidewall_table.h"
 #include "tyre/tread_mesh.h"
-#include "tyre/tyre.h"
 #include "tyre/tyre_surface.h"
 
 namespace furrow {
@@ -36,15 +35,9 @@ void check(const DarnellTyreSettings& settings, const std::string& where = "tyre
 using SidewallTableMaker = std::function<std::unique_ptr<Sidewall>(
     const SidewallParameters&, double pressure, const SidewallTableGrid&)>;
 
-/// On the nodes of the tread act the shell (shell4.h), the pressure, the sidewalls
-/// (sidewall_ring.h) and the damping (rim_damping.h). What these sum up to acts on the rim with the
-/// opposite sign, so momentum is kept to round-off. Without the damping they have the potential
-/// U_shell + sum w W - p V; the stored energy is counted from the state as made, so inflating the
-/// tyre is work of the pressure (load_work).
-///
-/// Contact: tyre_surface.h. Weight: the load on the axle includes that of the tread
-/// (rig/wheel_rig.h); the tread knows no gravity.
-class DarnellTyre : public Tyre {
+/// Nodes are those of the tread (nodal_tyre.h). On them act the shell (shell4.h), the pressure and
+/// the sidewalls (sidewall_ring.h), of which W is the potential per width. Contact: tyre_surface.h.
+class DarnellTyre : public NodalTyre {
  public:
   /// @param hub the rim and whatever else moves with it: everything but the tread band
   /// @param where names the tyre in errors
@@ -56,80 +49,51 @@ class DarnellTyre : public Tyre {
 
   const TyreParameters& parameters() const { return tyre_; }
   const DarnellTyreSettings& settings() const { return settings_; }
-  const ShellNodes& tread() const { return nodes_; }
+  const ShellNodes& tread() const { return nodes(); }
 
   // Body
-  double stable_time_step() const override { return stable_step_; }
-  void advance(double dt) override;
+  double stable_time_step() const override { return shell_.stable_time_step(); }
   using Body::surface;
   Surface& surface() override { return surface_.surface(); }
-  EnergyBudget energy_budget() const override;
-  bool half_model() const override { return settings_.half; }
   void checkpoint(Checkpoint& state) override;
 
   // WheelHub
   double nominal_radius() const override { return tyre_.tread.radius; }
-  double lowest_point() const override;  ///< of the undeformed tread about the present axle
-  double total_mass() const override;
-  Wrench ground_wrench() const override;
 
   // Tyre
-  double pressure() const override { return pressure_; }
-  void set_pressure(double pressure) override;
   const TreadGrid& tread_grid() const override { return grid_; }
   double section_width() override;
-  double tread_energy() const override { return copies_ * shell_.energy(); }
+  double tread_energy() const override { return copies() * shell_.energy(); }
   double tread_mass() const override { return tyre_.tread.areal_mass; }
   double largest_sidewall_chord() const override;
 
  private:
-  void step(double dt);
-  class Relaxing;  // as shell/dynamic_relaxation.h sees it
-
   DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& settings,
               const HubParameters& hub, const SidewallTableMaker& make_table, TreadMesh mesh);
-  void hold_symmetry_plane();
   std::vector<SidewallRing> make_rings(const SidewallTableMaker& make_table) const;
-
-  void compute_internal();
-  void compute_contact();
-  double potential() const;
-  void count_stored_energy() { stored_ = potential() - zero_; }
   RimPose rim() const { return {centre(), attitude()}; }
-  void place_surface() { surface_.place(nodes_, rings_, *this); }
-  Wrench of_whole(const Wrench& computed) const;
 
-  Relaxation relax(RigidPlane* plane, const SettleOptions& options) override;
-  NaturalModes modes_with(const std::vector<int>& held, int count) override;
-  void follow_placement(const Vector3& old_centre, const Matrix3& old_attitude) override;
-  void follow_velocity() override;
-  double kinetic_energy() const override;
+  Internal add_internal_forces() override;
+  void follow_pressure() override;
+  void place_surface() override { surface_.place(nodes_, rings_, *this); }
+  Wrench hand_over(Matrix3X& on_nodes) override;
+  double tread_area() const override {
+    return 2.0 * pi * tyre_.tread.radius * 2.0 * tyre_.tread.half_width;
+  }
+  Vector3 unloaded_tread_point(int line) const override {
+    return reference().col(grid_.node(0, line));
+  }
+  NodeNeighbours neighbours() const override {
+    return neighbours_of(shell_.quads(), nodes_.count());
+  }
+  Eigen::Index tread_node(int k) const override { return k; }
 
   TyreParameters tyre_;
   DarnellTyreSettings settings_;
   TreadGrid grid_;
-  double copies_;       // computed parts in the whole: 2 for a half model
-  ShellNodes nodes_;    // of the tread
-  Matrix3X reference_;  // [m] the same about the axle centre, stress-free
   Shell4 shell_;
   std::vector<SidewallRing> rings_;
   TyreSurface surface_;
-  RimDamping damping_;
-  double pressure_;     // [Pa]
-  double stable_step_;  // [s]
-
-  // Of the present step
-  double volume_ = 0.0;     // [m^3] of the air, but for a constant; of the whole tyre
-  Wrench internal_on_rim_;  // by shell, pressure and sidewalls, of the whole tyre
-  Wrench contact_on_rim_;   // handed over by nodes of the sidewalls, of the whole tyre
-  Matrix3X contact_;        // [N] on the nodes of the tread
-
-  // [J] of the whole tyre
-  double zero_ = 0.0;    // potential in the state as made
-  double stored_ = 0.0;  // potential beyond it
-  double contact_work_ = 0.0;
-  double inflation_work_ = 0.0;
-  double damped_ = 0.0;
 };
 
 }  // namespace furrow

@@ -197,8 +197,9 @@ TEST(Styles, NamesAreUnambiguousAndDeclarationsComplete) {
 
 TEST(Styles, ErrorsNameTheStylesOfAKind) {
   EXPECT_EQ(style_names({Kind::rig}), "wheel/rig");
-  EXPECT_EQ(style_names({Kind::wheel}), "wheel/rigid or tyre/darnell");
-  EXPECT_EQ(style_names({Kind::wheel, Kind::body}), "wheel/rigid, tyre/darnell or plate/rigid");
+  EXPECT_EQ(style_names({Kind::wheel}), "wheel/rigid, tyre/darnell or tyre/brick");
+  EXPECT_EQ(style_names({Kind::wheel, Kind::body}),
+            "wheel/rigid, tyre/darnell, tyre/brick or plate/rigid");
   EXPECT_EQ(find_style("contact/bodies"), find_style("contact/continuum"));
   EXPECT_EQ(find_style("nve/sphere"), nullptr);
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How a DarnellTyre comes to rest, and vibrates about it: its tread relaxes, its rim is the
-// support.
+// How a NodalTyre comes to rest, and vibrates about it: its nodes move, its rim is the support.
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "tyre/darnell_tyre.h"
+#include "tyre/nodal_tyre.h"
 
 namespace furrow {
 
@@ -22,9 +22,9 @@ constexpr double least_pressure_scale = 1e3;
 
 }  // namespace
 
-class DarnellTyre::Relaxing : public RelaxingStructure {
+class NodalTyre::Relaxing : public RelaxingStructure {
  public:
-  Relaxing(DarnellTyre& tyre, RigidPlane* plane, bool under_load)
+  Relaxing(NodalTyre& tyre, RigidPlane* plane, bool under_load)
       : tyre_(tyre), plane_(plane), under_load_(under_load), forces_of_others_(surface().f) {}
 
   ShellNodes& nodes() override { return tyre_.nodes_; }
@@ -39,13 +39,14 @@ class DarnellTyre::Relaxing : public RelaxingStructure {
 
   void follow(double axle_height) override {
     tyre_.rest_at({tyre_.centre().x(), tyre_.centre().y(), axle_height});
+    tyre_.place_beads();
     tyre_.place_surface();
   }
 
   bool carries_its_load(double tolerance) const override {
     if (!under_load_) return true;
     const double load = tyre_.load().z();
-    const double carried = tyre_.copies_ * tyre_.surface().f.row(2).sum() + load;
+    const double carried = tyre_.copies() * tyre_.surface().f.row(2).sum() + load;
     return std::abs(carried) < tolerance * std::abs(load);
   }
 
@@ -58,26 +59,25 @@ class DarnellTyre::Relaxing : public RelaxingStructure {
  private:
   Surface& surface() { return tyre_.surface(); }
 
-  DarnellTyre& tyre_;
+  NodalTyre& tyre_;
   RigidPlane* plane_;
   bool under_load_;
   Matrix3X forces_of_others_;  // [N]
 };
 
-Relaxation DarnellTyre::relax(RigidPlane* plane, const SettleOptions& options) {
+Relaxation NodalTyre::relax(RigidPlane* plane, const SettleOptions& options) {
   RelaxationSupport rim;
   const bool under_load = motion(Coordinate::z) == Motion::free && !options.axle_height;
   if (under_load) rim.motion = RelaxationSupport::Motion::free;
   if (options.axle_height) rim.motion = RelaxationSupport::Motion::prescribed;
   rim.height = centre().z();
   rim.target = options.axle_height.value_or(rim.height);
-  rim.mass = copies_ * nodes_.mass.sum();
+  rim.mass = copies() * nodes_.mass.sum();
   rim.damping = rim_damping;
 
   RelaxationSettings settings;
-  settings.time_step = stable_step_;
-  settings.force_scale = std::max(tyre_.pressure, least_pressure_scale) * 2.0 * pi *
-                         tyre_.tread.radius * 2.0 * tyre_.tread.half_width / copies_ /
+  settings.time_step = relaxation_step();
+  settings.force_scale = std::max(pressure_, least_pressure_scale) * tread_area() / copies() /
                          static_cast<double>(nodes_.count());
   settings.tolerance = options.tolerance;
   settings.max_steps = options.max_steps;
@@ -92,14 +92,18 @@ Relaxation DarnellTyre::relax(RigidPlane* plane, const SettleOptions& options) {
   return result;
 }
 
-NaturalModes DarnellTyre::modes_with(const std::vector<int>& held, int count) {
+NaturalModes NodalTyre::modes_with(const std::vector<int>& held, int count) {
   const ShellNodes rest = nodes_;
-  for (const int node : held) nodes_.hold(node);
+  for (const int k : held) nodes_.hold(tread_node(k));
   Relaxing structure(*this, nullptr, false);
-  NaturalModes modes =
-      furrow::natural_modes(structure, neighbours_of(shell_.quads(), nodes_.count()), count);
+  NaturalModes modes = furrow::natural_modes(structure, neighbours(), count);
   nodes_ = rest;
   compute_internal();
+  for (Matrix3X& shape : modes.shape) {
+    Matrix3X of_tread(3, tread_grid().count());
+    for (int k = 0; k < tread_grid().count(); ++k) of_tread.col(k) = shape.col(tread_node(k));
+    shape = std::move(of_tread);
+  }
   return modes;
 }
 

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/bodies/fix_tyre_brick.h"
+
+#include "io/brick_tyre_file.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+/// Read, made and inflated.
+std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
+  BrickTyreParameters parameters = read_brick_tyre_file(tyre_path(lammps, options));
+  parameters.pressure = read_pressure(options, parameters.pressure);
+  BrickTyreSettings settings;
+  settings.sections = static_cast<int>(options.integer("sections"));
+  settings.half = options.flag("half");
+  settings.damping_rate = options.number("damping");
+  const HubParameters hub = read_hub(options, parameters.bead_spacing());
+  check_rim(options, hub, parameters.bead_radius());
+  auto tyre = std::make_unique<BrickTyre>(parameters, settings, hub, options.subject());
+  check_damping(options, tyre->stable_time_step());
+  tyre->settle(nullptr);
+  return tyre;
+}
+
+}  // namespace
+
+Schema FixTyreBrick::schema() {
+  Schema schema("fix tyre/brick");
+  declare_file_and_pressure(schema);
+  schema
+      .integer("sections", Range::closed(12, 1000),
+               "elements round the tyre; those across are shorter by 0.45")
+      .by_default("120");
+  schema.flag("half", "only the half y >= 0, mirrored");
+  declare_hub(schema);
+  declare_damping(schema);
+  return schema;
+}
+
+FixTyreBrick::FixTyreBrick(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+    : FixTyre(lammps, narg, arg, schema(),
+              [lammps](const Options& options) { return make_tyre(*lammps, options); }) {}
+
+std::string FixTyreBrick::tyre_text() { return brick_tyre_file_text(tyre().parameters()); }
+
+}  // namespace furrow::coupling

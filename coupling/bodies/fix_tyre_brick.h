@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// fix tyre/brick: a tyre with a tread of rubber on a carcass of shells. See fix_tyre_brick.md.
+
+#include "coupling/bodies/fix_tyre.h"
+#include "tyre/brick_tyre.h"
+
+namespace furrow::coupling {
+
+class FixTyreBrick : public FixTyre {
+ public:
+  FixTyreBrick(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
+  static Schema schema();
+
+  BrickTyre& tyre() { return static_cast<BrickTyre&>(body()); }
+
+ protected:
+  std::string tyre_text() override;
+};
+
+}  // namespace furrow::coupling

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// A mesh of eight-node bricks of nearly incompressible rubber: any displacement, rotation and
+/// strain.
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "core/types.h"
+#include "solid/brick8_shape.h"
+#include "material/models/neo_hookean/neo_hookean_parameters.h"
+
+namespace furrow {
+
+struct Brick8Kind;
+
+struct Rubber {
+  NeoHookeanParameters law;
+  double density = 0.0;  ///< [kg/m^3]
+};
+
+/// Elements whose stress-free shapes agree share their gradients (a tyre has one for each brick of
+/// a section), which keeps them in the fastest memory; elements are computed several at once
+/// (brick8_kernel.h has the equations).
+class Brick8 {
+ public:
+  /// Nodes 0 to 3 run round one face, counter-clockwise seen from the opposite face, of which 4 to
+  /// 7 are the same corners. Nodes may be repeated: 0 1 2 3 0 1 6 7 is a wedge with the edge 0-1.
+  using Hexahedron = std::array<int, 8>;
+
+  /// @param reference stress-free nodes [m]
+  /// @throws StateError naming the element for one without volume or turned inside out
+  Brick8(const Matrix3X& reference, std::vector<Hexahedron> bricks, const Rubber& rubber);
+  ~Brick8();
+  Brick8(Brick8&&) noexcept;
+
+  /// Adds the forces at the nodes' positions.
+  /// @throws StateError naming an element that is turned inside out at a Gauss point, or whose
+  /// nodes are not finite
+  void add_forces(const Matrix3X& x, Matrix3X& force);
+
+  double energy() const { return energy_; }  ///< [J] elastic, at the last add_forces
+  const std::vector<Hexahedron>& bricks() const { return bricks_; }
+  const VectorX& mass() const { return mass_; }  ///< [kg] lumped, of all nodes
+  /// [s] 2/omega of the fastest element, no longer than that of the assembled mesh: exact for the
+  /// stress-free state, and then an estimate at the last add_forces (brick8_kernel.h, rate_now()).
+  double stable_time_step() const;
+  /// Smallest volume over stress-free volume at a Gauss point, at the last add_forces.
+  double least_volume_ratio() const { return least_ratio_; }
+  std::size_t kind_count() const;  ///< distinct stress-free shapes
+
+ private:
+  struct Places;  // of the elements in the kernel's arrays, kind by kind
+  void add_kind(const std::vector<int>& members, const Matrix38& shape, const Rubber& rubber);
+
+  std::vector<Hexahedron> bricks_;
+  std::vector<Brick8Kind> kinds_;
+  std::unique_ptr<Places> places_;
+  VectorX mass_;               // [kg]
+  double highest_rate_ = 0.0;  // omega^2 [1/s^2]
+  double energy_ = 0.0;        // [J]
+  double least_ratio_ = 1.0;
+};
+
+}  // namespace furrow

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// What a tyre of shells and bricks is made of. Its files (io/brick_tyre_file.h) are read into
+/// these.
+///
+/// Half of the section is given, the other half is its mirror image. A is the axial coordinate,
+/// outwards from the mid-plane, R the radius about the axle, and s the length along the carcass's
+/// outline from the mid-plane on, all stress-free.
+
+#include <string>
+#include <vector>
+
+#include "shell/shell_section.h"
+#include "solid/brick8.h"
+#include "tyre/tyre_parameters.h"
+
+namespace furrow {
+
+/// A stretch of the carcass; 1 is the circumference, 2 the meridian.
+struct CarcassZone {
+  double end = 0.0;  ///< s [m]; the last one ends at the bead
+  OrthotropicWall wall;
+  double areal_mass = 0.0;  ///< [kg/m^2]
+};
+
+/// Shells from bead to bead: body plies, belts and the rubber between.
+struct CarcassParameters {
+  std::vector<double> axial, radius;  ///< [m] points of the outline, from the mid-plane to the bead
+  std::vector<CarcassZone> zones;     ///< from the mid-plane on
+};
+
+/// Where the tread is cut away: a groove all round, or the gaps between bars of one pitch.
+struct TreadVoid {
+  double from = 0.0, to = 0.0;  ///< s [m]
+  double depth = 0.0;           ///< [m]
+  int pitches = 0;              ///< gaps round the tyre; 0: a groove all round
+  double share = 1.0;           ///< of the pitch that is cut away
+};
+
+/// Rubber on the carcass, square to it.
+struct TreadCapParameters {
+  std::vector<double> at;         ///< s [m] from 0 to where the tread ends
+  std::vector<double> thickness;  ///< [m] there, straight between; 0 at the end: a wedge
+  int layers = 1;                 ///< of bricks, below the voids
+  int rib_layers = 1;             ///< beside them
+  Rubber rubber;
+  std::vector<TreadVoid> voids;
+
+  double thickness_at(double s) const;  ///< [m]
+  double depth_at(double s) const;      ///< [m] of the voids; straight between them
+  double end() const { return at.back(); }
+};
+
+struct BrickTyreParameters {
+  std::string title;
+  double pressure = 0.0;  ///< [Pa] inflation above the atmosphere
+  CarcassParameters carcass;
+  TreadCapParameters tread;
+
+  double bead_radius() const { return carcass.radius.back(); }        ///< [m]
+  double bead_spacing() const { return 2.0 * carcass.axial.back(); }  ///< [m]
+  double radius() const {                                             ///< [m] of the tread
+    return carcass.radius.front() + tread.thickness.front();
+  }
+};
+
+/// Values of s, from 0 to the bead, at which zones, voids and the tread's thickness change: nodes
+/// of every mesh. @param length [m] of the outline
+std::vector<double> places_of_change(const BrickTyreParameters& tyre, double length);
+/// [m] those that are as near are one
+constexpr double same_place = 1e-4;
+
+/// Refuses values that no tyre has, each one and together.
+/// @param where names the tyre in errors
+/// @throws InputError
+void check(const BrickTyreParameters& tyre, const std::string& where = "tyre");
+
+}  // namespace furrow

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "tyre/nodal_tyre.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace furrow {
+
+namespace {
+
+// a rim lighter than this share of the tread would be moved by every wave in it
+constexpr double min_mass_share = 0.02;
+// [kg], [kg m^2] of a bead, which moves as the rim does: none, but one that may be divided by
+constexpr double no_mass = 1e-30;
+
+}  // namespace
+
+NodalTyre::NodalTyre(const HubParameters& hub, const Making& making)
+    : Tyre(hub, "tyre"),
+      nodes_(making.reference.colwise() + hub.centre),
+      reference_(making.reference),
+      half_(making.half),
+      pressure_(making.pressure),
+      damping_(making.damping_rate),
+      contact_(Matrix3X::Zero(3, nodes_.count())) {}
+
+void NodalTyre::start() {
+  for (const Eigen::Index bead : beads_) nodes_.mass[bead] = nodes_.inertia[bead] = no_mass;
+  const double band = copies() * nodes_.mass.sum();
+  const double rim = WheelHub::total_mass();
+  if (rim < min_mass_share * band)
+    throw InputError("tyre, mass of the rim",
+                     fmt::format("is {} kg under a tread of {:.4g} kg", rim, band),
+                     fmt::format("at least {:.3g} kg", min_mass_share * band));
+  compute_internal();
+  zero_ = potential();
+  place_surface();
+}
+
+void NodalTyre::hold_in_symmetry_plane(Eigen::Index node) {
+  nodes_.free_to_move(1, node) = 0.0;
+  nodes_.free_to_turn(0, node) = 0.0;
+  nodes_.free_to_turn(2, node) = 0.0;
+}
+
+void NodalTyre::carry_by_rim(Eigen::Index node) {
+  nodes_.hold(node);
+  beads_.push_back(node);
+}
+
+void NodalTyre::place_beads() {
+  if (beads_.empty()) return;
+  const Matrix3 R = attitude();
+  const Quaternion q(R);
+  for (const Eigen::Index bead : beads_) {
+    nodes_.x.col(bead) = centre() + R * reference_.col(bead);
+    nodes_.v.col(bead) = velocity_at(nodes_.x.col(bead));
+    nodes_.w.col(bead) = angular_velocity();
+    nodes_.set_rotation(bead, q);
+  }
+}
+
+double NodalTyre::lowest_point() const {
+  const TreadGrid& grid = tread_grid();
+  double lowest = 0.0;
+  const Vector3 a = axle();
+  for (int j = 0; j < grid.lines(); ++j) {  // lines are circles, those of the other half mirrored
+    const Vector3 at = unloaded_tread_point(j);
+    const double radius = std::hypot(at.x(), at.z());
+    for (const double side : {1.0, half_ ? -1.0 : 1.0}) {
+      lowest = std::min(
+          lowest, side * at.y() * a.z() - radius * std::sqrt(std::max(0.0, 1.0 - a.z() * a.z())));
+    }
+  }
+  return centre().z() + lowest;
+}
+
+double NodalTyre::total_mass() const {
+  return WheelHub::total_mass() + copies() * nodes_.mass.sum();
+}
+
+Wrench NodalTyre::ground_wrench() const { return of_whole(WheelHub::ground_wrench()); }
+
+/// Adds the mirror image in y = 0 of what acts on a half model.
+Wrench NodalTyre::of_whole(const Wrench& computed) const {
+  if (!half_) return computed;
+  return {Vector3(2.0 * computed.force.x(), 0.0, 2.0 * computed.force.z()),
+          Vector3(0.0, 2.0 * computed.moment.y(), 0.0)};
+}
+
+void NodalTyre::set_pressure(double pressure) {
+  compute_internal();
+  const double before = potential() - zero_;
+  pressure_ = pressure;
+  follow_pressure();
+  compute_internal();
+  count_stored_energy();
+  inflation_work_ += stored_ - before;
+}
+
+/// Elements and pressure: sets nodes_.force, nodes_.moment, internal_on_rim_, elastic_, volume_.
+void NodalTyre::compute_internal() {
+  nodes_.force.setZero();
+  nodes_.moment.setZero();
+  const Internal internal = add_internal_forces();
+  elastic_ = copies() * internal.energy;
+  volume_ = copies() * internal.volume;
+  internal_on_rim_.force = -nodes_.force.rowwise().sum();
+  internal_on_rim_.moment = -nodes_.moment.rowwise().sum();
+  for (Eigen::Index n = 0; n < nodes_.count(); ++n)
+    internal_on_rim_.moment -=
+        Vector3(nodes_.x.col(n) - centre()).cross(Vector3(nodes_.force.col(n)));
+  for (const Eigen::Index n : beads_) {  // their forces the rim takes itself
+    internal_on_rim_.force += nodes_.force.col(n);
+    internal_on_rim_.moment +=
+        Vector3(nodes_.moment.col(n)) +
+        Vector3(nodes_.x.col(n) - centre()).cross(Vector3(nodes_.force.col(n)));
+  }
+  internal_on_rim_ = of_whole(internal_on_rim_);
+}
+
+/// Adds the forces on the surface to nodes_.force, and sets contact_ and contact_on_rim_.
+void NodalTyre::compute_contact() {
+  contact_on_rim_ = of_whole(hand_over(contact_));
+  nodes_.force += contact_;
+}
+
+/// What a deformed tyre is refused for is seldom what is wrong.
+void NodalTyre::advance(double dt) try { step(dt); } catch (const StateError& problem) {
+  throw StateError(
+      fmt::format("{}; at {:g} Pa it carries a load of {:.4g} N and its axle moves at {:.3g} m/s; "
+                  "likely causes: a load that this pressure does not carry, a speed or time step "
+                  "that is too large, a start in the ground, a contact too stiff or too damped, a "
+                  "rim too light",
+                  problem.what(), pressure_, -load().z(), velocity().norm()));
+}
+
+void NodalTyre::step(double dt) {
+  compute_internal();
+  damping_.add(nodes_, *this);
+  Wrench on_rim = of_whole(damping_.reaction(nodes_, centre()));
+  on_rim.force = internal_on_rim_.force + on_rim.force;
+  on_rim.moment = internal_on_rim_.moment + on_rim.moment;
+  compute_contact();
+  const Matrix3X v_before = nodes_.v;
+  const Matrix3X w_before = nodes_.w;
+  const Vector3 V_before = velocity();
+  const Vector3 Omega_before = angular_velocity();
+  nodes_.kick(dt);
+  advance_hub(dt, on_rim.force + contact_on_rim_.force, on_rim.moment + contact_on_rim_.moment);
+
+  const Vector3 V = 0.5 * (V_before + velocity());
+  const Vector3 Omega = 0.5 * (Omega_before + angular_velocity());
+  contact_work_ += dt * copies() * (contact_.cwiseProduct(0.5 * (v_before + nodes_.v))).sum();
+  contact_work_ += dt * (contact_on_rim_.force.dot(V) + contact_on_rim_.moment.dot(Omega));
+  const double power = damping_.power(nodes_, v_before, w_before);
+  const Wrench reaction = of_whole(damping_.reaction(nodes_, centre() - dt * velocity()));
+  damped_ -= dt * (copies() * power + reaction.force.dot(V) + reaction.moment.dot(Omega));
+
+  nodes_.drift(dt);
+  place_beads();
+  count_stored_energy();
+  place_surface();
+  if (!nodes_.x.allFinite()) surface().check_finite("tyre");
+}
+
+/// The deformed shape moves along; the stored energy stays.
+void NodalTyre::follow_placement(const Vector3& old_centre, const Matrix3& old_attitude) {
+  const Matrix3 rotation = attitude() * old_attitude.transpose();
+  const Quaternion q(rotation);
+  nodes_.x = (rotation * (nodes_.x.colwise() - old_centre)).colwise() + centre();
+  nodes_.stop();
+  for (Eigen::Index n = 0; n < nodes_.count(); ++n)
+    nodes_.set_rotation(n, (q * nodes_.q[static_cast<std::size_t>(n)]).normalized());
+  compute_internal();
+  zero_ = potential() - stored_;
+  place_surface();
+}
+
+void NodalTyre::follow_velocity() {
+  for (Eigen::Index n = 0; n < nodes_.count(); ++n) {
+    nodes_.v.col(n) = velocity_at(nodes_.x.col(n));
+    nodes_.w.col(n) = angular_velocity();
+  }
+  place_surface();
+}
+
+double NodalTyre::kinetic_energy() const {
+  return hub_energy() + copies() * nodes_.kinetic_energy();
+}
+
+EnergyBudget NodalTyre::energy_budget() const {
+  EnergyBudget budget = hub_budget();
+  budget.momentum += of_whole({nodes_.v * nodes_.mass, Vector3::Zero()}).force;
+  budget.kinetic_energy = kinetic_energy();
+  budget.stored_energy = stored_;
+  budget.dissipated_energy += damped_;
+  budget.contact_work = contact_work_;
+  budget.load_work += inflation_work_;
+  return budget;
+}
+
+void NodalTyre::checkpoint_nodes(Checkpoint& state) {
+  checkpoint_hub(state);
+  nodes_.checkpoint(state);
+  const double before = pressure_;
+  state.value("pressure", pressure_);
+  if (pressure_ != before) follow_pressure();
+  state.value("zero_of_energy", zero_);
+  state.value("stored", stored_);
+  state.value("contact_work", contact_work_);
+  state.value("inflation_work", inflation_work_);
+  state.value("damped", damped_);
+  state.values("nodal_force", surface().f);
+  if (!state.saving()) place_surface();
+}
+
+}  // namespace furrow

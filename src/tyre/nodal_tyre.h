@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// A tyre whose deformable part is nodes around a rigid rim: how they move, rest, and keep account
+/// of energy, whatever joins them.
+
+#include <vector>
+
+#include "shell/shell_nodes.h"
+#include "tyre/rim_damping.h"
+#include "tyre/tyre.h"
+
+namespace furrow {
+
+/// On the nodes act internal forces, of elements and pressure, and the damping (rim_damping.h).
+/// What these sum up to acts on the rim with the opposite sign, so momentum is kept to round-off.
+/// Without the damping they have the potential U - p V; the stored energy is counted from the state
+/// as made, so inflating the tyre is work of the pressure (load_work).
+///
+/// Beads are nodes that the rim carries along: forces on them act on the rim, and their mass is
+/// part of the rim's.
+///
+/// Weight: the load on the axle includes that of the tyre (rig/wheel_rig.h); nodes know no gravity.
+class NodalTyre : public Tyre {
+ public:
+  const ShellNodes& nodes() const { return nodes_; }
+
+  // Body
+  void advance(double dt) override;
+  EnergyBudget energy_budget() const override;
+  bool half_model() const override { return half_; }
+
+  // WheelHub
+  double lowest_point() const override;  ///< of the undeformed tread about the present axle
+  double total_mass() const override;
+  Wrench ground_wrench() const override;
+
+  // Tyre
+  double pressure() const override { return pressure_; }
+  void set_pressure(double pressure) override;
+
+ protected:
+  /// How a tyre is made.
+  struct Making {
+    Matrix3X reference;  ///< [m] stress-free nodes about the axle centre
+    bool half = false;
+    double pressure = 0.0;      ///< [Pa]
+    double damping_rate = 0.0;  ///< [1/s] c of rim_damping.h
+  };
+  NodalTyre(const HubParameters& hub, const Making& making);
+  /// To be called at the end of a constructor, when masses and supports are set.
+  /// @throws InputError for a rim too light for its tyre
+  void start();
+
+  /// What elements and pressure have stored in the computed part.
+  struct Internal {
+    double energy = 0.0;  ///< [J] elastic
+    double volume = 0.0;  ///< [m^3] of the air, but for a constant
+  };
+  /// Adds the forces of elements and of pressure() to nodes_. @throws StateError
+  virtual Internal add_internal_forces() = 0;
+  /// The pressure is another from now on.
+  virtual void follow_pressure() {}
+  /// Positions and velocities of the surface from those of nodes and rim.
+  virtual void place_surface() = 0;
+  /// Distributes surface().f over nodes and rim.
+  /// @param on_nodes [N] out: one column for each node
+  /// @returns what goes to the rim, of the computed part
+  virtual Wrench hand_over(Matrix3X& on_nodes) = 0;
+
+  virtual double tread_area() const = 0;  ///< [m^2] of the whole tyre
+  /// [m] of a line of the unloaded tread's nodes, about the axle centre
+  virtual Vector3 unloaded_tread_point(int line) const = 0;
+  /// Which nodes' places the internal forces on each depend on.
+  virtual NodeNeighbours neighbours() const = 0;
+  /// Which of nodes() is a node of tread_grid().
+  virtual Eigen::Index tread_node(int k) const = 0;
+  /// [s] a stable one through all that may happen while the tyre comes to rest
+  virtual double relaxation_step() const { return stable_time_step(); }
+
+  void hold_in_symmetry_plane(Eigen::Index node);
+  void carry_by_rim(Eigen::Index node);                ///< makes a bead of it
+  double copies() const { return half_ ? 2.0 : 1.0; }  ///< computed parts in the whole
+  const Matrix3X& reference() const { return reference_; }
+  void checkpoint_nodes(Checkpoint& state);
+
+  ShellNodes nodes_;
+
+ private:
+  class Relaxing;  // as shell/dynamic_relaxation.h sees it
+
+  void step(double dt);
+  void compute_internal();
+  void compute_contact();
+  void place_beads();
+  double potential() const { return elastic_ - pressure_ * volume_; }
+  void count_stored_energy() { stored_ = potential() - zero_; }
+  Wrench of_whole(const Wrench& computed) const;
+
+  Relaxation relax(RigidPlane* plane, const SettleOptions& options) override;
+  NaturalModes modes_with(const std::vector<int>& held, int count) override;
+  void follow_placement(const Vector3& old_centre, const Matrix3& old_attitude) override;
+  void follow_velocity() override;
+  double kinetic_energy() const override;
+
+  Matrix3X reference_;  // [m] stress-free nodes about the axle centre
+  bool half_;
+  double pressure_;  // [Pa]
+  RimDamping damping_;
+  std::vector<Eigen::Index> beads_;
+
+  // Of the present step, of the whole tyre
+  double elastic_ = 0.0;    // [J]
+  double volume_ = 0.0;     // [m^3] of the air, but for a constant
+  Wrench internal_on_rim_;  // by elements and pressure
+  Wrench contact_on_rim_;   // handed over by the surface
+  Matrix3X contact_;        // [N] on the nodes
+
+  // [J] of the whole tyre
+  double zero_ = 0.0;    // potential in the state as made
+  double stored_ = 0.0;  // potential beyond it
+  double contact_work_ = 0.0;
+  double inflation_work_ = 0.0;
+  double damped_ = 0.0;
+};
+
+}  // namespace furrow

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The tyre with a tread of bricks as a body: its mesh, conservation laws in free flight, rest on a
+// plane, half and whole, restarts, refusals.
+
+#include "tyre/brick_tyre.h"
+
+#include <cmath>
+#include <map>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "io/brick_tyre_file.h"
+#include "tests/support/checkpoints.h"
+#include "tests/support/error_of.h"
+#include "tyre/contact_patch.h"
+#include "tyre/section_curve.h"
+
+namespace furrow {
+namespace {
+
+using test::error_of;
+using testing::HasSubstr;
+
+BrickTyreParameters tyre_file(const std::string& name, double pressure = 2.41e5) {
+  BrickTyreParameters tyre = read_brick_tyre_file(std::string(FURROW_SOURCE_DIR) +
+                                                  "/inputs/tyres/p235_75r15_" + name + ".yaml");
+  tyre.pressure = pressure;
+  return tyre;
+}
+
+BrickTyreSettings coarse(bool half = false, int sections = 16) {
+  BrickTyreSettings settings;
+  settings.sections = sections;
+  settings.half = half;
+  return settings;
+}
+
+const HubParameters rim{{20.0, 0.6, 0.4}, {0.0, 0.0, 0.4}};
+
+/// The outside has no gaps but the two beads, and its normals point outwards: seen from above, the
+/// areas of the tread's outside sum up to nothing.
+TEST(BrickTyreMesh, TheOutsideIsOneSkinFromBeadToBead) {
+  for (const char* name : {"smooth", "ribbed", "lugged"}) {
+    const int sections = 60;
+    const BrickTyreMesh mesh = make_brick_tyre_mesh(tyre_file(name), sections, false);
+    std::map<std::pair<int, int>, int> edges;
+    Vector3 area = Vector3::Zero();
+    for (const Vector3i& triangle : mesh.triangles) {
+      Vector3 corner[3];
+      for (int k = 0; k < 3; ++k) {
+        ++edges[{triangle[k], triangle[(k + 1) % 3]}];
+        corner[k] = mesh.x.col(mesh.surface_nodes[static_cast<std::size_t>(triangle[k])]);
+      }
+      area += 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+    }
+    int open = 0;
+    for (const auto& [edge, count] : edges) {
+      EXPECT_EQ(count, 1) << name;
+      open += edges.count({edge.second, edge.first}) == 0;
+    }
+    EXPECT_EQ(open, 2 * sections) << name;
+    EXPECT_LT(area.norm(), 1e-12) << name;
+    EXPECT_EQ(mesh.beads.size(), 2u * sections) << name;
+    double lowest = 0.0;  // the grid's lines are the tread's outermost nodes
+    for (int n = 0; n < mesh.grid.count(); ++n)
+      lowest = std::min(lowest, mesh.x(2, mesh.surface_nodes[static_cast<std::size_t>(n)]));
+    EXPECT_NEAR(lowest, -tyre_file(name).radius(), 1e-12) << name;
+  }
+}
+
+TEST(BrickTyreMesh, ItsRubberHasTheVolumeOfItsSection) {
+  const BrickTyreParameters smooth = tyre_file("smooth");
+  const auto mass = [&](int sections, bool half) {
+    const BrickTyreMesh mesh = make_brick_tyre_mesh(smooth, sections, half);
+    return (half ? 2.0 : 1.0) * Brick8(mesh.x, mesh.bricks, smooth.tread.rubber).mass().sum();
+  };
+  EXPECT_NEAR(mass(60, true), mass(60, false), 1e-9);
+  // rings of rubber, one on each side, which widen outwards where the outline turns
+  const SectionCurve curve(smooth.carcass.axial, smooth.carcass.radius);
+  const double ds = 1e-4;
+  double volume = 0.0;
+  for (double s = 0.5 * ds; s < smooth.tread.end(); s += ds) {
+    const double thickness = smooth.tread.thickness_at(s);
+    const double radius = curve.point(s)[1] + 0.5 * thickness * curve.normal(s)[1];
+    const Vector2 before = curve.normal(s - 0.5 * ds), after = curve.normal(s + 0.5 * ds);
+    const double turn = after[0] * before[1] - after[1] * before[0];  // [rad]
+    volume += 2.0 * 2.0 * pi * radius * thickness * (ds + 0.5 * thickness * turn);
+  }
+  EXPECT_NEAR(mass(120, true) / (814.575 * volume), 1.0, 0.02);  // elements are chords
+}
+
+TEST(BrickTyreMesh, RefusesPitchesThatDoNotFit) {
+  EXPECT_THAT(error_of([] { make_brick_tyre_mesh(tyre_file("lugged"), 100, true); }),
+              HasSubstr("has 100 sections for 30 pitches"));
+}
+
+/// Momentum, and angular momentum about y of all masses about the origin.
+std::pair<Vector3, double> momenta(const BrickTyre& tyre) {
+  const ShellNodes& nodes = tyre.nodes();
+  Vector3 linear = rim.inertia.mass * tyre.velocity() + nodes.v * nodes.mass;
+  double angular = tyre.centre().cross(rim.inertia.mass * tyre.velocity()).y() +
+                   rim.inertia.axial * tyre.angular_velocity().y();
+  for (Eigen::Index n = 0; n < nodes.count(); ++n)
+    angular += nodes.mass[n] * Vector3(nodes.x.col(n)).cross(Vector3(nodes.v.col(n))).y() +
+               nodes.inertia[n] * nodes.w(1, n);
+  return {linear, angular};
+}
+
+/// Inflated, thrown and spinning at ten turns a second, without damping.
+TEST(BrickTyre, FliesAndSpinsWithoutLosingAnything) {
+  BrickTyreSettings settings = coarse();
+  settings.damping_rate = 0.0;
+  BrickTyre tyre(tyre_file("smooth"), settings, rim);
+  tyre.settle(nullptr);
+  for (const auto coordinate : {Coordinate::x, Coordinate::y, Coordinate::z, Coordinate::spin})
+    tyre.release(coordinate);
+  tyre.set_velocity({1.0, 0.0, 2.0}, {2.0 * pi * 10.0, 0.0, 0.0});
+  const double dt = 0.9 * tyre.stable_time_step();
+  const double start = tyre.energy_budget().residual();
+  const auto [p0, L0] = momenta(tyre);
+  double worst = 0.0;
+  const long steps = std::lround(0.1 / dt);
+  for (long i = 0; i < steps; ++i) {
+    tyre.advance(dt);
+    worst = std::max(worst, std::abs(tyre.energy_budget().residual() - start));
+  }
+  const auto [p1, L1] = momenta(tyre);
+  EXPECT_LT((p1 - p0).norm(), 1e-9 * p0.norm());
+  EXPECT_NEAR(L1 / L0, 1.0, 1e-5);
+  EXPECT_LT(worst, 1e-3 * tyre.energy_budget().kinetic_energy);
+}
+
+TEST(BrickTyre, CarriesItsLoadOnAPlaneHalfAndWhole) {
+  std::vector<double> deflections;
+  for (const bool half : {true, false}) {
+    BrickTyre tyre(tyre_file("smooth"), coarse(half, 24), rim);
+    tyre.settle(nullptr);
+    RigidPlaneParameters road;
+    road.height = tyre.lowest_tread_height();
+    RigidPlane plane(road, tyre.surface());
+    tyre.release(Coordinate::z);
+    tyre.set_load({0.0, 0.0, -5000.0});
+    EXPECT_TRUE(tyre.settle(&plane).converged);
+    const double copies = half ? 2.0 : 1.0;
+    EXPECT_NEAR(copies * plane.total_force().z() / 5000.0, 1.0, 2e-3);
+    deflections.push_back(0.4 - tyre.centre().z());
+    const ContactPatch patch = contact_patch(tyre, plane);
+    EXPECT_NEAR(patch.force, 5000.0, 10.0);
+    EXPECT_GT(patch.perimeter_area, 0.01);
+    EXPECT_GT(tyre.least_volume_ratio(), 0.5);
+    EXPECT_GT(tyre.section_width(), 0.22);
+  }
+  EXPECT_NEAR(deflections[0] / deflections[1], 1.0, 5e-3);
+}
+
+TEST(BrickTyre, ContinuesFromACheckpointBitForBit) {
+  const auto make = [] { return BrickTyre(tyre_file("ribbed"), coarse(true), rim); };
+  const auto roll = [](BrickTyre& tyre, int steps) {
+    for (int i = 0; i < steps; ++i) tyre.advance(1e-6);
+  };
+  BrickTyre tyre = make();
+  tyre.release(Coordinate::spin);
+  tyre.set_velocity({0.0, 0.0, 0.0}, {20.0, 0.0, 0.0});
+  roll(tyre, 50);
+  BrickTyre other = make();
+  test::hand_over(tyre, other);
+  roll(tyre, 50);
+  roll(other, 50);
+  EXPECT_EQ(tyre.nodes().x, other.nodes().x);
+  EXPECT_EQ(tyre.energy_budget().residual(), other.energy_budget().residual());
+  EXPECT_GT(tyre.position(Coordinate::spin), 0.0);
+}
+
+TEST(BrickTyre, RefusesWhatCannotBe) {
+  BrickTyreSettings settings = coarse(true);
+  settings.sections = 6;
+  EXPECT_THAT(error_of([&] { BrickTyre(tyre_file("smooth"), settings, rim); }),
+              HasSubstr("tyre, sections is 6; allowed: an integer in [12, 1000]"));
+  HubParameters light = rim;
+  light.inertia = {0.1, 0.003, 0.002};
+  EXPECT_THAT(error_of([&] { BrickTyre(tyre_file("smooth"), coarse(true), light); }),
+              HasSubstr("tyre, mass of the rim is 0.1 kg"));
+}
+
+}  // namespace
+}  // namespace furrow
