@@ -8,8 +8,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "io/brick_tyre_file.h"
 #include "io/tyre_file.h"
 #include "tests/support/error_of.h"
+#include "tyre/brick_tyre.h"
 #include "tyre/darnell_tyre.h"
 #include "tyre/mode_kind.h"
 
@@ -54,6 +56,26 @@ TEST(TyreModes, OfABodyOfRevolutionComeInPairs) {
   EXPECT_GT(kind_of(tyre, modes.shape[0]).circumferential, 0.999);
   EXPECT_GT(kind_of(tyre, modes.shape[1]).axial, 0.99);
   EXPECT_GT(kind_of(tyre, modes.shape[2]).axial, 0.9);
+}
+
+TEST(TyreModes, OfATyreWithATreadOfBricksToo) {
+  BrickTyreParameters parameters =
+      read_brick_tyre_file(std::string(FURROW_SOURCE_DIR) + "/inputs/tyres/p235_75r15_smooth.yaml");
+  parameters.pressure = 100e3;
+  BrickTyreSettings settings;
+  settings.sections = 36;
+  settings.damping_rate = 0.0;
+  BrickTyre tyre(parameters, settings, {{30.0, 1.0, 0.6}, Vector3::Zero()});
+  tyre.settle(nullptr);
+  const NaturalModes modes = tyre.natural_modes(nullptr, 6);
+  const int waves[] = {0, 0, 1, 1, 1, 1};
+  for (int i = 0; i < 6; ++i) {
+    const ModeKind kind = kind_of(tyre, modes.shape[static_cast<std::size_t>(i)]);
+    EXPECT_EQ(kind.waves, waves[i]) << i;
+    EXPECT_GT(kind.wave_share, 0.999) << i;
+  }
+  for (int i = 3; i < 6; i += 2)
+    EXPECT_NEAR(modes.frequency[i] / modes.frequency[i - 1], 1.0, 1e-5) << i;
 }
 
 /// The tyre is hit in the shape of a mode and left alone; the period is the time between crossings
