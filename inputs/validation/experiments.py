@@ -92,7 +92,7 @@ def plate(case: str, what: str, near: str, remark: str) -> Experiment:
     )
 
 
-SLIDE = "needs the slide surface, which this study does not have yet"
+SLIDE = "the continuum has slide surfaces; this case was not run yet"
 PLATES = Group(
     "Plates on snow",
     (
@@ -144,7 +144,7 @@ def stress(column: str) -> Stored:
 DEFLECTIONS = {103: "6.3", 138: "5.4", 179: "4.6", 241: "3.1"}  # [cm]
 AREAS = {103: "509.7", 138: "419.4", 179: "364.5", 241: "281.7"}  # [cm2]
 WIDTHS = {103: "27.9", 138: "25.9", 179: "26.0", 241: "25.1"}  # [cm]
-BRICK = "no tyre with a brick tread yet"
+BRICK = "tyre/brick was compared by hand, see tyre_brick; no stored table yet"
 NO_RUBBER = "ours is of cords and belts, without the rubber outside of them"
 
 HARD_SURFACE = Group(
@@ -336,7 +336,7 @@ RIGID_WHEEL = Group(
         not_done("Fig 65", "displacements along the track", "", "tracers drawn, not scored"),
         not_done("Fig 66", "displacements across the track", "", "no tracers across"),
         not_done("Fig 65", "arc of deviatoric stress ahead", "", "not drawn"),
-        not_done("p. 43", "infinite elements at the sides", "", "needs absorbing sides that move"),
+        not_done("p. 43", "infinite elements at the sides", "", "moving ground has absorbing ends; this case was not run yet"),
         not_done("p. 44", "implicit solution, adaptive mesh", "", "explicit material points here"),
     ),
 )
@@ -390,7 +390,7 @@ TYRE_ON_GROUND = Group(
             "Fig 69",
             "least principal stress tensile below and at the sides",
             "",
-            "principal stresses are not written",
+            "principal stresses are written (terrain.h5), not yet compared",
         ),
         not_done("Fig 1", "zones under a towed wheel (Wong and Reece)", "", "not drawn"),
         not_done("p. 40", "buckling of the tread disappears on soft ground", "", "not counted"),
@@ -403,7 +403,7 @@ FUTURE = Group(
     "What the report leaves to others (pp. 41, 55)",
     (
         not_done("pp. 55-56", "design: width, diameter, pressure", "c", "load and pressure only"),
-        not_done("pp. 55-56", "tread blocks on snow", "", BRICK),
+        not_done("pp. 55-56", "tread blocks on snow", "", "no run of tyre/brick on snow yet"),
         not_done("pp. 55-56", "temperature, melting, sintering in time", "", "no law has it"),
         not_done("pp. 55-56", "rate effects, wet snow, thawing soil", "", "no law has it"),
         not_done("pp. 55-56", "repeated passes", "z", "stable, not scored"),
