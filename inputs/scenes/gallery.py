@@ -13,11 +13,13 @@ import sys
 import textwrap
 from pathlib import Path
 
-import numpy as np
-from PIL import Image
-
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "postproc"))
+
+import furrow_post  # first: says which of the next ones are missing
+
+import numpy as np
+from PIL import Image
 
 from furrow_post.errors import ResultsError
 from furrow_post.figures.moving import MovingPictures

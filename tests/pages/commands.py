@@ -125,7 +125,7 @@ RULES: tuple[tuple[str, Callable[[Tree, str], None]], ...] = (
     (r"bash tests/run", tests_run),
     (r"bash inputs/run|furrow -in ", scene),
     (r"(\w+=\S+ )?build/tests/benchmarks/", benchmark),
-    (r"(postproc/)?furrow-post (film|flow|plan|laboratory|cost) ", options),
+    (r"(postproc/)?furrow-post (film|flow|plan|laboratory|cost|sweep) ", options),
     (r"inputs/\S+\.py --list$", run),
     (r"inputs/(laboratory|validation)/\S+\.py", options),
     (r"(\w+=\S+ )?(build/bin/)?furrow-(point|sidewall|tyre|resistance) ", run),

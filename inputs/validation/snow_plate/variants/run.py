@@ -12,12 +12,14 @@ import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-import matplotlib.pyplot as plt
-import numpy as np
-
 HERE = Path(__file__).resolve().parent
 PROJECT = HERE.parents[3]
 sys.path.insert(0, str(PROJECT / "postproc"))
+
+import furrow_post  # first: says which of the next ones are missing
+
+import matplotlib.pyplot as plt
+import numpy as np
 
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_numbers

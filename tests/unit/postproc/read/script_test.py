@@ -85,7 +85,8 @@ class ScriptTest(unittest.TestCase):
     def test_every_script_of_the_project_is_read_whole(self) -> None:
         inputs = SOURCE / "inputs"
         for script in sorted(inputs.rglob("*.lig")):
-            if script.parent.name in ("beds", "parts", "grounds"):
+            # a user's own script names files from where it is run, and no results folder
+            if script.parent.name in ("beds", "parts", "grounds", "own_script"):
                 continue
             given = {"here": str(script.parent), "ground": "sand_dry"}
             with self.subTest(script=script.name):
