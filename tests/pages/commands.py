@@ -126,8 +126,8 @@ RULES: tuple[tuple[str, Callable[[Tree, str], None]], ...] = (
     (r"bash inputs/run|furrow -in ", scene),
     (r"(\w+=\S+ )?build/tests/benchmarks/", benchmark),
     (r"(postproc/)?furrow-post (film|flow|plan|laboratory|cost|sweep) ", options),
-    (r"inputs/\S+\.py --list$", run),
-    (r"inputs/(laboratory|validation)/\S+\.py", options),
+    (r"inputs/(\S+\.py|validation/run) --list$", run),
+    (r"inputs/(laboratory|validation)/(\S+\.py|run)", options),
     (r"(\w+=\S+ )?(build/bin/)?furrow-(point|sidewall|tyre|resistance) ", run),
     (r"postproc/furrow-post |postproc/examples/", run),
 )
