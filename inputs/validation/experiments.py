@@ -12,7 +12,7 @@ ERROR, ACCURACY = "snow_wheel/error.csv", "snow_wheel/accuracy.csv"
 PLATE, TYRE_ON_SNOW = "snow_plate/results.csv", "tyre_on_snow/results.csv"
 SAND, TABLE6 = "tyre_on_sand_ground/results.csv", "tyre_table6/table6.csv"
 OEDOMETER = "snow_oedometer/results.csv"
-PLATE_VARIANTS = "snow_plate/variants/results.csv"
+PLATE_VARIANTS = "plate_variants/results.csv"
 
 PERCENT = 100.0
 

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-PROJECT = HERE.parents[3]
+PROJECT = HERE.parents[2]
 sys.path.insert(0, str(PROJECT / "postproc"))
 
 import furrow_post  # first: says which of the next ones are missing
