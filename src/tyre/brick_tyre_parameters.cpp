@@ -32,13 +32,13 @@ void check(const CarcassParameters& carcass, const std::string& where) {
   need(carcass.axial.front() == 0.0, where,
        fmt::format("the carcass's outline begins at axial = {} m", carcass.axial.front()),
        "0, the mid-plane");
-  for (std::size_t i = 0; i < n; ++i) {
-    need(i == 0 || carcass.axial[i] > 0.0, where,
+  for (std::size_t i = 1; i < n; ++i) {
+    need(carcass.axial[i] > 0.0, where,
          fmt::format("a point of the carcass's outline has axial = {} m", carcass.axial[i]),
          "numbers > 0 after the first");
-    need(i == 0 || carcass.radius[i] < carcass.radius[i - 1], where,
+    need(carcass.radius[i] < carcass.radius[i - 1], where,
          fmt::format("the carcass's outline goes from radius {} to {} m", carcass.radius[i - 1],
-                     carcass.radius[std::min(i, n - 1)]),
+                     carcass.radius[i]),
          "radii that fall from the mid-plane to the bead");
   }
   need(!carcass.zones.empty(), where, "the carcass has no zones", "one at least");
