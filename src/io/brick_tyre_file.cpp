@@ -2,8 +2,6 @@
 #include "io/brick_tyre_file.h"
 
 #include <cmath>
-#include <filesystem>
-#include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -152,7 +150,7 @@ std::string list(const Items& items, Value value) {
 
 }  // namespace
 
-std::vector<std::pair<std::string, Schema>> brick_tyre_schemas() {
+TyreSchemas brick_tyre_schemas() {
   return {{"tyre", tyre_schema()},
           {"carcass", carcass_schema()},
           {"cap", cap_schema()},
@@ -172,10 +170,7 @@ BrickTyreParameters read_brick_tyre_file(const std::string& path) {
     return read_map(schema, file.map(schema.subject(), meaning));
   };
   BrickTyreParameters result;
-  const YamlTree* title = file.find("title");
-  if (title && title->kind != YamlTree::Kind::text)
-    throw InputError(fmt::format("{}: keyword 'title'", title->origin), "is not a text", "a text");
-  result.title = title ? title->text : std::filesystem::path(path).stem().string();
+  result.title = tyre_title(file, path);
   result.pressure = read(tyre_schema(), "the section 'tyre' with the pressure").number("pressure");
   result.carcass =
       carcass_of(read(carcass_schema(), "the section 'carcass' with its outline and zones"));
@@ -194,7 +189,7 @@ std::string brick_tyre_file_text(const BrickTyreParameters& tyre) {
   using Void = TreadVoid;
   const auto of_zones = [&](auto value) { return list(carcass.zones, value); };
   const auto of_voids = [&](auto value) { return list(cap.voids, value); };
-  const std::map<std::string, std::map<std::string, std::string>> values = {
+  TyreValues values = {
       {"tyre", {{"pressure", fmt::to_string(tyre.pressure)}}},
       {"carcass",
        {{"axial", list(carcass.axial, same)},
@@ -220,15 +215,8 @@ std::string brick_tyre_file_text(const BrickTyreParameters& tyre) {
         {"depth", of_voids([](const Void& cut) { return cut.depth; })},
         {"pitches", of_voids([](const Void& cut) { return double(cut.pitches); })},
         {"share", of_voids([](const Void& cut) { return cut.share; })}}}};
-  std::string text = fmt::format("title: {}\n", quoted(tyre.title));
-  for (const auto& [section, schema] : brick_tyre_schemas()) {
-    if (section == "voids" && cap.voids.empty()) continue;
-    text += fmt::format("{}:\n", section);
-    for (const Key& key : schema.keys())
-      text += fmt::format("  {}: {}  # {}{}\n", key.name, values.at(section).at(key.name),
-                          key.unit.empty() ? "" : fmt::format("[{}] ", key.unit), key.meaning);
-  }
-  return text;
+  if (cap.voids.empty()) values.erase("voids");
+  return tyre_sections_text(tyre.title, brick_tyre_schemas(), values);
 }
 
 }  // namespace furrow

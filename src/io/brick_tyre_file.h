@@ -10,16 +10,14 @@
 ///   voids:   {from: [0.010, ...], to: [0.027, ...], depth: [5.1e-3, ...]}
 
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "core/options.h"
+#include "io/tyre_sections.h"
 #include "tyre/brick_tyre_parameters.h"
 
 namespace furrow {
 
 /// The sections with their keys.
-std::vector<std::pair<std::string, Schema>> brick_tyre_schemas();
+TyreSchemas brick_tyre_schemas();
 
 /// True for a file that has a section of such a tyre. @throws InputError as read_yaml()
 bool is_brick_tyre_file(const std::string& path);

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -96,7 +94,7 @@ void check_angles(const Options& sidewall) {
 
 }  // namespace
 
-std::vector<std::pair<std::string, Schema>> tyre_schemas() {
+TyreSchemas tyre_schemas() {
   return {{"tyre", tyre_schema()}, {"tread", tread_schema()}, {"sidewall", sidewall_schema()}};
 }
 
@@ -114,10 +112,7 @@ TyreParameters read_tyre_file(const std::string& path) {
       read(sidewall_schema(), "the section 'sidewall' with length, hinges and end springs");
 
   TyreParameters result;
-  const YamlTree* title = file.find("title");
-  if (title && title->kind != YamlTree::Kind::text)
-    throw InputError(fmt::format("{}: keyword 'title'", title->origin), "is not a text", "a text");
-  result.title = title ? title->text : std::filesystem::path(path).stem().string();
+  result.title = tyre_title(file, path);
   result.pressure = tyre.number("pressure");
   result.bead_radius = tyre.number("bead_radius");
   result.bead_spacing = tyre.number("bead_spacing");
@@ -149,39 +144,31 @@ std::string tyre_file_text(const TyreParameters& tyre) {
   const auto list = [](const std::vector<double>& values) {
     return fmt::format("[{}]", fmt::join(values, ", "));
   };
-  const std::map<std::string, std::map<std::string, std::string>> values = {
-      {"tyre",
-       {{"pressure", fmt::to_string(tyre.pressure)},
-        {"bead_radius", fmt::to_string(tyre.bead_radius)},
-        {"bead_spacing", fmt::to_string(tyre.bead_spacing)},
-        {"link", list({tyre.link[0], tyre.link[1]})}}},
-      {"tread",
-       {{"radius", fmt::to_string(tread.radius)},
-        {"half_width", fmt::to_string(tread.half_width)},
-        {"crown", fmt::to_string(tread.crown)},
-        {"thickness", fmt::to_string(tread.thickness)},
-        {"E1", fmt::to_string(tread.E1)},
-        {"E2", fmt::to_string(tread.E2)},
-        {"nu12", fmt::to_string(tread.nu12)},
-        {"G12", fmt::to_string(tread.G12)},
-        {"areal_mass", fmt::to_string(tread.areal_mass)}}},
-      {"sidewall",
-       {{"length", fmt::to_string(sidewall.length)},
-        {"bending", list(sidewall.bending)},
-        {"curvature", list(sidewall.curvature)},
-        {"rim_angle", fmt::to_string(degrees(sidewall.rim_angle))},
-        {"tread_angle", fmt::to_string(degrees(sidewall.tread_angle))},
-        {"rim_stiffness", fmt::to_string(sidewall.rim_stiffness)},
-        {"tread_stiffness", fmt::to_string(sidewall.tread_stiffness)},
-        {"strip", sidewall.taper > 0.0 ? "sector" : "even"}}}};
-  std::string text = fmt::format("title: {}\n", quoted(tyre.title));
-  for (const auto& [section, schema] : tyre_schemas()) {
-    text += fmt::format("{}:\n", section);
-    for (const Key& key : schema.keys())
-      text += fmt::format("  {}: {}  # {}{}\n", key.name, values.at(section).at(key.name),
-                          key.unit.empty() ? "" : fmt::format("[{}] ", key.unit), key.meaning);
-  }
-  return text;
+  const TyreValues values = {{"tyre",
+                              {{"pressure", fmt::to_string(tyre.pressure)},
+                               {"bead_radius", fmt::to_string(tyre.bead_radius)},
+                               {"bead_spacing", fmt::to_string(tyre.bead_spacing)},
+                               {"link", list({tyre.link[0], tyre.link[1]})}}},
+                             {"tread",
+                              {{"radius", fmt::to_string(tread.radius)},
+                               {"half_width", fmt::to_string(tread.half_width)},
+                               {"crown", fmt::to_string(tread.crown)},
+                               {"thickness", fmt::to_string(tread.thickness)},
+                               {"E1", fmt::to_string(tread.E1)},
+                               {"E2", fmt::to_string(tread.E2)},
+                               {"nu12", fmt::to_string(tread.nu12)},
+                               {"G12", fmt::to_string(tread.G12)},
+                               {"areal_mass", fmt::to_string(tread.areal_mass)}}},
+                             {"sidewall",
+                              {{"length", fmt::to_string(sidewall.length)},
+                               {"bending", list(sidewall.bending)},
+                               {"curvature", list(sidewall.curvature)},
+                               {"rim_angle", fmt::to_string(degrees(sidewall.rim_angle))},
+                               {"tread_angle", fmt::to_string(degrees(sidewall.tread_angle))},
+                               {"rim_stiffness", fmt::to_string(sidewall.rim_stiffness)},
+                               {"tread_stiffness", fmt::to_string(sidewall.tread_stiffness)},
+                               {"strip", sidewall.taper > 0.0 ? "sector" : "even"}}}};
+  return tyre_sections_text(tyre.title, tyre_schemas(), values);
 }
 
 }  // namespace furrow

@@ -9,16 +9,14 @@
 ///   sidewall: {length: 0.161, bending: [1.5, ...], curvature: [6.76, ...], rim_angle: 23, ...}
 
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "core/options.h"
+#include "io/tyre_sections.h"
 #include "tyre/tyre_parameters.h"
 
 namespace furrow {
 
 /// The sections of a tyre file with their keys; angles in degrees.
-std::vector<std::pair<std::string, Schema>> tyre_schemas();
+TyreSchemas tyre_schemas();
 
 /// All values have passed the schemas and check().
 /// @throws InputError naming file, line and key, what is allowed and what to do

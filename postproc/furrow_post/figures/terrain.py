@@ -62,10 +62,10 @@ def draw_terrain(
     lengthwise, tracks = figure.add_subplot(grid[1, :]), figure.add_subplot(grid[2, :])
     under, rut = figure.add_subplot(grid[3, 0]), figure.add_subplot(grid[3, 1])
     middle = float(body.centre[1] + 0.5 * terrain.spacing)
-    _draw_section(lengthwise, terrain, body.surface, norm, 1, middle)
+    draw_section(lengthwise, terrain, terrain.density, body.surface, norm, 1, middle)
     draw_tracers(tracks, terrain, body.surface, 1, middle)
-    _draw_section(under, terrain, body.surface, norm, 0, axle)
-    _draw_section(rut, terrain, body.surface, norm, 0, behind)
+    draw_section(under, terrain, terrain.density, body.surface, norm, 0, axle)
+    draw_section(rut, terrain, terrain.density, body.surface, norm, 0, behind)
     tracers = "tracers of the same plane that stood on vertical lines; grey: from where they stood"
     distance = CENTIMETRE * (axle - behind)
     annotate_panel(oblique, "a", "from behind; particles")
@@ -87,7 +87,7 @@ def draw_density_section(
     """The section x[axis] = position [m] without a body, with its scale: for plates, columns."""
     densest = render.round_up(float(terrain.density.max()))
     norm = Normalize(0.9 * terrain.undisturbed, densest)
-    _draw_section(axes, terrain, None, norm, axis, position)
+    draw_section(axes, terrain, terrain.density, None, norm, axis, position)
     scale = ScalarMappable(norm, GROUND_COLOURS)
     figure.colorbar(scale, ax=axes, shrink=0.7, extend="min").set_label("density [kg/m³]")
 
@@ -106,7 +106,7 @@ def _draw_oblique(
     axes.set_axis_off()
 
 
-def section_image(
+def _section_image(
     terrain: Terrain, values: Floats, axis: int, position: float, pixel: float = 0.002
 ) -> tuple[Floats, Extent]:
     """Values (n) on the plane x[axis] = position, of the particle that is nearest in the plane.
@@ -137,16 +137,18 @@ def section_image(
     return image.reshape(rows, columns), (float(low[0]), float(right), float(low[1]), float(top))
 
 
-def _draw_section(
+def draw_section(
     axes: Axes,
     terrain: Terrain,
+    values: Floats,
     surface: Surface | None,
     norm: Normalize,
     axis: int,
     position: float,
 ) -> None:
-    """Densities on the plane x[axis] = position [m]; surface: of the body, or None."""
-    image, extent = section_image(terrain, terrain.density, axis, position)
+    """Values of the particles on the plane x[axis] = position [m]; surface: of the body, or
+    None."""
+    image, extent = _section_image(terrain, values, axis, position)
     axes.imshow(
         image,
         origin="lower",

@@ -20,7 +20,7 @@ from ..arrays import Floats
 from ..read.terrain import Outline, Terrain, TerrainStress
 from . import render
 from .style import CENTIMETRE, GROUND_COLOURS, KILOPASCAL, annotate_panel, save, use_style
-from .terrain import draw_frame, draw_tracers, section_image
+from .terrain import draw_frame, draw_section, draw_tracers
 
 COMPRESSION_COLOUR, TENSION_COLOUR = "#1f3a5f", "#c0281c"
 ARC_COLOUR = "#12a5a0"
@@ -77,18 +77,9 @@ def _draw_mises(
     q = KILOPASCAL * stress.mises
     near = np.abs(terrain.x[:, axis] - position) < 0.75 * terrain.spacing
     norm = Normalize(0.0, render.round_up(float(np.percentile(q[near], PERCENTILE))))
-    image, extent = section_image(terrain, q, axis, position)
-    axes.imshow(
-        image,
-        origin="lower",
-        extent=[CENTIMETRE * e for e in extent],
-        cmap=GROUND_COLOURS,
-        norm=norm,
-        interpolation="nearest",
-    )
+    draw_section(axes, terrain, q, body.surface, norm, axis, position)
     scale = ScalarMappable(norm, GROUND_COLOURS)
     figure.colorbar(scale, ax=axes, shrink=0.7, extend="max").set_label("q [kPa]")
-    draw_frame(axes, terrain, body.surface, axis, position)
 
 
 def _draw_crosses(

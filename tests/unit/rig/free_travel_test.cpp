@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "statistics/resistance.h"
-#include "tests/support/checkpoints.h"
+#include "made_again.h"
 #include "tests/support/error_of.h"
 #include "wheel_on_floor.h"
 
@@ -247,23 +247,9 @@ TEST(FreeTravel, VerdictsFollowSpeedsAndSinkage) {
 
 TEST(FreeTravel, ARigMadeAgainContinuesBitwise) {
   const Words words = with({"load_mass", "6", "slope", "5", "mode", "torque", "torque", "3"});
-  const Floor floor;
-  RigidWheel one = make_wheel(0.2003), other = make_wheel(0.2003);
-  WheelRig first(WheelRig::schema().read(words), one);
-  const auto step = [&](WheelRig& rig, RigidWheel& wheel, long i) {
-    rig.apply(static_cast<double>(i) * 1e-4, 1e-4);
-    wheel.advance(1e-4);
-    floor.press_on(wheel.surface());
-  };
-  for (long i = 0; i < 5000; ++i) step(first, one, i);
-  WheelRig second(WheelRig::schema().read(words), other);
-  test::hand_over(one, other);
-  for (long i = 5000; i < 8000; ++i) {
-    step(first, one, i);
-    step(second, other, i);
-  }
-  EXPECT_EQ(first.measure(0.8), second.measure(0.8));
-  EXPECT_EQ(test::state_of(one), test::state_of(other));
+  expect_continues_bitwise(
+      [&](RigidWheel& wheel) { return WheelRig(WheelRig::schema().read(words), wheel); }, Floor(),
+      5000, 8000);
 }
 
 TEST(FreeTravel, RefusesWhatContradictsIt) {

@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
-#include "tests/support/checkpoints.h"
+#include "made_again.h"
 #include "tests/support/error_of.h"
 #include "wheel_on_floor.h"
 
@@ -87,24 +87,11 @@ TEST(Passes, OnARigidFloorAreAlike) {
 }
 
 TEST(Passes, ARigMadeAgainOnTheWayBackContinuesBitwise) {
-  const Floor floor = soft_floor();
-  const auto step = [&](WheelRig& rig, RigidWheel& wheel, long i) {
-    rig.apply(static_cast<double>(i) * dt, dt);
-    wheel.advance(dt);
-    floor.press_on(wheel.surface());
+  const auto make = [](RigidWheel& wheel) {
+    return WheelRig(WheelRig::schema().read(three), wheel);
   };
-  for (const long from : {8000L, 9000L, 10000L}) {  // lifted, brought back, lowered
-    RigidWheel wheel = make_wheel(height), continued = make_wheel(height);
-    WheelRig rig(WheelRig::schema().read(three), wheel),
-        again(WheelRig::schema().read(three), continued);
-    for (long i = 0; i < from; ++i) step(rig, wheel, i);
-    test::hand_over(wheel, continued);
-    for (long i = from; i < from + 3000; ++i) {
-      step(rig, wheel, i);
-      step(again, continued, i);
-    }
-    EXPECT_EQ(test::state_of(wheel), test::state_of(continued)) << from;
-  }
+  for (const long from : {8000L, 9000L, 10000L})  // lifted, brought back, lowered
+    expect_continues_bitwise(make, soft_floor(), from, from + 3000);
 }
 
 TEST(Passes, RefusesWhatMakesNoSense) {

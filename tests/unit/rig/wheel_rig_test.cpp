@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "made_again.h"
 #include "wheel_on_floor.h"
-#include "tests/support/checkpoints.h"
 #include "tests/support/error_of.h"
 
 namespace furrow {
@@ -247,24 +247,8 @@ TEST(WheelRig, TheEnergyBalanceClosesOverAWholeRun) {
 TEST(WheelRig, ARigMadeAgainContinuesBitwise) {
   const Words words{"load_mass", "6",       "speed", "1",          "mode",
                     "towed",     "damping", "100",   "slip_angle", "10"};
-  const Floor floor;
-  RigidWheel one = make_wheel(0.2003), other = make_wheel(0.2003);
-  WheelRig first = make_rig(one, words);
-  const double dt = 1e-4;
-  const auto step = [&](WheelRig& rig, RigidWheel& wheel, long i) {
-    rig.apply(static_cast<double>(i) * dt, dt);
-    wheel.advance(dt);
-    floor.press_on(wheel.surface());
-  };
-  for (long i = 0; i < 3000; ++i) step(first, one, i);
-  WheelRig second = make_rig(other, words);
-  test::hand_over(one, other);
-  for (long i = 3000; i < 5000; ++i) {
-    step(first, one, i);
-    step(second, other, i);
-  }
-  EXPECT_EQ(first.measure(0.5), second.measure(0.5));
-  EXPECT_EQ(test::state_of(one), test::state_of(other));
+  expect_continues_bitwise([&](RigidWheel& wheel) { return make_rig(wheel, words); }, Floor(), 3000,
+                           5000);
 }
 
 TEST(WheelRig, RefusesContradictionsWithKeywordAndRemedy) {
