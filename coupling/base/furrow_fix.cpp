@@ -27,12 +27,12 @@ const Outputs<FurrowFix>& FurrowFix::outputs() {
 std::string FurrowFix::name() const { return fmt::format("fix {} '{}'", style, id); }
 
 bool FurrowFix::uses(const LAMMPS_NS::Fix& other) const {
-  if (!parts_.empty() && dynamic_cast<const FixCoupledSystem*>(&other)) return true;
+  if (needs_system() && dynamic_cast<const FixCoupledSystem*>(&other)) return true;
   return std::find(used_.begin(), used_.end(), &other) != used_.end();
 }
 
 void FurrowFix::post_create() {
-  if (parts_.empty()) return;  // no need of a system
+  if (!needs_system()) return;
   FixCoupledSystem& system = FixCoupledSystem::of(*lmp);
   for (const Part& part : parts_) std::visit([&](auto* p) { system.add(*p, id); }, part);
 }

@@ -97,6 +97,8 @@ class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix {
 
   // ---- for the derived class at any time
   // ---------------------------------------------------------
+  /// A coupled system must be there, also without a part of this fix in it.
+  virtual bool needs_system() const { return !parts_.empty(); }
   /// Saves or brings back what the fix must keep in restart files. Called on all ranks; what rank 0
   /// saves is written.
   virtual void checkpoint(Checkpoint&) {}

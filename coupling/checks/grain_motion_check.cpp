@@ -25,13 +25,6 @@ constexpr char remedy[] = "write 'fix move all nve/sphere'";
 // Of gravity: a slope of 60 degrees, steeper than any ground stands.
 constexpr double least_downward_share = 0.5;
 
-/// LIGGGHTS's multisphere moves its clumps without saying so by its flag.
-bool moves_grains(const LAMMPS_NS::Fix& fix) {
-  return fix.time_integrate != 0 || fix.style == std::string("multisphere");
-}
-/// Takes all forces off a group, so that its grains are meant to stand still.
-bool freezes_grains(const LAMMPS_NS::Fix& fix) { return fix.style == std::string("freeze"); }
-
 /// A bed under a body needs weight, and has one.
 void check_gravity(const LAMMPS_NS::LAMMPS& lammps, double grains, const Warn& warn) {
   if (grains < GrainBedLimits::min_grains ||
@@ -81,6 +74,12 @@ void refuse_double_motion(const LAMMPS_NS::LAMMPS& lammps, const Fixes& movers,
 }
 
 }  // namespace
+
+bool moves_grains(const LAMMPS_NS::Fix& fix) {
+  return fix.time_integrate != 0 || std::string(fix.style).rfind("multisphere", 0) == 0;
+}
+
+bool freezes_grains(const LAMMPS_NS::Fix& fix) { return fix.style == std::string("freeze"); }
 
 void check_weight(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
   if (lammps.atom->natoms == 0) return;

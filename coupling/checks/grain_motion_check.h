@@ -3,8 +3,14 @@
 /// Does one fix, and only one, move each grain?
 
 #include "coupling/checks/scene_checks.h"
+#include "fix.h"
 
 namespace furrow::coupling {
+
+/// LIGGGHTS's multisphere, in all its forms, moves its clumps without saying so by its flag.
+bool moves_grains(const LAMMPS_NS::Fix& fix);
+/// Takes all forces off a group, so that its grains are meant to stand still.
+bool freezes_grains(const LAMMPS_NS::Fix& fix);
 
 /// Warns of grains that no fix moves: they stand still, as LIGGGHTS has it. Collective.
 /// @throws InputError when two fixes move one grain, which then goes twice as far; when none moves

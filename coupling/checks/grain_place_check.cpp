@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/base/fixes_of.h"
 #include "coupling/bodies/fix_mesh_body.h"
+#include "coupling/checks/grain_motion_check.h"
 #include "coupling/checks/lost_grains_check.h"
 #include "coupling/checks/touch_check.h"
 #include "coupling/contact/fix_wall_gran_body.h"
@@ -33,9 +35,7 @@ bool is_inside(const FixTerrainContinuum& terrain, const double* x) {
   return true;
 }
 
-bool has_style(const LAMMPS_NS::Fix& fix, const std::string& beginning) {
-  return std::string(fix.style).compare(0, beginning.size(), beginning) == 0;
-}
+bool is_wall(const LAMMPS_NS::Fix& fix) { return std::string(fix.style).rfind("wall/", 0) == 0; }
 
 bool are_pulled_down(const LAMMPS_NS::LAMMPS& lammps) {
   Vector3 sum = Vector3::Zero();
@@ -76,7 +76,7 @@ Floors find_floors(const LAMMPS_NS::LAMMPS& lammps) {
   for (auto* fix : fixes_of<LAMMPS_NS::Fix>(*lammps.modify)) {
     auto* wall = dynamic_cast<LAMMPS_NS::FixWallGran*>(fix);
     if (!wall)
-      floors.others |= has_style(*fix, "wall/") || has_style(*fix, "freeze");
+      floors.others |= is_wall(*fix) || freezes_grains(*fix);
     else if (!wall->is_mesh_wall() && wall->primitiveWall())
       floors.walls.push_back(wall->primitiveWall());
     else
@@ -94,7 +94,7 @@ Floors find_floors(const LAMMPS_NS::LAMMPS& lammps) {
 int moved_groups(const LAMMPS_NS::Modify& modify) {
   int groups = 0;
   for (const auto* fix : fixes_of<const LAMMPS_NS::Fix>(modify))
-    if (fix->time_integrate != 0 || has_style(*fix, "multisphere")) groups |= fix->groupbit;
+    if (moves_grains(*fix)) groups |= fix->groupbit;
   return groups;
 }
 

@@ -36,6 +36,8 @@ class FixContact : public FurrowFix {
   }
 
   Body& body() const { return body_fix_.body(); }
+  /// A half body's values are those of the whole.
+  double halves() const { return body().half_model() ? 2.0 : 1.0; }
 
  private:
   static constexpr double high_friction = 1.5;

@@ -34,9 +34,9 @@ const Outputs<FixContactContinuum>& FixContactContinuum::outputs() {
       {"deepest_penetration", "m", "the deepest since the start",
        [](Fix& fix) { return fix.contact_.deepest_penetration(); }},
       {"friction_loss", "J", "lost to friction since the start",
-       [](Fix& fix) { return fix.halves() * fix.contact_.friction_loss(); }},
+       [](Fix& fix) { return fix.friction_loss(); }},
       {"damping_loss", "J", "lost to contact damping since the start",
-       [](Fix& fix) { return fix.halves() * fix.contact_.damping_loss(); }},
+       [](Fix& fix) { return fix.damping_loss(); }},
   };
   return list;
 }

@@ -17,13 +17,14 @@ class FixContactContinuum : public FixContact {
   static const Outputs<FixContactContinuum>& outputs();
 
   const TerrainContact& contact() const { return contact_; }
+  // [J] since the start, of the whole body
+  double friction_loss() const { return halves() * contact_.friction_loss(); }
+  double damping_loss() const { return halves() * contact_.damping_loss(); }
   FixTerrainContinuum& terrain_fix() const { return terrain_fix_; }
 
  private:
   FixTerrainContinuum& find_terrain();
   void checkpoint(Checkpoint& state) override { contact_.checkpoint(state); }
-  /// A half body's outputs are those of the whole.
-  double halves() { return body().half_model() ? 2.0 : 1.0; }
 
   FixTerrainContinuum& terrain_fix_;
   TerrainContact contact_;

@@ -13,8 +13,8 @@ class FixContactPlane : public FixContact {
   static Schema schema();
   static const Outputs<FixContactPlane>& outputs();
 
-  /// [J] taken by sliding since the start, of the part that is computed
-  double friction_loss() const { return contact_.plane.friction_loss(); }
+  /// [J] taken by sliding since the start, of the whole body
+  double friction_loss() const { return halves() * contact_.plane.friction_loss(); }
 
   void init() override {
     collectively([&] { check_tyre_stability(); });

@@ -118,9 +118,7 @@ double CommandRunUntilSteady::time_left(const std::vector<FixWheelHistory*>& his
   double end = unlimited;  // [m]
   if (atom->natoms > 0 && !domain->xperiodic) end = domain->boxhi[0];
   for (const FixTerrainContinuum* soil : fixes_of<FixTerrainContinuum>(*modify))
-    if (!soil->options().has("follow"))
-      end = std::min(end,
-                     soil->options().numbers("centre")[0] + 0.5 * soil->options().number("length"));
+    if (!soil->options().has("follow")) end = std::min(end, soil->extent(0).second);
   double left = unlimited;
   for (const FixWheelHistory* history : histories) {
     const WheelHub& wheel = history->wheel();

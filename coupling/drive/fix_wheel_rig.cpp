@@ -96,20 +96,15 @@ void FixWheelRig::check_slope() {
 
 void FixWheelRig::apply(double time, double dt) {
   rig_.apply(time, dt);
-  if (!on_slope()) return;
-  tilt_ = rig_.tilt(time + dt);
-  tilt_gravity_of_terrain(*lmp, tilt_);
+  if (on_slope()) tilt_gravity_of_terrain(*lmp, rig_.tilt(time + dt));
 }
 
-void FixWheelRig::setup(int vflag) {
-  tilt_ = rig_.tilt(FixCoupledSystem::of(*lmp).time());
-  post_force(vflag);
-}
+void FixWheelRig::setup(int vflag) { post_force(vflag); }
 
 void FixWheelRig::post_force(int) {
   // every rig has the same slope: the first turns the gravity of all grains
   if (on_slope() && fixes_of<FixWheelRig>(*modify).front() == this)
-    tilt_gravity_of_grains(*lmp, tilt_);
+    tilt_gravity_of_grains(*lmp, rig_.tilt(FixCoupledSystem::of(*lmp).time()));
 }
 
 /// A ramp of a few steps is a blow.

@@ -33,7 +33,6 @@ class FixWheelRig : public FurrowFix, public MotionController {
 
   FixWheelHub& wheel_fix_;
   WheelRig rig_;
-  double tilt_ = 0.0;    // [rad] of gravity at the end of the step
   bool warned_ = false;  // of short ramps
 };
 

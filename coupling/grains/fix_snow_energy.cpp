@@ -2,7 +2,6 @@
 #include "coupling/grains/fix_snow_energy.h"
 
 #include "core/communicator.h"
-#include "coupling/base/fix_coupled_system.h"
 #include "coupling/base/refuse_double.h"
 #include "coupling/grains/model_snow_bond.h"
 
@@ -40,15 +39,6 @@ FixSnowEnergy::FixSnowEnergy(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
 double FixSnowEnergy::over_ranks(double value) const { return Communicator(&world).sum(value); }
 
 int FixSnowEnergy::setmask() { return LAMMPS_NS::FixConst::PRE_FORCE; }
-
-void FixSnowEnergy::post_create() {
-  collectively([&] { FixCoupledSystem::of(*lmp); });
-  FurrowFix::post_create();
-}
-
-bool FixSnowEnergy::uses(const LAMMPS_NS::Fix& other) const {
-  return dynamic_cast<const FixCoupledSystem*>(&other) || FurrowFix::uses(other);
-}
 
 void FixSnowEnergy::init() {
   collectively([&] { ModelSnowBond::require(*lmp, name(), "whose energy it could count"); });

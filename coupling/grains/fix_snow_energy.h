@@ -15,11 +15,7 @@ class FixSnowEnergy : public FurrowFix {
   static const Outputs<FixSnowEnergy>& outputs();
 
   int setmask() override;
-  void post_create() override;
   void init() override;
-  /// And the coupled system: with it a continued run begins with the forces of the checkpoint's
-  /// step, also without a body.
-  bool uses(const LAMMPS_NS::Fix& other) const override;
   void setup_pre_force(int vflag) override;
   void pre_force(int vflag) override;
 
@@ -32,6 +28,8 @@ class FixSnowEnergy : public FurrowFix {
 
  protected:
   void checkpoint(Checkpoint& state) override;
+  /// With it a continued run begins with the forces of the checkpoint's step, also without a body.
+  bool needs_system() const override { return true; }
 
  private:
   void begin_step();

@@ -83,14 +83,16 @@ FURROW_EXPORTED void ReadRestart::nread_double(double* numbers, int count, FILE*
 
 /// Whether neighbour lists are made in this step.
 FURROW_EXPORTED int Neighbor::decide() {
-  const bool due = next_function<int(Neighbor*)>(symbol::decide)(this) != 0;
+  static const auto original = next_function<int(Neighbor*)>(symbol::decide);  // every step
+  const bool due = original(this) != 0;
   return furrow::coupling::follow_signals(*lmp, due) || due;
 }
 
 FURROW_EXPORTED bool Output::restart_requested(const bigint step) {
   // Without this LIGGGHTS, after a checkpoint that a signal asked for, has no further output.
   if (!restart_flag) next_restart_single = next_restart_double = update->laststep + 1;
-  return next_function<bool(Output*, bigint)>(symbol::restart_requested)(this, step);
+  static const auto original = next_function<bool(Output*, bigint)>(symbol::restart_requested);
+  return original(this, step);
 }
 
 /// Dumps, checkpoints and curves of a step.

@@ -14,7 +14,7 @@
 #include "comm.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/base/fixes_of.h"
-#include "coupling/bodies/fix_tyre_darnell.h"
+#include "coupling/bodies/fix_tyre.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
 #include "update.h"
 
@@ -72,7 +72,7 @@ void FixProgress::add_work() {
   sub_steps_ = system->sub_steps();
   for (const FixTerrainContinuum* soil : fixes_of<FixTerrainContinuum>(*modify))
     work_.particle_updates += sub_steps * soil->terrain().particle_count();
-  work_.tyre_steps += sub_steps * static_cast<double>(fixes_of<FixTyreDarnell>(*modify).size());
+  work_.tyre_steps += sub_steps * static_cast<double>(fixes_of<FixTyre>(*modify).size());
 }
 
 double FixProgress::share_done() const {

@@ -96,20 +96,19 @@ GroundLosses FixWheelHistory::ground_losses() {
   for (auto* contact : fixes_of<FixContactContinuum>(*modify)) {
     if (&contact->body_fix() != &wheel) continue;
     FixTerrainContinuum& terrain = contact->terrain_fix();
-    const double halves = terrain.options().flag("symmetry") ? 2.0 : 1.0;
+    const double halves = terrain.half_model() ? 2.0 : 1.0;
     const TerrainWork work = terrain.terrain().work();
     losses.compaction += halves * work.compaction;
     losses.bulldozing += halves * work.bulldozing;
     losses.kinetic += halves * work.kinetic;
     losses.numerical += halves * work.numerical_loss;
     losses.radiated += halves * work.radiated;
-    losses.friction += contact->contact().friction_loss();
-    losses.contact_damping += contact->contact().damping_loss();
+    losses.friction += contact->friction_loss();
+    losses.contact_damping += contact->damping_loss();
     known += halves * work.contact;
   }
   for (auto* contact : fixes_of<FixContactPlane>(*modify))
-    if (&contact->body_fix() == &wheel)
-      losses.friction += (wheel.body().half_model() ? 2.0 : 1.0) * contact->friction_loss();
+    if (&contact->body_fix() == &wheel) losses.friction += contact->friction_loss();
   known += losses.friction + losses.contact_damping;
   if (touches_grains(*lmp, wheel))
     losses.grains = -rig_fix_.wheel_fix().hub().energy_budget().contact_work - known;

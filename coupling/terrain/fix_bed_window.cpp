@@ -94,11 +94,9 @@ void FixBedWindow::checkpoint(Checkpoint& state) {
   state.value("inserted_minus_removed", difference);
   state.value("first_frozen_tag", first_frozen_tag_);
   state.value("last_frozen_tag", last_frozen_tag_);
-  std::vector<double> frozen(frozen_.begin(), frozen_.end());
-  state.values("frozen", frozen);
+  state.values("frozen", frozen_);
   if (state.saving()) return;
   inserted_minus_removed_ = ranks.rank() == 0 ? difference : 0;
-  frozen_.assign(frozen.begin(), frozen.end());
 }
 
 int FixBedWindow::setmask() {

@@ -39,16 +39,6 @@ std::optional<std::size_t> place_of(const std::string& rider,
   return static_cast<std::size_t>(found - riders.begin());
 }
 
-/// As doubles, which a checkpoint keeps.
-template <class Integer>
-void checkpoint_integers(Checkpoint& state, const std::string& name,
-                         std::vector<Integer>& numbers) {
-  std::vector<double> kept(numbers.begin(), numbers.end());
-  state.values(name, kept);
-  numbers.clear();
-  for (const double number : kept) numbers.push_back(static_cast<Integer>(number));
-}
-
 }  // namespace
 
 void RememberedBed::remember(LAMMPS_NS::LAMMPS& lammps) {
@@ -156,8 +146,8 @@ void RememberedBed::checkpoint(Checkpoint& state) {
   state.value("values of a contact", values);
   contact_values_ = static_cast<std::size_t>(values);
   state.values("grains", packed_);
-  checkpoint_integers(state, "bounds", bounds_);
-  checkpoint_integers(state, "tags", latest_tag_);
+  state.values("bounds", bounds_);
+  state.values("tags", latest_tag_);
   state.value("largest tag", largest_tag_);
 }
 

@@ -20,10 +20,8 @@ RigidPlane::RigidPlane(const RigidPlaneParameters& parameters, const Surface& su
   check(parameters.friction, Range::non_negative(), "friction", "");
   check(parameters.tangential_stiffness, Range::positive(), "tangential_stiffness", "Pa/m");
   const auto nodes = static_cast<Eigen::Index>(surface.node_count());
-  area_ = pressure_ = VectorX::Zero(nodes);
-  for (std::size_t t = 0; t < surface.triangle_count(); ++t)
-    for (int k = 0; k < 3; ++k)
-      area_[surface.triangles[t][k]] += surface.area_vector(t).norm() / 3.0;
+  area_ = surface.node_areas();
+  pressure_ = VectorX::Zero(nodes);
   anchor_ = Eigen::Matrix2Xd::Zero(2, nodes);
   sticking_.assign(static_cast<std::size_t>(nodes), 0);
 }

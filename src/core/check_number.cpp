@@ -25,4 +25,9 @@ void check_integer(long value, const Range& range, const std::string& where) {
   throw InputError(where, fmt::format("is {}", value), key.allowed());
 }
 
+void need(bool fulfilled, const std::string& where, const std::string& problem,
+          const std::string& allowed, const std::string& remedy) {
+  if (!fulfilled) throw InputError(where, problem, allowed, remedy);
+}
+
 }  // namespace furrow

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Refusals of numbers that no Schema has read, such as the members of a parameter struct, in the
-/// words in which a Schema refuses them.
+/// Refusals of what no Schema has read, such as the members of a parameter struct; of numbers in
+/// the words in which a Schema refuses them.
 
 #include <string>
 
@@ -17,5 +17,9 @@ void check_number(double value, const Range& range, const std::string& where,
 
 /// @throws InputError "tyre, elements around is 6; allowed: an integer in [12, 2000]"
 void check_integer(long value, const Range& range, const std::string& where);
+
+/// @throws InputError with these words unless it is fulfilled
+void need(bool fulfilled, const std::string& where, const std::string& problem,
+          const std::string& allowed, const std::string& remedy = "");
 
 }  // namespace furrow

@@ -52,6 +52,14 @@ class Checkpoint {
   }
   void values(const std::string& name, double* first, std::size_t count);
   void values(const std::string& name, std::vector<double>& numbers);  ///< of any length
+  /// Of integers of any number, as doubles.
+  template <class Integer, class = std::enable_if_t<std::is_integral_v<Integer>>>
+  void values(const std::string& name, std::vector<Integer>& integers) {
+    std::vector<double> numbers(integers.begin(), integers.end());
+    values(name, numbers);
+    integers.clear();
+    for (const double number : numbers) integers.push_back(static_cast<Integer>(number));
+  }
   /// A vector or matrix of Eigen; the saved one must have as many numbers.
   template <class Derived>
   void values(const std::string& name, Eigen::PlainObjectBase<Derived>& matrix) {

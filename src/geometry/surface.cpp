@@ -42,6 +42,13 @@ Vector3 Surface::area_vector(std::size_t triangle) const {
   return 0.5 * ab.cross(ac);
 }
 
+VectorX Surface::node_areas() const {
+  VectorX areas = VectorX::Zero(x.cols());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) areas[triangles[t][k]] += area_vector(t).norm() / 3.0;
+  return areas;
+}
+
 double Surface::total_area() const {
   double area = 0.0;
   for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle)

@@ -29,6 +29,7 @@ struct Surface {
   Vector3 total_force() const;                       ///< [N]
   Vector3 total_moment(const Vector3& about) const;  ///< [N m]
   Vector3 area_vector(std::size_t triangle) const;   ///< outward, length = area [m^2]
+  VectorX node_areas() const;                        ///< [m^2] a third of its triangles each
   double total_area() const;                         ///< [m^2]
   double enclosed_volume() const;                    ///< [m^3] of a closed surface
   /// [rad] the sharpest corner of all triangles: how near to a sliver

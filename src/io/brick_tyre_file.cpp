@@ -158,8 +158,7 @@ TyreSchemas brick_tyre_schemas() {
 }
 
 bool is_brick_tyre_file(const std::string& path) {
-  const YamlTree file = read_yaml(path);
-  return file.find("carcass") || file.find("cap");
+  return is_kind(read_yaml(path), InputKind::brick_tyre);
 }
 
 BrickTyreParameters read_brick_tyre_file(const std::string& path) {

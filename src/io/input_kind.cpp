@@ -53,9 +53,13 @@ const std::string* section_of(const YamlTree& file, const Kind& kind) {
 
 }  // namespace
 
+bool is_kind(const YamlTree& file, InputKind kind) {
+  return section_of(file, kinds()[static_cast<std::size_t>(kind)]) != nullptr;
+}
+
 void check_kind(const YamlTree& file, InputKind expected) {
+  if (is_kind(file, expected)) return;
   const Kind& wanted = kinds()[static_cast<std::size_t>(expected)];
-  if (section_of(file, wanted)) return;
   for (const Kind& other : kinds())
     if (const std::string* section = section_of(file, other))
       throw InputError(file.origin,

@@ -8,6 +8,9 @@ namespace furrow {
 
 enum class InputKind { material, tyre, brick_tyre, point_run, point_fit };
 
+/// True for a file with a section that only this kind has.
+bool is_kind(const YamlTree& file, InputKind kind);
+
 /// @throws InputError when a file has no section of the kind that is expected, but one of another
 /// kind: which one it looks like, and what reads that
 void check_kind(const YamlTree& file, InputKind expected);

@@ -231,10 +231,12 @@ void Boundary::absorb(Grid& grid, int field, Face face, const PlaneRange& local,
 void Boundary::shift_x(int cells) {
   for_far_fields([&](FarField& far) {
     if (far.axis == 0) {
-      if (far.plane == 0)
+      if (far.plane == 0) {
         renewal_due_ = true;
-      else
-        for (double& u : far.displacement) u *= std::pow(far.decay, cells);
+      } else {
+        const double share = std::pow(far.decay, cells);
+        for (double& u : far.displacement) u *= share;
+      }
       return;
     }
     // The two outermost rows of nodes at each end stay, as their splines are those of the ends; the

@@ -13,8 +13,8 @@
 /// Momentum is kept at every node, and so is its moment. J_t takes the energy J_t |w_t'|, w_t' the
 /// sliding that is left. A node that sticks has the velocity of ground of one piece.
 ///
-/// The nodes are those of the grid: sides that have parted meet again when they are less than two
-/// cells from each other, not when they touch.
+/// The nodes are those of the grid: sides that have parted meet again as soon as no more than one
+/// cell of the grid is empty between them, not when they touch.
 
 #include <array>
 

@@ -25,9 +25,8 @@ Vector3 momentum_of(const std::vector<ParticleGroup>& groups);  ///< this rank's
 ///
 /// The work of the stress, what deforms the ground, is split by directions:
 ///   compaction  = int sigma_zz D_zz dV dt, all of it where ground is confined sideways
-///   bulldozing  = int (sigma : D - sigma_zz D_zz) dV dt + slide loss - work of gravity: shear,
-///   also
-///                 on slide surfaces, ground pushed ahead and aside, and its weight that is lifted
+///   bulldozing  = int (sigma : D - sigma_zz D_zz) dV dt + slide loss - work of gravity: shear
+///                 (that of slide surfaces too), ground pushed ahead and aside, weight lifted
 /// contact = compaction + bulldozing + kinetic + numerical_loss + radiated.
 struct TerrainWork {
   double contact = 0.0;         ///< of contacts on the terrain

@@ -164,6 +164,19 @@ void report(Tyre& tyre, double load, const Relaxation& rest, const RigidPlane* p
     write_modes(name, tyre, tyre.natural_modes(plane, request.modes), request.file, load);
 }
 
+/// Brings a tyre to rest under a load [N]. @throws StateError that says what to do
+Relaxation settle_under(double load, Tyre& tyre, RigidPlane& plane, const SettleOptions& options) {
+  tyre.set_load({0.0, 0.0, -load});
+  try {
+    return tyre.settle(&plane, options);
+  } catch (const StateError& error) {
+    throw StateError(fmt::format(
+        "--load {:.6g} at {:.6g} kPa: the tyre does not come to rest: {}; lower the load, reach "
+        "it by several smaller ones, or raise --pressure",
+        load, 1e-3 * tyre.pressure(), error.what()));
+  }
+}
+
 /// Inflates a tyre and presses it down under one load after the other.
 void press(Tyre& tyre, const Request& request) {
   const SettleOptions options{request.tolerance};
@@ -173,17 +186,8 @@ void press(Tyre& tyre, const Request& request) {
   floor.friction = request.friction;
   RigidPlane plane(floor, tyre.surface());
   tyre.release(Coordinate::z);
-  for (const double load : request.loads) {
-    tyre.set_load({0.0, 0.0, -load});
-    try {
-      report(tyre, load, tyre.settle(&plane, options), &plane, request);
-    } catch (const StateError& error) {
-      throw StateError(fmt::format(
-          "--load {:.6g} at {:.6g} kPa: the tyre does not come to rest: {}; lower the load, reach "
-          "it by several smaller ones, or raise --pressure",
-          load, 1e-3 * tyre.pressure(), error.what()));
-    }
-  }
+  for (const double load : request.loads)
+    report(tyre, load, settle_under(load, tyre, plane, options), &plane, request);
 }
 
 /// Refuses a load that would not be carried if the whole tread, seen from above, lay on the plane.

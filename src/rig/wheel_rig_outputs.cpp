@@ -18,16 +18,17 @@ constexpr double standstill = 1e-12;
 struct WheelRig::Reading {
   const WheelRig& rig;
   const WheelHub& wheel;
-  double time;            // [s]
-  Wrench ground;          // of the ground on the wheel, moment about the axle centre
-  EnergyBudget budget;    // of the wheel
-  GroundLosses losses;    // of the ground
-  double rim_speed;       // [m/s]
-  double speed_in_plane;  // [m/s] of the axle in the wheel plane
+  double time;          // [s]
+  Wrench ground;        // of the ground on the wheel, moment about the axle centre
+  EnergyBudget budget;  // of the wheel
+  GroundLosses losses;  // of the ground
 
   double yaw() const { return wheel.position(Coordinate::yaw); }
   Vector3 heading() const { return {std::cos(yaw()), std::sin(yaw()), 0.0}; }
   Vector3 left() const { return {-std::sin(yaw()), std::cos(yaw()), 0.0}; }
+  double rim_speed() const { return wheel.rate(Coordinate::spin) * wheel.nominal_radius(); }
+  /// [m/s] of the axle
+  double speed_in_plane() const { return wheel.velocity().dot(heading()); }
 };
 
 const Outputs<const WheelRig::Reading>& WheelRig::outputs() {
@@ -53,15 +54,17 @@ const Outputs<const WheelRig::Reading>& WheelRig::outputs() {
        [](R& r) { return r.wheel.position(Coordinate::spin); }},
       {"spin_rate", "rad/s", "rate of spin_angle, half a step before time",
        [](R& r) { return r.wheel.rate(Coordinate::spin); }},
-      {"rim_speed", "m/s", "spin_rate x radius without grousers", [](R& r) { return r.rim_speed; }},
+      {"rim_speed", "m/s", "spin_rate x radius without grousers",
+       [](R& r) { return r.rim_speed(); }},
       {"slip", "",
        slip_formula(SlipDefinition::larger_speed) +
            ", v_rim = rim_speed, v = speed of the axle in the wheel plane; 0 at standstill",
        [](R& r) {
          const bool at_rest =
-             std::abs(r.rim_speed) < standstill && std::abs(r.speed_in_plane) < standstill;
-         return at_rest ? 0.0
-                        : furrow::slip(SlipDefinition::larger_speed, r.rim_speed, r.speed_in_plane);
+             std::abs(r.rim_speed()) < standstill && std::abs(r.speed_in_plane()) < standstill;
+         return at_rest
+                    ? 0.0
+                    : furrow::slip(SlipDefinition::larger_speed, r.rim_speed(), r.speed_in_plane());
        }},
       {"sinkage", "m", "ground level minus lowest point of the wheel without grousers",
        [](R& r) { return r.rig.ground_level_ - r.wheel.lowest_point(); }},
@@ -127,13 +130,8 @@ const Outputs<const WheelRig::Reading>& WheelRig::outputs() {
 std::vector<Channel> WheelRig::channels() { return outputs().channels(); }
 
 std::vector<double> WheelRig::measure(double time, const GroundLosses& losses) const {
-  const Vector3& velocity = wheel_.velocity();
-  const double yaw = wheel_.position(Coordinate::yaw);
-  const double rim_speed = wheel_.rate(Coordinate::spin) * wheel_.nominal_radius();
-  const double speed_in_plane = velocity.x() * std::cos(yaw) + velocity.y() * std::sin(yaw);
-  const Reading reading{
-      *this,  wheel_,    time,          wheel_.ground_wrench(), wheel_.energy_budget(),
-      losses, rim_speed, speed_in_plane};
+  const Reading reading{*this, wheel_, time, wheel_.ground_wrench(), wheel_.energy_budget(),
+                        losses};
   return outputs().values(reading);
 }
 

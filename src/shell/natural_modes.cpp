@@ -21,14 +21,16 @@ class ShiftedInverse {
  public:
   using Scalar = double;
 
-  explicit ShiftedInverse(const Sparse& matrix) : matrix_(matrix) {}
+  explicit ShiftedInverse(const Sparse& matrix) : matrix_(matrix) {
+    factors_.analyzePattern(matrix_);
+  }
 
   Eigen::Index rows() const { return matrix_.rows(); }
   Eigen::Index cols() const { return matrix_.cols(); }
   void set_shift(double sigma) {
     Sparse shifted = matrix_;
     shifted.diagonal().array() -= sigma;
-    factors_.compute(shifted);
+    factors_.factorize(shifted);
     if (factors_.info() != Eigen::Success)
       throw StateError("natural modes: the stiffness cannot be factorised");
   }
@@ -49,11 +51,17 @@ constexpr double precision = 1e-12;
 constexpr int max_restarts = 1000;
 
 /// The lowest eigenvalues, ascending, with their vectors.
-/// @throws StateError when they do not converge
+/// @throws StateError when the state is not stable, or they do not converge
 std::pair<VectorX, Eigen::MatrixXd> lowest(ShiftedInverse& inverse, int count) {
   const Eigen::Index size = inverse.rows();
   const Eigen::Index subspace = std::min<Eigen::Index>(size, 4 * count + 20);
+  // makes the shift 0
   Spectra::SymEigsShiftSolver<ShiftedInverse> solver(inverse, count, subspace, 0.0);
+  if (const Eigen::Index unstable = inverse.count_below(); unstable > 0)
+    throw StateError(fmt::format(
+        "natural modes: in {} directions the structure is not in stable equilibrium; bring it to "
+        "rest more precisely, or it has snapped or wrinkled",
+        unstable));
   solver.init();
   solver.compute(Spectra::SortRule::LargestMagn, max_restarts, precision,
                  Spectra::SortRule::SmallestAlge);
@@ -75,12 +83,6 @@ NaturalModes natural_modes(RelaxingStructure& structure, const NodeNeighbours& n
   const Sparse matrix = root.asDiagonal() * tangent.matrix * root.asDiagonal();
 
   ShiftedInverse inverse(matrix);
-  inverse.set_shift(0.0);
-  if (const Eigen::Index unstable = inverse.count_below(); unstable > 0)
-    throw StateError(fmt::format(
-        "natural modes: in {} directions the structure is not in stable equilibrium; bring it to "
-        "rest more precisely, or it has snapped or wrinkled",
-        unstable));
   const auto [eigenvalue, vector] = lowest(inverse, count);
   inverse.set_shift(eigenvalue[count - 1] * (1.0 - separation));
   if (const Eigen::Index below = inverse.count_below(); below >= count)

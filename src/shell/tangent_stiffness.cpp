@@ -157,6 +157,7 @@ TangentStiffness tangent_stiffness(RelaxingStructure& structure, const FreeCompo
       VectorX motion = VectorX::Zero(free.count());
       for (const int node : group)
         if (const Eigen::Index i = free.index(node, k); i >= 0) motion[i] = step[i];
+      if (motion.isZero(0.0)) continue;
       const VectorX resistance = differences.resistance(motion);
       for (const int node : group) {
         const Eigen::Index column = free.index(node, k);

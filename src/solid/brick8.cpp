@@ -103,6 +103,7 @@ Brick8::~Brick8() = default;
 Brick8::Brick8(Brick8&&) noexcept = default;
 std::size_t Brick8::kind_count() const { return kinds_.size(); }
 double Brick8::stable_time_step() const { return 2.0 / std::sqrt(highest_rate_); }
+void Brick8::checkpoint(Checkpoint& state) { state.value("highest_rate", highest_rate_); }
 
 Brick8::Brick8(const Matrix3X& reference, std::vector<Hexahedron> bricks, const Rubber& rubber)
     : bricks_(std::move(bricks)),

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/checkpoint.h"
 #include "core/types.h"
 #include "solid/brick8_shape.h"
 #include "material/models/neo_hookean/neo_hookean_parameters.h"
@@ -48,7 +49,8 @@ class Brick8 {
   double stable_time_step() const;
   /// Smallest volume over stress-free volume at a Gauss point, at the last add_forces.
   double least_volume_ratio() const { return least_ratio_; }
-  std::size_t kind_count() const;  ///< distinct stress-free shapes
+  std::size_t kind_count() const;      ///< distinct stress-free shapes
+  void checkpoint(Checkpoint& state);  ///< what stable_time_step() follows
 
  private:
   struct Places;  // of the elements in the kernel's arrays, kind by kind

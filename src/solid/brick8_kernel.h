@@ -14,6 +14,7 @@
 ///
 /// Forces are the exact gradient -dW/dx, so momentum, moment of momentum and energy are kept.
 
+#include "simd/exponential.h"
 #include "simd/inverse_cube_root.h"
 #include "simd/triple.h"
 #include "solid/brick8_block.h"
@@ -97,7 +98,7 @@ struct BrickBlock {
     }
     const Lanes J = volume * Lanes(1.0 / kind.volume);
     const Lanes p = Lanes(0.5 * kind.bulk) * (J - Lanes(1.0) / J);
-    const Lanes log_J = per_lane(J, [](double j) { return __builtin_log(j); });
+    const Lanes log_J = logarithm(J);
     energy = Lanes(0.25 * kind.bulk * kind.volume) * (J * J - Lanes(1.0) - Lanes(2.0) * log_J);
     const Lanes zero = 0.0;
     for (int n = 0; n < 8; ++n) force[n] = {zero, zero, zero};
@@ -131,7 +132,9 @@ FURROW_INLINE void hand_over(const BrickBlock& block, const Brick8Places& places
       at[2] -= block.force[n].z[lane];
     }
     result.energy += block.energy[lane];
-    if (!(block.least_ratio[lane] >= result.least_ratio)) {
+    // one that is no number stays noted
+    if (result.least_ratio == result.least_ratio &&
+        !(block.least_ratio[lane] >= result.least_ratio)) {
       result.least_ratio = block.least_ratio[lane];
       result.most_squeezed = place;
     }

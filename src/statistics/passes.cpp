@@ -30,7 +30,8 @@ History rows_of_pass(const History& history, int number) {
 std::vector<Resistance> measure_passes(const History& history, const ResistanceOptions& options) {
   std::vector<Resistance> passes;
   const auto cruise = static_cast<double>(RigStage::cruise);
-  for (int number = 1; number <= count_passes(history); ++number) {
+  const int count = count_passes(history);
+  for (int number = 1; number <= count; ++number) {
     const History rows = rows_of_pass(history, number);
     const std::vector<double> stage = rows.column(stage_channel);
     // the last pass may have ended before its cruise

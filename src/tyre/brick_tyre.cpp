@@ -18,8 +18,6 @@ constexpr double relaxation_reserve = 0.7;
 // [kg m^2] of nodes that no shell has: they do not turn, but are divided by
 constexpr double no_inertia = 1e-30;
 
-Vector3 circumferential(const Vector3& at) { return {-at.z(), 0.0, at.x()}; }
-
 BrickTyreMesh checked_mesh(const BrickTyreParameters& tyre, const BrickTyreSettings& settings,
                            const HubParameters& hub, const std::string& where) {
   check(tyre, where);
@@ -41,7 +39,7 @@ BrickTyre::BrickTyre(const BrickTyreParameters& tyre, const BrickTyreSettings& s
 
 BrickTyre::BrickTyre(const BrickTyreParameters& tyre, const BrickTyreSettings& settings,
                      const HubParameters& hub, BrickTyreMesh mesh)
-    : NodalTyre(hub, {mesh.x, settings.half, tyre.pressure, settings.damping_rate}),
+    : NodalTyre(hub, {mesh.x, tyre.pressure, settings.damping_rate}),
       tyre_(tyre),
       settings_(settings),
       mesh_(std::move(mesh)),
@@ -65,34 +63,22 @@ BrickTyre::BrickTyre(const BrickTyreParameters& tyre, const BrickTyreSettings& s
   set_tread_mass();
 }
 
-std::size_t BrickTyre::shell_count() const {
-  std::size_t count = 0;
-  for (const Shell4& shell : shells_) count += shell.quads().size();
-  return count;
-}
-
 void BrickTyre::set_tread_mass() {
-  VectorX area = VectorX::Zero(surface_.x.cols());
-  for (std::size_t t = 0; t < surface_.triangle_count(); ++t)
-    for (int k = 0; k < 3; ++k)
-      area[surface_.triangles[t][k]] += surface_.area_vector(t).norm() / 3.0;
+  const VectorX area = surface_.node_areas();
   tread_mass_ = std::numeric_limits<double>::infinity();
   for (Eigen::Index n = 0; n < mesh_.grid.count(); ++n)
     tread_mass_ = std::min(tread_mass_,
                            nodes_.mass[mesh_.surface_nodes[static_cast<std::size_t>(n)]] / area[n]);
 }
 
-double BrickTyre::stable_time_step() const {
-  double step = brick_reserve * bricks_.stable_time_step();
+double BrickTyre::step_with(double reserve) const {
+  double step = reserve * bricks_.stable_time_step();
   for (const Shell4& shell : shells_) step = std::min(step, shell.stable_time_step());
   return step;
 }
 
-double BrickTyre::relaxation_step() const {
-  double step = relaxation_reserve * bricks_.stable_time_step();
-  for (const Shell4& shell : shells_) step = std::min(step, shell.stable_time_step());
-  return step;
-}
+double BrickTyre::stable_time_step() const { return step_with(brick_reserve); }
+double BrickTyre::relaxation_step() const { return step_with(relaxation_reserve); }
 
 NodeNeighbours BrickTyre::neighbours() const {
   NodeNeighbours found(static_cast<std::size_t>(nodes_.count()));
@@ -173,6 +159,7 @@ void BrickTyre::checkpoint(Checkpoint& state) {
   state.match("tread_radius", tyre_.radius());
   state.match("shear_modulus", tyre_.tread.rubber.law.shear);
   checkpoint_nodes(state);
+  bricks_.checkpoint(state);
 }
 
 }  // namespace furrow

@@ -34,8 +34,6 @@ class BrickTyre : public NodalTyre {
 
   const BrickTyreParameters& parameters() const { return tyre_; }
   const BrickTyreSettings& settings() const { return settings_; }
-  std::size_t shell_count() const;
-  std::size_t brick_count() const { return bricks_.bricks().size(); }
   /// Smallest volume of the rubber over its stress-free one, at a Gauss point.
   double least_volume_ratio() const { return bricks_.least_volume_ratio(); }
 
@@ -69,6 +67,8 @@ class BrickTyre : public NodalTyre {
     return mesh_.surface_nodes[static_cast<std::size_t>(k)];
   }
   double relaxation_step() const override;
+  /// [s] @param reserve of the bricks' own step
+  double step_with(double reserve) const;
   void set_tread_mass();
 
   BrickTyreParameters tyre_;

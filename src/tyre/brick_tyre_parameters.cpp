@@ -18,11 +18,6 @@ constexpr double least_base = 1e-3;      // [m] of rubber under a void
 constexpr double least_distance = 2e-3;  // [m] between places where the section changes
 constexpr double outline_slack = 2e-3;   // [m] by which the last zone may miss the outline's end
 
-void need(bool fulfilled, const std::string& where, const std::string& problem,
-          const std::string& allowed, const std::string& remedy = "") {
-  if (!fulfilled) throw InputError(where, problem, allowed, remedy);
-}
-
 void check(const CarcassParameters& carcass, const std::string& where) {
   const std::size_t n = carcass.axial.size();
   need(n >= 4 && carcass.radius.size() == n, where,

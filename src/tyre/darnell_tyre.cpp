@@ -2,7 +2,6 @@
 #include "tyre/darnell_tyre.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -34,8 +33,6 @@ ShellSection tread_section(const TreadParameters& tread) {
       tread.areal_mass);
 }
 
-Vector3 circumferential(const Vector3& at) { return {-at.z(), 0.0, at.x()}; }
-
 TreadMesh checked_mesh(const TyreParameters& tyre, const DarnellTyreSettings& settings,
                        const HubParameters& hub, const std::string& where) {
   check(tyre, where);
@@ -64,7 +61,7 @@ DarnellTyre::DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& 
 DarnellTyre::DarnellTyre(const TyreParameters& tyre, const DarnellTyreSettings& settings,
                          const HubParameters& hub, const SidewallTableMaker& make_table,
                          TreadMesh mesh)
-    : NodalTyre(hub, {mesh.x, settings.half, tyre.pressure, settings.damping_rate}),
+    : NodalTyre(hub, {mesh.x, tyre.pressure, settings.damping_rate}),
       tyre_(tyre),
       settings_(settings),
       grid_(mesh.grid),

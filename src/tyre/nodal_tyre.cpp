@@ -23,7 +23,6 @@ NodalTyre::NodalTyre(const HubParameters& hub, const Making& making)
     : Tyre(hub, "tyre"),
       nodes_(making.reference.colwise() + hub.centre),
       reference_(making.reference),
-      half_(making.half),
       pressure_(making.pressure),
       damping_(making.damping_rate),
       contact_(Matrix3X::Zero(3, nodes_.count())) {}
@@ -71,7 +70,7 @@ double NodalTyre::lowest_point() const {
   for (int j = 0; j < grid.lines(); ++j) {  // lines are circles, those of the other half mirrored
     const Vector3 at = unloaded_tread_point(j);
     const double radius = std::hypot(at.x(), at.z());
-    for (const double side : {1.0, half_ ? -1.0 : 1.0}) {
+    for (const double side : {1.0, grid.half ? -1.0 : 1.0}) {
       lowest = std::min(
           lowest, side * at.y() * a.z() - radius * std::sqrt(std::max(0.0, 1.0 - a.z() * a.z())));
     }
@@ -87,7 +86,7 @@ Wrench NodalTyre::ground_wrench() const { return of_whole(WheelHub::ground_wrenc
 
 /// Adds the mirror image in y = 0 of what acts on a half model.
 Wrench NodalTyre::of_whole(const Wrench& computed) const {
-  if (!half_) return computed;
+  if (!half_model()) return computed;
   return {Vector3(2.0 * computed.force.x(), 0.0, 2.0 * computed.force.z()),
           Vector3(0.0, 2.0 * computed.moment.y(), 0.0)};
 }

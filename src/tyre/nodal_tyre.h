@@ -27,7 +27,7 @@ class NodalTyre : public Tyre {
   // Body
   void advance(double dt) override;
   EnergyBudget energy_budget() const override;
-  bool half_model() const override { return half_; }
+  bool half_model() const override { return tread_grid().half; }
 
   // WheelHub
   double lowest_point() const override;  ///< of the undeformed tread about the present axle
@@ -41,8 +41,7 @@ class NodalTyre : public Tyre {
  protected:
   /// How a tyre is made.
   struct Making {
-    Matrix3X reference;  ///< [m] stress-free nodes about the axle centre
-    bool half = false;
+    Matrix3X reference;         ///< [m] stress-free nodes about the axle centre
     double pressure = 0.0;      ///< [Pa]
     double damping_rate = 0.0;  ///< [1/s] c of rim_damping.h
   };
@@ -77,9 +76,11 @@ class NodalTyre : public Tyre {
   /// [s] a stable one through all that may happen while the tyre comes to rest
   virtual double relaxation_step() const { return stable_time_step(); }
 
+  /// Direction of the circumference at a point about the axle centre, as made.
+  static Vector3 circumferential(const Vector3& at) { return {-at.z(), 0.0, at.x()}; }
   void hold_in_symmetry_plane(Eigen::Index node);
-  void carry_by_rim(Eigen::Index node);                ///< makes a bead of it
-  double copies() const { return half_ ? 2.0 : 1.0; }  ///< computed parts in the whole
+  void carry_by_rim(Eigen::Index node);                    ///< makes a bead of it
+  double copies() const { return tread_grid().copies(); }  ///< computed parts in the whole
   const Matrix3X& reference() const { return reference_; }
   void checkpoint_nodes(Checkpoint& state);
 
@@ -103,8 +104,7 @@ class NodalTyre : public Tyre {
   double kinetic_energy() const override;
 
   Matrix3X reference_;  // [m] stress-free nodes about the axle centre
-  bool half_;
-  double pressure_;  // [Pa]
+  double pressure_;     // [Pa]
   RimDamping damping_;
   std::vector<Eigen::Index> beads_;
 

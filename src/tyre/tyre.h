@@ -2,11 +2,11 @@
 #pragma once
 /// What fixes, rigs and programs know of a tyre, whatever it is made of.
 ///
-/// Another kind of tyre is a class that derives from Tyre, a reader of its files (as
-/// io/tyre_file.h) and a fix style (as coupling/bodies/fix_tyre_darnell.h). The parts in this
-/// folder that do not depend on the kind: sidewalls (sidewall_ring.h), surface and contact
-/// hand-over (tyre_surface.h), damping (rim_damping.h), footprint (contact_patch.h), and
-/// shell/dynamic_relaxation.h.
+/// Another kind of tyre is a class that derives from Tyre, or from NodalTyre (nodal_tyre.h), a
+/// reader of its files (as io/tyre_file.h) and a fix style that derives from
+/// coupling/bodies/fix_tyre.h. The parts in this folder that do not depend on the kind: sidewalls
+/// (sidewall_ring.h), surface and contact hand-over (tyre_surface.h), damping (rim_damping.h),
+/// footprint (contact_patch.h), and shell/dynamic_relaxation.h.
 
 #include <optional>
 

@@ -18,11 +18,6 @@ constexpr std::size_t min_segments = 4, max_segments = 1000;
 // Length of a sidewall over its chord: a circle that is a sixth open, more than any tyre's.
 constexpr double max_slack = 3.0;
 
-void need(bool fulfilled, const std::string& where, const std::string& problem,
-          const std::string& allowed, const std::string& remedy = "") {
-  if (!fulfilled) throw InputError(where, problem, allowed, remedy);
-}
-
 void need_positive(double value, const std::string& where, const std::string& name,
                    const std::string& unit) {
   check_number(value, Range::positive(), fmt::format("{}, {}", where, name), unit);

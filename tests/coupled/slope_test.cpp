@@ -28,8 +28,7 @@ Fix& fix_of(Scene& scene, const char* id) {
 double mass_of(ContinuumTerrain& terrain) {
   double mass = 0.0;
   for (const ParticleGroup& group : terrain.unsynchronised_groups())
-    for (std::size_t p = 0; p < group.particles.size(); ++p)
-      mass += group.material->density() * group.particles.data(column::volume)[p];
+    for (std::size_t p = 0; p < group.particles.size(); ++p) mass += group.mass(p);
   return terrain.ranks().sum(mass);
 }
 

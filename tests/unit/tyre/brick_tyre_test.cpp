@@ -166,6 +166,7 @@ TEST(BrickTyre, ContinuesFromACheckpointBitForBit) {
   roll(tyre, 50);
   BrickTyre other = make();
   test::hand_over(tyre, other);
+  EXPECT_EQ(tyre.stable_time_step(), other.stable_time_step());
   roll(tyre, 50);
   roll(other, 50);
   EXPECT_EQ(tyre.nodes().x, other.nodes().x);
