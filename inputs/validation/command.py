@@ -54,6 +54,10 @@ def known_cost(study: str) -> float:
     per_run: dict[tuple[str, str], float] = {}
     for table in sorted((HERE / study).glob("*.csv")):
         for index, row in enumerate(read_rows(table)):
+            if row.get("quantity") in COSTS:  # a table with a column for each run
+                runs = {run: text for run, text in row.items() if run != "quantity" and text}
+                per_run.update({(table.name, run): float(text) for run, text in runs.items()})
+                continue
             name = row.get("run") or row.get("case") or f"{table.name} {index}"
             for column in COSTS:
                 if row.get(column):

@@ -21,6 +21,7 @@ import furrow_post  # first: says which of the next ones are missing
 import matplotlib.pyplot as plt
 import numpy as np
 
+from furrow_post.analyse.statistics import rms
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_numbers
 from furrow_post.errors import ResultsError, content_of
@@ -196,9 +197,7 @@ def row_of(case: Case, runner: Runner) -> dict[str, object] | None:
     row["user_s"] = round(record.cpu_time, 1)
     row["peak_N"] = round(curve[:, 2].max())
     row["peak_over_measured"] = round(curve[:, 2].max() / measured["peak_load_N"], 3)
-    row["rms_ln_density"] = round(
-        float(np.sqrt(np.mean(np.log(layers / measured_layers()) ** 2))), 3
-    )
+    row["rms_ln_density"] = round(rms(np.log(layers / measured_layers())), 3)
     row["beside_kg_m3"] = round(snow.mean_density(beside))
     row["edge_moved_out_mm"] = round(1e3 * float(np.mean(r[edge] - before[edge])), 1)
     row["slide_loss"] = round(float(history["slide_loss"][-1] / work), 4)

@@ -25,8 +25,7 @@ from furrow_post.study.tables import markdown
 
 MEASURED = cases.HERE.parent / "snow_wheel" / "reference.csv"
 NRMM_DENSITIES = (200.0, 240.0)  # [kg/m3]; the report finds its model at the second
-PRESSURE, RADIUS, WIDTH = 179e3, 0.37, 0.272  # [Pa], [m]
-LOAD = 636 * 9.80665  # [N]
+PRESSURE = 179e3  # [Pa]
 
 SERIES = (  # names of runs, look, words of the figure
     ("depth_*_zero_d30", "o-", "d 30 kPa, zero slip"),
@@ -78,7 +77,8 @@ def means(wheel: dict[str, Floats], x: Floats, low: float, high: float) -> Float
 def nrmm(depth: float, density: float) -> tuple[float, float]:
     """Sinkage [m] and resistance coefficient of the formula for this wheel."""
     z = empirical.nrmm_sinkage(depth, density, PRESSURE)
-    return z, empirical.nrmm_resistance(density, WIDTH, RADIUS, z) / LOAD
+    resistance = empirical.nrmm_resistance(density, closed_form.WIDTH, closed_form.RADIUS, z)
+    return z, resistance / closed_form.LOAD
 
 
 def draw_depths(rows: Sequence[Row], path: Path) -> None:

@@ -10,7 +10,7 @@ as zero.
 
 import csv
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -108,30 +108,41 @@ class Comparison:
         return [e for e in self.entries if e.quantity == quantity and kind in (None, e.kind)]
 
 
+def answers_of_ground(runs: Iterable[WheelRun]) -> set[str]:
+    """Conditions that the ground answers in all runs: slip of towed wheels, and speed of free
+    ones."""
+    runs = list(runs)
+    if all(run.text("travel") == "free" for run in runs):
+        return {"slip", "speed"}
+    return {"slip"} if all(run.text("mode") == "towed" for run in runs) else set()
+
+
+def differ(values: Sequence[float], tolerance: Tolerance) -> bool:
+    """Whether values of a condition differ beyond its tolerance."""
+    allowed = max(tolerance.relative * max(abs(v) for v in values), tolerance.absolute)
+    return max(values) - min(values) > allowed * (1 + 1e-9)
+
+
 def incomparable(
     runs: Sequence[WheelRun], tolerances: Mapping[str, Tolerance] = TOLERANCES
 ) -> list[Difference]:
     """Every condition in which runs differ beyond its tolerance.
 
-    Slip counts unless it is the ground's answer in all of them: wheels that are towed; so does the
-    speed, unless all travel freely.
+    What is the ground's answer in all of them does not count.
     """
     found = []
-    free = all(run.text("travel") == "free" for run in runs)
-    towed = all(run.text("mode") == "towed" for run in runs)
-    answers = {"slip": towed or free, "speed": free}
+    answers = answers_of_ground(runs)
     if len({run.wheel for run in runs}) > 1:
         text = "; ".join(f"{run.label}: {run.wheel}" for run in runs)
         found.append(Difference("wheel", text))
-    for name, (relative, absolute) in tolerances.items():
+    for name, tolerance in tolerances.items():
         have = [run for run in runs if np.isfinite(run.number(name))]
-        if len(have) < 2 or answers.get(name, False):
+        if len(have) < 2 or name in answers:
             continue
-        values = [run.number(name) for run in have]
-        allowed = max(relative * max(abs(v) for v in values), absolute)
-        if max(values) - min(values) > allowed * (1 + 1e-9):
+        if differ([run.number(name) for run in have], tolerance):
             text = "; ".join(f"{run.label}: {run.text(name)}" for run in have)
             unit = have[0].conditions[name].unit
+            relative, absolute = tolerance
             limit = f"{100 * relative:g} %" if relative else f"{absolute:g} {unit}".strip()
             found.append(Difference(name, f"{text} (they may differ by {limit})"))
     return found

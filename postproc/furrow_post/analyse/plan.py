@@ -184,18 +184,21 @@ def _candidates(family: Family, points: Sequence[Point]) -> list[tuple[str, floa
         found.append((name, (LONGER - 1) * point.cpu_time, [*points[:i], longer, *points[i + 1 :]]))
         if family.key.ground == "grains":
             again = replace(point, name=f"another packing of {_size_text(point)}")
-            found.append((again.name, again.cpu_time, [*points, again]))
+            found.append((again.name + _length_text(again), again.cpu_time, [*points, again]))
     finest = min(points, key=lambda p: p.size)
     finer = replace(
         finest,
         size=FINER * finest.size,
         cpu_time=finest.cpu_time * FINER ** _cost_exponent(family.bases),
-        length=1.0,
     )
     finer = replace(finer, name=_size_text(finer))
-    name = f"a run with {elements_name(family.key.ground)} of {finer.name}"
+    name = f"a run with {elements_name(family.key.ground)} of {finer.name}{_length_text(finer)}"
     found.append((name, finer.cpu_time, [*points, finer]))
     return found
+
+
+def _length_text(point: Point) -> str:
+    return f", {point.length:g} times as long" if point.length != 1 else ""
 
 
 def _size_text(point: Point) -> str:

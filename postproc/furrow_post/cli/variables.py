@@ -6,9 +6,7 @@ import sys
 from pathlib import Path
 
 from ..errors import ResultsError
-from ..read.script import check_variables, script_variables
-
-RESERVED = {"results": "-o for the results folder"}
+from ..read.script import RESERVED, check_variables, script_variables
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

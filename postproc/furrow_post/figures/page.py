@@ -94,15 +94,21 @@ def results_tables(result: Comparison) -> str:
     return "\n".join(parts)
 
 
+def condition_rows(runs: Sequence[WheelRun], but: str = "") -> list[list[str]]:
+    """Conditions, ground and discretisation of the runs, a row each; but: without this one."""
+    names = dict.fromkeys(name for run in runs for name in run.conditions if name != but)
+    return [
+        *([name.replace("_", " "), *(run.text(name) for run in runs)] for name in names),
+        ["ground", *(run.ground for run in runs)],
+        ["discretisation", *(run.describe_size() for run in runs)],
+    ]
+
+
 def conditions_table(result: Comparison) -> str:
     """Conditions, discretisation and cost of the runs."""
     runs = result.runs
-    names = list(dict.fromkeys(name for run in runs for name in run.conditions))
-    rows = [[name.replace("_", " ")] + [run.text(name) for run in runs] for name in names]
     domains = [" x ".join(f"{edge:.3g}" for edge in run.domain) for run in runs]
-    rows += [
-        ["ground"] + [run.ground for run in runs],
-        ["discretisation"] + [run.describe_size() for run in runs],
+    rows = condition_rows(runs) + [
         ["particles or grains"] + [str(run.elements) for run in runs],
         ["model"] + [run.model for run in runs],
         ["domain"] + [f"{domain} m" for domain in domains],

@@ -42,11 +42,14 @@ class Quantity:
 def quantities_of(motions: Sequence[Motion]) -> list[Quantity]:
     """Those that a run has; first what all points of all runs have. @raises ResultsError"""
     samples: dict[str, list[Floats]] = {}
+    lacking: set[str] = set()  # what points of some cloud do not have at the end
     for motion in motions:
         for cloud in motion.clouds:
-            for time in evenly_chosen(motion.times, SAMPLES):
-                for key, values in cloud.at(time).fields.items():
+            for time in evenly_chosen(motion.times, SAMPLES):  # the last is the end
+                fields = cloud.at(time).fields
+                for key, values in fields.items():
                     samples.setdefault(key, []).append(values[np.isfinite(values)])
+            lacking |= {key for key, *_ in KNOWN} - fields.keys()
     found = []
     for key, name, unit, factor, from_zero in KNOWN:
         values = factor * np.concatenate(samples.get(key, [np.empty(0)]))
@@ -55,9 +58,4 @@ def quantities_of(motions: Sequence[Motion]) -> list[Quantity]:
         low, high = (float(value) for value in np.percentile(values, [0.5, 99.8]))
         low, high = (0.0, round_up(high)) if from_zero else (float(np.floor(low)), high)
         found.append(Quantity(key, name, unit, factor, low, max(high, low + 1e-6)))
-    return sorted(found, key=lambda one: not all(_has(motion, one.key) for motion in motions))
-
-
-def _has(motion: Motion, key: str) -> bool:
-    """Whether all points of a run have this quantity."""
-    return all(key in cloud.at(motion.times[-1]).fields for cloud in motion.clouds)
+    return sorted(found, key=lambda one: one.key in lacking)

@@ -375,7 +375,6 @@
     resize() {
       const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
       this.renderer.setSize(width, height, false);
-      this.camera.aspect = width / this.runs.length / height;
     }
 
     update() {

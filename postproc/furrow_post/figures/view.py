@@ -68,7 +68,7 @@ class _Selection:
 def view_page(motions: Sequence[Motion], labels: Sequence[str], largest: float = LARGEST) -> str:
     """The whole page. @raises ResultsError, OSError"""
     title = " and ".join(labels)
-    return html_page(title, view_section(motions, labels, largest), _file("view.css"))
+    return html_page(title, view_section(motions, labels, largest), view_style())
 
 
 def view_section(motions: Sequence[Motion], labels: Sequence[str], largest: float = LARGEST) -> str:

@@ -14,7 +14,7 @@ from ..arrays import Floats, Integers
 from ..errors import ResultsError
 from .results import Results, Surface
 from .styles import Styles
-from .terrain import read_terrain_fields, read_terrain_history, terrain_file
+from .terrain import is_half, read_terrain_fields, read_terrain_history, terrain_file
 from .vtk import Series, read_series, read_vtp
 
 REMEDY = (
@@ -97,7 +97,7 @@ def read_motion(folder: Path) -> Motion:
         times = max(series, key=lambda one: len(one.files)).times
         clouds += [Cloud("grains", False, grains)] if grains else []
         if terrain:
-            half = soil.flag("symmetry") if soil else _is_half(read_vtp(terrain.files[0]).x)
+            half = soil.flag("symmetry") if soil else is_half(read_vtp(terrain.files[0]).x)
             clouds.append(Cloud("continuum", half, terrain))
     if not clouds and body is None and body_end is None:
         raise ResultsError(f"{folder}: has nothing to look at; {REMEDY}")
@@ -110,11 +110,6 @@ def read_motion(folder: Path) -> Motion:
         body,
         body_end,
     )
-
-
-def _is_half(x: Floats) -> bool:
-    """Whether particles stand on one side of y = 0 alone."""
-    return bool(x[:, 1].min() > 0)
 
 
 def _read_points(file: Path) -> Points:
@@ -156,7 +151,7 @@ def _clouds_at_the_end(folder: Path, results: Results | None) -> list[Cloud]:
         points = Points(
             named["id"].astype(np.int64), named["x"], _radius_of(named["volume"]), fields
         )
-        half = _is_half(named["initial_position"])
+        half = is_half(named["initial_position"])
         clouds.append(Cloud("continuum", half, None, _checked(points, named.file)))
     return clouds
 

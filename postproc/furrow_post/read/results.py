@@ -76,9 +76,7 @@ class Grains:
     def nearest_image(self, apart: Floats) -> Floats:
         """Distances (n, 3) [m] to the nearest image in a periodic box."""
         period = np.where(self.period > 0, self.period, np.inf)
-        nearest: Floats = apart - np.where(
-            self.period > 0, self.period * np.round(apart / period), 0.0
-        )
+        nearest: Floats = apart - self.period * np.round(apart / period)
         return nearest
 
     def volume_above(self, z: float) -> Floats:

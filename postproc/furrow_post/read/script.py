@@ -47,6 +47,9 @@ def script_variables(script: Path, given: Mapping[str, str]) -> ScriptVariables:
     return found
 
 
+RESERVED = {"results": "-o for the results folder"}  # variables that a program sets itself
+
+
 def check_variables(
     script: Path,
     given: Sequence[tuple[str, str]],

@@ -14,6 +14,12 @@ from .results import Surface, read_surface, require_layout
 
 FILE = "terrain.h5"
 OLD_FILE = "ground.h5"  # its name in an older Furrow
+MIRROR = np.array([1.0, -1.0, 1.0])  # of a half model in its plane of symmetry, y = 0
+
+
+def is_half(x: Floats) -> bool:
+    """Whether particles (n, 3) stand on one side of y = 0 alone."""
+    return bool(x[:, 1].min() > 0)
 
 
 def terrain_file(folder: Path) -> Path:
@@ -81,14 +87,13 @@ class Terrain:
         fine = mass < 1.1 * mass.min()  # cells that are fine along all three axes
         undisturbed = float(np.median(mass[fine]) / np.prod(spacing))
         terrain = cls(x, initial, density, volume, level, undisturbed)
-        return terrain.mirrored() if initial[:, 1].min() > 0 else terrain
+        return terrain.mirrored() if is_half(initial) else terrain
 
     def mirrored(self) -> "Terrain":
         """Both halves of a half model, whose plane of symmetry is y = 0."""
-        flip = np.array([1.0, -1.0, 1.0])
         return Terrain(
-            np.vstack([self.x, self.x * flip]),
-            np.vstack([self.initial_position, self.initial_position * flip]),
+            np.vstack([self.x, self.x * MIRROR]),
+            np.vstack([self.initial_position, self.initial_position * MIRROR]),
             np.tile(self.density, 2),
             np.tile(self.volume, 2),
             self.level,
@@ -124,10 +129,9 @@ class TerrainStress:
         names = ("mises", "principal_stress", "tension_axis", "compression_axis")
         fields.require_finite(*names)
         mises, principal, tension, compression = (fields[name] for name in names)
-        if fields["initial_position"][:, 1].min() > 0:
-            flip = np.array([1.0, -1.0, 1.0])
+        if is_half(fields["initial_position"]):
             mises, principal = np.tile(mises, 2), np.tile(principal, (2, 1))
-            tension, compression = (np.vstack([a, a * flip]) for a in (tension, compression))
+            tension, compression = (np.vstack([a, a * MIRROR]) for a in (tension, compression))
         return cls(mises, principal, tension, compression)
 
     def tensor(self, particles: Integers) -> Floats:

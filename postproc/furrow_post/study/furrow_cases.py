@@ -10,11 +10,12 @@ from .case import FOLDER, Case, Value
 
 
 def script_case(
-    name: str, script: Path, variables: Mapping[str, Value], log: bool = False, **more: Any
+    name: str, script: Path | str, variables: Mapping[str, Value], log: bool = False, **more: Any
 ) -> Case:
     """A script run by furrow; variables: of the script, beside results, which is the run's folder.
 
-    log: keeps LIGGGHTS's log; more: further members of the Case
+    script: also a text with FOLDER in it; log: keeps LIGGGHTS's log; more: further members of the
+    Case
     """
     log_file = f"{FOLDER}/log.liggghts" if log else "none"
     arguments = ("-in", script, "-log", log_file)

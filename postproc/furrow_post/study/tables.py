@@ -15,12 +15,13 @@ def aligned(rows: Sequence[Mapping[str, Any]]) -> str:
 
     names = column_names(rows)
     cells = [[text(row.get(name, "")) for name in names] for row in rows]
-    widths = [max(map(len, column)) for column in zip(names, *cells)]
-    lines = [
-        "  ".join(cell.rjust(width) for cell, width in zip(line, widths))
-        for line in [names, *cells]
-    ]
-    return "\n".join(lines)
+    return "\n".join(in_columns([names, *cells]))
+
+
+def in_columns(rows: Sequence[Sequence[str]]) -> list[str]:
+    """Lines of cells, each column as wide as its widest cell."""
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    return ["  ".join(cell.rjust(width) for cell, width in zip(row, widths)) for row in rows]
 
 
 def transposed(rows: Sequence[Mapping[str, Any]], key: str) -> list[dict[str, Any]]:

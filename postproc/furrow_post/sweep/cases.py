@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ResultsError
-from ..read.script import ScriptVariables, check_variables, script_variables
+from ..read.script import RESERVED, ScriptVariables, check_variables, script_variables
 from ..study.case import FOLDER, Case
+from ..study.furrow_cases import script_case
 from .plan import Plan, Point, points_of
 from .values import Variable, further_seeds, parse_variables
 
@@ -38,8 +39,7 @@ def plan_of(request: Request) -> tuple[Plan, list[str]]:
     variables = parse_variables(request.sweep)
     names = [variable.name for variable in variables]
     given = dict(request.given)
-    reserved = {RESULTS: "-o for the results folder"}
-    warnings = check_variables(request.script, request.given, reserved)
+    warnings = check_variables(request.script, request.given, RESERVED)
     settable = script_variables(request.script, given).settable
     words = [_word_of(settable, v.name, v.values[0]) for v in variables]
     swept = dict(words)
@@ -48,7 +48,7 @@ def plan_of(request: Request) -> tuple[Plan, list[str]]:
             raise ResultsError(f"{name} is given both by -v and by --sweep; give it once")
     if len(swept) < len(words):
         raise ResultsError(f"--sweep {' and '.join(names)} set the same variable of the script")
-    check_variables(request.script, words, reserved, given, "--sweep")
+    check_variables(request.script, words, RESERVED, given, "--sweep")
     fixed = {**dict(request.preset), **given}
     fixed = {name: value for name, value in fixed.items() if name not in swept}
     known = script_variables(request.script, fixed)
@@ -110,17 +110,17 @@ def case_of(plan: Plan, point: Point) -> Case:
     settable = script_variables(script, plan.fixed).settable
     swept = dict(_word_of(settable, *item) for item in point.values.items())
     variables = {**plan.fixed, **swept, **seed}
-    files = {}
-    arguments: tuple[str | Path, ...] = ("-in", script, "-log", f"{FOLDER}/log.liggghts")
+    files: dict[str, str] = {}
+    run: Path | str = script
     if plan.until_steady:
+        run = f"{FOLDER}/{CONTINUED}"
         files = {CONTINUED: continued_script(script, plan.until_steady, plan.time_limit)}
-        arguments = ("-in", f"{FOLDER}/{CONTINUED}", *arguments[2:])
-    return Case(
+    return script_case(
         point.folder,
-        "furrow",
-        arguments,
-        {RESULTS: FOLDER, **{name: _as_word(script, value) for name, value in variables.items()}},
-        files,
+        run,
+        {name: _as_word(script, value) for name, value in variables.items()},
+        log=True,
+        files=files,
         ranks=plan.ranks,
         reads=tuple(_files_of(script, variables)),
         # A run until it is steady ends by itself

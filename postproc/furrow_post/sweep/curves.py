@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..analyse.comparison import TOLERANCES
+from ..analyse.comparison import TOLERANCES, answers_of_ground, differ
 from ..errors import ResultsError
 from ..formatting import in_unit
 from .quantities import Value
@@ -143,16 +143,11 @@ def _condition(series: Sequence[Series]) -> str:
 
 def _varying(points: Sequence[SweepPoint]) -> list[str]:
     """Conditions in which points differ by more than runs that are compared may."""
+    answers = answers_of_ground(run for point in points for run in point.runs)
     found = []
-    towed = all(run.text("mode") == "towed" for point in points for run in point.runs)
     for name in CONDITIONS:
-        numbers = [point.number(name) for point in points]
-        known = [number for number in numbers if math.isfinite(number)]
-        if len(known) < 2 or (name == SLIP and towed):
-            continue
-        relative, absolute = TOLERANCES[name]
-        allowed = max(relative * max(abs(number) for number in known), absolute)
-        if max(known) - min(known) > allowed:
+        known = [n for n in (point.number(name) for point in points) if math.isfinite(n)]
+        if len(known) > 1 and name not in answers and differ(known, TOLERANCES[name]):
             found.append(name)
     return found
 

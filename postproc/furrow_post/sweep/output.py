@@ -9,7 +9,15 @@ from pathlib import Path
 from ..analyse import cost_table
 from ..analyse.formulas import require_formulas
 from ..errors import ResultsError
-from ..figures.page import document, escaped, html_table, inline_picture
+from ..figures.page import (
+    condition_rows,
+    document,
+    escaped,
+    html_table,
+    inline_picture,
+    paragraph,
+)
+from ..study.tables import in_columns
 from .curves import Figure, arrange
 from .drawing import CAPTION, draw_sweep
 from .formulas import FormulaLine, formula_lines
@@ -111,11 +119,7 @@ def write_sweep(result: Result, folder: Path) -> None:
 def report_lines(result: Result) -> list[str]:
     """The table of the figure for a terminal, and the remarks."""
     head, rows = shown_rows(result.figure)
-    widths = [max(map(len, column)) for column in zip(head, *rows)]
-    lines = [
-        "  ".join(cell.rjust(width) for cell, width in zip(row, widths)).rstrip()
-        for row in (head, *rows)
-    ]
+    lines = [line.rstrip() for line in in_columns([head, *rows])]
     return [*lines, "", CAPTION_OF_TABLE, *result.remarks()]
 
 
@@ -131,7 +135,7 @@ def _page(result: Result, picture: Path) -> str:
         inline_picture(picture, CAPTION),
         "<h2>Points</h2>",
         html_table(head, rows, range(1, len(head))),
-        f"<p>{escaped(CAPTION_OF_TABLE)}</p>",
+        paragraph(CAPTION_OF_TABLE),
         "<h2>Remarks</h2>" if remarks else "",
         f"<ul>{remarks}</ul>" if remarks else "",
         "<h2>Conditions</h2>",
@@ -147,14 +151,5 @@ def _conditions(result: Result) -> str:
     """Of the first point of each line; what the sweep changes is in the points."""
     lines = [line for line in result.figure.lines if line.points]
     runs = [line.points[0].runs[0] for line in lines]
-    names = dict.fromkeys(name for run in runs for name in run.conditions)
-    rows = [
-        [name.replace("_", " "), *(run.text(name) for run in runs)]
-        for name in names
-        if name != result.figure.x.key
-    ]
-    rows += [
-        ["ground", *(run.ground for run in runs)],
-        ["discretisation", *(run.describe_size() for run in runs)],
-    ]
+    rows = condition_rows(runs, result.figure.x.key)
     return html_table(["", *(line.label for line in lines)], rows)

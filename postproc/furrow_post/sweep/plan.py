@@ -4,7 +4,7 @@
 import json
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
 from ..errors import ResultsError, content_of
@@ -39,15 +39,7 @@ class Plan:
         if other.settings() != self.settings():
             return self
         points = {point.folder: point for point in (*other.points, *self.points)}
-        return Plan(
-            self.script,
-            self.variables,
-            self.fixed,
-            tuple(points.values()),
-            self.ranks,
-            self.until_steady,
-            self.time_limit,
-        )
+        return replace(self, points=tuple(points.values()))
 
     def settings(self) -> tuple[object, ...]:
         """What all points have in common."""
