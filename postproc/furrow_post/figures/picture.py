@@ -42,15 +42,19 @@ class Scene:
         self.x, self.radius = final.x, final.radius
         self.moved: Floats = np.linalg.norm(final.displacement_from(reference), axis=1)
         self.diameter = float(2 * self.radius.mean())
-        self.surface = results.surface()
         self.low, self.high = reference.corners
+        surface = results.surface()
+        self.surface = None if surface is None else reference.image_of(surface)
         self.cell = 0.5 * self.diameter
         if np.isfinite(reference.bed_level):
             self.bed_level = reference.bed_level
         else:
             self.bed_level = float(np.nanmedian(self._heights(reference.x, reference.radius)))
         self.heights = self._heights(self.x, self.radius) - self.bed_level
-        self.range = Normalize(0, render.round_up(float(np.nanpercentile(self.moved, 99.5))))
+        # none is known in a bed that was renewed as a whole
+        self.followed = bool(np.isfinite(self.moved).any())
+        largest = float(np.nanpercentile(self.moved, 99.5)) if self.followed else 1.0
+        self.range = Normalize(0, render.round_up(largest))
         if self.surface is not None:
             self.wheel_low: Floats = self.surface.x.min(axis=0)
             self.wheel_high: Floats = self.surface.x.max(axis=0)
@@ -134,9 +138,10 @@ def draw_picture(results: Results, numbers: str, target: Path, pixels: int = 150
     across, above = figure.add_subplot(grid[2, 0]), figure.add_subplot(grid[2, 1])
 
     _draw_oblique(oblique, scene, pixels)
-    scale = ScalarMappable(Normalize(0, MILLIMETRE * scene.range.vmax), GROUND_COLOURS)
-    bar = figure.colorbar(scale, ax=oblique, extend="max", fraction=0.03, pad=0.01, shrink=0.8)
-    bar.set_label("displacement of grains [mm]")
+    if scene.followed:
+        scale = ScalarMappable(Normalize(0, MILLIMETRE * scene.range.vmax), GROUND_COLOURS)
+        bar = figure.colorbar(scale, ax=oblique, extend="max", fraction=0.03, pad=0.01, shrink=0.8)
+        bar.set_label("displacement of grains [mm]")
     _draw_section(lengthwise, scene, 1, scene.middle)
     _draw_section(across, scene, 0, cross)
     _draw_height_map(figure, above, scene, cross)
@@ -157,7 +162,8 @@ def draw_picture(results: Results, numbers: str, target: Path, pixels: int = 150
 
     along_title = f"lengthwise, y = {CENTIMETRE * scene.middle + 0.0:.1f} cm"
     wheel = ", dashed: wheel" if scene.surface is not None else ""
-    annotate_panel(oblique, "a", "from behind")
+    renewed = "" if scene.followed else "; the bed was renewed, displacements are not known"
+    annotate_panel(oblique, "a", f"from behind{renewed}")
     annotate_panel(lengthwise, "b", f"{along_title}; dashed: bed level before")
     annotate_panel(across, "c", f"across, x = {CENTIMETRE * cross:.1f} cm")
     annotate_panel(above, "d", f"from above, pits between grains filled; dotted: sections{wheel}")

@@ -79,6 +79,13 @@ class Grains:
         nearest: Floats = apart - self.period * np.round(apart / period)
         return nearest
 
+    def image_of(self, surface: Surface) -> Surface:
+        """Of a body that goes round and round in a periodic box: its image among these grains."""
+        middle = np.mean(self.corners, axis=0)
+        body = 0.5 * (surface.x.min(axis=0) + surface.x.max(axis=0))
+        place = middle + self.nearest_image(body - middle)
+        return surface._replace(x=surface.x + (place - body))
+
     def volume_above(self, z: float) -> Floats:
         """(n) [m3] of the spheres' parts above a plane."""
         height = np.clip(self.x[:, 2] - z, -self.radius, self.radius)

@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 
 from furrow_post.errors import ResultsError
-from furrow_post.read.results import Results
+from furrow_post.read.results import Grains, Results, Surface
 from furrow_post.read.styles import Styles
 from furrow_post.read.wheel_run import read_wheel_run
 from support.runs import RADIUS, rig, rigid_wheel, style, write_grains, write_run
@@ -103,6 +103,14 @@ class WheelRunTest(unittest.TestCase):
         cap = np.pi / 3 * 0.01**2 * (3 * 0.02 - 0.01)  # of the frozen one, above the ground
         solid = 2 * 4 / 3 * np.pi * 0.02**3 + cap
         self.assertAlmostEqual(run.number("density"), 300 * solid / (0.04 * 0.24 * 0.06))
+
+    def test_a_wheel_that_went_round_is_among_the_grains(self) -> None:
+        """Twice round a box of 2 m along x, whose middle is at 0.5 m."""
+        x = np.array([[-0.4, 0, 0.1], [1.4, 0, 0.1]])
+        bed = Grains(np.arange(2), x, np.full(2, 0.1), np.array([2.0, 0, 0]), 0.2)
+        wheel = Surface(np.array([[0, 1, 2]]), np.array([[4.9, 0, 0], [5.1, 0, 0], [5.0, 3, 1]]))
+        np.testing.assert_allclose(bed.image_of(wheel).x, wheel.x - [4, 0, 0])
+        np.testing.assert_allclose(bed.image_of(bed.image_of(wheel)).x, wheel.x - [4, 0, 0])
 
     def test_results_of_an_older_version_are_refused(self) -> None:
         write_run(self.folder)
