@@ -72,7 +72,10 @@ void FixWheelHistory::record() {
 void FixWheelHistory::write_frame() {
   const Grains grains = gather_grains(*lmp, reference_.bed_level);
   if (comm->me != 0) return;
-  wheel_frames_->add(time(), rig_fix_.wheel_fix().hub().surface());
+  Surface wheel = rig_fix_.wheel_fix().hub().surface();
+  const auto [low, high] = wheel.bounds();
+  wheel.x.colwise() += grains.shift_to_image(0.5 * (low + high));
+  wheel_frames_->add(time(), wheel);
   if (grains.size() > 0) grain_frames_->add(time(), grains, &reference_);
 }
 

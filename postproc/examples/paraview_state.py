@@ -16,7 +16,10 @@ from paraview import simple
 
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else os.environ["FURROW_RESULTS"]) / "vtk"
 view = simple.GetActiveViewOrCreate("RenderView")
+view.UseColorPaletteForBackground = 0
 view.Background = [0.96, 0.96, 0.97]
+view.OrientationAxesLabelColor = [0.1, 0.1, 0.1]
+view.ViewSize = [1600, 900]
 
 
 def spheres(points, radius, colour, unit):
@@ -31,26 +34,33 @@ def spheres(points, radius, colour, unit):
     display.UseScaleFunction = 0
     simple.ColorBy(display, ("POINTS", colour))
     display.SetScalarBarVisibility(view, True)
-    display.RescaleTransferFunctionToDataRange(False, True)
-    bar = simple.GetScalarBar(simple.GetColorTransferFunction(colour), view)
+    colours = simple.GetColorTransferFunction(colour)
+    colours.NanColor = [0.75, 0.75, 0.78]  # a displacement that is not known
+    bar = simple.GetScalarBar(colours, view)
     bar.Title, bar.ComponentTitle = colour, f"[{unit}]"
+    bar.TitleColor = bar.LabelColor = [0.1, 0.1, 0.1]
+    return display
 
 
+shown = []
 for name, radius, colour, unit in (
     ("grains", "radius", "displacement", "m"),
     ("terrain", "(0.2387*volume)^(1/3)", "density", "kg/m3"),
 ):
     series = folder / f"{name}.pvd"
     if series.is_file() and "DataSet" in series.read_text(encoding="utf-8"):
-        spheres(simple.PVDReader(FileName=str(series)), radius, colour, unit)
+        shown.append(spheres(simple.PVDReader(FileName=str(series)), radius, colour, unit))
 if (folder / "wheel.pvd").is_file():
     wheel = simple.Show(simple.PVDReader(FileName=str(folder / "wheel.pvd")), view)
-    simple.ColorBy(wheel, None)
+    wheel.ColorArrayName = ["POINTS", ""]  # one colour
     wheel.DiffuseColor = [0.36, 0.40, 0.45]
 
 scene = simple.GetAnimationScene()
 scene.UpdateAnimationUsingDataTimeSteps()
 scene.GoToLast()
+simple.Render(view)  # reads that frame, whose range the colours take
+for display in shown:
+    display.RescaleTransferFunctionToDataRange(False, True)
 view.CameraPosition, view.CameraViewUp = [0.6, -1.2, 0.8], [0, 0, 1]
 simple.ResetCamera(view)
 if len(sys.argv) > 2:

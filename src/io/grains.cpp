@@ -39,6 +39,15 @@ Matrix3X Grains::displacement_from(const Grains& reference) const {
   return displacement;
 }
 
+Vector3 Grains::shift_to_image(const Vector3& place) const {
+  Vector3 shift = Vector3::Zero();
+  if (size() == 0) return shift;
+  const Vector3 offset = place - 0.5 * (x.rowwise().minCoeff() + x.rowwise().maxCoeff());
+  for (int axis = 0; axis < 3; ++axis)
+    if (period[axis] > 0.0) shift[axis] = std::remainder(offset[axis], period[axis]) - offset[axis];
+  return shift;
+}
+
 void Grains::check() const {
   const auto count = Eigen::Index(size());
   if (x.cols() != count || v.cols() != count || radius.size() != count)

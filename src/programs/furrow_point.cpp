@@ -87,6 +87,10 @@ int main(int argc, char** argv) {
   CLI::App app("One material point of a law: along a path, or fitted to measured curves.",
                "furrow-point");
   app.set_version_flag("--version", furrow::version());
+  app.footer(
+      "Examples:\n"
+      "  furrow-point run inputs/points/mccormick_triaxial.yaml\n"
+      "  furrow-point fit inputs/points/fit_abele_gow.yaml -o results/oedometer");
   app.require_subcommand(0, 1);  // CLI11 does not name a word that is none
 
   std::string input, output, law;

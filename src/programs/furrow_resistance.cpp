@@ -63,6 +63,10 @@ using furrow::within;
 
 void declare(CLI::App& app, Request& request) {
   app.set_version_flag("--version", furrow::version());
+  app.footer(
+      "Examples:\n"
+      "  furrow-resistance results/tyre_on_snow\n"
+      "  furrow-resistance --window 0.62 0.68 results/tyre_on_snow");
   app.add_option("results", request.folders, "results folders, each with a history.h5")->required();
   CLI::Option* by_time =
       app.add_option("--window", request.window,

@@ -63,6 +63,10 @@ int main(int argc, char** argv) {
   CLI::App app("The sidewall of a tyre file: shape, forces and stiffness, solved and looked up.",
                "furrow-sidewall");
   app.set_version_flag("--version", furrow::version());
+  app.footer(
+      "Examples:\n"
+      "  furrow-sidewall run inputs/tyres/p235_75r15.yaml\n"
+      "  furrow-sidewall run inputs/tyres/p235_75r15.yaml -p 103e3 -o results/at_103_kPa");
   app.require_subcommand(0, 1);  // CLI11 does not name a word that is none
 
   Request request;

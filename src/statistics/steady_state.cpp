@@ -21,12 +21,27 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
+double range_of(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *high - *low;
+}
+
 /// Differences so small that they are rounding, not a signal: of a prescribed slip, of the torque
 /// of a free axle.
 bool is_constant(const std::vector<double>& values, double reference = 0.0) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return *high - *low <=
          std::max(1e-12, 1e-9 * std::max({std::abs(*high), std::abs(*low), reference}));
+}
+
+/// Whether a transient was left out until there was no more to leave out, and the values that
+/// remain still differ by more than is negligible.
+bool ends_in_a_transient(std::size_t transient, const std::vector<double>& cruise) {
+  if (static_cast<double>(transient) <= longest_transient * static_cast<double>(cruise.size()))
+    return false;
+  const std::vector<double> rest(cruise.begin() + static_cast<std::ptrdiff_t>(transient),
+                                 cruise.end());
+  return range_of(rest) > SteadyCriteria{}.negligible_drift * std::abs(mean_of(rest));
 }
 
 /// Two-sided 99 % quantile of Student's t, expansion of Cornish and Fisher about the normal one;
@@ -189,15 +204,18 @@ Window select_window(const History& history, const WindowRequest& request,
                    [&](double value) { return value - x.front(); });
     window = rows_between(travelled, request.from_distance, request.to_distance, "distance", "m");
   } else {
-    const std::size_t start = first_row_of_cruise(history), rows = history.size() - start;
+    const std::size_t start = first_row_of_cruise(history);
     std::size_t transient = 0;
     std::string longest;
+    bool unfinished = false;
     for (const std::string& name : channels) {
       std::vector<double> values = history.column(name);
       values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(start));
       const std::size_t truncation = is_constant(values) ? 0 : mser_truncation(values);
-      if (truncation > transient) longest = name;
-      transient = std::max(transient, truncation);
+      if (truncation <= transient) continue;
+      longest = name;
+      transient = truncation;
+      unfinished = ends_in_a_transient(truncation, values);
     }
     window.first = start + transient;
     window.last = history.size();
@@ -206,7 +224,7 @@ Window select_window(const History& history, const WindowRequest& request,
     if (transient > 0)
       window.how += fmt::format(", transient of {:.4g} s left out (MSER-5 on {})",
                                 time[window.first] - time[start], longest);
-    if (static_cast<double>(transient) > longest_transient * static_cast<double>(rows))
+    if (unfinished)
       window.warning =
           fmt::format("the transient of {} fills nearly half of the cruise: run longer", longest);
   }
@@ -278,7 +296,8 @@ SteadyValue analyse_steady(const std::string& name, const std::string& unit,
       std::abs(result.halves_difference) > certain * result.halves_error)
     add(fmt::format("its halves differ by {:.3g} +- {:.2g} {}", result.halves_difference,
                     result.halves_error, unit));
-  if (residual.blocks < criteria.min_blocks)
+  const double scale = std::max(reference, std::abs(result.mean));
+  if (residual.blocks < criteria.min_blocks && range_of(values) > criteria.small_range * scale)
     add(
         fmt::format("the window is too short: its fluctuations last so long that it holds only {} "
                     "independent stretches, {} are needed",

@@ -133,6 +133,16 @@ RULES: tuple[tuple[str, Callable[[Tree, str], None]], ...] = (
 )
 
 
+def check_help(tree: Tree, found: list[str]) -> None:
+    """The help of each program ends with examples, which are commands of its page."""
+    for program in ("point", "resistance", "sidewall", "tyre"):
+        said = tree.run(f"furrow-{program} --help")
+        examples = said.partition("Examples:\n")[2].strip().splitlines()
+        missing = [example for example in map(str.strip, examples) if example not in found]
+        if not examples or missing:
+            sys.exit(f"furrow-{program} --help: {missing or 'no examples'}; its page has {found}")
+
+
 def main(source: Path, build: Path, scratch: Path) -> None:
     pages = [source / "README.md", source / "CONTRIBUTING.md"]
     pages += sorted(page for part in PAGES_OF for page in (source / part).rglob("*.md"))
@@ -140,6 +150,7 @@ def main(source: Path, build: Path, scratch: Path) -> None:
     # first the run whose results others look at
     found.sort(key=lambda command: not command.startswith("cd inputs/own_script"))
     tree = Tree(source, build, scratch)
+    check_help(tree, found)
     for command in found:
         rule = next((rule for start, rule in RULES if re.match(start, command)), None)
         if rule is None:

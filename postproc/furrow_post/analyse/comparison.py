@@ -279,23 +279,18 @@ def judge(a: Entry, b: Entry) -> Verdict:
         return Verdict(quantity, a.source, b.source, Agreement.UNKNOWN, sentence, measured)
     allowed = COVERAGE * math.hypot(a.uncertainty, b.uncertainty)
     unknown = tuple(sorted({f"{part} of {e.source}" for e in (a, b) for part in e.unknown}))
+    agreement, what, share = Agreement.AGREE, "agree", ""
     if abs(difference) > allowed:
-        agreement = Agreement.DIFFER
-        beyond = "the known part of their uncertainty" if unknown else "their uncertainty"
-        what = f"differ by {abs(difference) / allowed:.1f} times what {beyond} allows"
+        agreement, what = Agreement.DIFFER, "differ"
     elif allowed > VAGUE * abs(a.value):
-        agreement = Agreement.UNDECIDED
-        share = 100 * allowed / abs(a.value)
-        what = f"cannot be told apart, their uncertainty is {share:.0f} % of the value"
-    else:
-        agreement = Agreement.AGREE
-        what = "agree within their uncertainty"
+        agreement, what = Agreement.UNDECIDED, "cannot be told apart"
+        share = f", {100 * allowed / abs(a.value):.0f} % of the value"
     unit = f" {quantity.unit}" if quantity.unit else ""
-    numbers = (
-        f"difference {quantity.scale * difference:+.3g}{unit} ({relative}), "
-        f"allowed {quantity.scale * allowed:.2g}"
+    sentence = (
+        f"{quantity.name}: {a.source} and {b.source} {what}: "
+        f"{quantity.scale * difference:+.3g}{unit} ({relative}), "
+        f"{quantity.scale * allowed:.2g} allowed{share}"
     )
-    sentence = f"{quantity.name}: {a.source} and {b.source} {what} ({numbers})"
     if unknown:
         sentence += f"; not known: {', '.join(unknown)}"
     return Verdict(quantity, a.source, b.source, agreement, sentence, measured, unknown)

@@ -279,7 +279,7 @@ class CurveVerdict:
 
 
 _AGREEMENT_WORDS = {
-    Agreement.AGREE: "agree within their uncertainty",
+    Agreement.AGREE: "agree",
     Agreement.UNDECIDED: "cannot be told apart",
     Agreement.DIFFER: "differ",
 }
@@ -312,7 +312,7 @@ def judge_curves(
     span = least if least == most else f"{least} to {most}"
     sentence = (
         f"{result.curves[0].label} and {result.curves[k].label} {'; '.join(parts)} "
-        f"(allowed {span} %)"
+        f"({span} % allowed)"
     )
     if unknown:
         sentence += f"; not known: {', '.join(unknown)}"

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..arrays import Floats, Integers
 from ..errors import ResultsError
-from .results import Grains, Results, Surface
+from .results import Results, Surface
 from .styles import Styles
 from .terrain import is_half, read_terrain_fields, read_terrain_history, terrain_file
 from .vtk import Series, read_series, read_vtp
@@ -61,7 +61,6 @@ class Motion:
     body_mirrored: bool
     _body: Series | None = field(repr=False)
     _body_end: Surface | None = field(repr=False)
-    _bed: Grains | None = field(repr=False)  # before the run
 
     @property
     def has_frames(self) -> bool:
@@ -70,11 +69,10 @@ class Motion:
 
     def body(self, time: float) -> Surface | None:
         """The wheel, tyre or plate; None where the run kept none."""
-        surface = self._body_end
-        if self._body is not None:
-            frame = read_vtp(self._body.files[self._body.at(time)])
-            surface = Surface(frame.triangles, frame.x)
-        return self._bed.image_of(surface) if self._bed and surface else surface
+        if self._body is None:
+            return self._body_end
+        frame = read_vtp(self._body.files[self._body.at(time)])
+        return Surface(frame.triangles, frame.x)
 
 
 def read_motion(folder: Path) -> Motion:
@@ -91,7 +89,7 @@ def read_motion(folder: Path) -> Motion:
     soil, wheel = styles.of_kind("terrain"), styles.of_kind("wheel")
     body_end, clouds = None, []
     if body is None and grains is None and terrain is None:
-        body_end = results.surface() if results else None
+        body_end = _body_at_the_end(results) if results else None
         clouds = _clouds_at_the_end(folder, results)
         times = (results.columns if results else read_terrain_history(folder))["time"][-1:]
     else:
@@ -111,16 +109,16 @@ def read_motion(folder: Path) -> Motion:
         wheel.flag("half") if wheel else False,
         body,
         body_end,
-        _bed_of(results),
     )
 
 
-def _bed_of(results: Results | None) -> Grains | None:
-    """Grains before the run; None where there were none."""
-    if results is None or not results.has_grains:
-        return None
+def _body_at_the_end(results: Results) -> Surface | None:
+    """Among the grains, where there are any, as frames have it."""
+    surface = results.surface()
+    if surface is None or not results.has_grains:
+        return surface
     grains = results.grains("reference")
-    return grains if len(grains.id) else None
+    return grains.image_of(surface) if len(grains.id) else surface
 
 
 def _read_points(file: Path) -> Points:

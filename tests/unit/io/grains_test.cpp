@@ -42,6 +42,16 @@ TEST(Grains, DisplacementGoesTheShortWayRoundAPeriodicBox) {
   EXPECT_NEAR(moved.displacement_from(reference)(1, 0), 0.03, 1e-15);
 }
 
+TEST(Grains, ABodyThatGoesRoundIsShownAmongThem) {
+  Grains grains = three_grains();
+  const Vector3 middle = 0.5 * (grains.x.rowwise().minCoeff() + grains.x.rowwise().maxCoeff()),
+                place = middle + Vector3(0.1, 0.7, 5.0);
+  EXPECT_EQ(grains.shift_to_image(place), Vector3::Zero());
+  grains.period = Vector3(1.0, 0.4, 0.0);
+  EXPECT_LT((grains.shift_to_image(place + Vector3(3, 0, 0)) - Vector3(-3, -0.8, 0)).norm(), 1e-14);
+  EXPECT_EQ(Grains().shift_to_image(place), Vector3::Zero());
+}
+
 TEST(Grains, AGrainWithoutReferenceHasMovedByNaN) {
   const Grains reference = three_grains();
   Grains moved = reference;

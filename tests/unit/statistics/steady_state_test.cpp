@@ -174,6 +174,23 @@ TEST(SteadyState, AWindowOfAFewCorrelationTimesIsTooShort) {
                 "independent stretches, 6 are needed"));
 }
 
+TEST(SteadyState, FewStretchesDoWhenAllValuesAreNearlyTheSame) {
+  // one and a half slow swings about 1, which hold fewer than six stretches
+  const auto swings = [](double amplitude) {
+    std::vector<double> values(1000);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = 1.0 + amplitude * std::cos(0.003 * M_PI * static_cast<double>(i));
+    return analyse_steady("x", "m", values, 0.01);
+  };
+  EXPECT_TRUE(swings(0.02).steady) << swings(0.02).verdict;
+  EXPECT_LT(swings(0.02).blocks, 6u);
+  EXPECT_FALSE(swings(0.03).steady);
+  // a trend that is certain is one, however small the range
+  std::vector<double> line(1000);
+  for (std::size_t i = 0; i < line.size(); ++i) line[i] = 1.0 + 4e-5 * static_cast<double>(i);
+  EXPECT_THAT(analyse_steady("x", "m", line, 0.01).verdict, HasSubstr("it drifts by 0.04"));
+}
+
 TEST(SteadyState, ReportsSpreadAndExtremes) {
   const SteadyValue value = analyse_steady("x", "m", {1.0, 3.0, 1.0, 3.0, 1.0, 3.0, 1.0, 3.0}, 0.5);
   EXPECT_DOUBLE_EQ(value.mean, 2.0);
@@ -267,6 +284,16 @@ TEST(Window, OneThatIsGivenAndBeginsBeforeTheCruiseIsDoubted) {
 TEST(Window, ATransientThatFillsTheCruiseIsSaid) {
   EXPECT_THAT(select_window(rolling(20.0), {}, {"force"}).warning,
               HasSubstr("the transient of force fills nearly half of the cruise: run longer"));
+}
+
+TEST(Window, ATransientWhoseRestIsNegligibleIsNone) {
+  History history({{"time", "s", ""}, {"x", "m", ""}, {"sinkage", "m", ""}});
+  // creeps on for ever, by a hundredth in the second half
+  for (int i = 0; i < 1000; ++i)
+    history.append({0.01 * i, 0.02 * i, 0.1 + 0.004 * std::exp(-0.0028 * i)});
+  const Window window = select_window(history, {}, {"sinkage"});
+  EXPECT_GE(window.first, 450u);
+  EXPECT_EQ(window.warning, "");
 }
 
 TEST(Window, IsTheUsersByTimeOrByDistance) {

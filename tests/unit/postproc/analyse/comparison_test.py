@@ -31,16 +31,12 @@ class JudgeTest(unittest.TestCase):
         near = judge(a, entry("b", 0.100 + 2 * 0.005 - 1e-6, 0.004))
         far = judge(a, entry("b", 0.100 + 2 * 0.005 + 1e-6, 0.004))
         self.assertEqual((near.agreement, far.agreement), (Agreement.AGREE, Agreement.DIFFER))
-        self.assertIn(
-            "differ by 1.0 times what their uncertainty allows "
-            "(difference +10 mm (+10 %), allowed 10)",
-            far.sentence,
-        )
+        self.assertIn("a and b differ: +10 mm (+10 %), 10 allowed", far.sentence)
 
     def test_agreement_within_a_large_uncertainty_is_undecided(self) -> None:
         verdict = judge(entry("a", 0.1, 0.02), entry("b", 0.11, 0.0))
         self.assertEqual(verdict.agreement, Agreement.UNDECIDED)
-        self.assertIn("cannot be told apart, their uncertainty is 40 %", verdict.sentence)
+        self.assertIn("cannot be told apart: +10 mm (+10 %), 40 allowed, 40 % of the value", verdict.sentence)
 
     def test_no_uncertainty_no_verdict(self) -> None:
         other = Entry(SINKAGE, "b", 0.1, Components(), RUN)

@@ -48,7 +48,7 @@ class CurveErrorsTest(unittest.TestCase):
         self.assertEqual(set(verdict.agreements), {Agreement.AGREE})
         self.assertEqual(
             verdict.sentence,
-            "base and other agree within their uncertainty at every level (allowed 35 %); "
+            "base and other agree at every level (35 % allowed); "
             "not known: size of other, domain of other, packing of other",
         )
         vague = curves.judge_curves(result, 1, [errors(0.2), errors(0.1)])
@@ -59,7 +59,7 @@ class CurveErrorsTest(unittest.TestCase):
         result = curves.compare_curves([self.base, plate_curve("far", 2.0, diameter=0.02)])
         known = {name: np.full(len(result.levels), 0.1) for name in NUMERICAL_PARTS}
         verdict = curves.judge_curves(result, 1, [known, known])
-        self.assertEqual(verdict.sentence, "base and far differ at every level (allowed 49 %)")
+        self.assertEqual(verdict.sentence, "base and far differ at every level (49 % allowed)")
 
     def test_total_is_known_where_the_error_of_the_size_is(self) -> None:
         errors = {

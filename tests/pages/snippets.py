@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The script that each page of a style begins with runs: snippets.py <source> <build> <scratch>.
+
+It stands in the first code block, before the syntax, and is run as a user would who saves it beside
+the scenes.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+SECONDS = 120  # of one script
+
+
+def snippet(page: Path) -> str:
+    text = page.read_text(encoding="utf-8")
+    before, found, _ = text.partition("\n## Syntax\n")
+    block = re.search(r"^```\n(.*?)^```", before, re.M | re.S)
+    if not found or block is None:
+        sys.exit(f"{page}: begins with no script before its syntax")
+    return block[1]
+
+
+def main(source: Path, build: Path, scratch: Path) -> None:
+    shutil.rmtree(scratch, ignore_errors=True)
+    scenes = scratch / "inputs" / "scenes"
+    scenes.mkdir(parents=True)
+    for name in ("beds", "materials", "tyres"):
+        (scratch / "inputs" / name).symlink_to(source / "inputs" / name)
+    pages = sorted((source / "coupling").glob("*/*.md"))
+    if len(pages) < 20:
+        sys.exit(f"only {len(pages)} pages were found")
+    for page in pages:
+        style = re.sub(r"^(fix|command|model)_", "", page.stem).replace("_", "[/_]")
+        script = snippet(page)
+        if not re.search(rf"\b{style}\b", script) and "restart" not in page.stem:
+            sys.exit(f"{page}: its script has no line of the style")
+        path = scenes / f"{page.stem}.lig"
+        path.write_text(script, encoding="utf-8")
+        print(f"+ {page.stem}", flush=True)
+        done = subprocess.run(
+            [build / "bin" / "furrow", "-in", path.name, "-log", "none"],
+            cwd=scenes,
+            env={**os.environ, "FURROW_CACHE": str(scratch / "cache")},
+            text=True,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            timeout=SECONDS,
+        )
+        if done.returncode or "ERROR" in done.stdout:
+            sys.exit(f"{done.stdout}\n{page}: its script ended with status {done.returncode}")
+
+
+if __name__ == "__main__":
+    main(*(Path(word).resolve() for word in sys.argv[1:4]))
