@@ -58,7 +58,8 @@ void declare(CLI::App& app, Request& request) {
   app.footer(
       "Examples:\n"
       "  furrow-tyre inputs/tyres/p235_75r15.yaml --mesh 4 36 --half --load 6227\n"
-      "  furrow-tyre inputs/tyres/p235_75r15.yaml --mesh 4 36 --pressure 20 --folder results/modes --modes 10");
+      "  furrow-tyre inputs/tyres/p235_75r15.yaml --mesh 4 36 --pressure 20 --folder results/modes "
+      "--modes 10");
   app.add_option("file", request.file, "tyre file (inputs/tyres/*.yaml)")->required();
   app.add_option("--pressure", request.pressures,
                  "inflation pressures [kPa]; by default that of the tyre file")
