@@ -2,6 +2,7 @@
 #include "statistics/steady_state.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -50,6 +51,13 @@ double student_t99(double freedom) {
   const double z = 2.5758293035489004, z2 = z * z, n = freedom;
   return z * (1.0 + (z2 + 1.0) / (4.0 * n) + ((5.0 * z2 + 16.0) * z2 + 3.0) / (96.0 * n * n) +
               (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / (384.0 * n * n * n));
+}
+
+/// Two-sided 95 % quantile of Student's t for the mean of so many blocks, at least two.
+double student_t95(std::size_t blocks) {
+  constexpr std::array<double, 4> of_degrees = {12.706, 4.303, 3.182, 2.776};
+  constexpr double of_more = 2.571;  // five degrees, an upper bound for more
+  return blocks - 2 < of_degrees.size() ? of_degrees[blocks - 2] : of_more;
 }
 
 struct Blocking {
@@ -297,7 +305,8 @@ SteadyValue analyse_steady(const std::string& name, const std::string& unit,
     add(fmt::format("its halves differ by {:.3g} +- {:.2g} {}", result.halves_difference,
                     result.halves_error, unit));
   const double scale = std::max(reference, std::abs(result.mean));
-  if (residual.blocks < criteria.min_blocks && range_of(values) > criteria.small_range * scale)
+  if (residual.blocks < criteria.min_blocks &&
+      student_t95(residual.blocks) * result.standard_error > criteria.known_mean * scale)
     add(
         fmt::format("the window is too short: its fluctuations last so long that it holds only {} "
                     "independent stretches, {} are needed",

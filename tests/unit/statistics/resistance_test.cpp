@@ -135,6 +135,7 @@ TEST(Resistance, ADriftingSinkageMakesTheRunNotSteady) {
 TEST(Resistance, ValuesThatAreNotSteadyForTheSameReasonShareIt) {
   ResistanceOptions options;
   options.criteria.min_blocks = 1000;
+  options.criteria.known_mean = 0.0;
   const Resistance result = measure_resistance(SyntheticRun().history(), options);
   EXPECT_FALSE(result.steady);
   const std::string reason = "are needed";
