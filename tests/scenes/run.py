@@ -198,7 +198,7 @@ def two_grounds(results):
     check_scene(SCENES / "wheel_on_snow.lig", folder / "run" / "continuum")
     check_scene(SCENES / "wheel_on_sintered_snow.lig", folder / "run" / "grains")
     for report, words in (("report.html", ("continuum", "grains", "sinkage")),
-                          ("measured/report.html", ("tyre", "measured", "NRMM", "sinkage"))):
+                          ("measured/report.html", ("fitted", "predicted", "measured", "NRMM"))):
         text = (folder / "run" / report).read_text()
         for word in words:
             for where, found in (("comparison", comparison), (report, text)):
