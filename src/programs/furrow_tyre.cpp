@@ -2,6 +2,7 @@
 // furrow-tyre: a tyre at rest, inflated and pressed on a rigid plane: deflection, footprint,
 // section, forces, natural modes.
 
+#include <array>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -227,8 +228,24 @@ void press_all(Parameters& parameters, double width, double diameter, const Requ
   if (request.modes > 0 && !request.no_plot) draw_figure("modes", request.folder);
 }
 
-void run(const Request& request) {
+/// What only one kind of tyre has, silently without effect on the other.
+constexpr std::array of_lookup{"--mesh", "--direct", "--rim-stiffness", "--tread-stiffness",
+                               "--link"};
+constexpr std::array of_bricks{"--sections"};
+
+template <class Names>
+void refuse_any(const CLI::App& app, const Names& names, const std::string& tyre,
+                const std::string& instead) {
+  for (const std::string name : names)
+    if (app.count(name) > 0)
+      throw InputError(name, "is given for " + tyre + ", which has no such thing", instead,
+                       "leave it out");
+}
+
+void run(const CLI::App& app, const Request& request) {
   if (is_brick_tyre_file(request.file)) {
+    refuse_any(app, of_lookup, "a tyre with a tread of bricks",
+               "--sections for its mesh, and values in the tyre file");
     BrickTyreParameters parameters = read_brick_tyre_file(request.file);
     BrickTyreSettings settings;
     settings.sections = request.sections;
@@ -237,6 +254,7 @@ void run(const Request& request) {
               [&] { return BrickTyre(parameters, settings, rim, request.file); });
     return;
   }
+  refuse_any(app, of_bricks, "a tyre without a tread of bricks", "--mesh for its mesh");
   TyreParameters parameters = parameters_of(request);
   const DarnellTyreSettings settings = settings_of(request);
   press_all(parameters, 2.0 * parameters.tread.half_width, 2.0 * parameters.tread.radius, request,
@@ -254,7 +272,7 @@ int main(int argc, char** argv) {
   declare(app, request);
   CLI11_PARSE(app, argc, argv);
   try {
-    run(request);
+    run(app, request);
     end_output();
   } catch (const std::exception& error) {
     fmt::print(stderr, "furrow-tyre: {}\n", error.what());

@@ -17,6 +17,22 @@ namespace {
 constexpr double least_base = 1e-3;      // [m] of rubber under a void
 constexpr double least_distance = 2e-3;  // [m] between places where the section changes
 constexpr double outline_slack = 2e-3;   // [m] by which the last zone may miss the outline's end
+constexpr double outline_wave = 1e-4;    // [m] by which the outline may rise on its way to the bead
+constexpr int outline_samples = 500;
+
+/// Few points make a curve with waves, of which the belts would have a valley all round.
+void check_fall(const SectionCurve& curve, const std::string& where) {
+  double least = curve.point(0.0)[1];
+  for (int k = 1; k <= outline_samples; ++k) {
+    const Vector2 at = curve.point(curve.length() * k / outline_samples);
+    need(at[1] <= least + outline_wave, where,
+         fmt::format("the smooth curve through the carcass's points rises from radius {:.5g} to "
+                     "{:.5g} m at axial = {:.3g} m, between them",
+                     least, at[1], at[0]),
+         "a radius that falls from the mid-plane to the bead; give more points near there");
+    least = std::min(least, at[1]);
+  }
+}
 
 void check(const CarcassParameters& carcass, const std::string& where) {
   const std::size_t n = carcass.axial.size();
@@ -37,7 +53,9 @@ void check(const CarcassParameters& carcass, const std::string& where) {
          "radii that fall from the mid-plane to the bead");
   }
   need(!carcass.zones.empty(), where, "the carcass has no zones", "one at least");
-  const double length = SectionCurve(carcass.axial, carcass.radius).length();
+  const SectionCurve curve(carcass.axial, carcass.radius);
+  check_fall(curve, where);
+  const double length = curve.length();
   double last = 0.0;
   for (const CarcassZone& zone : carcass.zones) {
     need(zone.end > last, where,

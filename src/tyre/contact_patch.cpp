@@ -73,6 +73,23 @@ class Line {
   bool touching_ = false;
 };
 
+// cosine of 45 degrees: walls of voids and flanks of the tread stand steeper on the plane
+constexpr double lying = 0.70710678118654752;
+
+/// [m^2] of the triangles that lie on the plane, a third for each of their touching nodes.
+double area_of_touching_nodes(const Surface& surface, const RigidPlane& plane) {
+  double area = 0.0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Vector3i& corners = surface.triangles[t];
+    int touching = 0;
+    for (int k = 0; k < 3; ++k) touching += plane.pressure()[corners[k]] > 0.0;
+    if (touching == 0) continue;
+    const Vector3 whole = surface.area_vector(t);
+    if (-whole.z() > lying * whole.norm()) area += whole.norm() * touching / 3.0;
+  }
+  return area;
+}
+
 }  // namespace
 
 ContactPatch contact_patch(const Tyre& tyre, const RigidPlane& plane) {
@@ -93,7 +110,6 @@ ContactPatch contact_patch(const Tyre& tyre, const RigidPlane& plane) {
       ++inside;
       lifted += !line.touches(i);
       patch.largest_pressure = std::max(patch.largest_pressure, plane.pressure()[node]);
-      if (line.touches(i)) patch.nodal_area += copies * plane.area()[node];
     }
   }
   for (std::size_t j = 0; j + 1 < lengths.size(); ++j) {
@@ -101,6 +117,7 @@ ContactPatch contact_patch(const Tyre& tyre, const RigidPlane& plane) {
     patch.perimeter_area += copies * 0.5 * (lengths[j] + lengths[j + 1]) * across;
     if (lengths[j] > 0.0 && lengths[j + 1] > 0.0) patch.width += copies * across;
   }
+  patch.nodal_area = copies * area_of_touching_nodes(tyre.surface(), plane);
   patch.force = copies * plane.total_force().z();
   if (patch.perimeter_area > 0.0) patch.mean_pressure = patch.force / patch.perimeter_area;
   if (inside > 0) patch.lifted_share = static_cast<double>(lifted) / inside;

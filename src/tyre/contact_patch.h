@@ -12,7 +12,9 @@ struct ContactPatch {
   double width = 0.0;   ///< [m] between the outermost touching tread lines
   /// [m^2] inside the outline, gaps within included: what a print's outline encloses
   double perimeter_area = 0.0;
-  double nodal_area = 0.0;        ///< [m^2] sum of the shares of the touching nodes
+  /// [m^2] sum of the shares of the touching nodes in what lies on the plane: without voids, and
+  /// without their walls
+  double nodal_area = 0.0;
   double largest_pressure = 0.0;  ///< [Pa] of a tread node
   double mean_pressure = 0.0;     ///< [Pa] vertical force over perimeter_area
   double force = 0.0;             ///< [N] vertical, whole tyre

@@ -12,6 +12,7 @@ namespace furrow {
 namespace {
 
 using test::error_of;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 const std::string inputs = FURROW_SOURCE_DIR "/inputs/tyres/";
@@ -79,31 +80,33 @@ TEST_F(BrickTyreFileTest, BadFilesAreRefusedWithTheirPlace) {
       {"cap:\n", "tread:\n", "'tread'"},
       {"cap:\n", "carcass:\n", "keyword 'carcass' is given twice"},
       {"  C10: 2.408340e6                # Table 9\n", "", "cap, keyword 'C10' is missing"},
-      {"axial:  [0, 0.040,", "axial:  [0.01, 0.040,",
+      {"axial:  [0, 0.0165,", "axial:  [0.01, 0.0165,",
        "the carcass's outline begins at axial = 0.01 m; allowed: 0, the mid-plane"},
-      {"0.0890, 0.0825]", "0.0890]", "keyword 'radius' has 10 values; allowed: 9, as 'axial' has"},
-      {"0.2170, 0.2080]", "0.2170, 0.2380]",
-       "goes from radius 0.217 to 0.238 m; allowed: radii that fall"},
-      {"0.2040, 0.2344]", "0.2040, 0.2744]",
+      {"0.09834, 0.0825]", "0.09834]",
+       "keyword 'radius' has 14 values; allowed: 13, as 'axial' has"},
+      {"0.23355, 0.208]", "0.23355, 0.238]",
+       "goes from radius 0.23355 to 0.238 m; allowed: radii that fall"},
+      {"0.2048, 0.2348]", "0.2048, 0.2744]",
        "the last zone of the carcass ends at 0.2744 m, and the outline is"},
-      {"[0.0790, 0.0905,", "[0.0790, 0.0750,", "a zone of the carcass ends at 0.075 m"},
-      {"[8e6, 5e4,", "[8e6, 0,", "keyword 'stretch_along' is 0"},
-      {"[8e6, 5e4,", "[8e6,",
+      {"zone_end:       [0.0735, 0.0840,", "zone_end:       [0.0735, 0.0700,",
+       "a zone of the carcass ends at 0.07 m"},
+      {"[5e6, 5e4,", "[5e6, 0,", "keyword 'stretch_along' is 0"},
+      {"[5e6, 5e4,", "[5e6,",
        "keyword 'stretch_along' has 5 values; allowed: 6, as 'zone_end' has"},
       {"bending_across: [2.257,", "bending_across: [-2.257,", "keyword 'bending_across' is -2.257"},
       {"thickness: [0.021, 0.020, 0]", "thickness: [0.021, 0.020, 0.01]",
-       "the tread's thickness at 0.0905 m is 0.01 m; allowed: more than 0.001 m, and 0 at its end"},
-      {"at:        [0, 0.0790, 0.0905]", "at:        [0, 0.0990, 0.0905]",
+       "the tread's thickness at 0.084 m is 0.01 m; allowed: more than 0.001 m, and 0 at its end"},
+      {"at:        [0, 0.0735, 0.0840]", "at:        [0, 0.0990, 0.0840]",
        "the tread's values of at do not rise"},
-      {"at:        [0, 0.0790, 0.0905]", "at:        [0, 0.0790, 0.90]",
+      {"at:        [0, 0.0735, 0.0840]", "at:        [0, 0.0735, 0.90]",
        "the tread goes from 0 to 0.9 m"},
       {"depth: [5.1e-3, 5.3e-3]", "depth: [5.1e-3]", "keyword 'depth' has 1 values; allowed: 2"},
       {"depth: [5.1e-3, 5.3e-3]", "depth: [51e-3, 5.3e-3]",
        "the void from 0.0115 to 0.0281 m is 0.051 m deep; allowed: at most"},
       {"from:  [0.0115, 0.0435]", "from:  [0.0115, 0.0235]",
        "a void begins at 0.0235 m, before the end of another at 0.0281 m"},
-      {"[0.0790, 0.0905, 0.1110,", "[0.0780, 0.0905, 0.1110,",
-       "the section changes at 0.078 m and again at 0.079 m"},
+      {"[0.0735, 0.0840, 0.1080,", "[0.0725, 0.0840, 0.1080,",
+       "the section changes at 0.0725 m and again at 0.0735 m"},
       {"to:    [0.0281, 0.0597]", "to:    [0.0101, 0.0597]",
        "the void from 0.0115 to 0.0101 m is not on the tread"},
       {"depth: [5.1e-3, 5.3e-3]", "depth: [5.1e-3, 5.3e-3]\n  pitches: [0, 2]\n  share: [1, 0.5]",
@@ -115,6 +118,18 @@ TEST_F(BrickTyreFileTest, BadFilesAreRefusedWithTheirPlace) {
     EXPECT_THAT(refusal(bad.from, bad.to), HasSubstr(bad.message)) << bad.to;
   EXPECT_THAT(error_of([&] { read_brick_tyre_file(scratch_.path("absent.yaml")); }),
               HasSubstr("does not exist"));
+}
+
+/// Of [Shoop2001]'s belts few points make a curve with a valley half way to the shoulder.
+TEST_F(BrickTyreFileTest, AnOutlineThatRisesBetweenItsPointsIsRefused) {
+  BrickTyreParameters tyre = read_brick_tyre_file(inputs + "p235_75r15_smooth.yaml");
+  check(tyre);
+  tyre.carcass.axial = {0, 0.040, 0.0785, 0.0955, 0.1070, 0.1115, 0.1090, 0.1005, 0.0890, 0.0825};
+  tyre.carcass.radius = {0.3475, 0.3469, 0.3450, 0.3340, 0.3120,
+                         0.2840, 0.2580, 0.2350, 0.2170, 0.2080};
+  EXPECT_THAT(
+      error_of([&] { check(tyre); }),
+      AllOf(HasSubstr("rises from radius 0.34679 to 0.3469 m"), HasSubstr("give more points")));
 }
 
 }  // namespace

@@ -56,6 +56,7 @@ TEST(BadOptions, OfFurrowTyre) {
   const Scratch scratch;
   write_text_file(scratch.path("taken"), "");
   const std::string tyre = inputs + "tyres/p235_75r15.yaml --mesh 4 36 ";
+  const std::string bricks = inputs + "tyres/p235_75r15_smooth.yaml ";
   const Case cases[] = {
       {"", "file is required"},
       {"absent.yaml", "absent.yaml does not exist; allowed: a YAML file"},
@@ -90,8 +91,15 @@ TEST(BadOptions, OfFurrowTyre) {
       {inputs + "tyres/p235_75r15.yaml --mesh 4 2.5", "--mesh"},
       {inputs + "tyres/p235_75r15.yaml --mesh 4 99999",
        "elements around is 99999; allowed: an integer in [12, 2000]"},
-      {inputs + "tyres/p235_75r15.yaml --mesh -1 36",
-       "elements across is -1; allowed: an integer"}};
+      {inputs + "tyres/p235_75r15.yaml --mesh -1 36", "elements across is -1; allowed: an integer"},
+      {inputs + "tyres/p235_75r15.yaml --sections 60",
+       "--sections is given for a tyre without a tread of bricks, which has no such thing; "
+       "allowed: --mesh for its mesh; leave it out"},
+      {bricks + "--mesh 6 72", "--mesh is given for a tyre with a tread of bricks"},
+      {bricks + "--direct", "--direct is given for a tyre with a tread of bricks"},
+      {bricks + "--rim-stiffness 10", "--rim-stiffness is given for a tyre with a tread of bricks"},
+      {bricks + "--tread-stiffness 10", "--tread-stiffness is given for a tyre with"},
+      {bricks + "--link 0 0", "--link is given for a tyre with a tread of bricks"}};
   expect_refusals(FURROW_TYRE, cases);
 }
 
