@@ -149,7 +149,33 @@ def stress(column: str) -> Stored:
 DEFLECTIONS = {103: "6.3", 138: "5.4", 179: "4.6", 241: "3.1"}  # [cm]
 AREAS = {103: "509.7", 138: "419.4", 179: "364.5", 241: "281.7"}  # [cm2]
 WIDTHS = {103: "27.9", 138: "25.9", 179: "26.0", 241: "25.1"}  # [cm]
-BRICK = "tyre/brick was compared by hand, see tyre_brick; no stored table yet"
+BRICK = "tread of bricks"
+
+
+def brick6(pressure: int, what: str, column: str, unit: str, measured: str) -> Experiment:
+    row = {"pressure_kPa": str(pressure)}
+    used = ", identified on" if pressure in (103, 241) and what != "section width" else ""
+    return Experiment(
+        "Table 6, Table 9",
+        f"{what} under 6227 N, {pressure} kPa",
+        what,
+        unit,
+        measured=measured,
+        ours=Stored("tyre_brick/table6.csv", row, column),
+        near=Stored("tyre_brick/meshes.csv", row, column),
+        remark=BRICK + used,
+    )
+
+
+def brick_stress(sections: int) -> Stored:
+    row = {"tread": "smooth", "sections": str(sections)}
+    return Stored("tyre_brick/contact_stress.csv", row, "largest_kPa")
+
+
+def brick_rolling(column: str) -> Stored:
+    return Stored("tyre_brick/rolling.csv", {"damping": "0"}, column)
+
+
 NO_RUBBER = "ours is of cords and belts, without the rubber outside of them"
 
 HARD_SURFACE = Group(
@@ -224,7 +250,51 @@ HARD_SURFACE = Group(
             cost=rolling(100, "user_s"),
             remark="20 m of the whole tyre: 100 core s",
         ),
-        not_done("Tables 9, 10", "brick treads: modes, area, stress, 2 m of rolling", "", BRICK),
+        *(brick6(p, "deflection", "deflection_cm", "cm", m) for p, m in DEFLECTIONS.items()),
+        *(brick6(p, "contact area", "area_cm2", "cm2", m) for p, m in AREAS.items()),
+        *(brick6(p, "section width", "section_width_cm", "cm", m) for p, m in WIDTHS.items()),
+        Experiment(
+            "Table 6",
+            "inflated to 241 kPa, no load",
+            "largest width",
+            "cm",
+            measured="24.9",
+            ours=of("tyre_brick/inflated.csv", "241", "width_cm", key="pressure_kPa"),
+            remark=BRICK,
+        ),
+        Experiment(
+            "Table 6",
+            "inflated to 241 kPa, no load",
+            "diameter",
+            "cm",
+            measured="75",
+            ours=of("tyre_brick/inflated.csv", "241", "diameter_cm", key="pressure_kPa"),
+            remark=BRICK + "; 74.7 to 75.3 cm",
+        ),
+        Experiment(
+            "Fig 52",
+            "contact stress, 207 kPa, 6627 N",
+            "largest",
+            "kPa",
+            measured="765",
+            ours=brick_stress(120),
+            near=brick_stress(60),
+            remark=BRICK + ", smooth",
+        ),
+        Experiment(
+            "Table 10",
+            "rolling 2 m at 8 km/h, 241 kPa, half tyre, 60 sections, no damping",
+            "force",
+            "N",
+            report="10",
+            ours=brick_rolling("resistance_N"),
+            uncertainty=brick_rolling("resistance_error_N"),
+            limit=True,
+            hours="22",
+            cost=brick_rolling("user_s"),
+            remark=BRICK + ", smooth; the report's at 120 sections",
+        ),
+        not_done("Tables 9, 10", "brick treads: natural modes", "", "none measured to compare"),
         not_done("Figs 45-51", "load, deflection and area at other loads", "", "only drawn"),
         not_done("Fig 55", "sidewall profiles", "", "only drawn"),
         not_done("Table 7", "cantilever tests of sidewall sections", "EI", "taken from Table 8"),
