@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The tyre with a tread of bricks as a body: its mesh, conservation laws in free flight, rest on a
-// plane, half and whole, restarts, refusals.
+// plane, half and whole, area of contact, restarts, refusals.
 
 #include "tyre/brick_tyre.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -153,6 +154,43 @@ TEST(BrickTyre, CarriesItsLoadOnAPlaneHalfAndWhole) {
     EXPECT_GT(tyre.section_width(), 0.22);
   }
   EXPECT_NEAR(deflections[0] / deflections[1], 1.0, 5e-3);
+}
+
+/// [m^2] of the undeformed tread, as made, that a plane cuts off: of what reaches below it the
+/// chords, voids left out.
+double area_cut_off(const BrickTyreParameters& tyre, double depth) {
+  const SectionCurve curve(tyre.carcass.axial, tyre.carcass.radius);
+  const auto outside = [&](double s) -> Vector2 {
+    return curve.point(s) + tyre.tread.thickness_at(s) * curve.normal(s);
+  };
+  const double level = tyre.radius() - depth;
+  const double ds = 1e-4;
+  double area = 0.0;
+  for (double s = 0.5 * ds; s < tyre.tread.at[1]; s += ds) {
+    const auto inside = [&](const TreadVoid& cut) { return s > cut.from && s < cut.to; };
+    const double radius = outside(s)[1];
+    if (radius < level || std::any_of(tyre.tread.voids.begin(), tyre.tread.voids.end(), inside))
+      continue;
+    const double across = outside(s + 0.5 * ds)[0] - outside(s - 0.5 * ds)[0];
+    area += 2.0 * across * 2.0 * std::sqrt(radius * radius - level * level);
+  }
+  return area;
+}
+
+TEST(BrickTyre, TheAreaOfItsTouchingNodesLeavesOutVoidsAndWalls) {
+  std::vector<double> areas;
+  for (const char* name : {"smooth", "ribbed"}) {
+    const BrickTyreParameters parameters = tyre_file(name);
+    BrickTyre tyre(parameters, coarse(true, 400), rim);
+    RigidPlaneParameters road;
+    const double depth = 4e-3;  // [m] less than the grooves
+    road.height = tyre.centre().z() - parameters.radius() + depth;
+    RigidPlane plane(road, tyre.surface());
+    plane.press_on(tyre.surface());
+    areas.push_back(contact_patch(tyre, plane).nodal_area);
+    EXPECT_NEAR(areas.back() / area_cut_off(parameters, depth), 1.0, 0.06) << name;
+  }
+  EXPECT_LT(areas[1], 0.7 * areas[0]);
 }
 
 TEST(BrickTyre, ContinuesFromACheckpointBitForBit) {
