@@ -228,11 +228,12 @@ void press_all(Parameters& parameters, double width, double diameter, const Requ
   if (request.modes > 0 && !request.no_plot) draw_figure("modes", request.folder);
 }
 
-/// What only one kind of tyre has, silently without effect on the other.
+// Options that only one kind of tyre has
 constexpr std::array of_lookup{"--mesh", "--direct", "--rim-stiffness", "--tread-stiffness",
                                "--link"};
 constexpr std::array of_bricks{"--sections"};
 
+/// @throws InputError for the first of these options that is given
 template <class Names>
 void refuse_any(const CLI::App& app, const Names& names, const std::string& tyre,
                 const std::string& instead) {

@@ -75,6 +75,7 @@ IDENTIFICATION = {
 
 TABLE6 = pressed("table6", SMOOTH, PRESSURES, [4000, LOAD])
 MESH = pressed("meshes/60", SMOOTH, PRESSURES, STEPS, COARSE)
+
 STRESS_PRESSURE, STRESS_LOAD = 207, 6627  # [kPa], [N] Fig 52
 STRESS = {
     (tread, sections): pressed(

@@ -25,7 +25,8 @@ MEASURED = cases.HERE.parent / "tyre_table6" / "reference.csv"
 WALL = 1.2  # [cm] rubber outside of the carcass, both sides; assumed
 GOAL = 0.10
 MIDDLE = 1e-3  # [m] from the middle of the print: its nodes there
-RIBS = {"centre": (0.0, 0.0198), "middle": (0.0198, 0.0516), "shoulder": (0.0516, 0.1)}  # [m] y
+# [m] y from the middle of one groove of the ribbed tyre to that of the next
+RIBS = {"centre": (0.0, 0.0198), "middle": (0.0198, 0.0516), "shoulder": (0.0516, 0.1)}
 STEADY = 1.2  # [m] of rolling at the end of which the mean is taken
 
 Row = dict[str, Any]
