@@ -18,9 +18,9 @@ namespace {
 
 /// Standard error to two digits and the value to the same place: "0.01712 +- 0.00043".
 std::string with_error(double value, double error) {
-  constexpr double rounding = 1e-12;  // of what vanishes by symmetry
+  constexpr double rounding = 1e-12;  // of what vanishes by symmetry, or is prescribed
   if (std::abs(value) < rounding && error < rounding) return "0";
-  if (!(error > 0.0)) return fmt::format("{:.6g}", value);
+  if (!(error > rounding * std::abs(value))) return fmt::format("{:.6g}", value);
   const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(error))));
   return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, error, decimals);
 }

@@ -21,9 +21,10 @@ WindowRequest common_window(const std::vector<Resistance>& wheels) {
     end = std::min(end, wheel.window.end);
   }
   if (!(begin < end))
-    throw Error(fmt::format("the wheels have no common stretch of cruise: one begins at {:.4g} s, "
-                            "another ends at {:.4g} s",
-                            begin, end));
+    throw Error(
+        fmt::format("the wheels have no common stretch of cruise: one begins at {:.4g} s, "
+                    "another ends at {:.4g} s",
+                    begin, end));
   WindowRequest common;
   common.from_time = begin;
   common.to_time = end;
@@ -61,16 +62,16 @@ VehicleResistance measure_vehicle(const std::vector<History>& histories,
     const std::vector<double> other = histories[w].column("time");
     const auto first = static_cast<std::ptrdiff_t>(windows[w].first);
     if (windows[w].rows() != vehicle.window.rows() ||
-        !std::equal(other.begin() + first, other.begin() + static_cast<std::ptrdiff_t>(
-                                                               windows[w].last),
+        !std::equal(other.begin() + first,
+                    other.begin() + static_cast<std::ptrdiff_t>(windows[w].last),
                     time.begin() + static_cast<std::ptrdiff_t>(vehicle.window.first)))
       throw Error(
           "the rows of the wheels' histories are not of the same times: they are not of one run, "
           "or 'every' differs in their lines of wheel/history");
   }
 
-  const double spacing = (vehicle.window.end - vehicle.window.begin) /
-                         static_cast<double>(vehicle.window.rows() - 1);
+  const double spacing =
+      (vehicle.window.end - vehicle.window.begin) / static_cast<double>(vehicle.window.rows() - 1);
   const std::vector<double> force_z = sum_in_window(histories, windows, "force_z");
   std::vector<double> resistance = sum_in_window(histories, windows, "force_x");
   for (double& force : resistance) force = -force;

@@ -92,7 +92,7 @@ class TerrainContact : public Contact {
   Matrix3X nodal_forces_;  // on the body [N]
   StepTotals step_;
   Vector3 force_ = Vector3::Zero();
-  ContactLosses losses_;  // since the start
+  ContactLosses losses_;       // since the start
   double terrain_work_ = 0.0;  // since the start, this rank's share [J]
   double deepest_penetration_ = 0.0;
 };
