@@ -63,6 +63,10 @@ FixTerrainContinuum& FixContactContinuum::find_terrain() {
       "give the terrain 'symmetry yes' and its centre y = 0, or the body 'half no'");
 }
 
+double FixContactContinuum::terrain_work() const {
+  return (terrain_fix_.half_model() ? 2.0 : 1.0) * contact_.terrain_work();
+}
+
 /// A half body mirrors what it is given itself; a whole one on half the terrain needs the forces of
 /// the other half as well.
 FixContactContinuum::FixContactContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)

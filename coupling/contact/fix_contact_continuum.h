@@ -20,6 +20,8 @@ class FixContactContinuum : public FixContact {
   // [J] since the start, of the whole body
   double friction_loss() const { return halves() * contact_.friction_loss(); }
   double damping_loss() const { return halves() * contact_.damping_loss(); }
+  /// On the whole terrain. Collective.
+  double terrain_work() const;
   FixTerrainContinuum& terrain_fix() const { return terrain_fix_; }
 
  private:

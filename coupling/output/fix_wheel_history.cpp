@@ -95,7 +95,6 @@ void FixWheelHistory::close() {
 GroundLosses FixWheelHistory::ground_losses() {
   const FixWheelHub& wheel = rig_fix_.wheel_fix();
   GroundLosses losses;
-  double known = 0.0;  // [J] work on what is no grain
   for (auto* contact : fixes_of<FixContactContinuum>(*modify)) {
     if (&contact->body_fix() != &wheel) continue;
     FixTerrainContinuum& terrain = contact->terrain_fix();
@@ -108,13 +107,14 @@ GroundLosses FixWheelHistory::ground_losses() {
     losses.radiated += halves * work.radiated;
     losses.friction += contact->friction_loss();
     losses.contact_damping += contact->damping_loss();
-    known += halves * work.contact;
+    losses.continuum += contact->terrain_work();
   }
   for (auto* contact : fixes_of<FixContactPlane>(*modify))
     if (&contact->body_fix() == &wheel) losses.friction += contact->friction_loss();
-  known += losses.friction + losses.contact_damping;
-  if (touches_grains(*lmp, wheel))
-    losses.grains = -rig_fix_.wheel_fix().hub().energy_budget().contact_work - known;
+  // [J] what is left of the wheel's work
+  const double rest = -rig_fix_.wheel_fix().hub().energy_budget().contact_work -
+                      (losses.continuum + losses.friction + losses.contact_damping);
+  (touches_grains(*lmp, wheel) ? losses.grains : losses.contact_springs) = rest;
   return losses;
 }
 

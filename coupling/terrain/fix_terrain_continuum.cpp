@@ -38,6 +38,11 @@ Schema FixTerrainContinuum::schema() {
   Schema schema = terrain_schema("fix terrain/continuum");
   schema.text("follow", "id of the fix of the body that the terrain moves along with").optional();
   schema
+      .text("follow_last",
+            "of several bodies in a row the other end: the middle between it and that of `follow` "
+            "is followed")
+      .optional();
+  schema
       .number("energy_tolerance", "", Range::positive(),
               "energy that may be missing or made, over the largest work")
       .by_default(0.05)
@@ -48,8 +53,13 @@ Schema FixTerrainContinuum::schema() {
 FixTerrainContinuum::FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixBody(lammps, narg, arg, schema(),
               [lammps](const Options& options) { return make_terrain(*lammps, options); }) {
-  if (options().given("follow"))
-    followed_ = &use<FixBody>("follow", {Kind::wheel, Kind::body}).body();
+  if (options().given("follow_last") && !options().given("follow"))
+    throw InputError(options().where("follow_last"), "is given without 'follow'",
+                     "the other end of a row that 'follow' names the first of",
+                     "for one body write 'follow' alone");
+  for (const char* key : {"follow", "follow_last"})
+    if (options().given(key))
+      followed_.push_back(&use<FixBody>(key, {Kind::wheel, Kind::body}).body());
   refuse_overlap();
   contribute(static_cast<MotionController&>(*this));
   provide(outputs(), [this] { return TerrainReading(terrain()); });
@@ -123,7 +133,10 @@ void FixTerrainContinuum::warn_of_extremes() {
 }
 
 void FixTerrainContinuum::apply(double, double) {
-  if (followed_) terrain().follow(followed_->surface().x.row(0).mean());
+  if (followed_.empty()) return;
+  double middle = 0.0;
+  for (const Body* body : followed_) middle += body->surface().x.row(0).mean();
+  terrain().follow(middle / static_cast<double>(followed_.size()));
 }
 
 void FixTerrainContinuum::end_of_step() {

@@ -3,6 +3,7 @@
 /// fix terrain/continuum: terrain by the material point method. See fix_terrain_continuum.md.
 
 #include <utility>
+#include <vector>
 
 #include "coupling/bodies/fix_body.h"
 #include "coupling/terrain/terrain_outputs.h"
@@ -23,7 +24,7 @@ class FixTerrainContinuum : public FixBody, public MotionController {
 
   int setmask() override;
   void end_of_step() override;
-  /// Moves along with the body that the terrain follows.
+  /// Moves along with the bodies that the terrain follows.
   void apply(double time, double dt) override;
 
  private:
@@ -32,7 +33,7 @@ class FixTerrainContinuum : public FixBody, public MotionController {
   void warn_of_extremes();
   void check_energy();
 
-  Body* followed_ = nullptr;
+  std::vector<const Body*> followed_;  // the first and, where there are several, the last
 };
 
 }  // namespace furrow::coupling

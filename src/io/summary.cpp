@@ -18,9 +18,9 @@ namespace {
 
 /// Standard error to two digits and the value to the same place: "0.01712 +- 0.00043".
 std::string with_error(double value, double error) {
-  constexpr double rounding = 1e-12;  // of what vanishes by symmetry
+  constexpr double rounding = 1e-12;  // of what vanishes by symmetry, or is prescribed
   if (std::abs(value) < rounding && error < rounding) return "0";
-  if (!(error > 0.0)) return fmt::format("{:.6g}", value);
+  if (!(error > rounding * std::abs(value))) return fmt::format("{:.6g}", value);
   const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(error))));
   return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, error, decimals);
 }
@@ -102,6 +102,15 @@ std::string parts_table(const ResistanceParts& parts) {
   text += row("not accounted for", parts.unexplained);
   text += row("whole: put in by axle and load", parts.whole);
   return text;
+}
+
+nlohmann::ordered_json json_of(const ResistanceParts& parts) {
+  nlohmann::ordered_json json;
+  json["unit"] = "N";
+  json["whole"] = parts.whole;
+  for (const ResistancePart& part : parts.parts) json["parts"][part.name] = part.force;
+  json["unexplained"] = parts.unexplained;
+  return json;
 }
 
 std::string audit_text(const Audit& audit) {
@@ -207,16 +216,11 @@ std::string summary_json(const Summary& s) {
     for (const Resistance& pass : s.passes) {
       nlohmann::ordered_json values;
       for (const SteadyValue& v : pass.values) values[v.name] = json_of(v);
-      json["passes"].push_back(
-          {{"steady", pass.steady}, {"verdict", pass.verdict}, {"quantities", values}});
+      nlohmann::ordered_json& of_pass = json["passes"].emplace_back();
+      of_pass = {{"steady", pass.steady}, {"verdict", pass.verdict}, {"quantities", values}};
+      if (pass.parts.known()) of_pass["resistance_parts"] = json_of(pass.parts);
     }
-    if (r.parts.known()) {
-      nlohmann::ordered_json& parts = json["resistance_parts"];
-      parts["unit"] = "N";
-      parts["whole"] = r.parts.whole;
-      for (const ResistancePart& part : r.parts.parts) parts["parts"][part.name] = part.force;
-      parts["unexplained"] = r.parts.unexplained;
-    }
+    if (r.parts.known()) json["resistance_parts"] = json_of(r.parts);
   } else {
     json["steady"] = false;
     json["verdict"] = s.trouble;
@@ -243,6 +247,31 @@ std::string summary_json(const Summary& s) {
   json["warnings"] = s.closing.warnings;
   json["effective_input"] = s.info.effective_input;
   return json.dump(2) + "\n";
+}
+
+std::string vehicle_text(const std::vector<std::string>& folders,
+                         const ResistanceOptions& options) {
+  std::vector<History> histories;
+  for (const std::string& folder : folders)
+    histories.push_back(read_history(folder + "/history.h5"));
+  const VehicleResistance vehicle = measure_vehicle(histories, options);
+  std::string text = fmt::format(
+      "Wheels that roll together, {:.4g} s to {:.4g} s, {:.4g} m of travel\n"
+      "          load [N]         sinkage z [m]   resistance coefficient c   wheel\n",
+      vehicle.window.begin, vehicle.window.end, vehicle.window.distance);
+  for (std::size_t w = 0; w < folders.size(); ++w) {
+    const auto cell = [&](const char* name) {
+      const SteadyValue& value = vehicle.wheels[w].value(name);
+      return with_error(value.mean, value.standard_error);
+    };
+    text += fmt::format("  {:>16} {:>21} {:>26}   {}, {}\n", cell("force_z"), cell("sinkage"),
+                        cell("resistance_coefficient"), folders[w],
+                        vehicle.wheels[w].steady ? "steady" : "not steady");
+  }
+  text += "\nTogether\n";
+  for (const SteadyValue& v : vehicle.values)
+    text += row_of(title_of(v.name), v, v.steady ? "steady" : "not steady");
+  return text + parts_table(vehicle.parts);
 }
 
 void write_summary(const std::string& folder, const Summary& summary) {

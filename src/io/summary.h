@@ -8,6 +8,7 @@
 
 #include "io/run_report.h"
 #include "statistics/passes.h"
+#include "statistics/vehicle.h"
 
 namespace furrow {
 
@@ -30,6 +31,10 @@ Summary summarise(const std::string& folder, const ResistanceOptions& options = 
 
 std::string summary_text(const Summary& summary);
 std::string summary_json(const Summary& summary);
+
+/// The wheels of one vehicle, from the results folder of each. @throws Error
+std::string vehicle_text(const std::vector<std::string>& folders,
+                         const ResistanceOptions& options = {});
 
 /// Writes both into the folder, each in one step. @throws Error
 void write_summary(const std::string& folder, const Summary& summary);

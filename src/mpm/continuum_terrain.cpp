@@ -119,8 +119,8 @@ void ContinuumTerrain::interpolate_motion(const std::vector<ParticleIndex>& part
 }
 
 void ContinuumTerrain::add_point_force(const ParticleIndex& near, const Vector3& force,
-                                       const Vector3& point) {
-  loads_.add(near, force, point);
+                                       const Vector3& point, double* work) {
+  loads_.add(near, force, point, work);
 }
 
 EnergyBudget ContinuumTerrain::energy_budget() const {

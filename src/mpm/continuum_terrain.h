@@ -88,8 +88,10 @@ class ContinuumTerrain : public Body {
   /// At the start of the remap interval, or seen at loaded points since [m/s].
   double largest_speed() const { return remap_.largest_speed(); }
   /// A force on the ground during the next step [N], through the weights of a particle near the
-  /// point where it acts [m].
-  void add_point_force(const ParticleIndex& near, const Vector3& force, const Vector3& point);
+  /// point where it acts [m]. @param work  gets its work in that step [J], and must live until
+  /// then; none: nobody asks for it
+  void add_point_force(const ParticleIndex& near, const Vector3& force, const Vector3& point,
+                       double* work = nullptr);
 
   // ---- moving window; not collective ------------------------------------------------------------
 

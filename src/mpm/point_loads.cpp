@@ -10,8 +10,9 @@ PointLoads::PointLoads(Discretisation& discretisation, RemapControl& remap)
       forces_(static_cast<std::size_t>(discretisation.grid.fields())),
       grid_motions_(forces_.size()) {}
 
-void PointLoads::add(const ParticleIndex& near, const Vector3& force, const Vector3& point) {
-  loads_.push_back({near, force, point});
+void PointLoads::add(const ParticleIndex& near, const Vector3& force, const Vector3& point,
+                     double* work) {
+  loads_.push_back({near, force, point, work});
 }
 
 void PointLoads::scatter_to_grid() {
@@ -35,7 +36,9 @@ void PointLoads::count_work(double dt, TerrainEnergy& energy) {
   interpolate_motion(loaded_, loaded_motions_);
   for (std::size_t n = 0; n < loads_.size(); ++n) {
     const ParticleMotion& motion = loaded_motions_[n];
-    energy.add_contact_work(dt * loads_[n].force.dot(motion.velocity_at(loads_[n].point)));
+    const double work = dt * loads_[n].force.dot(motion.velocity_at(loads_[n].point));
+    energy.add_contact_work(work);
+    if (loads_[n].work) *loads_[n].work += work;
     remap_.raise_largest_speed(motion.velocity.norm());
   }
   loads_.clear();

@@ -27,8 +27,10 @@ class PointLoads {
   PointLoads(Discretisation& discretisation, RemapControl& remap);
 
   /// A force on the ground during the next step [N], through the weights of a particle near the
-  /// point where it acts [m].
-  void add(const ParticleIndex& near, const Vector3& force, const Vector3& point);
+  /// point where it acts [m]. @param work  of whoever presses: gets the work of the force [J] when
+  /// the step is taken, and must live until then; none: nobody asks for it
+  void add(const ParticleIndex& near, const Vector3& force, const Vector3& point,
+           double* work = nullptr);
 
   /// Adds the forces to the sums of the nodes; force and moment are kept.
   void scatter_to_grid();
@@ -45,6 +47,7 @@ class PointLoads {
     ParticleIndex near;
     Vector3 force;
     Vector3 point;
+    double* work;
   };
   const Particles& particles_of(const ParticleIndex& index) const {
     return discretisation_.groups[index.group].particles;

@@ -54,6 +54,7 @@ struct Request {
   std::vector<std::string> folders;
   std::vector<double> window;    // [s] begin and end; empty: found
   std::vector<double> distance;  // [m] the same by travel
+  bool together = false;         // the wheels of one vehicle
   bool csv = false;
   bool write = false;
 };
@@ -77,8 +78,13 @@ void declare(CLI::App& app, Request& request) {
       ->check(within(Range::any(), "m"))
       ->expected(2)
       ->excludes(by_time);
-  app.add_flag("--csv", request.csv, "one line of comma-separated values for each folder");
-  app.add_flag("--write", request.write, "write summary.txt and summary.json into the folders");
+  CLI::Option* together =
+      app.add_flag("--together", request.together,
+                   "the wheels of one run together: sums, and what their resistance is made of");
+  app.add_flag("--csv", request.csv, "one line of comma-separated values for each folder")
+      ->excludes(together);
+  app.add_flag("--write", request.write, "write summary.txt and summary.json into the folders")
+      ->excludes(together);
 }
 
 furrow::ResistanceOptions options_of(const Request& request) {
@@ -94,11 +100,15 @@ furrow::ResistanceOptions options_of(const Request& request) {
   return options;
 }
 
-void evaluate(const std::string& folder, const Request& request) {
+void require_history(const std::string& folder) {
   if (folder.empty() ||
       !std::filesystem::is_regular_file(std::filesystem::path(folder) / "history.h5"))
     throw furrow::Error(
         "has no history.h5; name the results folder of a run with fix wheel/history");
+}
+
+void evaluate(const std::string& folder, const Request& request) {
+  require_history(folder);
   const furrow::Summary summary = furrow::summarise(folder, options_of(request));
   if (request.write) furrow::write_summary(folder, summary);
   if (!summary.trouble.empty()) throw furrow::Error(summary.trouble);
@@ -121,14 +131,25 @@ int main(int argc, char** argv) {
 
   int status = 0;
   if (request.csv) print_csv_header();
-  for (const std::string& folder : request.folders) {
+  const auto attempt = [&](const std::string& what, const auto& action) {
     try {
-      evaluate(folder, request);
+      action();
     } catch (const std::exception& error) {
-      fmt::print(stderr, "furrow-resistance: {}: {}\n", folder, error.what());
+      fmt::print(stderr, "furrow-resistance: {}: {}\n", what, error.what());
       status = 1;
     }
-  }
+  };
+  for (const std::string& folder : request.folders)
+    attempt(folder, [&] {
+      if (request.together)
+        require_history(folder);
+      else
+        evaluate(folder, request);
+    });
+  if (request.together && status == 0)
+    attempt("--together", [&] {
+      fmt::print("{}\n", furrow::vehicle_text(request.folders, options_of(request)));
+    });
   try {
     furrow::end_output();
   } catch (const std::exception& error) {

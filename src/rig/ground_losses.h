@@ -5,15 +5,24 @@
 namespace furrow {
 
 /// Since the start, of all that the wheel touches, both halves of a half model [J].
+///
+/// The wheel's work on its ground = continuum + grains + friction + contact_damping +
+/// contact_springs. On a continuum that nothing else presses on, continuum = compaction +
+/// bulldozing + kinetic + numerical + radiated; else these are of all that press on it.
 struct GroundLosses {
   double compaction = 0.0;       ///< of a continuum, by pressing down (mpm/terrain_energy.h)
   double bulldozing = 0.0;       ///< of a continuum, by all other deformation and by lifting
-  double grains = 0.0;           ///< by grains: all that they took, friction on the wheel included
-  double friction = 0.0;         ///< between wheel and continuum or plane
-  double contact_damping = 0.0;  ///< of the contact with a continuum
   double kinetic = 0.0;          ///< energy of the continuum's motion
   double numerical = 0.0;        ///< what the continuum's grid takes
   double radiated = 0.0;         ///< by waves through absorbing faces
+  double continuum = 0.0;        ///< of this wheel on a continuum
+  double grains = 0.0;           ///< of this wheel: all that grains took, friction on it included
+  double friction = 0.0;         ///< of this wheel with continuum or plane
+  double contact_damping = 0.0;  ///< of its contact with a continuum
+  /// what the springs of its contact with continuum or plane hold or have lost: the edge of a
+  /// particle, from which penetration counts, does not move as the ground there does, and springs
+  /// are let go when a contact ends; with grains, part of theirs
+  double contact_springs = 0.0;
 };
 
 }  // namespace furrow

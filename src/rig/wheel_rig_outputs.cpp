@@ -108,6 +108,8 @@ const Outputs<const WheelRig::Reading>& WheelRig::outputs() {
        [](R& r) { return r.budget.dissipated_energy - r.wheel.damping_loss(); }},
       {"friction_loss", "J", "taken by sliding between wheel and continuum or plane",
        [](R& r) { return r.losses.friction; }},
+      {"continuum_work", "J", "of the wheel on the continuum, friction not included",
+       [](R& r) { return r.losses.continuum; }},
       {"compaction_work", "J", "of the continuum, by pressing down, since the start",
        [](R& r) { return r.losses.compaction; }},
       {"bulldozing_work", "J",
@@ -121,6 +123,9 @@ const Outputs<const WheelRig::Reading>& WheelRig::outputs() {
        [](R& r) { return r.losses.numerical; }},
       {"contact_damping_loss", "J", "taken by the damping of the contact with a continuum",
        [](R& r) { return r.losses.contact_damping; }},
+      {"contact_spring_loss", "J",
+       "held or lost by the springs of the contact with continuum or plane",
+       [](R& r) { return r.losses.contact_springs; }},
       {"radiated_work", "J", "through absorbing faces of the continuum, since the start",
        [](R& r) { return r.losses.radiated; }},
   };

@@ -15,8 +15,6 @@ namespace furrow {
 
 namespace {
 
-// of the vertical force, below which a force or a coefficient counts as small
-constexpr double min_coefficient = 0.1;
 // the same, below which a lateral force is that of a wheel that runs straight
 constexpr double noise_sideways = 0.02;
 
@@ -100,12 +98,12 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
 
   add("sinkage", "m", part("sinkage"), 0.0);
   add("force_z", "N", force_z, 0.0);
-  const double small_force = min_coefficient * std::abs(result.values.back().mean);
-  add("resistance_coefficient", "", linearised_ratio(resistance, force_z), min_coefficient);
+  const double small_force = small_coefficient * std::abs(result.values.back().mean);
+  add("resistance_coefficient", "", linearised_ratio(resistance, force_z), small_coefficient);
   add("drawbar_pull", "N", drawbar_pull, small_force);
-  add("drawbar_coefficient", "", linearised_ratio(drawbar_pull, force_z), min_coefficient);
+  add("drawbar_coefficient", "", linearised_ratio(drawbar_pull, force_z), small_coefficient);
   add("drive_torque", "N m", part("drive_torque"), 0.0);
-  add("slip", "", part("slip"), min_coefficient);
+  add("slip", "", part("slip"), small_coefficient);
   const bool sideways = history.has("lateral_force");
   if (sideways) {
     add("lateral_force", "N", part("lateral_force"), small_force);

@@ -10,6 +10,9 @@
 
 namespace furrow {
 
+/// Of the vertical force: a smaller force or coefficient is judged as one of this size.
+constexpr double small_coefficient = 0.1;
+
 struct ResistanceOptions {
   WindowRequest window;
   SteadyCriteria criteria;

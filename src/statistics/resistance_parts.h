@@ -25,8 +25,16 @@ struct ResistanceParts {
   bool known() const { return !parts.empty(); }
 };
 
-/// Without parts for a history without the channels of rig/wheel_rig_outputs.cpp, or a window
-/// without travel.
+/// Of one wheel. What a continuum took is divided only where nothing else presses on it; else it is
+/// one part.
+/// @return without parts for a history without the channels of rig/wheel_rig_outputs.cpp, or a
+/// window without travel
 ResistanceParts resistance_parts(const History& history, const Window& window);
+
+/// Of the wheels of one vehicle, over the travel of the first: a continuum that they share is
+/// divided for all of them together.
+/// @param windows of the histories, of the same time
+ResistanceParts resistance_parts(const std::vector<History>& histories,
+                                 const std::vector<Window>& windows);
 
 }  // namespace furrow

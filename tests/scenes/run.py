@@ -13,7 +13,8 @@ The head of a script says what is run and what must come out, in SI units:
     # Quick:    -v cell 0.05 -v distance 0.6
     # Gives:    sinkage 0.15 to 0.17 m, resistance coefficient 0.16 to 0.20
 
-A scene's quantities are those of summary.json (means over the cruise of a wheel), of its history
+A scene's quantities are those of summary.json (means over the cruise of a wheel; of a further
+wheel, whose folder is within the first one's, with the name of the folder before), of its history
 ("<channel> at the end", underscores as spaces: the last twentieth), of curve.txt (a plate) and of the continuum's history; those
 of a laboratory test are in laboratory.json. Every run must also keep its energies and momenta.
 """
@@ -147,9 +148,19 @@ def wheel_quantities(folder):
             unit = column.attrs["unit"]
             unit = unit.decode() if isinstance(unit, bytes) else unit
             found[f"{name} at the end"] = column[-max(len(column) // 20, 1):].mean(), unit
-    found.update((name, (value["mean"], value["unit"]))
-                 for name, value in summary.get("quantities", {}).items())
+    found.update(steady_values(summary))
+    for further in folder.glob("*/summary.json"):
+        its = json.loads(further.read_text())
+        check_audit(its["audit"], f"wheel of {further.parent.name}", ENERGY_LIMIT)
+        found.update((f"{further.parent.name}_{name}", value)
+                     for name, value in steady_values(its).items())
     return {name.replace("_", " "): value for name, value in found.items()}
+
+
+def steady_values(summary):
+    """(value, unit) by name."""
+    return {name: (value["mean"], value["unit"])
+            for name, value in summary.get("quantities", {}).items()}
 
 
 def plate_quantities(folder):

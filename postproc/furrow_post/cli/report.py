@@ -4,6 +4,7 @@
 import argparse
 import shutil
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 from ..analyse import cost, cost_table
@@ -22,8 +23,11 @@ from ..figures.page import (
     results_tables,
     run_section,
 )
+from ..figures.resistance_parts import CAPTION as PARTS_CAPTION, Panel, draw_parts
 from ..figures.view import view_section, view_style
 from ..read.motion import read_motion
+from ..read.summary import ResistanceParts, Summary
+from ..read.wheel_run import WheelRun
 from .comparison import add_comparison_arguments, compared
 from .output import prepare_page
 
@@ -71,6 +75,7 @@ def _page_text(result: Comparison, errors: Path | None, scratch: Path, target: P
         "<h2>Results</h2>",
         results_tables(result),
         inline_picture(scratch / "compare.png", COMPARISON_CAPTION),
+        _parts(runs, scratch / "parts.png"),
         "<h2>Conditions and discretisation</h2>",
         conditions_table(result),
     ]
@@ -90,6 +95,20 @@ def _page_text(result: Comparison, errors: Path | None, scratch: Path, target: P
     size = f"{first.text('wheel_diameter')} x {first.text('wheel_width')}"
     lead = f"{first.wheel} {size}, load {first.text('load')}, {first.text('speed')}"
     return page(result, title, lead, sections, view_style())
+
+
+def _parts(runs: Sequence[WheelRun], picture: Path) -> str:
+    """The stacked picture of the resistance's parts; empty where no run has them."""
+    bars: list[tuple[str, ResistanceParts]] = []
+    for run in runs:
+        summary = Summary(run.folder)
+        passes = summary.parts_of_passes
+        named = [(f"{run.label}\npass {k}", parts) for k, parts in enumerate(passes, 1)]
+        bars += [(name, p) for name, p in named or [(run.label, summary.parts)] if p is not None]
+    if not bars:
+        return ""
+    draw_parts([Panel("resistance", bars)], picture)
+    return "<h2>What the resistance is made of</h2>" + inline_picture(picture, PARTS_CAPTION)
 
 
 def _in_3d(result: Comparison) -> str:

@@ -2,6 +2,7 @@
 """The steady values of a run as summary.json has them; furrow-resistance computes them."""
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,15 @@ class SteadyValue:
     standard_error: float
     unit: str
     steady: bool
+
+
+@dataclass(frozen=True)
+class ResistanceParts:
+    """What the resistance over the window is made of [N]: whole = sum of forces + unexplained."""
+
+    whole: float
+    forces: Mapping[str, float]  # by the name of the part, in the order of the summary
+    unexplained: float
 
 
 class Summary:
@@ -61,6 +71,25 @@ class Summary:
                 return None
             mean, error = float(value["mean"]), float(value["standard_error"])
             return SteadyValue(mean, error, str(value["unit"]), bool(value["steady"]))
+
+    @property
+    def parts(self) -> ResistanceParts | None:
+        """None where the file has none."""
+        return self._parts_in(self.content)
+
+    @property
+    def parts_of_passes(self) -> list[ResistanceParts | None]:
+        """Of each pass of several in one rut; empty for a single one."""
+        with content_of(self._path, self._remedy):
+            return [self._parts_in(dict(one)) for one in list(self.content.get("passes", []))]
+
+    def _parts_in(self, content: Mapping[str, Any]) -> ResistanceParts | None:
+        with content_of(self._path, self._remedy):
+            found = content.get("resistance_parts")
+            if found is None:
+                return None
+            forces = {str(name): float(force) for name, force in dict(found["parts"]).items()}
+            return ResistanceParts(float(found["whole"]), forces, float(found["unexplained"]))
 
     def line(self) -> str:
         """For a title: "sinkage 15.8 ± 1.9 mm, resistance coefficient 0.330 ± 0.007, ..."."""

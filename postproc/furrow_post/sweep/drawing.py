@@ -11,6 +11,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
 from ..analyse.verdict import COVERAGE
+from ..figures.resistance_parts import Panel, draw_parts
 from ..figures.style import RUN_COLOURS, annotate_panel, panel_letters, save, use_style
 from .curves import Curve, Figure, Line
 from .formulas import FormulaLine
@@ -47,6 +48,26 @@ def draw_sweep(
     legend.set_axis_off()
     legend.legend(list(entries.values()), list(entries), loc="center", ncols=4, fontsize=8)
     save(whole, target)
+
+
+def draw_parts_of_sweep(figure: Figure, target: Path) -> bool:
+    """What the resistance is made of, a panel for each line. @return whether any point knows it"""
+    panels = []
+    for line in figure.lines:
+        points = [
+            (_place(figure, x), parts)
+            for x, parts in zip(line.x, (point.parts for point in line.points))
+            if parts is not None
+        ]
+        if points:
+            panels.append(Panel(line.label, points, figure.x.label))
+    if panels:
+        draw_parts(panels, target)
+    return bool(panels)
+
+
+def _place(figure: Figure, x: float) -> str:
+    return figure.categories[int(x)] if figure.categories else f"{figure.x.scale * x:.3g}"
 
 
 def _draw_curve(

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What comes of a sweep: sweep.csv, sweep.h5, sweep.png and report.html in a folder."""
+"""What comes of a sweep: sweep.csv, sweep.h5, sweep.png and report.html in a folder, and parts.png
+where the runs know what their resistance is made of."""
 
 import tempfile
 from collections.abc import Sequence
@@ -17,15 +18,17 @@ from ..figures.page import (
     inline_picture,
     paragraph,
 )
+from ..figures.resistance_parts import CAPTION as PARTS_CAPTION
 from ..study.tables import in_columns
 from .curves import Figure, arrange
-from .drawing import CAPTION, draw_sweep
+from .drawing import CAPTION, draw_parts_of_sweep, draw_sweep
 from .formulas import FormulaLine, formula_lines
 from .measured import MeasuredPoints, read_measured_points
 from .series import Series, read_series, uniquely_labelled
 from .table import shown_rows, write_table
 
 TABLE, NUMBERS, PICTURE, REPORT = "sweep.csv", "sweep.h5", "sweep.png", "report.html"
+PARTS = "parts.png"  # of the resistance
 
 
 @dataclass(frozen=True)
@@ -111,9 +114,10 @@ def write_sweep(result: Result, folder: Path) -> None:
         part = Path(scratch)
         write_table(result.series, part / TABLE, part / NUMBERS)
         draw_sweep(result.figure, result.formulas, result.measured, part / PICTURE)
-        (part / REPORT).write_text(_page(result, part / PICTURE), encoding="utf-8")
-        for name in (TABLE, NUMBERS, PICTURE, REPORT):
-            (part / name).replace(folder / name)
+        parts = part / PARTS if draw_parts_of_sweep(result.figure, part / PARTS) else None
+        (part / REPORT).write_text(_page(result, part / PICTURE, parts), encoding="utf-8")
+        for file in part.iterdir():
+            file.replace(folder / file.name)
 
 
 def report_lines(result: Result) -> list[str]:
@@ -126,13 +130,14 @@ def report_lines(result: Result) -> list[str]:
 CAPTION_OF_TABLE = "± is one standard deviation, from the parts that are known."
 
 
-def _page(result: Result, picture: Path) -> str:
+def _page(result: Result, picture: Path, parts: Path | None) -> str:
     names = [curve.name for curve in result.figure.curves]
     title = " and ".join(dict.fromkeys(one.title for one in result.series))
     head, rows = shown_rows(result.figure)
     remarks = "".join(f"<li>{escaped(text)}</li>" for text in result.remarks())
     sections = [
         inline_picture(picture, CAPTION),
+        inline_picture(parts, PARTS_CAPTION) if parts else "",
         "<h2>Points</h2>",
         html_table(head, rows, range(1, len(head))),
         paragraph(CAPTION_OF_TABLE),

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ..errors import ResultsError
+from ..read.summary import ResistanceParts, Summary
 from ..read.wheel_run import WheelRun, read_wheel_run
 from ..study.launch import SCREEN
 from ..study.record import FAILED, FINISHED
@@ -29,6 +30,21 @@ class SweepPoint:
     def steady(self) -> bool:
         """Whether sinkage and resistance are steady in all runs."""
         return all(self.quantities[name].steady for name in ("sinkage", "resistance_coefficient"))
+
+    @property
+    def parts(self) -> ResistanceParts | None:
+        """Of the resistance, mean of the packings; None where a run has none."""
+        found = [Summary(run.folder).parts for run in self.runs]
+        known = [one for one in found if one is not None]
+        if len(known) < len(found):
+            return None
+        names = dict.fromkeys(name for one in known for name in one.forces)
+        n = len(known)
+        return ResistanceParts(
+            sum(one.whole for one in known) / n,
+            {name: sum(one.forces.get(name, 0.0) for one in known) / n for name in names},
+            sum(one.unexplained for one in known) / n,
+        )
 
     @property
     def cpu_time(self) -> float:

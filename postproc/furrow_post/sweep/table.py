@@ -15,6 +15,7 @@ from ..formatting import duration, value_text
 from .curves import CONDITIONS, Figure
 from .series import Series, SweepPoint
 
+PART = "part_"  # before the name of a part of the resistance
 SET = "set_"  # before the name of a variable that was swept: what the script was given
 CSV_HEAD = (
     "# A row per point, packings averaged. SI units; <quantity>_error is its standard deviation,",
@@ -41,10 +42,20 @@ def _row(series: Series, point: SweepPoint) -> dict[str, Cell]:
     for name, value in point.quantities.items():
         row[name], row[f"{name}_error"] = value.mean, value.uncertainty
         row.update({f"{name}_error_{part}": value.parts.part(part) for part in Components.NAMES})
+    row.update(_parts(point))
     row["packings"] = float(len(point.runs))
     row["steady"] = "yes" if point.steady else "no"
     row["cpu_time"] = point.cpu_time
     return row
+
+
+def _parts(point: SweepPoint) -> dict[str, float]:
+    """Of the resistance [N], by column."""
+    parts = point.parts
+    if parts is None:
+        return {}
+    forces = {"whole": parts.whole, **parts.forces, "not accounted for": parts.unexplained}
+    return {PART + name.replace(",", "").replace(" ", "_"): force for name, force in forces.items()}
 
 
 def _as_number(text: str) -> Cell:
@@ -64,6 +75,7 @@ def units(series: Sequence[Series]) -> dict[str, str]:
             for name, value in point.quantities.items():
                 parts = ("", "_error", *(f"_error_{part}" for part in Components.NAMES))
                 found.update({name + part: value.unit for part in parts})
+            found.update(dict.fromkeys(_parts(point), "N"))
     return {name: unit for name, unit in found.items() if unit}
 
 

@@ -95,7 +95,7 @@ void TerrainContact::add_forces(const Law& law, double dt) {
     for (int c = 0; c < 3; ++c) velocity -= contact.barycentric[c] * surface.v.col(nodes[c]);
     const Vector3 force =
         law.force({contact, velocity, group.mass(particle.particle)}, dt, history, step_.losses);
-    terrain_.add_point_force(particle, force, contact.position);
+    terrain_.add_point_force(particle, force, contact.position, &terrain_work_);
     for (int c = 0; c < 3; ++c) nodal_forces_.col(nodes[c]) -= contact.barycentric[c] * force;
 
     const double length = std::cbrt(group.particles.data(column::volume)[particle.particle]);
@@ -147,6 +147,9 @@ void TerrainContact::checkpoint(Checkpoint& state) {
   state.value("deepest_penetration", deepest_penetration_);
   state.value("friction_loss", losses_.friction);
   state.value("damping_loss", losses_.damping);
+  double work = state.saving() ? terrain_work() : 0.0;
+  state.value("terrain_work", work);
+  terrain_work_ = terrain_.ranks().rank() == 0 ? work : 0.0;
   search_.checkpoint(state);
 }
 

@@ -49,9 +49,11 @@ class TerrainContact : public Contact {
   double deepest_penetration() const { return deepest_penetration_; }  ///< [m]
   double friction_loss() const { return losses_.friction; }            ///< [J]
   double damping_loss() const { return losses_.damping; }              ///< [J]
+  /// Of this contact on the terrain as it is modelled, a half model's half [J]. Collective.
+  double terrain_work() const { return terrain_.ranks().sum(terrain_work_); }
 
   /// Sums since the start, and when the candidates were found; what particles remember is part of
-  /// the terrain's checkpoint. Restored after body and terrain. Not collective.
+  /// the terrain's checkpoint. Restored after body and terrain. Collective.
   void checkpoint(Checkpoint& state);
 
  private:
@@ -90,7 +92,8 @@ class TerrainContact : public Contact {
   Matrix3X nodal_forces_;  // on the body [N]
   StepTotals step_;
   Vector3 force_ = Vector3::Zero();
-  ContactLosses losses_;  // since the start
+  ContactLosses losses_;       // since the start
+  double terrain_work_ = 0.0;  // since the start, this rank's share [J]
   double deepest_penetration_ = 0.0;
 };
 

@@ -16,7 +16,7 @@ from furrow_post.analyse import cost_table
 from furrow_post.csv_table import read_rows
 from support.command import run_post
 from support.laboratory import write_plate
-from support.runs import write_run
+from support.runs import add_parts, write_run
 from support.tables import made_runs
 
 
@@ -45,6 +45,7 @@ class CompareCommandTest(unittest.TestCase):
     def setUpClass(cls) -> None:
         cls.folder = Path(tempfile.mkdtemp())
         write_run(cls.folder / "a")
+        add_parts(cls.folder / "a", {"compaction": 150.0, "friction of wheel and ground": 50.0})
         write_run(cls.folder / "b", sinkage=0.051)
         write_run(cls.folder / "heavy", load=1100.0)
 
@@ -113,7 +114,8 @@ class CompareCommandTest(unittest.TestCase):
         parser = Balanced()
         parser.feed(text.replace("<!DOCTYPE html>", ""))
         self.assertEqual(parser.open, [])
-        self.assertEqual(parser.images, 3)
+        self.assertEqual(parser.images, 4)  # compared, what a resistance is made of, two runs
+        self.assertEqual(text.count("<h2>What the resistance is made of</h2>"), 1)
         self.assertNotIn('src="http', text)
         self.assertNotIn(str(self.folder), text)  # no path of this machine
         for name in ("report.csv", "report.h5"):

@@ -135,6 +135,20 @@ def write_run(
     write_summary(folder, sinkage, load, slip, pull, torque)
 
 
+def add_parts(folder: Path, forces: Mapping[str, float], unexplained: float = 0.0) -> None:
+    """What the resistance is made of [N], into summary.json."""
+    file = folder / "summary.json"
+    content = json.loads(file.read_text())
+    whole = sum(forces.values()) + unexplained
+    content["resistance_parts"] = {
+        "unit": "N",
+        "whole": whole,
+        "parts": dict(forces),
+        "unexplained": unexplained,
+    }
+    file.write_text(json.dumps(content))
+
+
 def write_noisy_history(path: Path, rows: int = 4000) -> None:
     """Settle, accelerate, cruise with noise about known means.
 

@@ -15,7 +15,7 @@ from furrow_post.study.record import Record
 from furrow_post.sweep.curves import EFFICIENCY, PULL, SINKAGE, TORQUE
 from furrow_post.sweep.output import Named, Wanted, evaluate, report_lines, write_sweep
 from furrow_post.sweep.plan import Plan, Point
-from support.runs import RADIUS, write_run
+from support.runs import RADIUS, add_parts, write_run
 
 LOAD = 2000.0  # [N]
 # slip, drawbar pull over load, torque [N m]
@@ -138,6 +138,29 @@ class OutputTest(unittest.TestCase):
         wanted = Wanted(measured=[Named(self.folder / "a" / "sweep.csv")])
         (again,) = evaluate([Named(self.folder / "a")], wanted).measured
         self.assertEqual([round(x, 9) for x, _, _ in again.values(PULL)], [-0.2, 0.1, 0.3])
+
+    def test_what_the_resistance_is_made_of_is_averaged_and_drawn(self) -> None:
+        points = []
+        for load in (1000.0, 2000.0):
+            for seed, friction in (("", 10.0), ("7", 30.0)):
+                name = f"load_{load:g}{seed}"
+                write_run(self.folder / name, load)
+                add_parts(self.folder / name, {"compaction": 0.1 * load, "friction": friction}, 1.0)
+                finished(self.folder / name)
+                points.append(Point(name, {"load": f"{load:g}"}, seed))
+        Plan("scene.lig", ("load",), points=tuple(points)).write(self.folder)
+        result = evaluate([Named(self.folder)], Wanted())
+        parts = result.series[0].points[1].parts
+        assert parts is not None
+        self.assertEqual(dict(parts.forces), {"compaction": 200.0, "friction": 20.0})
+        self.assertEqual((parts.whole, parts.unexplained), (221.0, 1.0))
+        write_sweep(result, self.folder / "out")
+        self.assertTrue((self.folder / "out" / "parts.png").is_file())
+        rows = read_rows(self.folder / "out" / "sweep.csv")
+        self.assertEqual([row["part_compaction"] for row in rows], ["100", "200"])
+        self.assertEqual([row["part_not_accounted_for"] for row in rows], ["1", "1"])
+        page = (self.folder / "out" / "report.html").read_text(encoding="utf-8")
+        self.assertEqual(page.count("<figure>"), 2)
 
     def test_failures_and_what_is_missing_are_told_apart(self) -> None:
         write_pulling(self.folder)

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Rolling in a rut: one wheel twice, or two wheels one behind the other; stopped in the middle of it
+and continued.
+
+    run.py sand <furrow>        one wheel twice, on grains
+    run.py sand_axles <furrow>  two wheels on grains
+    run.py snow <furrow> <results of inputs/scenes/two_axles.lig in its quick version>
+
+The run that continues gives the histories of the run in one, bit for bit. The second pass goes
+deeper, with less resistance than the first. Of two wheels each carries its own load, and keeps its
+own energy and momentum. Snow: a second wheel behind the first finds what the second pass of the
+first finds; sinkage and resistance coefficient of wheels and passes differ by no more than three
+standard errors of their difference.
+"""
+
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+COVERAGE = 3.0  # standard errors
+ROUNDING = 1e-10  # of the largest energy, force, moment
+LOADS = {"": 40.0, "rear": 30.0}  # of sand_axles.lig [N]
+LOAD_ERROR = 0.1  # of the load: the mean over a short way
+QUANTITIES = ("sinkage", "resistance_coefficient")
+# what makes a run continue from a checkpoint
+CONTINUED = {"sand": lambda file: ("from", file), "sand_axles": lambda file: ("from", file),
+             "snow": lambda file: ("continued", "1")}
+
+
+def run(furrow, case, folder, *variables):
+    words = [furrow, "-in", HERE / f"{case}.lig", "-log", "none"]
+    if variables:
+        words += ["-var", *variables]
+    done = subprocess.run(words, cwd=folder, text=True, stdin=subprocess.DEVNULL, timeout=500,
+                          env={**os.environ, "FURROW_CACHE": str(folder / "cache")},
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    if done.returncode != 0:
+        sys.exit(f"status {done.returncode}:\n{done.stdout[-4000:]}")
+
+
+def columns(results):
+    """Of all wheels, by file and name."""
+    found = {}
+    for path in sorted(results.rglob("history.h5")):
+        with h5py.File(path) as file:
+            found.update({(path.parent.name, name): column[()]
+                          for name, column in file["history"].items()})
+    return found
+
+
+def summary_of(results):
+    return json.loads((results / "summary.json").read_text())
+
+
+def values(found):
+    """(mean, standard error) of QUANTITIES; found: a summary, or a pass of one"""
+    return {name: (found["quantities"][name]["mean"], found["quantities"][name]["standard_error"])
+            for name in QUANTITIES}
+
+
+def check_continued(furrow, case, folder):
+    """The run is there; it is continued from its checkpoint, and gives the same again."""
+    results = folder / "results"
+    whole = columns(results)
+    checkpoint, = folder.glob("checkpoint.*")
+    run(furrow, case, folder, *CONTINUED[case](checkpoint.name))
+    parts = columns(results)
+    assert whole.keys() == parts.keys()
+    different = [name for name in whole if not np.array_equal(whole[name], parts[name])]
+    assert not different, f"the run that continues has other values of {different}"
+
+
+def check_passes(first, second):
+    print(f"first pass {first}, second {second}")
+    assert second["sinkage"][0] > first["sinkage"][0], "the second pass does not go deeper"
+    assert second["resistance_coefficient"][0] < first["resistance_coefficient"][0], \
+        "the second pass has no less resistance"
+
+
+def check_alike(what, one, other):
+    for name, (mean, error) in one.items():
+        other_mean, other_error = other[name]
+        allowed = COVERAGE * math.hypot(error, other_error)
+        print(f"{what}, {name}: {mean:.5g}, {other_mean:.5g}, allowed difference {allowed:.2g}")
+        assert abs(mean - other_mean) <= allowed, f"{what}: {name} {mean:.5g} and {other_mean:.5g}"
+
+
+def check_wheel(results, load):
+    found = summary_of(results)
+    carried, audit = found["quantities"]["force_z"]["mean"], found["audit"]
+    print(f"{results.name}: carries {carried:.4g} of {load:g} N")
+    assert abs(carried - load) <= LOAD_ERROR * load, "a wheel does not carry its own load"
+    for part, whole in (("energy_residual", "energy_scale"), ("force_imbalance", "force_scale"),
+                        ("moment_imbalance", "moment_scale")):
+        assert abs(audit[part]) <= ROUNDING * audit[whole], f"{part} {audit[part]:.3g}"
+
+
+def main(case, furrow, *axles):
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(scratch)
+        results = folder / "results"
+        run(furrow, case, folder)
+        if case == "sand_axles":
+            for wheel, load in LOADS.items():
+                check_wheel(results / wheel, load)
+        else:
+            first, second = map(values, summary_of(results)["passes"])
+            check_passes(first, second)
+        check_continued(furrow, case, folder)
+    if axles:
+        front = Path(axles[0])
+        check_alike("front wheel, first pass", values(summary_of(front)), first)
+        check_alike("rear wheel, second pass", values(summary_of(front / "rear")), second)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
