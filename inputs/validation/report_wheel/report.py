@@ -114,8 +114,9 @@ def draw_depths(rows: Sequence[Row], path: Path) -> None:
 TABLES = {  # stage -> what its table is headed
     "reading": "Readings of Tables 1 and 3 (20 cm, zero slip, cells of 5 cm)",
     "artefact": "Mesh and load (20 cm, zero slip)",
-    "slip": "Slip (20 cm, d 30 kPa, friction 0.3, cells of 5 cm)",
-    "friction": "Friction (20 cm, d 30 kPa, cells of 5 cm)",
+    "domain": "Ends and sides (20 cm, zero slip, cells of 5 cm; else smooth, 1.6 x 0.8 m)",
+    "slip": "Slip (20 cm, friction 0.3, cells of 5 cm)",
+    "friction": "Friction (20 cm, zero slip, cells of 5 cm)",
     "depth": "Depth, as the report ran it (cells of 6 to 6.7 cm)",
 }
 
