@@ -273,6 +273,25 @@ def deep(depth: int) -> Experiment:
     )
 
 
+def effect(place: str, what: str, run: str, limit: str = "") -> tuple[Experiment, ...]:
+    """How far z and c move; limit [%]: where the report finds little effect."""
+    remark = f"report: little effect, here less than {limit} %" if limit else "no number there"
+    return tuple(
+        Experiment(
+            place,
+            what,
+            f"change of {quantity}",
+            "%",
+            report=limit,
+            ours=of("report_wheel/effects.csv", run, f"{column}_percent"),
+            limit=bool(limit),
+            cost=of(WHEEL, run, "user_s") if quantity == "z" else None,
+            remark=remark,
+        )
+        for quantity, column in (("z", "sinkage"), ("c", "resistance"))
+    )
+
+
 def density(run: str, what: str, column: str, report: str, measured: str) -> Experiment:
     return Experiment(
         "Fig 67",
@@ -309,6 +328,9 @@ RIGID_WHEEL = Group(
         *wheel("d_30_cell_10", "d 30 kPa, cells of 10 cm", remark="two cells in the depth"),
         *wheel("d_72", "the same, d 72 kPa", remark="eq 20 with the c of the CIV tests, 43 kPa"),
         *wheel("slip_free", "free wheel, d 30 kPa", "measured with a tyre", measured=True),
+        *wheel("slip_free_d5", "free wheel, d 5 kPa", "measured with a tyre", measured=True),
+        *effect("p. 44", "friction 0.8 instead of 0.3, d 30 kPa", "friction_0.8", "10"),
+        *effect("p. 44", "friction 0.8 instead of 0.3, d 5 kPa", "friction_0.8_d5", "10"),
         *(deep(depth) for depth in (20, 30, 40, 50)),
         Experiment(
             "Table 11",
@@ -341,12 +363,7 @@ RIGID_WHEEL = Group(
         not_done("Fig 65", "displacements along the track", "", "tracers drawn, not scored"),
         not_done("Fig 66", "displacements across the track", "", "no tracers across"),
         not_done("Fig 65", "arc of deviatoric stress ahead", "", "not drawn"),
-        not_done(
-            "p. 43",
-            "infinite elements at the sides",
-            "",
-            "moving ground has absorbing ends; this case was not run yet",
-        ),
+        *effect("p. 43", "infinite elements at the sides, d 5 kPa", "absorbing_5"),
         not_done("p. 44", "implicit solution, adaptive mesh", "", "explicit material points here"),
     ),
 )

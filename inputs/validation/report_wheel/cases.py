@@ -202,6 +202,14 @@ def frictions() -> list[Case]:
     ]
 
 
+# run -> the run that it differs from in one thing
+EFFECTS = {
+    "absorbing_5": "d_5",
+    "absorbing_30": "d_30",
+    **{f"friction_{name}_d5": "d_5" for name in ("0.1", "0.8", "rough")},
+    **{f"friction_{name}": "d_30" for name in ("0.1", "0.8", "rough")},
+}
+
 # Runs that are a test: sinkage [m] and resistance coefficient that they have here, and how far off
 # another processor or compiler may be
 CHECKED = {"cell_10": (0.151, 0.183), "d_30_cell_10": (0.080, 0.106)}

@@ -111,6 +111,23 @@ def draw_depths(rows: Sequence[Row], path: Path) -> None:
     save(figure, path, dpi=90)
 
 
+def effects(rows: Sequence[Row]) -> list[Row]:
+    """How far sinkage and resistance move with absorbing faces, with friction [%]."""
+    found = {row["run"]: row for row in rows if not row["error"]}
+    return [
+        {
+            "run": run,
+            "of": base,
+            **{
+                f"{quantity}_percent": round(abs(100 * (found[run][key] / found[base][key] - 1)), 1)
+                for quantity, key in (("sinkage", "sinkage_m"), ("resistance", "resistance"))
+            },
+        }
+        for run, base in cases.EFFECTS.items()
+        if run in found and base in found
+    ]
+
+
 TABLES = {  # stage -> what its table is headed
     "reading": "Readings of Tables 1 and 3 (20 cm, zero slip, cells of 5 cm)",
     "artefact": "Mesh and load (20 cm, zero slip)",
@@ -161,6 +178,7 @@ def report(runner: Runner, output: Output) -> list[str]:
         if record := runner.record(case) or runner.failure(case):
             rows.append(row_of(case, runner.folder(case), record))
     output.table("results.csv", rows)
+    output.table("effects.csv", effects(rows))
     output.table("closed_form.csv", closed_form.table())
     output.table(
         "nrmm.csv",
