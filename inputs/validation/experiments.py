@@ -142,7 +142,15 @@ PLATES = Group(
         variant("foam_slide", "variant 3: foam of Table 1, slide surface", ""),
         not_done("Fig 30", "density, isolated places", "kg/m3", "not scored", report="420"),
         *below(),
-        not_done("Fig 29b", "field plate, 20 cm on 40 cm of snow", "force", "no run yet"),
+        Experiment(
+            "Fig 29b",
+            "field plate, 20 cm on 40 cm of snow, slide surface",
+            "force after 22.5 cm",
+            "N",
+            ours=of("plate_variants/field.csv", "field_cap_slide_40", "peak_N", key="case"),
+            cost=of("plate_variants/field.csv", "field_cap_slide_40", "user_s", key="case"),
+            remark="no number there; an ultimate resistance is nearly reached",
+        ),
     ),
 )
 
