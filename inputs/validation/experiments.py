@@ -353,6 +353,8 @@ def rms(column: str, model: str, rows: str, what: str, limit: str, scale: float)
     )
 
 
+TRACERS = "tracers drawn by furrow-post terrain, not scored"
+ARC = "drawn by furrow-post terrain, no number there"
 TYRE_RUN = {"change": "base: cells of 4 cm, tyre of 4 x 36 elements"}
 RIGID_WHEEL = Group(
     "Wheel on snow",
@@ -395,9 +397,9 @@ RIGID_WHEEL = Group(
         density("row_220_20cm", "at its shoulder", "density_shoulder", "335", "290"),
         density("clay_towed", "under the rigid wheel, Cam clay", "density_under", "460", "510"),
         density("clay_towed", "at its shoulder", "density_shoulder", "335", "290"),
-        not_done("Fig 65", "displacements along the track", "", "tracers drawn by furrow-post terrain, not scored"),
-        not_done("Fig 66", "displacements across the track", "", "tracers drawn by furrow-post terrain, not scored"),
-        not_done("Fig 65", "arc of deviatoric stress ahead", "", "drawn by furrow-post terrain, no number there"),
+        not_done("Fig 65", "displacements along the track", "", TRACERS),
+        not_done("Fig 66", "displacements across the track", "", TRACERS),
+        not_done("Fig 65", "arc of deviatoric stress ahead", "", ARC),
         *effect("p. 43", "infinite elements at the sides, d 5 kPa", "absorbing_5"),
         not_done("p. 44", "implicit solution, adaptive mesh", "", "explicit material points here"),
     ),
@@ -488,7 +490,12 @@ def shifts() -> tuple[Experiment, ...]:
         for run, column, what, remark in (
             ("d_30", "shift_up_mm", "of it the tread as a whole", "less than all of the report's?"),
             ("d_30_brick", "deflection_mm", "tyre with a tread of rubber, d 30 kPa", ""),
-            ("d_30_brick", "shift_up_mm", "of it the tread as a whole", "less than all of the report's?"),
+            (
+                "d_30_brick",
+                "shift_up_mm",
+                "of it the tread as a whole",
+                "less than all of the report's?",
+            ),
         )
     )
 

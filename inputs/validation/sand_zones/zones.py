@@ -52,8 +52,9 @@ class Ground:
     def layer(self, depth: float) -> Booleans:
         """The layer of particles nearest to a depth [m]."""
         levels = np.unique(np.round(self.depth_before, 4))
-        nearest: Booleans = np.abs(self.depth_before - levels[np.abs(levels - depth).argmin()]) < 1e-3
-        return nearest
+        nearest = levels[np.abs(levels - depth).argmin()]
+        inside: Booleans = np.abs(self.depth_before - nearest) < 1e-3
+        return inside
 
     def ahead_of(self, layer: Booleans, field: Floats) -> float:
         """Where the field is greatest in a layer, ahead of the axle [mm]."""

@@ -46,9 +46,7 @@ def line_fit(x: Floats, y: Floats) -> tuple[float, float, Floats]:
     return slope, intercept, variance * np.linalg.inv(design.T @ design)
 
 
-def at_size_zero(
-    fine: tuple[float, float], finer: tuple[float, float]
-) -> tuple[float, float]:
+def at_size_zero(fine: tuple[float, float], finer: tuple[float, float]) -> tuple[float, float]:
     """Value at size zero from two (size, value): that of an error of second order, and how far that
     of an error of first order lies from it."""
     (h1, f1), (h2, f2) = fine, finer
