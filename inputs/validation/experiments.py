@@ -97,6 +97,37 @@ def variant(case: str, what: str, near: str) -> Experiment:
     return plate(case, what, near, "180 kg/m3, plate holds the snow", PLATE_VARIANTS)
 
 
+def size_zero(case: str, what: str) -> Experiment:
+    table = "plate_variants/size_zero.csv"
+    return Experiment(
+        "Fig 31",
+        what,
+        "largest force",
+        "N",
+        measured="1867",
+        ours=of(table, case, "size_zero_N", key="case"),
+        uncertainty=of(table, case, "error_N", key="case"),
+        remark="cells of size zero; ± from error of second to one of first order",
+    )
+
+
+def below() -> tuple[Experiment, ...]:
+    """Densities of the two layers within 5.4 cm below the plate, of variant 1."""
+    return tuple(
+        Experiment(
+            "Fig 31",
+            f"variant 1, layer {layer} of ten below the plate",
+            "density",
+            "kg/m3",
+            measured=measured,
+            ours=of(PLATE_VARIANTS, "cap_25", f"density_{layer}", key="case"),
+            near=of(PLATE_VARIANTS, "cap_31", f"density_{layer}", key="case"),
+            remark="no law here piles up density at the plate",
+        )
+        for layer, measured in ((1, "520"), (2, "440"))
+    )
+
+
 PLATES = Group(
     "Plates on snow",
     (
@@ -105,17 +136,21 @@ PLATES = Group(
         plate("finer", "the same, cap law of Tables 1 and 3", "fine", "200 kg/m3"),
         plate("foam_fine", "the same, foam of Table 1", "foam", "without the slide surface"),
         variant("cap_25", "variant 1: cap law of Tables 1 and 3", "cap_31"),
+        size_zero("cap", "the same"),
         variant("cap_slide_25", "variant 2: with a slide surface, friction 0.3", "cap_slide_31"),
+        size_zero("cap_slide", "the same"),
         variant("foam_slide", "variant 3: foam of Table 1, slide surface", ""),
         not_done("Fig 30", "density, isolated places", "kg/m3", "not scored", report="420"),
-        not_done(
-            "Fig 31",
-            "density within 5 cm below the plate",
-            "kg/m3",
-            "by layers in plate_variants: cap law 274 and 270, measured 520 and 440",
-            measured="480",
+        *below(),
+        Experiment(
+            "Fig 29b",
+            "field plate, 20 cm on 40 cm of snow, slide surface",
+            "force after 22.5 cm",
+            "N",
+            ours=of("plate_variants/field.csv", "field_cap_slide_40", "peak_N", key="case"),
+            cost=of("plate_variants/field.csv", "field_cap_slide_40", "user_s", key="case"),
+            remark="no number there; an ultimate resistance is nearly reached",
         ),
-        not_done("Fig 29b", "field plate, 20 cm on 40 cm of snow", "force", "no run yet"),
     ),
 )
 
@@ -343,6 +378,25 @@ def deep(depth: int) -> Experiment:
     )
 
 
+def effect(place: str, what: str, run: str, limit: str = "") -> tuple[Experiment, ...]:
+    """How far z and c move; limit [%]: where the report finds little effect."""
+    remark = f"report: little effect, here less than {limit} %" if limit else "no number there"
+    return tuple(
+        Experiment(
+            place,
+            what,
+            f"change of {quantity}",
+            "%",
+            report=limit,
+            ours=of("report_wheel/effects.csv", run, f"{column}_percent"),
+            limit=bool(limit),
+            cost=of(WHEEL, run, "user_s") if quantity == "z" else None,
+            remark=remark,
+        )
+        for quantity, column in (("z", "sinkage"), ("c", "resistance"))
+    )
+
+
 def density(run: str, what: str, column: str, report: str, measured: str) -> Experiment:
     return Experiment(
         "Fig 67",
@@ -369,6 +423,8 @@ def rms(column: str, model: str, rows: str, what: str, limit: str, scale: float)
     )
 
 
+TRACERS = "tracers drawn by furrow-post terrain, not scored"
+ARC = "drawn by furrow-post terrain, no number there"
 TYRE_RUN = {"change": "base: cells of 4 cm, tyre of 4 x 36 elements"}
 RIGID_WHEEL = Group(
     "Wheel on snow",
@@ -379,6 +435,9 @@ RIGID_WHEEL = Group(
         *wheel("d_30_cell_10", "d 30 kPa, cells of 10 cm", remark="two cells in the depth"),
         *wheel("d_72", "the same, d 72 kPa", remark="eq 20 with the c of the CIV tests, 43 kPa"),
         *wheel("slip_free", "free wheel, d 30 kPa", "measured with a tyre", measured=True),
+        *wheel("slip_free_d5", "free wheel, d 5 kPa", "measured with a tyre", measured=True),
+        *effect("p. 44", "friction 0.8 instead of 0.3, d 30 kPa", "friction_0.8", "10"),
+        *effect("p. 44", "friction 0.8 instead of 0.3, d 5 kPa", "friction_0.8_d5", "10"),
         *(deep(depth) for depth in (20, 30, 40, 50)),
         Experiment(
             "Table 11",
@@ -408,15 +467,10 @@ RIGID_WHEEL = Group(
         density("row_220_20cm", "at its shoulder", "density_shoulder", "335", "290"),
         density("clay_towed", "under the rigid wheel, Cam clay", "density_under", "460", "510"),
         density("clay_towed", "at its shoulder", "density_shoulder", "335", "290"),
-        not_done("Fig 65", "displacements along the track", "", "tracers drawn, not scored"),
-        not_done("Fig 66", "displacements across the track", "", "no tracers across"),
-        not_done("Fig 65", "arc of deviatoric stress ahead", "", "not drawn"),
-        not_done(
-            "p. 43",
-            "infinite elements at the sides",
-            "",
-            "moving ground has absorbing ends; this case was not run yet",
-        ),
+        not_done("Fig 65", "displacements along the track", "", TRACERS),
+        not_done("Fig 66", "displacements across the track", "", TRACERS),
+        not_done("Fig 65", "arc of deviatoric stress ahead", "", ARC),
+        *effect("p. 43", "infinite elements at the sides, d 5 kPa", "absorbing_5"),
         not_done("p. 44", "implicit solution, adaptive mesh", "", "explicit material points here"),
     ),
 )
@@ -453,9 +507,66 @@ def ahead(state: str, what: str) -> Experiment:
         what,
         "share of vertical stress ahead of the axle, 2.5 cm deep",
         "%",
+        report="50",
         ours=Stored(SAND, {"quantity": "sz_25_front"}, state, PERCENT),
+        floor=True,
         cost=Stored(SAND, {"quantity": "user_s"}, state),
         remark="the report: slightly ahead, no number",
+    )
+
+
+def principal_stresses() -> tuple[Experiment, ...]:
+    """The report's three findings, each as the sign of a number."""
+    table = "sand_zones/stress.csv"
+    rows = (
+        ("44", "greatest compression ahead of the axle, 4.4 cm deep", "mm", "compression_ahead_mm"),
+        ("44", "largest principal stress at the sides, 4.4 cm deep", "kPa", "largest_beside_kPa"),
+        ("190", "the same below the tyre, 19 cm deep", "kPa", "largest_under_kPa"),
+        ("44", "greatest shear ahead of the axle, 4.4 cm deep", "mm", "shear_ahead_mm"),
+    )
+    return tuple(
+        Experiment(
+            "Fig 69",
+            what,
+            "stress" if unit == "kPa" else "place",
+            unit,
+            report="0",
+            ours=Stored(table, {"depth_mm": depth}, column),
+            floor=True,
+            cost=Stored(table, {"depth_mm": depth}, "user_s") if index == 0 else None,
+            remark="tension positive" if unit == "kPa" else "particles stand 12.5 mm apart",
+        )
+        for index, (depth, what, unit, column) in enumerate(rows)
+    )
+
+
+SHIFT = "tyre_shift/results.csv"
+
+
+def shifts() -> tuple[Experiment, ...]:
+    """Of a deflection the part that the load fixes whatever the ground: it is less than all."""
+    return tuple(
+        Experiment(
+            "p. 54",
+            what,
+            "deflection" if column == "deflection_mm" else "part of the deflection",
+            "mm",
+            report="3",
+            ours=of(SHIFT, run, column),
+            limit=column != "deflection_mm",
+            cost=of(SHIFT, run, "user_s") if column == "deflection_mm" else None,
+            remark=remark,
+        )
+        for run, column, what, remark in (
+            ("d_30", "shift_up_mm", "of it the tread as a whole", "less than all of the report's?"),
+            ("d_30_brick", "deflection_mm", "tyre with a tread of rubber, d 30 kPa", ""),
+            (
+                "d_30_brick",
+                "shift_up_mm",
+                "of it the tread as a whole",
+                "less than all of the report's?",
+            ),
+        )
     )
 
 
@@ -464,15 +575,25 @@ TYRE_ON_GROUND = Group(
     (
         *tyre("tyre_241_50", "tyre, 241 kPa, 20 cm of snow, zero slip, d 5 kPa"),
         *tyre("tyre_241_d30_50", "the same, d 30 kPa"),
+        *shifts(),
         ahead("cap_rolled", "the tyre rolling on McCormick sand, cap law"),
         ahead("elastic_rolled", "the same, elastic sand"),
-        not_done(
-            "Fig 69",
-            "least principal stress tensile below and at the sides",
-            "",
-            "principal stresses are written (terrain.h5), not yet compared",
+        *principal_stresses(),
+        *(
+            Experiment(
+                "Fig 1",
+                f"sand that moves forward under a wheel, {how}",
+                "share",
+                ours=of("sand_zones/flow.csv", run, "forward_share"),
+                cost=of("sand_zones/flow.csv", run, "user_s"),
+                remark=remark,
+            )
+            for run, how, remark in (
+                ("towed", "towed", "no numbers there: Wong and Reece's zones in words"),
+                ("driven", "driven, slip 0.3", "two zones: the rest moves backward beneath"),
+                ("locked", "locked", "one zone"),
+            )
         ),
-        not_done("Fig 1", "zones under a towed wheel (Wong and Reece)", "", "not drawn"),
         not_done("p. 40", "buckling of the tread disappears on soft ground", "", "not counted"),
     ),
 )

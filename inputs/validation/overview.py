@@ -67,7 +67,7 @@ class Experiment:
     formula of the report gives them.
 
     near: the same number with the next size of cells or mesh; the distance is its uncertainty.
-    limit: the reference is an upper limit. A row without ours says why.
+    limit: the reference is an upper limit; floor: a lower one. A row without ours says why.
     """
 
     place: str  # in the report
@@ -80,6 +80,7 @@ class Experiment:
     near: Stored | None = None
     uncertainty: Stored | None = None
     limit: bool = False
+    floor: bool = False
     hours: str = ""  # that the report's computation took [h]
     cost: Stored | None = None  # [core s] of ours
     remark: str = ""
@@ -107,6 +108,8 @@ class Experiment:
             return "nothing to compare"
         if self.limit:
             return "met" if own <= reference else "missed"
+        if self.floor:
+            return "met" if own >= reference else "missed"
         off, error = abs(own - reference), self.error() or 0.0
         if off <= max(AGREES * abs(reference), error):
             return "agrees"
@@ -117,10 +120,10 @@ class Experiment:
         difference = ""
         if self.ours is not None:
             own = self.ours.value()
-            if reference and not self.limit:
+            if reference and not (self.limit or self.floor):
                 difference = f"{round(100 * (own / reference - 1)):+d}"
         study = self.ours.study if self.ours else ""
-        sign = "< " if self.limit else ""
+        sign = "< " if self.limit else "> " if self.floor else ""
         stated = self.report if isinstance(self.report, str) else number(self.report.value())
         return [
             self.place,

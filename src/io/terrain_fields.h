@@ -17,7 +17,7 @@ struct TerrainField {
   Values TerrainSnapshot::*values;
 };
 
-inline constexpr std::array<TerrainField<std::vector<double>>, 8> scalar_terrain_fields{{
+inline constexpr std::array<TerrainField<std::vector<double>>, 9> scalar_terrain_fields{{
     {"id", "", "number of the particle", &TerrainSnapshot::id},
     {"layer", "", "counted from 0 at the top", &TerrainSnapshot::layer},
     {"volume", "m^3", "of the particle now", &TerrainSnapshot::volume},
@@ -27,6 +27,8 @@ inline constexpr std::array<TerrainField<std::vector<double>>, 8> scalar_terrain
     {"vertical_stress", "Pa", "sigma_zz, tension positive", &TerrainSnapshot::vertical_stress},
     {"compaction", "", "compressive volumetric plastic strain, or -ln J of laws without one",
      &TerrainSnapshot::compaction},
+    {"plastic_strain", "", "equivalent deviatoric plastic strain, 0 of laws without one",
+     &TerrainSnapshot::plastic_strain},
 }};
 
 inline constexpr std::array<TerrainField<Matrix3X>, 6> vector_terrain_fields{{

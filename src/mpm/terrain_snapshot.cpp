@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -25,6 +26,7 @@ enum : std::size_t {
   mises,
   vertical,
   compaction,
+  plastic_strain,
   principal,
   tension_axis = principal + 3,
   compression_axis = tension_axis + 3,
@@ -58,6 +60,7 @@ TerrainSnapshot take_snapshot(ContinuumTerrain& terrain) {
   for (const ParticleGroup& group : groups) {
     const Particles& particles = group.particles;
     const std::size_t compacted = compaction_column(*group.material);
+    const std::optional<std::size_t> sheared = group.material->find_field("eps_dev_pl");
     for (std::size_t p = 0; p < particles.size(); ++p) {
       double r[length];
       Vector6 stress;
@@ -80,6 +83,7 @@ TerrainSnapshot take_snapshot(ContinuumTerrain& terrain) {
       r[vertical] = stress[2];
       put_principal(stress, r);
       r[compaction] = compacted == column::state + field::volume_ratio ? -std::log(value) : value;
+      r[plastic_strain] = sheared ? particles.data(column::state + *sheared)[p] : 0.0;
       records.insert(records.end(), r, r + length);
     }
   }
@@ -109,7 +113,8 @@ TerrainSnapshot take_snapshot(ContinuumTerrain& terrain) {
           std::pair{&snapshot.volume, volume}, std::pair{&snapshot.density, density},
           std::pair{&snapshot.pressure, pressure}, std::pair{&snapshot.mises, mises},
           std::pair{&snapshot.vertical_stress, vertical},
-          std::pair{&snapshot.compaction, compaction}})
+          std::pair{&snapshot.compaction, compaction},
+          std::pair{&snapshot.plastic_strain, plastic_strain}})
       values->push_back(r[at]);
   }
   return snapshot;

@@ -25,6 +25,7 @@ struct TerrainSnapshot {
   Matrix3X tension_axis;                ///< direction of the first, of length 1, z >= 0
   Matrix3X compression_axis;            ///< of the last
   std::vector<double> compaction;       ///< eps_vol_pl of materials that have it, otherwise -ln J
+  std::vector<double> plastic_strain;   ///< eps_dev_pl of materials that have it, otherwise 0
   std::size_t size() const { return id.size(); }
 };
 

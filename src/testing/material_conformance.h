@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <random>
 #include <set>
 #include <string>
@@ -332,6 +333,37 @@ TEST_P(MaterialConformance, NoStepLeavesTheYieldSurfaceOrTakesBackHeat) {
       ASSERT_GE(state[field::dissipated_energy] - heat, -1e-14 * scale);
     }
   }
+}
+
+/// Of steps without rotation: what dev(strain) - (s_end - s_start)/(2 G) sums up to.
+TEST_P(MaterialConformance, EquivalentPlasticStrainIsWhatElasticityDoesNotTake) {
+  const std::optional<std::size_t> kept = material_->find_field("eps_dev_pl");
+  if (!kept) return;
+  const auto deviator = [](const Vector6& a) {
+    Matrix3 m = to_matrix(a);
+    m.diagonal().array() -= m.trace() / 3;
+    return m;
+  };
+  VectorX state = material_->initial_state();
+  double sum = 0.0;
+  int yielded = 0;
+  for (int step = 0; step < 200; ++step) {
+    Vector6 strain;
+    for (int k = 0; k < 6; ++k) strain[k] = strain_scale(state) * normal_(engine_);
+    strain.head<3>().array() -= 0.3 * strain_scale(state);
+    const VectorX before = state;
+    update(stretch(strain), state, 0.0);
+    const Matrix3 plastic = deviator(strain) - deviator(stress_of(state) - stress_of(before)) /
+                                                   (2 * material_->moduli(before).shear);
+    const double part = std::sqrt(2.0 / 3.0) * plastic.norm();
+    const double rounding = 1e-15 * material_->stress_scale(state) / material_->moduli(state).shear;
+    if (part > 1e-6 * strain.norm() + 100 * rounding) ++yielded;
+    sum += part;
+    const auto index = static_cast<Eigen::Index>(*kept);
+    ASSERT_NEAR(state[index], sum, 1e-9 * sum + 100 * rounding * (step + 1)) << "step " << step;
+    ASSERT_GE(state[index], before[index]);
+  }
+  EXPECT_GT(yielded, 50);
 }
 
 TEST_P(MaterialConformance, TheTimeStepCountsForRateDependentLawsOnly) {

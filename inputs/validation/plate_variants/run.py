@@ -3,7 +3,8 @@
 """Plate in the laboratory's snow, 180 kg/m3: cap law, cap law with a slide surface under the
 plate's edge, foam law with it; load, and density below the plate layer by layer. See README.md.
 
-Makes the runs that are missing and writes results.csv and layers.png.
+Makes the runs that are missing and writes results.csv, size_zero.csv, field.csv and
+layers.png.
 """
 
 import math
@@ -11,6 +12,7 @@ import re
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 HERE = Path(__file__).resolve().parent
 PROJECT = HERE.parents[2]
@@ -21,7 +23,7 @@ import furrow_post  # first: says which of the next ones are missing
 import matplotlib.pyplot as plt
 import numpy as np
 
-from furrow_post.analyse.statistics import rms
+from furrow_post.analyse.statistics import at_size_zero, rms
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_numbers
 from furrow_post.errors import ResultsError, content_of
@@ -147,6 +149,65 @@ CASES = (
 )
 
 
+# The field's plate: 20 cm on 40 cm of snow of 200 kg/m3, to its ultimate resistance
+FIELD_DEPTH, FIELD_PLATE, FIELD_SINKAGE = 0.4, 0.2, 0.225  # [m]
+
+
+def field(name: str, what: str, material: Path, cell: float, slide: bool, **more: Value) -> Case:
+    """In the snow of the material file itself, as wide as the field is: 1.2 m."""
+    variables: dict[str, Value] = {
+        "material": material,
+        "friction": NO_SLIP,
+        "cell": cell,
+        "depth": FIELD_DEPTH,
+        "size": FIELD_PLATE,
+        "sinkage": FIELD_SINKAGE,
+        "box": 1.2,
+        **more,
+    }
+    if slide:
+        surface = f"slide_cylinder 0 0 {0.5 * FIELD_PLATE + 0.25 * cell:.4f}"
+        variables["terrain_keywords"] = f"{surface} slide_friction {SLIDE_FRICTION}"
+    return script_case(
+        name,
+        SCENE,
+        variables,
+        what=what,
+        stage="field",
+        time_limit=TIME_LIMIT,
+        may_fail=True,
+    )
+
+
+FIELD_CASES = (
+    field("field_cap", "report's cap law", REPORT, 0.05, False),
+    field("field_cap_40", "the same, cells of 4 cm", REPORT, 0.04, False),
+    field("field_cap_slide_40", "the same, slide surface", REPORT, 0.04, True),
+    field("field_fresh_40", "crushed in place, cells of 4 cm", FRESH, 0.04, False),
+    field("field_foam_slide", "foam law, slide surface", FOAM, 0.05, True, modulus_scale=1),
+)
+
+
+def field_row(case: Case, runner: Runner) -> dict[str, object] | None:
+    """The greatest force and where it is; rising: how much more the last 2 cm bring, per cm."""
+    record = runner.record(case) or runner.failure(case)
+    if record is None:
+        return None
+    row: dict[str, object] = {"case": case.name, "what": case.what, "error": record.error}
+    if record.error:
+        return row
+    curve = curve_of(runner.folder(case))
+    sinkage, load = curve[:, 1], curve[:, 2]
+    last = sinkage > sinkage[-1] - 0.02
+    slope = np.polyfit(100 * sinkage[last], load[last], 1)[0] / load[last].mean()
+    row["user_s"] = round(record.cpu_time, 1)
+    row["peak_N"] = round(load.max())
+    row["at_cm"] = round(100 * float(sinkage[load.argmax()]), 1)
+    row["at_10_cm_N"] = round(float(np.interp(0.1, sinkage, load)))
+    row["rising_per_cm"] = round(float(slope), 3)
+    return row
+
+
 def reference() -> Mapping[str, float]:
     """peak_load_N, density_1 ..."""
     return read_numbers(HERE / "reference.csv")[0]
@@ -206,6 +267,29 @@ def row_of(case: Case, runner: Runner) -> dict[str, object] | None:
     return row
 
 
+def size_zero(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, object]]:
+    """The peak in cells of size zero, of the variants that were run in three sizes."""
+    peaks = {row["case"]: float(row["peak_N"]) for row in rows if row.get("peak_N")}
+    measured = reference()["peak_load_N"]
+    found: list[dict[str, object]] = []
+    for name in ("cap", "cap_slide"):
+        coarse, fine, finer = name, f"{name}_{1e3 * FINE:.0f}", f"{name}_{1e3 * FINER:.0f}"
+        if not {coarse, fine, finer} <= peaks.keys():
+            continue
+        value, error = at_size_zero((FINE, peaks[fine]), (FINER, peaks[finer]))
+        check, _ = at_size_zero((COARSE, peaks[coarse]), (FINE, peaks[fine]))
+        found.append(
+            {
+                "case": name,
+                "size_zero_N": round(value),
+                "error_N": round(error),
+                "size_zero_coarser_N": round(check),
+                "over_measured": round(value / measured, 3),
+            }
+        )
+    return found
+
+
 def draw(runner: Runner, target: Path) -> None:
     """Load against sinkage, and density below the plate, in the coarse cells."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.5), constrained_layout=True)
@@ -229,10 +313,13 @@ def draw(runner: Runner, target: Path) -> None:
 def evaluate(runner: Runner, output: Output) -> Sequence[str]:
     rows = [row for case in CASES if (row := row_of(case, runner)) is not None]
     output.table("results.csv", rows)
+    output.table("size_zero.csv", size_zero(rows))
+    in_field = [row for case in FIELD_CASES if (row := field_row(case, runner)) is not None]
+    output.table("field.csv", in_field)
     if rows:
         draw(runner, output.path("layers.png"))
     return []
 
 
 if __name__ == "__main__":
-    sys.exit(run_study(Study(Path(__file__), __doc__ or "", CASES, evaluate)))
+    sys.exit(run_study(Study(Path(__file__), __doc__ or "", CASES + FIELD_CASES, evaluate)))

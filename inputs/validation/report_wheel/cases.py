@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What is run: the rigid wheel of [Shoop2001] on its snow, one thing changed at a time."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from furrow_post.study.case import FOLDER, Case, Value
@@ -35,6 +35,7 @@ BASE: dict[str, Value] = {
     "width": 0.8,
     "clearance_above": 0.5,
     "contact": "friction 0.3",
+    "faces": "ends smooth sides smooth",
 }
 
 
@@ -115,6 +116,23 @@ def artefacts() -> list[Case]:
     ]
 
 
+ABSORBING = "ends absorbing sides absorbing"  # in place of the report's infinite elements
+
+
+def domains() -> list[Case]:
+    """Ends and sides that absorb, and ones that are farther away, at zero slip in 20 cm."""
+    runs: list[Case] = []
+    for d in (5, 30):
+        text = changed(1e3 * d)
+        runs += [
+            case(f"absorbing_{d}", "domain", f"d {d} kPa, absorbing", text=text, faces=ABSORBING),
+            case(
+                f"wide_{d}", "domain", f"d {d} kPa, 2.4 x 1.6 m", text=text, length=2.4, width=1.6
+            ),
+        ]
+    return runs
+
+
 def depths() -> list[Case]:
     """As the report ran it, with its largest d."""
     runs = [(depth, "zero") for depth in DEPTHS] + [(0.20, "free")]
@@ -137,30 +155,60 @@ def depths() -> list[Case]:
     ]
 
 
-def slips() -> list[Case]:
-    """From a driven wheel to a free one, with the largest d."""
-    modes = {f"{slip:+g}": f"slip slip {slip:g}" for slip in (0.1, -0.05, -0.1, -0.2)}
-    return [
-        case(f"slip_{name}", "slip", f"slip {name}", text=changed(30e3), mode=mode)
-        for name, mode in {**modes, "free": FREE}.items()
-    ]
-
-
+SLIPS = {f"{slip:+g}": f"slip slip {slip:g}" for slip in (0.1, -0.05, -0.1, -0.2)}
 FRICTIONS = {  # name -> words of the contact
     "0.1": "friction 0.1",
     "0.8": "friction 0.8",
     "rough": "surface rough",
     "eq26": "friction 0.3 slip_length 0.02",
 }
+# d [kPa] -> suffix of the run's name, which slips and frictions: all for both ends of Table 1
+STRENGTHS: Mapping[int, tuple[str, Sequence[str], Sequence[str]]] = {
+    5: ("_d5", (*SLIPS, "free"), ("0.1", "0.8", "rough")),
+    10: ("_d10", ("free",), ("0.1", "0.8")),
+    20: ("_d20", ("free",), ("0.1", "0.8")),
+    30: ("", (*SLIPS, "free"), tuple(FRICTIONS)),
+}
+
+
+def slips() -> list[Case]:
+    """From a driven wheel to a free one."""
+    modes = {**SLIPS, "free": FREE}
+    return [
+        case(
+            f"slip_{name}{suffix}",
+            "slip",
+            f"d {d} kPa, slip {name}",
+            text=changed(1e3 * d),
+            mode=modes[name],
+        )
+        for d, (suffix, names, _) in STRENGTHS.items()
+        for name in names
+    ]
 
 
 def frictions() -> list[Case]:
-    """Of the wheel on the snow, at zero slip, with the largest d."""
+    """Of the wheel on the snow, at zero slip."""
     return [
-        case(f"friction_{name}", "friction", words, text=changed(30e3), contact=words)
-        for name, words in FRICTIONS.items()
+        case(
+            f"friction_{name}{suffix}",
+            "friction",
+            f"d {d} kPa, {FRICTIONS[name]}",
+            text=changed(1e3 * d),
+            contact=FRICTIONS[name],
+        )
+        for d, (suffix, _, names) in STRENGTHS.items()
+        for name in names
     ]
 
+
+# run -> the run that it differs from in one thing
+EFFECTS = {
+    "absorbing_5": "d_5",
+    "absorbing_30": "d_30",
+    **{f"friction_{name}_d5": "d_5" for name in ("0.1", "0.8", "rough")},
+    **{f"friction_{name}": "d_30" for name in ("0.1", "0.8", "rough")},
+}
 
 # Runs that are a test: sinkage [m] and resistance coefficient that they have here, and how far off
 # another processor or compiler may be
@@ -169,4 +217,4 @@ TOLERANCES = (0.002, 0.01)
 
 
 def all_cases() -> tuple[Case, ...]:
-    return (*readings(), *artefacts(), *slips(), *frictions(), *depths())
+    return (*readings(), *artefacts(), *domains(), *slips(), *frictions(), *depths())

@@ -111,11 +111,29 @@ def draw_depths(rows: Sequence[Row], path: Path) -> None:
     save(figure, path, dpi=90)
 
 
+def effects(rows: Sequence[Row]) -> list[Row]:
+    """How far sinkage and resistance move with absorbing faces, with friction [%]."""
+    found = {row["run"]: row for row in rows if not row["error"]}
+    return [
+        {
+            "run": run,
+            "of": base,
+            **{
+                f"{quantity}_percent": round(abs(100 * (found[run][key] / found[base][key] - 1)), 1)
+                for quantity, key in (("sinkage", "sinkage_m"), ("resistance", "resistance"))
+            },
+        }
+        for run, base in cases.EFFECTS.items()
+        if run in found and base in found
+    ]
+
+
 TABLES = {  # stage -> what its table is headed
     "reading": "Readings of Tables 1 and 3 (20 cm, zero slip, cells of 5 cm)",
     "artefact": "Mesh and load (20 cm, zero slip)",
-    "slip": "Slip (20 cm, d 30 kPa, friction 0.3, cells of 5 cm)",
-    "friction": "Friction (20 cm, d 30 kPa, cells of 5 cm)",
+    "domain": "Ends and sides (20 cm, zero slip, cells of 5 cm; else smooth, 1.6 x 0.8 m)",
+    "slip": "Slip (20 cm, friction 0.3, cells of 5 cm)",
+    "friction": "Friction (20 cm, zero slip, cells of 5 cm)",
     "depth": "Depth, as the report ran it (cells of 6 to 6.7 cm)",
 }
 
@@ -160,6 +178,7 @@ def report(runner: Runner, output: Output) -> list[str]:
         if record := runner.record(case) or runner.failure(case):
             rows.append(row_of(case, runner.folder(case), record))
     output.table("results.csv", rows)
+    output.table("effects.csv", effects(rows))
     output.table("closed_form.csv", closed_form.table())
     output.table(
         "nrmm.csv",

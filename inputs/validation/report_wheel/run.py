@@ -3,8 +3,8 @@
 """The rigid wheel of [Shoop2001] as its report ran it, on the report's snow: which of its numbers
 gives the sinkage of 8 cm, depth, slip and friction. See README.md.
 
-Makes the runs that are missing and writes tables and figures. Stages: reading artefact slip
-friction depth.
+Makes the runs that are missing and writes tables and figures. Stages: reading artefact domain
+slip friction depth.
 """
 
 import sys

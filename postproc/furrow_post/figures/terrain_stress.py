@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Stress in continuum terrain at the end of a run, along and across, under the wheel.
 
-As in [Shoop2001] Figs 65 and 69: deviatoric stress with the arc that it has ahead of the wheel, and
-the principal stresses as crosses. And displacements, across and along.
+As in [Shoop2001] Figs 65 and 69: deviatoric stress with the arc that it has ahead of the wheel, the
+principal stresses as crosses, and plastic strain. And displacements, across and along.
 """
 
 from pathlib import Path
@@ -39,15 +39,18 @@ def draw_stress(folder: Path, title: str, target: Path, dpi: float = 150) -> Arc
     axle = float(body.centre[0])
     arc = arc_ahead(terrain, stress, body)
 
-    figure = plt.figure(figsize=(11, 9.5), layout="constrained")
-    grid = figure.add_gridspec(4, 2)
+    plastic = stress.plastic_strain
+    rows = 4 if plastic is None else 5
+    figure = plt.figure(figsize=(11, 2.4 * rows), layout="constrained")
+    grid = figure.add_gridspec(rows, 2)
     along, crosses = figure.add_subplot(grid[0, :]), figure.add_subplot(grid[1, :])
     across, beside = figure.add_subplot(grid[2, 0]), figure.add_subplot(grid[2, 1])
     tracks, aside = figure.add_subplot(grid[3, 0]), figure.add_subplot(grid[3, 1])
-    _draw_mises(figure, along, terrain, stress, body, 1, middle)
+    q = KILOPASCAL * stress.mises
+    _draw_field(figure, along, terrain, q, "q [kPa]", body, 1, middle)
     along.plot(CENTIMETRE * arc.x, CENTIMETRE * arc.z, "--", color=ARC_COLOUR, lw=1.4)
     _draw_crosses(crosses, terrain, stress, body, 1, middle)
-    _draw_mises(figure, across, terrain, stress, body, 0, axle)
+    _draw_field(figure, across, terrain, q, "q [kPa]", body, 0, axle)
     _draw_crosses(beside, terrain, stress, body, 0, axle)
     draw_tracers(tracks, terrain, body.surface, 1, middle)
     draw_tracers(aside, terrain, body.surface, 0, axle)
@@ -59,27 +62,33 @@ def draw_stress(folder: Path, title: str, target: Path, dpi: float = 150) -> Arc
     annotate_panel(beside, "d", "principal stresses across")
     annotate_panel(tracks, "e", "tracers lengthwise; grey: from where they stood")
     annotate_panel(aside, "f", "tracers that stood under the axle, across")
+    if plastic is not None:
+        for column, axis, place in ((0, 1, middle), (1, 0, axle)):
+            panel = figure.add_subplot(grid[4, column])
+            _draw_field(figure, panel, terrain, plastic, "plastic strain", body, axis, place)
+            way = "lengthwise" if axis == 1 else "across, under the axle"
+            annotate_panel(panel, "gh"[column], f"equivalent plastic strain {way}")
     figure.suptitle(title)
     save(figure, target, dpi)
     return arc
 
 
-def _draw_mises(
+def _draw_field(
     figure: Figure,
     axes: Axes,
     terrain: Terrain,
-    stress: TerrainStress,
+    values: Floats,
+    label: str,
     body: Outline,
     axis: int,
     position: float,
 ) -> None:
-    """q on the plane x[axis] = position [m], with its scale."""
-    q = KILOPASCAL * stress.mises
+    """A number of each particle on the plane x[axis] = position [m], with its scale from 0."""
     near = np.abs(terrain.x[:, axis] - position) < 0.75 * terrain.spacing
-    norm = Normalize(0.0, render.round_up(float(np.percentile(q[near], PERCENTILE))))
-    draw_section(axes, terrain, q, body.surface, norm, axis, position)
+    norm = Normalize(0.0, render.round_up(float(np.percentile(values[near], PERCENTILE))))
+    draw_section(axes, terrain, values, body.surface, norm, axis, position)
     scale = ScalarMappable(norm, GROUND_COLOURS)
-    figure.colorbar(scale, ax=axes, shrink=0.7, extend="max").set_label("q [kPa]")
+    figure.colorbar(scale, ax=axes, shrink=0.7, extend="max").set_label(label)
 
 
 def _draw_crosses(

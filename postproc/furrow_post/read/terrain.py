@@ -38,7 +38,7 @@ def read_terrain_fields(folder: Path) -> Fields:
     """Field of /terrain -> its values, the first axis over the particles, at the end of a run.
 
     Fields: x, initial_position (n, 3) [m], density [kg/m3], volume [m3], compaction
-    (ln(rho/rho_0)), pressure, mises, vertical_stress [Pa]. @raises ResultsError
+    (ln(rho/rho_0)), pressure, mises, vertical_stress [Pa], plastic_strain. @raises ResultsError
     """
     return _group(folder, "terrain", "has no terrain at the end of a run")
 
@@ -121,6 +121,7 @@ class TerrainStress:
     principal: Floats  # (n, 3) the largest first, tension positive [Pa]
     tension_axis: Floats  # (n, 3) direction of the first
     compression_axis: Floats  # (n, 3) of the last
+    plastic_strain: Floats | None = None  # (n) equivalent; None in files of an older Furrow
 
     @classmethod
     def read(cls, folder: Path) -> "TerrainStress":
@@ -129,10 +130,14 @@ class TerrainStress:
         names = ("mises", "principal_stress", "tension_axis", "compression_axis")
         fields.require_finite(*names)
         mises, principal, tension, compression = (fields[name] for name in names)
+        plastic = fields.get("plastic_strain")
+        if plastic is not None:
+            fields.require_finite("plastic_strain")
         if is_half(fields["initial_position"]):
             mises, principal = np.tile(mises, 2), np.tile(principal, (2, 1))
             tension, compression = (np.vstack([a, a * MIRROR]) for a in (tension, compression))
-        return cls(mises, principal, tension, compression)
+            plastic = None if plastic is None else np.tile(plastic, 2)
+        return cls(mises, principal, tension, compression, plastic)
 
     def tensor(self, particles: Integers) -> Floats:
         """(n, 3, 3) of some particles [Pa]."""

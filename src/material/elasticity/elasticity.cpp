@@ -82,6 +82,10 @@ double initial_pressure(const ElasticityParameters& parameters) {
   return parameters.porous ? parameters.p0 : 0.0;
 }
 
+StateVariable equivalent_plastic_strain() {
+  return {"eps_dev_pl", "", "equivalent plastic strain, of the deviatoric part"};
+}
+
 ElasticModuli moduli_at(const ElasticityParameters& e, double p) {
   if (!e.porous) return {e.bulk, e.shear};
   const double above_limit = std::max(p + e.limit, e.resolution);

@@ -4,6 +4,7 @@
 
 #include "material/elasticity/elasticity_parameters.h"
 #include "simd/exponential.h"
+#include "simd/tensors.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {
@@ -52,6 +53,11 @@ struct ElasticStep {
     if (!parameters.porous) return (p - p_n) / Lanes(parameters.bulk);
     const Lanes exponent = logarithm(above_limit(p) / above);
     return -logarithm(Lanes(1.0) - exponent / (Lanes(parameters.stiffness) * ratio));
+  }
+  /// Equivalent strain sqrt(2/3 e:e) of the elastic strain e = s/(2 G) under a deviator s [Pa]: for
+  /// s = s_trial - s_end the plastic one of the step.
+  FURROW_INLINE Lanes equivalent_strain(const Symmetric& s) const {
+    return sqrt(contract(s, s) * Lanes(1.0 / 6.0)) / shear;
   }
   /// Elastic work of the step per current volume, volumetric part, from p_n to p = pressure(x): the
   /// integral of p dx. Exact for linear elasticity; porous: dx = dp / ((p + limit) c J_el) with the

@@ -103,13 +103,13 @@ TEST(HistoryFile, ParticlesOfTheTerrainHaveUnitsAndMeanings) {
       snapshot.tension_axis = snapshot.compression_axis = Matrix3X::Ones(3, 2);
   snapshot.id = {0, 1};
   snapshot.layer = snapshot.volume = snapshot.density = snapshot.pressure = snapshot.mises =
-      snapshot.vertical_stress = snapshot.compaction = {3.0, 4.0};
+      snapshot.vertical_stress = snapshot.compaction = snapshot.plastic_strain = {3.0, 4.0};
   {
     HistoryFile file = HistoryFile::create(path, channels, {});
     file.write_terrain(snapshot, {{0.5, 0.0, -0.1, 400.0}});
   }
   const Hdf5File file(path, Hdf5File::Mode::read);
-  EXPECT_EQ(file.members("/terrain").size(), 14u);
+  EXPECT_EQ(file.members("/terrain").size(), 15u);
   for (const std::string& field : file.members("/terrain")) {
     const std::string dataset = "/terrain/" + field;
     EXPECT_TRUE(file.has_attribute(dataset, "unit")) << field;

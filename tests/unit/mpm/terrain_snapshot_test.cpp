@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mpm/terrain_snapshot.h"
 
-#include <gtest/gtest.h>
+#include <optional>
+#include <string>
+
+#include <gmock/gmock.h>
 
 #include "terrain_scene.h"
 
@@ -33,6 +36,20 @@ TEST(TerrainSnapshot, HasPrincipalStressesAndTheirAxes) {
     EXPECT_LT((snapshot.tension_axis.col(p) - tension).norm(), 1e-12);
     EXPECT_LT((snapshot.compression_axis.col(p) - Vector3(-tension.z(), 0, tension.x())).norm(),
               1e-12);
+  }
+}
+
+TEST(TerrainSnapshot, HasThePlasticStrainOfLawsThatKeepIt) {
+  for (const std::string& law : {snow(), elastic(1e6, 0.2, 1000)}) {
+    const auto material = material_of(law);
+    const std::optional<std::size_t> kept = material->find_field("eps_dev_pl");
+    ContinuumTerrain ground(box(material, {0, 0, 0}, {0.2, 0.1, 0.1}, 0.05), Communicator());
+    if (kept) {
+      for_particles(ground, [&](Particles& particles, std::size_t p) {
+        particles.data(column::state + *kept)[p] = 0.25;
+      });
+    }
+    EXPECT_THAT(take_snapshot(ground).plastic_strain, ::testing::Each(kept ? 0.25 : 0.0));
   }
 }
 

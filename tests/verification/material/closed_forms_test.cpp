@@ -232,6 +232,8 @@ TEST(FoamClosedForm, UniaxialCompressionHasNoLateralPlasticStrain) {
   EXPECT_GT(-state[2], 275.79);
   EXPECT_NEAR(lateral, 0.3 * -state[2] / 1e7, 1e-9);
   EXPECT_NEAR(state[CrushableFoam::eps_vol_pl], 2e-5 + 99 * 2e-3 + state[2] / 1e7, 1e-9);
+  // a plastic strain e along one axis alone: sqrt(2/3 de:de) of its deviator is 2/3 e
+  EXPECT_NEAR(state[CrushableFoam::eps_dev_pl], 2.0 / 3.0 * state[CrushableFoam::eps_vol_pl], 1e-9);
 }
 
 /// Confined compression without Poisson's ratio is uniaxial stress too: q = 3 p = sigma_1 on the

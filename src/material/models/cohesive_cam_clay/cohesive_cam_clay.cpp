@@ -66,10 +66,10 @@ MaterialModel CohesiveCamClay::model() {
 
 CohesiveCamClay::CohesiveCamClay(double density, const CohesiveCamClayParameters& parameters,
                                  double eps_vol_pl_0)
-    : Material(
-          "cohesive_cam_clay", density,
-          {{"eps_vol_pl", "", "volumetric plastic strain, compression positive", eps_vol_pl_0}},
-          initial_pressure(parameters.elasticity)),
+    : Material("cohesive_cam_clay", density,
+               {{"eps_vol_pl", "", "volumetric plastic strain, compression positive", eps_vol_pl_0},
+                equivalent_plastic_strain()},
+               initial_pressure(parameters.elasticity)),
       parameters_(parameters) {}
 
 UpdateReport CohesiveCamClay::update_block(const PointBlock& block) const {

@@ -36,7 +36,7 @@ namespace furrow {
 class CohesiveCamClay : public Material {
  public:
   /// Indices of the law's own variables in the state.
-  enum : std::size_t { eps_vol_pl = field::internal };
+  enum : std::size_t { eps_vol_pl = field::internal, eps_dev_pl };
 
   static MaterialModel model();
   /// @param density       rho0 [kg/m^3]

@@ -23,7 +23,7 @@ namespace furrow {
 inline namespace FURROW_ISA {
 
 struct CohesiveCamClayKernel {
-  static constexpr int internal_variables = 1;  // eps_vol_pl
+  static constexpr int internal_variables = 2;  // eps_vol_pl, eps_dev_pl
   const CohesiveCamClayParameters& parameters;
 
   FURROW_INLINE void step(const Symmetric& strain, Points<internal_variables>& points) const {
@@ -95,6 +95,8 @@ struct CohesiveCamClayKernel {
     points.dissipated = (p - back_stress) * compaction +
                         select(yielding, contract(s, s_trial - s) * half_compliance, 0.0);
     points.internal[0] = eps_old + compaction;
+    points.internal[1] =
+        points.internal[1] + select(yielding, elastic.equivalent_strain(s_trial - s), 0.0);
     points.stress = s.plus_identity(-p);
     points.below_data = hardening.below(points.internal[0]);
     points.beyond_data = hardening.beyond(points.internal[0]);

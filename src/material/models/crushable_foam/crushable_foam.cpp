@@ -103,7 +103,8 @@ MaterialModel CrushableFoam::model() {
 
 CrushableFoam::CrushableFoam(double density, const CrushableFoamParameters& parameters)
     : Material("crushable_foam", density,
-               {{"eps_vol_pl", "", "volumetric plastic strain, compression positive", 0.0}},
+               {{"eps_vol_pl", "", "volumetric plastic strain, compression positive", 0.0},
+                equivalent_plastic_strain()},
                initial_pressure(parameters.elasticity)),
       parameters_(parameters) {}
 

@@ -21,7 +21,7 @@ inline namespace FURROW_ISA {
 
 template <bool lode_dependent>
 struct CrushableFoamKernel {
-  static constexpr int internal_variables = 1;  // eps_vol_pl
+  static constexpr int internal_variables = 2;  // eps_vol_pl, eps_dev_pl
   const CrushableFoamParameters& parameters;
 
   FURROW_INLINE void step(const Symmetric& strain, Points<internal_variables>& points) const {
@@ -90,6 +90,8 @@ struct CrushableFoamKernel {
     points.dissipated =
         p * compaction + select(yielding, contract(s, s_trial - s) * half_compliance, 0.0);
     points.internal[0] = eps_old + compaction;
+    points.internal[1] =
+        points.internal[1] + select(yielding, elastic.equivalent_strain(s_trial - s), 0.0);
     points.stress = s.plus_identity(-p);
     points.below_data = hardening.below(points.internal[0]);
     points.beyond_data = hardening.beyond(points.internal[0]);

@@ -100,10 +100,10 @@ MaterialModel DruckerPragerCap::model() {
 
 DruckerPragerCap::DruckerPragerCap(double density, const DruckerPragerCapParameters& parameters,
                                    double eps_vol_pl_0)
-    : Material(
-          "drucker_prager_cap", density,
-          {{"eps_vol_pl", "", "volumetric plastic strain, compression positive", eps_vol_pl_0}},
-          initial_pressure(parameters.elasticity)),
+    : Material("drucker_prager_cap", density,
+               {{"eps_vol_pl", "", "volumetric plastic strain, compression positive", eps_vol_pl_0},
+                equivalent_plastic_strain()},
+               initial_pressure(parameters.elasticity)),
       parameters_(parameters) {}
 
 UpdateReport DruckerPragerCap::update_block(const PointBlock& block) const {

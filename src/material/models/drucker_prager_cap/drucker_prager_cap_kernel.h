@@ -11,7 +11,7 @@ inline namespace FURROW_ISA {
 
 template <bool lode_dependent>
 struct DruckerPragerCapKernel {
-  static constexpr int internal_variables = 1;  // eps_vol_pl
+  static constexpr int internal_variables = 2;  // eps_vol_pl, eps_dev_pl
   const DruckerPragerCapParameters& parameters;
 
   using Deviator = DeviatoricReturn<lode_dependent>;
@@ -116,6 +116,8 @@ struct DruckerPragerCapKernel {
         yielding,
         (end.p - back_stress) * end.compaction + contract(s, s_trial - s) * half_compliance, 0.0);
     points.internal[0] = points.internal[0] + end.compaction;
+    points.internal[1] =
+        points.internal[1] + select(yielding, elastic.equivalent_strain(s_trial - s), 0.0);
     points.stress = s.plus_identity(-end.p);
     points.branch = end.branch;
     points.iterations = end.iterations;

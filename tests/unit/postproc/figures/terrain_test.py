@@ -148,6 +148,28 @@ class TerrainTest(unittest.TestCase):
         red = (picture[..., 0] > 0.6) & (picture[..., 1] < 0.3) & (picture[..., 2] < 0.3)
         self.assertGreater(red.mean(), 1e-3)  # tension
 
+    def test_plastic_strain_is_drawn_where_the_run_kept_it(self) -> None:
+        """Two more panels; where it strained, ahead of the axle, they are dark."""
+        write_stress(self.folder / "terrain.h5")
+        shapes, dark = [], []
+        for strain in (None, 0.0, 0.5):
+            if strain is not None:
+                with h5py.File(self.folder / "terrain.h5", "a") as content:
+                    group = content["terrain"]
+                    group.pop("plastic_strain", None)
+                    group["plastic_strain"] = np.where(group["x"][:, 0] > AXLE, strain, 0.0)
+            draw_stress(self.folder, "synthetic", self.folder / "stress.png", dpi=60)
+            picture = matplotlib.image.imread(self.folder / "stress.png")[..., :3]
+            shapes.append(picture.shape[0])
+            last = picture[-picture.shape[0] // 5 :]
+            dark.append(float((last.sum(axis=2) < 1.2).mean()))
+        stress = TerrainStress.read(self.folder)
+        assert stress.plastic_strain is not None
+        self.assertEqual(stress.plastic_strain.max(), 0.5)
+        self.assertEqual(len(stress.plastic_strain), len(stress.mises))
+        self.assertGreater(shapes[1], shapes[0])
+        self.assertGreater(dark[2], 2 * dark[1])
+
     def test_folder_without_terrain_is_refused(self) -> None:
         for name in ("terrain.h5", "history.h5"):
             (self.folder / name).unlink()

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""inputs/validation/sand_zones: places of greatest stress and zones of flow of made-up ground."""
+
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from support.command import SOURCE
+from support.rut import wheel
+
+sys.path.insert(0, str(SOURCE / "inputs" / "validation" / "sand_zones"))
+
+import zones
+
+SPACING, DEPTH, AXLE, AHEAD = 0.0125, 0.25, 0.5, 0.05  # [m]
+
+
+class ZonesTest(unittest.TestCase):
+    """Compression is greatest 5 cm ahead; what is ahead of the axle moves forward, the rest back
+    at a third of the speed."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        axes = [np.arange(0.5 * SPACING, length, SPACING) for length in (1.0, 0.25, DEPTH)]
+        x = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+        ones = np.ones(len(x))
+        size = np.exp(-(((x[:, 0] - AXLE - AHEAD) / 0.1) ** 2) - (x[:, 1] / 0.1) ** 2)
+        with h5py.File(self.folder / "terrain.h5", "w") as content:
+            content["run/styles"] = np.bytes_(b"[]")
+            group = content.create_group("terrain")
+            group["x"] = group["initial_position"] = x
+            group["density"], group["volume"] = 1500 * ones, SPACING**3 * ones
+            group["mises"] = size
+            group["principal_stress"] = np.stack([2e3 * ones, 0 * ones, -1e5 * size], axis=1)
+            group["tension_axis"] = np.tile([0.0, 1.0, 0.0], (len(x), 1))
+            group["compression_axis"] = np.tile([0.0, 0.0, 1.0], (len(x), 1))
+            ahead = x[:, 0] > AXLE
+            group["v"] = np.stack([np.where(ahead, 0.6, -0.2), 0 * ones, 0 * ones], axis=1)
+        triangles, surface = wheel(0.3, 0.2, [AXLE, 0.0, DEPTH + 0.28])
+        with h5py.File(self.folder / "history.h5", "w") as content:
+            content["surface/triangles"], content["surface/x"] = triangles, surface
+
+    def test_places_of_stress(self) -> None:
+        for row in zones.stresses(self.folder):
+            self.assertAlmostEqual(float(str(row["compression_ahead_mm"])), 50, delta=7)
+            self.assertAlmostEqual(float(str(row["largest_beside_kPa"])), 2.0)
+            # straight aside at the surface, across the way to the contact below it
+            away = float(str(row["away_beside"]))
+            depth = 1e-3 * float(str(row["depth_mm"]))
+            self.assertAlmostEqual(away, 0.15 / np.hypot(0.15, depth), delta=0.12)
+
+    def test_zones_of_flow(self) -> None:
+        row = zones.flow(self.folder, 2.0)
+        self.assertAlmostEqual(float(str(row["forward_share"])), 0.75, 2)
+        self.assertAlmostEqual(float(str(row["forward_at_mm"])), 150, delta=2)
+        self.assertAlmostEqual(float(str(row["backward_at_mm"])), -150, delta=2)
+        still = zones.flow(self.folder, 100.0)
+        self.assertNotIn("backward_at_mm", still)
+
+
+if __name__ == "__main__":
+    unittest.main()
