@@ -13,6 +13,8 @@ HERE = Path(__file__).resolve().parent
 SERIES = {  # test -> the variable of which several values make a series
     "oedometer": "seed",
     "triaxial": "confinement",
+    "extension": "confinement",
+    "plane_strain": "confinement",
     "unconfined": "seed",
     "tension": "seed",
     "shear": "confinement",

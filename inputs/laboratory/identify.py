@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A Drucker-Prager cap law for the continuum from the same tests that describe the grains: triaxial
-compression and an oedometer.
+compression, extension and plane strain, and an oedometer.
 
-Friction: mean friction angle at the ends of the triaxial tests. The law's cone is round (K = 1),
-Mohr-Coulomb's is not, so that they can meet in one kind of strain only: plane strain without
-dilation, tan(beta) = sqrt(3) sin(phi), as under a wheel (default), or triaxial compression,
-tan(beta) = 6 sin(phi)/(3 - sin(phi)). d is given (--cohesion). E and nu: first part of the triaxial
+Friction: the ends of the tests. With tests of all three kinds, a smooth cone is fitted to all of
+them (cone.py). With triaxial compression alone the cone is round (K = 1), which that of grains is
+not, so that they can meet in one kind of strain only: plane strain without dilation, tan(beta) =
+sqrt(3) sin(phi), as under a wheel (default), or triaxial compression, tan(beta) = 6 sin(phi)/(3 -
+sin(phi)) (--match). d is given (--cohesion). E and nu: first part of the triaxial
 test nearest to --stress (deviator 2 to 10 % of the lateral stress). R: from the earth pressure at
 rest, K0; where the cone does not let the cap have it, 0.02, nearly a vertical cap, which comes
 nearest. Hardening: the oedometer's compression without its elastic part, at p_b of the closed form
@@ -18,6 +19,7 @@ of a cap whose flow has no lateral strain.
 
 import argparse
 import sys
+import textwrap
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,6 +30,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postproc"))
 import furrow_post  # first: says which of the next ones are missing
 
 import numpy as np
+
+from cone import KINDS, fit_cone
 
 from furrow_post.analyse.laboratory import values_of
 from furrow_post.arguments import between, path, positive
@@ -183,60 +187,91 @@ def hardening(test: LaboratoryTest, law: Law) -> tuple[list[tuple[float, float]]
 
 def material_text(parsed: argparse.Namespace) -> str:
     """The material file. @raises ResultsError"""
-    tests = [test_of("triaxial", folder) for folder in parsed.triaxial]
-    confined = test_of("oedometer", parsed.oedometer)
+    tests = [test_of(tuple(KINDS), folder) for folder in parsed.tests]
+    if not any(test.kind == "triaxial" for test in tests):
+        raise ResultsError("E and nu are those of triaxial compression; name a test 'triaxial'")
+    confined = test_of(("oedometer",), parsed.oedometer)
     names = ", ".join(str(test.folder) for test in (*tests, confined))
     with content_of(names, "lay other tests of this ground together"):
         warn_of_short_tests(tests)
         return law_text(parsed, tests, confined)
 
 
-def test_of(kind: str, folder: Path) -> LaboratoryTest:
+def test_of(kinds: Sequence[str], folder: Path) -> LaboratoryTest:
     """@raises ResultsError where the folder is that of another test"""
     test = LaboratoryTest(folder)
-    if test.kind != kind:
-        raise ResultsError(f"{folder}: is a test '{test.kind}'; name the results of test '{kind}'")
+    if test.kind not in kinds:
+        wanted = ", ".join(f"'{kind}'" for kind in kinds)
+        raise ResultsError(f"{folder}: is a test '{test.kind}'; name the results of test {wanted}")
     return test
+
+
+class Shear(NamedTuple):
+    """The law's cone, and what the file says of it."""
+
+    tangent: float  # of beta
+    what: str
+    K: str  # lines of the keys
+    found: list[str]
+
+
+def shear_of(tests: Sequence[LaboratoryTest], match: Match) -> Shear:
+    """From all kinds of tests, or from triaxial compression alone."""
+    if any(test.kind != "triaxial" for test in tests):
+        cone = fit_cone(tests)
+        keys = f"{cone.K:.3f}\n  section: matsuoka_nakai"
+        what = "q/p = tan(beta) in triaxial compression"
+        return Shear(cone.tangent, what, keys, cone.sentences())
+    sine, each = friction(tests)
+    angles = ", ".join(f"{np.degrees(np.arcsin(s)):.1f}" for s in each)
+    mean = f"{np.degrees(np.arcsin(sine)):.1f}"
+    found = [f"friction angle {mean}, single tests {angles} degrees"]
+    return Shear(match.tangent(sine), match.what, "1", found)
 
 
 def law_text(
     parsed: argparse.Namespace, tests: Sequence[LaboratoryTest], confined: LaboratoryTest
 ) -> str:
-    sine, each = friction(tests)
-    match = MATCH[parsed.match]
-    tangent = match.tangent(sine)
+    shear = shear_of(tests, MATCH[parsed.match])
+    tangent = shear.tangent
     stress: float = parsed.stress
-    E, nu = elasticity(min(tests, key=lambda t: abs(t.number("confinement") - stress)))
+    compressed = [test for test in tests if test.kind == "triaxial"]
+    E, nu = elasticity(min(compressed, key=lambda t: abs(t.number("confinement") - stress)))
     K0 = values_of(confined)["K0"]
     law = Law(tangent, parsed.cohesion, eccentricity(K0, tangent), E, nu)
     rows, density = hardening(confined, law)
     on_cap = float(cap_stress(1.0, law.R, tangent, 0.0).K0)
     ground = confined.facts["ground"]
-    confinements = ", ".join(f"{t.number('confinement') / 1e3:g}" for t in tests)
-    angle = f"{np.degrees(np.arcsin(sine)):.1f}"
-    angles = ", ".join(f"{np.degrees(np.arcsin(s)):.1f}" for s in each)
+    confinements = ", ".join(f"{t.number('confinement') / 1e3:g}" for t in compressed)
+    kinds = ", ".join(name for kind, name in KINDS.items() if any(t.kind == kind for t in tests))
+    found = "\n".join(
+        textwrap.fill(f"{line}.", 100, initial_indent="# ", subsequent_indent="#   ")
+        for line in shear.found
+    )
     levels = ", ".join(f"{level / 1e3:g}" for level in LEVELS)
+    above = f"oedometer, {levels} kPa of axial stress, as far as they lie above its start"
     return f"""title: {parsed.title}
 # Written by inputs/laboratory/identify.py from tests on the grains of
-# inputs/laboratory/grounds/{ground}.lig: triaxial compression at {confinements} kPa (friction
-# angle {angle}, single tests {angles} degrees) and an oedometer (K0 {K0:.2f}). It is the law of
-# these grains, whose contacts are softer than a sand's: so is its modulus, taken at
-# {parsed.stress / 1e3:g} kPa.
+# inputs/laboratory/grounds/{ground}.lig: {kinds}
+# at {confinements} kPa, and an oedometer (K0 {K0:.2f}). It is the law of these grains, whose
+# contacts are softer than a sand's: so is its modulus, taken at {parsed.stress / 1e3:g} kPa.
+{found}
 law:
   type: drucker_prager_cap
   density: {density:.0f}        # at the start of the oedometer
   d: {law.d:g}               # not measured (the grains do not stick): keeps a free surface together
-  beta: {np.degrees(np.arctan(tangent)):.1f}           # {match.what}
+  beta: {np.degrees(np.arctan(tangent)):.1f}           # {shear.what}
   R: {law.R:.3f}             # K0 {on_cap:.2f} in confined compression
   alpha: 0
-  K: 1
+  K: {shear.K}
   eps_vol_pl_0: 0
 elasticity:
   type: linear
   E: {E:.3g}
   nu: {nu:.2f}
 hardening:
-  type: table          # oedometer, {levels} kPa of axial stress, as far as they lie above its start
+{textwrap.fill(above, 100, initial_indent="  # ", subsequent_indent="  # ")}
+  type: table
   p:          [{', '.join(f'{p:.4g}' for p, _ in rows)}]
   eps_vol_pl: [{', '.join(f'{e:.4g}' for _, e in rows)}]
   interpolation: linear
@@ -248,9 +283,11 @@ def parse() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("triaxial", nargs="+", type=path, help="results folders")
+    parser.add_argument(
+        "tests", nargs="+", type=path, help="results folders: triaxial, extension, plane_strain"
+    )
     parser.add_argument("--oedometer", required=True, type=path, help="results folder")
-    parser.add_argument("--match", choices=sorted(MATCH), default="plane_strain")
+    parser.add_argument("--match", choices=sorted(MATCH), default="plane_strain", help="of a round cone")
     parser.add_argument("--title", default="Dry sand, identified on grains")
     parser.add_argument("--stress", type=positive, default=1e5, help="[Pa] default: 1e5")
     parser.add_argument(

@@ -66,7 +66,7 @@ def parse() -> argparse.Namespace:
         "--series", type=words, metavar="VALUES", help=f"values, with commas: {series}"
     )
     parser.add_argument(
-        "--confinement", type=words, metavar="VALUES", help="the series of triaxial and shear"
+        "--confinement", type=words, metavar="VALUES", help="the series of triaxial, extension, plane_strain and shear"
     )
     parser.add_argument(
         "--continuum",

@@ -1,150 +1,135 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Return mapping in the deviatoric plane for a yield measure t that depends on the Lode angle (K <
-/// 1) or not (K = 1).
-///
-///   t = q g(theta),   g(theta) = a + b cos(3 theta),   cos(3 theta) = (r/q)^3,   theta in [0,
-///   pi/3] a = (1 + 1/K)/2,  b = (1/K - 1)/2
-/// Every flow rule in t used here is: plastic deviatoric strain = Lambda d(t^2/2)/ds, so that with
-/// m = 3 G Lambda the stress after the step is the one point where
+/// What a step of plastic flow does to the trial deviator, for a yield measure t = q g(c)
+/// (section/section.h). Flow is associated in the deviatoric plane, plastic deviatoric strain =
+/// Lambda d(t^2/2)/ds, so that with m = 3 G Lambda
 ///   q + m d(t^2/2)/dq = q_tr   (vectors in the deviatoric plane),
-/// in polar components
-///   (1 + m g^2) sin(theta_tr - theta) = m g g' cos(theta_tr - theta)
-///   q = q_tr / |(1 + m g^2, m g g')|.
-/// t^2/2 is convex for K >= 7/9, which makes it unique. K = 1: t = t_tr/(1 + m), a radial return.
+/// in polar components, theta from triaxial extension (0) to compression (pi/3), ' by theta,
+///   (1 + m g^2) tan(theta_tr - theta) = m g g',   q = q_tr cos(theta_tr - theta)/(1 + m g^2).
+/// Round section, g = 1: t = t_tr/(1 + m), and the direction stays.
+///
+/// Other sections are linearised at the trial, which is exact to the order of the step and needs no
+/// angles and no iteration over them:
+///   t = t_tr/(1 + m (g^2 + g'^2))       a round section with another shear modulus: `stiffness`
+///   tan(theta - theta_tr) = - m g g'/(1 + m (g^2 + g'^2 + g g''))     one step of Newton's method
+/// t is that of the yield surface exactly; q follows from it at the new theta. The denominator is
+/// positive for a convex section. Steps so long that theta would pass triaxial compression are
+/// bounded: psi = pi - 3 theta_tr is left to it, and sin(psi/3) >= (2/3) sin(psi/2). As q never
+/// exceeds q_tr cos(theta - theta_tr), no step gives energy back.
 
-#include "simd/root_solver.h"
+#include "material/section/section_kernel.h"
 #include "simd/tensors.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {
 
-/// What a step of length m does to the trial deviator.
-struct LodeReturn {
-  Lanes ratio;     ///< h = t_tr/t
-  Lanes slope;     ///< dh/dm
-  Lanes rotation;  ///< theta - theta_tr >= 0 (towards triaxial compression)
-  Lanes shape;     ///< g(theta) = t/q
-};
+FURROW_INLINE Lanes mises(const Symmetric& deviator) {
+  return sqrt(Lanes(1.5) * contract(deviator, deviator));
+}
+/// cos(3 theta); 0 without a deviator
+FURROW_INLINE Lanes cos_3_theta(const Symmetric& deviator, const Lanes& q) {
+  const Symmetric unit = deviator * select(q > Lanes(0.0), Lanes(1.0) / q, 0.0);
+  return min(max(Lanes(13.5) * determinant(unit), -1.0), 1.0);
+}
+/// t of a deviator
+template <SectionParameters::Kind kind>
+FURROW_INLINE Lanes yield_measure(const SectionParameters& section, const Symmetric& deviator) {
+  const Lanes q = mises(deviator);
+  if constexpr (kind == SectionParameters::Kind::round)
+    return q;
+  else
+    return q * SectionKernel<kind>{section}.shape(cos_3_theta(deviator, q));
+}
 
-template <bool lode_dependent>
-class DeviatoricReturn;
-
-template <>
-class DeviatoricReturn<false> {
+template <SectionParameters::Kind kind>
+class DeviatoricReturn {
  public:
-  FURROW_INLINE DeviatoricReturn(double /*flow_ratio*/, const Symmetric& trial)
-      : q_(sqrt(Lanes(1.5) * contract(trial, trial))) {}
-  /// of a trial known by its measure only
-  FURROW_INLINE explicit DeviatoricReturn(const Lanes& t) : q_(t) {}
-  const Lanes& t() const { return q_; }  ///< of the trial
-  FURROW_INLINE LodeReturn at(const Lanes& m, Lanes&, const Mask&) const {
-    return {Lanes(1.0) + m, 1.0, 0.0, 1.0};
+  static constexpr int numbers = 3;  ///< that make it again: t, c, g
+
+  FURROW_INLINE DeviatoricReturn(const SectionParameters& section, const Symmetric& trial)
+      : section_{section} {
+    const Lanes q = mises(trial);
+    c_ = cos_3_theta(trial, q);
+    g_ = section_.shape(c_);
+    t_ = q * g_;
   }
-  /// m at which t falls to t_tr/ratio.
-  Lanes multiplier(const Lanes& ratio, Lanes&, const Mask&) const { return ratio - Lanes(1.0); }
-  /// The deviator with measure t, in the direction of a return of the trial; lanes outside the mask
-  /// keep the trial.
-  FURROW_INLINE Symmetric stress(const Symmetric& trial, const Lanes& t, const LodeReturn&,
+  FURROW_INLINE DeviatoricReturn(const SectionParameters& section, const Lanes* kept)
+      : section_{section}, t_(kept[0]), c_(kept[1]), g_(kept[2]) {}
+  FURROW_INLINE void store(Lanes* kept) const {
+    kept[0] = t_;
+    kept[1] = c_;
+    kept[2] = g_;
+  }
+
+  const Lanes& t() const { return t_; }  ///< of the trial
+  /// The shear modulus with which t returns like q of a round section.
+  FURROW_INLINE Lanes stiffness(const Lanes& shear) const {
+    return shear * (g_ * g_ + slope_squared(section_.first_derivative(g_)));
+  }
+  /// The deviator with measure t after the return of the trial; lanes outside the mask keep the
+  /// trial.
+  FURROW_INLINE Symmetric stress(const Symmetric& trial, const Lanes& t,
                                  const Mask& yielding) const {
-    return trial * select(yielding && q_ > Lanes(0.0), t / q_, 1.0);
+    const Mask returns = yielding && t_ > Lanes(0.0);
+    if (!any(returns)) return trial;
+    // tan(theta - theta_tr) = r sin(3 theta_tr), with g' = -3 sin(3 theta) dg/dc
+    const Lanes first = section_.first_derivative(g_), sin2 = Lanes(1.0) - c_ * c_;
+    const Lanes stretch = g_ * g_ + slope_squared(first);
+    const Lanes curvature =
+        Lanes(9.0) * (sin2 * section_.second_derivative(g_, first) - c_ * first);
+    const Lanes share = select(returns, t / t_, 1.0), gone = Lanes(1.0) - share;
+    const Lanes r =
+        min(Lanes(3.0) * g_ * first * gone / (stretch * share + (stretch + g_ * curvature) * gone),
+            sqrt(Lanes(2.0 / 9.0) / max(Lanes(1.0) - c_, 1e-30)));
+    const Lanes cosine = Lanes(1.0) / sqrt(Lanes(1.0) + sin2 * r * r), sine = r * cosine;
+    const Lanes sine_square = sin2 * sine * sine;  // `sine` is without its factor sin(3 theta_tr)
+    const Lanes c = min(max(c_ * cosine * (Lanes(4.0) * cosine * cosine - Lanes(3.0)) -
+                                sin2 * sine * (Lanes(3.0) - Lanes(4.0) * sine_square),
+                            -1.0),
+                        1.0);
+    const Lanes q_trial = t_ / g_;
+    const Lanes q = min(t / section_.shape(c), q_trial * cosine);
+    // With the trial's unit deviator S (S:S = 1), dev(S^2) = (cos(3 theta) S - sin(3 theta) T)/
+    // sqrt(6) gives the direction T of growing theta.
+    const Symmetric unit = trial * select(returns, Lanes(1.2247448713915890491) / q_trial, 0.0);
+    const Symmetric square = commuting_product(unit, unit).deviator();
+    const Lanes size = q * Lanes(0.81649658092772603273);
+    const Symmetric turned = unit * (size * (cosine + sine * c_)) -
+                             square * (size * sine * Lanes(2.4494897427831780982));
+    return {select(returns, turned.xx, trial.xx), select(returns, turned.yy, trial.yy),
+            select(returns, turned.zz, trial.zz), select(returns, turned.xy, trial.xy),
+            select(returns, turned.yz, trial.yz), select(returns, turned.xz, trial.xz)};
   }
 
  private:
-  Lanes q_;
+  /// g'^2
+  FURROW_INLINE Lanes slope_squared(const Lanes& first) const {
+    return Lanes(9.0) * (Lanes(1.0) - c_ * c_) * first * first;
+  }
+
+  SectionKernel<kind> section_;
+  Lanes t_, c_, g_;
 };
 
 template <>
-class DeviatoricReturn<true> {
+class DeviatoricReturn<SectionParameters::Kind::round> {
  public:
-  DeviatoricReturn(double flow_ratio, const Symmetric& trial)
-      : a_(0.5 * (1.0 + 1.0 / flow_ratio)), b_(0.5 * (1.0 / flow_ratio - 1.0)) {
-    q_ = sqrt(Lanes(1.5) * contract(trial, trial));
-    const Symmetric unit = trial * select(q_ > Lanes(0.0), Lanes(1.0) / q_, 0.0);
-    cos_3t_ = min(max(Lanes(13.5) * determinant(unit), -1.0), 1.0);
-    theta_ = per_lane(cos_3t_, [](double c) { return __builtin_acos(c) / 3.0; });
-    guess_ = theta_;
-    t_ = q_ * shape(theta_);
-  }
+  static constexpr int numbers = 1;
+
+  FURROW_INLINE DeviatoricReturn(const SectionParameters&, const Symmetric& trial)
+      : t_(mises(trial)) {}
+  FURROW_INLINE DeviatoricReturn(const SectionParameters&, const Lanes* kept) : t_(kept[0]) {}
+  FURROW_INLINE void store(Lanes* kept) const { kept[0] = t_; }
+
   const Lanes& t() const { return t_; }
-  LodeReturn at(const Lanes& m, Lanes& iterations, const Mask& active) const {
-    const Lanes w = m / (Lanes(1.0) + m);
-    const Lanes v = Lanes(1.0) / (Lanes(1.0) + m);
-    const Lanes third = 1.0471975511965977462;  // pi/3
-    const Mask rotates = active && theta_ < third && m > Lanes(0.0);
-    const Lanes theta = decreasing_root(
-        [&](const Lanes& angle) -> ValueAndSlope {
-          const Lanes g = shape(angle), g1 = shape_slope(angle), g2 = shape_curvature(angle);
-          const Lanes sine = sin_of(theta_ - angle), cosine = cos_of(theta_ - angle),
-                      f = v + w * g * g;
-          return {f * sine - w * g * g1 * cosine,
-                  w * g * g1 * sine - (f + w * (g1 * g1 + g * g2)) * cosine};
-        },
-        select(rotates, guess_, theta_), theta_, third, 1e-11, rotates, iterations);
-    guess_ = theta;
-    const Lanes g = shape(theta), g1 = shape_slope(theta), g2 = shape_curvature(theta);
-    const Lanes radial = Lanes(1.0) + m * g * g, tangential = m * g * g1;
-    // v^T (I + m H)^-1 v with v = (g^2, g g') and the Hessian H of t^2/2
-    const Lanes vx = g * g, vy = g * g1, hyy = Lanes(1.0) + m * (g1 * g1 + g * g2 + g * g);
-    const Lanes form = (vx * vx * hyy - Lanes(2.0) * vx * vy * tangential + vy * vy * radial) /
-                       (radial * hyy - tangential * tangential);
-    LodeReturn result;
-    result.ratio = shape(theta_) / g * sqrt(radial * radial + tangential * tangential);
-    result.slope = result.ratio * form / (g * g);
-    result.rotation = theta - theta_;
-    result.shape = g;
-    return result;
-  }
-  Lanes multiplier(const Lanes& ratio, Lanes& iterations, const Mask& active) const {
-    // h is close to 1 + m g^2 with g between 1 and 1/K
-    const Lanes high = max(ratio - Lanes(1.0), 0.0) * Lanes(4.0) + Lanes(1e-300);
-    return decreasing_root(
-        [&](const Lanes& m) -> ValueAndSlope {
-          const LodeReturn there = at(m, iterations, active);
-          return {ratio - there.ratio, -there.slope};
-        },
-        ratio - Lanes(1.0), 0.0, high, Lanes(1e-15) * (high + Lanes(1.0)),
-        active && ratio > Lanes(1.0), iterations);
-  }
-  Symmetric stress(const Symmetric& trial, const Lanes& t, const LodeReturn& back,
-                   const Mask& yielding) const {
-    // Unit deviator S (S:S = 1); dev(S^2) = (cos(3 theta) S - sin(3 theta) T)/sqrt(6) gives the
-    // direction T of growing theta.
-    const Lanes size = select(yielding, t / back.shape, q_);
-    const Symmetric unit = trial * select(q_ > Lanes(0.0), Lanes(1.2247448713915890491) / q_, 0.0);
-    const Lanes sin_3t = sqrt(max(Lanes(1.0) - cos_3t_ * cos_3t_, 0.0));
-    const Mask rotates = yielding && sin_3t > Lanes(1e-12);
-    const Lanes along = select(rotates, sin_of(back.rotation) / sin_3t, 0.0);
-    const Symmetric perpendicular =
-        commuting_product(unit, unit).deviator() * Lanes(2.4494897427831780982);
-    const Lanes radial = select(rotates, cos_of(back.rotation), 1.0) + along * cos_3t_;
-    return (unit * radial - perpendicular * along) * (size * Lanes(0.81649658092772603273));
+  FURROW_INLINE Lanes stiffness(const Lanes& shear) const { return shear; }
+  FURROW_INLINE Symmetric stress(const Symmetric& trial, const Lanes& t,
+                                 const Mask& yielding) const {
+    return trial * select(yielding && t_ > Lanes(0.0), t / t_, 1.0);
   }
 
  private:
-  static Lanes sin_of(const Lanes& angle) {
-    return per_lane(angle, [](double x) { return __builtin_sin(x); });
-  }
-  static Lanes cos_of(const Lanes& angle) {
-    return per_lane(angle, [](double x) { return __builtin_cos(x); });
-  }
-  Lanes shape(const Lanes& theta) const {
-    return Lanes(a_) + Lanes(b_) * cos_of(Lanes(3.0) * theta);
-  }
-  Lanes shape_slope(const Lanes& theta) const {
-    return Lanes(-3.0 * b_) * sin_of(Lanes(3.0) * theta);
-  }
-  Lanes shape_curvature(const Lanes& theta) const {
-    return Lanes(-9.0 * b_) * cos_of(Lanes(3.0) * theta);
-  }
-
-  double a_;
-  double b_;
-  Lanes q_;
-  Lanes cos_3t_;
-  Lanes theta_;
   Lanes t_;
-  mutable Lanes guess_;  ///< the last theta found, where the next search starts
 };
 
 }  // namespace FURROW_ISA

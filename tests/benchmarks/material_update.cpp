@@ -87,7 +87,8 @@ std::unique_ptr<Material> elastic() {
 
 /// Fresh snow, [Shoop2001] Tables 1 and 3.
 std::unique_ptr<Material> snow(const std::string& K, const std::string& alpha,
-                               const std::string& interpolation) {
+                               const std::string& interpolation,
+                               const std::string& section = "abaqus") {
   return make(
       "drucker_prager_cap",
       {{"law",
@@ -97,6 +98,7 @@ std::unique_ptr<Material> snow(const std::string& K, const std::string& alpha,
          {"R", {"0.02"}},
          {"alpha", {alpha}},
          {"K", {K}},
+         {"section", {section}},
          {"eps_vol_pl_0", {"0.001"}}}},
        {"elasticity", {{"E", {"13.79e6"}}, {"nu", {"0.3"}}}},
        {"hardening",
@@ -195,6 +197,9 @@ void BM_cap_mixed_large_steps(benchmark::State& timer) {
 void BM_cap_mixed_lode(benchmark::State& timer) {
   measure(timer, *snow("0.8", "0", "linear"), 1e-4, 0.0);
 }
+void BM_cap_mixed_smooth_cone(benchmark::State& timer) {
+  measure(timer, *snow("0.7", "0", "linear", "matsuoka_nakai"), 1e-4, 0.0);
+}
 void BM_foam_mixed(benchmark::State& timer) { measure(timer, *foam(), 1e-4, 0.0); }
 void BM_cam_clay_mixed(benchmark::State& timer) { measure(timer, *cam_clay("linear"), 1e-4, 0.0); }
 void BM_cam_clay_mixed_neighbours_alike(benchmark::State& timer) {
@@ -219,6 +224,7 @@ BENCHMARK(BM_cap_mixed_log_table)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_cap_all_compacting)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_cap_mixed_large_steps)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_cap_mixed_lode)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_cap_mixed_smooth_cone)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_foam_mixed)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_cam_clay_mixed)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_cam_clay_mixed_neighbours_alike)->Unit(benchmark::kMillisecond);

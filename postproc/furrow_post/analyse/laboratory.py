@@ -65,10 +65,18 @@ def _around_peak(values: Floats) -> tuple[int, int, float]:
     return int(np.argmax(smooth)) + window // 2, window, float(smooth.max())
 
 
-def _require_compressed(strain: Floats, stress: Floats) -> None:
-    """@raises ValueError where a cell was not compressed along z, or carried nothing"""
-    if not (strain[:, 2].max() > 0 and stress[:, 2].max() > 0):
+def _require_compressed(strain: Floats, stress: Floats, axis: int = 2) -> None:
+    """@raises ValueError where a cell was not compressed along an axis, or carried nothing"""
+    if not (strain[:, axis].max() > 0 and stress[:, axis].max() > 0):
         raise ValueError("the cell is not compressed, or carries nothing")
+
+
+def _stress_ratio(stress: Floats) -> Floats:
+    """q/p of normal stresses (n, 3) without shear."""
+    p = stress.mean(axis=1)
+    q = np.sqrt(1.5) * np.linalg.norm(stress - p[:, None], axis=1)
+    ratio: Floats = q / np.maximum(p, 1e-30)
+    return ratio
 
 
 def oedometer(test: LaboratoryTest) -> list[LaboratoryQuantity]:
@@ -165,8 +173,78 @@ def triaxial(test: LaboratoryTest) -> list[LaboratoryQuantity]:
         quantity("friction_angle_end", *_degrees(angle[end]), "deg", over_strains),
         quantity("lateral_stress_end", *block_mean(lateral[end]), "Pa", "there"),
         quantity("deviator_end", *block_mean(deviator[end]), "Pa", "there"),
+        quantity("stress_ratio_end", *block_mean(_stress_ratio(stress)[end]), "", "q/p, there"),
+        _dilation_at_end(strain, end, 2),
         quantity("E50", secant, 0.0, "Pa", "secant modulus to half of the peak"),
         quantity("dilation", -slope, dilation_error, "", growth),
+        quantity("density_end", *block_mean(density[end]), "kg/m3", "there"),
+        quantity("inertial_number", inertial, 0.0, "", "below 1e-3: quasi-static"),
+    ]
+
+
+def _dilation_at_end(strain: Floats, end: Booleans, driven: int) -> LaboratoryQuantity:
+    slope, _, covariance = line_fit(strain[end, driven], strain.sum(axis=1)[end])
+    meaning = "volume growth per driven strain at the end"
+    return LaboratoryQuantity("dilation_end", -slope, float(np.sqrt(covariance[0, 0])), "", meaning)
+
+
+def extension(test: LaboratoryTest) -> list[LaboratoryQuantity]:
+    """Driven along x and y, the axial stress held."""
+    strain, stress, _ = cell_curve(test.curve())
+    axial, lateral = stress[:, 2], 0.5 * (stress[:, 0] + stress[:, 1])
+    return [
+        *_strength(test, 0, lateral, axial),
+        LaboratoryQuantity(
+            "axial_stress_end", *block_mean(axial[_end(strain, 0)]), "Pa", "the smallest, there"
+        ),
+    ]
+
+
+def plane_strain(test: LaboratoryTest) -> list[LaboratoryQuantity]:
+    """Driven along z, the stress along x held, nothing moving along y."""
+    strain, stress, _ = cell_curve(test.curve())
+    end = _end(strain, 2)
+    across, middle, axial = stress[:, 0], stress[:, 1], stress[:, 2]
+    share = (middle - across) / np.maximum(axial - across, 1e-30)
+    quantity = LaboratoryQuantity
+    of_middle = "(s2 - s3)/(s1 - s3), there; s2 is that of the width kept"
+    return [
+        *_strength(test, 2, axial, across),
+        quantity("lateral_stress_end", *block_mean(across[end]), "Pa", "the smallest, there"),
+        quantity("intermediate_stress_ratio_end", *block_mean(share[end]), "", of_middle),
+    ]
+
+
+def _end(strain: Floats, driven: int) -> Booleans:
+    """The last 15 % of the driven strain."""
+    end: Booleans = strain[:, driven] > 0.85 * strain[-1, driven]
+    return end
+
+
+def _strength(
+    test: LaboratoryTest, driven: int, largest: Floats, smallest: Floats
+) -> list[LaboratoryQuantity]:
+    """What extension and plane strain give alike. driven: the axis of the strain that is given."""
+    rows = test.curve()
+    strain, stress, density = cell_curve(rows)
+    _require_compressed(strain, stress, driven)
+    angle = np.arcsin(
+        np.clip((largest - smallest) / np.maximum(largest + smallest, 1e-30), -1, 1)
+    )
+    peak, window, _ = _around_peak(angle)
+    around = slice(max(peak - window, 0), peak + window + 1)
+    end = _end(strain, driven)
+    quantity = LaboratoryQuantity
+    no_cohesion = "without cohesion: sin = (s1 - s3)/(s1 + s3)"
+    at_strain = f"{no_cohesion}, at a strain of {strain[peak, driven]:.3f}"
+    over_strains = f"{no_cohesion}, mean over the last 15 % of strain"
+    inertial = float(np.mean(rows[1:, 8]))
+    return [
+        quantity("initial_density", density[0], 0.0, "kg/m3", "after consolidation"),
+        quantity("friction_angle_peak", *_degrees(angle[around]), "deg", at_strain),
+        quantity("friction_angle_end", *_degrees(angle[end]), "deg", over_strains),
+        quantity("stress_ratio_end", *block_mean(_stress_ratio(stress)[end]), "", "q/p, there"),
+        _dilation_at_end(strain, end, driven),
         quantity("density_end", *block_mean(density[end]), "kg/m3", "there"),
         quantity("inertial_number", inertial, 0.0, "", "below 1e-3: quasi-static"),
     ]
@@ -358,6 +436,8 @@ def plate(test: LaboratoryTest) -> list[LaboratoryQuantity]:
 EVALUATIONS: dict[str, Callable[[LaboratoryTest], list[LaboratoryQuantity]]] = {
     "oedometer": oedometer,
     "triaxial": triaxial,
+    "extension": extension,
+    "plane_strain": plane_strain,
     "unconfined": unconfined,
     "tension": tension,
     "shear": shear,

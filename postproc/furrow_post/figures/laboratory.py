@@ -89,6 +89,25 @@ def _draw_triaxial(report: LaboratoryReport) -> Figure:
     return figure
 
 
+def _draw_true_triaxial(report: LaboratoryReport) -> Figure:
+    """Extension and plane strain: all three stresses."""
+    figure, left, right = _pair()
+    for number, test in enumerate(report.tests):
+        strain, stress, _ = cell_curve(test.curve())
+        driven = 100 * strain[:, 0 if test.kind == "extension" else 2]
+        for axis, style in enumerate((":", "--", "-")):
+            label = f"grains: {test.label}" if axis == 2 else None
+            look = {"ls": style, "lw": 1.1, "color": f"C{number}"}
+            left.plot(driven, KILOPASCAL * stress[:, axis], label=label, **look)
+        right.plot(driven, 100 * strain.sum(axis=1), lw=1.1)
+    left.set(xlabel="driven strain [%]", ylabel="stress along x (dotted), y (dashed), z [kPa]")
+    right.set(xlabel="driven strain [%]", ylabel="volume strain [%], compression positive")
+    left.legend(fontsize=8)
+    annotate_panel(left, "a", report.tests[0].kind.replace("_", " "))
+    annotate_panel(right, "b", "volume")
+    return figure
+
+
 def _draw_free_sides(report: LaboratoryReport) -> Figure:
     """Compression and tension of cells without lateral stress."""
     figure, left, right = _pair()
@@ -165,6 +184,8 @@ def _draw_heaps(report: LaboratoryReport) -> Figure:
 FIGURES: dict[str, Callable[[LaboratoryReport], Figure]] = {
     "oedometer": _draw_oedometers,
     "triaxial": _draw_triaxial,
+    "extension": _draw_true_triaxial,
+    "plane_strain": _draw_true_triaxial,
     "unconfined": _draw_free_sides,
     "tension": _draw_free_sides,
     "shear": _draw_shear,

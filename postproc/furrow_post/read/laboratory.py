@@ -12,12 +12,14 @@ from ..fields import Fields
 
 REMEDY = "run the test again, with inputs/laboratory/run.py"
 KINDS = (
-    *("oedometer", "triaxial", "unconfined", "tension", "shear"),
+    *("oedometer", "triaxial", "extension", "plane_strain", "unconfined", "tension", "shear"),
     *("collapse", "repose", "plate"),
 )
 COLUMNS = {  # of curve.txt, at least
     "oedometer": 8,
     "triaxial": 9,
+    "extension": 9,
+    "plane_strain": 9,
     "unconfined": 8,
     "tension": 8,
     "shear": 10,

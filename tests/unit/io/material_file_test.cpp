@@ -118,8 +118,8 @@ TEST_F(MaterialFileTest, BadFilesAreRefusedWithTheirPlace) {
        "sand.yaml, line 2: law drucker_prager_cap, keyword 'd' is missing; allowed: a number >= 0 "
        "[Pa]; it is: cohesion"},
       {with(sand, "K: 1", "K: 0.77"),
-       "sand.yaml, line 8: law drucker_prager_cap, keyword 'K' is 0.77; allowed: a number in "
-       "[0.778, 1]"},
+       "sand.yaml, line 8: law drucker_prager_cap, keyword 'K' is 0.77: the section would not be "
+       "convex; allowed: a number in [0.778, 1] for section abaqus"},
       {with(sand, "d: 1.194e6", "d: -1"),
        "sand.yaml, line 5: law drucker_prager_cap, keyword 'd' is -1; allowed: a number >= 0 [Pa]"},
       {with(sand, "d: 1.194e6", "d: soft"),

@@ -45,8 +45,8 @@ TEST(HardPoints, NearlyZeroStrength) {
 }
 
 TEST(HardPoints, EccentricityOfOneTenThousandth) {
-  for (const std::string more :
-       {"R 1e-4 d 5e3", "R 1e-4 d 5e3 alpha 0.05", "R 1e-4 d 5e3 K 0.778"}) {
+  for (const std::string more : {"R 1e-4 d 5e3", "R 1e-4 d 5e3 alpha 0.05", "R 1e-4 d 5e3 K 0.778",
+                                 "R 1e-4 d 5e3 K 0.6 section matsuoka_nakai"}) {
     const auto material = material_of(snow(more));
     VectorX state = material->initial_state();
     for (int step = 0; step < 200; ++step)
@@ -143,7 +143,8 @@ TEST(HardPoints, LoadUnloadReload) {
 
 TEST(HardPoints, JumpsOfOneHalf) {
   for (const std::string more :
-       {"R 0.02 d 5e3", "R 1e-4 d 0", "R 1 d 1e5 alpha 0.05", "R 0.02 d 5e3 K 0.8 tension 0"}) {
+       {"R 0.02 d 5e3", "R 1e-4 d 0", "R 1 d 1e5 alpha 0.05", "R 0.02 d 5e3 K 0.8 tension 0",
+        "R 0.02 d 5e3 K 0.6 section matsuoka_nakai", "R 0.02 d 0 K 0.778"}) {
     const auto material = material_of(snow(more));
     for (const std::vector<Vector6>& path : jumps_of_one_half()) {
       VectorX state = material->initial_state();

@@ -77,7 +77,8 @@ TEST(Kernels, InstructionSetsAgree) {
       "1.083 1.514 beyond extrapolate interpolation ";
   const std::string cap = "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.05 eps_vol_pl_0 0.3",
                     clay = "cohesive_cam_clay density 200 M 3.3 tension_ratio 0.1 eps_vol_pl_0 0.3";
-  for (const std::string more : {"linear", "log alpha 0.05", "linear K 0.8"})
+  for (const std::string more :
+       {"linear", "log alpha 0.05", "linear K 0.8", "linear K 0.65 section matsuoka_nakai"})
     expect_instruction_sets_to_agree<DruckerPragerCap, DruckerPragerCapKernels>(cap + snow + more);
   for (const std::string more : {"linear", "log"})
     expect_instruction_sets_to_agree<CohesiveCamClay, CohesiveCamClayKernels>(clay + snow + more);

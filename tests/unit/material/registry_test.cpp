@@ -47,7 +47,12 @@ INSTANTIATE_TEST_SUITE_P(
                  "drucker_prager_cap, crushable_foam, cohesive_cam_clay, elastic, neo_hookean"}},
         Refusal{"drucker_prager_cap density 200 beta 22.53 R 0.02" + elastic + table,
                 {"law drucker_prager_cap, keyword 'd' is missing", "cohesion"}},
-        Refusal{yield + " K 0.7" + elastic + table, {"keyword 'K' is 0.7", "in [0.778, 1]"}},
+        Refusal{yield + " K 0.7" + elastic + table,
+                {"keyword 'K' is 0.7", "in [0.778, 1]", "take section matsuoka_nakai"}},
+        Refusal{yield + " K 0.59 section matsuoka_nakai" + elastic + table,
+                {"keyword 'K' is 0.59", "in [0.6, 1]"}},
+        Refusal{yield + " K 0.9 section mohr_coulomb" + elastic + table,
+                {"keyword 'section' is 'mohr_coulomb'", "one of: abaqus, matsuoka_nakai"}},
         Refusal{"drucker_prager_cap density 200 d 5e3 beta 95 R 0.02" + elastic + table,
                 {"keyword 'beta' is 95", "(0, 80] [degree]"}},
         Refusal{

@@ -133,7 +133,8 @@ TEST(CapClosedForm, FlowStressRatioInExtension) {
 /// order.
 TEST(StepSize, ConvergesAtFirstOrder) {
   for (const std::string& text :
-       {mccormick_sand(), mccormick_sand("alpha 0.05"), mccormick_sand("K 0.8"), snow(0.02)}) {
+       {mccormick_sand(), mccormick_sand("alpha 0.05"), mccormick_sand("K 0.8"),
+        mccormick_sand("K 0.7 section matsuoka_nakai"), snow(0.02)}) {
     const auto material = material_of(text);
     std::array<Vector6, 4> ends;
     for (std::size_t level = 0; level < ends.size(); ++level) {

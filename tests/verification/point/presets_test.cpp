@@ -95,7 +95,7 @@ TEST(Presets, DrySandFollowsTheOedometerOfItsGrains) {
   const CsvTable grains = CsvTable::read(inputs + "/validation/grains/sand_dry_oedometer.csv");
   const std::vector<double> rho = grains.numbers("rho_kgm3");
   ASSERT_GT(rho.size(), 5u);
-  for (const char* name : {"dry_sand", "dry_sand_triaxial"}) {
+  for (const char* name : {"dry_sand", "dry_sand_triaxial", "dry_sand_smooth"}) {
     const auto sand = file_of(name).make();
     const PointHistory history = oedometer(*sand, grains.numbers("sigma1_Pa"));
     for (std::size_t i = 0; i < rho.size(); ++i)

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "material/elasticity/elasticity.h"
 #include "material/hardening/hardening.h"
+#include "material/section/section.h"
 #include "simd/dispatch.h"
 
 namespace furrow {
@@ -20,7 +21,7 @@ std::unique_ptr<Material> create(const MaterialOptions& sections) {
   CrushableFoamParameters parameters;
   parameters.elasticity = make_elasticity(sections.at("elasticity"));
   parameters.pt = o.number("pt");
-  parameters.flow_ratio = o.number("K");
+  parameters.section = make_section(o);
   const bool includes_pt = o.text("pc0_reading") == "pc0_plus_pt";
   const SectionOptions& hardening = sections.at("hardening");
   if (includes_pt && hardening.type != "exponential")
@@ -80,10 +81,7 @@ MaterialModel CrushableFoam::model() {
   schema.number("pt", "Pa", Range::positive(), "yield strength in hydrostatic tension, constant");
   schema.number("sigma0", "Pa", Range::positive(),
                 "initial yield strength in uniaxial compression, below 3 pc0");
-  schema
-      .number("K", "", Range::closed(0.778, 1.0),
-              "flow stress ratio, triaxial extension to compression")
-      .by_default(1.0);
+  declare_section(schema);
   schema
       .choice("pc0_reading", {"pc0", "pc0_plus_pt"},
               "what pc0 of exponential hardening is: pc0, or pc0 + pt")
@@ -122,7 +120,7 @@ double CrushableFoam::yield_function(const VectorX& state) const {
   const Invariants stress = invariants(stress_of(state));
   const double strength = pc(state[eps_vol_pl]);
   const double pt = parameters_.pt;
-  const double t = yield_measure(stress, parameters_.flow_ratio);
+  const double t = yield_measure(stress, parameters_.section);
   return std::hypot(stress.p - 0.5 * (strength - pt), t / parameters_.M) - 0.5 * (strength + pt);
 }
 

@@ -15,11 +15,12 @@
 #include "material/elasticity/elasticity_kernel.h"
 #include "material/hardening/hardening_kernel.h"
 #include "material/models/crushable_foam/crushable_foam_parameters.h"
+#include "simd/root_solver.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {
 
-template <bool lode_dependent>
+template <SectionParameters::Kind section>
 struct CrushableFoamKernel {
   static constexpr int internal_variables = 2;  // eps_vol_pl, eps_dev_pl
   const CrushableFoamParameters& parameters;
@@ -30,7 +31,7 @@ struct CrushableFoamKernel {
     const Lanes p_trial = elastic.pressure(dv);
     const Symmetric s_old = points.stress.plus_identity(elastic.p_n);
     const Symmetric s_trial = s_old + strain.deviator() * (Lanes(2.0) * elastic.shear);
-    const Lanes t_trial = DeviatoricReturn<lode_dependent>(parameters.flow_ratio, s_trial).t();
+    const Lanes t_trial = yield_measure<section>(parameters.section, s_trial);
     const Lanes eps_old = points.internal[0];
     Hardening hardening(parameters.hardening);
     const Lanes pc_old = hardening.at(eps_old).value;
@@ -101,9 +102,16 @@ struct CrushableFoamKernel {
 
 inline BlockResult update_crushable_foam(const CrushableFoamParameters& parameters, double density,
                                          const PointBlock& block) {
-  if (parameters.flow_ratio < 1.0)
-    return update_points(CrushableFoamKernel<true>{parameters}, density, block);
-  return update_points(CrushableFoamKernel<false>{parameters}, density, block);
+  using Kind = SectionParameters::Kind;
+  switch (parameters.section.kind) {
+    case Kind::abaqus:
+      return update_points(CrushableFoamKernel<Kind::abaqus>{parameters}, density, block);
+    case Kind::matsuoka_nakai:
+      return update_points(CrushableFoamKernel<Kind::matsuoka_nakai>{parameters}, density, block);
+    case Kind::round:
+      break;
+  }
+  return update_points(CrushableFoamKernel<Kind::round>{parameters}, density, block);
 }
 
 constexpr void fill(CrushableFoamKernels& kernels) { kernels.update = update_crushable_foam; }

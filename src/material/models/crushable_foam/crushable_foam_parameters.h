@@ -5,6 +5,7 @@
 #include "material/elasticity/elasticity_parameters.h"
 #include "material/hardening/hardening_parameters.h"
 #include "material/point_block.h"
+#include "material/section/section_parameters.h"
 #include "simd/instruction_set.h"
 
 namespace furrow {
@@ -15,7 +16,7 @@ struct CrushableFoamParameters {
   double pt = 0.0;  ///< yield strength in hydrostatic tension [Pa], constant
   /// aspect of the ellipse: its half-height in t over its half-width in p
   double M = 1.0;
-  double flow_ratio = 1.0;  ///< K
+  SectionParameters section;
 };
 
 /// Kernels of crushable_foam_kernel.h.

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "material/elasticity/elasticity.h"
 #include "material/hardening/hardening.h"
+#include "material/section/section.h"
 #include "simd/dispatch.h"
 
 namespace furrow {
@@ -28,7 +29,7 @@ std::unique_ptr<Material> create(const MaterialOptions& sections) {
   parameters.alpha = o.number("alpha");
   parameters.B = 1.0 - parameters.alpha / std::cos(beta);
   parameters.A = parameters.B + parameters.alpha;
-  parameters.flow_ratio = o.number("K");
+  parameters.section = make_section(o);
   if (parameters.B <= 0.0)
     throw InputError(o.where("alpha"),
                      fmt::format("is {}: the transition would be wider than the shear strength",
@@ -68,10 +69,7 @@ MaterialModel DruckerPragerCap::model() {
       .number("alpha", "", Range{0.0, 1.0, false, true},
               "size of the transition between shear line and cap")
       .by_default(0.0);
-  schema
-      .number("K", "", Range::closed(0.778, 1.0),
-              "flow stress ratio, triaxial extension to compression")
-      .by_default(1.0);
+  declare_section(schema);
   schema
       .number("eps_vol_pl_0", "", Range::any(),
               "initial volumetric plastic strain, compression positive: positions the cap")
@@ -94,7 +92,10 @@ MaterialModel DruckerPragerCap::model() {
           snow + " interpolation linear",
       "density 200 d 5e3 beta 22.53 R 0.3 alpha 0.05 K 0.8 tension 2e3 "
       "eps_vol_pl_0 0.3 elasticity porous kappa 0.005 e0 3.5 p0 10 pt_el 1.5e4 nu 0.3" +
-          snow + " interpolation log"};
+          snow + " interpolation log",
+      "density 200 d 5e3 beta 22.53 R 0.3 K 0.7 section matsuoka_nakai eps_vol_pl_0 0.3 "
+      "elasticity linear E 13.79e6 nu 0.3" +
+          snow + " interpolation linear"};
   return model;
 }
 
@@ -144,7 +145,7 @@ double DruckerPragerCap::strength(double p, double eps) const {
 
 double DruckerPragerCap::yield_function(const VectorX& state) const {
   const Invariants stress = invariants(stress_of(state));
-  const double t = yield_measure(stress, parameters_.flow_ratio);
+  const double t = yield_measure(stress, parameters_.section);
   const double eps = state[eps_vol_pl];
   const double top = pa(eps);
   const double Q = parameters_.d + top * parameters_.tan_beta;

@@ -3,7 +3,7 @@
 /// Modified Drucker-Prager cap, as [Shoop2001] (eq 12-16) takes it from ABAQUS. Stresses p, t:
 /// compression positive, core/types.h.
 ///
-///   t = (q/2) [1 + 1/K - (1 - 1/K)(r/q)^3]
+///   t = (q/2) [1 + 1/K - (1 - 1/K)(r/q)^3], or the section of smooth cones (section/section.h)
 ///   shear (12):       t - p tan(beta) - d = 0
 ///   cap (13):         sqrt( (p - pa)^2 + (R t/(1 + alpha - alpha/cos(beta)))^2 )
 ///                       - R (d + pa tan(beta)) = 0

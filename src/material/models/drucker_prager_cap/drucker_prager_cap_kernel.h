@@ -4,53 +4,39 @@
 /// energies and the new state.
 
 #include "material/block_update.h"
+#include "material/deviatoric_return.h"
 #include "material/models/drucker_prager_cap/drucker_prager_cap_return.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {
 
-template <bool lode_dependent>
+template <SectionParameters::Kind section>
 struct DruckerPragerCapKernel {
   static constexpr int internal_variables = 2;  // eps_vol_pl, eps_dev_pl
   const DruckerPragerCapParameters& parameters;
 
-  using Deviator = DeviatoricReturn<lode_dependent>;
-  using Trial = CapTrial<lode_dependent>;
+  using Deviator = DeviatoricReturn<section>;
   using CapPoints = Points<internal_variables>;
 
-  /// In one pass (update_points).
-  void step(const Symmetric& strain, CapPoints& points) const {
-    const ElasticStep elastic(parameters.elasticity, pressure_of(points));
-    const Symmetric s_trial = trial_deviator(elastic, strain, points);
-    const Deviator deviator(parameters.flow_ratio, s_trial);
-    Hardening hardening(parameters.hardening);
-    const Trial trial =
-        make_trial(parameters, elastic, deviator, hardening, -strain.trace(), points.internal[0]);
-    CapReturn end = return_mapping(parameters, violated_surface(parameters, trial), trial);
-    const Mask yielding = end.branch > Lanes(double(Branch::elastic));
-    const LodeReturn back = deviator.at(end.m, end.iterations, yielding);
-    conclude(strain, elastic, s_trial, deviator.stress(s_trial, end.t, back, yielding), end,
-             points);
-  }
-
-  // ---- in three passes (update_gathered), for K = 1, where the return mapping needs p and t only
-  static constexpr int prediction_numbers = 5;
+  // ---- in three passes (update_gathered): the return mapping needs p and t only
+  static constexpr int trial_numbers = 3;
+  static constexpr int prediction_numbers = trial_numbers + Deviator::numbers;
   static constexpr int return_numbers = 6;
   static constexpr int surface_count = 3;
   struct Prediction {
-    Lanes numbers[prediction_numbers];  ///< p_n, dv, eps_n, trial p, trial t
+    Lanes numbers[prediction_numbers];  ///< p_n, dv, eps_n, those of the deviator
     Mask violated[surface_count];       ///< cap, shear, tension; none once corrected
   };
   struct Numbers {
-    Lanes numbers[return_numbers];  ///< of a CapReturn, without m
+    Lanes numbers[return_numbers];  ///< of a CapReturn
   };
 
   FURROW_INLINE Prediction predict(const Symmetric& strain, const CapPoints& points,
                                    Numbers& end) const {
     const ElasticStep elastic(parameters.elasticity, pressure_of(points));
-    const Deviator deviator(parameters.flow_ratio, trial_deviator(elastic, strain, points));
+    const Deviator deviator(parameters.section, trial_deviator(elastic, strain, points));
     Hardening hardening(parameters.hardening);
-    const Trial trial =
+    const CapTrial trial =
         make_trial(parameters, elastic, deviator, hardening, -strain.trace(), points.internal[0]);
     ViolatedSurface violated = violated_surface(parameters, trial);
     const Mask none(false);
@@ -60,14 +46,16 @@ struct DruckerPragerCapKernel {
     } else {
       end = numbers_of(return_mapping(parameters, ViolatedSurface{none, none, none}, trial));
     }
-    return {{elastic.p_n, trial.dv, trial.eps, trial.p, trial.t},
-            {violated.cap, violated.shear, violated.tension}};
+    Prediction prediction{{elastic.p_n, trial.dv, trial.eps},
+                          {violated.cap, violated.shear, violated.tension}};
+    deviator.store(prediction.numbers + trial_numbers);
+    return prediction;
   }
   Numbers correct(int surface, const Lanes* prediction) const {
     const ElasticStep elastic(parameters.elasticity, prediction[0]);
-    const Deviator deviator(prediction[4]);
+    const Deviator deviator(parameters.section, prediction + trial_numbers);
     Hardening hardening(parameters.hardening);
-    const Trial trial =
+    const CapTrial trial =
         make_trial(parameters, elastic, deviator, hardening, prediction[1], prediction[2]);
     const CapReturn end = return_mapping(
         parameters, ViolatedSurface{Mask(surface == 0), Mask(surface == 1), Mask(surface == 2)},
@@ -78,10 +66,10 @@ struct DruckerPragerCapKernel {
                             CapPoints& points) const {
     const ElasticStep elastic(parameters.elasticity, prediction[0]);
     const Symmetric s_trial = trial_deviator(elastic, strain, points);
-    const CapReturn end{ends[0], ends[1], ends[2], ends[3], ends[4], ends[5], 0.0};
-    const Mask returns = end.branch > Lanes(double(Branch::elastic)) && prediction[4] > Lanes(0.0);
-    conclude(strain, elastic, s_trial, s_trial * select(returns, end.t / prediction[4], 1.0), end,
-             points);
+    const Deviator deviator(parameters.section, prediction + trial_numbers);
+    const CapReturn end{ends[0], ends[1], ends[2], ends[3], ends[4], ends[5]};
+    const Mask yielding = end.branch > Lanes(double(Branch::elastic));
+    conclude(strain, elastic, s_trial, deviator.stress(s_trial, end.t, yielding), end, points);
   }
 
  private:
@@ -130,9 +118,17 @@ struct DruckerPragerCapKernel {
 
 inline BlockResult update_drucker_prager_cap(const DruckerPragerCapParameters& parameters,
                                              double density, const PointBlock& block) {
-  if (parameters.flow_ratio < 1.0)
-    return update_points(DruckerPragerCapKernel<true>{parameters}, density, block);
-  return update_gathered(DruckerPragerCapKernel<false>{parameters}, density, block);
+  using Kind = SectionParameters::Kind;
+  switch (parameters.section.kind) {
+    case Kind::abaqus:
+      return update_gathered(DruckerPragerCapKernel<Kind::abaqus>{parameters}, density, block);
+    case Kind::matsuoka_nakai:
+      return update_gathered(DruckerPragerCapKernel<Kind::matsuoka_nakai>{parameters}, density,
+                             block);
+    case Kind::round:
+      break;
+  }
+  return update_gathered(DruckerPragerCapKernel<Kind::round>{parameters}, density, block);
 }
 
 constexpr void fill(DruckerPragerCapKernels& kernels) {

@@ -5,6 +5,7 @@
 #include "material/elasticity/elasticity_parameters.h"
 #include "material/hardening/hardening_parameters.h"
 #include "material/point_block.h"
+#include "material/section/section_parameters.h"
 #include "simd/instruction_set.h"
 
 namespace furrow {
@@ -19,9 +20,9 @@ struct DruckerPragerCapParameters {
   double alpha = 0.0;  ///< size of the transition
   /// 1 + alpha - alpha/cos(beta): top of the cap is t = A (d + pa tan(beta))
   double A = 1.0;
-  double B = 1.0;           ///< 1 - alpha/cos(beta): height of the transition's centre
-  double flow_ratio = 1.0;  ///< K
-  double cutoff = 1e300;    ///< tension cut-off: p >= -cutoff [Pa]
+  double B = 1.0;  ///< 1 - alpha/cos(beta): height of the transition's centre
+  SectionParameters section;
+  double cutoff = 1e300;  ///< tension cut-off: p >= -cutoff [Pa]
 };
 
 /// Kernels of drucker_prager_cap_kernel.h.

@@ -7,7 +7,7 @@
 ///
 /// Unknown is the volumetric plastic strain of the step, De, compression positive. At the end
 ///   p = p_el(dv - De)                elasticity
-///   t h(m) = t_tr,   m = 3 G Lambda  deviatoric return, h = t_tr/t (deviatoric_return.h)
+///   t (1 + m) = t_tr,  m = 3 G Lambda  deviatoric return, with its own G (deviatoric_return.h)
 ///   f(p, t, eps_n + De) = 0          the surface that the trial violates, known beforehand
 ///   Lambda(De)                       flow rule of that surface
 /// all hold with the stress and the hardening of the end of the step. The stress is then placed on
@@ -20,18 +20,17 @@ inline namespace FURROW_ISA {
 
 /// Shear line and transition: x = -De >= 0, D = pa - p. Flow (16): m = 3 G x/(A^2 tan^2(beta) D),
 /// and with the strength t_y(p) of the surface the equation is
-///   t_tr D - t_y(p) D h(m) = 0       decreasing in x; for K = 1, where D h = D + m D, a quadratic
-///                                    on a straight piece of the hardening table
-template <bool lode_dependent>
-void return_to_shear(const DruckerPragerCapParameters& parameters, const Mask& active,
-                     const CapTrial<lode_dependent>& trial, CapReturn& end) {
+///   t_tr D - t_y(p) (D + m D) = 0    decreasing in x; a quadratic on a straight piece of the
+///                                    hardening table
+inline void return_to_shear(const DruckerPragerCapParameters& parameters, const Mask& active,
+                            const CapTrial& trial, CapReturn& end) {
   const ElasticStep& elastic = trial.elastic;
   const CapSurfaces& old = trial.start;
   const Lanes c =
       Lanes(3.0 / (parameters.A * parameters.A * parameters.tan_beta * parameters.tan_beta)) *
-      elastic.shear;
+      trial.shear;
   CapSurfaces now = old;
-  Lanes pressure = trial.p, D = 0.0, strength = 0.0, multiplier = 0.0;
+  Lanes pressure = trial.p, D = 0.0, strength = 0.0;
   Mask transition(false);
   const auto residual = [&](const Lanes& x) __attribute__((always_inline))->ValueAndSlope {
     now = surfaces_at(parameters, trial.hardening, trial.eps - x);
@@ -42,17 +41,9 @@ void return_to_shear(const DruckerPragerCapParameters& parameters, const Mask& a
     const Lanes dD = select(before, dpa - dp, 0.0);
     const ValueAndSlope yield = shear_strength(parameters, now, pressure, dp, dpa, &transition);
     strength = yield.value;
-    Lanes Dh, dDh;  // D h(m) and its derivative
-    if (lode_dependent) {
-      multiplier = min(c * x / max(D, Lanes(1e-100)), 1e100);
-      const LodeReturn back = trial.deviator.at(multiplier, end.iterations, active);
-      Dh = select(before, D * back.ratio, c * x * back.slope);
-      dDh = dD * back.ratio + back.slope * (c - multiplier * dD);
-    } else {
-      Dh = D + c * x;
-      dDh = dD + c;
-    }
-    return {trial.t * D - strength * Dh, trial.t * dD - yield.slope * Dh - strength * dDh};
+    const Lanes product = D + c * x;
+    return {trial.t * D - strength * product,
+            trial.t * dD - yield.slope * product - strength * (dD + c)};
   };
   const Lanes high = elastic.strain(old.pa) - trial.dv;
   const Lanes positive = max(shear_strength(parameters, old, trial.p, 0.0, 0.0, nullptr).value,
@@ -73,7 +64,6 @@ void return_to_shear(const DruckerPragerCapParameters& parameters, const Mask& a
   stdx::where(active, end.compaction) = -solution;
   stdx::where(active, end.p) = pressure;
   stdx::where(active, end.t) = min(max(strength, 0.0), trial.t);
-  stdx::where(active, end.m) = multiplier;
   stdx::where(active, end.pa) = now.pa;
   stdx::where(active, end.branch) =
       select(apex, double(Branch::tension),
@@ -82,9 +72,8 @@ void return_to_shear(const DruckerPragerCapParameters& parameters, const Mask& a
 
 /// Tension cut-off, p = -cutoff: De follows from the elastic law, and t is the smaller of the
 /// trial's and the yield surface's.
-template <bool lode_dependent>
-void return_to_cutoff(const DruckerPragerCapParameters& parameters, const Mask& active,
-                      const CapTrial<lode_dependent>& trial, CapReturn& end) {
+inline void return_to_cutoff(const DruckerPragerCapParameters& parameters, const Mask& active,
+                             const CapTrial& trial, CapReturn& end) {
   const Lanes pressure = -parameters.cutoff;
   const Lanes de = select(active, trial.dv - trial.elastic.strain(pressure), 0.0);
   const CapSurfaces now = surfaces_at(parameters, trial.hardening, trial.eps + de);
@@ -96,22 +85,17 @@ void return_to_cutoff(const DruckerPragerCapParameters& parameters, const Mask& 
                  shear_strength(parameters, now, pressure, 0.0, 0.0, nullptr).value),
           0.0);
   const Lanes measure = min(trial.t, strength);
-  const Lanes ratio = trial.t / max(measure, Lanes(1e-100) * trial.t + Lanes(1e-300));
-  const Lanes multiplier = trial.deviator.multiplier(max(ratio, 1.0), end.iterations, active);
   stdx::where(active, end.iterations) += 1.0;
   stdx::where(active, end.compaction) = de;
   stdx::where(active, end.p) = pressure;
   stdx::where(active, end.t) = measure;
-  stdx::where(active, end.m) = multiplier;
   stdx::where(active, end.pa) = now.pa;
   stdx::where(active, end.branch) = double(Branch::tension);
 }
 
 /// The end of the step: the trial where it is elastic, else its return to the surface it violates.
-template <bool lode_dependent>
 FURROW_INLINE CapReturn return_mapping(const DruckerPragerCapParameters& parameters,
-                                       const ViolatedSurface& violated,
-                                       const CapTrial<lode_dependent>& trial) {
+                                       const ViolatedSurface& violated, const CapTrial& trial) {
   CapReturn end;
   end.p = trial.p;
   end.t = trial.t;

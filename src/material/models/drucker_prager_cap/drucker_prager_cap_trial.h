@@ -2,7 +2,6 @@
 #pragma once
 /// The elastic trial of a step of the Drucker-Prager cap law, and which surface it violates.
 
-#include "material/deviatoric_return.h"
 #include "material/elasticity/elasticity_kernel.h"
 #include "material/models/drucker_prager_cap/drucker_prager_cap_surfaces.h"
 #include "material/point_block.h"
@@ -11,10 +10,9 @@ namespace furrow {
 inline namespace FURROW_ISA {
 
 /// The elastic trial of a step, and what it takes to correct it.
-template <bool lode_dependent>
 struct CapTrial {
   const ElasticStep& elastic;
-  const DeviatoricReturn<lode_dependent>& deviator;
+  Lanes shear;  ///< shear modulus of the return of t (deviatoric_return.h) [Pa]
   Hardening& hardening;
   Lanes dv;           ///< volumetric strain of the step, compression positive
   Lanes eps;          ///< eps_vol_pl at the start of the step
@@ -24,17 +22,24 @@ struct CapTrial {
   Lanes noise;  ///< strain that rounding of p and eps amounts to
 };
 
-template <bool lode_dependent>
-FURROW_INLINE CapTrial<lode_dependent> make_trial(const DruckerPragerCapParameters& parameters,
-                                                  const ElasticStep& elastic,
-                                                  const DeviatoricReturn<lode_dependent>& deviator,
-                                                  Hardening& hardening, const Lanes& dv,
-                                                  const Lanes& eps) {
+/// @param deviator  a DeviatoricReturn
+template <class Deviator>
+FURROW_INLINE CapTrial make_trial(const DruckerPragerCapParameters& parameters,
+                                  const ElasticStep& elastic, const Deviator& deviator,
+                                  Hardening& hardening, const Lanes& dv, const Lanes& eps) {
   const CapSurfaces start = surfaces_at(parameters, hardening, eps);
   const Lanes stress = abs(elastic.p_n) + abs(start.pa);
   const Lanes noise =
       Lanes(4e-16) * (abs(eps) + abs(dv)) + Lanes(8e-16) * stress / elastic.bulk_at_start();
-  return {elastic, deviator, hardening, dv, eps, start, elastic.pressure(dv), deviator.t(), noise};
+  return {elastic,
+          deviator.stiffness(elastic.shear),
+          hardening,
+          dv,
+          eps,
+          start,
+          elastic.pressure(dv),
+          deviator.t(),
+          noise};
 }
 
 /// The end of a step.
@@ -45,7 +50,6 @@ struct CapReturn {
   Lanes pa = 0.0;
   Lanes branch = double(Branch::elastic);
   Lanes iterations = 0.0;
-  Lanes m = 0.0;  ///< 3 G Lambda of the deviatoric return
 };
 
 /// The surface that each point's trial violates, one at most.
@@ -58,9 +62,8 @@ struct ViolatedSurface {
 /// Which surface the return ends on is known beforehand: flow on the cap compacts and ends at p >=
 /// pa, flow on the shear line and the transition loosens and ends at p <= pa, so the side of the
 /// trial pressure decides.
-template <bool lode_dependent>
 FURROW_INLINE ViolatedSurface violated_surface(const DruckerPragerCapParameters& parameters,
-                                               const CapTrial<lode_dependent>& trial) {
+                                               const CapTrial& trial) {
   // The slack is rounding: a point at rest on its surface is elastic.
   const CapSurfaces& old = trial.start;
   const Lanes slack = Lanes(1e-13) * old.Q;

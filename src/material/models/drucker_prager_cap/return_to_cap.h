@@ -6,46 +6,42 @@
 /// plastic strain of the step, De, and u = tan(phi); pa and Q are those of eps_n + De. Associated
 /// flow ties the deviatoric return to De,
 ///   m = 3 G Lambda = 3 G R De/(A^2 Q) sqrt(1 + u^2),
-/// and leaves two equations:
+/// G being the shear modulus of the return of t, and leaves two equations:
 ///   f = p_el(dv - De) - pa - R Q cos(phi) = 0     elastic pressure
-///   g = A Q sin(phi) h(m) - t_tr = 0              deviatoric return, h = t_tr/t
-/// Both are solved together by Newton's method where h = 1 + m (K = 1) and elasticity is linear.
-/// Points where that has not converged after a few iterations, and all other cases, are solved one
-/// equation inside the other, each within a bracket, which converges always.
+///   g = A Q sin(phi) (1 + m) - t_tr = 0           deviatoric return
+/// Both are solved together by Newton's method where elasticity is linear. Points where that has
+/// not converged after a few iterations, and those of porous elasticity, are solved one equation
+/// inside the other, each within a bracket, which converges always.
 
 #include "material/models/drucker_prager_cap/drucker_prager_cap_trial.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {
 
-/// tan(phi) is not below this: sin(phi) <= min(tan(phi), 1) in A Q sin(phi) h = t_tr with h = 1 + k
-/// sqrt(1 + u^2). @param top  A Q
+/// tan(phi) is not below this: sin(phi) <= min(tan(phi), 1) in A Q sin(phi) (1 + m) = t_tr with
+/// m = k sqrt(1 + u^2). @param top  A Q
 FURROW_INLINE Lanes min_tangent(const Lanes& t, const Lanes& top, const Lanes& k) {
   return min(max(t / (top * (k + Lanes(1.0))), (t - top) / (top * max(k, 1e-140))), 1e140);
 }
 
-template <bool lode_dependent>
 FURROW_INLINE void finish_cap(const DruckerPragerCapParameters& parameters, const Mask& active,
-                              const CapTrial<lode_dependent>& trial, const CapSurfaces& now,
-                              const Lanes& cosine, const Lanes& sine, const Lanes& m,
-                              const Lanes& de, CapReturn& end) {
+                              const CapTrial& trial, const CapSurfaces& now, const Lanes& cosine,
+                              const Lanes& sine, const Lanes& de, CapReturn& end) {
   stdx::where(active, end.compaction) = de;
   stdx::where(active, end.p) = now.pa + Lanes(parameters.R) * now.Q * cosine;
   stdx::where(active, end.t) = min(Lanes(parameters.A) * now.Q * sine, trial.t);
-  stdx::where(active, end.m) = m;
   stdx::where(active, end.pa) = now.pa;
   stdx::where(active, end.branch) = double(Branch::cap);
 }
 
-/// Both equations together, by Newton's method in (De, u), for K = 1 and linear elasticity: there
-/// g = A Q sin(phi) + 3 G (R/A) De u - t_tr. @return the points that it has not solved
-template <bool lode_dependent>
+/// Both equations together, by Newton's method in (De, u), for linear elasticity: there g = A Q
+/// sin(phi) + 3 G (R/A) De u - t_tr. @return the points that it has not solved
 FURROW_INLINE Mask solve_cap_together(const DruckerPragerCapParameters& parameters,
-                                      const Mask& active, const CapTrial<lode_dependent>& trial,
-                                      const Lanes& guess, CapReturn& end) {
+                                      const Mask& active, const CapTrial& trial, const Lanes& guess,
+                                      CapReturn& end) {
   const Lanes A = parameters.A, R = parameters.R, tan_beta = parameters.tan_beta,
               bulk = parameters.elasticity.bulk;
-  const Lanes b = Lanes(3.0 * parameters.R / parameters.A) * trial.elastic.shear;
+  const Lanes b = Lanes(3.0 * parameters.R / parameters.A) * trial.shear;
   Lanes de = guess;
   Lanes u = min_tangent(trial.t, A * trial.start.Q, b * guess / (A * trial.start.Q));
   CapSurfaces now = trial.start;
@@ -75,24 +71,21 @@ FURROW_INLINE Mask solve_cap_together(const DruckerPragerCapParameters& paramete
     de = select(solved, de, max(de + dde, Lanes(0.1) * de));
     u = select(solved, u, max(u + du, Lanes(0.1) * u));
   }
-  finish_cap(parameters, active && solved, trial, now, cosine, sine, b * de / (A * now.Q * cosine),
-             de, end);
+  finish_cap(parameters, active && solved, trial, now, cosine, sine, de, end);
   return active && !solved;
 }
 
 /// One equation inside the other, each within a bracket: g increases with u, and f with the u that
 /// solves g decreases with De.
-template <bool lode_dependent>
-void solve_cap_nested(const DruckerPragerCapParameters& parameters, const Mask& active,
-                      const CapTrial<lode_dependent>& trial, const Lanes& guess, CapReturn& end) {
+inline void solve_cap_nested(const DruckerPragerCapParameters& parameters, const Mask& active,
+                             const CapTrial& trial, const Lanes& guess, CapReturn& end) {
   const ElasticStep& elastic = trial.elastic;
   const Lanes A = parameters.A, R = parameters.R;
-  const Lanes k_factor = Lanes(3.0 * parameters.R / (parameters.A * parameters.A)) * elastic.shear;
+  const Lanes k_factor = Lanes(3.0 * parameters.R / (parameters.A * parameters.A)) * trial.shear;
   Lanes u = 0.0;
   CapSurfaces now = trial.start;
   struct Angle {
     Lanes cosine, sine, length, m, slope;
-    LodeReturn back;
   };
   Angle angle{};
   // g = 0 for tan(phi) at a given De. Concave in u for K = 1, so Newton's method from the left is
@@ -108,11 +101,10 @@ void solve_cap_nested(const DruckerPragerCapParameters& parameters, const Mask& 
       const Lanes length = sqrt(Lanes(1.0) + u * u), cosine = Lanes(1.0) / length,
                   sine = u * cosine;
       const Lanes multiplier = k * length;
-      const LodeReturn back = trial.deviator.at(multiplier, end.iterations, open);
-      const Lanes value = top * sine * back.ratio - trial.t;
+      const Lanes value = top * sine * (Lanes(1.0) + multiplier) - trial.t;
       const Lanes slope =
-          top * (cosine * cosine * cosine * back.ratio + sine * back.slope * k * sine);
-      angle = {cosine, sine, length, multiplier, slope, back};
+          top * (cosine * cosine * cosine * (Lanes(1.0) + multiplier) + sine * k * sine);
+      angle = {cosine, sine, length, multiplier, slope};
       if (!any(open)) break;
       stdx::where(open, end.iterations) += 1.0;
       stdx::where(open && value > Lanes(0.0), high) = u;
@@ -138,8 +130,7 @@ void solve_cap_nested(const DruckerPragerCapParameters& parameters, const Mask& 
     // d(cos phi)/d(De) by the implicit derivative of g = 0
     const Lanes dQ = Lanes(parameters.tan_beta) * now.pa_slope;
     const Lanes m_slope = (k_factor * angle.length - angle.m * dQ) / now.Q;
-    const Lanes inner =
-        A * angle.sine * (dQ * angle.back.ratio + now.Q * angle.back.slope * m_slope);
+    const Lanes inner = A * angle.sine * (dQ * (Lanes(1.0) + angle.m) + now.Q * m_slope);
     const Lanes dcos = angle.sine * square(angle.cosine) * inner / angle.slope;
     const Lanes slope =
         -elastic.bulk(x, pressure) - now.pa_slope - R * (dQ * angle.cosine + now.Q * dcos);
@@ -154,12 +145,11 @@ void solve_cap_nested(const DruckerPragerCapParameters& parameters, const Mask& 
                       active && high > Lanes(0.0), end.iterations);
   const Lanes solution = select(active, max(de, 0.0), 0.0);
   residual(solution);
-  finish_cap(parameters, active, trial, now, angle.cosine, angle.sine, angle.m, solution, end);
+  finish_cap(parameters, active, trial, now, angle.cosine, angle.sine, solution, end);
 }
 
-template <bool lode_dependent>
 FURROW_INLINE void return_to_cap(const DruckerPragerCapParameters& parameters, const Mask& active,
-                                 const CapTrial<lode_dependent>& trial, CapReturn& end) {
+                                 const CapTrial& trial, CapReturn& end) {
   const CapSurfaces& old = trial.start;
   // First guess: De at constant t and size of the cap.
   const Lanes share = trial.t / (Lanes(parameters.A) * old.Q);
@@ -170,7 +160,7 @@ FURROW_INLINE void return_to_cap(const DruckerPragerCapParameters& parameters, c
       old.pa_slope * (Lanes(1.0) + Lanes(parameters.R * parameters.tan_beta) * cosine);
   const Lanes guess = max(excess / stiffness, 0.0);
   Mask open = active;
-  if (!lode_dependent && !parameters.elasticity.porous)
+  if (!parameters.elasticity.porous)
     open = solve_cap_together(parameters, active, trial, guess, end);
   if (any(open)) solve_cap_nested(parameters, open, trial, guess, end);
 }

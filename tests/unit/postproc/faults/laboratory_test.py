@@ -152,6 +152,8 @@ CELL_STRAIN = np.column_stack((SIDE, SIDE, STRAIN))
 CELL = cell_rows(CELL_STRAIN, triaxial_stress(1e4, 1e4 + 2e5 * STRAIN))
 CURVES: Mapping[str, Floats] = {
     "triaxial": CELL,
+    "extension": cell_rows(-CELL_STRAIN, np.roll(triaxial_stress(1e4, 1e4 + 2e5 * STRAIN), 1, 1)),
+    "plane_strain": CELL,
     "oedometer": CELL,
     "unconfined": CELL,
     "tension": cell_rows(-CELL_STRAIN, triaxial_stress(0.0, -2e5 * STRAIN)),
