@@ -150,14 +150,13 @@ struct Group {
       store(state[field::internal + static_cast<std::size_t>(k)], points.internal[k]);
 
     UpdateReport& report = result.report;
-    std::size_t yielding = 0;
-    for (std::size_t b = 1; b < branch_count; ++b) {
-      const std::size_t number = count(points.branch == Lanes(static_cast<double>(b)));
-      report.points[b] += number;
-      yielding += number;
-    }
-    report.points[0] += static_cast<std::size_t>(lanes) - yielding;
-    if (yielding > 0) {
+    report.points[0] += static_cast<std::size_t>(lanes);
+    if (any(points.branch > Lanes(0.0))) {
+      for (std::size_t b = 1; b < branch_count; ++b) {
+        const std::size_t number = count(points.branch == Lanes(static_cast<double>(b)));
+        report.points[b] += number;
+        report.points[0] -= number;
+      }
       alignas(64) double evaluations[lane_count];
       points.iterations.copy_to(evaluations, stdx::vector_aligned);
       for (int lane = 0; lane < lanes; ++lane) {
@@ -192,80 +191,128 @@ BlockResult update_points(const Kernel& kernel, double density, const PointBlock
   return result;
 }
 
-/// The same in three passes over a few groups at a time, for kernels whose return mapping is
-/// expensive: trial states of all points; then the points that yield alike are gathered, so that no
-/// lane waits for a neighbour on another surface (a group that yields as one is corrected at once);
-/// then stresses. Between the passes a point is a few numbers. A kernel has
-///   Prediction    the numbers of the trial, and the surface that each point violates, if any
+/// The same for kernels whose return mapping is expensive. Trial states first: a group of points
+/// that are all elastic, or all on one surface, is finished at once. Of a few groups at a time that
+/// are mixed, the points that yield alike are gathered and corrected, so that no lane waits for a
+/// neighbour on another surface; then these groups are finished. Between the passes a point is a
+/// few numbers. A kernel has
+///   Prediction    the numbers of the trial, and the surface that each point still violates, if any
 ///   Numbers       the numbers of the end of the step
 /// and, with `trial` and `end` for the numbers of these,
 ///   Prediction predict(strain, points, Numbers& end)
 ///   Numbers    correct(surface, trial)
 ///   void       finish(strain, trial, end, points)
 template <class Kernel>
-BlockResult update_gathered(const Kernel& kernel, double density, const PointBlock& block) {
-  constexpr int max_groups = 8, size = max_groups * lane_count;
-  constexpr int inputs = Kernel::prediction_numbers, outputs = Kernel::return_numbers,
-                surfaces = Kernel::surface_count;
-  BlockResult result;
-  Motion motions[max_groups];
-  alignas(64) double in[inputs][size], out[outputs][size], flags[lane_count];
-  int members[surfaces][size];
-  for (std::size_t start = 0; start < block.size; start += size) {
-    const std::size_t left = block.size - start;
-    const int groups =
-        left < size ? static_cast<int>((left + lane_count - 1) / lane_count) : max_groups;
-    int count[surfaces] = {};
-    for (int g = 0; g < groups; ++g) {
-      const Group group(block, start + static_cast<std::size_t>(g) * lane_count);
-      find_motion(group.load_gradient(), motions[g]);
-      typename Kernel::Numbers end;
-      const typename Kernel::Prediction prediction =
-          kernel.predict(motions[g].strain, group.load_points<Kernel::internal_variables>(), end);
-      for (int k = 0; k < inputs; ++k)
-        prediction.numbers[k].copy_to(&in[k][g * lane_count], stdx::vector_aligned);
-      for (int k = 0; k < outputs; ++k)
-        end.numbers[k].copy_to(&out[k][g * lane_count], stdx::vector_aligned);
-      for (int surface = 0; surface < surfaces; ++surface) {
-        if (!any(prediction.violated[surface])) continue;
-        select(prediction.violated[surface], 1.0, 0.0).copy_to(flags, stdx::vector_aligned);
-        for (int lane = 0; lane < group.lanes; ++lane) {
-          members[surface][count[surface]] = g * lane_count + lane;
-          count[surface] += flags[lane] > 0.0 ? 1 : 0;
-        }
-      }
+class GatheredUpdate {
+ public:
+  GatheredUpdate(const Kernel& kernel, double density, const PointBlock& block)
+      : kernel_(kernel), density_(density), block_(block) {}
+
+  BlockResult run() {
+    for (std::size_t first = 0; first < block_.size; first += lane_count) {
+      const Group group(block_, first);
+      if (!predict(group) || (mixed_ == max_mixed && !finish_mixed())) return result_;
     }
+    finish_mixed();
+    return result_;
+  }
+
+ private:
+  static constexpr int max_mixed = 8, size = max_mixed * lane_count;
+  static constexpr int inputs = Kernel::prediction_numbers, outputs = Kernel::return_numbers,
+                       surfaces = Kernel::surface_count;
+  using StepPoints = Points<Kernel::internal_variables>;
+
+  /// The trial of a group, and all of its step unless it is mixed. False: see Group::store_points.
+  FURROW_INLINE bool predict(const Group& group) {
+    Motion motion;
+    find_motion(group.load_gradient(), motion);
+    StepPoints points = group.load_points<Kernel::internal_variables>();
+    typename Kernel::Numbers end;
+    const typename Kernel::Prediction prediction = kernel_.predict(motion.strain, points, end);
+    Mask violated = prediction.violated[0];
+    for (int surface = 1; surface < surfaces; ++surface)
+      violated = violated || prediction.violated[surface];
+    if (!any(violated)) return finish(group, motion, prediction.numbers, end.numbers, points);
+
+    const int g = mixed_++;
+    first_[g] = group.first;
+    motions_[g] = motion;
+    for (int k = 0; k < inputs; ++k)
+      prediction.numbers[k].copy_to(&in_[k][g * lane_count], stdx::vector_aligned);
+    for (int k = 0; k < outputs; ++k)
+      end.numbers[k].copy_to(&out_[k][g * lane_count], stdx::vector_aligned);
+    alignas(64) double flags[lane_count];
     for (int surface = 0; surface < surfaces; ++surface) {
-      for (int done = 0; done < count[surface]; done += lane_count) {
-        const int* const list = members[surface] + done;
-        const int lanes = count[surface] - done < lane_count ? count[surface] - done : lane_count;
-        Lanes numbers[inputs];
-        for (int k = 0; k < inputs; ++k)
-          numbers[k] =
-              Lanes([&](auto lane) { return in[k][list[int(lane) < lanes ? int(lane) : 0]]; });
-        const typename Kernel::Numbers end = kernel.correct(surface, numbers);
-        for (int k = 0; k < outputs; ++k) {
-          end.numbers[k].copy_to(flags, stdx::vector_aligned);
-          for (int lane = 0; lane < lanes; ++lane) out[k][list[lane]] = flags[lane];
-        }
+      if (!any(prediction.violated[surface])) continue;
+      select(prediction.violated[surface], 1.0, 0.0).copy_to(flags, stdx::vector_aligned);
+      for (int lane = 0; lane < group.lanes; ++lane) {
+        members_[surface][count_[surface]] = g * lane_count + lane;
+        count_[surface] += flags[lane] > 0.0 ? 1 : 0;
       }
     }
-    for (int g = 0; g < groups; ++g) {
-      const Group group(block, start + static_cast<std::size_t>(g) * lane_count);
-      Points<Kernel::internal_variables> points = group.load_points<Kernel::internal_variables>();
+    return true;
+  }
+
+  bool finish_mixed() {
+    for (int surface = 0; surface < surfaces; ++surface) correct(surface);
+    for (int g = 0; g < mixed_; ++g) {
+      const Group group(block_, first_[g]);
+      StepPoints points = group.load_points<Kernel::internal_variables>();
       Lanes numbers[inputs], ends[outputs];
       for (int k = 0; k < inputs; ++k)
-        numbers[k] = Lanes(&in[k][g * lane_count], stdx::vector_aligned);
+        numbers[k] = Lanes(&in_[k][g * lane_count], stdx::vector_aligned);
       for (int k = 0; k < outputs; ++k)
-        ends[k] = Lanes(&out[k][g * lane_count], stdx::vector_aligned);
-      kernel.finish(motions[g].strain, numbers, ends, points);
-      points.stress = rotated(points.stress, motions[g].rotation);
-      if (!group.store_points(points, {motions[g].volume, motions[g].admissible, false}, density,
-                              result))
-        return result;
+        ends[k] = Lanes(&out_[k][g * lane_count], stdx::vector_aligned);
+      if (!finish(group, motions_[g], numbers, ends, points)) return false;
     }
+    mixed_ = 0;
+    return true;
   }
-  return result;
+
+  /// The points of the mixed groups that violate a surface.
+  FURROW_INLINE void correct(int surface) {
+    alignas(64) double lane_numbers[lane_count];
+    for (int done = 0; done < count_[surface]; done += lane_count) {
+      const int* const list = members_[surface] + done;
+      const int lanes = count_[surface] - done < lane_count ? count_[surface] - done : lane_count;
+      Lanes numbers[inputs];
+      for (int k = 0; k < inputs; ++k)
+        numbers[k] =
+            Lanes([&](auto lane) { return in_[k][list[int(lane) < lanes ? int(lane) : 0]]; });
+      const typename Kernel::Numbers end = kernel_.correct(surface, numbers);
+      for (int k = 0; k < outputs; ++k) {
+        end.numbers[k].copy_to(lane_numbers, stdx::vector_aligned);
+        for (int lane = 0; lane < lanes; ++lane) out_[k][list[lane]] = lane_numbers[lane];
+      }
+    }
+    count_[surface] = 0;
+  }
+
+  FURROW_INLINE bool finish(const Group& group, const Motion& motion, const Lanes* trial,
+                            const Lanes* end, StepPoints& points) {
+    kernel_.finish(motion.strain, trial, end, points);
+    points.stress = rotated(points.stress, motion.rotation);
+    return group.store_points(points, {motion.volume, motion.admissible, false}, density_, result_);
+  }
+
+  const Kernel& kernel_;
+  double density_;
+  const PointBlock& block_;
+  BlockResult result_;
+  // The groups that wait for their correction.
+  int mixed_ = 0;
+  std::size_t first_[max_mixed];
+  Motion motions_[max_mixed];
+  alignas(64) double in_[inputs][size];
+  alignas(64) double out_[outputs][size];
+  int members_[surfaces][size];  // points that violate a surface
+  int count_[surfaces] = {};
+};
+
+template <class Kernel>
+BlockResult update_gathered(const Kernel& kernel, double density, const PointBlock& block) {
+  return GatheredUpdate<Kernel>(kernel, density, block).run();
 }
 
 }  // namespace FURROW_ISA

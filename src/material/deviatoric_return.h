@@ -125,7 +125,9 @@ class DeviatoricReturn<SectionParameters::Kind::round> {
   FURROW_INLINE Lanes stiffness(const Lanes& shear) const { return shear; }
   FURROW_INLINE Symmetric stress(const Symmetric& trial, const Lanes& t,
                                  const Mask& yielding) const {
-    return trial * select(yielding && t_ > Lanes(0.0), t / t_, 1.0);
+    const Mask returns = yielding && t_ > Lanes(0.0);
+    if (!any(returns)) return trial;
+    return trial * select(returns, t / t_, 1.0);
   }
 
  private:

@@ -9,9 +9,12 @@
 ///   U^-1   = C^(-1/2)    = (I - Z)(I - Y)^(-1/2) = (I - Z)(I + Y/2 + 3 Y^2/8 + ...)
 ///   R      = Delta F U^-1
 /// For |X| <= 0.1 (Frobenius) |Z| <= 0.053 and seven terms leave a relative error below 1e-16; for
-/// |X| <= 0.004, which the steps of an explicit computation hardly ever exceed, three do. Larger
-/// stretches (a strain of more than 5 % in one step) take the eigenvalues of C instead, point by
-/// point.
+/// |X| <= 0.004, which the steps of an explicit computation hardly ever exceed, three do. For
+/// |X| <= 1e-4, ground that hardly moves, the series in X itself leave as little and need no
+/// division:
+///   ln U = X/2 - X^2/4 + X^3/6 - X^4/8,   U^-1 = I - X/2 + 3 X^2/8 - 5 X^3/16
+/// Larger stretches (a strain of more than 5 % in one step) take the eigenvalues of C instead,
+/// point by point.
 
 #include "material/large_stretch.h"
 #include "simd/tensors.h"
@@ -35,17 +38,11 @@ struct Motion {
   Mask admissible;   ///< Delta F finite with positive determinant
 };
 
-FURROW_INLINE void find_motion(const Tensor& h, Motion& motion) {
-  const Lanes* m = h.m;
-  const auto column = [&](int i, int j) __attribute__((always_inline)) {
-    return m[i] * m[j] + m[3 + i] * m[3 + j] + m[6 + i] * m[6 + j];
-  };
-  const Symmetric x{m[0] + m[0] + column(0, 0), m[4] + m[4] + column(1, 1),
-                    m[8] + m[8] + column(2, 2), m[1] + m[3] + column(0, 1),
-                    m[5] + m[7] + column(1, 2), m[2] + m[6] + column(0, 2)};
+/// ln U and U^-1 by the series in Z. @param size  X : X
+FURROW_INLINE void find_stretch(const Symmetric& x, const Lanes& size, Symmetric& log_u,
+                                Symmetric& inverse_u) {
   const Symmetric z = commuting_product(x, inverse(x.plus_identity(2.0)));
   const Symmetric y = commuting_product(z, z), y2 = commuting_product(y, y);
-  const Lanes size = contract(x, x);
   constexpr double atanh_terms[7] = {1.0, 1.0 / 3, 1.0 / 5, 1.0 / 7, 1.0 / 9, 1.0 / 11, 1.0 / 13};
   constexpr double root_terms[7] = {1.0,        1.0 / 2,    3.0 / 8,     5.0 / 16,
                                     35.0 / 128, 63.0 / 256, 231.0 / 1024};
@@ -64,8 +61,34 @@ FURROW_INLINE void find_motion(const Tensor& h, Motion& motion) {
     log_u_over_z = log_u_over_z + rest(atanh_terms);
     root = root + rest(root_terms);
   }
-  motion.strain = commuting_product(z, log_u_over_z);
-  Symmetric inverse_u = commuting_product((z * Lanes(-1.0)).plus_identity(1.0), root);
+  log_u = commuting_product(z, log_u_over_z);
+  inverse_u = commuting_product((z * Lanes(-1.0)).plus_identity(1.0), root);
+}
+
+/// The same by the series in X.
+FURROW_INLINE void find_small_stretch(const Symmetric& x, Symmetric& log_u, Symmetric& inverse_u) {
+  const Symmetric x2 = commuting_product(x, x);
+  const Symmetric log_rest = x * Lanes(1.0 / 6) - x2 * Lanes(1.0 / 8),
+                  root_rest = x * Lanes(-5.0 / 16);
+  log_u = x * Lanes(0.5) + commuting_product(x2, log_rest.plus_identity(-0.25));
+  inverse_u =
+      (commuting_product(x2, root_rest.plus_identity(3.0 / 8)) - x * Lanes(0.5)).plus_identity(1.0);
+}
+
+FURROW_INLINE void find_motion(const Tensor& h, Motion& motion) {
+  const Lanes* m = h.m;
+  const auto column = [&](int i, int j) __attribute__((always_inline)) {
+    return m[i] * m[j] + m[3 + i] * m[3 + j] + m[6 + i] * m[6 + j];
+  };
+  const Symmetric x{m[0] + m[0] + column(0, 0), m[4] + m[4] + column(1, 1),
+                    m[8] + m[8] + column(2, 2), m[1] + m[3] + column(0, 1),
+                    m[5] + m[7] + column(1, 2), m[2] + m[6] + column(0, 2)};
+  const Lanes size = contract(x, x);
+  Symmetric inverse_u;
+  if (all(size <= Lanes(1e-8)))
+    find_small_stretch(x, motion.strain, inverse_u);
+  else
+    find_stretch(x, size, motion.strain, inverse_u);
   motion.admissible = Mask(true);
 
   const Mask large = !(size <= Lanes(0.01));  // also not a number

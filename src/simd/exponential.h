@@ -35,8 +35,15 @@ FURROW_INLINE Lanes exponential(const Lanes& a) {
                                             1.0 / 39916800,
                                             1.0 / 479001600,
                                             1.0 / 6227020800.0};
-  Lanes sum = inverse_factorial[13];
-  for (int k = 12; k >= 0; --k) sum = sum * r + Lanes(inverse_factorial[k]);
+  // in pairs and pairs of these (Estrin), which wait for one another less than Horner's nesting
+  const Lanes r2 = r * r, r4 = r2 * r2, r8 = r4 * r4;
+  const auto pair = [&](int k) __attribute__((always_inline)) {
+    return Lanes(inverse_factorial[k + 1]) * r + Lanes(inverse_factorial[k]);
+  };
+  const auto four = [&](int k) __attribute__((always_inline)) {
+    return pair(k + 2) * r2 + pair(k);
+  };
+  const Lanes sum = (pair(12) * r4 + four(8)) * r8 + (four(4) * r4 + four(0));
   Integers bits;
   static_assert(sizeof(Integers) == sizeof(Lanes));
   __builtin_memcpy(static_cast<void*>(&bits), &shifted, sizeof bits);

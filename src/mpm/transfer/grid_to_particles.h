@@ -8,19 +8,69 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
+/// H of one particle.
+[[gnu::always_inline]] inline void gather_strain_of_one(const GridView& grid, const Strides& stride,
+                                                        const Weights& weights, std::size_t p,
+                                                        double dt, double* const* gradient,
+                                                        std::size_t to) {
+  Vector4 velocity, column[3];
+  interpolate_with_slopes(grid.velocity, stride, weights, p, velocity, column);
+  for (int d = 0; d < 3; ++d) column[d] *= dt;
+#pragma GCC unroll 3
+  for (int row = 0; row < 3; ++row)
+#pragma GCC unroll 3
+    for (int d = 0; d < 3; ++d) gradient[3 * row + d][to] = column[d][row];
+}
+
+/// H of lane_count particles of one cell.
+[[gnu::always_inline]] inline void gather_strain_of_lanes(const GridView& grid,
+                                                          const Strides& stride,
+                                                          const Weights& weights, std::size_t p,
+                                                          double dt, double* const* gradient,
+                                                          std::size_t to) {
+  const double* corner = grid.velocity + 4 * static_cast<std::size_t>(weights.first_node[p]);
+  for (int row = 0; row < 3; ++row) {
+    Lanes slope[3];
+    interpolate_slopes(corner + row, stride, weights, p, slope);
+#pragma GCC unroll 3
+    for (int d = 0; d < 3; ++d)
+      (slope[d] * Lanes(dt)).copy_to(gradient[3 * row + d] + to, stdx::element_aligned);
+  }
+}
+
+/// Asks memory for what the law and the next transfers need of the particles from p on: more arrays
+/// than a processor foresees.
+[[gnu::always_inline]] inline void prefetch(const ParticleView& particles, std::size_t p) {
+  for (const double* x : particles.shape_position) __builtin_prefetch(x + p);
+  for (const double* s : particles.stress) __builtin_prefetch(s + p, 1);
+  __builtin_prefetch(particles.volume + p);
+  __builtin_prefetch(particles.volume_ratio + p, 1);
+}
+
+/// The particles of a cell are taken lane_count at a time. What is left of them is, when it is more
+/// than a few, taken together with particles before them in the cell or after it: those before get
+/// the same H again, those after have yet to get theirs.
 inline void gather_strain(const GridView& grid, const ParticleView& all, const Weights* of_batches,
                           double dt, double* const* gradient) {
+  constexpr std::size_t lanes = lane_count, few = lanes / 4;
+  constexpr std::size_t ahead = 4 * batch, line = 8;  // particles; numbers in a line of the cache
   const Strides stride(grid);
   for_batches(all, [&](const ParticleView& particles, std::size_t first) {
     const Weights& weights = of_batches[first / batch];
-    for (std::size_t p = 0; p < particles.size; ++p) {
-      Vector4 velocity, column[3];
-      interpolate_with_slopes(grid.velocity, stride, weights, p, velocity, column);
-      for (int d = 0; d < 3; ++d) column[d] *= dt;
-#pragma GCC unroll 3
-      for (int row = 0; row < 3; ++row)
-#pragma GCC unroll 3
-        for (int d = 0; d < 3; ++d) gradient[3 * row + d][first + p] = column[d][row];
+    for (std::size_t p = 0; p < particles.size; p += line) prefetch(particles, p + ahead);
+    for (std::size_t p = 0; p < particles.size;) {
+      const std::size_t start = p, end = end_of_cell(weights, p, particles.size);
+      for (; p + lanes <= end; p += lanes)
+        gather_strain_of_lanes(grid, stride, weights, p, dt, gradient, first + p);
+      const bool full = end - start >= lanes;
+      if (end - p > few && (full || p + lanes <= particles.size)) {
+        const std::size_t from = full ? end - lanes : p;
+        gather_strain_of_lanes(grid, stride, weights, from, dt, gradient, first + from);
+      } else {
+        for (; p < end; ++p)
+          gather_strain_of_one(grid, stride, weights, p, dt, gradient, first + p);
+      }
+      p = end;
     }
   });
 }

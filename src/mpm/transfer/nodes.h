@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Access to the 27 nodes of a particle, with the four numbers of a node as one vector: sums to the
-/// nodes, interpolation from them.
+/// Interpolation from the 27 nodes of a particle: the four numbers of a node as one vector for a
+/// single particle, one number in a lane for each of several particles of a cell.
 
 #include "mpm/transfer.h"
-#include "simd/kernel_units_only.h"
+#include "simd/lanes.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {
@@ -22,81 +22,13 @@ struct Strides {
   std::size_t y, x;
 };
 
-/// Sum over the particles of one cell for its 27 nodes, held in registers until the last of them.
-struct CellSum {
-  Vector4 node[stencil][stencil][stencil];
-
-  /// Adds N_i base + sum_d slope_d flux_d at every node i of particle p; slope_d: Weights::slope
-  /// along d times the values along the other axes.
-  [[gnu::always_inline]] void add(const Weights& weights, std::size_t p, const Vector4& base,
-                                  const Vector4* flux) {
-    Vector4 value_z[stencil];
-#pragma GCC unroll 3
-    for (std::size_t k = 0; k < stencil; ++k)
-      value_z[k] = weights.value[2][k][p] * base + weights.slope[2][k][p] * flux[2];
-    add_rows(weights, p, value_z, flux);
-  }
-
-  /// The same without the first term.
-  [[gnu::always_inline]] void add(const Weights& weights, std::size_t p, const Vector4* flux) {
-    Vector4 value_z[stencil];
-#pragma GCC unroll 3
-    for (std::size_t k = 0; k < stencil; ++k) value_z[k] = weights.slope[2][k][p] * flux[2];
-    add_rows(weights, p, value_z, flux);
-  }
-
-  [[gnu::always_inline]] void add_to(const GridView& grid, const Strides& stride,
-                                     int first_node) const {
-    double* corner = grid.sums + 4 * static_cast<std::size_t>(first_node);
-#pragma GCC unroll 3
-    for (std::size_t i = 0; i < stencil; ++i)
-#pragma GCC unroll 3
-      for (std::size_t j = 0; j < stencil; ++j) {
-        Stored4* row = reinterpret_cast<Stored4*>(corner + i * stride.x + j * stride.y);
-#pragma GCC unroll 3
-        for (std::size_t k = 0; k < stencil; ++k) row[k] += node[i][j][k];
-      }
-  }
-
- private:
-  [[gnu::always_inline]] void add_rows(const Weights& weights, std::size_t p,
-                                       const Vector4* value_z, const Vector4* flux) {
-    Vector4 along_x[stencil], along_y[stencil];
-#pragma GCC unroll 3
-    for (std::size_t k = 0; k < stencil; ++k) {
-      const double w = weights.value[2][k][p];
-      along_x[k] = w * flux[0];
-      along_y[k] = w * flux[1];
-    }
-#pragma GCC unroll 3
-    for (std::size_t i = 0; i < stencil; ++i) {
-      const double w = weights.value[0][i][p], g = weights.slope[0][i][p];
-#pragma GCC unroll 3
-      for (std::size_t k = 0; k < stencil; ++k) {
-        const Vector4 value = w * value_z[k] + g * along_x[k], y_part = w * along_y[k];
-#pragma GCC unroll 3
-        for (std::size_t j = 0; j < stencil; ++j) {
-          node[i][j][k] += weights.value[1][j][p] * value;
-          node[i][j][k] += weights.slope[1][j][p] * y_part;
-        }
-      }
-    }
-  }
-};
-
-/// Calls add(sum, particle) for the particles in turn, and adds the sum of those of one cell to the
-/// nodes.
-template <class Add>
-[[gnu::always_inline]] inline void for_cells(const GridView& grid, const Weights& weights,
-                                             std::size_t count, Add&& add) {
-  const Strides stride(grid);
-  for (std::size_t p = 0; p < count;) {
-    const int first_node = weights.first_node[p];
-    CellSum sum = {};
-    do add(sum, p);
-    while (++p < count && weights.first_node[p] == first_node);
-    sum.add_to(grid, stride, first_node);
-  }
+/// The end of the run of particles of one cell that begins at p.
+[[gnu::always_inline]] inline std::size_t end_of_cell(const Weights& weights, std::size_t p,
+                                                      std::size_t count) {
+  const int first_node = weights.first_node[p];
+  do ++p;
+  while (p < count && weights.first_node[p] == first_node);
+  return p;
 }
 
 /// sum N_i q_i of a quantity q of the nodes.
@@ -158,6 +90,45 @@ template <class Add>
     slope[0] += w * along_x[k];
     slope[1] += w * along_y[k];
     slope[2] += weights.slope[2][k][p] * total[k];
+  }
+}
+
+/// sum slope_d q_i along each axis d, for lane_count particles of one cell from p on. A component
+/// of the nodes at a time.
+[[gnu::always_inline]] inline void interpolate_slopes(const double* component,
+                                                      const Strides& stride, const Weights& weights,
+                                                      std::size_t p, Lanes* slope) {
+  const auto lanes = [p](const double* values) __attribute__((always_inline)) {
+    return Lanes(values + p, stdx::element_aligned);
+  };
+  Lanes w[stencil], g[stencil];
+#pragma GCC unroll 3
+  for (std::size_t j = 0; j < stencil; ++j) {
+    w[j] = lanes(weights.value[1][j]);
+    g[j] = lanes(weights.slope[1][j]);
+  }
+  Lanes total[stencil], along_x[stencil], along_y[stencil];
+#pragma GCC unroll 3
+  for (std::size_t i = 0; i < stencil; ++i) {
+    const Lanes wx = lanes(weights.value[0][i]), gx = lanes(weights.slope[0][i]);
+#pragma GCC unroll 3
+    for (std::size_t k = 0; k < stencil; ++k) {
+      const double* node = component + i * stride.x + 4 * k;
+      const Lanes q0 = node[0], q1 = node[stride.y], q2 = node[2 * stride.y];
+      const Lanes sum = w[0] * q0 + w[1] * q1 + w[2] * q2;
+      const Lanes sum_y = g[0] * q0 + g[1] * q1 + g[2] * q2;
+      total[k] = i == 0 ? wx * sum : total[k] + wx * sum;
+      along_x[k] = i == 0 ? gx * sum : along_x[k] + gx * sum;
+      along_y[k] = i == 0 ? wx * sum_y : along_y[k] + wx * sum_y;
+    }
+  }
+  slope[0] = slope[1] = slope[2] = 0.0;
+#pragma GCC unroll 3
+  for (std::size_t k = 0; k < stencil; ++k) {
+    const Lanes wz = lanes(weights.value[2][k]);
+    slope[0] += wz * along_x[k];
+    slope[1] += wz * along_y[k];
+    slope[2] += lanes(weights.slope[2][k]) * total[k];
   }
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 /// Particles to grid: mass and momentum, the force of the stress, forces at points.
 
-#include "mpm/transfer/nodes.h"
+#include "mpm/transfer/cell_sum.h"
 #include "mpm/transfer/weights.h"
 
 namespace furrow {
@@ -19,7 +19,7 @@ inline std::size_t scatter_momentum(const GridView& grid, const ParticleView& al
     find_batch_weights<Slope::moment>(grid, particles.shape_position, particles.size, weights);
     for_cells(
         grid, weights,
-        particles.size, [&](CellSum & sum, std::size_t p) __attribute__((always_inline)) {
+        particles.size, [&](auto& sum, std::size_t p) __attribute__((always_inline)) {
           const double mass = density * particles.volume[p];
           const Stored4* affine = reinterpret_cast<const Stored4*>(particles.affine + 12 * p);
           Vector4 base = *reinterpret_cast<const Stored4*>(particles.velocity + 4 * p);
@@ -41,7 +41,7 @@ inline void scatter_force(const GridView& grid, const ParticleView& all,
         force[s][p] = -particles.volume[p] * particles.volume_ratio[p] * particles.stress[s][p];
     for_cells(
         grid, weights,
-        particles.size, [&](CellSum & sum, std::size_t p) __attribute__((always_inline)) {
+        particles.size, [&](auto& sum, std::size_t p) __attribute__((always_inline)) {
           const double xx = force[0][p], yy = force[1][p], zz = force[2][p], xy = force[3][p],
                        yz = force[4][p], xz = force[5][p];
           const Vector4 flux[3] = {{xx, xy, xz, 0.0}, {xy, yy, yz, 0.0}, {xz, yz, zz, 0.0}};

@@ -125,5 +125,32 @@ TEST(Kinematics, LogarithmicStrainAndRotationOfAnyStep) {
   }
 }
 
+/// On both sides of the bound of the series for small steps, |H + H^T + H^T H| = 1e-4, against the
+/// series of ln(F F^T) summed to its end in extended precision: a term that is missing would be
+/// seen as 2e-13.
+TEST(Kinematics, StrainOfSmallStepsIsExactToRounding) {
+  using Precise = Eigen::Matrix<long double, 3, 3>;
+  const auto material = material_of("elastic density 1 elasticity linear E 2.5 nu 0.25");
+  std::mt19937 engine(6);
+  std::normal_distribution<double> normal;
+  for (const double size : {1e-6, 1e-5, 1.5e-5, 2e-5, 3e-5, 1e-4})
+    for (int trial = 0; trial < 200; ++trial) {
+      Matrix3 h;
+      for (int k = 0; k < 9; ++k) h(k) = size * normal(engine);
+      VectorX state = material->initial_state();
+      material->update_point(h, state);
+      const Precise precise = h.cast<long double>();
+      const Precise x = precise + precise.transpose() + precise * precise.transpose();
+      Precise power = x, twice_log = Precise::Zero();  // 2 R ln U R^T = ln(I + X)
+      for (int k = 1; k <= 12; ++k) {
+        twice_log += (k % 2 == 1 ? 1.0L : -1.0L) / static_cast<long double>(k) * power;
+        power = power * x;
+      }
+      const Precise stress = 0.5L * twice_log.trace() * Precise::Identity() + twice_log;
+      const Matrix3 expected = stress.cast<double>();
+      ASSERT_LT((to_matrix(stress_of(state)) - expected).norm(), 1e-14 * expected.norm()) << size;
+    }
+}
+
 }  // namespace
 }  // namespace furrow

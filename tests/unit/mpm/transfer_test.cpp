@@ -155,6 +155,59 @@ TEST(Transfer, AllInstructionSetsAgree) {
   }
 }
 
+/// 1 to 20 neighbouring particles in each of some cells: taken together, in the lanes of registers,
+/// they give and take what they do one by one.
+TEST(Transfer, ManyParticlesOfACellAreLikeOneByOne) {
+  Cloud cloud(210);
+  const double h = 0.1;  // cells of x in the fine part; those of y and z are no narrower than 0.08
+  std::size_t p = 0;
+  for (std::size_t n = 1; n <= 20; ++n)
+    for (std::size_t of_cell = 0; of_cell < n; ++of_cell, ++p) {
+      const double share = (static_cast<double>(of_cell) + 0.5) / static_cast<double>(n);
+      cloud.position[0][p] = h * (static_cast<double>(n % 10) + share);
+      cloud.position[1][p] = -0.5 + 0.125 * (static_cast<double>(n % 8) + 1.0 - share);
+      cloud.position[2][p] = 0.08 * (static_cast<double>(n % 5) + share * share);
+    }
+  Grid& grid = cloud.grid;
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> sign(-1.0, 1.0);
+  cloud.for_nodes([&](const NodeSum&, NodeMotion& node, const Vector3&) {
+    for (double& v : node.velocity) v = sign(random);
+  });
+  for (const InstructionSet set : available_instruction_sets()) {
+    const auto& kernels = kernels_for<TransferKernels>(set);
+    const ParticleView all = cloud.view();
+    cloud.find_weights(kernels);
+    kernels.gather_strain(grid.view(), all, cloud.weights.data(), dt, cloud.gradients);
+    grid.clear_sums(grid.all_planes());
+    kernels.scatter_force(grid.view(), all, cloud.weights.data());
+    const std::vector<double> together = numbers_of(grid), gradient = cloud.gradient;
+
+    grid.clear_sums(grid.all_planes());
+    Weights weights;
+    for (std::size_t one = 0; one < all.size; ++one) {
+      ParticleView single = all;
+      single.size = 1;
+      for (const double*& x : single.shape_position) x += one;
+      for (const double*& s : single.stress) s += one;
+      single.volume += one;
+      single.volume_ratio += one;
+      double* gradients[9];
+      for (std::size_t g = 0; g < 9; ++g) gradients[g] = cloud.gradients[g] + one;
+      kernels.find_weights(grid.view(), single, &weights);
+      kernels.gather_strain(grid.view(), single, &weights, dt, gradients);
+      kernels.scatter_force(grid.view(), single, &weights);
+    }
+    const std::vector<double> one_by_one = numbers_of(grid);
+    double largest = 0.0;
+    for (const double value : one_by_one) largest = std::max(largest, std::abs(value));
+    for (std::size_t n = 0; n < together.size(); ++n)
+      ASSERT_NEAR(together[n], one_by_one[n], 1e-14 * largest) << to_string(set);
+    for (std::size_t n = 0; n < gradient.size(); ++n)
+      ASSERT_NEAR(gradient[n], cloud.gradient[n], 1e-14 * dt / 0.08) << to_string(set) << ' ' << n;
+  }
+}
+
 /// Mass, linear and angular momentum of the nodes are those of the particles: sum over nodes of x_i
 /// x p_i equals the sum over particles of m (x x v + axial vector of C D), D = sum N_i d_i d_i^T.
 TEST(Transfer, ToTheGridKeepsMassAndMomenta) {

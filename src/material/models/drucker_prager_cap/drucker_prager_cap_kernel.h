@@ -14,6 +14,8 @@ template <SectionParameters::Kind section>
 struct DruckerPragerCapKernel {
   static constexpr int internal_variables = 2;  // eps_vol_pl, eps_dev_pl
   const DruckerPragerCapParameters& parameters;
+  /// neighbours lie on the same segments of the table, mostly
+  mutable Hardening hardening{parameters.hardening};
 
   using Deviator = DeviatoricReturn<section>;
   using CapPoints = Points<internal_variables>;
@@ -35,7 +37,6 @@ struct DruckerPragerCapKernel {
                                    Numbers& end) const {
     const ElasticStep elastic(parameters.elasticity, pressure_of(points));
     const Deviator deviator(parameters.section, trial_deviator(elastic, strain, points));
-    Hardening hardening(parameters.hardening);
     const CapTrial trial =
         make_trial(parameters, elastic, deviator, hardening, -strain.trace(), points.internal[0]);
     ViolatedSurface violated = violated_surface(parameters, trial);
@@ -54,9 +55,9 @@ struct DruckerPragerCapKernel {
   Numbers correct(int surface, const Lanes* prediction) const {
     const ElasticStep elastic(parameters.elasticity, prediction[0]);
     const Deviator deviator(parameters.section, prediction + trial_numbers);
-    Hardening hardening(parameters.hardening);
+    Hardening own_hardening(parameters.hardening);  // these points are no neighbours
     const CapTrial trial =
-        make_trial(parameters, elastic, deviator, hardening, prediction[1], prediction[2]);
+        make_trial(parameters, elastic, deviator, own_hardening, prediction[1], prediction[2]);
     const CapReturn end = return_mapping(
         parameters, ViolatedSurface{Mask(surface == 0), Mask(surface == 1), Mask(surface == 2)},
         trial);
@@ -92,24 +93,27 @@ struct DruckerPragerCapKernel {
     const Mask yielding = end.branch > Lanes(double(Branch::elastic));
     const Symmetric s_old = points.stress.plus_identity(elastic.p_n);
     const Lanes elastic_strain = -strain.trace() - end.compaction;
-    const Lanes half_compliance = Lanes(0.5) / elastic.shear;
+    const Lanes half_compliance = parameters.elasticity.porous
+                                      ? Lanes(0.5) / elastic.shear
+                                      : Lanes(0.5 / parameters.elasticity.shear);
     points.stored = elastic.volumetric_work(elastic_strain, end.p) +
                     contract(s + s_old, s - s_old) * half_compliance * Lanes(0.5);
-    // Plastic work p De + s:De_dev. Compaction stores pa De as frozen energy; flow always leads
-    // away from (pa, 0), so the rest is >= 0.
-    const Lanes back_stress =
-        select(end.branch == Lanes(double(Branch::tension)), max(end.pa, end.p), end.pa);
-    points.frozen = select(yielding, back_stress * end.compaction, 0.0);
-    points.dissipated = select(
-        yielding,
-        (end.p - back_stress) * end.compaction + contract(s, s_trial - s) * half_compliance, 0.0);
+    if (any(yielding)) {
+      // Plastic work p De + s:De_dev. Compaction stores pa De as frozen energy; flow always leads
+      // away from (pa, 0), so the rest is >= 0.
+      const Lanes back_stress =
+          select(end.branch == Lanes(double(Branch::tension)), max(end.pa, end.p), end.pa);
+      points.frozen = select(yielding, back_stress * end.compaction, 0.0);
+      points.dissipated = select(
+          yielding,
+          (end.p - back_stress) * end.compaction + contract(s, s_trial - s) * half_compliance, 0.0);
+      points.internal[1] =
+          points.internal[1] + select(yielding, elastic.equivalent_strain(s_trial - s), 0.0);
+    }
     points.internal[0] = points.internal[0] + end.compaction;
-    points.internal[1] =
-        points.internal[1] + select(yielding, elastic.equivalent_strain(s_trial - s), 0.0);
     points.stress = s.plus_identity(-end.p);
     points.branch = end.branch;
     points.iterations = end.iterations;
-    const Hardening hardening(parameters.hardening);
     points.below_data = hardening.below(points.internal[0]);
     points.beyond_data = hardening.beyond(points.internal[0]);
     points.stopped = hardening.stopped(points.internal[0]);
