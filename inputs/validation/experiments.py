@@ -604,10 +604,10 @@ FUTURE = Group(
     "What the report leaves to others (pp. 41, 55)",
     (
         not_done("pp. 55-56", "design: width, diameter, pressure", "c", "load and pressure only"),
-        not_done("pp. 55-56", "tread blocks on snow", "", "no run of tyre/brick on snow yet"),
+        not_done("pp. 55-56", "tread blocks on snow", "", "only a smooth brick tyre so far"),
         not_done("pp. 55-56", "temperature, melting, sintering in time", "", "no law has it"),
         not_done("pp. 55-56", "rate effects, wet snow, thawing soil", "", "no law has it"),
-        not_done("pp. 55-56", "repeated passes", "z", "stable, not scored"),
+        not_done("pp. 55-56", "repeated passes", "z", "7 mm deeper, none measured"),
     ),
 )
 
