@@ -63,10 +63,11 @@ std::string steady_table(const Resistance& r) {
   if (!r.window.warning.empty()) text += "  note: " + r.window.warning + "\n";
   text += "\nAll values\n";
   for (const SteadyValue& v : r.values)
-    text +=
-        row_of(title_of(v.name), v,
-               v.steady ? fmt::format("steady, {:.0f} independent samples", v.independent_samples)
-                        : "not steady");
+    text += row_of(title_of(v.name), v,
+                   !v.steady ? "not steady"
+                   : v.independent_samples < static_cast<double>(SteadyCriteria{}.min_blocks)
+                       ? "steady, hardly changes"
+                       : fmt::format("steady, {:.0f} independent samples", v.independent_samples));
   text +=
       "\n  ± is one standard error of the mean over time (block averages). It does not hold the "
       "influence of grain size, "
