@@ -13,7 +13,7 @@ inline namespace FURROW_ISA {
 /// series of exp(r) to r^13 / 13!, whose rest is below 5e-18. Underflows to 0, overflows to
 /// infinity, keeps not-a-number.
 FURROW_INLINE Lanes exponential(const Lanes& a) {
-  using Integers = stdx::rebind_simd_t<std::int64_t, Lanes>;
+  using Integers = stdx::rebind_simd_t<std::uint64_t, Lanes>;
   // 1.5 * 2^52: adding it rounds to the nearest integer, held in the last bits
   constexpr double shift = 6755399441055744.0;
   const Lanes bounded = max(min(a, 709.7), -708.3);
@@ -47,7 +47,7 @@ FURROW_INLINE Lanes exponential(const Lanes& a) {
   Integers bits;
   static_assert(sizeof(Integers) == sizeof(Lanes));
   __builtin_memcpy(static_cast<void*>(&bits), &shifted, sizeof bits);
-  bits = (bits << 52) + Integers(std::int64_t{0x3FF0000000000000});  // 2^n
+  bits = (bits << 52) + Integers(std::uint64_t{0x3FF0000000000000});  // 2^n
   Lanes power;
   __builtin_memcpy(static_cast<void*>(&power), &bits, sizeof power);
   Lanes result = sum * power;
@@ -62,15 +62,16 @@ FURROW_INLINE Lanes exponential(const Lanes& a) {
 FURROW_INLINE Lanes logarithm(const Lanes& a) {
   if (!all(a >= Lanes(2.3e-308) && a <= Lanes(1.7e308)))
     return per_lane(a, [](double x) { return __builtin_log(x); });
-  using Integers = stdx::rebind_simd_t<std::int64_t, Lanes>;
-  constexpr std::int64_t half_root = 0x3FE6A09E667F3BCD;  // sqrt(1/2)
+  // without a sign, because shifts of negative lanes differ between compilers
+  using Integers = stdx::rebind_simd_t<std::uint64_t, Lanes>;
+  constexpr std::uint64_t half_root = 0x3FE6A09E667F3BCD;  // sqrt(1/2)
+  constexpr std::uint64_t bias = 1024;                     // keeps exponents positive
   Integers bits;
   __builtin_memcpy(static_cast<void*>(&bits), &a, sizeof bits);
   // the exponent that remains above sqrt(1/2), as the last bits of 2^52 + 2^51
-  const Integers above = bits - Integers(half_root);
-  const Integers exponent = above >> 52;
-  const Integers mantissa = bits - (exponent << 52);
-  const Integers shifted = exponent + Integers(std::int64_t{0x4338000000000000});
+  const Integers exponent = (bits - Integers(half_root - (bias << 52))) >> 52;
+  const Integers mantissa = bits - (exponent << 52) + Integers(bias << 52);
+  const Integers shifted = exponent + Integers(std::uint64_t{0x4338000000000000} - bias);
   Lanes m, n;
   __builtin_memcpy(static_cast<void*>(&m), &mantissa, sizeof m);
   __builtin_memcpy(static_cast<void*>(&n), &shifted, sizeof n);
