@@ -5,12 +5,15 @@ Numbers of the report are those of its text, tables and captions; curves that ar
 are not at hand.
 """
 
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
 from overview import Experiment, Group, Stored
 
 WHEEL, SNOW_WHEEL = "report_wheel/results.csv", "snow_wheel/results.csv"
 ERROR, ACCURACY = "snow_wheel/error.csv", "snow_wheel/accuracy.csv"
 PLATE, TYRE_ON_SNOW = "snow_plate/results.csv", "tyre_on_snow/results.csv"
-SAND, TABLE6 = "tyre_on_sand_ground/results.csv", "tyre_table6/table6.csv"
+SAND = "tyre_on_sand_ground/results.csv"
 OEDOMETER = "snow_oedometer/results.csv"
 PLATE_VARIANTS = "plate_variants/results.csv"
 
@@ -157,21 +160,6 @@ PLATES = Group(
 # ---- tyre on a hard surface
 
 
-def table6(pressure: int, what: str, column: str, unit: str, measured: str) -> Experiment:
-    row = {"pressure_kPa": f"{pressure}.0"}
-    used = "identified on" if pressure in (103, 241) and what != "section width" else ""
-    return Experiment(
-        "Table 6",
-        f"{what} under 6227 N, {pressure} kPa",
-        what,
-        unit,
-        measured=measured,
-        ours=Stored(TABLE6, row, column),
-        near=Stored("tyre_table6/meshes.csv", {**row, "mesh": "12x144"}, column),
-        remark=used,
-    )
-
-
 def rolling(damping: int, column: str = "resistance_N") -> Stored:
     return Stored("tyre_table6/rolling.csv", {"damping": str(damping)}, column)
 
@@ -187,19 +175,40 @@ WIDTHS = {103: "27.9", 138: "25.9", 179: "26.0", 241: "25.1"}  # [cm]
 BRICK = "tread of bricks"
 
 
-def brick6(pressure: int, what: str, column: str, unit: str, measured: str) -> Experiment:
-    row = {"pressure_kPa": str(pressure)}
-    used = ", identified on" if pressure in (103, 241) and what != "section width" else ""
-    return Experiment(
-        "Table 6, Table 9",
-        f"{what} under 6227 N, {pressure} kPa",
-        what,
-        unit,
-        measured=measured,
-        ours=Stored("tyre_brick/table6.csv", row, column),
-        near=Stored("tyre_brick/meshes.csv", row, column),
-        remark=BRICK + used,
-    )
+class TyreStudy(NamedTuple):
+    """Where the results of a tyre on a plane are."""
+
+    place: str  # in the report
+    folder: str
+    pressure: str  # format of a pressure in its tables [kPa]
+    finer: Mapping[str, str]  # further columns that name a row of its meshes.csv
+    remark: str
+
+
+DARNELL = TyreStudy("Table 6", "tyre_table6", "{}.0", {"mesh": "12x144"}, "")
+BRICKS = TyreStudy("Table 6, Table 9", "tyre_brick", "{}", {}, BRICK)
+
+
+def table6(tyre: TyreStudy) -> Iterator[Experiment]:
+    """Under 6227 N, by pressure."""
+    for what, column, unit, measured in (
+        ("deflection", "deflection_cm", "cm", DEFLECTIONS),
+        ("contact area", "area_cm2", "cm2", AREAS),
+        ("section width", "section_width_cm", "cm", WIDTHS),
+    ):
+        for pressure, value in measured.items():
+            row = {"pressure_kPa": tyre.pressure.format(pressure)}
+            used = "identified on" if pressure in (103, 241) and measured is not WIDTHS else ""
+            yield Experiment(
+                tyre.place,
+                f"{what} under 6227 N, {pressure} kPa",
+                what,
+                unit,
+                measured=value,
+                ours=Stored(f"{tyre.folder}/table6.csv", row, column),
+                near=Stored(f"{tyre.folder}/meshes.csv", {**row, **tyre.finer}, column),
+                remark=", ".join(filter(None, (tyre.remark, used))),
+            )
 
 
 def brick_stress(sections: int) -> Stored:
@@ -216,9 +225,7 @@ NO_RUBBER = "ours is of cords and belts, without the rubber outside of them"
 HARD_SURFACE = Group(
     "Tyre 235/75 R15 on a hard surface",
     (
-        *(table6(p, "deflection", "deflection_cm", "cm", m) for p, m in DEFLECTIONS.items()),
-        *(table6(p, "contact area", "area_cm2", "cm2", m) for p, m in AREAS.items()),
-        *(table6(p, "section width", "section_width_cm", "cm", m) for p, m in WIDTHS.items()),
+        *table6(DARNELL),
         Experiment(
             "Table 6",
             "inflated to 241 kPa, no load",
@@ -285,9 +292,7 @@ HARD_SURFACE = Group(
             cost=rolling(100, "user_s"),
             remark="20 m of the whole tyre: 100 core s",
         ),
-        *(brick6(p, "deflection", "deflection_cm", "cm", m) for p, m in DEFLECTIONS.items()),
-        *(brick6(p, "contact area", "area_cm2", "cm2", m) for p, m in AREAS.items()),
-        *(brick6(p, "section width", "section_width_cm", "cm", m) for p, m in WIDTHS.items()),
+        *table6(BRICKS),
         Experiment(
             "Table 6",
             "inflated to 241 kPa, no load",

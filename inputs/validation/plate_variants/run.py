@@ -10,7 +10,7 @@ layers.png.
 import math
 import re
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -188,24 +188,37 @@ FIELD_CASES = (
 )
 
 
-def field_row(case: Case, runner: Runner) -> dict[str, object] | None:
+Row = dict[str, object]
+
+
+def table_of(
+    cases: Sequence[Case], runner: Runner, numbers_of: Callable[[Path], Row]
+) -> list[Row]:
+    """A row for each case that ended: its error, or what it cost and the numbers of its folder."""
+    rows: list[Row] = []
+    for case in cases:
+        if (record := runner.ended(case)) is None:
+            continue
+        row: Row = {"case": case.name, "what": case.what, "error": record.error}
+        if not record.error:
+            row["user_s"] = round(record.cpu_time, 1)
+            row.update(numbers_of(runner.folder(case)))
+        rows.append(row)
+    return rows
+
+
+def field_numbers(folder: Path) -> Row:
     """The greatest force and where it is; rising: how much more the last 2 cm bring, per cm."""
-    record = runner.record(case) or runner.failure(case)
-    if record is None:
-        return None
-    row: dict[str, object] = {"case": case.name, "what": case.what, "error": record.error}
-    if record.error:
-        return row
-    curve = curve_of(runner.folder(case))
+    curve = curve_of(folder)
     sinkage, load = curve[:, 1], curve[:, 2]
     last = sinkage > sinkage[-1] - 0.02
     slope = np.polyfit(100 * sinkage[last], load[last], 1)[0] / load[last].mean()
-    row["user_s"] = round(record.cpu_time, 1)
-    row["peak_N"] = round(load.max())
-    row["at_cm"] = round(100 * float(sinkage[load.argmax()]), 1)
-    row["at_10_cm_N"] = round(float(np.interp(0.1, sinkage, load)))
-    row["rising_per_cm"] = round(float(slope), 3)
-    return row
+    return {
+        "peak_N": round(load.max()),
+        "at_cm": round(100 * float(sinkage[load.argmax()]), 1),
+        "at_10_cm_N": round(float(np.interp(0.1, sinkage, load))),
+        "rising_per_cm": round(float(slope), 3),
+    }
 
 
 def reference() -> Mapping[str, float]:
@@ -240,14 +253,9 @@ def layers_of(snow: Terrain, plate: float) -> Floats:
     )
 
 
-def row_of(case: Case, runner: Runner) -> dict[str, object] | None:
-    record = runner.record(case) or runner.failure(case)
-    if record is None:
-        return None
-    row: dict[str, object] = {"case": case.name, "what": case.what, "error": record.error}
-    if record.error:
-        return row
-    folder, measured = runner.folder(case), reference()
+def laboratory_numbers(folder: Path) -> Row:
+    """The peak, densities below and beside the plate, and what slide and grid took."""
+    measured = reference()
     curve, snow = curve_of(folder), Terrain.read(folder)
     layers = layers_of(snow, snow.level - float(curve[:, 1].max()))
     r, before = (np.hypot(x[:, 0], x[:, 1]) for x in (snow.x, snow.initial_position))
@@ -255,16 +263,16 @@ def row_of(case: Case, runner: Runner) -> dict[str, object] | None:
     edge = (before < RADIUS) & (before > UNDER * RADIUS)
     history = read_terrain_history(folder)
     work = history["contact_work"][-1]
-    row["user_s"] = round(record.cpu_time, 1)
-    row["peak_N"] = round(curve[:, 2].max())
-    row["peak_over_measured"] = round(curve[:, 2].max() / measured["peak_load_N"], 3)
-    row["rms_ln_density"] = round(rms(np.log(layers / measured_layers())), 3)
-    row["beside_kg_m3"] = round(snow.mean_density(beside))
-    row["edge_moved_out_mm"] = round(1e3 * float(np.mean(r[edge] - before[edge])), 1)
-    row["slide_loss"] = round(float(history["slide_loss"][-1] / work), 4)
-    row["numerical_loss"] = round(float(history["numerical_loss"][-1] / work), 4)
-    row.update({f"density_{n}": round(value) for n, value in enumerate(layers, 1)})
-    return row
+    return {
+        "peak_N": round(curve[:, 2].max()),
+        "peak_over_measured": round(curve[:, 2].max() / measured["peak_load_N"], 3),
+        "rms_ln_density": round(rms(np.log(layers / measured_layers())), 3),
+        "beside_kg_m3": round(snow.mean_density(beside)),
+        "edge_moved_out_mm": round(1e3 * float(np.mean(r[edge] - before[edge])), 1),
+        "slide_loss": round(float(history["slide_loss"][-1] / work), 4),
+        "numerical_loss": round(float(history["numerical_loss"][-1] / work), 4),
+        **{f"density_{n}": round(value) for n, value in enumerate(layers, 1)},
+    }
 
 
 def size_zero(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, object]]:
@@ -311,11 +319,10 @@ def draw(runner: Runner, target: Path) -> None:
 
 
 def evaluate(runner: Runner, output: Output) -> Sequence[str]:
-    rows = [row for case in CASES if (row := row_of(case, runner)) is not None]
+    rows = table_of(CASES, runner, laboratory_numbers)
     output.table("results.csv", rows)
     output.table("size_zero.csv", size_zero(rows))
-    in_field = [row for case in FIELD_CASES if (row := field_row(case, runner)) is not None]
-    output.table("field.csv", in_field)
+    output.table("field.csv", table_of(FIELD_CASES, runner, field_numbers))
     if rows:
         draw(runner, output.path("layers.png"))
     return []

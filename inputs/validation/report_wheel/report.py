@@ -175,7 +175,7 @@ def report(runner: Runner, output: Output) -> list[str]:
     """Writes the tables and the figure."""
     rows = []
     for case in cases.all_cases():
-        if record := runner.record(case) or runner.failure(case):
+        if record := runner.ended(case):
             rows.append(row_of(case, runner.folder(case), record))
     output.table("results.csv", rows)
     output.table("effects.csv", effects(rows))

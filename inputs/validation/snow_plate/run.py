@@ -270,7 +270,7 @@ def draw_curves(runner: Runner, target: Path) -> None:
     """Load against sinkage of the cap laws and of the foam law as it is; dotted: stopped."""
     figure, axes = plt.subplots(figsize=(7, 4.5), constrained_layout=True)
     for case in CASES:
-        record = runner.record(case) or runner.failure(case)
+        record = runner.ended(case)
         if record is None or case.name.startswith("foam_"):
             continue
         curve = curve_of(runner.folder(case))
@@ -344,7 +344,7 @@ def evaluate(runner: Runner, output: Output) -> Sequence[str]:
     rows = [
         row_of(case, runner.folder(case), record, peak)
         for case in CASES
-        if (record := runner.record(case) or runner.failure(case))
+        if (record := runner.ended(case))
     ]
     output.table("results.csv", rows)
     if rows:

@@ -149,7 +149,7 @@ def identify(parsed: argparse.Namespace) -> None:
 
     def make(case: Case) -> report.Row:
         runner.run([case])
-        record = runner.record(case) or runner.failure(case)
+        record = runner.ended(case)
         assert record
         made.append(record)
         return report.row_of(case, runner.folder(case), record)

@@ -107,7 +107,7 @@ class Found:
         """Empty where the run is not there."""
         case = self.cases[name]
         if name not in self.rows:
-            record = self.runner.record(case) or self.runner.failure(case)
+            record = self.runner.ended(case)
             self.rows[name] = row_of(case, self.runner.folder(case), record) if record else {}
         return self.rows[name]
 

@@ -34,7 +34,7 @@ Row = dict[str, Any]
 
 def states(runner: Runner, case: Case) -> list[dict[str, float]]:
     """Lines that furrow-tyre printed, also before it refused a state; the first has no load."""
-    if not (runner.record(case) or runner.failure(case)):
+    if not runner.ended(case):
         return []
     with open(runner.folder(case) / SCREEN, encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
@@ -46,7 +46,7 @@ def states(runner: Runner, case: Case) -> list[dict[str, float]]:
 
 def cost(runner: Runner, case: Case) -> float:
     """[core s] of a run that was made."""
-    record = runner.record(case) or runner.failure(case)
+    record = runner.ended(case)
     return round(record.cpu_time, 1) if record else 0.0
 
 

@@ -199,7 +199,7 @@ CASES = (
 
 def states(runner: Runner, case: Case) -> list[dict[str, float]]:
     """Lines that furrow-tyre printed, also before it refused a state; the first has no load."""
-    if not (runner.record(case) or runner.failure(case)):
+    if not runner.ended(case):
         return []
     with open(runner.folder(case) / SCREEN, encoding="utf-8") as file:
         return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
@@ -318,7 +318,7 @@ def rolling_table(runner: Runner) -> list[dict[str, object]]:
 
 def cost_table(runner: Runner) -> list[dict[str, object]]:
     """Of every run, failed ones too."""
-    known = ((case, runner.record(case) or runner.failure(case)) for case in CASES)
+    known = ((case, runner.ended(case)) for case in CASES)
     return [{"run": c.name, "user_s": round(r.cpu_time, 1)} for c, r in known if r]
 
 
@@ -335,7 +335,7 @@ def identification_table(runner: Runner) -> list[dict[str, object]]:
     """End springs and link against deflection and area at the two pressures."""
     found: list[dict[str, object]] = []
     for case, (rim, tread, axial) in zip(IDENTIFICATION, SPRINGS_AND_LINKS):
-        if not (runner.record(case) or runner.failure(case)):
+        if not runner.ended(case):
             continue
         table = errors(states(runner, case))
         parts = [number(row, key) for row in table for key in ("deflection_error", "area_error")]

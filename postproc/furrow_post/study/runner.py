@@ -54,6 +54,10 @@ class Runner:
         """Of the failed run, whose error says why, or None."""
         return self._valid(case, FAILED)
 
+    def ended(self, case: Case) -> Record | None:
+        """Of the run, finished or failed, or None."""
+        return self.record(case) or self.failure(case)
+
     def _valid(self, case: Case, file: str) -> Record | None:
         """The record in the folder, if it is of this very case."""
         record = read_record(self.folder(case) / file)

@@ -118,7 +118,7 @@ def gather(job: Job, runner: Runner, cases: Sequence[Case]) -> None:
         while left:
             for name in [n for n, case in left.items() if runner.state(case) is not State.MISSING]:
                 case = left.pop(name)
-                record = runner.record(case) or runner.failure(case)
+                record = runner.ended(case)
                 if record:
                     progress.report(name, record)
             progress.show([runner.folder(case) for case in left.values() if _begun(runner, case)])
