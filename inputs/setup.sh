@@ -42,15 +42,17 @@ furrow_options=()
 
 # build_furrow <tests: ON|OFF> <target>...
 build_furrow() {
-  local tests=$1 log="$furrow_build/build.log" generator=(-G Ninja)
+  local tests=$1 log="$furrow_build/build.log"
+  # Sixteen sources of a library at a time take half the time of one by one.
+  local at_first=(-G Ninja -D CMAKE_UNITY_BUILD=ON -D CMAKE_UNITY_BUILD_BATCH_SIZE=16)
   shift
   mkdir -p "$furrow_build"
   echo "Building in $furrow_build"
-  # A build folder that was configured keeps its generator, and its tests: switching back and forth
-  # would compile for nothing.
-  [ ! -f "$furrow_build/CMakeCache.txt" ] || generator=()
+  # A build folder that was configured keeps its generator, its way of compiling and its tests:
+  # switching back and forth would compile for nothing.
+  [ ! -f "$furrow_build/CMakeCache.txt" ] || at_first=()
   grep -qs 'FURROW_TESTS:BOOL=ON' "$furrow_build/CMakeCache.txt" && tests=ON
-  { cmake -S "$furrow_root" -B "$furrow_build" "${generator[@]}" -D FURROW_TESTS="$tests" "${furrow_options[@]}" &&
+  { cmake -S "$furrow_root" -B "$furrow_build" "${at_first[@]}" -D FURROW_TESTS="$tests" "${furrow_options[@]}" &&
       cmake --build "$furrow_build" --parallel "$(nproc)" --target "$@"; } >"$log" 2>&1 ||
     { show_build_errors "$log"; echo "The build failed; whole log: $log" >&2; exit 1; }
 }

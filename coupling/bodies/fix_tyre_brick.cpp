@@ -8,7 +8,7 @@ namespace furrow::coupling {
 namespace {
 
 /// Read, made and inflated.
-std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
+std::unique_ptr<WheelHub> make_brick_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   BrickTyreParameters parameters = read_brick_tyre_file(tyre_path(lammps, options));
   parameters.pressure = read_pressure(options, parameters.pressure);
   BrickTyreSettings settings;
@@ -40,7 +40,7 @@ Schema FixTyreBrick::schema() {
 
 FixTyreBrick::FixTyreBrick(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixTyre(lammps, narg, arg, schema(),
-              [lammps](const Options& options) { return make_tyre(*lammps, options); }) {}
+              [lammps](const Options& options) { return make_brick_tyre(*lammps, options); }) {}
 
 std::string FixTyreBrick::tyre_text() { return brick_tyre_file_text(tyre().parameters()); }
 

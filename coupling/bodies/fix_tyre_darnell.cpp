@@ -21,7 +21,7 @@ int whole_number(const Options& options, const char* key, double value) {
 }
 
 /// Read, made and inflated.
-std::unique_ptr<WheelHub> make_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
+std::unique_ptr<WheelHub> make_darnell_tyre(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   TyreParameters parameters = read_tyre_file(tyre_path(lammps, options));
   parameters.pressure = read_pressure(options, parameters.pressure);
 
@@ -70,7 +70,7 @@ Schema FixTyreDarnell::schema() {
 
 FixTyreDarnell::FixTyreDarnell(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixTyre(lammps, narg, arg, schema(),
-              [lammps](const Options& options) { return make_tyre(*lammps, options); }) {}
+              [lammps](const Options& options) { return make_darnell_tyre(*lammps, options); }) {}
 
 std::string FixTyreDarnell::tyre_text() { return tyre_file_text(tyre().parameters()); }
 

@@ -21,7 +21,7 @@ namespace furrow::coupling {
 namespace {
 
 // for ranks that come to the same error a little later
-constexpr std::chrono::seconds patience(5);
+constexpr std::chrono::seconds wait_for_others(5);
 
 /// One error, one message: what is wrong, where in the script, and where in the source it was
 /// noticed. (The library's own version may add a line from a string that no longer exists.)
@@ -43,7 +43,7 @@ bool all_arrive(MPI_Comm ranks) {
   MPI_Ibarrier(ranks, &request);
   int done = 0;
   for (const auto start = std::chrono::steady_clock::now();
-       !done && std::chrono::steady_clock::now() - start < patience;
+       !done && std::chrono::steady_clock::now() - start < wait_for_others;
        std::this_thread::sleep_for(std::chrono::milliseconds(1)))
     MPI_Test(&request, &done, MPI_STATUS_IGNORE);
   return done != 0;

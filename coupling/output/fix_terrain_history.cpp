@@ -10,8 +10,8 @@ namespace furrow::coupling {
 
 namespace {
 
-constexpr char file_name[] = "terrain.h5";
-constexpr char series_name[] = "terrain";
+constexpr char terrain_file[] = "terrain.h5";
+constexpr char terrain_series[] = "terrain";
 
 std::vector<Channel> channels() {
   std::vector<Channel> list = {{"time", "s", "time since the start of the run"}};
@@ -37,15 +37,15 @@ FixTerrainHistory::FixTerrainHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char**
 
 void FixTerrainHistory::open(std::optional<double> resume_time) {
   if (comm->me != 0) return;
-  const std::string path = in_folder(file_name);
+  const std::string path = in_folder(terrain_file);
   const std::string frames = in_folder("vtk");
   if (resume_time) {
     file_ = HistoryFile::resume(path, channels(), *resume_time);
-    if (draws()) frames_ = VtkSeries::resume(frames, series_name, *resume_time);
+    if (draws()) frames_ = VtkSeries::resume(frames, terrain_series, *resume_time);
     return;
   }
   file_ = HistoryFile::create(path, channels(), run_info("terrain"));
-  if (draws()) frames_ = VtkSeries::create(frames, series_name);
+  if (draws()) frames_ = VtkSeries::create(frames, terrain_series);
 }
 
 void FixTerrainHistory::record() {

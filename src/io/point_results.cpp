@@ -35,7 +35,7 @@ std::string pascals(double value) {
   return fmt::format("{:.4g} Pa", value);
 }
 
-std::vector<double> column(const PointChannel& channel, const PointHistory& history) {
+std::vector<double> column_of(const PointChannel& channel, const PointHistory& history) {
   std::vector<double> values;
   for (const PointRecord& record : history.records) values.push_back(channel.value(record));
   return values;
@@ -66,7 +66,7 @@ void write_point_run(const std::string& folder, const PointRun& run, const Mater
   std::vector<std::vector<double>> columns;
   for (const PointChannel& channel : channels) {
     names.push_back(channel.name);
-    columns.push_back(column(channel, history));
+    columns.push_back(column_of(channel, history));
     comments.push_back(
         fmt::format("{}: {}", with_unit(channel.name, channel.unit), channel.meaning));
   }

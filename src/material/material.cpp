@@ -65,7 +65,7 @@ Material::Material(std::string name, double density,
       return;
     }
     tensors_.push_back(fields_.size());
-    for (const char* component : {"xx", "yy", "zz", "xy", "yz", "xz"})
+    for (const char* component : component_names)
       fields_.push_back({fmt::format("{}_{}", variable.name, component), variable.unit,
                          variable.meaning, component[0] == component[1] ? variable.initial : 0.0});
   };

@@ -15,6 +15,7 @@
 /// Signs and invariants: core/types.h. Energies are per unit of reference volume: d(energy) = J
 /// (energy per current volume).
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@ namespace furrow {
 
 /// symmetric tensor: xx, yy, zz, xy, yz, xz (tensor components, no factor 2)
 using Vector6 = Eigen::Matrix<double, 6, 1>;
+/// of strain and stress, in the order of Vector6
+inline constexpr std::array<const char*, 6> component_names{"xx", "yy", "zz", "xy", "yz", "xz"};
 
 std::string to_string(Branch branch);
 

@@ -17,7 +17,6 @@ namespace furrow {
 
 namespace {
 
-constexpr std::array<const char*, 6> components{"xx", "yy", "zz", "xy", "yz", "xz"};
 
 bool is_diagonal(const Vector6& e) { return e.tail<3>().isZero(0.0); }
 
@@ -223,7 +222,7 @@ class Stepper {
     std::string text;
     for (const int c : unknown)
       text += fmt::format("{}stress_{} = {:.6g} Pa (nearest {:.6g})", text.empty() ? "" : ", ",
-                          components[std::size_t(c)], target[c], trial.state[c]);
+                          component_names[std::size_t(c)], target[c], trial.state[c]);
     return fmt::format(
         "cannot reach {}: {} (beyond a strength, or while the point softens, control strains "
         "instead)",
@@ -326,7 +325,7 @@ std::vector<PointChannel> point_channels(const Material& material) {
   if (material.rate_dependent())
     add("time", "s", "since the start", [](const PointRecord& r) { return r.time; });
   for (int c = 0; c < 6; ++c)
-    add(fmt::format("strain_{}", components[std::size_t(c)]), "",
+    add(fmt::format("strain_{}", component_names[std::size_t(c)]), "",
         "component of ln V, tension positive", [c](const PointRecord& r) { return r.strain[c]; });
   const std::vector<StateField>& fields = material.state_fields();
   for (std::size_t f = 0; f < fields.size(); ++f)
@@ -363,7 +362,7 @@ std::string doubt_of_strains(const PointHistory& history) {
   return fmt::format(
       "segment {} comes to a logarithmic strain {} of {:.4g}, and no ground beyond {:g}: lengths "
       "change by a factor of {:.3g}; targets are numbers, not per cent",
-      worst->segment, components[static_cast<std::size_t>(component)], worst->strain[component],
+      worst->segment, component_names[static_cast<std::size_t>(component)], worst->strain[component],
       large, std::exp(largest));
 }
 

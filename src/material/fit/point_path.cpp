@@ -12,7 +12,6 @@ namespace furrow {
 
 namespace {
 
-constexpr std::array<const char*, 6> components{"xx", "yy", "zz", "xy", "yz", "xz"};
 enum { xx, yy, zz, xy, yz, xz };
 
 Schema path_schema(const std::string& name) { return Schema("path " + name); }
@@ -252,12 +251,12 @@ Schema table_path_schema() {
 
 Schema table_row_schema() {
   Schema schema("row of path table");
-  for (const char* component : components)
+  for (const char* component : component_names)
     schema
         .number(fmt::format("strain_{}", component), "", Range::open(-20.0, 20.0),
                 "deformation at the row's end, tension positive")
         .optional();
-  for (const char* component : components)
+  for (const char* component : component_names)
     schema
         .number(fmt::format("stress_{}", component), "Pa", Range::any(),
                 "Cauchy stress at the row's end, tension positive")
@@ -276,8 +275,8 @@ PointPath table_path(const Options& options, const std::vector<Options>& rows) {
     if (row.given("steps")) segment.steps = static_cast<int>(row.integer("steps"));
     if (row.given("duration")) segment.duration = row.number("duration");
     for (int c = 0; c < 6; ++c) {
-      const std::string strain = fmt::format("strain_{}", components[std::size_t(c)]),
-                        stress = fmt::format("stress_{}", components[std::size_t(c)]);
+      const std::string strain = fmt::format("strain_{}", component_names[std::size_t(c)]),
+                        stress = fmt::format("stress_{}", component_names[std::size_t(c)]);
       if (row.given(strain) && row.given(stress))
         throw InputError(row.where(stress), "controls a component whose strain is given too",
                          "one of " + strain + ", " + stress);

@@ -15,7 +15,7 @@ namespace furrow {
 
 namespace {
 
-std::unique_ptr<Material> create(const MaterialOptions& sections) {
+std::unique_ptr<Material> create_cohesive_cam_clay(const MaterialOptions& sections) {
   const Options& o = sections.at("law").options;
   CohesiveCamClayParameters parameters;
   parameters.elasticity = make_elasticity(sections.at("elasticity"));
@@ -52,7 +52,7 @@ MaterialModel CohesiveCamClay::model() {
   model.name = "cohesive_cam_clay";
   model.meaning = "crushing snow: ellipse and cohesion growing by compaction (Gaume et al., 2018)";
   model.sections = {law_section(schema), elasticity_section(), hardening_section()};
-  model.create = create;
+  model.create = create_cohesive_cam_clay;
   const std::string table =
       " hardening table p 500 2e4 4e5 2.4e7 eps_vol_pl 0 0.593 1.083 1.514 beyond extrapolate";
   model.examples = {

@@ -16,7 +16,7 @@ namespace furrow {
 
 namespace {
 
-std::unique_ptr<Material> create(const MaterialOptions& sections) {
+std::unique_ptr<Material> create_crushable_foam(const MaterialOptions& sections) {
   const Options& o = sections.at("law").options;
   CrushableFoamParameters parameters;
   parameters.elasticity = make_elasticity(sections.at("elasticity"));
@@ -54,7 +54,7 @@ const Range usual_sigma0 = Range::closed(0.3, 2.8);
 
 /// Of sections that belong to two foams, or have another unit.
 std::vector<std::string> doubts(const MaterialOptions& sections) {
-  const std::unique_ptr<Material> material = create(sections);
+  const std::unique_ptr<Material> material = create_crushable_foam(sections);
   const double pc0 = static_cast<const CrushableFoam&>(*material).pc(0.0);
   const Options& law = sections.at("law").options;
   const double sigma0 = law.number("sigma0"), pt = law.number("pt");
@@ -90,7 +90,7 @@ MaterialModel CrushableFoam::model() {
   model.name = "crushable_foam";
   model.meaning = "snow and foams: ellipse hardening by compaction (ABAQUS, [Shoop2001] eq 17-18)";
   model.sections = {law_section(schema), elasticity_section(), hardening_section()};
-  model.create = create;
+  model.create = create_crushable_foam;
   model.doubts = doubts;
   model.examples = {
       "density 200 pt 11.376 sigma0 275.79 K 0.9 "

@@ -16,7 +16,7 @@ namespace furrow {
 
 namespace {
 
-std::unique_ptr<Material> create(const MaterialOptions& sections) {
+std::unique_ptr<Material> create_drucker_prager_cap(const MaterialOptions& sections) {
   const Options& o = sections.at("law").options;
   DruckerPragerCapParameters parameters;
   parameters.elasticity = make_elasticity(sections.at("elasticity"));
@@ -83,7 +83,7 @@ MaterialModel DruckerPragerCap::model() {
   model.meaning =
       "soils and snow: shear line, transition, hardening cap (ABAQUS, [Shoop2001] eq 12-16)";
   model.sections = {law_section(schema), elasticity_section(), hardening_section()};
-  model.create = create;
+  model.create = create_drucker_prager_cap;
   const std::string snow =
       " hardening table p 113.76 5e4 1e6 6e7 eps_vol_pl 0 0.593 1.083 1.514 beyond extrapolate";
   model.examples = {
