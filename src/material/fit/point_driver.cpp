@@ -17,7 +17,6 @@ namespace furrow {
 
 namespace {
 
-
 bool is_diagonal(const Vector6& e) { return e.tail<3>().isZero(0.0); }
 
 Matrix3 exponential(const Vector6& e) {
@@ -362,8 +361,8 @@ std::string doubt_of_strains(const PointHistory& history) {
   return fmt::format(
       "segment {} comes to a logarithmic strain {} of {:.4g}, and no ground beyond {:g}: lengths "
       "change by a factor of {:.3g}; targets are numbers, not per cent",
-      worst->segment, component_names[static_cast<std::size_t>(component)], worst->strain[component],
-      large, std::exp(largest));
+      worst->segment, component_names[static_cast<std::size_t>(component)],
+      worst->strain[component], large, std::exp(largest));
 }
 
 StepError step_error(const Material& material, const PointPath& path, const PointHistory& history) {
