@@ -24,6 +24,7 @@ from furrow_post.study.output import with_section
 HERE = Path(__file__).resolve().parent
 PAGE = HERE / "README.md"
 COSTS = ("user_s", "cpu_s")  # columns of a study's tables with the core seconds of a run
+LISTED = "costs.csv"  # table of a study with every run's
 
 
 def studies() -> list[str]:
@@ -50,18 +51,24 @@ def missing(study: str, options: Sequence[str]) -> tuple[int, int]:
 
 
 def known_cost(study: str) -> float:
-    """Core seconds of all runs of a study, as its stored tables have them; 0: not known."""
-    per_run: dict[tuple[str, str], float] = {}
-    for table in sorted((HERE / study).glob("*.csv")):
+    """Core seconds of all runs of a study, as its stored tables have them; 0: not known.
+
+    A run that stands in several tables counts once: by its name, or where the study lists its costs
+    by that list alone.
+    """
+    folder, per_run = HERE / study, dict[str, float]()
+    tables = [folder / LISTED] if (folder / LISTED).is_file() else sorted(folder.glob("*.csv"))
+    for table in tables:
         for index, row in enumerate(read_rows(table)):
             if row.get("quantity") in COSTS:  # a table with a column for each run
                 runs = {run: text for run, text in row.items() if run != "quantity" and text}
-                per_run.update({(table.name, run): float(text) for run, text in runs.items()})
+                per_run.update({run: float(text) for run, text in runs.items()})
                 continue
             name = row.get("run") or row.get("case") or f"{table.name} {index}"
+            name = f"{row.get('family', '')}/{name}"  # grains has runs of one name in several
             for column in COSTS:
                 if row.get(column):
-                    per_run[table.name, name] = float(row[column])
+                    per_run[name] = float(row[column])
     return sum(per_run.values())
 
 

@@ -218,8 +218,7 @@ def error_table(found: Found) -> tuple[list[Row], Limits]:
     for what, name in lines:
         if computed := found(name):
             cell = float(str(found.cases[name].variables["cell"]))
-            kept = {key: value for key, value in computed.items() if key != "run"}
-            table.append({"change": what, "cell_m": round(cell, 4), **kept})
+            table.append({"change": what, "cell_m": round(cell, 4), **computed})
     grids = grid_series(table)
     limits = {}
     if len(grids) >= 3:

@@ -153,5 +153,31 @@ class StudiesTest(unittest.TestCase):
                 command.missing("half", [])
 
 
+class CostTest(unittest.TestCase):
+    """Core seconds of a study, from its stored tables."""
+
+    def cost(self, tables: dict[str, str]) -> float:
+        with tempfile.TemporaryDirectory() as temporary:
+            (Path(temporary) / "study").mkdir()
+            for name, text in tables.items():
+                (Path(temporary) / "study" / name).write_text(text)
+            with patch.object(command, "HERE", Path(temporary)):
+                return command.known_cost("study")
+
+    def test_each_run_counts_once(self) -> None:
+        results = "run,user_s\na,10\nb,5\n"
+        for what, tables, expected in (
+            ("a run of two tables", {"results.csv": results, "error.csv": "run,cpu_s\na,10\n"}, 15),
+            ("rows of one run", {"stress.csv": "run,depth,user_s\na,1,7\na,2,7\n"}, 7),
+            ("names of two families", {"x.csv": "family,run,cpu_s\nf,a,1\ng,a,2\n"}, 3),
+            ("rows without a name", {"x.csv": "damping,user_s\n0,1\n100,2\n"}, 3),
+            ("a column for each run", {"x.csv": "quantity,a,b\nz,8,9\nuser_s,1,2\n"}, 3),
+            ("listed costs", {"costs.csv": results, "rolling.csv": "damping,user_s\n0,10\n"}, 15),
+            ("no costs", {"x.csv": "run,z\na,1\n"}, 0),
+        ):
+            with self.subTest(what):
+                self.assertEqual(self.cost(tables), expected)
+
+
 if __name__ == "__main__":
     unittest.main()
