@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""furrow-post terrain: density, tracers and stress of continuum terrain in sections."""
+"""furrow-post terrain: density, displacement and stress of continuum terrain, in sections and as
+numbers."""
 
 import argparse
 from pathlib import Path
 
+from ..analyse.displacement import displacements
 from ..errors import ResultsError
 from ..figures.terrain import draw_terrain
 from ..figures.terrain_stress import draw_stress
 from ..read.results import Results
 from ..read.summary import Summary
-from ..read.terrain import read_terrain_fields
+from ..read.terrain import Outline, Terrain, read_terrain_fields
 from .output import add_output, add_results, target
 
 
@@ -27,6 +29,10 @@ def run(arguments: argparse.Namespace) -> None:
     title = Results(folder).title if has_history else folder.resolve().name
     file = target(arguments, folder, "terrain")
     print(draw_terrain(folder, title, Summary(folder).line(), file).report())
+    terrain = Terrain.read(folder)
+    body = Outline(folder, terrain)
+    if body.surface is not None:
+        print(displacements(terrain, body).report())
     print(file)
     if "principal_stress" not in read_terrain_fields(folder):
         print("No stress is drawn: the run is of an older Furrow, which kept no principal stresses")

@@ -15,6 +15,7 @@ from .results import Surface, read_surface, require_layout
 FILE = "terrain.h5"
 OLD_FILE = "ground.h5"  # its name in an older Furrow
 MIRROR = np.array([1.0, -1.0, 1.0])  # of a half model in its plane of symmetry, y = 0
+ON_SYMMETRY = 1e-6  # of a body's width: as far beyond y = 0 its half may reach
 
 
 def is_half(x: Floats) -> bool:
@@ -158,12 +159,22 @@ def _lattice_spacing(coordinates: Floats) -> float:
 class Outline:
     """Where a wheel, tyre or plate stood at the end; without one, the middle of the terrain.
 
-    surface: Surface or None; centre (3) [m]; half_width [m], NaN without a body.
+    surface: Surface or None, of both halves of a half model; centre (3) [m]; half_width [m], NaN
+    without a body.
     """
 
     def __init__(self, folder: Path, terrain: Terrain) -> None:
-        self.surface: Surface | None = read_surface(folder / "history.h5")
-        x = terrain.x if self.surface is None else self.surface.x
+        surface = read_surface(folder / "history.h5")
+        if surface is not None and surface.x[:, 1].min() > -ON_SYMMETRY * np.ptp(surface.x[:, 1]):
+            surface = mirrored(surface)
+        self.surface: Surface | None = surface
+        x = terrain.x if surface is None else surface.x
         low, high = x.min(axis=0), x.max(axis=0)
         self.centre: Floats = 0.5 * (low + high)
-        self.half_width = float(np.nan if self.surface is None else 0.5 * (high - low)[1])
+        self.half_width = float(np.nan if surface is None else 0.5 * (high - low)[1])
+
+
+def mirrored(half: Surface) -> Surface:
+    """Both halves of a surface that is cut at y = 0."""
+    other = half.triangles[:, ::-1] + len(half.x)  # the other way round: normals stay outward
+    return Surface(np.vstack([half.triangles, other]), np.vstack([half.x, half.x * MIRROR]))

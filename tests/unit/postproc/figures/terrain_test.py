@@ -10,6 +10,7 @@ import h5py
 import matplotlib.image
 import numpy as np
 
+from furrow_post.analyse.displacement import displacements
 from furrow_post.analyse.rut import bow_wave, rut_densities, rut_depth, share_left
 from furrow_post.analyse.stress import arc_ahead, in_plane
 from furrow_post.errors import ResultsError
@@ -86,6 +87,49 @@ class TerrainTest(unittest.TestCase):
         self.assertAlmostEqual(rut_depth(terrain, body), 0.5 * DEPTH)
         self.assertAlmostEqual(share_left(terrain, body), 1.0)
         self.assertAlmostEqual(bow_wave(terrain, body), 0.0)
+
+    def test_half_a_tyre_is_as_a_whole_one(self) -> None:
+        """Its surface is kept for y >= 0 alone: sections, shoulder and rut are those of both."""
+        terrain = Terrain.read(self.folder)
+        whole = Outline(self.folder, terrain)
+        triangles, x = wheel(RADIUS, 0.5 * WIDTH, [AXLE, 0.25 * WIDTH, 0.5 * DEPTH + RADIUS])
+        with h5py.File(self.folder / "history.h5", "r+") as content:
+            del content["surface"]
+            content["surface/triangles"], content["surface/x"] = triangles, x
+        half = Outline(self.folder, terrain)
+        np.testing.assert_allclose(half.centre, whole.centre, atol=1e-12)
+        self.assertAlmostEqual(half.half_width, whole.half_width)
+        self.assertEqual(rut_densities(terrain, half), rut_densities(terrain, whole))
+        assert half.surface
+        corners = half.surface.x[half.surface.triangles]
+        volume = np.linalg.det(corners - whole.centre).sum() / 6  # outward normals: positive
+        self.assertAlmostEqual(volume, np.pi * RADIUS**2 * WIDTH, delta=0.01 * volume)
+
+    def test_displacements_are_those_of_the_terrain(self) -> None:
+        """The track is pressed to half, its surface drawn forward by 3 cm; beside it, in a layer at
+        half of the depth, ground goes out by 1 cm, less far away, and up by 5 mm."""
+        terrain = Terrain.read(self.folder)
+        body = Outline(self.folder, terrain)
+        before = terrain.initial_position
+        side, height = np.abs(before[:, 1]), before[:, 2] / DEPTH
+        terrain.x[:, 0] += np.where(side < 0.5 * WIDTH, 0.03 * height, 0.0)
+        out = np.where(np.abs(height - 0.45) < 0.01, 0.01, 0.0) * (side > 0.5 * WIDTH)
+        out[side > 0.5 * WIDTH + 0.09] *= 0.4
+        terrain.x[:, 1] += out * np.sign(before[:, 1])
+        terrain.x[:, 2] += 0.5 * out
+        found = displacements(terrain, body)
+        top, middle = DEPTH - 0.5 * SPACING, 0.45 * DEPTH
+        for value, expected in (
+            (found.surface_down, 0.5 * top),
+            (found.surface_forward, 0.03 * top / DEPTH),
+            (found.middle_down, 0.5 * middle),
+            (found.middle_forward, 0.03 * middle / DEPTH),
+            (found.aside, 0.01),
+            (found.aside_far, 0.004),
+            (found.raised, 0.005),
+        ):
+            self.assertAlmostEqual(value, expected)
+        self.assertIn("beside the wheel            1.0 outwards, 0.5 up", found.report())
 
     def test_what_is_pushed_aside_is_missing_in_the_rut(self) -> None:
         """Snow of the track moves outwards: over 2 |y| it has half of its mass a length left."""
