@@ -16,6 +16,7 @@ PLATE, TYRE_ON_SNOW = "snow_plate/results.csv", "tyre_on_snow/results.csv"
 SAND = "tyre_on_sand_ground/results.csv"
 OEDOMETER = "snow_oedometer/results.csv"
 PLATE_VARIANTS = "plate_variants/results.csv"
+GIVEN = "report_inputs/results.csv"
 
 PERCENT = 100.0
 
@@ -24,10 +25,31 @@ def of(table: str, run: str, column: str, scale: float = 1.0, key: str = "run") 
     return Stored(table, {key: run}, column, scale)
 
 
-def not_done(
-    place: str, what: str, quantity: str, reason: str, report: str = "", measured: str = ""
-) -> Experiment:
-    return Experiment(place, what, quantity, report=report, measured=measured, remark=reason)
+def not_done(place: str, what: str, quantity: str, reason: str) -> Experiment:
+    return Experiment(place, what, quantity, remark=reason)
+
+
+HELD = "held at zero slip, a wheel drives with its friction: c is linear in slip (report_wheel)"
+
+
+def effect(place: str, what: str, run: str, limit: str = "") -> tuple[Experiment, ...]:
+    """How far z and c move; limit [%]: where the report finds little effect."""
+    remark = f"report: little effect, here less than {limit} %" if limit else "no number there"
+    return tuple(
+        Experiment(
+            place,
+            what,
+            f"change of {quantity}",
+            "%",
+            report=limit,
+            ours=of("report_wheel/effects.csv", run, f"{column}_percent"),
+            limit=bool(limit),
+            cost=of(WHEEL, run, "user_s") if quantity == "z" else None,
+            remark=remark,
+            why=HELD,
+        )
+        for quantity, column in (("z", "sinkage"), ("c", "resistance"))
+    )
 
 
 # ---- material models
@@ -70,19 +92,32 @@ MATERIAL = Group(
             "K0",
             measured="0.12",
             ours=of(OEDOMETER, "fresh_snow_shoop", "k0", key="law"),
-            remark="beta 22.53 degrees and K0 0.12 exclude each other",
+            why="beta 22.53 degrees alone fixes K0 (snow_oedometer)",
         ),
-        not_done("p. 13, Fig 21", "modulus that follows density", "E", "no law has it"),
-        not_done("Figs 21-25", "compilations of E, strength, compression", "", "only drawn"),
-        not_done("Fig 34", "McCormick sand, uniaxial strain", "axial stress", "only drawn"),
-        not_done("pp. 5-23", "snow pressed slowly widens", "", "no law depends on the rate"),
+        *effect(
+            "p. 13, Fig 21",
+            "the wheel of Fig 62 with a tenth of E; no law lets E follow density",
+            "soft",
+        ),
+        not_done("Figs 21-25", "compilations of E, strength, compression", "", "no number printed"),
+        Experiment(
+            "Fig 34",
+            "McCormick sand, confined compression by 8 MPa",
+            "axial strain",
+            "%",
+            ours=of(GIVEN, "sand_axial_strain_8MPa", "value", PERCENT, key="quantity"),
+            remark="measured curve only drawn",
+        ),
+        not_done("pp. 5-23", "snow pressed slowly widens", "", "no snow law depends on the rate"),
     ),
 )
 
 # ---- plates
 
 
-def plate(case: str, what: str, near: str, remark: str, study: str = PLATE) -> Experiment:
+def plate(
+    case: str, what: str, near: str, remark: str, study: str = PLATE, why: str = ""
+) -> Experiment:
     return Experiment(
         "Fig 31",
         what,
@@ -93,11 +128,12 @@ def plate(case: str, what: str, near: str, remark: str, study: str = PLATE) -> E
         near=of(study, near, "peak_N", key="case") if near else None,
         cost=of(study, case, "user_s", key="case"),
         remark=remark,
+        why=why,
     )
 
 
-def variant(case: str, what: str, near: str) -> Experiment:
-    return plate(case, what, near, "180 kg/m3, plate holds the snow", PLATE_VARIANTS)
+def variant(case: str, what: str, near: str, why: str = "") -> Experiment:
+    return plate(case, what, near, "180 kg/m3, plate holds the snow", PLATE_VARIANTS, why)
 
 
 def size_zero(case: str, what: str) -> Experiment:
@@ -125,7 +161,7 @@ def below() -> tuple[Experiment, ...]:
             measured=measured,
             ours=of(PLATE_VARIANTS, "cap_25", f"density_{layer}", key="case"),
             near=of(PLATE_VARIANTS, "cap_31", f"density_{layer}", key="case"),
-            remark="no law here piles up density at the plate",
+            why="all seven runs spread the strain, no law has a crushing front (plate_variants)",
         )
         for layer, measured in ((1, "520"), (2, "440"))
     )
@@ -137,13 +173,34 @@ PLATES = Group(
         plate("fresh_finer", "plate of 20.32 cm, `fresh_snow`", "fresh_fine", "200 kg/m3"),
         plate("clay_finer", "the same, Cam clay", "clay_fine", "200 kg/m3"),
         plate("finer", "the same, cap law of Tables 1 and 3", "fine", "200 kg/m3"),
-        plate("foam_fine", "the same, foam of Table 1", "foam", "without the slide surface"),
+        plate(
+            "foam_fine",
+            "the same, foam of Table 1",
+            "foam",
+            "without the slide surface",
+            why="twice the oedometer's stress, and more than half goes past the sides (snow_plate)",
+        ),
         variant("cap_25", "variant 1: cap law of Tables 1 and 3", "cap_31"),
         size_zero("cap", "the same"),
         variant("cap_slide_25", "variant 2: with a slide surface, friction 0.3", "cap_slide_31"),
         size_zero("cap_slide", "the same"),
-        variant("foam_slide", "variant 3: foam of Table 1, slide surface", ""),
-        not_done("Fig 30", "density, isolated places", "kg/m3", "not scored", report="420"),
+        variant(
+            "foam_slide",
+            "variant 3: foam of Table 1, slide surface",
+            "",
+            "its lambda; with the oedometer's 5881 N (plate_variants)",
+        ),
+        Experiment(
+            "Fig 30",
+            "variant 1, densest place",
+            "density",
+            "kg/m3",
+            report="420",
+            ours=of(PLATE_VARIANTS, "cap_31", "greatest_kg_m3", key="case"),
+            near=of(PLATE_VARIANTS, "cap", "greatest_kg_m3", key="case"),
+            remark="one particle; cells of 3.1 cm",
+            why="one place, denser in smaller cells (plate_variants)",
+        ),
         *below(),
         Experiment(
             "Fig 29b",
@@ -242,7 +299,8 @@ HARD_SURFACE = Group(
             "%",
             measured="0.8",
             ours=of("tyre_table6/inflated.csv", "241.0", "growth", PERCENT, key="pressure_kPa"),
-            remark="74.7 to 75.3 cm; the belt is as stiff along as Table 8 gives it",
+            remark="74.7 to 75.3 cm",
+            why="p R^2/(E1 h): Table 8's belt is as stiff as that (tyre_table6)",
         ),
         Experiment(
             "Fig 52",
@@ -251,7 +309,7 @@ HARD_SURFACE = Group(
             "kPa",
             measured="765",
             ours=stress("largest_kPa"),
-            remark="a line force of the sidewall, which grows with the mesh",
+            why="a line force of the sidewall, which grows with the mesh (tyre_table6)",
         ),
         Experiment(
             "Fig 52",
@@ -320,6 +378,7 @@ HARD_SURFACE = Group(
             ours=brick_stress(120),
             near=brick_stress(60),
             remark=BRICK + ", smooth",
+            why="Fig 52 measures a ribbed tread, whose voids carry nothing (tyre_table6)",
         ),
         Experiment(
             "Table 10",
@@ -334,20 +393,53 @@ HARD_SURFACE = Group(
             cost=brick_rolling("user_s"),
             remark=BRICK + ", smooth; the report's at 120 sections",
         ),
-        not_done("Tables 9, 10", "brick treads: natural modes", "", "none measured to compare"),
-        not_done("Figs 45-51", "load, deflection and area at other loads", "", "only drawn"),
-        not_done("Fig 55", "sidewall profiles", "", "only drawn"),
-        not_done("Table 7", "cantilever tests of sidewall sections", "EI", "taken from Table 8"),
+        not_done("Tables 9, 10", "brick treads: natural modes", "", "the report gives no mode"),
+        *(
+            Experiment(
+                figures,
+                f"{what} under 4000 N, {pressure} kPa",
+                what,
+                unit,
+                ours=Stored(
+                    "tyre_table6/load_deflection.csv",
+                    {"pressure_kPa": f"{pressure}.0", "load_N": "4000.0"},
+                    column,
+                ),
+                remark="measured curves only drawn",
+            )
+            for figures, what, unit, column in (
+                ("Figs 45-47", "deflection", "cm", "deflection_cm"),
+                ("Figs 48-51", "contact area", "cm2", "perimeter_area_cm2"),
+            )
+            for pressure in (103, 241)
+        ),
+        not_done("Fig 55", "sidewall profiles", "", "only drawn; their widths are above"),
+        *(
+            Experiment(
+                "Table 7",
+                f"cantilever tests of the tread, {way}",
+                "EI per width",
+                "N m",
+                measured=measured,
+                ours=of(GIVEN, f"belt_stiffness_{way}", "value", key="quantity"),
+                remark="an input, by Table 8",
+            )
+            for way, measured in (("along", "4.11"), ("across", "2.21"))
+        ),
     ),
 )
 
 # ---- rigid wheel on snow
 
+SKIDS = "a rigid wheel skids there, and cannot have a tyre's c: closed form (snow_wheel)"
+SHOULDER = "its snow goes further aside, less dense: mass left in the track (report_wheel)"
 OTHER_CELLS = {"d_5": "cell_10", "d_30": "d_30_cell_4", "d_40": "d_40_cell_10"}
 REPORT_S, MEASURED = ("8", "0.1"), ("15.8", "0.074")  # z [cm], c of the wheel in 20 cm
 
 
-def wheel(run: str, what: str, remark: str = "", measured: bool = False) -> tuple[Experiment, ...]:
+def wheel(
+    run: str, what: str, remark: str = "", measured: bool = False, why: str = ""
+) -> tuple[Experiment, ...]:
     """Sinkage and resistance of the report's wheel, against the report's or the measured ones."""
     numbers = (("z", "cm", "sinkage_m", 100.0), ("c", "", "resistance", 1.0))
     return tuple(
@@ -363,6 +455,7 @@ def wheel(run: str, what: str, remark: str = "", measured: bool = False) -> tupl
             hours="24" if index == 0 else "",
             cost=of(WHEEL, run, "user_s") if index == 0 else None,
             remark=remark if index == 0 or measured else "upper edge of the measured",
+            why=why,
         )
         for index, (quantity, unit, column, scale) in enumerate(numbers)
     )
@@ -380,25 +473,7 @@ def deep(depth: int) -> Experiment:
         ours=of(WHEEL, run, "resistance"),
         cost=of(WHEEL, run, "user_s"),
         remark="report: NRMM at 240 kg/m3, its 'excellent match'",
-    )
-
-
-def effect(place: str, what: str, run: str, limit: str = "") -> tuple[Experiment, ...]:
-    """How far z and c move; limit [%]: where the report finds little effect."""
-    remark = f"report: little effect, here less than {limit} %" if limit else "no number there"
-    return tuple(
-        Experiment(
-            place,
-            what,
-            f"change of {quantity}",
-            "%",
-            report=limit,
-            ours=of("report_wheel/effects.csv", run, f"{column}_percent"),
-            limit=bool(limit),
-            cost=of(WHEEL, run, "user_s") if quantity == "z" else None,
-            remark=remark,
-        )
-        for quantity, column in (("z", "sinkage"), ("c", "resistance"))
+        why="from 30 cm on it bears like a footing; NRMM jumps to 1.5 and 2.5 times (report_wheel)",
     )
 
 
@@ -415,6 +490,19 @@ def density(run: str, what: str, column: str, report: str, measured: str) -> Exp
     )
 
 
+MASS = "mass alone leaves 2.0 cm (12), 1.4 cm (24), if all stays at 510 kg/m3 (snow_wheel)"
+LIGHT = "to be met thin, light snow has to end far below 500 kg/m3 (snow_wheel)"
+CRUSHES = "K0 0.12 keeps snow in the track, and deep snow flows aside (snow_wheel)"
+
+BY_HAND = "one slope M for all rows, set by hand on two (snow_wheel)"
+REASONS = {
+    ("tyre", "sinkage_m_rms"): MASS,
+    ("tyre", "resistance_rms"): CRUSHES,
+    ("flowing", "sinkage_m_rms"): LIGHT,
+    ("flowing", "resistance_rms"): BY_HAND,
+}
+
+
 def rms(column: str, model: str, rows: str, what: str, limit: str, scale: float) -> Experiment:
     return Experiment(
         "Table 11",
@@ -425,22 +513,93 @@ def rms(column: str, model: str, rows: str, what: str, limit: str, scale: float)
         ours=Stored(ACCURACY, {"model": model, "rows": rows}, column, scale),
         limit=True,
         remark="limit: NRMM's error on the same tests",
+        why=REASONS[model, column],
     )
 
 
-TRACERS = "tracers drawn by furrow-post terrain, not scored"
-ARC = "drawn by furrow-post terrain, no number there"
+NOT_PRINTED = "measured grid only drawn"
+
+
+def fields() -> tuple[Experiment, ...]:
+    """Under the report's wheel: densities, tracers, the arc of deviatoric stress."""
+    table = "report_wheel/fields.csv"
+    thin = "pressed by 9.6 of 20 cm it has 385 kg/m3 on average at most (report_wheel)"
+    rows: list[Experiment] = []
+    for run, what in (("d_5", "rigid wheel, zero slip, d 5 kPa"), ("d_30", "the same, d 30 kPa")):
+        for column, place, report, measured, why in (
+            ("density_under", "under the wheel", "460", "510", thin),
+            ("density_shoulder", "at its shoulder", "335", "290", SHOULDER),
+        ):
+            rows.append(
+                Experiment(
+                    "Fig 67",
+                    f"{what}, {place}",
+                    "density",
+                    "kg/m3",
+                    report=report,
+                    measured=measured,
+                    ours=of(table, run, column),
+                    remark="measured under a tyre",
+                    why=why,
+                )
+            )
+        for figure, place, column in (
+            ("Fig 65", "surface of the track, forward", "surface_forward_cm"),
+            ("Fig 65", "half of the depth, down", "middle_down_cm"),
+            ("Fig 66", "beside the wheel, outwards", "aside_cm"),
+        ):
+            rows.append(
+                Experiment(
+                    figure,
+                    f"{what}, {place}",
+                    "displacement",
+                    "cm",
+                    ours=of(table, run, column),
+                    remark=NOT_PRINTED,
+                )
+            )
+        rows.append(
+            Experiment(
+                "Fig 65",
+                f"{what}, greatest deviatoric stress at the base, ahead of the axle",
+                "place",
+                "cm",
+                report="0",
+                ours=of(table, run, "q_base_ahead_cm"),
+                floor=True,
+                remark="the report: an arc down and ahead, no number",
+            )
+        )
+    return tuple(rows)
+
+
 TYRE_RUN = {"change": "base: cells of 4 cm, tyre of 4 x 36 elements"}
 RIGID_WHEEL = Group(
     "Wheel on snow",
     (
-        *wheel("d_5", "rigid wheel, 20 cm, zero slip, d 5 kPa", remark="Table 1, smallest d"),
+        *wheel(
+            "d_5",
+            "rigid wheel, 20 cm, zero slip, d 5 kPa",
+            remark="Table 1, smallest d",
+            why="no wheel rolls at 8 cm on it, by closed form (report_wheel)",
+        ),
         *wheel("d_30", "the same, d 30 kPa", remark="Table 1, largest d"),
         *wheel("d_40", "the same, d 40 kPa", remark="beyond Table 1"),
         *wheel("d_30_cell_10", "d 30 kPa, cells of 10 cm", remark="two cells in the depth"),
-        *wheel("d_72", "the same, d 72 kPa", remark="eq 20 with the c of the CIV tests, 43 kPa"),
-        *wheel("slip_free", "free wheel, d 30 kPa", "measured with a tyre", measured=True),
-        *wheel("slip_free_d5", "free wheel, d 5 kPa", "measured with a tyre", measured=True),
+        *wheel(
+            "d_72",
+            "the same, d 72 kPa",
+            remark="eq 20 with the c of the CIV tests, 43 kPa",
+            why="beyond Table 1: z falls steadily with d (report_wheel)",
+        ),
+        *(
+            row
+            for run, what in (
+                ("slip_free", "free wheel, d 30 kPa"),
+                ("slip_free_d5", "free wheel, d 5 kPa"),
+            )
+            for row in wheel(run, what, "measured with a tyre", measured=True, why=SKIDS)
+        ),
         *effect("p. 44", "friction 0.8 instead of 0.3, d 30 kPa", "friction_0.8", "10"),
         *effect("p. 44", "friction 0.8 instead of 0.3, d 5 kPa", "friction_0.8_d5", "10"),
         *(deep(depth) for depth in (20, 30, 40, 50)),
@@ -464,23 +623,33 @@ RIGID_WHEEL = Group(
             near=Stored(ERROR, {"change": "cells of 3.33 cm"}, "resistance"),
             remark="identified on",
         ),
-        rms("sinkage_m_rms", "tyre", "prediction: 12", "z of 12 predicted tests", "1.6", 100.0),
-        rms("resistance_rms", "tyre", "prediction: 12", "c of the same", "0.018", 1.0),
-        rms("sinkage_m_rms", "tyre", "all: 24", "z of all 24 tests", "1.3", 100.0),
-        rms("resistance_rms", "tyre", "all: 24", "c of all 24 tests", "0.0284", 1.0),
+        *(
+            rms(column, model, rows, f"{quantity} of {tests}{law}", limit, scale)
+            for model, law in (("tyre", ""), ("flowing", ", K0 0.41"))
+            for rows, tests, limits in (
+                ("prediction: 12", "the 12 other tests", ("1.6", "0.018")),
+                ("all: 24", "all 24 tests", ("1.3", "0.0284")),
+            )
+            for column, quantity, limit, scale in (
+                ("sinkage_m_rms", "z", limits[0], 100.0),
+                ("resistance_rms", "c", limits[1], 1.0),
+            )
+        ),
         density("row_220_20cm", "under the tyre, `field_snow`", "density_under", "460", "510"),
         density("row_220_20cm", "at its shoulder", "density_shoulder", "335", "290"),
         density("clay_towed", "under the rigid wheel, Cam clay", "density_under", "460", "510"),
         density("clay_towed", "at its shoulder", "density_shoulder", "335", "290"),
-        not_done("Fig 65", "displacements along the track", "", TRACERS),
-        not_done("Fig 66", "displacements across the track", "", TRACERS),
-        not_done("Fig 65", "arc of deviatoric stress ahead", "", ARC),
+        *fields(),
         *effect("p. 43", "infinite elements at the sides, d 5 kPa", "absorbing_5"),
         not_done("p. 44", "implicit solution, adaptive mesh", "", "explicit material points here"),
     ),
 )
 
 # ---- tyre on ground
+
+
+SOFT = "its 8 cm are those of its rigid wheel: d 30 to 40 kPa, coarse mesh (report_wheel)"
+SHIFTS = "5 mm are the tread moving as a whole, whatever the ground (tyre_shift)"
 
 
 def tyre(run: str, what: str, remark: str = "") -> tuple[Experiment, ...]:
@@ -501,6 +670,7 @@ def tyre(run: str, what: str, remark: str = "") -> tuple[Experiment, ...]:
             near=of(TYRE_ON_SNOW, finer, column, scale, key="case") if finer else None,
             cost=of(TYRE_ON_SNOW, run, "user_s", key="case"),
             remark=remark,
+            why=SOFT if quantity == "z" else SHIFTS,
         )
         for quantity, unit, column, scale, report in numbers
     )
@@ -540,6 +710,7 @@ def principal_stresses() -> tuple[Experiment, ...]:
             floor=True,
             cost=Stored(table, {"depth_mm": depth}, "user_s") if index == 0 else None,
             remark="tension positive" if unit == "kPa" else "particles stand 12.5 mm apart",
+            why="beneath the axle to within two particles, below the first layer (sand_zones)",
         )
         for index, (depth, what, unit, column) in enumerate(rows)
     )
@@ -561,6 +732,7 @@ def shifts() -> tuple[Experiment, ...]:
             limit=column != "deflection_mm",
             cost=of(SHIFT, run, "user_s") if column == "deflection_mm" else None,
             remark=remark,
+            why="so the report's 3 mm are another quantity (tyre_shift)",
         )
         for run, column, what, remark in (
             ("d_30", "shift_up_mm", "of it the tread as a whole", "less than all of the report's?"),
@@ -599,7 +771,12 @@ TYRE_ON_GROUND = Group(
                 ("locked", "locked", "one zone"),
             )
         ),
-        not_done("p. 40", "buckling of the tread disappears on soft ground", "", "not counted"),
+        not_done(
+            "p. 40",
+            "buckling of the tread disappears on soft ground",
+            "",
+            "counted on a plane only: 4 % of the contact lifts at 69 kPa and 5 kN (tyre_table6)",
+        ),
     ),
 )
 
@@ -608,11 +785,27 @@ TYRE_ON_GROUND = Group(
 FUTURE = Group(
     "What the report leaves to others (pp. 41, 55)",
     (
-        not_done("pp. 55-56", "design: width, diameter, pressure", "c", "load and pressure only"),
-        not_done("pp. 55-56", "tread blocks on snow", "", "only a smooth brick tyre so far"),
+        *(
+            Experiment(
+                "pp. 55-56",
+                f"design: the tyre at {pressure} kPa on 20 cm of `field_snow`",
+                "c",
+                ours=Stored(ERROR, {"change": f"tyre at {pressure} kPa"}, "resistance"),
+                cost=Stored(ERROR, {"change": f"tyre at {pressure} kPa"}, "user_s"),
+                remark="179 kPa is above",
+            )
+            for pressure in (103, 241)
+        ),
+        not_done(
+            "pp. 55-56",
+            "design: width, diameter",
+            "c",
+            "not run; by closed form sqrt(2 lambda/(pi r)), whatever the width (snow_wheel)",
+        ),
+        not_done("pp. 55-56", "tread blocks on snow", "", "ribs and lugs: tyre_brick; none on snow"),
         not_done("pp. 55-56", "temperature, melting, sintering in time", "", "no law has it"),
         not_done("pp. 55-56", "rate effects, wet snow, thawing soil", "", "no law has it"),
-        not_done("pp. 55-56", "repeated passes", "z", "7 mm deeper, none measured"),
+        not_done("pp. 55-56", "repeated passes", "z", "a test: 7 mm deeper; none measured"),
     ),
 )
 

@@ -11,6 +11,7 @@ from furrow_post.study.tables import markdown
 
 HERE = Path(__file__).resolve().parent
 BEGIN, END = "<!-- written by run -->", "<!-- end -->"
+UNMET = ("differs", "missed")  # verdicts that need a reason
 AGREES, NEAR = 0.10, 0.25  # relative differences that are called so
 HEAD = (
     "in the report",
@@ -66,7 +67,8 @@ class Experiment:
     """A row of the page. Numbers of the report and measured ones are as printed, or stored where a
     formula of the report gives them.
 
-    near: the same number with the next size of cells or mesh; the distance is its uncertainty.
+    why: the reason where ours differs or misses, and last, in brackets, the study whose page shows
+    it; near: the same number with the next size of cells or mesh; the distance is its uncertainty.
     limit: the reference is an upper limit; floor: a lower one. A row without ours says why.
     """
 
@@ -84,6 +86,7 @@ class Experiment:
     hours: str = ""  # that the report's computation took [h]
     cost: Stored | None = None  # [core s] of ours
     remark: str = ""
+    why: str = ""
 
     def reference(self) -> float | None:
         """The measured number, or else the report's."""
@@ -124,6 +127,8 @@ class Experiment:
                 difference = f"{round(100 * (own / reference - 1)):+d}"
         study = self.ours.study if self.ours else ""
         sign = "< " if self.limit else "> " if self.floor else ""
+        verdict = self.verdict()
+        why = self.why if verdict in UNMET else ""
         stated = self.report if isinstance(self.report, str) else number(self.report.value())
         return [
             self.place,
@@ -135,11 +140,11 @@ class Experiment:
             number(own),
             number(error, 2),
             difference,
-            self.verdict(),
+            verdict,
             self.hours,
             number(self.cost.value() if self.cost else None),
             f"[{Path(study).name}]({study}/README.md)" if study else "",
-            self.remark,
+            "; ".join(filter(None, (self.remark, why))),
         ]
 
 

@@ -268,6 +268,7 @@ def laboratory_numbers(folder: Path) -> Row:
         "peak_over_measured": round(curve[:, 2].max() / measured["peak_load_N"], 3),
         "rms_ln_density": round(rms(np.log(layers / measured_layers())), 3),
         "beside_kg_m3": round(snow.mean_density(beside)),
+        "greatest_kg_m3": round(float(snow.density.max())),
         "edge_moved_out_mm": round(1e3 * float(np.mean(r[edge] - before[edge])), 1),
         "slide_loss": round(float(history["slide_loss"][-1] / work), 4),
         "numerical_loss": round(float(history["numerical_loss"][-1] / work), 4),

@@ -162,11 +162,11 @@ FRICTIONS = {  # name -> words of the contact
     "rough": "surface rough",
     "eq26": "friction 0.3 slip_length 0.02",
 }
-# d [kPa] -> suffix of the run's name, which slips and frictions: all for both ends of Table 1
+# d [kPa] -> suffix of the run's name, which slips and frictions: all for the ends of Table 1
 STRENGTHS: Mapping[int, tuple[str, Sequence[str], Sequence[str]]] = {
     5: ("_d5", (*SLIPS, "free"), ("0.1", "0.8", "rough")),
-    10: ("_d10", ("free",), ("0.1", "0.8")),
-    20: ("_d20", ("free",), ("0.1", "0.8")),
+    10: ("_d10", (*SLIPS, "free"), ("0.1", "0.8")),
+    20: ("_d20", (*SLIPS, "free"), ("0.1", "0.8")),
     30: ("", (*SLIPS, "free"), tuple(FRICTIONS)),
 }
 
@@ -204,11 +204,15 @@ def frictions() -> list[Case]:
 
 # run -> the run that it differs from in one thing
 EFFECTS = {
+    "soft": "base",
+    "stiff": "base",
     "absorbing_5": "d_5",
     "absorbing_30": "d_30",
     **{f"friction_{name}_d5": "d_5" for name in ("0.1", "0.8", "rough")},
     **{f"friction_{name}": "d_30" for name in ("0.1", "0.8", "rough")},
 }
+
+FIELDS = ("d_5", "d_10", "d_20", "d_30")  # runs whose ground is looked into
 
 # Runs that are a test: sinkage [m] and resistance coefficient that they have here, and how far off
 # another processor or compiler may be

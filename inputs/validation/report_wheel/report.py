@@ -11,6 +11,7 @@ import numpy as np
 
 import cases
 import closed_form
+import fields
 
 from furrow_post.analyse import empirical
 from furrow_post.arrays import Floats
@@ -128,6 +129,16 @@ def effects(rows: Sequence[Row]) -> list[Row]:
     ]
 
 
+def field_rows(runner: Runner) -> list[Row]:
+    """The ground of the runs that Figs 65 to 67 are held against."""
+    found = [case for case in cases.all_cases() if case.name in cases.FIELDS]
+    return [
+        {"run": case.name, "what": case.what, **fields.numbers(runner.folder(case))}
+        for case in found
+        if runner.record(case)
+    ]
+
+
 TABLES = {  # stage -> what its table is headed
     "reading": "Readings of Tables 1 and 3 (20 cm, zero slip, cells of 5 cm)",
     "artefact": "Mesh and load (20 cm, zero slip)",
@@ -138,7 +149,26 @@ TABLES = {  # stage -> what its table is headed
 }
 
 
-def section(rows: Sequence[Row]) -> list[str]:
+GROUND_TITLE = "The ground at the end of the run (Figs 65 to 67)"
+GROUND = {  # column of the page -> of fields.csv
+    "run": "what",
+    "kg/m3 under": "density_under",
+    "greatest": "density_greatest",
+    "shoulder": "density_shoulder",
+    "mass left": "mass_left",
+    "surface down cm": "surface_down_cm",
+    "forward": "surface_forward_cm",
+    "half depth down cm": "middle_down_cm",
+    "forward there": "middle_forward_cm",
+    "beside out cm": "aside_cm",
+    "up": "raised_cm",
+    "q kPa": "q_kPa",
+    "at cm ahead, half way to the base": "q_middle_ahead_cm",
+    "base": "q_base_ahead_cm",
+}
+
+
+def section(rows: Sequence[Row], ground: Sequence[Row]) -> list[str]:
     """The page's tables."""
     lines = []
     head = ("run", "standing z m", "z m", "c", "change of z m", "change of c", "slip", "core s")
@@ -157,6 +187,9 @@ def section(rows: Sequence[Row]) -> list[str]:
         if mine:
             cells = [[str(row.get(column, row["error"])) for column in columns] for row in mine]
             lines += [f"**{title}**", "", *markdown(head, cells), ""]
+    if ground:
+        cells = [[str(row[column]) for column in GROUND.values()] for row in ground]
+        lines += [f"**{GROUND_TITLE}**", "", *markdown(tuple(GROUND), cells), ""]
     return lines
 
 
@@ -193,6 +226,8 @@ def report(runner: Runner, output: Output) -> list[str]:
             for depth in cases.DEPTHS
         ],
     )
+    ground = field_rows(runner)
+    output.table("fields.csv", ground)
     draw_depths(rows, output.path("depth.png"))
-    output.section(section(rows))
+    output.section(section(rows, ground))
     return list(missed(rows))

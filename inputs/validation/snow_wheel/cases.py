@@ -16,7 +16,7 @@ TIME_LIMIT = 3600.0  # [s] of one run
 
 LOAD_MASS = 636.0  # [kg] [Shoop2001] p. 27
 WIDTH = 0.272  # [m]
-CELLS = 5  # in 0.20 m: cells of 4 cm
+CELLS, COARSE_CELLS = 5, 4  # in 0.20 m: cells of 4 and 5 cm
 # Numerical choices; the stage 'error' changes one at a time. Damping of the rig: the wheel comes to
 # rest in height after 0.6 m.
 BASE: dict[str, Value] = {
@@ -72,9 +72,11 @@ def tyre(pressure: float = PRESSURE, mesh: str = "4 36") -> dict[str, Value]:
 MEASURED_COMPACTION = {525.0: 210e3, 575.0: 350e3, 625.0: 700e3, 660.0: 1400e3}
 IDENTIFIED_DENSITIES = (380.0, 450.0, 490.0)  # [kg/m3] of the beginning, which is searched
 START = (100.0, 15.0)  # [kg/m3], [Pa]: below the lightest snow of the rows, hardly any strength
-# p0 over axial stress in confined compression, by the closed form of cohesive_cam_clay.h with M and
-# tension_ratio of fresh_snow_cam_clay.yaml: K0 = 0.12 [Shoop2001] eq 24
-SHARE = 0.594
+# Slopes M of Cam clay, and p0 over axial stress in confined compression with them, by the closed
+# form of cohesive_cam_clay.h with the tension_ratio of fresh_snow_cam_clay.yaml
+CRUSHED = 3.3  # K0 = 0.12 [Shoop2001] eq 24
+FLOWING = 2.0  # K0 = 0.41: set by hand on two of the rows, 220 kg/m3 of 0.20 and 0.38 m
+SHARES = {CRUSHED: 0.594, FLOWING: 0.760}
 
 Beginning = tuple[float, float, float]  # axial stresses [Pa] at IDENTIFIED_DENSITIES
 
@@ -82,14 +84,16 @@ Beginning = tuple[float, float, float]  # axial stresses [Pa] at IDENTIFIED_DENS
 FIELD_SNOW: Beginning = (4e3, 25e3, 100e3)
 
 
-def field_snow(density: float, beginning: Beginning = FIELD_SNOW, title: str = "") -> str:
-    """A material file; density [kg/m3] at the start."""
+def field_snow(
+    density: float, beginning: Beginning = FIELD_SNOW, title: str = "", slope: float = CRUSHED
+) -> str:
+    """A material file; density [kg/m3] at the start; slope: M, one of SHARES."""
     rows = [START]
     curve = {**dict(zip(IDENTIFIED_DENSITIES, beginning)), **MEASURED_COMPACTION}
-    rows += [(rho, SHARE * stress) for rho, stress in curve.items()]
+    rows += [(rho, SHARES[slope] * stress) for rho, stress in curve.items()]
     return (
         f"title: {title or 'Field snow'}\n"
-        f"law: {{type: cohesive_cam_clay, density: {density:g}, M: 3.3, tension_ratio: 0.1}}\n"
+        f"law: {{type: cohesive_cam_clay, density: {density:g}, M: {slope:g}, tension_ratio: 0.1}}\n"
         "elasticity: {type: linear, E: 13.79e6, nu: 0.3}\n"
         "hardening:\n"
         "  type: by_density\n"
@@ -161,6 +165,7 @@ def on_field_snow(
     beginning: Beginning = FIELD_SNOW,
     cells: int | None = None,
     what: str = "",
+    slope: float = CRUSHED,
     **changes: Value,
 ) -> Case:
     """The tyre, unless another wheel is given, on the field's snow."""
@@ -169,7 +174,7 @@ def on_field_snow(
         "material": f"{FOLDER}/material.yaml",
         **changes,
     }
-    text = field_snow(density, beginning, f"field snow of {density:g} kg/m3")
+    text = field_snow(density, beginning, f"field snow of {density:g} kg/m3", slope)
     return case(name, stage, depth, given, cells, what, {"material.yaml": text})
 
 
@@ -211,6 +216,25 @@ def rows() -> list[Case]:
     ]
 
 
+def flowing_name(density: float, depth: float) -> str:
+    return f"flowing_{row_name(density, depth).removeprefix('row_')}"
+
+
+def flowing_rows() -> list[Case]:
+    """The same on snow that flows aside more easily, in cells of about 5 cm."""
+    return [
+        on_field_snow(
+            flowing_name(density, depth),
+            "flowing",
+            density,
+            depth,
+            cells=round(depth * COARSE_CELLS / 0.20),
+            slope=FLOWING,
+        )
+        for density, depth in densities_and_depths()
+    ]
+
+
 ERROR_BASE = row_name(220, 0.20)
 ERRORS: dict[str, tuple[str, dict[str, Any]]] = {  # name -> what is changed, changes
     "cell_5cm": ("cells of 5 cm", {"cells": 4}),
@@ -240,7 +264,7 @@ def errors() -> list[Case]:
 
 def all_cases() -> dict[str, Case]:
     """Name -> case, in the order in which they are made."""
-    return {case.name: case for case in predictions() + rows() + errors()}
+    return {case.name: case for case in predictions() + rows() + flowing_rows() + errors()}
 
 
 # ---- measurements

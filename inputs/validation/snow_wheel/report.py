@@ -10,6 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import cases
+import mass_balance
 
 from furrow_post.analyse import empirical
 from furrow_post.analyse.rut import bow_wave, rut_densities, rut_depth, share_left
@@ -31,6 +32,10 @@ TIME_STEP = 2e-4  # [s] of wheel.lig
 
 Row = dict[str, Any]  # of a table
 
+COMPUTED = {  # model of rows.csv -> name, colour, mark
+    "tyre": ("tyre on field snow", "tab:blue", "s"),
+    "flowing": ("the same with K0 0.41", "tab:orange", "^"),
+}
 SECTIONS = {  # runs that are drawn -> title
     cases.ERROR_BASE: "tyre on field snow, 220 kg/m3",
     "rigid_towed": "rigid wheel on fresh_snow, towed",
@@ -116,7 +121,8 @@ class Found:
 
 
 def row_table(found: Found) -> list[Row]:
-    """The shared rows of Table 11, computed with the tyre on field snow and by NRMM.
+    """The shared rows of Table 11, computed with the tyre on field snow, on snow that flows aside
+    more easily, and by NRMM.
 
     NRMM: from its own and from the measured sinkage.
     """
@@ -133,9 +139,13 @@ def measured_row(found: Found, r: Mapping[str, float]) -> Row:
         "sinkage_m": sinkage,
         "resistance": r["resistance"],
     }
-    computed = found(cases.row_name(density, depth))
-    for what in ("sinkage_m", "resistance", "density_under", "density_shoulder", "slip"):
-        row[f"tyre_{what}"] = computed.get(what, "")
+    for model, name in (
+        ("tyre", cases.row_name(density, depth)),
+        ("flowing", cases.flowing_name(density, depth)),
+    ):
+        computed = found(name)
+        for what in ("sinkage_m", "resistance", "density_under", "density_shoulder", "slip"):
+            row[f"{model}_{what}"] = computed.get(what, "")
     own = empirical.nrmm_sinkage(depth, density, cases.PRESSURE)
     from_own, from_measured = (
         empirical.nrmm_resistance(density, cases.WIDTH, RADIUS, z) / LOAD for z in (own, sinkage)
@@ -166,17 +176,18 @@ def draw_comparison(table: Sequence[Row], path: Path) -> None:
         (panels[0], "sinkage_m", "sinkage [m]"),
         (panels[1], "resistance", "resistance over load"),
     ):
-        sources = (what, f"nrmm_{what}", f"tyre_{what}")
+        sources = (what, f"nrmm_{what}", *(f"{model}_{what}" for model in COMPUTED))
         top = 1.08 * max(r[source] or 0 for r in table for source in sources)
         axes.plot([0, top], [0, top], color="0.5", lw=0.8)
-        for used, how, fill in (
-            ("calibration", "identified on", "none"),
-            ("prediction", "predicted", "tab:blue"),
-        ):
-            mine = [r for r in table if r["used"] == used and r[f"tyre_{what}"] != ""]
-            measured, computed = [r[what] for r in mine], [r[f"tyre_{what}"] for r in mine]
-            look = {"ms": 5, "color": "tab:blue", "mfc": fill}
-            axes.plot(measured, computed, "s", **look, label=f"tyre on field snow, {how}")
+        for model, (name, colour, mark) in COMPUTED.items():
+            for used, how, fill in (
+                ("calibration", "identified on", "none"),
+                ("prediction", "others", colour),
+            ):
+                mine = [r for r in table if r["used"] == used and r[f"{model}_{what}"] != ""]
+                measured, computed = [r[what] for r in mine], [r[f"{model}_{what}"] for r in mine]
+                look = {"ms": 5, "color": colour, "mfc": fill}
+                axes.plot(measured, computed, mark, **look, label=f"{name}, {how}")
         measured, nrmm = [r[what] for r in table], [r[f"nrmm_{what}"] for r in table]
         axes.plot(measured, nrmm, "x", ms=4, color="0.4", label="NRMM")
         axes.set(xlabel=f"measured {title}", ylabel=f"computed {title}")
@@ -264,9 +275,10 @@ def draw_errors(table: Sequence[Row], limits: Limits, path: Path) -> None:
 
 
 def run_table(found: Found) -> list[Row]:
-    """Every run of the stages predict and rows."""
+    """Every run of the stages predict, rows and flowing."""
     staged = [("predict", case) for case in cases.predictions()]
     staged += [("rows", case) for case in cases.rows()]
+    staged += [("flowing", case) for case in cases.flowing_rows()]
     return [
         {"stage": stage, "what": case.what, **row}
         for stage, case in staged
@@ -283,10 +295,15 @@ def report(runner: Runner, output: Output) -> list[str]:
     draw_comparison(table, output.path("comparison.png"))
     scores = [
         accuracy(table, used, model)
-        for model in ("tyre", "nrmm")
+        for model in ("tyre", "flowing", "nrmm")
         for used in ("calibration", "prediction", "all")
     ]
     output.table("accuracy.csv", scores)
+    measured = cases.reference()
+    predicted = [not cases.is_calibration(row) for row in measured]
+    output.table("mass_balance.csv", mass_balance.table(measured, predicted))
+    start, density, off = mass_balance.trend(measured)
+    print(f"measured h - z: {start:.4f} m + mass/({density:.0f} kg/m3), rms {off:.4f} m")
     errors, limits = error_table(found)
     output.table("error.csv", errors)
     for what, (value, uncertain) in limits.items():

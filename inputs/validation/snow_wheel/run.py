@@ -4,7 +4,7 @@
 depth and density, and the error of both. See README.md.
 
 Makes the runs that are missing and writes the tables and pictures beside this file. Stages: predict
-rows error; the laws are identified by identify.py.
+rows flowing error; the laws are identified by identify.py.
 """
 
 import sys

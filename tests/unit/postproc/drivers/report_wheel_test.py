@@ -15,6 +15,7 @@ sys.path.insert(0, str(SOURCE / "inputs" / "validation" / "report_wheel"))
 
 import cases
 import closed_form
+import fields
 
 
 def linear(strain: Floats, d: float) -> Floats:
@@ -62,6 +63,15 @@ class CasesTest(unittest.TestCase):
             self.assertAlmostEqual(end, 5.0, places=1)  # [s]
             cells = float(str(case.variables["depth"])) / float(str(case.variables["cell"]))
             self.assertAlmostEqual(cells, round(cells), places=3)
+
+
+class FieldsTest(unittest.TestCase):
+    def test_greatest_of_a_layer_is_placed(self) -> None:
+        x = np.linspace(-0.3, 0.3, 601)
+        field = np.exp(-(((x - 0.05) / 0.1) ** 2))
+        layer = np.abs(x) < 0.2
+        self.assertAlmostEqual(fields.greatest_ahead(x, field, layer), 5.0, delta=0.1)  # [cm]
+        self.assertAlmostEqual(fields.greatest_ahead(x, field, x < 0.0), -0.5, delta=0.1)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ from support.command import SOURCE
 sys.path.insert(0, str(SOURCE / "inputs" / "validation" / "snow_wheel"))
 
 import cases
+import mass_balance
 import report
 
 
@@ -54,6 +55,63 @@ class FieldSnowTest(unittest.TestCase):
         self.assertEqual(case.fallback, {"remap_interval": 8})
         every_step = cases.on_field_snow("y", "rows", 220, 0.20, remap_interval=1)
         self.assertEqual(every_step.fallback, {})
+
+
+class SlopeTest(unittest.TestCase):
+    def test_share_of_the_axial_stress_is_that_of_confined_compression(self) -> None:
+        """K0 of src/material/snow.md, then p0 from the ellipse through p and q of it."""
+        beta = 0.1  # tension_ratio
+        for slope, k0 in ((cases.CRUSHED, 0.12), (cases.FLOWING, 0.41)):
+            B = slope / math.sqrt(1 + 2 * beta)
+            S = math.sqrt(9 + 4 * B * B)
+            lateral = (1 - beta) * S + (1 + beta) * (3 - 2 * B * B / 3)
+            found = lateral / ((1 - beta) * S + (1 + beta) * (3 + 4 * B * B / 3))
+            self.assertAlmostEqual(found, k0, delta=0.005)
+            p, q = (1 + 2 * found) / 3, 1 - found
+            p0 = cases.SHARES[slope]
+            on_ellipse = q * q * (1 + 2 * beta) / slope**2
+            self.assertAlmostEqual((p + beta * p0) * (p0 - p), on_ellipse, delta=1e-3)
+
+    def test_flowing_snow_differs_in_that_alone(self) -> None:
+        first, second = (cases.field_snow(220.0, slope=m) for m in (cases.CRUSHED, cases.FLOWING))
+        self.assertEqual(number(second, "M"), 2.0)
+        self.assertEqual(column(first, "rho"), column(second, "rho"))
+        axial = [
+            np.array(column(text, "p")[1:]) / cases.SHARES[slope]
+            for text, slope in ((first, cases.CRUSHED), (second, cases.FLOWING))
+        ]
+        np.testing.assert_allclose(axial[0], axial[1], rtol=1e-5)
+
+
+class MassBalanceTest(unittest.TestCase):
+    def rows(self, density_left: float, deflection: float) -> list[dict[str, float]]:
+        """Sinkages of snow that is all left at one density."""
+        return [
+            {
+                "depth_m": depth,
+                "density_kgm3": density,
+                "sinkage_m": depth * (1 - density / density_left) + deflection,
+            }
+            for depth, density in ((0.13, 110.0), (0.2, 220.0), (0.38, 160.0))
+        ]
+
+    def test_rows_that_keep_mass_leave_no_error(self) -> None:
+        rows = self.rows(510.0, 0.03)
+        np.testing.assert_allclose(mass_balance.least_error(rows, 510.0, 1.0), 0.0, atol=1e-12)
+        start, density, off = mass_balance.trend(rows)
+        self.assertAlmostEqual(start, -0.03)
+        self.assertAlmostEqual(density, 510.0)
+        self.assertAlmostEqual(off, 0.0)
+
+    def test_other_rows_leave_what_no_deflection_takes_away(self) -> None:
+        rows = self.rows(510.0, 0.065)  # 2 cm more than the largest deflection
+        single, own = mass_balance.least_error(rows, 510.0, 1.0)
+        self.assertAlmostEqual(own, 0.02)
+        self.assertAlmostEqual(single, 0.02)
+        rows = self.rows(1020.0, 0.03)  # twice as dense as it is said to be
+        single, own = mass_balance.least_error(rows, 510.0, 1.0)
+        self.assertGreater(single, own)
+        self.assertGreater(own, 0.01)
 
 
 class AccuracyTest(unittest.TestCase):

@@ -3,6 +3,7 @@
 
 import contextlib
 import io
+import re
 import subprocess
 import sys
 import tempfile
@@ -40,6 +41,17 @@ class PageTest(unittest.TestCase):
                             stored.value()
                             self.assertTrue((VALIDATION / stored.study / "README.md").is_file())
                     self.assertTrue(row.ours or row.remark, "a row that is not done says why")
+
+    def test_what_differs_has_a_reason_and_a_page(self) -> None:
+        for group in experiments.GROUPS:
+            for row in group.rows:
+                if row.verdict() in overview.UNMET:
+                    with self.subTest(row=row.what, quantity=row.quantity):
+                        shown = re.fullmatch(r".+ \((\w+)\)", row.why)
+                        self.assertTrue(shown, f"a reason, and its study in brackets: {row.why!r}")
+                        assert shown
+                        self.assertTrue((VALIDATION / shown[1] / "README.md").is_file())
+                        self.assertIn(row.why, row.cells()[-1])
 
     def test_one_number_a_cell(self) -> None:
         for group in experiments.GROUPS:

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""inputs/validation: what the tables of a study's page say is in its stored tables."""
+
+import re
+import unittest
+from bisect import bisect_left
+from collections.abc import Iterator
+from pathlib import Path
+
+from support.command import SOURCE
+
+VALIDATION = SOURCE / "inputs" / "validation"
+NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?![\w.])")
+OTHER_WORDS = re.compile(r"\[[^]]*\]\([^)]*\)|`[^`]*`|\[\w+\]")  # links, code, keys of sources
+SCALES = (1.0, 1e3, 1e-3, 1e2, 1e-2, 10.0, 0.1)  # between the units of tables and pages
+# Numbers of pages that no table of the study need have, with where they are from
+ELSEWHERE = {
+    "cmu_sand": {"0.071"},  # mean of several rows
+    "sand_zones": {"-0.33"},  # slip of the towed wheel: results of the run
+    "snow_oedometer": {"0.12"},  # K0, [Shoop2001] eq 24
+    # densities measured beside the wheel, [Shoop2001] Fig 67, and under wheels [CRREL95-7]
+    "snow_wheel": {"280", "300", "525"},
+}
+# Its page also holds hand-made tables of runs that it does not keep
+WITHOUT_TABLES = {"grains"}
+
+
+def body_rows(page: str) -> Iterator[list[str]]:
+    """Cells of the tables' rows but for their heads and first columns."""
+    lines = page.splitlines()
+    for before, line in zip(["", *lines], lines):
+        if line.startswith("|") and before.startswith("|") and set(line) - set("|-: "):
+            yield line.strip("|").split("|")[1:]
+
+
+def stored_numbers(folder: Path) -> list[float]:
+    """Absolute values, in order."""
+    texts = [
+        table.read_text(encoding="utf-8")
+        for table in folder.glob("*.csv")
+        if table.name != "provenance.csv"
+    ]
+    exponent = r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
+    return sorted({abs(float(text)) for text in re.findall(exponent, "\n".join(texts))})
+
+
+def is_stored(text: str, numbers: list[float]) -> bool:
+    """Whether one of the numbers, rounded as the text is, in its unit or another, is the text."""
+    value, digits = abs(float(text)), len(text.partition(".")[2])
+    half = 0.500001 * 10.0**-digits
+    for scale in SCALES:
+        place = bisect_left(numbers, (value - half) / scale)
+        if place < len(numbers) and numbers[place] <= (value + half) / scale:
+            return True
+    return False
+
+
+def not_stored(page: str, numbers: list[float]) -> set[str]:
+    """Numbers of the page's tables that are not among the numbers."""
+    cells = [OTHER_WORDS.sub("", cell) for row in body_rows(page) for cell in row]
+    shown = {text for cell in cells for text in NUMBER.findall(cell)}
+    return {text for text in shown if not is_stored(text, numbers)}
+
+
+class StudyPagesTest(unittest.TestCase):
+    def test_numbers_of_a_page_are_those_of_its_tables(self) -> None:
+        pages = sorted(VALIDATION.glob("*/README.md"))
+        self.assertGreater(len(pages), 10)
+        for page in pages:
+            if page.parent.name in WITHOUT_TABLES:
+                continue
+            with self.subTest(study=page.parent.name):
+                missing = not_stored(page.read_text(encoding="utf-8"), stored_numbers(page.parent))
+                self.assertLessEqual(
+                    missing,
+                    ELSEWHERE.get(page.parent.name, set()),
+                    "the page says what the study's tables do not: mend it, or evaluate again",
+                )
+
+    def test_a_number_is_looked_up_as_rounded_and_in_other_units(self) -> None:
+        page = "| run | z mm | c |\n|---|---|---|\n| `d 7` a 3 | {} | [x7](y) |\n"
+        for text, stored in (
+            ("163", True),
+            ("16.3", True),
+            ("0.1629", True),
+            ("162.87", True),
+            ("164", False),
+            ("0.1628", False),
+            ("-163", True),
+        ):
+            with self.subTest(text):
+                found = not_stored(page.format(text), [0.16287, 5.0])
+                self.assertEqual(found, set() if stored else {text})
+
+
+if __name__ == "__main__":
+    unittest.main()
