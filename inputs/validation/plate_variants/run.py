@@ -46,7 +46,7 @@ DENSITY = 180.0  # [kg/m3] before
 OTHERS_DENSITY = 200.0  # [kg/m3] of the snow of the material files
 NO_SLIP = 10.0  # friction of a plate that holds the snow, as the report's does
 SLIDE_FRICTION = 0.3
-COARSE, FINE, FINER = 0.0416667, 0.03125, 0.025  # [m] cells
+COARSE, FINE, FINER, FINEST = 0.0416667, 0.03125, 0.025, 0.02  # [m] cells
 LAYERS = 10
 UNDER = 0.8  # of the plate's radius: where densities below it are taken
 BESIDE = (0.02, 0.08)  # [m] from its edge: where those beside it are taken
@@ -111,13 +111,18 @@ def plate(
     )
 
 
+def name_of(variant: str, cell: float) -> str:
+    """Of a run in cells of this size [m]."""
+    return variant if cell == COARSE else f"{variant}_{1e3 * cell:.0f}"
+
+
 def sizes(
     name: str, what: str, base: Path, keys: str, slide: bool, cells: Sequence[float], **more: Value
 ) -> tuple[Case, ...]:
     """The same in several cells [m]."""
     return tuple(
         plate(
-            name if cell == COARSE else f"{name}_{1e3 * cell:.0f}",
+            name_of(name, cell),
             what if cell == COARSE else f"the same, cells of {100 * cell:.1f} cm",
             base,
             keys,
@@ -131,7 +136,7 @@ def sizes(
 
 ALL_CELLS, TWO, ONE = (COARSE, FINE, FINER), (COARSE, FINE), (COARSE,)
 CASES = (
-    *sizes("cap", "report's cap law", REPORT, report_hardening(), False, ALL_CELLS),
+    *sizes("cap", "report's cap law", REPORT, report_hardening(), False, (*ALL_CELLS, FINEST)),
     *sizes("cap_slide", "cap law, slide surface", REPORT, report_hardening(), True, ALL_CELLS),
     *sizes("foam", "foam law", FOAM, FOAM_VOIDS, False, ONE, modulus_scale=1),
     *sizes("foam_slide", "foam law, slide surface", FOAM, FOAM_VOIDS, True, ONE, modulus_scale=1),
@@ -277,16 +282,21 @@ def laboratory_numbers(folder: Path) -> Row:
 
 
 def size_zero(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, object]]:
-    """The peak in cells of size zero, of the variants that were run in three sizes."""
+    """The peak in cells of size zero, from the two finest sizes, of the variants that were run in
+    three sizes or more; and from the two sizes before, as a check."""
     peaks = {row["case"]: float(row["peak_N"]) for row in rows if row.get("peak_N")}
     measured = reference()["peak_load_N"]
     found: list[dict[str, object]] = []
     for name in ("cap", "cap_slide"):
-        coarse, fine, finer = name, f"{name}_{1e3 * FINE:.0f}", f"{name}_{1e3 * FINER:.0f}"
-        if not {coarse, fine, finer} <= peaks.keys():
+        known = [
+            (cell, peaks[name_of(name, cell)])
+            for cell in (*ALL_CELLS, FINEST)
+            if name_of(name, cell) in peaks
+        ]
+        if len(known) < 3:
             continue
-        value, error = at_size_zero((FINE, peaks[fine]), (FINER, peaks[finer]))
-        check, _ = at_size_zero((COARSE, peaks[coarse]), (FINE, peaks[fine]))
+        value, error = at_size_zero(*known[-2:])
+        check, _ = at_size_zero(*known[-3:-1])
         found.append(
             {
                 "case": name,

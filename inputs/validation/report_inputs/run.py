@@ -3,7 +3,7 @@
 """Numbers of [Shoop2001] that are inputs of this project, against the tests that they come from:
 belt stiffness of the tyre, compression of the sand. See README.md.
 
-Makes the run that is missing and writes results.csv; seconds.
+Makes the runs that are missing and writes results.csv; seconds.
 """
 
 import re
@@ -25,8 +25,9 @@ from furrow_post.study.study import Study, run_study
 
 TYRE = INPUTS / "tyres" / "p235_75r15.yaml"
 SAND = INPUTS / "materials" / "mccormick_sand.yaml"
-STRESS, STEPS = 8e6, 400  # [Pa]
+STRESSES = (2e6, 4e6, 8e6)  # [Pa] of confined compression
 PRESSURE = 13.447e6  # [Pa] the last of Table 5
+STEPS = 400
 
 CASES = (
     point_case(
@@ -35,17 +36,26 @@ CASES = (
         SAND,
         f"{{type: hydrostatic, pressure: [{PRESSURE:g}], steps: {STEPS}}}",
     ),
-    point_case(
-        "mccormick_confined",
-        "McCormick Ranch sand, confined compression",
-        SAND,
-        f"{{type: confined, stress: [{STRESS:g}], steps: {STEPS}}}",
+    *(
+        point_case(
+            f"mccormick_confined_{stress / 1e6:g}MPa",
+            "McCormick Ranch sand, confined compression",
+            SAND,
+            f"{{type: confined, stress: [{stress:g}], steps: {STEPS}}}",
+        )
+        for stress in STRESSES
     ),
 )
 # Case -> what is taken of its end, name in results.csv
 TAKEN = {
     "mccormick_hydrostatic": ("eps_vol_pl", "sand_plastic_volume_strain_13MPa"),
-    "mccormick_confined": ("axial_strain", "sand_axial_strain_8MPa"),
+    **{
+        f"mccormick_confined_{stress / 1e6:g}MPa": (
+            "axial_strain",
+            f"sand_axial_strain_{stress / 1e6:g}MPa",
+        )
+        for stress in STRESSES
+    },
 }
 
 
