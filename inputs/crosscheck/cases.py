@@ -1,25 +1,20 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is run: the lines of cases.csv, and the lines of results.csv that they give."""
+"""What is run: the lines of cases.csv."""
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from furrow_post.analyse.cost_table import Components
 from furrow_post.csv_table import read_rows
 from furrow_post.study.case import Case, Value
-from furrow_post.study.furrow_cases import laboratory_case, point_case, script_case
+from furrow_post.study.furrow_cases import script_case
 from furrow_post.study.record import Record
 from furrow_post.study.runner import Runner
 
 HERE = Path(__file__).resolve().parent
-PROJECT = HERE.parents[1]
-MATERIALS = PROJECT / "inputs" / "materials"
-BASE = "base"
+INPUTS = HERE.parent
+BASE, LAW, FLOW = "base", "law", "flow"
 CHECKS = (BASE, "size", "packing", "domain")  # kinds of roles that say how sure the base is
-
-OutputRow = dict[str, str]  # of results.csv
 
 
 @dataclass(frozen=True)
@@ -27,14 +22,14 @@ class Planned:
     """A line of cases.csv."""
 
     case: str
-    ground: str  # continuum or grains
+    ground: str  # continuum, grains or hybrid
     script: str
-    role: str  # base, a point of a series, another law, or a check of the base's error
+    role: str  # base, a check of the base's error, another law, or flow
     run: Case
 
     @property
     def kind(self) -> str:
-        """The role without its value: base, size, packing, domain, load, depth, speed, law."""
+        """The role without its value: base, size, packing, domain, law, flow."""
         return self.role.partition("=")[0]
 
     @property
@@ -44,7 +39,7 @@ class Planned:
 
     @property
     def of_wheel(self) -> bool:
-        return self.script.startswith(("wheel", "tyre"))
+        return not self.script.startswith("plate")
 
 
 def plan() -> list[Planned]:
@@ -55,19 +50,14 @@ def plan() -> list[Planned]:
 
 
 def make_case(row: Mapping[str, str]) -> Case:
-    """script of a row: one of this folder, "laboratory" or "point", the oedometer on either."""
+    """Scripts of this folder are told where it is, for what they include; scenes need not be."""
     name = f"{row['case']}/{row['ground']}_{row['role'].replace('=', '_')}"
+    script = (HERE / f"{row['script']}.lig").resolve()
     pairs = (word.partition("=") for word in row["variables"].split())
     variables: dict[str, Value] = {key: value for key, _, value in pairs}
-    if row["script"] == "point":
-        material, stress = str(variables["material"]), variables.get("stress", "5e5")
-        path = f"{{type: confined, stress: [1e3, 1e4, 1e5, {stress}], steps: 80}}"
-        file = MATERIALS / f"{material}.yaml"
-        return point_case(name, material, file, path, stage=row["case"])
-    if row["script"] == "laboratory":
-        return laboratory_case(name, "oedometer", PROJECT, variables, stage=row["case"])
-    script = HERE / f"{row['script']}.lig"
-    return script_case(name, script, {"here": HERE, **variables}, log=True, stage=row["case"])
+    if script.parent == HERE:
+        variables["here"] = HERE
+    return script_case(name, script, variables, log=True, stage=row["case"])
 
 
 class Made:
@@ -85,16 +75,5 @@ class Made:
     def folder(self, planned: Planned) -> Path:
         return self.runner.folder(planned.run)
 
-    def cost_cells(self, planned: Planned) -> dict[str, str]:
-        record = self.records[planned.run.name]
-        return {"cpu_time": f"{record.cpu_time:.4g}", "program": record.program}
-
-
-def output_row(case: str, place: str, ground: str, quantity: str, **numbers: str) -> OutputRow:
-    keys = ("value", "uncertainty", *Components.NAMES, "cpu_time", "program")
-    head = {"case": case, "place": place, "ground": ground, "quantity": quantity}
-    return {**head, **{key: numbers.get(key, "") for key in keys}}
-
-
-def known(number: float) -> str:
-    return f"{number:.3g}" if math.isfinite(number) else ""
+    def program(self, planned: Planned) -> str:
+        return self.records[planned.run.name].program

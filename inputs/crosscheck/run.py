@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Cross-checks: the same test on grains and on continuum, side by side. See README.md.
 
-Makes the runs of cases.csv that are missing, lays both grounds beside each other with furrow-post's
-own comparison, and writes results.csv, README.md's tables and the figures of this folder. Stages
-are the cases; '*/continuum_*' are the runs of one ground.
+Makes the runs of cases.csv that are missing, lays the grounds beside each other with furrow-post's
+own comparison, and writes results.csv, README.md's table and the figures of this folder. Stages are
+the cases; '*/continuum_*' are the runs of one ground.
 """
 
 import sys
@@ -13,23 +13,18 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postproc"))
 
-from cases import Made, OutputRow, plan
-from curve_cases import CurveCase, curve_section
-from wheel_cases import WheelCase, wheel_section
+from cases import Made, plan
+from lines import HEAD, OutputRow, table
+from plate_cases import PlateCase
+from wheel_cases import WheelCase, cited_lines
 
 from furrow_post.study.output import Output
 from furrow_post.study.runner import Runner
 from furrow_post.study.study import Study, run_study
 
-RESULTS_HEAD = (
-    "# Written by run.py; SI units, uncertainties are standard deviations; empty: not known;",
-    "# program: of the executable, SHA-256",
-)
-
 
 def evaluate(runner: Runner, output: Output) -> Sequence[str]:
-    lines: list[str] = []
-    out: list[OutputRow] = []
+    lines: list[OutputRow] = list(cited_lines())
     plans = plan()
     for name in dict.fromkeys(planned.case for planned in plans):
         own = [planned for planned in plans if planned.case == name]
@@ -37,14 +32,15 @@ def evaluate(runner: Runner, output: Output) -> Sequence[str]:
         if own[0].of_wheel:
             wheels = WheelCase(name, made)
             if wheels.complete:
-                lines += wheel_section(wheels, output, out)
+                lines += [*wheels.lines(), *wheels.flow(output)]
+                wheels.draw(output)
         else:
-            case = CurveCase(name, made)
-            if len(case.curves) > 1:
-                lines += curve_section(case, output, out)
-    print("\n".join(lines))
-    output.table("results.csv", out, RESULTS_HEAD)
-    output.section(lines)
+            plates = PlateCase(name, made)
+            if len(plates.bases) > 1:
+                lines += plates.lines()
+                plates.draw(output)
+    output.table("results.csv", lines, HEAD)
+    output.section(table(lines))
     return []
 
 

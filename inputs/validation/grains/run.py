@@ -37,6 +37,10 @@ from furrow_post.study.tables import markdown
 
 SEEDS = [86028121, 49979687, 67867967, 49979693, 67867979]
 CROSSCHECK = PROJECT / "inputs" / "crosscheck"
+SCRIPTS = {  # of wheels; what they include stands in the folder of the cross-check
+    "wheel_sand_grains": CROSSCHECK / "wheel_sand_grains.lig",
+    "wheel_snow_grains": PROJECT / "inputs" / "validation" / "grains" / "wheel_snow_grains.lig",
+}
 OEDOMETER = PROJECT / "inputs" / "validation" / "snow_oedometer" / "reference.csv"
 
 Variables = dict[str, float | int]
@@ -54,7 +58,7 @@ class Family:
     """A test, its base and what is changed one at a time."""
 
     name: str
-    test: str  # of inputs/laboratory, or a script wheel_* of inputs/crosscheck
+    test: str  # of inputs/laboratory, or of SCRIPTS
     ground: str
     base: Variables
     packings: int  # of the base
@@ -183,8 +187,8 @@ def planned(family: Family) -> Iterator[Planned]:
 
 def make_case(family: Family, name: str, variables: dict[str, Value]) -> Case:
     stage = family.name
-    if family.test.startswith("wheel"):
-        script = CROSSCHECK / f"{family.test}.lig"
+    if family.test in SCRIPTS:
+        script = SCRIPTS[family.test]
         return script_case(name, script, {"here": CROSSCHECK, **variables}, log=True, stage=stage)
     given: dict[str, Value] = {"ground": family.ground, **variables}
     return laboratory_case(name, family.test, PROJECT, given, stage=stage)
@@ -192,7 +196,7 @@ def make_case(family: Family, name: str, variables: dict[str, Value]) -> Case:
 
 def values(folder: Path, family: Family) -> Floats:
     """Of the family's quantities; NaN for what the run did not reach."""
-    if family.test.startswith("wheel"):
+    if family.test in SCRIPTS:
         summary = Summary(folder)
         steady = [summary.quantity(name) for name in family.quantities]
         return np.array([value.mean if value else math.nan for value in steady])

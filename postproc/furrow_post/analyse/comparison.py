@@ -3,9 +3,9 @@
 
 Refused are runs whose conditions differ beyond TOLERANCES. Uncertainties are standard deviations:
 of the time average from the run itself; of the size of elements or grains, of the domain and of the
-packing from a table of runs of the scene (cost_table.py). Two values agree when they differ by no
-more than COVERAGE times the root of the sum of their squares; what is not known is named, not taken
-as zero.
+packing from a table of runs of the scene (cost_table.py), which also gives what each run comes to
+at size zero. Two values agree when they differ by no more than COVERAGE times the root of the sum
+of their squares; what is not known is named, not taken as zero.
 """
 
 import csv
@@ -31,7 +31,8 @@ from .wheel_histories import cruise_history, settling_curve
 
 VAGUE = 0.3  # beyond this part of the value, agreement says nothing
 NAME_IN_RUN = {"sinkage": "sinkage", "coefficient": "resistance_coefficient"}
-RUN, FORMULA, MEASURED = "run", "formula", "measured"  # kinds of entries
+# Kinds of entries; LIMIT: what a run comes to at size zero
+RUN, LIMIT, FORMULA, MEASURED = "run", "size zero", "formula", "measured"
 
 
 class Tolerance(NamedTuple):
@@ -65,9 +66,19 @@ class Entry:
     source: str  # label of a run, name of a formula, "measured"
     value: float
     parts: Components
-    kind: str  # RUN, FORMULA, MEASURED
+    kind: str  # RUN, LIMIT, FORMULA, MEASURED
     note: str = ""
     cpu_time: float = math.nan
+
+    @property
+    def label(self) -> str:
+        """The source, "grains at size zero" for a limit."""
+        return f"{self.source} at {LIMIT}" if self.kind == LIMIT else self.source
+
+    @property
+    def of_run(self) -> bool:
+        """Whether its uncertainty has the parts of a run's."""
+        return self.kind in (RUN, LIMIT)
 
     @property
     def uncertainty(self) -> float:
@@ -77,7 +88,7 @@ class Entry:
     @property
     def unknown(self) -> list[str]:
         """Parts of its uncertainty that are not known."""
-        return self.parts.unknown if self.kind == RUN else []
+        return self.parts.unknown if self.of_run else []
 
     def text(self) -> str:
         """The value with its uncertainty in the unit of the quantity."""
@@ -101,6 +112,7 @@ class Comparison:
     entries: list[Entry] = field(default_factory=list)
     differences: list[Difference] = field(default_factory=list)
     verdicts: list[Verdict] = field(default_factory=list)
+    at_size_zero: list[Verdict] = field(default_factory=list)  # on the runs' limits
     tracks: dict[str, tuple[float, float]] = field(default_factory=dict)  # density, error [kg/m3]
     remarks: list[str] = field(default_factory=list)  # what differs apart from the two quantities
 
@@ -172,6 +184,21 @@ def entries_of_run(run: WheelRun, families: Mapping[FamilyKey, Family]) -> list[
             parts = Components(time=value.standard_error, packing=packing)
         note = "" if value.steady else "not called steady"
         entries.append(Entry(quantity, run.label, value.mean, parts, RUN, note, run.cpu_time))
+    return entries
+
+
+def limits_of_run(run: WheelRun, families: Mapping[FamilyKey, Family]) -> list[Entry]:
+    """Each quantity at size zero, as far as a table's families have more than one size."""
+    entries = []
+    family = families.get(FamilyKey(run.ground, run.model, run.wheel))
+    for quantity in QUANTITIES:
+        steady = run.values[NAME_IN_RUN[quantity.key]]
+        limit = family and family.at_size_zero(
+            quantity.key, run.size, steady.mean, steady.standard_error
+        )
+        if limit:
+            value, parts = limit
+            entries.append(Entry(quantity, run.label, value, parts, LIMIT))
     return entries
 
 
@@ -267,13 +294,14 @@ def measured_entries(path: Path, run: WheelRun) -> list[Entry]:
 def judge(a: Entry, b: Entry) -> Verdict:
     """The verdict on two entries of a quantity."""
     quantity = a.quantity
+    name = f"{quantity.name} at {LIMIT}" if a.kind == LIMIT else quantity.name
     measured = MEASURED in (a.kind, b.kind)
     difference = b.value - a.value
     relative = f"{100 * difference / a.value:+.0f} %" if a.value else ""
     no_uncertainty = [e.source for e in (a, b) if not math.isfinite(e.uncertainty)]
     if no_uncertainty:
         sentence = (
-            f"{quantity.name}: {b.source} against {a.source}: {relative}; no verdict, "
+            f"{name}: {b.source} against {a.source}: {relative}; no verdict, "
             f"{', '.join(no_uncertainty)} has no uncertainty"
         )
         return Verdict(quantity, a.source, b.source, Agreement.UNKNOWN, sentence, measured)
@@ -287,7 +315,7 @@ def judge(a: Entry, b: Entry) -> Verdict:
         share = f", {100 * allowed / abs(a.value):.0f} % of the value"
     unit = f" {quantity.unit}" if quantity.unit else ""
     sentence = (
-        f"{quantity.name}: {a.source} and {b.source} {what}: "
+        f"{name}: {a.source} and {b.source} {what}: "
         f"{quantity.scale * difference:+.3g}{unit} ({relative}), "
         f"{quantity.scale * allowed:.2g} allowed{share}"
     )
@@ -325,6 +353,7 @@ def compare(
         if run.ground != "none":
             result.tracks[run.label] = track_density(run)
         result.entries += entries_of_run(run, known)
+        result.entries += limits_of_run(run, known)
     for prediction in formulas:
         result.entries += formula_entries(prediction)
     if measured:
@@ -332,6 +361,8 @@ def compare(
     for quantity in QUANTITIES:
         first, *others = result.of(quantity, RUN)
         result.verdicts += [judge(first, other) for other in others]
+        limits = result.of(quantity, LIMIT)
+        result.at_size_zero += [judge(limits[0], other) for other in limits[1:]]
         for reference in result.of(quantity, MEASURED):
             result.verdicts += [judge(reference, run) for run in (first, *others)]
     result.remarks = remarks(result)
@@ -373,6 +404,21 @@ def overall(result: Comparison) -> str:
     among = among or (result.verdicts if len(result.runs) == 1 else [])
     if not among:
         return ""
+    verdict = summed_up(among, who)
+    if result.differences:
+        names = ", ".join(d.condition for d in result.differences)
+        verdict += f" They were compared though their conditions differ: {names}."
+    return verdict
+
+
+def overall_at_size_zero(result: Comparison) -> str:
+    """The same of the runs' limits; empty where fewer than two are known."""
+    among = result.at_size_zero
+    return f"At {LIMIT}: {summed_up(among, 'runs')}" if among else ""
+
+
+def summed_up(among: Sequence[Verdict], who: str) -> str:
+    """Several verdicts in one line; who: were judged."""
     differing = quantities_with(among, Agreement.DIFFER)
     undecided = quantities_with(among, Agreement.UNDECIDED)
     unknown = quantities_with(among, Agreement.UNKNOWN)
@@ -396,11 +442,7 @@ def overall(result: Comparison) -> str:
         verdict = f"The {who} agree in {joined(agreed)} within their uncertainty."
     if unknown:
         verdict += f" There is no verdict in {joined(unknown)}: an uncertainty is not known."
-        verdict = verdict.strip()
-    if result.differences:
-        names = ", ".join(d.condition for d in result.differences)
-        verdict += f" They were compared though their conditions differ: {names}."
-    return verdict
+    return verdict.strip()
 
 
 def table_rows(result: Comparison) -> list[dict[str, str | float]]:
@@ -416,7 +458,7 @@ def table_rows(result: Comparison) -> list[dict[str, str | float]]:
                 "kind": e.kind,
                 "value": e.value,
                 "uncertainty": e.uncertainty,
-                **(known if e.kind == RUN else nothing),
+                **(known if e.of_run else nothing),
                 "cpu_time": e.cpu_time,
                 "note": e.note,
             }
@@ -440,7 +482,7 @@ def table_rows(result: Comparison) -> list[dict[str, str | float]]:
 
 def component_cells(entry: Entry) -> list[str]:
     """Parts of an entry's uncertainty in its unit, "?" for what is not known; empty for others."""
-    if entry.kind != RUN:
+    if not entry.of_run:
         return [""] * len(Components.NAMES)
     scale = entry.quantity.scale
     return [f"{scale * p:.2g}" if math.isfinite(p) else "?" for p in entry.parts.parts()]
@@ -460,7 +502,7 @@ SHOWN_CONDITIONS = (
 
 def comparison_report(result: Comparison) -> str:
     """The tables and the verdict for a person."""
-    wide = max([len(e.source) for e in result.entries] + [10])
+    wide = max([len(e.label) for e in result.entries] + [10])
     lines = ["Conditions"]
     for name in SHOWN_CONDITIONS:
         texts = [run.text(name, "?") for run in result.runs]
@@ -476,7 +518,7 @@ def comparison_report(result: Comparison) -> str:
         for e in result.of(quantity):
             time, size, domain, packing = component_cells(e)
             lines.append(
-                f"  {e.source:{wide}}  {e.text():18} {time:>13} {size:>8} {domain:>8} {packing:>8}"
+                f"  {e.label:{wide}}  {e.text():18} {time:>13} {size:>8} {domain:>8} {packing:>8}"
                 f"   {duration(e.cpu_time):9}{e.note}".rstrip()
             )
     if result.tracks:
@@ -493,13 +535,16 @@ def comparison_report(result: Comparison) -> str:
         lines += ["", "COMPARED ALTHOUGH CONDITIONS DIFFER"]
         lines += [f"  {d.condition}: {d.text}" for d in result.differences]
     lines += ["", "Verdict", "  " + overall(result)]
+    if result.at_size_zero:
+        lines.append("  " + overall_at_size_zero(result))
     lines += [f"  - {sentence}" for sentence in findings(result)]
     return "\n".join(lines)
 
 
 def findings(result: Comparison) -> list[str]:
     """The sentences of all verdicts, then the remarks."""
-    return [v.sentence for v in result.verdicts] + [f"also: {text}" for text in result.remarks]
+    sentences = [v.sentence for v in (*result.verdicts, *result.at_size_zero)]
+    return sentences + [f"also: {text}" for text in result.remarks]
 
 
 def write_comparison(result: Comparison, folder: Path) -> None:

@@ -3,16 +3,16 @@
 
 A family is one ground, whole or half model, one kind of wheel. Within a family the value at size h
 is taken as f0 + C h (first order in the size of cells or grains), fitted by least squares to the
-runs that differ in size alone: f0 is the value at size zero, |f - f0| the error of the size. Runs
-in another domain or with another packing (seed) give those two components, as differences from the
-run of the same size; a packing's standard deviation is that of one run.
+runs that differ in size and packing: f0 is the value at size zero, |f - f0| the error of the size.
+Runs in another domain or with another packing (seed) give those two components, as differences from
+runs of the same size: of the domain the largest, of packings the standard deviation of one run.
 """
 
 import csv
 import math
 import shlex
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any, ClassVar, NamedTuple
 
@@ -173,11 +173,12 @@ class Components:
 
 
 class Fit(NamedTuple):
-    """f = at_zero + slope h."""
+    """f = at_zero + slope h, with standard errors."""
 
     at_zero: float
     slope: float
-    at_zero_error: float  # standard error
+    at_zero_error: float
+    slope_error: float
 
 
 class Family:
@@ -196,12 +197,15 @@ class Family:
         return self.rows[0].family
 
     def fit(self, key: str) -> Fit | None:
-        """None with fewer than two sizes. Two sizes: the error is that of their time averages."""
-        h = np.array([row.size for row in self.bases])
-        if len(set(h)) < 2:
+        """None with fewer than two sizes. Two sizes: the error is that of times and packings."""
+        rows = [row for row in self.rows if row.domain == self.domain]
+        h = np.array([row.size for row in rows])
+        if len({row.size for row in self.bases}) < 2:
             return None
-        f, u = (np.array(column) for column in zip(*(row.value(key) for row in self.bases)))
-        weight = 1 / np.maximum(u, 1e-3 * np.abs(f))
+        f, u = (np.array(column) for column in zip(*(row.value(key) for row in rows)))
+        packing = self.packing(key)
+        scatter = packing if math.isfinite(packing) else 0.0
+        weight = 1 / np.hypot(np.maximum(u, 1e-3 * np.abs(f)), scatter)
         design = np.column_stack([np.ones_like(h), h]) * weight[:, None]
         inverse = np.linalg.inv(design.T @ design)
         at_zero, slope = inverse @ design.T @ (f * weight)
@@ -209,7 +213,8 @@ class Family:
         if len(h) > 2:
             residuals = (f - at_zero - slope * h) * weight
             spread = max(np.sum(residuals**2) / (len(h) - 2), 1.0)
-        return Fit(float(at_zero), float(slope), float(np.sqrt(spread * inverse[0, 0])))
+        errors = np.sqrt(spread * np.diag(inverse))
+        return Fit(float(at_zero), float(slope), float(errors[0]), float(errors[1]))
 
     def reference(self, key: str) -> tuple[float, float]:
         """Value at size zero with its error; of one size the finest run, whose error is NaN."""
@@ -218,22 +223,41 @@ class Family:
             return fit.at_zero, fit.at_zero_error
         return self.bases[-1].value(key)[0], math.nan
 
+    def _apart(self, key: str, row: Row) -> list[float]:
+        """How far a variant is from every base of its size."""
+        same = [base for base in self.bases if abs(base.size - row.size) < 0.02 * row.size]
+        return [row.value(key)[0] - base.value(key)[0] for base in same]
+
+    def packing(self, key: str) -> float:
+        """Standard deviation of one packing; 0 of a lattice, NaN where there is one alone."""
+        if self.key.ground == "continuum":
+            return 0.0  # nothing is random
+        others = [row for row in self.variants if row.domain == self.domain]
+        apart = [difference for row in others for difference in self._apart(key, row)[:1]]
+        return float(np.std([0.0, *apart], ddof=1)) if apart else math.nan
+
     def components(self, key: str, size: float, time_error: float = math.nan) -> Components:
         """Parts of the error of a run of this size [m]."""
         fit = self.fit(key)
-        differences: dict[str, list[float]] = {"domain": [], "packing": []}
-        for row in self.variants:
-            same = [b for b in self.bases if abs(b.size - row.size) < 0.02 * row.size]
-            if same:
-                what = "packing" if row.domain == self.domain else "domain"
-                differences[what].append(row.value(key)[0] - same[0].value(key)[0])
-        domain = max((abs(d) for d in differences["domain"]), default=math.nan)
-        packing = math.nan
-        if self.key.ground == "continuum":
-            packing = 0.0  # a lattice: nothing is random
-        elif differences["packing"]:
-            packing = float(np.std(np.array([0.0] + differences["packing"]), ddof=1))
+        wider = [row for row in self.variants if row.domain != self.domain]
+        domains = [abs(difference) for row in wider for difference in self._apart(key, row)]
+        domain = max(domains, default=math.nan)
+        packing = self.packing(key)
         return Components(time_error, abs(fit.slope) * size if fit else math.nan, domain, packing)
+
+    def at_size_zero(
+        self, key: str, size: float, value: float, time_error: float
+    ) -> tuple[float, Components] | None:
+        """What a run of this size [m] and value comes to along the family's slope, f - C h, with
+        the parts of its error: that of the size is the slope's standard error times h.
+
+        The run may have another load or speed than the table's. None with fewer than two sizes.
+        """
+        fit = self.fit(key)
+        if fit is None:
+            return None
+        parts = self.components(key, size, time_error)
+        return value - fit.slope * size, replace(parts, size=fit.slope_error * size)
 
 
 def families(rows: Iterable[Row]) -> dict[FamilyKey, Family]:

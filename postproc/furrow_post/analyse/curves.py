@@ -16,16 +16,17 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from ..arrays import Booleans, Floats
+from ..arrays import Floats
 from ..errors import ResultsError, content_of
 from ..formatting import percent
 from ..read.laboratory import LaboratoryTest, PointRun, cell_curve
+from .comparison import LIMIT, RUN, Entry
+from .cost_table import Components
 from .statistics import commonest, rms
-from .verdict import COVERAGE, Agreement
+from .verdict import Quantity
 
 PLATE_LEVELS = (0.05, 0.1, 0.2, 0.3, 0.5)  # sinkage over depth of the ground
 STRESS_LEVELS = (2e3, 1e4, 5e4, 1e5, 2e5, 5e5)  # [Pa]
-VAGUE = 0.4  # beyond this uncertainty of ln(y), 50 %, agreement says nothing
 TOLERANCES = {"size": 0.02, "depth": 0.06, "density": 0.1, "speed": 0.02}  # relative
 NUMERICAL_PARTS = ("size", "domain", "packing")
 
@@ -231,6 +232,43 @@ def _log_at(curve: Curve, levels: Sequence[float]) -> Floats:
     return log
 
 
+@dataclass(frozen=True)
+class _Trend:
+    """d ln y / dh over the sizes of a series at the levels [1/m], and its standard error."""
+
+    slope: Floats
+    error: Floats
+
+
+def _trend(series: Sequence[Curve], levels: Sequence[float], packing: Floats) -> _Trend:
+    """Of curves of several sizes; NaN of one size alone, and where one of them has no value.
+
+    The error is that of the scatter about the line, at least that of the curves' noise and of one
+    packing (relative; NaN: not known).
+    """
+    if len(series) < 2:
+        nothing = np.full(len(levels), np.nan)
+        return _Trend(nothing, nothing)
+    h = np.array([curve.size for curve in series]) - np.mean([curve.size for curve in series])
+    logs = np.array([_log_at(curve, levels) for curve in series])
+    noise = np.array([np.interp(levels, c.x, c.noise) for c in series]) / np.exp(logs)
+    slope = h @ logs / np.sum(h**2)
+    residuals = logs - logs.mean(axis=0) - np.outer(h, slope)
+    scatter = np.sum(residuals**2, axis=0) / max(len(series) - 2, 1)
+    least = np.mean(noise**2, axis=0) + np.nan_to_num(packing) ** 2
+    variance = np.maximum(scatter, least) / np.sum(h**2)
+    return _Trend(slope, np.sqrt(variance))
+
+
+def _sizes(base: Curve, checks: Sequence[Curve]) -> list[Curve]:
+    """The base and the first check of each other size."""
+    series = [base]
+    for check in checks:
+        if not any(_same(curve.size, check.size) for curve in series):
+            series.append(check)
+    return series
+
+
 def numerical_errors(
     base: Curve, checks: Sequence[Curve], levels: Sequence[float]
 ) -> NumericalErrors:
@@ -242,15 +280,7 @@ def numerical_errors(
     of the same size.
     """
     found = {name: np.full(len(levels), np.nan) for name in NUMERICAL_PARTS}
-    series = [base]
-    for check in checks:
-        if not any(_same(curve.size, check.size) for curve in series):
-            series.append(check)
-    if len(series) > 1:
-        h = np.array([curve.size for curve in series])
-        logs = np.array([_log_at(curve, levels) for curve in series])
-        slope = (h - h.mean()) @ logs / np.sum((h - h.mean()) ** 2)
-        found["size"] = np.abs(slope) * base.size
+    series = _sizes(base, checks)
     for check in checks:
         if any(check is curve for curve in series):
             continue
@@ -265,65 +295,39 @@ def numerical_errors(
             found["domain"] = np.fmax(found["domain"], difference)
     if base.ground == "continuum":
         found["packing"] = np.zeros(len(levels))  # a lattice: nothing is random
+    found["size"] = np.abs(_trend(series, levels, found["packing"]).slope) * base.size
     return found
 
 
-@dataclass(frozen=True)
-class CurveVerdict:
-    """The verdict on two curves, level by level, and in a sentence."""
-
-    agreements: tuple[Agreement, ...]  # one per level
-    allowed: Floats  # difference of ln y per level that the uncertainty allows
-    sentence: str
-    unknown: tuple[str, ...]  # parts of the uncertainty, "size of a"
+def pressure_at(sinkage: float) -> Quantity:
+    """Mean pressure of a plate at this sinkage [m], as verdicts are given on it."""
+    millimetres = f"{1e3 * sinkage:g} mm"
+    return Quantity(f"pressure_{sinkage:g}", f"pressure at {millimetres}", "kPa", 1e-3)
 
 
-_AGREEMENT_WORDS = {
-    Agreement.AGREE: "agree",
-    Agreement.UNDECIDED: "cannot be told apart",
-    Agreement.DIFFER: "differ",
-}
+def plate_entries(base: Curve, checks: Sequence[Curve], sinkage: float) -> list[Entry]:
+    """A plate's pressure at this sinkage [m], and at size zero where checks have other sizes.
 
-
-def judge_curves(
-    result: CurveComparison, k: int, errors: Sequence[NumericalErrors]
-) -> CurveVerdict:
-    """Curve k against the first. errors: of every curve, as numerical_errors gives them."""
-    total = np.zeros(len(result.levels))
-    unknown = []
-    for column in (0, k):
-        for name, value in errors[column].items():
-            total += np.nan_to_num(value) ** 2
-            if np.isnan(value).all():
-                unknown.append(f"{name} of {result.curves[column].label}")
-        total += (result.errors[:, column] / result.values[:, column]) ** 2
-    allowed = COVERAGE * np.sqrt(total)
-    near = np.abs(np.log(result.values[:, k] / result.values[:, 0])) <= allowed
-    agreements = tuple(
-        Agreement.DIFFER if not close else Agreement.UNDECIDED if wide else Agreement.AGREE
-        for close, wide in zip(near, allowed > VAGUE)
-    )
-    parts = [
-        f"{words} at {_levels_text(result, np.array([a is agreement for a in agreements]))}"
-        for agreement, words in _AGREEMENT_WORDS.items()
-        if agreement in agreements
-    ]
-    least, most = f"{100 * allowed.min():.0f}", f"{100 * allowed.max():.0f}"
-    span = least if least == most else f"{least} to {most}"
-    sentence = (
-        f"{result.curves[0].label} and {result.curves[k].label} {'; '.join(parts)} "
-        f"({span} % allowed)"
-    )
-    if unknown:
-        sentence += f"; not known: {', '.join(unknown)}"
-    return CurveVerdict(agreements, allowed, sentence, tuple(unknown))
-
-
-def _levels_text(result: CurveComparison, which: Booleans) -> str:
-    if which.all():
-        return "every level"
-    chosen = (level for level, yes in zip(result.levels, which) if yes)
-    return ", ".join(result.kind.level_text(level) for level in chosen)
+    As of wheels in comparison.py. Empty where the curve does not come so far.
+    """
+    log = float(_log_at(base, [sinkage])[0])
+    if not math.isfinite(log):
+        return []
+    quantity, value = pressure_at(sinkage), math.exp(log)
+    errors = numerical_errors(base, checks, [sinkage])
+    relative = {name: float(error[0]) for name, error in errors.items()}
+    relative["time"] = float(np.interp(sinkage, base.x, base.noise)) / value
+    trend = _trend(_sizes(base, checks), [sinkage], errors["packing"])
+    at_zero = value * math.exp(-trend.slope[0] * base.size)
+    entries = []
+    for kind, y, size in (
+        (RUN, value, relative["size"]),
+        (LIMIT, at_zero, float(trend.error[0]) * base.size),
+    ):
+        parts = {name: y * error for name, error in {**relative, "size": size}.items()}
+        if math.isfinite(y):
+            entries.append(Entry(quantity, base.label, y, Components(**parts), kind))
+    return entries
 
 
 def curve_report(result: CurveComparison) -> str:
@@ -358,15 +362,3 @@ def write_curves(result: CurveComparison, folder: Path) -> None:
             group = content.create_group(f"curves/{c.label.replace('/', '_')}")
             group["x"], group["y"] = c.x, c.y
             group.attrs["kind"], group.attrs["ground"] = c.kind.value, c.ground
-
-
-def combined_errors(errors: NumericalErrors, noise: Floats) -> Floats | None:
-    """Relative uncertainty per level from the known parts and the noise; None without a size error.
-
-    NaN at levels where the error of the size is not known. noise: relative, per level.
-    """
-    if not np.isfinite(errors["size"]).any():
-        return None
-    squares = [np.square(part) for part in errors.values()] + [noise**2]
-    total = np.sqrt(np.nansum(squares, axis=0))
-    return np.where(np.isfinite(errors["size"]), total, np.nan)

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.gridspec import GridSpec
 from matplotlib.image import AxesImage
 
-from ..analyse.comparison import FORMULA, MEASURED, RUN, Comparison, overall
+from ..analyse.comparison import FORMULA, LIMIT, MEASURED, RUN, Comparison, overall
 from ..analyse.density import Section, sections
 from ..analyse.verdict import COEFFICIENT, COVERAGE, QUANTITIES, SINKAGE, Quantity
 from ..analyse.wheel_histories import cruise_history, settling_curve
@@ -81,7 +81,7 @@ def _draw_values(
             capsize=4,
             lw=1.6,
             fmt="s" if e.kind == MEASURED else "o",
-            mfc="white" if e.kind == FORMULA else colour,
+            mfc="white" if e.kind in (FORMULA, LIMIT) else colour,
         )
         axes.annotate(
             e.text(),
@@ -92,7 +92,7 @@ def _draw_values(
             fontsize=8,
             color="0.25",
         )
-    axes.set_yticks(range(len(entries)), [textwrap.fill(e.source, 16) for e in entries])
+    axes.set_yticks(range(len(entries)), [textwrap.fill(e.label, 16) for e in entries])
     axes.set_ylim(len(entries) - 0.5, -0.7)
     low, high = axes.get_xlim()
     margin = 0.08 * (high - low)

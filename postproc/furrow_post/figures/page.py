@@ -76,7 +76,7 @@ def results_tables(result: Comparison) -> str:
     parts = []
     for quantity in QUANTITIES:
         rows = [
-            [e.source, e.text(), *component_cells(e), duration(e.cpu_time), e.note]
+            [e.label, e.text(), *component_cells(e), duration(e.cpu_time), e.note]
             for e in result.of(quantity)
         ]
         name = quantity.name[0].upper() + quantity.name[1:] + in_unit(quantity.unit)

@@ -8,8 +8,18 @@ from pathlib import Path
 import numpy as np
 
 from furrow_post.analyse import comparison, empirical
-from furrow_post.analyse.comparison import FORMULA, MEASURED, RUN, Comparison, Entry, judge, overall
-from furrow_post.analyse.cost_table import Components
+from furrow_post.analyse.comparison import (
+    FORMULA,
+    LIMIT,
+    MEASURED,
+    RUN,
+    Comparison,
+    Entry,
+    judge,
+    overall,
+    overall_at_size_zero,
+)
+from furrow_post.analyse.cost_table import Components, families
 from furrow_post.analyse.density import height_left
 from furrow_post.analyse.verdict import COEFFICIENT, SINKAGE, Agreement, Quantity
 from furrow_post.errors import ResultsError
@@ -17,6 +27,7 @@ from furrow_post.read.results import Results, Surface
 from furrow_post.read.summary import SteadyValue
 from furrow_post.read.wheel_run import Condition, WheelRun, read_wheel_run
 from support.runs import write_run
+from support.tables import CONTINUUM, row
 
 
 def entry(
@@ -150,6 +161,32 @@ class CompareTest(unittest.TestCase):
         message = "has 0 rows within 10 % of a depth of 0.5 m; a scatter needs three"
         with self.assertRaisesRegex(ResultsError, message):
             comparison.compare([run], measured=reference)
+
+    def test_runs_are_judged_at_size_zero_too(self) -> None:
+        # 60 mm with cells of 40 mm, on a line that falls to 52 mm
+        run, other = self.read("a", "a", sinkage=0.06), self.read("b", "b", sinkage=0.06)
+        run.ground, run.half, run.size = CONTINUUM.ground, True, 0.04
+        table = [
+            row(f"{h}", "continuum", h, 0.01 + 0.2 * h, 0.2, 1.0, seed="", error=1e-6)
+            for h in (0.02, 0.03, 0.04)
+        ]
+        known = families(table)
+        limit, _ = comparison.limits_of_run(run, known)
+        self.assertAlmostEqual(limit.value, 0.06 - 0.2 * 0.04, places=9)
+        self.assertEqual((limit.label, limit.source), ("a at size zero", "a"))
+        self.assertEqual(comparison.limits_of_run(other, known), [])  # of no family
+
+        same = entry("b", 0.0521, 1e-3, kind=LIMIT)
+        verdict = judge(limit, same)
+        self.assertIn("sinkage at size zero: a and b agree", verdict.sentence)
+        result = Comparison([run, other], [limit, same], at_size_zero=[verdict])
+        self.assertEqual(
+            overall_at_size_zero(result),
+            "At size zero: The runs agree within their uncertainty in sinkage and resistance.",
+        )
+        self.assertIn(verdict.sentence, comparison.findings(result))
+        self.assertEqual([line["kind"] for line in comparison.table_rows(result)], [LIMIT] * 2)
+        self.assertEqual(overall_at_size_zero(Comparison([run])), "")
 
     def test_formula_has_its_place_and_no_verdict(self) -> None:
         prediction = empirical.Prediction("made", "nowhere", 0.04, 100.0, 1000.0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Errors and verdicts of curves whose checks are known."""
+"""Errors of curves whose checks are known, and their values at size zero."""
 
 import math
 import unittest
@@ -7,8 +7,8 @@ import unittest
 import numpy as np
 
 from furrow_post.analyse import curves
-from furrow_post.analyse.curves import NUMERICAL_PARTS, Curve, CurveKind, NumericalErrors
-from furrow_post.analyse.verdict import Agreement
+from furrow_post.analyse.comparison import LIMIT, RUN
+from furrow_post.analyse.curves import Curve, CurveKind
 
 
 def plate_curve(label: str, factor: float, box: float = 0.8, **facts: float) -> Curve:
@@ -37,41 +37,39 @@ class CurveErrorsTest(unittest.TestCase):
         beyond = curves.numerical_errors(self.base, checks, [0.06])
         self.assertTrue(np.isnan(beyond["size"][0]))
 
-    def test_verdict_names_what_is_not_known(self) -> None:
-        other = plate_curve("other", 1.3 * math.exp(5 * 0.02), diameter=0.02)
-        result = curves.compare_curves([self.base, other])
+    def test_a_plate_at_size_zero_is_on_the_line_of_its_sizes(self) -> None:
+        checks = [
+            plate_curve("coarse", math.exp(5 * 0.04), diameter=0.04),
+            plate_curve("coarser", math.exp(5 * 0.06), diameter=0.06),
+            plate_curve("seed", 1.1 * math.exp(5 * 0.04), diameter=0.04),
+        ]
+        run, limit = curves.plate_entries(self.base, checks, 0.01)
+        self.assertEqual((run.kind, limit.kind), (RUN, LIMIT))
+        self.assertAlmostEqual(run.value, 1e4 * math.exp(5 * 0.02), places=6)
+        self.assertAlmostEqual(limit.value, 1e4, places=6)
+        # on the line, which two packings leave open by their scatter
+        scatter = math.log(1.1) / math.sqrt(2)
+        expected = 1e4 * scatter / (math.sqrt(2) * 0.02) * 0.02
+        self.assertAlmostEqual(limit.parts.size, expected, places=6)
+        self.assertAlmostEqual(run.parts.size, run.value * 5 * 0.02, places=6)
+        self.assertAlmostEqual(run.parts.packing, run.value * math.log(1.1) / math.sqrt(2))
+        self.assertEqual((run.unknown, limit.unknown), (["domain"], ["domain"]))
+        self.assertEqual(run.quantity.label, "pressure at 10 mm [kPa]")
 
-        def errors(value: float) -> NumericalErrors:
-            return {name: np.full(len(result.levels), value) for name in NUMERICAL_PARTS}
-
-        verdict = curves.judge_curves(result, 1, [errors(0.1), errors(math.nan)])
-        self.assertEqual(set(verdict.agreements), {Agreement.AGREE})
-        self.assertEqual(
-            verdict.sentence,
-            "base and other agree at every level (35 % allowed); "
-            "not known: size of other, domain of other, packing of other",
+    def test_what_lies_off_the_line_is_the_limit_s_error(self) -> None:
+        # ln p at 2, 4, 6 cm is off its line by (1, -2, 1) e
+        e, sizes = 0.03, (0.02, 0.04, 0.06)
+        base, *checks = (
+            plate_curve(f"{h}", math.exp(off * e), diameter=h) for h, off in zip(sizes, (1, -2, 1))
         )
-        vague = curves.judge_curves(result, 1, [errors(0.2), errors(0.1)])
-        self.assertEqual(set(vague.agreements), {Agreement.UNDECIDED})
-        self.assertIn("base and other cannot be told apart at every level", vague.sentence)
+        _, limit = curves.plate_entries(base, checks, 0.01)
+        expected = math.sqrt(6) * e / (math.sqrt(2) * 0.02) * 0.02
+        self.assertAlmostEqual(limit.parts.size / limit.value, expected, places=9)
 
-    def test_curves_that_lie_far_apart_differ(self) -> None:
-        result = curves.compare_curves([self.base, plate_curve("far", 2.0, diameter=0.02)])
-        known = {name: np.full(len(result.levels), 0.1) for name in NUMERICAL_PARTS}
-        verdict = curves.judge_curves(result, 1, [known, known])
-        self.assertEqual(verdict.sentence, "base and far differ at every level (49 % allowed)")
-
-    def test_total_is_known_where_the_error_of_the_size_is(self) -> None:
-        errors = {
-            "size": np.array([0.3, math.nan]),
-            "domain": np.array([0.4, 0.4]),
-            "packing": np.array([math.nan, 0.1]),
-        }
-        total = curves.combined_errors(errors, np.zeros(2))
-        assert total is not None
-        np.testing.assert_allclose(total, [0.5, math.nan])
-        unknown = {**errors, "size": np.full(2, math.nan)}
-        self.assertIsNone(curves.combined_errors(unknown, np.zeros(2)))
+    def test_of_one_size_there_is_no_limit_and_beyond_the_end_nothing(self) -> None:
+        (alone,) = curves.plate_entries(self.base, [], 0.01)
+        self.assertEqual((alone.kind, alone.unknown), (RUN, ["size", "domain", "packing"]))
+        self.assertEqual(curves.plate_entries(self.base, [], 0.06), [])
 
 
 if __name__ == "__main__":

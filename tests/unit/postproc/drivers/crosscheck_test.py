@@ -1,57 +1,139 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""inputs/crosscheck: what a table says of two grounds."""
+"""inputs/crosscheck: its plan, its lines, and its page, which is made of them."""
 
+import math
 import sys
 import unittest
 
-from furrow_post.analyse.comparison import RUN, Comparison, Entry, judge
+from furrow_post.analyse.comparison import FORMULA, LIMIT, RUN, Entry
 from furrow_post.analyse.cost_table import Components
-from furrow_post.analyse.verdict import COEFFICIENT, SINKAGE, Quantity, Verdict
+from furrow_post.analyse.curves import pressure_at
+from furrow_post.analyse.verdict import COEFFICIENT, SINKAGE
+from furrow_post.csv_table import read_comments, read_rows
 from support.command import SOURCE
 
-sys.path.insert(0, str(SOURCE / "inputs" / "crosscheck"))
+FOLDER = SOURCE / "inputs" / "crosscheck"
+sys.path.insert(0, str(FOLDER))
 
 import cases
+import lines
 import wheel_cases
 
 
-def verdict(quantity: Quantity, difference: float, u: float) -> Verdict:
-    """On 1 and 1 + difference with this uncertainty."""
-    parts = Components(u, 0.0, 0.0, 0.0)
-    a, b = (Entry(quantity, name, v, parts, RUN) for name, v in (("a", 1.0), ("b", 1 + difference)))
-    return judge(a, b)
+def entry(source: str, value: float, u: float, kind: str = RUN) -> Entry:
+    return Entry(SINKAGE, source, value, Components(u, 0.0, 0.0, 0.0), kind)
 
 
-class AgreementCellTest(unittest.TestCase):
-    def cell(self, *verdicts: Verdict) -> str:
-        return wheel_cases.agreement_cell(Comparison([], verdicts=list(verdicts)))
-
-    def test_cells_read_as_sentences(self) -> None:
-        agree, differ, vague = (0.0, 0.01), (0.5, 0.01), (0.0, 0.5)
-        for sinkage, coefficient, expected in (
-            (agree, agree, "sinkage and resistance coefficient"),
-            (agree, vague, "sinkage; not decided: resistance coefficient"),
-            (vague, vague, "not decided: sinkage and resistance coefficient"),
-            (differ, vague, "not decided: resistance coefficient"),
-            (differ, differ, "neither"),
-            (differ, agree, "resistance coefficient"),
+class AnswersTest(unittest.TestCase):
+    def test_the_answer_is_the_verdict_s(self) -> None:
+        # against 100 mm: value and uncertainty of the other ground, what is said
+        for value, u, expected in (
+            (0.102, 0.01, "yes, +2 %, 20 % allowed"),
+            (0.15, 0.01, "no, +50 %, 20 % allowed"),
+            (0.13, 0.02, "cannot be told, +30 %, 40 % allowed"),
+            (0.13, math.nan, "error not known, +30 %"),
         ):
-            with self.subTest(expected=expected):
-                both = verdict(SINKAGE, *sinkage), verdict(COEFFICIENT, *coefficient)
-                self.assertEqual(self.cell(*both), expected)
+            with self.subTest(value=value, u=u):
+                other = entry("grains", value, u)
+                if math.isnan(u):
+                    other = Entry(SINKAGE, "grains", value, Components(), RUN)
+                own = {"continuum": entry("continuum", 0.1, 0.0), "grains": other}
+                self.assertEqual(lines.answers(own), [expected])
+
+    def test_parts_that_are_not_known_are_named(self) -> None:
+        other = Entry(SINKAGE, "grains", 0.1, Components(0.001, 0.0, math.nan, 0.0), RUN)
+        (answer,) = lines.answers({"continuum": entry("continuum", 0.1, 0.0), "grains": other})
+        self.assertEqual(answer, "yes, +0 %, 2 % allowed (not known: domain of grains)")
+
+    def test_a_third_ground_is_named(self) -> None:
+        own = {name: entry(name, 0.1, 0.001) for name in lines.GROUNDS}
+        self.assertEqual(
+            lines.answers(own), ["grains: yes, +0 %, 3 % allowed", "hybrid: yes, +0 %, 3 % allowed"]
+        )
+
+
+class LinesTest(unittest.TestCase):
+    def test_a_line_is_the_entry_again(self) -> None:
+        parts = Components(1e-3, 2e-3, math.nan, 0.0)
+        for quantity in (SINKAGE, COEFFICIENT, pressure_at(0.015)):
+            for kind in (RUN, LIMIT):
+                written = Entry(quantity, "grains", 0.25, parts, kind, cpu_time=12.0)
+                read = lines.entry_of(lines.line_of("case", "base", written, 0.03, "abc"))
+                self.assertEqual((read.quantity, read.kind), (quantity, kind))
+                self.assertEqual((read.value, read.text()), (0.25, written.text()))
+                self.assertEqual(read.unknown, ["domain"])
+
+    def test_the_table_has_a_row_at_the_sizes_and_one_at_size_zero(self) -> None:
+        made = [
+            lines.line_of("wheel_on_sand", "base", one, size)
+            for one, size in (
+                (entry("continuum", 0.1, 0.002), 0.04),
+                (entry("continuum", 0.11, 0.002, LIMIT), math.nan),
+                (entry("grains", 0.12, 0.002), 0.03),
+                (entry("grains", 0.111, 0.002, LIMIT), math.nan),
+                (Entry(SINKAGE, "made", 0.09, Components(), FORMULA), math.nan),
+            )
+        ]
+        made.append(lines.number_line("wheel_on_sand", "flow", "displacement_difference", 0.2))
+        self.assertEqual(
+            lines.table(made)[2:],
+            [
+                "| wheel on sand | sinkage [mm] | 40, 30 mm | 100 ± 2 | 120 ± 2 |  | made 90 |  "
+                "| no, +20 %, 6 % allowed |",
+                "| wheel on sand | sinkage [mm] | size zero | 110 ± 2 | 111 ± 2 |  |  |  "
+                "| yes, +1 %, 5 % allowed |",
+            ],
+        )
 
 
 class PlanTest(unittest.TestCase):
     def test_lines_of_cases_csv_become_runs(self) -> None:
         plans = {plan.run.name: plan for plan in cases.plan()}
-        size = plans["wheel_on_snow/continuum_size_0.05"]
+        size = plans["wheel_on_sand/continuum_size_0.05"]
         self.assertEqual((size.kind, size.is_check, size.of_wheel), ("size", True, True))
         self.assertEqual(size.run.variables["cell"], "0.05")
-        base = plans["wheel_on_snow/grains_base"]
-        self.assertFalse(base.is_check)
-        point = plans["confined_snow/continuum_base"]
-        self.assertEqual(point.run.program, "furrow-point")
-        self.assertIn("fresh_snow_shoop.yaml", point.run.files["path.yaml"])
+        base = plans["plate_on_sand/hybrid_base"]
+        self.assertEqual((base.is_check, base.of_wheel), (False, False))
+        scene = plans["tyre_on_snow/grains_base"].run
+        self.assertIn(SOURCE / "inputs" / "scenes" / "tyre_on_sintered_snow.lig", scene.arguments)
+        self.assertNotIn("here", scene.variables)
+
+    def test_scripts_and_materials_are_there(self) -> None:
+        for plan in cases.plan():
+            with self.subTest(run=plan.run.name):
+                script = plan.run.arguments[1]
+                self.assertIn(script, plan.run.input_files())
+                material = str(plan.run.variables.get("material", "../materials/dry_sand.yaml"))
+                self.assertTrue((FOLDER / material).is_file())
+
+    def test_cited_bases_have_both_grounds_of_a_case(self) -> None:
+        found = [lines.entry_of(line) for line in wheel_cases.cited_lines()]
+        runs = [one for one in found if one.kind == RUN and one.quantity == SINKAGE]
+        self.assertEqual([one.source for one in runs], ["continuum", "grains"])
+        self.assertTrue(all(not one.unknown for one in runs))
+
+
+class PageTest(unittest.TestCase):
+    """README.md is made of results.csv, and that of the runs that are planned."""
+
+    def setUp(self) -> None:
+        self.rows = read_rows(FOLDER / "results.csv")
+
+    def test_the_page_s_table_is_that_of_results_csv(self) -> None:
+        page = (FOLDER / "README.md").read_text(encoding="utf-8").splitlines()
+        table = lines.table(self.rows)
+        self.assertGreater(len(table), 2)
+        start = page.index(table[0])
+        self.assertEqual(page[start : start + len(table)], table)
+
+    def test_every_case_has_its_grounds_by_one_program(self) -> None:
+        self.assertEqual(read_comments(FOLDER / "results.csv"), list(lines.HEAD))
+        runs = [row for row in self.rows if row["kind"] == RUN]
+        there = {(row["case"], row["source"]) for row in runs}
+        wanted = {(plan.case, plan.ground) for plan in cases.plan()}
+        cited = {(row["case"], row["ground"]) for row in read_rows(FOLDER / "cited.csv")}
+        self.assertEqual(there, wanted | cited)
+        self.assertEqual(len({row["program"] for row in runs if row["program"]}), 1)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""results.csv, a line per value, and the table of the page, which is made of its lines alone."""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+
+from furrow_post.analyse.comparison import FORMULA, LIMIT, MEASURED, RUN, Entry, judge
+from furrow_post.analyse.cost_table import Components
+from furrow_post.analyse.curves import pressure_at
+from furrow_post.analyse.verdict import COVERAGE, QUANTITIES, Agreement, Quantity
+from furrow_post.formatting import in_unit, percent
+from furrow_post.study.tables import markdown
+
+OutputRow = dict[str, str]
+
+HEAD = (
+    "# Written by run.py; SI units, uncertainties are standard deviations, their parts named",
+    "# error_*; empty: not known. place: base, or another law of the continuum; element: size of",
+    "# cells or grains; program: of the executable, SHA-256.",
+)
+GROUNDS = ("continuum", "grains", "hybrid")
+PRESSURE = "pressure_"
+ANSWERS = {
+    Agreement.AGREE: "yes",
+    Agreement.DIFFER: "no",
+    Agreement.UNDECIDED: "cannot be told",
+    Agreement.UNKNOWN: "error not known",
+}
+TABLE_HEAD = ("case", "", "at", *GROUNDS, "formulas", "measured", "agree?")
+
+
+def known(number: float) -> str:
+    return f"{number:.6g}" if math.isfinite(number) else ""
+
+
+def line_of(
+    case: str, place: str, entry: Entry, element: float = math.nan, program: str = ""
+) -> OutputRow:
+    """element: size of the run's cells or grains [m]."""
+    return {
+        "case": case,
+        "place": place,
+        "quantity": entry.quantity.key,
+        "source": entry.source,
+        "kind": entry.kind,
+        "element": known(element),
+        "value": known(entry.value),
+        **{f"error_{name}": known(entry.parts.part(name)) for name in Components.NAMES},
+        "cpu_time": known(entry.cpu_time),
+        "program": program,
+    }
+
+
+def number_line(case: str, place: str, quantity: str, value: float) -> OutputRow:
+    """A number on the case that is of no one ground."""
+    nothing = dict.fromkeys(
+        ("source", "element", *(f"error_{name}" for name in Components.NAMES), "cpu_time"), ""
+    )
+    own = {"case": case, "place": place, "quantity": quantity, "kind": "difference"}
+    return {**own, **nothing, "value": known(value), "program": ""}
+
+
+def entry_of(line: Mapping[str, str]) -> Entry:
+    parts = {name: number(line[f"error_{name}"]) for name in Components.NAMES}
+    quantity = quantity_of(line["quantity"])
+    value = number(line["value"])
+    return Entry(quantity, line["source"], value, Components(**parts), line["kind"])
+
+
+def number(text: str) -> float:
+    return float(text) if text else math.nan
+
+
+def quantity_of(key: str) -> Quantity:
+    if key.startswith(PRESSURE):
+        return pressure_at(float(key.removeprefix(PRESSURE)))
+    return next(quantity for quantity in QUANTITIES if quantity.key == key)
+
+
+def is_value(line: Mapping[str, str]) -> bool:
+    """Whether the line has a place in the table."""
+    return line["kind"] in (RUN, LIMIT, FORMULA, MEASURED)
+
+
+def table(lines: Iterable[Mapping[str, str]]) -> list[str]:
+    """Two rows for each quantity of a case: at the runs' sizes, and at size zero."""
+    groups: dict[tuple[str, str, str], list[Mapping[str, str]]] = {}
+    for line in lines:
+        if is_value(line):
+            key = (line["case"], line["place"], line["quantity"])
+            groups.setdefault(key, []).append(line)
+    rows = []
+    for (case, place, _), group in groups.items():
+        name = case.replace("_", " ") + ("" if place == "base" else f", {place}")
+        rows += [row for kind in (RUN, LIMIT) for row in table_row(name, group, kind)]
+    return markdown(TABLE_HEAD, rows)
+
+
+def table_row(name: str, group: Sequence[Mapping[str, str]], kind: str) -> list[list[str]]:
+    """One row, or none where no run has come there."""
+    own = {line["source"]: entry_of(line) for line in group if line["kind"] == kind}
+    if not own:
+        return []
+    quantity = next(iter(own.values())).quantity
+    cells = [name, quantity.name + in_unit(quantity.unit), place_text(group, kind)]
+    cells += [own[ground].text() if ground in own else "" for ground in GROUNDS]
+    for other in (FORMULA, MEASURED):
+        beside = [entry_of(line) for line in group if line["kind"] == other and kind == RUN]
+        cells.append("; ".join(beside_text(entry) for entry in beside))
+    return [[*cells, "; ".join(answers(own))]]
+
+
+def place_text(group: Sequence[Mapping[str, str]], kind: str) -> str:
+    """Sizes of cells and grains, or "size zero"."""
+    if kind == LIMIT:
+        return kind
+    sizes = [number(line["element"]) for line in group if line["kind"] == RUN]
+    return ", ".join(f"{1e3 * size:.0f}" for size in sizes) + " mm"
+
+
+def beside_text(entry: Entry) -> str:
+    return entry.text() if entry.kind == MEASURED else f"{entry.source} {entry.text()}"
+
+
+def answers(own: Mapping[str, Entry]) -> list[str]:
+    """Whether the other grounds agree with the continuum, how far they are from it, what their
+    uncertainty allows, and which parts of it are not known."""
+    if GROUNDS[0] not in own:
+        return []
+    first, others = own[GROUNDS[0]], [own[name] for name in GROUNDS[1:] if name in own]
+    found = []
+    for other in others:
+        allowed = COVERAGE * math.hypot(first.uncertainty, other.uncertainty) / abs(first.value)
+        limit = f", {100 * allowed:.0f} % allowed" if math.isfinite(allowed) else ""
+        name = f"{other.source}: " if len(others) > 1 else ""
+        verdict = judge(first, other)
+        lacking = f" (not known: {', '.join(verdict.unknown)})" if verdict.unknown else ""
+        difference = percent(other.value / first.value - 1)
+        found.append(f"{name}{ANSWERS[verdict.agreement]}, {difference}{limit}{lacking}")
+    return found
