@@ -13,8 +13,8 @@ The input: "test", "ground", "variables" of all runs, "parameters": {name: [star
 stress at the measured densities from "lowest" to "highest" Pa, over "deviation", default 1) or
 "quantities": {name: [value, deviation]} of the evaluation, with "series" of confinements whose
 "together" values are used; a deviation "30%" compares logarithms, which a strength wants that is
-far from its target: its difference no longer depends on the parameters there. Several tests at once: "tests", a list of {"test", "variables",
-"series", target}; "variables" beside it are those of all.
+far below its target: there its difference hardly depends on the parameters. Several tests at once:
+"tests", a list of {"test", "variables", "series", target}; "variables" beside it are those of all.
 """
 
 import argparse

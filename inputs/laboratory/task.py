@@ -24,7 +24,7 @@ FORM = (
     'a calibration is a JSON object with "test", "ground", "parameters" {name: [start, lower, '
     'upper]}, "seeds" [...] and "reference" with "lowest" and "highest", or "quantities" {name: '
     '[value, deviation]}; for several tests "tests" [...] with "test" and target of each; see '
-    "calibrations/snow.json and snow_bonded.json"
+    "calibrations/snow.json and snow_bonded_slab.json"
 )
 
 

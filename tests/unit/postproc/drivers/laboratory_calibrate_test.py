@@ -62,7 +62,7 @@ def scatter_of(values: dict[str, float], seed: str) -> float:
 
 def made_run(case: Any, folder: Path, _: object, scatters: bool = False) -> mock.Mock:
     """In the place of a run: curves in closed form."""
-    values = {name: float(text) for name, text in case.variables.items() if name in TASK["parameters"]}
+    values = {name: float(case.variables[name]) for name in TASK["parameters"]}
     crush, tensile = values["crush_strength"], values["tensile_strength"]
     crush *= scatter_of(values, case.variables["seed"]) if scatters else 1.0
     if folder.name.endswith("1"):
@@ -73,7 +73,8 @@ def made_run(case: Any, folder: Path, _: object, scatters: bool = False) -> mock
         stress = triaxial_stress(0.0, -crush * tensile * np.minimum(-strain / 0.01, 1.0))
     cell = np.column_stack((0 * strain, 0 * strain, strain))
     test = "oedometer" if folder.name.endswith("1") else "tension"
-    write_test(folder, f"test {test} ground made", cell_rows(cell, stress, INITIAL * np.exp(strain)))
+    rows = cell_rows(cell, stress, INITIAL * np.exp(strain))
+    write_test(folder, f"test {test} ground made", rows)
     return mock.Mock(error="")
 
 
@@ -105,6 +106,11 @@ def with_tension(target: list[Any]) -> list[dict[str, Any]]:
     return [oedometer, {**tension, "quantities": {"tensile_strength": target}}]
 
 
+def far_start() -> dict[str, Any]:
+    parameters = {**TASK["parameters"], "tensile_strength": [0.05, 0.01, 10]}
+    return {"parameters": parameters, "tests": with_tension([CRUSH * TENSILE, "20%"])}
+
+
 class CalibrateTest(unittest.TestCase):
     def require_found(self, result: dict[str, Any], within: float) -> None:
         found = result["parameters"]
@@ -127,14 +133,12 @@ class CalibrateTest(unittest.TestCase):
     def test_far_start_by_logarithms(self) -> None:
         """A tenth of the strength that is wanted: differences lead there slowly, logarithms at
         once, for the strength is a power of the parameter."""
-        far = {"parameters": {**TASK["parameters"], "tensile_strength": [0.05, 0.01, 10]}}
-        result = calibrated({**far, "tests": with_tension([CRUSH * TENSILE, "20%"]), "iterations": 6})
+        result = calibrated({**far_start(), "iterations": 6})
         self.require_found(result, 0.02)
         self.assertTrue(result["converged"], result)
 
     def test_stopped_too_early(self) -> None:
-        far = {"parameters": {**TASK["parameters"], "tensile_strength": [0.05, 0.01, 10]}}
-        result = calibrated({**far, "tests": with_tension([CRUSH * TENSILE, "20%"]), "iterations": 1})
+        result = calibrated({**far_start(), "iterations": 1})
         self.assertFalse(result["converged"])
         self.assertEqual(result["ended"], "iterations used up")
         self.assertGreater(result["next_factor"]["tensile_strength"], 1.5)
