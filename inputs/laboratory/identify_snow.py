@@ -76,6 +76,9 @@ def material_text(
         f"Written by inputs/laboratory/identify_snow.py from the tests of {record.name}: "
         f"{material.law.title}. rms of law over grains: {worth}."
     )
+    for shape, value in zip(material.law.shapes, material.shape):
+        if not 1.01 * shape.lower < value < 0.99 * shape.upper:
+            said += f" {shape.name} stands at a bound."
     comment = textwrap.fill(said, 100, initial_indent="# ", subsequent_indent="# ")
     return f"title: {title}\n{comment}\n{material.sections()}"
 
