@@ -55,7 +55,6 @@ LEAST = 1e-3  # share of its target as which a quantity counts that is less, or 
 LARGEST_STEP = 1.0  # of a parameter's logarithm, in the first iteration
 SETTLED = 0.1  # step of a parameter's logarithm below which a calibration has converged
 
-
 ENDS = {  # of scipy's least_squares
     0: "iterations used up",
     1: "gradient zero",
