@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A law for the continuum from the laboratory tests of a snow of clusters, and what it is worth.
 
-  record RESULTS ... -o RECORD.csv             of tests: mean and scatter over packings
-  fit RECORD.csv --law LAW -o MATERIAL.yaml    the law
-  compare RECORD.csv MATERIAL.yaml ...         a table of all values, and one of their deviations
+  record RESULTS ... -o RECORD.csv                           means and scatter over packings
+  fit RECORD.csv --law LAW [--title TITLE] -o MATERIAL.yaml  the law
+  compare RECORD.csv MATERIAL.yaml ...                       all values, and the deviations
 
 Laws: cohesive Cam clay, the Drucker-Prager cap, the crushable foam. Two numbers give each its shape
 (--law says which); they are fitted to all tests but the triaxial at once, least squares of ln of
