@@ -3,16 +3,18 @@
 """Adjusts parameters of a ground of grains to measurements with a laboratory test.
 
 Least squares (scipy.optimize.least_squares, trust region) in the logarithms of the parameters;
-differences of 20 % make the Jacobian, well above the scatter of packings. Every run is kept in
+differences of 20 % make the Jacobian, all runs of which have one packing. Every run is kept in
 FOLDER/log.jsonl: a calibration that was stopped continues where it was, and one that is done is
-only evaluated again. The result goes to CALIBRATION.result.json, beside the input.
+only evaluated again. The result goes to CALIBRATION.result.json, beside the input; it says whether
+the calibration has converged, and by what factor the next step would change each parameter.
 
 The input: "test", "ground", "variables" of all runs, "parameters": {name: [start, lower, upper]},
 "seeds" for the scatter, and the target, either "reference" (reference.csv of an oedometer: ln of
 stress at the measured densities from "lowest" to "highest" Pa, over "deviation", default 1) or
 "quantities": {name: [value, deviation]} of the evaluation, with "series" of confinements whose
-"together" values are used. Several tests at once: "tests", a list of {"test", "variables",
-"series", target}; "variables" beside it are those of all.
+"together" values are used; a deviation "30%" compares logarithms, which a strength wants that is
+far below its target: there its difference hardly depends on the parameters. Several tests at once:
+"tests", a list of {"test", "variables", "series", target}; "variables" beside it are those of all.
 """
 
 import argparse
@@ -37,7 +39,7 @@ from task import Task, read_task
 
 from furrow_post.analyse.laboratory import together, values_of
 from furrow_post.analyse.statistics import rms
-from furrow_post.arguments import at_least, path
+from furrow_post.arguments import at_least, fraction, path
 from furrow_post.arrays import Floats
 from furrow_post.errors import ResultsError, content_of
 from furrow_post.program import run_program
@@ -49,6 +51,17 @@ from furrow_post.study.launch import Tools, launch
 STEP = 0.2  # of a parameter's logarithm, for differences
 WEAK = 0.05  # singular values below this share of the largest: a combination not determined
 FAILED = 3.0  # residual of a test that did not reach the stress of a target
+LEAST = 1e-3  # share of its target as which a quantity counts that is less, or has its sign wrong
+LARGEST_STEP = 1.0  # of a parameter's logarithm, in the first iteration
+SETTLED = 0.1  # step of a parameter's logarithm below which a calibration has converged
+
+ENDS = {  # of scipy's least_squares
+    0: "iterations used up",
+    1: "gradient zero",
+    2: "sum of squares no longer falls",
+    3: "steps too small",
+    4: "steps too small, and the sum of squares no longer falls",
+}
 
 
 class Runs:
@@ -164,7 +177,14 @@ def misfit(test: Task, results: Sequence[LaboratoryTest]) -> list[float]:
             f"{results[0].folder}: the test gives no {', '.join(absent)} for 'quantities'; "
             f"it gives {', '.join(found)}"
         )
-    return [(found[name] - value) / deviation for name, (value, deviation) in wanted]
+    return [misfit_of_quantity(found[name], *target) for name, target in wanted]
+
+
+def misfit_of_quantity(found: float, value: float, deviation: float | str) -> float:
+    """Over its deviation; where that is a percentage, of the logarithm."""
+    if isinstance(deviation, str):
+        return math.log(max(found / value, LEAST)) / fraction(deviation)
+    return (found - value) / deviation
 
 
 def reference_of(test: Task) -> list[tuple[float, float]]:
@@ -220,7 +240,7 @@ def calibrate(task: Task, runs: Runs) -> dict[str, Any]:
         np.zeros(len(bounds.start)),
         jac=lambda way: jacobian(runs, bounds, bounds.start + way),
         bounds=(bounds.lower - bounds.start, bounds.upper - bounds.start),
-        x_scale=0.5,
+        x_scale=LARGEST_STEP,
         ftol=0.02,
         xtol=0.03,
         max_nfev=task.get("iterations", 6),
@@ -233,7 +253,14 @@ def calibrate(task: Task, runs: Runs) -> dict[str, Any]:
         scatter = float(np.sqrt(np.mean(np.var(residuals, axis=0, ddof=1))))
     slopes = jacobian(runs, bounds, logs)
     spread, findings = uncertainty(runs.names, bounds, logs, fit.fun, slopes, scatter)
+    step = next_step(bounds, logs, fit.fun, slopes)
+    unsettled = [k for k in range(len(step)) if abs(step[k]) > max(SETTLED, 0.5 * spread[k])]
     return {
+        "converged": not unsettled,
+        "next_factor": {
+            name: float(f"{math.exp(ln):.3g}") for name, ln in zip(runs.names, step)
+        },
+        "ended": ENDS.get(fit.status, fit.message),
         "parameters": {
             name: {
                 "value": float(f"{value:.4g}"),
@@ -251,6 +278,17 @@ def calibrate(task: Task, runs: Runs) -> dict[str, Any]:
         "not_determined": findings,
         "runs": len(runs.known),
     }
+
+
+def next_step(bounds: Bounds, logs: Floats, residuals: Floats, slopes: Floats) -> Floats:
+    """Of Gauss and Newton, inside the bounds; none along what is not determined.
+
+    A calibration has converged when it is small, or small against the errors of the parameters: a
+    sum of squares from packings has no digits left there to go by.
+    """
+    step = -np.linalg.pinv(slopes, rcond=WEAK) @ residuals
+    inside: Floats = np.clip(logs + step, bounds.lower, bounds.upper) - logs
+    return inside
 
 
 def uncertainty(

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The input of calibrate.py: read, and refused with key and remedy where it cannot be run."""
 
+import argparse
 import difflib
 import json
 import math
@@ -9,6 +10,7 @@ from typing import Any
 
 from checks import HERE, SERIES, require_ground, require_value, require_variables
 
+from furrow_post.arguments import fraction
 from furrow_post.errors import ResultsError
 from furrow_post.read.laboratory import read_oedometer_reference
 
@@ -22,7 +24,7 @@ FORM = (
     'a calibration is a JSON object with "test", "ground", "parameters" {name: [start, lower, '
     'upper]}, "seeds" [...] and "reference" with "lowest" and "highest", or "quantities" {name: '
     '[value, deviation]}; for several tests "tests" [...] with "test" and target of each; see '
-    "calibrations/snow.json and snow_bonded.json"
+    "calibrations/snow.json and snow_bonded_slab.json"
 )
 
 
@@ -157,10 +159,10 @@ def _check_target(test: Task) -> None:
         raise ResultsError(f"one of 'reference' and 'quantities' is needed; {FORM}")
     if "quantities" in test:
         for name, values in _object(test, "quantities").items():
-            if not (_is_numbers(values, 2) and values[1] > 0):
+            if not _is_quantity(values):
                 raise ResultsError(
                     f"quantity '{name}' is {_shown(values)}; [value, deviation] with a deviation "
-                    "above 0 is needed"
+                    "above 0 is needed, or [value, \"30%\"] with a value above 0"
                 )
         if not test["quantities"]:
             raise ResultsError("'quantities' is empty; name at least one with [value, deviation]")
@@ -201,6 +203,19 @@ def _is_number(value: Any) -> bool:
 
 def _is_numbers(value: Any, count: int) -> bool:
     return isinstance(value, list) and len(value) == count and all(map(_is_number, value))
+
+
+def _is_quantity(values: Any) -> bool:
+    """[value, deviation], or [value above 0, "30%"]"""
+    if _is_numbers(values, 2):
+        return bool(values[1] > 0)
+    if not (isinstance(values, list) and len(values) == 2 and isinstance(values[1], str)):
+        return False
+    try:
+        fraction(values[1])
+    except argparse.ArgumentTypeError:
+        return False
+    return values[1].endswith("%") and _is_number(values[0]) and values[0] > 0
 
 
 def _shown(value: Any) -> str:

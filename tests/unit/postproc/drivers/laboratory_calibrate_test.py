@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""inputs/laboratory/calibrate.py finds the parameters of a made ground from two tests at once, and
-says which one they do not determine."""
+"""inputs/laboratory/calibrate.py finds the parameters of a made ground from two tests at once, also
+where every packing scatters, and says which one they do not determine and whether it has ended."""
 
 import contextlib
 import io
@@ -8,6 +8,7 @@ import json
 import sys
 import tempfile
 import unittest
+import zlib
 from pathlib import Path
 from typing import Any
 from unittest import mock
@@ -53,10 +54,17 @@ def axial(crush: float, strain: Any) -> Any:
     return crush * np.exp(5 * strain)
 
 
-def made_run(case: Any, folder: Path, _: object) -> mock.Mock:
+def scatter_of(values: dict[str, float], seed: str) -> float:
+    """A strength over its mean, of one run: 5 %, and another one for each set of parameters."""
+    digits = zlib.crc32(f"{values} {seed}".encode())
+    return float(np.exp(0.05 * np.random.default_rng(digits).standard_normal()))
+
+
+def made_run(case: Any, folder: Path, _: object, scatters: bool = False) -> mock.Mock:
     """In the place of a run: curves in closed form."""
-    values = {name: float(text) for name, text in case.variables.items() if name in TASK["parameters"]}
+    values = {name: float(case.variables[name]) for name in TASK["parameters"]}
     crush, tensile = values["crush_strength"], values["tensile_strength"]
+    crush *= scatter_of(values, case.variables["seed"]) if scatters else 1.0
     if folder.name.endswith("1"):
         strain = np.linspace(0, 1.2, 400)
         stress = triaxial_stress(0.0, axial(crush, strain))
@@ -65,29 +73,55 @@ def made_run(case: Any, folder: Path, _: object) -> mock.Mock:
         stress = triaxial_stress(0.0, -crush * tensile * np.minimum(-strain / 0.01, 1.0))
     cell = np.column_stack((0 * strain, 0 * strain, strain))
     test = "oedometer" if folder.name.endswith("1") else "tension"
-    write_test(folder, f"test {test} ground made", cell_rows(cell, stress, INITIAL * np.exp(strain)))
+    rows = cell_rows(cell, stress, INITIAL * np.exp(strain))
+    write_test(folder, f"test {test} ground made", rows)
     return mock.Mock(error="")
 
 
+def scattering_run(case: Any, folder: Path, tools: object) -> mock.Mock:
+    return made_run(case, folder, tools, scatters=True)
+
+
+STRAINS = np.array([0.4, 0.8])  # of the reference
+
+
+def calibrated(changes: dict[str, Any], run: Any = made_run) -> dict[str, Any]:
+    """The result of TASK with these changes."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        rows = zip(axial(CRUSH, STRAINS), INITIAL * np.exp(STRAINS))
+        text = "sigma1_Pa,rho_kgm3\n" + "".join(f"{s:.6g},{r:.8g}\n" for s, r in rows)
+        (folder / "reference.csv").write_text(text)
+        task = {**json.loads(json.dumps(TASK)), **changes}
+        task["tests"][0]["reference"] = str(folder / "reference.csv")
+        (folder / "task.json").write_text(json.dumps(task))
+        with mock.patch.object(calibrate, "launch", run):
+            with contextlib.redirect_stdout(io.StringIO()):
+                runs = calibrate.Runs(read_task(folder / "task.json"), folder, 99, mock.Mock())
+                return calibrate.calibrate(runs.task, runs)
+
+
+def with_tension(target: list[Any]) -> list[dict[str, Any]]:
+    oedometer, tension = json.loads(json.dumps(TASK["tests"]))
+    return [oedometer, {**tension, "quantities": {"tensile_strength": target}}]
+
+
+def far_start() -> dict[str, Any]:
+    parameters = {**TASK["parameters"], "tensile_strength": [0.05, 0.01, 10]}
+    return {"parameters": parameters, "tests": with_tension([CRUSH * TENSILE, "20%"])}
+
+
 class CalibrateTest(unittest.TestCase):
-    def test_two_tests_at_once(self) -> None:
-        with tempfile.TemporaryDirectory() as name:
-            folder = Path(name)
-            strain = np.array([0.4, 0.8])
-            rows = zip(axial(CRUSH, strain), INITIAL * np.exp(strain))
-            text = "sigma1_Pa,rho_kgm3\n" + "".join(f"{s:.6g},{r:.8g}\n" for s, r in rows)
-            (folder / "reference.csv").write_text(text)
-            task = json.loads(json.dumps(TASK))
-            task["tests"][0]["reference"] = str(folder / "reference.csv")
-            (folder / "task.json").write_text(json.dumps(task))
-            with mock.patch.object(calibrate, "launch", made_run):
-                with contextlib.redirect_stdout(io.StringIO()):
-                    runs = calibrate.Runs(read_task(folder / "task.json"), folder, 99, mock.Mock())
-                    result = calibrate.calibrate(runs.task, runs)
+    def require_found(self, result: dict[str, Any], within: float) -> None:
         found = result["parameters"]
-        self.assertAlmostEqual(found["crush_strength"]["value"] / CRUSH, 1.0, delta=0.08)
-        self.assertAlmostEqual(found["tensile_strength"]["value"] / TENSILE, 1.0, delta=0.08)
-        names = [f"oedometer at {INITIAL * np.exp(e):g} kg/m3" for e in strain]
+        self.assertAlmostEqual(found["crush_strength"]["value"] / CRUSH, 1.0, delta=within)
+        self.assertAlmostEqual(found["tensile_strength"]["value"] / TENSILE, 1.0, delta=within)
+
+    def test_two_tests_at_once(self) -> None:
+        result = calibrated({})
+        self.require_found(result, 0.08)
+        self.assertTrue(result["converged"], result)
+        names = [f"oedometer at {INITIAL * np.exp(e):g} kg/m3" for e in STRAINS]
         self.assertEqual(result["targets"], [*names, "tension tensile_strength"])
         # ln(stress) over 0.1: a tenth more strength is one deviation
         np.testing.assert_allclose(result["sensitivity"]["crush_strength"][:2], 10.0, rtol=1e-2)
@@ -95,6 +129,26 @@ class CalibrateTest(unittest.TestCase):
         self.assertIn("shear_strength^", undetermined)
         self.assertIn("shear_strength is known no better than a factor of e", undetermined)
         self.assertNotIn("tensile_strength is known", undetermined)
+
+    def test_far_start_by_logarithms(self) -> None:
+        """A tenth of the strength that is wanted: differences lead there slowly, logarithms at
+        once, for the strength is a power of the parameter."""
+        result = calibrated({**far_start(), "iterations": 6})
+        self.require_found(result, 0.02)
+        self.assertTrue(result["converged"], result)
+
+    def test_stopped_too_early(self) -> None:
+        result = calibrated({**far_start(), "iterations": 1})
+        self.assertFalse(result["converged"])
+        self.assertEqual(result["ended"], "iterations used up")
+        self.assertGreater(result["next_factor"]["tensile_strength"], 1.5)
+
+    def test_packings_that_scatter(self) -> None:
+        changes = {"seeds": [86028121, 67867967], "tests": with_tension([CRUSH * TENSILE, "20%"])}
+        result = calibrated(changes, scattering_run)
+        self.require_found(result, 0.2)  # four times the scatter
+        self.assertTrue(result["converged"], result)
+        self.assertGreater(result["scatter_of_seeds"], 0.05)
 
 
 if __name__ == "__main__":

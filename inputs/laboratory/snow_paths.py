@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The laboratory tests on clusters of snow as paths of a material point, run by furrow-point."""
+
+import json
+import math
+import subprocess
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from snow_record import STRAINS, TRIAXIAL_STRAIN, Row, Values
+
+from furrow_post.arrays import Floats
+from furrow_post.csv_table import read_columns
+from furrow_post.study.launch import Tools
+
+TENSION_STRAIN = 0.03  # in which every law here has its tensile strength
+REBOUND = 0.1  # of strain when compacted snow is released, at most
+
+Columns = dict[str, Floats]
+Evaluation = tuple[str, Callable[[Columns, Row], float]]  # a path, and a row's value on it
+
+
+class Points:
+    """Paths of furrow-point, in one folder."""
+
+    def __init__(self, tools: Tools, folder: Path) -> None:
+        self.program, self.folder = tools.program("furrow-point"), folder
+
+    def run(self, sections: str, path: str) -> Columns | None:
+        """Columns of point.csv; None where the law finds no state on the path."""
+        material, script = self.folder / "material.yaml", self.folder / "path.yaml"
+        material.write_text(f"title: snow\n{sections}", encoding="utf-8")
+        name = json.dumps(str(material))
+        script.write_text(f"title: snow\nmaterial: {name}\npath: {path}\n", encoding="utf-8")
+        words = (self.program, "run", script, "-o", self.folder / "point", "--no-plot")
+        command = [str(word) for word in words]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        return None if done.returncode else read_columns(self.folder / "point" / "point.csv")
+
+
+def _oedometer(_: float, __: float, rows: Sequence[Row]) -> Evaluation:
+    levels = sorted({row.level for row in rows} - {0.0})
+    path = f"{{type: confined, stress: [{', '.join(f'{s:.6g}' for s in levels)}], steps: 20}}"
+
+    def value(columns: Columns, row: Row) -> float:
+        if not row.level:
+            return float(columns["density"][0])
+        end = np.flatnonzero(columns["segment"] == levels.index(row.level) + 1)[-1]
+        if row.quantity == "density":
+            return float(columns["density"][end])
+        return float(columns["stress_xx"][end] / columns["stress_zz"][end])
+
+    return path, value
+
+
+def _after_compaction(compaction: float, strain: float) -> str:
+    """Confined compression, release, then axial strain (tension positive) with free sides. Targets
+    are strains from the start, so what the law gives back when released comes on top."""
+    released = "{stress_xx: 0, stress_yy: 0, stress_zz: 0}"
+    before = f"{{strain_zz: {-compaction:.6g}}}, {released}, " if compaction else ""
+    last = f"{{stress_xx: 0, stress_yy: 0, strain_zz: {strain - compaction:.6g}}}"
+    return f"{{type: table, steps: 400, rows: [{before}{last}]}}"
+
+
+def _last(columns: Columns) -> tuple[Floats, Floats, Floats]:
+    """Of the last piece of a path: axial and lateral strain since its start, axial stress;
+    compression positive."""
+    begins = int(np.flatnonzero(columns["segment"] < columns["segment"][-1])[-1])
+    axial, lateral = -columns["strain_zz"][begins:], -columns["strain_xx"][begins:]
+    return axial - axial[0], lateral - lateral[0], -columns["stress_zz"][begins:]
+
+
+def _tension(compaction: float, _: float, __: Sequence[Row]) -> Evaluation:
+    def value(columns: Columns, row: Row) -> float:
+        axial, _, stress = _last(columns)
+        if row.quantity == "strength":
+            return float(np.max(-stress))
+        return float(stress[1] / axial[1])
+
+    return _after_compaction(compaction, TENSION_STRAIN + REBOUND), value
+
+
+def _unconfined(compaction: float, _: float, __: Sequence[Row]) -> Evaluation:
+    def value(columns: Columns, row: Row) -> float:
+        axial, lateral, stress = _last(columns)
+        if row.quantity == "stress":
+            return float(np.interp(row.level, axial, stress))
+        return float(-np.interp(row.level, axial, lateral) / row.level)
+
+    return _after_compaction(compaction, -STRAINS[-1] - REBOUND), value
+
+
+def _triaxial(_: float, confinement: float, __: Sequence[Row]) -> Evaluation:
+    strain = f"axial_strain: [{TRIAXIAL_STRAIN:g}]"
+    path = f"{{type: triaxial, confinement: {confinement:g}, {strain}, steps: 400}}"
+
+    def value(columns: Columns, row: Row) -> float:
+        axial, _, stress = _last(columns)
+        if row.quantity == "deviator":
+            return float(np.interp(row.level, axial, stress)) - confinement
+        return float(np.interp(row.level, axial, columns["density"][-len(axial) :]))
+
+    return path, value
+
+
+PATHS: dict[str, Callable[[float, float, Sequence[Row]], Evaluation]] = {
+    "oedometer": _oedometer,
+    "tension": _tension,
+    "unconfined": _unconfined,
+    "triaxial": _triaxial,
+}
+
+
+def predicted(sections: str, record: Sequence[Row], points: Points) -> Values:
+    """What a law gives in each place of a record; NaN where it has no state."""
+    found: Values = {}
+    paths: dict[tuple[str, float, float], list[Row]] = {}
+    for row in record:
+        paths.setdefault((row.test, row.compaction, row.confinement), []).append(row)
+    for (test, compaction, confinement), rows in paths.items():
+        path, evaluate = PATHS[test](compaction, confinement, rows)
+        columns = points.run(sections, path)
+        for row in rows:
+            found[row.place] = math.nan if columns is None else evaluate(columns, row)
+    return found

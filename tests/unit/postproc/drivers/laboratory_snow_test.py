@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""inputs/laboratory/identify_snow.py: what it reads from curves, that it finds the law a record was
+made with, and that the preset is what it makes of its record."""
+
+import re
+import sys
+import tempfile
+import unittest
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from furrow_post.errors import ResultsError
+from furrow_post.read.laboratory import LaboratoryTest
+from furrow_post.study.launch import Tools
+from support.command import SOURCE
+from support.laboratory import cell_rows, triaxial_stress, write_test
+
+sys.path.insert(0, str(SOURCE / "inputs" / "laboratory"))
+
+import identify_snow
+from snow_laws import LAWS, Elastic, Material, fit, judged
+from snow_paths import Points, predicted
+from snow_record import Place, Row, read_record, record_of, write_record
+
+RECORD = SOURCE / "inputs" / "laboratory" / "records" / "snow_bonded.csv"
+PRESET = SOURCE / "inputs" / "materials" / "snow_bonded_cam_clay.yaml"
+
+NUMBER = r"(?<![\w.])-?\d+\.?\d*(?:e[+-]?\d+)?"
+
+# A law of 200 kg/m3 whose strength grows by e in 0.15 of volume strain
+STRAINS = np.array([0.0, 0.15, 0.3, 0.45, 0.6])
+TABLE = [(200 * float(np.exp(e)), 1e3 * float(np.exp(e / 0.15))) for e in STRAINS]
+MADE = Material(LAWS["cam_clay"], (3.0, 0.25), Elastic(2e7, 0.0), 200.0, TABLE)
+
+
+class WithFolder(unittest.TestCase):
+    def setUp(self) -> None:
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+
+    def tearDown(self) -> None:
+        self.temporary.cleanup()
+
+
+class RecordTest(WithFolder):
+    def test_curves_in_closed_form(self) -> None:
+        """Two packings, one 10 % stronger: means, scatter, and the place of each value."""
+        tests = []
+        for packing, strength in enumerate((1.0, 1.1)):
+            axial = np.linspace(0, 0.6, 2000)
+            stress = 2e3 * strength * np.exp(axial / 0.1)
+            rows = cell_rows(
+                np.column_stack((0 * axial, 0 * axial, axial)),
+                np.column_stack((0.1 * stress, 0.1 * stress, stress)),
+            )
+            rows[:, 7] = 200 * np.exp(np.concatenate((axial[:1], axial)))
+            facts = "test oedometer ground made"
+            tests.append(write_test(self.folder / f"o{packing}", facts, rows))
+            side = np.column_stack((-0.3 * axial, -0.3 * axial, axial))
+            rows = cell_rows(side, triaxial_stress(0.0, 5e3 * strength * (1 + 0 * axial)))
+            facts = "test unconfined ground made compaction 0.7"
+            tests.append(write_test(self.folder / f"u{packing}", facts, rows))
+            pulled = np.linspace(0, 1e-3, 400)
+            pull = np.minimum(1e7 * pulled, 4e3 * strength)
+            strain = np.column_stack((0 * pulled, 0 * pulled, -pulled))
+            rows = cell_rows(strain, triaxial_stress(0.0, -pull))
+            facts = "test tension ground made compaction 0"
+            tests.append(write_test(self.folder / f"t{packing}", facts, rows))
+        rows_of = record_of(LaboratoryTest(test) for test in tests)
+        write_record(self.folder / "record.csv", rows_of)
+        found = {row.place: row for row in read_record(self.folder / "record.csv")}
+        expected = {
+            Place("oedometer", 0, 0, 2e4, "K0"): (0.1, 0.0),
+            Place("unconfined", 0.7, 0, 0.2, "lateral_ratio"): (0.3, 0.0),
+            Place("unconfined", 0.7, 0, 0.1, "stress"): (5.25e3, 500 / np.sqrt(2)),
+            Place("tension", 0, 0, 0, "strength"): (4.2e3, 400 / np.sqrt(2)),
+            Place("tension", 0, 0, 0, "modulus"): (1e7, 0.0),
+        }
+        for place, (value, scatter) in expected.items():
+            self.assertEqual(found[place].packings, 2)
+            self.assertAlmostEqual(found[place].value / value, 1.0, delta=2e-3, msg=str(place))
+            self.assertAlmostEqual(found[place].scatter / value, scatter / value, delta=1e-3)
+        density = np.mean([200 * (2e4 / s) ** 0.1 for s in (2e3, 2.2e3)])
+        at_20_kPa = found[Place("oedometer", 0, 0, 2e4, "density")]
+        self.assertAlmostEqual(at_20_kPa.value / density, 1.0, delta=1e-3)
+
+    def test_refusals(self) -> None:
+        rows = np.ones((20, 9))
+        sand = write_test(self.folder / "s", "test shear ground made", rows)
+        with self.assertRaisesRegex(ResultsError, "is a test 'shear'; name results of oedometer"):
+            record_of([LaboratoryTest(sand)])
+        with self.assertRaisesRegex(ResultsError, "name results of that test too"):
+            record_of([])
+
+
+class FitTest(WithFolder):
+    def points(self) -> Points:
+        return Points(Tools.of(SOURCE / "inputs" / "laboratory" / "run.py"), self.folder)
+
+    def test_finds_the_law_of_a_record(self) -> None:
+        kinds = [
+            ("oedometer", 0.0, (0.0,), ("density",)),
+            ("oedometer", 0.0, (5e3, 1e4, 2e4, 5e4), ("density", "K0")),
+            *(("tension", c, (0.0,), ("strength",)) for c in (0.0, 0.4)),
+            *(("unconfined", c, (0.1, 0.2), ("stress", "lateral_ratio")) for c in (0.0, 0.4)),
+        ]
+        rows = [
+            Row(test, compaction, 0.0, level, quantity, 0.0, 0.0, 1)
+            for test, compaction, levels, quantities in kinds
+            for level in levels
+            for quantity in quantities
+        ]
+        values = predicted(MADE.sections(), rows, self.points())
+        record = [replace(row, value=values[row.place]) for row in rows]
+        record.append(Row("tension", 0.0, 0.0, 0.0, "modulus", 2e7, 0.0, 1))
+        found = fit(MADE.law, record, self.points(), start=(2.4, 0.1))
+        np.testing.assert_allclose(found.shape, MADE.shape, rtol=0.02)
+        for density, strength in found.table:
+            made = np.interp(np.log(density / 200), STRAINS, np.log([p for _, p in TABLE]))
+            self.assertAlmostEqual(np.log(strength), made, delta=0.03)
+
+    def test_preset_is_that_of_its_record(self) -> None:
+        record = read_record(RECORD)
+        material = fit(LAWS["cam_clay"], record, self.points())
+        rows = judged(record)
+        values = predicted(material.sections(), rows, self.points())
+        made = identify_snow.material_text("title", RECORD, material, rows, values)
+        _, made = made.split("\n", 1)
+        _, shipped = PRESET.read_text(encoding="utf-8").split("\n", 1)
+        self.assertEqual(re.sub(NUMBER, "N", made).split(), re.sub(NUMBER, "N", shipped).split())
+        both = [[float(x) for x in re.findall(NUMBER, text)] for text in (made, shipped)]
+        np.testing.assert_allclose(both[0], both[1], rtol=0.02, atol=0.011)
+
+
+if __name__ == "__main__":
+    unittest.main()
