@@ -22,6 +22,7 @@ class FixTyre : public FixWheelHub {
   /// The tyre file with its effective values, a line for each.
   virtual std::string tyre_text() = 0;
   void checkpoint(Checkpoint& state) override;
+  bool meets_grains() const;  ///< a mesh/body has its triangles
 };
 
 // ---- for the schemas and constructors of such fixes

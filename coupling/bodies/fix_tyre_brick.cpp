@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/bodies/fix_tyre_brick.h"
 
+#include <fmt/format.h>
+
+#include "atom.h"
+#include "core/communicator.h"
+#include "coupling/liggghts/script.h"
 #include "io/brick_tyre_file.h"
 
 namespace furrow::coupling {
@@ -41,6 +46,26 @@ Schema FixTyreBrick::schema() {
 FixTyreBrick::FixTyreBrick(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixTyre(lammps, narg, arg, schema(),
               [lammps](const Options& options) { return make_brick_tyre(*lammps, options); }) {}
+
+void FixTyreBrick::init() {
+  FixTyre::init();
+  if (meets_grains()) warn_of_bridging();
+}
+
+/// Collective.
+void FixTyreBrick::warn_of_bridging() {
+  double sums[2] = {0.0, 0.0};  // diameters, count
+  for (int i = 0; i < atom->nlocal; ++i) sums[0] += 2.0 * atom->radius[i];
+  sums[1] = atom->nlocal;
+  Communicator(&world).sum(sums, 2);
+  const BrickTyreParameters& parameters = tyre().parameters();
+  const double narrowest = parameters.tread.narrowest_void(parameters.radius());
+  if (sums[0] > narrowest * sums[1])
+    warn(*lmp, fmt::format("{}: the grains' mean diameter of {:.3g} m is more than the {:.3g} m of "
+                           "its narrowest groove: they bridge it, and the tread acts as a smooth "
+                           "one; use smaller grains, or a smooth tread",
+                           name(), sums[0] / sums[1], narrowest));
+}
 
 std::string FixTyreBrick::tyre_text() { return brick_tyre_file_text(tyre().parameters()); }
 

@@ -13,9 +13,13 @@ class FixTyreBrick : public FixTyre {
   static Schema schema();
 
   BrickTyre& tyre() { return static_cast<BrickTyre&>(body()); }
+  void init() override;
 
  protected:
   std::string tyre_text() override;
+
+ private:
+  void warn_of_bridging();
 };
 
 }  // namespace furrow::coupling

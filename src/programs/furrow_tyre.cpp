@@ -149,10 +149,11 @@ void write_pressures(const std::string& path, const Tyre& tyre, const RigidPlane
   auto file = fmt::output_file(path);
   file.print("x_m,y_m,pressure_Pa,area_m2\n");
   const Matrix3X& x = tyre.surface().x;
+  const PrintStress print = print_stress(tyre.surface(), plane);
   for (Eigen::Index n = 0; n < tyre.tread_grid().count(); ++n)
-    if (plane.pressure()[n] > 0.0)
-      file.print("{:.6g},{:.6g},{:.6g},{:.6g}\n", x(0, n), x(1, n), plane.pressure()[n],
-                 plane.area()[n]);
+    if (print.pressure[n] > 0.0)
+      file.print("{:.6g},{:.6g},{:.6g},{:.6g}\n", x(0, n), x(1, n), print.pressure[n],
+                 print.area[n]);
 }
 
 /// Prints and writes one state. @param plane null for the inflated tyre

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -149,6 +150,16 @@ double TreadCapParameters::thickness_at(double s) const {
   const auto i = static_cast<std::size_t>(next - at.begin());
   const double share = std::clamp((s - at[i - 1]) / (at[i] - at[i - 1]), 0.0, 1.0);
   return (1.0 - share) * thickness[i - 1] + share * thickness[i];
+}
+
+double TreadCapParameters::narrowest_void(double radius) const {
+  double narrowest = std::numeric_limits<double>::infinity();
+  for (const TreadVoid& cut : voids) {
+    narrowest = std::min(narrowest, cut.to - cut.from);
+    if (cut.pitches > 0)
+      narrowest = std::min(narrowest, cut.share * 2.0 * pi * radius / cut.pitches);
+  }
+  return narrowest;
 }
 
 double TreadCapParameters::depth_at(double s) const {

@@ -49,6 +49,9 @@ struct TreadCapParameters {
   double thickness_at(double s) const;  ///< [m]
   double depth_at(double s) const;      ///< [m] of the voids; straight between them
   double end() const { return at.back(); }
+  /// [m] across the narrowest void, or along the tyre where that is less: what is wider bridges it;
+  /// infinite without voids. @param radius of the tread [m]
+  double narrowest_void(double radius) const;
 };
 
 struct BrickTyreParameters {

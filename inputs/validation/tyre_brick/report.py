@@ -9,6 +9,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 
 import cases
+import shapes
 
 from furrow_post.analyse.statistics import block_mean, rms
 from furrow_post.csv_table import read_numbers, read_rows
@@ -24,6 +25,8 @@ from furrow_post.study.tables import markdown
 MEASURED = cases.HERE.parent / "tyre_table6" / "reference.csv"
 WALL = 1.2  # [cm] rubber outside of the carcass, both sides; assumed
 GOAL = 0.10
+SAME = 5e-3  # relative difference of a state that is made again
+CHECKED = ("deflection_cm", "area_cm2", "section_width_cm")
 MIDDLE = 1e-3  # [m] from the middle of the print: its nodes there
 # [m] y from the middle of one groove of the ribbed tyre to that of the next
 RIBS = {"centre": (0.0, 0.0198), "middle": (0.0198, 0.0516), "shoulder": (0.0516, 0.1)}
@@ -61,11 +64,11 @@ def errors(rows: Sequence[dict[str, float]], load: float = cases.LOAD) -> list[R
             mine: Row = {
                 "pressure_kPa": round(pressure),
                 "used_for": measured["used_for"],
-                "outline_area_cm2": row["perimeter_area_cm2"],
+                "touching_area_cm2": row["nodal_area_cm2"],
             }
             for what, value in (
                 ("deflection_cm", row["deflection_cm"]),
-                ("area_cm2", row["nodal_area_cm2"]),
+                ("area_cm2", row["perimeter_area_cm2"]),
                 ("section_width_cm", row["section_width_cm"] + WALL),
             ):
                 mine[what] = round(value, 3)
@@ -88,35 +91,52 @@ def inflated(rows: Sequence[dict[str, float]]) -> list[Row]:
     ]
 
 
-def identification_table(runner: Runner) -> list[Row]:
-    """The trials: errors where they are identified, and the inflated size at the last pressure."""
+def between_table(runner: Runner) -> list[Row]:
+    """From the smooth tyre to its equivalent, one change after the other."""
     found: list[Row] = []
-    for name, case in {"chosen": cases.MESH, **cases.IDENTIFICATION}.items():
+    for name, case in {
+        "smooth": cases.BETWEEN_FIRST,
+        **cases.BETWEEN,
+        "and sidewalls of 4 kN/m: equivalent": cases.TABLE6,
+    }.items():
         rows = states(runner, case)
-        if not rows:
-            continue
-        table = [row for row in errors(rows) if row["pressure_kPa"] in cases.IDENTIFIED_AT]
-        size = inflated(rows)[-1]
-        row: Row = {"trial": name, **{key: size[key] for key in ("diameter_cm", "width_cm")}}
-        for state in table:
-            for what in ("deflection_error", "area_error"):
-                row[f"{what}_{state['pressure_kPa']}"] = state[what]
-        parts = [s[what] for s in table for what in ("deflection_error", "area_error")]
-        complete = len(table) == len(cases.IDENTIFIED_AT)
-        row["rms_error"] = round(rms(parts), 4) if complete else ""
-        found.append(row)
+        for row in errors(rows):
+            if row["pressure_kPa"] == cases.BETWEEN_AT:
+                size = inflated(rows)[-1]
+                kept = ("deflection_cm", "deflection_error", "area_cm2", "area_error")
+                found.append({"tyre": name, **size, **{key: row[key] for key in kept}})
     return found
+
+
+def stored(name: str) -> list[Row]:
+    """A table of Table 6's columns beside this file."""
+    return [
+        {key: text if key == "used_for" else float(text) for key, text in row.items()}
+        for row in read_rows(cases.HERE / name)
+    ]
+
+
+def changed(again: Sequence[Row], before: Sequence[Row]) -> Iterator[str]:
+    """What differs of states made again from those that are stored."""
+    for row, old in zip(again, before, strict=True):
+        for what in CHECKED:
+            change = row[what] / old[what] - 1
+            if abs(change) > SAME:
+                yield (
+                    f"{row['pressure_kPa']:.0f} kPa, {cases.COARSE} sections: {what} {row[what]} "
+                    f"was {old[what]}, {100 * change:+.2f} %; the tables are of another program"
+                )
 
 
 def missed_goals(table: Sequence[Row]) -> Iterator[str]:
     """What lies beyond the goals, and pressures without a result."""
-    for pressure in sorted(set(cases.PRESSURES) - {row["pressure_kPa"] for row in table}):
+    for pressure in sorted(set(cases.PRESSURES) - {int(row["pressure_kPa"]) for row in table}):
         yield f"{pressure} kPa: no result"
     for row in table:
         for what in ("deflection", "area", "section_width"):
             error = row[f"{what}_error"]
             if abs(error) > GOAL:
-                yield f"{row['pressure_kPa']} kPa: {what} {100 * error:+.1f} %, goal 10 %"
+                yield f"{row['pressure_kPa']:.0f} kPa: {what} {100 * error:+.1f} %, goal 10 %"
 
 
 def print_of(folder: Path, pressure: float, load: float) -> list[dict[str, float]]:
@@ -233,7 +253,7 @@ def percent(value: object) -> str:
 
 
 def table6_lines(table: Sequence[Row]) -> list[str]:
-    head = ("pressure", "", "deflection", "error", "area", "error", "in its outline", "width")
+    head = ("pressure", "", "deflection", "error", "area", "error", "of its nodes", "width")
     return markdown(
         (*head, "error"),
         (
@@ -244,7 +264,7 @@ def table6_lines(table: Sequence[Row]) -> list[str]:
                 percent(row["deflection_error"]),
                 f"{row['area_cm2']:.0f} cm2",
                 percent(row["area_error"]),
-                f"{row['outline_area_cm2']:.0f} cm2",
+                f"{row['touching_area_cm2']:.0f} cm2",
                 f"{row['section_width_cm']:.1f} cm",
                 percent(row["section_width_error"]),
             )
@@ -261,15 +281,19 @@ def plain_lines(rows: Sequence[Row]) -> list[str]:
 def evaluate(runner: Runner, output: Output) -> Sequence[str]:
     table = errors(states(runner, cases.TABLE6))
     mesh = errors(states(runner, cases.MESH))
+    check = errors(states(runner, cases.CHECK))
     lines: list[str] = []
     for name, title, rows, written in (
-        ("table6.csv", f"Table 6, {cases.SECTIONS} sections", table, table6_lines),
+        ("table6.csv", f"Table 6, equivalent tread, {cases.SECTIONS} sections", table, table6_lines),
         ("meshes.csv", f"The same, {cases.COARSE} sections", mesh, table6_lines),
+        ("between.csv", "From one tread to the other, 6227 N", between_table(runner), plain_lines),
+        ("check.csv", "", check, table6_lines),
         ("inflated.csv", "Inflated", inflated(states(runner, cases.TABLE6)), plain_lines),
-        ("identification.csv", "Trials", identification_table(runner), plain_lines),
         ("load_deflection.csv", "", states(runner, cases.MESH), plain_lines),
         ("contact_stress.csv", "Contact stress", stress_table(runner), plain_lines),
         ("treads.csv", "Treads", tread_table(runner), plain_lines),
+        ("ribs.csv", "Ribs", shapes.rib_table(runner), plain_lines),
+        ("profiles.csv", "Profiles", shapes.profile_table(runner), plain_lines),
         ("rolling.csv", "Rolling", rolling_table(runner), plain_lines),
     ):
         output.table(name, rows)
@@ -279,5 +303,7 @@ def evaluate(runner: Runner, output: Output) -> Sequence[str]:
     output.table("costs.csv", [row for row in costs if row["user_s"]])
     if maps := stress_maps(runner):
         draw_stress(maps, output.path("contact_stress.png"))
+    if table:
+        shapes.draw_profiles(runner, output.path("profiles.png"))
     output.section(lines)
-    return list(missed_goals(table))
+    return [*missed_goals(table or stored("table6.csv")), *(changed(check, stored("check.csv")) if check else ())]

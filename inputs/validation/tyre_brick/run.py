@@ -3,8 +3,9 @@
 """The tyre with a tread of rubber of [Shoop2001] on a rigid plane: identification at two pressures,
 prediction of the other two, contact stress, treads, rolling. See README.md.
 
-Makes the runs that are missing and prints and writes one table per part. --check makes Table 6
-alone with the tyre file as it stands, and fails beyond the goals of 10 %.
+Makes the runs that are missing and prints and writes one table per part. --check fails when the
+stored Table 6 misses the goals of 10 %, or when one state of it on a coarse mesh, made again in
+seconds, is no longer what is stored.
 """
 
 import sys
@@ -19,12 +20,12 @@ from furrow_post.study.case import Case
 from furrow_post.study.study import Study, run_study
 
 
-def in_table6(case: Case) -> bool:
-    return case is cases.TABLE6
+def in_check(case: Case) -> bool:
+    return case is cases.CHECK
 
 
 if __name__ == "__main__":
     study = Study(
-        Path(__file__), __doc__ or "", cases.CASES, report.evaluate, checked=in_table6
+        Path(__file__), __doc__ or "", cases.CASES, report.evaluate, checked=in_check
     )
     sys.exit(run_study(study))

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include <gmock/gmock.h>
@@ -97,6 +98,16 @@ TEST(BrickTyreMesh, RefusesPitchesThatDoNotFit) {
               HasSubstr("has 100 sections for 30 pitches"));
 }
 
+TEST(BrickTyreParameters, NarrowestVoid) {
+  const auto narrowest = [](const char* name) {
+    const BrickTyreParameters tyre = tyre_file(name);
+    return tyre.tread.narrowest_void(tyre.radius());
+  };
+  EXPECT_EQ(narrowest("smooth"), std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(narrowest("ribbed"), 0.0162, 1e-9);
+  EXPECT_NEAR(narrowest("lugged"), 0.0386, 1e-4);
+}
+
 /// Momentum, and angular momentum about y of all masses about the origin.
 std::pair<Vector3, double> momenta(const BrickTyre& tyre) {
   const ShellNodes& nodes = tyre.nodes();
@@ -166,7 +177,7 @@ double area_cut_off(const BrickTyreParameters& tyre, double depth) {
   const double level = tyre.radius() - depth;
   const double ds = 1e-4;
   double area = 0.0;
-  for (double s = 0.5 * ds; s < tyre.tread.at[1]; s += ds) {
+  for (double s = 0.5 * ds; s < tyre.tread.end(); s += ds) {
     const auto inside = [&](const TreadVoid& cut) { return s > cut.from && s < cut.to; };
     const double radius = outside(s)[1];
     if (radius < level || std::any_of(tyre.tread.voids.begin(), tyre.tread.voids.end(), inside))
@@ -189,8 +200,30 @@ TEST(BrickTyre, TheAreaOfItsTouchingNodesLeavesOutVoidsAndWalls) {
     plane.press_on(tyre.surface());
     areas.push_back(contact_patch(tyre, plane).nodal_area);
     EXPECT_NEAR(areas.back() / area_cut_off(parameters, depth), 1.0, 0.06) << name;
+    const PrintStress print = print_stress(tyre.surface(), plane);
+    EXPECT_NEAR(print.pressure.dot(print.area) / plane.total_force().z(), 1.0, 1e-12) << name;
+    EXPECT_NEAR(2.0 * print.area.sum() / areas.back(), 1.0, 1e-12) << name;
   }
   EXPECT_LT(areas[1], 0.7 * areas[0]);
+}
+
+/// A rigid print: nodes pressed through the plane, the tyre as made. It ends on the crown.
+TEST(BrickTyre, TheOutlineOfAPrintConvergesAtSecondOrder) {
+  const BrickTyreParameters parameters = tyre_file("smooth");
+  const auto error = [&](double depth, int sections) {
+    BrickTyre tyre(parameters, coarse(true, sections), rim);
+    RigidPlaneParameters road;
+    road.height = tyre.centre().z() - parameters.radius() + depth;
+    RigidPlane plane(road, tyre.surface());
+    plane.press_on(tyre.surface());
+    const double exact = area_cut_off(parameters, depth);
+    return std::abs(contact_patch(tyre, plane).perimeter_area / exact - 1.0);
+  };
+  for (const double depth : {1e-3, 1.5e-3}) {
+    EXPECT_LT(error(depth, 400), 0.015) << depth;
+    EXPECT_LT(error(depth, 400), 0.1 * error(depth, 100)) << depth;
+  }
+  EXPECT_LT(error(6e-3, 400), 0.01);  // ends with the tread
 }
 
 TEST(BrickTyre, ContinuesFromACheckpointBitForBit) {
