@@ -8,9 +8,13 @@
 
 #include "comm.h"
 #include "core/error.h"
+#include "coupling/base/find_fix.h"
+#include "coupling/base/read_options.h"
 #include "coupling/base/refuse_double.h"
+#include "coupling/bodies/fix_wheel_hub.h"
 #include "coupling/liggghts/script.h"
 #include "io/terrain_input.h"
+#include "mpm/length_under_wheel.h"
 #include "update.h"
 
 namespace furrow::coupling {
@@ -22,6 +26,22 @@ constexpr int most_empty_cells = 20;  // above the surface, over those below
 constexpr long check_every = 100;     // steps between looks at the energy
 // [J/kg] of the terrain, its weight lifted by 0.1 mm: below it an imbalance does not matter
 constexpr double energy_floor = 1e-3;
+const std::vector<Kind> followable = {Kind::wheel, Kind::body};
+
+/// Of ground that follows one wheel: by what the wheel's line says, not by where the wheel is, so
+/// that it is the same when a run is continued.
+std::optional<double> length_by_wheel(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
+  if (!options.given("follow") || options.given("follow_last")) return {};
+  const Body& followed = find_fix<FixBody>(lammps, options, "follow", followable).body();
+  const auto* wheel = dynamic_cast<const WheelHub*>(&followed);
+  if (!wheel) return {};
+  return length_under_wheel(wheel->nominal_radius(), options.number("depth"));
+}
+
+Schema schema_of_line(LAMMPS_NS::LAMMPS& lammps, int narg, char** arg) {
+  const Options options = FixTerrainContinuum::schema().read(args_after_style(narg, arg));
+  return FixTerrainContinuum::schema(length_by_wheel(lammps, options));
+}
 
 std::unique_ptr<Body> make_terrain(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   TerrainParameters parameters = read_terrain(options, script_folder(lammps));
@@ -34,8 +54,8 @@ std::unique_ptr<Body> make_terrain(LAMMPS_NS::LAMMPS& lammps, const Options& opt
 
 }  // namespace
 
-Schema FixTerrainContinuum::schema() {
-  Schema schema = terrain_schema("fix terrain/continuum");
+Schema FixTerrainContinuum::schema(std::optional<double> length) {
+  Schema schema = terrain_schema("fix terrain/continuum", length);
   schema.text("follow", "id of the fix of the body that the terrain moves along with").optional();
   schema
       .text("follow_last",
@@ -51,15 +71,14 @@ Schema FixTerrainContinuum::schema() {
 }
 
 FixTerrainContinuum::FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixBody(lammps, narg, arg, schema(),
+    : FixBody(lammps, narg, arg, schema_of_line(*lammps, narg, arg),
               [lammps](const Options& options) { return make_terrain(*lammps, options); }) {
   if (options().given("follow_last") && !options().given("follow"))
     throw InputError(options().where("follow_last"), "is given without 'follow'",
                      "the other end of a row that 'follow' names the first of",
                      "for one body write 'follow' alone");
   for (const char* key : {"follow", "follow_last"})
-    if (options().given(key))
-      followed_.push_back(&use<FixBody>(key, {Kind::wheel, Kind::body}).body());
+    if (options().given(key)) followed_.push_back(&use<FixBody>(key, followable).body());
   refuse_overlap();
   contribute(static_cast<MotionController&>(*this));
   provide(outputs(), [this] { return TerrainReading(terrain()); });
@@ -98,8 +117,10 @@ void FixTerrainContinuum::report() {
   const double particles = terrain().particle_count(), step = terrain().stable_time_step();
   if (comm->me == 0 && screen)
     fmt::print(screen,
-               "Continuum terrain: {} x {} x {} cells, shortest {:.4g} m, {:.0f} particles; stable "
-               "step {:.3g} s\n",
+               "Continuum terrain: {:.4g} m long{}, {} x {} x {} cells, shortest {:.4g} m, {:.0f} "
+               "particles; stable step {:.3g} s\n",
+               options().number("length"),
+               options().given("length") ? "" : " by the wheel's radius and the depth",
                grid.axis(0).cells(), grid.axis(1).cells(), grid.axis(2).cells(),
                grid.shortest_cell(), particles, step);
   warn_of_extremes();

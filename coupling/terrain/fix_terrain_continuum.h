@@ -2,6 +2,7 @@
 #pragma once
 /// fix terrain/continuum: terrain by the material point method. See fix_terrain_continuum.md.
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace furrow::coupling {
 class FixTerrainContinuum : public FixBody, public MotionController {
  public:
   FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
-  static Schema schema();
+  /// @param length  [m] of a line that gives none
+  static Schema schema(std::optional<double> length = {});
   static const Outputs<TerrainReading>& outputs() { return terrain_outputs(); }
 
   ContinuumTerrain& terrain() const { return static_cast<ContinuumTerrain&>(body()); }

@@ -173,13 +173,14 @@ AxisLayout vertical_layout(const Options& options) {
 
 }  // namespace
 
-Schema terrain_schema(const std::string& subject) {
+Schema terrain_schema(const std::string& subject, std::optional<double> length) {
   Schema schema(subject);
   schema
       .text("material",
             "material file, or layers from the top down: file:thickness,file:thickness,file")
       .may_change();  // of place and name: checkpoints compare what is in it
-  schema.number("length", "m", Range::positive(), "along x");
+  schema.number("length", "m", Range::positive(), "along x").optional();
+  if (length) schema.by_default(*length);
   schema.number("width", "m", Range::positive(), "along y; of a half model, both halves");
   schema.number("depth", "m", Range::positive(), "of the ground");
   schema.number("cell", "m", Range::positive(), "edge of the cells, in the fine part");
@@ -236,6 +237,9 @@ Schema terrain_schema(const std::string& subject) {
 }
 
 TerrainParameters read_terrain(const Options& options, const std::string& folder) {
+  if (!options.has("length"))
+    throw InputError(options.where("length"), "is missing", "a number > 0 [m]",
+                     "only ground that follows one wheel can do without");
   TerrainParameters ground;
   check_cells(options);
   ground.layers = read_layers(options, folder);

@@ -3,13 +3,17 @@
 /// Continuum ground from the keys of a script line: lengths, cells, faces, and the files of its
 /// materials.
 
+#include <optional>
+
 #include "core/options.h"
 #include "mpm/terrain_parameters.h"
 
 namespace furrow {
 
 /// The keys of continuum ground. @param subject names the owner in errors
-Schema terrain_schema(const std::string& subject = "continuum ground");
+/// @param length  where the ground need not say its own [m]
+Schema terrain_schema(const std::string& subject = "continuum ground",
+                      std::optional<double> length = {});
 /// Reads the material files and lays out the grid. @throws InputError
 /// @param folder from which relative paths of material files are found
 TerrainParameters read_terrain(const Options& options, const std::string& folder = "");

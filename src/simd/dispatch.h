@@ -23,7 +23,9 @@ InstructionSet chosen_instruction_set();
 template <class Kernels>
 const Kernels& kernels_for(InstructionSet set) {
 #ifdef FURROW_X86_KERNELS  // avx2() and avx512() exist in such builds only
+#ifndef FURROW_WITHOUT_AVX512
   if (set == InstructionSet::avx512) return Kernels::avx512();
+#endif
   if (set == InstructionSet::avx2) return Kernels::avx2();
 #else
   static_cast<void>(set);

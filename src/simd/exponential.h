@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// exp and log of several numbers at once.
+/// exp, exp - 1 and log of several numbers at once.
 
 #include <cstdint>
 
@@ -9,50 +9,72 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-/// exp(a) to about one unit in the last place: a = n ln 2 + r with |r| <= ln(2)/2 and the Taylor
-/// series of exp(r) to r^13 / 13!, whose rest is below 5e-18. Underflows to 0, overflows to
-/// infinity, keeps not-a-number.
-FURROW_INLINE Lanes exponential(const Lanes& a) {
+/// a = n ln 2 + r with |r| <= ln(2)/2, for a from -708.3 to 709.7
+struct ReducedExponent {
+  Lanes r;
+  Lanes power;  ///< 2^n
+};
+FURROW_INLINE ReducedExponent reduced_exponent(const Lanes& a) {
   using Integers = stdx::rebind_simd_t<std::uint64_t, Lanes>;
   // 1.5 * 2^52: adding it rounds to the nearest integer, held in the last bits
   constexpr double shift = 6755399441055744.0;
-  const Lanes bounded = max(min(a, 709.7), -708.3);
-  const Lanes shifted = bounded * Lanes(1.4426950408889634) + Lanes(shift);
+  const Lanes shifted = a * Lanes(1.4426950408889634) + Lanes(shift);
   const Lanes n = shifted - Lanes(shift);
-  const Lanes r =
-      (bounded - n * Lanes(0.693147180369123816490)) - n * Lanes(1.90821492927058770002e-10);
-  constexpr double inverse_factorial[14] = {1.0,
-                                            1.0,
-                                            1.0 / 2,
-                                            1.0 / 6,
-                                            1.0 / 24,
-                                            1.0 / 120,
-                                            1.0 / 720,
-                                            1.0 / 5040,
-                                            1.0 / 40320,
-                                            1.0 / 362880,
-                                            1.0 / 3628800,
-                                            1.0 / 39916800,
-                                            1.0 / 479001600,
-                                            1.0 / 6227020800.0};
-  // in pairs and pairs of these (Estrin), which wait for one another less than Horner's nesting
+  const Lanes r = (a - n * Lanes(0.693147180369123816490)) - n * Lanes(1.90821492927058770002e-10);
+  Integers bits;
+  static_assert(sizeof(Integers) == sizeof(Lanes));
+  __builtin_memcpy(static_cast<void*>(&bits), &shifted, sizeof bits);
+  bits = (bits << 52) + Integers(std::uint64_t{0x3FF0000000000000});
+  ReducedExponent reduced{r, 0.0};
+  __builtin_memcpy(static_cast<void*>(&reduced.power), &bits, sizeof bits);
+  return reduced;
+}
+
+constexpr double inverse_factorials[15] = {1.0,
+                                           1.0,
+                                           1.0 / 2,
+                                           1.0 / 6,
+                                           1.0 / 24,
+                                           1.0 / 120,
+                                           1.0 / 720,
+                                           1.0 / 5040,
+                                           1.0 / 40320,
+                                           1.0 / 362880,
+                                           1.0 / 3628800,
+                                           1.0 / 39916800,
+                                           1.0 / 479001600,
+                                           1.0 / 6227020800.0,
+                                           1.0 / 87178291200.0};
+
+/// Sum of r^k/(k + first)! for k = 0 to 13; in pairs and pairs of these (Estrin), which wait for
+/// one another less than Horner's nesting.
+template <int first>
+FURROW_INLINE Lanes exponential_series(const Lanes& r) {
   const Lanes r2 = r * r, r4 = r2 * r2, r8 = r4 * r4;
   const auto pair = [&](int k) __attribute__((always_inline)) {
-    return Lanes(inverse_factorial[k + 1]) * r + Lanes(inverse_factorial[k]);
+    return Lanes(inverse_factorials[k + first + 1]) * r + Lanes(inverse_factorials[k + first]);
   };
   const auto four = [&](int k) __attribute__((always_inline)) {
     return pair(k + 2) * r2 + pair(k);
   };
-  const Lanes sum = (pair(12) * r4 + four(8)) * r8 + (four(4) * r4 + four(0));
-  Integers bits;
-  static_assert(sizeof(Integers) == sizeof(Lanes));
-  __builtin_memcpy(static_cast<void*>(&bits), &shifted, sizeof bits);
-  bits = (bits << 52) + Integers(std::uint64_t{0x3FF0000000000000});  // 2^n
-  Lanes power;
-  __builtin_memcpy(static_cast<void*>(&power), &bits, sizeof power);
-  Lanes result = sum * power;
+  return (pair(12) * r4 + four(8)) * r8 + (four(4) * r4 + four(0));
+}
+
+/// exp(a) to about one unit in the last place: the Taylor series of exp(r) to r^13 / 13!, whose
+/// rest is below 5e-18. Underflows to 0, overflows to infinity, keeps not-a-number.
+FURROW_INLINE Lanes exponential(const Lanes& a) {
+  const ReducedExponent reduced = reduced_exponent(max(min(a, 709.7), -708.3));
+  Lanes result = exponential_series<0>(reduced.r) * reduced.power;
   result = select(a < Lanes(-708.3), 0.0, result);
   result = select(a > Lanes(709.7), Lanes(__builtin_inf()), result);
+  return select(a == a, result, a);
+}
+
+/// exp(a) - 1 to about one unit in the last place of it, for a up to 709.7; keeps not-a-number.
+FURROW_INLINE Lanes exponential_minus_one(const Lanes& a) {
+  const ReducedExponent reduced = reduced_exponent(max(min(a, 709.7), -708.3));
+  const Lanes result =
+      exponential_series<1>(reduced.r) * reduced.r * reduced.power + (reduced.power - Lanes(1.0));
   return select(a == a, result, a);
 }
 

@@ -6,6 +6,11 @@
 # checks make a kernel of inlined vector operations many times as large.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT FURROW_NATIVE AND NOT FURROW_SANITIZE)
   set(FURROW_INSTRUCTION_SETS baseline avx2 avx512)
+  # libstdc++'s simd takes one lane's choice for all lanes when clang compiles it for AVX-512
+  # (_S_blend_avx512 in experimental/bits/simd_x86.h).
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    list(REMOVE_ITEM FURROW_INSTRUCTION_SETS avx512)
+  endif()
 else()
   set(FURROW_INSTRUCTION_SETS baseline)
 endif()
@@ -17,16 +22,16 @@ set(furrow_kernel_unit_template ${CMAKE_CURRENT_LIST_DIR}/kernel_unit.cpp.in)
 
 # furrow_kernel_unit(<target> <header> <table> [FUSED]): adds to a target one source for each
 # instruction set, which defines <table>::baseline(), <table>::avx2() and <table>::avx512()
-# (src/simd/instruction_set.h) from the kernels of <header>. FUSED: multiply and add in one
-# instruction where the set has it. Results then depend in the last digit on how the compiler groups
-# operations, so the laws, whose numbers are to be the same in any surrounding code, do without.
+# (src/simd/instruction_set.h) from the kernels of <header>. Where the set has it, gcc multiplies and
+# adds in one instruction, so that the last digit depends on how it groups operations; clang does so
+# within an expression only, and across expressions in kernels that are FUSED.
 function(furrow_kernel_unit target header table)
   cmake_parse_arguments(PARSE_ARGV 3 ARG "FUSED" "" "")
   set(baseline "")
   set(avx2 -march=x86-64-v3)
   set(avx512 -march=x86-64-v4 -mprefer-vector-width=512)
   if(ARG_FUSED)
-    list(APPEND avx2 -ffp-contract=fast)  # ISO C++ mode turns it off
+    list(APPEND avx2 -ffp-contract=fast)
     list(APPEND avx512 -ffp-contract=fast)
   endif()
   get_filename_component(name ${header} NAME_WE)

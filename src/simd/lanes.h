@@ -13,6 +13,11 @@
 
 #include "simd/kernel_units_only.h"
 
+#if defined(__clang__) && defined(__AVX512F__) && defined(__GLIBCXX__)
+#error \
+    "clang and libstdc++'s simd choose wrongly among lanes of AVX-512: build with gcc, or for AVX2"
+#endif
+
 /// Lanes travel in registers only when a call is inlined, which gcc 12 does too seldom on its own.
 #define FURROW_INLINE [[gnu::always_inline]] inline
 

@@ -31,13 +31,19 @@ struct ElasticStep {
                                          : Lanes(parameters.shear);
   }
 
-  /// p(x), increasing. The largest exponent, exp(300), only bounds trial states of the return
-  /// mapping.
-  FURROW_INLINE Lanes pressure(const Lanes& x) const {
-    if (!parameters.porous) return p_n + Lanes(parameters.bulk) * x;
-    const Lanes exponent = Lanes(parameters.stiffness) * ratio * (Lanes(1.0) - exponential(-x));
-    return above * exponential(min(exponent, 300.0)) - parameters.limit;
+  /// p(x), increasing, and dp/dx. The largest exponent, exp(300), only bounds trial states of the
+  /// return mapping. The change of J_el keeps its digits in the shortest steps.
+  struct Response {
+    Lanes pressure, bulk;
+  };
+  FURROW_INLINE Response response(const Lanes& x) const {
+    if (!parameters.porous) return {p_n + Lanes(parameters.bulk) * x, parameters.bulk};
+    const Lanes stiffness = Lanes(parameters.stiffness) * ratio;
+    const Lanes change = exponential_minus_one(-x);
+    const Lanes from_limit = above * exponential(min(-stiffness * change, 300.0));
+    return {from_limit - parameters.limit, from_limit * (stiffness + stiffness * change)};
   }
+  FURROW_INLINE Lanes pressure(const Lanes& x) const { return response(x).pressure; }
   /// dp/dx at p = pressure(x)
   FURROW_INLINE Lanes bulk(const Lanes& x, const Lanes& p) const {
     if (!parameters.porous) return parameters.bulk;

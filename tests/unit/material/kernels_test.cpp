@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "material/models/cohesive_cam_clay/cohesive_cam_clay.h"
+#include "material/models/crushable_foam/crushable_foam.h"
 #include "material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "material/models/neo_hookean/neo_hookean_parameters.h"
 #include "paths.h"
@@ -82,6 +83,10 @@ TEST(Kernels, InstructionSetsAgree) {
     expect_instruction_sets_to_agree<DruckerPragerCap, DruckerPragerCapKernels>(cap + snow + more);
   for (const std::string more : {"linear", "log"})
     expect_instruction_sets_to_agree<CohesiveCamClay, CohesiveCamClayKernels>(clay + snow + more);
+  expect_instruction_sets_to_agree<CrushableFoam, CrushableFoamKernels>(
+      "crushable_foam density 200 pt 11.376 sigma0 275.79 elasticity porous elasticity.kappa 0.005 "
+      "elasticity.e0 3.5 pt_el 113.76 nu 0.3 hardening exponential pc0 113.76 lambda 0.35 "
+      "hardening.kappa 0.005 hardening.e0 3.5");
   std::string tested;
   for (const InstructionSet set : available_instruction_sets())
     tested += std::string(" ") + to_string(set);

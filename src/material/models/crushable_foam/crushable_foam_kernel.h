@@ -49,12 +49,11 @@ struct CrushableFoamKernel {
     if (any(yielding)) {
       const Lanes sign = select(p_trial < Lanes(0.0), -1.0, 1.0);
       Lanes pressure = p_trial, measure = t_trial, c = 0.0, a = 0.0;
-      const auto residual = [&](const Lanes& y) -> ValueAndSlope {
+      const auto residual = [&](const Lanes& y) __attribute__((always_inline))->ValueAndSlope {
         const Hardening::Strength pc = hardening.at(eps_old + sign * y);
-        const Lanes x = dv - sign * y;
-        pressure = sign * max(sign * elastic.pressure(x), 0.0);
-        const Lanes k = Lanes(2.0 / 3.0) * elastic.shear, bulk = elastic.bulk(x, pressure),
-                    size = abs(pressure);
+        const auto [elastic_pressure, bulk] = elastic.response(dv - sign * y);
+        pressure = sign * max(sign * elastic_pressure, 0.0);
+        const Lanes k = Lanes(2.0 / 3.0) * elastic.shear, size = abs(pressure);
         const Lanes sum = max(size + k * y, 1e-290);
         measure = t_trial * size / sum;
         const Lanes measure_slope = -t_trial * k * (y * bulk + size) / (sum * sum);
