@@ -422,7 +422,22 @@ HARD_SURFACE = Group(
             )
             for pressure in (103, 241)
         ),
-        not_done("Fig 55", "sidewall profiles", "", "only drawn; their widths are above"),
+        *(
+            Experiment(
+                "Fig 55",
+                f"sidewall profile under 6227 N, {pressure} kPa",
+                f"half its width, {state}",
+                "cm",
+                ours=Stored(
+                    "tyre_brick/profiles.csv",
+                    {"pressure_kPa": pressure},
+                    f"{state}_half_width_cm",
+                ),
+                remark=BRICK + ": a stand-in for a cut tread; curves only drawn",
+            )
+            for pressure in ("103", "241")
+            for state in ("inflated", "loaded")
+        ),
         *(
             Experiment(
                 "Table 7",
