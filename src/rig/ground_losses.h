@@ -19,9 +19,8 @@ struct GroundLosses {
   double grains = 0.0;           ///< of this wheel: all that grains took, friction on it included
   double friction = 0.0;         ///< of this wheel with continuum or plane
   double contact_damping = 0.0;  ///< of its contact with a continuum
-  /// what the springs of its contact with continuum or plane hold or have lost: the edge of a
-  /// particle, from which penetration counts, does not move as the ground there does, and springs
-  /// are let go when a contact ends; with grains, part of theirs
+  /// what the springs of its contact with continuum or plane hold or have lost: those of contacts
+  /// that end are let go; with grains, part of theirs
   double contact_springs = 0.0;
 };
 

@@ -192,6 +192,7 @@ CHECKS = {
     "grain_8_slip_-0.2": Check(-0.2, "grains of 8 mm", {"diameter": 0.008}),
     "grain_8_slip_-0.5": Check(-0.5, "grains of 8 mm", {"diameter": 0.008}),
     "grain_8_slip_0.5": Check(0.5, "grains of 8 mm", {"diameter": 0.008}),
+    "grain_6_slip_0": Check(0.0, "grains of 6 mm", {"diameter": 0.006}),
     "grain_12.5_slip_0": Check(0.0, "grains of 12.5 mm", {"diameter": 0.0125}),
     "bed_wide": Check(
         0.231,

@@ -34,7 +34,7 @@ def _chosen(motion: Motion, key: str | None) -> Quantity | None:
 
 
 class MovingPictures:
-    """Pictures of one run that all show the same part of the surroundings of its wheel."""
+    """Pictures of one run that all show the same part of the surroundings of its wheels."""
 
     def __init__(
         self,
@@ -65,14 +65,11 @@ class MovingPictures:
         self.pixel = float(2 * half[0] / self.width)
 
     def _parts(self, time: float) -> tuple[Floats, Floats, Floats, Surface | None]:
-        """Centres, radii, colours of spheres, and the body; x counted from the body's middle."""
-        body = self.motion.body(time)
-        if body is not None and self.motion.body_mirrored:
-            other = body.triangles[:, ::-1] + len(body.x)
-            body = Surface(
-                np.concatenate([body.triangles, other]),
-                np.concatenate([body.x, body.x * [1, -1, 1]]),
-            )
+        """Centres, radii, colours of spheres, and the bodies; x counted from the bodies' middle."""
+        bodies = [body.at(time) for body in self.motion.bodies]
+        if self.motion.bodies_mirrored:
+            bodies += [Surface(one.triangles[:, ::-1], one.x * [1, -1, 1]) for one in bodies]
+        body = Surface.together(bodies) if bodies else None
         x, radius, colours = [np.empty((0, 3))], [np.empty(0)], [np.empty((0, 3))]
         for cloud in self.motion.clouds:
             points = cloud.at(time)

@@ -242,10 +242,11 @@
       run.scene.background = new THREE.Color(0xf4f6f8);
       run.root = new THREE.Group();
       run.scene.add(run.root);
-      run.body = data.body ? await Body.read(data.body, shared) : null;
+      run.bodies = [];
+      for (const one of data.bodies) run.bodies.push(await Body.read(one, shared));
       run.clouds = [];
       for (const one of data.clouds) run.clouds.push(await Cloud.read(one, shared));
-      for (const part of [run.body, ...run.clouds]) if (part) run.root.add(part.group);
+      for (const part of [...run.bodies, ...run.clouds]) run.root.add(part.group);
       return run;
     }
 
@@ -259,10 +260,9 @@
     show(time, quantity, follow) {
       const frame = this.frameAt(time);
       for (const cloud of this.clouds) cloud.show(frame, quantity);
-      if (this.body) {
-        this.body.show(frame);
-        this.root.position.x = follow ? -this.body.centre(frame, 0) : 0;
-      }
+      for (const body of this.bodies) body.show(frame);
+      const [first] = this.bodies;
+      if (first) this.root.position.x = follow ? -first.centre(frame, 0) : 0;
       return this.times[frame];
     }
   }
@@ -381,7 +381,7 @@
       const quantity = this.data.quantities[Number(this.find("quantity").value)];
       const time = this.times[this.moment];
       const shown = this.runs.map((run) => {
-        if (run.body) run.body.group.visible = this.find("body").checked;
+        for (const body of run.bodies) body.group.visible = this.find("body").checked;
         return run.show(time, quantity ? quantity.key : "", this.find("follow").checked);
       });
       this.find("clock").textContent = `t = ${time.toFixed(3)} s`;

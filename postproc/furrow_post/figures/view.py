@@ -17,7 +17,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ResultsError
-from ..read.motion import Cloud, Motion, Points, evenly_chosen
+from ..read.motion import Body, Cloud, Motion, Points, evenly_chosen
 from .page import escaped, html_page
 from .quantities import COLOURS, Quantity, quantities_of
 from .style import GROUND_COLOURS, MILLIMETRE
@@ -166,7 +166,7 @@ def _run_data(selection: _Selection, quantities: Sequence[Quantity]) -> dict[str
     return {
         "label": selection.label,
         "times": selection.times.tolist(),
-        "body": _body_data(selection),
+        "bodies": [_body_data(selection, body) for body in selection.motion.bodies],
         "clouds": clouds,
     }
 
@@ -199,17 +199,14 @@ def _cloud_data(
     }
 
 
-def _body_data(selection: _Selection) -> dict[str, Any] | None:
-    surfaces = [selection.motion.body(time) for time in selection.times]
-    shown = [surface for surface in surfaces if surface is not None]
-    if not shown:
-        return None
+def _body_data(selection: _Selection, body: Body) -> dict[str, Any]:
+    shown = [body.at(time) for time in selection.times]
     x = np.stack([surface.x for surface in shown])
     low, span = _range(x.reshape(-1, 3))
     levels = np.round(LEVELS * ((x - low) / span)).astype(np.uint16).transpose(0, 2, 1)
     return {
         "nodes": x.shape[1],
-        "mirrored": selection.motion.body_mirrored,
+        "mirrored": selection.motion.bodies_mirrored,
         "triangles": _packed(shown[0].triangles.astype(np.uint32)),
         "low": low.tolist(),
         "span": span.tolist(),
@@ -257,15 +254,14 @@ def _place(chosen: Sequence[_Selection]) -> tuple[list[float], float, list[float
     centres, sizes, sides = [], [], []
     for selection in chosen:
         motion = selection.motion
-        body = motion.body(selection.times[-1])
-        parts = [] if body is None else [body.x]
+        parts = [body.at(selection.times[-1]).x for body in motion.bodies]
         for cloud in motion.clouds:
             x = cloud.at(selection.times[-1]).x
             parts.append(np.concatenate([x, x * [1, -1, 1]]) if cloud.mirrored else x)
         together = np.concatenate([part for part in parts if len(part)])
         low, high = together.min(axis=0), together.max(axis=0)
         middle = 0.5 * (low + high)
-        middle[1] = 0.0 if motion.body_mirrored else middle[1]
+        middle[1] = 0.0 if motion.bodies_mirrored else middle[1]
         centres.append(middle)
         sizes.append(float(np.linalg.norm(high - low)))
         sides += [low[1], high[1]]
@@ -303,7 +299,7 @@ def _stage(labels: Sequence[str]) -> str:
 <label>colour <select class="furrow-quantity"></select></label>
 <label>cut along the track <input class="furrow-cut" type="range" aria-label="cut plane"/></label>
 <span class="furrow-cut-text">none</span>
-<label><input class="furrow-body" type="checkbox" checked/> wheel</label>
+<label><input class="furrow-body" type="checkbox" checked/> wheels</label>
 <label><input class="furrow-follow" type="checkbox" checked/> follow the wheel</label>
 <span>{looks}</span>
 </div>"""

@@ -1,18 +1,19 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A run over time in 3D: the surface of its wheel, and its grains or particles, frame by frame.
+"""A run over time in 3D: the surfaces of its wheels, and its grains or particles, frame by frame.
 
 Frames are those of the folder vtk. A run that wrote none has one: its end, from history.h5 and
-terrain.h5.
+terrain.h5. Results of further wheels lie in folders within that of the first.
 """
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from ..arrays import Floats, Integers
 from ..errors import ResultsError
-from .results import Results, Surface
+from .results import Results, Surface, read_effective_input, read_surface
 from .styles import Styles
 from .terrain import is_half, read_terrain_fields, read_terrain_history, terrain_file
 from .vtk import Series, read_series, read_vtp
@@ -51,6 +52,22 @@ class Cloud:
 
 
 @dataclass(frozen=True)
+class Body:
+    """A wheel, tyre or plate over time: frames of a series, or its end."""
+
+    series: Series | None
+    end: Surface | None = None  # of a run without frames
+
+    def at(self, time: float) -> Surface:
+        """@raises ResultsError for a damaged frame"""
+        if self.series is None:
+            assert self.end is not None
+            return self.end
+        frame = read_vtp(self.series.files[self.series.at(time)])
+        return Surface(frame.triangles, frame.x)
+
+
+@dataclass(frozen=True)
 class Motion:
     """What moves in one results folder."""
 
@@ -58,67 +75,67 @@ class Motion:
     title: str
     times: Floats  # of the frames [s]
     clouds: tuple[Cloud, ...]
-    body_mirrored: bool
-    _body: Series | None = field(repr=False)
-    _body_end: Surface | None = field(repr=False)
+    bodies: tuple[Body, ...]  # the wheels, that of the folder first
+    bodies_mirrored: bool
 
     @property
     def has_frames(self) -> bool:
         """Whether the run wrote frames, and not its end alone."""
-        return self._body is not None or any(cloud.series for cloud in self.clouds)
-
-    def body(self, time: float) -> Surface | None:
-        """The wheel, tyre or plate; None where the run kept none."""
-        if self._body is None:
-            return self._body_end
-        frame = read_vtp(self._body.files[self._body.at(time)])
-        return Surface(frame.triangles, frame.x)
+        rolling = any(body.series for body in self.bodies)
+        return rolling or any(cloud.series for cloud in self.clouds)
 
 
 def read_motion(folder: Path) -> Motion:
     """@raises ResultsError for a folder without results, and for damaged ones"""
     folder = folder.parent if folder.is_file() else folder
-    frames = folder / "vtk"
-    body, grains, terrain = (
-        read_series(frames / f"{name}.pvd") for name in ("wheel", "grains", "terrain")
-    )
+    grains, terrain = (read_series(folder / "vtk" / f"{name}.pvd") for name in ("grains", "terrain"))
     results = Results(folder) if (folder / "history.h5").is_file() else None
+    wheels = [folder, *(_further_wheels(results) if results else ())]
+    rolling = [one for wheel in wheels if (one := read_series(wheel / "vtk" / "wheel.pvd"))]
     if results is None and terrain is None and not terrain_file(folder).is_file():
         raise ResultsError(f"{folder}: has no results; name the results folder of a run")
     styles = results.styles() if results else Styles([])
     soil, wheel = styles.of_kind("terrain"), styles.of_kind("wheel")
-    body_end, clouds = None, []
-    if body is None and grains is None and terrain is None:
-        body_end = _body_at_the_end(results) if results else None
+    bodies, clouds = [Body(one) for one in rolling], []
+    if not rolling and grains is None and terrain is None:
+        if results:
+            bodies = [Body(None, one) for one in _bodies_at_the_end(results, wheels)]
         clouds = _clouds_at_the_end(folder, results)
         times = (results.columns if results else read_terrain_history(folder))["time"][-1:]
     else:
-        series = [one for one in (body, grains, terrain) if one]
+        series = [one for one in (*rolling, grains, terrain) if one]
         times = max(series, key=lambda one: len(one.files)).times
         clouds += [Cloud("grains", False, grains)] if grains else []
         if terrain:
             half = soil.flag("symmetry") if soil else is_half(read_vtp(terrain.files[0]).x)
             clouds.append(Cloud("continuum", half, terrain))
-    if not clouds and body is None and body_end is None:
+    if not clouds and not bodies:
         raise ResultsError(f"{folder}: has nothing to look at; {REMEDY}")
     return Motion(
         folder,
         results.title if results else folder.resolve().name,
         times,
         tuple(clouds),
+        tuple(bodies),
         wheel.flag("half") if wheel else False,
-        body,
-        body_end,
     )
 
 
-def _body_at_the_end(results: Results) -> Surface | None:
-    """Among the grains, where there are any, as frames have it."""
-    surface = results.surface()
-    if surface is None or not results.has_grains:
-        return surface
+def _further_wheels(results: Results) -> list[Path]:
+    """Folders within that of the results that the same run wrote: one input names them all."""
+    own = results.effective_input
+    histories = sorted(results.folder.glob("*/history.h5"))
+    return [file.parent for file in histories if read_effective_input(file) == own]
+
+
+def _bodies_at_the_end(results: Results, wheels: Sequence[Path]) -> list[Surface]:
+    """Among the grains, where there are any, as frames have them."""
+    kept = (read_surface(wheel / "history.h5") for wheel in wheels)
+    surfaces = [surface for surface in kept if surface is not None]
+    if not surfaces or not results.has_grains:
+        return surfaces
     grains = results.grains("reference")
-    return grains.image_of(surface) if len(grains.id) else surface
+    return [grains.image_of(one) for one in surfaces] if len(grains.id) else surfaces
 
 
 def _read_points(file: Path) -> Points:

@@ -53,6 +53,15 @@ class Surface(NamedTuple):
     triangles: Integers  # (m, 3): nodes of each triangle
     x: Floats  # (n, 3) [m]
 
+    @classmethod
+    def together(cls, surfaces: Sequence["Surface"]) -> "Surface":
+        """Several as one."""
+        first = np.cumsum([0, *(len(one.x) for one in surfaces)])
+        return cls(
+            np.concatenate([one.triangles + n for one, n in zip(surfaces, first)]),
+            np.concatenate([one.x for one in surfaces]),
+        )
+
 
 @dataclass
 class Grains:
@@ -163,8 +172,7 @@ class Results:
     @property
     def effective_input(self) -> str:
         """Styles with their values, and the script, for people."""
-        with opened(self.file) as content:
-            return decoded(content["run/effective_input"][()])
+        return read_effective_input(self.file)
 
     @property
     def cost(self) -> dict[str, float]:
@@ -200,6 +208,13 @@ class Results:
     def surface(self) -> Surface | None:
         """The wheel, tyre or plate at the end, or None where the run kept none."""
         return read_surface(self.file)
+
+
+def read_effective_input(file: Path) -> str:
+    """Of a history.h5; empty where it has none. @raises ResultsError where the file is damaged"""
+    with opened(file) as content:
+        text = content.get("run/effective_input")
+        return "" if text is None else decoded(text[()])
 
 
 def read_surface(file: Path) -> Surface | None:

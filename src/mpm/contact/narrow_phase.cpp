@@ -40,38 +40,49 @@ ClosestPoint closest_point(const Surface& surface, const ContactSearch& search,
 
 NarrowPhase::NarrowPhase(const Body& body) : body_(body), node_triangles_(body.surface()) {}
 
-bool NarrowPhase::find(const ContactSearch& search, const ContactSearch::Candidate& candidate,
-                       const Particles& particles, const Vector3& position,
-                       ContactPoint& contact) const {
+ContactPoint NarrowPhase::find(const ContactSearch& search,
+                               const ContactSearch::Candidate& candidate,
+                               const Particles& particles, const Vector3& position,
+                               const ContactHistory& history) const {
   const Surface& surface = body_.surface();
   const std::size_t p = candidate.particle.particle;
+  ContactPoint contact;
   const ClosestPoint closest =
       closest_point(surface, search, candidate, position, contact.triangle);
   const Vector3 outward = node_triangles_.outward(surface, contact.triangle, closest.barycentric);
   const bool outside = closest.separation.dot(outward) >= 0.0;
-  if (outside && closest.distance > reach(particles, p)) return false;
 
   const double side = outside ? 1.0 : -1.0;
-  const Vector3 half = particles.half_spacing(p);
-  const double ratio = particles.volume_ratio(p);
-  contact.normal = closest.distance > no_distance * half.norm()
+  const auto gap = [&](double distance, const Vector3& normal) {
+    return distance - (1.0 + history.reach_excess) * reach(particles, p, normal);
+  };
+  contact.normal = closest.distance > no_distance * particles.half_spacing(p).norm()
                        ? Vector3(side / closest.distance * closest.separation)
                        : outward.normalized();
-  contact.gap = side * closest.distance - ratio * contact.normal.cwiseAbs().dot(half);
+  contact.distance = side * closest.distance;
+  contact.gap = gap(contact.distance, contact.normal);
   // Beside an edge, the direction of the closest point is not the one that separates: of it and of
   // the triangles' normals, the one with the largest gap does (separating axes). Without this,
   // ground level with a plate is pushed away from the plate's edge.
-  if (outside && closest.feature_nodes() < 3)
-    node_triangles_.for_normals(
-        surface, contact.triangle, closest.barycentric, [&](const Vector3& normal) {
-          const double gap = closest.separation.dot(normal) - ratio * normal.cwiseAbs().dot(half);
-          if (gap <= contact.gap) return;
-          contact.gap = gap;
-          contact.normal = normal;
-        });
+  if (outside && contact.gap < 0.0 && closest.feature_nodes() < 3)
+    node_triangles_.for_normals(surface, contact.triangle, closest.barycentric,
+                                [&](const Vector3& normal) {
+                                  const double distance = closest.separation.dot(normal);
+                                  if (gap(distance, normal) <= contact.gap) return;
+                                  contact.normal = normal;
+                                  contact.distance = distance;
+                                  contact.gap = gap(distance, normal);
+                                });
   contact.position = position - closest.separation;
   contact.barycentric = closest.barycentric;
-  return contact.gap < 0.0;
+  return contact;
+}
+
+void NarrowPhase::follow(double opening, double dt, const Particles& particles,
+                         std::size_t particle, ContactHistory& history, ContactPoint& contact) {
+  contact.gap = history.gap + opening * dt;
+  history.reach_excess =
+      (contact.distance - contact.gap) / reach(particles, particle, contact.normal) - 1.0;
 }
 
 }  // namespace furrow

@@ -10,27 +10,44 @@
 
 namespace furrow {
 
-/// A particle stands for ground that reaches half a spacing beyond it. What counts is the half
-/// spacing along the contact normal, which shrinks with the volume of the particle because ground
-/// under a wheel is compressed that way:
-///   gap = distance to the surface - J sum_a |n_a| h_a.
-/// The error is a fraction of the spacing and vanishes with it.
+/// A particle stands for ground that reaches half a spacing beyond it:
+///   gap = distance to the surface - reach,   reach = (1 + e) J |(n_1 h_1, n_2 h_2, n_3 h_3)|,
+/// with n the normal, h_a the half spacings and J the volume ratio of the particle. e is 0 until it
+/// first touches. While it touches, the gap follows the motion of ground and surface at the point
+/// of contact,
+///   d(gap)/dt = n . (v_ground - v_surface),
+/// and e is what agrees with that: the spring of a contact then gives back the work that it takes,
+/// which it does not when the reach changes with n or J while it is loaded. The error of the gap is
+/// a fraction of the spacing and vanishes with it.
 class NarrowPhase {
  public:
   /// The body must outlive the narrow phase.
   explicit NarrowPhase(const Body& body);
 
   /// A particle farther from the surface than this does not touch it [m].
-  static double reach(const Particles& particles, std::size_t particle) {
-    return particles.volume_ratio(particle) * particles.half_spacing(particle).norm();
+  static double largest_reach(const Particles& particles, std::size_t particle,
+                              const ContactHistory& history) {
+    return (1.0 + history.reach_excess) * particles.volume_ratio(particle) *
+           particles.half_spacing(particle).maxCoeff();
   }
 
+  /// Where a particle is nearest to the surface; its gap if it did not touch in the last step.
   /// @param position  of the candidate's particle now [m]
-  /// @param contact   set when it touches
-  bool find(const ContactSearch& search, const ContactSearch::Candidate& candidate,
-            const Particles& particles, const Vector3& position, ContactPoint& contact) const;
+  ContactPoint find(const ContactSearch& search, const ContactSearch::Candidate& candidate,
+                    const Particles& particles, const Vector3& position,
+                    const ContactHistory& history) const;
+  /// Sets the gap of a particle that touched in the last step, and e of its history.
+  /// @param opening  n . (v_ground - v_surface) [m/s]; @param dt  since the last step [s]
+  static void follow(double opening, double dt, const Particles& particles, std::size_t particle,
+                     ContactHistory& history, ContactPoint& contact);
 
  private:
+  /// [m] with e = 0
+  static double reach(const Particles& particles, std::size_t particle, const Vector3& normal) {
+    return particles.volume_ratio(particle) *
+           normal.cwiseProduct(particles.half_spacing(particle)).norm();
+  }
+
   const Body& body_;
   NodeTriangles node_triangles_;
 };

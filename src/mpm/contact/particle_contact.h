@@ -15,6 +15,7 @@ struct ContactPoint {
   Vector3 position;      ///< closest point of the surface [m]
   Vector3 normal;        ///< out of the surface, of unit length
   double gap;            ///< < 0: penetration [m]
+  double distance;       ///< of the particle from the surface, along the normal [m]
 };
 
 /// What a contact law knows of a touching particle.
@@ -33,20 +34,29 @@ struct ContactLosses {
 /// What a particle remembers of a contact: a view of its numbers in the column that the contact
 /// added to the particles, so that they follow it through sorting, migration and checkpoints.
 struct ContactHistory {
-  static constexpr int size = 5;  ///< numbers of a particle
+  static constexpr int size = 7;  ///< numbers of a particle
 
   explicit ContactHistory(double* numbers)
-      : spring(numbers), slip(numbers[3]), stiffness(numbers[4]) {}
+      : spring(numbers),
+        slip(numbers[3]),
+        stiffness(numbers[4]),
+        gap(numbers[5]),
+        reach_excess(numbers[6]) {}
 
+  /// Whether it touched in the last step.
+  bool touches() const { return gap < 0.0; }
   /// The particle touches no more.
   void end_contact() {
     spring.setZero();
     slip = 0.0;
+    gap = 0.0;
   }
 
   Eigen::Map<Vector3> spring;  ///< stretch of the tangential spring [m]
   double& slip;                ///< path along the surface since the contact began [m]
   double& stiffness;           ///< of the springs, as of the last search [N/m]
+  double& gap;                 ///< in the last step [m]; 0: it did not touch
+  double& reach_excess;        ///< of the particle: e of NarrowPhase
 };
 
 }  // namespace furrow

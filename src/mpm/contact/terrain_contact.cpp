@@ -67,9 +67,10 @@ void TerrainContact::select_active() {
   const std::vector<ContactSearch::Candidate>& candidates = search_.candidates();
   for (std::size_t n = 0; n < candidates.size(); ++n) {
     const ParticleIndex& particle = candidates[n].particle;
+    ContactHistory history = history_of(particle);
     if (search_.lower_bound(candidates[n]) >
-        NarrowPhase::reach(group_of(particle).particles, particle.particle)) {
-      history_of(particle).end_contact();
+        NarrowPhase::largest_reach(group_of(particle).particles, particle.particle, history)) {
+      history.end_contact();
       continue;
     }
     active_.push_back(n);
@@ -84,15 +85,19 @@ void TerrainContact::add_forces(const Law& law, double dt) {
     const ParticleIndex& particle = active_particles_[n];
     const ParticleGroup& group = group_of(particle);
     ContactHistory history = history_of(particle);
-    ContactPoint contact;
-    if (!narrow_phase_.find(search_, search_.candidates()[active_[n]], group.particles,
-                            motions_[n].position, contact)) {
-      history.end_contact();
-      continue;
-    }
+    ContactPoint contact = narrow_phase_.find(search_, search_.candidates()[active_[n]],
+                                              group.particles, motions_[n].position, history);
     const Vector3i& nodes = surface.triangles[contact.triangle];
     Vector3 velocity = motions_[n].velocity_at(contact.position);
     for (int c = 0; c < 3; ++c) velocity -= contact.barycentric[c] * surface.v.col(nodes[c]);
+    if (history.touches())
+      NarrowPhase::follow(velocity.dot(contact.normal), dt, group.particles, particle.particle,
+                          history, contact);
+    if (contact.gap >= 0.0) {
+      history.end_contact();
+      continue;
+    }
+    history.gap = contact.gap;
     const Vector3 force =
         law.force({contact, velocity, group.mass(particle.particle)}, dt, history, step_.losses);
     terrain_.add_point_force(particle, force, contact.position, &terrain_work_);

@@ -24,6 +24,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 WIDTH, DEPTH = 0.1, 0.1  # of the strip [m]
 COMPACTION = 0.03  # relative error
+CONTACT = 0.005  # of the whole: springs give back what they take
 BULLDOZING = 0.08  # of the whole: the contact is long, not endless
 UNEXPLAINED = 0.01  # of the whole
 OF_THE_ROAD = 0.05  # of the whole: friction, contact, damping of the rig
@@ -69,6 +70,8 @@ def strip(furrow, furrow_point):
     print(f"sinkage {sinkage:.5g} m, penetration {penetration:.3g} m: compaction {compaction:.4g} N, in closed form {expected:.4g} N")
     assert abs(compaction - expected) <= COMPACTION * expected, "compaction is not the closed form"
     assert 0.0 <= parts["bulldozing"] <= BULLDOZING * whole, "the strip is not only compacted"
+    contact = parts["contact springs and damping"]
+    assert abs(contact) <= CONTACT * whole, "contact springs do not give back what they take"
     assert "friction of wheel and ground" not in parts, "a wheel without friction has a part of it"
 
 

@@ -15,7 +15,7 @@ constexpr double mass = 2.0, stiffness = 1e5, dt = 1e-4;
 
 /// A particle that touches a horizontal surface above it, 1 mm deep.
 struct Touch {
-  ContactPoint point{0, Vector3(1, 0, 0), Vector3::Zero(), Vector3(0, 0, -1), -1e-3};
+  ContactPoint point{0, Vector3(1, 0, 0), Vector3::Zero(), Vector3(0, 0, -1), -1e-3, 0.0};
   double numbers[ContactHistory::size] = {0, 0, 0, 0, stiffness};
   ContactHistory history{numbers};
   ContactLosses losses;
@@ -101,11 +101,13 @@ TEST(Friction, GrowsWithTheSlip) {
   EXPECT_EQ((Friction{0.5, 0.0}.limit(100.0, 0.0)), 50.0);
 }
 
-TEST(ContactHistory, ForgetsSpringAndSlipWhenTheContactEnds) {
-  double numbers[ContactHistory::size] = {1, 2, 3, 4, 5};
+TEST(ContactHistory, ForgetsSpringSlipAndGapWhenTheContactEnds) {
+  double numbers[ContactHistory::size] = {1, 2, 3, 4, 5, -6, 7};
   ContactHistory history(numbers);
+  EXPECT_TRUE(history.touches());
   history.end_contact();
-  EXPECT_THAT(numbers, ElementsAre(0, 0, 0, 0, 5));
+  EXPECT_FALSE(history.touches());
+  EXPECT_THAT(numbers, ElementsAre(0, 0, 0, 0, 5, 0, 7));
 }
 
 }  // namespace

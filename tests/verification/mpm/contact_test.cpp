@@ -64,6 +64,8 @@ TEST_P(Enforcements, SlidesAsCoulombSays) {
   ContactParameters parameters;
   parameters.enforcement = GetParam();
   parameters.friction = 0.3;
+  // of a block that bounces and shakes, the base slips less than the middle while it presses more
+  parameters.damping = 1.0;
   const double slope = std::atan(0.6), duration = 0.2;
   Incline incline(slope, parameters);
   incline.run(duration);

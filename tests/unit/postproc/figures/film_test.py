@@ -10,10 +10,20 @@ from pathlib import Path
 
 import numpy as np
 
+from furrow_post.figures.moving import MovingPictures
+from furrow_post.read.motion import read_motion
 from support.command import run_post
-from support.motion import FRAMES, write_moving_run
+from support.motion import FRAMES, write_moving_run, write_rolling_wheel
+from support.runs import RADIUS
 
 WIDTH, HEIGHT = 960, 540
+
+
+def wheel_area(pictures: MovingPictures) -> float:
+    """[m2] of what looks like a wheel."""
+    picture = pictures.rgb(0.0)[120:].astype(int)
+    red, blue = picture[:, :, 0], picture[:, :, 2]
+    return float(np.count_nonzero((blue - red > 5) & (blue < 200)) * pictures.pixel**2)
 
 
 class FilmTest(unittest.TestCase):
@@ -40,6 +50,13 @@ class FilmTest(unittest.TestCase):
         for colour, frame, other in ((sand, 0, -1), (violet, -1, 0)):
             self.assertGreater(colour[frame].mean(), 0.02)
             self.assertLess(colour[other].mean(), 0.005)
+
+    def test_shows_every_wheel(self) -> None:
+        alone = MovingPictures(read_motion(self.run_folder))
+        write_rolling_wheel(self.run_folder / "rear", 3 * RADIUS)
+        both = MovingPictures(read_motion(self.run_folder))
+        areas = [wheel_area(pictures) for pictures in (alone, both)]
+        self.assertAlmostEqual(areas[1] / areas[0], 2.0, delta=0.3)
 
     def test_refuses_in_one_line(self) -> None:
         cases = (

@@ -21,9 +21,11 @@ from support.motion import (
     ground,
     settlement,
     write_moving_run,
+    write_rolling_wheel,
 )
 from support.runs import RADIUS
 
+BEHIND = 3 * RADIUS  # of a rear wheel [m]
 READY = "document.querySelector('.furrow-view')?.dataset.ready == 'yes'"
 STAGE = (slice(50, 280), slice(30, 610))  # rows and columns of a screenshot inside the canvas
 
@@ -102,12 +104,29 @@ class ViewTest(unittest.TestCase):
                 resolution = (expected.max(axis=0) - expected.min(axis=0) + SINKAGE) / 65534
                 self.assertLess((np.abs(shown - expected) / resolution).max(), 1.0)
                 centre = self.browser.evaluate(
-                    "(() => { const body = document.querySelector('.furrow-view').view.runs[0].body;"
+                    "(() => { const [body] = document.querySelector('.furrow-view').view.runs[0].bodies;"
                     f"return [body.centre({frame}, 0), body.centre({frame}, 2)]; }})()"
                 )
                 travelled = [SPEED * frame * INTERVAL, LEVEL + RADIUS - SINKAGE]
                 # the middle of a polygon that has turned
                 np.testing.assert_allclose(centre, travelled, atol=0.01 * RADIUS)
+
+    def test_every_wheel_is_shown_and_rolls(self) -> None:
+        run = write_moving_run(self.folder / "two_axles")
+        write_rolling_wheel(run / "rear", BEHIND)
+        self.show("two_axles")
+        for frame in (0, FRAMES - 1):
+            centres = self.browser.evaluate(
+                "document.querySelector('.furrow-view').view.runs[0].bodies.map("
+                f"(body) => body.centre({frame}, 0))"
+            )
+            front = SPEED * frame * INTERVAL
+            np.testing.assert_allclose(centres, [front, front - BEHIND], atol=0.01 * RADIUS)
+        with_wheels = self.stage()
+        self.browser.evaluate("document.querySelector('.furrow-body').click()")
+        gone = np.abs(with_wheels - self.stage()).max(axis=(0, 2)) > 0.02  # of the columns
+        # seen from the front right: a gap between two wheels
+        self.assertGreater(np.count_nonzero(np.diff(gone.astype(int)) == -1), 1)
 
     def test_time_cut_colour_and_camera_change_the_picture(self) -> None:
         self.show("grains")

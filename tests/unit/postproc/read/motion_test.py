@@ -6,12 +6,22 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import h5py
 import numpy as np
 
 from furrow_post.errors import ResultsError
 from furrow_post.read.motion import read_motion
 from furrow_post.read.vtk import read_series, read_vtp
-from support.motion import FRAMES, INTERVAL, ground, settlement, wheel, write_moving_run, write_vtp
+from support.motion import (
+    FRAMES,
+    INTERVAL,
+    ground,
+    settlement,
+    wheel,
+    write_moving_run,
+    write_rolling_wheel,
+    write_vtp,
+)
 from support.runs import write_run
 
 
@@ -47,11 +57,24 @@ class MotionTest(unittest.TestCase):
                 np.testing.assert_allclose(
                     points.fields["displacement"], np.linalg.norm(moved, axis=1)
                 )
-                body = motion.body(time)
-                assert body is not None
-                np.testing.assert_allclose(body.x, wheel(time)[0])
+                (body,) = motion.bodies
+                np.testing.assert_allclose(body.at(time).x, wheel(time)[0])
             # between two frames: the earlier one
             np.testing.assert_array_equal(cloud.at(0.19).x, cloud.at(0.1).x)
+
+    def test_wheels_of_one_run_roll_together(self) -> None:
+        run = write_moving_run(self.folder / "run")
+        write_rolling_wheel(run / "rear", 1.5)
+        other = run / "of_another_run"
+        write_rolling_wheel(other, 3.0)
+        with h5py.File(other / "history.h5", "a") as content:
+            del content["run/effective_input"]
+            content["run/effective_input"] = "another"
+        motion = read_motion(run)
+        self.assertEqual(len(motion.bodies), 2)
+        for time in motion.times:
+            for body, behind in zip(motion.bodies, (0.0, 1.5)):
+                np.testing.assert_allclose(body.at(time).x, wheel(time)[0] - [behind, 0, 0])
 
     def test_a_run_without_frames_has_its_end(self) -> None:
         write_run(self.folder / "still")

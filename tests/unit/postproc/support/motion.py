@@ -79,6 +79,18 @@ def settlement(x: Floats, time: float) -> Floats:
     return moved
 
 
+def write_rolling_wheel(folder: Path, behind: float = 0.0) -> None:
+    """History and frames of the wheel, or of one so far [m] behind it."""
+    write_run(folder)
+    frames = folder / "vtk"
+    frames.mkdir()
+    names = {k * INTERVAL: f"wheel_{k}.vtp" for k in range(FRAMES)}
+    for time, name in names.items():
+        x, triangles = wheel(time)
+        write_vtp(frames / name, x - [behind, 0, 0], triangles, velocity=0 * x)
+    write_collection(frames / "wheel.pvd", names)
+
+
 def write_moving_run(
     folder: Path, kind: str = "grains", number: int = 6, noise: float = 0.0
 ) -> Path:
@@ -86,17 +98,14 @@ def write_moving_run(
 
     kind: "grains", or "continuum", a half model; noise: [m] that each frame adds
     """
-    write_run(folder)
+    write_rolling_wheel(folder)
     frames = folder / "vtk"
-    frames.mkdir()
     random = np.random.default_rng(7)
     start = ground(number)
     series = "grains" if kind == "grains" else "terrain"
     identity = np.arange(len(start)) + 1
     for k in range(FRAMES):
         time = k * INTERVAL
-        x, triangles = wheel(time)
-        write_vtp(frames / f"wheel_{k}.vtp", x, triangles, velocity=0 * x)
         moved = settlement(start, time) + random.normal(0, noise, start.shape)
         fields = {"id": identity, "velocity": 2 * moved, "displacement": moved}
         one = np.ones(len(start))
@@ -105,8 +114,7 @@ def write_moving_run(
         else:
             fields |= {"id": 1.0 * identity, "volume": 1e-4 * one, "density": (200 + k) * one}
         write_vtp(frames / f"{series}_{k}.vtp", start + moved, **fields)
-    for name in ("wheel", series):
-        write_collection(
-            frames / f"{name}.pvd", {k * INTERVAL: f"{name}_{k}.vtp" for k in range(FRAMES)}
-        )
+    write_collection(
+        frames / f"{series}.pvd", {k * INTERVAL: f"{series}_{k}.vtp" for k in range(FRAMES)}
+    )
     return folder
