@@ -35,7 +35,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 using Clock = std::chrono::steady_clock;
 
 /// Reasons why the two values that a wheel is run for are not steady within this error.
-std::vector<std::string> reasons(const Summary& summary, double error) {
+std::vector<std::string> reasons(const Summary& summary, double target) {
   if (!summary.trouble.empty()) return {summary.trouble};
   std::vector<std::string> found;
   for (const char* name : {"sinkage", "resistance_coefficient"}) {
@@ -44,7 +44,7 @@ std::vector<std::string> reasons(const Summary& summary, double error) {
     const double share = value.standard_error / std::max(std::abs(value.mean), least);
     if (!value.steady)
       found.push_back(fmt::format("{}: {}", name, value.verdict));
-    else if (!(share <= error))
+    else if (!(share <= target))
       found.push_back(fmt::format("{}: its standard error is {:.2g} % of it", name, 100.0 * share));
   }
   return found;
@@ -70,13 +70,13 @@ void CommandRunUntilSteady::command(int narg, char** arg) {
   if (histories.empty() || !histories.front()->is_open())
     throw InputError("command run_until_steady", "has no history of a wheel that has run",
                      "a fix wheel/history and a run before it");
-  const double error = options.number("error");
+  const double target = options.number("error");
   const double limit = options.has("wall_time") ? options.number("wall_time") : unlimited;
   const Clock::time_point began = Clock::now();
   const long first = static_cast<long>(update->ntimestep);
   std::string problem, end;
   while (end.empty() && !agreed_signal()) {
-    problem = unsteady(histories, error);
+    problem = unsteady(histories, target);
     if (problem.empty()) break;
     double elapsed = std::chrono::duration<double>(Clock::now() - began).count();
     MPI_Bcast(&elapsed, 1, MPI_DOUBLE, 0, world);
@@ -95,19 +95,19 @@ void CommandRunUntilSteady::command(int narg, char** arg) {
   if (end.empty())
     announce(*lmp, fmt::format("run_until_steady: sinkage and resistance coefficient are steady "
                                "within {:g} %, after {} steps more",
-                               100.0 * error, added));
+                               100.0 * target, added));
   else
     warn(*lmp, fmt::format("run_until_steady: not steady within {:g} % after {} steps more: {}. {}",
-                           100.0 * error, added, end, problem));
+                           100.0 * target, added, end, problem));
 }
 
 std::string CommandRunUntilSteady::unsteady(const std::vector<FixWheelHistory*>& histories,
-                                            double error) const {
+                                            double target) const {
   std::string text;
   on_first_rank(world, [&] {
     std::vector<std::string> found;
     for (const FixWheelHistory* history : histories)
-      for (const std::string& reason : reasons(summarise(history->folder()), error))
+      for (const std::string& reason : reasons(summarise(history->folder()), target))
         found.push_back(reason);
     text = fmt::format("{}", fmt::join(found, "; "));
   });

@@ -23,7 +23,7 @@ class CommandRunUntilSteady : protected LAMMPS_NS::Pointers {
 
  private:
   /// What is not steady yet, in words; empty when all is. Collective.
-  std::string unsteady(const std::vector<FixWheelHistory*>& histories, double error) const;
+  std::string unsteady(const std::vector<FixWheelHistory*>& histories, double target) const;
   /// [s] until the first of the wheels comes to the end of the ground; infinite without one.
   double time_left(const std::vector<FixWheelHistory*>& histories) const;
   void run(long steps);

@@ -145,8 +145,11 @@ TEST(Resistance, ValuesThatAreNotSteadyForTheSameReasonShareIt) {
   for (const SteadyValue& value : result.values) unsteady += value.steady ? 0 : 1;
   EXPECT_GE(unsteady, 2u);
   EXPECT_LT(times, unsteady);
-  for (const SteadyValue& value : result.values)
-    if (!value.steady) EXPECT_THAT(result.verdict, HasSubstr(value.name));
+  for (const SteadyValue& value : result.values) {
+    if (!value.steady) {
+      EXPECT_THAT(result.verdict, HasSubstr(value.name));
+    }
+  }
 }
 
 /// A run of 10 m in which every energy grows at its own constant rate [J/m], with the rig's
