@@ -67,9 +67,9 @@ def tyre(pressure: float = PRESSURE, mesh: str = "4 36") -> dict[str, Value]:
 
 # ---- the field's snow: one compaction curve for every initial density
 
-# Densities [kg/m3] that were found under wheels of such pressures [Pa] [CRREL95-7]: classes of
-# pressure and their middles
-MEASURED_COMPACTION = {525.0: 210e3, 575.0: 350e3, 625.0: 700e3, 660.0: 1400e3}
+# Final densities [kg/m3] under wheels of such pressures [Pa], as the sinkage formula of [CRREL95-7]
+# takes them, which was fitted to tests: its classes of pressure, and middles of their densities
+FINAL_DENSITIES = {525.0: 210e3, 575.0: 350e3, 625.0: 700e3, 660.0: 1400e3}
 IDENTIFIED_DENSITIES = (380.0, 450.0, 490.0)  # [kg/m3] of the beginning, which is searched
 START = (100.0, 15.0)  # [kg/m3], [Pa]: below the lightest snow of the rows, hardly any strength
 # Slopes M of Cam clay, and p0 over axial stress in confined compression with them, by the closed
@@ -89,7 +89,7 @@ def field_snow(
 ) -> str:
     """A material file; density [kg/m3] at the start; slope: M, one of SHARES."""
     rows = [START]
-    curve = {**dict(zip(IDENTIFIED_DENSITIES, beginning)), **MEASURED_COMPACTION}
+    curve = {**dict(zip(IDENTIFIED_DENSITIES, beginning)), **FINAL_DENSITIES}
     rows += [(rho, SHARES[slope] * stress) for rho, stress in curve.items()]
     return (
         f"title: {title or 'Field snow'}\n"

@@ -50,8 +50,8 @@ SETTLED = 0.03  # relative gain below which the search ends: the runs' scatter i
 Trial = dict[str, Any]  # a row of identified.csv
 
 SEARCHED = tuple(f"stress_{rho:.0f}" for rho in cases.IDENTIFIED_DENSITIES)  # [Pa]
-# Physical range of all three: above what half a metre of snow weighs, below what was measured at
-# 525 kg/m3 [CRREL95-7]
+# Physical range of all three: above what half a metre of snow weighs, below the stress at 525 kg/m3
+# [CRREL95-7]
 LOWEST, HIGHEST = 1e3, 210e3  # [Pa]
 
 

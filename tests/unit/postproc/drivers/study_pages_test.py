@@ -18,7 +18,7 @@ ELSEWHERE = {
     "cmu_sand": {"0.071"},  # mean of several rows
     "sand_zones": {"-0.33"},  # slip of the towed wheel: results of the run
     "snow_oedometer": {"0.12"},  # K0, [Shoop2001] eq 24
-    # densities measured beside the wheel, [Shoop2001] Fig 67, and under wheels [CRREL95-7]
+    # densities measured beside the wheel, [Shoop2001] Fig 67, final ones under wheels [CRREL95-7]
     "snow_wheel": {"280", "300", "525"},
 }
 # Its page also holds hand-made tables of runs that it does not keep
