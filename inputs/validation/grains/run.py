@@ -36,9 +36,8 @@ from furrow_post.study.study import Study, run_study
 from furrow_post.study.tables import markdown
 
 SEEDS = [86028121, 49979687, 67867967, 49979693, 67867979]
-CROSSCHECK = PROJECT / "inputs" / "crosscheck"
-SCRIPTS = {  # of wheels; what they include stands in the folder of the cross-check
-    "wheel_sand_grains": CROSSCHECK / "wheel_sand_grains.lig",
+SCRIPTS = {  # of wheels
+    "wheel_sand_grains": PROJECT / "inputs" / "crosscheck" / "wheel_sand_grains.lig",
     "wheel_snow_grains": PROJECT / "inputs" / "validation" / "grains" / "wheel_snow_grains.lig",
 }
 OEDOMETER = PROJECT / "inputs" / "validation" / "snow_oedometer" / "reference.csv"
@@ -189,7 +188,7 @@ def make_case(family: Family, name: str, variables: dict[str, Value]) -> Case:
     stage = family.name
     if family.test in SCRIPTS:
         script = SCRIPTS[family.test]
-        return script_case(name, script, {"here": CROSSCHECK, **variables}, log=True, stage=stage)
+        return script_case(name, script, {"here": script.parent, **variables}, log=True, stage=stage)
     given: dict[str, Value] = {"ground": family.ground, **variables}
     return laboratory_case(name, family.test, PROJECT, given, stage=stage)
 
