@@ -98,6 +98,7 @@ STRESS = {
         ("smooth", COARSE),
         ("smooth", SECTIONS),
         ("ribbed", COARSE),
+        ("ribbed", SECTIONS),
     )
 }
 
