@@ -261,7 +261,9 @@ def choice_lines(rows: Sequence[Row]) -> list[str]:
     return markdown(columns, ([str(row[name]) for name in columns] for row in rows))
 
 
-def choices(output: Output, mine: dict[int, tuple[list[Row], float]], stress: list[Row]) -> list[str]:
+def choices(
+    output: Output, mine: dict[int, tuple[list[Row], float]], stress: list[Row]
+) -> list[str]:
     """Writes the tables that --error chooses from; lines of the page."""
     lines: list[str] = []
     for scene, title, rows, comments in (

@@ -138,7 +138,8 @@ class CompareCommandTest(unittest.TestCase):
         self.assertEqual(self.run_post("choose", "made.csv", "--error", "200%").returncode, 2)
 
     def test_choose_by_a_measurement(self) -> None:
-        text = "# measured: Table 1\nrun,wheel,area_error,cpu_time,options\na,tyre,0.1,1,x -v m '4 6'\n"
+        head = "# measured: Table 1\nrun,wheel,area_error,cpu_time,options\n"
+        text = head + "a,tyre,0.1,1,x -v m '4 6'\n"
         (self.folder / "measured.csv").write_text(text, encoding="utf-8")
         done = self.run_post("choose", "measured.csv", "--error", "10%")
         self.assertEqual((done.returncode, done.stdout), (0, "x\n-v\nm\n4 6\n"), done.stderr)
