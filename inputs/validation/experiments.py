@@ -387,7 +387,7 @@ HARD_SURFACE = Group(
             "kPa",
             measured="765",
             ours=brick_stress(120, "ribbed"),
-            near=brick_stress(60, "ribbed"),
+            near=brick_stress(240, "ribbed"),
             remark=BRICK + ", ribbed",
         ),
         Experiment(
