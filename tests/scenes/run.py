@@ -352,6 +352,8 @@ REFUSED = (
     ([SCENE, "--error", ""], "--error needs a relative error"),
     (["plate_on_sand", "--error", "10%"], "errors of 'plate_on_sand' are not known"),
     ([SCENE, "--quick", "--error", "10%"], "give one of them"),
+    # 10 % against Table 6 is the other tyre's scene, which has sections and no mesh
+    (["tyre_on_plane", "--error", "10%", "-v", "mesh", "4 36"], "no line reads 'mesh'"),
     ([SCENE, "--sweep"], "--sweep needs a variable and its values"),
     (["--sweep", "slip=0,1"], "--sweep and --until-steady belong to a scene"),
     ([SCENE, "--sweep", "slip"], "'slip' has no ="),

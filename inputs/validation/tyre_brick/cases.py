@@ -22,6 +22,7 @@ LOAD = 6227  # [N] Table 6
 PRESSURES = (103, 138, 179, 241)  # [kPa] of Table 6
 IDENTIFIED_AT = (103, 241)  # [kPa]
 SECTIONS = 120  # round the tyre, as the report's mesh
+FINE = 240
 
 
 def pressed(
@@ -98,6 +99,8 @@ STRESS = {
         ("smooth", COARSE),
         ("smooth", SECTIONS),
         ("ribbed", COARSE),
+        ("ribbed", SECTIONS),
+        ("ribbed", FINE),
     )
 }
 

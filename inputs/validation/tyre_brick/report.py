@@ -9,6 +9,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 
 import cases
+import choice
 import shapes
 
 from furrow_post.analyse.statistics import block_mean, rms
@@ -248,6 +249,35 @@ def rolling_table(runner: Runner) -> list[Row]:
     return found
 
 
+def largest_stress() -> float:
+    """[kPa] measured, Fig 52."""
+    rows = read_rows(cases.HERE / "reference.csv")
+    return next(float(row["value"]) for row in rows if row["quantity"] == "stress_largest")
+
+
+def choice_lines(rows: Sequence[Row]) -> list[str]:
+    """The table of a choice, without the options."""
+    columns = [name for name in rows[0] if name != "options"]
+    return markdown(columns, ([str(row[name]) for name in columns] for row in rows))
+
+
+def choices(
+    output: Output, mine: dict[int, tuple[list[Row], float]], stress: list[Row]
+) -> list[str]:
+    """Writes the tables that --error chooses from; lines of the page."""
+    lines: list[str] = []
+    for scene, title, rows, comments in (
+        ("tyre_on_plane", "Table 6", choice.table6(mine), choice.TABLE6_COMMENTS),
+        (
+            *("brick_tyre_on_plane", "contact stress"),
+            *(choice.stress(stress, largest_stress()), choice.STRESS_COMMENTS),
+        ),
+    ):
+        output.table(f"errors_{scene}.csv", rows, comments)
+        lines += [f"**Which tyre for which error: {title}**", "", *choice_lines(rows), ""]
+    return lines
+
+
 def percent(value: object) -> str:
     return f"{100 * value:+.1f} %" if isinstance(value, float) else ""
 
@@ -300,6 +330,12 @@ def evaluate(runner: Runner, output: Output) -> Sequence[str]:
         if rows and title:
             lines += [f"**{title}**", "", *written(rows), ""]
     costs = [{"run": case.name, "user_s": cost(runner, case)} for case in cases.CASES]
+    if table and mesh and (stress := stress_table(runner)):
+        mine = {
+            cases.COARSE: (mesh, cost(runner, cases.MESH)),
+            cases.SECTIONS: (table, cost(runner, cases.TABLE6)),
+        }
+        lines += choices(output, mine, stress)
     output.table("costs.csv", [row for row in costs if row["user_s"]])
     if maps := stress_maps(runner):
         draw_stress(maps, output.path("contact_stress.png"))

@@ -5,8 +5,9 @@ import argparse
 import shlex
 import sys
 
-from ..analyse import choice, cost, cost_table
+from ..analyse import choice, cost, cost_table, measured_choice
 from ..arguments import fraction, path
+from ..csv_table import read_comments
 from ..errors import ResultsError
 from ..read.wheel_run import read_wheel_run
 
@@ -18,6 +19,30 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
+    try:
+        measured = measured_choice.measurement(read_comments(arguments.table))
+    except OSError:
+        measured = ""  # the reader of the table says what is wrong
+    if measured:
+        _run_measured(arguments, measured)
+    else:
+        _run_numerical(arguments)
+
+
+def _run_measured(arguments: argparse.Namespace, measured: str) -> None:
+    runs = measured_choice.read_compared(arguments.table)
+    chosen = measured_choice.recommend(runs, arguments.error)
+    if arguments.held:
+        print(
+            f"Estimate: {chosen.describe()}. Errors and time are of the states that were measured "
+            f"({measured}); this run is another one and is not judged."
+        )
+        return
+    print("\n".join(measured_choice.reasons(runs, arguments.error, measured)), file=sys.stderr)
+    print("\n".join(shlex.split(chosen.options)))  # one word per line
+
+
+def _run_numerical(arguments: argparse.Namespace) -> None:
     rows, comments = cost_table.read_table(arguments.table)
     runnable = {row.run for row in rows if row.options}
     all_assessed = cost.assess(rows, cost_table.wanted_wheel(comments))

@@ -137,6 +137,16 @@ class CompareCommandTest(unittest.TestCase):
         self.assertIn("The estimate did not hold", done.stdout)
         self.assertEqual(self.run_post("choose", "made.csv", "--error", "200%").returncode, 2)
 
+    def test_choose_by_a_measurement(self) -> None:
+        head = "# measured: Table 1\nrun,wheel,area_error,cpu_time,options\n"
+        text = head + "a,tyre,0.1,1,x -v m '4 6'\n"
+        (self.folder / "measured.csv").write_text(text, encoding="utf-8")
+        done = self.run_post("choose", "measured.csv", "--error", "10%")
+        self.assertEqual((done.returncode, done.stdout), (0, "x\n-v\nm\n4 6\n"), done.stderr)
+        self.assertIn("For 10 % error against Table 1 use tyre (a): area 10.0 %", done.stderr)
+        done = self.run_post("choose", "measured.csv", "--error", "10%", "--held", "a")
+        self.assertIn("not judged", done.stdout)
+
     def test_cost_draws_and_writes_a_table(self) -> None:
         done = self.run_post("cost", "a", "b", "--write", "runs.csv", "-o", "cost.png")
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -6,11 +6,14 @@ import re
 import sys
 import unittest
 
+from furrow_post.analyse import measured_choice
+from furrow_post.csv_table import read_comments, read_rows
 from support.command import SOURCE
 
 sys.path.insert(0, str(SOURCE / "inputs" / "validation" / "tyre_brick"))
 
 import cases
+import choice
 import mould
 import report
 import shapes
@@ -111,6 +114,48 @@ class GoalsTest(unittest.TestCase):
                 "138 kPa: deflection +20.0 %, goal 10 %",
             ],
         )
+
+
+class ChoiceTest(unittest.TestCase):
+    """The tables that --error chooses from, against those of both studies."""
+
+    def test_the_tables_are_those_of_both_studies(self) -> None:
+        seconds = {r["run"]: float(r["user_s"]) for r in read_rows(cases.HERE / "costs.csv")}
+        table6 = choice.table6(
+            {
+                cases.COARSE: (report.stored("meshes.csv"), seconds["meshes/60"]),
+                cases.SECTIONS: (report.stored("table6.csv"), seconds["table6"]),
+            }
+        )
+        stress = choice.stress(
+            read_rows(cases.HERE / "contact_stress.csv"), report.largest_stress()
+        )
+        for scene, rows in (("tyre_on_plane", table6), ("brick_tyre_on_plane", stress)):
+            with self.subTest(scene=scene):
+                written = [{key: str(value) for key, value in row.items()} for row in rows]
+                self.assertEqual(read_rows(cases.HERE / f"errors_{scene}.csv"), written)
+
+    def test_each_tyre_is_worth_it_somewhere(self) -> None:
+        for scene, error, tyre, scene_of_it in (
+            ("tyre_on_plane", 0.2, "tyre/darnell", "tyre_on_plane"),
+            ("tyre_on_plane", 0.15, "tyre/darnell", "tyre_on_plane"),
+            ("tyre_on_plane", 0.12, "tyre/brick", "brick_tyre_on_plane"),
+            ("tyre_on_plane", 0.1, "tyre/brick", "brick_tyre_on_plane"),
+            ("brick_tyre_on_plane", 0.7, "tyre/darnell", "tyre_on_plane"),
+            ("brick_tyre_on_plane", 0.1, "tyre/brick", "brick_tyre_on_plane"),
+        ):
+            with self.subTest(scene=scene, error=error):
+                table = cases.HERE / f"errors_{scene}.csv"
+                self.assertTrue(measured_choice.measurement(read_comments(table)))
+                chosen = measured_choice.recommend(measured_choice.read_compared(table), error)
+                self.assertLessEqual(chosen.error, error)
+                self.assertEqual((chosen.wheel, chosen.options.split()[0]), (tyre, scene_of_it))
+
+    def test_a_peak_that_changes_with_the_mesh_is_no_small_error(self) -> None:
+        rows = [{"largest_kPa": value} for value in (765.0, 612.0)]
+        first, finest = choice.peak_errors(rows, 765.0)
+        self.assertEqual(first, {"peak_error": 0.0, "mesh_error": 0.2})
+        self.assertEqual(finest, {"peak_error": 0.2, "mesh_error": 0.25})
 
 
 class ShapesTest(unittest.TestCase):
