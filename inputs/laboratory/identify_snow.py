@@ -35,6 +35,7 @@ from furrow_post.arguments import path, words
 from furrow_post.program import run_program
 from furrow_post.read.laboratory import LaboratoryTest
 from furrow_post.study.launch import Tools
+from furrow_post.study.tables import markdown
 
 
 def sections_of(path: Path) -> str:
@@ -98,20 +99,17 @@ def place_of(row: Row) -> str:
 
 def tables(rows: Sequence[Row], laws: dict[str, Values]) -> str:
     """Markdown: every value, then the deviations."""
-    names = " | ".join(laws)
-    lines = "---|" * (len(laws) + 1)
-    each = "".join(
-        f"| {place_of(row)} | {row.value:.3g} ± {row.scatter:.1g} | "
-        + " | ".join(f"{values[row.place]:.3g}" for values in laws.values())
-        + " |\n"
+    each = [
+        [
+            place_of(row),
+            f"{row.value:.3g} ± {row.scatter:.1g}",
+            *(f"{values[row.place]:.3g}" for values in laws.values()),
+        ]
         for row in rows
-    )
+    ]
     all_found = [deviations(rows, values) for values in laws.values()]
-    rest = "".join(
-        f"| {meaning(kind)} | " + " | ".join(cell(found[kind]) for found in all_found) + " |\n"
-        for kind in all_found[0]
-    )
-    return f"| | grains | {names} |\n|---|{lines}\n{each}\n| | {names} |\n|{lines}\n{rest}"
+    rest = [[meaning(kind), *(cell(found[kind]) for found in all_found)] for kind in all_found[0]]
+    return "\n".join([*markdown(["", "grains", *laws], each), "", *markdown(["", *laws], rest)])
 
 
 def parse() -> argparse.Namespace:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import least_squares
 
-from snow_paths import Points, predicted
+from snow_paths import Points, confined, end_of, predicted
 from snow_record import Place, Row
 
 from furrow_post.arrays import Floats
@@ -143,17 +143,16 @@ def hardened(
     rows, density = compression(record), starting_density(record)
     rho, sigma = np.array(rows).T
     strain, strength = np.log(rho / density), 0.5 * sigma
-    path = f"{{type: confined, stress: [{', '.join(f'{s:.6g}' for s in sigma)}], steps: 20}}"
     for _ in range(PASSES):
         # Straight in ln p, as the law reads it; the first row is the snow as it is at the start
         first = strength[0] * (strength[1] / strength[0]) ** (-strain[0] / (strain[1] - strain[0]))
         all_strain, all_strength = np.append(0.0, strain), np.append(first, strength)
         table = list(zip(density * np.exp(all_strain), all_strength))
         material = Material(law, shape, elasticity(record), density, table)
-        columns = points.run(material.sections(), path)
+        columns = points.run(material.sections(), confined(sigma))
         if columns is None:
             return None
-        ends = [np.flatnonzero(columns["segment"] == k + 1)[-1] for k in range(len(sigma))]
+        ends = [end_of(columns, k + 1) for k in range(len(sigma))]
         plastic = np.maximum(columns["eps_vol_pl"][ends], 1e-4)
         strength = np.exp(_through(plastic, all_strain, np.log(all_strength)))
         strain = plastic + np.log(rho / columns["density"][ends])

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The laboratory tests on clusters of snow as paths of a material point, run by furrow-point."""
 
-import json
 import math
 import subprocess
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +12,7 @@ from snow_record import STRAINS, TRIAXIAL_STRAIN, Row, Values
 
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_columns
+from furrow_post.study.furrow_cases import point_text
 from furrow_post.study.launch import Tools
 
 TENSION_STRAIN = 0.03  # in which every law here has its tensile strength
@@ -32,27 +32,35 @@ class Points:
         """Columns of point.csv; None where the law finds no state on the path."""
         material, script = self.folder / "material.yaml", self.folder / "path.yaml"
         material.write_text(f"title: snow\n{sections}", encoding="utf-8")
-        name = json.dumps(str(material))
-        script.write_text(f"title: snow\nmaterial: {name}\npath: {path}\n", encoding="utf-8")
+        script.write_text(point_text("snow", material, path), encoding="utf-8")
         words = (self.program, "run", script, "-o", self.folder / "point", "--no-plot")
         command = [str(word) for word in words]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         return None if done.returncode else read_columns(self.folder / "point" / "point.csv")
 
 
+def confined(stresses: Iterable[float]) -> str:
+    """Confined compression, a segment to each axial stress [Pa]."""
+    return f"{{type: confined, stress: [{', '.join(f'{s:.6g}' for s in stresses)}], steps: 20}}"
+
+
+def end_of(columns: Columns, segment: int) -> int:
+    """Its last row; the first segment is 1."""
+    return int(np.flatnonzero(columns["segment"] == segment)[-1])
+
+
 def _oedometer(_: float, __: float, rows: Sequence[Row]) -> Evaluation:
     levels = sorted({row.level for row in rows} - {0.0})
-    path = f"{{type: confined, stress: [{', '.join(f'{s:.6g}' for s in levels)}], steps: 20}}"
 
     def value(columns: Columns, row: Row) -> float:
         if not row.level:
             return float(columns["density"][0])
-        end = np.flatnonzero(columns["segment"] == levels.index(row.level) + 1)[-1]
+        end = end_of(columns, levels.index(row.level) + 1)
         if row.quantity == "density":
             return float(columns["density"][end])
         return float(columns["stress_xx"][end] / columns["stress_zz"][end])
 
-    return path, value
+    return confined(levels), value
 
 
 def _after_compaction(compaction: float, strain: float) -> str:

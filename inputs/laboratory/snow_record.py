@@ -134,16 +134,7 @@ def record_of(tests: Iterable[LaboratoryTest]) -> list[Row]:
 
 def row_of(place: Place, values: Sequence[float]) -> Row:
     scatter = float(np.std(values, ddof=1)) if len(values) > 1 else 0.0
-    return Row(
-        place.test,
-        place.compaction,
-        place.confinement,
-        place.level,
-        place.quantity,
-        float(np.mean(values)),
-        scatter,
-        len(values),
-    )
+    return Row(*place, float(np.mean(values)), scatter, len(values))
 
 
 def write_record(path: Path, rows: Sequence[Row]) -> None:

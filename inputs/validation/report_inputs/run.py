@@ -17,7 +17,6 @@ sys.path.insert(0, str(HERE.parents[2] / "postproc"))
 
 from furrow_post.csv_table import read_numbers
 from furrow_post.errors import ResultsError
-from furrow_post.study.case import Case
 from furrow_post.study.furrow_cases import point_case
 from furrow_post.study.output import Output
 from furrow_post.study.runner import Runner

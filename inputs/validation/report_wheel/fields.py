@@ -8,7 +8,7 @@ import numpy as np
 
 from furrow_post.analyse.displacement import displacements
 from furrow_post.analyse.rut import rut_densities, share_left
-from furrow_post.arrays import Booleans, Floats
+from furrow_post.analyse.statistics import place_of_greatest
 from furrow_post.read.terrain import Outline, Terrain, TerrainStress
 
 GREATEST = 10  # particles of a layer, of both halves, whose mean place is that of the greatest
@@ -26,10 +26,9 @@ def numbers(folder: Path) -> dict[str, Any]:
     x, z = terrain.x[:, 0] - body.centre[0], terrain.x[:, 2]
     near = (np.abs(terrain.x[:, 1]) < terrain.spacing) & (np.abs(x) < WITHIN)
     near &= z < body.surface.x[:, 2].min()
-    layers = np.unique(np.round(terrain.initial_position[near, 2], 6))
+    layers = terrain.levels(near)
     upper, base = (
-        near & (np.abs(terrain.initial_position[:, 2] - layer) < 1e-5)
-        for layer in (layers[len(layers) // 2], layers[0])
+        near & terrain.at_level(layer) for layer in (layers[len(layers) // 2], layers[0])
     )
     return {
         "density_under": round(densities.under),
@@ -38,12 +37,10 @@ def numbers(folder: Path) -> dict[str, Any]:
         "mass_left": round(share_left(terrain, body), 2),
         **{f"{name}_cm": round(100 * value, 1) for name, value in vars(moved).items()},
         "q_kPa": round(float(stress.mises[near].max()) / 1e3),
-        "q_middle_ahead_cm": greatest_ahead(x, stress.mises, upper),
-        "q_base_ahead_cm": greatest_ahead(x, stress.mises, base),
+        **{
+            f"q_{name}_ahead_cm": round(
+                100 * place_of_greatest(x[layer], stress.mises[layer], GREATEST), 1
+            )
+            for name, layer in (("middle", upper), ("base", base))
+        },
     }
-
-
-def greatest_ahead(x: Floats, field: Floats, layer: Booleans) -> float:
-    """Mean place of the particles of a layer that come nearest to its greatest value [cm]."""
-    top = np.argsort(field[layer])[-GREATEST:]
-    return round(100 * float(x[layer][top].mean()), 1)

@@ -9,9 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
+from furrow_post.analyse.statistics import place_of_greatest
 from furrow_post.arrays import Booleans, Floats
+from furrow_post.read.results import MIRROR
 from furrow_post.read.terrain import (
-    MIRROR,
     Outline,
     Terrain,
     TerrainStress,
@@ -58,8 +59,7 @@ class Ground:
 
     def ahead_of(self, layer: Booleans, field: Floats) -> float:
         """Where the field is greatest in a layer, ahead of the axle [mm]."""
-        top = np.argsort(field[layer])[-GREATEST:]
-        return round(1e3 * float(self.x[layer][top, 0].mean()))
+        return round(1e3 * place_of_greatest(self.x[layer, 0], field[layer], GREATEST))
 
 
 def stresses(folder: Path) -> list[Row]:

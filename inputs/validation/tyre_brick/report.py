@@ -12,7 +12,7 @@ import cases
 import choice
 import shapes
 
-from furrow_post.analyse.statistics import block_mean, rms
+from furrow_post.analyse.statistics import block_mean
 from furrow_post.csv_table import read_numbers, read_rows
 from furrow_post.errors import ResultsError
 from furrow_post.figures.style import save
@@ -266,12 +266,10 @@ def choices(
 ) -> list[str]:
     """Writes the tables that --error chooses from; lines of the page."""
     lines: list[str] = []
+    peaks = choice.stress(stress, largest_stress())
     for scene, title, rows, comments in (
         ("tyre_on_plane", "Table 6", choice.table6(mine), choice.TABLE6_COMMENTS),
-        (
-            *("brick_tyre_on_plane", "contact stress"),
-            *(choice.stress(stress, largest_stress()), choice.STRESS_COMMENTS),
-        ),
+        ("brick_tyre_on_plane", "contact stress", peaks, choice.STRESS_COMMENTS),
     ):
         output.table(f"errors_{scene}.csv", rows, comments)
         lines += [f"**Which tyre for which error: {title}**", "", *choice_lines(rows), ""]
@@ -312,6 +310,7 @@ def evaluate(runner: Runner, output: Output) -> Sequence[str]:
     table = errors(states(runner, cases.TABLE6))
     mesh = errors(states(runner, cases.MESH))
     check = errors(states(runner, cases.CHECK))
+    stress = stress_table(runner)
     lines: list[str] = []
     for name, title, rows, written in (
         ("table6.csv", f"Table 6, equivalent tread, {cases.SECTIONS} sections", table, table6_lines),
@@ -320,7 +319,7 @@ def evaluate(runner: Runner, output: Output) -> Sequence[str]:
         ("check.csv", "", check, table6_lines),
         ("inflated.csv", "Inflated", inflated(states(runner, cases.TABLE6)), plain_lines),
         ("load_deflection.csv", "", states(runner, cases.MESH), plain_lines),
-        ("contact_stress.csv", "Contact stress", stress_table(runner), plain_lines),
+        ("contact_stress.csv", "Contact stress", stress, plain_lines),
         ("treads.csv", "Treads", tread_table(runner), plain_lines),
         ("ribs.csv", "Ribs", shapes.rib_table(runner), plain_lines),
         ("profiles.csv", "Profiles", shapes.profile_table(runner), plain_lines),
@@ -330,7 +329,7 @@ def evaluate(runner: Runner, output: Output) -> Sequence[str]:
         if rows and title:
             lines += [f"**{title}**", "", *written(rows), ""]
     costs = [{"run": case.name, "user_s": cost(runner, case)} for case in cases.CASES]
-    if table and mesh and (stress := stress_table(runner)):
+    if table and mesh and stress:
         mine = {
             cases.COARSE: (mesh, cost(runner, cases.MESH)),
             cases.SECTIONS: (table, cost(runner, cases.TABLE6)),
@@ -342,4 +341,5 @@ def evaluate(runner: Runner, output: Output) -> Sequence[str]:
     if table:
         shapes.draw_profiles(runner, output.path("profiles.png"))
     output.section(lines)
-    return [*missed_goals(table or stored("table6.csv")), *(changed(check, stored("check.csv")) if check else ())]
+    missed = list(missed_goals(table or stored("table6.csv")))
+    return [*missed, *changed(check, stored("check.csv"))] if check else missed

@@ -62,20 +62,11 @@ def profile_table(runner: Runner) -> list[Row]:
 
 def draw_profiles(runner: Runner, path: Path) -> None:
     figure, axes = plt.subplots(figsize=(6.5, 5), constrained_layout=True)
-    for pressure in cases.PRESSURES:
-        profile = sidewall(below(state_file(runner, pressure, cases.LOAD)))
-        axes.plot(
-            [100 * y for y, _ in profile],
-            [100 * z for _, z in profile],
-            label=f"{pressure} kPa, {cases.LOAD} N",
-        )
-    profile = sidewall(below(state_file(runner, cases.PRESSURES[-1], 0)))
-    axes.plot(
-        [100 * y for y, _ in profile],
-        [100 * z for _, z in profile],
-        "k--",
-        label=f"{cases.PRESSURES[-1]} kPa, no load",
-    )
+    drawn = [(p, cases.LOAD, f"{p} kPa, {cases.LOAD} N", "") for p in cases.PRESSURES]
+    last = cases.PRESSURES[-1]
+    for pressure, load, label, look in (*drawn, (last, 0, f"{last} kPa, no load", "k--")):
+        profile = sidewall(below(state_file(runner, pressure, load)))
+        axes.plot([100 * y for y, _ in profile], [100 * z for _, z in profile], look, label=label)
     axes.set(xlabel="from the mid-plane [cm]", ylabel="above the tread [cm]", aspect="equal")
     axes.set(xlim=(7.5, 21))
     axes.legend(loc="upper right")

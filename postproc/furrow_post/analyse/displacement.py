@@ -51,18 +51,18 @@ def displacements(terrain: Terrain, body: Outline) -> Displacements:
     section = np.abs(before[:, 0] - body.centre[0] - rut_place(terrain, body)) < UNDER
     y = before[:, 1] - body.centre[1]
     track = section & (np.abs(y) < 0.5 * body.half_width)
-    levels = np.unique(np.round(before[section, 2], 6))
+    levels = terrain.levels(section)
     if len(levels) == 0:
         return Displacements(*[np.nan] * 7)
     half_depth = levels[np.abs(levels - 0.5 * terrain.level).argmin()]
-    surface, middle = (track & _at(before[:, 2], level) for level in (levels[-1], half_depth))
+    surface, middle = (track & terrain.at_level(z) for z in (levels[-1], half_depth))
     outward, up = moved[:, 1] * np.sign(y), moved[:, 2]
 
     def greatest(field: Floats, distance: float) -> float:
         """Of the layers, of a column one particle wide at a distance from the wheel's side [m]."""
         off = np.abs(y) - body.half_width - distance
         column = section & (off > 0) & (off < terrain.spacing)
-        means = [_mean(field, column & _at(before[:, 2], level)) for level in levels]
+        means = [_mean(field, column & terrain.at_level(level)) for level in levels]
         known = [value for value in means if np.isfinite(value)]
         return max(known) if known else np.nan
 
@@ -75,12 +75,6 @@ def displacements(terrain: Terrain, body: Outline) -> Displacements:
         greatest(outward, FAR),
         greatest(up, 0.0),
     )
-
-
-def _at(z: Floats, level: float) -> Booleans:
-    """Particles of a layer."""
-    same: Booleans = np.abs(z - level) < 1e-5
-    return same
 
 
 def _mean(values: Floats, chosen: Booleans) -> float:

@@ -64,3 +64,8 @@ def moving_mean(values: Floats, window: int) -> Floats:
 def commonest(values: Sequence[str]) -> str:
     """The value that stands most often in a list; of several the first in order."""
     return max(sorted(set(values)), key=list(values).count)
+
+
+def place_of_greatest(x: Floats, values: Floats, count: int) -> float:
+    """Mean of x (n) over the entries with so many of the greatest values (n)."""
+    return float(x[np.argsort(values)[-count:]].mean())

@@ -68,7 +68,7 @@ class MovingPictures:
         """Centres, radii, colours of spheres, and the bodies; x counted from the bodies' middle."""
         bodies = [body.at(time) for body in self.motion.bodies]
         if self.motion.bodies_mirrored:
-            bodies += [Surface(one.triangles[:, ::-1], one.x * [1, -1, 1]) for one in bodies]
+            bodies += [one.mirrored() for one in bodies]
         body = Surface.together(bodies) if bodies else None
         x, radius, colours = [np.empty((0, 3))], [np.empty(0)], [np.empty((0, 3))]
         for cloud in self.motion.clouds:

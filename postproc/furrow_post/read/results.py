@@ -47,6 +47,9 @@ def require_different(folders: Sequence[Path | str]) -> None:
             raise ResultsError(f"{folder}: is given twice; name each results folder once")
 
 
+MIRROR = np.array([1.0, -1.0, 1.0])  # of a half model in its plane of symmetry, y = 0
+
+
 class Surface(NamedTuple):
     """A triangulated surface."""
 
@@ -61,6 +64,11 @@ class Surface(NamedTuple):
             np.concatenate([one.triangles + n for one, n in zip(surfaces, first)]),
             np.concatenate([one.x for one in surfaces]),
         )
+
+    def mirrored(self) -> "Surface":
+        """Its image in y = 0."""
+        # the other way round: normals stay outward
+        return Surface(self.triangles[:, ::-1], self.x * MIRROR)
 
 
 @dataclass

@@ -10,11 +10,10 @@ from ..arrays import Booleans, Floats, Integers
 from ..errors import ResultsError
 from ..fields import Fields
 from .hdf5 import opened
-from .results import Surface, read_surface, require_layout
+from .results import MIRROR, Surface, read_surface, require_layout
 
 FILE = "terrain.h5"
 OLD_FILE = "ground.h5"  # its name in an older Furrow
-MIRROR = np.array([1.0, -1.0, 1.0])  # of a half model in its plane of symmetry, y = 0
 ON_SYMMETRY = 1e-6  # of a body's width: as far beyond y = 0 its half may reach
 
 
@@ -107,6 +106,16 @@ class Terrain:
         undeformed = self.volume * self.density / self.undisturbed
         return float(np.percentile(undeformed, 5) ** (1 / 3))
 
+    def levels(self, chosen: Booleans) -> Floats:
+        """Heights at which layers of the chosen particles (n) stood, from below [m]."""
+        heights: Floats = np.unique(np.round(self.initial_position[chosen, 2], 6))
+        return heights
+
+    def at_level(self, level: float) -> Booleans:
+        """Particles (n) of the layer that stood at a height [m]."""
+        same: Booleans = np.abs(self.initial_position[:, 2] - level) < 1e-5
+        return same
+
     def mean_density(self, inside: Booleans) -> float:
         """Mass over volume of the particles inside (n) [kg/m3]; NaN where there is none."""
         volume = self.volume[inside].sum()
@@ -166,15 +175,9 @@ class Outline:
     def __init__(self, folder: Path, terrain: Terrain) -> None:
         surface = read_surface(folder / "history.h5")
         if surface is not None and surface.x[:, 1].min() > -ON_SYMMETRY * np.ptp(surface.x[:, 1]):
-            surface = mirrored(surface)
+            surface = Surface.together([surface, surface.mirrored()])
         self.surface: Surface | None = surface
         x = terrain.x if surface is None else surface.x
         low, high = x.min(axis=0), x.max(axis=0)
         self.centre: Floats = 0.5 * (low + high)
         self.half_width = float(np.nan if surface is None else 0.5 * (high - low)[1])
-
-
-def mirrored(half: Surface) -> Surface:
-    """Both halves of a surface that is cut at y = 0."""
-    other = half.triangles[:, ::-1] + len(half.x)  # the other way round: normals stay outward
-    return Surface(np.vstack([half.triangles, other]), np.vstack([half.x, half.x * MIRROR]))

@@ -31,9 +31,13 @@ def laboratory_case(
     return script_case(name, folder / f"{test}.lig", given, log=True, **more)
 
 
+def point_text(title: str, material: Path, path: str) -> str:
+    """An input of furrow-point; path: its YAML mapping, "{type: ..., ...}"."""
+    quoted = json.dumps(str(material), ensure_ascii=False)  # a YAML text with any letter
+    return f"title: {title}\nmaterial: {quoted}\npath: {path}\n"
+
+
 def point_case(name: str, title: str, material: Path, path: str, **more: Any) -> Case:
     """A path of a material point by furrow-point; path: its YAML mapping, "{type: ..., ...}"."""
-    quoted = json.dumps(str(material), ensure_ascii=False)  # a YAML text with any letter
-    text = f"title: {title}\nmaterial: {quoted}\npath: {path}\n"
     arguments = ("run", f"{FOLDER}/path.yaml", "-o", FOLDER, "--no-plot")
-    return Case(name, "furrow-point", arguments, files={"path.yaml": text}, **more)
+    return Case(name, "furrow-point", arguments, files={"path.yaml": point_text(title, material, path)}, **more)

@@ -8,6 +8,7 @@ from unittest.mock import patch
 
 import numpy as np
 
+from furrow_post.analyse.statistics import place_of_greatest
 from furrow_post.arrays import Floats
 from support.command import SOURCE
 
@@ -70,8 +71,9 @@ class FieldsTest(unittest.TestCase):
         x = np.linspace(-0.3, 0.3, 601)
         field = np.exp(-(((x - 0.05) / 0.1) ** 2))
         layer = np.abs(x) < 0.2
-        self.assertAlmostEqual(fields.greatest_ahead(x, field, layer), 5.0, delta=0.1)  # [cm]
-        self.assertAlmostEqual(fields.greatest_ahead(x, field, x < 0.0), -0.5, delta=0.1)
+        for chosen, place in ((layer, 5.0), (x < 0.0, -0.5)):  # [cm]
+            found = 100 * place_of_greatest(x[chosen], field[chosen], fields.GREATEST)
+            self.assertAlmostEqual(found, place, delta=0.1)
 
 
 if __name__ == "__main__":
