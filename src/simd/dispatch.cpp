@@ -28,7 +28,7 @@ std::vector<InstructionSet> available_instruction_sets() {
                   __builtin_cpu_supports("f16c") && __builtin_cpu_supports("lzcnt") &&
                   __builtin_cpu_supports("movbe");
   if (v3) sets.push_back(InstructionSet::avx2);
-#ifndef FURROW_WITHOUT_AVX512
+#ifdef FURROW_AVX512_KERNELS
   const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
                   __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
                   __builtin_cpu_supports("avx512cd");

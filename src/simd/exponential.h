@@ -9,7 +9,7 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-/// a = n ln 2 + r with |r| <= ln(2)/2, for a from -708.3 to 709.7
+/// a = n ln 2 + r with |r| <= ln(2)/2; a beyond -708.3 and 709.7 counts as these
 struct ReducedExponent {
   Lanes r;
   Lanes power;  ///< 2^n
@@ -18,9 +18,11 @@ FURROW_INLINE ReducedExponent reduced_exponent(const Lanes& a) {
   using Integers = stdx::rebind_simd_t<std::uint64_t, Lanes>;
   // 1.5 * 2^52: adding it rounds to the nearest integer, held in the last bits
   constexpr double shift = 6755399441055744.0;
-  const Lanes shifted = a * Lanes(1.4426950408889634) + Lanes(shift);
+  const Lanes bounded = max(min(a, 709.7), -708.3);
+  const Lanes shifted = bounded * Lanes(1.4426950408889634) + Lanes(shift);
   const Lanes n = shifted - Lanes(shift);
-  const Lanes r = (a - n * Lanes(0.693147180369123816490)) - n * Lanes(1.90821492927058770002e-10);
+  const Lanes r =
+      (bounded - n * Lanes(0.693147180369123816490)) - n * Lanes(1.90821492927058770002e-10);
   Integers bits;
   static_assert(sizeof(Integers) == sizeof(Lanes));
   __builtin_memcpy(static_cast<void*>(&bits), &shifted, sizeof bits);
@@ -63,7 +65,7 @@ FURROW_INLINE Lanes exponential_series(const Lanes& r) {
 /// exp(a) to about one unit in the last place: the Taylor series of exp(r) to r^13 / 13!, whose
 /// rest is below 5e-18. Underflows to 0, overflows to infinity, keeps not-a-number.
 FURROW_INLINE Lanes exponential(const Lanes& a) {
-  const ReducedExponent reduced = reduced_exponent(max(min(a, 709.7), -708.3));
+  const ReducedExponent reduced = reduced_exponent(a);
   Lanes result = exponential_series<0>(reduced.r) * reduced.power;
   result = select(a < Lanes(-708.3), 0.0, result);
   result = select(a > Lanes(709.7), Lanes(__builtin_inf()), result);
@@ -72,7 +74,7 @@ FURROW_INLINE Lanes exponential(const Lanes& a) {
 
 /// exp(a) - 1 to about one unit in the last place of it, for a up to 709.7; keeps not-a-number.
 FURROW_INLINE Lanes exponential_minus_one(const Lanes& a) {
-  const ReducedExponent reduced = reduced_exponent(max(min(a, 709.7), -708.3));
+  const ReducedExponent reduced = reduced_exponent(a);
   const Lanes result =
       exponential_series<1>(reduced.r) * reduced.r * reduced.power + (reduced.power - Lanes(1.0));
   return select(a == a, result, a);
