@@ -13,6 +13,7 @@
 #include "coupling/drive/fix_wheel_rig.h"
 #include "coupling/bodies/fix_wheel_hub.h"
 #include "coupling/output/gather_grains.h"
+#include "coupling/output/grain_virial.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
 #include "io/summary.h"
 #include "update.h"
@@ -33,6 +34,16 @@ FixWheelHistory::FixWheelHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg
 OutputTable FixWheelHistory::outputs() { return {"channel", WheelRig::channels()}; }
 
 const WheelHub& FixWheelHistory::wheel() const { return rig_fix_.wheel_fix().hub(); }
+
+void FixWheelHistory::post_create() {
+  FixHistory::post_create();
+  add_grain_virial(*lmp);
+}
+
+void FixWheelHistory::setup(int vflag) {
+  FixHistory::setup(vflag);
+  ask_for_grain_virial(*lmp);
+}
 
 void FixWheelHistory::open(std::optional<double> resume_time) {
   first_step_ = update->ntimestep;
@@ -81,7 +92,7 @@ void FixWheelHistory::write_frame() {
 
 void FixWheelHistory::close() {
   const RunClosing end = closing();
-  const Grains grains = gather_grains(*lmp, reference_.bed_level);
+  const Grains grains = gather_grains(*lmp, reference_.bed_level, grain_virial(*lmp));
   if (comm->me != 0) return;
   file_->write_final(grains, rig_fix_.wheel_fix().hub().surface());
   file_->write_closing(end);

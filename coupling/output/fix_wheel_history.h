@@ -23,6 +23,9 @@ class FixWheelHistory : public FixHistory {
   const std::string& folder() const { return options().text("folder"); }
   const WheelHub& wheel() const;
 
+  void post_create() override;
+  void setup(int vflag) override;
+
  private:
   void open(std::optional<double> resume_time) override;
   void record() override;

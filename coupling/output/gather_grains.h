@@ -2,12 +2,16 @@
 #pragma once
 /// Grains of all ranks in one place, for files and pictures.
 
+#include <optional>
+
 #include "io/grains.h"
 #include "lammps.h"
 
 namespace furrow::coupling {
 
 /// All grains on rank 0, empty elsewhere. Collective.
-Grains gather_grains(LAMMPS_NS::LAMMPS& lammps, double bed_level);
+/// @param virial of this rank's grains, where it is known
+Grains gather_grains(LAMMPS_NS::LAMMPS& lammps, double bed_level,
+                     const std::optional<Matrix3X>& virial = {});
 
 }  // namespace furrow::coupling

@@ -63,6 +63,10 @@ void Grains::check() const {
       throw StateError(fmt::format("grains: position, velocity or radius of grain {} is not finite",
                                    id[std::size_t(i)]));
   }
+  if (virial.cols() != 0 && virial.cols() != count)
+    throw StateError(
+        fmt::format("grains: {} virials for {} ids; one each, or none", virial.cols(), size()));
+  if (!virial.allFinite()) throw StateError("grains: the virial of a grain is not finite");
 }
 
 }  // namespace furrow

@@ -17,13 +17,16 @@ struct Grains {
   Matrix3X x;                    ///< [m]   3 x grains, inside the box where it is periodic
   Matrix3X v;                    ///< [m/s] 3 x grains
   VectorX radius;                ///< [m]
+  /// [J] 3 x grains, or none where it is not known: xx, yy and zz of stress times volume from the
+  /// contacts between grains, half of force times distance of the centres each, tension positive
+  Matrix3X virial;
   /// [m] length of the box along each periodic axis, 0 where it is not periodic
   Vector3 period = Vector3::Zero();
   /// [m] height of the untouched bed's surface, where known
   double bed_level = std::numeric_limits<double>::quiet_NaN();
 
   std::size_t size() const { return id.size(); }
-  void resize(std::size_t grains);  ///< all arrays, zeroed
+  void resize(std::size_t grains);  ///< all arrays but virial, zeroed
 
   /// How far every grain has moved since the reference was taken, 3 x grains [m]: matched by id,
   /// shortest way round a periodic box. A grain that the reference lacks has moved by NaN.

@@ -68,6 +68,13 @@ void write_grains(Hdf5File& file, const std::string& group, const Grains& grains
   file.write(group + "/radius", std::vector<double>(grains.radius.data(),
                                                     grains.radius.data() + grains.radius.size()));
   if (with_velocity) file.write(group + "/v", grains.v);
+  if (grains.virial.cols() > 0) {
+    file.write(group + "/virial", grains.virial);
+    file.set_attribute(group + "/virial", "unit", "J");
+    file.set_attribute(group + "/virial", "meaning",
+                       "xx, yy, zz of stress times volume by contacts between grains, tension "
+                       "positive");
+  }
   file.write(group + "/period",
              std::vector<double>{grains.period.x(), grains.period.y(), grains.period.z()});
   file.set_attribute(group, "bed_level", grains.bed_level);
@@ -87,6 +94,7 @@ Grains read_grains(const std::string& path, const std::string& group) {
   grains.radius = Eigen::Map<const VectorX>(radius.data(), Eigen::Index(radius.size()));
   grains.v = file.exists(group + "/v") ? file.read_columns(group + "/v")
                                        : Matrix3X(Matrix3X::Zero(3, grains.x.cols()));
+  if (file.exists(group + "/virial")) grains.virial = file.read_columns(group + "/virial");
   const std::vector<double> period = file.read_numbers(group + "/period");
   if (period.size() != 3) throw Error(fmt::format("{}: {}/period must be 3 numbers", path, group));
   grains.period = Vector3(period[0], period[1], period[2]);

@@ -1,16 +1,20 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Flow fields of two runs of one wheel on the same axes: displacement and density in its plane.
+"""Flow fields of two runs of one wheel on the same axes: displacement, density and stress.
 
 Both grounds, grains and continuum particles alike, are coarse-grained with one kernel (I.
 Goldhirsch, Granular Matter 12, 239 (2010), section 3):
 
     rho(r) = sum_i m_i phi(r - r_i),   u(r) = sum_i m_i u_i phi(r - r_i)/rho(r)
+    sigma_zz(r) = sum_i (V sigma_zz)_i phi(r - r_i)
 
 with r in the wheel's plane (x along, z up, from the axle and the undisturbed ground), phi a
 Gaussian of standard deviation w, cut at 3 w, over the middle half of the wheel's width, and u_i the
 displacement since the start of the run. Masses stand for the places where they are at the end. The
 part of phi below the floor is left out of its norm. A wider kernel sees less: w is written with
-every result.
+every result. V sigma_zz is stress times volume: of a particle its own, of a grain by its contacts
+with other grains in the last step, each laid on the two centres by halves instead of along the line
+between them (w is no less than a grain); contacts with the wheel and the floor are not in it, so
+that a grain's width beside them too little is seen.
 """
 
 import math
@@ -48,12 +52,13 @@ class Window(NamedTuple):
 class Flow:
     """Fields of a run: displacement (rows up, columns along, x and z) [m], density [kg/m3].
 
-    NaN where no ground is.
+    vertical_stress [Pa], compression positive; NaN where no ground is, or where the run kept none.
     """
 
     label: str
     displacement: Floats
     density: Floats
+    vertical_stress: Floats
 
     @property
     def covered(self) -> Booleans:
@@ -73,7 +78,8 @@ class FlowComparison:
 
     displacement_difference: mass that moves differently: integral of rho |u_a - u_b| over that of
     rho (|u_a| + |u_b|)/2, so 0 for equal fields and 2 for opposite ones; density_difference: mean
-    of |rho_a - rho_b| over the mean of both.
+    of |rho_a - rho_b| over the mean of both; stress_difference: that of the vertical stress' size,
+    NaN where a run kept none.
     """
 
     window: Window
@@ -81,12 +87,18 @@ class FlowComparison:
     flows: tuple[Flow, Flow]
     displacement_difference: float
     density_difference: float
+    stress_difference: float
+
+    @property
+    def has_stress(self) -> bool:
+        return math.isfinite(self.stress_difference)
 
 
 class _Points(NamedTuple):
     x: Floats  # (n, 2) in the wheel's plane [m]
     mass: Floats  # (n) [kg]
     displacement: Floats  # (n, 2) [m]
+    load: Floats  # (n) vertical stress times volume, compression positive [J]
 
 
 def displacements(run: WheelRun) -> Floats:
@@ -96,6 +108,19 @@ def displacements(run: WheelRun) -> Floats:
         moved: Floats = fields["x"] - fields["initial_position"]
         return np.concatenate([moved, moved * [1, -1, 1]]) if run.half else moved
     return run.results.grains("final").displacement_from(run.results.grains("reference"))
+
+
+def vertical_loads(run: WheelRun) -> Floats:
+    """(n) vertical stress times volume [J] of the points of density.ground_points, in their order.
+
+    Compression positive; NaN of a run that kept none.
+    """
+    if run.ground == "continuum":
+        fields = read_terrain_fields(run.folder)
+        load: Floats = -fields["vertical_stress"] * fields["volume"]
+        return np.tile(load, 2) if run.half else load
+    grains = run.results.grains("final")
+    return np.full(len(grains.x), np.nan) if grains.virial is None else -grains.virial[:, 2]
 
 
 def _points_in_plane(run: WheelRun) -> tuple[_Points, float]:
@@ -111,7 +136,10 @@ def _points_in_plane(run: WheelRun) -> tuple[_Points, float]:
         )
     plane = [0, 2]
     points = _Points(
-        ground.x[followed][:, plane], ground.mass[followed], moved[followed][:, plane]
+        ground.x[followed][:, plane],
+        ground.mass[followed],
+        moved[followed][:, plane],
+        vertical_loads(run)[followed],
     )
     return points, float(np.mean(ground.size[followed]))
 
@@ -121,8 +149,10 @@ def _coarse_grained(
 ) -> Flow:
     """slab: [m] across, over which the masses are spread; depth: [m] of the floor"""
     columns, rows = len(window.x), len(window.z)
-    # mass, and mass times displacement along x and z
-    sums = np.zeros((3, rows * columns))
+    # mass, mass times displacement along x and z, stress times volume
+    sums = np.zeros((4, rows * columns))
+    moved = points.mass[:, None] * points.displacement
+    carried = np.column_stack([points.mass, moved, points.load])
     step_x, step_z = window.x[1] - window.x[0], window.z[1] - window.z[0]
     near_x, near_z = (math.ceil(REACH * width / step) for step in (step_x, step_z))
     centre_x = np.rint((points.x[:, 0] - window.x[0]) / step_x).astype(int)
@@ -137,17 +167,26 @@ def _coarse_grained(
             weight = np.where(
                 square <= (REACH * width) ** 2, np.exp(-square / (2 * width**2)), 0.0
             )
-            share = weight * points.mass[inside]
-            for total, values in zip(sums, (1.0, *points.displacement[inside].T)):
-                total += np.bincount(i * columns + j, share * values, rows * columns)
+            for total, values in zip(sums, carried[inside].T):
+                total += np.bincount(i * columns + j, weight * values, rows * columns)
     mass = sums[0].reshape(rows, columns)
-    momentum = sums[1:].T.reshape(rows, columns, 2)
-    volume = 2 * math.pi * width**2 * (1 - math.exp(-(REACH**2) / 2)) * slab
-    density = mass / (volume * norm.cdf((window.z + depth) / width)[:, None])
+    momentum = sums[1:3].T.reshape(rows, columns, 2)
+    kernel = 2 * math.pi * width**2 * (1 - math.exp(-(REACH**2) / 2)) * slab
+    volume = kernel * norm.cdf((window.z + depth) / width)[:, None]
+    density = mass / volume
+    stress = sums[3].reshape(rows, columns) / volume
     there = density > COVERED * np.median(density[density > 0])
     with np.errstate(invalid="ignore", divide="ignore"):
         displacement = np.where(there[:, :, None], momentum / mass[:, :, None], np.nan)
-    return Flow(label, displacement, np.where(there, density, np.nan))
+    return Flow(
+        label, displacement, np.where(there, density, np.nan), np.where(there, stress, np.nan)
+    )
+
+
+def _mean_difference(a: Floats, b: Floats) -> float:
+    """Mean of |a - b| over that of (|a| + |b|)/2; NaN of fields that are zero or not known."""
+    size = float(np.mean(np.abs(a) + np.abs(b))) / 2
+    return float(np.mean(np.abs(a - b))) / size if size > 0 else math.nan
 
 
 def compare_flows(runs: Sequence[WheelRun], width: float | None = None) -> FlowComparison:
@@ -191,19 +230,26 @@ def compare_flows(runs: Sequence[WheelRun], width: float | None = None) -> FlowC
         kernel,
         (a, b),
         float(np.sum(rho * apart)) / moved if moved > 0 else math.nan,
-        float(np.mean(np.abs(a.density - b.density)[both]) / np.mean(rho)),
+        _mean_difference(a.density[both], b.density[both]),
+        _mean_difference(a.vertical_stress[both], b.vertical_stress[both]),
     )
 
 
 def flow_report(result: FlowComparison) -> str:
     """The numbers, for a person."""
     a, b = result.flows
+    stress = (
+        f"differs by {100 * result.stress_difference:.0f} % of its mean"
+        if result.has_stress
+        else "is not known: a run that was interrupted, or of an older Furrow, keeps none of grains"
+    )
     return "\n".join(
         [
             f"{a.label} and {b.label} in the wheel's plane, kernel of {1e3 * result.width:.3g} mm",
-            f"  displacement  differs by {100 * result.displacement_difference:.0f} % of its mean "
-            "(0: equal fields, 200 %: opposite)",
-            f"  density       differs by {100 * result.density_difference:.1f} % of its mean",
+            f"  displacement     differs by {100 * result.displacement_difference:.0f} % of its "
+            "mean (0: equal fields, 200 %: opposite)",
+            f"  density          differs by {100 * result.density_difference:.1f} % of its mean",
+            f"  vertical stress  {stress}",
         ]
     )
 
@@ -221,6 +267,7 @@ def write_flow(result: FlowComparison, folder: Path) -> None:
                 "kernel_m": result.width,
                 "displacement_difference": result.displacement_difference,
                 "density_difference": result.density_difference,
+                "stress_difference": result.stress_difference,
             }
         ],
         ["# differences as furrow_post/analyse/flow.py defines them"],
@@ -232,3 +279,5 @@ def write_flow(result: FlowComparison, folder: Path) -> None:
             group: Any = content.create_group(place)
             group.attrs["label"] = flow.label
             group["displacement"], group["density"] = flow.displacement, flow.density
+            if result.has_stress:
+                group["vertical_stress"] = flow.vertical_stress

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""furrow-post flow: displacement and density of two grounds under one wheel, and their
+"""furrow-post flow: displacement, density and stress of two grounds under one wheel, and their
 difference."""
 
 import argparse

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The figure of flow fields: displacement and density of two runs and what differs."""
+"""The figure of flow fields: displacement, density and stress of two runs and what differs."""
 
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 
 from ..analyse.flow import FlowComparison
@@ -16,44 +19,35 @@ ARROWS = 22  # along the picture
 AMOUNT, SIGNED = "YlOrBr", "RdBu_r"
 
 
+class Field(NamedTuple):
+    """A scalar field of two runs, and how far they are apart as a share of its mean."""
+
+    name: str
+    unit: str
+    first: Floats
+    second: Floats
+    difference: float
+
+
 def draw_flow(result: FlowComparison, target: Path) -> None:
     """Two columns for the runs, on one scale each row, and a third for their difference."""
     use_style()
-    a, b = result.flows
+    rows = 3 if result.has_stress else 2
     figure, axes = plt.subplots(
-        2, 3, figsize=(13, 3.9), layout="constrained", sharex=True, sharey=True
+        rows, 3, figsize=(13, 1.95 * rows), layout="constrained", sharex=True, sharey=True
     )
     letters = panel_letters()
-
-    lengths = [CENTIMETRE * flow.length for flow in result.flows]
-    largest = max(float(np.nanmax(length)) for length in lengths)
-    for panel, flow, length in zip(axes[0], result.flows, lengths):
-        image = _image(panel, result, length, (0.0, largest), AMOUNT)
-        _arrows(panel, result, flow.displacement)
-        annotate_panel(panel, next(letters), f"displacement, {flow.label}")
-    figure.colorbar(image, ax=axes[0, :2], label="cm", shrink=0.9, pad=0.01)
-    apart = b.displacement - a.displacement
-    length = CENTIMETRE * np.linalg.norm(apart, axis=2)
-    image = _image(axes[0, 2], result, length, (0.0, largest), AMOUNT)
-    _arrows(axes[0, 2], result, apart)
-    figure.colorbar(image, ax=axes[0, 2], label="cm", shrink=0.9, pad=0.01)
-    share = f"{100 * result.displacement_difference:.0f} %"
-    annotate_panel(axes[0, 2], next(letters), f"{b.label} less {a.label}: {share}")
-
-    low = min(float(np.nanmin(flow.density)) for flow in result.flows)
-    high = max(float(np.nanmax(flow.density)) for flow in result.flows)
-    for panel, flow in zip(axes[1], result.flows):
-        image = _image(panel, result, flow.density, (low, high), "viridis")
-        annotate_panel(panel, next(letters), f"density, {flow.label}")
-    figure.colorbar(image, ax=axes[1, :2], label=r"kg/m$^3$", shrink=0.9, pad=0.01)
-    difference = b.density - a.density
-    reach = float(np.nanmax(np.abs(difference)))
-    image = _image(axes[1, 2], result, difference, (-reach, reach), SIGNED)
-    figure.colorbar(image, ax=axes[1, 2], label=r"kg/m$^3$", shrink=0.9, pad=0.01)
-    share = f"{100 * result.density_difference:.1f} %"
-    annotate_panel(axes[1, 2], next(letters), f"{b.label} less {a.label}: {share}")
-
-    for panel in axes[1]:
+    _displacement(figure, axes[0], result, letters)
+    a, b = result.flows
+    fields = [
+        Field("density", r"kg/m$^3$", a.density, b.density, result.density_difference),
+    ]
+    if result.has_stress:
+        stress = (1e-3 * flow.vertical_stress for flow in result.flows)
+        fields.append(Field("vertical stress", "kPa", *stress, result.stress_difference))
+    for panels, field in zip(axes[1:], fields):
+        _scalar(figure, panels, result, letters, field)
+    for panel in axes[-1]:
         panel.set_xlabel("from the axle along the travel [cm]")
     for panel in axes[:, 0]:
         panel.set_ylabel("height [cm]")
@@ -65,6 +59,48 @@ def draw_flow(result: FlowComparison, target: Path) -> None:
         fontweight="bold",
     )
     save(figure, target)
+
+
+def _displacement(
+    figure: Figure, panels: Sequence[Axes], result: FlowComparison, letters: Iterator[str]
+) -> None:
+    a, b = result.flows
+    lengths = [CENTIMETRE * flow.length for flow in result.flows]
+    largest = max(float(np.nanmax(length)) for length in lengths)
+    for panel, flow, length in zip(panels, result.flows, lengths):
+        image = _image(panel, result, length, (0.0, largest), AMOUNT)
+        _arrows(panel, result, flow.displacement)
+        annotate_panel(panel, next(letters), f"displacement, {flow.label}")
+    figure.colorbar(image, ax=panels[:2], label="cm", shrink=0.9, pad=0.01)
+    apart = b.displacement - a.displacement
+    length = CENTIMETRE * np.linalg.norm(apart, axis=2)
+    image = _image(panels[2], result, length, (0.0, largest), AMOUNT)
+    _arrows(panels[2], result, apart)
+    figure.colorbar(image, ax=panels[2], label="cm", shrink=0.9, pad=0.01)
+    share = f"{100 * result.displacement_difference:.0f} %"
+    annotate_panel(panels[2], next(letters), f"{b.label} less {a.label}: {share}")
+
+
+def _scalar(
+    figure: Figure,
+    panels: Sequence[Axes],
+    result: FlowComparison,
+    letters: Iterator[str],
+    field: Field,
+) -> None:
+    a, b = result.flows
+    low = min(float(np.nanmin(values)) for values in (field.first, field.second))
+    high = max(float(np.nanmax(values)) for values in (field.first, field.second))
+    for panel, flow, values in zip(panels, result.flows, (field.first, field.second)):
+        image = _image(panel, result, values, (low, high), "viridis")
+        annotate_panel(panel, next(letters), f"{field.name}, {flow.label}")
+    figure.colorbar(image, ax=panels[:2], label=field.unit, shrink=0.9, pad=0.01)
+    difference = field.second - field.first
+    reach = float(np.nanmax(np.abs(difference)))
+    image = _image(panels[2], result, difference, (-reach, reach), SIGNED)
+    figure.colorbar(image, ax=panels[2], label=field.unit, shrink=0.9, pad=0.01)
+    share = f"{100 * field.difference:.3g} %"
+    annotate_panel(panels[2], next(letters), f"{b.label} less {a.label}: {share}")
 
 
 def _image(

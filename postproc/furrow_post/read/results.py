@@ -80,6 +80,8 @@ class Grains:
     radius: Floats  # (n) [m]
     period: Floats  # (3) [m], 0 along an axis that is not periodic
     bed_level: float  # [m], NaN where the bed did not measure itself
+    # (n, 3) [J] xx, yy, zz of stress times volume by contacts between grains, tension positive
+    virial: Floats | None = None
 
     def displacement_from(self, reference: "Grains") -> Floats:
         """(n, 3) [m]: matched by id, the shortest way round a periodic box; NaN without a match."""
@@ -208,10 +210,14 @@ class Results:
                     "came to its end"
                 )
             number, x, radius = (group[name][()] for name in ("id", "x", "radius"))
-            fields = Fields(self.file, {"id": number, "x": x, "radius": radius}, REPEAT)
+            columns = {"id": number, "x": x, "radius": radius}
+            if "virial" in group:
+                columns["virial"] = group["virial"][()]
+            fields = Fields(self.file, columns, REPEAT)
             fields.require_rows()
-            fields.require_finite("x", "radius")
-            return Grains(number, x, radius, group["period"][()], float(group.attrs["bed_level"]))
+            fields.require_finite(*(name for name in columns if name != "id"))
+            period, level = group["period"][()], float(group.attrs["bed_level"])
+            return Grains(number, x, radius, period, level, columns.get("virial"))
 
     def surface(self) -> Surface | None:
         """The wheel, tyre or plate at the end, or None where the run kept none."""

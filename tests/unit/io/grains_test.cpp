@@ -72,6 +72,9 @@ TEST(Grains, CheckNamesWhatIsWrong) {
   uneven.radius.resize(2);
   EXPECT_THAT(error_of([&] { uneven.check(); }),
               HasSubstr("3 ids, 3 positions, 3 velocities, 2 radii"));
+  Grains pressed = three_grains();
+  pressed.virial = Matrix3X::Zero(3, 2);
+  EXPECT_THAT(error_of([&] { pressed.check(); }), HasSubstr("2 virials for 3 ids"));
   EXPECT_EQ(error_of([&] { three_grains().check(); }), "no error");
 }
 

@@ -268,6 +268,8 @@ TEST(HistoryFile, GrainsSurfaceAuditAndCostComeBack) {
   grains.radius << 0.004, 0.005;
   grains.period = Vector3(0, 0.5, 0);
   grains.bed_level = 0.2;
+  grains.virial.resize(3, 2);
+  grains.virial << -1, -2, -3, -4, -5, -6;
   Surface surface;
   surface.triangles = {{0, 1, 2}};
   surface.resize(3);
@@ -298,6 +300,7 @@ TEST(HistoryFile, GrainsSurfaceAuditAndCostComeBack) {
   EXPECT_EQ(back.id, grains.id);
   EXPECT_EQ(back.v, grains.v);
   EXPECT_EQ(back.radius, grains.radius);
+  EXPECT_EQ(back.virial, grains.virial);
   EXPECT_EQ(back.period, grains.period);
   EXPECT_EQ(back.bed_level, 0.2);
   const Hdf5File file(path, Hdf5File::Mode::read);
