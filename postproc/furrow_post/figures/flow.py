@@ -43,8 +43,8 @@ def draw_flow(result: FlowComparison, target: Path) -> None:
         Field("density", r"kg/m$^3$", a.density, b.density, result.density_difference),
     ]
     if result.has_stress:
-        stress = (1e-3 * flow.vertical_stress for flow in result.flows)
-        fields.append(Field("vertical stress", "kPa", *stress, result.stress_difference))
+        first, second = (1e-3 * flow.vertical_stress for flow in result.flows)
+        fields.append(Field("vertical stress", "kPa", first, second, result.stress_difference))
     for panels, field in zip(axes[1:], fields):
         _scalar(figure, panels, result, letters, field)
     for panel in axes[-1]:

@@ -27,7 +27,8 @@ Move = Callable[[Floats], Floats]  # (n, 3) -> (n, 3) [m]
 def lattice(edges: Sequence[tuple[float, float]], spacing: float) -> Floats:
     """(n, 3) points in the middle of cubes that fill a box [m]."""
     axes = [np.arange(low + spacing / 2, high, spacing) for low, high in edges]
-    return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    points: Floats = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    return points
 
 
 def write_moved(
