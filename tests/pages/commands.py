@@ -127,7 +127,7 @@ RULES: tuple[tuple[str, Callable[[Tree, str], None]], ...] = (
     (r"(\w+=\S+ )?build/tests/benchmarks/", benchmark),
     (r"(postproc/)?furrow-post (film|flow|plan|laboratory|cost|sweep) ", options),
     (r"inputs/(\S+\.py|validation/run) --list$", run),
-    (r"inputs/(crosscheck|laboratory|validation)/(\S+\.py|run)", options),
+    (r"inputs/(costs|crosscheck|laboratory|validation)/(\S+\.py|run)", options),
     (r"furrow-resistance --together ", options),  # OWN_RUN has one wheel
     (r"(\w+=\S+ )?(build/bin/)?furrow-(point|sidewall|tyre|resistance) ", run),
     (r"postproc/furrow-post |postproc/examples/", run),

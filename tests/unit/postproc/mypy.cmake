@@ -38,7 +38,7 @@ foreach(room read analyse figures cli study sweep faults)
   check(${SOURCE}/postproc ${tests} FILES ${files})
 endforeach()
 # A test of a driver imports the modules of its folder
-foreach(pair crosscheck=crosscheck grains=validation/grains laboratory_cone=laboratory
+foreach(pair costs=costs crosscheck=crosscheck grains=validation/grains laboratory_cone=laboratory
              laboratory_identify=laboratory laboratory_snow=laboratory
              report_wheel=validation/report_wheel snow_wheel=validation/snow_wheel
              study_pages=validation tyre_table6=validation/tyre_table6 validation=validation start=)

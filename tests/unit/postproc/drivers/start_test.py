@@ -9,9 +9,8 @@ import unittest
 from support.command import SOURCE
 
 INPUTS = SOURCE / "inputs"
-STUDIES = sorted(
-    path for path in (*INPUTS.glob("validation/*/run.py"), INPUTS / "crosscheck" / "run.py")
-)
+OTHERS = (INPUTS / "crosscheck" / "run.py", INPUTS / "costs" / "run.py")
+STUDIES = sorted((*INPUTS.glob("validation/*/run.py"), *OTHERS))
 TOOLS = (
     INPUTS / "laboratory" / "run.py",
     INPUTS / "laboratory" / "calibrate.py",
@@ -30,7 +29,7 @@ def start(*words: object) -> "subprocess.CompletedProcess[str]":
 
 class DriversTest(unittest.TestCase):
     def test_there_are_all_studies(self) -> None:
-        self.assertEqual(len(STUDIES), 15)
+        self.assertEqual(len(STUDIES), 16)
 
     def test_help(self) -> None:
         for driver in (*STUDIES, *TOOLS):

@@ -19,7 +19,8 @@ from support.command import SOURCE
 from support.faults import FaultsTest, outcome
 
 INPUTS = SOURCE / "inputs"
-DRIVERS = (*sorted(INPUTS.glob("validation/*/run.py")), INPUTS / "crosscheck" / "run.py")
+OTHERS = (INPUTS / "crosscheck" / "run.py", INPUTS / "costs" / "run.py")
+DRIVERS = (*sorted(INPUTS.glob("validation/*/run.py")), *OTHERS)
 FILES = ("history.h5", "terrain.h5", "curve.txt", "facts.txt", "summary.json", "point.csv")
 
 # (words, what is said)

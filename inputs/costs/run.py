@@ -1,0 +1,69 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Error against cost: makes the runs of runs.csv that are missing and writes the tables of this
+folder from them. See README.md.
+
+Stages are the tables. A table keeps the comments above its rows.
+"""
+
+import shlex
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postproc"))
+
+from furrow_post.analyse import cost, cost_table
+from furrow_post.csv_table import read_rows
+from furrow_post.read.wheel_run import read_wheel_run
+from furrow_post.study.case import Case
+from furrow_post.study.furrow_cases import script_case
+from furrow_post.study.output import Output
+from furrow_post.study.runner import Runner, State
+from furrow_post.study.study import Study, run_study
+
+HERE = Path(__file__).resolve().parent
+SCENES = HERE.parent / "scenes"
+PLANNED = read_rows(HERE / "runs.csv")
+TABLES = tuple(dict.fromkeys(row["table"] for row in PLANNED))
+
+
+def variables(row: Mapping[str, str]) -> dict[str, str]:
+    pairs = (word.partition("=") for word in row["variables"].split())
+    return {name: value for name, _, value in pairs}
+
+
+def options(row: Mapping[str, str]) -> str:
+    """Scene and options of inputs/run that make this run; empty for one that is not offered."""
+    if row["offered"] != "yes":
+        return ""
+    given = [word for name, value in variables(row).items() for word in ("-v", name, value)]
+    return shlex.join([row["scene"], *given])
+
+
+def make_case(row: Mapping[str, str]) -> Case:
+    name = f"{row['table']}/{row['run']}"
+    script = SCENES / f"{row['scene']}.lig"
+    return script_case(name, script, {**variables(row), "vtk": 0}, stage=row["table"])
+
+
+def evaluate(runner: Runner, output: Output) -> Sequence[str]:
+    for table in TABLES:
+        planned = [(row, make_case(row)) for row in PLANNED if row["table"] == table]
+        rows = [
+            cost_table.row_of(read_wheel_run(runner.folder(case), row["run"]), options(row))
+            for row, case in planned
+            if runner.state(case) is State.DONE
+        ]
+        if not rows:
+            continue
+        _, comments = cost_table.read_table(HERE / f"{table}.csv")
+        cost_table.write_table(output.path(f"{table}.csv"), rows, comments)
+        assessed = cost.assess(rows, cost_table.wanted_wheel(comments))
+        print(f"{table}\n{cost.cost_report(assessed, 0.1)}\n")
+    return []
+
+
+if __name__ == "__main__":
+    cases = tuple(make_case(row) for row in PLANNED)
+    sys.exit(run_study(Study(Path(__file__), __doc__ or "", cases, evaluate)))

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""inputs/costs: its tables are made of the runs that it lists, and --error can make them again."""
+
+import importlib.util
+import shlex
+import unittest
+
+from furrow_post.analyse import cost_table
+from support.command import SOURCE
+
+FOLDER = SOURCE / "inputs" / "costs"
+specification = importlib.util.spec_from_file_location("costs_run", FOLDER / "run.py")
+assert specification and specification.loader
+driver = importlib.util.module_from_spec(specification)
+specification.loader.exec_module(driver)
+
+
+class CostsTest(unittest.TestCase):
+    def test_every_table_is_of_the_listed_runs(self) -> None:
+        tables = {path.stem for path in FOLDER.glob("*.csv")} - {"runs", "provenance"}
+        self.assertEqual(tables, set(driver.TABLES))
+        for table in driver.TABLES:
+            with self.subTest(table=table):
+                rows, _ = cost_table.read_table(FOLDER / f"{table}.csv")
+                listed = [row for row in driver.PLANNED if row["table"] == table]
+                self.assertEqual([row.run for row in rows], [row["run"] for row in listed])
+                for row, planned in zip(rows, listed):
+                    self.assertEqual(row.options, driver.options(planned))
+
+    def test_every_family_has_all_parts_of_an_error(self) -> None:
+        for table in driver.TABLES:
+            rows, _ = cost_table.read_table(FOLDER / f"{table}.csv")
+            for key, family in cost_table.families(rows).items():
+                with self.subTest(table=table, family=key):
+                    parts = family.components("sinkage", family.bases[-1].size, 0.0)
+                    self.assertEqual(parts.unknown, [])
+
+    def test_options_are_those_of_the_run(self) -> None:
+        offered = next(row for row in driver.PLANNED if row["offered"] == "yes")
+        scene, *given = shlex.split(driver.options(offered))
+        self.assertEqual(scene, offered["scene"])
+        self.assertEqual(given[::3], ["-v"] * (len(given) // 3))
+        self.assertEqual(dict(zip(given[1::3], given[2::3])), driver.variables(offered))
+
+
+if __name__ == "__main__":
+    unittest.main()
