@@ -4,9 +4,10 @@
 import math
 from collections.abc import Iterable, Mapping, Sequence
 
-from furrow_post.analyse.comparison import FORMULA, LIMIT, MEASURED, RUN, Entry, judge
 from furrow_post.analyse.cost_table import Components
 from furrow_post.analyse.curves import pressure_at
+from furrow_post.analyse.entry import FORMULA, LIMIT, MEASURED, RUN, Entry
+from furrow_post.analyse.judgement import judge
 from furrow_post.analyse.verdict import COVERAGE, QUANTITIES, Agreement, Quantity
 from furrow_post.formatting import in_unit, percent
 from furrow_post.study.tables import markdown

@@ -11,9 +11,9 @@ from lines import OutputRow, line_of
 from wheel_cases import BEKKER
 
 from furrow_post.analyse import curves, empirical
-from furrow_post.analyse.comparison import FORMULA, MEASURED, Entry
 from furrow_post.analyse.cost_table import Components
 from furrow_post.analyse.curves import Curve
+from furrow_post.analyse.entry import FORMULA, MEASURED, Entry
 from furrow_post.csv_table import read_numbers
 from furrow_post.figures.curves import Line, draw_curves
 from furrow_post.study.output import Output

@@ -10,8 +10,9 @@ from cases import BASE, CHECKS, FLOW, HERE, INPUTS, LAW, Made
 from lines import OutputRow, line_of, number_line
 
 from furrow_post.analyse import cost_table, empirical
-from furrow_post.analyse.comparison import LIMIT, RUN, Comparison, Entry, compare, formula_entries
+from furrow_post.analyse.comparison import Comparison, compare
 from furrow_post.analyse.empirical import Prediction
+from furrow_post.analyse.entry import LIMIT, RUN, Entry, formula_entries
 from furrow_post.analyse.flow import compare_flows
 from furrow_post.analyse.verdict import QUANTITIES
 from furrow_post.csv_table import read_rows

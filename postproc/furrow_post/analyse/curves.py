@@ -20,8 +20,8 @@ from ..arrays import Floats
 from ..errors import ResultsError, content_of
 from ..formatting import percent
 from ..read.laboratory import LaboratoryTest, PointRun, cell_curve
-from .comparison import LIMIT, RUN, Entry
 from .cost_table import Components
+from .entry import LIMIT, RUN, Entry
 from .statistics import commonest, rms
 from .verdict import Quantity
 
@@ -308,7 +308,7 @@ def pressure_at(sinkage: float) -> Quantity:
 def plate_entries(base: Curve, checks: Sequence[Curve], sinkage: float) -> list[Entry]:
     """A plate's pressure at this sinkage [m], and at size zero where checks have other sizes.
 
-    As of wheels in comparison.py. Empty where the curve does not come so far.
+    As of wheels in entry.py. Empty where the curve does not come so far.
     """
     log = float(_log_at(base, [sinkage])[0])
     if not math.isfinite(log):

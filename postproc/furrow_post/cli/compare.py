@@ -5,7 +5,7 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..analyse.comparison import comparison_report, write_comparison
+from ..analyse.comparison_report import comparison_report, write_comparison
 from ..analyse.curves import compare_curves, curve_report, is_curve, read_curve, write_curves
 from ..arguments import path
 from ..errors import ResultsError

@@ -8,7 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..analyse import cost, cost_table
-from ..analyse.comparison import Comparison, write_comparison
+from ..analyse.comparison import Comparison
+from ..analyse.comparison_report import write_comparison
 from ..arguments import path
 from ..errors import ResultsError
 from ..figures.comparison import draw_comparison

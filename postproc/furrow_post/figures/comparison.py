@@ -13,8 +13,9 @@ from matplotlib.figure import Figure
 from matplotlib.gridspec import GridSpec
 from matplotlib.image import AxesImage
 
-from ..analyse.comparison import FORMULA, LIMIT, MEASURED, RUN, Comparison, overall
+from ..analyse.comparison import Comparison, overall
 from ..analyse.density import Section, sections
+from ..analyse.entry import FORMULA, LIMIT, MEASURED, RUN
 from ..analyse.verdict import COEFFICIENT, COVERAGE, QUANTITIES, SINKAGE, Quantity
 from ..analyse.wheel_histories import cruise_history, settling_curve
 from ..read.wheel_run import WheelRun

@@ -6,7 +6,8 @@ import html
 from collections.abc import Collection, Iterable, Sequence
 from pathlib import Path
 
-from ..analyse.comparison import Comparison, component_cells, findings, overall
+from ..analyse.comparison import Comparison, overall
+from ..analyse.comparison_report import component_cells, findings
 from ..analyse.verdict import QUANTITIES
 from ..formatting import duration, in_unit, with_error
 from ..read.summary import Summary

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..analyse.comparison import TOLERANCES, answers_of_ground, differ
+from ..analyse.conditions import TOLERANCES, answers_of_ground, differ
 from ..errors import ResultsError
 from ..formatting import in_unit
 from .quantities import Value

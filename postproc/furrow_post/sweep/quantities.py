@@ -17,8 +17,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..analyse.comparison import NAME_IN_RUN, entries_of_run
 from ..analyse.cost_table import Components, Family, FamilyKey
+from ..analyse.entry import NAME_IN_RUN, entries_of_run
 from ..read.summary import Summary
 from ..read.wheel_run import WheelRun
 

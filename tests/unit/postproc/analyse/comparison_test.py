@@ -7,20 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
-from furrow_post.analyse import comparison, empirical
-from furrow_post.analyse.comparison import (
-    FORMULA,
-    LIMIT,
-    MEASURED,
-    RUN,
-    Comparison,
-    Entry,
-    judge,
-    overall,
-    overall_at_size_zero,
-)
+from furrow_post.analyse import comparison, comparison_report, conditions, empirical
+from furrow_post.analyse.comparison import Comparison, overall, overall_at_size_zero
 from furrow_post.analyse.cost_table import Components, families
 from furrow_post.analyse.density import height_left
+from furrow_post.analyse.entry import FORMULA, LIMIT, MEASURED, RUN, Entry, limits_of_run
+from furrow_post.analyse.judgement import judge
 from furrow_post.analyse.verdict import COEFFICIENT, SINKAGE, Agreement, Quantity
 from furrow_post.errors import ResultsError
 from furrow_post.read.results import Results, Surface
@@ -133,7 +125,7 @@ class CompareTest(unittest.TestCase):
         ):
             for run, mode in zip(runs, modes):
                 run.conditions["mode"] = Condition(mode)
-            found = [difference.condition for difference in comparison.incomparable(runs)]
+            found = [difference.condition for difference in conditions.incomparable(runs)]
             self.assertEqual(found, differences, modes)
 
     def test_a_run_called_measured_is_compared_as_any_other(self) -> None:
@@ -171,10 +163,10 @@ class CompareTest(unittest.TestCase):
             for h in (0.02, 0.03, 0.04)
         ]
         known = families(table)
-        limit, _ = comparison.limits_of_run(run, known)
+        limit, _ = limits_of_run(run, known)
         self.assertAlmostEqual(limit.value, 0.06 - 0.2 * 0.04, places=9)
         self.assertEqual((limit.label, limit.source), ("a at size zero", "a"))
-        self.assertEqual(comparison.limits_of_run(other, known), [])  # of no family
+        self.assertEqual(limits_of_run(other, known), [])  # of no family
 
         same = entry("b", 0.0521, 1e-3, kind=LIMIT)
         verdict = judge(limit, same)
@@ -184,8 +176,9 @@ class CompareTest(unittest.TestCase):
             overall_at_size_zero(result),
             "At size zero: The runs agree within their uncertainty in sinkage and resistance.",
         )
-        self.assertIn(verdict.sentence, comparison.findings(result))
-        self.assertEqual([line["kind"] for line in comparison.table_rows(result)], [LIMIT] * 2)
+        self.assertIn(verdict.sentence, comparison_report.findings(result))
+        kinds = [line["kind"] for line in comparison_report.table_rows(result)]
+        self.assertEqual(kinds, [LIMIT] * 2)
         self.assertEqual(overall_at_size_zero(Comparison([run])), "")
 
     def test_formula_has_its_place_and_no_verdict(self) -> None:

@@ -7,8 +7,8 @@ import unittest
 import numpy as np
 
 from furrow_post.analyse import curves
-from furrow_post.analyse.comparison import LIMIT, RUN
 from furrow_post.analyse.curves import Curve, CurveKind
+from furrow_post.analyse.entry import LIMIT, RUN
 
 
 def plate_curve(label: str, factor: float, box: float = 0.8, **facts: float) -> Curve:

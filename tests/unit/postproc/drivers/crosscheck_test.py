@@ -5,9 +5,9 @@ import math
 import sys
 import unittest
 
-from furrow_post.analyse.comparison import FORMULA, LIMIT, RUN, Entry
 from furrow_post.analyse.cost_table import Components
 from furrow_post.analyse.curves import pressure_at
+from furrow_post.analyse.entry import FORMULA, LIMIT, RUN, Entry
 from furrow_post.analyse.verdict import COEFFICIENT, SINKAGE
 from furrow_post.csv_table import read_comments, read_rows
 from support.command import SOURCE

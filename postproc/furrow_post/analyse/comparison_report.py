@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A comparison for a person and for programs: compare.txt, compare.csv, compare.h5."""
+
+import csv
+import math
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from ..formatting import duration, in_unit, with_error
+from .comparison import Comparison, overall, overall_at_size_zero
+from .cost_table import Components
+from .density import sections
+from .entry import RUN, Entry
+from .verdict import QUANTITIES
+from .wheel_histories import cruise_history, settling_curve
+
+SHOWN_CONDITIONS = (
+    "load",
+    "speed",
+    "slip",
+    "slip_by_vehicle_speed",
+    "wheel_diameter",
+    "wheel_width",
+    "depth",
+    "density",
+)
+
+
+def table_rows(result: Comparison) -> list[dict[str, str | float]]:
+    """Lines of compare.csv: texts and SI numbers."""
+    nothing = {f"u_{part}": math.nan for part in Components.NAMES}
+    lines: list[dict[str, str | float]] = []
+    for e in result.entries:
+        known = {f"u_{part}": e.parts.part(part) for part in Components.NAMES}
+        lines.append(
+            {
+                "quantity": e.quantity.name,
+                "source": e.source,
+                "kind": e.kind,
+                "value": e.value,
+                "uncertainty": e.uncertainty,
+                **(known if e.of_run else nothing),
+                "cpu_time": e.cpu_time,
+                "note": e.note,
+            }
+        )
+    for label, (value, error) in result.tracks.items():
+        lines.append(
+            {
+                "quantity": "density under the track",
+                "source": label,
+                "kind": RUN,
+                "value": value,
+                "uncertainty": error,
+                **nothing,
+                "u_time": error,
+                "cpu_time": math.nan,
+                "note": "",
+            }
+        )
+    return lines
+
+
+def component_cells(entry: Entry) -> list[str]:
+    """Parts of an entry's uncertainty in its unit, "?" for what is not known; empty for others."""
+    if not entry.of_run:
+        return [""] * len(Components.NAMES)
+    scale = entry.quantity.scale
+    return [f"{scale * p:.2g}" if math.isfinite(p) else "?" for p in entry.parts.parts()]
+
+
+def comparison_report(result: Comparison) -> str:
+    """The tables and the verdict for a person."""
+    wide = max([len(e.label) for e in result.entries] + [10])
+    lines = ["Conditions"]
+    for name in SHOWN_CONDITIONS:
+        texts = [run.text(name, "?") for run in result.runs]
+        lines.append(f"  {name.replace('_', ' '):22} " + "   ".join(dict.fromkeys(texts)))
+    lines += [
+        f"  {run.label:{wide}}  {run.ground}, {run.describe_size()}, {run.model} model, "
+        f"{run.elements} {run.elements_name}"
+        for run in result.runs
+    ]
+    for quantity in QUANTITIES:
+        columns = f"{'of which time':>13} {'size':>8} {'domain':>8} {'packing':>8}   cost"
+        lines += ["", quantity.label, f"  {'':{wide}}  {'':18} {columns}"]
+        for e in result.of(quantity):
+            time, size, domain, packing = component_cells(e)
+            lines.append(
+                f"  {e.label:{wide}}  {e.text():18} {time:>13} {size:>8} {domain:>8} {packing:>8}"
+                f"   {duration(e.cpu_time):9}{e.note}".rstrip()
+            )
+    if result.tracks:
+        lines += ["", f"density under the track{in_unit('kg/m3')}"]
+        lines += [
+            f"  {label:{wide}}  {with_error(*track)}" for label, track in result.tracks.items()
+        ]
+    lines += [
+        "",
+        "± is one standard deviation, from the parts that are known; '?' is not known. Verdicts "
+        "allow two.",
+    ]
+    if result.differences:
+        lines += ["", "COMPARED ALTHOUGH CONDITIONS DIFFER"]
+        lines += [f"  {d.condition}: {d.text}" for d in result.differences]
+    lines += ["", "Verdict", "  " + overall(result)]
+    if result.at_size_zero:
+        lines.append("  " + overall_at_size_zero(result))
+    lines += [f"  - {sentence}" for sentence in findings(result)]
+    return "\n".join(lines)
+
+
+def findings(result: Comparison) -> list[str]:
+    """The sentences of all verdicts, then the remarks."""
+    sentences = [v.sentence for v in (*result.verdicts, *result.at_size_zero)]
+    return sentences + [f"also: {text}" for text in result.remarks]
+
+
+def write_comparison(result: Comparison, folder: Path) -> None:
+    """compare.txt, compare.csv, compare.h5."""
+    folder.mkdir(parents=True, exist_ok=True)
+    report = comparison_report(result)
+    (folder / "compare.txt").write_text(report + "\n", encoding="utf-8")
+    lines = table_rows(result)
+    with open(folder / "compare.csv", "w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, list(lines[0]), lineterminator="\n")
+        file.write("# SI units; uncertainties are standard deviations; empty: not known\n")
+        writer.writeheader()
+        for line in lines:
+            unknown = {k: "" for k, v in line.items() if isinstance(v, float) and math.isnan(v)}
+            writer.writerow({**line, **unknown})
+    with h5py.File(folder / "compare.h5", "w") as content:
+        _write_hdf5(content, result, lines)
+
+
+def _write_hdf5(content: Any, result: Comparison, lines: list[dict[str, str | float]]) -> None:
+    table = content.create_group("table")
+    for name, sample in lines[0].items():
+        values = [line[name] for line in lines]
+        kind = h5py.string_dtype() if isinstance(sample, str) else np.float64
+        table[name] = np.array(values, dtype=kind)
+    content.attrs["verdict"] = overall(result)
+    content.attrs["unit"] = "SI; uncertainties are standard deviations, NaN: not known"
+    for run in result.runs:
+        group = content.create_group(f"runs/{run.label.replace('/', '_')}")
+        for name, values in cruise_history(run)._asdict().items():
+            group[f"history/{name}"] = values
+        for name, values in settling_curve(run)._asdict().items():
+            group[f"settling/{name}"] = values
+        for name, condition in run.conditions.items():
+            group.attrs[name] = condition.value
+        if run.ground != "none":
+            for name, cut in zip(("lengthwise", "across"), sections(run)):
+                part = group.create_group(f"density/{name}")
+                part["density"], part["edges"] = cut.density, cut.across_edges
+                part["z_edges"] = cut.z_edges

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Values that are compared: of runs, of runs at size zero, of formulas; each with its uncertainty.
+
+Uncertainties are standard deviations: of the time average from the run itself; of the size of
+elements or grains, of the domain and of the packing from a table of runs of the scene
+(cost_table.py), which also gives what each run comes to at size zero.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ..formatting import value_text
+from ..read.wheel_run import WheelRun
+from . import empirical
+from .cost_table import Components, Family, FamilyKey
+from .verdict import QUANTITIES, Quantity
+
+# Kinds of entries; LIMIT: what a run comes to at size zero
+RUN, LIMIT, FORMULA, MEASURED = "run", "size zero", "formula", "measured"
+NAME_IN_RUN = {"sinkage": "sinkage", "coefficient": "resistance_coefficient"}
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One value of one quantity in the comparison, SI."""
+
+    quantity: Quantity
+    source: str  # label of a run, name of a formula, "measured"
+    value: float
+    parts: Components
+    kind: str  # RUN, LIMIT, FORMULA, MEASURED
+    note: str = ""
+    cpu_time: float = math.nan
+
+    @property
+    def label(self) -> str:
+        """The source, "grains at size zero" for a limit."""
+        return f"{self.source} at {LIMIT}" if self.kind == LIMIT else self.source
+
+    @property
+    def of_run(self) -> bool:
+        """Whether its uncertainty has the parts of a run's."""
+        return self.kind in (RUN, LIMIT)
+
+    @property
+    def uncertainty(self) -> float:
+        """NaN where nothing of it is known."""
+        return self.parts.total
+
+    @property
+    def unknown(self) -> list[str]:
+        """Parts of its uncertainty that are not known."""
+        return self.parts.unknown if self.of_run else []
+
+    def text(self) -> str:
+        """The value with its uncertainty in the unit of the quantity."""
+        scale = self.quantity.scale
+        return value_text(scale * self.value, scale * self.uncertainty)
+
+
+def entries_of_run(run: WheelRun, families: Mapping[FamilyKey, Family]) -> list[Entry]:
+    """Each quantity of a run, with the parts of its error that a table's families know."""
+    entries = []
+    family = families.get(FamilyKey(run.ground, run.model, run.wheel))
+    for quantity in QUANTITIES:
+        value = run.values[NAME_IN_RUN[quantity.key]]
+        if family:
+            parts = family.components(quantity.key, run.size, value.standard_error)
+        else:
+            packing = 0.0 if run.ground == "continuum" else math.nan
+            parts = Components(time=value.standard_error, packing=packing)
+        note = "" if value.steady else "not called steady"
+        entries.append(Entry(quantity, run.label, value.mean, parts, RUN, note, run.cpu_time))
+    return entries
+
+
+def limits_of_run(run: WheelRun, families: Mapping[FamilyKey, Family]) -> list[Entry]:
+    """Each quantity at size zero, as far as a table's families have more than one size."""
+    entries = []
+    family = families.get(FamilyKey(run.ground, run.model, run.wheel))
+    for quantity in QUANTITIES:
+        steady = run.values[NAME_IN_RUN[quantity.key]]
+        limit = family and family.at_size_zero(
+            quantity.key, run.size, steady.mean, steady.standard_error
+        )
+        if limit:
+            value, parts = limit
+            entries.append(Entry(quantity, run.label, value, parts, LIMIT))
+    return entries
+
+
+def formula_entries(prediction: empirical.Prediction) -> list[Entry]:
+    note = "extrapolated" if prediction.outside else ""
+    values = (
+        (prediction.sinkage, prediction.sinkage_scatter),
+        (prediction.coefficient, prediction.coefficient_scatter),
+    )
+    return [
+        Entry(
+            quantity,
+            prediction.method,
+            value,
+            Components(time=scatter) if scatter > 0 else Components(),
+            FORMULA,
+            note,
+        )
+        for quantity, (value, scatter) in zip(QUANTITIES, values)
+    ]
