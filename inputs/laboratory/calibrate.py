@@ -37,11 +37,12 @@ from scipy.optimize import least_squares
 
 from task import Task, read_task
 
-from furrow_post.analyse.laboratory import together, values_of
 from furrow_post.analyse.statistics import rms
 from furrow_post.arguments import at_least, fraction, path
 from furrow_post.arrays import Floats
 from furrow_post.errors import ResultsError, content_of
+from furrow_post.laboratory.evaluation import values_of
+from furrow_post.laboratory.together import together
 from furrow_post.program import run_program
 from furrow_post.read.laboratory import LaboratoryTest, cell_curve, read_oedometer_reference
 from furrow_post.study.case import Value

@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq, least_squares
 
-from furrow_post.analyse.laboratory import values_of
 from furrow_post.arrays import Floats
 from furrow_post.errors import ResultsError
+from furrow_post.laboratory.evaluation import values_of
 from furrow_post.read.laboratory import LaboratoryTest
 
 KINDS = {"triaxial": "compression", "extension": "extension", "plane_strain": "plane strain"}

@@ -33,10 +33,10 @@ import numpy as np
 
 from cone import KINDS, fit_cone
 
-from furrow_post.analyse.laboratory import values_of
 from furrow_post.arguments import between, path, positive
 from furrow_post.arrays import Floats
 from furrow_post.errors import ResultsError, content_of
+from furrow_post.laboratory.evaluation import values_of
 from furrow_post.program import run_program
 from furrow_post.read.laboratory import LaboratoryTest, cell_curve
 

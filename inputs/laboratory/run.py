@@ -17,10 +17,10 @@ sys.path.insert(0, str(PROJECT / "postproc"))
 
 from checks import SERIES, grounds, require_ground, require_series, require_variables
 
-from furrow_post.analyse.laboratory import report_tests
 from furrow_post.arguments import path, shield_negative_numbers, words
 from furrow_post.errors import ResultsError
 from furrow_post.figures.laboratory import draw_laboratory
+from furrow_post.laboratory.report import report_tests
 from furrow_post.program import run_program
 from furrow_post.read.laboratory import read_oedometer_reference
 from furrow_post.study.case import Case, Value

@@ -23,9 +23,9 @@ import furrow_post  # first: says which of the next ones are missing
 
 import numpy as np
 
-from furrow_post.analyse.laboratory import evaluate as evaluate_test
-from furrow_post.analyse.laboratory import reference_error
 from furrow_post.arrays import Floats
+from furrow_post.laboratory.evaluation import evaluate as evaluate_test
+from furrow_post.laboratory.reference import reference_error
 from furrow_post.read.laboratory import LaboratoryTest, read_oedometer_reference
 from furrow_post.read.summary import Summary
 from furrow_post.study.case import Case, Value

@@ -3,9 +3,9 @@
 
 import argparse
 
-from ..analyse.laboratory import report_tests
 from ..arguments import path, words
 from ..figures.laboratory import draw_laboratory
+from ..laboratory.report import report_tests
 from .output import add_output, target
 
 

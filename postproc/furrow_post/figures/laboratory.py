@@ -9,8 +9,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..analyse.laboratory import LaboratoryReport, evaluate
 from ..errors import ResultsError
+from ..laboratory.evaluation import evaluate
+from ..laboratory.report import LaboratoryReport
 from ..read.laboratory import LaboratoryTest, cell_curve
 from .style import CENTIMETRE, KILOPASCAL, MILLIMETRE, annotate_panel, save, use_style
 

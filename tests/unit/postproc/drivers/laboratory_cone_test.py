@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from furrow_post.analyse.laboratory import values_of
 from furrow_post.arrays import Floats
 from furrow_post.errors import ResultsError
+from furrow_post.laboratory.evaluation import values_of
 from furrow_post.read.laboratory import LaboratoryTest
 from support.command import SOURCE
 from support.laboratory import cell_rows, write_test

@@ -11,11 +11,13 @@ from pathlib import Path
 
 import numpy as np
 
-from furrow_post.analyse import laboratory
-from furrow_post.analyse.laboratory import LaboratoryQuantity
 from furrow_post.arrays import Floats
 from furrow_post.cli.main import main
 from furrow_post.errors import ResultsError
+from furrow_post.laboratory.evaluation import evaluate, values_of
+from furrow_post.laboratory.quantity import LaboratoryQuantity
+from furrow_post.laboratory.reference import reference_error
+from furrow_post.laboratory.together import together
 from furrow_post.read.laboratory import LaboratoryTest, read_oedometer_reference
 from support.laboratory import cell_rows, triaxial_stress, write_test
 
@@ -31,10 +33,10 @@ class LaboratoryTests(unittest.TestCase):
         self.temporary.cleanup()
 
     def values(self, folder: Path) -> dict[str, float]:
-        return laboratory.values_of(LaboratoryTest(folder))
+        return values_of(LaboratoryTest(folder))
 
     def together(self, folders: list[Path]) -> dict[str, LaboratoryQuantity]:
-        found = laboratory.together([LaboratoryTest(folder) for folder in folders])
+        found = together([LaboratoryTest(folder) for folder in folders])
         return {quantity.name: quantity for quantity in found}
 
     def triaxial(self, confinement: float) -> Path:
@@ -119,7 +121,7 @@ class LaboratoryTests(unittest.TestCase):
         lines = "".join(f"{stress},{rho}\n" for rho, stress in pairs)
         reference.write_text("# made up\nsigma1_Pa,rho_kgm3\n" + lines)
         measured = read_oedometer_reference(reference)
-        errors = laboratory.reference_error(LaboratoryTest(folder), measured)
+        errors = reference_error(LaboratoryTest(folder), measured)
         found = {quantity.name: quantity.value for quantity in errors}
         self.assertAlmostEqual(found["rms_ln_stress"], float(np.log(2)), delta=1e-3)
         self.assertAlmostEqual(found["rms_ln_density"], float(np.log(2) / 4), delta=1e-3)
@@ -154,7 +156,7 @@ class LaboratoryTests(unittest.TestCase):
         (self.folder / "facts.txt").write_text("test oedometer")
         (self.folder / "curve.txt").write_text("0 1 2\n1 2 3\n")
         with self.assertRaisesRegex(ResultsError, "fewer than ten rows"):
-            laboratory.evaluate(LaboratoryTest(self.folder))
+            evaluate(LaboratoryTest(self.folder))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The test of a sheared layer: strength, and the displacement that it takes."""
+
+import numpy as np
+from scipy.optimize import curve_fit
+
+from ..analyse.statistics import block_mean
+from ..arrays import Floats
+from ..read.laboratory import LaboratoryTest, cell_curve
+from .quantity import LaboratoryQuantity, around_peak, degrees
+
+
+def shear(test: LaboratoryTest) -> list[LaboratoryQuantity]:
+    rows = test.curve()
+    _, stress, density = cell_curve(rows)
+    travel, tau, normal = rows[:, 8], rows[:, 9], stress[:, 2]
+    peak, window, largest = around_peak(tau)
+    around, end = slice(max(peak - window, 0), peak + window + 1), travel > 0.6 * travel[-1]
+    angle = np.arctan2(tau, normal)
+    rise = slice(0, peak + 1)
+    start = (largest, max(travel[peak] / 3, 1e-6))
+    bounds = ((0, 1e-9), (np.inf, np.inf))
+    (top, length), covariance = curve_fit(_janosi, travel[rise], tau[rise], p0=start, bounds=bounds)
+    top_error, length_error = (float(e) for e in np.sqrt(np.diag(covariance)))
+    quantity = LaboratoryQuantity
+    at_travel = f"at a displacement of {travel[peak] * 1e3:.2f} mm"
+    fitted = "of tau_max (1 - exp(-j/K)), fitted up to the peak"
+    return [
+        quantity("initial_density", density[0], 0.0, "kg/m3", "after consolidation"),
+        quantity("normal_stress", *block_mean(normal), "Pa", "mean of the test"),
+        quantity("peak_shear", *block_mean(tau[around]), "Pa", at_travel),
+        quantity("residual_shear", *block_mean(tau[end]), "Pa", "over the last 40 % of the travel"),
+        quantity(
+            "friction_angle_peak",
+            *degrees(angle[around]),
+            "deg",
+            "without cohesion: tan = tau/sigma",
+        ),
+        quantity("friction_angle_end", *degrees(angle[end]), "deg", "the same, residual"),
+        quantity("janosi_K", float(length), length_error, "m", fitted),
+        quantity("janosi_tau_max", float(top), top_error, "Pa", "of that fit"),
+    ]
+
+
+def _janosi(travel: Floats, top: float, length: float) -> Floats:
+    """tau = tau_max (1 - exp(-j/K)) of Z. Janosi and B. Hanamoto (1961)."""
+    tau: Floats = top * (1 - np.exp(-travel / length))
+    return tau
