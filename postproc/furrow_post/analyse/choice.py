@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What to model for a wanted error, from the table of a scene, and whether the estimate held."""
+"""What to model for a wanted error, from the table of a scene, and whether the estimate held.
+
+One run, or two that are extrapolated to size zero where that is cheaper.
+"""
 
 import math
 from collections.abc import Sequence
@@ -9,7 +12,53 @@ from ..formatting import duration, with_error
 from ..read.wheel_run import WheelRun
 from . import cost
 from .cost import Assessed
+from .extrapolation import Pair, better_pair
 from .verdict import COVERAGE
+
+QUANTITY_NAMES = (("sinkage", "sinkage"), ("coefficient", "resistance_coefficient"))
+
+
+def choose(assessed: Sequence[Assessed], error: float) -> tuple[Assessed, bool, Pair | None]:
+    """The run for a relative error and whether it is within; the pair that is better, if any.
+
+    @raises ResultsError where the error of no run is known
+    """
+    run, within = cost.recommend(assessed, error)
+    return run, within, better_pair(assessed, error, run, within)
+
+
+def reasons_of_pair(pair: Pair, run: Assessed, within: bool, error: float) -> list[str]:
+    """Sentences on why two runs were chosen instead of this one."""
+    what = f"{100 * pair.error:.0f} % ({pair.worst}), {duration(pair.cpu_time)} of one core"
+    alone = f"{run.describe()}, {100 * run.error:.0f} %, {duration(run.row.cpu_time)}"
+    if pair.error > error:
+        return [
+            f"Nothing of the table reaches {100 * error:g} %; the best is {pair.describe()}: {what}.",
+            f"  one run alone, at best: {alone}",
+        ]
+    return [
+        f"For {100 * error:g} % error use {pair.describe()}: {what} for both.",
+        f"  one run alone{'' if within else ', at best'}: {alone}",
+    ]
+
+
+def pair_held(pair: Pair, error: float, coarse: WheelRun, fine: WheelRun) -> list[str]:
+    """What two runs come to at size zero, and whether that and the cost are as expected."""
+    lines = [
+        f"Estimate: {pair.describe()}, error {100 * pair.error:.0f} %, "
+        f"{duration(pair.cpu_time)} of one core"
+    ]
+    good = True
+    for key, name in QUANTITY_NAMES:
+        one, other = (run.values[name] for run in (coarse, fine))
+        value, u = pair.at_size_zero(
+            (one.mean, one.standard_error), (other.mean, other.standard_error)
+        )
+        allowed = max(error, pair.errors[key])
+        line, ok = _judged(f"{name} at size zero", value, u, pair.fine.references[key], allowed)
+        lines.append(line)
+        good &= ok
+    return [*lines, *_cost(coarse.cpu_time + fine.cpu_time, pair.cpu_time), _in_all(good)]
 
 
 def reasons(
@@ -82,25 +131,42 @@ def held(choice: Assessed, error: float, run: WheelRun) -> list[str]:
         f"{duration(row.cpu_time)} of one core"
     ]
     good = True
-    for key, name in (("sinkage", "sinkage"), ("coefficient", "resistance_coefficient")):
-        reference, value = choice.references[key], run.values[name]
-        off = (value.mean - reference) / reference
+    for key, name in QUANTITY_NAMES:
+        value = run.values[name]
         allowed = max(error, choice.errors[key])
-        allowed += COVERAGE * value.standard_error / abs(reference)
-        ok = abs(off) <= allowed
-        good &= ok
-        lines.append(
-            f"  {name.replace('_', ' ')}: {with_error(value.mean, value.standard_error)}, "
-            f"{100 * off:+.1f} % from the value at size zero ({reference:.4g}), "
-            f"allowed {100 * allowed:.0f} %: {'held' if ok else 'NOT HELD'}"
+        line, ok = _judged(
+            name, value.mean, value.standard_error, choice.references[key], allowed
         )
-    if math.isfinite(run.cpu_time) and row.cpu_time > 0:
-        ratio = run.cpu_time / row.cpu_time
-        lines.append(f"  cost: {duration(run.cpu_time)}, {ratio:.2f} times the estimate")
-    lines.append(
-        "The estimate held."
-        if good
-        else "The estimate did not hold: the scene differs from those of the table, or the table "
-        "is out of date."
+        lines.append(line)
+        good &= ok
+    return [*lines, *_cost(run.cpu_time, row.cpu_time), _in_all(good)]
+
+
+def _judged(
+    name: str, value: float, u: float, reference: float, error: float
+) -> tuple[str, bool]:
+    """A value with its standard error against that at size zero: a line, and whether it held."""
+    off = (value - reference) / reference
+    allowed = error + COVERAGE * u / abs(reference)
+    ok = abs(off) <= allowed
+    line = (
+        f"  {name.replace('_', ' ')}: {with_error(value, u)}, "
+        f"{100 * off:+.1f} % from the value at size zero ({reference:.4g}), "
+        f"allowed {100 * allowed:.0f} %: {'held' if ok else 'NOT HELD'}"
     )
-    return lines
+    return line, ok
+
+
+def _cost(spent: float, estimate: float) -> list[str]:
+    if not (math.isfinite(spent) and estimate > 0):
+        return []
+    return [f"  cost: {duration(spent)}, {spent / estimate:.2f} times the estimate"]
+
+
+def _in_all(good: bool) -> str:
+    if good:
+        return "The estimate held."
+    return (
+        "The estimate did not hold: the scene differs from those of the table, or the table is out "
+        "of date."
+    )

@@ -26,6 +26,7 @@ class Assessed:
     errors: ByQuantity  # relative, NaN: not known
     parts: dict[str, Components]  # in the quantity's unit
     references: ByQuantity  # values at size zero of the wanted wheel
+    reference_errors: ByQuantity  # their standard errors, of standing in too
     models: ByQuantity  # relative error of standing in for the wanted wheel; 0: it is that
     pareto: bool = False  # nothing is cheaper and better
 
@@ -77,7 +78,7 @@ def assess(rows: Sequence[Row], wheel: str = "") -> list[Assessed]:
 
 def _assess_run(row: Row, family: cost_table.Family, target: cost_table.Family | None) -> Assessed:
     """target: the family of the wanted wheel, None where the table has none."""
-    result = Assessed(row, {}, {}, {}, {})
+    result = Assessed(row, {}, {}, {}, {}, {})
     for key in QUANTITY_KEYS:
         component = family.components(key, row.size, row.value(key)[1])
         own, own_error = family.reference(key)
@@ -86,6 +87,7 @@ def _assess_run(row: Row, family: cost_table.Family, target: cost_table.Family |
         if target is not family:
             reference_error = math.hypot(reference_error, own_error)
         result.parts[key], result.references[key] = component, reference
+        result.reference_errors[key] = reference_error
         # A value at size zero that noise leaves open by more than half of it says nothing of errors
         resolved = math.isfinite(component.size) and reference_error < 0.5 * abs(reference)
         total = math.nan

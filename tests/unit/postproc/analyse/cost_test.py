@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from furrow_post.analyse import cost, cost_table
+from furrow_post.analyse import cost, cost_table, extrapolation
 from furrow_post.analyse.cost_table import FamilyKey
 from furrow_post.errors import ResultsError
 from support.tables import CONTINUUM, GRAINS, made_runs, row
@@ -90,6 +90,36 @@ class TableTest(unittest.TestCase):
         ):
             choice, within = cost.recommend(assessed, wanted)
             self.assertEqual((choice.row.run, within), (name, reached))
+
+    def test_two_runs_extrapolated_where_they_are_cheaper(self) -> None:
+        assessed = cost.assess([r for r in made_runs() if r.ground == "continuum"])
+        # on exact lines a pair has no error but that of the line: 40 and 20 mm are the cheapest
+        run, within = cost.recommend(assessed, 0.03)
+        pair = extrapolation.better_pair(assessed, 0.03, run, within) or self.fail()
+        self.assertEqual([run.row.run for run in pair.runs], ["c0.04", "c0.02"])
+        self.assertAlmostEqual(pair.cpu_time, 1e-4 / 0.04**4 + 1e-4 / 0.02**4)
+        worst = assessed[0].reference_errors[pair.worst] / assessed[0].references[pair.worst]
+        self.assertAlmostEqual(pair.error, worst, places=7)
+        run, within = cost.recommend(assessed, 0.11)
+        self.assertIsNone(extrapolation.better_pair(assessed, 0.11, run, within))
+        run, within = cost.recommend(assessed, 1e-6)  # that nothing reaches
+        best = extrapolation.better_pair(assessed, 1e-6, run, within) or self.fail()
+        self.assertLess(best.error, run.error)
+        value, u = pair.at_size_zero((0.108, 1e-3), (0.104, 2e-3))
+        self.assertAlmostEqual(value, 0.1)
+        self.assertAlmostEqual(u, math.hypot(0.04 * 2e-3, 0.02 * 1e-3) / 0.02)
+
+    def test_a_pair_s_noise_and_packings_are_enlarged(self) -> None:
+        assessed = cost.assess([r for r in made_runs() if r.ground == "grains"])
+        (pair,) = extrapolation.pairs(assessed)
+        packing = pair.fine.parts["sinkage"].packing
+        domain = pair.fine.parts["sinkage"].domain
+        # f0 of the base's packing is 0.12; the family's is another by what the second packing adds
+        zero = pair.fine.references["sinkage"]
+        enlarged = math.hypot(0.04, 0.02) / 0.02 * packing
+        left = pair.fine.reference_errors["sinkage"]
+        expected = math.hypot(0.12 - zero, enlarged, domain, left) / zero
+        self.assertAlmostEqual(pair.errors["sinkage"], expected, places=6)
 
     def test_another_wheel_errs_by_the_difference_of_values_at_size_zero(self) -> None:
         tyres = [

@@ -137,6 +137,21 @@ class CompareCommandTest(unittest.TestCase):
         self.assertIn("The estimate did not hold", done.stdout)
         self.assertEqual(self.run_post("choose", "made.csv", "--error", "200%").returncode, 2)
 
+    def test_choose_two_runs_to_extrapolate(self) -> None:
+        cost_table.write_table(self.folder / "made.csv", made_runs())
+        done = self.run_post("choose", "made.csv", "--error", "4%")
+        expected = (0, "wheel\n-v\ncell\n0.04\n\nwheel\n-v\ncell\n0.02\n")
+        self.assertEqual((done.returncode, done.stdout), expected, done.stderr)
+        self.assertIn("cells of 40 and 20 mm extrapolated to size zero", done.stderr)
+        self.assertIn("one run alone, at best: continuum, cells of 10 mm", done.stderr)
+        # both sinkages 0.05: so is that at size zero, its error sqrt(40^2 + 20^2)/20 times theirs
+        done = self.run_post("choose", "made.csv", "--error", "4%", "--held", "a", "a")
+        self.assertIn("sinkage at size zero: 0.050 ± 0.002, -50.0 %", done.stdout)
+        self.assertIn("The estimate did not hold", done.stdout)
+        done = self.run_post("choose", "made.csv", "--error", "4%", "--held", "a")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("--held has 1 results folders", done.stderr)
+
     def test_choose_by_a_measurement(self) -> None:
         head = "# measured: Table 1\nrun,wheel,area_error,cpu_time,options\n"
         text = head + "a,tyre,0.1,1,x -v m '4 6'\n"

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Two runs of one family, extrapolated to size zero: often cheaper than one run that is fine enough.
+
+First order, as cost_table.py: with sizes h1 > h2,
+
+    f0 = (h1 f2 - h2 f1)/(h1 - h2),
+
+so that independent errors u of the two runs count as hypot(h1 u2, h2 u1)/(h1 - h2): more than one
+run's. The error of f0 is its distance from the value at size zero of the whole family, with the
+error of that, of time averages and packings so enlarged, and of the domain, which both share.
+"""
+
+import itertools
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from .cost import Assessed, ByQuantity, elements_name
+from .cost_table import QUANTITY_KEYS
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Two runs of a family and the relative numerical error of what they come to at size zero."""
+
+    coarse: Assessed
+    fine: Assessed
+    errors: ByQuantity  # relative, NaN: not known
+
+    @property
+    def runs(self) -> tuple[Assessed, Assessed]:
+        return self.coarse, self.fine
+
+    @property
+    def cpu_time(self) -> float:
+        """[s] of one core, of both."""
+        return self.coarse.row.cpu_time + self.fine.row.cpu_time
+
+    @property
+    def error(self) -> float:
+        """The worst; NaN where one is not known."""
+        errors = self.errors.values()
+        return max(errors) if all(math.isfinite(e) for e in errors) else math.nan
+
+    @property
+    def worst(self) -> str:
+        return max(self.errors, key=lambda key: self.errors[key])
+
+    def describe(self) -> str:
+        row, sizes = self.fine.row, [1e3 * run.row.size for run in self.runs]
+        return (
+            f"{row.ground}, {elements_name(row.ground)} of {sizes[0]:.3g} and {sizes[1]:.3g} mm "
+            f"extrapolated to size zero, {row.model} model, {row.wheel}"
+        )
+
+    def at_size_zero(
+        self, coarse: tuple[float, float], fine: tuple[float, float]
+    ) -> tuple[float, float]:
+        """Value and standard error at size zero; coarse, fine: value and standard error of each."""
+        h1, h2 = self.coarse.row.size, self.fine.row.size
+        (f1, u1), (f2, u2) = coarse, fine
+        return (h1 * f2 - h2 * f1) / (h1 - h2), math.hypot(h1 * u2, h2 * u1) / (h1 - h2)
+
+
+def pairs(assessed: Sequence[Assessed]) -> Iterator[Pair]:
+    """Of runs of one family that is the wanted wheel's, with different sizes."""
+    for one, other in itertools.combinations(assessed, 2):
+        fine, coarse = sorted((one, other), key=lambda a: a.row.size)
+        stands_in = any(model > 0 for model in fine.models.values())
+        if one.row.family != other.row.family or coarse.row.size <= fine.row.size or stands_in:
+            continue
+        yield _assessed_pair(coarse, fine)
+
+
+def _assessed_pair(coarse: Assessed, fine: Assessed) -> Pair:
+    pair = Pair(coarse, fine, {})
+    for key in QUANTITY_KEYS:
+        reference, parts = fine.references[key], fine.parts[key]
+        value, time_error = pair.at_size_zero(coarse.row.value(key), fine.row.value(key))
+        _, packing_error = pair.at_size_zero((0.0, parts.packing), (0.0, parts.packing))
+        # what is not known counts as in Components.total
+        known = [e for e in (packing_error, parts.domain) if math.isfinite(e)]
+        total = math.hypot(value - reference, fine.reference_errors[key], time_error, *known)
+        resolved = math.isfinite(fine.errors[key])
+        pair.errors[key] = total / abs(reference) if resolved else math.nan
+    return pair
+
+
+def better_pair(
+    assessed: Sequence[Assessed], error: float, run: Assessed, within: bool
+) -> Pair | None:
+    """The pair to take instead of this run, if any.
+
+    It is within the relative error and cheaper than a run that is; or, where no run is, the
+    cheapest within the error, else that of the least error if less than the run's.
+    """
+    known = [pair for pair in pairs(assessed) if math.isfinite(pair.error)]
+    good = [pair for pair in known if pair.error <= error]
+    if within:
+        good = [pair for pair in good if pair.cpu_time < run.row.cpu_time]
+    if good or within:
+        return min(good, key=lambda pair: pair.cpu_time) if good else None
+    best = min(known, key=lambda pair: pair.error, default=None)
+    return best if best and best.error < run.error else None
