@@ -315,6 +315,18 @@ def until_steady(results):
         sys.exit(f"it does not say why it is not steady:\n{said}")
 
 
+def error(results):
+    """Two runs for an error that none alone reaches; sizes of the command line win, so it is quick."""
+    folder = empty(results)
+    given = ["-v", "cell", "0.1", "-v", "distance", "0.3", "-o", folder]
+    said = inputs_run("wheel_on_snow", "--error", "1%", *given)
+    for name in ("coarse", "fine"):
+        if not (folder / name / "summary.json").is_file():
+            sys.exit(f"there is no {name} run:\n{said}")
+    if "sinkage at size zero: " not in said or "The estimate " not in said:
+        sys.exit(f"it does not end with the values at size zero:\n{said}")
+
+
 SCENE = "wheel_on_snow"
 # (words of inputs/run, what is said); everything is refused before anything runs
 REFUSED = (
@@ -390,5 +402,5 @@ def usage():
 
 if __name__ == "__main__":
     tests = {"scene": scene, "two_grounds": two_grounds, "laboratory": laboratory, "usage": usage,
-             "sweep": sweep, "until_steady": until_steady}
+             "sweep": sweep, "until_steady": until_steady, "error": error}
     tests[sys.argv[1]](*sys.argv[2:])
