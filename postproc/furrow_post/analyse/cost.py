@@ -18,8 +18,24 @@ from .cost_table import QUANTITY_KEYS, Components, FamilyKey, Row
 ByQuantity = dict[str, float]  # key of a quantity -> number
 
 
+class HasErrors:
+    """What has a relative error of each quantity, NaN where it is not known."""
+
+    errors: ByQuantity
+
+    @property
+    def error(self) -> float:
+        """The worst; NaN where one is not known."""
+        errors = self.errors.values()
+        return max(errors) if all(math.isfinite(e) for e in errors) else math.nan
+
+    @property
+    def worst(self) -> str:
+        return max(self.errors, key=lambda key: self.errors[key])
+
+
 @dataclass
-class Assessed:
+class Assessed(HasErrors):
     """A run with its relative numerical error, worst of sinkage and coefficient."""
 
     row: Row
@@ -29,16 +45,6 @@ class Assessed:
     reference_errors: ByQuantity  # their standard errors, of standing in too
     models: ByQuantity  # relative error of standing in for the wanted wheel; 0: it is that
     pareto: bool = False  # nothing is cheaper and better
-
-    @property
-    def error(self) -> float:
-        """NaN where one of the two is not known."""
-        errors = self.errors.values()
-        return max(errors) if all(math.isfinite(e) for e in errors) else math.nan
-
-    @property
-    def worst(self) -> str:
-        return max(self.errors, key=lambda key: self.errors[key])
 
     def describe(self) -> str:
         row = self.row

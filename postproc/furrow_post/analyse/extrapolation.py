@@ -15,12 +15,12 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from .cost import Assessed, ByQuantity, elements_name
+from .cost import Assessed, ByQuantity, HasErrors, elements_name
 from .cost_table import QUANTITY_KEYS
 
 
 @dataclass(frozen=True)
-class Pair:
+class Pair(HasErrors):
     """Two runs of a family and the relative numerical error of what they come to at size zero."""
 
     coarse: Assessed
@@ -35,16 +35,6 @@ class Pair:
     def cpu_time(self) -> float:
         """[s] of one core, of both."""
         return self.coarse.row.cpu_time + self.fine.row.cpu_time
-
-    @property
-    def error(self) -> float:
-        """The worst; NaN where one is not known."""
-        errors = self.errors.values()
-        return max(errors) if all(math.isfinite(e) for e in errors) else math.nan
-
-    @property
-    def worst(self) -> str:
-        return max(self.errors, key=lambda key: self.errors[key])
 
     def describe(self) -> str:
         row, sizes = self.fine.row, [1e3 * run.row.size for run in self.runs]
