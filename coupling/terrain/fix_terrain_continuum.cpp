@@ -115,14 +115,19 @@ int FixTerrainContinuum::setmask() { return LAMMPS_NS::FixConst::END_OF_STEP; }
 void FixTerrainContinuum::report() {
   const Grid& grid = terrain().grid();
   const double particles = terrain().particle_count(), step = terrain().stable_time_step();
+  const Partition& partition = terrain().partition();
+  const std::string blocks =
+      comm->nprocs == 1 ? ""
+                        : fmt::format("; {} x {} blocks of cells on {} ranks", partition.blocks(0),
+                                      partition.blocks(1), comm->nprocs);
   if (comm->me == 0 && screen)
     fmt::print(screen,
                "Continuum terrain: {:.4g} m long{}, {} x {} x {} cells, shortest {:.4g} m, {:.0f} "
-               "particles; stable step {:.3g} s\n",
+               "particles; stable step {:.3g} s{}\n",
                options().number("length"),
                options().given("length") ? "" : " by the wheel's radius and the depth",
                grid.axis(0).cells(), grid.axis(1).cells(), grid.axis(2).cells(),
-               grid.shortest_cell(), particles, step);
+               grid.shortest_cell(), particles, step, blocks);
   warn_of_extremes();
   const double scale = options().number("modulus_scale");
   if (scale != 1.0)

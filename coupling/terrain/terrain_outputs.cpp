@@ -30,6 +30,9 @@ const Outputs<TerrainReading>& terrain_outputs() {
        [](R& r) { return r.terrain().boundary_impulse(Face::z_lower).z(); }},
       {"slide_loss", "J", "the part of the dissipated energy that friction on a slide surface took",
        [](R& r) { return r.terrain().slide_loss(); }},
+      {"halo_messages", "", "that a rank sends in a sub-step for nodes it shares, mean so far",
+       [](R& r) { return r.halo().messages; }},
+      {"halo_bytes", "B", "in these messages", [](R& r) { return r.halo().bytes; }},
   };
   return list;
 }

@@ -3,6 +3,7 @@
 /// What continuum terrain reports: f_ID[n] of terrain/continuum, and the channels of
 /// terrain/history.
 
+#include <algorithm>
 #include <optional>
 
 #include "bodies/body.h"
@@ -21,6 +22,12 @@ class TerrainReading {
   const EnergyBudget& energy() {
     if (!energy_) energy_ = terrain_.energy_budget();
     return *energy_;
+  }
+  /// Of a sub-step. Collective.
+  HaloTraffic halo() const {
+    HaloTraffic halo = terrain_.halo_traffic();
+    const double steps = std::max(halo.steps, 1.0);
+    return {1.0, halo.messages / steps, halo.bytes / steps};
   }
 
  private:

@@ -56,14 +56,32 @@ double Communicator::max(double value) const {
   return value;
 }
 
-std::vector<double> Communicator::exchange(int other, const std::vector<double>& numbers) const {
-  long mine = static_cast<long>(numbers.size()), theirs = 0;
-  MPI_Sendrecv(&mine, 1, MPI_LONG, other, 0, &theirs, 1, MPI_LONG, other, 0, handle_->comm,
-               MPI_STATUS_IGNORE);
-  std::vector<double> received(static_cast<std::size_t>(theirs));
-  MPI_Sendrecv(numbers.data(), static_cast<int>(mine), MPI_DOUBLE, other, 1, received.data(),
-               static_cast<int>(theirs), MPI_DOUBLE, other, 1, handle_->comm, MPI_STATUS_IGNORE);
-  return received;
+void Communicator::max(double* values, std::size_t count) const {
+  if (size() > 1)
+    MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(count), MPI_DOUBLE, MPI_MAX,
+                  handle_->comm);
+}
+
+void Communicator::exchange(std::vector<Message>& messages) const {
+  std::vector<MPI_Request> requests;
+  for (Message& message : messages)
+    if (!message.received.empty())
+      MPI_Irecv(message.received.data(), static_cast<int>(message.received.size()), MPI_DOUBLE,
+                message.other, 0, handle_->comm, &requests.emplace_back());
+  for (const Message& message : messages)
+    if (!message.sent.empty())
+      MPI_Isend(message.sent.data(), static_cast<int>(message.sent.size()), MPI_DOUBLE,
+                message.other, 0, handle_->comm, &requests.emplace_back());
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+}
+
+void Communicator::exchange_lengths(std::vector<Message>& messages) const {
+  std::vector<Message> lengths;
+  for (const Message& message : messages)
+    lengths.push_back({message.other, {static_cast<double>(message.sent.size())}, {0.0}});
+  exchange(lengths);
+  for (std::size_t n = 0; n < messages.size(); ++n)
+    messages[n].received.resize(static_cast<std::size_t>(lengths[n].received[0]));
 }
 
 std::vector<double> Communicator::gather(const std::vector<double>& numbers) const {

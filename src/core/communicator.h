@@ -26,10 +26,21 @@ class Communicator {
   void sum(double* values, std::size_t count) const;
   double sum(double value) const;
   double max(double value) const;
+  void max(double* values, std::size_t count) const;  ///< of each in place
   bool any(bool value) const;
-  /// Gives numbers to another rank and takes its own; both call it. Pairs in the same order on all
-  /// ranks, or they wait for ever.
-  std::vector<double> exchange(int other, const std::vector<double>& numbers) const;
+
+  /// Numbers for another rank, and those that it gives for them.
+  struct Message {
+    int other = 0;
+    std::vector<double> sent = {};
+    std::vector<double> received = {};
+  };
+  /// Exchanges all messages at once, one at most with each rank; both sides call it, and `received`
+  /// has the length that the other sends. What is empty is not sent.
+  void exchange(std::vector<Message>& messages) const;
+  /// Gives each `received` the length that the other sends.
+  void exchange_lengths(std::vector<Message>& messages) const;
+
   /// The numbers of all ranks, in rank order, on every rank.
   std::vector<double> gather(const std::vector<double>& numbers) const;
 

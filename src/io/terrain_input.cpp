@@ -23,6 +23,7 @@ constexpr double min_clearance_cells = 6.0;
 constexpr double clearance_of_depth = 1.0;
 constexpr double min_cells_in_depth = 2.0;
 constexpr double round_off = 1e-6;  // of a length
+constexpr double most_blocks = 1e6;
 // The law whose stress has jumps, as terrain/continuum's page says of `remap_interval`.
 constexpr char jumping_law[] = "crushable_foam";
 
@@ -148,6 +149,16 @@ void check_depth(const TerrainParameters& ground, const Options& options) {
                      "choose smaller cells");
 }
 
+std::optional<BlockLayout> read_blocks(const Options& options) {
+  if (!options.given("blocks")) return {};
+  const std::vector<double>& numbers = options.numbers("blocks");
+  for (const double number : numbers)
+    if (number != std::floor(number))
+      throw InputError(options.where("blocks"), fmt::format("has the number {}", number),
+                       "two whole numbers: of blocks along x and along y");
+  return BlockLayout{static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
+}
+
 AxisLayout layout(const Options& options, double lower, double upper, double middle,
                   const std::string& fine_key) {
   AxisLayout axis{lower, upper, options.number("cell"), lower, upper, options.number("growth")};
@@ -229,6 +240,11 @@ Schema terrain_schema(const std::string& subject, std::optional<double> length) 
       .number("modulus_scale", "", Range::closed(0.01, 1.0),
               "factor on Young's modulus, for longer steps")
       .by_default(1.0);
+  schema
+      .numbers("blocks", 2, "", Range::closed(1.0, most_blocks),
+               "how the ranks share the ground: so many blocks along x and along y")
+      .optional()
+      .may_change();
   schema.alias("headroom", "clearance_above");
   schema.alias("weightless_start", "initial_stress", inverted_flag);
   schema.alias("cycle", "remap_interval");
@@ -265,6 +281,7 @@ TerrainParameters read_terrain(const Options& options, const std::string& folder
   ground.surface_mesh = options.flag("sheet");
   ground.cfl = options.number("cfl");
   ground.remap_interval = static_cast<int>(options.integer("remap_interval"));
+  ground.blocks = read_blocks(options);
   return ground;
 }
 

@@ -29,20 +29,20 @@ FacePlane plane_of(const Grid& grid, Face face) {
 
 using NodeIndex = std::array<int, 3>;  // along x, y, z
 
-/// Calls visit(number on the face, index in the grid) for the nodes of a face inside the planes.
+/// Calls visit(number on the face, index in the grid) for the nodes of a face inside a block.
 template <class Visit>
-void for_face(const Grid& grid, const FacePlane& face, const PlaneRange& planes, Visit visit) {
+void for_face(const Grid& grid, const FacePlane& face, const NodeBlock& block, Visit visit) {
+  const NodeRange inside[3] = {block.x, block.y, {0, grid.nodes(2)}};
+  if (!inside[face.axis].contains(face.plane)) return;
   NodeIndex node;
-  const auto axis = static_cast<std::size_t>(face.axis);
   const auto slow = static_cast<std::size_t>(face.slow);
   const auto fast = static_cast<std::size_t>(face.fast);
-  node[axis] = face.plane;
-  std::size_t number = 0;
-  for (int s = 0; s < grid.nodes(face.slow); ++s)
-    for (int f = 0; f < grid.nodes(face.fast); ++f, ++number) {
+  node[static_cast<std::size_t>(face.axis)] = face.plane;
+  for (int s = inside[slow].from; s < inside[slow].to; ++s)
+    for (int f = inside[fast].from; f < inside[fast].to; ++f) {
       node[slow] = s;
       node[fast] = f;
-      if (planes.contains(node[0])) visit(number, node);
+      visit(static_cast<std::size_t>(s * grid.nodes(face.fast) + f), node);
     }
 }
 
@@ -105,7 +105,7 @@ void Boundary::for_far_fields(Visit visit) {
       if (!far.initial_force.empty()) visit(far);
 }
 
-void Boundary::capture_initial_tractions(Grid& grid, const PlaneRange& local,
+void Boundary::capture_initial_tractions(Grid& grid, const NodeBlock& local,
                                          const Vector3& gravity) {
   has_initial_tractions_ = true;
   for (int field = 0; field < grid.fields(); ++field)
@@ -151,7 +151,7 @@ void Boundary::release(const Grid& grid, FarFields& far_fields, Face holder,
   }
 }
 
-void Boundary::renew_tractions(Grid& grid, const PlaneRange& local, const Vector3& gravity) {
+void Boundary::renew_tractions(Grid& grid, const NodeBlock& local, const Vector3& gravity) {
   if (!std::exchange(renewal_due_, false)) return;
   constexpr Face behind = Face::x_lower;
   for (int field = 0; field < grid.fields(); ++field) {
@@ -171,14 +171,14 @@ void Boundary::renew_tractions(Grid& grid, const PlaneRange& local, const Vector
   }
 }
 
-void Boundary::apply(Grid& grid, const PlaneRange& local, const PlaneRange& owned, double dt) {
+void Boundary::apply(Grid& grid, const NodeBlock& local, const NodeBlock& owned, double dt) {
   for (int field = 0; field < grid.fields(); ++field)
     for (const Face face : all_faces)
       if (kinds_[face] == BoundaryKind::absorbing) absorb(grid, field, face, local, owned, dt);
   for (const Face face : all_faces) constrain(grid, face, local, owned);
 }
 
-void Boundary::constrain(Grid& grid, Face face, const PlaneRange& local, const PlaneRange& owned) {
+void Boundary::constrain(Grid& grid, Face face, const NodeBlock& local, const NodeBlock& owned) {
   if (kinds_[face] != BoundaryKind::smooth && kinds_[face] != BoundaryKind::rough) return;
   const FacePlane plane = plane_of(grid, face);
   for_face(grid, plane, local, [&](std::size_t, const NodeIndex& index) {
@@ -186,7 +186,7 @@ void Boundary::constrain(Grid& grid, Face face, const PlaneRange& local, const P
       NodeMotion& node = grid.motion(index[0], index[1], index[2], field);
       for (int c = 0; c < 3; ++c) {
         if (kinds_[face] == BoundaryKind::smooth && c != plane.axis) continue;
-        if (owned.contains(index[0])) impulse_[face][c] -= node.mass * node.velocity[c];
+        if (owned.contains(index[0], index[1])) impulse_[face][c] -= node.mass * node.velocity[c];
         node.velocity[c] = 0.0;
       }
     }
@@ -204,8 +204,8 @@ bool Boundary::is_fixed(const Grid& grid, const std::array<int, 3>& node, int co
   return false;
 }
 
-void Boundary::absorb(Grid& grid, int field, Face face, const PlaneRange& local,
-                      const PlaneRange& owned, double dt) {
+void Boundary::absorb(Grid& grid, int field, Face face, const NodeBlock& local,
+                      const NodeBlock& owned, double dt) {
   FarField& far = far_[static_cast<std::size_t>(field)][face];
   for_face(grid, plane_of(grid, face), local, [&](std::size_t number, const NodeIndex& index) {
     NodeMotion& node = grid.motion(index[0], index[1], index[2], field);
@@ -219,7 +219,7 @@ void Boundary::absorb(Grid& grid, int field, Face face, const PlaneRange& local,
       const double after = (before + pull) / (1.0 + dt * speed * far.inverse_extent);
       node.velocity[c] = after;
       far.displacement[n] += dt * after;
-      if (owned.contains(index[0])) {
+      if (owned.contains(index[0], index[1])) {
         const double impulse = node.mass * (after - before);
         impulse_[face][c] += impulse;
         work_ += impulse * after;
@@ -256,14 +256,16 @@ void Boundary::shift_x(int cells) {
   });
 }
 
-void Boundary::synchronise(const Communicator& ranks, const PlaneRange& owned) {
+void Boundary::synchronise(const Communicator& ranks, const NodeBlock& owned) {
   if (ranks.size() == 1) return;
   for_far_fields([&](FarField& far) {
     for (std::vector<double>* values : {&far.initial_force, &far.displacement}) {
-      const std::size_t row = 3 * static_cast<std::size_t>(far.nodes[1]);
       for (std::size_t n = 0; n < values->size(); ++n) {
-        const int plane = far.axis == 0 ? far.plane : static_cast<int>(n / row);
-        if (!owned.contains(plane)) (*values)[n] = 0.0;
+        const int number = static_cast<int>(n / 3);
+        const int slow = number / far.nodes[1], fast = number % far.nodes[1];
+        const int x = far.axis == 0 ? far.plane : slow;
+        const int y = far.axis == 0 ? slow : far.axis == 1 ? far.plane : fast;
+        if (!owned.contains(x, y)) (*values)[n] = 0.0;
       }
       ranks.sum(values->data(), values->size());
     }

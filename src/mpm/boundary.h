@@ -45,8 +45,8 @@ struct WaveSpeeds {
 ///           the dashpot, t_0 = t + rho c v with t the traction that leaves the node at its
 ///           velocity, and u = 0
 ///
-/// Plane ranges: `local` planes are those that this rank's particles reach; sums (impulse, work)
-/// count the `owned` planes only, so that their sum over the ranks counts each node once.
+/// `local` nodes are those that this rank's particles reach; sums (impulse, work) count the `owned`
+/// nodes only, so that their sum over the ranks counts each node once.
 class Boundary {
  public:
   /// @param particles_per_cell  in each direction, of the undisturbed ground
@@ -62,13 +62,13 @@ class Boundary {
   bool has_initial_tractions() const { return has_initial_tractions_; }
   /// Takes t_0 from the node sums (forces of the initial stress) and gravity [m/s^2] before the
   /// first step; the sums and masses of the absorbing nodes are set to zero.
-  void capture_initial_tractions(Grid& grid, const PlaneRange& local, const Vector3& gravity);
+  void capture_initial_tractions(Grid& grid, const NodeBlock& local, const Vector3& gravity);
 
   /// After a move of the grid, lets the face behind take t_0 from node sums and gravity [m/s^2].
-  void renew_tractions(Grid& grid, const PlaneRange& local, const Vector3& gravity);
+  void renew_tractions(Grid& grid, const NodeBlock& local, const Vector3& gravity);
 
   /// Changes the velocities of the face nodes over a step dt [s].
-  void apply(Grid& grid, const PlaneRange& local, const PlaneRange& owned, double dt);
+  void apply(Grid& grid, const NodeBlock& local, const NodeBlock& owned, double dt);
 
   /// Impulse that a face gave to the ground since the start, this rank's share [N s].
   const Vector3& impulse(Face face) const { return impulse_[face]; }
@@ -77,8 +77,8 @@ class Boundary {
 
   /// The grid moved by whole cells along x.
   void shift_x(int cells);
-  /// Every rank takes the displacements of the rank that owns a plane. Collective.
-  void synchronise(const Communicator& ranks, const PlaneRange& owned);
+  /// Every rank takes the far field of the ranks that own the nodes. Collective.
+  void synchronise(const Communicator& ranks, const NodeBlock& owned);
   /// Impulses and work become those of all ranks. Collective.
   void sum_over_ranks(const Communicator& ranks);
   /// @param keep_sums on one rank only: impulses and work of all ranks are then counted once
@@ -102,8 +102,8 @@ class Boundary {
   void release(const Grid& grid, FarFields& far_fields, Face holder,
                const std::array<int, 3>& node) const;
   FarFields far_fields(const Grid& grid, const std::array<int, 3>& particles_per_cell) const;
-  void constrain(Grid& grid, Face face, const PlaneRange& local, const PlaneRange& owned);
-  void absorb(Grid& grid, int field, Face face, const PlaneRange& local, const PlaneRange& owned,
+  void constrain(Grid& grid, Face face, const NodeBlock& local, const NodeBlock& owned);
+  void absorb(Grid& grid, int field, Face face, const NodeBlock& local, const NodeBlock& owned,
               double dt);
   template <class Visit>
   void for_far_fields(Visit visit);

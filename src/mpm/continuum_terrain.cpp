@@ -16,14 +16,17 @@ Discretisation discretise(const TerrainParameters& parameters, const Communicato
                           const std::string& where) {
   check_memory(parameters, ranks, where);
   Grid grid = make_grid(parameters, where);
-  const int x_cells = grid.axis(0).cells();
+  const BlockLayout blocks =
+      parameters.blocks ? *parameters.blocks : choose_layout(ranks.size(), grid);
+  check_layout(blocks, ranks.size(), where + ", keyword 'blocks'");
   std::vector<ParticleGroup> groups;
   for (int field = 0; field < grid.fields(); ++field)
     for (std::size_t n = 0; n < parameters.layers.size(); ++n) {
       const std::shared_ptr<const Material>& material = parameters.layers[n].material;
       groups.push_back({material, Particles(*material), n, field});
     }
-  return {std::move(grid), std::move(groups), Partition(ranks, x_cells)};
+  const Partition partition(ranks, blocks, grid);
+  return {std::move(grid), std::move(groups), partition};
 }
 
 /// Collective.
@@ -60,9 +63,7 @@ ContinuumTerrain::ContinuumTerrain(const TerrainParameters& parameters, const Co
 
 void ContinuumTerrain::fill(const std::string& where) {
   const Grid& grid = discretisation_.grid;
-  const int cells = grid.axis(0).cells();
-  discretisation_.partition.rebalance(std::vector<double>(static_cast<std::size_t>(cells), 1.0));
-  for (int cell = 0; cell < cells; ++cell) fill_.add_cells(cell, discretisation_);
+  for (int cell = 0; cell < grid.axis(0).cells(); ++cell) fill_.add_cells(cell, discretisation_);
   if (slide_) check_both_sides(discretisation_, where);
   energy_.add_initial(internal_energy(discretisation_.groups));
   if (parameters_.surface_mesh)
@@ -161,10 +162,11 @@ void ContinuumTerrain::checkpoint(Checkpoint& state) {
   energy_.checkpoint(state, ranks());
   fill_.checkpoint(state);
   remap_.checkpoint(state);
-  discretisation_.grid.checkpoint(state, ranks(), discretisation_.partition.owned_planes());
+  discretisation_.grid.checkpoint(state, ranks(), discretisation_.partition.owned_nodes());
   window_.checkpoint_rut(state);
   state.values("free_surface_force", free_surface_.surface().f);
   checkpoint_boundary(state);
+  discretisation_.exchange.checkpoint(state, ranks());
   distribution_.checkpoint_drift(state);
   distribution_.checkpoint_particles(state);
   if (!state.saving()) resume();
@@ -172,7 +174,7 @@ void ContinuumTerrain::checkpoint(Checkpoint& state) {
 
 void ContinuumTerrain::checkpoint_boundary(Checkpoint& state) {
   if (state.saving()) {
-    boundary_.synchronise(ranks(), discretisation_.partition.owned_planes());
+    boundary_.synchronise(ranks(), discretisation_.partition.owned_nodes());
     boundary_.sum_over_ranks(ranks());
   }
   boundary_.checkpoint(state, ranks().rank() == 0);

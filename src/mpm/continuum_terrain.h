@@ -36,7 +36,7 @@ namespace furrow {
 ///   FreeSurfaceMesh       triangles for grains that lie on the terrain
 ///   TerrainEnergy         energies and works
 ///
-/// Every rank computes a slab of the terrain; bodies that touch it are replicated. Calls are
+/// Every rank computes a block of the terrain; bodies that touch it are replicated. Calls are
 /// collective unless said otherwise.
 class ContinuumTerrain : public Body {
  public:
@@ -64,12 +64,15 @@ class ContinuumTerrain : public Body {
   const TerrainParameters& parameters() const { return parameters_; }
   const Grid& grid() const { return discretisation_.grid; }
   const Communicator& ranks() const { return discretisation_.ranks(); }
+  const Partition& partition() const { return discretisation_.partition; }
 
   /// Impulse that a face of the grid gave to the ground since the start [N s].
   Vector3 boundary_impulse(Face face) const;
   /// What friction on the slide surface turned into heat since the start [J].
   double slide_loss() const;
   double particle_count() const;  ///< of all ranks
+  /// What a rank has sent for the sums at shared nodes since the start, mean of the ranks.
+  HaloTraffic halo_traffic() const { return discretisation_.exchange.mean_traffic(ranks()); }
 
   // ---- this rank's particles; not collective ----------------------------------------------------
 

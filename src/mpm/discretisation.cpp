@@ -5,8 +5,11 @@ namespace furrow {
 
 GridView Discretisation::local_view(int field) {
   GridView view = grid.view(field);
-  view.axis[0].particles_lower = grid.axis(0).knot(partition.first_local_cell());
-  view.axis[0].particles_upper = grid.axis(0).knot(partition.last_local_cell() + 1);
+  for (int a = 0; a < 2; ++a) {
+    const CellRange cells = partition.local_cells(a);
+    view.axis[a].particles_lower = grid.axis(a).knot(cells.from);
+    view.axis[a].particles_upper = grid.axis(a).knot(cells.to);
+  }
   return view;
 }
 

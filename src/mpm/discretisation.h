@@ -6,21 +6,25 @@
 #include <vector>
 
 #include "mpm/grid.h"
+#include "mpm/node_exchange.h"
 #include "mpm/particle_group.h"
 #include "mpm/partition.h"
 
 namespace furrow {
 
-/// The grid is replicated in size on every rank, but only the nodes of partition.local_planes()
+/// The grid is replicated in size on every rank, but only the nodes of partition.local_nodes()
 /// have values here; `groups` holds this rank's particles.
 struct Discretisation {
   Grid grid;
   /// one for each layer, from the top; with a slide surface, first those of its inner side
   std::vector<ParticleGroup> groups;
   Partition partition;
+  NodeExchange exchange = {};
 
   const Communicator& ranks() const { return partition.ranks(); }
-  /// The grid as this rank's kernels may use it: particles in its slab and one cell beyond.
+  /// Completes the sums of the nodes that other ranks have too. Collective.
+  void add_shared_sums() { exchange.add_shared_sums(grid, partition); }
+  /// The grid as this rank's kernels may use it: particles in its block and one cell beyond.
   GridView local_view(int field = 0);
 };
 

@@ -8,7 +8,7 @@ namespace furrow {
 
 Grid::Grid(Axis x, Axis y, Axis z, int fields)
     : axes_{std::move(x), std::move(y), std::move(z)}, fields_(fields) {
-  const std::size_t count = static_cast<std::size_t>(fields * nodes(0)) * plane_size();
+  const std::size_t count = index(nodes(0), 0, 0, fields - 1);
   sums_.resize(count);
   motions_.resize(count);
   displacements_.resize(count);
@@ -19,20 +19,20 @@ double Grid::shortest_cell() const {
 }
 
 template <class Visit>
-void Grid::for_nodes(const PlaneRange& planes, Visit&& visit) const {
+void Grid::for_nodes(const NodeBlock& block, Visit&& visit) const {
   for (int field = 0; field < fields_; ++field)
-    for (std::size_t n = index(planes.from, 0, 0, field),
-                     end = index(std::max(planes.from, planes.to), 0, 0, field);
-         n < end; ++n)
-      visit(n);
+    for (int i = block.x.from; i < block.x.to; ++i)
+      for (std::size_t n = index(i, block.y.from, 0, field), end = index(i, block.y.to, 0, field);
+           n < end; ++n)
+        visit(n);
 }
 
-void Grid::clear_sums(const PlaneRange& planes) {
-  for_nodes(planes, [&](std::size_t n) { sums_[n] = NodeSum{}; });
+void Grid::clear_sums(const NodeBlock& block) {
+  for_nodes(block, [&](std::size_t n) { sums_[n] = NodeSum{}; });
 }
 
-void Grid::compute_velocities(const PlaneRange& planes) {
-  for_nodes(planes, [&](std::size_t n) {
+void Grid::compute_velocities(const NodeBlock& block) {
+  for_nodes(block, [&](std::size_t n) {
     const NodeSum sum = std::exchange(sums_[n], NodeSum{});
     const double inverse = sum.mass > 0.0 ? 1.0 / sum.mass : 0.0;
     for (int a = 0; a < 3; ++a) motions_[n].velocity[a] = inverse * sum.total[a];
@@ -40,8 +40,8 @@ void Grid::compute_velocities(const PlaneRange& planes) {
   });
 }
 
-void Grid::accelerate(const PlaneRange& planes, double dt, const Vector3& gravity) {
-  for_nodes(planes, [&](std::size_t n) {
+void Grid::accelerate(const NodeBlock& block, double dt, const Vector3& gravity) {
+  for_nodes(block, [&](std::size_t n) {
     const NodeSum sum = std::exchange(sums_[n], NodeSum{});
     NodeMotion& node = motions_[n];
     if (!(node.mass > 0.0)) return;
@@ -50,8 +50,8 @@ void Grid::accelerate(const PlaneRange& planes, double dt, const Vector3& gravit
   });
 }
 
-NodeTotals Grid::move(const PlaneRange& planes, const PlaneRange& owned, double dt) {
-  for_nodes(planes, [&](std::size_t n) {
+NodeTotals Grid::move(const NodeBlock& block, const NodeBlock& owned, double dt) {
+  for_nodes(block, [&](std::size_t n) {
     for (int a = 0; a < 3; ++a) displacements_[n].u[a] += dt * motions_[n].velocity[a];
   });
   NodeTotals totals;
@@ -64,8 +64,8 @@ NodeTotals Grid::move(const PlaneRange& planes, const PlaneRange& owned, double 
   return totals;
 }
 
-void Grid::clear_displacement(const PlaneRange& planes) {
-  for_nodes(planes, [&](std::size_t n) { displacements_[n] = NodeDisplacement{}; });
+void Grid::clear_displacement(const NodeBlock& block) {
+  for_nodes(block, [&](std::size_t n) { displacements_[n] = NodeDisplacement{}; });
 }
 
 GridView Grid::view(int field) {
@@ -76,7 +76,7 @@ GridView Grid::view(int field) {
           displacements_[n].u};
 }
 
-void Grid::checkpoint(Checkpoint& state, const Communicator& ranks, const PlaneRange& owned) {
+void Grid::checkpoint(Checkpoint& state, const Communicator& ranks, const NodeBlock& owned) {
   constexpr std::size_t length = 8;  // of a node: velocity, mass, displacement
   std::vector<double> numbers(length * motions_.size(), 0.0);
   if (state.saving()) {

@@ -36,10 +36,17 @@ struct NodeTotals {
   double kinetic_energy = 0.0;         ///< [J]
 };
 
-/// A half-open range of planes of nodes across x.
-struct PlaneRange {
+/// A half-open range of nodes along an axis.
+struct NodeRange {
   int from = 0, to = 0;
-  bool contains(int plane) const { return plane >= from && plane < to; }
+  int size() const { return to > from ? to - from : 0; }
+  bool contains(int node) const { return node >= from && node < to; }
+};
+
+/// Columns of nodes along z.
+struct NodeBlock {
+  NodeRange x, y;
+  bool contains(int i, int j) const { return x.contains(i) && y.contains(j); }
 };
 
 class Grid {
@@ -50,34 +57,30 @@ class Grid {
   int fields() const { return fields_; }
   const Axis& axis(int a) const { return axes_[static_cast<std::size_t>(a)]; }
   int nodes(int a) const { return axis(a).nodes(); }
-  PlaneRange all_planes() const { return {0, nodes(0)}; }
-  std::size_t plane_size() const {
-    return static_cast<std::size_t>(nodes(1)) * static_cast<std::size_t>(nodes(2));
-  }
+  NodeBlock all_nodes() const { return {{0, nodes(0)}, {0, nodes(1)}}; }
   double shortest_cell() const;  ///< [m]
 
   NodeSum& sum(int i, int j, int k, int field = 0) { return sums_[index(i, j, k, field)]; }
   NodeMotion& motion(int i, int j, int k, int field = 0) { return motions_[index(i, j, k, field)]; }
-  double* plane_sums(int i, int field) {  ///< four numbers a node
-    return sums_[index(i, 0, 0, field)].total;
-  }
+  /// Of the columns from j on in the plane i of nodes across x: four numbers a node.
+  double* column_sums(int i, int j, int field) { return sums_[index(i, j, 0, field)].total; }
 
-  void clear_sums(const PlaneRange& planes);
+  void clear_sums(const NodeBlock& block);
   /// Takes the masses; velocity = momentum/mass. The sums are zero afterwards.
-  void compute_velocities(const PlaneRange& planes);
+  void compute_velocities(const NodeBlock& block);
   /// Velocity += dt (force/mass + gravity). The sums are zero afterwards.
-  void accelerate(const PlaneRange& planes, double dt, const Vector3& gravity);
-  /// Displacement += dt velocity. @return totals of the planes of `owned`
-  NodeTotals move(const PlaneRange& planes, const PlaneRange& owned, double dt);
-  void clear_displacement(const PlaneRange& planes);
+  void accelerate(const NodeBlock& block, double dt, const Vector3& gravity);
+  /// Displacement += dt velocity. @return totals of the nodes of `owned`
+  NodeTotals move(const NodeBlock& block, const NodeBlock& owned, double dt);
+  void clear_displacement(const NodeBlock& block);
 
   /// The axis moves along x by whole cells; the numbers of the nodes stay where they are in memory.
   void shift_x(int cells) { axes_[0].shift(cells); }
   /// Valid until the grid is shifted.
   GridView view(int field = 0);
 
-  /// Motion and displacement of all nodes, as of the rank that owns their plane. Collective.
-  void checkpoint(Checkpoint& state, const Communicator& ranks, const PlaneRange& owned);
+  /// Motion and displacement of all nodes, as of the rank that owns them. Collective.
+  void checkpoint(Checkpoint& state, const Communicator& ranks, const NodeBlock& owned);
 
  private:
   std::size_t index(int i, int j, int k, int field) const {
@@ -86,9 +89,9 @@ class Grid {
                static_cast<std::size_t>(nodes(2)) +
            static_cast<std::size_t>(k);
   }
-  /// Calls visit(n) for the nodes of some planes, field by field.
+  /// Calls visit(n) for the nodes of a block, field by field.
   template <class Visit>
-  void for_nodes(const PlaneRange& planes, Visit&& visit) const;
+  void for_nodes(const NodeBlock& block, Visit&& visit) const;
 
   std::array<Axis, 3> axes_;
   int fields_;

@@ -37,7 +37,7 @@ bool MovingWindow::move() {
     remove_first_cells();
     // Rows of the far field pass from rank to rank when the grid moves.
     if (!moved)
-      boundary_.synchronise(discretisation_.ranks(), discretisation_.partition.owned_planes());
+      boundary_.synchronise(discretisation_.ranks(), discretisation_.partition.owned_nodes());
     discretisation_.grid.shift_x(1);
     boundary_.shift_x(1);
     ++shifts_;
@@ -49,7 +49,7 @@ bool MovingWindow::move() {
   return moved;
 }
 
-/// Removes this rank's particles in the first layer of cells across x.
+/// Removes this rank's particles in the first layer of cells across x. Collective.
 void MovingWindow::remove_first_cells() {
   const Axis& y = discretisation_.grid.axis(1);
   const double edge = discretisation_.grid.axis(0).knot(1);
@@ -82,7 +82,12 @@ void MovingWindow::remove_first_cells() {
   energy_.add_removed(
       internal_before - internal_energy(discretisation_.groups),
       dissipated_before - sum_energy(discretisation_.groups, field::dissipated_energy));
-  record_rut(top, mass, volume);
+  // A row may have particles of two ranks: they change ranks when they are sorted.
+  const Communicator& ranks = discretisation_.ranks();
+  ranks.max(top.data(), top.size());
+  ranks.sum(mass.data(), mass.size());
+  ranks.sum(volume.data(), volume.size());
+  if (ranks.rank() == 0) record_rut(top, mass, volume);
 }
 
 /// @param top, mass, volume  of the removed ground in each row of cells along y [m], [kg], [m^3]

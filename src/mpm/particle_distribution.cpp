@@ -2,6 +2,7 @@
 #include "mpm/particle_distribution.h"
 
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -32,8 +33,10 @@ void ParticleDistribution::sort() {
 /// Counting sort: stable, so that the order of the particles of a cell stays.
 void ParticleDistribution::sort_by_cell(ParticleGroup& group) {
   const Grid& grid = discretisation_.grid;
-  const auto nx = static_cast<std::size_t>(grid.axis(0).cells());
-  const auto ny = static_cast<std::size_t>(grid.axis(1).cells());
+  const CellRange x_cells = discretisation_.partition.own_cells(0);
+  const CellRange y_cells = discretisation_.partition.own_cells(1);
+  const auto nx = static_cast<std::size_t>(x_cells.size());
+  const auto ny = static_cast<std::size_t>(y_cells.size());
   const auto nz = static_cast<std::size_t>(grid.axis(2).cells());
   const std::size_t n = group.particles.size();
   cell_.resize(n);
@@ -43,7 +46,9 @@ void ParticleDistribution::sort_by_cell(ParticleGroup& group) {
     const int c[3] = {grid.axis(0).cell_of(x[0]), grid.axis(1).cell_of(x[1]),
                       grid.axis(2).cell_of(x[2])};
     if (c[0] < 0 || c[1] < 0 || c[2] < 0) report_outside(group);
-    cell_[p] = (static_cast<std::size_t>(c[0]) * ny + static_cast<std::size_t>(c[1])) * nz +
+    cell_[p] = (static_cast<std::size_t>(c[0] - x_cells.from) * ny +
+                static_cast<std::size_t>(c[1] - y_cells.from)) *
+                   nz +
                static_cast<std::size_t>(c[2]);
     ++start_[cell_[p] + 1];
   }
@@ -54,46 +59,63 @@ void ParticleDistribution::sort_by_cell(ParticleGroup& group) {
 }
 
 /// Of all ranks.
-std::vector<double> ParticleDistribution::count_by_x_cell() const {
-  const Axis& x = discretisation_.grid.axis(0);
-  std::vector<double> count(static_cast<std::size_t>(x.cells()), 0.0);
-  for (const ParticleGroup& group : discretisation_.groups)
-    for (std::size_t p = 0; p < group.particles.size(); ++p) {
-      const int cell = x.cell_of(group.particles.data(column::x)[p]);
-      if (cell < 0) report_outside(group);
-      ++count[static_cast<std::size_t>(cell)];
-    }
-  discretisation_.ranks().sum(count.data(), count.size());
-  return count;
+Partition::Counts ParticleDistribution::count_in_layers() const {
+  Partition::Counts counts;
+  for (std::size_t a = 0; a < 2; ++a) {
+    const Axis& axis = discretisation_.grid.axis(static_cast<int>(a));
+    counts[a].assign(static_cast<std::size_t>(axis.cells()), 0.0);
+    for (const ParticleGroup& group : discretisation_.groups)
+      for (std::size_t p = 0; p < group.particles.size(); ++p) {
+        const int cell = axis.cell_of(group.particles.data(column::x + a)[p]);
+        if (cell < 0) report_outside(group);
+        ++counts[a][static_cast<std::size_t>(cell)];
+      }
+    discretisation_.ranks().sum(counts[a].data(), counts[a].size());
+  }
+  return counts;
+}
+
+/// A far field is known at the local nodes; blocks that move get it from those that had it.
+void ParticleDistribution::rebalance() {
+  Partition& partition = discretisation_.partition;
+  Partition::Bounds bounds = partition.balanced(count_in_layers());
+  if (bounds == partition.bounds()) return;
+  boundary_.synchronise(partition.ranks(), partition.owned_nodes());
+  partition.set_bounds(std::move(bounds));
 }
 
 void ParticleDistribution::migrate() {
-  const Communicator& ranks = discretisation_.ranks();
-  if (ranks.size() == 1) return;
-  const Axis& x = discretisation_.grid.axis(0);
-  Partition& partition = discretisation_.partition;
-  const std::vector<double> count = count_by_x_cell();
-  boundary_.synchronise(ranks, partition.owned_planes());
-  partition.rebalance(count);
+  if (discretisation_.ranks().size() == 1) return;
+  rebalance();
+  for (ParticleGroup& group : discretisation_.groups)
+    for (const int axis : {0, 1}) send_along(axis, group);
+}
+
+/// To the blocks of this row (axis 0) or column (axis 1) that have the particles' cells along the
+/// axis.
+void ParticleDistribution::send_along(int axis, ParticleGroup& group) {
+  const Partition& partition = discretisation_.partition;
+  if (partition.blocks(axis) == 1) return;
+  std::vector<Communicator::Message> messages(static_cast<std::size_t>(partition.blocks(axis)));
+  for (int block = 0; block < partition.blocks(axis); ++block)
+    messages[static_cast<std::size_t>(block)].other =
+        axis == 0 ? partition.rank_of(block, partition.own_block(1))
+                  : partition.rank_of(partition.own_block(0), block);
+  const double* x = group.particles.data(column::x + static_cast<std::size_t>(axis));
   std::vector<std::size_t> staying;
-  for (ParticleGroup& group : discretisation_.groups) {
-    std::vector<std::vector<double>> leaving(static_cast<std::size_t>(ranks.size()));
-    staying.clear();
-    for (std::size_t p = 0; p < group.particles.size(); ++p) {
-      const int owner = partition.owner(x.cell_of(group.particles.data(column::x)[p]));
-      if (owner == ranks.rank())
-        staying.push_back(p);
-      else
-        group.particles.pack(p, leaving[static_cast<std::size_t>(owner)]);
-    }
-    group.particles.reorder(staying);
-    for (int r = 0; r < ranks.size(); ++r) {
-      if (r == ranks.rank()) continue;
-      const std::vector<double> arriving = ranks.exchange(r, leaving[static_cast<std::size_t>(r)]);
-      for (std::size_t n = 0; n < arriving.size(); n += group.particles.record_length())
-        group.particles.unpack(arriving.data() + n);
-    }
+  for (std::size_t p = 0; p < group.particles.size(); ++p) {
+    const int block = partition.block_of(axis, discretisation_.grid.axis(axis).cell_of(x[p]));
+    if (block == partition.own_block(axis))
+      staying.push_back(p);
+    else
+      group.particles.pack(p, messages[static_cast<std::size_t>(block)].sent);
   }
+  group.particles.reorder(staying);
+  partition.ranks().exchange_lengths(messages);
+  partition.ranks().exchange(messages);
+  for (const Communicator::Message& message : messages)
+    for (std::size_t n = 0; n < message.received.size(); n += group.particles.record_length())
+      group.particles.unpack(message.received.data() + n);
 }
 
 void ParticleDistribution::report_outside(const ParticleGroup& group) const {
@@ -119,7 +141,7 @@ void ParticleDistribution::report_outside(const ParticleGroup& group) const {
 /// The drift stays, so that the next sorting comes when it would have come.
 void ParticleDistribution::checkpoint_particles(Checkpoint& state) {
   const Communicator& ranks = discretisation_.ranks();
-  const bool as_many_ranks = discretisation_.partition.checkpoint(state);
+  const bool same_layout = discretisation_.partition.checkpoint(state);
   for (ParticleGroup& group : discretisation_.groups) {
     const std::size_t length = group.particles.record_length();
     std::vector<double> records, lengths;  // of all ranks; lengths of each rank's part
@@ -132,19 +154,21 @@ void ParticleDistribution::checkpoint_particles(Checkpoint& state) {
     state.values("particles", records);
     if (state.saving()) continue;
     group.particles.reorder({});
-    const Axis& x = discretisation_.grid.axis(0);
+    const Grid& grid = discretisation_.grid;
     const double* next = records.data();
     for (std::size_t r = 0; r < lengths.size(); ++r)
       for (const double* end = next + static_cast<std::size_t>(lengths[r]); next != end;
            next += length) {
-        const int owner = as_many_ranks ? static_cast<int>(r)
-                                        : discretisation_.partition.owner(x.cell_of(next[0]));
+        const int owner = same_layout
+                              ? static_cast<int>(r)
+                              : discretisation_.partition.owner(grid.axis(0).cell_of(next[0]),
+                                                                grid.axis(1).cell_of(next[1]));
         if (owner == ranks.rank()) group.particles.unpack(next);
       }
   }
   if (state.saving()) return;
   const double drift = drift_;
-  if (!as_many_ranks && ranks.size() > 1) sort();
+  if (!same_layout && ranks.size() > 1) sort();
   drift_ = drift;
   ++generation_;
 }

@@ -21,7 +21,7 @@ class ParticleDistribution {
   /// Whether particles may have travelled half a cell since the last sorting. This rank has the
   /// nodes for one cell.
   bool sorting_due() const;
-  /// Balances the slabs of the ranks, sends every particle to the owner of its cell, and orders
+  /// Balances the blocks of the ranks, sends every particle to the owner of its cell, and orders
   /// them by cell. Collective. @throws StateError when a particle is outside of the grid
   void sort();
   /// Changes whenever particles change their order.
@@ -31,14 +31,16 @@ class ParticleDistribution {
   [[noreturn]] void report_outside(const ParticleGroup& group) const;
 
   void checkpoint_drift(Checkpoint& state) { state.value("drift", drift_); }
-  /// Records of Particles::pack(), those of a rank together. As many ranks get them back as they
-  /// had them, in the same order; others by the owners of their cells, and then balanced.
+  /// Records of Particles::pack(), those of a rank together. Ranks in the same layout get them back
+  /// as they had them, in the same order; others by the owners of their cells, and then balanced.
   /// Collective.
   void checkpoint_particles(Checkpoint& state);
 
  private:
   void migrate();
-  std::vector<double> count_by_x_cell() const;
+  void rebalance();
+  void send_along(int axis, ParticleGroup& group);
+  Partition::Counts count_in_layers() const;
   void sort_by_cell(ParticleGroup& group);
 
   Discretisation& discretisation_;
@@ -46,7 +48,7 @@ class ParticleDistribution {
   double drift_ = 0.0;  // bound of what any particle travelled since the last sorting [m]
   unsigned long generation_ = 0;
   // Buffers of a sorting.
-  std::vector<std::size_t> cell_;   // of each particle
+  std::vector<std::size_t> cell_;   // of each particle, among those of this rank
   std::vector<std::size_t> start_;  // index of the first particle of each cell
   std::vector<std::size_t> order_;
 };

@@ -6,94 +6,86 @@
 
 namespace furrow {
 
-void Partition::rebalance(const std::vector<double>& count) {
-  const int cells = static_cast<int>(count.size()), size = ranks_.size();
+namespace {
+
+/// Ends of stretches of cells with nearly equal sums of their numbers.
+std::vector<int> equal_shares(const std::vector<double>& count, int stretches) {
+  const int cells = static_cast<int>(count.size());
   const double all = std::accumulate(count.begin(), count.end(), 0.0);
-  bounds_ = {0};
+  std::vector<int> bounds = {0};
   double sum = 0.0;
   for (int cell = 0; cell < cells; ++cell) {
     sum += count[static_cast<std::size_t>(cell)];
-    const int rank = static_cast<int>(bounds_.size());
-    if (rank < size && sum >= all * rank / size) bounds_.push_back(cell + 1);
+    const int done = static_cast<int>(bounds.size());
+    if (done < stretches && sum >= all * done / stretches) bounds.push_back(cell + 1);
   }
-  while (static_cast<int>(bounds_.size()) < size) bounds_.push_back(cells);
-  bounds_.push_back(cells);
+  while (static_cast<int>(bounds.size()) < stretches) bounds.push_back(cells);
+  bounds.push_back(cells);
+  return bounds;
+}
+
+}  // namespace
+
+Partition::Partition(const Communicator& ranks, const BlockLayout& layout, const Grid& grid)
+    : ranks_(ranks), blocks_{layout.x, layout.y} {
+  Counts even;
+  for (std::size_t a = 0; a < 2; ++a)
+    even[a].assign(static_cast<std::size_t>(grid.axis(static_cast<int>(a)).cells()), 1.0);
+  bounds_ = balanced(even);
+}
+
+Partition::Bounds Partition::balanced(const Counts& count) const {
+  return {equal_shares(count[0], blocks_[0]), equal_shares(count[1], blocks_[1])};
 }
 
 bool Partition::checkpoint(Checkpoint& state) {
-  std::vector<double> bounds(bounds_.begin(), bounds_.end());
-  state.values("slabs", bounds);
-  const bool as_many = bounds.size() == static_cast<std::size_t>(ranks_.size()) + 1;
-  if (as_many) bounds_.assign(bounds.begin(), bounds.end());
-  return as_many;
+  Bounds bounds = bounds_;
+  state.values("blocks_along_x", bounds[0]);
+  state.values("blocks_along_y", bounds[1]);
+  const bool same = bounds[0].size() == bounds_[0].size() && bounds[1].size() == bounds_[1].size();
+  if (same) bounds_ = std::move(bounds);
+  return same;
 }
 
-int Partition::owner(int cell) const {
-  return static_cast<int>(std::upper_bound(bounds_.begin() + 1, bounds_.end() - 1, cell) -
-                          bounds_.begin()) -
+int Partition::own_block(int axis) const {
+  return axis == 0 ? ranks_.rank() / blocks_[1] : ranks_.rank() % blocks_[1];
+}
+
+int Partition::block_of(int axis, int cell) const {
+  const std::vector<int>& bounds = bounds_[static_cast<std::size_t>(axis)];
+  return static_cast<int>(std::upper_bound(bounds.begin() + 1, bounds.end() - 1, cell) -
+                          bounds.begin()) -
          1;
 }
 
-PlaneRange Partition::local_planes_of(int rank) const {
-  const auto r = static_cast<std::size_t>(rank);
-  if (bounds_[r] == bounds_[r + 1]) return {bounds_[r], bounds_[r]};
-  return {std::max(0, bounds_[r] - 1), std::min(bounds_.back(), bounds_[r + 1] + 1) + 2};
+CellRange Partition::own_cells(int axis) const {
+  const std::vector<int>& bounds = bounds_[static_cast<std::size_t>(axis)];
+  const auto block = static_cast<std::size_t>(own_block(axis));
+  return {bounds[block], bounds[block + 1]};
 }
 
-/// A plane belongs to the first rank to which it is local.
-PlaneRange Partition::owned_planes() const {
-  PlaneRange mine = local_planes();
-  for (int r = 0; r < ranks_.rank(); ++r)
-    mine.from = std::max(mine.from, std::min(mine.to, local_planes_of(r).to));
+CellRange Partition::local_cells(int axis) const {
+  const NodeRange nodes = local_nodes(axis, own_block(axis));
+  return {nodes.from, std::max(nodes.from, nodes.to - 2)};
+}
+
+NodeRange Partition::local_nodes(int axis, int block) const {
+  const std::vector<int>& bounds = bounds_[static_cast<std::size_t>(axis)];
+  const auto b = static_cast<std::size_t>(block);
+  if (bounds[b] == bounds[b + 1]) return {bounds[b], bounds[b]};
+  return {std::max(0, bounds[b] - 1), std::min(bounds.back(), bounds[b + 1] + 1) + 2};
+}
+
+NodeBlock Partition::local_nodes() const {
+  return {local_nodes(0, own_block(0)), local_nodes(1, own_block(1))};
+}
+
+/// A node belongs to the first block to which it is local.
+NodeRange Partition::owned_nodes(int axis) const {
+  NodeRange mine = local_nodes(axis, own_block(axis));
+  for (int block = 0; block < own_block(axis); ++block)
+    mine.from = std::max(mine.from, std::min(mine.to, local_nodes(axis, block).to));
   return mine;
-}
-
-void Partition::sum_shared(Grid& grid) const {
-  if (ranks_.size() == 1) return;
-  for (int field = 0; field < grid.fields(); ++field) sum_shared(grid, field);
-}
-
-void Partition::sum_shared(Grid& grid, int field) const {
-  const PlaneRange mine = local_planes();
-  const std::size_t length = 4 * grid.plane_size();
-  const auto shared = [&](int rank) {
-    const PlaneRange theirs = local_planes_of(rank);
-    return PlaneRange{std::max(mine.from, theirs.from), std::min(mine.to, theirs.to)};
-  };
-  const auto numbers = [&](const PlaneRange& planes) {
-    const double* first = grid.plane_sums(planes.from, field);
-    return std::vector<double>(first,
-                               first + length * static_cast<std::size_t>(planes.to - planes.from));
-  };
-  // All are sent before anything is added, then added in the order of the ranks: a node's sum has
-  // the same bits on every rank.
-  std::vector<std::vector<double>> received(static_cast<std::size_t>(ranks_.size()));
-  for (int r = 0; r < ranks_.size(); ++r) {
-    const PlaneRange planes = shared(r);
-    if (r == ranks_.rank() || planes.to <= planes.from) continue;
-    received[static_cast<std::size_t>(r)] = ranks_.exchange(r, numbers(planes));
-  }
-  std::vector<const double*> parts;
-  std::vector<double> own;
-  for (int plane = mine.from; plane < mine.to; ++plane) {
-    parts.clear();
-    for (int r = 0; r < ranks_.size(); ++r) {
-      if (r == ranks_.rank()) {
-        parts.push_back(nullptr);
-      } else if (const PlaneRange planes = shared(r); planes.contains(plane)) {
-        parts.push_back(received[static_cast<std::size_t>(r)].data() +
-                        length * static_cast<std::size_t>(plane - planes.from));
-      }
-    }
-    if (parts.size() == 1) continue;
-    own = numbers({plane, plane + 1});
-    std::replace(parts.begin(), parts.end(), static_cast<const double*>(nullptr),
-                 static_cast<const double*>(own.data()));
-    double* sum = grid.plane_sums(plane, field);
-    std::copy_n(parts[0], length, sum);
-    for (std::size_t p = 1; p < parts.size(); ++p)
-      for (std::size_t n = 0; n < length; ++n) sum[n] += parts[p][n];
-  }
 }
 
 }  // namespace furrow

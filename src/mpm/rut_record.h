@@ -17,14 +17,13 @@ struct RutPoint {
   double density;  ///< mean over the depth [kg/m^3]
 };
 
-/// Each rank records what it removed.
+/// Rank 0 keeps what the window of all ranks removed.
 class RutRecord {
  public:
   void add(const RutPoint& point) { points_.push_back(point); }
-  const std::vector<RutPoint>& points() const { return points_; }  ///< this rank's
-  std::vector<RutPoint> gather(const Communicator& ranks) const;   ///< of all ranks; collective
-  /// Saves the points of all ranks; they are rank 0's afterwards. Collective.
-  void checkpoint(Checkpoint& state, const Communicator& ranks);
+  const std::vector<RutPoint>& points() const { return points_; }  ///< none but on rank 0
+  std::vector<RutPoint> gather(const Communicator& ranks) const;   ///< on every rank; collective
+  void checkpoint(Checkpoint& state, const Communicator& ranks);   ///< collective
 
  private:
   std::vector<double> gather_numbers(const Communicator& ranks) const;

@@ -5,11 +5,11 @@
 
 namespace furrow {
 
-double SlideContact::apply(Grid& grid, const Boundary& walls, const PlaneRange& local,
-                           const PlaneRange& owned) const {
+double SlideContact::apply(Grid& grid, const Boundary& walls, const NodeBlock& local,
+                           const NodeBlock& owned) const {
   double loss = 0.0;
-  for (int i = local.from; i < local.to; ++i)
-    for (int j = 0; j < grid.nodes(1); ++j)
+  for (int i = local.x.from; i < local.x.to; ++i)
+    for (int j = local.y.from; j < local.y.to; ++j)
       for (int k = 0; k < grid.nodes(2); ++k) {
         NodeMotion& inner = grid.motion(i, j, k, 0);
         NodeMotion& outer = grid.motion(i, j, k, 1);
@@ -19,7 +19,7 @@ double SlideContact::apply(Grid& grid, const Boundary& walls, const PlaneRange& 
         for (int c = 0; c < 3; ++c)
           is_free[static_cast<std::size_t>(c)] = !walls.is_fixed(grid, {i, j, k}, c);
         const double at_node = apply(inner, outer, surface_.normal(x), is_free);
-        if (owned.contains(i)) loss += at_node;
+        if (owned.contains(i, j)) loss += at_node;
       }
   return loss;
 }

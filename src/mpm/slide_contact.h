@@ -30,9 +30,9 @@ class SlideContact {
 
   /// Changes the velocities of the nodes that both sides reach. What a wall holds stays as it is:
   /// there the sides slide along the wall.
-  /// @return what friction takes at the nodes of the owned planes [J]
-  double apply(Grid& grid, const Boundary& walls, const PlaneRange& local,
-               const PlaneRange& owned) const;
+  /// @return what friction takes at the owned nodes [J]
+  double apply(Grid& grid, const Boundary& walls, const NodeBlock& local,
+               const NodeBlock& owned) const;
 
  private:
   double apply(NodeMotion& inner, NodeMotion& outer, const Vector3& normal,

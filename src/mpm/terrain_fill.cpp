@@ -99,9 +99,10 @@ std::vector<WaveSpeeds> TerrainFill::wave_speeds(const Grid& grid) const {
 void TerrainFill::add_cells(int x_cell, Discretisation& discretisation) {
   const Axis& x = discretisation.grid.axis(0);
   const Axis& y = discretisation.grid.axis(1);
-  const bool mine = discretisation.partition.owner(x_cell) == discretisation.ranks().rank();
+  const Partition& partition = discretisation.partition;
   for (int i = 0; i < particles_per_cell_[0]; ++i)
-    for (int y_cell = 0; y_cell < y.cells(); ++y_cell)
+    for (int y_cell = 0; y_cell < y.cells(); ++y_cell) {
+      const bool mine = partition.owner(x_cell, y_cell) == partition.ranks().rank();
       for (int j = 0; j < particles_per_cell_[1]; ++j)
         for (const ParticleLevel& level : levels_) {
           const double id = next_id_++;
@@ -124,6 +125,7 @@ void TerrainFill::add_cells(int x_cell, Discretisation& discretisation) {
           particles.data(column::id)[p] = id;
           particles.set_state(p, level.state);
         }
+    }
 }
 
 std::size_t TerrainFill::surface_columns(const Grid& grid) const {

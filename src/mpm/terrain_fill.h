@@ -28,7 +28,7 @@ class TerrainFill {
   /// Elastic wave speeds at the height of each plane of nodes across z, from below.
   std::vector<WaveSpeeds> wave_speeds(const Grid& grid) const;
 
-  /// Appends the particles of a layer of cells across x, if this rank owns it. Ids are counted on
+  /// Appends the particles of a layer of cells across x that this rank owns. Ids are counted on
   /// all ranks; every rank calls it for every layer. A slide surface gives each particle its side.
   void add_cells(int x_cell, Discretisation& discretisation);
 

@@ -11,6 +11,7 @@
 #include "core/options.h"
 #include "material/material.h"
 #include "mpm/axis.h"
+#include "mpm/block_layout.h"
 #include "mpm/boundary.h"
 #include "mpm/slide_surface.h"
 
@@ -45,6 +46,8 @@ struct TerrainParameters {
   std::optional<SlideSurface> slide = {};  ///< along which the ground slides on itself
   bool surface_mesh = false;               ///< carries triangles on its free surface, for grains
   bool window = false;  ///< moves along x with what ContinuumTerrain::follow() names
+  /// how the ranks share the ground; without it choose_layout()
+  std::optional<BlockLayout> blocks = {};
 
   int velocity_fields() const { return slide ? 2 : 1; }
 };

@@ -36,12 +36,12 @@ TerrainStep::TerrainStep(Discretisation& discretisation, Boundary& boundary,
 void TerrainStep::advance(double dt) {
   Grid& grid = discretisation_.grid;
   const Partition& partition = discretisation_.partition;
-  const PlaneRange local = partition.local_planes();
-  const PlaneRange owned = partition.owned_planes();
+  const NodeBlock local = partition.local_nodes();
+  const NodeBlock owned = partition.owned_nodes();
 
   if (!remap_.interval_running()) begin_remap_interval(dt);
   loads_.scatter_to_grid();
-  partition.sum_shared(grid);
+  discretisation_.add_shared_sums();
   boundary_.renew_tractions(grid, local, gravity_);
   grid.accelerate(local, dt, gravity_);
   if (slide_) energy_.add_slide_loss(slide_->apply(grid, boundary_, local, owned));
@@ -53,6 +53,7 @@ void TerrainStep::advance(double dt) {
   energy_.set_node_totals(totals);
   energy_.add_gravity_work(dt * gravity_.dot(totals.momentum));
   loads_.count_work(dt, energy_);
+  discretisation_.exchange.count_step();
   distribution_.add_drift(remap_.count_step(dt));
   if (!remap_.interval_running()) grid_to_particles();
 }
@@ -60,7 +61,7 @@ void TerrainStep::advance(double dt) {
 void TerrainStep::begin_remap_interval(double dt) {
   remap_.begin_interval(dt);
   set_shape_positions(0.5 * (remap_.steps_left() - 1) * dt);
-  discretisation_.grid.clear_displacement(discretisation_.partition.local_planes());
+  discretisation_.grid.clear_displacement(discretisation_.partition.local_nodes());
   particles_to_grid();
 }
 
@@ -87,13 +88,13 @@ void TerrainStep::set_shape_positions(double time) {
 void TerrainStep::particles_to_grid() {
   Grid& grid = discretisation_.grid;
   const Partition& partition = discretisation_.partition;
-  grid.clear_sums(partition.local_planes());
+  grid.clear_sums(partition.local_nodes());
   for (ParticleGroup& group : discretisation_.groups)
     if (kernels_.scatter_momentum(discretisation_.local_view(group.field), group.particles.view(),
                                   group.material->density()) > 0)
       distribution_.report_outside(group);
-  partition.sum_shared(grid);
-  grid.compute_velocities(partition.local_planes());
+  discretisation_.add_shared_sums();
+  grid.compute_velocities(partition.local_nodes());
   scatter_stress_forces();
 }
 
@@ -151,21 +152,21 @@ void TerrainStep::grid_to_particles() {
   remap_.particles_updated();
   for (ParticleGroup& group : discretisation_.groups)
     kernels_.gather_motion(discretisation_.local_view(group.field), group.particles.view());
-  discretisation_.grid.clear_displacement(discretisation_.partition.local_planes());
+  discretisation_.grid.clear_displacement(discretisation_.partition.local_nodes());
 }
 
 void TerrainStep::capture_initial_tractions() {
   if (boundary_.has_initial_tractions()) return;
   set_shape_positions(0.0);
   particles_to_grid();
-  discretisation_.partition.sum_shared(discretisation_.grid);
-  boundary_.capture_initial_tractions(discretisation_.grid,
-                                      discretisation_.partition.local_planes(), gravity_);
+  discretisation_.add_shared_sums();
+  boundary_.capture_initial_tractions(discretisation_.grid, discretisation_.partition.local_nodes(),
+                                      gravity_);
 }
 
 void TerrainStep::restore_stress_forces() {
   if (!remap_.interval_running()) return;
-  discretisation_.grid.clear_sums(discretisation_.partition.local_planes());
+  discretisation_.grid.clear_sums(discretisation_.partition.local_nodes());
   scatter_stress_forces();
 }
 

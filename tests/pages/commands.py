@@ -16,7 +16,8 @@ from pathlib import Path
 
 PAGES_OF = ("src", "coupling", "inputs", "tests", "postproc")
 PROGRAM = re.compile(
-    r"([A-Z_]+=\S+ )*(bash |cd |mpirun |furrow(-\w+)? |build/|postproc/|inputs/|paraview |pvpython )"
+    r"([A-Z_]+=\S+ )*"
+    r"(bash |cd |mpirun |furrow(-\w+)? |build/|postproc/|inputs/|tests/|paraview |pvpython )"
 )
 PLACEHOLDER = re.compile(r"\[|\.\.\.|<|FILE|FOLDER|LABEL")  # of a line that shows the syntax
 OWN_RUN = "inputs/own_script/results/own_script"  # stands for any results/SCENE of a page
@@ -124,7 +125,8 @@ RULES: tuple[tuple[str, Callable[[Tree, str], None]], ...] = (
     (r"(\w+=\S+ )?paraview |pvpython ", compiled),
     (r"bash tests/run", tests_run),
     (r"bash inputs/run|furrow -in ", scene),
-    (r"(\w+=\S+ )?build/tests/benchmarks/", benchmark),
+    (r"(\w+=\S+ |mpirun -n \d+ )?build/tests/benchmarks/", benchmark),
+    (r"tests/benchmarks/\w+\.py$", run),
     (r"(postproc/)?furrow-post (film|flow|plan|laboratory|cost|sweep) ", options),
     (r"inputs/(\S+\.py|validation/run) --list$", run),
     (r"inputs/(costs|crosscheck|laboratory|validation)/(\S+\.py|run)", options),

@@ -3,6 +3,8 @@
 /// The rigid wheel of [Shoop2001] rolls over 0.2 m of ground that moves along with it (half model,
 /// without slip), for tests and benchmarks.
 
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "bodies/coupled_system.h"
@@ -23,10 +25,11 @@ class WheelOnGround {
     std::string material = FURROW_SOURCE_DIR "/inputs/materials/fresh_snow.yaml";
     double cfl = TerrainParameters{}.cfl;
     int remap_interval = TerrainParameters{}.remap_interval;
+    std::optional<BlockLayout> blocks = {};
   };
 
-  explicit WheelOnGround(const Ground& ground)
-      : soil_(terrain(ground), Communicator()),
+  explicit WheelOnGround(const Ground& ground, const Communicator& ranks = Communicator())
+      : soil_(terrain(ground), ranks),
         wheel_(parameters()),
         rig_(WheelRig::schema().read(
                  {"load_mass", "636", "speed", fmt::to_string(speed), "mode", "slip", "slip", "0",
@@ -74,6 +77,7 @@ class WheelOnGround {
     terrain.window = true;
     terrain.cfl = ground.cfl;
     terrain.remap_interval = ground.remap_interval;
+    terrain.blocks = ground.blocks;
     return terrain;
   }
   static RigidWheelParameters parameters() {

@@ -66,7 +66,7 @@ TEST(Boundary, SmoothStopsWhatIsAcrossAndRoughStopsAll) {
       give_velocity(grid, v);
       Boundary boundary(grid, only(face, kind), {2, 2, 2}, speeds(grid));
       EXPECT_TRUE(boundary.has_initial_tractions());
-      boundary.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+      boundary.apply(grid, grid.all_nodes(), grid.all_nodes(), dt);
       const int axis = axis_of(face), plane = is_upper(face) ? grid.nodes(axis) - 1 : 0;
       Vector3 expected = Vector3::Zero();
       for_nodes(grid, [&](const NodeMotion& n, int i, int j, int k) {
@@ -90,7 +90,7 @@ TEST(Boundary, AbsorbingIsDashpotAndSpring) {
   Grid grid = small_grid();
   Boundary boundary(grid, only(Face::x_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
   EXPECT_FALSE(boundary.has_initial_tractions());
-  boundary.capture_initial_tractions(grid, grid.all_planes(), weightless);  // nothing to hold
+  boundary.capture_initial_tractions(grid, grid.all_nodes(), weightless);  // nothing to hold
   EXPECT_TRUE(boundary.has_initial_tractions());
   // [m] (0.75^2 + 0.25^2)/2 of the spline at two particles a cell
   const double extent = 0.3125, length = 0.5 * 4.0;
@@ -98,7 +98,7 @@ TEST(Boundary, AbsorbingIsDashpotAndSpring) {
   double work = 0.0;
   for (int step = 0; step < 3; ++step) {
     give_velocity(grid, v);
-    boundary.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+    boundary.apply(grid, grid.all_nodes(), grid.all_nodes(), dt);
     Vector3 after;
     for (int c = 0; c < 3; ++c) {
       const double speed = c == 0 ? 300.0 : 150.0;
@@ -126,10 +126,10 @@ TEST(Boundary, ForcesOfTheStartAreHeld) {
     const Vector3 pull(10.0, -20.0, 30.0);  // [N] on every node
     const Vector3 gravity(0.0, 1.0, -9.0), stress = pull - mass * gravity;
     give_sums(grid, stress);
-    boundary.capture_initial_tractions(grid, grid.all_planes(), gravity);
+    boundary.capture_initial_tractions(grid, grid.all_nodes(), gravity);
     for (int step = 0; step < 5; ++step) {
       give_velocity(grid, dt * pull / mass);
-      boundary.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+      boundary.apply(grid, grid.all_nodes(), grid.all_nodes(), dt);
       for_nodes(grid, [&](const NodeMotion& n, int i, int j, int k) {
         const bool held = i == grid.nodes(0) - 1 || (count > 1 && j == grid.nodes(1) - 1) ||
                           (count > 2 && k == 0);
@@ -149,12 +149,12 @@ TEST(Boundary, AbsorbingLeavesToWallsWhatTheyHold) {
   kinds[Face::z_lower] = BoundaryKind::rough;
   kinds[Face::y_lower] = BoundaryKind::smooth;
   Boundary boundary(grid, kinds, {2, 2, 2}, speeds(grid));
-  boundary.capture_initial_tractions(grid, grid.all_planes(), weightless);
+  boundary.capture_initial_tractions(grid, grid.all_nodes(), weightless);
   const Vector3 v(1.0, 2.0, 3.0);
   double work = 0.0;
   for (int step = 0; step < 2; ++step) {
     give_velocity(grid, v);
-    boundary.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+    boundary.apply(grid, grid.all_nodes(), grid.all_nodes(), dt);
   }
   for_nodes(grid, [&](const NodeMotion& n, int i, int j, int k) {
     if (k == 0 || j == 0) {
@@ -208,12 +208,12 @@ TEST(Boundary, StateIsRestoredAndMovesWithTheGrid) {
   Grid grid = small_grid();
   Boundary boundary(grid, only(Face::y_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
   give_velocity(grid, {1, 2, 3});
-  boundary.capture_initial_tractions(grid, grid.all_planes(), weightless);
+  boundary.capture_initial_tractions(grid, grid.all_nodes(), weightless);
   for_nodes(grid, [&](NodeMotion& n, int i, int, int) {
     Eigen::Map<Vector3>(n.velocity) = Vector3(i, 0, 0);
     n.mass = mass;
   });
-  boundary.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+  boundary.apply(grid, grid.all_nodes(), grid.all_nodes(), dt);
   const std::vector<char> saved = state_of(boundary);
 
   Boundary other(grid, only(Face::y_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
@@ -245,9 +245,9 @@ TEST(Boundary, TheFaceAheadComesToUndisturbedGround) {
   Grid grid = small_grid();
   Boundary boundary(grid, only(Face::x_upper, BoundaryKind::absorbing), {2, 2, 2}, speeds(grid));
   give_sums(grid, {7, 8, 9});
-  boundary.capture_initial_tractions(grid, grid.all_planes(), weightless);
+  boundary.capture_initial_tractions(grid, grid.all_nodes(), weightless);
   give_velocity(grid, {1, 2, 3});
-  boundary.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+  boundary.apply(grid, grid.all_nodes(), grid.all_nodes(), dt);
   const auto count = static_cast<std::size_t>(6 * grid.nodes(1) * grid.nodes(2));
   const std::vector<double> before = last_numbers(state_of(boundary), count);
   boundary.shift_x(2);
@@ -267,18 +267,18 @@ TEST(Boundary, TheFaceBehindHoldsWhatTheGroundCarriesThere) {
   kinds[Face::y_upper] = BoundaryKind::absorbing;
   Boundary boundary(grid, kinds, {2, 2, 2}, speeds(grid));
   give_sums(grid, {1, 2, 3});
-  boundary.capture_initial_tractions(grid, grid.all_planes(), weightless);
+  boundary.capture_initial_tractions(grid, grid.all_nodes(), weightless);
   give_velocity(grid, {1, 2, 3});
-  boundary.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+  boundary.apply(grid, grid.all_nodes(), grid.all_nodes(), dt);
   boundary.shift_x(1);
   const Vector3 force(10, -20, 30), gravity(0, 1, -9);
   for (const Vector3& v : {Vector3(0, 0, 0), Vector3(0.1, -0.2, 0.3)}) {
     Boundary here = boundary;
     give_sums(grid, force);
     give_velocity(grid, v);
-    here.renew_tractions(grid, grid.all_planes(), gravity);
-    grid.accelerate(grid.all_planes(), dt, gravity);
-    here.apply(grid, grid.all_planes(), grid.all_planes(), dt);
+    here.renew_tractions(grid, grid.all_nodes(), gravity);
+    grid.accelerate(grid.all_nodes(), dt, gravity);
+    here.apply(grid, grid.all_nodes(), grid.all_nodes(), dt);
     for (int k = 0; k < grid.nodes(2); ++k) {
       const double at_face = (Eigen::Map<const Vector3>(grid.motion(0, 2, k).velocity) - v).norm(),
                    at_edge = Eigen::Map<const Vector3>(grid.motion(0, 4, k).velocity).norm();

@@ -20,7 +20,7 @@ struct Fixture {
         discretisation{Grid(Axis(even(0, 1, cell), "x"), Axis(even(0, 1, cell), "y"),
                             Axis(even(0, 1, cell), "z")),
                        {{material, Particles(*material)}},
-                       Partition(Communicator(), 10)},
+                       Partition(Communicator(), {1, 1}, discretisation.grid)},
         remap(discretisation, max_steps) {
     particles().append(1);
     particles().set_state(0, material->initial_state());

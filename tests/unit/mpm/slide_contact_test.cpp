@@ -45,7 +45,7 @@ struct TwoFields {
     kinds[Face::z_lower] = floor;
     const Boundary walls(grid, kinds, {2, 2, 2}, {});
     loss = SlideContact({SlidePlane{Vector3::Zero(), normal}, friction})
-               .apply(grid, walls, grid.all_planes(), {2, 3});
+               .apply(grid, walls, grid.all_nodes(), {{2, 3}, {0, grid.nodes(1)}});
   }
   Vector3 velocity(int field, int level = 1) {
     return Eigen::Map<const Vector3>(grid.motion(2, 2, level, field).velocity);

@@ -97,9 +97,9 @@ struct Cloud {
 };
 
 std::vector<double> numbers_of(Grid& grid) {
-  const double* first = grid.plane_sums(0, 0);
+  const double* first = grid.column_sums(0, 0, 0);
   return std::vector<double>(
-      first, first + 4 * grid.plane_size() * static_cast<std::size_t>(grid.nodes(0)));
+      first, first + 4 * static_cast<std::size_t>(grid.nodes(0) * grid.nodes(1) * grid.nodes(2)));
 }
 
 constexpr double rho = Cloud::rho, dt = 1e-3;
@@ -114,7 +114,7 @@ TEST(Transfer, AllInstructionSetsAgree) {
     const ParticleView particles = cloud.view();
     ASSERT_EQ(kernels.scatter_momentum(grid.view(), particles, rho), 0u);
     std::vector<double> nodes = numbers_of(grid);
-    grid.compute_velocities(grid.all_planes());
+    grid.compute_velocities(grid.all_nodes());
     cloud.find_weights(kernels);
     kernels.scatter_force(grid.view(), particles, cloud.weights.data());
     const PointForce forces[2] = {{{0.5, 0.1, 0.3}, {1.0, -2.0, 0.5}, {0.01, 0.0, -0.02}},
@@ -122,8 +122,8 @@ TEST(Transfer, AllInstructionSetsAgree) {
     kernels.scatter_point_forces(grid.view(), forces, 2);
     const std::vector<double> pulled = numbers_of(grid);
     nodes.insert(nodes.end(), pulled.begin(), pulled.end());
-    grid.accelerate(grid.all_planes(), dt, {100.0, 200.0, -9800.0});
-    grid.move(grid.all_planes(), grid.all_planes(), dt);
+    grid.accelerate(grid.all_nodes(), dt, {100.0, 200.0, -9800.0});
+    grid.move(grid.all_nodes(), grid.all_nodes(), dt);
     kernels.gather_strain(grid.view(), particles, cloud.weights.data(), dt, cloud.gradients);
     std::vector<double> after = cloud.gradient;
     const StressWork work = kernels.stress_work(particles, cloud.gradients);
@@ -179,11 +179,11 @@ TEST(Transfer, ManyParticlesOfACellAreLikeOneByOne) {
     const ParticleView all = cloud.view();
     cloud.find_weights(kernels);
     kernels.gather_strain(grid.view(), all, cloud.weights.data(), dt, cloud.gradients);
-    grid.clear_sums(grid.all_planes());
+    grid.clear_sums(grid.all_nodes());
     kernels.scatter_force(grid.view(), all, cloud.weights.data());
     const std::vector<double> together = numbers_of(grid), gradient = cloud.gradient;
 
-    grid.clear_sums(grid.all_planes());
+    grid.clear_sums(grid.all_nodes());
     Weights weights;
     for (std::size_t one = 0; one < all.size; ++one) {
       ParticleView single = all;
@@ -283,7 +283,7 @@ TEST(Transfer, FromTheGridReadsLinearFieldsExactly) {
   cloud.for_nodes([&](NodeSum&, NodeMotion& node, const Vector3& x) {
     Eigen::Map<Vector3>(node.velocity) = v0 + L * x;
   });
-  cloud.grid.move(cloud.grid.all_planes(), cloud.grid.all_planes(), dt);
+  cloud.grid.move(cloud.grid.all_nodes(), cloud.grid.all_nodes(), dt);
   cloud.take_strain(dt);
   cloud.take_motion();
   for (std::size_t p = 0; p < cloud.volume.size(); ++p) {
@@ -415,9 +415,9 @@ TEST(Transfer, KeepsNodalMassAndNeverMakesKineticEnergy) {
     });
     if (step == 0) first_masses = masses;
     ASSERT_EQ(masses, first_masses);
-    cloud.grid.compute_velocities(cloud.grid.all_planes());
+    cloud.grid.compute_velocities(cloud.grid.all_nodes());
     const double after =
-        cloud.grid.move(cloud.grid.all_planes(), cloud.grid.all_planes(), 0.0).kinetic_energy;
+        cloud.grid.move(cloud.grid.all_nodes(), cloud.grid.all_nodes(), 0.0).kinetic_energy;
     cloud.take_motion();
     EXPECT_LE(after, before * (1.0 + 1e-14));
     before = after;
