@@ -80,6 +80,10 @@ FixCoupledSystem* FixCoupledSystem::find(LAMMPS_NS::LAMMPS& lammps) {
 void FixCoupledSystem::add(Body& body, const std::string& name) {
   system_.add(body, name);
   members_.push_back({&body, name});
+  const auto restored = restored_works_.find(name);
+  if (restored == restored_works_.end()) return;
+  members_.back().work = restored->second.work;
+  if (communicator_.rank() == 0) members_.back().work_of_step = restored->second.work_of_step;
 }
 
 void FixCoupledSystem::remove(const Body& body) {
@@ -275,6 +279,10 @@ void FixCoupledSystem::final_integrate() {
 
 void FixCoupledSystem::end_of_step() {
   with_local_errors(*error, [&] { check_velocities_finite(*lmp); });
+  for (Member& m : members_) {
+    m.work_of_step = work_of(m.contacts, *atom, update->dt);
+    m.contacts.clear();
+  }
 }
 
 void FixCoupledSystem::clear_forces() {
@@ -282,15 +290,19 @@ void FixCoupledSystem::clear_forces() {
   for (Member& m : members_) {
     const Surface& surface = m.body->surface();
     m.ledger = {};
+    m.contacts.clear();
     if (surface.node_count() > 0) m.reference = surface.x.rowwise().mean();
   }
   forces_ = ForceState::partial;
 }
 
 void FixCoupledSystem::sum_forces() {
+  for (Member& m : members_) m.ledger.work_before = std::exchange(m.work_of_step, {});
   if (communicator_.size() > 1) sum_over_ranks();
-  for (Member& m : members_)
+  for (Member& m : members_) {
     m.audit.add(m.ledger, m.body->surface(), m.reference, m.name, update->ntimestep);
+    m.work += m.ledger.work_before;
+  }
   forces_ = ForceState::complete;
 }
 
@@ -324,6 +336,7 @@ void FixCoupledSystem::write_restart(FILE* file) {
     grain_forces_.store();
     update_contact_histories(*lmp);
   }
+  gather_works_of_step();
   if (communicator_.rank() != 0) return;
   with_local_errors(*error, [&] {
     Checkpoint state(style);
@@ -350,6 +363,7 @@ void FixCoupledSystem::checkpoint(Checkpoint& state, bool in_run,
   if (state.saving()) next_sort_ = atom->nextsort;
   state.value("next_sort", next_sort_);
   state.values("contact_forces", contact_forces);
+  checkpoint_works(state);
   std::string fixes = names_of_restorable_fixes(*modify);
   state.value("fixes", fixes);
   std::string properties = text_of(global_properties(*lmp));
@@ -362,6 +376,32 @@ void FixCoupledSystem::checkpoint(Checkpoint& state, bool in_run,
   checkpointed_controllers_ = controllers;
   if (in_run) forces_ = ForceState::restored;
   restored_contact_forces_ = std::move(contact_forces);
+}
+
+void FixCoupledSystem::checkpoint_works(Checkpoint& state) {
+  std::string names;
+  std::vector<double> numbers;
+  for (const Member& m : members_) {
+    names += m.name + '\n';
+    for (const ContactWork& work : {m.work_of_step, m.work})
+      for (const double number : work.numbers()) numbers.push_back(number);
+  }
+  state.value("bodies", names);
+  state.values("contact_works", numbers);
+  if (state.saving()) return;
+  std::istringstream lines(names);
+  const double* next = numbers.data();
+  for (std::string name; std::getline(lines, name); next += 2 * ContactWork::size)
+    restored_works_[name] = {ContactWork::from(next), ContactWork::from(next + ContactWork::size)};
+}
+
+/// Collective: from all ranks to the first, which writes the checkpoint.
+void FixCoupledSystem::gather_works_of_step() {
+  for (Member& m : members_) {
+    auto numbers = m.work_of_step.numbers();
+    communicator_.sum(numbers.data(), numbers.size());
+    m.work_of_step = communicator_.rank() == 0 ? ContactWork::from(numbers.data()) : ContactWork();
+  }
 }
 
 }  // namespace furrow::coupling

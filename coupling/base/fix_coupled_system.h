@@ -12,6 +12,7 @@
 ///   end_of_step        histories write their rows
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,11 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   /// Where moments of this step are taken about: the middle of the body's nodes.
   const Vector3& moment_reference(const Body& body) { return member(body).reference; }
   const MomentumAudit& audit(const Body& body) { return member(body).audit; }
+  /// For the wall: contacts with grains in this step, of this rank.
+  std::vector<GrainContact>& contacts(const Body& body) { return member(body).contacts; }
+  /// With grains since the start, of all ranks; up to the step before that of the forces, as works
+  /// of the body itself.
+  const ContactWork& contact_work(const Body& body) { return member(body).work; }
 
   double time() const { return time_; }            ///< of the scene [s], also after a restart
   bool restored() const { return restored_; }      ///< from a checkpoint
@@ -107,9 +113,18 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
     Vector3 reference = Vector3::Zero();
     Matrix3X restored_forces = {};  // nodal
     bool touched = false;
+    std::vector<GrainContact> contacts = {};  // of this step and rank
+    ContactWork work_of_step = {};            // of this rank, not yet in work
+    ContactWork work = {};                    // of all ranks, since the start
+  };
+  /// Of a member that the script has yet to make.
+  struct RestoredWork {
+    ContactWork work_of_step, work;
   };
   Member& member(const Body& body);
   void checkpoint(Checkpoint& state, bool in_run, std::vector<double> contact_forces);
+  void checkpoint_works(Checkpoint& state);
+  void gather_works_of_step();
   void check_restored_fixes();
   void warn_of_changed_properties();
   std::string lines_of_controllers() const;
@@ -137,6 +152,7 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   int sort_interval_ = 0;       // [steps], while the set-up of a continued run must not sort
   std::int64_t next_sort_ = 0;  // step, of the checkpoint
   std::vector<double> restored_contact_forces_;
+  std::map<std::string, RestoredWork> restored_works_;  // by names of members
   std::string checkpointed_fixes_;        // names, a line each; empty unless the run is continued
   std::string checkpointed_properties_;   // the same, with their values
   std::string checkpointed_controllers_;  // a keyword each

@@ -17,13 +17,15 @@ constexpr double momentum_tolerance = 1e-10;
 }  // namespace
 
 std::array<double, ContactLedger::size> ContactLedger::numbers() const {
-  return {grain_force.x(),  grain_force.y(),  grain_force.z(), grain_moment.x(),
-          grain_moment.y(), grain_moment.z(), lever_gap.x(),   lever_gap.y(),
-          lever_gap.z(),    force_scale,      moment_scale,    contacts};
+  return {grain_force.x(),   grain_force.y(),  grain_force.z(),      grain_moment.x(),
+          grain_moment.y(),  grain_moment.z(), lever_gap.x(),        lever_gap.y(),
+          lever_gap.z(),     force_scale,      moment_scale,         contacts,
+          work_before.press, work_before.push, work_before.friction, work_before.contact};
 }
 
 ContactLedger ContactLedger::from(const double* n) {
-  return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}, n[9], n[10], n[11]};
+  return {{n[0], n[1], n[2]},       {n[3], n[4], n[5]}, {n[6], n[7], n[8]}, n[9], n[10], n[11],
+          ContactWork::from(n + 12)};
 }
 
 void MomentumAudit::add(const ContactLedger& ledger, const Surface& surface,

@@ -5,6 +5,7 @@
 #include <array>
 #include <string>
 
+#include "coupling/base/contact_work.h"
 #include "geometry/surface.h"
 
 namespace furrow::coupling {
@@ -19,8 +20,9 @@ struct ContactLedger {
   double force_scale = 0.0;   ///< sum of |force| [N]
   double moment_scale = 0.0;  ///< sum of |contact point - reference| |force| [N m]
   double contacts = 0.0;
+  ContactWork work_before = {};  ///< of the step before
 
-  static constexpr std::size_t size = 12;
+  static constexpr std::size_t size = 12 + ContactWork::size;
   std::array<double, size> numbers() const;
   static ContactLedger from(const double* numbers);
 };

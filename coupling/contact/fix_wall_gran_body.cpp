@@ -170,7 +170,11 @@ GrainBedCheck* FixWallGranBody::check_of(int mesh_number) {
 void FixWallGranBody::post_force_body(FixMeshBody& mesh_fix, int mesh_number) {
   FixCoupledSystem& system = FixCoupledSystem::of(*lmp);
   const Body& body = mesh_fix.body();
-  const MeshAtWork mesh{mesh_fix, mesh_number, system.moment_reference(body), system.ledger(body),
+  const MeshAtWork mesh{mesh_fix,
+                        mesh_number,
+                        system.moment_reference(body),
+                        system.ledger(body),
+                        system.contacts(body),
                         check_of(mesh_number)};
   atom_type_wall_ = mesh_fix.atomTypeWall();  // which the contact model reads
   LAMMPS_NS::FixContactHistoryMesh* history = mesh_fix.contactHistory();
@@ -328,6 +332,10 @@ void FixWallGranBody::apply(const MeshAtWork& at_work, int grain, const ContactC
   ledger.force_scale += contact_force.norm();
   ledger.moment_scale += arm.norm() * contact_force.norm();
   ledger.contacts += 1.0;
+  const Vector3 normal = contact.point.separation.normalized();
+  // LIGGGHTS's arm
+  at_work.contacts.push_back({grain, contact_force, contact_torque, normal,
+                              -(radius - 0.5 * overlap) * normal, wall_velocity});
 }
 
 }  // namespace furrow::coupling

@@ -17,6 +17,7 @@ namespace furrow::coupling {
 class BodyMesh;
 class FixMeshBody;
 struct ContactLedger;
+struct GrainContact;
 
 /// A FixWallGran, so not a FurrowFix; its keywords are LIGGGHTS's.
 class FixWallGranBody : public LAMMPS_NS::FixWallGran, public UsesFix {
@@ -38,6 +39,7 @@ class FixWallGranBody : public LAMMPS_NS::FixWallGran, public UsesFix {
     int number;                       ///< in the list of the wall's meshes
     const Vector3& moment_reference;  ///< [m]
     ContactLedger& ledger;
+    std::vector<GrainContact>& contacts;
     GrainBedCheck* check;  ///< null before the first set-up
   };
   static int checked(const LAMMPS_NS::LAMMPS& lammps, int narg, char** arg);

@@ -7,7 +7,6 @@
 #include "comm.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/base/fixes_of.h"
-#include "coupling/checks/touch_check.h"
 #include "coupling/contact/fix_contact_continuum.h"
 #include "coupling/contact/fix_contact_plane.h"
 #include "coupling/drive/fix_wheel_rig.h"
@@ -104,7 +103,7 @@ void FixWheelHistory::close() {
 }
 
 GroundLosses FixWheelHistory::ground_losses() {
-  const FixWheelHub& wheel = rig_fix_.wheel_fix();
+  FixWheelHub& wheel = rig_fix_.wheel_fix();
   GroundLosses losses;
   for (auto* contact : fixes_of<FixContactContinuum>(*modify)) {
     if (&contact->body_fix() != &wheel) continue;
@@ -122,10 +121,15 @@ GroundLosses FixWheelHistory::ground_losses() {
   }
   for (auto* contact : fixes_of<FixContactPlane>(*modify))
     if (&contact->body_fix() == &wheel) losses.friction += contact->friction_loss();
-  // [J] what is left of the wheel's work
-  const double rest = -rig_fix_.wheel_fix().hub().energy_budget().contact_work -
-                      (losses.continuum + losses.friction + losses.contact_damping);
-  (touches_grains(*lmp, wheel) ? losses.grains : losses.contact_springs) = rest;
+  const ContactWork& work = FixCoupledSystem::of(*lmp).contact_work(wheel.hub());
+  losses.friction += work.friction;
+  losses.contact_damping += work.contact;
+  losses.press = work.press;
+  losses.push = work.push;
+  // what is left of the wheel's work
+  losses.contact_springs =
+      -wheel.hub().energy_budget().contact_work -
+      (losses.continuum + losses.press + losses.push + losses.friction + losses.contact_damping);
   return losses;
 }
 

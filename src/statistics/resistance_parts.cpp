@@ -34,7 +34,8 @@ const std::vector<Part>& parts_of_continuum() {
 /// What belongs to one wheel.
 const std::vector<Part>& parts_of_wheel() {
   static const std::vector<Part> list = {
-      {"grains, friction included", {"grain_work"}},
+      {"grains, pressed down", {"grain_press_work"}},
+      {"grains, pushed along", {"grain_push_work"}},
       {"friction of wheel and ground", {"friction_loss"}},
       {"contact springs and damping", {"contact_spring_loss", "contact_damping_loss"}},
       {"wheel or tyre", {"wheel_loss", "stored_energy"}},

@@ -134,13 +134,14 @@ TEST(WallPhysics, SphereRollsOverAFlatSheetAsOverAPlane) {
 
 /// A sheet that runs through a periodic box, four times its length, under a sphere held at constant
 /// overlap: the force stays Hertz's over every edge and over the seam, and triangles pass from rank
-/// to rank.
+/// to rank. Friction takes mu N times the distance.
 TEST(WallPhysics, PeriodicSheetRunsUnderASphere) {
   Scene scene;
   const double side = 0.1, radius = 0.004, overlap = 4e-6, speed = 2.0;
   scene.granular_box(Vector3(-side / 2, -side / 2, 0), Vector3(side / 2, side / 2, 0.2), 0.0015,
                      "p p f");
-  scene.contact_properties(5e6, 0.3, 0.3, 0.0);
+  const double friction = 0.4;
+  scene.contact_properties(5e6, 0.3, 0.3, friction);
   scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep 1e-5", hertz));
   const Surface start = make_sheet(10, side, 0.1);
   scene.add_body("belt",
@@ -167,6 +168,49 @@ TEST(WallPhysics, PeriodicSheetRunsUnderASphere) {
   EXPECT_NEAR(normal_force.min() / expected, 1.0, 1e-3);
   EXPECT_NEAR(normal_force.max() / expected, 1.0, 1e-3);
   expect_small_audit(scene, "belt");
+  const double distance = 20000 * 1e-5 * speed * std::hypot(1.0, 0.37);
+  const coupling::ContactWork& work = scene.system().contact_work(scene.body("belt"));
+  EXPECT_NEAR(work.friction / (friction * expected * distance), 1.0, 1e-3);
+  EXPECT_EQ(work.press, 0.0);
+  EXPECT_EQ(work.push, 0.0);
+  EXPECT_NEAR(work.contact / work.friction, 0.0, 1e-12);
+}
+
+/// A rising and sliding sheet strikes a grain without weight: the work on the grain is its energy
+/// of flight and spin, to rounding, and the contact takes the rest.
+TEST(WallPhysics, WorkOnAGrainIsItsEnergy) {
+  Scene scene;
+  scene.granular_box(Vector3(-0.05, -0.05, 0), Vector3(0.05, 0.05, 0.2), 0.0015);
+  scene.contact_properties(5e6, 0.3, 0.5, 0.3);
+  scene.commands(fmt::format("pair_style gran {}\npair_coeff * *\ntimestep 1e-5", hertz));
+  const Surface start = make_sheet(10, 0.08, 0.05);
+  const Vector3 speed(1.0, 0.4, 0.5);
+  scene.add_body("bat", std::make_unique<PrescribedBody>(start, [=](double time, Surface& surface) {
+                   surface.x = start.x.colwise() + speed * time;
+                   surface.v.colwise() = speed;
+                 }));
+  scene.command("fix skin all mesh/body body bat type 2");
+  scene.command(fmt::format("fix walls all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
+  scene.command("create_atoms 1 single 0.011 0.007 0.055");
+  scene.command("set group all density 2500 diameter 0.008");
+  scene.command("fix move all nve/sphere");
+  double given = 0.0;  // [J] by the sheet
+  scene.at_end_of_step([&] {
+    given -= scene.body("bat").surface().total_force().dot(speed) * scene.lammps().update->dt;
+  });
+  scene.command("run 1000");
+  const coupling::ContactWork& work = scene.system().contact_work(scene.body("bat"));
+  const double energy = scene.grain_kinetic_energy();
+  const LAMMPS_NS::Atom& atom = *scene.lammps().atom;
+  double lift = 0.0;  // [J]
+  for (int i = 0; i < atom.nlocal; ++i) lift += 0.5 * atom.rmass[i] * atom.v[i][2] * atom.v[i][2];
+  lift = scene.sum(lift);
+  EXPECT_GT(lift, 0.0);
+  EXPECT_NEAR(work.press / lift, 1.0, 1e-9);
+  EXPECT_NEAR(work.push / (energy - lift), 1.0, 1e-9);
+  EXPECT_NEAR((work.press + work.push + work.friction + work.contact) / given, 1.0, 1e-9);
+  EXPECT_GT(work.friction, 0.05 * given);
+  EXPECT_GT(work.contact, 0.05 * given);
 }
 
 }  // namespace

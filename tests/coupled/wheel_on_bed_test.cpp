@@ -58,7 +58,8 @@ struct Outcome {
   double expected_force;
   double worst_slip_error;
   double energy_residual, energy_scale;
-  double force_scale;  // [N] of the contacts, in the step in which it was largest
+  double works_residual;  // wheel's work less what friction, grains and contacts had of it [J]
+  double force_scale;     // [N] of the contacts, in the step in which it was largest
   double force_defect, moment_defect;
 };
 
@@ -117,6 +118,13 @@ Outcome roll(Scene& scene, double slip) {
   const EnergyBudget budget = wheel.energy_budget();
   run.energy_residual = std::abs(budget.residual());
   run.energy_scale = std::max(std::abs(budget.contact_work), std::abs(budget.load_work));
+  const coupling::ContactWork& work = scene.system().contact_work(wheel);
+  EXPECT_GT(work.friction, 0.0);
+  EXPECT_GT(work.press, 0.0);
+  run.works_residual =
+      std::abs(-budget.contact_work - (work.press + work.push + work.friction + work.contact));
+  testing::Test::RecordProperty("works_residual",
+                                fmt::format("{:.3g}", run.works_residual / run.energy_scale));
   run.force_scale = scene.system().audit(wheel).force_scale;
   run.force_defect = scene.system().audit(wheel).force;
   run.moment_defect = scene.system().audit(wheel).moment;
@@ -130,6 +138,7 @@ TEST(WheelOnBed, CarriesItsLoadAndKeepsMomentumAndEnergy) {
   EXPECT_NEAR(run.standing_force / load, 1.0, 0.02);  // it stands, nearly
   EXPECT_LT(run.worst_slip_error, 1e-10);
   EXPECT_LT(run.energy_residual / run.energy_scale, 1e-10);
+  EXPECT_LT(run.works_residual / run.energy_scale, 0.01);
   EXPECT_GT(run.force_scale, 0.5 * load);
   EXPECT_LT(run.force_defect, 1e-10);
   EXPECT_LT(run.moment_defect, 1e-10);

@@ -110,7 +110,8 @@ def nearest_point(kind: str, slip: float) -> Point:
 def grains(candidate: str, changes: dict[str, Value]) -> dict[str, Value]:
     """Variables of the scripts; the step is 0.22 of the Rayleigh time of the smallest grain."""
     values: dict[str, Value] = {**BASE, **vars(CANDIDATES[candidate]), **changes}
-    return {**values, "step": f"{8e-5 * float(str(values['diameter'])) / 0.010:.3g}"}
+    diameter, young = (float(str(values[key])) for key in ("diameter", "young"))
+    return {**values, "step": f"{8e-5 * diameter / 0.010 * math.sqrt(1e7 / young):.3g}"}
 
 
 def bed_key(script: str, variables: dict[str, Value]) -> tuple[Value | None, ...]:

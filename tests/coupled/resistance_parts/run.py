@@ -3,6 +3,7 @@
 
     run.py strip <furrow> <furrow-point>
     run.py road <results of inputs/scenes/tyre_on_plane.lig>
+    run.py bed <results of inputs/scenes/wheel_on_sand.lig>
 
 strip: ground that is only compacted, by a wheel without friction. Compaction takes per metre what
 confined compression of a column of the same law takes to the depth of the rut and does not give
@@ -10,6 +11,8 @@ back, R = b h int_0^z/h sigma_1 d(z/h) - b h w (Bekker's compaction resistance; 
 per volume before compression), with the z of the ground: sinkage less penetration of the contact.
 Within 3 %, with cells of a quarter of the depth.
 road: on a rigid plane all that resists a towed tyre is its own loss and motion.
+bed: what grains and friction get, measured at the contacts, is what the wheel gives, within 1 %; a
+towed wheel is not driven, so that friction turns it and takes less than pressing grains down.
 """
 
 import json
@@ -27,6 +30,7 @@ COMPACTION = 0.03  # relative error
 CONTACT = 0.005  # of the whole: springs give back what they take
 BULLDOZING = 0.08  # of the whole: the contact is long, not endless
 UNEXPLAINED = 0.01  # of the whole
+OF_THE_WORK = 0.01  # error of works on grains
 OF_THE_ROAD = 0.05  # of the whole: friction, contact, damping of the rig
 
 
@@ -80,9 +84,19 @@ def road(results):
     own = parts["wheel or tyre"] + parts["inertia of the wheel"]
     print(f"tyre and its motion {own:.4g} N of {whole:.4g} N")
     assert abs(own - whole) <= OF_THE_ROAD * whole, "a road takes more than friction"
-    for part in ("compaction", "bulldozing", "grid", "grains, friction included"):
+    for part in ("compaction", "bulldozing", "grid", "grains, pressed down"):
         assert part not in parts, f"a road has a part '{part}'"
 
 
+def bed(results):
+    _, parts, _ = parts_of(Path(results))
+    assert 0.0 < parts["friction of wheel and ground"] < parts["grains, pressed down"]
+    with h5py.File(Path(results) / "history.h5") as file:
+        error, *given = (file["history"][name][-1]
+                         for name in ("contact_spring_loss", "drive_work", "load_work"))
+    print(f"of {sum(given):.4g} J given, {error:.3g} J are not found again")
+    assert abs(error) <= OF_THE_WORK * sum(given), "works at the contacts are not the wheel's"
+
+
 if __name__ == "__main__":
-    {"strip": strip, "road": road}[sys.argv[1]](*sys.argv[2:])
+    {"strip": strip, "road": road, "bed": bed}[sys.argv[1]](*sys.argv[2:])

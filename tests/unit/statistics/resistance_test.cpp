@@ -159,8 +159,8 @@ TEST(Resistance, ItsPartsAreEnergiesOverTravelAndSumToTheWhole) {
       {"compaction_work", 50.0}, {"bulldozing_work", 20.0},    {"grid_loss", 4.0},
       {"continuum_work", 74.0},  {"friction_loss", 8.0},       {"contact_damping_loss", 1.0},
       {"wheel_loss", 3.0},       {"contact_spring_loss", 2.0}, {"stored_energy", 1.0},
-      {"damping_loss", 0.5},     {"kinetic_energy", 2.0},      {"drive_work", 87.0},
-      {"load_work", 5.0}};
+      {"damping_loss", 0.5},     {"kinetic_energy", 2.0},      {"drive_work", 94.0},
+      {"load_work", 5.0},        {"grain_press_work", 9.0},    {"grain_push_work", -2.0}};
   History history(WheelRig::channels());
   for (int i = 0; i <= 500; ++i) {
     const double x = 0.02 * i;
@@ -176,14 +176,16 @@ TEST(Resistance, ItsPartsAreEnergiesOverTravelAndSumToTheWhole) {
     history.append(row);
   }
   const ResistanceParts parts = measure_resistance(history).parts;
-  EXPECT_NEAR(parts.whole, 92.0, 1e-9);
+  EXPECT_NEAR(parts.whole, 99.0, 1e-9);
   EXPECT_NEAR(parts.unexplained, 0.5, 1e-9);
   std::map<std::string, double> found;
   for (const ResistancePart& part : parts.parts) found[part.name] = part.force;
-  EXPECT_EQ(found.size(), 8u);  // neither grains nor radiation
+  EXPECT_EQ(found.size(), 10u);  // no radiation
   EXPECT_NEAR(found["compaction"], 50.0, 1e-9);
   EXPECT_NEAR(found["wheel or tyre"], 4.0, 1e-9);
   EXPECT_NEAR(found["grid"], 4.0, 1e-9);
+  EXPECT_NEAR(found["grains, pressed down"], 9.0, 1e-9);
+  EXPECT_NEAR(found["grains, pushed along"], -2.0, 1e-9);
   EXPECT_NEAR(found["contact springs and damping"], 3.0, 1e-9);
   EXPECT_FALSE(measure_resistance(SyntheticRun().history()).parts.known());
 }
