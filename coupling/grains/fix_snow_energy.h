@@ -21,8 +21,9 @@ class FixSnowEnergy : public FurrowFix {
 
   /// A contact in this step. @param share  that belongs to this rank: a half where another rank
   /// computes the contact too, or where the response is that of a contact and its mirror image
-  void add(const SnowBondResponse& response, const SnowBondEnergy& energy, bool bonded,
-           double share);
+  void add(const SnowBondEnergy& energy, bool bonded, double share);
+  /// The bonds that it made and broke.
+  void count(const SnowBondResponse& response, double share);
   /// A contact has ended and its springs are lost. @param energy [J]
   void release(double energy, bool bonded, double share);
 

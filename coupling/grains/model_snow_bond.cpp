@@ -98,11 +98,18 @@ class NormalModel<furrow::coupling::model_id> : public NormalModelBase {
   using Response = furrow::SnowBondResponse;
 
   const furrow::SnowBondParameters& law(int type, int other) const {
-    return laws_[static_cast<std::size_t>(type * (atom->ntypes + 1) + other)];
+    return laws_[static_cast<std::size_t>(type * stride_ + other)];
   }
   furrow::SnowContact contact_of(const SurfacesIntersectData& touching) const;
-  Response respond(const SurfacesIntersectData& touching, State& state,
-                   furrow::SnowBondEnergy* energy) const;
+  Response respond(const SurfacesIntersectData& touching) const;
+  bool respond_elastically(const SurfacesIntersectData& touching, Response& response) const;
+  /// Else the forces are those before the first step of a run.
+  static bool moves(const SurfacesIntersectData& touching) {
+    return touching.computeflag && touching.shearupdate;
+  }
+  bool is_sintered(const SurfacesIntersectData& touching) const {
+    return sinter_ && sinter_->sinters(touching.i, is_wall_ ? touching.i : touching.j);
+  }
   /// Energy of a wall is half of that of the contact with its mirror image; a contact with a ghost
   /// is computed by both ranks.
   double share(const SurfacesCloseData& contact) const {
@@ -112,6 +119,7 @@ class NormalModel<furrow::coupling::model_id> : public NormalModelBase {
   bool is_wall_;
   int first_value_ = 0;                           // of the state in the history
   std::vector<furrow::SnowBondParameters> laws_;  // by types
+  int stride_ = 0;                                // of laws_, from one type to the next
   furrow::coupling::FixSnowSinter* sinter_ = nullptr;
   furrow::coupling::FixSnowEnergy* energy_ = nullptr;
   std::string warned_;  // of the time step
@@ -129,12 +137,15 @@ SnowBondModel::NormalModel(LAMMPS* lammps, IContactHistorySetup* history, Contac
                                                       {"area", "0"},
                                                       {"bonded", "0"},
                                                       {"shear_x", "1"},
-                                                      {"shear_y", "1"},
-                                                      {"shear_z", "1"},
                                                       {"bending_x", "1"},
+                                                      {"shear_y", "1"},
                                                       {"bending_y", "1"},
+                                                      {"shear_z", "1"},
                                                       {"bending_z", "1"},
-                                                      {"torsion", "0"}}};
+                                                      {"torsion", "0"},
+                                                      {"hardening_soft", "0"},
+                                                      {"hardening_dense", "0"},
+                                                      {"hardening_bond", "0"}}};
   for (std::size_t n = 0; n < values.size(); ++n) {
     const int place =
         history->add_history_value(std::string("snow_") + values[n].first, values[n].second);
@@ -145,13 +156,12 @@ SnowBondModel::NormalModel(LAMMPS* lammps, IContactHistorySetup* history, Contac
 /// Before every run.
 void SnowBondModel::connectToProperties(PropertyRegistry&) {
   using namespace furrow::coupling;
-  const auto types = static_cast<std::size_t>(atom->ntypes);
+  stride_ = atom->ntypes + 1;
   with_collective_errors(*error, [&] {
-    laws_.assign((types + 1) * (types + 1), {});
-    for (int i = 1; i <= atom->ntypes; ++i)
-      for (int j = 1; j <= atom->ntypes; ++j)
-        laws_[static_cast<std::size_t>(i) * (types + 1) + static_cast<std::size_t>(j)] =
-            read_parameters(*lmp, i, j);
+    laws_.assign(static_cast<std::size_t>(stride_ * stride_), {});
+    for (int i = 1; i < stride_; ++i)
+      for (int j = 1; j < stride_; ++j)
+        laws_[static_cast<std::size_t>(i * stride_ + j)] = read_parameters(*lmp, i, j);
   });
   const auto sinters = fixes_of<FixSnowSinter>(*modify);
   const auto energies = fixes_of<FixSnowEnergy>(*modify);
@@ -175,35 +185,72 @@ void SnowBondModel::connectToProperties(PropertyRegistry&) {
 furrow::SnowContact SnowBondModel::contact_of(const SurfacesIntersectData& touching) const {
   using furrow::Vector3;
   using furrow::coupling::vector;
-  // The mirror image of a grain behind a wall moves as the grain does, the other way.
-  const double doubled = is_wall_ ? 2.0 : 1.0;
-  const Vector3 normal = vector(touching.en);
   const Vector3 omega_i = vector(touching.omega_i);
-  const Vector3 omega_j = is_wall_ ? Vector3::Zero() : vector(touching.omega_j);
   furrow::SnowContact contact;
-  contact.d = is_wall_ ? 2.0 * touching.radi : touching.radi + touching.radj;
-  contact.mass = is_wall_ ? 0.5 * touching.meff : touching.meff;
-  contact.overlap = doubled * touching.deltan;
-  contact.normal = normal;
-  contact.normal_velocity = doubled * touching.vn;
-  contact.tangential_velocity = doubled * Vector3(touching.vtr1, touching.vtr2, touching.vtr3);
-  contact.rotation = doubled * (omega_i - omega_j);
-  contact.spin = 0.5 * (omega_i + omega_j).dot(normal);
+  contact.normal = vector(touching.en);
   contact.dt = update->dt;
   contact.sinters = !is_wall_;
+  const Vector3 sliding(touching.vtr1, touching.vtr2, touching.vtr3);
+  if (is_wall_) {
+    // The mirror image of a grain behind a wall moves as the grain does, the other way.
+    contact.d = 2.0 * touching.radi;
+    contact.mass = 0.5 * touching.meff;
+    contact.overlap = 2.0 * touching.deltan;
+    contact.normal_velocity = 2.0 * touching.vn;
+    contact.tangential_velocity = 2.0 * sliding;
+    contact.rotation = 2.0 * omega_i;
+    contact.spin = 0.5 * omega_i.dot(contact.normal);
+    return contact;
+  }
+  const Vector3 omega_j = vector(touching.omega_j);
+  contact.d = touching.radi + touching.radj;
+  contact.mass = touching.meff;
+  contact.overlap = touching.deltan;
+  contact.normal_velocity = touching.vn;
+  contact.tangential_velocity = sliding;
+  contact.rotation = omega_i - omega_j;
+  contact.spin = 0.5 * (omega_i + omega_j).dot(contact.normal);
   return contact;
 }
 
-SnowBondModel::Response SnowBondModel::respond(const SurfacesIntersectData& touching, State& state,
-                                               furrow::SnowBondEnergy* energy) const {
+/// Any other step, or none. It stands by itself, where elastic contacts need no registers for it.
+[[gnu::noinline, gnu::flatten]] SnowBondModel::Response SnowBondModel::respond(
+    const SurfacesIntersectData& touching) const {
   const furrow::SnowContact contact = contact_of(touching);
   const furrow::SnowBondParameters& parameters = law(touching.itype, touching.jtype);
-  const bool sinters = sinter_ && sinter_->sinters(touching.i, is_wall_ ? touching.i : touching.j);
+  double* values = touching.contact_history + first_value_;
+  State state = State::load(values);
+  const bool sinters = is_sintered(touching);
   // Forces before the first step of a run: nothing has moved.
-  if (!touching.computeflag || !touching.shearupdate)
+  if (!moves(touching)) {
+    // of the parameters that this run has
+    state.hardening = furrow::SnowHardening::at(parameters, state.crushing(contact.d));
+    state.store(values);
     return sinters ? Response() : Law::hold(parameters, contact, state);
-  return sinters ? Law::sinter(parameters, contact, state, energy)
-                 : Law::advance(parameters, contact, state, energy);
+  }
+  furrow::SnowBondEnergy energy;
+  const Response response = sinters   ? Law::sinter(parameters, contact, state, &energy)
+                            : energy_ ? Law::advance(parameters, contact, state, &energy)
+                                      : Law::advance_yielding(parameters, contact, state, nullptr);
+  state.store(values);
+  if (energy_) {
+    energy_->add(energy, state.bonded, share(touching));
+    energy_->count(response, share(touching));
+  }
+  return response;
+}
+
+/// An elastic step whose energy nobody counts. @return false: it is another, and nothing is done
+bool SnowBondModel::respond_elastically(const SurfacesIntersectData& touching,
+                                        Response& response) const {
+  if (energy_ || !moves(touching) || is_sintered(touching)) return false;
+  double* values = touching.contact_history + first_value_;
+  State state = State::load(values);
+  if (!Law::advance_elastic(law(touching.itype, touching.jtype), contact_of(touching), state,
+                            response, nullptr))
+    return false;
+  state.store_elastic(values);
+  return true;
 }
 
 /// With all calls inlined, which saves an eighth of the instructions of a step.
@@ -211,23 +258,18 @@ SnowBondModel::Response SnowBondModel::respond(const SurfacesIntersectData& touc
                                                        ForceData& on_i, ForceData& on_j) {
   using furrow::Vector3;
   if (touching.contact_flags) *touching.contact_flags |= CONTACT_NORMAL_MODEL;
-  double* values = touching.contact_history + first_value_;
-  State state = State::load(values);
-  furrow::SnowBondEnergy energy;
-  const Response response = respond(touching, state, energy_ ? &energy : nullptr);
-  if (touching.computeflag && touching.shearupdate) {
-    state.store(values);
-    if (energy_) energy_->add(response, energy, state.bonded, share(touching));
-  }
+  Response response;
+  if (!respond_elastically(touching, response)) response = respond(touching);
 
-  const Vector3 couple = furrow::coupling::vector(touching.en).cross(response.force);
-  for (int c = 0; c < 3; ++c) {
-    on_i.delta_F[c] += response.force[c];
-    on_i.delta_torque[c] += response.moment[c] - touching.cri * couple[c];
-    if (is_wall_) continue;
-    on_j.delta_F[c] -= response.force[c];
-    on_j.delta_torque[c] -= response.moment[c] + touching.crj * couple[c];
-  }
+  const double cri = touching.cri, crj = touching.crj;
+  const Vector3 pushed = response.force, moment = response.moment,
+                couple = furrow::coupling::vector(touching.en).cross(pushed),
+                on_i_about = moment - cri * couple, on_j_about = moment + crj * couple;
+  for (int c = 0; c < 3; ++c) on_i.delta_F[c] += pushed[c];
+  for (int c = 0; c < 3; ++c) on_i.delta_torque[c] += on_i_about[c];
+  if (is_wall_) return;
+  for (int c = 0; c < 3; ++c) on_j.delta_F[c] -= pushed[c];
+  for (int c = 0; c < 3; ++c) on_j.delta_torque[c] -= on_j_about[c];
 }
 
 void SnowBondModel::surfacesClose(SurfacesCloseData& parted, ForceData&, ForceData&) {
@@ -236,7 +278,7 @@ void SnowBondModel::surfacesClose(SurfacesCloseData& parted, ForceData&, ForceDa
   double* values = parted.contact_history + first_value_;
   State state = State::load(values);
   const bool bonded = state.bonded;
-  if (state.plastic == 0.0 && state.shear.isZero(0.0)) return;
+  if (state.plastic == 0.0 && state.across.first().isZero(0.0)) return;
   const double d = is_wall_ ? 2.0 * parted.radi : parted.radi + parted.radj;
   const double energy = Law::part(law(parted.itype, parted.jtype), d, state);
   state.store(values);

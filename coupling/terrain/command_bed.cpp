@@ -87,7 +87,8 @@ Schema CommandBed::schema() {
 OutputTable CommandBed::outputs() { return {"variable", bed_outputs().channels()}; }
 
 std::string CommandBed::Request::identity() const {
-  std::string all = version() + "\n" + script.text();
+  const std::string layout = "2";  // of what is kept; another one: beds of before cannot be read
+  std::string all = version() + " " + layout + "\n" + script.text();
   for (const Parameter& p : parameters) all += "\n" + p.name + " " + p.value;
   return all;
 }

@@ -44,6 +44,7 @@
 
 #include "core/types.h"
 #include "grains/snow_bond_parameters.h"
+#include "grains/two_vectors.h"
 
 namespace furrow {
 
@@ -63,21 +64,33 @@ struct SnowContact {
   bool sinters = true;          ///< false: what it touches is not snow
 };
 
+/// How far strengths have grown with the crushing: exp(p X) - 1, exp(q X) - 1, exp(pc X) - 1.
+struct SnowHardening {
+  double soft = 0.0, dense = 0.0, bond = 0.0;
+
+  static SnowHardening at(const SnowBondParameters& law, double X);
+  /// When X has grown by dX; for small dX without an exponential.
+  SnowHardening after(const SnowBondParameters& law, double dX) const;
+};
+
 /// What a contact remembers; all zero before the first touch.
 struct SnowBondState {
-  static constexpr int size = 12;  ///< values of load() and store()
+  static constexpr int size = 15;  ///< values of load() and store()
 
   double plastic = 0.0;       ///< u_p [m]
   double at_sintering = 0.0;  ///< u_0 [m]
   double at_break = 0.0;      ///< u_b [m]
   double area = 0.0;          ///< A [m^2]
   bool bonded = false;
-  Vector3 shear = Vector3::Zero();    ///< [N] elastic force on i across the normal
-  Vector3 bending = Vector3::Zero();  ///< [N m] elastic moment on i across the normal
-  double torsion = 0.0;               ///< [N m] along the normal
+  TwoVectors across = {};        ///< elastic force [N] and moment [N m] on i across the normal
+  double torsion = 0.0;          ///< [N m] along the normal
+  SnowHardening hardening = {};  ///< at X, which elastic steps do not change
 
+  double crushing(double d) const { return (plastic - at_sintering) / d; }  ///< X
   static SnowBondState load(const double* values);
   void store(double* values) const;
+  /// What an elastic step changes.
+  void store_elastic(double* values) const;
 };
 
 /// What a step of a contact does with energy [J].
@@ -110,27 +123,46 @@ class SnowBond {
   static constexpr double bending_limit = 4.0 / (3.0 * pi);
   static constexpr double torsion_limit = 2.0 / 3.0;
 
-  static double sintered_area(double d) { return pi * bond_radius * bond_radius * d * d; }
+  static constexpr double sintered_area(double d) { return pi * bond_radius * bond_radius * d * d; }
   static double stiffness(const SnowBondParameters& law, double d) { return law.E * d; }
 
-  /// Strengths at the crushing X.
-  static SnowStrength strength(const SnowBondParameters& law, double d, double X);
-  /// At X = 0, where they are least.
-  static SnowStrength least_strength(const SnowBondParameters& law, double d);
+  static SnowStrength strength(const SnowBondParameters& law, double d,
+                               const SnowHardening& hardening);
+  /// The part of Fb that the area of a bond gives, times d^2.
+  static double bonded_square(const SnowBondState& state, double d) {
+    return std::min(d * d, state.area * (1.0 / sintered_area(1.0)));
+  }
   /// The part of Fb that the area gives.
   static double bonded_share(const SnowBondState& state, double d) {
-    return state.bonded ? std::min(1.0, state.area / sintered_area(d)) : 0.0;
+    return state.bonded ? bonded_square(state, d) / (d * d) : 0.0;
   }
 
   /// One step.
   static SnowBondResponse advance(const SnowBondParameters& law, const SnowContact& contact,
                                   SnowBondState& state, SnowBondEnergy* energy = nullptr);
+  /// Its two parts, for programs whose time it takes: an elastic step, which most are ...
+  /// @param energy  nullptr or zeros  @return false: it is not elastic, and nothing is changed
+  static bool advance_elastic(const SnowBondParameters& law, const SnowContact& contact,
+                              SnowBondState& state, SnowBondResponse& response,
+                              SnowBondEnergy* energy);
+  /// ... and one of a contact that yields, breaks, sinters or is dry.
+  static SnowBondResponse advance_yielding(const SnowBondParameters& law,
+                                           const SnowContact& contact, SnowBondState& state,
+                                           SnowBondEnergy* energy);
   /// Forces of a state as it is, without dampers.
   static SnowBondResponse hold(const SnowBondParameters& law, const SnowContact& contact,
                                const SnowBondState& state, SnowBondEnergy* energy = nullptr);
   /// A whole bond without stress; where there can be none, a touch without stress.
   static SnowBondResponse sinter(const SnowBondParameters& law, const SnowContact& contact,
                                  SnowBondState& state, SnowBondEnergy* energy = nullptr);
+  /// In the springs [J]. @param normal  [N]
+  static double stored(const SnowBondParameters& law, double d, const SnowBondState& state,
+                       double normal);
+  /// Of a bond, by sintering under pressure.
+  static double sintering_area(const SnowBondParameters& law, double d,
+                               const SnowBondState& state) {
+    return law.w * 0.25 * pi * d * (state.plastic - state.at_break);
+  }
   /// The clusters have parted: the state begins anew. @return its energy, which is lost [J]
   static double part(const SnowBondParameters& law, double d, SnowBondState& state);
 };
@@ -142,9 +174,9 @@ inline SnowBondState SnowBondState::load(const double* values) {
   state.at_break = values[2];
   state.area = values[3];
   state.bonded = values[4] != 0.0;
-  state.shear = Eigen::Map<const Vector3>(values + 5);
-  state.bending = Eigen::Map<const Vector3>(values + 8);
+  state.across = TwoVectors::load(values + 5);
   state.torsion = values[11];
+  state.hardening = {values[12], values[13], values[14]};
   return state;
 }
 
@@ -154,17 +186,40 @@ inline void SnowBondState::store(double* values) const {
   values[2] = at_break;
   values[3] = area;
   values[4] = bonded ? 1.0 : 0.0;
-  Eigen::Map<Vector3>(values + 5) = shear;
-  Eigen::Map<Vector3>(values + 8) = bending;
+  store_elastic(values);
+  values[12] = hardening.soft;
+  values[13] = hardening.dense;
+  values[14] = hardening.bond;
+}
+
+inline void SnowBondState::store_elastic(double* values) const {
+  across.store(values + 5);
   values[11] = torsion;
 }
 
-inline SnowStrength SnowBond::strength(const SnowBondParameters& law, double d, double X) {
-  const double soft = law.Y0 * std::exp(law.p * X), dense = law.Y1 * std::exp(law.q * X),
-               bond = law.Y0 * std::exp(law.pc * X);
+inline SnowHardening SnowHardening::at(const SnowBondParameters& law, double X) {
+  return {std::exp(law.p * X) - 1.0, std::exp(law.q * X) - 1.0, std::exp(law.pc * X) - 1.0};
+}
+
+inline SnowHardening SnowHardening::after(const SnowBondParameters& law, double dX) const {
+  const auto grown = [dX](double value, double rate) {
+    constexpr double small = 1.0 / 32.0;  // of the exponent: the series is then right to 1e-14
+    const double x = rate * dX;
+    if (!(std::abs(x) < small)) return value + (1.0 + value) * std::expm1(x);
+    const double growth =
+        x + x * x * (1.0 / 2 + x * (1.0 / 6 + x * (1.0 / 24 + x * (1.0 / 120 + x * (1.0 / 720)))));
+    return value + (1.0 + value) * growth;
+  };
+  return {grown(soft, law.p), grown(dense, law.q), grown(bond, law.pc)};
+}
+
+inline SnowStrength SnowBond::strength(const SnowBondParameters& law, double d,
+                                       const SnowHardening& hardening) {
+  const double soft = law.Y0 * (1.0 + hardening.soft), dense = law.Y1 * hardening.dense,
+               bond = law.Y0 * (1.0 + hardening.bond);
   SnowStrength found;
-  found.Fy = d * d * (soft + dense - law.Y1);
-  found.dFy = d * (law.p * soft + law.q * dense);
+  found.Fy = d * d * (soft + dense);
+  found.dFy = d * (law.p * soft + law.q * (dense + law.Y1));
   const double Fb = d * d * bond;
   const bool capped = Fb > found.Fy;
   found.Fb = capped ? found.Fy : Fb;
@@ -172,42 +227,131 @@ inline SnowStrength SnowBond::strength(const SnowBondParameters& law, double d, 
   return found;
 }
 
-inline SnowStrength SnowBond::least_strength(const SnowBondParameters& law, double d) {
-  const double least = d * d * law.Y0;
-  return {least, 0.0, least, 0.0};
+/// A contact after the motion of a step, all of it elastic.
+struct SnowBondTrial {
+  SnowBondTrial(const SnowBondParameters& law, const SnowContact& contact,
+                const SnowBondState& state);
+
+  /// Nothing yields, breaks or grows in the step.
+  bool is_elastic(const SnowBondParameters& law, const SnowContact& contact,
+                  const SnowBondState& state) const;
+  /// Is it within the surfaces of these strengths? @param bond  Fb
+  bool is_within(const SnowBondParameters& law, double Fy, double bond,
+                 double squared_radius) const;
+  SnowBondResponse response(const SnowBondParameters& law, const SnowContact& contact,
+                            SnowBondEnergy* energy) const;
+
+  double k;                      // [N/m]
+  double squared_radius;         // a_s^2
+  double normal_before, normal;  // [N]
+  TwoVectors before, across;     // [N], [N m]
+  TwoVectors rates;              // [m/s], [rad/s] across the normal
+  Two squared;                   // of across
+  double twist;                  // [rad/s]
+  double torsion;                // [N m]
+
+  double bending_stiffness() const { return 0.25 * k * squared_radius; }
+  double torsion_stiffness() const { return 0.5 * k * squared_radius; }
+  double stored() const {
+    return 0.5 * ((normal * normal + squared[0]) / k + squared[1] / bending_stiffness() +
+                  torsion * torsion / torsion_stiffness());
+  }
+};
+
+/// a_s^2
+inline double squared_stiffness_radius(double area, double d) {
+  return std::max(area * (1.0 / pi), SnowBond::bond_radius * SnowBond::bond_radius * (d * d));
 }
 
-/// One contact in one step, phase by phase.
+/// a^2
+inline double squared_strength_radius(double area, double d) {
+  return std::max(area * (1.0 / pi), SnowBond::least_radius * SnowBond::least_radius * (d * d));
+}
+
+/// What the state holds is turned about the normal, then into the plane across it: to second order
+/// of the angle the length stays; it never grows by more than the fourth.
+inline SnowBondTrial::SnowBondTrial(const SnowBondParameters& law, const SnowContact& contact,
+                                    const SnowBondState& state)
+    : k(SnowBond::stiffness(law, contact.d)),
+      squared_radius(squared_stiffness_radius(state.area, contact.d)) {
+  const Vector3& n = contact.normal;
+  const double dt = contact.dt, turn = contact.spin * dt;
+  before = (1.0 - 0.5 * turn * turn) * (state.across - times(dot(n, state.across), n)) +
+           cross(turn * n, state.across);
+  const TwoVectors all_rates = TwoVectors::of(contact.tangential_velocity, contact.rotation);
+  const Two along = dot(n, all_rates);
+  rates = all_rates - times(along, n);
+  twist = along[1];
+  across = before - Two{k * dt, bending_stiffness() * dt} * rates;
+  squared = across.squared();
+  torsion = state.torsion - torsion_stiffness() * dt * twist;
+  normal = k * (contact.overlap - state.plastic);
+  normal_before = normal + k * contact.normal_velocity * dt;
+}
+
+inline bool SnowBondTrial::is_within(const SnowBondParameters& law, double Fy, double bond,
+                                     double radius_squared) const {
+  constexpr double bent = SnowBond::bending_limit * SnowBond::bending_limit,
+                   twisted = SnowBond::torsion_limit * SnowBond::torsion_limit;
+  const double pressing = std::max(0.0, normal), tension = law.zeta * bond;
+  const double shear = law.chi * bond + law.mu * pressing, shear_squared = shear * shear;
+  const double bending = tension + pressing;
+  return std::min(normal, normal_before) > -tension && std::max(normal, normal_before) < Fy &&
+         squared[0] < shear_squared && squared[1] <= bent * radius_squared * (bending * bending) &&
+         torsion * torsion <= twisted * radius_squared * shear_squared;
+}
+
+/// Most contacts are within the strengths that they had when they were sintered.
+inline bool SnowBondTrial::is_elastic(const SnowBondParameters& law, const SnowContact& contact,
+                                      const SnowBondState& state) const {
+  if (!state.bonded) return false;
+  const double d = contact.d;
+  const double bonded = SnowBond::bonded_square(state, d),
+               radius_squared = squared_strength_radius(state.area, d);
+  if (is_within(law, law.Y0 * (d * d), law.Y0 * bonded, radius_squared)) return true;
+  if (state.hardening.bond == 0.0) return false;
+  const SnowStrength now = SnowBond::strength(law, d, state.hardening);
+  return is_within(law, now.Fy, SnowBond::bonded_share(state, d) * now.Fb, radius_squared);
+}
+
+/// Of elastic motion: dampers are those of velocities, c v.
+inline SnowBondResponse SnowBondTrial::response(const SnowBondParameters& law,
+                                                const SnowContact& contact,
+                                                SnowBondEnergy* energy) const {
+  const double c = 2.0 * law.damping * std::sqrt(contact.mass * k);
+  const Two damping = {0.5 * c, 0.125 * c * squared_radius};  // of torsion: twice that of bending
+  const Two out = {normal - c * contact.normal_velocity, torsion - 2.0 * damping[1] * twist};
+  const TwoVectors all = across - damping * rates + times(out, contact.normal);
+  SnowBondResponse response;
+  response.force = all.first();
+  response.moment = all.second();
+  if (energy) {
+    const Two slip = damping * rates.squared();
+    energy->stored = stored();
+    energy->damped = contact.dt * (c * contact.normal_velocity * contact.normal_velocity + slip[0] +
+                                   slip[1] + 2.0 * damping[1] * twist * twist);
+  }
+  return response;
+}
+
+/// A step in which a contact yields, breaks, sinters or is dry, phase by phase.
 class SnowBondStep {
  public:
   SnowBondStep(const SnowBondParameters& law, const SnowContact& contact, SnowBondState& state)
       : law_(law),
         contact_(contact),
         state_(state),
+        trial_(law, contact, state),
         d_(contact.d),
-        k_(SnowBond::stiffness(law, d_)) {}
+        k_(trial_.k) {}
 
   SnowBondResponse advance(SnowBondEnergy* energy);
-  /// In the springs [J].
-  double stored(double normal) const;
 
  private:
-  struct Stiffness {
-    double bending, torsion;  // [N m/rad]
-  };
-  struct Elastic {
-    double normal;  // [N]
-    Vector3 shear;  // [N]
-    Vector3 bending;
-    double torsion;  // [N m]
-  };
-
-  Stiffness of_rotation() const;
-  void carry(Vector3& vector) const;
-  void make_trial();
-  bool certainly_elastic() const;
-  double crushing(double normal) const {
-    return (state_.plastic + (trial_.normal - normal) / k_ - state_.at_sintering) / d_;
+  /// Where this normal force is left.
+  SnowStrength strength(double normal) const {
+    return SnowBond::strength(law_, d_,
+                              state_.hardening.after(law_, (trial_.normal - normal) / (k_ * d_)));
   }
   void break_bond(SnowBondResponse& response);
   void slip_and_crush();
@@ -220,30 +364,38 @@ class SnowBondStep {
   static double share_within(double limit, double squared_size) {
     return squared_size > limit * limit ? limit / std::sqrt(squared_size) : 1.0;
   }
-  template <class Excess>
-  static double solve(double start, Excess&& excess);
+  struct Excess {
+    double value, slope;
+  };
+  template <class Function>
+  static double solve(double start, Excess there, Function&& excess);
 
   const SnowBondParameters& law_;
   const SnowContact& contact_;
   SnowBondState& state_;
+  const SnowBondTrial trial_;
   const double d_, k_;
 
-  Elastic before_, trial_;
-  Stiffness rotation_;   // before the step
-  SnowStrength strong_;  // in the end at the crushing after the step
-  double share_;         // of the bond, before the step
-  double squared_shear_;
-  double normal_;  // [N] after the step
+  SnowStrength strong_;    // in the end at the crushing after the step
+  double share_;           // of the bond, before the step
+  double torsion_before_;  // [N m]
+  double normal_before_;   // [N]
+  double normal_;          // [N] after the step
   // shares of the trial's that are left
   double shear_left_ = 1.0, bending_left_ = 1.0, torsion_left_ = 1.0;
 };
 
 inline SnowBondResponse SnowBondStep::advance(SnowBondEnergy* energy) {
   SnowBondResponse response;
-  make_trial();
+  share_ = SnowBond::bonded_share(state_, d_);
+  torsion_before_ = state_.torsion;
+  normal_ = trial_.normal;
+  strong_ = SnowBond::strength(law_, d_, state_.hardening);
+  // not beyond the surface, where a change of parameters between runs may have left it
+  normal_before_ = std::clamp(trial_.normal_before, -law_.zeta * share_ * strong_.Fb, strong_.Fy);
   if (trial_.normal <= 0.0 &&
       (!state_.bonded || -trial_.normal > law_.zeta * share_ * strong_.Fb)) {
-    if (energy) energy->released = stored(before_.normal);
+    if (energy) energy->released = SnowBond::stored(law_, d_, state_, normal_before_);
     break_bond(response);
     return response;
   }
@@ -252,63 +404,10 @@ inline SnowBondResponse SnowBondStep::advance(SnowBondEnergy* energy) {
   bend();
   if (energy) {
     energy->crushed = plastic_work();
-    energy->stored = stored(normal_);
+    energy->stored = SnowBond::stored(law_, d_, state_, normal_);
   }
   damp(response, energy);
   return response;
-}
-
-inline SnowBondStep::Stiffness SnowBondStep::of_rotation() const {
-  const double squared_radius =
-      std::max(state_.area / pi, SnowBond::bond_radius * SnowBond::bond_radius * d_ * d_);
-  return {0.25 * k_ * squared_radius, 0.5 * k_ * squared_radius};
-}
-
-inline double SnowBondStep::stored(double normal) const {
-  const Stiffness rotation = of_rotation();
-  return 0.5 * ((normal * normal + state_.shear.squaredNorm()) / k_ +
-                state_.bending.squaredNorm() / rotation.bending +
-                state_.torsion * state_.torsion / rotation.torsion);
-}
-
-/// Turned about the normal, then into the plane across it. To second order of the angle the length
-/// stays; it never grows by more than the fourth.
-inline void SnowBondStep::carry(Vector3& vector) const {
-  const double turn = contact_.spin * contact_.dt;
-  vector = (1.0 - 0.5 * turn * turn) * vector + turn * contact_.normal.cross(vector);
-  vector -= contact_.normal.dot(vector) * contact_.normal;
-}
-
-/// All motion is elastic.
-inline void SnowBondStep::make_trial() {
-  const double dt = contact_.dt;
-  carry(state_.shear);
-  carry(state_.bending);
-  rotation_ = of_rotation();
-  share_ = SnowBond::bonded_share(state_, d_);
-  before_ = {k_ * (contact_.overlap + contact_.normal_velocity * dt - state_.plastic), state_.shear,
-             state_.bending, state_.torsion};
-  const double twist = contact_.rotation.dot(contact_.normal);
-  trial_.normal = k_ * (contact_.overlap - state_.plastic);
-  trial_.shear = state_.shear - k_ * dt * contact_.tangential_velocity;
-  trial_.bending =
-      state_.bending - rotation_.bending * dt * (contact_.rotation - twist * contact_.normal);
-  trial_.torsion = state_.torsion - rotation_.torsion * dt * twist;
-  squared_shear_ = trial_.shear.squaredNorm();
-  normal_ = trial_.normal;
-
-  strong_ = SnowBond::least_strength(law_, d_);
-  if (!certainly_elastic()) strong_ = SnowBond::strength(law_, d_, crushing(trial_.normal));
-  // not beyond the surface, where a change of parameters between runs may have left it
-  before_.normal = std::clamp(before_.normal, -law_.zeta * share_ * strong_.Fb, strong_.Fy);
-}
-
-/// Within the least strengths: no exponential is needed.
-inline bool SnowBondStep::certainly_elastic() const {
-  const double tension = -law_.zeta * share_ * strong_.Fb;
-  const double shear = law_.chi * share_ * strong_.Fb + law_.mu * std::max(0.0, trial_.normal);
-  return trial_.normal > tension && before_.normal > tension && trial_.normal < strong_.Fy &&
-         before_.normal < strong_.Fy && squared_shear_ < shear * shear;
 }
 
 inline void SnowBondStep::break_bond(SnowBondResponse& response) {
@@ -316,20 +415,19 @@ inline void SnowBondStep::break_bond(SnowBondResponse& response) {
   if (state_.bonded) state_.at_break = state_.plastic;
   state_.bonded = false;
   state_.area = state_.torsion = 0.0;
-  state_.shear.setZero();
-  state_.bending.setZero();
+  state_.across = {};
 }
 
-/// Newton's method for the root of a growing concave function, from where it is not positive: no
-/// iterate passes the root. @param excess of x gives the function and its slope
-template <class Excess>
-inline double SnowBondStep::solve(double start, Excess&& excess) {
+/// Newton's method for the root of a growing concave function, from above: the first step lands
+/// below it, and no other passes it. @param there  the excess at the start
+template <class Function>
+inline double SnowBondStep::solve(double start, Excess there, Function&& excess) {
   constexpr int most_iterations = 60;
-  constexpr double tolerance = 1e-8;  // of x; the error is of the order of its square
-  double x = start;
+  constexpr double tolerance = 1e-6;  // of x; the error is of the order of its square
+  double x = start - there.value / there.slope;
   for (int n = 0; n < most_iterations; ++n) {
-    const auto [value, slope] = excess(x);
-    const double change = -value / slope;
+    const Excess here = excess(x);
+    const double change = -here.value / here.slope;
     x += change;
     if (!(std::abs(change) > tolerance * x)) break;
   }
@@ -339,19 +437,21 @@ inline double SnowBondStep::solve(double start, Excess&& excess) {
 inline void SnowBondStep::slip_and_crush() {
   const double cohesion = law_.chi * share_ * strong_.Fb;
   if (trial_.normal <= 0.0) {
-    shear_left_ = share_within(cohesion, squared_shear_);
+    shear_left_ = share_within(cohesion, trial_.squared[0]);
   } else {
     const double limit = cohesion + law_.mu * trial_.normal;
-    if (squared_shear_ > limit * limit) slip();
+    if (trial_.squared[0] > limit * limit) slip();
     if (normal_ > strong_.Fy) crush();
-    state_.plastic += (trial_.normal - normal_) / k_;
+    if (normal_ != trial_.normal) {
+      state_.plastic += (trial_.normal - normal_) / k_;
+      state_.hardening = SnowHardening::at(law_, state_.crushing(d_));
+    }
   }
-  state_.shear = shear_left_ * trial_.shear;
 }
 
 /// To the shear surface, along the force as far as the strength is cohesion.
 inline void SnowBondStep::slip() {
-  const double size = std::sqrt(squared_shear_), pressing = trial_.normal;
+  const double size = std::sqrt(trial_.squared[0]), pressing = trial_.normal;
   const double cohesion = law_.chi * share_ * strong_.Fb;
   if (cohesion <= 0.0) {
     shear_left_ = law_.mu * pressing / size;
@@ -360,23 +460,27 @@ inline void SnowBondStep::slip() {
   const double along = cohesion / (cohesion + law_.mu * pressing);
   const double slope = size - law_.mu * along * pressing;
   const auto normal_at = [&](double left) { return pressing * (1.0 - along * (1.0 - left)); };
-  const double found =
-      solve((cohesion + law_.mu * (1.0 - along) * pressing) / slope, [&](double left) {
-        const double normal = normal_at(left);
-        strong_ = SnowBond::strength(law_, d_, crushing(normal));
-        const double growth = law_.chi * share_ * strong_.dFb * along * pressing / k_;
-        return std::pair(left * size - law_.mu * normal - law_.chi * share_ * strong_.Fb,
-                         slope + growth);
-      });
-  shear_left_ = std::min(1.0, found);
+  const auto excess = [&](double left) {
+    const double weakening = law_.chi * share_ * strong_.dFb * along * pressing / k_;
+    return Excess{left * size - law_.mu * normal_at(left) - law_.chi * share_ * strong_.Fb,
+                  slope + weakening};
+  };
+  const double found = solve(1.0, excess(1.0), [&](double left) {
+    strong_ = strength(normal_at(left));
+    return excess(left);
+  });
+  shear_left_ = std::clamp(found, 0.0, 1.0);
   normal_ = normal_at(shear_left_);
 }
 
 /// To the crush surface, along the force.
 inline void SnowBondStep::crush() {
-  const double limit = solve(strong_.Fy, [&](double normal) {
-    strong_ = SnowBond::strength(law_, d_, crushing(normal));
-    return std::pair(normal - strong_.Fy, 1.0 + strong_.dFy / k_);
+  const auto excess = [&](double normal) {
+    return Excess{normal - strong_.Fy, 1.0 + strong_.dFy / k_};
+  };
+  const double limit = solve(normal_, excess(normal_), [&](double normal) {
+    strong_ = strength(normal);
+    return excess(normal);
   });
   shear_left_ *= limit / normal_;
   normal_ = limit;
@@ -385,7 +489,7 @@ inline void SnowBondStep::crush() {
 /// Sintering under pressure.
 inline void SnowBondStep::grow(SnowBondResponse& response) {
   if (!contact_.sinters) return;
-  const double area = law_.w * 0.25 * pi * d_ * (state_.plastic - state_.at_break);
+  const double area = SnowBond::sintering_area(law_, d_, state_);
   if (!(area > state_.area)) return;
   state_.area = area;
   response.made = !state_.bonded;
@@ -394,66 +498,84 @@ inline void SnowBondStep::grow(SnowBondResponse& response) {
 
 /// Moments, against the strength of the bond as it is now.
 inline void SnowBondStep::bend() {
-  const double squared_radius =
-      std::max(state_.area / pi, SnowBond::least_radius * SnowBond::least_radius * d_ * d_);
-  const double squared_bending = trial_.bending.squaredNorm(),
-               squared_torsion = trial_.torsion * trial_.torsion;
-  const auto limits = [&] {
-    const double pressing = std::max(0.0, normal_);
-    const double Fb = SnowBond::bonded_share(state_, d_) * strong_.Fb;
-    return std::pair(SnowBond::bending_limit * (law_.zeta * Fb + pressing),
-                     SnowBond::torsion_limit * (law_.chi * Fb + law_.mu * pressing));
-  };
-  const auto within = [&](const std::pair<double, double>& limit) {
-    return squared_bending <= limit.first * limit.first * squared_radius &&
-           squared_torsion <= limit.second * limit.second * squared_radius;
-  };
-  if (!within(limits())) {
-    strong_ = SnowBond::strength(law_, d_, (state_.plastic - state_.at_sintering) / d_);
-    const double radius = std::sqrt(squared_radius);
-    const auto [bending, torsion] = limits();
-    bending_left_ = share_within(bending * radius, squared_bending);
-    torsion_left_ = share_within(torsion * radius, squared_torsion);
-  }
-  state_.bending = bending_left_ * trial_.bending;
+  const double radius = std::sqrt(squared_strength_radius(state_.area, d_));
+  const double pressing = std::max(0.0, normal_),
+               Fb = SnowBond::bonded_share(state_, d_) * strong_.Fb;
+  bending_left_ = share_within(SnowBond::bending_limit * (law_.zeta * Fb + pressing) * radius,
+                               trial_.squared[1]);
+  torsion_left_ =
+      share_within(SnowBond::torsion_limit * (law_.chi * Fb + law_.mu * pressing) * radius,
+                   trial_.torsion * trial_.torsion);
+  state_.across = Two{shear_left_, bending_left_} * trial_.across;
   state_.torsion = torsion_left_ * trial_.torsion;
 }
 
 /// Force after the return times plastic displacement, and what a bond that grows holds less.
 inline double SnowBondStep::plastic_work() const {
   const auto lost = [](double left) { return left > 0.0 ? 1.0 / left - 1.0 : 0.0; };
-  const double bending = state_.bending.squaredNorm() / rotation_.bending,
-               torsion = state_.torsion * state_.torsion / rotation_.torsion;
+  const double bending = state_.across.second().squaredNorm() / trial_.bending_stiffness(),
+               torsion = state_.torsion * state_.torsion / trial_.torsion_stiffness();
   return (normal_ * (trial_.normal - normal_) +
-          shear_left_ * (1.0 - shear_left_) * squared_shear_) /
+          shear_left_ * (1.0 - shear_left_) * trial_.squared[0]) /
              k_ +
          bending * lost(bending_left_) + torsion * lost(torsion_left_) +
-         0.5 * (bending + torsion) * (1.0 - rotation_.bending / of_rotation().bending);
+         0.5 * (bending + torsion) *
+             (1.0 - trial_.squared_radius / squared_stiffness_radius(state_.area, d_));
 }
 
 /// Dampers; those of a dry contact neither pull nor overcome friction.
 inline void SnowBondStep::damp(SnowBondResponse& response, SnowBondEnergy* energy) const {
   const double relaxation = 2.0 * law_.damping * std::sqrt(contact_.mass / k_) / contact_.dt;
-  double normal = relaxation * (normal_ - before_.normal);
-  Vector3 shear = 0.5 * relaxation * (state_.shear - before_.shear);
+  double normal = relaxation * (normal_ - normal_before_);
+  const TwoVectors change = 0.5 * relaxation * (state_.across - trial_.before);
+  Vector3 shear = change.first();
   if (!state_.bonded) {
     normal = std::max(normal, -normal_);
-    const Vector3 all = state_.shear + shear;
-    shear = share_within(law_.mu * (normal_ + normal), all.squaredNorm()) * all - state_.shear;
+    const Vector3 all = state_.across.first() + shear;
+    shear =
+        share_within(law_.mu * (normal_ + normal), all.squaredNorm()) * all - state_.across.first();
   }
-  const Vector3 moment =
-      0.5 * relaxation *
-      (state_.bending - before_.bending + (state_.torsion - before_.torsion) * contact_.normal);
+  const double torsion = 0.5 * relaxation * (state_.torsion - torsion_before_);
+  const Vector3 moment = change.second() + torsion * contact_.normal;
   if (energy)
     energy->damped =
         -contact_.dt * (normal * contact_.normal_velocity +
                         shear.dot(contact_.tangential_velocity) + moment.dot(contact_.rotation));
-  response.force = (normal_ + normal) * contact_.normal + state_.shear + shear;
-  response.moment = state_.bending + state_.torsion * contact_.normal + moment;
+  response.force = (normal_ + normal) * contact_.normal + state_.across.first() + shear;
+  response.moment = state_.across.second() + state_.torsion * contact_.normal + moment;
+}
+
+inline double SnowBond::stored(const SnowBondParameters& law, double d, const SnowBondState& state,
+                               double normal) {
+  const double k = stiffness(law, d), squared_radius = squared_stiffness_radius(state.area, d);
+  return 0.5 / k *
+         (normal * normal + state.across.first().squaredNorm() +
+          (4.0 * state.across.second().squaredNorm() + 2.0 * state.torsion * state.torsion) /
+              squared_radius);
+}
+
+inline bool SnowBond::advance_elastic(const SnowBondParameters& law, const SnowContact& contact,
+                                      SnowBondState& state, SnowBondResponse& response,
+                                      SnowBondEnergy* energy) {
+  const SnowBondTrial trial(law, contact, state);
+  if (!trial.is_elastic(law, contact, state)) return false;
+  state.across = trial.across;
+  state.torsion = trial.torsion;
+  response = trial.response(law, contact, energy);
+  return true;
 }
 
 inline SnowBondResponse SnowBond::advance(const SnowBondParameters& law, const SnowContact& contact,
                                           SnowBondState& state, SnowBondEnergy* energy) {
+  if (energy) *energy = {};
+  SnowBondResponse response;
+  if (advance_elastic(law, contact, state, response, energy)) return response;
+  return advance_yielding(law, contact, state, energy);
+}
+
+inline SnowBondResponse SnowBond::advance_yielding(const SnowBondParameters& law,
+                                                   const SnowContact& contact, SnowBondState& state,
+                                                   SnowBondEnergy* energy) {
   if (energy) *energy = {};
   return SnowBondStep(law, contact, state).advance(energy);
 }
@@ -463,12 +585,11 @@ inline SnowBondResponse SnowBond::hold(const SnowBondParameters& law, const Snow
   double normal = stiffness(law, contact.d) * (contact.overlap - state.plastic);
   if (!state.bonded) normal = std::max(0.0, normal);
   SnowBondResponse response;
-  response.force = normal * contact.normal + state.shear;
-  response.moment = state.bending + state.torsion * contact.normal;
+  response.force = normal * contact.normal + state.across.first();
+  response.moment = state.across.second() + state.torsion * contact.normal;
   if (energy) {
-    SnowBondState same = state;
     *energy = {};
-    energy->stored = SnowBondStep(law, contact, same).stored(normal);
+    energy->stored = stored(law, contact.d, state, normal);
   }
   return response;
 }

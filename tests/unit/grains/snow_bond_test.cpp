@@ -57,7 +57,7 @@ struct Path {
   double normal() const { return last.force.dot(contact.normal); }
   double shear() const { return (last.force - normal() * contact.normal).norm(); }
   SnowStrength strength() const {
-    return SnowBond::strength(law, d, (state.plastic - state.at_sintering) / d);
+    return SnowBond::strength(law, d, SnowHardening::at(law, state.crushing(d)));
   }
   double bond_force() const { return SnowBond::bonded_share(state, d) * strength().Fb; }
 };
@@ -382,6 +382,46 @@ TEST(SnowBond, StressesDoNotDependOnTheSizeOfClusters) {
   EXPECT_LT((large.last.force - f * f * small.last.force).norm(), 1e-7 * large.last.force.norm());
   EXPECT_LT((large.last.moment - f * f * f * small.last.moment).norm(),
             1e-7 * large.last.moment.norm());
+}
+
+// The short way of an elastic step against the general one, before and after crushing.
+TEST(SnowBond, AnElasticStepIsThatOfAContactThatMightYield) {
+  for (const double crushing : {0.0, 0.1}) {
+    Path path(0.2);
+    path.contact.normal_velocity = -1.0;
+    while (path.state.crushing(d) < crushing) path.step();
+    // back to half of the strength, then a turn and a slide
+    path.contact.overlap = path.state.plastic + 0.5 * path.bond_force() / k;
+    path.contact.normal_velocity = 1e-3;
+    path.contact.tangential_velocity = Vector3(2e-4, -1e-4, 0.0);
+    path.contact.rotation = Vector3(0.02, 0.01, -0.03);
+    path.contact.spin = 0.5;
+    for (int n = 0; n < 20; ++n) {
+      SnowBondState yielding = path.state;
+      SnowBondEnergy energy;
+      const SnowBondResponse expected =
+          SnowBond::advance_yielding(path.law, path.contact, yielding, &energy);
+      SnowBondResponse response;
+      path.energy = {};
+      ASSERT_TRUE(
+          SnowBond::advance_elastic(path.law, path.contact, path.state, response, &path.energy));
+      EXPECT_LT((response.force - expected.force).norm(), 1e-12 * expected.force.norm());
+      EXPECT_LT((response.moment - expected.moment).norm(), 1e-12 * expected.moment.norm());
+      EXPECT_NEAR(path.energy.stored / energy.stored, 1.0, 1e-12);
+      EXPECT_NEAR(path.energy.damped / energy.damped, 1.0, 1e-9);
+      EXPECT_EQ(yielding.plastic, path.state.plastic);
+    }
+  }
+}
+
+TEST(SnowBond, HardeningGrowsAsItsExponentials) {
+  const SnowHardening start = SnowHardening::at(ag, 0.2);
+  for (const double dX : {1e-6, 1e-4, 2e-3, 2.4e-3, 0.02, 0.3}) {  // by series and beyond
+    const SnowHardening grown = start.after(ag, dX), expected = SnowHardening::at(ag, 0.2 + dX);
+    EXPECT_NEAR(grown.soft / expected.soft, 1.0, 1e-12) << dX;
+    EXPECT_NEAR(grown.dense / expected.dense, 1.0, 1e-12) << dX;
+    EXPECT_NEAR(grown.bond / expected.bond, 1.0, 1e-12) << dX;
+  }
 }
 
 TEST(SnowBond, AStateIsStoredAndLoadedWhole) {
