@@ -617,7 +617,6 @@ def fields() -> tuple[Experiment, ...]:
     return tuple(rows)
 
 
-TYRE_RUN = {"change": "base: cells of 4 cm, tyre of 4 x 36 elements"}
 RIGID_WHEEL = Group(
     "Wheel on snow",
     (
@@ -653,9 +652,9 @@ RIGID_WHEEL = Group(
             "z",
             "cm",
             measured="15.8",
-            ours=Stored(ERROR, TYRE_RUN, "sinkage_m", 100.0),
+            ours=of(SNOW_WHEEL, "row_220_20cm", "sinkage_m", 100.0),
             near=Stored(ERROR, {"change": "cells of 3.33 cm"}, "sinkage_m", 100.0),
-            cost=Stored(ERROR, TYRE_RUN, "user_s"),
+            cost=of(SNOW_WHEEL, "row_220_20cm", "user_s"),
             remark="identified on",
         ),
         Experiment(
@@ -663,7 +662,7 @@ RIGID_WHEEL = Group(
             "the same",
             "c",
             measured="0.074",
-            ours=Stored(ERROR, TYRE_RUN, "resistance"),
+            ours=of(SNOW_WHEEL, "row_220_20cm", "resistance"),
             near=Stored(ERROR, {"change": "cells of 3.33 cm"}, "resistance"),
             remark="identified on",
         ),
