@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import experiments
+import guards
 import overview
 
 from furrow_post.arguments import path, words
@@ -94,6 +95,16 @@ def make(chosen: Sequence[str], options: Sequence[str]) -> int:
     return failed
 
 
+def check(study: str, whole: bool, results: Path, options: Sequence[str]) -> int:
+    """Repeats the cheap runs of a study, or all: the number of what is not as it is stored."""
+    every = ["*"] if whole else []
+    failed = driver(study, "--check", *every, "--results", str(results), *options).returncode != 0
+    sentences = list(guards.missed(study, results, whole))
+    for sentence in sentences:
+        print(f"MISSED: {sentence}", file=sys.stderr)
+    return failed + len(sentences)
+
+
 def page_of(text: str) -> str:
     """The page with the table as the stored results have it. @raises ResultsError"""
     return with_section(text, overview.section(experiments.GROUPS), overview.BEGIN, overview.END)
@@ -112,6 +123,14 @@ def parser() -> argparse.ArgumentParser:
     made.add_argument("names", nargs="*", type=words, metavar="STUDY", help="default: all")
     made.add_argument("--list", action="store_true", help="say what is there, make nothing")
     made.add_argument("--table", action="store_true", help="only write the table of README.md")
+    made.add_argument(
+        "--check",
+        action="store_true",
+        help="repeat the runs of one study that cost seconds; status 1 where a number of the table "
+        "is no longer what is stored",
+    )
+    made.add_argument("--whole", action="store_true", help="with --check: all runs of the study")
+    made.add_argument("--results", type=path, help="with --check: where runs are kept")
     made.add_argument("--build", type=path, help="build folder with the programs")
     return made
 
@@ -124,9 +143,15 @@ def main() -> int:
         if name not in known:
             raise ResultsError(f"there is no study '{name}'; there are {', '.join(known)}")
     chosen = parsed.names or known
+    if (parsed.whole or parsed.results) and not parsed.check:
+        raise ResultsError("--whole and --results go with --check")
     if parsed.list:
         list_studies(chosen, options)
         return 0
+    if parsed.check:
+        if len(chosen) != 1 or parsed.results is None:
+            raise ResultsError("--check takes the name of one study, and --results")
+        return 1 if check(chosen[0], parsed.whole, parsed.results, options) else 0
     failed = 0 if parsed.table else make(chosen, options)
     write_page()
     return 1 if failed else 0

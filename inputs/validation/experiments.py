@@ -6,9 +6,10 @@ are not at hand.
 """
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import NamedTuple
 
-from overview import Experiment, Group, Stored
+from overview import NOTHING, OUTSIDE, Experiment, Group, Stored
 
 WHEEL, SNOW_WHEEL = "report_wheel/results.csv", "snow_wheel/results.csv"
 ERROR, ACCURACY = "snow_wheel/error.csv", "snow_wheel/accuracy.csv"
@@ -25,8 +26,9 @@ def of(table: str, run: str, column: str, scale: float = 1.0, key: str = "run") 
     return Stored(table, {key: run}, column, scale)
 
 
-def not_done(place: str, what: str, quantity: str, reason: str) -> Experiment:
-    return Experiment(place, what, quantity, remark=reason)
+def not_done(place: str, what: str, quantity: str, reason: str, aside: str = "") -> Experiment:
+    """aside: a verdict other than that."""
+    return Experiment(place, what, quantity, remark=reason, aside=aside)
 
 
 HELD = "held at zero slip, a wheel drives with its friction: c is linear in slip (report_wheel)"
@@ -99,7 +101,13 @@ MATERIAL = Group(
             "the wheel of Fig 62 with a tenth of E; no law lets E follow density",
             "soft",
         ),
-        not_done("Figs 21-25", "compilations of E, strength, compression", "", "no number printed"),
+        not_done(
+            "Figs 21-25",
+            "compilations of E, strength, compression",
+            "",
+            "measurements of others, only drawn; nothing is computed there",
+            NOTHING,
+        ),
         Experiment(
             "Fig 34",
             "McCormick sand, confined compression by 8 MPa",
@@ -403,7 +411,19 @@ HARD_SURFACE = Group(
             cost=brick_rolling("user_s"),
             remark=BRICK + ", smooth; the report's at 120 sections",
         ),
-        not_done("Tables 9, 10", "brick treads: natural modes", "", "the report gives no mode"),
+        *(
+            Experiment(
+                "Tables 9, 10",
+                f"brick tread, smooth, 241 kPa: natural mode, {mode}",
+                "frequency",
+                "Hz",
+                ours=Stored(
+                    "tyre_shift/modes.csv", {"run": "plane_brick", "mode": mode}, "frequency_Hz"
+                ),
+                remark="the report gives no mode",
+            )
+            for mode in ("turning", "shaking in the wheel's plane")
+        ),
         *(
             Experiment(
                 figures,
@@ -597,7 +617,6 @@ def fields() -> tuple[Experiment, ...]:
     return tuple(rows)
 
 
-TYRE_RUN = {"change": "base: cells of 4 cm, tyre of 4 x 36 elements"}
 RIGID_WHEEL = Group(
     "Wheel on snow",
     (
@@ -633,9 +652,9 @@ RIGID_WHEEL = Group(
             "z",
             "cm",
             measured="15.8",
-            ours=Stored(ERROR, TYRE_RUN, "sinkage_m", 100.0),
+            ours=of(SNOW_WHEEL, "row_220_20cm", "sinkage_m", 100.0),
             near=Stored(ERROR, {"change": "cells of 3.33 cm"}, "sinkage_m", 100.0),
-            cost=Stored(ERROR, TYRE_RUN, "user_s"),
+            cost=of(SNOW_WHEEL, "row_220_20cm", "user_s"),
             remark="identified on",
         ),
         Experiment(
@@ -643,7 +662,7 @@ RIGID_WHEEL = Group(
             "the same",
             "c",
             measured="0.074",
-            ours=Stored(ERROR, TYRE_RUN, "resistance"),
+            ours=of(SNOW_WHEEL, "row_220_20cm", "resistance"),
             near=Stored(ERROR, {"change": "cells of 3.33 cm"}, "resistance"),
             remark="identified on",
         ),
@@ -661,11 +680,19 @@ RIGID_WHEEL = Group(
         ),
         density("row_220_20cm", "under the tyre, `field_snow`", "density_under", "460", "510"),
         density("row_220_20cm", "at its shoulder", "density_shoulder", "335", "290"),
+        density("flowing_220_20cm", "under the tyre, K0 0.41", "density_under", "460", "510"),
+        density("flowing_220_20cm", "at its shoulder", "density_shoulder", "335", "290"),
         density("clay_towed", "under the rigid wheel, Cam clay", "density_under", "460", "510"),
         density("clay_towed", "at its shoulder", "density_shoulder", "335", "290"),
         *fields(),
         *effect("p. 43", "infinite elements at the sides, d 5 kPa", "absorbing_5"),
-        not_done("p. 44", "implicit solution, adaptive mesh", "", "explicit material points here"),
+        not_done(
+            "p. 44",
+            "implicit solution, adaptive mesh",
+            "",
+            "methods that the report tried, without a number; explicit material points here",
+            OUTSIDE,
+        ),
     ),
 )
 
@@ -771,6 +798,41 @@ def shifts() -> tuple[Experiment, ...]:
     )
 
 
+def buckling() -> Iterator[Experiment]:
+    """How much of the tread lifts where it buckles, and how its pressure alternates from node to
+    node: on soft ground less than on a plane."""
+    plane, snow = (
+        of("tyre_on_snow/lift.csv", run, "user_s") for run in ("lift_plane", "lift_field_snow")
+    )
+    what = "buckling of the tread at 69 kPa under 5 kN"
+    for column, quantity, unit, scale in (
+        ("lifted_share", "share of the contact that lifts", "%", PERCENT),
+        ("alternation", "alternation of the pressure", "", 1.0),
+    ):
+        on_plane = replace(plane, column=column, scale=scale)
+        first = column == "lifted_share"
+        yield Experiment(
+            "p. 40",
+            f"{what}, on a plane",
+            quantity,
+            unit,
+            ours=on_plane,
+            cost=plane if first else None,
+            remark="pictures only",
+        )
+        yield Experiment(
+            "p. 40",
+            f"{what}, on 20 cm of `field_snow`",
+            quantity,
+            unit,
+            report=on_plane,
+            ours=replace(snow, column=column, scale=scale),
+            limit=True,
+            cost=snow if first else None,
+            remark="the report: disappears on soft ground; limit: ours on the plane",
+        )
+
+
 TYRE_ON_GROUND = Group(
     "Tyre on snow and on sand",
     (
@@ -795,16 +857,33 @@ TYRE_ON_GROUND = Group(
                 ("locked", "locked", "one zone"),
             )
         ),
-        not_done(
-            "p. 40",
-            "buckling of the tread disappears on soft ground",
-            "",
-            "counted on a plane only: 4 % of the contact lifts at 69 kPa and 5 kN (tyre_table6)",
-        ),
+        *buckling(),
     ),
 )
 
 # ---- what the report plans
+
+def designs() -> Iterator[Experiment]:
+    """Rigid wheels of other sizes beside the closed form."""
+    for run, size in (
+        ("design_56x27cm", "diameter 56 cm, width 27.2 cm"),
+        ("design_74x27cm", "diameter 74 cm, width 27.2 cm"),
+        ("design_100x27cm", "diameter 100 cm, width 27.2 cm"),
+        ("design_74x18cm", "diameter 74 cm, width 18 cm"),
+        ("design_74x40cm", "diameter 74 cm, width 40 cm"),
+    ):
+        yield Experiment(
+            "pp. 55-56",
+            f"design: rigid wheel on 20 cm of `field_snow`, {size}",
+            "c",
+            report=of("snow_wheel/design.csv", run, "closed_form_resistance"),
+            ours=of("snow_wheel/design.csv", run, "resistance"),
+            uncertainty=of("snow_wheel/design.csv", run, "resistance_change"),
+            cost=of("snow_wheel/design.csv", run, "user_s"),
+            remark="report: the closed form, of compaction alone",
+            why="the closed form lets no snow go aside (snow_wheel)",
+        )
+
 
 FUTURE = Group(
     "What the report leaves to others (pp. 41, 55)",
@@ -820,16 +899,29 @@ FUTURE = Group(
             )
             for pressure in (103, 241)
         ),
-        not_done(
-            "pp. 55-56",
-            "design: width, diameter",
-            "c",
-            "not run; by closed form sqrt(2 lambda/(pi r)), whatever the width (snow_wheel)",
-        ),
+        *designs(),
         not_done("pp. 55-56", "tread blocks on snow", "", "ribs and lugs: tyre_brick; none on snow"),
         not_done("pp. 55-56", "temperature, melting, sintering in time", "", "no law has it"),
         not_done("pp. 55-56", "rate effects, wet snow, thawing soil", "", "no law has it"),
-        not_done("pp. 55-56", "repeated passes", "z", "a test: 7 mm deeper; none measured"),
+        *(
+            Experiment(
+                "pp. 55-56",
+                f"repeated passes: the tyre on 20 cm of `field_snow`, pass {number}",
+                quantity,
+                unit,
+                ours=of("snow_wheel/passes.csv", f"passes_{number}", column, scale),
+                uncertainty=of("snow_wheel/passes.csv", f"passes_{number}", f"{change}", scale),
+                cost=of("snow_wheel/passes.csv", f"passes_{number}", "user_s")
+                if quantity == "z"
+                else None,
+                remark="none measured",
+            )
+            for number in (1, 2, 3)
+            for quantity, unit, column, change, scale in (
+                ("z", "cm", "sinkage_m", "sinkage_change_m", 100.0),
+                ("c", "", "resistance", "resistance_change", 1.0),
+            )
+        ),
     ),
 )
 

@@ -12,6 +12,8 @@ from furrow_post.study.tables import markdown
 HERE = Path(__file__).resolve().parent
 BEGIN, END = "<!-- written by run -->", "<!-- end -->"
 UNMET = ("differs", "missed")  # verdicts that need a reason
+NOTHING, OUTSIDE, NOT_DONE = "nothing to compare", "outside", "not done"
+VERDICTS = ("agrees", "met", "near", *UNMET, NOTHING, OUTSIDE, NOT_DONE)
 AGREES, NEAR = 0.10, 0.25  # relative differences that are called so
 HEAD = (
     "in the report",
@@ -44,9 +46,12 @@ class Stored:
     def study(self) -> str:
         return self.table.rpartition("/")[0]
 
-    def value(self) -> float:
-        """@raises ResultsError where the table, row or number is not there"""
-        path = HERE / self.table
+    def value(self, study: Path | None = None) -> float:
+        """study: another folder with the study's tables.
+
+        @raises ResultsError where the table, row or number is not there
+        """
+        path = study / Path(self.table).name if study else HERE / self.table
         if not path.is_file():
             raise ResultsError(f"{path}: is not there; inputs/validation/run {self.study} makes it")
         found = [
@@ -69,7 +74,8 @@ class Experiment:
 
     why: the reason where ours differs or misses, and last, in brackets, the study whose page shows
     it; near: the same number with the next size of cells or mesh; the distance is its uncertainty.
-    limit: the reference is an upper limit; floor: a lower one. A row without ours says why.
+    limit: the reference is an upper limit; floor: a lower one. A row without ours says why; aside:
+    its verdict where nothing could be done.
     """
 
     place: str  # in the report
@@ -87,6 +93,7 @@ class Experiment:
     cost: Stored | None = None  # [core s] of ours
     remark: str = ""
     why: str = ""
+    aside: str = ""
 
     def reference(self) -> float | None:
         """The measured number, or else the report's."""
@@ -103,12 +110,13 @@ class Experiment:
             return self.uncertainty.value()
         return abs(self.near.value() - self.ours.value()) if self.near else None
 
-    def verdict(self) -> str:
+    def verdict(self, own: float | None = None) -> str:
+        """own: another number in place of ours."""
         if self.ours is None:
-            return "not done"
-        reference, own = self.reference(), self.ours.value()
+            return self.aside or NOT_DONE
+        reference, own = self.reference(), self.ours.value() if own is None else own
         if reference is None:
-            return "nothing to compare"
+            return NOTHING
         if self.limit:
             return "met" if own <= reference else "missed"
         if self.floor:
@@ -167,8 +175,7 @@ class Group:
 def counts(groups: Sequence[Group]) -> str:
     """How many rows have which verdict."""
     verdicts = [row.verdict() for group in groups for row in group.rows]
-    order = ("agrees", "met", "near", "differs", "missed", "nothing to compare", "not done")
-    parts = [f"{verdicts.count(name)} {name}" for name in order if name in verdicts]
+    parts = [f"{verdicts.count(name)} {name}" for name in VERDICTS if name in verdicts]
     return f"{len(verdicts)} rows: {', '.join(parts)}."
 
 

@@ -262,9 +262,82 @@ def errors() -> list[Case]:
     ]
 
 
+# ---- design: what the report leaves to others
+
+DESIGN_CELLS = 4  # in 0.20 m: cells of 5 cm
+DIAMETER, WIDE = 0.74, 0.272  # [m] of RIGID, which stands between the others
+DESIGNS = (  # diameter [m], width [m]
+    (DIAMETER, 0.18),
+    (DIAMETER, WIDE),
+    (DIAMETER, 0.40),
+    (0.56, WIDE),
+    (1.00, WIDE),
+)
+
+
+def rigid(diameter: float, width: float) -> dict[str, Value]:
+    """RIGID with another diameter and width [m], under the same load."""
+    return {
+        **RIGID,
+        "body": f"wheel/rigid diameter {diameter:g} width {width:g} shoulder 0.051 mass 636 "
+        "inertia 2.15 segments 72",
+        "radius": 0.5 * diameter,
+    }
+
+
+def designs() -> list[Case]:
+    """Rigid wheels of other sizes on the field snow of 220 kg/m3."""
+    return [
+        on_field_snow(
+            f"design_{100 * diameter:.0f}x{100 * width:.0f}cm",
+            "design",
+            220,
+            0.20,
+            rigid(diameter, width),
+            cells=DESIGN_CELLS,
+            what=f"diameter {diameter:g} m, width {width:g} m",
+        )
+        for diameter, width in DESIGNS
+    ]
+
+
+CHECKED = "design_56x27cm"  # run that is a test
+PASSES = 3
+
+
+def passes() -> Case:
+    """The tyre on the field snow of 220 kg/m3, several times in one rut."""
+    text = field_snow(220, title="field snow of 220 kg/m3")
+    variables: dict[str, Value] = {
+        **{name: BASE[name] for name in ("speed", "settle", "accelerate", "width", "fine_width")},
+        **{name: BASE[name] for name in ("damping", "particles", "friction")},
+        **tyre(),
+        "material": f"{FOLDER}/material.yaml",
+        "depth": 0.20,
+        "cell": 0.20 / DESIGN_CELLS,
+        "length": 2.2,
+        "centre": 0.5,
+        "clearance_above": 0.4,
+        "distance": 1.0,
+        "passes": PASSES,
+        "return": 0.3,
+    }
+    return script_case(
+        "passes",
+        HERE / "passes.lig",
+        variables,
+        what="the tyre, several times in one rut",
+        stage="design",
+        files={"material.yaml": text},
+        time_limit=TIME_LIMIT,
+        may_fail=True,
+    )
+
+
 def all_cases() -> dict[str, Case]:
     """Name -> case, in the order in which they are made."""
-    return {case.name: case for case in predictions() + rows() + flowing_rows() + errors()}
+    made = predictions() + rows() + flowing_rows() + errors() + designs() + [passes()]
+    return {case.name: case for case in made}
 
 
 # ---- measurements

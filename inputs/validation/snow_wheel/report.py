@@ -10,6 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import cases
+import closed_form
 import mass_balance
 
 from furrow_post.analyse import empirical
@@ -29,9 +30,20 @@ from furrow_post.study.runner import Runner
 LOAD = cases.LOAD_MASS * 9.80665  # [N]
 RADIUS = 0.38  # [m] Table 11
 TIME_STEP = 2e-4  # [s] of wheel.lig
+CRUISE = 2  # stage of a history
+FORCES = ("force_x", "force_z")
 
 Row = dict[str, Any]  # of a table
 
+# Of a run, beside each measured row
+COMPARED = (
+    "sinkage_m",
+    "rut_depth_m",
+    "resistance",
+    "density_under",
+    "density_shoulder",
+    "slip",
+)
 COMPUTED = {  # model of rows.csv -> name, colour, mark
     "tyre": ("tyre on field snow", "tab:blue", "s"),
     "flowing": ("the same with K0 0.41", "tab:orange", "^"),
@@ -144,7 +156,7 @@ def measured_row(found: Found, r: Mapping[str, float]) -> Row:
         ("flowing", cases.flowing_name(density, depth)),
     ):
         computed = found(name)
-        for what in ("sinkage_m", "resistance", "density_under", "density_shoulder", "slip"):
+        for what in COMPARED:
             row[f"{model}_{what}"] = computed.get(what, "")
     own = empirical.nrmm_sinkage(depth, density, cases.PRESSURE)
     from_own, from_measured = (
@@ -156,13 +168,18 @@ def measured_row(found: Found, r: Mapping[str, float]) -> Row:
 
 
 def accuracy(table: Sequence[Row], used: str, model: str) -> Row:
-    """rms and mean of computed minus measured over the rows of one use that were run."""
+    """rms and mean of computed minus measured over the rows of one use that were run; rut: of the
+    depth that is left minus the measured sinkage."""
     chosen = [r for r in table if used in ("all", r["used"]) and r[f"{model}_sinkage_m"] != ""]
     out: Row = {"model": model, "rows": f"{used}: {len(chosen)}"}
     for what in ("sinkage_m", "resistance"):
         errors = [r[f"{model}_{what}"] - r[what] for r in chosen]
         out[f"{what}_rms"] = round(rms(errors), 4)
         out[f"{what}_mean"] = round(sum(errors) / max(len(errors), 1), 4)
+    if model in COMPUTED:
+        errors = [r[f"{model}_rut_depth_m"] - r["sinkage_m"] for r in chosen]
+        out["rut_m_rms"] = round(rms(errors), 4)
+        out["rut_m_mean"] = round(sum(errors) / max(len(errors), 1), 4)
     if model == "nrmm":
         errors = [r["nrmm_resistance_measured_sinkage"] - r["resistance"] for r in chosen]
         out["resistance_rms_from_measured_sinkage"] = round(rms(errors), 4)
@@ -271,6 +288,61 @@ def draw_errors(table: Sequence[Row], limits: Limits, path: Path) -> None:
     save(figure, path, dpi=90)
 
 
+# ---- design
+
+
+def design_table(found: Found) -> list[Row]:
+    """Rigid wheels of other sizes beside the closed form."""
+    table = []
+    for case, (diameter, width) in zip(cases.designs(), cases.DESIGNS):
+        if not (row := found(case.name)):
+            continue
+        expected = closed_form.rigid(diameter, width, 0.20, 220.0, LOAD)
+        table.append(
+            {
+                "diameter_m": diameter,
+                "width_m": width,
+                **row,
+                "closed_form_sinkage_m": round(expected.sinkage, 4),
+                "closed_form_resistance": round(expected.resistance, 4),
+            }
+        )
+    return table
+
+
+def pass_table(runner: Runner) -> list[Row]:
+    """Sinkage and resistance of each pass in one rut, over the last WINDOW of its cruise."""
+    case = cases.passes()
+    record = runner.record(case)
+    if record is None:
+        return []
+    wheel = Results(runner.folder(case)).columns
+    table = []
+    for number in range(1, cases.PASSES + 1):
+        cruise = (wheel["pass"] == number) & (wheel["stage"] == CRUISE)
+        mine = {name: wheel[name][cruise] for name in ("x", "sinkage", "slip", *FORCES)}
+        end = float(mine["x"][-1])
+        middle = end - cases.WINDOW / 2
+        value = means(mine, mine["x"], end - cases.WINDOW, end)
+        halves = [
+            means(mine, mine["x"], low, low + cases.WINDOW / 2)
+            for low in (end - cases.WINDOW, middle)
+        ]
+        change = 0.5 * np.abs(halves[1] - halves[0])
+        table.append(
+            {
+                "run": f"{case.name}_{number}",
+                "user_s": round(record.cpu_time / cases.PASSES, 1),
+                "sinkage_m": round(value[0], 4),
+                "sinkage_change_m": round(change[0], 4),
+                "resistance": round(value[1], 4),
+                "resistance_change": round(change[1], 4),
+                "slip": round(value[2], 3),
+            }
+        )
+    return table
+
+
 # ---- all
 
 
@@ -310,6 +382,8 @@ def report(runner: Runner, output: Output) -> list[str]:
         print(f"size zero: {what} {value:.4f} +- {uncertain:.4f}")
     if limits:
         draw_errors(errors, limits, output.path("error.png"))
+    output.table("design.csv", design_table(found))
+    output.table("passes.csv", pass_table(runner))
     for name, title in SECTIONS.items():
         if runner.record(found.cases[name]):
             picture = output.path(f"section_{name}.png")

@@ -3,7 +3,8 @@
 """How far a tyre's tread moves as a whole against the rim, on a plane and on snow: the least
 deflection that its load allows. See README.md.
 
-Makes the runs that are missing and writes results.csv.
+Makes the runs that are missing and writes results.csv and modes.csv, the tyres' lowest natural
+modes. --check makes those at rest on a plane alone, in seconds.
 """
 
 import csv
@@ -38,6 +39,13 @@ AROUND = 36  # sections of both tyres
 # Of p235_75r15.yaml: belts of radius 0.3475 m and 15.7 cm of width with 19.6 kg/m2
 TREAD_MASS = 19.6 * 2 * math.pi * 0.3475 * 0.157  # [kg]
 WINDOW = 0.7  # [m] of travel before the end
+SHAKING = "shaking in the wheel's plane"
+KINDS = {  # of natural modes: waves around the tread, whether it moves along the axle
+    ("0", False): "turning",
+    ("0", True): "along the axle",
+    ("1", False): SHAKING,
+    ("1", True): "tilting",
+}
 AGAIN = "make the run again: remove its folder"
 TIME_STEP = 2e-4  # [s] of roll.lig
 
@@ -109,23 +117,28 @@ def road_deflection(file: Path) -> float:
             return 10 * float(list(csv.DictReader(lines))[-1]["deflection_cm"])
 
 
-def shift_by_mode(file: Path) -> float:
-    """How far the load moves the tread as a whole [mm], from the natural frequency at which it
-    shakes in the wheel's plane: one wave around, next to nothing along the axle."""
+def modes(folder: Path) -> dict[str, float]:
+    """Natural frequencies [Hz] of the inflated tyre without load, by how the tread moves."""
+    file = folder / f"{PRESSURE}kPa_0N_modes.csv"
+    found: dict[str, float] = {}
     with content_of(file, AGAIN):
         with open(file, encoding="utf-8") as lines:
-            modes = csv.DictReader(line for line in lines if not line.startswith("#"))
-            found = [
-                float(mode["frequency_Hz"])
-                for mode in modes
-                if mode["waves"] == "1" and float(mode["axial"]) < 0.01
-            ]
-        return 1e3 * LOAD / (TREAD_MASS * (2 * math.pi * found[0]) ** 2)
+            for mode in csv.DictReader(line for line in lines if not line.startswith("#")):
+                kind = KINDS.get((mode["waves"], float(mode["axial"]) > 0.5))
+                if kind:
+                    found.setdefault(kind, float(mode["frequency_Hz"]))
+    return found
+
+
+def shift_by_mode(folder: Path) -> float:
+    """How far the load moves the tread as a whole [mm], from the natural frequency at which it
+    shakes in the wheel's plane: one wave around, next to nothing along the axle."""
+    return 1e3 * LOAD / (TREAD_MASS * (2 * math.pi * modes(folder)[SHAKING]) ** 2)
 
 
 def row_of(case: Case, runner: Runner, cpu_time: float) -> dict[str, object]:
     folder = runner.folder(case)
-    if case.stage == "plane":
+    if is_plane(case):
         deflection = road_deflection(folder / "screen.txt")
         x = read_vtp(folder / f"{PRESSURE}kPa_{LOAD}N.vtp").x
         axle = np.array([0.0, 0.0, -1e-3 * deflection])
@@ -154,8 +167,7 @@ def row_of(case: Case, runner: Runner, cpu_time: float) -> dict[str, object]:
         "resistance": round(c, 3),
     }
     if case.name == "plane":
-        by_mode = shift_by_mode(folder / f"{PRESSURE}kPa_0N_modes.csv")
-        row["shift_by_mode_mm"] = round(by_mode, 2)
+        row["shift_by_mode_mm"] = round(shift_by_mode(folder), 2)
     return row
 
 
@@ -164,8 +176,20 @@ def evaluate(runner: Runner, output: Output) -> Sequence[str]:
         row_of(case, runner, record.cpu_time) for case in CASES if (record := runner.record(case))
     ]
     output.table("results.csv", rows)
+    frequencies = [
+        {"run": case.name, "mode": kind, "frequency_Hz": round(frequency, 1)}
+        for case in CASES
+        if is_plane(case) and runner.record(case)
+        for kind, frequency in modes(runner.folder(case)).items()
+    ]
+    output.table("modes.csv", frequencies)
     return []
 
 
+def is_plane(case: Case) -> bool:
+    return case.stage == "plane"
+
+
 if __name__ == "__main__":
-    sys.exit(run_study(Study(Path(__file__), __doc__ or "", CASES, evaluate)))
+    study = Study(Path(__file__), __doc__ or "", CASES, evaluate, checked=is_plane)
+    sys.exit(run_study(study))

@@ -13,6 +13,7 @@ from support.command import SOURCE
 sys.path.insert(0, str(SOURCE / "inputs" / "validation" / "snow_wheel"))
 
 import cases
+import closed_form
 import mass_balance
 import report
 
@@ -114,6 +115,34 @@ class MassBalanceTest(unittest.TestCase):
         self.assertGreater(own, 0.01)
 
 
+class RigidWheelTest(unittest.TestCase):
+    """The integrals along the rim."""
+
+    def test_steep_pressure_gives_the_page_s_formula(self) -> None:
+        """p = p_m exp(-(z_m - z)/lambda): W = b p_m sqrt(pi r lambda/2), c by the page."""
+        depth, density, radius, width, length = 0.2, 220.0, 0.37, 0.272, 5e-4
+        sinkage, greatest = 0.12, 1e6
+        load = width * greatest * math.sqrt(0.5 * math.pi * radius * length)
+
+        def stress(rho: np.ndarray) -> np.ndarray:
+            z = depth * (1 - density / rho)
+            return np.asarray(greatest * np.exp((z - sinkage) / length))
+
+        found = closed_form.rigid(2 * radius, width, depth, density, load, stress)
+        self.assertAlmostEqual(found.sinkage, sinkage, delta=1e-5)
+        expected = math.sqrt(2 * length / (math.pi * radius))
+        self.assertAlmostEqual(found.resistance / expected, 1.0, delta=0.01)
+
+    def test_pressure_is_the_material_s_in_confined_compression(self) -> None:
+        text = cases.field_snow(220.0)
+        rho, p = column(text, "rho"), column(text, "p")
+        stress = closed_form.axial_stress(np.array(rho[1:]))
+        np.testing.assert_allclose(stress, np.array(p[1:]) / cases.SHARES[cases.CRUSHED], rtol=1e-5)
+
+    def test_the_report_s_wheel_is_the_one_of_the_other_stages(self) -> None:
+        self.assertEqual(cases.rigid(cases.DIAMETER, cases.WIDE), cases.RIGID)
+
+
 class AccuracyTest(unittest.TestCase):
     def test_rms_and_mean_over_the_rows_that_were_run(self) -> None:
         table = [
@@ -122,6 +151,7 @@ class AccuracyTest(unittest.TestCase):
                 "sinkage_m": 0.1,
                 "resistance": 0.1,
                 "tyre_sinkage_m": 0.13,
+                "tyre_rut_depth_m": 0.1,
                 "tyre_resistance": 0.1,
             },
             {
@@ -129,6 +159,7 @@ class AccuracyTest(unittest.TestCase):
                 "sinkage_m": 0.1,
                 "resistance": 0.1,
                 "tyre_sinkage_m": 0.06,
+                "tyre_rut_depth_m": 0.04,
                 "tyre_resistance": 0.2,
             },
             {
@@ -136,6 +167,7 @@ class AccuracyTest(unittest.TestCase):
                 "sinkage_m": 0.1,
                 "resistance": 0.1,
                 "tyre_sinkage_m": "",
+                "tyre_rut_depth_m": "",
                 "tyre_resistance": "",
             },
         ]
@@ -144,6 +176,7 @@ class AccuracyTest(unittest.TestCase):
         self.assertAlmostEqual(found["sinkage_m_rms"], math.sqrt((9 + 16) / 2) / 100, places=4)
         self.assertAlmostEqual(found["sinkage_m_mean"], -0.005)
         self.assertAlmostEqual(found["resistance_mean"], 0.05)
+        self.assertAlmostEqual(found["rut_m_mean"], -0.03)
         self.assertTrue(math.isnan(report.accuracy(table, "calibration", "tyre")["sinkage_m_rms"]))
 
     def test_size_zero_is_the_mean_of_both_orders(self) -> None:

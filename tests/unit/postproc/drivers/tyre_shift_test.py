@@ -45,13 +45,14 @@ class ShiftTest(unittest.TestCase):
         """A mass on a spring: omega^2 m = F/u; the mode along the axle is not taken."""
         frequency = math.sqrt(run.LOAD / (5e-3 * run.TREAD_MASS)) / (2 * math.pi)
         with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder) / "modes.csv"
+            file = Path(folder) / "241kPa_0N_modes.csv"
             file.write_text(
                 "# modes\nmode,frequency_Hz,waves,radial,circumferential,axial\n"
                 f"1,41.6,1,0.02,0.02,0.96\n2,{frequency},1,0.46,0.54,0.001\n",
                 encoding="utf-8",
             )
-            self.assertAlmostEqual(run.shift_by_mode(file), 5.0, 9)
+            self.assertAlmostEqual(run.shift_by_mode(Path(folder)), 5.0, 9)
+            self.assertEqual(run.modes(Path(folder)), {"tilting": 41.6, run.SHAKING: frequency})
 
 
 if __name__ == "__main__":

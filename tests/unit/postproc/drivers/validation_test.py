@@ -19,10 +19,22 @@ sys.path.insert(0, str(VALIDATION))
 
 import command
 import experiments
+import guards
 import overview
 
 from furrow_post.errors import ResultsError
 from overview import Experiment, Stored, number
+
+
+OWN_CHECK = "validation.tyre_brick"  # compares a coarse mesh, which is no row
+
+
+class _Missed:
+    """Stands for the module guards."""
+
+    @staticmethod
+    def missed(study: str, made: Path, whole: bool) -> list[str]:
+        return ["z is another"] if whole else []
 
 
 class PageTest(unittest.TestCase):
@@ -100,6 +112,7 @@ class VerdictTest(unittest.TestCase):
             ("missed", "11", replace(row, floor=True)),
             ("nothing to compare", "", row),
             ("not done", "10", replace(row, ours=None)),
+            ("outside", "", replace(row, ours=None, aside=overview.OUTSIDE)),
         ):
             with self.subTest(expected=expected, measured=measured):
                 self.assertEqual(replace(given, measured=measured).verdict(), expected)
@@ -121,6 +134,78 @@ class VerdictTest(unittest.TestCase):
             [number(value) for value in (12345.6, 0.00123, 10.0, 0.15649)],
             ["12300", "0.00123", "10", "0.156"],
         )
+
+
+class GuardTest(unittest.TestCase):
+    """Every row of the table has a command that makes it and a test that repeats it."""
+
+    def setUp(self) -> None:
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+        self.addCleanup(self.temporary.cleanup)
+
+    def test_every_row_is_guarded(self) -> None:
+        """By a test of seconds in tests/run, or by one of hours under the label study."""
+        declared = (SOURCE / "tests" / "CMakeLists.txt").read_text(encoding="utf-8")
+        lists = re.findall(r"(?:set|list)\((?:APPEND )?cheap_studies ([\w ]+)\)", declared)
+        cheap = {study for names in lists for study in names.split()}
+        self.assertEqual(cheap, set(guards.CHEAP))
+        self.assertIn("file(GLOB drivers CONFIGURE_DEPENDS RELATIVE", declared)
+        tests = {f"validation.{study}" for study in cheap}
+        tests |= {f"study.{study}" for study in command.studies()}
+        found: set[str] = set()
+        for group in experiments.GROUPS:
+            for row in group.rows:
+                if row.ours:
+                    with self.subTest(row=row.what, command=f"run {row.ours.study}"):
+                        self.assertIn(row.ours.study, command.studies())
+                        self.assertIn(guards.guard(row), tests)
+                        found.add(guards.guard(row))
+        self.assertLessEqual({f"validation.{study}" for study in cheap} - found, {OWN_CHECK})
+
+    def test_cheap_rows_cost_seconds(self) -> None:
+        for study in guards.CHEAP:
+            cheap = [row for row in guards.rows(study) if guards.is_cheap(row)]
+            costs = [row.cost.value() for row in cheap if row.cost]
+            self.assertLessEqual(sum(costs), 30.0, study)
+
+    def test_what_is_no_longer_stored_is_found(self) -> None:
+        stored, made = self.folder / "stored" / "study", self.folder / "made"
+        for folder, text in ((stored, "run,z\na,1.0\n"), (made, "run,z\na,{}\n")):
+            folder.mkdir(parents=True)
+            (folder / "results.csv").write_text(text)
+        ours = Stored("study/results.csv", {"run": "a"}, "z")
+        row = Experiment("", "", "", report="1.1", ours=ours)
+        limited = replace(row, limit=True)
+        with patch.object(overview, "HERE", stored.parent):
+            for again, given, expected in (
+                ("1.02", row, ""),
+                ("1.04", row, "1.04, not 1 ± 0.03"),
+                ("0.5", limited, ""),
+                ("1.2", limited, "1.2 is missed, not met"),
+            ):
+                (made / "results.csv").write_text(f"run,z\na,{again}\n")
+                with self.subTest(again=again):
+                    self.assertEqual(guards.difference(given, ours, made), expected)
+            (made / "results.csv").write_text("run,z\nb,1\n")
+            with self.assertRaisesRegex(ResultsError, "0 rows have"):
+                guards.difference(row, ours, made)
+
+    def test_the_command_counts_what_is_missed(self) -> None:
+        words: list[str] = []
+
+        def driver(study: str, *options: str) -> "subprocess.CompletedProcess[str]":
+            words.extend(options)
+            return subprocess.CompletedProcess([], 0)
+
+        for name, replaced in (("driver", driver), ("guards", _Missed)):
+            patched = patch.object(command, name, replaced)
+            patched.start()
+            self.addCleanup(patched.stop)
+        with contextlib.redirect_stderr(io.StringIO()) as printed:
+            self.assertEqual(command.check("a", True, self.folder, []), 1)
+        self.assertEqual(words, ["--check", "*", "--results", str(self.folder)])
+        self.assertEqual(printed.getvalue(), "MISSED: z is another\n")
 
 
 class StudiesTest(unittest.TestCase):
