@@ -8,6 +8,7 @@ import unittest
 
 import numpy as np
 
+from furrow_post.arrays import Floats
 from support.command import SOURCE
 
 sys.path.insert(0, str(SOURCE / "inputs" / "validation" / "snow_wheel"))
@@ -124,7 +125,7 @@ class RigidWheelTest(unittest.TestCase):
         sinkage, greatest = 0.12, 1e6
         load = width * greatest * math.sqrt(0.5 * math.pi * radius * length)
 
-        def stress(rho: np.ndarray) -> np.ndarray:
+        def stress(rho: Floats) -> Floats:
             z = depth * (1 - density / rho)
             return np.asarray(greatest * np.exp((z - sinkage) / length))
 
