@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
@@ -40,26 +41,45 @@ struct Likeness {
   }
 };
 
-/// Largest omega^2 of K u = omega^2 M u [1/s^2], nodes that are repeated taken as one.
-double highest_rate(const Matrix24& K, const std::array<double, 8>& mass, const Repeats& first) {
-  Matrix24 merged = Matrix24::Zero();  // of the distinct nodes; zero elsewhere
-  for (std::size_t a = 0; a < 8; ++a)
-    for (std::size_t b = 0; b < 8; ++b) {
-      const auto at = [](std::size_t node) { return 3 * static_cast<Eigen::Index>(node); };
-      merged.block<3, 3>(at(first[a]), at(first[b])) +=
-          K.block<3, 3>(at(a), at(b)) / std::sqrt(mass[first[a]] * mass[first[b]]);
+/// Of an element, its nodes that are repeated taken as one, which stands at its first place.
+struct Merged {
+  Matrix24 deviatoric = Matrix24::Zero(), volumetric = Matrix24::Zero();  // stiffness [N/m]
+  std::array<double, 8> mass = {};                                        // [kg] its own
+
+  Merged(const Brick8Shape& shape, const Rubber& rubber, const Repeats& first) {
+    const Matrix24 of_shear = deviatoric_stiffness(shape, rubber.law.shear);
+    const Matrix24 of_bulk = volumetric_stiffness(shape, rubber.law.bulk);
+    const auto at = [](std::size_t node) { return 3 * static_cast<Eigen::Index>(node); };
+    for (std::size_t a = 0; a < 8; ++a) {
+      mass[first[a]] += rubber.density * shape.share[a];
+      for (std::size_t b = 0; b < 8; ++b) {
+        deviatoric.block<3, 3>(at(first[a]), at(first[b])) += of_shear.block<3, 3>(at(a), at(b));
+        volumetric.block<3, 3>(at(first[a]), at(first[b])) += of_bulk.block<3, 3>(at(a), at(b));
+      }
     }
-  return Eigen::SelfAdjointEigenSolver<Matrix24>(merged, Eigen::EigenvaluesOnly)
+  }
+  /// [N/m] how hard a node is held by the element, others fixed: the sum over the directions
+  double stiffness(std::size_t node) const {
+    const auto at = 3 * static_cast<Eigen::Index>(node);
+    return (deviatoric + volumetric).diagonal().segment<3>(at).sum();
+  }
+};
+
+/// Largest omega^2 of K u = omega^2 M u [1/s^2] with 1/M of each node.
+double highest_rate(Matrix24 K, const double (&inverse_mass)[8]) {
+  for (Eigen::Index a = 0; a < 8; ++a)
+    for (Eigen::Index b = 0; b < 8; ++b)
+      K.block<3, 3>(3 * a, 3 * b) *= std::sqrt(inverse_mass[a] * inverse_mass[b]);
+  return Eigen::SelfAdjointEigenSolver<Matrix24>(K, Eigen::EigenvaluesOnly)
       .eigenvalues()
       .maxCoeff();
 }
 
-/// All but where its elements are.
-Brick8Kind make_kind(const Brick8Shape& shape, const Rubber& rubber, const Repeats& first) {
+/// All but where its elements are. @param mass [kg] that each distinct node brings into the element
+Brick8Kind make_kind(const Brick8Shape& shape, const Merged& merged, const Rubber& rubber,
+                     const Repeats& first, const std::array<double, 8>& mass) {
   Brick8Kind kind = {};
-  std::array<double, 8> mass = {};  // a repeated node's stands at its first place
   for (std::size_t n = 0; n < 8; ++n) {
-    mass[first[n]] += rubber.density * shape.share[n];
     kind.weight[n] = shape.weight[n];
     for (std::size_t k = 0; k < 3; ++k) {
       const auto row = static_cast<Eigen::Index>(k);
@@ -67,19 +87,29 @@ Brick8Kind make_kind(const Brick8Shape& shape, const Rubber& rubber, const Repea
       kind.mean_gradient[first[n]][k] += shape.mean_gradient(row, column);
       for (std::size_t q = 0; q < 8; ++q) kind.gradient[q][n][k] = shape.gradient[q](row, column);
     }
+    kind.inverse_mass[n] = first[n] == n ? 1.0 / mass[n] : 0.0;
   }
-  for (std::size_t n = 0; n < 8; ++n) kind.inverse_mass[n] = mass[n] > 0.0 ? 1.0 / mass[n] : 0.0;
   kind.volume = shape.volume;
   kind.shear = rubber.law.shear;
   kind.bulk = rubber.law.bulk;
-  const Matrix24 deviatoric = deviatoric_stiffness(shape, kind.shear);
-  const Matrix24 volumetric = volumetric_stiffness(shape, kind.bulk);
-  kind.deviatoric_rate = highest_rate(deviatoric, mass, first);
-  kind.highest_rate = highest_rate(deviatoric + volumetric, mass, first);
+  kind.deviatoric_rate = highest_rate(merged.deviatoric, kind.inverse_mass);
+  kind.highest_rate = highest_rate(merged.deviatoric + merged.volumetric, kind.inverse_mass);
   return kind;
 }
 
 }  // namespace
+
+/// Elements of one stress-free shape.
+struct Brick8::Alike {
+  Likeness likeness;
+  Brick8Shape shape;
+  Merged merged;
+  std::vector<int> members;
+
+  /// @throws StateError for a shape without volume or turned inside out
+  Alike(const Likeness& of, const Rubber& rubber)
+      : likeness(of), shape(of.shape), merged(shape, rubber, of.repeats) {}
+};
 
 struct Brick8::Places {
   std::array<std::vector<int>, 8> node;
@@ -112,46 +142,52 @@ Brick8::Brick8(const Matrix3X& reference, std::vector<Hexahedron> bricks, const 
   check_number(rubber.law.shear, Range::positive(), "rubber, shear modulus", "Pa");
   check_number(rubber.law.bulk, Range::positive(), "rubber, bulk modulus", "Pa");
   check_number(rubber.density, Range::positive(), "rubber, density", "kg/m3");
-  std::vector<Likeness> kinds;            // what the elements of each have in common
-  std::vector<std::vector<int>> members;  // elements of each
+  std::vector<Alike> kinds;
   for (std::size_t e = 0; e < bricks_.size(); ++e) {
     Matrix38 nodes;
     for (std::size_t n = 0; n < 8; ++n)
       nodes.col(static_cast<Eigen::Index>(n)) = reference.col(bricks_[e][n]);
     const Likeness own = {in_own_axes(nodes), repeats_of(bricks_[e])};
-    const auto kind = std::find(kinds.begin(), kinds.end(), own);
-    if (kind == kinds.end()) {
-      kinds.push_back(own);
-      members.push_back({static_cast<int>(e)});
-    } else {
-      members[static_cast<std::size_t>(kind - kinds.begin())].push_back(static_cast<int>(e));
+    auto kind = std::find_if(kinds.begin(), kinds.end(),
+                             [&](const Alike& other) { return other.likeness == own; });
+    try {
+      if (kind == kinds.end()) kind = kinds.insert(kinds.end(), Alike(own, rubber));
+    } catch (const StateError& error) {
+      throw StateError(fmt::format("brick: element {} {}", e, error.what()));
     }
+    kind->members.push_back(static_cast<int>(e));
   }
-  for (std::size_t k = 0; k < kinds.size(); ++k) add_kind(members[k], kinds[k].shape, rubber);
+  VectorX stiffness = VectorX::Zero(reference.cols());  // [N/m] of all elements at a node
+  for (const Alike& kind : kinds)
+    for (const int e : kind.members)
+      for (std::size_t n = 0; n < 8; ++n) {
+        if (kind.likeness.repeats[n] != n) continue;
+        mass_[nodes_of(e)[n]] += kind.merged.mass[n];
+        stiffness[nodes_of(e)[n]] += kind.merged.stiffness(n);
+      }
+  for (const Alike& kind : kinds) add_kind(kind, stiffness, rubber);
 }
 
-/// @param members elements that are alike
-void Brick8::add_kind(const std::vector<int>& members, const Matrix38& shape,
-                      const Rubber& rubber) {
-  const auto nodes_of = [&](int e) -> const Hexahedron& {
-    return bricks_[static_cast<std::size_t>(e)];
-  };
-  try {
-    const Brick8Shape functions(shape);
-    Brick8Kind kind = make_kind(functions, rubber, repeats_of(nodes_of(members[0])));
-    for (const int e : members)
-      for (std::size_t n = 0; n < 8; ++n)
-        mass_[nodes_of(e)[n]] += rubber.density * functions.share[n];
-    kind.first = places_->element.size();
-    for (const int e : members) places_->add(nodes_of(e), e, true);
-    while (places_->element.size() % brick8_padding != 0)
-      places_->add(nodes_of(members.back()), members.back(), false);
-    kind.end = places_->element.size();
-    highest_rate_ = std::max(highest_rate_, kind.highest_rate);
-    kinds_.push_back(kind);
-  } catch (const StateError& error) {
-    throw StateError(fmt::format("brick: element {} {}", members[0], error.what()));
-  }
+/// No motion of the mesh is faster than that of its fastest element, however the mass of a node is
+/// divided among its elements: u.K u = sum u.K_e u <= sum omega_e^2 u.M_e u <= max omega_e^2 u.M u.
+/// It is divided as the stiffness is, so that a thin wedge leans on the mass of the bricks beside
+/// it.
+void Brick8::add_kind(const Alike& alike, const VectorX& stiffness, const Rubber& rubber) {
+  std::array<double, 8> mass;
+  mass.fill(std::numeric_limits<double>::infinity());
+  for (const int e : alike.members)  // the least of all, as they are one kind
+    for (std::size_t n = 0; n < 8; ++n) {
+      const int node = nodes_of(e)[n];
+      mass[n] = std::min(mass[n], mass_[node] * alike.merged.stiffness(n) / stiffness[node]);
+    }
+  Brick8Kind kind = make_kind(alike.shape, alike.merged, rubber, alike.likeness.repeats, mass);
+  kind.first = places_->element.size();
+  for (const int e : alike.members) places_->add(nodes_of(e), e, true);
+  while (places_->element.size() % brick8_padding != 0)
+    places_->add(nodes_of(alike.members.back()), alike.members.back(), false);
+  kind.end = places_->element.size();
+  highest_rate_ = std::max(highest_rate_, kind.highest_rate);
+  kinds_.push_back(kind);
 }
 
 void Brick8::add_forces(const Matrix3X& x, Matrix3X& force) {

@@ -53,8 +53,10 @@ class Brick8 {
   void checkpoint(Checkpoint& state);  ///< what stable_time_step() follows
 
  private:
+  struct Alike;   // elements of one kind
   struct Places;  // of the elements in the kernel's arrays, kind by kind
-  void add_kind(const std::vector<int>& members, const Matrix38& shape, const Rubber& rubber);
+  void add_kind(const Alike& alike, const VectorX& stiffness, const Rubber& rubber);
+  const Hexahedron& nodes_of(int e) const { return bricks_[static_cast<std::size_t>(e)]; }
 
   std::vector<Hexahedron> bricks_;
   std::vector<Brick8Kind> kinds_;

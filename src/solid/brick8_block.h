@@ -21,7 +21,7 @@ struct Brick8Kind {
   double weight[8];                ///< [m^3] of the Gauss points
   double volume;                   ///< V0 [m^3]
   double shear, bulk;              ///< mu, K [Pa]
-  double inverse_mass[8];          ///< [1/kg] of the nodes
+  double inverse_mass[8];          ///< [1/kg] of the shares that the nodes bring into the element
   double deviatoric_rate;          ///< highest omega^2 by mu alone, stress-free [1/s^2]
   double highest_rate;             ///< highest omega^2, stress-free [1/s^2]
   std::size_t first = 0, end = 0;  ///< range of places, padded

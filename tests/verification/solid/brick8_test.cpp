@@ -390,6 +390,66 @@ TEST(Brick8, TheStepFollowsTheDeformation) {
   }
 }
 
+/// [s] 2/omega of the fastest motion of the whole mesh as it is.
+double limit_of_mesh(const BrickModel& model) {
+  const Eigen::Index size = 3 * model.x.cols();
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(size, size);
+  const std::vector<Brick8::Hexahedron>& bricks = model.mesh.bricks();
+  const std::vector<Matrix24> of = ElementTangents(model.reference, bricks, model.rubber)(model.x);
+  for (std::size_t e = 0; e < bricks.size(); ++e)
+    for (int a = 0; a < 8; ++a)
+      for (int b = 0; b < 8; ++b) {
+        const int row = bricks[e][static_cast<std::size_t>(a)];
+        const int column = bricks[e][static_cast<std::size_t>(b)];
+        K.block<3, 3>(3 * row, 3 * column) +=
+            of[e].block<3, 3>(3 * a, 3 * b) /
+            std::sqrt(model.mesh.mass()[row] * model.mesh.mass()[column]);
+      }
+  const Eigen::MatrixXd symmetric = 0.5 * (K + K.transpose());
+  return 2.0 /
+         std::sqrt(
+             Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues().maxCoeff());
+}
+
+/// The edge of a ribbed tread: two layers of bricks, 15 and 5.3 mm thick, run out into wedges.
+BrickModel running_out() {
+  const double across[] = {0.0, 0.008, 0.016, 0.026}, height[] = {0.0, 0.015, 0.0203};
+  Matrix3X x(3, 20);
+  const auto node = [](int i, int j, int level) { return j < 3 ? 6 * j + 2 * level + i : 18 + i; };
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 4; ++j)
+      for (int level = 0; level < (j < 3 ? 3 : 1); ++level)
+        x.col(node(i, j, level)) = Vector3(0.018 * i, across[j], height[level]);
+  std::vector<Brick8::Hexahedron> bricks;
+  for (int j = 0; j < 3; ++j)
+    for (int level = 0; level < 2; ++level) {
+      const int up = level + 1;
+      bricks.push_back({node(1, j, level), node(1, j + 1, level), node(0, j + 1, level),
+                        node(0, j, level), node(1, j, up), node(1, j + 1, up), node(0, j + 1, up),
+                        node(0, j, up)});
+    }
+  return {x, bricks, tread()};
+}
+
+/// Its thin wedges do not determine the step of a mesh, whose other bricks bring mass to their
+/// nodes; and the step is never longer than the mesh allows.
+TEST(Brick8, TheStepIsThatOfTheMesh) {
+  BrickModel edge = running_out();
+  BrickModel wedge(edge.reference, {edge.mesh.bricks().back()}, tread());
+  EXPECT_GT(edge.mesh.stable_time_step(), 1.5 * wedge.mesh.stable_time_step());
+  BrickModel cube = distorted_cube(3, 0.3, tread());
+  for (BrickModel* model : {&edge, &cube})
+    for (const double squeeze : {1.0, 0.7, 1.3}) {
+      model->x = Vector3(1.0, 1.0, squeeze).asDiagonal() * model->reference;
+      model->forces();
+      const double limit = limit_of_mesh(*model), step = model->mesh.stable_time_step();
+      RecordProperty(fmt::format("share_{}_{}", model->x.cols(), squeeze),
+                     fmt::format("{:.2f}", step / limit));
+      EXPECT_LE(step, 1.001 * limit) << squeeze;
+      EXPECT_GE(step, 0.5 * limit) << squeeze;
+    }
+}
+
 /// A block bonded to two plates is pressed to 40 % of its height in 20 ms and left there: it bulges
 /// and folds at the edges of the plates, and no point turns inside out.
 TEST(Brick8, PressedToFortyPercentOfItsHeight) {
