@@ -30,11 +30,11 @@ import tempfile
 import time
 from pathlib import Path
 
-import h5py
-import numpy as np
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+
+from same_results import compare_arrays
 
 INPUTS = Path(__file__).resolve().parents[3] / "inputs"
-COMPARED = ("history", "terrain", "rut", "surface", "grains")  # groups of the results files
 
 parser = argparse.ArgumentParser()
 parser.add_argument("--kills", type=int, default=1)
@@ -157,40 +157,10 @@ def prepared_steps() -> int:
     return sum(int(steps) for steps in re.findall(r"^run +(\d+)$", whole_script(), flags=re.M))
 
 
-def largest(values: np.ndarray) -> float:
-    return float(np.nanmax(np.abs(values), initial=0.0))
-
-
-def numbers(folder: Path) -> tuple[dict[str, np.ndarray], dict[str, float]]:
-    """Arrays by name, and the largest value of their unit: of a force component that is zero but
-    for rounding, that of all forces."""
-    found: dict[str, np.ndarray] = {}
-    units: dict[str, str] = {}
-    for path in sorted((folder / "results").glob("*.h5")):
-        with h5py.File(path) as content:
-            def collect(name: str, item: object) -> None:
-                if isinstance(item, h5py.Dataset) and name.split("/")[0] in COMPARED:
-                    found[f"{path.name}/{name}"] = item[()]
-                    units[f"{path.name}/{name}"] = str(item.attrs.get("unit", name))
-            content.visititems(collect)
-    scales = {name: max(largest(values) for other, values in found.items()
-                        if units[other] == units[name]) for name in found}
-    return found, scales
-
-
 def compare(whole: Path, killed: Path, tolerance: float) -> int:
     """@param tolerance  of the largest number of a unit
     @return how many arrays are the same"""
-    (expected, scales), (got, _) = numbers(whole), numbers(killed)
-    if expected.keys() != got.keys():
-        sys.exit(f"results differ in kind: {sorted(expected.keys() ^ got.keys())}")
-    for item, values in expected.items():
-        shapes = np.shape(values), np.shape(got[item])
-        if shapes[0] != shapes[1]:
-            sys.exit(f"{item} is not the same: shapes {shapes[0]}, {shapes[1]}")
-        if not np.allclose(values, got[item], rtol=0.0, atol=tolerance * scales[item], equal_nan=True):
-            sys.exit(f"{item} is not the same, by {np.nanmax(np.abs(values - got[item])):.3g}")
-    return len(expected) + compare_curves(whole, killed)
+    return compare_arrays(whole / "results", killed / "results", tolerance) + compare_curves(whole, killed)
 
 
 def compare_curves(whole: Path, killed: Path) -> int:
