@@ -43,9 +43,7 @@ run             ${steps}
 
 
 def variables(ground: str) -> list[str]:
-    return [
-        "-v", "here", str(LABORATORY), "-v", "ground", ground, "-v", "grains", str(CLUSTERS),
-    ]  # fmt: skip
+    return ["-v", "here", str(LABORATORY), "-v", "ground", ground]
 
 
 def properties(ground: str) -> str:
@@ -79,7 +77,7 @@ def main() -> None:
         for ground in ("snow", "snow_bonded"):
             (folder / "prepare.lig").write_text(PREPARE)
             subprocess.run(
-                [furrow, "-in", "prepare.lig", *variables(ground)],
+                [furrow, "-in", "prepare.lig", *variables(ground), "-v", "grains", str(CLUSTERS)],
                 cwd=folder, stdout=subprocess.DEVNULL, check=True,
             )  # fmt: skip
             found[ground] = instructions(furrow, folder, ground)

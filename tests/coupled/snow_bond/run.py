@@ -3,12 +3,14 @@
 
     run.py ranks.<load> <furrow> <mpirun -n>      on 1, 2 and 3 ranks: to rounding, and the same bonds
     run.py restart.<load> <furrow> <mpirun -n>    continued after half of it, on 1 and 2 ranks: every bit
-    run.py same <furrow> <mpirun -n>              thrown at a mesh of LIGGGHTS as at a plane
+    run.py same <furrow> <mpirun -n>              thrown at a mesh of LIGGGHTS as at a plane;
+                                                  every bit without AVX2 as with it
 
 Loads: plate (crushed on a plane by a body of Furrow), hybrid (on a continuum), plane and mesh (thrown
 at walls of LIGGGHTS, without a body of Furrow).
 """
 
+import os
 import subprocess
 import sys
 import tempfile
@@ -83,6 +85,8 @@ def same(furrow, mpirun, folder):
     plane, mesh = (run(furrow, mpirun, folder / load, 1, load) for load in ("plane", "mesh"))
     check_that_it_happens(*plane)
     compare("mesh and plane", plane, mesh, ROUNDING)
+    os.environ["FURROW_ISA"] = "baseline"
+    compare("without AVX2", plane, run(furrow, mpirun, folder / "baseline", 1, "plane"), 0.0)
 
 
 if __name__ == "__main__":
