@@ -78,9 +78,9 @@ ContactPoint NarrowPhase::find(const ContactSearch& search,
   return contact;
 }
 
-void NarrowPhase::follow(double opening, double dt, const Particles& particles,
+void NarrowPhase::follow(const Vector3& velocity, double dt, const Particles& particles,
                          std::size_t particle, ContactHistory& history, ContactPoint& contact) {
-  contact.gap = history.gap + opening * dt;
+  contact.gap = history.gap + 0.5 * dt * velocity.dot(history.normal + contact.normal);
   history.reach_excess =
       (contact.distance - contact.gap) / reach(particles, particle, contact.normal) - 1.0;
 }

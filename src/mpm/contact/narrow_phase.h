@@ -16,9 +16,11 @@ namespace furrow {
 /// first touches. While it touches, the gap follows the motion of ground and surface at the point
 /// of contact,
 ///   d(gap)/dt = n . (v_ground - v_surface),
-/// and e is what agrees with that: the spring of a contact then gives back the work that it takes,
-/// which it does not when the reach changes with n or J while it is loaded. The error of the gap is
-/// a fraction of the spacing and vanishes with it.
+/// over a step with the mean of n before and after: between two walls of a void the closest one
+/// changes, n leaps, and with the n of either alone each leap would press the particle in by the
+/// step. e is what agrees with that: the spring of a contact then gives back the work that it
+/// takes, which it does not when the reach changes with n or J while it is loaded. The error of the
+/// gap is a fraction of the spacing and vanishes with it.
 class NarrowPhase {
  public:
   /// The body must outlive the narrow phase.
@@ -37,9 +39,9 @@ class NarrowPhase {
                     const Particles& particles, const Vector3& position,
                     const ContactHistory& history) const;
   /// Sets the gap of a particle that touched in the last step, and e of its history.
-  /// @param opening  n . (v_ground - v_surface) [m/s]; @param dt  since the last step [s]
-  static void follow(double opening, double dt, const Particles& particles, std::size_t particle,
-                     ContactHistory& history, ContactPoint& contact);
+  /// @param velocity  v_ground - v_surface [m/s]; @param dt  since the last step [s]
+  static void follow(const Vector3& velocity, double dt, const Particles& particles,
+                     std::size_t particle, ContactHistory& history, ContactPoint& contact);
 
  private:
   /// [m] with e = 0

@@ -34,14 +34,15 @@ struct ContactLosses {
 /// What a particle remembers of a contact: a view of its numbers in the column that the contact
 /// added to the particles, so that they follow it through sorting, migration and checkpoints.
 struct ContactHistory {
-  static constexpr int size = 7;  ///< numbers of a particle
+  static constexpr int size = 10;  ///< numbers of a particle
 
   explicit ContactHistory(double* numbers)
       : spring(numbers),
         slip(numbers[3]),
         stiffness(numbers[4]),
         gap(numbers[5]),
-        reach_excess(numbers[6]) {}
+        reach_excess(numbers[6]),
+        normal(numbers + 7) {}
 
   /// Whether it touched in the last step.
   bool touches() const { return gap < 0.0; }
@@ -57,6 +58,7 @@ struct ContactHistory {
   double& stiffness;           ///< of the springs, as of the last search [N/m]
   double& gap;                 ///< in the last step [m]; 0: it did not touch
   double& reach_excess;        ///< of the particle: e of NarrowPhase
+  Eigen::Map<Vector3> normal;  ///< in the last step, if it touched
 };
 
 }  // namespace furrow

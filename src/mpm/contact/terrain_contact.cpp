@@ -91,13 +91,13 @@ void TerrainContact::add_forces(const Law& law, double dt) {
     Vector3 velocity = motions_[n].velocity_at(contact.position);
     for (int c = 0; c < 3; ++c) velocity -= contact.barycentric[c] * surface.v.col(nodes[c]);
     if (history.touches())
-      NarrowPhase::follow(velocity.dot(contact.normal), dt, group.particles, particle.particle,
-                          history, contact);
+      NarrowPhase::follow(velocity, dt, group.particles, particle.particle, history, contact);
     if (contact.gap >= 0.0) {
       history.end_contact();
       continue;
     }
     history.gap = contact.gap;
+    history.normal = contact.normal;
     const Vector3 force =
         law.force({contact, velocity, group.mass(particle.particle)}, dt, history, step_.losses);
     terrain_.add_point_force(particle, force, contact.position, &terrain_work_);

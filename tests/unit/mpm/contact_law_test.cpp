@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "mpm/contact/narrow_phase.h"
+#include "terrain_scene.h"
 
 namespace furrow {
 namespace {
@@ -102,12 +104,50 @@ TEST(Friction, GrowsWithTheSlip) {
 }
 
 TEST(ContactHistory, ForgetsSpringSlipAndGapWhenTheContactEnds) {
-  double numbers[ContactHistory::size] = {1, 2, 3, 4, 5, -6, 7};
+  double numbers[ContactHistory::size] = {1, 2, 3, 4, 5, -6, 7, 0, 0, 1};
   ContactHistory history(numbers);
   EXPECT_TRUE(history.touches());
   history.end_contact();
   EXPECT_FALSE(history.touches());
-  EXPECT_THAT(numbers, ElementsAre(0, 0, 0, 0, 5, 0, 7));
+  EXPECT_THAT(numbers, ElementsAre(0, 0, 0, 0, 5, 0, 7, 0, 0, 1));
+}
+
+/// Its gap after steps with the normals n and the velocities of the ground relative to the surface.
+double followed(double gap, const std::vector<Vector3>& normals,
+                const std::vector<Vector3>& velocities) {
+  const auto material = testing_terrain::material_of(testing_terrain::elastic(1e6, 0.2, 500));
+  Particles particles(*material);
+  particles.append(1);
+  particles.set_state(0, material->initial_state());
+  for (std::size_t k = 0; k < 3; ++k) particles.data(column::half_x + k)[0] = 0.01;
+  double numbers[ContactHistory::size] = {};
+  ContactHistory history(numbers);
+  history.gap = gap;
+  history.normal = normals.front();
+  for (std::size_t step = 1; step < normals.size(); ++step) {
+    ContactPoint contact{};
+    contact.normal = normals[step];
+    NarrowPhase::follow(velocities[step], dt, particles, 0, history, contact);
+    history.gap = contact.gap;
+    history.normal = contact.normal;
+  }
+  return history.gap;
+}
+
+TEST(NarrowPhase, TheGapFollowsTheMotionAlongTheNormal) {
+  EXPECT_NEAR(followed(-1e-3, {3, Vector3::UnitX()}, {3, Vector3(2.0, 5.0, 0.0)}),
+              -1e-3 + 2.0 * 2.0 * dt, 1e-15);
+}
+
+/// Half way between the walls of a groove a particle is thrown to and fro: the wall that it has
+/// just come nearer to is the closest one. Its gap must not grow by every step.
+TEST(NarrowPhase, ToAndFroBetweenTwoWallsTheGapStays) {
+  std::vector<Vector3> normals, velocities;
+  for (int step = 0; step < 1000; ++step) {
+    normals.push_back((step % 2 ? 1.0 : -1.0) * Vector3::UnitX());
+    velocities.push_back(-normals.back());
+  }
+  EXPECT_NEAR(followed(-1e-3, normals, velocities), -1e-3, 1e-12);
 }
 
 }  // namespace
