@@ -36,6 +36,7 @@ from cone import KINDS, fit_cone
 from furrow_post.arguments import between, path, positive
 from furrow_post.arrays import Floats
 from furrow_post.errors import ResultsError, content_of
+from furrow_post.formatting import yaml_text
 from furrow_post.laboratory.evaluation import values_of
 from furrow_post.program import run_program
 from furrow_post.read.laboratory import LaboratoryTest, cell_curve
@@ -250,7 +251,7 @@ def law_text(
     )
     levels = ", ".join(f"{level / 1e3:g}" for level in LEVELS)
     above = f"oedometer, {levels} kPa of axial stress, as far as they lie above its start"
-    return f"""title: {parsed.title}
+    return f"""title: {yaml_text(parsed.title)}
 # Written by inputs/laboratory/identify.py from tests on the grains of
 # inputs/laboratory/grounds/{ground}.lig: {kinds}
 # at {confinements} kPa, and an oedometer (K0 {K0:.2f}). It is the law of these grains, whose

@@ -32,6 +32,7 @@ from snow_record import Row, Values, read_record, record_of, write_record
 
 from furrow_post.analyse.statistics import rms
 from furrow_post.arguments import path, words
+from furrow_post.formatting import yaml_text
 from furrow_post.program import run_program
 from furrow_post.read.laboratory import LaboratoryTest
 from furrow_post.study.launch import Tools
@@ -81,7 +82,7 @@ def material_text(
         if not 1.01 * shape.lower < value < 0.99 * shape.upper:
             said += f" {shape.name} stands at a bound."
     comment = textwrap.fill(said, 100, initial_indent="# ", subsequent_indent="# ")
-    return f"title: {title}\n{comment}\n{material.sections()}"
+    return f"title: {yaml_text(title)}\n{comment}\n{material.sections()}"
 
 
 def place_of(row: Row) -> str:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Numbers as people write them."""
+"""Numbers as people write them; texts as YAML reads them."""
 
+import json
 import math
 
 
@@ -25,6 +26,11 @@ def duration(seconds: float) -> str:
     if seconds < 120:
         return f"{seconds:.0f} s"
     return f"{seconds / 60:.1f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
+
+
+def yaml_text(text: str) -> str:
+    """In quotes: a colon, a blank at the end or the word "no" stay what they are."""
+    return json.dumps(text, ensure_ascii=False)
 
 
 def in_unit(unit: str) -> str:

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Cases of the programs: a LIGGGHTS script, a laboratory test, a path of a material point."""
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from ..formatting import yaml_text
 from .case import FOLDER, Case, Value
 
 
@@ -33,8 +33,7 @@ def laboratory_case(
 
 def point_text(title: str, material: Path, path: str) -> str:
     """An input of furrow-point; path: its YAML mapping, "{type: ..., ...}"."""
-    quoted = json.dumps(str(material), ensure_ascii=False)  # a YAML text with any letter
-    return f"title: {title}\nmaterial: {quoted}\npath: {path}\n"
+    return f"title: {yaml_text(title)}\nmaterial: {yaml_text(str(material))}\npath: {path}\n"
 
 
 def point_case(name: str, title: str, material: Path, path: str, **more: Any) -> Case:

@@ -126,8 +126,9 @@ class FitTest(WithFolder):
         material = fit(LAWS["cam_clay"], record, self.points())
         rows = judged(record)
         values = predicted(material.sections(), rows, self.points())
-        made = identify_snow.material_text("title", RECORD, material, rows, values)
-        _, made = made.split("\n", 1)
+        made = identify_snow.material_text("snow: fitted", RECORD, material, rows, values)
+        title, made = made.split("\n", 1)
+        self.assertEqual(title, 'title: "snow: fitted"')  # one text, whatever is in it
         _, shipped = PRESET.read_text(encoding="utf-8").split("\n", 1)
         self.assertEqual(re.sub(NUMBER, "N", made).split(), re.sub(NUMBER, "N", shipped).split())
         both = [[float(x) for x in re.findall(NUMBER, text)] for text in (made, shipped)]
