@@ -918,11 +918,17 @@ FUTURE = Group(
             for pressure in (103, 241)
         ),
         *designs(),
-        not_done(
-            "pp. 55-56",
-            "tread blocks on snow",
-            "",
-            "the contact throws voids out of a coarse continuum (brick_tyre_on_ground)",
+        *(
+            Experiment(
+                "pp. 55-56",
+                f"tread blocks: {tread} tread, 241 kPa, 20 cm of `field_snow`",
+                "c",
+                "",
+                ours=of("brick_tyre_on_ground/results.csv", f"snow_{tread}", "c"),
+                uncertainty=of("brick_tyre_on_ground/results.csv", f"snow_{tread}", "c_error"),
+                remark="coarse; none measured",
+            )
+            for tread in ("smooth", "lugged")
         ),
         not_done("pp. 55-56", "temperature, melting, sintering in time", "", "no law has it"),
         not_done("pp. 55-56", "rate effects, wet snow, thawing soil", "", "no law has it"),

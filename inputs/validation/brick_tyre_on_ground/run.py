@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The tyre with a smooth tread of rubber on soft ground, beside a rigid wheel of its outline and the
-tyre of [Shoop2001] Table 8. See README.md.
+"""Tyres with a tread of rubber on soft ground, beside a rigid wheel of the smooth one's outline and
+the tyre of [Shoop2001] Table 8. See README.md.
 
 Makes the runs that are missing, writes results.csv and the page's table. --check makes two runs
 again that take seconds, and compares them with the stored ones.
@@ -63,7 +63,9 @@ WHEELS = {
         0.3483,
     ),
     "smooth": brick("smooth"),
+    "lugged": brick("lugged"),
 }
+SMOOTH = ("rigid", "darnell", "smooth")
 
 
 @dataclass(frozen=True)
@@ -86,8 +88,8 @@ GROUNDS = {
 }
 ON = {
     "snow": tuple(WHEELS),
-    "sand": tuple(WHEELS),
-    "grains": ("rigid", "darnell"),
+    "sand": SMOOTH,
+    "grains": SMOOTH,
 }
 
 
