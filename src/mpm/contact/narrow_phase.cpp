@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mpm/contact/narrow_phase.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "geometry/closest_feature.h"
@@ -80,7 +81,8 @@ ContactPoint NarrowPhase::find(const ContactSearch& search,
 
 void NarrowPhase::follow(const Vector3& velocity, double dt, const Particles& particles,
                          std::size_t particle, ContactHistory& history, ContactPoint& contact) {
-  contact.gap = history.gap + 0.5 * dt * velocity.dot(history.normal + contact.normal);
+  contact.gap = std::min(history.gap + 0.5 * dt * velocity.dot(history.normal + contact.normal),
+                         contact.distance);
   history.reach_excess =
       (contact.distance - contact.gap) / reach(particles, particle, contact.normal) - 1.0;
 }

@@ -68,8 +68,10 @@ void TerrainContact::select_active() {
   for (std::size_t n = 0; n < candidates.size(); ++n) {
     const ParticleIndex& particle = candidates[n].particle;
     ContactHistory history = history_of(particle);
-    if (search_.lower_bound(candidates[n]) >
-        NarrowPhase::largest_reach(group_of(particle).particles, particle.particle, history)) {
+    // one that touches may be inside, farther than its reach
+    if (!history.touches() &&
+        search_.lower_bound(candidates[n]) >
+            NarrowPhase::largest_reach(group_of(particle).particles, particle.particle, history)) {
       history.end_contact();
       continue;
     }
