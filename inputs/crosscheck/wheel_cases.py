@@ -111,12 +111,13 @@ class WheelCase:
                     yield line_of(self.case, place, entry)
 
     def flow(self, output: Output) -> Iterator[OutputRow]:
-        """How differently the grounds move, where the case has a run for it; draws it."""
+        """How differently the grounds move and bear, where the case has a run for it; draws it."""
         if ("grains", FLOW) not in self.runs:
             return
         result = compare_flows([self.runs["continuum", BASE], self.runs["grains", FLOW]])
         draw_flow(result, output.path(f"{self.case}_flow.png"))
-        for name in ("displacement_difference", "density_difference"):
+        for field in ("displacement", "density", "stress"):
+            name = f"{field}_difference"
             yield number_line(self.case, FLOW, name, getattr(result, name))
 
     def draw(self, output: Output) -> None:
