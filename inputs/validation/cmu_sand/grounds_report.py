@@ -30,10 +30,11 @@ QUANTITIES = {"fx_over_fz": "fx_over_fz_error", "sinkage_mm": "sinkage_error_mm"
 Row = dict[str, Any]  # of a table
 
 GRAINS, CONTINUUM = "grains", "continuum"
-STRONG = ", rolling friction 0.5"
+STRONG, BETWEEN = (f", rolling friction {value:g}" for value in (0.5, 0.35))
 COLOURS = {
     GRAINS: "tab:blue",
     CONTINUUM: "tab:red",
+    GRAINS + BETWEEN: "tab:cyan",
     GRAINS + STRONG: "tab:green",
     CONTINUUM + STRONG: "tab:orange",
 }
@@ -47,7 +48,8 @@ def surface_over_grain() -> float:
 
 def ground_of(case: Case) -> str:
     ground = GRAINS if "rolling" in case.variables else CONTINUUM
-    return ground + (STRONG if "rolling_0.5" in case.name else "")
+    named = {"rolling_0.5": STRONG, "rolling_0.35": BETWEEN}
+    return ground + "".join(words for part, words in named.items() if part in case.name)
 
 
 def what_of(case: Case) -> str:
