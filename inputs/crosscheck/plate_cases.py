@@ -19,7 +19,8 @@ from furrow_post.figures.curves import Line, draw_curves
 from furrow_post.study.output import Output
 
 MEASURED_PLATE = INPUTS / "validation" / "snow_plate" / "reference.csv"
-LEVELS = {"plate_on_snow": (0.1, 0.2286), "plate_on_sand": (0.03, 0.045)}  # [m], deeper than a grain
+# [m], deeper than a grain
+LEVELS = {"plate_on_snow": (0.1, 0.2286), "plate_on_sand": (0.03, 0.045)}
 
 
 class PlateCase:

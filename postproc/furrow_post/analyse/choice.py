@@ -33,7 +33,8 @@ def reasons_of_pair(pair: Pair, run: Assessed, within: bool, error: float) -> li
     alone = f"{run.describe()}, {100 * run.error:.0f} %, {duration(run.row.cpu_time)}"
     if pair.error > error:
         return [
-            f"Nothing of the table reaches {100 * error:g} %; the best is {pair.describe()}: {what}.",
+            f"Nothing of the table reaches {100 * error:g} %; the best is {pair.describe()}: "
+            f"{what}.",
             f"  one run alone, at best: {alone}",
         ]
     return [

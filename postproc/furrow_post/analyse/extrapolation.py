@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Two runs of one family, extrapolated to size zero: often cheaper than one run that is fine enough.
+"""Two runs of one family, extrapolated to size zero: often cheaper than one fine run.
 
 First order, as cost_table.py: with sizes h1 > h2,
 
