@@ -20,9 +20,8 @@ namespace furrow {
 /// changes, n leaps, and with the n of either alone each leap would press the particle in by the
 /// step. e is what agrees with that: the spring of a contact then gives back the work that it
 /// takes, which it does not when the reach changes with n or J while it is loaded. The error of the
-/// gap is a fraction of the spacing and vanishes with it. A gap is never larger than the distance
-/// (e
-/// >= -1): ground that is pressed through a surface, its middle inside, is not let go.
+/// gap is a fraction of the spacing and vanishes with it. A gap is never larger than the distance,
+/// e >= -1: ground that is pressed through a surface, its middle inside, is not let go.
 class NarrowPhase {
  public:
   /// The body must outlive the narrow phase.
