@@ -279,10 +279,7 @@ void FixCoupledSystem::final_integrate() {
 
 void FixCoupledSystem::end_of_step() {
   with_local_errors(*error, [&] { check_velocities_finite(*lmp); });
-  for (Member& m : members_) {
-    m.work_of_step = work_of(m.contacts, *atom, update->dt);
-    m.contacts.clear();
-  }
+  for (Member& m : members_) m.work_of_step = work_of(m.contacts, *atom, update->dt);
 }
 
 void FixCoupledSystem::clear_forces() {

@@ -12,7 +12,7 @@
 
 namespace furrow::coupling {
 
-/// A terrain whose energies are looked at once, when an output asks for them.
+/// A terrain whose sums over the ranks are made once, when an output asks for them.
 class TerrainReading {
  public:
   explicit TerrainReading(const ContinuumTerrain& terrain) : terrain_(terrain) {}
@@ -24,15 +24,19 @@ class TerrainReading {
     return *energy_;
   }
   /// Of a sub-step. Collective.
-  HaloTraffic halo() const {
-    HaloTraffic halo = terrain_.halo_traffic();
-    const double steps = std::max(halo.steps, 1.0);
-    return {1.0, halo.messages / steps, halo.bytes / steps};
+  const HaloTraffic& halo() {
+    if (!halo_) {
+      const HaloTraffic all = terrain_.halo_traffic();
+      const double steps = std::max(all.steps, 1.0);
+      halo_ = {1.0, all.messages / steps, all.bytes / steps};
+    }
+    return *halo_;
   }
 
  private:
   const ContinuumTerrain& terrain_;
   std::optional<EnergyBudget> energy_;
+  std::optional<HaloTraffic> halo_;
 };
 
 /// The functions are collective. Energies since the start; of a half model, of the half.

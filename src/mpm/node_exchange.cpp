@@ -86,8 +86,7 @@ void NodeExchange::pack(int axis, Grid& grid, const Partition& partition) {
   Layers layers(axis, grid, partition);
   for (int block = 0; block < partition.blocks(axis); ++block) {
     Communicator::Message& message = messages[static_cast<std::size_t>(block)];
-    message.other = axis == 0 ? partition.rank_of(block, partition.own_block(1))
-                              : partition.rank_of(partition.own_block(0), block);
+    message.other = partition.rank_along(axis, block);
     message.sent.resize(layers.shared_length(block));
     message.received.resize(message.sent.size());
     const NodeRange shared = layers.shared(block);

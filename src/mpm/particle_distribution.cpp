@@ -98,9 +98,7 @@ void ParticleDistribution::send_along(int axis, ParticleGroup& group) {
   if (partition.blocks(axis) == 1) return;
   std::vector<Communicator::Message> messages(static_cast<std::size_t>(partition.blocks(axis)));
   for (int block = 0; block < partition.blocks(axis); ++block)
-    messages[static_cast<std::size_t>(block)].other =
-        axis == 0 ? partition.rank_of(block, partition.own_block(1))
-                  : partition.rank_of(partition.own_block(0), block);
+    messages[static_cast<std::size_t>(block)].other = partition.rank_along(axis, block);
   const double* x = group.particles.data(column::x + static_cast<std::size_t>(axis));
   std::vector<std::size_t> staying;
   for (std::size_t p = 0; p < group.particles.size(); ++p) {

@@ -47,6 +47,10 @@ class Partition {
   int own_block(int axis) const;
   /// The rank that has a block. Neighbours along y have consecutive numbers.
   int rank_of(int x_block, int y_block) const { return x_block * blocks_[1] + y_block; }
+  /// The rank that has another block of this row (axis 0) or column (axis 1).
+  int rank_along(int axis, int block) const {
+    return axis == 0 ? rank_of(block, own_block(1)) : rank_of(own_block(0), block);
+  }
   /// Which of the blocks along an axis has a layer of cells.
   int block_of(int axis, int cell) const;
   /// The rank that owns a column of cells.
