@@ -17,7 +17,7 @@ from furrow_post.analyse import cost, cost_table
 from furrow_post.csv_table import read_rows
 from furrow_post.read.wheel_run import read_wheel_run
 from furrow_post.study.case import Case
-from furrow_post.study.furrow_cases import script_case
+from furrow_post.study.furrow_cases import named_values, script_case
 from furrow_post.study.output import Output
 from furrow_post.study.runner import Runner, State
 from furrow_post.study.study import Study, run_study
@@ -28,23 +28,19 @@ PLANNED = read_rows(HERE / "runs.csv")
 TABLES = tuple(dict.fromkeys(row["table"] for row in PLANNED))
 
 
-def variables(row: Mapping[str, str]) -> dict[str, str]:
-    pairs = (word.partition("=") for word in row["variables"].split())
-    return {name: value for name, _, value in pairs}
-
-
 def options(row: Mapping[str, str]) -> str:
     """Scene and options of inputs/run that make this run; empty for one that is not offered."""
     if row["offered"] != "yes":
         return ""
-    given = [word for name, value in variables(row).items() for word in ("-v", name, value)]
+    variables = named_values(row["variables"])
+    given = [word for name, value in variables.items() for word in ("-v", name, str(value))]
     return shlex.join([row["scene"], *given])
 
 
 def make_case(row: Mapping[str, str]) -> Case:
     name = f"{row['table']}/{row['run']}"
     script = SCENES / f"{row['scene']}.lig"
-    return script_case(name, script, {**variables(row), "vtk": 0}, stage=row["table"])
+    return script_case(name, script, {**named_values(row["variables"]), "vtk": 0}, stage=row["table"])
 
 
 def evaluate(runner: Runner, output: Output) -> Sequence[str]:

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from furrow_post.csv_table import read_rows
-from furrow_post.study.case import Case, Value
-from furrow_post.study.furrow_cases import script_case
+from furrow_post.study.case import Case
+from furrow_post.study.furrow_cases import named_values, script_case
 from furrow_post.study.record import Record
 from furrow_post.study.runner import Runner
 
@@ -53,8 +53,7 @@ def make_case(row: Mapping[str, str]) -> Case:
     """Scripts of this folder are told where it is, for what they include; scenes need not be."""
     name = f"{row['case']}/{row['ground']}_{row['role'].replace('=', '_')}"
     script = (HERE / f"{row['script']}.lig").resolve()
-    pairs = (word.partition("=") for word in row["variables"].split())
-    variables: dict[str, Value] = {key: value for key, _, value in pairs}
+    variables = named_values(row["variables"])
     if script.parent == HERE:
         variables["here"] = HERE
     return script_case(name, script, variables, log=True, stage=row["case"])

@@ -5,17 +5,18 @@ One run, or two that are extrapolated to size zero where that is cheaper.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from ..errors import ResultsError
 from ..formatting import duration, with_error
 from ..read.wheel_run import WheelRun
 from . import cost
 from .cost import Assessed
+from .entry import NAME_IN_RUN
 from .extrapolation import Pair, better_pair
 from .verdict import COVERAGE
 
-QUANTITY_NAMES = (("sinkage", "sinkage"), ("coefficient", "resistance_coefficient"))
+Mean = tuple[float, float]  # a value and its standard error
 
 
 def choose(assessed: Sequence[Assessed], error: float) -> tuple[Assessed, bool, Pair | None]:
@@ -45,21 +46,9 @@ def reasons_of_pair(pair: Pair, run: Assessed, within: bool, error: float) -> li
 
 def pair_held(pair: Pair, error: float, coarse: WheelRun, fine: WheelRun) -> list[str]:
     """What two runs come to at size zero, and whether that and the cost are as expected."""
-    lines = [
-        f"Estimate: {pair.describe()}, error {100 * pair.error:.0f} %, "
-        f"{duration(pair.cpu_time)} of one core"
-    ]
-    good = True
-    for key, name in QUANTITY_NAMES:
-        one, other = (run.values[name] for run in (coarse, fine))
-        value, u = pair.at_size_zero(
-            (one.mean, one.standard_error), (other.mean, other.standard_error)
-        )
-        allowed = max(error, pair.errors[key])
-        line, ok = _judged(f"{name} at size zero", value, u, pair.fine.references[key], allowed)
-        lines.append(line)
-        good &= ok
-    return [*lines, *_cost(coarse.cpu_time + fine.cpu_time, pair.cpu_time), _in_all(good)]
+    one, other = _means(coarse), _means(fine)
+    values = {key: pair.at_size_zero(one[key], other[key]) for key in one}
+    return _judged(pair, error, values, coarse.cpu_time + fine.cpu_time, " at size zero")
 
 
 def reasons(
@@ -126,48 +115,42 @@ def held(choice: Assessed, error: float, run: WheelRun) -> list[str]:
 
     The values must lie within the wanted relative error of the table's value at size zero.
     """
-    row = choice.row
-    lines = [
-        f"Estimate: {choice.describe()}, error {100 * choice.error:.0f} %, "
-        f"{duration(row.cpu_time)} of one core"
-    ]
-    good = True
-    for key, name in QUANTITY_NAMES:
-        value = run.values[name]
-        allowed = max(error, choice.errors[key])
-        line, ok = _judged(
-            name, value.mean, value.standard_error, choice.references[key], allowed
-        )
-        lines.append(line)
-        good &= ok
-    return [*lines, *_cost(run.cpu_time, row.cpu_time), _in_all(good)]
+    return _judged(choice, error, _means(run), run.cpu_time)
+
+
+def _means(run: WheelRun) -> dict[str, Mean]:
+    """By the keys of quantities."""
+    values = {key: run.values[name] for key, name in NAME_IN_RUN.items()}
+    return {key: (value.mean, value.standard_error) for key, value in values.items()}
 
 
 def _judged(
-    name: str, value: float, u: float, reference: float, error: float
-) -> tuple[str, bool]:
-    """A value with its standard error against that at size zero: a line, and whether it held."""
-    off = (value - reference) / reference
-    allowed = error + COVERAGE * u / abs(reference)
-    ok = abs(off) <= allowed
-    line = (
-        f"  {name.replace('_', ' ')}: {with_error(value, u)}, "
-        f"{100 * off:+.1f} % from the value at size zero ({reference:.4g}), "
-        f"allowed {100 * allowed:.0f} %: {'held' if ok else 'NOT HELD'}"
+    choice: Assessed | Pair, error: float, values: Mapping[str, Mean], spent: float, where: str = ""
+) -> list[str]:
+    """spent: core seconds; where: the values are, for the sentences."""
+    lines = [
+        f"Estimate: {choice.describe()}, error {100 * choice.error:.0f} %, "
+        f"{duration(choice.cpu_time)} of one core"
+    ]
+    good = True
+    for key, (value, u) in values.items():
+        reference = choice.references[key]
+        off = (value - reference) / reference
+        allowed = max(error, choice.errors[key]) + COVERAGE * u / abs(reference)
+        ok = abs(off) <= allowed
+        good &= ok
+        lines.append(
+            f"  {NAME_IN_RUN[key].replace('_', ' ')}{where}: {with_error(value, u)}, "
+            f"{100 * off:+.1f} % from the value at size zero ({reference:.4g}), "
+            f"allowed {100 * allowed:.0f} %: {'held' if ok else 'NOT HELD'}"
+        )
+    if math.isfinite(spent) and choice.cpu_time > 0:
+        ratio = spent / choice.cpu_time
+        lines.append(f"  cost: {duration(spent)}, {ratio:.2f} times the estimate")
+    lines.append(
+        "The estimate held."
+        if good
+        else "The estimate did not hold: the scene differs from those of the table, or the table "
+        "is out of date."
     )
-    return line, ok
-
-
-def _cost(spent: float, estimate: float) -> list[str]:
-    if not (math.isfinite(spent) and estimate > 0):
-        return []
-    return [f"  cost: {duration(spent)}, {spent / estimate:.2f} times the estimate"]
-
-
-def _in_all(good: bool) -> str:
-    if good:
-        return "The estimate held."
-    return (
-        "The estimate did not hold: the scene differs from those of the table, or the table is out "
-        "of date."
-    )
+    return lines

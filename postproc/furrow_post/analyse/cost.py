@@ -46,6 +46,11 @@ class Assessed(HasErrors):
     models: ByQuantity  # relative error of standing in for the wanted wheel; 0: it is that
     pareto: bool = False  # nothing is cheaper and better
 
+    @property
+    def cpu_time(self) -> float:
+        """[s] of one core."""
+        return self.row.cpu_time
+
     def describe(self) -> str:
         row = self.row
         kind = elements_name(row.ground)

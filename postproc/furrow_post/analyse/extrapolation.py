@@ -34,7 +34,12 @@ class Pair(HasErrors):
     @property
     def cpu_time(self) -> float:
         """[s] of one core, of both."""
-        return self.coarse.row.cpu_time + self.fine.row.cpu_time
+        return self.coarse.cpu_time + self.fine.cpu_time
+
+    @property
+    def references(self) -> ByQuantity:
+        """Values at size zero of the family."""
+        return self.fine.references
 
     def describe(self) -> str:
         row, sizes = self.fine.row, [1e3 * run.row.size for run in self.runs]
@@ -87,7 +92,7 @@ def better_pair(
     known = [pair for pair in pairs(assessed) if math.isfinite(pair.error)]
     good = [pair for pair in known if pair.error <= error]
     if within:
-        good = [pair for pair in good if pair.cpu_time < run.row.cpu_time]
+        good = [pair for pair in good if pair.cpu_time < run.cpu_time]
     if good or within:
         return min(good, key=lambda pair: pair.cpu_time) if good else None
     best = min(known, key=lambda pair: pair.error, default=None)

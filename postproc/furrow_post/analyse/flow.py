@@ -30,6 +30,7 @@ from scipy.stats import norm
 from ..arrays import Booleans, Floats
 from ..csv_table import write_rows
 from ..errors import ResultsError
+from ..read.results import MIRROR
 from ..read.terrain import read_terrain_fields
 from ..read.wheel_run import WheelRun
 from .density import ground_points
@@ -101,31 +102,25 @@ class _Points(NamedTuple):
     load: Floats  # (n) vertical stress times volume, compression positive [J]
 
 
-def displacements(run: WheelRun) -> Floats:
-    """(n, 3) of the points of density.ground_points [m], in their order."""
+def _moved_and_loaded(run: WheelRun) -> tuple[Floats, Floats]:
+    """Displacement (n, 3) [m] and load (n) [J] of the points of density.ground_points, in their
+    order; the load NaN of a run that kept none."""
     if run.ground == "continuum":
         fields = read_terrain_fields(run.folder)
         moved: Floats = fields["x"] - fields["initial_position"]
-        return np.concatenate([moved, moved * [1, -1, 1]]) if run.half else moved
-    return run.results.grains("final").displacement_from(run.results.grains("reference"))
-
-
-def vertical_loads(run: WheelRun) -> Floats:
-    """(n) vertical stress times volume [J] of the points of density.ground_points, in their order.
-
-    Compression positive; NaN of a run that kept none.
-    """
-    if run.ground == "continuum":
-        fields = read_terrain_fields(run.folder)
         load: Floats = -fields["vertical_stress"] * fields["volume"]
-        return np.tile(load, 2) if run.half else load
+        if run.half:
+            return np.concatenate([moved, moved * MIRROR]), np.tile(load, 2)
+        return moved, load
     grains = run.results.grains("final")
-    return np.full(len(grains.x), np.nan) if grains.virial is None else -grains.virial[:, 2]
+    moved = grains.displacement_from(run.results.grains("reference"))
+    load = np.full(len(moved), np.nan) if grains.virial is None else -grains.virial[:, 2]
+    return moved, load
 
 
 def _points_in_plane(run: WheelRun) -> tuple[_Points, float]:
     """Those of the middle half of the wheel's width, and their mean size [m]."""
-    ground, moved = ground_points(run), displacements(run)
+    ground, (moved, load) = ground_points(run), _moved_and_loaded(run)
     middle = np.abs(ground.x[:, 1]) < 0.25 * run.number("wheel_width")
     above = ground.x[:, 2] > run.floor - run.ground_level
     followed = middle & above & np.isfinite(moved).all(axis=1)
@@ -139,7 +134,7 @@ def _points_in_plane(run: WheelRun) -> tuple[_Points, float]:
         ground.x[followed][:, plane],
         ground.mass[followed],
         moved[followed][:, plane],
-        vertical_loads(run)[followed],
+        load[followed],
     )
     return points, float(np.mean(ground.size[followed]))
 

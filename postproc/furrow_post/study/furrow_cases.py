@@ -9,6 +9,12 @@ from ..formatting import yaml_text
 from .case import FOLDER, Case, Value
 
 
+def named_values(text: str) -> dict[str, Value]:
+    """Variables of a script from "name=value name=value", as tables of runs have them."""
+    pairs = (word.partition("=") for word in text.split())
+    return {name: value for name, _, value in pairs}
+
+
 def script_case(
     name: str, script: Path | str, variables: Mapping[str, Value], log: bool = False, **more: Any
 ) -> Case:

@@ -40,7 +40,7 @@ class CostsTest(unittest.TestCase):
         scene, *given = shlex.split(driver.options(offered))
         self.assertEqual(scene, offered["scene"])
         self.assertEqual(given[::3], ["-v"] * (len(given) // 3))
-        self.assertEqual(dict(zip(given[1::3], given[2::3])), driver.variables(offered))
+        self.assertEqual(dict(zip(given[1::3], given[2::3])), driver.named_values(offered["variables"]))
 
 
 if __name__ == "__main__":
