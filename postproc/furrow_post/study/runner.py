@@ -2,12 +2,14 @@
 """Makes the runs of a study that are not there yet, several at a time."""
 
 import enum
+import threading
 from collections.abc import Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from pathlib import Path
 
 from ..errors import Interrupted
 from .case import Case
+from .claim import claimed
 from .launch import Tools, launch
 from .progress import Progress
 from .record import FAILED, FINISHED, Record, digest, read_record
@@ -87,7 +89,8 @@ class Runner:
     def run(self, cases: Sequence[Case]) -> None:
         """Makes what is missing. Of cases that share something the first runs before the others.
 
-        A failed run stops no other one. @raises Interrupted; ResultsError without the program
+        A failed run stops no other one. A run that another study makes at the same time is waited
+        for and taken from it. @raises Interrupted; ResultsError without the program
         """
         missing = self.missing(cases)
         for program in {case.program for case in missing}:
@@ -97,9 +100,10 @@ class Runner:
             self._run_together(wave, progress)
 
     def _run_together(self, cases: Sequence[Case], progress: "Progress") -> None:
+        stop = threading.Event()
         with ThreadPoolExecutor(self.jobs) as pool:
             futures: dict[Future[Record], Case] = {
-                pool.submit(launch, case, self.folder(case), self.tools): case for case in cases
+                pool.submit(self._make, case, stop): case for case in cases
             }
             pending = set(futures)
             try:
@@ -110,9 +114,17 @@ class Runner:
                     running = [futures[future] for future in pending if future.running()]
                     progress.show([self.folder(case) for case in running])
             except (Interrupted, KeyboardInterrupt):
+                stop.set()
                 progress.clear()
                 pool.shutdown(cancel_futures=True)
                 raise
+
+    def _make(self, case: Case, stop: threading.Event) -> Record:
+        """Makes a run, unless another study has made it since this one looked."""
+        folder = self.folder(case)
+        with claimed(folder, stop):
+            made = self.record(case) if self.again else self.ended(case)
+            return made or launch(case, folder, self.tools)
 
 
 def _waves(cases: Sequence[Case]) -> list[list[Case]]:

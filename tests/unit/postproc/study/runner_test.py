@@ -14,6 +14,7 @@ from unittest import mock
 
 from furrow_post.errors import ResultsError
 from furrow_post.study.case import FOLDER
+from furrow_post.study.claim import claimed
 from furrow_post.errors import Interrupted
 from furrow_post.study import launch as module
 from furrow_post.study.launch import launch
@@ -64,6 +65,37 @@ class RunnerTest(unittest.TestCase):
         leaves.start()
         self.runner.run([case])
         self.assertEqual(self.runner.state(case), State.DONE)
+
+    def test_two_studies_over_one_folder(self) -> None:
+        """Each run is made once: the second study waits for it and takes it."""
+        cases = [self.tree.case(name, sleep=0.3) for name in ("a", "b", "c")]
+        other = Runner(self.results, self.tree.tools, jobs=2)
+        errors: list[BaseException] = []
+
+        def run(runner: Runner) -> None:
+            try:
+                runner.run(cases)
+            except BaseException as error:
+                errors.append(error)
+
+        threads = [threading.Thread(target=run, args=(r,)) for r in (self.runner, other)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(errors, [])
+        self.assertEqual(sorted(self.tree.starts()), ["a", "b", "c"])
+        self.assertEqual({self.runner.state(case) for case in cases}, {State.DONE})
+
+    def test_who_waits_for_another_study_can_be_stopped(self) -> None:
+        folder, stop = self.results / "a", threading.Event()
+        with claimed(folder, stop):
+            stop.set()
+            with self.assertRaisesRegex(Interrupted, "results/a: another study is making"):
+                with claimed(folder, stop):
+                    self.fail("was claimed twice")
+        with claimed(folder, stop):  # free again
+            pass
 
     def test_a_moved_tree_keeps_its_runs(self) -> None:
         """Paths below the project count relative to it."""

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The folder of a run belongs to one study at a time."""
+
+import fcntl
+import os
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ..errors import Interrupted
+
+CLAIM = "claim"  # empty file in the folder of a run, locked while a study makes that run
+LOOK_EVERY = 0.2  # [s] whether another study has left the folder
+
+
+@contextmanager
+def claimed(folder: Path, stop: threading.Event) -> Iterator[None]:
+    """Waits until no other study makes the run of this folder, and keeps others from it.
+
+    The lock ends with the process, however that ends. On file systems that know no locks there is
+    none. stop: set by others to end the waiting. @raises Interrupted
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    handle = os.open(folder / CLAIM, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+    try:
+        while not _locked(handle):
+            if stop.wait(LOOK_EVERY):
+                raise Interrupted(f"{folder}: another study is making this run; start again")
+        yield
+    finally:
+        os.close(handle)
+
+
+def _locked(handle: int) -> bool:
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:  # no locks here
+        pass
+    return True
