@@ -225,8 +225,7 @@ class Family:
 
     def _apart(self, key: str, row: Row) -> list[float]:
         """How far a variant is from every base of its size."""
-        same = [base for base in self.bases if abs(base.size - row.size) < 0.02 * row.size]
-        return [row.value(key)[0] - base.value(key)[0] for base in same]
+        return [row.value(key)[0] - base.value(key)[0] for base in self._bases_of(row.size)]
 
     def packing(self, key: str) -> float:
         """Standard deviation of one packing; 0 of a lattice, NaN where there is one alone."""
@@ -237,13 +236,31 @@ class Family:
         return float(np.std([0.0, *apart], ddof=1)) if apart else math.nan
 
     def components(self, key: str, size: float, time_error: float = math.nan) -> Components:
-        """Parts of the error of a run of this size [m]."""
+        """Parts of the error of a run of this size [m].
+
+        That of the size is the line's, |C| h, or more where the table has a run of this size that
+        lies further from the value at size zero than by its noise: no line goes through all runs.
+        """
         fit = self.fit(key)
         wider = [row for row in self.variants if row.domain != self.domain]
         domains = [abs(difference) for row in wider for difference in self._apart(key, row)]
         domain = max(domains, default=math.nan)
         packing = self.packing(key)
-        return Components(time_error, abs(fit.slope) * size if fit else math.nan, domain, packing)
+        of_size = max(abs(fit.slope) * size, self._beyond_noise(key, size, fit)) if fit else math.nan
+        return Components(time_error, of_size, domain, packing)
+
+    def _beyond_noise(self, key: str, size: float, fit: Fit) -> float:
+        """How far the base of this size is from the value at size zero, less what noise explains."""
+        packing = self.packing(key)
+        scatter = packing if math.isfinite(packing) else 0.0
+        beyond = [0.0]
+        for value, time_error in (row.value(key) for row in self._bases_of(size)):
+            noise = math.hypot(time_error, scatter)
+            beyond.append((value - fit.at_zero) ** 2 - noise**2)
+        return math.sqrt(max(beyond))
+
+    def _bases_of(self, size: float) -> list[Row]:
+        return [base for base in self.bases if abs(base.size - size) < 0.02 * size]
 
     def at_size_zero(
         self, key: str, size: float, value: float, time_error: float

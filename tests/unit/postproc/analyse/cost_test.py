@@ -59,6 +59,20 @@ class TableTest(unittest.TestCase):
         # the scatter about the line counts where it is larger than the errors: 1.1 times on average
         self.assertAlmostEqual(found[:, 1].mean() / found[:, 0].std(), 1.1, delta=0.12)
 
+    def test_a_run_errs_by_no_less_than_its_distance_from_size_zero(self) -> None:
+        values = {0.05: 0.190, 0.04: 0.184, 0.03: 0.184, 0.02: 0.183}  # no line
+        rows = [
+            row(f"{h}", "continuum", h, 0.1, c, 1.0, seed="", error=1e-3) for h, c in values.items()
+        ]
+        family = cost_table.families(rows)[CONTINUUM]
+        at_zero, slope, *_ = family.fit("coefficient") or self.fail()
+        of_size = {h: family.components("coefficient", h).size for h in (*values, 0.045)}
+        distance = math.sqrt((0.190 - at_zero) ** 2 - 1e-6)
+        self.assertGreater(distance, 1.1 * slope * 0.05)
+        self.assertAlmostEqual(of_size[0.05], distance, places=9)
+        self.assertAlmostEqual(of_size[0.04], slope * 0.04, places=9)  # it is below the line
+        self.assertAlmostEqual(of_size[0.045], slope * 0.045, places=9)  # no run of this size
+
     def test_one_size_gives_no_error(self) -> None:
         rows = [row("a", "grains", 0.04, 0.1, 0.2, 1.0)]
         family = cost_table.families(rows)[GRAINS]
