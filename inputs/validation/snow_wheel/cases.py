@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What is run: the lists of runs and the snow they use."""
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -72,11 +73,11 @@ def tyre(pressure: float = PRESSURE, mesh: str = "4 36") -> dict[str, Value]:
 FINAL_DENSITIES = {525.0: 210e3, 575.0: 350e3, 625.0: 700e3, 660.0: 1400e3}
 IDENTIFIED_DENSITIES = (380.0, 450.0, 490.0)  # [kg/m3] of the beginning, which is searched
 START = (100.0, 15.0)  # [kg/m3], [Pa]: below the lightest snow of the rows, hardly any strength
-# Slopes M of Cam clay, and p0 over axial stress in confined compression with them, by the closed
-# form of cohesive_cam_clay.h with the tension_ratio of fresh_snow_cam_clay.yaml
+# Slopes M of Cam clay
 CRUSHED = 3.3  # K0 = 0.12 [Shoop2001] eq 24
-FLOWING = 2.0  # K0 = 0.41: set by hand on two of the rows, 220 kg/m3 of 0.20 and 0.38 m
-SHARES = {CRUSHED: 0.594, FLOWING: 0.760}
+FLOWING = 2.0  # K0 = 0.41: rounded from what slope.py finds on all rows of 220 kg/m3
+SOFTEST = 1.4  # K0 = 0.61: beyond what it finds
+TENSION_RATIO = 0.1  # of fresh_snow_cam_clay.yaml
 
 Beginning = tuple[float, float, float]  # axial stresses [Pa] at IDENTIFIED_DENSITIES
 
@@ -84,16 +85,30 @@ Beginning = tuple[float, float, float]  # axial stresses [Pa] at IDENTIFIED_DENS
 FIELD_SNOW: Beginning = (4e3, 25e3, 100e3)
 
 
+def confined(slope: float) -> tuple[float, float]:
+    """K0, and p0 over axial stress, in confined compression: closed form of
+    cohesive_cam_clay.h."""
+    beta = TENSION_RATIO
+    ratio = slope / math.sqrt(1 + 2 * beta)
+    root = math.sqrt(9 + 4 * ratio**2)
+    centre, half = (1 - beta) / 2, (1 + beta) / 2  # of the ellipse, over p0
+    p, q = centre + 3 * half / root, 2 * ratio**2 * half / root
+    axial = p + 2 * q / 3
+    return (p - q / 3) / axial, round(1 / axial, 3)
+
+
 def field_snow(
     density: float, beginning: Beginning = FIELD_SNOW, title: str = "", slope: float = CRUSHED
 ) -> str:
-    """A material file; density [kg/m3] at the start; slope: M, one of SHARES."""
+    """A material file; density [kg/m3] at the start; slope: M."""
+    _, share = confined(slope)
     rows = [START]
     curve = {**dict(zip(IDENTIFIED_DENSITIES, beginning)), **FINAL_DENSITIES}
-    rows += [(rho, SHARES[slope] * stress) for rho, stress in curve.items()]
+    rows += [(rho, share * stress) for rho, stress in curve.items()]
     return (
         f"title: {title or 'Field snow'}\n"
-        f"law: {{type: cohesive_cam_clay, density: {density:g}, M: {slope:g}, tension_ratio: 0.1}}\n"
+        f"law: {{type: cohesive_cam_clay, density: {density:g}, M: {slope:g}, "
+        f"tension_ratio: {TENSION_RATIO:g}}}\n"
         "elasticity: {type: linear, E: 13.79e6, nu: 0.3}\n"
         "hardening:\n"
         "  type: by_density\n"
@@ -220,6 +235,11 @@ def flowing_name(density: float, depth: float) -> str:
     return f"flowing_{row_name(density, depth).removeprefix('row_')}"
 
 
+def coarse(depth: float) -> int:
+    """Cells of about 5 cm in it [m]."""
+    return round(depth * COARSE_CELLS / 0.20)
+
+
 def flowing_rows() -> list[Case]:
     """The same on snow that flows aside more easily, in cells of about 5 cm."""
     return [
@@ -228,10 +248,37 @@ def flowing_rows() -> list[Case]:
             "flowing",
             density,
             depth,
-            cells=round(depth * COARSE_CELLS / 0.20),
+            cells=coarse(depth),
             slope=FLOWING,
         )
         for density, depth in densities_and_depths()
+    ]
+
+
+SLOPES = (SOFTEST, FLOWING, CRUSHED)  # with which the slope is identified
+SLOPE_DEPTHS = (0.18, 0.20, 0.22, 0.38)  # [m]
+
+
+def slope_name(slope: float, depth: float) -> str:
+    if slope == FLOWING:
+        return flowing_name(CALIBRATION_DENSITY, depth)
+    return f"slope_{slope:g}_{100 * depth:.0f}cm"
+
+
+def slopes() -> list[Case]:
+    """The rows of 220 kg/m3 with the slopes that the stage flowing does not have."""
+    return [
+        on_field_snow(
+            slope_name(slope, depth),
+            "slope",
+            CALIBRATION_DENSITY,
+            depth,
+            cells=coarse(depth),
+            slope=slope,
+        )
+        for slope in SLOPES
+        if slope != FLOWING
+        for depth in SLOPE_DEPTHS
     ]
 
 
@@ -336,7 +383,7 @@ def passes() -> Case:
 
 def all_cases() -> dict[str, Case]:
     """Name -> case, in the order in which they are made."""
-    made = predictions() + rows() + flowing_rows() + errors() + designs() + [passes()]
+    made = predictions() + rows() + flowing_rows() + slopes() + errors() + designs() + [passes()]
     return {case.name: case for case in made}
 
 

@@ -60,17 +60,13 @@ class FieldSnowTest(unittest.TestCase):
 
 
 class SlopeTest(unittest.TestCase):
-    def test_share_of_the_axial_stress_is_that_of_confined_compression(self) -> None:
-        """K0 of src/material/snow.md, then p0 from the ellipse through p and q of it."""
-        beta = 0.1  # tension_ratio
-        for slope, k0 in ((cases.CRUSHED, 0.12), (cases.FLOWING, 0.41)):
-            B = slope / math.sqrt(1 + 2 * beta)
-            S = math.sqrt(9 + 4 * B * B)
-            lateral = (1 - beta) * S + (1 + beta) * (3 - 2 * B * B / 3)
-            found = lateral / ((1 - beta) * S + (1 + beta) * (3 + 4 * B * B / 3))
+    def test_k0_and_strength_are_those_of_confined_compression(self) -> None:
+        """K0 as src/material/snow.md has it; p and q under an axial stress of 1 on the ellipse."""
+        beta = cases.TENSION_RATIO
+        for slope, k0 in ((cases.CRUSHED, 0.12), (cases.FLOWING, 0.41), (1.5, 0.57)):
+            found, p0 = cases.confined(slope)
             self.assertAlmostEqual(found, k0, delta=0.005)
             p, q = (1 + 2 * found) / 3, 1 - found
-            p0 = cases.SHARES[slope]
             on_ellipse = q * q * (1 + 2 * beta) / slope**2
             self.assertAlmostEqual((p + beta * p0) * (p0 - p), on_ellipse, delta=1e-3)
 
@@ -79,7 +75,7 @@ class SlopeTest(unittest.TestCase):
         self.assertEqual(number(second, "M"), 2.0)
         self.assertEqual(column(first, "rho"), column(second, "rho"))
         axial = [
-            np.array(column(text, "p")[1:]) / cases.SHARES[slope]
+            np.array(column(text, "p")[1:]) / cases.confined(slope)[1]
             for text, slope in ((first, cases.CRUSHED), (second, cases.FLOWING))
         ]
         np.testing.assert_allclose(axial[0], axial[1], rtol=1e-5)
@@ -138,7 +134,8 @@ class RigidWheelTest(unittest.TestCase):
         text = cases.field_snow(220.0)
         rho, p = column(text, "rho"), column(text, "p")
         stress = closed_form.axial_stress(np.array(rho[1:]))
-        np.testing.assert_allclose(stress, np.array(p[1:]) / cases.SHARES[cases.CRUSHED], rtol=1e-5)
+        _, share = cases.confined(cases.CRUSHED)
+        np.testing.assert_allclose(stress, np.array(p[1:]) / share, rtol=1e-5)
 
     def test_the_report_s_wheel_is_the_one_of_the_other_stages(self) -> None:
         self.assertEqual(cases.rigid(cases.DIAMETER, cases.WIDE), cases.RIGID)
