@@ -39,7 +39,6 @@ from furrow_post.study.runner import Runner
 from furrow_post.study.tables import aligned
 
 DEPTHS = (0.18, 0.20, 0.22)  # [m]
-GOAL = {"sinkage_m": 0.012, "resistance": 0.031}  # rms over rows
 # [kg/m3] measured [Shoop2001], scale
 DENSITY = {"density_under": (510, 50)}
 START: cases.Beginning = (4e3, 25e3, 100e3)  # [Pa]
@@ -86,7 +85,7 @@ class Search:
         depths = [row["depth_m"] for row in rows]
         trial: Trial = {"trial": note, **dict(zip(SEARCHED, beginning))}
         parts: list[float] = []
-        for what, goal in GOAL.items():
+        for what, goal in cases.GOAL.items():
             computed = np.interp(depths, DEPTHS, [run[what] for run in found])
             wrong = computed - np.array([row[what] for row in rows])
             trial[f"{what}_rms"] = round(rms(wrong), 4)

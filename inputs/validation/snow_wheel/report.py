@@ -2,7 +2,7 @@
 """What is made of the runs: tables, accuracy, figures."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +12,7 @@ import numpy as np
 import cases
 import closed_form
 import mass_balance
+import slope
 
 from furrow_post.analyse import empirical
 from furrow_post.analyse.rut import bow_wave, rut_densities, rut_depth, share_left
@@ -44,6 +45,14 @@ COMPARED = (
     "density_shoulder",
     "slip",
 )
+# Rows of a table of accuracy
+ROWS: dict[str, Callable[[Row], bool]] = {
+    "calibration": lambda row: bool(row["used"] == "calibration"),
+    "prediction": lambda row: bool(row["used"] == "prediction"),
+    "all": lambda row: True,
+    "220 kg/m3": cases.has_calibration_density,
+    "other densities": lambda row: not cases.has_calibration_density(row),
+}
 COMPUTED = {  # model of rows.csv -> name, colour, mark
     "tyre": ("tyre on field snow", "tab:blue", "s"),
     "flowing": ("the same with K0 0.41", "tab:orange", "^"),
@@ -168,9 +177,9 @@ def measured_row(found: Found, r: Mapping[str, float]) -> Row:
 
 
 def accuracy(table: Sequence[Row], used: str, model: str) -> Row:
-    """rms and mean of computed minus measured over the rows of one use that were run; rut: of the
-    depth that is left minus the measured sinkage."""
-    chosen = [r for r in table if used in ("all", r["used"]) and r[f"{model}_sinkage_m"] != ""]
+    """rms and mean of computed minus measured over those of ROWS that were run; rut: of the depth
+    that is left minus the measured sinkage."""
+    chosen = [r for r in table if ROWS[used](r) and r[f"{model}_sinkage_m"] != ""]
     out: Row = {"model": model, "rows": f"{used}: {len(chosen)}"}
     for what in ("sinkage_m", "resistance"):
         errors = [r[f"{model}_{what}"] - r[what] for r in chosen]
@@ -184,6 +193,17 @@ def accuracy(table: Sequence[Row], used: str, model: str) -> Row:
         errors = [r["nrmm_resistance_measured_sinkage"] - r["resistance"] for r in chosen]
         out["resistance_rms_from_measured_sinkage"] = round(rms(errors), 4)
     return out
+
+
+def slope_table(found: Found, table: Sequence[Row]) -> list[Row]:
+    """Empty where a run is missing or failed."""
+    runs = [[found(cases.slope_name(m, h)) for h in cases.SLOPE_DEPTHS] for m in cases.SLOPES]
+    models = ("tyre_sinkage_m", "flowing_sinkage_m")
+    there = all(run and not run["error"] for line in runs for run in line)
+    if not there or any(row[model] == "" for row in table for model in models):
+        return []
+    values = {what: np.array([[run[what] for run in line] for line in runs]) for what in cases.GOAL}
+    return slope.table(table, slope.Computed(cases.SLOPE_DEPTHS, values))
 
 
 def draw_comparison(table: Sequence[Row], path: Path) -> None:
@@ -310,6 +330,26 @@ def design_table(found: Found) -> list[Row]:
     return table
 
 
+def pressure_table(found: Found) -> list[Row]:
+    """The tyre at other pressures on 0.20 m of 220 kg/m3, beside NRMM."""
+    table = []
+    for pressure, name in cases.PRESSURES.items():
+        row = found(name)
+        if not row or row["error"]:
+            continue
+        sinkage = empirical.nrmm_sinkage(0.20, 220.0, pressure)
+        resistance = empirical.nrmm_resistance(220.0, cases.WIDTH, RADIUS, sinkage) / LOAD
+        table.append(
+            {
+                "pressure_kPa": round(pressure / 1e3),
+                **{what: row[what] for what in ("run", "user_s", "sinkage_m", "resistance")},
+                "nrmm_sinkage_m": round(sinkage, 4),
+                "nrmm_resistance": round(resistance, 4),
+            }
+        )
+    return table
+
+
 def pass_table(runner: Runner) -> list[Row]:
     """Sinkage and resistance of each pass in one rut, over the last WINDOW of its cruise."""
     case = cases.passes()
@@ -347,10 +387,11 @@ def pass_table(runner: Runner) -> list[Row]:
 
 
 def run_table(found: Found) -> list[Row]:
-    """Every run of the stages predict, rows and flowing."""
+    """Every run of the stages predict, rows, flowing and slope."""
     staged = [("predict", case) for case in cases.predictions()]
     staged += [("rows", case) for case in cases.rows()]
     staged += [("flowing", case) for case in cases.flowing_rows()]
+    staged += [("slope", case) for case in cases.slopes()]
     return [
         {"stage": stage, "what": case.what, **row}
         for stage, case in staged
@@ -368,9 +409,10 @@ def report(runner: Runner, output: Output) -> list[str]:
     scores = [
         accuracy(table, used, model)
         for model in ("tyre", "flowing", "nrmm")
-        for used in ("calibration", "prediction", "all")
+        for used in ROWS
     ]
     output.table("accuracy.csv", scores)
+    output.table("slope.csv", slope_table(found, table))
     measured = cases.reference()
     predicted = [not cases.is_calibration(row) for row in measured]
     output.table("mass_balance.csv", mass_balance.table(measured, predicted))
@@ -383,6 +425,7 @@ def report(runner: Runner, output: Output) -> list[str]:
     if limits:
         draw_errors(errors, limits, output.path("error.png"))
     output.table("design.csv", design_table(found))
+    output.table("pressures.csv", pressure_table(found))
     output.table("passes.csv", pass_table(runner))
     for name, title in SECTIONS.items():
         if runner.record(found.cases[name]):

@@ -9,6 +9,7 @@ import unittest
 import numpy as np
 
 from furrow_post.arrays import Floats
+from furrow_post.errors import ResultsError
 from support.command import SOURCE
 
 sys.path.insert(0, str(SOURCE / "inputs" / "validation" / "snow_wheel"))
@@ -17,6 +18,7 @@ import cases
 import closed_form
 import mass_balance
 import report
+import slope
 
 
 def number(text: str, key: str) -> float:
@@ -79,6 +81,67 @@ class SlopeTest(unittest.TestCase):
             for text, slope in ((first, cases.CRUSHED), (second, cases.FLOWING))
         ]
         np.testing.assert_allclose(axial[0], axial[1], rtol=1e-5)
+
+
+class IdentifiedSlopeTest(unittest.TestCase):
+    """Runs and tests in which quantities are parabolas in M and straight in the depth."""
+
+    depths = (0.18, 0.22, 0.38)  # [m]
+
+    @staticmethod
+    def sinkage(m: float, depth: float) -> float:
+        return depth - 0.03 * m - 0.005 * m * m
+
+    def computed(self) -> slope.Computed:
+        z = np.array([[self.sinkage(m, h) for h in self.depths] for m in cases.SLOPES])
+        return slope.Computed(self.depths, {"sinkage_m": z, "resistance": 0.1 + z})
+
+    def rows(self, m: float, scatter: float = 0.0) -> list[dict[str, float]]:
+        return [
+            {"depth_m": depth, "sinkage_m": z, "resistance": 0.1 + z}
+            for depth in (0.18, 0.20, 0.30)
+            for sign in (-1, 1)
+            for z in (self.sinkage(m, depth) + sign * scatter,)
+        ]
+
+    def test_the_slope_of_the_tests_is_found(self) -> None:
+        found = slope.identify(self.rows(2.4), self.computed())
+        self.assertAlmostEqual(found.slope, 2.4, delta=0.001)
+        self.assertAlmostEqual(found.left["sinkage_m"], 0.0, places=4)
+
+    def test_scatter_widens_the_range_as_the_standard_error_does(self) -> None:
+        """Of z alone: its error over dz/dM, from N = 6 tests; here z and c say the same."""
+        for scatter in (0.002, 0.004):
+            found = slope.identify(self.rows(2.4, scatter), self.computed())
+            expected = scatter / math.sqrt(11) / (0.03 + 0.01 * 2.4)
+            self.assertAlmostEqual(found.slope, 2.4, delta=0.01)
+            self.assertAlmostEqual((found.high - found.low) / (2 * expected), 1.0, delta=0.05)
+
+    def test_a_slope_beyond_the_runs_is_refused(self) -> None:
+        with self.assertRaisesRegex(ResultsError, "at the end of what was run; add a slope"):
+            slope.identify(self.rows(4.0), self.computed())
+
+    def test_both_choices_of_rows_predict_the_others(self) -> None:
+        """Shallow tests say M = 2.6, deep ones 2.2: the choice with both lies between."""
+        measured = [
+            {
+                "depth_m": depth,
+                "density_kgm3": density,
+                "sinkage_m": self.sinkage(m, depth),
+                "resistance": 0.1 + self.sinkage(m, depth),
+                **{
+                    f"{model}_{what}": self.sinkage(s, depth) + plus
+                    for model, s in (("flowing", cases.FLOWING), ("tyre", cases.CRUSHED))
+                    for what, plus in (("sinkage_m", 0.0), ("resistance", 0.1))
+                },
+            }
+            for depth, density, m in ((0.2, 220, 2.6), (0.38, 220, 2.2), (0.2, 110, 2.2))
+        ]
+        shallow, both = slope.table(measured, self.computed())
+        self.assertEqual(shallow["slope"], 2.6)
+        self.assertTrue(2.2 < both["slope"] < 2.6)
+        self.assertLess(both["others_sinkage_m_rms"], shallow["others_sinkage_m_rms"])
+        self.assertEqual(shallow["k0"], round(cases.confined(2.6)[0], 2))
 
 
 class MassBalanceTest(unittest.TestCase):
