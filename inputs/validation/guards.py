@@ -24,8 +24,8 @@ def of_table(name: str) -> Chosen:
     return lambda stored: Path(stored.table).name == name
 
 
-def of_run(name: str) -> Chosen:
-    return lambda stored: stored.row.get("run") == name
+def of_run(name: str, key: str = "run") -> Chosen:
+    return lambda stored: stored.row.get(key) == name
 
 
 # Study -> rows whose runs its driver's --check makes: those of bash tests/run
@@ -33,6 +33,7 @@ CHEAP: dict[str, Chosen] = {
     "report_inputs": every,
     "report_wheel": of_run("d_30_cell_10"),
     "snow_oedometer": every,
+    "snow_plate": of_run("fresh", key="case"),
     "snow_wheel": of_run("design_56x27cm"),
     "tyre_brick": lambda stored: False,  # its own check: a coarse mesh beside the stored one
     "tyre_on_snow": of_run("lift_plane"),

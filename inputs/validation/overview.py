@@ -5,6 +5,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import programs
+
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from furrow_post.study.tables import markdown
@@ -29,6 +31,7 @@ HEAD = (
     "report h",
     "ours core s",
     "study",
+    "program",
     "remark",
 )
 
@@ -152,8 +155,16 @@ class Experiment:
             self.hours,
             number(self.cost.value() if self.cost else None),
             f"[{Path(study).name}]({study}/README.md)" if study else "",
+            programs.cell(HERE / self.ours.table) if self.ours else "",
             "; ".join(filter(None, (self.remark, why))),
         ]
+
+    def reason(self) -> str:
+        """Why the row differs, is missed, not done or outside; empty for others."""
+        verdict = self.verdict()
+        if verdict in UNMET:
+            return self.why
+        return self.remark if verdict in (NOT_DONE, OUTSIDE) else ""
 
 
 def number(value: float | None, digits: int = 3) -> str:
@@ -179,9 +190,35 @@ def counts(groups: Sequence[Group]) -> str:
     return f"{len(verdicts)} rows: {', '.join(parts)}."
 
 
+def old(groups: Sequence[Group]) -> str:
+    """How many rows are by a program whose numbers have moved since."""
+    column = HEAD.index("program")
+    cells = [row.cells()[column] for group in groups for row in group.rows if row.ours]
+    found = sum(f" {programs.OLD}" in cell for cell in cells)
+    return f"By a program before a change that moves numbers: {found} of {len(cells)} computed rows."
+
+
+def reasons(groups: Sequence[Group]) -> list[str]:
+    """A table of the reasons of all rows that are not met, each once; what is missed first."""
+    order = ("missed", "differs", NOT_DONE, OUTSIDE)
+    unmet: dict[str, list[Experiment]] = {}
+    for row in (row for group in groups for row in group.rows):
+        if reason := row.reason():
+            unmet.setdefault(reason, []).append(row)
+    lines = []
+    for reason, rows in unmet.items():
+        found = [row.verdict() for row in rows]
+        counted = ", ".join(f"{found.count(name)} {name}" for name in order if name in found)
+        places = "; ".join(dict.fromkeys(row.place for row in rows))
+        lines.append((min(map(order.index, found)), (reason, counted, places)))
+    lines.sort(key=lambda line: line[0])
+    return markdown(("reason", "rows", "in the report"), (cells for _, cells in lines))
+
+
 def section(groups: Sequence[Group]) -> list[str]:
     """Lines of the page's generated part."""
-    lines = [counts(groups), ""]
+    lines = [counts(groups), "", old(groups), ""]
+    lines += ["### Why rows differ, are missed, not done or outside", "", *reasons(groups), ""]
     for group in groups:
         lines += [f"### {group.title}", ""]
         lines += markdown(HEAD, (row.cells() for row in group.rows)) + [""]

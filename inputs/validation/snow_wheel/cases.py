@@ -76,7 +76,7 @@ IDENTIFIED_DENSITIES = (380.0, 450.0, 490.0)  # [kg/m3] of the beginning, which 
 START = (100.0, 15.0)  # [kg/m3], [Pa]: below the lightest snow of the rows, hardly any strength
 # Slopes M of Cam clay
 CRUSHED = 3.3  # K0 = 0.12 [Shoop2001] eq 24
-FLOWING = 2.0  # K0 = 0.41: rounded from what slope.py finds on all rows of 220 kg/m3
+FLOWING = 2.0  # K0 = 0.41: round; slope.py finds 1.84 (1.73 to 1.98) on all rows of 220 kg/m3
 SOFTEST = 1.4  # K0 = 0.61: beyond what it finds
 TENSION_RATIO = 0.1  # of fresh_snow_cam_clay.yaml
 

@@ -50,15 +50,14 @@ def trend(rows: Sequence[Mapping[str, float]]) -> tuple[float, float, float]:
     return float(start), float(1 / slope), rms(left)
 
 
-def table(rows: Sequence[Mapping[str, float]], predicted: Sequence[bool]) -> list[Row]:
-    """Least errors over the predicted and over all rows, for densities within the goal."""
-    chosen = [row for row, is_predicted in zip(rows, predicted) if is_predicted]
+def table(choices: Mapping[str, Sequence[Mapping[str, float]]]) -> list[Row]:
+    """Least errors over each choice of rows, for densities within the goal."""
     found = []
     for density in (MEASURED * (1 - WITHIN), MEASURED, MEASURED * (1 + WITHIN)):
         for share in SHARES:
             row: Row = {"density_kgm3": round(density), "mass_left": share}
-            for name, some in (("prediction", chosen), ("all", rows)):
-                single, own = least_error(some, density, share)
+            for name, rows in choices.items():
+                single, own = least_error(rows, density, share)
                 row[f"{name}_rms_one_deflection_m"] = round(single, 4)
                 row[f"{name}_rms_any_deflection_m"] = round(own, 4)
             found.append(row)

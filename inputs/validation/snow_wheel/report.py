@@ -414,8 +414,12 @@ def report(runner: Runner, output: Output) -> list[str]:
     output.table("accuracy.csv", scores)
     output.table("slope.csv", slope_table(found, table))
     measured = cases.reference()
-    predicted = [not cases.is_calibration(row) for row in measured]
-    output.table("mass_balance.csv", mass_balance.table(measured, predicted))
+    choices = {
+        "prediction": [row for row in measured if not cases.is_calibration(row)],
+        "other_densities": [row for row in measured if not cases.has_calibration_density(row)],
+        "all": measured,
+    }
+    output.table("mass_balance.csv", mass_balance.table(choices))
     start, density, off = mass_balance.trend(measured)
     print(f"measured h - z: {start:.4f} m + mass/({density:.0f} kg/m3), rms {off:.4f} m")
     errors, limits = error_table(found)

@@ -4,6 +4,7 @@
 import contextlib
 import io
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -21,8 +22,10 @@ import command
 import experiments
 import guards
 import overview
+import programs
 
 from furrow_post.errors import ResultsError
+from furrow_post.study.provenance import read_origins
 from overview import Experiment, Stored, number
 
 
@@ -79,6 +82,67 @@ class PageTest(unittest.TestCase):
             row.ours.study for group in experiments.GROUPS for row in group.rows if row.ours
         }
         self.assertEqual(named | {"cmu_sand", "grains"}, set(command.studies()))
+
+
+class ReasonsTest(unittest.TestCase):
+    def test_each_reason_stands_once_with_its_rows(self) -> None:
+        lacks = Experiment("p. 1", "", "", remark="no law has it")
+        aside = Experiment("p. 3", "", "", remark="a method", aside=overview.OUTSIDE)
+        drawn = Experiment("p. 4", "", "", remark="only drawn", aside=overview.NOTHING)
+        group = overview.Group("", (lacks, replace(lacks, place="p. 2"), aside, drawn))
+        self.assertEqual(
+            overview.reasons([group])[2:],
+            ["| no law has it | 2 not done | p. 1; p. 2 |", "| a method | 1 outside | p. 3 |"],
+        )
+
+    def test_every_row_that_is_not_met_is_among_them(self) -> None:
+        unmet = (*overview.UNMET, overview.OUTSIDE, overview.NOT_DONE)
+        lines = overview.reasons(experiments.GROUPS)[2:]
+        counts = [int(word) for line in lines for word in re.findall(r"\d+", line.split(" | ")[1])]
+        rows = [row for group in experiments.GROUPS for row in group.rows]
+        self.assertEqual(sum(counts), sum(row.verdict() in unmet for row in rows))
+        self.assertIn("missed", lines[0])
+
+
+class ProgramsTest(unittest.TestCase):
+    def test_commits_of_a_table_and_which_are_old(self) -> None:
+        change = programs.Change("c", frozenset({"made"}), frozenset({"aaaaaaa"}))
+        with tempfile.TemporaryDirectory() as folder, patch.object(
+            programs, "changes", lambda: (change,)
+        ):
+            for study in ("made", "other"):
+                (Path(folder) / study).mkdir()
+                (Path(folder) / study / "provenance.csv").write_text(
+                    "file,program,commit,runs,written,command,note\n"
+                    "results.csv,furrow 1,aaaaaaa+ bbbbbbb,,,,\nsize.csv,furrow 1,,,,,\n"
+                )
+            for path, expected in (
+                ("made/results.csv", "aaaaaaa old, bbbbbbb"),
+                ("other/results.csv", "aaaaaaa, bbbbbbb"),
+                ("made/size.csv", ""),
+                ("made/absent.csv", ""),
+            ):
+                with self.subTest(table=path):
+                    self.assertEqual(programs.cell(Path(folder) / path), expected)
+
+    def test_what_comes_before_a_change_is_what_git_says(self) -> None:
+        """For the commits in provenance.csv of the studies that the change reaches."""
+
+        def git(*words: str) -> int:
+            done = subprocess.run(["git", "-C", str(SOURCE), *words], capture_output=True)
+            return done.returncode
+
+        if not shutil.which("git") or git("cat-file", "-e", programs.changes()[0].commit):
+            self.skipTest("no git, or not the history")
+        for change in programs.changes():
+            for study in change.studies:
+                origins = read_origins(VALIDATION / study).values()
+                for commit in {
+                    word.rstrip("+") for origin in origins for word in origin.commit.split()
+                }:
+                    with self.subTest(change=change.commit, study=study, commit=commit):
+                        has = not git("merge-base", "--is-ancestor", change.commit, commit)
+                        self.assertEqual(commit in change.before, not has)
 
 
 class VerdictTest(unittest.TestCase):
