@@ -183,8 +183,8 @@ def below() -> tuple[Experiment, ...]:
 PLATES = Group(
     "Plates on snow",
     (
-        plate("fresh", "plate of 20.32 cm, `fresh_snow`, cells of 4.2 cm", "fresh_fine", "200 kg/m3"),
-        plate("fresh_finer", "the same, cells of 2.5 cm", "fresh_fine", "200 kg/m3"),
+        plate("fresh", "plate of 20.32 cm, `fresh_snow`, 4.2 cm cells", "fresh_fine", "200 kg/m3"),
+        plate("fresh_finer", "the same, 2.5 cm cells", "fresh_fine", "200 kg/m3"),
         plate("clay_finer", "plate of 20.32 cm, Cam clay", "clay_fine", "200 kg/m3"),
         plate("finer", "the same, cap law of Tables 1 and 3", "fine", "200 kg/m3"),
         plate(
@@ -983,7 +983,7 @@ FUTURE = Group(
             for tread in ("smooth", "lugged")
         ),
         *(
-            not_done("pp. 55-56", what, "", f"{lacks}; named there as future work, without a number")
+            not_done("pp. 55-56", what, "", f"{lacks}; future work there, without a number")
             for what, lacks in (
                 ("temperature, melting, sintering in time", "no law knows temperature or age"),
                 ("rate effects, wet snow, thawing soil", "no law knows rate or water"),

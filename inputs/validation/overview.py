@@ -195,7 +195,7 @@ def old(groups: Sequence[Group]) -> str:
     column = HEAD.index("program")
     cells = [row.cells()[column] for group in groups for row in group.rows if row.ours]
     found = sum(f" {programs.OLD}" in cell for cell in cells)
-    return f"By a program before a change that moves numbers: {found} of {len(cells)} computed rows."
+    return f"By a program from before a change of numbers: {found} of {len(cells)} computed rows."
 
 
 def reasons(groups: Sequence[Group]) -> list[str]:

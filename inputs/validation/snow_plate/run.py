@@ -3,8 +3,8 @@
 """Plate of 20.32 cm into 50 cm of fresh snow, continuum, against the measured peak load. See
 README.md.
 
-Makes the runs that are missing and writes results.csv, curves.png, foam.png and density.png. --check
-makes one of them, in seconds.
+Makes the runs that are missing and writes results.csv, curves.png, foam.png and density.png.
+--check makes one of them, in seconds.
 """
 
 import math

@@ -4,8 +4,8 @@
 depth and density, and the error of both. See README.md.
 
 Makes the runs that are missing and writes the tables and pictures beside this file. Stages: predict
-rows flowing slope error design; the laws are identified by identify.py, the slope M by slope.py. --check makes one run of the
-stage design, in seconds.
+rows flowing slope error design; the laws are identified by identify.py, the slope M by slope.py.
+--check makes one run of the stage design, in seconds.
 """
 
 import sys
