@@ -57,6 +57,7 @@ COMPUTED = {  # model of rows.csv -> name, colour, mark
     "tyre": ("tyre on field snow", "tab:blue", "s"),
     "flowing": ("the same with K0 0.41", "tab:orange", "^"),
 }
+IDENTIFIED_ON = {"tyre": "calibration", "flowing": "220 kg/m3"}  # model -> of ROWS
 SECTIONS = {  # runs that are drawn -> title
     cases.ERROR_BASE: "tyre on field snow, 220 kg/m3",
     "rigid_towed": "rigid wheel on fresh_snow, towed",
@@ -217,11 +218,9 @@ def draw_comparison(table: Sequence[Row], path: Path) -> None:
         top = 1.08 * max(r[source] or 0 for r in table for source in sources)
         axes.plot([0, top], [0, top], color="0.5", lw=0.8)
         for model, (name, colour, mark) in COMPUTED.items():
-            for used, how, fill in (
-                ("calibration", "identified on", "none"),
-                ("prediction", "others", colour),
-            ):
-                mine = [r for r in table if r["used"] == used and r[f"{model}_{what}"] != ""]
+            identified = ROWS[IDENTIFIED_ON[model]]
+            for used, how, fill in ((True, "identified on", "none"), (False, "others", colour)):
+                mine = [r for r in table if identified(r) is used and r[f"{model}_{what}"] != ""]
                 measured, computed = [r[what] for r in mine], [r[f"{model}_{what}"] for r in mine]
                 look = {"ms": 5, "color": colour, "mfc": fill}
                 axes.plot(measured, computed, mark, **look, label=f"{name}, {how}")
