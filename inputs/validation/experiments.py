@@ -332,11 +332,8 @@ HARD_SURFACE = Group(
             "the same, middle of the tread",
             "stress",
             "kPa",
-            measured=INFLATION,
             ours=stress("middle_kPa"),
-            floor=True,
-            remark=RIDGE,
-            why="the belt of Table 8 is a membrane there and carries the air alone (tyre_table6)",
+            remark=f"{RIDGE}; the belt of Table 8 is a membrane there and has none",
         ),
         Experiment(
             "pp. 24-41",
