@@ -159,7 +159,7 @@ def size_zero(case: str, what: str) -> Experiment:
         measured="1867",
         ours=of(table, case, "size_zero_N", key="case"),
         uncertainty=of(table, case, "error_N", key="case"),
-        remark="cells of size zero; ± from error of second to one of first order",
+        remark="cells of size zero; ± to an error of first order, or to the cells before",
     )
 
 
@@ -223,7 +223,7 @@ PLATES = Group(
             "N",
             ours=of("plate_variants/field.csv", "field_cap_slide_40", "peak_N", key="case"),
             cost=of("plate_variants/field.csv", "field_cap_slide_40", "user_s", key="case"),
-            remark="no number there; an ultimate resistance is nearly reached",
+            remark="no number there; an ultimate resistance is not reached, 5 % more per cm",
         ),
     ),
 )
