@@ -35,7 +35,8 @@ def changes() -> tuple[Change, ...]:
 def commits(table: Path) -> list[str]:
     """Of the source trees of the table's runs; none where that is not known."""
     origin = read_origins(table.parent).get(table.name)
-    return [commit.rstrip("+") for commit in origin.commit.split()] if origin else []
+    known = (commit.rstrip("+") for commit in origin.commit.split()) if origin else ()
+    return list(dict.fromkeys(known))
 
 
 def is_old(study: str, commit: str) -> bool:

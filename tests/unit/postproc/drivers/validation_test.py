@@ -114,7 +114,7 @@ class ProgramsTest(unittest.TestCase):
                 (Path(folder) / study).mkdir()
                 (Path(folder) / study / "provenance.csv").write_text(
                     "file,program,commit,runs,written,command,note\n"
-                    "results.csv,furrow 1,aaaaaaa+ bbbbbbb,,,,\nsize.csv,furrow 1,,,,,\n"
+                    "results.csv,furrow 1,aaaaaaa+ bbbbbbb aaaaaaa,,,,\nsize.csv,furrow 1,,,,,\n"
                 )
             for path, expected in (
                 ("made/results.csv", "aaaaaaa old, bbbbbbb"),
