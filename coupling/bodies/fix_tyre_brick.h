@@ -12,7 +12,7 @@ class FixTyreBrick : public FixTyre {
   FixTyreBrick(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
 
-  BrickTyre& tyre() { return static_cast<BrickTyre&>(body()); }
+  BrickTyre& tyre() const { return static_cast<BrickTyre&>(body()); }
   void init() override;
 
  protected:

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "coupling/base/fixes_of.h"
+#include "coupling/bodies/fix_tyre_brick.h"
 #include "coupling/bodies/fix_wheel_hub.h"
 #include "coupling/contact/fix_contact_continuum.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
@@ -120,6 +121,27 @@ void check_cells(const Pair& pair, const Grid& grid, const Warn& warn) {
                    pair.terrain.options().where("cell"), problem, good_cells, remedy));
 }
 
+/// Ground enters a groove, or the gap between two bars, with particles that are narrower.
+void check_voids(const Pair& pair, const Warn& warn) {
+  const auto* tyre = dynamic_cast<const FixTyreBrick*>(&pair.body);
+  if (tyre == nullptr) return;
+  const BrickTyreParameters& parameters = tyre->tyre().parameters();
+  const double groove = parameters.tread.narrowest_void(parameters.radius());
+  const double rib = parameters.tread.narrowest_rib(parameters.radius());
+  const ContinuumTerrain& terrain = pair.terrain.terrain();
+  const int count = terrain.parameters().particles_per_cell[1];
+  const double spacing = terrain.grid().axis(1).shortest() / count;
+  const double narrowest = std::min(groove, rib);
+  if (spacing < narrowest) return;
+  warn(fmt::format(
+      "{} is {:.4g} m: particles are {:.3g} m apart under '{}', whose narrowest groove "
+      "is {:.3g} m wide and its narrowest rib {:.3g} m: ground bridges the grooves, and "
+      "the tread acts nearly as a smooth one; choose cells narrower than {:.3g} m, or a "
+      "smooth tread",
+      pair.terrain.options().where("cell"), pair.terrain.options().number("cell"), spacing,
+      pair.body.id, groove, rib, count * narrowest));
+}
+
 }  // namespace
 
 void check_ground_under_bodies(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
@@ -129,6 +151,7 @@ void check_ground_under_bodies(const LAMMPS_NS::LAMMPS& lammps, const Warn& warn
     check_length(pair, warn);
     check_cells(pair, contact->terrain_fix().terrain().grid(), warn);
     check_overhang(pair, warn);
+    check_voids(pair, warn);
   }
 }
 

@@ -45,6 +45,10 @@ Schema carcass_schema() {
                  "EI per width against bending along the circumference");
   schema.numbers("bending_across", 0, "N m", bending, "the same across");
   schema.numbers("areal_mass", 0, "kg/m2", Range::closed(0.01, 1e4), "mass per area");
+  schema.flag(
+      "cords",
+      "the meridian is one of cords: shear is their sliding past each other, in which their "
+      "tension does no work");
   return schema;
 }
 
@@ -93,6 +97,7 @@ CarcassParameters carcass_of(const Options& options) {
   common_length(options, {"axial", "radius"});
   carcass.axial = options.numbers("axial");
   carcass.radius = options.numbers("radius");
+  carcass.cords = options.flag("cords");
   const std::size_t zones =
       common_length(options, {"zone_end", "stretch_along", "stretch_across", "shear",
                               "bending_along", "bending_across", "areal_mass"});
@@ -199,7 +204,8 @@ std::string brick_tyre_file_text(const BrickTyreParameters& tyre) {
         {"shear", of_zones([](const Zone& zone) { return zone.wall.shear; })},
         {"bending_along", of_zones([](const Zone& zone) { return zone.wall.bending1; })},
         {"bending_across", of_zones([](const Zone& zone) { return zone.wall.bending2; })},
-        {"areal_mass", of_zones([](const Zone& zone) { return zone.areal_mass; })}}},
+        {"areal_mass", of_zones([](const Zone& zone) { return zone.areal_mass; })},
+        {"cords", carcass.cords ? "yes" : "no"}}},
       {"cap",
        {{"at", list(cap.at, same)},
         {"thickness", list(cap.thickness, same)},

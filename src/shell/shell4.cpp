@@ -52,7 +52,7 @@ struct ElementDynamics {
 };
 
 /// All but where its elements are.
-Shell4Kind make_kind(const Shell4Shape& shape, const Matrix24& K) {
+Shell4Kind make_kind(const Shell4Shape& shape, const Matrix24& K, Shell4Turning turning) {
   Shell4Kind kind;
   for (int i = 0; i < 24; ++i)
     for (int j = 0; j < 24; ++j) kind.stiffness[i][j] = K(i, j);
@@ -60,9 +60,10 @@ Shell4Kind make_kind(const Shell4Shape& shape, const Matrix24& K) {
     for (int k = 0; k < 3; ++k) kind.x[n][k] = shape.x(k, n);
   const Vector3 a = first_median(shape.x);
   const Vector3 b = second_median(shape.x);
+  const bool polar = turning == Shell4Turning::polar;
   kind.p1 = 1.0 / a[0];
-  kind.p2 = -b[0] / (a[0] * b[1]);
-  kind.q2 = 1.0 / b[1];
+  kind.p2 = polar ? -b[0] / (a[0] * b[1]) : 0.0;
+  kind.q2 = polar ? 1.0 / b[1] : 0.0;
   return kind;
 }
 
@@ -94,7 +95,8 @@ Shell4::Shell4(Shell4&&) noexcept = default;
 std::size_t Shell4::kind_count() const { return kinds_.size(); }
 
 Shell4::Shell4(const Matrix3X& reference, std::vector<Quad> quads, const ShellSection& section,
-               const std::function<Vector3(const Vector3&)>& fibre, double largest_kink)
+               const std::function<Vector3(const Vector3&)>& fibre, Shell4Turning turning,
+               double largest_kink)
     : quads_(std::move(quads)),
       places_(std::make_unique<Places>()),
       mass_(VectorX::Zero(reference.cols())),
@@ -113,12 +115,12 @@ Shell4::Shell4(const Matrix3X& reference, std::vector<Quad> quads, const ShellSe
       kinds.push_back({static_cast<int>(e)});
   }
   stable_step_ = std::numeric_limits<double>::infinity();
-  for (const std::vector<int>& members : kinds) add_kind(elements, members, section);
+  for (const std::vector<int>& members : kinds) add_kind(elements, members, section, turning);
 }
 
 /// @param members elements that are alike
 void Shell4::add_kind(const std::vector<Shell4Element>& elements, const std::vector<int>& members,
-                      const ShellSection& section) {
+                      const ShellSection& section, Shell4Turning turning) {
   const Shell4Shape& shape = elements[static_cast<std::size_t>(members[0])].shape;
   Matrix24 K;
   try {
@@ -126,7 +128,7 @@ void Shell4::add_kind(const std::vector<Shell4Element>& elements, const std::vec
   } catch (const StateError& error) {
     throw StateError(fmt::format("{} (element {})", error.what(), members[0]));
   }
-  Shell4Kind kind = make_kind(shape, K);
+  Shell4Kind kind = make_kind(shape, K, turning);
   kind.first = places_->element.size();
   for (const int e : members) places_->add(elements[static_cast<std::size_t>(e)], e, true);
   while (places_->element.size() % shell4_padding != 0)

@@ -14,6 +14,14 @@ namespace furrow {
 
 struct Shell4Kind;
 
+/// What turns an element's axes in its plane.
+enum class Shell4Turning {
+  polar,  ///< the rotation of the polar decomposition: no direction is preferred
+  /// the first median: stretch along it is that of its own fibres. Shear then is their sliding past
+  /// each other, and their tension does no work in it (see Shell4).
+  first_median
+};
+
 /// Elements whose stress-free shapes agree share one stiffness matrix (a tyre has one for each
 /// row), which keeps the matrices in the fastest memory; elements are computed several at once
 /// (shell4_kernel.h has the equations).
@@ -24,6 +32,13 @@ struct Shell4Kind;
 ///   J = max(m h^2/12, m lambda_max(K_rotation)/lambda_max(K_displacement)),
 /// of the order of m times a quarter of the element's area. It delays bending waves not much longer
 /// than an element.
+///
+/// Tension and shear: strains are those of the stretch U in the turned axes, linear in its law. In
+/// a simple shear gamma of fibres along 1 that slide past each other, polar axes have U_11 - 1 =
+/// -gamma^2/8 and U_22 - 1 = 3 gamma^2/8, so under a tension N_1 the stiffness against shear is
+/// G - N_1/4 + 3 N_2/4, negative when N_1 > 4 G + 3 N_2; axes that follow the fibres have U_11 = 1
+/// and the stiffness G. In a wall of cords whose tension exceeds its shear stiffness, such as an
+/// inflated sidewall, take Shell4Turning::first_median, with the quads' first median along them.
 class Shell4 {
  public:
   using Quad = std::array<int, 4>;  ///< nodes counter-clockwise seen from outside
@@ -31,10 +46,12 @@ class Shell4 {
   /// @param reference stress-free nodes [m]
   /// @param fibre direction of the section's axis 1 at a point, e.g. the circumference; need not be
   /// tangent
+  /// @param turning of the element's axes
   /// @param largest_kink [rad] as in shell4_elements() of shell4_shape.h
   /// @throws StateError naming the element for a degenerate or folded one
   Shell4(const Matrix3X& reference, std::vector<Quad> quads, const ShellSection& section,
-         const std::function<Vector3(const Vector3&)>& fibre, double largest_kink = radians(40.0));
+         const std::function<Vector3(const Vector3&)>& fibre,
+         Shell4Turning turning = Shell4Turning::polar, double largest_kink = radians(40.0));
   ~Shell4();
   Shell4(Shell4&&) noexcept;
 
@@ -59,7 +76,7 @@ class Shell4 {
  private:
   struct Places;  // of the elements in the kernel's arrays, kind by kind
   void add_kind(const std::vector<Shell4Element>& elements, const std::vector<int>& members,
-                const ShellSection& section);
+                const ShellSection& section, Shell4Turning turning);
 
   std::vector<Quad> quads_;
   std::vector<Shell4Kind> kinds_;

@@ -16,7 +16,8 @@ constexpr std::size_t shell4_padding =
 struct Shell4Kind {
   double stiffness[24][24];  ///< in the element's axes
   double x[4][3];            ///< stress-free nodes in the element's axes [m]
-  /// inverse of the stress-free medians (columns), rows (p1, p2) and (0, q2) [1/m]
+  /// inverse of the stress-free medians (columns), rows (p1, p2) and (0, q2) [1/m]; p2 = q2 = 0
+  /// where the axes turn with the first median alone
   double p1, p2, q2;
   std::size_t first = 0, end = 0;  ///< range of places, padded
 };

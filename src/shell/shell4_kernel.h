@@ -9,7 +9,8 @@
 ///
 ///   frame        the element's axes e follow its nodes: e_3 is normal to both medians, and the
 ///                rotation about e_3 is that of the polar decomposition of the medians'
-///                deformation, so the axes do not depend on where the numbering starts
+///                deformation, so the axes do not depend on where the numbering starts; or it is
+///                that of the first median (Shell4Turning)
 ///   deformation  small in these axes, whatever the shell does:
 ///                  u_a     = e^T (x_a - c) - X_a
 ///                  theta_a = 2 sin(angle/2) axis  of  T_a = e^T Q_a E

@@ -46,10 +46,11 @@ BrickTyre::BrickTyre(const BrickTyreParameters& tyre, const BrickTyreSettings& s
       bricks_(mesh_.x, mesh_.bricks, tyre.tread.rubber) {
   nodes_.mass = bricks_.mass();
   nodes_.inertia.setConstant(no_inertia);
+  const auto turning = tyre.carcass.cords ? Shell4Turning::first_median : Shell4Turning::polar;
   for (std::size_t zone = 0; zone < mesh_.quads.size(); ++zone) {
     const CarcassZone& of = tyre.carcass.zones[zone];
     shells_.emplace_back(mesh_.x, mesh_.quads[zone], ShellSection(of.wall, of.areal_mass),
-                         circumferential);
+                         circumferential, turning);
     nodes_.mass += shells_.back().mass();
     nodes_.inertia += shells_.back().rotary_inertia();
   }

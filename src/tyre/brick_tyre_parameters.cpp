@@ -162,6 +162,20 @@ double TreadCapParameters::narrowest_void(double radius) const {
   return narrowest;
 }
 
+double TreadCapParameters::narrowest_rib(double radius) const {
+  double narrowest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < voids.size(); ++i) {
+    const TreadVoid& cut = voids[i];
+    if (cut.pitches > 0) {
+      narrowest = std::min(narrowest, (1.0 - cut.share) * 2.0 * pi * radius / cut.pitches);
+      continue;
+    }
+    if (i == 0 && cut.from > 0.0) narrowest = std::min(narrowest, 2.0 * cut.from);
+    if (i + 1 < voids.size()) narrowest = std::min(narrowest, voids[i + 1].from - cut.to);
+  }
+  return narrowest;
+}
+
 double TreadCapParameters::depth_at(double s) const {
   const TreadVoid* before = nullptr;
   for (const TreadVoid& cut : voids) {

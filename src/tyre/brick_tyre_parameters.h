@@ -27,6 +27,8 @@ struct CarcassZone {
 struct CarcassParameters {
   std::vector<double> axial, radius;  ///< [m] points of the outline, from the mid-plane to the bead
   std::vector<CarcassZone> zones;     ///< from the mid-plane on
+  /// The shells' axes follow the meridian: Shell4Turning::first_median
+  bool cords = false;
 };
 
 /// Where the tread is cut away: a groove all round, or the gaps between bars of one pitch.
@@ -52,6 +54,8 @@ struct TreadCapParameters {
   /// [m] across the narrowest void, or along the tyre where that is less: what is wider bridges it;
   /// infinite without voids. @param radius of the tread [m]
   double narrowest_void(double radius) const;
+  /// [m] across the narrowest rib between grooves, or along a bar; infinite without voids
+  double narrowest_rib(double radius) const;
 };
 
 struct BrickTyreParameters {

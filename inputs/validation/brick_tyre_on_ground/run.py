@@ -64,6 +64,7 @@ WHEELS = {
     ),
     "smooth": brick("smooth"),
     "lugged": brick("lugged"),
+    "ribbed": brick("ribbed"),
 }
 SMOOTH = ("rigid", "darnell", "smooth")
 
@@ -85,11 +86,13 @@ GROUNDS = {
         "ground.lig", True, 0.5, {"material": MATERIALS / "dry_sand.yaml", "friction": 0.5}
     ),
     "grains": Ground("grains.lig", False, 0.2, {}),
+    "clusters": Ground("clusters.lig", False, 0.2, {}),
 }
 ON = {
     "snow": tuple(WHEELS),
     "sand": SMOOTH,
     "grains": SMOOTH,
+    "clusters": SMOOTH,
 }
 
 

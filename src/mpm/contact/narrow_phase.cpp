@@ -13,28 +13,56 @@ namespace {
 // of half the spacing: closer, the separation is rounding and has no direction
 constexpr double no_distance = 1e-9;
 
-/// The closest point of a candidate's triangles. Of equally near triangles the one with the lowest
-/// number counts, in whatever order they come.
-ClosestPoint closest_point(const Surface& surface, const ContactSearch& search,
-                           const ContactSearch::Candidate& candidate, const Vector3& position,
-                           std::size_t& triangle) {
-  ClosestPoint closest{};
-  closest.distance = std::numeric_limits<double>::infinity();
-  triangle = 0;
+// of half the spacing: a closest point that is farther from where the particle touched has not slid
+// there, and takes the place of what is nearer to it only when this share closer
+constexpr double leap_length = 0.25;
+constexpr double leap_gain = 0.1;
+
+/// The least distance so far. Of equally near triangles the one with the lowest number counts, in
+/// whatever order they come.
+struct Nearest {
+  ClosestPoint point{};
+  std::size_t triangle = 0;
+
+  Nearest() { point.distance = std::numeric_limits<double>::infinity(); }
+  void consider(const ClosestPoint& other, std::size_t t) {
+    if (other.distance > point.distance || (other.distance == point.distance && t > triangle))
+      return;
+    point = other;
+    triangle = t;
+  }
+};
+
+/// Where a particle touched, and what a leap away from there is.
+struct LastTouch {
+  Vector3 point;  // of the surface now [m]
+  double leap;    // [m]
+  double gain;    // [m] for which it leaps
+};
+
+/// The closest point of a candidate's triangles, or one near the last touch that is hardly farther.
+/// @param last  null for a particle that did not touch
+Nearest closest_point(const Surface& surface, const ContactSearch& search,
+                      const ContactSearch::Candidate& candidate, const Vector3& position,
+                      const LastTouch* last) {
+  Nearest nearest, near_last;
   // A triangle that was farther by more than both have moved since is farther still.
-  const double approach = search.surface_travel() + (position - candidate.position).norm();
+  const double approach = search.surface_travel() + (position - candidate.position).norm() +
+                          (last != nullptr ? last->gain : 0.0);
   for (std::size_t n = candidate.first;
-       n < candidate.last && search.near_triangle(n).distance - approach <= closest.distance; ++n) {
+       n < candidate.last && search.near_triangle(n).distance - approach <= nearest.point.distance;
+       ++n) {
     const auto t = static_cast<std::size_t>(search.near_triangle(n).triangle);
     const Vector3i& node = surface.triangles[t];
     const ClosestPoint point = closest_point_on_triangle(
         position, surface.x.col(node[0]), surface.x.col(node[1]), surface.x.col(node[2]));
-    if (point.distance < closest.distance || (point.distance == closest.distance && t < triangle)) {
-      closest = point;
-      triangle = t;
-    }
+    nearest.consider(point, t);
+    if (last != nullptr && (position - point.separation - last->point).norm() < last->leap)
+      near_last.consider(point, t);
   }
-  return closest;
+  const bool stays =
+      last != nullptr && near_last.point.distance < nearest.point.distance + last->gain;
+  return stays ? near_last : nearest;
 }
 
 }  // namespace
@@ -48,8 +76,14 @@ ContactPoint NarrowPhase::find(const ContactSearch& search,
   const Surface& surface = body_.surface();
   const std::size_t p = candidate.particle.particle;
   ContactPoint contact;
-  const ClosestPoint closest =
-      closest_point(surface, search, candidate, position, contact.triangle);
+  const double size = particles.half_spacing(p).minCoeff();
+  LastTouch last;
+  if (history.touches())
+    last = {point_of(surface.x, history), leap_length * size, leap_gain * size};
+  const Nearest nearest =
+      closest_point(surface, search, candidate, position, history.touches() ? &last : nullptr);
+  const ClosestPoint& closest = nearest.point;
+  contact.triangle = nearest.triangle;
   const Vector3 outward = node_triangles_.outward(surface, contact.triangle, closest.barycentric);
   const bool outside = closest.separation.dot(outward) >= 0.0;
 
@@ -79,10 +113,25 @@ ContactPoint NarrowPhase::find(const ContactSearch& search,
   return contact;
 }
 
-void NarrowPhase::follow(const Vector3& velocity, double dt, const Particles& particles,
-                         std::size_t particle, ContactHistory& history, ContactPoint& contact) {
-  contact.gap = std::min(history.gap + 0.5 * dt * velocity.dot(history.normal + contact.normal),
-                         contact.distance);
+bool NarrowPhase::leaps(const ContactPoint& contact, const Particles& particles,
+                        std::size_t particle, const ContactHistory& history) const {
+  return (contact.position - point_of(body_.surface().x, history)).norm() >
+         leap_length * particles.half_spacing(particle).minCoeff();
+}
+
+Vector3 NarrowPhase::point_of(const Matrix3X& nodal, const ContactHistory& history) const {
+  const Vector3i& node = body_.surface().triangles[static_cast<std::size_t>(history.triangle)];
+  Vector3 value = Vector3::Zero();
+  for (int c = 0; c < 3; ++c) value += history.barycentric[c] * nodal.col(node[c]);
+  return value;
+}
+
+void NarrowPhase::follow(const Vector3& velocity, const Vector3& velocity_there, double dt,
+                         const Particles& particles, std::size_t particle, ContactHistory& history,
+                         ContactPoint& contact) {
+  const double approach = velocity.dot(history.normal + contact.normal) +
+                          (velocity_there - velocity).dot(history.normal);
+  contact.gap = std::min(history.gap + 0.5 * dt * approach, contact.distance);
   history.reach_excess =
       (contact.distance - contact.gap) / reach(particles, particle, contact.normal) - 1.0;
 }

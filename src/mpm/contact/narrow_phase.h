@@ -18,10 +18,14 @@ namespace furrow {
 ///   d(gap)/dt = n . (v_ground - v_surface),
 /// over a step with the mean of n before and after: between two walls of a void the closest one
 /// changes, n leaps, and with the n of either alone each leap would press the particle in by the
-/// step. e is what agrees with that: the spring of a contact then gives back the work that it
-/// takes, which it does not when the reach changes with n or J while it is loaded. The error of the
-/// gap is a fraction of the spacing and vanishes with it. A gap is never larger than the distance,
-/// e >= -1: ground that is pressed through a surface, its middle inside, is not let go.
+/// step. A particle leaps only for what is closer by a tenth of half its spacing: between the
+/// equally near edges of two ribs it would go to and fro with every step. Before a leap the force
+/// acted on the wall that was left, so that half of the change is measured there: with the motion
+/// of the other, two walls that the particle presses apart would get work without end. e is what
+/// agrees with that: the spring of a contact then gives back the work that it takes, which it does
+/// not when the reach changes with n or J while it is loaded. The error of the gap is a fraction of
+/// the spacing and vanishes with it. A gap is never larger than the distance, e >= -1: ground that
+/// is pressed through a surface, its middle inside, is not let go.
 class NarrowPhase {
  public:
   /// The body must outlive the narrow phase.
@@ -39,10 +43,18 @@ class NarrowPhase {
   ContactPoint find(const ContactSearch& search, const ContactSearch::Candidate& candidate,
                     const Particles& particles, const Vector3& position,
                     const ContactHistory& history) const;
+  /// Whether it has left, for this contact, the place where it touched in the last step.
+  bool leaps(const ContactPoint& contact, const Particles& particles, std::size_t particle,
+             const ContactHistory& history) const;
+  /// What nodes have, x or v, where the particle touched in the last step.
+  Vector3 point_of(const Matrix3X& nodal, const ContactHistory& history) const;
   /// Sets the gap of a particle that touched in the last step, and e of its history.
-  /// @param velocity  v_ground - v_surface [m/s]; @param dt  since the last step [s]
-  static void follow(const Vector3& velocity, double dt, const Particles& particles,
-                     std::size_t particle, ContactHistory& history, ContactPoint& contact);
+  /// @param velocity  v_ground - v_surface [m/s]
+  /// @param velocity_there  the same now where the particle touched in the last step [m/s]
+  /// @param dt  since the last step [s]
+  static void follow(const Vector3& velocity, const Vector3& velocity_there, double dt,
+                     const Particles& particles, std::size_t particle, ContactHistory& history,
+                     ContactPoint& contact);
 
  private:
   /// [m] with e = 0

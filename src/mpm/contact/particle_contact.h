@@ -34,7 +34,7 @@ struct ContactLosses {
 /// What a particle remembers of a contact: a view of its numbers in the column that the contact
 /// added to the particles, so that they follow it through sorting, migration and checkpoints.
 struct ContactHistory {
-  static constexpr int size = 10;  ///< numbers of a particle
+  static constexpr int size = 14;  ///< numbers of a particle
 
   explicit ContactHistory(double* numbers)
       : spring(numbers),
@@ -42,7 +42,9 @@ struct ContactHistory {
         stiffness(numbers[4]),
         gap(numbers[5]),
         reach_excess(numbers[6]),
-        normal(numbers + 7) {}
+        normal(numbers + 7),
+        triangle(numbers[10]),
+        barycentric(numbers + 11) {}
 
   /// Whether it touched in the last step.
   bool touches() const { return gap < 0.0; }
@@ -58,7 +60,10 @@ struct ContactHistory {
   double& stiffness;           ///< of the springs, as of the last search [N/m]
   double& gap;                 ///< in the last step [m]; 0: it did not touch
   double& reach_excess;        ///< of the particle: e of NarrowPhase
-  Eigen::Map<Vector3> normal;  ///< in the last step, if it touched
+  // Of the last step, if it touched: the normal, and the point of the surface
+  Eigen::Map<Vector3> normal;
+  double& triangle;
+  Eigen::Map<Vector3> barycentric;
 };
 
 }  // namespace furrow

@@ -92,14 +92,22 @@ void TerrainContact::add_forces(const Law& law, double dt) {
     const Vector3i& nodes = surface.triangles[contact.triangle];
     Vector3 velocity = motions_[n].velocity_at(contact.position);
     for (int c = 0; c < 3; ++c) velocity -= contact.barycentric[c] * surface.v.col(nodes[c]);
-    if (history.touches())
-      NarrowPhase::follow(velocity, dt, group.particles, particle.particle, history, contact);
+    if (history.touches()) {
+      const std::size_t p = particle.particle;
+      Vector3 velocity_there = velocity;
+      if (narrow_phase_.leaps(contact, group.particles, p, history))
+        velocity_there = motions_[n].velocity_at(narrow_phase_.point_of(surface.x, history)) -
+                         narrow_phase_.point_of(surface.v, history);
+      NarrowPhase::follow(velocity, velocity_there, dt, group.particles, p, history, contact);
+    }
     if (contact.gap >= 0.0) {
       history.end_contact();
       continue;
     }
     history.gap = contact.gap;
     history.normal = contact.normal;
+    history.triangle = static_cast<double>(contact.triangle);
+    history.barycentric = contact.barycentric;
     const Vector3 force =
         law.force({contact, velocity, group.mass(particle.particle)}, dt, history, step_.losses);
     terrain_.add_point_force(particle, force, contact.position, &terrain_work_);

@@ -54,6 +54,15 @@ TEST_F(BrickTyreFileTest, EffectiveValuesReadBackAsTheSameTyre) {
   }
 }
 
+TEST_F(BrickTyreFileTest, CordsAreKept) {
+  EXPECT_FALSE(read_brick_tyre_file(inputs + "p235_75r15_smooth.yaml").carcass.cords);
+  EXPECT_EQ(refusal("carcass:\n", "carcass:\n  cords: yes\n"), "no error");
+  const BrickTyreParameters tyre = read_brick_tyre_file(scratch_.path("tyre.yaml"));
+  EXPECT_TRUE(tyre.carcass.cords);
+  EXPECT_THAT(brick_tyre_file_text(tyre), HasSubstr("cords: yes"));
+  EXPECT_THAT(refusal("carcass:\n", "carcass:\n  cords: 3\n"), HasSubstr("keyword 'cords' is '3'"));
+}
+
 TEST_F(BrickTyreFileTest, TheKindsOfTyreFilesAreToldApart) {
   EXPECT_TRUE(is_brick_tyre_file(inputs + "p235_75r15_smooth.yaml"));
   EXPECT_FALSE(is_brick_tyre_file(inputs + "p235_75r15.yaml"));

@@ -104,17 +104,18 @@ TEST(Friction, GrowsWithTheSlip) {
 }
 
 TEST(ContactHistory, ForgetsSpringSlipAndGapWhenTheContactEnds) {
-  double numbers[ContactHistory::size] = {1, 2, 3, 4, 5, -6, 7, 0, 0, 1};
+  double numbers[ContactHistory::size] = {1, 2, 3, 4, 5, -6, 7, 0, 0, 1, 8, 0.5, 0.2, 0.3};
   ContactHistory history(numbers);
   EXPECT_TRUE(history.touches());
   history.end_contact();
   EXPECT_FALSE(history.touches());
-  EXPECT_THAT(numbers, ElementsAre(0, 0, 0, 0, 5, 0, 7, 0, 0, 1));
+  EXPECT_THAT(numbers, ElementsAre(0, 0, 0, 0, 5, 0, 7, 0, 0, 1, 8, 0.5, 0.2, 0.3));
 }
 
-/// Its gap after steps with the normals n and the velocities of the ground relative to the surface.
+/// Its gap after steps with the normals n and the velocities of the ground relative to the surface,
+/// where it touches and where it touched.
 double followed(double gap, const std::vector<Vector3>& normals,
-                const std::vector<Vector3>& velocities) {
+                const std::vector<Vector3>& velocities, const std::vector<Vector3>& there) {
   const auto material = testing_terrain::material_of(testing_terrain::elastic(1e6, 0.2, 500));
   Particles particles(*material);
   particles.append(1);
@@ -127,7 +128,7 @@ double followed(double gap, const std::vector<Vector3>& normals,
   for (std::size_t step = 1; step < normals.size(); ++step) {
     ContactPoint contact{};
     contact.normal = normals[step];
-    NarrowPhase::follow(velocities[step], dt, particles, 0, history, contact);
+    NarrowPhase::follow(velocities[step], there[step], dt, particles, 0, history, contact);
     history.gap = contact.gap;
     history.normal = contact.normal;
   }
@@ -135,7 +136,8 @@ double followed(double gap, const std::vector<Vector3>& normals,
 }
 
 TEST(NarrowPhase, TheGapFollowsTheMotionAlongTheNormal) {
-  EXPECT_NEAR(followed(-1e-3, {3, Vector3::UnitX()}, {3, Vector3(2.0, 5.0, 0.0)}),
+  const std::vector<Vector3> velocities(3, Vector3(2.0, 5.0, 0.0));
+  EXPECT_NEAR(followed(-1e-3, {3, Vector3::UnitX()}, velocities, velocities),
               -1e-3 + 2.0 * 2.0 * dt, 1e-15);
 }
 
@@ -147,7 +149,20 @@ TEST(NarrowPhase, ToAndFroBetweenTwoWallsTheGapStays) {
     normals.push_back((step % 2 ? 1.0 : -1.0) * Vector3::UnitX());
     velocities.push_back(-normals.back());
   }
-  EXPECT_NEAR(followed(-1e-3, normals, velocities), -1e-3, 1e-12);
+  EXPECT_NEAR(followed(-1e-3, normals, velocities, velocities), -1e-3, 1e-12);
+}
+
+/// As it is thrown to and fro between walls that move apart, it lets go of both by their motion:
+/// else a spring would press them apart, and give work, without end.
+TEST(NarrowPhase, WallsThatMoveApartLetGo) {
+  const double apart = 0.3;  // [m/s] of each wall
+  std::vector<Vector3> normals, velocities, there;
+  for (int step = 0; step <= 1000; ++step) {
+    normals.push_back((step % 2 ? 1.0 : -1.0) * Vector3::UnitX());
+    velocities.push_back(apart * normals.back());
+    there.push_back(-velocities.back());
+  }
+  EXPECT_NEAR(followed(-1.0, normals, velocities, there), -1.0 + 1000 * apart * dt, 1e-9);
 }
 
 }  // namespace

@@ -75,6 +75,48 @@ TEST(TerrainContact, SpringsPushByTheirPenetration) {
   EXPECT_NEAR(plate.surface().total_force().z(), contact.force().z(), 1e-9);
 }
 
+/// Undersides of two ribs, with a groove between them.
+class TwoRibs : public Body {
+ public:
+  /// @param left, right  edges of the groove [m]
+  TwoRibs(double left, double right, double height) {
+    surface_.resize(8);
+    surface_.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 6, 5}, {5, 6, 7}};
+    const double x[4] = {left - 0.1, left, right, right + 0.1};
+    for (int n = 0; n < 8; ++n)
+      surface_.x.col(n) << x[n / 4 * 2 + n % 2], n % 4 < 2 ? -0.1 : 0.1, height;
+  }
+  void move(double dx) { surface_.x.row(0).array() += dx; }
+  double stable_time_step() const override { return 1.0; }
+  void advance(double) override {}
+  Surface& surface() override { return surface_; }
+  EnergyBudget energy_budget() const override { return {}; }
+  void checkpoint(Checkpoint&) override {}
+
+ private:
+  Surface surface_;
+};
+
+/// A particle that touches one rib beside a groove leaves it for another that is closer by more
+/// than a tenth of half its spacing, not for a lesser gain.
+TEST(TerrainContact, LeapsOverAGrooveForAGain) {
+  ContinuumTerrain ground = block();
+  const double half = 0.00625, width = 6e-3;
+  carve(ground, [&](const Vector3& x) { return (x - Vector3(half, half, -half)).norm() < 1e-6; });
+  TwoRibs ribs(half - 0.5 * width + 1e-4, half + 0.5 * width + 1e-4, -1e-3);
+  TerrainContact contact(ribs, ground, ContactParameters{}, false, "foot");
+  const auto side_force = [&](double dx) {
+    ribs.move(dx);
+    contact.apply(1e-6);
+    return contact.force().x();
+  };
+  EXPECT_LT(side_force(0.0), 0.0);    // of the left rib
+  EXPECT_LT(side_force(-4e-4), 0.0);  // the right one is nearer by 0.3 mm
+  EXPECT_GT(side_force(-6e-4), 0.0);  // ... by 0.9 mm
+  EXPECT_GT(side_force(8e-4), 0.0);   // and back
+  EXPECT_EQ(contact.contacts(), 1.0);
+}
+
 /// Half a model gives the whole plate's force, without sideways force or moment about x.
 TEST(TerrainContact, HalfAModelIsMirrored) {
   ContinuumTerrain whole = block(), half = block(0.0);

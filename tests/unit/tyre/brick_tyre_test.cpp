@@ -98,14 +98,17 @@ TEST(BrickTyreMesh, RefusesPitchesThatDoNotFit) {
               HasSubstr("has 100 sections for 30 pitches"));
 }
 
-TEST(BrickTyreParameters, NarrowestVoid) {
-  const auto narrowest = [](const char* name) {
+TEST(BrickTyreParameters, NarrowestVoidAndRib) {
+  const double none = std::numeric_limits<double>::infinity();
+  for (const auto& [name, groove, rib] :
+       {std::tuple("smooth", none, none), std::tuple("ribbed", 0.0162, 0.0154),
+        std::tuple("lugged", 0.0386, 0.0386)}) {
     const BrickTyreParameters tyre = tyre_file(name);
-    return tyre.tread.narrowest_void(tyre.radius());
-  };
-  EXPECT_EQ(narrowest("smooth"), std::numeric_limits<double>::infinity());
-  EXPECT_NEAR(narrowest("ribbed"), 0.0162, 1e-9);
-  EXPECT_NEAR(narrowest("lugged"), 0.0386, 1e-4);
+    const double narrowest_void = tyre.tread.narrowest_void(tyre.radius());
+    const double narrowest_rib = tyre.tread.narrowest_rib(tyre.radius());
+    EXPECT_TRUE(narrowest_void == groove || std::abs(narrowest_void - groove) < 1e-4) << name;
+    EXPECT_TRUE(narrowest_rib == rib || std::abs(narrowest_rib - rib) < 1e-4) << name;
+  }
 }
 
 /// Momentum, and angular momentum about y of all masses about the origin.

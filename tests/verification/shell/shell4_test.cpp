@@ -138,8 +138,7 @@ TEST(Shell4, SmallMotionsMeetTheAssembledStiffness) {
 }
 
 /// Forces are the gradient of the energy, at any rotation and deformation: central differences.
-TEST(Shell4, ForcesAreTheGradientOfTheEnergy) {
-  ShellModel model = ring(0.3, 0.2, 6, 2, ShellSection(belt(), 19.6));
+void check_gradient(ShellModel model) {
   ShellNodes& nodes = model.nodes;
   std::srand(5);
   nodes.x += 0.01 * Matrix3X::Random(3, nodes.count());
@@ -178,6 +177,55 @@ TEST(Shell4, ForcesAreTheGradientOfTheEnergy) {
                 (k < 3 ? force.cwiseAbs().maxCoeff() : moment.cwiseAbs().maxCoeff()));
     }
   EXPECT_LT(error.max(), 1e-7);
+}
+
+TEST(Shell4, ForcesAreTheGradientOfTheEnergy) {
+  const ShellSection section(belt(), 19.6);
+  check_gradient(ring(0.3, 0.2, 6, 2, section));
+  const ShellModel polar = ring(0.3, 0.2, 6, 2, section);
+  check_gradient(ShellModel(
+      polar.nodes.x, polar.shell.quads(), section,
+      [](const Vector3& at) { return Vector3(-at.z(), 0.0, at.x()); },
+      Shell4Turning::first_median));
+}
+
+/// A square of fibres along x, stretched along them and sheared so that they slide past each other:
+/// the closed form U = R^T F, and what the tension does in the shear (shell4.h).
+TEST(Shell4, TensionTakesShearStiffnessInPolarAxesOnly) {
+  const double stretch = 1e6, across = 2e4, G = 2e3, longer = 1.01;
+  const double tension = stretch * (longer - 1.0);
+  const ShellSection section(OrthotropicWall{stretch, across, G, 1.0, 1.0}, 1.0);
+  Matrix3X x(3, 4);
+  x << 0, 1, 1, 0,  //
+      0, 0, 1, 1,   //
+      0, 0, 0, 0;
+  const auto angle_of = [&](double shear) { return std::atan2(shear, longer + 1.0); };
+  const auto energy = [&](bool polar, double shear) {
+    ShellModel model(x, {{0, 1, 2, 3}}, section, along_x,
+                     polar ? Shell4Turning::polar : Shell4Turning::first_median);
+    for (Eigen::Index n = 0; n < 4; ++n) {
+      model.nodes.x(0, n) = longer * x(0, n) + shear * x(1, n);
+      // with the mean turning of the material, which nothing holds against it
+      model.nodes.set_rotation(n,
+                               Quaternion(Eigen::AngleAxisd(-angle_of(shear), Vector3::UnitZ())));
+    }
+    model.compute();
+    return model.shell.energy();
+  };
+  const auto closed_form = [&](bool polar, double shear) {
+    const double angle = polar ? angle_of(shear) : 0.0;
+    const double c = std::cos(angle), s = std::sin(angle);
+    return 0.5 *
+           (stretch * std::pow(longer * c - 1.0, 2) + across * std::pow(s * shear + c - 1.0, 2) +
+            G * std::pow(c * shear + (longer - 1.0) * s, 2));
+  };
+  const double shear = 0.02;
+  for (const bool polar : {true, false}) {
+    EXPECT_NEAR(energy(polar, 0.3) / closed_form(polar, 0.3), 1.0, 1e-3) << polar;
+    const double stiffness =
+        (energy(polar, shear) + energy(polar, -shear) - 2.0 * energy(polar, 0.0)) / (shear * shear);
+    EXPECT_NEAR(stiffness, polar ? G - 0.25 * tension : G, 0.02 * G) << polar;
+  }
 }
 
 /// The pressure's forces are the gradient of p V of a closed shell.

@@ -12,8 +12,9 @@ namespace furrow::test {
 
 struct ShellModel {
   ShellModel(Matrix3X x, std::vector<Shell4::Quad> quads, const ShellSection& section,
-             const std::function<Vector3(const Vector3&)>& fibre)
-      : shell(x, std::move(quads), section, fibre),
+             const std::function<Vector3(const Vector3&)>& fibre,
+             Shell4Turning turning = Shell4Turning::polar)
+      : shell(x, std::move(quads), section, fibre, turning),
         nodes(x),
         load(Matrix6X::Zero(6, x.cols())),
         stiffness(assemble_stiffness(x, shell.quads(), section, fibre)) {
