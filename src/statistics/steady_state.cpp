@@ -304,9 +304,10 @@ SteadyValue analyse_steady(const std::string& name, const std::string& unit,
       std::abs(result.halves_difference) > certain * result.halves_error)
     add(fmt::format("its halves differ by {:.3g} +- {:.2g} {}", result.halves_difference,
                     result.halves_error, unit));
-  const double scale = std::max(reference, std::abs(result.mean));
-  if (residual.blocks < criteria.min_blocks &&
-      student_t95(residual.blocks) * result.standard_error > criteria.known_mean * scale)
+  const double known = criteria.known_mean * std::max(reference, std::abs(result.mean));
+  const double departure = std::max(result.maximum - result.mean, result.mean - result.minimum);
+  if (residual.blocks < criteria.min_blocks && departure > 0.5 * known &&
+      student_t95(residual.blocks) * result.standard_error > known)
     add(
         fmt::format("the window is too short: its fluctuations last so long that it holds only {} "
                     "independent stretches, {} are needed",

@@ -56,7 +56,8 @@ struct SteadyCriteria {
   double negligible_drift = 0.02;
   /// independent stretches below which no verdict is given: about 40 correlation times
   std::size_t min_blocks = 6;
-  /// ... unless the mean is known to this, of the reference, at 95 % by Student's t with so few
+  /// ... unless the mean is known to this, of the reference, at 95 % by Student's t with so few, or
+  /// no value departs from it by more than half of this
   double known_mean = 0.02;
 };
 
@@ -88,7 +89,8 @@ struct SteadyValue {
 /// the scatter of few (R. M. Lee et al., Phys. Rev. E 83 (2011) 066706). The bias left is about
 /// -tau/(2 length). Steady: neither the straight line nor the two halves differ from a constant, at
 /// 99 % by Student's t with errors from the blocks of the detrended values, by more than the
-/// negligible drift; and there are enough blocks to tell, or the mean is well known with few.
+/// negligible drift; and there are enough blocks to tell, or the mean is well known with few, or
+/// all values are nearly the same.
 /// @param spacing of the rows [s]
 /// @param reference scale of a negligible drift; the larger of it, |mean| and the deviation counts
 /// @throws Error for fewer than two values, StateError for values that are not finite
