@@ -38,7 +38,8 @@ std::size_t first_row_of_cruise(const History& history);
 
 /// MSER-5, K. P. White, Simulation 69 (1997) 323: with means of five values, the truncation d <=
 /// n/2 that minimises sum_{i >= d} (x_i - mean)^2 / (n - d)^2, the squared standard error that
-/// uncorrelated values would have.
+/// uncorrelated values would have; of several minima that scatter explains, the earliest, so that a
+/// calm end does not pass all that was before it for a transient.
 /// @return how many values to leave out; the values of the first half of the series when nothing
 /// less will do
 std::size_t mser_truncation(const std::vector<double>& values);

@@ -230,6 +230,16 @@ TEST(SteadyState, MserLeavesOutADecayingTransientAndNoMore) {
   EXPECT_EQ(mser_truncation({1.0, 2.0, 3.0}), 0u);
 }
 
+// Of a signal without a transient that is correlated over a twentieth of it, more than a fifth is
+// left out in 0.8 % of the runs; by the least of the statistic alone, in 6 %.
+TEST(SteadyState, MserDoesNotTakeACalmEndForTheSteadyPart) {
+  int much = 0;
+  const int seeds = 500;
+  for (int seed = 0; seed < seeds; ++seed)
+    much += mser_truncation(autoregressive(0.98, 2000, static_cast<unsigned>(seed))) > 400;
+  EXPECT_LE(much, seeds / 50);
+}
+
 TEST(SteadyState, MserStopsAtHalfOfASignalThatNeverSettles) {
   std::vector<double> values(1000);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i);
