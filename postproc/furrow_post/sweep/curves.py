@@ -29,6 +29,8 @@ class Axis:
 
 
 SLIP, SLOPE = "slip", "slope"
+# Of wheels that are free along x, whose slip is the answer to it
+HELD_BACK_BY = (SLOPE, "drawbar_load")
 CONDITIONS = {
     axis.key: axis
     for axis in (
@@ -104,8 +106,8 @@ def arrange(series: Sequence[Series], against: str | None = None) -> Figure:
     lines = []
     for one in series:
         others = [name for name in one.variables or _varying(one.points) if name != x]
-        if x == SLIP and _are_free(one.points):  # the slope is what they find their slip on
-            others = [name for name in others if name != SLOPE]
+        if x == SLIP and _are_free(one.points):
+            others = [name for name in others if name not in HELD_BACK_BY]
         groups: dict[str, list[SweepPoint]] = {}
         for point in one.points:
             groups.setdefault(_label(one, point, others, len(series)), []).append(point)
