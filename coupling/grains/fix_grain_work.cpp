@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+
+#include <fmt/format.h>
 
 #include "atom.h"
+#include "compute.h"
 #include "core/communicator.h"
 #include "core/error.h"
 #include "coupling/base/fix_coupled_system.h"
@@ -83,6 +87,13 @@ void FixGrainWork::init() {
     if (!dynamic_cast<LAMMPS_NS::PairGran*>(force->pair))
       throw InputError(name(), "has no contacts between grains", "pair_style gran ...",
                        "make a bed before this line");
+    for (int c = 0; c < modify->ncompute; ++c)
+      if (std::string(modify->compute[c]->style) == "pair/gran/local")
+        throw InputError(
+            name(),
+            fmt::format("shares the contacts of grains with compute '{}', pair/gran/local",
+                        modify->compute[c]->id),
+            "one of the two in a run", "remove this fix, or that compute");
     friction_ = ModelSnowBond::is_pair_style(*lmp) ? nullptr
                                                    : property_of_pairs(*lmp, "coefficientFriction");
   });
