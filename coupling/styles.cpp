@@ -16,6 +16,7 @@
 #include "coupling/contact/fix_wall_gran_body.h"
 #include "coupling/drive/command_run_until_steady.h"
 #include "coupling/drive/fix_wheel_rig.h"
+#include "coupling/grains/fix_grain_work.h"
 #include "coupling/grains/fix_snow_energy.h"
 #include "coupling/grains/fix_snow_sinter.h"
 #include "coupling/grains/model_snow_bond.h"
@@ -113,6 +114,7 @@ const std::vector<Style>& styles() {
       fix<FixContactPlane>("contact/plane", Kind::contact, "contact/fix_contact_plane.md"),
       fix<FixMeshBody>("mesh/body", Kind::mesh, "bodies/fix_mesh_body.md"),
       fix<FixWallGranBody>("wall/gran/body", Kind::wall, "contact/fix_wall_gran_body.md"),
+      fix<FixGrainWork>("grain/work", Kind::bed, "grains/fix_grain_work.md"),
       model<ModelSnowBond>("grains/model_snow_bond.md"),
       fix<FixSnowSinter>("snow/sinter", Kind::snow, "grains/fix_snow_sinter.md"),
       fix<FixSnowEnergy>("snow/energy", Kind::snow, "grains/fix_snow_energy.md"),

@@ -29,7 +29,7 @@ namespace furrow::coupling {
 namespace {
 
 constexpr double stretch = 0.25;        // of the time so far that is added at once
-constexpr double smallest_scale = 0.1;  // of a coefficient near 0, as summaries judge its drift
+constexpr double smallest_scale = 0.1;  // of a coefficient near 0
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 using Clock = std::chrono::steady_clock;

@@ -30,6 +30,16 @@ std::vector<double> part_of(const History& history, const std::string& channel,
           column.begin() + static_cast<std::ptrdiff_t>(window.last)};
 }
 
+/// Of the wheel [m], from its fastest turn; 0 where the history does not have it.
+double radius_of(const History& history) {
+  if (!history.has("rim_speed") || !history.has("spin_rate")) return 0.0;
+  const std::vector<double> spin = history.column("spin_rate"), rim = history.column("rim_speed");
+  const auto fastest = std::max_element(
+      spin.begin(), spin.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  if (fastest == spin.end() || *fastest == 0.0) return 0.0;
+  return rim[static_cast<std::size_t>(fastest - spin.begin())] / *fastest;
+}
+
 /// Spacing of rows [s]. @throws Error when one step between rows is longer than one and a half mean
 /// ones
 double spacing_of(const std::vector<double>& time) {
@@ -96,19 +106,21 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
   std::vector<double> resistance = part("force_x");
   for (double& force : resistance) force = -force;
 
-  add("sinkage", "m", part("sinkage"), 0.0);
+  const double radius = radius_of(history);
+  add("sinkage", "m", part("sinkage"), sinkage_scale * radius);
   add("force_z", "N", force_z, 0.0);
-  const double small_force = small_coefficient * std::abs(result.values.back().mean);
-  add("resistance_coefficient", "", linearised_ratio(resistance, force_z), small_coefficient);
-  add("drawbar_pull", "N", drawbar_pull, small_force);
-  add("drawbar_coefficient", "", linearised_ratio(drawbar_pull, force_z), small_coefficient);
-  add("drive_torque", "N m", part("drive_torque"), 0.0);
-  add("slip", "", part("slip"), small_coefficient);
+  const double force_scale = coefficient_scale * std::abs(result.values.back().mean),
+               torque_scale = force_scale * radius;
+  add("resistance_coefficient", "", linearised_ratio(resistance, force_z), coefficient_scale);
+  add("drawbar_pull", "N", drawbar_pull, force_scale);
+  add("drawbar_coefficient", "", linearised_ratio(drawbar_pull, force_z), coefficient_scale);
+  add("drive_torque", "N m", part("drive_torque"), torque_scale);
+  add("slip", "", part("slip"), slip_scale);
   const bool sideways = history.has("lateral_force");
   if (sideways) {
-    add("lateral_force", "N", part("lateral_force"), small_force);
-    add("overturning_moment", "N m", part("overturning_moment"), 0.0);
-    add("aligning_moment", "N m", part("aligning_moment"), 0.0);
+    add("lateral_force", "N", part("lateral_force"), force_scale);
+    add("overturning_moment", "N m", part("overturning_moment"), torque_scale);
+    add("aligning_moment", "N m", part("aligning_moment"), torque_scale);
   }
   const bool straight = !sideways || std::abs(result.value("lateral_force").mean) <
                                          noise_sideways * std::abs(result.value("force_z").mean);

@@ -10,8 +10,13 @@
 
 namespace furrow {
 
-/// Of the vertical force: a smaller force or coefficient is judged as one of this size.
-constexpr double small_coefficient = 0.1;
+/// Scales of the answers: a value that is smaller is judged as one of this size (SteadyCriteria),
+/// so that no change is one of 0.02 in slip, 2 % of the speed; of 1 % of the load in a force or
+/// coefficient, in a torque or moment of load times radius, less than tests scatter by (0.01 to
+/// 0.02, [Pavlov2024], [Shoop2001]); of 0.2 % of the radius in sinkage.
+constexpr double slip_scale = 1.0;
+constexpr double coefficient_scale = 0.5;  ///< of force_z, or of force_z times radius
+constexpr double sinkage_scale = 0.1;      ///< of the radius
 
 struct ResistanceOptions {
   WindowRequest window;
@@ -46,10 +51,10 @@ std::vector<double> linearised_ratio(const std::vector<double>& a, const std::ve
 /// (rig/wheel_rig.h) in equally spaced rows; stage if there is one. resistance_coefficient =
 /// -force_x/force_z and drawbar_coefficient = drawbar_pull/force_z, ratios of means. In a steady
 /// run drawbar pull and force_x agree; the first is what a load cell between vehicle and wheel
-/// sees, inertia included. Negligible drifts are measured against the value itself, and at least
-/// against a tenth of force_z for the pull, a tenth for the coefficients and the slip.
-/// Of a wheel that is free along x and does not get anywhere (free_travel.h) nothing is averaged,
-/// unless the window is given.
+/// sees, inertia included. What counts as no change is measured against the value itself, and at
+/// least against the scales above; the radius is that of the channels rim_speed and spin_rate. Of a
+/// wheel that is free along x and does not get anywhere (free_travel.h) nothing is averaged, unless
+/// the window is given.
 /// @throws StateError for such a wheel, Error for a missing channel, a history that ends before the
 /// cruise, or rows that are missing
 Resistance measure_resistance(const History& history, const ResistanceOptions& options = {});

@@ -16,6 +16,9 @@ namespace furrow {
 namespace {
 
 constexpr std::size_t mser_batch = 5;
+/// Minima of the statistic that differ by less are the same: of 50 independent values it is known
+/// to sqrt(2/50).
+constexpr double mser_scatter = 1.2;
 constexpr double longest_transient = 0.45;  // of the cruise; MSER looks for it in the first half
 
 double mean_of(const std::vector<double>& values) {
@@ -175,21 +178,23 @@ std::size_t mser_truncation(const std::vector<double>& values) {
         mser_batch;
   // running mean and sum of squares from the end (B. P. Welford 1962), so that offsets lose no
   // digits
-  double mean = 0.0, squares = 0.0, best = 0.0;
-  std::size_t best_batch = 0;
+  double mean = 0.0, squares = 0.0;
+  std::vector<double> statistic(batches / 2 + 1);  // of each truncation
   for (std::size_t batch = batches; batch-- > 0;) {
     const auto count = static_cast<double>(batches - batch);
     const double change = means[batch] - mean;
     mean += change / count;
     squares += change * (means[batch] - mean);
-    if (2 * batch > batches) continue;
-    const double statistic = squares / (count * count);
-    if (2 * (batch + 1) > batches || statistic <= best) {
-      best = statistic;
-      best_batch = batch;
-    }
+    if (batch < statistic.size()) statistic[batch] = squares / (count * count);
   }
-  return best_batch * mser_batch;
+  const auto least = std::min_element(statistic.begin(), statistic.end());
+  const auto is_minimum = [&](std::vector<double>::const_iterator at) {
+    return *at <= mser_scatter * *least && (at == statistic.begin() || *at <= *(at - 1)) &&
+           *at < *(at + 1);
+  };
+  auto best = statistic.begin();
+  while (best != least && !is_minimum(best)) ++best;
+  return static_cast<std::size_t>(best - statistic.begin()) * mser_batch;
 }
 
 Window select_window(const History& history, const WindowRequest& request,
@@ -304,9 +309,10 @@ SteadyValue analyse_steady(const std::string& name, const std::string& unit,
       std::abs(result.halves_difference) > certain * result.halves_error)
     add(fmt::format("its halves differ by {:.3g} +- {:.2g} {}", result.halves_difference,
                     result.halves_error, unit));
-  const double scale = std::max(reference, std::abs(result.mean));
-  if (residual.blocks < criteria.min_blocks &&
-      student_t95(residual.blocks) * result.standard_error > criteria.known_mean * scale)
+  const double known = criteria.known_mean * std::max(reference, std::abs(result.mean));
+  const double departure = std::max(result.maximum - result.mean, result.mean - result.minimum);
+  if (residual.blocks < criteria.min_blocks && departure > 0.5 * known &&
+      student_t95(residual.blocks) * result.standard_error > known)
     add(
         fmt::format("the window is too short: its fluctuations last so long that it holds only {} "
                     "independent stretches, {} are needed",

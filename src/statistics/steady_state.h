@@ -38,7 +38,8 @@ std::size_t first_row_of_cruise(const History& history);
 
 /// MSER-5, K. P. White, Simulation 69 (1997) 323: with means of five values, the truncation d <=
 /// n/2 that minimises sum_{i >= d} (x_i - mean)^2 / (n - d)^2, the squared standard error that
-/// uncorrelated values would have.
+/// uncorrelated values would have; of several minima that scatter explains, the earliest, so that a
+/// calm end does not pass all that was before it for a transient.
 /// @return how many values to leave out; the values of the first half of the series when nothing
 /// less will do
 std::size_t mser_truncation(const std::vector<double>& values);
@@ -56,7 +57,8 @@ struct SteadyCriteria {
   double negligible_drift = 0.02;
   /// independent stretches below which no verdict is given: about 40 correlation times
   std::size_t min_blocks = 6;
-  /// ... unless the mean is known to this, of the reference, at 95 % by Student's t with so few
+  /// ... unless the mean is known to this, of the reference, at 95 % by Student's t with so few, or
+  /// no value departs from it by more than half of this
   double known_mean = 0.02;
 };
 
@@ -88,7 +90,8 @@ struct SteadyValue {
 /// the scatter of few (R. M. Lee et al., Phys. Rev. E 83 (2011) 066706). The bias left is about
 /// -tau/(2 length). Steady: neither the straight line nor the two halves differ from a constant, at
 /// 99 % by Student's t with errors from the blocks of the detrended values, by more than the
-/// negligible drift; and there are enough blocks to tell, or the mean is well known with few.
+/// negligible drift; and there are enough blocks to tell, or the mean is well known with few, or
+/// all values are nearly the same.
 /// @param spacing of the rows [s]
 /// @param reference scale of a negligible drift; the larger of it, |mean| and the deviation counts
 /// @throws Error for fewer than two values, StateError for values that are not finite

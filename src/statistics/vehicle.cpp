@@ -82,9 +82,9 @@ VehicleResistance measure_vehicle(const std::vector<History>& histories,
   };
   add("force_z", "N", force_z, 0.0);
   const double load = std::abs(vehicle.values.back().mean);
-  add("resistance_coefficient", "", linearised_ratio(resistance, force_z), small_coefficient);
+  add("resistance_coefficient", "", linearised_ratio(resistance, force_z), coefficient_scale);
   add("drawbar_pull", "N", sum_in_window(histories, windows, "drawbar_pull"),
-      small_coefficient * load);
+      coefficient_scale * load);
   vehicle.parts = resistance_parts(histories, windows);
   return vehicle;
 }

@@ -48,14 +48,20 @@ def text_of(changes: Changes) -> str:
 
 
 def grains_case(
-    stage: str, size: float, slip: float, pour: int = 1, changes: Changes = NONE
+    stage: str,
+    size: float,
+    slip: float,
+    pour: int = 1,
+    changes: Changes = NONE,
+    wheel: str = "smooth",
 ) -> Case:
-    """size [mm]"""
+    """size [mm]; wheel: one of cases.WHEELS"""
     values: dict[str, Value] = {"diameter": size / 1000, "young": SOFT, **changes}
     if pour == 2:
         values["seed"] = cases.SEED
-    name = f"grains_{size:g}{text_of(changes)}_slip_{slip:g}_pour_{pour}"
-    point = cases.nearest_point("smooth", slip)
+    kind = "" if wheel == "smooth" else f"{wheel}_"
+    name = f"{kind}grains_{size:g}{text_of(changes)}_slip_{slip:g}_pour_{pour}"
+    point = cases.nearest_point(wheel, slip)
     return cases.wheel_case(name, stage, point, "", cases.CHOSEN, FASTEST, **values)
 
 

@@ -52,6 +52,11 @@ def ground_of(case: Case) -> str:
     return ground + "".join(words for part, words in named.items() if part in case.name)
 
 
+def wheel_of(case: Case) -> str:
+    """One of cases.WHEELS."""
+    return "grouser" if float(str(case.variables.get("grouser_height", 0.0))) else "smooth"
+
+
 def what_of(case: Case) -> str:
     """What is changed beside size and slip."""
     changed = [
@@ -83,7 +88,7 @@ def row_of(runner: Runner, case: Case, record: Record) -> Row:
     ground = ground_of(case)
     size = 1000 * float(str(case.variables["diameter" if ground.startswith(GRAINS) else "cell"]))
     surface = surface_over_grain() * size if ground.startswith(GRAINS) else 0.0
-    point = cases.nearest_point("smooth", float(str(case.variables["slip"])))
+    point = cases.nearest_point(wheel_of(case), float(str(case.variables["slip"])))
     sideways = "slip_angle" in case.variables
     fz = values["force_z"]
     return {

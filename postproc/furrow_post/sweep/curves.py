@@ -28,7 +28,9 @@ class Axis:
         return self.name + in_unit(self.unit)
 
 
-SLIP = "slip"
+SLIP, SLOPE = "slip", "slope"
+# Of wheels that are free along x, whose slip is the answer to it
+HELD_BACK_BY = (SLOPE, "drawbar_load")
 CONDITIONS = {
     axis.key: axis
     for axis in (
@@ -39,6 +41,7 @@ CONDITIONS = {
         Axis("speed", "speed", "m/s"),
         Axis("slip_angle", "slip angle", "degrees"),
         Axis("camber", "camber", "degrees"),
+        Axis(SLOPE, "slope", "degrees"),
         Axis("density", "density", "kg/m³"),
     )
 }
@@ -103,6 +106,8 @@ def arrange(series: Sequence[Series], against: str | None = None) -> Figure:
     lines = []
     for one in series:
         others = [name for name in one.variables or _varying(one.points) if name != x]
+        if x == SLIP and _are_free(one.points):
+            others = [name for name in others if name not in HELD_BACK_BY]
         groups: dict[str, list[SweepPoint]] = {}
         for point in one.points:
             groups.setdefault(_label(one, point, others, len(series)), []).append(point)
@@ -176,6 +181,11 @@ def _positions(
     return lambda point: numbers[point.values[x]], ()
 
 
+def _are_free(points: Sequence[SweepPoint]) -> bool:
+    """Whether the ground answers with slip and speed in all runs."""
+    return all(run.text("travel") == "free" for point in points for run in point.runs)
+
+
 def _curves(x: Axis, points: Sequence[SweepPoint]) -> list[Curve]:
     def has(y: Axis) -> bool:
         values = [point.quantities[y.key].mean for point in points if y.key in point.quantities]
@@ -188,6 +198,12 @@ def _curves(x: Axis, points: Sequence[SweepPoint]) -> list[Curve]:
             Curve("torque–slip", TORQUE),
             *([Curve("tractive efficiency", EFFICIENCY)] if has(EFFICIENCY) else []),
             Curve("sinkage–slip", SINKAGE),
+        ]
+    if _are_free(points):
+        answers = [TORQUE, *([EFFICIENCY] if has(EFFICIENCY) else []), SINKAGE]
+        return [
+            Curve(f"{x.name}–slip", CONDITIONS[SLIP]),
+            *(Curve(f"{axis.name.split(' /')[0]} {against}", axis) for axis in answers),
         ]
     further = [TORQUE] if has(TORQUE) else []
     if x.key in ("slip_angle", "camber"):

@@ -26,6 +26,9 @@ struct SyntheticRun {
   double end = 12.0;           // [s]
   double skipped_from = 100.0, skipped_to = 100.0;
   double load = 100.0;  // [N]
+  /// About their means, -0.05 and -0.2 load: one slow AR(1) signal of this deviation and
+  /// correlation time [s], and a drift over the cruise
+  double slow_deviation = 0.0, correlation_time = 1.0, slow_drift = 0.0;
 
   History history() const {
     History result({{"time", "s", ""},
@@ -39,18 +42,22 @@ struct SyntheticRun {
                     {"slip", "", ""}});
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
-    double vertical = 0.0, own = 0.0;
+    double vertical = 0.0, own = 0.0, wave = normal(random);
+    const double memory = std::exp(-0.002 / correlation_time);
     for (int i = 0; i <= std::lround(end / 0.002); ++i) {
       const double time = 0.002 * i;
       vertical = 0.9 * vertical + 0.02 * normal(random);
       own = 0.9 * own + 0.3 * normal(random);
+      if (slow_deviation > 0.0)
+        wave = memory * wave + std::sqrt(1.0 - memory * memory) * normal(random);
       if (time > skipped_from && time < skipped_to) continue;
       const double force_z = load * (1.0 + vertical), force_x = -0.2 * force_z + own;
       const double stage = time < 1.0 ? 0.0 : time < 2.0 ? 1.0 : 2.0;
       const double sinkage =
           0.03 + 1e-4 * normal(random) + sinkage_drift * std::max(0.0, time - 2.0) / 10.0;
-      result.append(
-          {time, stage, std::max(0.0, time - 1.5), sinkage, force_x, force_z, force_x, 0.0, -0.05});
+      const double slow = slow_deviation * wave + slow_drift * std::max(0.0, time - 2.0) / 10.0;
+      result.append({time, stage, std::max(0.0, time - 1.5), sinkage, force_x, force_z,
+                     slow_deviation > 0.0 ? load * (slow - 0.2) : force_x, 0.0, -0.05 + slow});
     }
     return result;
   }
@@ -130,6 +137,62 @@ TEST(Resistance, ADriftingSinkageMakesTheRunNotSteady) {
   EXPECT_THAT(result.verdict, HasSubstr("sinkage: it drifts by"));
   EXPECT_FALSE(result.value("sinkage").steady);
   EXPECT_TRUE(result.value("resistance_coefficient").steady);
+}
+
+// Ten seconds hold five independent values of a signal that is correlated over one: too few
+// stretches for a verdict, unless the mean is known to 0.02 in slip and 1 % of the load in a pull,
+// or a drift over the cruise is larger.
+TEST(Resistance, SlipIsJudgedByTheSpeedAndThePullByTheLoad) {
+  struct Case {
+    double deviation, drift;
+    bool slip, pull;  // steady in most runs
+  };
+  ResistanceOptions cruise;
+  cruise.window.from_time = 2.0;
+  for (const Case& expected :
+       {Case{0.001, 0.0, true, true}, Case{0.004, 0.0, true, false}, Case{0.1, 0.0, false, false},
+        Case{0.0001, 0.004, true, true}, Case{0.0001, 0.05, false, false}}) {
+    int slip = 0, pull = 0;
+    const int runs = 40;
+    for (int run = 0; run < runs; ++run) {
+      SyntheticRun synthetic;
+      synthetic.seed = static_cast<unsigned>(run);
+      synthetic.slow_deviation = expected.deviation;
+      synthetic.slow_drift = expected.drift;
+      const Resistance result = measure_resistance(synthetic.history(), cruise);
+      slip += result.value("slip").steady;
+      pull += result.value("drawbar_pull").steady;
+    }
+    const int most = 3 * runs / 5;
+    EXPECT_TRUE(expected.slip ? slip > most : slip < runs - most)
+        << expected.deviation << " " << expected.drift << ": " << slip << " of " << runs;
+    EXPECT_TRUE(expected.pull ? pull > most : pull < runs - most)
+        << expected.deviation << " " << expected.drift << ": " << pull << " of " << runs;
+  }
+}
+
+// A nearly free axle and a wheel that runs straight: means of torque and lateral force are zero
+TEST(Resistance, TorqueAboutZeroIsJudgedByLoadTimesRadius) {
+  for (const double amplitude : {0.01, 5.0}) {  // [N m], of 100 N at 0.2 m
+    History history(WheelRig::channels());
+    for (int i = 0; i <= 1000; ++i) {
+      const double x = 0.01 * i;
+      std::vector<double> row(history.channels().size(), 0.0);
+      for (const auto& [name, value] :
+           std::map<std::string, double>{{"time", x},
+                                         {"stage", 2.0},
+                                         {"x", x},
+                                         {"force_z", 100.0},
+                                         {"rim_speed", 1.0},
+                                         {"spin_rate", 5.0},
+                                         {"sinkage", 0.01 + 1e-6 * std::sin(40.0 * x)},
+                                         {"drive_torque", amplitude * std::sin(x)}})
+        row[history.index(name)] = value;
+      history.append(row);
+    }
+    const SteadyValue torque = measure_resistance(history).value("drive_torque");
+    EXPECT_EQ(torque.steady, amplitude < 1.0) << torque.verdict;
+  }
 }
 
 TEST(Resistance, ValuesThatAreNotSteadyForTheSameReasonShareIt) {

@@ -10,6 +10,7 @@ from support.command import SOURCE
 FOLDER = SOURCE / "inputs" / "validation" / "cmu_sand"
 sys.path.insert(0, str(FOLDER))
 
+import cases
 import grounds
 import grounds_report
 
@@ -67,6 +68,13 @@ class PageTest(unittest.TestCase):
         error = math.hypot(*(float(row["fx_over_fz_error"]) for pair in pairs for row in pair))
         self.assertGreater(min(apart), 0.0)
         self.assertGreater(sum(apart), 2 * error)
+
+    def test_grousers_are_missed_by_the_law_of_the_smooth_wheel_less_by_finer_grains(self) -> None:
+        rows = read_rows(FOLDER / "grousers_accuracy.csv")
+        self.assertTrue(all(int(row["slips"]) == len(cases.wheel_points("grouser")) for row in rows))
+        rms = {float(row["size_mm"]): float(row["rms_fx_over_fz"]) for row in rows}
+        self.assertGreater(rms[8.0], grounds.GOAL)
+        self.assertLess(rms[8.0], rms[10.0])
 
     def test_lateral_force_follows_the_strength_of_the_grains_alone(self) -> None:
         sideways = [row for row in read_rows(FOLDER / "grounds.csv") if row["fy_over_fz"]]

@@ -90,7 +90,7 @@ class StudiesFaultsTest(FaultsTest):
                         words = ["--evaluate", "--results", results]
                         found = outcome(lambda: run_study(study, words))
                         self.expect(f"{study.folder.name}: {content}", found, results)
-        self.assertEqual(len(DRIVERS), 17)
+        self.assertEqual(len(DRIVERS), 18)
         self.assertNotIn("FURROW_TRACEBACK", os.environ)
 
 

@@ -15,7 +15,7 @@ from furrow_post.study.record import Record
 from furrow_post.sweep.curves import EFFICIENCY, PULL, SINKAGE, TORQUE
 from furrow_post.sweep.output import Named, Wanted, evaluate, report_lines, write_sweep
 from furrow_post.sweep.plan import Plan, Point
-from support.runs import RADIUS, add_parts, write_run
+from support.runs import RADIUS, add_parts, rig, rigid_wheel, write_run
 
 LOAD = 2000.0  # [N]
 # slip, drawbar pull over load, torque [N m]
@@ -63,6 +63,36 @@ class OutputTest(unittest.TestCase):
         efficiency = [value.mean for _, _, value in line.values(EFFICIENCY)]
         expected = [p * LOAD * (1 - s) * RADIUS / t for s, p, t in PULLING[1:]]
         self.assertEqual([round(e, 9) for e in efficiency], [round(e, 9) for e in expected])
+
+    def test_of_wheels_that_are_free_the_slip_is_an_answer(self) -> None:
+        for slope in (0.0, 5.0, 10.0):
+            free = rig(LOAD)
+            free["options"].update(travel=["free"], slope=[slope])
+            write_run(
+                self.folder / f"{slope:g}",
+                LOAD,
+                styles=[rigid_wheel(), free],
+                slip=0.02 + 0.03 * slope,
+                pull=math.tan(math.radians(slope)),
+                torque=100.0,
+            )
+        result = evaluate([Named(self.folder)], Wanted())  # slopes are all that differs
+        self.assertEqual(
+            [curve.name for curve in result.figure.curves],
+            [
+                "slope–slip",
+                "torque against slope",
+                "tractive efficiency against slope",
+                "sinkage against slope",
+            ],
+        )
+        (line,) = result.figure.lines
+        for (x, _, value), slope in zip(line.values(result.figure.curves[0].y), (0.0, 5.0, 10.0)):
+            self.assertAlmostEqual(x, slope)
+            self.assertAlmostEqual(value.mean, 0.02 + 0.03 * slope)
+        # the same runs as a pull-slip curve, beside those of another rig
+        pulls = evaluate([Named(self.folder)], Wanted(against="slip")).figure.lines[0].values(PULL)
+        self.assertEqual([round(x, 9) for x, _, _ in pulls], [0.02, 0.17, 0.32])
 
     def test_packings_are_averaged_and_give_an_error(self) -> None:
         sinkages = (0.050, 0.056, 0.053)  # s 3 mm; 1 mm of time average each

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/grains/fix_grain_work.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "atom.h"
+#include "compute.h"
+#include "core/communicator.h"
+#include "core/error.h"
+#include "coupling/base/fix_coupled_system.h"
+#include "coupling/base/refuse_double.h"
+#include "coupling/grains/model_snow_bond.h"
+#include "coupling/liggghts/global_properties.h"
+#include "domain.h"
+#include "fix_gravity.h"
+#include "fix_property_global.h"
+#include "force.h"
+#include "pair_gran.h"
+#include "update.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+Vector3 vector(const double* values) { return {values[0], values[1], values[2]}; }
+
+}  // namespace
+
+Schema FixGrainWork::schema() {
+  Schema schema("fix grain/work");
+  schema.text("body", "id of the fix that makes the wheel whose track divides the grains");
+  schema.number("level", "m", Range::any(), "z of the undisturbed ground");
+  schema
+      .integer("every", Range::at_least(1),
+               "steps from one look at the contacts to the next; each costs about a step")
+      .by_default(10);
+  return schema;
+}
+
+const Outputs<FixGrainWork>& FixGrainWork::outputs() {
+  using Fix = FixGrainWork;
+  static const Outputs<Fix> list = {
+      {"slide", "J",
+       "work of tangential forces between grains: friction, and what their springs hold",
+       [](Fix& fix) { return fix.over_ranks(fix.taken_.slide); }},
+      {"roll", "J", "work of rolling friction between grains",
+       [](Fix& fix) { return fix.over_ranks(fix.taken_.roll); }},
+      {"press", "J", "work of forces square to the contacts: damping, and what their springs hold",
+       [](Fix& fix) { return fix.over_ranks(fix.taken_.press); }},
+      {"below", "J", "of these three, at contacts below the track",
+       [](Fix& fix) { return fix.over_ranks(fix.in_place_[below]); }},
+      {"ahead", "J", "of these three, at contacts ahead of it, within its width",
+       [](Fix& fix) { return fix.over_ranks(fix.in_place_[ahead]); }},
+      {"aside", "J", "of these three, at contacts beside it",
+       [](Fix& fix) { return fix.over_ranks(fix.in_place_[aside]); }},
+      {"walls", "J", "taken by contacts of grains with anything but grains and the wheel",
+       [](Fix& fix) { return fix.over_ranks(fix.walls_); }},
+      {"lifted", "J", "work of all grains against gravity",
+       [](Fix& fix) { return fix.over_ranks(fix.lifted_); }},
+      {"kinetic", "J", "energy of all grains, rotation included, now",
+       [](Fix& fix) { return fix.over_ranks(fix.kinetic_energy()); }},
+  };
+  return list;
+}
+
+FixGrainWork::FixGrainWork(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+    : FurrowFix(lammps, narg, arg, schema()),
+      body_(use<FixBody>("body", {Kind::wheel, Kind::body}).body()),
+      level_(options().number("level")),
+      every_(options().integer("every")) {
+  refuse_double<FixGrainWork>(*modify, options().subject(), "counts the work between grains",
+                              "one fix grain/work", [](FixGrainWork&) { return true; });
+  nevery = static_cast<int>(every_);
+  provide(outputs());
+  keep_state();
+}
+
+int FixGrainWork::setmask() { return LAMMPS_NS::FixConst::END_OF_STEP; }
+
+void FixGrainWork::init() {
+  collectively([&] {
+    if (!dynamic_cast<LAMMPS_NS::PairGran*>(force->pair))
+      throw InputError(name(), "has no contacts between grains", "pair_style gran ...",
+                       "make a bed before this line");
+    for (int c = 0; c < modify->ncompute; ++c)
+      if (std::string(modify->compute[c]->style) == "pair/gran/local")
+        throw InputError(
+            name(),
+            fmt::format("shares the contacts of grains with compute '{}', pair/gran/local",
+                        modify->compute[c]->id),
+            "one of the two in a run", "remove this fix, or that compute");
+    friction_ = ModelSnowBond::is_pair_style(*lmp) ? nullptr
+                                                   : property_of_pairs(*lmp, "coefficientFriction");
+  });
+}
+
+void FixGrainWork::end_of_step() {
+  const double interval = static_cast<double>(every_) * update->dt;
+  const Track where = track();
+  double between_grains = 0.0;
+  for_each_pair_contact(*lmp, [&](const PairContact& contact) {
+    // the other rank sees a contact with one of its grains too
+    const double share = contact.j < atom->nlocal ? 1.0 : 0.5;
+    const Taken power_taken = power(contact);
+    taken_.slide += share * interval * power_taken.slide;
+    taken_.roll += share * interval * power_taken.roll;
+    taken_.press += share * interval * power_taken.press;
+    in_place_[place_of(contact, where)] += share * interval * power_taken.sum();
+    between_grains += share * power_taken.sum();
+  });
+  const double lifting = lifting_power();
+  lifted_ += interval * lifting;
+  walls_ += interval * (power_of_wheel() - between_grains - lifting - power_of_all_forces());
+}
+
+FixGrainWork::Track FixGrainWork::track() const {
+  const Surface& surface = body_.surface();
+  const auto [lower, upper] = surface.bounds();
+  Track found{{0.5 * (lower[0] + upper[0]), 0.5 * (lower[1] + upper[1])},
+              0.5 * (upper[1] - lower[1]),
+              lower[0]};
+  for (Eigen::Index n = 0; n < surface.x.cols(); ++n)
+    if (surface.x(2, n) < level_) found.front = std::max(found.front, surface.x(0, n));
+  found.front -= found.centre[0];
+  return found;
+}
+
+FixGrainWork::Place FixGrainWork::place_of(const PairContact& contact, const Track& track) const {
+  double x = 0.5 * (atom->x[contact.i][0] + atom->x[contact.j][0]) - track.centre[0];
+  const double y = 0.5 * (atom->x[contact.i][1] + atom->x[contact.j][1]) - track.centre[1];
+  if (domain->xperiodic) x -= domain->prd[0] * std::round(x / domain->prd[0]);
+  if (std::abs(y) > track.half_width) return aside;
+  return x > track.front ? ahead : below;
+}
+
+double FixGrainWork::friction(const PairContact& contact) const {
+  if (!friction_) return std::numeric_limits<double>::infinity();
+  return friction_->compute_array(atom->type[contact.i] - 1, atom->type[contact.j] - 1);
+}
+
+// F on i, n from j to i, contact point at the radius less half the overlap from each centre
+FixGrainWork::Taken FixGrainWork::power(const PairContact& contact) const {
+  const int i = contact.i, j = contact.j;
+  const Vector3 arm = vector(atom->x[i]) - vector(atom->x[j]);
+  const double distance = arm.norm(), overlap = atom->radius[i] + atom->radius[j] - distance;
+  const Vector3 n = arm / distance, velocity = vector(atom->v[i]) - vector(atom->v[j]),
+                spin_i = vector(atom->omega[i]), spin_j = vector(atom->omega[j]);
+  const double arm_i = atom->radius[i] - 0.5 * overlap, arm_j = atom->radius[j] - 0.5 * overlap;
+  const double normal = contact.force.dot(n);
+  Vector3 tangential = contact.force - normal * n;
+  const Vector3 rolling = contact.torque + arm_i * n.cross(tangential);
+  // of a contact that slides LIGGGHTS has cut the spring in this step, and would now add the
+  // damping of one that sticks
+  const double limit = friction(contact) * std::abs(normal);
+  if (tangential.norm() > limit) tangential *= limit / tangential.norm();
+  Taken taken;
+  taken.press = -normal * velocity.dot(n);
+  taken.slide = -tangential.dot(velocity - (arm_i * spin_i + arm_j * spin_j).cross(n));
+  taken.roll = -rolling.dot(spin_i - spin_j);
+  return taken;
+}
+
+double FixGrainWork::lifting_power() const {
+  double momentum[3] = {0.0, 0.0, 0.0};
+  for (int i = 0; i < atom->nlocal; ++i)
+    for (int k = 0; k < 3; ++k) momentum[k] += atom->rmass[i] * atom->v[i][k];
+  double power = 0.0;
+  for (auto* weight : fixes_of<LAMMPS_NS::FixGravity>(*modify)) {
+    double gravity[3];
+    weight->get_gravity(gravity);
+    for (int k = 0; k < 3; ++k) power -= gravity[k] * momentum[k];
+  }
+  return power;
+}
+
+double FixGrainWork::power_of_all_forces() const {
+  double power = 0.0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    power += vector(atom->f[i]).dot(vector(atom->v[i])) +
+             vector(atom->torque[i]).dot(vector(atom->omega[i]));
+  return power;
+}
+
+double FixGrainWork::power_of_wheel() const {
+  double power = 0.0;
+  for (const GrainContact& contact : FixCoupledSystem::of(*lmp).contacts(body_))
+    power += contact.force.dot(vector(atom->v[contact.grain])) +
+             contact.torque.dot(vector(atom->omega[contact.grain]));
+  return power;
+}
+
+double FixGrainWork::kinetic_energy() const {
+  double energy = 0.0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    energy += 0.5 * atom->rmass[i] *
+              (vector(atom->v[i]).squaredNorm() +
+               0.4 * atom->radius[i] * atom->radius[i] * vector(atom->omega[i]).squaredNorm());
+  return energy;
+}
+
+double FixGrainWork::over_ranks(double value) const { return Communicator(&world).sum(value); }
+
+/// The sums of all ranks; the first one goes on with them.
+void FixGrainWork::checkpoint(Checkpoint& state) {
+  const Communicator ranks(&world);
+  double sums[] = {taken_.slide,     taken_.roll,      taken_.press, in_place_[below],
+                   in_place_[ahead], in_place_[aside], walls_,       lifted_};
+  if (state.saving()) ranks.sum(sums, 8);
+  state.values("totals", sums, 8);
+  if (state.saving()) return;
+  const double own = ranks.rank() == 0 ? 1.0 : 0.0;
+  taken_ = {own * sums[0], own * sums[1], own * sums[2]};
+  in_place_ = {own * sums[3], own * sums[4], own * sums[5]};
+  walls_ = own * sums[6];
+  lifted_ = own * sums[7];
+}
+
+}  // namespace furrow::coupling

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// fix grain/work: where among the grains the work goes that a wheel does on them. See
+/// fix_grain_work.md.
+
+#include <array>
+
+#include "coupling/base/furrow_fix.h"
+#include "coupling/bodies/fix_body.h"
+#include "coupling/liggghts/pair_contacts.h"
+
+namespace LAMMPS_NS {
+class FixPropertyGlobal;
+}
+
+namespace furrow::coupling {
+
+class FixGrainWork : public FurrowFix {
+ public:
+  FixGrainWork(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
+  static Schema schema();
+  static const Outputs<FixGrainWork>& outputs();
+
+  int setmask() override;
+  void init() override;
+  void end_of_step() override;
+
+ protected:
+  void checkpoint(Checkpoint& state) override;
+
+ private:
+  /// What the contacts take.
+  struct Taken {
+    double slide = 0.0, roll = 0.0, press = 0.0;
+    double sum() const { return slide + roll + press; }
+  };
+  /// Where the wheel's track is: between its sides, and up to the foremost point in the ground.
+  struct Track {
+    double centre[2], half_width, front;
+  };
+  enum Place { below, ahead, aside, places };
+
+  /// Largest tangential over normal force of a contact; infinite where bonds carry more.
+  double friction(const PairContact& contact) const;
+  Track track() const;
+  Place place_of(const PairContact& contact, const Track& track) const;
+  /// [W]
+  Taken power(const PairContact& contact) const;
+  // Of all grains of this rank [W]: against gravity, by all forces, by those of the wheel
+  double lifting_power() const;
+  double power_of_all_forces() const;
+  double power_of_wheel() const;
+  double kinetic_energy() const;
+  double over_ranks(double value) const;
+
+  Body& body_;
+  double level_;  // [m]
+  long every_;
+  LAMMPS_NS::FixPropertyGlobal* friction_ = nullptr;  // of pairs of types
+  // of this rank, since the start [J]
+  Taken taken_;
+  std::array<double, places> in_place_ = {};
+  double walls_ = 0.0, lifted_ = 0.0;
+};
+
+}  // namespace furrow::coupling
