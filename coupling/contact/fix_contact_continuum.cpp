@@ -49,6 +49,10 @@ FixTerrainContinuum& FixContactContinuum::find_terrain() {
       "one contact for each pair", [&](FixContactContinuum& other) {
         return &other.body_fix() == &body_fix() && &other.terrain_fix_ == &fix;
       });
+  if (fix.options().flag("multirate"))
+    throw InputError(
+        options().where("terrain"), fmt::format("is '{}', which has 'multirate yes'", fix.id),
+        "terrain that steps with what presses on it", "write 'multirate no' in the terrain's line");
   const double plane = fix.terrain().grid().axis(1).lower();
   if (!body().half_model() || (fix.half_model() && plane == 0.0)) return fix;
   const std::string& body_id = options().text("body");

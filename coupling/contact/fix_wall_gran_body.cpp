@@ -20,6 +20,7 @@
 #include "coupling/liggghts/wall_meshes.h"
 #include "fix_neighlist_mesh.h"
 #include "geometry/winding_number.h"
+#include "mpm/continuum_terrain.h"
 #include "neighbor.h"
 #include "update.h"
 
@@ -103,7 +104,10 @@ void FixWallGranBody::setup(int vflag) {
     if (auto* mesh_fix = dynamic_cast<FixMeshBody*>(FixMesh_list_[m])) {
       const auto [check, fresh] = grain_bed_checks_.try_emplace(
           m, *lmp, fmt::format("fix wall/gran/body '{}', mesh '{}'", id, mesh_fix->id));
-      if (fresh) check->second.start(mesh_fix->body().surface());
+      if (fresh) {
+        const Body& body = mesh_fix->body();
+        check->second.start(body.surface(), dynamic_cast<const ContinuumTerrain*>(&body));
+      }
     }
   FixWallGran::setup(vflag);
   if (starting_)
@@ -213,6 +217,7 @@ void FixWallGranBody::collect_candidates(FixMeshBody& mesh_fix) {
   touched_.clear();
   if (first_.size() < static_cast<std::size_t>(atom->nlocal)) first_.resize(atom->nmax, -1);
 
+  const double* positions = atom->nlocal > 0 ? atom->x[0] : nullptr;  // contiguous
   const int triangles = mesh.sizeLocal() + mesh.sizeGhost();
   for (int t = 0; t < triangles; ++t) {
     const std::vector<int>& grains = neighbours.get_contact_list(t);
@@ -223,12 +228,16 @@ void FixWallGranBody::collect_candidates(FixMeshBody& mesh_fix) {
     const Vector3 b = surface.x.col(nodes[1]) + mesh.image_shift(t);
     const Vector3 c = surface.x.col(nodes[2]) + mesh.image_shift(t);
     const Vector3 normal = (b - a).cross(c - a).normalized();
+    const Vector3 middle = (a + b + c) / 3.0;
+    const double bound = std::sqrt(std::max(
+        {(a - middle).squaredNorm(), (b - middle).squaredNorm(), (c - middle).squaredNorm()}));
 
     for (const int grain : grains) {
       if (grain >= atom->nlocal) continue;  // a ghost: its owner has the contact
       const double reach = atom->radius[grain] * reach_factor;
-      const Vector3 centre = Eigen::Map<const Vector3>(atom->x[grain]);
+      const Vector3 centre = Eigen::Map<const Vector3>(positions + 3 * grain);
       if (std::abs(normal.dot(centre - a)) > reach) continue;
+      if ((centre - middle).squaredNorm() > (reach + bound) * (reach + bound)) continue;
       const ClosestPoint point = closest_point_on_triangle(centre, a, b, c);
       if (!(point.distance <= reach)) continue;
       if (first_[grain] < 0) touched_.push_back(grain);

@@ -30,7 +30,7 @@ void GrainBedCheck::warn(bool& done, const std::string& text) {
   coupling::warn(lammps_, fmt::format("{}: {}", where_, text));
 }
 
-void GrainBedCheck::start(const Surface& surface) {
+void GrainBedCheck::start(const Surface& surface, bool carries_bed) {
   const LAMMPS_NS::Atom& atom = *lammps_.atom;
   const Communicator ranks(&lammps_.world);
   double sums[3] = {0.0, 0.0, 0.0};  // diameters, densities, count
@@ -51,6 +51,7 @@ void GrainBedCheck::start(const Surface& surface) {
   mean_diameter_ = sums[0] / sums[2];
   density_ = sums[1] / sums[2];
   choose_overlap_limit();
+  if (carries_bed) return;
 
   const auto [lower, upper] = surface.bounds();
   const double width = upper[1] - lower[1],

@@ -29,8 +29,9 @@ class GrainBedCheck {
   GrainBedCheck(LAMMPS_NS::LAMMPS& lammps, std::string where)
       : lammps_(lammps), where_(std::move(where)) {}
 
-  /// Size of grains and bed against the body's width. Collective.
-  void start(const Surface& surface);
+  /// Size of grains and bed against the width of the body, but for terrain that carries the bed.
+  /// Collective.
+  void start(const Surface& surface, bool carries_bed);
   /// This rank's contact in this step.
   void contact(double overlap, double radius, const Vector3& point, const Vector3& force);
   /// After the contacts of a step; looks at them every so many steps. Collective.

@@ -22,7 +22,8 @@ from furrow_post.figures.flow import draw_flow
 from furrow_post.read.wheel_run import WheelRun, read_wheel_run
 from furrow_post.study.output import Output
 
-GROUNDS = ("continuum", "grains")
+GROUNDS = ("continuum", "grains")  # what a case compares at least
+HYBRID = "hybrid"
 MEASURED_WHEELS = INPUTS / "validation" / "snow_wheel" / "reference.csv"
 PRESSURE = 179e3  # [Pa] for NRMM
 BEKKER = ("LLL dry sand", "LETE sand")  # for cases on sand
@@ -67,7 +68,7 @@ def formulas(case: str, test: Test) -> list[Prediction]:
 
 
 class WheelCase:
-    """Pairs of wheel runs with the errors of the case's own checks."""
+    """Pairs of wheel runs, and a hybrid where there is one, with the errors of the case's own checks."""
 
     def __init__(self, case: str, made: Made) -> None:
         self.case, self.made = case, made
@@ -88,18 +89,20 @@ class WheelCase:
         return all((ground, BASE) in self.runs for ground in GROUNDS)
 
     def compared(self, role: str) -> Comparison:
-        """The continuum's run of this role beside the grains' base."""
-        pair = [self.runs["continuum", role], self.runs["grains", BASE]]
+        """The continuum's run of this role beside the grains' base; its base beside the hybrid's."""
+        runs = [self.runs["continuum", role], self.runs["grains", BASE]]
+        if role == BASE and (HYBRID, BASE) in self.runs:
+            runs.append(self.runs[HYBRID, BASE])
         measured = MEASURED_WHEELS if "tyre" in self.case else None
-        beside = formulas(self.case, Test.of(pair[0]))
-        return compare(pair, self.table, beside, measured, anyway=True)
+        beside = formulas(self.case, Test.of(runs[0]))
+        return compare(runs, self.table, beside, measured, anyway=True)
 
     def lines(self) -> Iterator[OutputRow]:
         roles = [role for ground, role in self.plans if role.startswith(LAW)]
         for role in (BASE, *roles):
             place = role.rpartition("=")[2]
             result = self.compared(role)
-            own = {"continuum": role, "grains": BASE}
+            own = {"continuum": role, "grains": BASE, HYBRID: BASE}
             for entry in result.entries:
                 if entry.kind == LIMIT and role != BASE:
                     continue  # the slope in the size is that of the base's law

@@ -227,8 +227,16 @@ Schema terrain_schema(const std::string& subject, std::optional<double> length) 
       .by_default(standard_gravity);
   schema.flag("initial_stress", "start with the stress of the terrain's own weight")
       .by_default("yes");
+  schema
+      .number("surcharge", "Pa", Range::at_least(0.0),
+              "weight on the surface that is in the initial stress: that of grains on a sheet")
+      .by_default(0.0);
   declare_slide_surface(schema);
   schema.flag("sheet", "carry triangles on the upper face, for grains that lie on the ground");
+  schema
+      .integer("sheet_every", Range::at_least(1), "particles from node to node of these triangles")
+      .by_default("1");
+  schema.flag("multirate", "one step for as many of these grains as the stable step holds");
   schema.number("cfl", "", Range::closed(0.01, 1.0), "step over shortest cell and wave speed")
       .by_default(0.4)
       .may_change();
@@ -278,7 +286,18 @@ TerrainParameters read_terrain(const Options& options, const std::string& folder
   ground.gravity = {0.0, 0.0, -options.number("gravity")};
   ground.initial_stress = options.flag("initial_stress");
   ground.slide = read_slide_surface(options);
+  ground.surcharge = options.number("surcharge");
+  if (ground.surcharge > 0.0 && !ground.initial_stress)
+    throw InputError(options.where("surcharge"), "is given with 'initial_stress no'",
+                     "a surcharge of ground that starts with the stress of what it carries",
+                     "remove one of the two");
   ground.surface_mesh = options.flag("sheet");
+  ground.sheet_every = static_cast<std::size_t>(options.integer("sheet_every"));
+  ground.multirate = options.flag("multirate");
+  if (ground.multirate && !ground.surface_mesh)
+    throw InputError(options.where("multirate"), "is given without 'sheet yes'",
+                     "'multirate yes' for ground that carries grains",
+                     "ground without grains takes its own step anyway");
   ground.cfl = options.number("cfl");
   ground.remap_interval = static_cast<int>(options.integer("remap_interval"));
   ground.blocks = read_blocks(options);

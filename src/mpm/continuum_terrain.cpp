@@ -67,8 +67,7 @@ void ContinuumTerrain::fill(const std::string& where) {
   if (slide_) check_both_sides(discretisation_, where);
   energy_.add_initial(internal_energy(discretisation_.groups));
   if (parameters_.surface_mesh)
-    free_surface_ = FreeSurfaceMesh(fill_.surface_ids(grid), fill_.surface_rows(grid),
-                                    fill_.surface_columns(grid));
+    free_surface_ = FreeSurfaceMesh(fill_, grid, parameters_.sheet_every);
   sort_particles();
   if (free_surface_.exists()) free_surface_.update(discretisation_.groups, ranks());
 }
@@ -83,7 +82,7 @@ void ContinuumTerrain::sort_particles() {
 /// and the largest eigenvalue 3 K of an elasticity with nu >= 0: for any arrangement of particles
 /// away from faces. Wave speeds have the modulus M in the place of 3 K; cfl makes up for that
 /// (coupling/terrain/fix_terrain_continuum.md).
-double ContinuumTerrain::stable_time_step() const {
+double ContinuumTerrain::stable_step_now() const {
   double wave_speed = 0.0;
   for (const ParticleGroup& group : discretisation_.groups) {
     if (group.particles.size() == 0) continue;
@@ -98,8 +97,25 @@ double ContinuumTerrain::stable_time_step() const {
          ranks().max(wave_speed + remap_.largest_speed());
 }
 
+double ContinuumTerrain::stable_time_step() const {
+  return multirate_.begun() ? multirate_.stable_step() : stable_step_now();
+}
+
 void ContinuumTerrain::advance(double dt) {
-  if (free_surface_.exists()) free_surface_.add_forces_to(loads_, discretisation_.groups);
+  Surface& sheet = free_surface_.surface();
+  if (!parameters_.multirate) {
+    step(dt, sheet.f);
+    return;
+  }
+  if (!multirate_.begun()) multirate_.begin(sheet, dt, stable_step_now());
+  if (!multirate_.add(sheet, dt)) return;
+  step(multirate_.interval(), multirate_.mean_force());
+  multirate_.begin(sheet, dt, stable_step_now());
+}
+
+void ContinuumTerrain::step(double dt, const Matrix3X& sheet_forces) {
+  if (free_surface_.exists())
+    free_surface_.add_forces_to(loads_, discretisation_.groups, sheet_forces);
   step_.advance(dt);
   if (!remap_.interval_running() && (window_.move() || distribution_.sorting_due()))
     sort_particles();
@@ -165,6 +181,7 @@ void ContinuumTerrain::checkpoint(Checkpoint& state) {
   discretisation_.grid.checkpoint(state, ranks(), discretisation_.partition.owned_nodes());
   window_.checkpoint_rut(state);
   state.values("free_surface_force", free_surface_.surface().f);
+  if (parameters_.multirate) multirate_.checkpoint(state, free_surface_.surface().x.cols());
   checkpoint_boundary(state);
   discretisation_.exchange.checkpoint(state, ranks());
   distribution_.checkpoint_drift(state);
@@ -195,6 +212,7 @@ void ContinuumTerrain::resume() {
   if (!free_surface_.exists()) return;
   free_surface_.attach(discretisation_.groups);
   free_surface_.update(discretisation_.groups, ranks());
+  multirate_.resume(free_surface_.surface());
 }
 
 }  // namespace furrow

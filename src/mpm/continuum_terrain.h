@@ -14,6 +14,7 @@
 #include "mpm/discretisation.h"
 #include "mpm/free_surface_mesh.h"
 #include "mpm/moving_window.h"
+#include "mpm/multirate.h"
 #include "mpm/particle_distribution.h"
 #include "mpm/point_loads.h"
 #include "mpm/remap_control.h"
@@ -34,6 +35,7 @@ namespace furrow {
 ///   PointLoads            forces at points and the motion there: contact
 ///   MovingWindow          ground that moves along with a body, and the rut behind it
 ///   FreeSurfaceMesh       triangles for grains that lie on the terrain
+///   Multirate             one step of the terrain for several of these grains
 ///   TerrainEnergy         energies and works
 ///
 /// Every rank computes a block of the terrain; bodies that touch it are replicated. Calls are
@@ -105,6 +107,8 @@ class ContinuumTerrain : public Body {
 
  private:
   void fill(const std::string& where);
+  double stable_step_now() const;
+  void step(double dt, const Matrix3X& sheet_forces);
   void sort_particles();
   void checkpoint_boundary(Checkpoint& state);
   static void match_layer(const TerrainLayer& layer, Checkpoint& state);
@@ -122,6 +126,7 @@ class ContinuumTerrain : public Body {
   TerrainStep step_;
   MovingWindow window_;
   FreeSurfaceMesh free_surface_;
+  Multirate multirate_;
 };
 
 }  // namespace furrow

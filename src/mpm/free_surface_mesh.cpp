@@ -5,8 +5,26 @@
 
 namespace furrow {
 
-FreeSurfaceMesh::FreeSurfaceMesh(std::vector<double> ids, std::size_t rows, std::size_t columns)
-    : ids_(std::move(ids)), motion_(6 * ids_.size()) {
+namespace {
+
+/// 0, every, 2 every ..., count - 1.
+std::vector<std::size_t> places_of_nodes(std::size_t count, std::size_t every) {
+  std::vector<std::size_t> places;
+  for (std::size_t n = 0; n + 1 < count; n += every) places.push_back(n);
+  places.push_back(count - 1);
+  return places;
+}
+
+}  // namespace
+
+FreeSurfaceMesh::FreeSurfaceMesh(const TerrainFill& fill, const Grid& grid, std::size_t every) {
+  const std::vector<std::size_t> across = places_of_nodes(fill.surface_columns(grid), every);
+  const std::vector<std::size_t> along = places_of_nodes(fill.surface_rows(grid), every);
+  const std::size_t columns = across.size();
+  const std::size_t rows = along.size();
+  for (const std::size_t column : across)
+    for (const std::size_t row : along) ids_.push_back(fill.surface_id(grid, column, row));
+  motion_.resize(6 * ids_.size());
   surface_.resize(ids_.size());
   offset_.setZero(3, surface_.x.cols());
   offset_.row(2).setOnes();
@@ -72,10 +90,10 @@ void FreeSurfaceMesh::update(const std::vector<ParticleGroup>& groups, const Com
   }
 }
 
-void FreeSurfaceMesh::add_forces_to(PointLoads& loads,
-                                    const std::vector<ParticleGroup>& groups) const {
+void FreeSurfaceMesh::add_forces_to(PointLoads& loads, const std::vector<ParticleGroup>& groups,
+                                    const Matrix3X& forces) const {
   for (const NodeAttachment& attachment : attachments_) {
-    const Vector3 force = surface_.f.col(attachment.node);
+    const Vector3 force = forces.col(attachment.node);
     if (!(force.squaredNorm() > 0.0)) continue;
     const ParticleIndex& particle = attachment.particle;
     const Vector3 point =

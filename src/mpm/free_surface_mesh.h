@@ -8,21 +8,21 @@
 #include "geometry/surface.h"
 #include "mpm/particle_group.h"
 #include "mpm/point_loads.h"
+#include "mpm/terrain_fill.h"
 
 namespace furrow {
 
-/// Each node is attached to a particle of the uppermost level, half a spacing (shrunk with the
-/// particle's volume) above it; along the edge of the ground it is half a spacing further out as
-/// well, on the face of the grid. It moves with the affine velocity of the particle, and the force
-/// on it goes to the grid as that of a contact does: at the node, by the particle's own weights, so
-/// that force and moment are kept. The surface is replicated on every rank.
+/// Each node is attached to a particle of the uppermost level, to one in so many, half a spacing
+/// (shrunk with the particle's volume) above it; along the edge of the ground it is half a spacing
+/// further out as well, on the face of the grid. It moves with the affine velocity of the particle,
+/// and the force on it goes to the grid as that of a contact does: at the node, by the particle's
+/// own weights, so that force and moment are kept. The surface is replicated on every rank.
 class FreeSurfaceMesh {
  public:
   /// A terrain without a mesh.
   FreeSurfaceMesh() = default;
-  /// @param ids  of the uppermost particles, ascending: `columns` across x, in each of them `rows`
-  ///             along y
-  FreeSurfaceMesh(std::vector<double> ids, std::size_t rows, std::size_t columns);
+  /// @param every  particles from node to node along x and y; the last one has a node as well
+  FreeSurfaceMesh(const TerrainFill& fill, const Grid& grid, std::size_t every);
 
   bool exists() const { return !ids_.empty(); }
   Surface& surface() { return surface_; }
@@ -33,8 +33,9 @@ class FreeSurfaceMesh {
   void attach(const std::vector<ParticleGroup>& groups);
   /// Positions and velocities of the nodes from the particles. Collective.
   void update(const std::vector<ParticleGroup>& groups, const Communicator& ranks);
-  /// Forces on the nodes of this rank's particles become loads of the next step.
-  void add_forces_to(PointLoads& loads, const std::vector<ParticleGroup>& groups) const;
+  /// Forces on the nodes, of this rank's particles, become loads of the next step.
+  void add_forces_to(PointLoads& loads, const std::vector<ParticleGroup>& groups,
+                     const Matrix3X& forces) const;
 
  private:
   struct NodeAttachment {

@@ -42,9 +42,9 @@ VectorX loaded(const Material& material, const VectorX& state, double stress) {
     high *= 2.0;
     if (high > max_strain)
       throw InputError(fmt::format("law {}", material.name()),
-                       fmt::format("cannot carry {:.4g} Pa of its own weight", stress),
+                       fmt::format("cannot carry {:.4g} Pa of weight", stress),
                        "a law that stiffens in confined compression",
-                       "give the ground no gravity, or another law");
+                       "give the ground no gravity and no surcharge, or another law");
   }
   for (int i = 0; i < bisections; ++i) {
     const double middle = 0.5 * (low + high);
@@ -56,7 +56,7 @@ VectorX loaded(const Material& material, const VectorX& state, double stress) {
 }  // namespace
 
 void find_overburden(const TerrainParameters& parameters, std::vector<ParticleLevel>& levels) {
-  double weight = 0.0;  // of all that lies above [Pa]
+  double weight = parameters.surcharge;  // and of all that lies above [Pa]
   for (std::size_t n = 0; n < levels.size(); ++n) {
     ParticleLevel& level = levels[n];
     level.layer = layer_at(parameters, level.z);

@@ -17,8 +17,9 @@ struct ParticleLevel {
 };
 
 /// Every level is compressed without lateral strain, each layer from the initial state of its
-/// material, until its vertical stress carries what lies above: stress, density and hardening then
-/// belong together whatever the material. Without initial_stress the levels have the initial state.
+/// material, until its vertical stress carries what lies above, surcharge included: stress, density
+/// and hardening then belong together whatever the material. Without initial_stress the levels have
+/// the initial state.
 /// @param levels  z and half, from the surface down; layer and state are filled in
 /// @throws InputError when a material cannot carry the weight
 void find_overburden(const TerrainParameters& parameters, std::vector<ParticleLevel>& levels);

@@ -136,11 +136,9 @@ std::size_t TerrainFill::surface_rows(const Grid& grid) const {
   return static_cast<std::size_t>(grid.axis(1).cells() * particles_per_cell_[1]);
 }
 
-/// Ids as add_cells() counts them: the levels of a column follow one another.
-std::vector<double> TerrainFill::surface_ids(const Grid& grid) const {
-  std::vector<double> ids(surface_columns(grid) * surface_rows(grid));
-  for (std::size_t n = 0; n < ids.size(); ++n) ids[n] = static_cast<double>(n * levels_.size());
-  return ids;
+/// As add_cells() counts them: the levels of a place follow one another.
+double TerrainFill::surface_id(const Grid& grid, std::size_t column, std::size_t row) const {
+  return static_cast<double>((column * surface_rows(grid) + row) * levels_.size());
 }
 
 void TerrainFill::checkpoint(Checkpoint& state) { state.value("next_id", next_id_); }

@@ -32,11 +32,11 @@ class TerrainFill {
   /// all ranks; every rank calls it for every layer. A slide surface gives each particle its side.
   void add_cells(int x_cell, Discretisation& discretisation);
 
-  /// Ids of the uppermost particles after the first fill, ascending: all rows along y of the first
-  /// column across x, then those of the next.
-  std::vector<double> surface_ids(const Grid& grid) const;
-  std::size_t surface_columns(const Grid& grid) const;  ///< particles along x
-  std::size_t surface_rows(const Grid& grid) const;     ///< particles along y
+  /// Uppermost particles after the first fill, numbered along x and along y.
+  std::size_t surface_columns(const Grid& grid) const;  ///< along x
+  std::size_t surface_rows(const Grid& grid) const;     ///< along y
+  /// Of one of them.
+  double surface_id(const Grid& grid, std::size_t column, std::size_t row) const;
 
   void checkpoint(Checkpoint& state);
 

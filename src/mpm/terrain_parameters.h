@@ -40,12 +40,16 @@ struct TerrainParameters {
   Vector3 gravity = {0.0, 0.0, -standard_gravity};    ///< [m/s^2]
   /// the ground carries its own weight from the start, with the stress of confined compression
   bool initial_stress = true;
+  /// [Pa] weight of what lies on the surface, in the initial stress
+  double surcharge = 0.0;
   double cfl = 0.4;  ///< step over (shortest cell)/(wave speed + speed of the ground)
   /// most steps between two remaps of particles and grid (terrain_step.h)
   int remap_interval = 16;
   std::optional<SlideSurface> slide = {};  ///< along which the ground slides on itself
   bool surface_mesh = false;               ///< carries triangles on its free surface, for grains
-  bool window = false;  ///< moves along x with what ContinuumTerrain::follow() names
+  std::size_t sheet_every = 1;             ///< particles from node to node of these triangles
+  bool multirate = false;  ///< one step for as many of these grains as the stable step holds
+  bool window = false;     ///< moves along x with what ContinuumTerrain::follow() names
   /// how the ranks share the ground; without it choose_layout()
   std::optional<BlockLayout> blocks = {};
 

@@ -27,7 +27,12 @@ double upward_momentum(Scene& scene) {
   return scene.sum(momentum);
 }
 
-TEST(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
+/// Further keywords of the ground.
+class GrainsOnContinuum : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Sheets, GrainsOnContinuum,
+                         ::testing::Values("", " multirate yes sheet_every 2 surcharge 200"));
+
+TEST_P(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
   Scene scene;
   scene.granular_box(Vector3(-0.041, -0.041, -0.01), Vector3(0.041, 0.041, 0.15), 0.002);
   scene.contact_properties(5e6, 0.3, 0.5, 0.0);  // walls without friction carry no weight
@@ -38,8 +43,8 @@ TEST(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
       fmt::format("fix soil all terrain/continuum material {}/inputs/materials/rubber.yaml length "
                   "{} width {} depth 0.03 "
                   "surface 0.03 cell 0.01 "
-                  "gravity {} sheet yes",
-                  FURROW_SOURCE_DIR, side, side, gravity));
+                  "gravity {} sheet yes{}",
+                  FURROW_SOURCE_DIR, side, side, gravity, GetParam()));
   scene.command("fix skin all mesh/body body soil type 2");
   scene.command(fmt::format("fix top all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));
   for (const char* wall : {"x1", "x2", "y1", "y2"})
@@ -82,6 +87,11 @@ TEST(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
                ground_gain = ground.energy_budget().momentum.z() - ground_before.z();
   // forces are one step older in the ground
   EXPECT_NEAR(base, mass * gravity * time + ground_gain - impulse, 2e-3 * base);
+  // Work that the grains lose to the sheet is found in contacts and ground.
+  const coupling::ContactWork& work = scene.system().contact_work(ground);
+  const double given = -(work.press + work.push + work.friction + work.contact);
+  EXPECT_GT(given, 1e-4);
+  EXPECT_NEAR(ground.energy_budget().contact_work, given, 5e-3 * std::abs(work.press));
   const coupling::MomentumAudit& audit = scene.system().audit(ground);
   EXPECT_GT(audit.force_scale, 0.0);
   EXPECT_LT(audit.force, 1e-10);

@@ -40,7 +40,7 @@ class Row:
     """One run of the table."""
 
     run: str
-    ground: str  # continuum, grains
+    ground: str  # continuum, grains, hybrid
     model: str  # whole, half
     wheel: str  # rigid wheel, tyre
     size: float  # cell or grain [m]

@@ -79,7 +79,7 @@ def ground_points(run: WheelRun) -> GroundPoints:
     volume = 4 / 3 * np.pi * grains.radius**3
     solid = np.sum(reference.volume_above(run.floor))
     low, high = reference.corners
-    space = (high - low)[0] * (high - low)[1] * run.number("depth")
+    space = (high - low)[0] * (high - low)[1] * (run.number("depth") - run.below)
     # without a bulk density: density over that at the start
     substance = (
         run.number("density") * space / solid if "density" in run.conditions else space / solid

@@ -182,7 +182,7 @@ def _candidates(family: Family, points: Sequence[Point]) -> list[tuple[str, floa
         )
         name = f"{point.name} {longer.length:g} times as long"
         found.append((name, (LONGER - 1) * point.cpu_time, [*points[:i], longer, *points[i + 1 :]]))
-        if family.key.ground == "grains":
+        if family.key.ground != "continuum":
             again = replace(point, name=f"another packing of {_size_text(point)}")
             found.append((again.name + _length_text(again), again.cpu_time, [*points, again]))
     finest = min(points, key=lambda p: p.size)

@@ -56,7 +56,7 @@ class WheelRun:
     folder: Path
     results: Results
     label: str
-    ground: str  # "grains", "continuum" or "none"
+    ground: str  # "grains", "continuum", "hybrid": grains on a continuum; or "none"
     deformable: bool  # a tyre, whose outline changes under load
     conditions: dict[str, Condition] = field(default_factory=dict)
     size: float = float("nan")  # cell or mean grain diameter [m]
@@ -65,6 +65,7 @@ class WheelRun:
     domain: tuple[float, ...] = ()  # length and width of the ground [m]
     seed: str = ""  # of the packing of grains
     floor: float = float("-inf")  # z of the ground under a bed whose lowest grains are frozen [m]
+    below: float = 0.0  # depth of the continuum under the grains of a hybrid [m]
     values: dict[str, SteadyValue] = field(default_factory=dict)  # STEADY_QUANTITIES
     wall_time: float = float("nan")  # [s]
     cpu_time: float = float("nan")  # measured by the runner, else wall time x ranks [s]
@@ -132,18 +133,24 @@ def read_wheel_run(folder: Path | str, label: str | None = None) -> WheelRun:
         results.folder,
         results,
         label or results.folder.resolve().name,
-        "continuum" if soil else "grains" if reference else "none",
+        _ground_of(soil, reference),
         deformable=not wheel.has("diameter"),
     )
     run.conditions.update(_rig_conditions(rig))
     run.conditions.update(_wheel_conditions(wheel, results))
-    if soil:
+    if soil and run.ground == "continuum":
         _read_continuum(run, soil)
     elif reference:
-        _read_grains(run, bed, reference)
-    _read_values(run, reference if run.ground == "grains" else None)
+        _read_grains(run, bed, reference, soil)
+    _read_values(run, reference)
     _read_cost(run)
     return run
+
+
+def _ground_of(soil: Style | None, reference: Grains | None) -> str:
+    if soil:
+        return "hybrid" if reference else "continuum"
+    return "grains" if reference else "none"
 
 
 def _rig_conditions(rig: Style) -> dict[str, Condition]:
@@ -202,7 +209,10 @@ def _read_continuum(run: WheelRun, soil: Style) -> None:
     run.conditions["density"] = Condition(initial, "kg/m3")
 
 
-def _read_grains(run: WheelRun, bed: Style | None, reference: Grains) -> None:
+def _read_grains(
+    run: WheelRun, bed: Style | None, reference: Grains, soil: Style | None = None
+) -> None:
+    """soil: the continuum that they lie on, in the place of a floor."""
     run.size, run.elements = float(2 * reference.radius.mean()), len(reference.id)
     level = reference.bed_level if np.isfinite(reference.bed_level) else run.ground_level
     low, high = reference.corners
@@ -211,10 +221,13 @@ def _read_grains(run: WheelRun, bed: Style | None, reference: Grains) -> None:
     base = bed.number("base", 0.0) if bed else 0.0
     floor = float(low[2]) + base
     floor = 0.0 if abs(floor) < run.size else floor
+    if soil:
+        floor = soil.number("surface")
     if base > 0.0:
         run.floor = floor
     depth = float(level - floor)
-    run.conditions["depth"] = Condition(depth, "m")
+    run.below = soil.number("depth") if soil else 0.0
+    run.conditions["depth"] = Condition(depth + run.below, "m")
     if bed is None:
         return
     run.domain = (bed.number("length", run.domain[0]), bed.number("width", run.domain[1]))

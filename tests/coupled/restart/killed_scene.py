@@ -12,7 +12,7 @@ writes begins again with the continued run: its rows must be among those of the 
 the first, the mean of an interval that the kill has cut.
 
 One kill comes some time after the second checkpoint. Of several, each comes at any moment of the
-run, every other one as SIGTERM; then the checkpoint is that of the signal. After it several ranks
+last run, every other one as SIGTERM; then the checkpoint is that of the signal. After it several ranks
 of a continuum, whose sums it has added up at that step, agree to 1e-9 of the largest number of a
 unit.
 """
@@ -80,9 +80,20 @@ def start(folder: Path, script: str) -> subprocess.Popen:
                             start_new_session=True)
 
 
-def finish(folder: Path, script: str) -> None:
-    if start(folder, script).wait(timeout=900) != 0:
+def finish(folder: Path, script: str) -> tuple[float, float]:
+    """@return when the last run began, and when all ended [s since the start]; the histories are
+    opened by the last run"""
+    began = time.monotonic()
+    run, prepared = start(folder, script), 0.0
+    while run.poll() is None:
+        if time.monotonic() - began > 900:
+            os.killpg(run.pid, signal.SIGKILL)
+        if not prepared and any((folder / "results").glob("*.h5")):
+            prepared = time.monotonic() - began
+        time.sleep(0.01)
+    if run.returncode != 0:
         sys.exit(f"{folder.name} stopped:\n" + (folder / "screen.txt").read_text()[-3000:])
+    return prepared, time.monotonic() - began
 
 
 def newest(files: list[Path]) -> Path | None:
@@ -130,11 +141,12 @@ def kill_after_checkpoint(folder: Path) -> Path | None:
     return newest(files)
 
 
-def kill_at_any_moment(folder: Path, duration: float, number: int) -> Path | None:
+def kill_at_any_moment(folder: Path, prepared: float, duration: float, number: int) -> Path | None:
     """@return a checkpoint, or nothing if there was none yet"""
     run = start(folder, whole_script())
     try:
-        if run.wait(timeout=random.uniform(0.05, 0.9) * duration) != 0:
+        moment = prepared + random.uniform(0.05, 0.9) * (duration - prepared)
+        if run.wait(timeout=moment) != 0:
             sys.exit("the run stopped:\n" + (folder / "screen.txt").read_text()[-2000:])
         return newest([folder / "ck.1", folder / "ck.2"])  # faster than the first: continued from its last
     except subprocess.TimeoutExpired:
@@ -185,14 +197,12 @@ with tempfile.TemporaryDirectory() as name:
     whole, killed = Path(name) / "whole", Path(name) / "killed"
     if has_bed:
         finish(killed, whole_script())  # makes the bed, whose minutes are none of the run's
-    began = time.monotonic()
-    finish(whole, whole_script())
-    duration = time.monotonic() - began
+    prepared, duration = finish(whole, whole_script())
     continued = 0
     for kill in range(words.kills):
         shutil.rmtree(killed, ignore_errors=True)
         number = signal.SIGTERM if kill % 2 else signal.SIGKILL
-        checkpoint = kill_after_checkpoint(killed) if words.kills == 1 else kill_at_any_moment(killed, duration, number)
+        checkpoint = kill_after_checkpoint(killed) if words.kills == 1 else kill_at_any_moment(killed, prepared, duration, number)
         if checkpoint is None:
             print("killed before the first checkpoint")
             continue

@@ -45,6 +45,18 @@ TEST(Overburden, ElasticGroundCarriesItsWeight) {
   }
 }
 
+/// A weight on the surface is carried by every level, beside its own.
+TEST(Overburden, ASurchargeIsCarriedByAllLevels) {
+  const double rho = 1800.0, surcharge = 5e3;
+  auto ground = deep({{material_of(elastic(1e9, 0.3, rho)), 2.0}});
+  ground.surcharge = surcharge;
+  auto levels = levels_down(2.0, 20);
+  find_overburden(ground, levels);
+  for (const ParticleLevel& level : levels)
+    EXPECT_NEAR(-level.state[field::stress + 2] / (surcharge - rho * standard_gravity * level.z),
+                1.0, 1e-4);
+}
+
 /// Snow compacts under its weight: equilibrium holds with the density it has then, sum over what
 /// lies above of rho(z) g dz.
 TEST(Overburden, SnowIsInEquilibriumAtItsCompactedDensity) {
@@ -93,9 +105,8 @@ TEST(Overburden, RefusesALawThatCannotCarryTheWeight) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("law elastic cannot carry"));
-    EXPECT_THAT(
-        error.what(),
-        HasSubstr("Pa of its own weight; allowed: a law that stiffens in confined compression"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("Pa of weight; allowed: a law that stiffens in confined compression"));
   }
 }
 

@@ -133,7 +133,14 @@ class PageTest(unittest.TestCase):
         wanted = {(plan.case, plan.ground) for plan in cases.plan()}
         cited = {(row["case"], row["ground"]) for row in read_rows(FOLDER / "cited.csv")}
         self.assertEqual(there, wanted | cited)
-        self.assertEqual(len({row["program"] for row in runs if row["program"]}), 1)
+        for hybrid_wheel in (False, True):  # a later program made the wheel on the hybrid
+            programs = {
+                row["program"]
+                for row in runs
+                if row["program"]
+                and hybrid_wheel == ((row["case"], row["source"]) == ("wheel_on_sand", "hybrid"))
+            }
+            self.assertEqual(len(programs), 1)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from furrow_post.analyse.density import ground_points
 from furrow_post.errors import ResultsError
 from furrow_post.read.results import Grains, Results, Surface
 from furrow_post.read.styles import Styles
@@ -88,6 +89,25 @@ class WheelRunTest(unittest.TestCase):
         self.assertAlmostEqual(run.number("density"), 1000, delta=2)
         self.assertAlmostEqual(run.values["sinkage"].mean, 0.05 - 0.02)
         self.assertAlmostEqual(run.number("datum_shift"), -0.02)
+
+    def test_a_hybrid_is_a_bed_whose_floor_is_a_continuum(self) -> None:
+        """Two grains on 0.1 m of continuum, in a box that reaches below it."""
+        bed = style("command", "bed", "", length=0.04, density=300, seed=86028121)
+        soil = style("terrain", "terrain/continuum", depth=0.1, surface=0.02, cell=0.05)
+        write_run(self.folder, styles=[bed, rigid_wheel(), rig(datum=0.05), soil])
+        (self.folder / "terrain.h5").touch()
+        x = np.array([[0.1, 0, 0.04], [0.1, 0.2, 0.04]])
+        with h5py.File(self.folder / "history.h5", "a") as content:
+            for when in ("reference", "final"):
+                group = content.create_group(f"grains/{when}")
+                write_grains(group, x, np.full(2, 0.02), 0.06)
+        run = read_wheel_run(self.folder)
+        self.assertEqual((run.ground, run.seed, run.size), ("hybrid", "86028121", 0.04))
+        self.assertAlmostEqual(run.number("depth"), 0.1 + 0.04)
+        solid, layer = 8 / 3 * np.pi * 0.02**3, 0.04 * 0.24 * 0.04
+        self.assertAlmostEqual(run.number("density"), 300 * solid / layer)
+        self.assertAlmostEqual(run.values["sinkage"].mean, 0.05 + 0.01)
+        self.assertAlmostEqual(ground_points(run).mass.sum(), 300 * solid)
 
     def test_the_frozen_base_of_a_bed_is_no_ground(self) -> None:
         """Two grains of the bed on one that is frozen below z = 0."""

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// One step of a terrain for several of the grains that lie on its sheet.
+
+#include "core/checkpoint.h"
+#include "geometry/surface.h"
+
+namespace furrow {
+
+/// Grains take steps of dt, the terrain one of T = N dt, as many as its stable step holds. Around
+/// the time t_n of the terrain the nodes of the sheet go on with the velocity that they have,
+///   x(t) = x(t_n) + (t - t_n) v   from t_n - (T - dt)/2 to t_n + (T - dt)/2,
+/// and the forces on them are summed. Their mean belongs to t_n, and is the force of the terrain's
+/// leapfrog step to t_n + T: of second order, with the impulse of the grains to rounding. With
+/// N = 1 this is the usual step.
+class Multirate {
+ public:
+  /// A step of the grains under the forces on the sheet. @return whether it was the last one: the
+  /// terrain then takes its step of interval() under mean_force(), and calls begin()
+  bool add(Surface& sheet, double dt);
+  double interval() const { return interval_; }
+  Matrix3X mean_force() const { return impulse_ / interval_; }
+
+  /// @param sheet   after a step of the terrain, or at the start
+  /// @param stable  step of the terrain [s]
+  void begin(Surface& sheet, double dt, double stable);
+  bool begun() const { return interval_ > 0.0; }
+  /// Of the terrain when the interval began [s].
+  double stable_step() const { return stable_; }
+
+  /// @param sheet  as the terrain's particles have it, which comes to where it was
+  void resume(Surface& sheet);
+  void checkpoint(Checkpoint& state, Eigen::Index nodes);
+
+ private:
+  void place(Surface& sheet) const { sheet.x = x_ + offset_ * sheet.v; }
+
+  Matrix3X x_;             // of the nodes at t_n [m]
+  Matrix3X impulse_;       // of the forces since the interval began [N s]
+  double interval_ = 0.0;  // T [s]
+  double elapsed_ = 0.0;   // of T [s]
+  double offset_ = 0.0;    // t - t_n [s]
+  double stable_ = 0.0;    // [s]
+};
+
+}  // namespace furrow

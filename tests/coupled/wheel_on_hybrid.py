@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The wheel of inputs/crosscheck on a hybrid, coarse: set down and moved on by 5 cm.
+
+    wheel_on_hybrid.py <furrow>
+
+What the base of the continuum gives is the weight of grains and continuum and the load of the wheel
+(momentum), but for what walls around the grains carry by friction; the continuum gives way where a
+rigid floor under the same grains does not; and its long steps change the sinkage by less than the
+scatter of grains.
+"""
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+GRAVITY, GRAIN_DENSITY = 9.80665, 2650.0
+FOLDER = Path(__file__).resolve().parents[2] / "inputs" / "crosscheck"
+
+
+def run(results: Path, script: str, **variables: object) -> float:
+    """@return sinkage at rest [m]"""
+    given = {"diameter": 0.05, "distance": 0.05, "here": FOLDER, "results": results, **variables}
+    words = [str(word) for pair in given.items() for word in ("-var", *pair)]
+    done = subprocess.run([sys.argv[1], "-in", FOLDER / f"{script}.lig", "-log", "none", *words],
+                          capture_output=True, text=True, timeout=500)
+    if done.returncode != 0:
+        sys.exit(f"{script} stopped:\n{(done.stdout + done.stderr)[-3000:]}")
+    with h5py.File(results / "history.h5") as content:
+        history = content["history"]
+        time, sinkage = history["time"][:], history["sinkage"][:]
+    return float(sinkage[(time > 0.3) & (time < 0.4)].mean())
+
+
+def check_momentum(results: Path) -> None:
+    with h5py.File(results / "history.h5") as content:
+        history = content["history"]
+        time, force = history["time"][:], history["force_z"][:]
+        radius = content["grains/reference/radius"][:]
+    with h5py.File(results / "terrain.h5") as content:
+        base = content["history/base_impulse"][:]
+        base_time = content["history/time"][:]
+        ground = float(np.sum(content["terrain/density"][:] * content["terrain/volume"][:]))
+    grains = float(np.sum(4 / 3 * np.pi * radius**3) * GRAIN_DENSITY)
+    end = base_time[-1]
+    force, time = force[time <= end], time[time <= end]
+    wheel = float(np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(time)))
+    expected = (grains + ground) * GRAVITY * end + wheel
+    print(f"base {base[-1]:.2f} N s, weights and wheel {expected:.2f} N s")
+    if abs(base[-1] - expected) > 0.015 * expected:
+        sys.exit("the base does not give what it carries")
+
+
+with tempfile.TemporaryDirectory() as name:
+    folder = Path(name)
+    cell = {"cell": 0.0666667}
+    long_steps = run(folder / "long", "wheel_sand_hybrid", **cell)
+    short_steps = run(folder / "short", "wheel_sand_hybrid", multirate="no", **cell)
+    rigid = run(folder / "rigid", "wheel_sand_grains", depth=0.15)
+    print(f"sinkage {1e3 * long_steps:.2f} mm, with short steps {1e3 * short_steps:.2f} mm, "
+          f"on a rigid floor {1e3 * rigid:.2f} mm")
+    check_momentum(folder / "long")
+    if abs(long_steps - short_steps) > 0.15 * short_steps:
+        sys.exit("the continuum's long steps change the sinkage")
+    if long_steps < rigid + 0.004:
+        sys.exit("the continuum under the grains does not give way")
