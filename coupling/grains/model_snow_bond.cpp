@@ -280,16 +280,15 @@ SnowBondModel::Response SnowBondModel::yield(const furrow::SnowBondParameters& p
 
 void SnowBondModel::exert(const Response& response, const SurfacesIntersectData& touching,
                           ForceData& on_i, ForceData& on_j) const {
-  using furrow::Vector3;
-  const Vector3 couple = furrow::coupling::vector(touching.en).cross(response.force);
+  const furrow::Vector3 couple = furrow::coupling::vector(touching.en).cross(response.force);
   for (int c = 0; c < 3; ++c) {
-    on_i.delta_F[c] += response.force[c];
-    on_i.delta_torque[c] += response.moment[c] - touching.cri * couple[c];
+    on_i.delta_F[c] = response.force[c];
+    on_i.delta_torque[c] = response.moment[c] - touching.cri * couple[c];
   }
   if (is_wall_) return;
   for (int c = 0; c < 3; ++c) {
-    on_j.delta_F[c] -= response.force[c];
-    on_j.delta_torque[c] -= response.moment[c] + touching.crj * couple[c];
+    on_j.delta_F[c] = -response.force[c];
+    on_j.delta_torque[c] = -(response.moment[c] + touching.crj * couple[c]);
   }
 }
 
