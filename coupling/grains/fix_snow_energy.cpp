@@ -48,19 +48,6 @@ void FixSnowEnergy::setup_pre_force(int) { begin_step(); }
 void FixSnowEnergy::pre_force(int) { begin_step(); }
 void FixSnowEnergy::begin_step() { present_ = {}; }
 
-void FixSnowEnergy::add(const SnowBondEnergy& energy, bool bonded, double share) {
-  present_.stored += share * energy.stored;
-  present_.bonds += bonded ? share : 0.0;
-  total_.crushed += share * energy.crushed;
-  total_.damped += share * energy.damped;
-  total_.released += share * energy.released;
-}
-
-void FixSnowEnergy::count(const SnowBondResponse& response, double share) {
-  total_.made += response.made ? share : 0.0;
-  total_.broken += response.broken ? share : 0.0;
-}
-
 void FixSnowEnergy::release(double energy, bool bonded, double share) {
   total_.released += share * energy;
   total_.broken += bonded ? share : 0.0;

@@ -21,9 +21,24 @@ class FixSnowEnergy : public FurrowFix {
 
   /// A contact in this step. @param share  that belongs to this rank: a half where another rank
   /// computes the contact too, or where the response is that of a contact and its mirror image
-  void add(const SnowBondEnergy& energy, bool bonded, double share);
+  void add(const SnowBondEnergy& energy, bool bonded, double share) {
+    present_.stored += share * energy.stored;
+    present_.bonds += bonded ? share : 0.0;
+    total_.crushed += share * energy.crushed;
+    total_.damped += share * energy.damped;
+    total_.released += share * energy.released;
+  }
+  /// A bond in an elastic step.
+  void add_elastic(const SnowBondEnergy& energy, double share) {
+    present_.stored += share * energy.stored;
+    present_.bonds += share;
+    total_.damped += share * energy.damped;
+  }
   /// The bonds that it made and broke.
-  void count(const SnowBondResponse& response, double share);
+  void count(const SnowBondResponse& response, double share) {
+    total_.made += response.made ? share : 0.0;
+    total_.broken += response.broken ? share : 0.0;
+  }
   /// A contact has ended and its springs are lost. @param energy [J]
   void release(double energy, bool bonded, double share);
 

@@ -59,8 +59,6 @@ SnowBondParameters read_parameters(LAMMPS_NS::LAMMPS& lammps, int type, int othe
 
 Schema ModelSnowBond::schema() { return SnowBondParameters::schema(); }
 
-void ModelSnowBond::add() { add_normal_model<model_id>(name); }
-
 bool ModelSnowBond::is_pair_style(const LAMMPS_NS::LAMMPS& lammps) {
   auto* pair = dynamic_cast<LAMMPS_NS::PairGranProxy*>(lammps.force->pair);
   return pair && pair->hashcode() == LIGGGHTS::ContactModels::GranStyle<model_id>::HASHCODE;
@@ -95,14 +93,20 @@ class NormalModel<furrow::coupling::model_id> : public NormalModelBase {
  private:
   using Law = furrow::SnowBond;
   using State = furrow::SnowBondState;
+  using Trial = furrow::SnowBondTrial;
   using Response = furrow::SnowBondResponse;
 
   const furrow::SnowBondParameters& law(int type, int other) const {
     return laws_[static_cast<std::size_t>(type * stride_ + other)];
   }
   furrow::SnowContact contact_of(const SurfacesIntersectData& touching) const;
-  Response respond(const SurfacesIntersectData& touching) const;
-  bool respond_elastically(const SurfacesIntersectData& touching, Response& response) const;
+  template <bool counts_energy>
+  void advance(const SurfacesIntersectData& touching, ForceData& on_i, ForceData& on_j) const;
+  void exert(const Response& response, const SurfacesIntersectData& touching, ForceData& on_i,
+             ForceData& on_j) const;
+  Response yield(const furrow::SnowBondParameters& parameters, const furrow::SnowContact& contact,
+                 const Trial& trial, double* values, double share) const;
+  Response stand(SurfacesIntersectData touching) const;
   /// Else the forces are those before the first step of a run.
   static bool moves(const SurfacesIntersectData& touching) {
     return touching.computeflag && touching.shearupdate;
@@ -115,6 +119,28 @@ class NormalModel<furrow::coupling::model_id> : public NormalModelBase {
   double share(const SurfacesCloseData& contact) const {
     return is_wall_ || contact.j >= atom->nlocal ? 0.5 : 1.0;
   }
+
+  // yield() by itself, where elastic contacts need no registers for it, with copies, so that what
+  // it is given stays in registers otherwise; see ShortPairLoop
+  using Yield = Response (NormalModel::*)(const furrow::SnowBondParameters&, furrow::SnowContact,
+                                          Trial, double*, double) const;
+  [[gnu::noinline, gnu::flatten]] Response yield_baseline(
+      const furrow::SnowBondParameters& parameters, furrow::SnowContact contact, Trial trial,
+      double* values, double share) const {
+    return yield(parameters, contact, trial, values, share);
+  }
+#ifdef FURROW_X86_KERNELS
+  [[gnu::noinline, gnu::flatten, gnu::target("avx2")]] Response yield_avx2(
+      const furrow::SnowBondParameters& parameters, furrow::SnowContact contact, Trial trial,
+      double* values, double share) const {
+    return yield(parameters, contact, trial, values, share);
+  }
+  Yield yield_ = furrow::chosen_instruction_set() == furrow::InstructionSet::baseline
+                     ? &NormalModel::yield_baseline
+                     : &NormalModel::yield_avx2;
+#else
+  Yield yield_ = &NormalModel::yield_baseline;
+#endif
 
   bool is_wall_;
   int first_value_ = 0;                           // of the state in the history
@@ -213,15 +239,14 @@ furrow::SnowContact SnowBondModel::contact_of(const SurfacesIntersectData& touch
   return contact;
 }
 
-/// Any other step, or none. It stands by itself, where elastic contacts need no registers for it.
-[[gnu::noinline, gnu::flatten]] SnowBondModel::Response SnowBondModel::respond(
-    const SurfacesIntersectData& touching) const {
+/// A contact that is sintered in this step, or has not moved: before the first step of a run.
+[[gnu::noinline]] SnowBondModel::Response SnowBondModel::stand(
+    const SurfacesIntersectData touching) const {
   const furrow::SnowContact contact = contact_of(touching);
   const furrow::SnowBondParameters& parameters = law(touching.itype, touching.jtype);
   double* values = touching.contact_history + first_value_;
   State state = State::load(values);
   const bool sinters = is_sintered(touching);
-  // Forces before the first step of a run: nothing has moved.
   if (!moves(touching)) {
     // of the parameters that this run has
     state.hardening = furrow::SnowHardening::at(parameters, state.crushing(contact.d));
@@ -229,9 +254,7 @@ furrow::SnowContact SnowBondModel::contact_of(const SurfacesIntersectData& touch
     return sinters ? Response() : Law::hold(parameters, contact, state);
   }
   furrow::SnowBondEnergy energy;
-  const Response response = sinters   ? Law::sinter(parameters, contact, state, &energy)
-                            : energy_ ? Law::advance(parameters, contact, state, &energy)
-                                      : Law::advance_yielding(parameters, contact, state, nullptr);
+  const Response response = Law::sinter(parameters, contact, state, &energy);
   state.store(values);
   if (energy_) {
     energy_->add(energy, state.bonded, share(touching));
@@ -240,36 +263,65 @@ furrow::SnowContact SnowBondModel::contact_of(const SurfacesIntersectData& touch
   return response;
 }
 
-/// An elastic step whose energy nobody counts. @return false: it is another, and nothing is done
-bool SnowBondModel::respond_elastically(const SurfacesIntersectData& touching,
-                                        Response& response) const {
-  if (energy_ || !moves(touching) || is_sintered(touching)) return false;
+SnowBondModel::Response SnowBondModel::yield(const furrow::SnowBondParameters& parameters,
+                                             const furrow::SnowContact& contact, const Trial& trial,
+                                             double* values, double share) const {
+  State state = State::load(values);
+  furrow::SnowBondEnergy energy;
+  const Response response =
+      Law::advance_yielding(parameters, contact, trial, state, energy_ ? &energy : nullptr);
+  state.store(values);
+  if (energy_) {
+    energy_->add(energy, state.bonded, share);
+    energy_->count(response, share);
+  }
+  return response;
+}
+
+void SnowBondModel::exert(const Response& response, const SurfacesIntersectData& touching,
+                          ForceData& on_i, ForceData& on_j) const {
+  const furrow::Vector3 couple = furrow::coupling::vector(touching.en).cross(response.force);
+  for (int c = 0; c < 3; ++c) {
+    on_i.delta_F[c] = response.force[c];
+    on_i.delta_torque[c] = response.moment[c] - touching.cri * couple[c];
+  }
+  if (is_wall_) return;
+  for (int c = 0; c < 3; ++c) {
+    on_j.delta_F[c] = -response.force[c];
+    on_j.delta_torque[c] = -(response.moment[c] + touching.crj * couple[c]);
+  }
+}
+
+/// Each way exerts its forces itself: those of the elastic one then never leave the registers.
+template <bool counts_energy>
+void SnowBondModel::advance(const SurfacesIntersectData& touching, ForceData& on_i,
+                            ForceData& on_j) const {
+  const furrow::SnowContact contact = contact_of(touching);
+  const furrow::SnowBondParameters& parameters = law(touching.itype, touching.jtype);
   double* values = touching.contact_history + first_value_;
   State state = State::load(values);
-  if (!Law::advance_elastic(law(touching.itype, touching.jtype), contact_of(touching), state,
-                            response, nullptr))
-    return false;
+  const Trial trial(parameters, contact, state);
+  Response response;
+  furrow::SnowBondEnergy energy;
+  if (!Law::advance_elastic(parameters, contact, trial, state, response,
+                            counts_energy ? &energy : nullptr))
+    return exert((this->*yield_)(parameters, contact, trial, values, share(touching)), touching,
+                 on_i, on_j);
   state.store_elastic(values);
-  return true;
+  if (counts_energy) energy_->add_elastic(energy, share(touching));
+  exert(response, touching, on_i, on_j);
 }
 
 /// With all calls inlined, which saves an eighth of the instructions of a step.
 [[gnu::flatten]] void SnowBondModel::surfacesIntersect(SurfacesIntersectData& touching,
                                                        ForceData& on_i, ForceData& on_j) {
-  using furrow::Vector3;
   if (touching.contact_flags) *touching.contact_flags |= CONTACT_NORMAL_MODEL;
-  Response response;
-  if (!respond_elastically(touching, response)) response = respond(touching);
-
-  const double cri = touching.cri, crj = touching.crj;
-  const Vector3 pushed = response.force, moment = response.moment,
-                couple = furrow::coupling::vector(touching.en).cross(pushed),
-                on_i_about = moment - cri * couple, on_j_about = moment + crj * couple;
-  for (int c = 0; c < 3; ++c) on_i.delta_F[c] += pushed[c];
-  for (int c = 0; c < 3; ++c) on_i.delta_torque[c] += on_i_about[c];
-  if (is_wall_) return;
-  for (int c = 0; c < 3; ++c) on_j.delta_F[c] -= pushed[c];
-  for (int c = 0; c < 3; ++c) on_j.delta_torque[c] -= on_j_about[c];
+  if (!moves(touching) || is_sintered(touching))
+    exert(stand(touching), touching, on_i, on_j);
+  else if (energy_)
+    advance<true>(touching, on_i, on_j);
+  else
+    advance<false>(touching, on_i, on_j);
 }
 
 void SnowBondModel::surfacesClose(SurfacesCloseData& parted, ForceData&, ForceData&) {
@@ -286,3 +338,23 @@ void SnowBondModel::surfacesClose(SurfacesCloseData& parted, ForceData&, ForceDa
 }
 
 }  // namespace LIGGGHTS::ContactModels
+
+namespace furrow::coupling {
+
+namespace exposed {
+
+using SnowModel =
+    LIGGGHTS::ContactModels::ContactModel<LIGGGHTS::ContactModels::GranStyle<model_id>>;
+using SnowPairs = LIGGGHTS::PairStyles::Granular<SnowModel>;
+
+struct ModelOfSnowPairs {
+  using type = SnowModel SnowPairs::*;
+  friend type member(ModelOfSnowPairs);
+};
+template struct Expose<ModelOfSnowPairs, &SnowPairs::cmodel>;
+
+}  // namespace exposed
+
+void ModelSnowBond::add() { add_normal_model<model_id, exposed::ModelOfSnowPairs>(name); }
+
+}  // namespace furrow::coupling

@@ -3,19 +3,13 @@
 
 #include <map>
 
+#include "coupling/liggghts/expose.h"
 #include "input.h"
 #include "modify.h"
 
 namespace furrow::coupling {
 
-namespace {
-
-// An explicit template instantiation may name private members; the friend function hands the
-// pointer to member out.
-template <class Tag, typename Tag::type Member>
-struct Expose {
-  friend typename Tag::type member(Tag) { return Member; }
-};
+namespace exposed {
 
 using FixMap = std::map<std::string, FixCreator>;
 using CommandMap = std::map<std::string, CommandCreator>;
@@ -68,11 +62,15 @@ struct HistoryKeep {
 };
 template struct Expose<HistoryKeep, &LAMMPS_NS::FixContactHistoryMesh::keepflag_>;
 
-FixMap& fix_styles(const LAMMPS_NS::LAMMPS& lammps) {
-  return *(lammps.modify->*member(ModifyFixMap{}));
+}  // namespace exposed
+
+namespace {
+
+exposed::FixMap& fix_styles(const LAMMPS_NS::LAMMPS& lammps) {
+  return *(lammps.modify->*member(exposed::ModifyFixMap{}));
 }
-CommandMap& commands(const LAMMPS_NS::LAMMPS& lammps) {
-  return *(lammps.input->*member(InputCommandMap{}));
+exposed::CommandMap& commands(const LAMMPS_NS::LAMMPS& lammps) {
+  return *(lammps.input->*member(exposed::InputCommandMap{}));
 }
 
 }  // namespace
@@ -91,12 +89,12 @@ bool has_command(const LAMMPS_NS::LAMMPS& lammps, const std::string& name) {
 }
 
 const char* current_line(const LAMMPS_NS::LAMMPS& lammps) {
-  return lammps.input->*member(InputLine{});
+  return lammps.input->*member(exposed::InputLine{});
 }
 
 std::vector<std::string> current_command(const LAMMPS_NS::LAMMPS& lammps) {
   const LAMMPS_NS::Input& input = *lammps.input;
-  const char* name = input.*member(InputCommand{});
+  const char* name = input.*member(exposed::InputCommand{});
   if (!name) return {};
   std::vector<std::string> words = {name};
   words.insert(words.end(), input.arg, input.arg + input.narg);
@@ -106,20 +104,20 @@ std::vector<std::string> current_command(const LAMMPS_NS::LAMMPS& lammps) {
 std::vector<std::string> styles_in_restart_file(const LAMMPS_NS::LAMMPS& lammps) {
   const int count = lammps.modify->nfix_restart_global;
   if (count == 0) return {};
-  char** first = lammps.modify->*member(ModifyRestartStyles{});
+  char** first = lammps.modify->*member(exposed::ModifyRestartStyles{});
   return {first, first + count};
 }
 
 void replace_mesh(LAMMPS_NS::FixMesh& fix, LAMMPS_NS::AbstractMesh* mesh) {
-  LAMMPS_NS::AbstractMesh*& slot = fix.*member(FixMeshMesh{});
+  LAMMPS_NS::AbstractMesh*& slot = fix.*member(exposed::FixMeshMesh{});
   delete slot;
   slot = mesh;
 }
 
-FILE* file_of(const LAMMPS_NS::FixAveTime& fix) { return fix.*member(AveTimeFile{}); }
+FILE* file_of(const LAMMPS_NS::FixAveTime& fix) { return fix.*member(exposed::AveTimeFile{}); }
 
 bool contact_seen(LAMMPS_NS::FixContactHistoryMesh& history, int grain, int slot) {
-  return (history.*member(HistoryKeep{}))[grain][slot];
+  return (history.*member(exposed::HistoryKeep{}))[grain][slot];
 }
 
 }  // namespace furrow::coupling

@@ -12,50 +12,19 @@
 #include "granular_pair_style.h"
 #include "granular_wall.h"
 #include "contact_models.h"
-#include "pair_gran_base.h"
 #include "fix_wall_gran_base.h"
 
-#include "simd/dispatch.h"
+#include "coupling/liggghts/short_pair_loop.h"
 
 namespace furrow::coupling {
-
-/// LIGGGHTS's loop over pairs, compiled in one with the model and, where the processor has it, with
-/// AVX2, whose instructions have three operands and so move less. Without fused multiplication
-/// results are the same to the last bit.
-template <class Model>
-class InlinedPairs final : public LIGGGHTS::PairStyles::Granular<Model> {
-  using Loop = LIGGGHTS::PairStyles::Granular<Model>;
-  using Compute = void (InlinedPairs::*)(LAMMPS_NS::PairGran*, int, int, int);
-
- public:
-  using Loop::Loop;
-
-  void compute_force(LAMMPS_NS::PairGran* pair, int energy, int virial, int local) override {
-    (this->*compute_)(pair, energy, virial, local);
-  }
-
- private:
-  [[gnu::flatten]] void baseline(LAMMPS_NS::PairGran* pair, int energy, int virial, int local) {
-    Loop::compute_force(pair, energy, virial, local);
-  }
-#ifdef FURROW_X86_KERNELS
-  [[gnu::flatten, gnu::target("avx2")]] void avx2(LAMMPS_NS::PairGran* pair, int energy, int virial,
-                                                  int local) {
-    Loop::compute_force(pair, energy, virial, local);
-  }
-  Compute compute_ = chosen_instruction_set() == InstructionSet::baseline ? &InlinedPairs::baseline
-                                                                          : &InlinedPairs::avx2;
-#else
-  Compute compute_ = &InlinedPairs::baseline;
-#endif
-};
 
 /// Adds a normal model that stands alone: with tangential, cohesion and rolling models off and the
 /// default surface. LIGGGHTS::ContactModels::NormalModel<id> is specialised for it, id below 64 and
 /// none of LIGGGHTS's (surface, normal_model_*.h).
 /// LIGGGHTS keeps its tables for the whole process, also over `clear`, and complains of what is
 /// added twice.
-template <int id>
+/// @tparam Place  see ShortPairLoop
+template <int id, class Place>
 void add_normal_model(const std::string& name) {
   namespace liggghts = LIGGGHTS;
   using Combination = liggghts::ContactModels::GranStyle<id>;
@@ -66,7 +35,7 @@ void add_normal_model(const std::string& name) {
         "gran", Combination::HASHCODE,
         [](LAMMPS_NS::LAMMPS* lammps, LAMMPS_NS::PairGran* pair,
            std::int64_t hash) -> liggghts::PairStyles::IGranularPairStyle* {
-          return new InlinedPairs<Model>(lammps, pair, hash);
+          return new ShortPairLoop<Model, Place>(lammps, pair, hash);
         });
     liggghts::Walls::Factory::instance().addStyle(
         "gran", Combination::HASHCODE,

@@ -115,6 +115,8 @@ struct SnowStrength {
   double Fb, dFb;  ///< likewise, for A >= A0
 };
 
+struct SnowBondTrial;
+
 /// The law. An energy that is asked for is set.
 class SnowBond {
  public:
@@ -140,15 +142,15 @@ class SnowBond {
   /// One step.
   static SnowBondResponse advance(const SnowBondParameters& law, const SnowContact& contact,
                                   SnowBondState& state, SnowBondEnergy* energy = nullptr);
-  /// Its two parts, for programs whose time it takes: an elastic step, which most are ...
-  /// @param energy  nullptr or zeros  @return false: it is not elastic, and nothing is changed
+  /// Its two parts, for programs whose time it takes, from the trial of the state: an elastic step,
+  /// which most are ... @return false: it is not elastic, and nothing is changed
   static bool advance_elastic(const SnowBondParameters& law, const SnowContact& contact,
-                              SnowBondState& state, SnowBondResponse& response,
-                              SnowBondEnergy* energy);
+                              const SnowBondTrial& trial, SnowBondState& state,
+                              SnowBondResponse& response, SnowBondEnergy* energy);
   /// ... and one of a contact that yields, breaks, sinters or is dry.
   static SnowBondResponse advance_yielding(const SnowBondParameters& law,
-                                           const SnowContact& contact, SnowBondState& state,
-                                           SnowBondEnergy* energy);
+                                           const SnowContact& contact, const SnowBondTrial& trial,
+                                           SnowBondState& state, SnowBondEnergy* energy);
   /// Forces of a state as it is, without dampers.
   static SnowBondResponse hold(const SnowBondParameters& law, const SnowContact& contact,
                                const SnowBondState& state, SnowBondEnergy* energy = nullptr);
@@ -202,15 +204,16 @@ inline SnowHardening SnowHardening::at(const SnowBondParameters& law, double X) 
 }
 
 inline SnowHardening SnowHardening::after(const SnowBondParameters& law, double dX) const {
-  const auto grown = [dX](double value, double rate) {
-    constexpr double small = 1.0 / 32.0;  // of the exponent: the series is then right to 1e-14
-    const double x = rate * dX;
-    if (!(std::abs(x) < small)) return value + (1.0 + value) * std::expm1(x);
-    const double growth =
-        x + x * x * (1.0 / 2 + x * (1.0 / 6 + x * (1.0 / 24 + x * (1.0 / 120 + x * (1.0 / 720)))));
-    return value + (1.0 + value) * growth;
-  };
-  return {grown(soft, law.p), grown(dense, law.q), grown(bond, law.pc)};
+  using Four [[gnu::vector_size(32)]] = double;
+  constexpr double small = 1.0 / 32.0;  // of the exponent: the series is then right to 1e-14
+  const Four value = {soft, dense, bond, bond};
+  const Four x = Four{law.p, law.q, law.pc, law.pc} * dX;
+  Four growth =
+      x + x * x * (1.0 / 2 + x * (1.0 / 6 + x * (1.0 / 24 + x * (1.0 / 120 + x * (1.0 / 720)))));
+  for (int k = 0; k < 3; ++k)
+    if (!(std::abs(x[k]) < small)) growth[k] = std::expm1(x[k]);
+  const Four grown = value + (1.0 + value) * growth;
+  return {grown[0], grown[1], grown[2]};
 }
 
 inline SnowStrength SnowBond::strength(const SnowBondParameters& law, double d,
@@ -327,6 +330,7 @@ inline SnowBondResponse SnowBondTrial::response(const SnowBondParameters& law,
   response.moment = all.second();
   if (energy) {
     const Two slip = damping * rates.squared();
+    *energy = {};
     energy->stored = stored();
     energy->damped = contact.dt * (c * contact.normal_velocity * contact.normal_velocity + slip[0] +
                                    slip[1] + 2.0 * damping[1] * twist * twist);
@@ -337,13 +341,9 @@ inline SnowBondResponse SnowBondTrial::response(const SnowBondParameters& law,
 /// A step in which a contact yields, breaks, sinters or is dry, phase by phase.
 class SnowBondStep {
  public:
-  SnowBondStep(const SnowBondParameters& law, const SnowContact& contact, SnowBondState& state)
-      : law_(law),
-        contact_(contact),
-        state_(state),
-        trial_(law, contact, state),
-        d_(contact.d),
-        k_(trial_.k) {}
+  SnowBondStep(const SnowBondParameters& law, const SnowContact& contact,
+               const SnowBondTrial& trial, SnowBondState& state)
+      : law_(law), contact_(contact), state_(state), trial_(trial), d_(contact.d), k_(trial.k) {}
 
   SnowBondResponse advance(SnowBondEnergy* energy);
 
@@ -373,7 +373,7 @@ class SnowBondStep {
   const SnowBondParameters& law_;
   const SnowContact& contact_;
   SnowBondState& state_;
-  const SnowBondTrial trial_;
+  const SnowBondTrial& trial_;
   const double d_, k_;
 
   SnowStrength strong_;    // in the end at the crushing after the step
@@ -555,9 +555,8 @@ inline double SnowBond::stored(const SnowBondParameters& law, double d, const Sn
 }
 
 inline bool SnowBond::advance_elastic(const SnowBondParameters& law, const SnowContact& contact,
-                                      SnowBondState& state, SnowBondResponse& response,
-                                      SnowBondEnergy* energy) {
-  const SnowBondTrial trial(law, contact, state);
+                                      const SnowBondTrial& trial, SnowBondState& state,
+                                      SnowBondResponse& response, SnowBondEnergy* energy) {
   if (!trial.is_elastic(law, contact, state)) return false;
   state.across = trial.across;
   state.torsion = trial.torsion;
@@ -567,17 +566,18 @@ inline bool SnowBond::advance_elastic(const SnowBondParameters& law, const SnowC
 
 inline SnowBondResponse SnowBond::advance(const SnowBondParameters& law, const SnowContact& contact,
                                           SnowBondState& state, SnowBondEnergy* energy) {
-  if (energy) *energy = {};
+  const SnowBondTrial trial(law, contact, state);
   SnowBondResponse response;
-  if (advance_elastic(law, contact, state, response, energy)) return response;
-  return advance_yielding(law, contact, state, energy);
+  if (advance_elastic(law, contact, trial, state, response, energy)) return response;
+  return advance_yielding(law, contact, trial, state, energy);
 }
 
 inline SnowBondResponse SnowBond::advance_yielding(const SnowBondParameters& law,
-                                                   const SnowContact& contact, SnowBondState& state,
+                                                   const SnowContact& contact,
+                                                   const SnowBondTrial& trial, SnowBondState& state,
                                                    SnowBondEnergy* energy) {
   if (energy) *energy = {};
-  return SnowBondStep(law, contact, state).advance(energy);
+  return SnowBondStep(law, contact, trial, state).advance(energy);
 }
 
 inline SnowBondResponse SnowBond::hold(const SnowBondParameters& law, const SnowContact& contact,

@@ -1,13 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Instructions for a grain and step of two grounds of the laboratory at rest, counted by callgrind,
-so whatever else the machine does: snow_cost.py FURROW. Takes half a minute."""
+"""Instructions for a grain and step of two grounds of the laboratory, at rest and while they are
+pressed, counted by callgrind, so whatever else the machine does: snow_cost.py FURROW. Takes two
+minutes."""
 
 import re
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import NamedTuple
 
 LABORATORY = Path(__file__).resolve().parents[2] / "inputs/laboratory"
 CLUSTERS = 300
@@ -16,7 +18,9 @@ STEPS = (100, 300)  # the difference is free of what a start costs
 PREPARE = """
 variable        seed index 86028121
 include         ${here}/parts/cell.lig
-run             200
+PRESS
+variable        steps equal round(${strain}/2/${time_step})+200
+run             ${steps}
 write_restart   ${ground}.restart
 """
 
@@ -37,13 +41,34 @@ include         ${here}/parts/${family}.lig
 PROPERTIES
 fix             move all nve/sphere
 EXTRA
+compute         touching all contact/atom
+compute         contacts all reduce sum c_touching
+thermo_style    custom step c_contacts
 thermo          100000
 run             ${steps}
 """
 
+PRESS = "fix cell all cell/servo rate_z 2"
+ENERGY = "fix energy all snow/energy"
 
-def variables(ground: str) -> list[str]:
-    return ["-v", "here", str(LABORATORY), "-v", "ground", ground]
+
+class State(NamedTuple):
+    name: str
+    strain: float  # of confined compression before
+    motion: str  # before, and while steps are counted
+
+
+STATES = (State("at rest", 0.0, ""), State("pressed together by a fifth, at 2 1/s", 0.223, PRESS))
+
+
+class Cost(NamedTuple):
+    instructions: float  # for a grain and step
+    contacts: float  # of a grain
+
+
+def variables(ground: str, **others: float) -> list[str]:
+    values = {"here": LABORATORY, "ground": ground, **others}
+    return [word for name, value in values.items() for word in ("-v", name, str(value))]
 
 
 def properties(ground: str) -> str:
@@ -53,40 +78,54 @@ def properties(ground: str) -> str:
     return (LABORATORY / "parts/snow_bonded_sinter.lig").read_text().split("velocity")[0]
 
 
-def instructions(furrow: str, folder: Path, ground: str, extra: str = "") -> float:
-    """For a grain and step."""
+def prepare(furrow: str, folder: Path, ground: str, state: State) -> None:
+    (folder / "prepare.lig").write_text(PREPARE.replace("PRESS", state.motion))
+    subprocess.run(
+        [furrow, "-in", "prepare.lig", *variables(ground, strain=state.strain, grains=CLUSTERS)],
+        cwd=folder, stdout=subprocess.DEVNULL, check=True,
+    )  # fmt: skip
+
+
+def cost(furrow: str, folder: Path, ground: str, state: State, extra: str = "") -> Cost:
     script = folder / "measure.lig"
-    text = MEASURE.replace("PROPERTIES", properties(ground)).replace("EXTRA", extra)
+    text = MEASURE.replace("PROPERTIES", properties(ground))
+    text = text.replace("EXTRA", f"{state.motion}\n{extra}")
     script.write_text(text)
     counts = []
     for steps in STEPS:
         run = subprocess.run(
             ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", furrow,
-             "-in", script.name, *variables(ground), "-v", "steps", str(steps)],
+             "-in", script.name, *variables(ground, steps=steps)],
             cwd=folder, capture_output=True, text=True, check=True,
         )  # fmt: skip
         counts.append(int(re.findall(r"Collected : (\d+)", run.stderr)[-1]))
-    return (counts[1] - counts[0]) / (STEPS[1] - STEPS[0]) / CLUSTERS
+    rows = re.findall(r"^ *\d+ +([\d.e+]+) *$", run.stdout, re.MULTILINE)
+    each = (counts[1] - counts[0]) / (STEPS[1] - STEPS[0]) / CLUSTERS
+    return Cost(each, 0.5 * float(rows[-1]) / CLUSTERS)
 
 
 def main() -> None:
     furrow = str(Path(sys.argv[1]).resolve())
+    print(f"{'':35} per grain   contacts   per contact")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        found = {}
-        for ground in ("snow", "snow_bonded"):
-            (folder / "prepare.lig").write_text(PREPARE)
-            subprocess.run(
-                [furrow, "-in", "prepare.lig", *variables(ground), "-v", "grains", str(CLUSTERS)],
-                cwd=folder, stdout=subprocess.DEVNULL, check=True,
-            )  # fmt: skip
-            found[ground] = instructions(furrow, folder, ground)
-        counted = "snow_bonded, with fix snow/energy"
-        found[counted] = instructions(
-            furrow, folder, "snow_bonded", "fix energy all snow/energy"
-        )
-    for ground, count in found.items():
-        print(f"{ground:35} {count:6.0f}  {count / found['snow']:.2f}")
+        for state in STATES:
+            for ground in ("snow", "snow_bonded"):
+                prepare(furrow, folder, ground, state)
+            plain = cost(furrow, folder, "snow", state)
+            bonded = cost(furrow, folder, "snow_bonded", state)
+            counted = cost(furrow, folder, "snow_bonded", state, ENERGY)
+            print(state.name)
+            for label, found in (
+                ("snow", plain),
+                ("snow_bonded", bonded),
+                ("snow_bonded, with fix snow/energy", counted),
+            ):
+                share = found.instructions / plain.instructions
+                print(
+                    f"  {label:33} {found.instructions:5.0f}  {share:.2f}   {found.contacts:5.2f}"
+                    f"    {found.instructions / found.contacts:5.0f}"
+                )
 
 
 if __name__ == "__main__":

@@ -4,10 +4,11 @@
     run.py ranks.<load> <furrow> <mpirun -n>      on 1, 2 and 3 ranks: to rounding, and the same bonds
     run.py restart.<load> <furrow> <mpirun -n>    continued after half of it, on 1 and 2 ranks: every bit
     run.py same <furrow> <mpirun -n>              thrown at a mesh of LIGGGHTS as at a plane;
-                                                  every bit without AVX2 as with it
+                                                  every bit without AVX2 as with it, and in the loop
+                                                  of LIGGGHTS as in Furrow's
 
 Loads: plate (crushed on a plane by a body of Furrow), hybrid (on a continuum), plane and mesh (thrown
-at walls of LIGGGHTS, without a body of Furrow).
+at walls of LIGGGHTS, without a body of Furrow), frozen and counted (variants of plane).
 """
 
 import os
@@ -22,7 +23,8 @@ HERE = Path(__file__).resolve().parent
 TIME_LIMIT = 120  # s
 ROUNDING = 1e-9  # m; sums over ranks and ghosts come in another order, and differences grow
 THROWN = {"velocity": "1 0.3 -3"}  # m/s
-VELOCITY = {"plate": {}, "hybrid": {}, "plane": THROWN, "mesh": THROWN}
+VELOCITY = {"plate": {}, "hybrid": {}, "plane": THROWN, "mesh": THROWN,
+            "frozen": THROWN, "counted": THROWN}
 
 
 def write_floor(path):
@@ -85,6 +87,8 @@ def same(furrow, mpirun, folder):
     plane, mesh = (run(furrow, mpirun, folder / load, 1, load) for load in ("plane", "mesh"))
     check_that_it_happens(*plane)
     compare("mesh and plane", plane, mesh, ROUNDING)
+    compare("LIGGGHTS's loop", *(run(furrow, mpirun, folder / load, 1, load)
+                                 for load in ("frozen", "counted")), 0.0)
     os.environ["FURROW_ISA"] = "baseline"
     compare("without AVX2", plane, run(furrow, mpirun, folder / "baseline", 1, "plane"), 0.0)
 

@@ -399,12 +399,12 @@ TEST(SnowBond, AnElasticStepIsThatOfAContactThatMightYield) {
     for (int n = 0; n < 20; ++n) {
       SnowBondState yielding = path.state;
       SnowBondEnergy energy;
+      const SnowBondTrial trial(path.law, path.contact, path.state);
       const SnowBondResponse expected =
-          SnowBond::advance_yielding(path.law, path.contact, yielding, &energy);
+          SnowBond::advance_yielding(path.law, path.contact, trial, yielding, &energy);
       SnowBondResponse response;
-      path.energy = {};
-      ASSERT_TRUE(
-          SnowBond::advance_elastic(path.law, path.contact, path.state, response, &path.energy));
+      ASSERT_TRUE(SnowBond::advance_elastic(path.law, path.contact, trial, path.state, response,
+                                            &path.energy));
       EXPECT_LT((response.force - expected.force).norm(), 1e-12 * expected.force.norm());
       EXPECT_LT((response.moment - expected.moment).norm(), 1e-12 * expected.moment.norm());
       EXPECT_NEAR(path.energy.stored / energy.stored, 1.0, 1e-12);

@@ -24,8 +24,10 @@ from snow_laws import LAWS, Elastic, Material, fit, judged
 from snow_paths import Points, predicted
 from snow_record import Place, Row, read_record, record_of, write_record
 
-RECORD = SOURCE / "inputs" / "laboratory" / "records" / "snow_bonded.csv"
-PRESET = SOURCE / "inputs" / "materials" / "snow_bonded_cam_clay.yaml"
+RECORDS = SOURCE / "inputs" / "laboratory" / "records"
+MATERIALS = SOURCE / "inputs" / "materials"
+RECORD = RECORDS / "snow_bonded.csv"
+PRESET = MATERIALS / "snow_bonded_cam_clay.yaml"
 
 NUMBER = r"(?<![\w.])-?\d+\.?\d*(?:e[+-]?\d+)?"
 
@@ -133,6 +135,18 @@ class FitTest(WithFolder):
         self.assertEqual(re.sub(NUMBER, "N", made).split(), re.sub(NUMBER, "N", shipped).split())
         both = [[float(x) for x in re.findall(NUMBER, text)] for text in (made, shipped)]
         np.testing.assert_allclose(both[0], both[1], rtol=0.02, atol=0.011)
+
+    def test_preset_of_the_slab_is_as_far_from_its_record_as_it_says(self) -> None:
+        """Free sides at every density, which the clusters of snow_bonded do not give a law."""
+        preset = MATERIALS / "snow_bonded_slab_cam_clay.yaml"
+        rows = judged(read_record(RECORDS / "snow_bonded_slab.csv"))
+        values = predicted(identify_snow.sections_of(preset), rows, self.points())
+        found = identify_snow.deviations(rows, values)
+        lines = preset.read_text(encoding="utf-8").splitlines()
+        said = " ".join(line[2:] for line in lines if line.startswith("# "))
+        for kind, value in found.items():
+            self.assertIn(f"{identify_snow.meaning(kind)} {identify_snow.cell(value)}", said)
+        self.assertLess(found["unconfined", "stress"][0], 0.2)
 
 
 if __name__ == "__main__":
