@@ -16,7 +16,7 @@ namespace furrow {
 /// (0.01 to 0.02, [Pavlov2024], [Shoop2001]) or less; of 0.2 % of the radius in sinkage.
 constexpr double slip_scale = 1.0;
 constexpr double coefficient_scale = 0.25;  ///< of force_z, or of force_z times radius
-constexpr double sinkage_scale = 0.1;      ///< of the radius
+constexpr double sinkage_scale = 0.1;       ///< of the radius
 
 struct ResistanceOptions {
   WindowRequest window;

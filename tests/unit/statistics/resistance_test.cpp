@@ -140,8 +140,8 @@ TEST(Resistance, ADriftingSinkageMakesTheRunNotSteady) {
 }
 
 // Ten seconds hold five independent values of a signal that is correlated over one: too few
-// stretches for a verdict, unless the mean is known to 0.02 in slip and 0.5 % of the load in a pull,
-// or a drift over the cruise is larger.
+// stretches for a verdict, unless the mean is known to 0.02 in slip and 0.5 % of the load in a
+// pull, or a drift over the cruise is larger.
 TEST(Resistance, SlipIsJudgedByTheSpeedAndThePullByTheLoad) {
   struct Case {
     double deviation, drift;

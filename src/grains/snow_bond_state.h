@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// What a contact of snow_bond.h is given, remembers and answers.
+
+#include <cmath>
+
+#include "core/types.h"
+#include "grains/snow_bond_parameters.h"
+#include "grains/two_vectors.h"
+
+namespace furrow {
+
+/// How two clusters lie and move in a step of leapfrog: positions of its end, velocities of its
+/// middle. A plane wall is half of a contact of two like clusters: twice its overlap and relative
+/// velocities, d = 2 R, half of the mass; energies are then twice those of the wall.
+struct SnowContact {
+  double d;                     ///< [m] sum of the radii
+  double mass;                  ///< [kg] effective
+  double overlap;               ///< [m] > 0
+  Vector3 normal;               ///< from j to i
+  double normal_velocity;       ///< [m/s] of i against j along the normal: > 0 where they part
+  Vector3 tangential_velocity;  ///< [m/s] of i against j where they touch, across the normal
+  Vector3 rotation;             ///< [rad/s] angular velocity of i less that of j
+  double spin;                  ///< [rad/s] mean angular velocity about the normal
+  double dt;                    ///< [s]
+  bool sinters = true;          ///< false: what it touches is not snow
+};
+
+/// How far strengths have grown with the crushing: exp(p X) - 1, exp(q X) - 1, exp(pc X) - 1.
+struct SnowHardening {
+  double soft = 0.0, dense = 0.0, bond = 0.0;
+
+  static SnowHardening at(const SnowBondParameters& law, double X);
+  /// When X has grown by dX; for small dX without an exponential.
+  SnowHardening after(const SnowBondParameters& law, double dX) const;
+};
+
+/// What a contact remembers; all zero before the first touch.
+struct SnowBondState {
+  static constexpr int size = 15;  ///< values of load() and store()
+
+  double plastic = 0.0;       ///< u_p [m]
+  double at_sintering = 0.0;  ///< u_0 [m]
+  double at_break = 0.0;      ///< u_b [m]
+  double area = 0.0;          ///< A [m^2]
+  bool bonded = false;
+  TwoVectors across = {};        ///< elastic force [N] and moment [N m] on i across the normal
+  double torsion = 0.0;          ///< [N m] along the normal
+  SnowHardening hardening = {};  ///< at X, which elastic steps do not change
+
+  double crushing(double d) const { return (plastic - at_sintering) / d; }  ///< X
+  static SnowBondState load(const double* values);
+  void store(double* values) const;
+  /// What an elastic step changes.
+  void store_elastic(double* values) const;
+};
+
+/// What a step of a contact does with energy [J].
+struct SnowBondEnergy {
+  double stored = 0.0;    ///< in the springs after the step
+  double crushed = 0.0;   ///< plastic work: crushing, slip, yielding of bonds
+  double damped = 0.0;    ///< taken by dampers
+  double released = 0.0;  ///< lost with springs that were let go: bonds that broke or were sintered
+};
+
+struct SnowBondResponse {
+  Vector3 force = Vector3::Zero();  ///< [N] on i; j has the opposite
+  /// [N m] on i beside that of the force; j has the opposite
+  Vector3 moment = Vector3::Zero();
+  bool broken = false;  ///< in this step
+  bool made = false;    ///< in this step
+};
+
+inline SnowHardening SnowHardening::at(const SnowBondParameters& law, double X) {
+  return {std::exp(law.p * X) - 1.0, std::exp(law.q * X) - 1.0, std::exp(law.pc * X) - 1.0};
+}
+
+inline SnowHardening SnowHardening::after(const SnowBondParameters& law, double dX) const {
+  using Four [[gnu::vector_size(32)]] = double;
+  constexpr double small = 1.0 / 32.0;  // of the exponent: the series is then right to 1e-14
+  const Four value = {soft, dense, bond, bond};
+  const Four x = Four{law.p, law.q, law.pc, law.pc} * dX;
+  Four growth =
+      x + x * x * (1.0 / 2 + x * (1.0 / 6 + x * (1.0 / 24 + x * (1.0 / 120 + x * (1.0 / 720)))));
+  for (int k = 0; k < 3; ++k)
+    if (!(std::abs(x[k]) < small)) growth[k] = std::expm1(x[k]);
+  const Four grown = value + (1.0 + value) * growth;
+  return {grown[0], grown[1], grown[2]};
+}
+
+inline SnowBondState SnowBondState::load(const double* values) {
+  SnowBondState state;
+  state.plastic = values[0];
+  state.at_sintering = values[1];
+  state.at_break = values[2];
+  state.area = values[3];
+  state.bonded = values[4] != 0.0;
+  state.across = TwoVectors::load(values + 5);
+  state.torsion = values[11];
+  state.hardening = {values[12], values[13], values[14]};
+  return state;
+}
+
+inline void SnowBondState::store(double* values) const {
+  values[0] = plastic;
+  values[1] = at_sintering;
+  values[2] = at_break;
+  values[3] = area;
+  values[4] = bonded ? 1.0 : 0.0;
+  store_elastic(values);
+  values[12] = hardening.soft;
+  values[13] = hardening.dense;
+  values[14] = hardening.bond;
+}
+
+inline void SnowBondState::store_elastic(double* values) const {
+  across.store(values + 5);
+  values[11] = torsion;
+}
+
+}  // namespace furrow
