@@ -13,11 +13,11 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "postproc"))
 
-import matplotlib.pyplot as plt
-
 import cases
 from grounds import BETWEEN, Changes, grains_case
 from grounds_report import RADIUS, Row, accuracy, row_of
+
+import matplotlib.pyplot as plt
 
 from furrow_post.analyse.statistics import rms
 from furrow_post.figures.style import save
