@@ -49,6 +49,8 @@ FixTyreBrick::FixTyreBrick(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
 
 void FixTyreBrick::init() {
   FixTyre::init();
+  if (const std::string doubt = wrinkling(tyre().parameters()); !doubt.empty())
+    warn(*lmp, fmt::format("{}: {}", name(), doubt));
   if (meets_grains()) warn_of_bridging();
 }
 

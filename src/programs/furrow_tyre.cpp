@@ -252,8 +252,11 @@ void run(const CLI::App& app, const Request& request) {
     BrickTyreSettings settings;
     settings.sections = request.sections;
     settings.half = request.half;
-    press_all(parameters, 2.0 * parameters.tread.end(), 2.0 * parameters.radius(), request,
-              [&] { return BrickTyre(parameters, settings, rim, request.file); });
+    press_all(parameters, 2.0 * parameters.tread.end(), 2.0 * parameters.radius(), request, [&] {
+      if (const std::string doubt = wrinkling(parameters); !doubt.empty())
+        fmt::print(stderr, "furrow-tyre: warning: {}: {}\n", request.file, doubt);
+      return BrickTyre(parameters, settings, rim, request.file);
+    });
     return;
   }
   refuse_any(app, of_bricks, "a tyre without a tread of bricks", "--mesh for its mesh");

@@ -145,6 +145,27 @@ std::vector<double> places_of_change(const BrickTyreParameters& tyre, double len
   return places;
 }
 
+std::string wrinkling(const BrickTyreParameters& tyre) {
+  if (tyre.carcass.cords) return {};
+  const SectionCurve curve(tyre.carcass.axial, tyre.carcass.radius);
+  const double ds = curve.length() / outline_samples;
+  int widest = 1;
+  for (int k = 2; k < outline_samples; ++k)
+    if (curve.point(k * ds)[0] > curve.point(widest * ds)[0]) widest = k;
+  if (widest == outline_samples - 1) return {};  // at the bead
+  const double s = widest * ds;
+  const double radius = 2.0 * ds / (curve.normal(s + ds) - curve.normal(s - ds)).norm();
+  const double tension = tyre.pressure * radius;
+  const auto zone = std::find_if(tyre.carcass.zones.begin(), tyre.carcass.zones.end() - 1,
+                                 [s](const CarcassZone& of) { return of.end > s; });
+  if (tension <= 4.0 * zone->wall.shear) return {};
+  return fmt::format(
+      "at {:g} kPa the tension across the carcass, where it is widest, is {:.3g} N/m, more than "
+      "four times its shear stiffness of {:.3g} N/m: a fine mesh wrinkles there; give 'cords: yes' "
+      "in the tyre file's section carcass, or 'shear' of at least {:.3g} N/m",
+      1e-3 * tyre.pressure, tension, zone->wall.shear, 0.25 * tension);
+}
+
 double TreadCapParameters::thickness_at(double s) const {
   const auto next = std::upper_bound(at.begin() + 1, at.end() - 1, s);
   const auto i = static_cast<std::size_t>(next - at.begin());

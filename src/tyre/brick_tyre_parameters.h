@@ -77,6 +77,12 @@ std::vector<double> places_of_change(const BrickTyreParameters& tyre, double len
 /// [m] those that are as near are one
 constexpr double same_place = 1e-4;
 
+/// What to say of shells with polar axes whose tension, where the outline is widest, takes more
+/// than their shear stiffness (Shell4); empty where there are none. There the circumference carries
+/// nothing, by the balance along the axle, and the meridian the pressure times its radius of
+/// curvature.
+std::string wrinkling(const BrickTyreParameters& tyre);
+
 /// Refuses values that no tyre has, each one and together.
 /// @param where names the tyre in errors
 /// @throws InputError

@@ -61,12 +61,9 @@ OF_SMOOTH = Values(Mould(), 5e6, 2e3, 1.109596e6)  # of the tyre files
 TO_THE_EDGE = Mould(
     crown_end=0.0775, shoulder=0.030, widest=0.109, belt_end=0.0775, tread_end=0.088
 )
-OF_EQUIVALENT = Values(TO_THE_EDGE, 5e6, 4e3, 2e5)
+OF_EQUIVALENT = replace(OF_SMOOTH, mould=TO_THE_EDGE, rubber=2e5)
 # From the smooth tyre to its equivalent, one change after the other
-STEPS_BETWEEN = {
-    "flat to the tread's edge": replace(OF_SMOOTH, mould=TO_THE_EDGE),
-    "and rubber of 0.2 MPa": replace(OF_EQUIVALENT, shear=OF_SMOOTH.shear),
-}
+STEPS_BETWEEN = {"flat to the tread's edge": replace(OF_SMOOTH, mould=TO_THE_EDGE)}
 BETWEEN_AT = 241  # [kPa]
 BETWEEN = {
     name: pressed(

@@ -98,7 +98,7 @@ def between_table(runner: Runner) -> list[Row]:
     for name, case in {
         "smooth": cases.BETWEEN_FIRST,
         **cases.BETWEEN,
-        "and sidewalls of 4 kN/m: equivalent": cases.TABLE6,
+        "and rubber of 0.2 MPa: equivalent": cases.TABLE6,
     }.items():
         rows = states(runner, case)
         for row in errors(rows):

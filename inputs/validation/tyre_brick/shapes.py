@@ -99,19 +99,21 @@ def walls(points: Sequence[Point]) -> list[Wall]:
 def rib_table(runner: Runner) -> list[Row]:
     """By how much the load leans the walls of ribs, below the axle."""
     found: list[Row] = []
+    places: list[str] = []  # of the walls, at the first pressure
     for (tread, pressure), case in cases.TREADS.items():
         if tread != "ribbed" or not runner.ended(case):
             continue
         folder = runner.folder(case)
         unloaded = below(folder / f"{pressure}kPa_0N.vtp")
+        places = places or [f"{100 * unloaded[wall.top][0]:.1f}" for wall in walls(unloaded)]
         for load in cases.TREAD_STATES[pressure]:
             file = folder / f"{pressure}kPa_{load}N.vtp"
             if not file.is_file():
                 continue
             loaded = below(file)
             row: Row = {"pressure_kPa": pressure, "load_N": load}
-            for wall in walls(unloaded):
-                place = f"lean_at_{100 * unloaded[wall.top][0]:.1f}_cm_deg"
-                row[place] = round(wall.lean(loaded) - wall.lean(unloaded), 1)
+            for place, wall in zip(places, walls(unloaded), strict=True):
+                lean = wall.lean(loaded) - wall.lean(unloaded)
+                row[f"lean_at_{place}_cm_deg"] = round(lean, 1)
             found.append(row)
     return found

@@ -111,6 +111,30 @@ TEST(BrickTyreParameters, NarrowestVoidAndRib) {
   }
 }
 
+/// Of a section that is an arc of 8 cm, whose tension at 200 kPa is 16 kN/m where it is widest.
+TEST(BrickTyreParameters, ATensionOfFourTimesTheShearStiffnessWrinklesWithoutCords) {
+  BrickTyreParameters tyre = tyre_file("smooth", 2e5);
+  tyre.carcass.cords = false;
+  tyre.carcass.axial.clear();
+  tyre.carcass.radius.clear();
+  for (int k = 0; k <= 12; ++k) {
+    tyre.carcass.axial.push_back(0.08 * std::sin(0.2 * k));
+    tyre.carcass.radius.push_back(0.25 + 0.08 * std::cos(0.2 * k));
+  }
+  const auto said = [&](double shear) {
+    for (CarcassZone& zone : tyre.carcass.zones) zone.wall.shear = shear;
+    return wrinkling(tyre);
+  };
+  EXPECT_EQ(said(1.01 * 4e3), "");
+  EXPECT_THAT(said(0.99 * 4e3), HasSubstr("at 200 kPa the tension across the carcass"));
+  EXPECT_THAT(said(2e3), HasSubstr("1.6e+04 N/m, more than four times its shear stiffness of 2e+03 "
+                                   "N/m: a fine mesh wrinkles there; give 'cords: yes'"));
+  tyre.carcass.cords = true;
+  EXPECT_EQ(said(2e3), "");
+  for (const char* name : {"smooth", "ribbed", "lugged", "equivalent"})
+    EXPECT_EQ(wrinkling(tyre_file(name)), "") << name;
+}
+
 /// Momentum, and angular momentum about y of all masses about the origin.
 std::pair<Vector3, double> momenta(const BrickTyre& tyre) {
   const ShellNodes& nodes = tyre.nodes();
