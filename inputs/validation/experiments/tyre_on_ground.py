@@ -72,7 +72,7 @@ def principal_stresses() -> tuple[Experiment, ...]:
             floor=True,
             cost=Stored(table, {"depth_mm": depth}, "user_s") if index == 0 else None,
             remark="tension positive" if unit == "kPa" else "particles stand 12.5 mm apart",
-            why="beneath the axle to within two particles, below the first layer (sand_zones)",
+            why="of two ridges of the contact the one behind the axle is higher there (sand_zones)",
         )
         for index, (depth, what, unit, column) in enumerate(rows)
     )
