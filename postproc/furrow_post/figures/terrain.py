@@ -128,13 +128,19 @@ def _section_image(
     distance, nearest = cKDTree(flat).query(grid, k=4)
     squeeze = np.clip(terrain.undisturbed / terrain.density[slab], 0.2, 1.5)
     offset = np.abs(grid[:, None, :] - flat[nearest])
-    reach = 0.75 * terrain.spacing
+    reach = 0.75 * terrain.spacing * _coarseness(terrain)[slab][nearest]
     beside = offset[..., 0] < reach
     above = offset[..., 1] < reach * squeeze[nearest] + 0.25 * pixel
     covered = (beside & above).any(axis=1) | (distance[:, 0] < 0.35 * terrain.spacing)
     image = np.where(covered, values[slab][nearest[:, 0]], np.nan)
     right, top = low[0] + columns * pixel, low[1] + rows * pixel
     return image.reshape(rows, columns), (float(low[0]), float(right), float(low[1]), float(top))
+
+
+def _coarseness(terrain: Terrain) -> Floats:
+    """How much longer than the spacing the particles (n) of graded cells may be, at most."""
+    mass = terrain.volume * terrain.density
+    return np.asarray(np.clip(mass / mass.min(), 1.0, 4.0))
 
 
 def draw_section(
@@ -173,7 +179,7 @@ def draw_frame(
     x, z = terrain.x[:, along], terrain.x[:, 2]
     axes.set_xlim(CENTIMETRE * x.min(), CENTIMETRE * x.max())
     axes.set_ylim(CENTIMETRE * min(z.min(), 0.0), CENTIMETRE * (terrain.level + 0.10))
-    axes.set_aspect("equal")
+    axes.set_aspect("equal", anchor="W")
     axes.set_xlabel(f"{'xy'[along]} [cm]")
     axes.set_ylabel("z [cm]")
 

@@ -88,7 +88,8 @@ def _draw_field(
     norm = Normalize(0.0, render.round_up(float(np.percentile(values[near], PERCENTILE))))
     draw_section(axes, terrain, values, body.surface, norm, axis, position)
     scale = ScalarMappable(norm, GROUND_COLOURS)
-    figure.colorbar(scale, ax=axes, shrink=0.7, extend="max").set_label(label)
+    bar = figure.colorbar(scale, ax=axes, shrink=0.7, extend="max", panchor=False)
+    bar.set_label(label)
 
 
 def _draw_crosses(
