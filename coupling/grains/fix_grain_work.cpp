@@ -16,6 +16,7 @@
 #include "coupling/base/refuse_double.h"
 #include "coupling/grains/model_snow_bond.h"
 #include "coupling/liggghts/global_properties.h"
+#include "coupling/liggghts/vector.h"
 #include "domain.h"
 #include "fix_gravity.h"
 #include "fix_property_global.h"
@@ -24,12 +25,6 @@
 #include "update.h"
 
 namespace furrow::coupling {
-
-namespace {
-
-Vector3 vector(const double* values) { return {values[0], values[1], values[2]}; }
-
-}  // namespace
 
 Schema FixGrainWork::schema() {
   Schema schema("fix grain/work");

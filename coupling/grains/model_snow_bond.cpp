@@ -17,6 +17,7 @@
 #include "coupling/liggghts/errors.h"
 #include "coupling/liggghts/global_properties.h"
 #include "coupling/liggghts/script.h"
+#include "coupling/liggghts/vector.h"
 #include "fix_property_global.h"
 #include "force.h"
 #include "grains/snow_bond.h"
@@ -31,8 +32,6 @@ namespace {
 constexpr int model_id = 20;  // LIGGGHTS's end at 12; below 64
 // LIGGGHTS tells a model that two grains have parted only within this share of their radii
 constexpr double parting_distance = 1.02;
-
-Vector3 vector(const double* values) { return {values[0], values[1], values[2]}; }
 
 /// The parameters of two types of grains, from properties named by the keys of the law.
 SnowBondParameters read_parameters(LAMMPS_NS::LAMMPS& lammps, int type, int other) {
