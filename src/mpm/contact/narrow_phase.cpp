@@ -110,13 +110,8 @@ ContactPoint NarrowPhase::find(const ContactSearch& search,
                                 });
   contact.position = position - closest.separation;
   contact.barycentric = closest.barycentric;
+  contact.leaps = history.touches() && (contact.position - last.point).norm() > last.leap;
   return contact;
-}
-
-bool NarrowPhase::leaps(const ContactPoint& contact, const Particles& particles,
-                        std::size_t particle, const ContactHistory& history) const {
-  return (contact.position - point_of(body_.surface().x, history)).norm() >
-         leap_length * particles.half_spacing(particle).minCoeff();
 }
 
 Vector3 NarrowPhase::point_of(const Matrix3X& nodal, const ContactHistory& history) const {

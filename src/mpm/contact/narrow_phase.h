@@ -43,9 +43,6 @@ class NarrowPhase {
   ContactPoint find(const ContactSearch& search, const ContactSearch::Candidate& candidate,
                     const Particles& particles, const Vector3& position,
                     const ContactHistory& history) const;
-  /// Whether it has left, for this contact, the place where it touched in the last step.
-  bool leaps(const ContactPoint& contact, const Particles& particles, std::size_t particle,
-             const ContactHistory& history) const;
   /// What nodes have, x or v, where the particle touched in the last step.
   Vector3 point_of(const Matrix3X& nodal, const ContactHistory& history) const;
   /// Sets the gap of a particle that touched in the last step, and e of its history.

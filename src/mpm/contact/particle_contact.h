@@ -16,6 +16,8 @@ struct ContactPoint {
   Vector3 normal;        ///< out of the surface, of unit length
   double gap;            ///< < 0: penetration [m]
   double distance;       ///< of the particle from the surface, along the normal [m]
+  /// the particle has left for it the place where it touched in the last step (NarrowPhase)
+  bool leaps = false;
 };
 
 /// What a contact law knows of a touching particle.

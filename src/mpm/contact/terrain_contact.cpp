@@ -95,7 +95,7 @@ void TerrainContact::add_forces(const Law& law, double dt) {
     if (history.touches()) {
       const std::size_t p = particle.particle;
       Vector3 velocity_there = velocity;
-      if (narrow_phase_.leaps(contact, group.particles, p, history))
+      if (contact.leaps)
         velocity_there = motions_[n].velocity_at(narrow_phase_.point_of(surface.x, history)) -
                          narrow_phase_.point_of(surface.v, history);
       NarrowPhase::follow(velocity, velocity_there, dt, group.particles, p, history, contact);
