@@ -12,6 +12,7 @@
 #include "compute.h"
 #include "core/communicator.h"
 #include "core/error.h"
+#include "coupling/base/checkpoint_totals.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/base/refuse_double.h"
 #include "coupling/grains/model_snow_bond.h"
@@ -200,19 +201,15 @@ double FixGrainWork::kinetic_energy() const {
 
 double FixGrainWork::over_ranks(double value) const { return Communicator(&world).sum(value); }
 
-/// The sums of all ranks; the first one goes on with them.
 void FixGrainWork::checkpoint(Checkpoint& state) {
-  const Communicator ranks(&world);
   double sums[] = {taken_.slide,     taken_.roll,      taken_.press, in_place_[below],
                    in_place_[ahead], in_place_[aside], walls_,       lifted_};
-  if (state.saving()) ranks.sum(sums, 8);
-  state.values("totals", sums, 8);
+  checkpoint_totals(state, Communicator(&world), sums);
   if (state.saving()) return;
-  const double own = ranks.rank() == 0 ? 1.0 : 0.0;
-  taken_ = {own * sums[0], own * sums[1], own * sums[2]};
-  in_place_ = {own * sums[3], own * sums[4], own * sums[5]};
-  walls_ = own * sums[6];
-  lifted_ = own * sums[7];
+  taken_ = {sums[0], sums[1], sums[2]};
+  in_place_ = {sums[3], sums[4], sums[5]};
+  walls_ = sums[6];
+  lifted_ = sums[7];
 }
 
 }  // namespace furrow::coupling

@@ -2,6 +2,7 @@
 #include "coupling/grains/fix_snow_energy.h"
 
 #include "core/communicator.h"
+#include "coupling/base/checkpoint_totals.h"
 #include "coupling/base/refuse_double.h"
 #include "coupling/grains/model_snow_bond.h"
 
@@ -53,15 +54,10 @@ void FixSnowEnergy::release(double energy, bool bonded, double share) {
   total_.broken += bonded ? share : 0.0;
 }
 
-/// The sums of all ranks; the first one goes on with them.
 void FixSnowEnergy::checkpoint(Checkpoint& state) {
-  const Communicator ranks(&world);
   double sums[] = {total_.crushed, total_.damped, total_.released, total_.made, total_.broken};
-  if (state.saving()) ranks.sum(sums, 5);
-  state.values("totals", sums, 5);
-  if (state.saving()) return;
-  total_ = {};
-  if (ranks.rank() == 0) total_ = {sums[0], sums[1], sums[2], sums[3], sums[4]};
+  checkpoint_totals(state, Communicator(&world), sums);
+  if (!state.saving()) total_ = {sums[0], sums[1], sums[2], sums[3], sums[4]};
 }
 
 }  // namespace furrow::coupling

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Totals since the start of which every rank has a part, in a checkpoint.
+
+#include <cstddef>
+
+#include "core/checkpoint.h"
+#include "core/communicator.h"
+
+namespace furrow::coupling {
+
+/// Saves the sums over all ranks; brought back, the first rank goes on with them and the others
+/// begin at zero. Collective.
+template <std::size_t count>
+void checkpoint_totals(Checkpoint& state, const Communicator& ranks, double (&totals)[count]) {
+  if (state.saving()) ranks.sum(totals, count);
+  state.values("totals", totals, count);
+  if (state.saving() || ranks.rank() == 0) return;
+  for (double& total : totals) total = 0.0;
+}
+
+}  // namespace furrow::coupling
