@@ -24,7 +24,7 @@ def claimed(folder: Path, stop: threading.Event) -> Iterator[None]:
     folder.mkdir(parents=True, exist_ok=True)
     handle = os.open(folder / CLAIM, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
     try:
-        while not _locked(handle):
+        while not lock(handle):
             if stop.wait(LOOK_EVERY):
                 raise Interrupted(f"{folder}: another study is making this run; start again")
         yield
@@ -32,7 +32,8 @@ def claimed(folder: Path, stop: threading.Event) -> Iterator[None]:
         os.close(handle)
 
 
-def _locked(handle: int) -> bool:
+def lock(handle: int) -> bool:
+    """Locks an open file or folder for this process; False while another one holds the lock."""
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

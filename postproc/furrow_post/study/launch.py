@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Makes one run and keeps its record."""
 
-import fcntl
 import os
 import signal
 import subprocess
@@ -14,6 +13,7 @@ from pathlib import Path
 
 from ..errors import Interrupted, ResultsError
 from .case import FOLDER, Case, Value
+from .claim import lock
 from .record import Record, digest, forget
 
 # A study yields to other work; its runs end, with a checkpoint, when it is killed
@@ -129,12 +129,9 @@ def is_busy(folder: Path) -> bool:
     """Whether furrow writes to the folder."""
     handle = os.open(folder, os.O_RDONLY)
     try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return True
+        return not lock(handle)
     finally:
         os.close(handle)
-    return False
 
 
 def _start(case: Case, command: list[str], folder: Path) -> _Attempt:
