@@ -247,8 +247,10 @@ furrow::SnowContact SnowBondModel::contact_of(const SurfacesIntersectData& touch
   State state = State::load(values);
   const bool sinters = is_sintered(touching);
   if (!moves(touching)) {
-    // of the parameters that this run has
-    state.hardening = furrow::SnowHardening::at(parameters, state.crushing(contact.d));
+    // of the parameters that this run has; where they are those of before, the bits stay
+    const double X = state.crushing(contact.d);
+    if (!state.hardening.is_at(parameters, X))
+      state.hardening = furrow::SnowHardening::at(parameters, X);
     state.store(values);
     return sinters ? Response() : Law::hold(parameters, contact, state);
   }

@@ -2,6 +2,7 @@
 #pragma once
 /// What a contact of snow_bond.h is given, remembers and answers.
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/types.h"
@@ -31,8 +32,26 @@ struct SnowHardening {
   double soft = 0.0, dense = 0.0, bond = 0.0;
 
   static SnowHardening at(const SnowBondParameters& law, double X);
-  /// When X has grown by dX; for small dX without an exponential.
-  SnowHardening after(const SnowBondParameters& law, double dX) const;
+  /// Is it that of X, but for the rounding of the steps that it grew in?
+  bool is_at(const SnowBondParameters& law, double X) const;
+};
+
+/// A hardening, and what it becomes when X grows: for small growth without an exponential.
+class SnowGrowth {
+  using Four [[gnu::vector_size(32)]] = double;  // soft, dense, bond, bond again
+
+ public:
+  /// @param unit  that X grows in
+  SnowGrowth(const SnowBondParameters& law, const SnowHardening& start, double unit)
+      : start_{start.soft, start.dense, start.bond, start.bond},
+        exponents_(Four{law.p, law.q, law.pc, law.pc} * unit),
+        largest_(std::max(std::max(law.p, law.q), law.pc) * unit) {}
+  /// @param units  that X has grown by
+  SnowHardening after(double units) const;
+
+ private:
+  Four start_, exponents_;
+  double largest_;
 };
 
 /// What a contact remembers; all zero before the first touch.
@@ -75,16 +94,21 @@ inline SnowHardening SnowHardening::at(const SnowBondParameters& law, double X) 
   return {std::exp(law.p * X) - 1.0, std::exp(law.q * X) - 1.0, std::exp(law.pc * X) - 1.0};
 }
 
-inline SnowHardening SnowHardening::after(const SnowBondParameters& law, double dX) const {
-  using Four [[gnu::vector_size(32)]] = double;
+inline bool SnowHardening::is_at(const SnowBondParameters& law, double X) const {
+  constexpr double rounding = 1e-9;
+  const SnowHardening exact = at(law, X);
+  const auto same = [](double a, double b) { return std::abs(a - b) <= rounding * (1.0 + b); };
+  return same(soft, exact.soft) && same(dense, exact.dense) && same(bond, exact.bond);
+}
+
+inline SnowHardening SnowGrowth::after(double units) const {
   constexpr double small = 1.0 / 32.0;  // of the exponent: the series is then right to 1e-14
-  const Four value = {soft, dense, bond, bond};
-  const Four x = Four{law.p, law.q, law.pc, law.pc} * dX;
-  Four growth =
-      x + x * x * (1.0 / 2 + x * (1.0 / 6 + x * (1.0 / 24 + x * (1.0 / 120 + x * (1.0 / 720)))));
-  for (int k = 0; k < 3; ++k)
-    if (!(std::abs(x[k]) < small)) growth[k] = std::expm1(x[k]);
-  const Four grown = value + (1.0 + value) * growth;
+  const Four x = exponents_ * units, square = x * x;
+  Four growth = x + square * (1.0 / 2 + x * (1.0 / 6) +
+                              square * (1.0 / 24 + x * (1.0 / 120) + square * (1.0 / 720)));
+  if (!(std::abs(largest_ * units) < small))
+    for (int k = 0; k < 3; ++k) growth[k] = std::expm1(x[k]);
+  const Four grown = start_ + (1.0 + start_) * growth;
   return {grown[0], grown[1], grown[2]};
 }
 

@@ -14,15 +14,21 @@ class SnowBondStep {
  public:
   SnowBondStep(const SnowBondParameters& law, const SnowContact& contact,
                const SnowBondTrial& trial, SnowBondState& state)
-      : law_(law), contact_(contact), state_(state), trial_(trial), d_(contact.d), k_(trial.k) {}
+      : law_(law),
+        contact_(contact),
+        state_(state),
+        trial_(trial),
+        d_(contact.d),
+        k_(trial.k),
+        softness_(1.0 / k_),
+        growth_(law, state.hardening, softness_ / d_) {}
 
   SnowBondResponse advance(SnowBondEnergy* energy);
 
  private:
   /// Where this normal force is left.
   SnowStrength strength(double normal) const {
-    return SnowBond::strength(law_, d_,
-                              state_.hardening.after(law_, (trial_.normal - normal) / (k_ * d_)));
+    return SnowBond::strength(law_, d_, growth_.after(trial_.normal - normal));
   }
   void break_bond(SnowBondResponse& response);
   void slip_and_crush();
@@ -46,6 +52,8 @@ class SnowBondStep {
   SnowBondState& state_;
   const SnowBondTrial& trial_;
   const double d_, k_;
+  const double softness_;    // 1/k [m/N]
+  const SnowGrowth growth_;  // by forces that are left out [N]
 
   SnowStrength strong_;    // in the end at the crushing after the step
   double share_;           // of the bond, before the step
@@ -114,8 +122,8 @@ inline void SnowBondStep::slip_and_crush() {
     if (trial_.squared[0] > limit * limit) slip();
     if (normal_ > strong_.Fy) crush();
     if (normal_ != trial_.normal) {
-      state_.plastic += (trial_.normal - normal_) / k_;
-      state_.hardening = SnowHardening::at(law_, state_.crushing(d_));
+      state_.plastic += (trial_.normal - normal_) * softness_;
+      state_.hardening = growth_.after(trial_.normal - normal_);
     }
   }
 }
@@ -132,7 +140,7 @@ inline void SnowBondStep::slip() {
   const double slope = size - law_.mu * along * pressing;
   const auto normal_at = [&](double left) { return pressing * (1.0 - along * (1.0 - left)); };
   const auto excess = [&](double left) {
-    const double weakening = law_.chi * share_ * strong_.dFb * along * pressing / k_;
+    const double weakening = law_.chi * share_ * strong_.dFb * along * pressing * softness_;
     return Excess{left * size - law_.mu * normal_at(left) - law_.chi * share_ * strong_.Fb,
                   slope + weakening};
   };
@@ -147,7 +155,7 @@ inline void SnowBondStep::slip() {
 /// To the crush surface, along the force.
 inline void SnowBondStep::crush() {
   const auto excess = [&](double normal) {
-    return Excess{normal - strong_.Fy, 1.0 + strong_.dFy / k_};
+    return Excess{normal - strong_.Fy, 1.0 + strong_.dFy * softness_};
   };
   const double limit = solve(normal_, excess(normal_), [&](double normal) {
     strong_ = strength(normal);
@@ -187,8 +195,8 @@ inline double SnowBondStep::plastic_work() const {
   const double bending = state_.across.second().squaredNorm() / trial_.bending_stiffness(),
                torsion = state_.torsion * state_.torsion / trial_.torsion_stiffness();
   return (normal_ * (trial_.normal - normal_) +
-          shear_left_ * (1.0 - shear_left_) * trial_.squared[0]) /
-             k_ +
+          shear_left_ * (1.0 - shear_left_) * trial_.squared[0]) *
+             softness_ +
          bending * lost(bending_left_) + torsion * lost(torsion_left_) +
          0.5 * (bending + torsion) *
              (1.0 - trial_.squared_radius / squared_stiffness_radius(state_.area, d_));
@@ -196,7 +204,7 @@ inline double SnowBondStep::plastic_work() const {
 
 /// Dampers; those of a dry contact neither pull nor overcome friction.
 inline void SnowBondStep::damp(SnowBondResponse& response, SnowBondEnergy* energy) const {
-  const double relaxation = 2.0 * law_.damping * std::sqrt(contact_.mass / k_) / contact_.dt;
+  const double relaxation = 2.0 * law_.damping * std::sqrt(contact_.mass * softness_) / contact_.dt;
   double normal = relaxation * (normal_ - normal_before_);
   const TwoVectors change = 0.5 * relaxation * (state_.across - trial_.before);
   Vector3 shear = change.first();

@@ -1,8 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Instructions for a grain and step of two grounds of the laboratory, at rest and while they are
-pressed, counted by callgrind, so whatever else the machine does: snow_cost.py FURROW. Takes two
-minutes."""
+crushed at the same density and rate, counted by callgrind, so whatever else the machine does:
+snow_cost.py FURROW. Takes two minutes.
+
+Over those of `snow`: of a grain, its contacts (the packing), and of a contact (the law); the first
+is the product of the others."""
 
 import re
 import subprocess
@@ -65,6 +68,10 @@ class Cost(NamedTuple):
     instructions: float  # for a grain and step
     contacts: float  # of a grain
 
+    @property
+    def of_a_contact(self) -> float:
+        return self.instructions / self.contacts
+
 
 def variables(ground: str, **others: float) -> list[str]:
     values = {"here": LABORATORY, "ground": ground, **others}
@@ -104,9 +111,18 @@ def cost(furrow: str, folder: Path, ground: str, state: State, extra: str = "") 
     return Cost(each, 0.5 * float(rows[-1]) / CLUSTERS)
 
 
+def row(found: Cost, plain: Cost) -> str:
+    pairs = (
+        (found.instructions, plain.instructions, "9.0f"),
+        (found.contacts, plain.contacts, "9.2f"),
+        (found.of_a_contact, plain.of_a_contact, "12.0f"),
+    )
+    return "  ".join(f"{mine:{form}}  {mine / other:.2f}" for mine, other, form in pairs)
+
+
 def main() -> None:
     furrow = str(Path(sys.argv[1]).resolve())
-    print(f"{'':35} per grain   contacts   per contact")
+    print(f"{'':36}per grain  over   contacts  over   per contact  over")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for state in STATES:
@@ -121,11 +137,7 @@ def main() -> None:
                 ("snow_bonded", bonded),
                 ("snow_bonded, with fix snow/energy", counted),
             ):
-                share = found.instructions / plain.instructions
-                print(
-                    f"  {label:33} {found.instructions:5.0f}  {share:.2f}   {found.contacts:5.2f}"
-                    f"    {found.instructions / found.contacts:5.0f}"
-                )
+                print(f"  {label:33} {row(found, plain)}")
 
 
 if __name__ == "__main__":

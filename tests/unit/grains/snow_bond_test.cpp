@@ -417,11 +417,25 @@ TEST(SnowBond, AnElasticStepIsThatOfAContactThatMightYield) {
 TEST(SnowBond, HardeningGrowsAsItsExponentials) {
   const SnowHardening start = SnowHardening::at(ag, 0.2);
   for (const double dX : {1e-6, 1e-4, 2e-3, 2.4e-3, 0.02, 0.3}) {  // by series and beyond
-    const SnowHardening grown = start.after(ag, dX), expected = SnowHardening::at(ag, 0.2 + dX);
+    const SnowHardening grown = SnowGrowth(ag, start, 0.5).after(2.0 * dX),
+                        expected = SnowHardening::at(ag, 0.2 + dX);
     EXPECT_NEAR(grown.soft / expected.soft, 1.0, 1e-12) << dX;
     EXPECT_NEAR(grown.dense / expected.dense, 1.0, 1e-12) << dX;
     EXPECT_NEAR(grown.bond / expected.bond, 1.0, 1e-12) << dX;
   }
+}
+
+// A contact keeps its hardening from step to step; a new run recognises it, and other parameters.
+TEST(SnowBond, AMillionSmallStepsKeepTheHardening) {
+  constexpr int steps = 1000000;
+  constexpr double X = 0.5;
+  SnowHardening grown;
+  for (int n = 0; n < steps; ++n) grown = SnowGrowth(ag, grown, X / steps).after(1.0);
+  EXPECT_TRUE(grown.is_at(ag, X));
+  EXPECT_FALSE(grown.is_at(ag, X + 1e-7));
+  SnowBondParameters harder = ag;
+  harder.q *= 1.001;
+  EXPECT_FALSE(grown.is_at(harder, X));
 }
 
 TEST(SnowBond, AStateIsStoredAndLoadedWhole) {
