@@ -118,13 +118,9 @@ class ShortPairLoop final : public LIGGGHTS::PairStyles::Granular<Model> {
           add(pair.relax(i), on_i, f[i], torque[i]);
           if (j < own) add(pair.relax(j), on_j, f[j], torque[j]);
         }
-        if (pair.evflag) {
-          if (pair.vflag_atom)
-            pair.ev_tally_xyz(i, j, own, 0, 0.0, 0.0, on_i.delta_F[0], on_i.delta_F[1],
-                              on_i.delta_F[2], dx, dy, dz);
-          else if (pair.vflag_global)
-            tally(pair.virial, touching.delta, on_i.delta_F, j < own);
-        }
+        if (pair.evflag)
+          pair.ev_tally_xyz(i, j, own, 0, 0.0, 0.0, on_i.delta_F[0], on_i.delta_F[1],
+                            on_i.delta_F[2], dx, dy, dz);
       }
     }
   }
@@ -140,16 +136,6 @@ class ShortPairLoop final : public LIGGGHTS::PairStyles::Granular<Model> {
   static void add(double relax, const Force& force, double* f, double* torque) {
     for (int c = 0; c < 3; ++c) f[c] += relax * force.delta_F[c];
     for (int c = 0; c < 3; ++c) torque[c] += relax * force.delta_torque[c];
-  }
-
-  /// Pair::ev_tally_xyz for the whole alone: half of the contact's virial for each grain of this
-  /// rank.
-  static void tally(double* virial, const double* delta, const double* force, bool both_own) {
-    const double parts[6] = {delta[0] * force[0], delta[1] * force[1], delta[2] * force[2],
-                             delta[0] * force[1], delta[0] * force[2], delta[1] * force[2]};
-    for (int k = 0; k < 6; ++k) virial[k] += 0.5 * parts[k];
-    if (both_own)
-      for (int k = 0; k < 6; ++k) virial[k] += 0.5 * parts[k];
   }
 
   [[gnu::flatten]] void baseline(LAMMPS_NS::PairGran& pair) { compute(pair); }
