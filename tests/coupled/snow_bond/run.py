@@ -6,12 +6,16 @@
     run.py same <furrow> <mpirun -n>              thrown at a mesh of LIGGGHTS as at a plane;
                                                   every bit without AVX2 as with it, and in the loop
                                                   of LIGGGHTS as in Furrow's
+    run.py overlaps <furrow> <mpirun -n>          accepted where snow is crushed, warned of where it
+                                                  is crushed to ice
 
-Loads: plate (crushed on a plane by a body of Furrow), hybrid (on a continuum), plane and mesh (thrown
-at walls of LIGGGHTS, without a body of Furrow), frozen and counted (variants of plane).
+Loads: plate (crushed on a plane by a body of Furrow), soft (the same, snow that does not harden),
+hybrid (on a continuum), plane and mesh (thrown at walls of LIGGGHTS, without a body of Furrow),
+frozen and counted (variants of plane).
 """
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -21,9 +25,10 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 TIME_LIMIT = 120  # s
+DIAMETER = 0.02  # m
 ROUNDING = 1e-9  # m; sums over ranks and ghosts come in another order, and differences grow
 THROWN = {"velocity": "1 0.3 -3"}  # m/s
-VELOCITY = {"plate": {}, "hybrid": {}, "plane": THROWN, "mesh": THROWN,
+VELOCITY = {"plate": {}, "soft": {}, "hybrid": {}, "plane": THROWN, "mesh": THROWN,
             "frozen": THROWN, "counted": THROWN}
 
 
@@ -50,6 +55,7 @@ def run(furrow, mpirun, folder, ranks, load, **more):
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode != 0:
         sys.exit(f"{folder.name} stopped with status {done.returncode}:\n{done.stdout[-4000:]}")
+    (folder / "screen.txt").write_text(done.stdout)
     return np.loadtxt(folder / "grains.txt", skiprows=9), (folder / "bonds.txt").read_text()
 
 
@@ -93,8 +99,21 @@ def same(furrow, mpirun, folder):
     compare("without AVX2", plane, run(furrow, mpirun, folder / "baseline", 1, "plane"), 0.0)
 
 
+def overlaps(furrow, mpirun, folder):
+    """Those of crushed snow are accepted; on a body beyond 0.4 of a diameter there is a warning."""
+    for load, speed in (("plate", 1.2), ("soft", 2.5)):
+        grains, _ = run(furrow, mpirun, folder / load, 1, load, speed=speed)
+        distances = np.linalg.norm(grains[:, None, 1:4] - grains[None, :, 1:4], axis=2)
+        between = 1.0 - distances[distances > 0.0].min() / DIAMETER
+        screen = (folder / load / "screen.txt").read_text()
+        on_plate = re.findall(r"overlaps the body by ([\d.]+) of its diameter", screen)
+        print(f"{load}: {between:.2f} between clusters, warned of on the plate: {on_plate}")
+        assert load == "soft" or between > 0.2, "the snow is hardly crushed"
+        assert len(on_plate) == (load == "soft") and all(float(overlap) > 0.4 for overlap in on_plate)
+
+
 if __name__ == "__main__":
     case, program, *launcher = sys.argv[1:]
     check, *loads = case.split(".")
     with tempfile.TemporaryDirectory() as scratch:
-        {"ranks": ranks, "restart": restart, "same": same}[check](program, launcher, Path(scratch), *loads)
+        {"ranks": ranks, "restart": restart, "same": same, "overlaps": overlaps}[check](program, launcher, Path(scratch), *loads)
