@@ -16,6 +16,7 @@ TOOLS = (
     INPUTS / "laboratory" / "calibrate.py",
     INPUTS / "laboratory" / "identify.py",
     INPUTS / "validation" / "snow_wheel" / "identify.py",
+    INPUTS / "validation" / "grains" / "plate_layers.py",
     INPUTS / "validation" / "grains" / "track_density.py",
     INPUTS / "validation" / "run",
 )

@@ -1,0 +1,124 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Under a plate on clusters of snow (plate_snow_grains.lig): density layer by layer, how far the
+clusters went sideways, and how much mass is left: the mean of several packings, beside the
+laboratory's [Shoop2001]."""
+
+import argparse
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[2] / "postproc"))
+
+import furrow_post  # first: says which of the next ones are missing
+
+import numpy as np
+
+from furrow_post.arguments import path, positive
+from furrow_post.arrays import Floats
+from furrow_post.csv_table import read_numbers
+from furrow_post.errors import ResultsError
+from furrow_post.program import run_program
+
+RADIUS = 0.1016  # [m] of the plate
+EDGE = 0.8  # of it: beyond is the edge, as in plate_variants
+LAYERS = 10  # from the plate to the base
+REMEDY = "run plate_snow_grains.lig with this folder as its variable results"
+
+
+def table(file: Path, head: int) -> Floats:
+    """Numbers below some lines. @raises ResultsError"""
+    try:
+        rows: Floats = np.loadtxt(file, skiprows=head, ndmin=2)
+    except (OSError, ValueError) as fault:
+        raise ResultsError(f"{file}: {fault}; {REMEDY}") from None
+    return rows
+
+
+def clusters(file: Path) -> Floats:
+    """(n, 4) x, y, z, radius [m] in the order of their numbers."""
+    rows = table(file, 9)
+    ordered: Floats = rows[np.argsort(rows[:, 0]), 1:]
+    return ordered
+
+
+def volume_below(level: float, z: Floats, radius: Floats) -> Floats:
+    """Of each sphere, below a level."""
+    h = np.clip(level - z, -radius, radius)
+    volume: Floats = np.pi / 3 * (2 * radius**3 + 3 * radius**2 * h - h**3)
+    return volume
+
+
+def layers(grains: Floats, plate: float, density: float) -> Floats:
+    """[kg/m3] below the plate, from its face at this height down to the base; what is pressed into
+    the face counts to the first one."""
+    x, y, z, radius = grains[np.hypot(grains[:, 0], grains[:, 1]) < RADIUS].T
+    below = [volume_below(level, z, radius).sum() for level in np.linspace(plate, 0, LAYERS + 1)]
+    below[0] = volume_below(np.inf, z, radius).sum()
+    mass: Floats = -density * np.diff(below)
+    return mass / (np.pi * RADIUS**2 * plate / LAYERS)
+
+
+def numbers(folder: Path, density: float) -> Floats:
+    """Peak [N]; ten layers [kg/m3]; outwards [mm]: clusters under the edge, and the mean of the
+    tenth of the height that went farthest, under the whole plate; mass left, a share."""
+    before, after = clusters(folder / "before.txt"), clusters(folder / "after.txt")
+    curve = table(folder / "curve.txt", 0)
+    bed = float(table(folder / "bed_level.txt", 0)[0, 0])
+    plate = bed - float(curve[-1, 1])
+    r, now = (np.hypot(x[:, 0], x[:, 1]) for x in (before, after))
+    out = 1e3 * (now - r)
+    snow = before[:, 2] > 0.0  # below is the frozen base
+    under = snow & (r < RADIUS)
+    tenth = np.minimum(LAYERS - 1, (LAYERS * before[:, 2] / bed).astype(int))
+    means = [out[under & (tenth == n)].mean() for n in range(LAYERS)]
+    mass = after[:, 3] ** 3
+    return np.array(
+        [
+            curve[:, 2].max(),
+            *layers(after, plate, density),
+            out[under & (r > EDGE * RADIUS)].mean(),
+            max(means, key=abs),
+            mass[snow & (now < RADIUS)].sum() / mass[under].sum(),
+        ]
+    )
+
+
+def in_row(all_numbers: Floats) -> str:
+    return " ".join(f"{value:.0f}" for value in all_numbers[1 : LAYERS + 1])
+
+
+def report(folders: list[Path], density: float) -> str:
+    each = np.array([numbers(folder, density) for folder in folders])
+    mean = each.mean(axis=0)
+    measured = read_numbers(HERE.parent / "plate_variants" / "reference.csv")[0]
+    real = np.array([measured[f"density_{n}"] for n in range(1, LAYERS + 1)])
+    rms = float(np.sqrt(np.mean(np.log(mean[1 : LAYERS + 1] / real) ** 2)))
+    peak, (edge, farthest, left) = mean[0], mean[-3:]
+    lines = [
+        f"peak {peak:.0f} N, {peak / measured['peak_load_N']:.2f} of the measured one",
+        f"kg/m3 from the plate to the base: {in_row(mean)}",
+        f"measured: {' '.join(f'{value:.0f}' for value in real)}; rms of ln(density) {rms:.2f}",
+        f"outwards, mm: under the edge {edge:.1f}, the tenth that went farthest {farthest:.1f}",
+        f"mass left below the plate: {left:.2f}",
+    ]
+    if len(each) > 1:
+        scatter = each.std(axis=0, ddof=1)
+        lines.append(
+            f"scatter of {len(each)} packings: {scatter[0]:.0f} N; {in_row(scatter)} kg/m3; "
+            f"{scatter[-3]:.1f}, {scatter[-2]:.1f} mm; {scatter[-1]:.2f}"
+        )
+    return "\n".join(lines)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("density", type=positive, help="of a cluster [kg/m3]")
+    parser.add_argument("results", type=path, nargs="+", help="results folders of packings")
+    parsed = parser.parse_args()
+    print(report(parsed.results, parsed.density))
+
+
+if __name__ == "__main__":
+    sys.exit(run_program("plate_layers.py", main))
