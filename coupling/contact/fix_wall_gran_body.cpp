@@ -15,6 +15,7 @@
 #include "coupling/base/has_options.h"
 #include "coupling/base/settings_check.h"
 #include "coupling/bodies/fix_mesh_body.h"
+#include "coupling/contact/sheet_check.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/errors.h"
 #include "coupling/liggghts/wall_meshes.h"
@@ -31,6 +32,7 @@ namespace {
 // of its radius: a grain that overlaps a body by more before the first step would be shot out of
 // the bed
 constexpr double max_overlap_at_start = 0.1;
+constexpr long sheet_check_every = 100;  // steps
 
 }  // namespace
 
@@ -152,8 +154,19 @@ void FixWallGranBody::refuse_grains_inside() const {
   }
 }
 
+void FixWallGranBody::refuse_bodies_at_sheet() const {
+  std::vector<const Body*> bodies;
+  for (int m = 0; m < n_FixMesh_; ++m)
+    if (const auto* mesh = dynamic_cast<const FixMeshBody*>(FixMesh_list_[m]))
+      bodies.push_back(&mesh->body());
+  with_collective_errors(*error, [&] {
+    coupling::refuse_bodies_at_sheet(bodies, fmt::format("fix wall/gran/body '{}'", id));
+  });
+}
+
 void FixWallGranBody::post_force_mesh(int vflag) {
   deepest_ = 0.0;
+  if (update->ntimestep % sheet_check_every == 0) refuse_bodies_at_sheet();
   if (!stock_meshes_.empty()) post_force_stock_meshes(vflag);
   for (int m = 0; m < n_FixMesh_; ++m)
     if (auto* mesh_fix = dynamic_cast<FixMeshBody*>(FixMesh_list_[m]))

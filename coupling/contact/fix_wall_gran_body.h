@@ -54,6 +54,7 @@ class FixWallGranBody : public LAMMPS_NS::FixWallGran, public UsesFix {
   GrainBedCheck* check_of(int mesh_number);
   void refuse_deep_start() const;
   void refuse_grains_inside() const;
+  void refuse_bodies_at_sheet() const;
 
   ContactSelection selection_;
   std::vector<LAMMPS_NS::FixMeshSurface*> stock_meshes_;
