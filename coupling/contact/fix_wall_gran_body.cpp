@@ -106,10 +106,7 @@ void FixWallGranBody::setup(int vflag) {
     if (auto* mesh_fix = dynamic_cast<FixMeshBody*>(FixMesh_list_[m])) {
       const auto [check, fresh] = grain_bed_checks_.try_emplace(
           m, *lmp, fmt::format("fix wall/gran/body '{}', mesh '{}'", id, mesh_fix->id));
-      if (fresh) {
-        const Body& body = mesh_fix->body();
-        check->second.start(body.surface(), dynamic_cast<const ContinuumTerrain*>(&body));
-      }
+      if (fresh) check->second.start(mesh_fix->body(), carrying_terrain());
     }
   FixWallGran::setup(vflag);
   if (starting_)
@@ -154,13 +151,24 @@ void FixWallGranBody::refuse_grains_inside() const {
   }
 }
 
-void FixWallGranBody::refuse_bodies_at_sheet() const {
-  std::vector<const Body*> bodies;
+std::vector<const Body*> FixWallGranBody::bodies() const {
+  std::vector<const Body*> found;
   for (int m = 0; m < n_FixMesh_; ++m)
     if (const auto* mesh = dynamic_cast<const FixMeshBody*>(FixMesh_list_[m]))
-      bodies.push_back(&mesh->body());
+      found.push_back(&mesh->body());
+  return found;
+}
+
+/// The first whose sheet is in this wall; null without one.
+const Body* FixWallGranBody::carrying_terrain() const {
+  for (const Body* body : bodies())
+    if (dynamic_cast<const ContinuumTerrain*>(body)) return body;
+  return nullptr;
+}
+
+void FixWallGranBody::refuse_bodies_at_sheet() const {
   with_collective_errors(*error, [&] {
-    coupling::refuse_bodies_at_sheet(bodies, fmt::format("fix wall/gran/body '{}'", id));
+    coupling::refuse_bodies_at_sheet(bodies(), fmt::format("fix wall/gran/body '{}'", id));
   });
 }
 

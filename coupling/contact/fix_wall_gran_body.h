@@ -55,6 +55,8 @@ class FixWallGranBody : public LAMMPS_NS::FixWallGran, public UsesFix {
   void refuse_deep_start() const;
   void refuse_grains_inside() const;
   void refuse_bodies_at_sheet() const;
+  std::vector<const Body*> bodies() const;
+  const Body* carrying_terrain() const;
 
   ContactSelection selection_;
   std::vector<LAMMPS_NS::FixMeshSurface*> stock_meshes_;
