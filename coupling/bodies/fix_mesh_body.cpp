@@ -93,11 +93,17 @@ void BodyMesh::follow(int i) {
     bound_squared = std::max(bound_squared, distance_squared);
   }
   rBound_(i) = std::sqrt(bound_squared);
+  area(i) = calcArea(i);
+}
 
+void BodyMesh::derive_edges() {
+  for (int i = 0; i < sizeLocal() + sizeGhost(); ++i) derive_edges(i);
+}
+
+void BodyMesh::derive_edges(int i) {
   calcEdgeVecLen(i, edgeLen(i), edgeVec(i));
   calcSurfaceNorm(i, surfaceNorm(i));
   calcEdgeNormals(i, edgeNorm(i));
-  area(i) = calcArea(i);
   obtuseAngleIndex(i) = NO_OBTUSE_ANGLE;
   for (int j = 0; j < 3; ++j) {
     const double* ahead = edgeVec(i)[j];
@@ -222,6 +228,7 @@ void FixMeshBody::setup_pre_force(int vflag) {
   with_collective_errors(*error, [&] { check_inside_box(); });
   FixMeshSurface::setup_pre_force(vflag);
   body_mesh_->follow_surface();
+  body_mesh_->derive_edges();
   body_mesh_->remember_rebuild();
 }
 
@@ -238,6 +245,7 @@ void FixMeshBody::pre_force(int) {
   if (exchanged_) {
     body_mesh_->pbcExchangeBorders(0);
     body_mesh_->follow_surface();
+    body_mesh_->derive_edges();
     body_mesh_->remember_rebuild();
     exchanged_ = false;
   } else if (body_mesh_->decideRebuild()) {

@@ -28,9 +28,11 @@ class BodyMesh : public LAMMPS_NS::TriMesh {
   bool isMoving() override { return true; }
   bool decideRebuild() override;
 
-  /// Node positions, velocities and all that LIGGGHTS derives from them, for owned and ghost
-  /// triangles.
+  /// Positions and velocities of the nodes, and what is made of them for each triangle, owned and
+  /// ghost ones, but for its edges.
   void follow_surface();
+  /// Edges and normals of the triangles: LIGGGHTS takes them for its neighbour lists alone.
+  void derive_edges();
   /// Call when neighbour lists are about to be made: later motion is measured from here, and only
   /// where grains can be reached.
   void remember_rebuild();
@@ -49,6 +51,7 @@ class BodyMesh : public LAMMPS_NS::TriMesh {
 
  private:
   void follow(int local_triangle);
+  void derive_edges(int local_triangle);
 
   const Surface& surface_;
   LAMMPS_NS::MultiVectorContainer<double, 3, 3>* velocity_;

@@ -27,14 +27,6 @@ namespace furrow::coupling {
 
 namespace {
 
-bool is_inside(const FixTerrainContinuum& terrain, const double* x) {
-  for (int k = 0; k < 3; ++k) {
-    const auto [lower, upper] = terrain.extent(k);
-    if (!(x[k] > lower && x[k] < upper)) return false;
-  }
-  return true;
-}
-
 bool is_wall(const LAMMPS_NS::Fix& fix) { return std::string(fix.style).rfind("wall/", 0) == 0; }
 
 bool are_pulled_down(const LAMMPS_NS::LAMMPS& lammps) {
@@ -105,7 +97,8 @@ void check_grains_in_terrain(LAMMPS_NS::LAMMPS& lammps, const Warn& warn) {
   const LAMMPS_NS::Atom& atom = *lammps.atom;
   for (const auto* terrain : fixes_of<const FixTerrainContinuum>(*lammps.modify)) {
     double inside = 0.0;
-    for (int i = 0; i < atom.nlocal; ++i) inside += is_inside(*terrain, atom.x[i]) ? 1.0 : 0.0;
+    for (int i = 0; i < atom.nlocal; ++i)
+      inside += terrain->contains(Eigen::Map<const Vector3>(atom.x[i])) ? 1.0 : 0.0;
     inside = Communicator(&lammps.world).sum(inside);
     if (inside == 0.0) continue;
     const std::string count = fmt::format("{:.0f} of {:.0f} grains", inside, count_grains(lammps));

@@ -15,6 +15,7 @@
 #include "coupling/base/has_options.h"
 #include "coupling/base/settings_check.h"
 #include "coupling/bodies/fix_mesh_body.h"
+#include "coupling/contact/sheet_check.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/errors.h"
 #include "coupling/liggghts/wall_meshes.h"
@@ -31,6 +32,7 @@ namespace {
 // of its radius: a grain that overlaps a body by more before the first step would be shot out of
 // the bed
 constexpr double max_overlap_at_start = 0.1;
+constexpr long sheet_check_every = 100;  // steps
 
 }  // namespace
 
@@ -104,10 +106,7 @@ void FixWallGranBody::setup(int vflag) {
     if (auto* mesh_fix = dynamic_cast<FixMeshBody*>(FixMesh_list_[m])) {
       const auto [check, fresh] = grain_bed_checks_.try_emplace(
           m, *lmp, fmt::format("fix wall/gran/body '{}', mesh '{}'", id, mesh_fix->id));
-      if (fresh) {
-        const Body& body = mesh_fix->body();
-        check->second.start(body.surface(), dynamic_cast<const ContinuumTerrain*>(&body));
-      }
+      if (fresh) check->second.start(mesh_fix->body(), carrying_terrain());
     }
   FixWallGran::setup(vflag);
   if (starting_)
@@ -152,8 +151,30 @@ void FixWallGranBody::refuse_grains_inside() const {
   }
 }
 
+std::vector<const Body*> FixWallGranBody::bodies() const {
+  std::vector<const Body*> found;
+  for (int m = 0; m < n_FixMesh_; ++m)
+    if (const auto* mesh = dynamic_cast<const FixMeshBody*>(FixMesh_list_[m]))
+      found.push_back(&mesh->body());
+  return found;
+}
+
+/// The first whose sheet is in this wall; null without one.
+const Body* FixWallGranBody::carrying_terrain() const {
+  for (const Body* body : bodies())
+    if (dynamic_cast<const ContinuumTerrain*>(body)) return body;
+  return nullptr;
+}
+
+void FixWallGranBody::refuse_bodies_at_sheet() const {
+  with_collective_errors(*error, [&] {
+    coupling::refuse_bodies_at_sheet(bodies(), fmt::format("fix wall/gran/body '{}'", id));
+  });
+}
+
 void FixWallGranBody::post_force_mesh(int vflag) {
   deepest_ = 0.0;
+  if (update->ntimestep % sheet_check_every == 0) refuse_bodies_at_sheet();
   if (!stock_meshes_.empty()) post_force_stock_meshes(vflag);
   for (int m = 0; m < n_FixMesh_; ++m)
     if (auto* mesh_fix = dynamic_cast<FixMeshBody*>(FixMesh_list_[m]))

@@ -54,6 +54,9 @@ class FixWallGranBody : public LAMMPS_NS::FixWallGran, public UsesFix {
   GrainBedCheck* check_of(int mesh_number);
   void refuse_deep_start() const;
   void refuse_grains_inside() const;
+  void refuse_bodies_at_sheet() const;
+  std::vector<const Body*> bodies() const;
+  const Body* carrying_terrain() const;
 
   ContactSelection selection_;
   std::vector<LAMMPS_NS::FixMeshSurface*> stock_meshes_;

@@ -30,7 +30,7 @@ void GrainBedCheck::warn(bool& done, const std::string& text) {
   coupling::warn(lammps_, fmt::format("{}: {}", where_, text));
 }
 
-void GrainBedCheck::start(const Surface& surface, bool carries_bed) {
+void GrainBedCheck::start(const Body& body, const Body* terrain) {
   const LAMMPS_NS::Atom& atom = *lammps_.atom;
   const Communicator ranks(&lammps_.world);
   double sums[3] = {0.0, 0.0, 0.0};  // diameters, densities, count
@@ -51,9 +51,14 @@ void GrainBedCheck::start(const Surface& surface, bool carries_bed) {
   mean_diameter_ = sums[0] / sums[2];
   density_ = sums[1] / sums[2];
   choose_overlap_limit();
-  if (carries_bed) return;
+  if (&body == terrain) return;
 
-  const auto [lower, upper] = surface.bounds();
+  if (terrain) {
+    const auto [from, to] = terrain->surface().bounds();
+    lowest = std::min(lowest, from.y());
+    highest = std::max(highest, to.y());
+  }
+  const auto [lower, upper] = body.surface().bounds();
   const double width = upper[1] - lower[1],
                bed = lammps_.domain->yperiodic ? lammps_.domain->prd[1] : highest - lowest;
   bool once = false, once_more = false;

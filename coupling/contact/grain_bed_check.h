@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "bodies/body.h"
 #include "geometry/surface.h"
 #include "lammps.h"
 
@@ -31,7 +32,8 @@ class GrainBedCheck {
 
   /// Size of grains and bed against the width of the body, but for terrain that carries the bed.
   /// Collective.
-  void start(const Surface& surface, bool carries_bed);
+  /// @param terrain  that carries the bed, and may continue it beside the grains; may be null
+  void start(const Body& body, const Body* terrain);
   /// This rank's contact in this step.
   void contact(double overlap, double radius, const Vector3& point, const Vector3& force);
   /// After the contacts of a step; looks at them every so many steps. Collective.

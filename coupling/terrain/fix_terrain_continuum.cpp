@@ -110,6 +110,18 @@ std::pair<double, double> FixTerrainContinuum::extent(int direction) const {
   return {axis.lower(), direction == 2 ? options().number("surface") : axis.upper()};
 }
 
+bool FixTerrainContinuum::contains(const Vector3& point) const {
+  for (int a = 0; a < 3; ++a) {
+    const auto [lower, upper] = extent(a);
+    if (!(point[a] > lower && point[a] < upper)) return false;
+  }
+  const std::optional<Trough>& trough = terrain().parameters().trough;
+  if (!trough) return true;
+  const auto [side, other_side] = extent(1);
+  return std::abs(point.y() - 0.5 * (side + other_side)) > 0.5 * trough->width ||
+         point.z() < extent(2).second - trough->depth;
+}
+
 int FixTerrainContinuum::setmask() { return LAMMPS_NS::FixConst::END_OF_STEP; }
 
 void FixTerrainContinuum::report() {

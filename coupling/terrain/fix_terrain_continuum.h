@@ -23,6 +23,8 @@ class FixTerrainContinuum : public FixBody, public MotionController {
   bool half_model() const { return options().flag("symmetry"); }
   /// Of the undisturbed terrain along x, y or z [m].
   std::pair<double, double> extent(int direction) const;
+  /// Whether a point lies in the undisturbed terrain; a trough does not belong to it.
+  bool contains(const Vector3& point) const;
 
   int setmask() override;
   void end_of_step() override;

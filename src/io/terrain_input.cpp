@@ -159,6 +159,20 @@ std::optional<BlockLayout> read_blocks(const Options& options) {
   return BlockLayout{static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
 }
 
+/// @throws InputError for one that no grains can fill
+std::optional<Trough> read_trough(const Options& options) {
+  if (!options.given("trough")) return {};
+  const std::string where = options.where("trough");
+  if (!options.flag("sheet"))
+    throw InputError(where, "is given without 'sheet yes'",
+                     "a trough in ground that carries grains",
+                     "without a sheet nothing would hold the ground's faces there");
+  if (options.flag("symmetry"))
+    throw InputError(where, "is given with 'symmetry yes'", "whole ground",
+                     "grains have no plane of symmetry");
+  return Trough{options.numbers("trough")[0], options.numbers("trough")[1]};
+}
+
 AxisLayout layout(const Options& options, double lower, double upper, double middle,
                   const std::string& fine_key) {
   AxisLayout axis{lower, upper, options.number("cell"), lower, upper, options.number("growth")};
@@ -229,13 +243,18 @@ Schema terrain_schema(const std::string& subject, std::optional<double> length) 
       .by_default("yes");
   schema
       .number("surcharge", "Pa", Range::at_least(0.0),
-              "weight on the surface that is in the initial stress: that of grains on a sheet")
+              "weight on the surface, or the bottom of the trough, that is in the initial stress: "
+              "that of grains on a sheet")
       .by_default(0.0);
   declare_slide_surface(schema);
   schema.flag("sheet", "carry triangles on the upper face, for grains that lie on the ground");
   schema
       .integer("sheet_every", Range::at_least(1), "particles from node to node of these triangles")
       .by_default("1");
+  schema
+      .numbers("trough", 2, "m", Range::positive(),
+               "width along y and depth of a channel along x, that grains on the sheet fill")
+      .optional();
   schema.flag("multirate", "one step for as many of these grains as the stable step holds");
   schema.number("cfl", "", Range::closed(0.01, 1.0), "step over shortest cell and wave speed")
       .by_default(0.4)
@@ -293,6 +312,7 @@ TerrainParameters read_terrain(const Options& options, const std::string& folder
                      "remove one of the two");
   ground.surface_mesh = options.flag("sheet");
   ground.sheet_every = static_cast<std::size_t>(options.integer("sheet_every"));
+  ground.trough = read_trough(options);
   ground.multirate = options.flag("multirate");
   if (ground.multirate && !ground.surface_mesh)
     throw InputError(options.where("multirate"), "is given without 'sheet yes'",

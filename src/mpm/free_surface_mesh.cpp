@@ -15,27 +15,63 @@ std::vector<std::size_t> places_of_nodes(std::size_t count, std::size_t every) {
   return places;
 }
 
+/// A node in the cross-section of the ground.
+struct SectionNode {
+  std::size_t row, level;  // of its particle
+  double beside, above;    // of it, in half spacings along y and z
+};
+
+/// From the first row to the last, along level stretches and up or down between them.
+std::vector<SectionNode> nodes_across(const TerrainFill& fill, std::size_t rows,
+                                      std::size_t every) {
+  std::vector<SectionNode> nodes;
+  for (std::size_t from = 0, to = 0; from < rows; from = to) {
+    const std::size_t level = fill.first_level(from);
+    while (to < rows && fill.first_level(to) == level) ++to;
+    const std::vector<std::size_t> places = places_of_nodes(to - from, every);
+    for (const std::size_t n : places)
+      nodes.push_back({from + n, level,
+                       n == places.front()  ? -1.0
+                       : n == places.back() ? 1.0
+                                            : 0.0,
+                       1.0});
+    if (to == rows) break;
+    // The corners belong to the level stretches.
+    const std::size_t next = fill.first_level(to);
+    std::vector<std::size_t> heights =
+        places_of_nodes(std::max(level, next) - std::min(level, next), every);
+    const bool down = next > level;
+    if (!down) std::reverse(heights.begin(), heights.end());
+    for (std::size_t n = 1; n + 1 < heights.size(); ++n)
+      nodes.push_back(
+          {down ? to - 1 : to, std::min(level, next) + heights[n], down ? 1.0 : -1.0, 0.0});
+  }
+  return nodes;
+}
+
 }  // namespace
 
 FreeSurfaceMesh::FreeSurfaceMesh(const TerrainFill& fill, const Grid& grid, std::size_t every) {
-  const std::vector<std::size_t> across = places_of_nodes(fill.surface_columns(grid), every);
-  const std::vector<std::size_t> along = places_of_nodes(fill.surface_rows(grid), every);
-  const std::size_t columns = across.size();
-  const std::size_t rows = along.size();
-  for (const std::size_t column : across)
-    for (const std::size_t row : along) ids_.push_back(fill.surface_id(grid, column, row));
-  motion_.resize(6 * ids_.size());
-  surface_.resize(ids_.size());
-  offset_.setZero(3, surface_.x.cols());
-  offset_.row(2).setOnes();
+  const std::vector<std::size_t> along = places_of_nodes(fill.columns(grid), every);
+  const std::vector<SectionNode> across = nodes_across(fill, fill.rows(grid), every);
+  const std::size_t columns = along.size();
+  const std::size_t rows = across.size();
   const auto node = [&](std::size_t column, std::size_t row) {
     return static_cast<int>(column * rows + row);
   };
+  surface_.resize(columns * rows);
+  motion_.resize(6 * columns * rows);
+  offset_.resize(3, surface_.x.cols());
   for (std::size_t c = 0; c < columns; ++c)
     for (std::size_t r = 0; r < rows; ++r) {
-      offset_(0, node(c, r)) = c == 0 ? -1.0 : c + 1 == columns ? 1.0 : 0.0;
-      offset_(1, node(c, r)) = r == 0 ? -1.0 : r + 1 == rows ? 1.0 : 0.0;
+      const SectionNode& place = across[r];
+      nodes_.push_back({fill.id(grid, along[c], place.row, place.level), node(c, r)});
+      offset_.col(node(c, r)) << (c == 0             ? -1.0
+                                  : c + 1 == columns ? 1.0
+                                                     : 0.0),
+          place.beside, place.above;
     }
+  std::sort(nodes_.begin(), nodes_.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   for (std::size_t c = 0; c + 1 < columns; ++c)
     for (std::size_t r = 0; r + 1 < rows; ++r) {
       // Diagonals alternate: no direction is preferred.
@@ -55,9 +91,11 @@ void FreeSurfaceMesh::attach(const std::vector<ParticleGroup>& groups) {
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const double* id = groups[g].particles.data(column::id);
     for (std::size_t p = 0; p < groups[g].particles.size(); ++p) {
-      const auto found = std::lower_bound(ids_.begin(), ids_.end(), id[p]);
-      if (found != ids_.end() && *found == id[p])
-        attachments_.push_back({found - ids_.begin(), {g, p}});
+      const auto found = std::lower_bound(
+          nodes_.begin(), nodes_.end(), id[p],
+          [](const NodeOfParticle& node, double number) { return node.id < number; });
+      if (found != nodes_.end() && found->id == id[p])
+        attachments_.push_back({found->node, {g, p}});
     }
   }
 }

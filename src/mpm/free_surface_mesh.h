@@ -14,7 +14,8 @@ namespace furrow {
 
 /// Each node is attached to a particle of the uppermost level, to one in so many, half a spacing
 /// (shrunk with the particle's volume) above it; along the edge of the ground it is half a spacing
-/// further out as well, on the face of the grid. It moves with the affine velocity of the particle,
+/// further out as well, on the face of the grid. On the sides of a trough it is half a spacing
+/// beside a particle, and in the corners both. It moves with the affine velocity of the particle,
 /// and the force on it goes to the grid as that of a contact does: at the node, by the particle's
 /// own weights, so that force and moment are kept. The surface is replicated on every rank.
 class FreeSurfaceMesh {
@@ -24,7 +25,7 @@ class FreeSurfaceMesh {
   /// @param every  particles from node to node along x and y; the last one has a node as well
   FreeSurfaceMesh(const TerrainFill& fill, const Grid& grid, std::size_t every);
 
-  bool exists() const { return !ids_.empty(); }
+  bool exists() const { return !nodes_.empty(); }
   Surface& surface() { return surface_; }
   const Surface& surface() const { return surface_; }
 
@@ -45,7 +46,13 @@ class FreeSurfaceMesh {
   /// From the particle to the node [m].
   Vector3 offset(const std::vector<ParticleGroup>& groups, const NodeAttachment& attachment) const;
 
-  std::vector<double> ids_;                  // of the particle of each node, ascending
+  /// A node and the number of its particle.
+  struct NodeOfParticle {
+    double id;
+    Eigen::Index node;
+  };
+
+  std::vector<NodeOfParticle> nodes_;        // ascending ids
   Matrix3X offset_;                          // of a node from its particle, in half spacings
   std::vector<NodeAttachment> attachments_;  // of this rank's particles
   std::vector<double> motion_;               // position and velocity of each node: 6 numbers

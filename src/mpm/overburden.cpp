@@ -55,8 +55,9 @@ VectorX loaded(const Material& material, const VectorX& state, double stress) {
 
 }  // namespace
 
-void find_overburden(const TerrainParameters& parameters, std::vector<ParticleLevel>& levels) {
-  double weight = parameters.surcharge;  // and of all that lies above [Pa]
+void find_overburden(const TerrainParameters& parameters, double surcharge,
+                     std::vector<ParticleLevel>& levels) {
+  double weight = surcharge;  // and of all that lies above [Pa]
   for (std::size_t n = 0; n < levels.size(); ++n) {
     ParticleLevel& level = levels[n];
     level.layer = layer_at(parameters, level.z);

@@ -20,8 +20,10 @@ struct ParticleLevel {
 /// material, until its vertical stress carries what lies above, surcharge included: stress, density
 /// and hardening then belong together whatever the material. Without initial_stress the levels have
 /// the initial state.
+/// @param surcharge  weight on the uppermost level [Pa]
 /// @param levels  z and half, from the surface down; layer and state are filled in
 /// @throws InputError when a material cannot carry the weight
-void find_overburden(const TerrainParameters& parameters, std::vector<ParticleLevel>& levels);
+void find_overburden(const TerrainParameters& parameters, double surcharge,
+                     std::vector<ParticleLevel>& levels);
 
 }  // namespace furrow

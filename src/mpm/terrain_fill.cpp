@@ -28,7 +28,18 @@ std::vector<ParticleLevel> make_levels(const TerrainParameters& parameters, cons
       levels.push_back(level);
     }
   }
-  find_overburden(parameters, levels);
+  find_overburden(parameters, parameters.trough ? 0.0 : parameters.surcharge, levels);
+  return levels;
+}
+
+/// Likewise from the bottom of a trough down; none without one.
+std::vector<ParticleLevel> make_levels_below(const TroughPlace& trough,
+                                             const TerrainParameters& parameters,
+                                             const std::vector<ParticleLevel>& beside) {
+  if (!parameters.trough) return {};
+  std::vector<ParticleLevel> levels(beside.begin() + static_cast<std::ptrdiff_t>(trough.levels),
+                                    beside.end());
+  find_overburden(parameters, parameters.surcharge, levels);
   return levels;
 }
 
@@ -76,7 +87,9 @@ TerrainFill::TerrainFill(const TerrainParameters& parameters, const Grid& grid,
     : layers_(parameters.layers),
       slide_(parameters.slide),
       particles_per_cell_(parameters.particles_per_cell),
-      levels_(make_levels(parameters, grid)) {
+      levels_(make_levels(parameters, grid)),
+      trough_(place_trough(parameters, grid.axis(1), levels_, where)),
+      levels_below_trough_(make_levels_below(trough_, parameters, levels_)) {
   check_layers(parameters, levels_, where);
 }
 
@@ -100,45 +113,63 @@ void TerrainFill::add_cells(int x_cell, Discretisation& discretisation) {
   const Axis& x = discretisation.grid.axis(0);
   const Axis& y = discretisation.grid.axis(1);
   const Partition& partition = discretisation.partition;
+  const int rows = particles_per_cell_[1];
   for (int i = 0; i < particles_per_cell_[0]; ++i)
     for (int y_cell = 0; y_cell < y.cells(); ++y_cell) {
       const bool mine = partition.owner(x_cell, y_cell) == partition.ranks().rank();
-      for (int j = 0; j < particles_per_cell_[1]; ++j)
-        for (const ParticleLevel& level : levels_) {
-          const double id = next_id_++;
-          if (!mine) continue;
-          const double half[3] = {0.5 * x.length(x_cell) / particles_per_cell_[0],
-                                  0.5 * y.length(y_cell) / particles_per_cell_[1], level.half};
-          const double position[3] = {x.knot(x_cell) + (2 * i + 1) * half[0],
-                                      y.knot(y_cell) + (2 * j + 1) * half[1], level.z};
-          const std::size_t side = slide_ ? slide_->side(Eigen::Map<const Vector3>(position)) : 0;
-          Particles& particles =
-              discretisation.groups[side * layers_.size() + level.layer].particles;
-          const std::size_t p = particles.append(1);
-          for (std::size_t a = 0; a < 3; ++a) {
-            particles.data(column::x + a)[p] = position[a];
-            particles.data(column::initial_x + a)[p] = position[a];
-            particles.data(column::half_x + a)[p] = half[a];
-          }
-          particles.data(column::volume)[p] =
-              8.0 * half[0] * half[1] * level.half / level.state[field::volume_ratio];
-          particles.data(column::id)[p] = id;
-          particles.set_state(p, level.state);
-        }
+      const double half_x = 0.5 * x.length(x_cell) / particles_per_cell_[0],
+                   half_y = 0.5 * y.length(y_cell) / rows;
+      for (int j = 0; j < rows; ++j) {
+        if (mine)
+          add_stack({x.knot(x_cell) + (2 * i + 1) * half_x, y.knot(y_cell) + (2 * j + 1) * half_y},
+                    {half_x, half_y}, static_cast<std::size_t>(y_cell * rows + j), discretisation);
+        next_id_ += static_cast<double>(levels_.size());
+      }
     }
 }
 
-std::size_t TerrainFill::surface_columns(const Grid& grid) const {
+/// The particles of a place (x, y), which stand for ground of two half spacings [m].
+void TerrainFill::add_stack(const std::array<double, 2>& place,
+                            const std::array<double, 2>& half_spacing, std::size_t row,
+                            Discretisation& discretisation) {
+  const std::size_t first = first_level(row);
+  const std::vector<ParticleLevel>& levels = first > 0 ? levels_below_trough_ : levels_;
+  for (std::size_t n = 0; n < levels.size(); ++n) {
+    const ParticleLevel& level = levels[n];
+    const double position[3] = {place[0], place[1], level.z};
+    const double half[3] = {half_spacing[0], half_spacing[1], level.half};
+    const std::size_t side = slide_ ? slide_->side(Eigen::Map<const Vector3>(position)) : 0;
+    Particles& particles = discretisation.groups[side * layers_.size() + level.layer].particles;
+    const std::size_t p = particles.append(1);
+    for (std::size_t a = 0; a < 3; ++a) {
+      particles.data(column::x + a)[p] = position[a];
+      particles.data(column::initial_x + a)[p] = position[a];
+      particles.data(column::half_x + a)[p] = half[a];
+    }
+    particles.data(column::volume)[p] =
+        8.0 * half[0] * half[1] * level.half / level.state[field::volume_ratio];
+    particles.data(column::id)[p] = next_id_ + static_cast<double>(first + n);
+    particles.set_state(p, level.state);
+  }
+}
+
+std::size_t TerrainFill::columns(const Grid& grid) const {
   return static_cast<std::size_t>(grid.axis(0).cells() * particles_per_cell_[0]);
 }
 
-std::size_t TerrainFill::surface_rows(const Grid& grid) const {
+std::size_t TerrainFill::rows(const Grid& grid) const {
   return static_cast<std::size_t>(grid.axis(1).cells() * particles_per_cell_[1]);
 }
 
-/// As add_cells() counts them: the levels of a place follow one another.
-double TerrainFill::surface_id(const Grid& grid, std::size_t column, std::size_t row) const {
-  return static_cast<double>((column * surface_rows(grid) + row) * levels_.size());
+std::size_t TerrainFill::first_level(std::size_t row) const {
+  return trough_.contains(row) ? trough_.levels : 0;
+}
+
+/// As add_cells() counts them: the levels of a place follow one another, those that a trough leaves
+/// out too.
+double TerrainFill::id(const Grid& grid, std::size_t column, std::size_t row,
+                       std::size_t level) const {
+  return static_cast<double>((column * rows(grid) + row) * levels_.size() + level);
 }
 
 void TerrainFill::checkpoint(Checkpoint& state) { state.value("next_id", next_id_); }

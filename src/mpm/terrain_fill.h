@@ -3,6 +3,7 @@
 /// Undisturbed ground: the grid of a terrain and the particles that fill its cells at the start and
 /// ahead of a moving window.
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "mpm/discretisation.h"
 #include "mpm/overburden.h"
 #include "mpm/terrain_parameters.h"
+#include "mpm/trough.h"
 
 namespace furrow {
 
@@ -32,19 +34,26 @@ class TerrainFill {
   /// all ranks; every rank calls it for every layer. A slide surface gives each particle its side.
   void add_cells(int x_cell, Discretisation& discretisation);
 
-  /// Uppermost particles after the first fill, numbered along x and along y.
-  std::size_t surface_columns(const Grid& grid) const;  ///< along x
-  std::size_t surface_rows(const Grid& grid) const;     ///< along y
-  /// Of one of them.
-  double surface_id(const Grid& grid, std::size_t column, std::size_t row) const;
+  // Particles after the first fill: columns count along x, rows along y, levels from the surface
+  // down.
+  std::size_t columns(const Grid& grid) const;
+  std::size_t rows(const Grid& grid) const;
+  /// The uppermost one of a row: 0, but in a trough.
+  std::size_t first_level(std::size_t row) const;
+  double id(const Grid& grid, std::size_t column, std::size_t row, std::size_t level) const;
 
   void checkpoint(Checkpoint& state);
 
  private:
+  void add_stack(const std::array<double, 2>& place, const std::array<double, 2>& half_spacing,
+                 std::size_t row, Discretisation& discretisation);
+
   std::vector<TerrainLayer> layers_;
   std::optional<SlideSurface> slide_;
   std::array<int, 3> particles_per_cell_;
   std::vector<ParticleLevel> levels_;  // from the surface down
+  TroughPlace trough_;
+  std::vector<ParticleLevel> levels_below_trough_;  // from its bottom down
   double next_id_ = 0.0;
 };
 

@@ -26,6 +26,13 @@ struct TerrainLayer {
   std::vector<std::string> warnings = {};  ///< of the reader, to be shown
 };
 
+/// A channel along x in the surface, as long as the ground, that grains fill; its middle is that of
+/// the y axis.
+struct Trough {
+  double width = 0.0;  ///< [m]
+  double depth = 0.0;  ///< [m]
+};
+
 struct TerrainParameters {
   AxisLayout x;  ///< of the grid
   AxisLayout y;
@@ -40,8 +47,10 @@ struct TerrainParameters {
   Vector3 gravity = {0.0, 0.0, -standard_gravity};    ///< [m/s^2]
   /// the ground carries its own weight from the start, with the stress of confined compression
   bool initial_stress = true;
-  /// [Pa] weight of what lies on the surface, in the initial stress
+  /// [Pa] weight of what lies on the surface, or on the bottom of the trough where there is one, in
+  /// the initial stress
   double surcharge = 0.0;
+  std::optional<Trough> trough = {};
   double cfl = 0.4;  ///< step over (shortest cell)/(wave speed + speed of the ground)
   /// most steps between two remaps of particles and grid (terrain_step.h)
   int remap_interval = 16;

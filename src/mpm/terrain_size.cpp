@@ -33,8 +33,12 @@ TerrainSize size_of(const TerrainParameters& parameters) {
   const double x = Axis::cell_count(parameters.x), y = Axis::cell_count(parameters.y),
                z = Axis::cell_count(parameters.z);
   const std::array<int, 3>& per_cell = parameters.particles_per_cell;
+  const auto& trough = parameters.trough;
+  const double left_out =
+      trough ? x * (trough->width / parameters.y.cell) * (trough->depth / parameters.z.cell) : 0.0;
   return {x * y * z, parameters.velocity_fields() * (x + 2.0) * (y + 2.0) * (z + 2.0),
-          x * y * cells_below_surface(parameters) * per_cell[0] * per_cell[1] * per_cell[2]};
+          (x * y * cells_below_surface(parameters) - left_out) * per_cell[0] * per_cell[1] *
+              per_cell[2]};
 }
 
 void check_memory(const TerrainParameters& parameters, const Communicator& ranks,

@@ -30,7 +30,8 @@ double upward_momentum(Scene& scene) {
 /// Further keywords of the ground.
 class GrainsOnContinuum : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Sheets, GrainsOnContinuum,
-                         ::testing::Values("", " multirate yes sheet_every 2 surcharge 200"));
+                         ::testing::Values("", " multirate yes sheet_every 2 surcharge 200",
+                                           " trough 0.04 0.01"));
 
 TEST_P(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
   Scene scene;

@@ -35,7 +35,7 @@ std::vector<ParticleLevel> levels_down(double depth, int count) {
 TEST(Overburden, ElasticGroundCarriesItsWeight) {
   const double rho = 1800.0, nu = 0.3;
   auto levels = levels_down(2.0, 20);
-  find_overburden(deep({{material_of(elastic(1e9, nu, rho)), 2.0}}), levels);
+  find_overburden(deep({{material_of(elastic(1e9, nu, rho)), 2.0}}), 0.0, levels);
   for (const ParticleLevel& level : levels) {
     const double stress = rho * standard_gravity * level.z;
     // of the density's change, rho g z/M
@@ -51,7 +51,7 @@ TEST(Overburden, ASurchargeIsCarriedByAllLevels) {
   auto ground = deep({{material_of(elastic(1e9, 0.3, rho)), 2.0}});
   ground.surcharge = surcharge;
   auto levels = levels_down(2.0, 20);
-  find_overburden(ground, levels);
+  find_overburden(ground, ground.surcharge, levels);
   for (const ParticleLevel& level : levels)
     EXPECT_NEAR(-level.state[field::stress + 2] / (surcharge - rho * standard_gravity * level.z),
                 1.0, 1e-4);
@@ -62,7 +62,7 @@ TEST(Overburden, ASurchargeIsCarriedByAllLevels) {
 TEST(Overburden, SnowIsInEquilibriumAtItsCompactedDensity) {
   const auto material = material_of(snow());
   auto levels = levels_down(2.0, 40);
-  find_overburden(deep({{material, 2.0}}), levels);
+  find_overburden(deep({{material, 2.0}}), 0.0, levels);
   double above = 0.0;
   for (const ParticleLevel& level : levels) {
     const double own = 2.0 * level.half * standard_gravity * material->current_density(level.state);
@@ -78,7 +78,7 @@ TEST(Overburden, LayersLieOnOneAnother) {
              heavy = material_of(elastic(1e9, 0.2, 2000));
   auto levels = levels_down(1.0, 10);
   // the lowest reaches the base whatever its thickness
-  find_overburden(deep({{light, 0.3}, {heavy, 0.1}}), levels);
+  find_overburden(deep({{light, 0.3}, {heavy, 0.1}}), 0.0, levels);
   for (const ParticleLevel& level : levels) {
     const double depth = -level.z;
     EXPECT_EQ(level.layer, depth < 0.3 ? 0u : 1u) << depth;
@@ -93,7 +93,7 @@ TEST(Overburden, NothingWithoutInitialStress) {
   auto ground = deep({{material, 1.0}});
   ground.initial_stress = false;
   auto levels = levels_down(1.0, 4);
-  find_overburden(ground, levels);
+  find_overburden(ground, ground.surcharge, levels);
   for (const ParticleLevel& level : levels) EXPECT_EQ(level.state, material->initial_state());
 }
 
@@ -101,7 +101,7 @@ TEST(Overburden, RefusesALawThatCannotCarryTheWeight) {
   const auto material = material_of(elastic(1e3, 0.3, 5000));  // 1.3 kPa against 50 kPa a metre
   auto levels = levels_down(2.0, 4);
   try {
-    find_overburden(deep({{material, 2.0}}), levels);
+    find_overburden(deep({{material, 2.0}}), 0.0, levels);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("law elastic cannot carry"));
