@@ -28,7 +28,7 @@ from furrow_post.study.study import Study, run_study
 KIND = "grouser"
 SLIPS = (-0.001, 0.21, -0.203, 0.5, -0.5, 0.75)  # breadth first
 BLIND: Changes = {"rolling": BETWEEN}
-SIZES = (8, 10)  # [mm]
+SIZES = (6, 8, 10)  # [mm]
 RUNS = [grains_case(f"{size} mm", size, slip, 1, BLIND, KIND) for size in SIZES for slip in SLIPS]
 # What was reached, plus the scatter from one pour to the next: size of the grains [mm] -> rms
 REACHED = {8.0: 0.15}
