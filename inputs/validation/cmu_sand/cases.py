@@ -147,16 +147,20 @@ def wheel_case(
     what: str = "",
     candidate: str = CHOSEN,
     fastest: float = FASTEST,
+    bars: int = GROUSERS,
+    travel: float = TRAVEL,
     **changes: Value,
 ) -> Case:
     """One measured point: its own load and slip.
 
-    The larger of travel and rim speed is the same for all slips: fastest [m/s].
+    The larger of travel and rim speed is the same for all slips: fastest [m/s]. bars: of a wheel
+    with grousers, with the same share of the tread at all numbers. travel [m].
     """
-    bars = GROUSERS if point.kind == "grouser" else 0
+    bars = bars if point.kind == "grouser" else 0
     grousers = f"grousers {bars}"
     if bars:
-        grousers += f" grouser_height {GROUSER_HEIGHT} grouser_thickness {GROUSER_THICKNESS}"
+        thickness = GROUSER_THICKNESS * GROUSERS / bars
+        grousers += f" grouser_height {GROUSER_HEIGHT} grouser_thickness {thickness:.5g}"
     changes = {**WHEEL_BED, "wall_friction": WHEEL_FRICTION, **changes}
     test: dict[str, Value] = {
         "grousers": grousers,
@@ -164,7 +168,7 @@ def wheel_case(
         "slip": point["slip"],
         "load": point["load_N"],
         "speed": round(fastest * min(1.0, 1.0 - point["slip"]), 5),
-        "travel": TRAVEL,
+        "travel": travel,
     }
     return case(name, stage, "wheel", {**grains(candidate, changes), **test}, what)
 
