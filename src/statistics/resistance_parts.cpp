@@ -45,8 +45,7 @@ const std::vector<Part>& given_to_grains() {
 const std::vector<Part>& places_of_grains() {
   static const std::vector<Part> list = {
       {"grains, below the track", {"grains_below_work"}},
-      {"grains, ahead and aside",
-       {"grains_ahead_work", "grains_aside_work", "grains_lifted_work"}},
+      {"grains, ahead and aside", {"grains_ahead_work", "grains_aside_work", "grains_lifted_work"}},
       {"grains, walls of the bed", {"grains_walls_work"}},
       {"grains, their motion", {"grains_kinetic_energy"}}};
   return list;
@@ -168,9 +167,8 @@ ResistanceParts resistance_parts(const std::vector<History>& histories,
     return taken;
   };
   const double given = total(given_to_grains());
-  const bool by_place =
-      has_places(histories) &&
-      std::abs(total(places_of_grains()) - given) <= same_grain_work * std::abs(given);
+  const bool by_place = has_places(histories) && std::abs(total(places_of_grains()) - given) <=
+                                                     same_grain_work * std::abs(given);
   for (const Part& part : by_place ? places_of_grains() : given_to_grains())
     add(part.name, sum_of(part.channels));
   if (by_place)

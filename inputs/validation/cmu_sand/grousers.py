@@ -46,38 +46,22 @@ SIZE_RUNS = [grains_case("sizes", size, slip, 1, BLIND, KIND) for size in SIZES 
 # What is not measured, changed one by one with the coarsest grains, at the slips of the largest
 # misses
 MISSED = (-0.5, 0.75)
-LONGER = 2 * cases.TRAVEL  # [m]
+ASSUMPTIONS: dict[str, Changes] = {
+    "bed 0.12 m deep": {"depth": 0.12},
+    "12 bars of 3.3 mm": {"grousers": cases.bars_of(12)},
+    "friction of wheel and sand 0.4": {"wall_friction": 0.4},
+    "0.48 m of travel, bed 0.70 m long": {"travel": 0.48, "length": 0.70},
+}
 
 
-def assumed_case(
-    name: str,
-    what: str,
-    slip: float,
-    bars: int = cases.GROUSERS,
-    travel: float = cases.TRAVEL,
-    **changes: Value,
-) -> Case:
+def assumed_case(what: str, slip: float) -> Case:
     point = cases.nearest_point(KIND, slip)
-    values: dict[str, Value] = {"diameter": 0.010, "young": SOFT, **BLIND, **changes}
-    return cases.wheel_case(
-        f"assumed_{name}_slip_{slip:g}", "assumed", point, what, cases.CHOSEN, FASTEST, bars,
-        travel, **values,
-    )  # fmt: skip
+    values: dict[str, Value] = {"diameter": 0.010, "young": SOFT, **BLIND, **ASSUMPTIONS[what]}
+    name = f"assumed_{what.replace(' ', '_').replace(',', '')}_slip_{slip:g}"
+    return cases.wheel_case(name, "assumed", point, what, cases.CHOSEN, FASTEST, **values)
 
 
-ASSUMED = [
-    case
-    for slip in MISSED
-    for case in (
-        assumed_case("depth_0.12", "bed 0.12 m deep", slip, depth=0.12),
-        assumed_case("bars_12", "12 bars of 3.3 mm", slip, bars=12),
-        assumed_case("friction_0.4", "friction of wheel and sand 0.4", slip, wall_friction=0.4),
-        assumed_case(
-            "travel", "0.48 m of travel", slip, travel=LONGER,
-            length=cases.WHEEL_BED["length"] + LONGER - cases.TRAVEL,
-        ),
-    )
-]  # fmt: skip
+ASSUMED = [assumed_case(what, slip) for slip in MISSED for what in ASSUMPTIONS]
 RUNS = [*SIZE_RUNS, *ASSUMED]
 # What was reached, plus the scatter from one pour to the next: size of the grains [mm] -> rms
 REACHED = {8.0: 0.15}
