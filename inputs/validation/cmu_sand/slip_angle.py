@@ -13,11 +13,12 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "postproc"))
 
-from grounds import BETWEEN, SIDEWAYS, Changes, grains_case
-from grounds_report import QUANTITIES, Row, at_size_zero, row_of, scatter_of_pours
+from grounds import BETWEEN, SIDEWAYS, STRONG_SOIL, Changes, continuum_case, grains_case
+from grounds_report import GRAINS, QUANTITIES, Row, at_size_zero, row_of, scatter_of_pours
 
 import matplotlib.pyplot as plt
 
+from furrow_post.analyse.statistics import rms
 from furrow_post.figures.style import save
 from furrow_post.study.case import Case
 from furrow_post.study.output import Output
@@ -27,12 +28,17 @@ from furrow_post.study.study import Study, run_study
 STRONGER = 0.5  # rolling friction
 WIDTH = 50.0  # [mm] of the wheel
 FINEST = 3.1  # [mm] 16 grains in the wheel's width
-COLOURS = {"grains, rolling friction 0.35": "tab:cyan", "grains, rolling friction 0.5": "tab:green"}
+COLOURS = {
+    "grains, rolling friction 0.35": "tab:cyan",
+    "grains, rolling friction 0.5": "tab:green",
+    "continuum, rolling friction 0.5": "tab:orange",
+}
 LABELS = {"fy_over_fz": "Fy/Fz", "fx_over_fz": "Fx/Fz", "sinkage_mm": "sinkage [mm]"}
 # Fy/Fz with the finest grains that were run, less and plus twice the scatter of pours
 REACHED = {
     "grains, rolling friction 0.35": (0.25, 0.37),
-    "grains, rolling friction 0.5": (0.2, 0.6),
+    "grains, rolling friction 0.5": (0.31, 0.43),
+    "continuum, rolling friction 0.5": (0.2, 0.6),
 }
 ERRORS = {"fy_over_fz": "fy_over_fz_error", **QUANTITIES}
 
@@ -51,22 +57,31 @@ RUNS = [
         for size, pour in ((10, 1), (10, 2), (8, 1), (8, 2), (6, 1))
     ),
     run_of(BETWEEN, FINEST),
+    *(
+        continuum_case(
+            "continuum", cell, 0.0, {"material": STRONG_SOIL, **SIDEWAYS, "symmetry": "no"}
+        )
+        for cell in (10, 7)
+    ),
 ]
 
 
 def limit_of(rows: Sequence[Row], scatter: Mapping[str, float]) -> Row:
-    """Of one law at size zero, along a straight line through all its runs; scatter: of pours."""
+    """Of one law at size zero, along a straight line through all its runs; scatter: of pours, which
+    a continuum has not."""
     sizes = [row["size_mm"] for row in rows]
+    poured = rows[0]["ground"].startswith(GRAINS)
     limit: Row = {"ground": rows[0]["ground"], "finest_mm": min(sizes), "runs": len(rows)}
     for key, error in ERRORS.items():
-        value = at_size_zero(sizes, [row[key] for row in rows], scatter[key])
+        one = scatter[key] if poured else rms([row[error] for row in rows])
+        value = at_size_zero(sizes, [row[key] for row in rows], one)
         limit.update({key: round(value.value, 4), error: round(value.error, 4)})
     return limit
 
 
 def draw(path: Path, rows: Sequence[Row], limits: Sequence[Row]) -> None:
     """Lateral and longitudinal force and sinkage over the size of the grains."""
-    figure, panels = plt.subplots(1, len(LABELS), figsize=(11, 3.4))
+    figure, panels = plt.subplots(1, len(LABELS), figsize=(11, 3.6), layout="constrained")
     at_zero = [{**limit, "size_mm": 0.0} for limit in limits]
     for panel, (key, label) in zip(panels, LABELS.items()):
         for ground, colour in COLOURS.items():
@@ -80,7 +95,7 @@ def draw(path: Path, rows: Sequence[Row], limits: Sequence[Row]) -> None:
                 )  # fmt: skip
         panel.set(xlabel="grains [mm]; 0: the limit", ylabel=label)
         panel.grid(alpha=0.3)
-    panels[0].legend(fontsize=7)
+    panels[1].legend(fontsize=7)
     save(figure, path, dpi=75)
 
 
