@@ -64,7 +64,7 @@ def assumed_case(what: str, slip: float) -> Case:
 ASSUMED = [assumed_case(what, slip) for slip in MISSED for what in ASSUMPTIONS]
 RUNS = [*SIZE_RUNS, *ASSUMED]
 # What was reached, plus the scatter from one pour to the next: size of the grains [mm] -> rms
-REACHED = {8.0: 0.15}
+REACHED = {8.0: 0.15, 6.0: 0.12}
 MEASURED = (
     ("fx_over_fz", "Fx/Fz", "force_N", "force_std_N"),
     ("sinkage_mm", "sinkage [mm]", "sinkage_mm", "sinkage_std_mm"),

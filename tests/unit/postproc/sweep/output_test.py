@@ -13,6 +13,7 @@ import h5py
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from furrow_post.figures.resistance_parts import COLOURS
+from furrow_post.formatting import with_error
 from furrow_post.study.record import Record
 from furrow_post.sweep.curves import EFFICIENCY, PULL, SINKAGE, TORQUE
 from furrow_post.sweep.output import Named, Wanted, evaluate, report_lines, write_sweep
@@ -201,6 +202,10 @@ class OutputTest(unittest.TestCase):
         named = set(re.findall(r'\{"([a-z, ]+)",\s*\{"', program.read_text(encoding="utf-8")))
         self.assertGreaterEqual(len(named), 17)
         self.assertEqual(named - set(COLOURS), set())
+
+    def test_rounding_is_shown_in_powers_of_ten(self) -> None:
+        self.assertEqual(with_error(6.1e-13, 2e-13), "6.1e-13 ± 2e-13")
+        self.assertEqual(with_error(0.00012, 0.00003), "0.00012 ± 0.00003")
 
     def test_failures_and_what_is_missing_are_told_apart(self) -> None:
         write_pulling(self.folder)
