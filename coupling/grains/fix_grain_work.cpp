@@ -114,6 +114,20 @@ void FixGrainWork::end_of_step() {
   walls_ += interval * (power_of_wheel() - between_grains - lifting - power_of_all_forces());
 }
 
+GrainWork FixGrainWork::work() const {
+  GrainWork of_all;
+  of_all.slide = over_ranks(taken_.slide);
+  of_all.roll = over_ranks(taken_.roll);
+  of_all.square = over_ranks(taken_.press);
+  of_all.below = over_ranks(in_place_[below]);
+  of_all.ahead = over_ranks(in_place_[ahead]);
+  of_all.aside = over_ranks(in_place_[aside]);
+  of_all.walls = over_ranks(walls_);
+  of_all.lifted = over_ranks(lifted_);
+  of_all.kinetic = over_ranks(kinetic_energy());
+  return of_all;
+}
+
 FixGrainWork::Track FixGrainWork::track() const {
   const Surface& surface = body_.surface();
   const auto [lower, upper] = surface.bounds();

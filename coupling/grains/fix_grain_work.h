@@ -8,6 +8,7 @@
 #include "coupling/base/furrow_fix.h"
 #include "coupling/bodies/fix_body.h"
 #include "coupling/liggghts/pair_contacts.h"
+#include "rig/ground_losses.h"
 
 namespace LAMMPS_NS {
 class FixPropertyGlobal;
@@ -25,6 +26,11 @@ class FixGrainWork : public FurrowFix {
   void init() override;
   void end_of_step() override;
 
+  /// The wheel whose track divides the grains.
+  const Body& body() const { return body_; }
+  /// Of all ranks. Collective.
+  GrainWork work() const;
+
  protected:
   void checkpoint(Checkpoint& state) override;
 
@@ -38,7 +44,7 @@ class FixGrainWork : public FurrowFix {
   struct Track {
     double centre[2], half_width, front;
   };
-  enum Place { below, ahead, aside, places };
+  enum Place { below, ahead, aside, count };
 
   /// Largest tangential over normal force of a contact; infinite where bonds carry more.
   double friction(const PairContact& contact) const;
@@ -59,7 +65,7 @@ class FixGrainWork : public FurrowFix {
   LAMMPS_NS::FixPropertyGlobal* friction_ = nullptr;  // of pairs of types
   // of this rank, since the start [J]
   Taken taken_;
-  std::array<double, places> in_place_ = {};
+  std::array<double, count> in_place_ = {};
   double walls_ = 0.0, lifted_ = 0.0;
 };
 

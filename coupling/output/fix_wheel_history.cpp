@@ -11,6 +11,7 @@
 #include "coupling/contact/fix_contact_plane.h"
 #include "coupling/drive/fix_wheel_rig.h"
 #include "coupling/bodies/fix_wheel_hub.h"
+#include "coupling/grains/fix_grain_work.h"
 #include "coupling/output/gather_grains.h"
 #include "coupling/output/grain_virial.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
@@ -126,6 +127,8 @@ GroundLosses FixWheelHistory::ground_losses() {
   losses.contact_damping += work.contact;
   losses.press = work.press;
   losses.push = work.push;
+  for (const auto* counted : fixes_of<FixGrainWork>(*modify))
+    if (&counted->body() == &wheel.hub()) losses.grains = counted->work();
   // what is left of the wheel's work
   losses.contact_springs =
       -wheel.hub().energy_budget().contact_work -

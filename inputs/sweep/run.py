@@ -148,9 +148,9 @@ def ended(
     if done:
         try:
             result = evaluate([Named(folder)], wanted)
-            write_sweep(result, folder)
+            files = write_sweep(result, folder)
             print("\n" + "\n".join(report_lines(result)))
-            print(f"\n{folder}: sweep.csv, sweep.h5, sweep.png, report.html")
+            print(f"\n{folder}: {', '.join(files)}")
         except ResultsError as error:
             trouble = str(error)
     for text in (*failures, *remarks):

@@ -4,13 +4,18 @@
 import json
 import math
 
+MOST_DECIMALS = 8
+
 
 def with_error(mean: float, error: float) -> str:
-    """ "10.8 ± 0.5": two digits of the error when they start with 1, else one; the mean as far."""
+    """ "10.8 ± 0.5": two digits of the error when they start with 1, else one; the mean as far.
+    Rounding, of which no digit would be seen, in powers of ten: "6.1e-13 ± 2e-13"."""
     if not error > 0:
         return f"{mean:.3g}"
     exponent = math.floor(math.log10(error))
     digits = max(-exponent + (error < 2 * 10.0**exponent), 0)
+    if digits > MOST_DECIMALS:
+        return f"{mean:.1e} ± {error:.0e}"
     return f"{mean:.{digits}f} ± {error:.{digits}f}"
 
 

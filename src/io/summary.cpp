@@ -102,6 +102,8 @@ std::string parts_table(const ResistanceParts& parts) {
   for (const ResistancePart& part : parts.parts) text += row(part.name, part.force);
   text += row("not accounted for", parts.unexplained);
   text += row("whole: put in by axle and load", parts.whole);
+  if (!parts.given_to_grains.empty()) text += "The wheel gave the grains their parts:\n";
+  for (const ResistancePart& part : parts.given_to_grains) text += row(part.name, part.force);
   return text;
 }
 
@@ -111,6 +113,8 @@ nlohmann::ordered_json json_of(const ResistanceParts& parts) {
   json["whole"] = parts.whole;
   for (const ResistancePart& part : parts.parts) json["parts"][part.name] = part.force;
   json["unexplained"] = parts.unexplained;
+  for (const ResistancePart& part : parts.given_to_grains)
+    json["given_to_grains"][part.name] = part.force;
   return json;
 }
 

@@ -4,6 +4,23 @@
 
 namespace furrow {
 
+/// Where a wheel's work on grains went, of all grains, since the start [J]: zero where nothing
+/// counts it.
+///
+/// press + push of GroundLosses = slide + roll + square + walls + lifted + change of kinetic, and
+/// slide + roll + square = below + ahead + aside.
+struct GrainWork {
+  double slide = 0.0;    ///< taken between grains by tangential forces
+  double roll = 0.0;     ///< by rolling friction
+  double square = 0.0;   ///< by forces square to the contacts
+  double below = 0.0;    ///< of these three, below the track
+  double ahead = 0.0;    ///< ahead of it, within its width
+  double aside = 0.0;    ///< beside it
+  double walls = 0.0;    ///< by contacts with anything but grains and the wheel
+  double lifted = 0.0;   ///< against gravity
+  double kinetic = 0.0;  ///< energy of their motion
+};
+
 /// Since the start, of all that the wheel touches, both halves of a half model [J].
 ///
 /// The wheel's work on its ground = continuum + press + push + friction +
@@ -26,6 +43,7 @@ struct GroundLosses {
   /// what the springs of its contact with continuum or plane hold or have lost: those of contacts
   /// that end are let go; with grains, the error of the works in time
   double contact_springs = 0.0;
+  GrainWork grains;
 };
 
 }  // namespace furrow

@@ -12,6 +12,8 @@ namespace {
 
 // of the work on a continuum: two sums of the same work differ by rounding
 constexpr double same_work = 1e-6;
+// of the work on grains: power at instants against works step by step
+constexpr double same_grain_work = 0.01;
 
 using Channels = std::vector<std::string>;
 
@@ -31,11 +33,27 @@ const std::vector<Part>& parts_of_continuum() {
   return list;
 }
 
+/// What grains took, by the way in which a wheel gave it.
+const std::vector<Part>& given_to_grains() {
+  static const std::vector<Part> list = {{"grains, pressed down", {"grain_press_work"}},
+                                         {"grains, pushed along", {"grain_push_work"}}};
+  return list;
+}
+
+/// The same by place, of all bodies that press on them: compaction, bulldozing with what is lifted,
+/// and the rest.
+const std::vector<Part>& places_of_grains() {
+  static const std::vector<Part> list = {
+      {"grains, below the track", {"grains_below_work"}},
+      {"grains, ahead and aside", {"grains_ahead_work", "grains_aside_work", "grains_lifted_work"}},
+      {"grains, walls of the bed", {"grains_walls_work"}},
+      {"grains, their motion", {"grains_kinetic_energy"}}};
+  return list;
+}
+
 /// What belongs to one wheel.
 const std::vector<Part>& parts_of_wheel() {
   static const std::vector<Part> list = {
-      {"grains, pressed down", {"grain_press_work"}},
-      {"grains, pushed along", {"grain_push_work"}},
       {"friction of wheel and ground", {"friction_loss"}},
       {"contact springs and damping", {"contact_spring_loss", "contact_damping_loss"}},
       {"wheel or tyre", {"wheel_loss", "stored_energy"}},
@@ -55,16 +73,29 @@ const Channels& put_in() {
   return channels;
 }
 
+bool has(const History& history, const Channels& channels) {
+  for (const std::string& channel : channels)
+    if (!history.has(channel)) return false;
+  return true;
+}
+
+bool has(const History& history, const std::vector<Part>& parts) {
+  for (const Part& part : parts)
+    if (!has(history, part.channels)) return false;
+  return true;
+}
+
 bool has_all(const History& history) {
-  const auto has = [&](const Channels& channels) {
-    for (const std::string& channel : channels)
-      if (!history.has(channel)) return false;
-    return true;
-  };
-  for (const std::vector<Part>* list : {&parts_of_continuum(), &parts_of_wheel()})
-    for (const Part& part : *list)
-      if (!has(part.channels)) return false;
-  return has(continuum_of_wheel().channels) && has(put_in());
+  return has(history, parts_of_continuum()) && has(history, given_to_grains()) &&
+         has(history, parts_of_wheel()) && has(history, continuum_of_wheel().channels) &&
+         has(history, put_in());
+}
+
+/// Histories of programs before these channels have none.
+bool has_places(const std::vector<History>& histories) {
+  for (const History& history : histories)
+    if (!has(history, places_of_grains())) return false;
+  return true;
 }
 
 /// [J] of a sum of channels over the window
@@ -130,6 +161,20 @@ ResistanceParts resistance_parts(const std::vector<History>& histories,
   } else {
     add(continuum_of_wheel().name, pressed);
   }
+  const auto total = [&](const std::vector<Part>& parts) {
+    double taken = 0.0;
+    for (const Part& part : parts) taken += sum_of(part.channels);
+    return taken;
+  };
+  const double given = total(given_to_grains());
+  const bool by_place = has_places(histories) && std::abs(total(places_of_grains()) - given) <=
+                                                     same_grain_work * std::abs(given);
+  for (const Part& part : by_place ? places_of_grains() : given_to_grains())
+    add(part.name, sum_of(part.channels));
+  if (by_place)
+    for (const Part& part : given_to_grains())
+      if (const double work = sum_of(part.channels); work != 0.0)
+        result.given_to_grains.push_back({part.name, work / travel});
   for (const Part& part : parts_of_wheel()) add(part.name, sum_of(part.channels));
   return result;
 }

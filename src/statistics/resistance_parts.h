@@ -21,12 +21,15 @@ struct ResistanceParts {
   double whole = 0.0;                 ///< [N]
   std::vector<ResistancePart> parts;  ///< those that the scene has
   double unexplained = 0.0;           ///< [N]
+  /// how the wheel gave the grains their parts, where those are told by place
+  std::vector<ResistancePart> given_to_grains;
 
   bool known() const { return !parts.empty(); }
 };
 
 /// Of one wheel. What a continuum took is divided only where nothing else presses on it; else it is
-/// one part.
+/// one part. What grains took is told by place (below the track, ahead and aside) where fix
+/// grain/work counted all of it, else by the way in which the wheel gave it.
 /// @return without parts for a history without the channels of rig/wheel_rig_outputs.cpp, or a
 /// window without travel
 ResistanceParts resistance_parts(const History& history, const Window& window);

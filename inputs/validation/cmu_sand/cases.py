@@ -140,6 +140,14 @@ def plate_case(
     return case(name, stage, "plate", {**grains(candidate, changes), **test})
 
 
+def bars_of(number: int) -> str:
+    """Words of fix wheel/rigid; the share of the tread is the same for all numbers but 0."""
+    if not number:
+        return "grousers 0"
+    thickness = GROUSER_THICKNESS * GROUSERS / number
+    return f"grousers {number} grouser_height {GROUSER_HEIGHT} grouser_thickness {thickness:.5g}"
+
+
 def wheel_case(
     name: str,
     stage: str,
@@ -154,19 +162,16 @@ def wheel_case(
     The larger of travel and rim speed is the same for all slips: fastest [m/s].
     """
     bars = GROUSERS if point.kind == "grouser" else 0
-    grousers = f"grousers {bars}"
-    if bars:
-        grousers += f" grouser_height {GROUSER_HEIGHT} grouser_thickness {GROUSER_THICKNESS}"
     changes = {**WHEEL_BED, "wall_friction": WHEEL_FRICTION, **changes}
     test: dict[str, Value] = {
-        "grousers": grousers,
+        "grousers": bars_of(bars),
         "grouser_height": GROUSER_HEIGHT if bars else 0.0,
         "slip": point["slip"],
         "load": point["load_N"],
         "speed": round(fastest * min(1.0, 1.0 - point["slip"]), 5),
         "travel": TRAVEL,
     }
-    return case(name, stage, "wheel", {**grains(candidate, changes), **test}, what)
+    return case(name, stage, "wheel", {**grains(candidate, changes), **test, **changes}, what)
 
 
 def wheel_name(point: Point) -> str:

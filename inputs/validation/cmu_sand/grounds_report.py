@@ -23,8 +23,9 @@ from furrow_post.study.output import Output
 from furrow_post.study.record import Record
 from furrow_post.study.runner import Runner
 
-# [m] of travel; the end of run.py's is beyond the last row of some of these runs
-WINDOW = (cases.WINDOW[0], 0.238)
+# [m] of travel, for the steady values: from its end; run.py's ends beyond the last row of some of
+# these runs
+WINDOW = (0.1, 0.002)
 RADIUS = 58.0  # [mm]
 QUANTITIES = {"fx_over_fz": "fx_over_fz_error", "sinkage_mm": "sinkage_error_mm"}
 Row = dict[str, Any]  # of a table
@@ -73,10 +74,10 @@ def what_of(case: Case) -> str:
     return ", ".join(changed)
 
 
-def steady_values(runner: Runner, folder: Path) -> dict[str, float]:
-    """furrow-resistance's own evaluation over the last part of the travel."""
+def steady_values(runner: Runner, folder: Path, travel: float) -> dict[str, float]:
+    """furrow-resistance's own evaluation over the last part of the travel [m]."""
     program = runner.tools.program("furrow-resistance")
-    window = [str(end) for end in WINDOW]
+    window = [f"{travel - end:.4g}" for end in WINDOW]
     command = [str(program), "--csv", "--distance", *window, str(folder)]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     row = next(csv.DictReader(done.stdout.splitlines()))
@@ -84,7 +85,7 @@ def steady_values(runner: Runner, folder: Path) -> dict[str, float]:
 
 
 def row_of(runner: Runner, case: Case, record: Record) -> Row:
-    values = steady_values(runner, runner.folder(case))
+    values = steady_values(runner, runner.folder(case), float(str(case.variables["travel"])))
     ground = ground_of(case)
     size = 1000 * float(str(case.variables["diameter" if ground.startswith(GRAINS) else "cell"]))
     surface = surface_over_grain() * size if ground.startswith(GRAINS) else 0.0

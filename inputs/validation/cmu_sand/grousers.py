@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The wheel with grousers of CMU's tests on finer grains, by the law that was found with the smooth
-one. See README.md.
+one, and what its forces depend on that was not measured. See README.md.
 
-Makes the runs that are missing and writes grousers.csv, grousers_accuracy.csv and grousers.png.
-Loads and slips are those measured; nothing was fitted to this wheel.
+Makes the runs that are missing and writes grousers.csv, grousers_size_zero.csv,
+grousers_accuracy.csv, grousers_assumed.csv and grousers.png. Loads and slips are those measured;
+nothing was fitted to this wheel. Stages: sizes assumed.
 """
 
 import sys
@@ -14,13 +15,25 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "postproc"))
 
 import cases
-from grounds import BETWEEN, Changes, grains_case
-from grounds_report import QUANTITIES, RADIUS, Row, accuracy, row_of
+from grounds import BETWEEN, FASTEST, SOFT, Changes, grains_case
+from grounds_report import BETWEEN as BETWEEN_LAW
+from grounds_report import (
+    GRAINS,
+    QUANTITIES,
+    RADIUS,
+    Row,
+    accuracy,
+    at_size_zero,
+    row_of,
+    scatter_of_pours,
+)
 
 import matplotlib.pyplot as plt
 
 from furrow_post.analyse.statistics import rms
+from furrow_post.csv_table import read_rows
 from furrow_post.figures.style import save
+from furrow_post.study.case import Case, Value
 from furrow_post.study.output import Output
 from furrow_post.study.runner import Runner
 from furrow_post.study.study import Study, run_study
@@ -28,10 +41,30 @@ from furrow_post.study.study import Study, run_study
 KIND = "grouser"
 SLIPS = (-0.001, 0.21, -0.203, 0.5, -0.5, 0.75)  # breadth first
 BLIND: Changes = {"rolling": BETWEEN}
-SIZES = (8, 10)  # [mm]
-RUNS = [grains_case(f"{size} mm", size, slip, 1, BLIND, KIND) for size in SIZES for slip in SLIPS]
+SIZES = (6, 8, 10)  # [mm]
+SIZE_RUNS = [grains_case("sizes", size, slip, 1, BLIND, KIND) for size in SIZES for slip in SLIPS]
+# What is not measured, changed one by one with the coarsest grains, at the slips of the largest
+# misses
+MISSED = (-0.5, 0.75)
+ASSUMPTIONS: dict[str, Changes] = {
+    "bed 0.12 m deep": {"depth": 0.12},
+    "12 bars of 3.3 mm": {"grousers": cases.bars_of(12)},
+    "friction of wheel and sand 0.4": {"wall_friction": 0.4},
+    "0.48 m of travel, bed 0.70 m long": {"travel": 0.48, "length": 0.70},
+}
+
+
+def assumed_case(what: str, slip: float) -> Case:
+    point = cases.nearest_point(KIND, slip)
+    values: dict[str, Value] = {"diameter": 0.010, "young": SOFT, **BLIND, **ASSUMPTIONS[what]}
+    name = f"assumed_{what.replace(' ', '_').replace(',', '')}_slip_{slip:g}"
+    return cases.wheel_case(name, "assumed", point, what, cases.CHOSEN, FASTEST, **values)
+
+
+ASSUMED = [assumed_case(what, slip) for slip in MISSED for what in ASSUMPTIONS]
+RUNS = [*SIZE_RUNS, *ASSUMED]
 # What was reached, plus the scatter from one pour to the next: size of the grains [mm] -> rms
-REACHED = {8.0: 0.15}
+REACHED = {8.0: 0.15, 6.0: 0.12}
 MEASURED = (
     ("fx_over_fz", "Fx/Fz", "force_N", "force_std_N"),
     ("sinkage_mm", "sinkage [mm]", "sinkage_mm", "sinkage_std_mm"),
@@ -62,6 +95,35 @@ def accuracy_rows(rows: Sequence[Row]) -> list[Row]:
     return found
 
 
+def scatter_of_smooth(key: str) -> float:
+    """Standard deviation of one run from one pour to the next, of the smooth wheel on these grains:
+    the wheel with grousers has one pour."""
+    rows = [row for row in read_rows(cases.HERE / "grounds.csv") if not row["fy_over_fz"]]
+    mine = [row for row in rows if row["ground"] == GRAINS + BETWEEN_LAW]
+    return scatter_of_pours([{**row, key: float(row[key])} for row in mine], key)
+
+
+def limits_of(rows: Sequence[Row]) -> list[Row]:
+    """At size zero: a row for each slip that has all sizes."""
+    pours = {key: scatter_of_smooth(key) for key in QUANTITIES}
+    found = []
+    for slip in sorted({row["slip"] for row in rows}):
+        mine = [row for row in rows if row["slip"] == slip]
+        sizes = [row["size_mm"] for row in mine]
+        if len(sizes) < len(SIZES):
+            continue
+        limit: Row = {**mine[0], "size_mm": 0.0}
+        for key, error in QUANTITIES.items():
+            value = at_size_zero(sizes, [row[key] for row in mine], pours[key])
+            limit.update({key: round(value.value, 4), error: round(value.error, 4)})
+        found.append(limit)
+    return found
+
+
+LIMIT_COLUMNS = ("ground", "slip", *(column for key, error in QUANTITIES.items()
+                 for column in ("measured_" + key, key, error)))  # fmt: skip
+
+
 def draw(path: Path, rows: Sequence[Row]) -> None:
     """Fx/Fz and sinkage over the slip, measured and computed."""
     measured = sorted(cases.wheel_points(KIND), key=lambda point: point["slip"])
@@ -78,7 +140,8 @@ def draw(path: Path, rows: Sequence[Row]) -> None:
                 [row["slip"] for row in mine],
                 [row[key] for row in mine],
                 [row[QUANTITIES[key]] for row in mine],
-                fmt="o--", ms=4, capsize=3, label=f"{mine[0]['ground']}, {size:g} mm",
+                fmt="o--" if size else "D", ms=4, capsize=3,
+                label=f"{mine[0]['ground']}, {f'{size:g} mm' if size else 'size zero'}",
             )  # fmt: skip
         panel.set(xlabel="slip", ylabel=label)
         panel.grid(alpha=0.3)
@@ -87,13 +150,21 @@ def draw(path: Path, rows: Sequence[Row]) -> None:
 
 
 def evaluate(runner: Runner, output: Output) -> list[str]:
-    rows = [row_of(runner, case, record) for case in RUNS if (record := runner.record(case))]
+    rows, assumed = (
+        [row_of(runner, case, record) for case in cases if (record := runner.record(case))]
+        for cases in (SIZE_RUNS, ASSUMED)
+    )
+    for row, case in zip(assumed, [case for case in ASSUMED if runner.record(case)]):
+        row["changed"] = case.what
+    output.table("grousers_assumed.csv", assumed)
     if not rows:
         return []
     output.table("grousers.csv", rows)
-    reached = accuracy_rows(rows)
+    limits = limits_of(rows)
+    output.table("grousers_size_zero.csv", [{k: row[k] for k in LIMIT_COLUMNS} for row in limits])
+    reached = accuracy_rows([*rows, *limits])
     output.table("grousers_accuracy.csv", reached)
-    draw(output.path("grousers.png"), rows)
+    draw(output.path("grousers.png"), [*rows, *limits])
     return [
         f"{row['size_mm']:g} mm: rms of Fx/Fz is {row['rms_fx_over_fz']}, limit {limit}"
         for row in reached

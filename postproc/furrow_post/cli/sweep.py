@@ -45,6 +45,6 @@ def run(arguments: argparse.Namespace) -> None:
     )
     result = evaluate([Named(Path(folder), label) for folder, label in given], wanted)
     target: Path = arguments.output or Path(given[0].folder)
-    write_sweep(result, target)
+    files = write_sweep(result, target)
     print("\n".join(report_lines(result)))
-    print(f"\n{target}: sweep.csv, sweep.h5, sweep.png, report.html")
+    print(f"\n{target}: {', '.join(files)}")

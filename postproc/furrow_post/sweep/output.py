@@ -107,8 +107,8 @@ def evaluate(folders: Sequence[Named], wanted: Wanted) -> Result:
     return Result(series, figure, formulas, measured)
 
 
-def write_sweep(result: Result, folder: Path) -> None:
-    """All files of the result, each in one step."""
+def write_sweep(result: Result, folder: Path) -> list[str]:
+    """All files of the result, each in one step. @return their names"""
     folder.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=folder, prefix=".sweep") as scratch:
         part = Path(scratch)
@@ -116,8 +116,10 @@ def write_sweep(result: Result, folder: Path) -> None:
         draw_sweep(result.figure, result.formulas, result.measured, part / PICTURE)
         parts = part / PARTS if draw_parts_of_sweep(result.figure, part / PARTS) else None
         (part / REPORT).write_text(_page(result, part / PICTURE, parts), encoding="utf-8")
-        for file in part.iterdir():
-            file.replace(folder / file.name)
+        names = sorted(file.name for file in part.iterdir())
+        for name in names:
+            (part / name).replace(folder / name)
+        return names
 
 
 def report_lines(result: Result) -> list[str]:

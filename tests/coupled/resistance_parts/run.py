@@ -91,24 +91,30 @@ def road(results):
 
 
 def bed(results):
-    _, parts, _ = parts_of(Path(results))
-    assert 0.0 < parts["friction of wheel and ground"] < parts["grains, pressed down"]
+    whole, parts, _ = parts_of(Path(results))
+    given = json.loads((Path(results) / "summary.json").read_text())["resistance_parts"]["given_to_grains"]
+    assert 0.0 < parts["friction of wheel and ground"] < given["grains, pressed down"]
+    among = sum(force for part, force in parts.items() if part.startswith("grains, "))
+    print(f"in the window grains are given {sum(given.values()):.4g} N, found among them {among:.4g} N")
+    assert abs(among - sum(given.values())) <= UNEXPLAINED * whole, "places do not sum to what grains get"
+    assert min(parts[f"grains, {place}"] for place in ("below the track", "ahead and aside")) > 0.05 * whole
     with h5py.File(Path(results) / "history.h5") as file:
         history = {name: column[()] for name, column in file["history"].items()}
     error, *given = (history[name][-1] for name in ("contact_spring_loss", "drive_work", "load_work"))
     print(f"of {sum(given):.4g} J given, {error:.3g} J are not found again")
     assert abs(error) <= OF_THE_WORK * sum(given), "works at the contacts are not the wheel's"
 
-    columns = np.loadtxt(Path(results) / "grain_work.txt").T[1:]
-    clock, slide, roll, press, below, ahead, aside, walls, lifted, kinetic = columns
-    got = np.interp(clock, history["time"],
-                    history["grain_press_work"] + history["grain_push_work"])
-    taken = slide + roll + press + walls + lifted + kinetic - kinetic[0]
+    slide, roll, square, below, ahead, aside, walls, lifted = (
+        history[f"grains_{name}_work"]
+        for name in ("slide", "roll", "square", "below", "ahead", "aside", "walls", "lifted"))
+    kinetic = history["grains_kinetic_energy"]
+    got = history["grain_press_work"] + history["grain_push_work"]
+    taken = slide + roll + square + walls + lifted + kinetic - kinetic[0]
     print(f"grains get {got[-1]:.4g} J, of which {taken[-1]:.4g} J are found among them")
     assert abs(taken[-1] - got[-1]) <= OF_THE_WORK * got[-1], "the work among grains does not sum up"
-    assert np.allclose(below + ahead + aside, slide + roll + press, rtol=1e-4, atol=1e-6)
+    assert np.allclose(below + ahead + aside, slide + roll + square, rtol=1e-4, atol=1e-6)
     assert min(slide[-1], roll[-1], below[-1], ahead[-1], aside[-1]) > 0.05 * got[-1]
-    assert 0.0 < press[-1] < 0.2 * got[-1], "slow sand takes little by damping"
+    assert 0.0 < square[-1] < 0.2 * got[-1], "slow sand takes little by damping"
 
 
 if __name__ == "__main__":

@@ -69,14 +69,16 @@ class PageTest(unittest.TestCase):
         self.assertGreater(min(apart), 0.0)
         self.assertGreater(sum(apart), 2 * error)
 
-    def test_grousers_are_missed_by_the_law_of_the_smooth_wheel_less_by_finer_grains(self) -> None:
+    def test_the_law_of_the_smooth_wheel_meets_grousers_with_six_mm_and_not_at_size_zero(self) -> None:
         rows = read_rows(FOLDER / "grousers_accuracy.csv")
         self.assertTrue(all(int(row["slips"]) == len(cases.wheel_points("grouser")) for row in rows))
         rms = {float(row["size_mm"]): float(row["rms_fx_over_fz"]) for row in rows}
-        self.assertGreater(rms[8.0], grounds.GOAL)
         self.assertLess(rms[8.0], rms[10.0])
+        self.assertGreater(rms[8.0], grounds.GOAL)
+        self.assertLessEqual(rms[6.0], grounds.GOAL)
+        self.assertGreater(rms[0.0], grounds.GOAL)
 
-    def test_lateral_force_follows_the_strength_of_the_grains_alone(self) -> None:
+    def test_with_coarse_grains_lateral_force_follows_their_strength_alone(self) -> None:
         sideways = [row for row in read_rows(FOLDER / "grounds.csv") if row["fy_over_fz"]]
         strong = [row for row in sideways if "rolling" in row["ground"]]
         self.assertEqual(len(strong), 1)
@@ -84,6 +86,20 @@ class PageTest(unittest.TestCase):
         self.assertGreater(len(weak), 6)
         self.assertLess(max(weak) - min(weak), 0.11)
         self.assertGreater(float(strong[0]["fy_over_fz"]), max(weak) + 0.11)
+
+    def test_sixteen_grains_in_the_width_have_less_lateral_force_than_five(self) -> None:
+        rows = read_rows(FOLDER / "slip_angle.csv")
+        mine = [row for row in rows if row["ground"] == "grains, rolling friction 0.35"]
+        finest = max(mine, key=lambda row: float(row["grains_in_width"]))
+        self.assertGreaterEqual(float(finest["grains_in_width"]), 16.0)
+        coarse = [row for row in mine if row["size_mm"] == "10.0"]
+        self.assertEqual(len(coarse), 2)
+        for row in coarse:
+            self.assertLess(float(finest["fy_over_fz"]), float(row["fy_over_fz"]))
+        limits = {row["ground"]: row for row in read_rows(FOLDER / "slip_angle_limit.csv")}
+        fitted, stronger = (limits[f"grains, rolling friction {law}"] for law in ("0.35", "0.5"))
+        apart = float(stronger["fy_over_fz"]) - float(fitted["fy_over_fz"])
+        self.assertLess(abs(apart), float(stronger["fy_over_fz_error"]))
 
 
 if __name__ == "__main__":

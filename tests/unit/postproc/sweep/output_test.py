@@ -2,6 +2,7 @@
 """Tables and curves of made runs with known answers: coefficients, errors, packings, axes."""
 
 import math
+import re
 import tempfile
 import unittest
 from html.parser import HTMLParser
@@ -11,10 +12,13 @@ import h5py
 
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
+from furrow_post.figures.resistance_parts import COLOURS
+from furrow_post.formatting import with_error
 from furrow_post.study.record import Record
 from furrow_post.sweep.curves import EFFICIENCY, PULL, SINKAGE, TORQUE
 from furrow_post.sweep.output import Named, Wanted, evaluate, report_lines, write_sweep
 from furrow_post.sweep.plan import Plan, Point
+from support.command import SOURCE
 from support.runs import RADIUS, add_parts, rig, rigid_wheel, write_run
 
 LOAD = 2000.0  # [N]
@@ -184,13 +188,24 @@ class OutputTest(unittest.TestCase):
         assert parts is not None
         self.assertEqual(dict(parts.forces), {"compaction": 200.0, "friction": 20.0})
         self.assertEqual((parts.whole, parts.unexplained), (221.0, 1.0))
-        write_sweep(result, self.folder / "out")
-        self.assertTrue((self.folder / "out" / "parts.png").is_file())
+        files = write_sweep(result, self.folder / "out")
+        self.assertIn("parts.png", files)
+        self.assertEqual(files, sorted(file.name for file in (self.folder / "out").iterdir()))
         rows = read_rows(self.folder / "out" / "sweep.csv")
         self.assertEqual([row["part_compaction"] for row in rows], ["100", "200"])
         self.assertEqual([row["part_not_accounted_for"] for row in rows], ["1", "1"])
         page = (self.folder / "out" / "report.html").read_text(encoding="utf-8")
         self.assertEqual(page.count("<figure>"), 2)
+
+    def test_the_stacked_picture_knows_every_part_of_the_summary(self) -> None:
+        program = SOURCE / "src" / "statistics" / "resistance_parts.cpp"
+        named = set(re.findall(r'\{"([a-z, ]+)",\s*\{"', program.read_text(encoding="utf-8")))
+        self.assertGreaterEqual(len(named), 17)
+        self.assertEqual(named - set(COLOURS), set())
+
+    def test_rounding_is_shown_in_powers_of_ten(self) -> None:
+        self.assertEqual(with_error(6.1e-13, 2e-13), "6.1e-13 ± 2e-13")
+        self.assertEqual(with_error(0.00012, 0.00003), "0.00012 ± 0.00003")
 
     def test_failures_and_what_is_missing_are_told_apart(self) -> None:
         write_pulling(self.folder)
