@@ -106,7 +106,7 @@ PLATES = Group(
             "foam_slide",
             "variant 3: foam of Table 1, slide surface",
             "",
-            "its lambda; with the oedometer's 5881 N (plate_variants)",
+            "its lambda; with the oedometer's 6027 N (plate_variants)",
         ),
         Experiment(
             "Fig 30",
