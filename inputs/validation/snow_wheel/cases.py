@@ -231,7 +231,7 @@ def slopes() -> list[Case]:
 
 
 SPREADING_SLOPES = (1.0, snow.SPREADING, 1.4)  # with which that of the rut's depth is identified
-SPREADING_DEPTHS = (0.18, 0.20, 0.22)  # [m]
+SPREADING_DEPTHS = (0.20,)  # [m]
 
 
 def spreading_name(slope: float, density: float, depth: float) -> str:
@@ -275,7 +275,6 @@ ERRORS: dict[str, tuple[str, dict[str, Any]]] = {  # name -> what is changed, ch
     "rolls_further": ("2.0 m of rolling", {"distance": 2.0}),
     "soft": ("modulus of the snow times 0.25", {"modulus_scale": 0.25}),
     "contact_0.2": ("springs of the contact times 0.5", {"stiffness": 0.2}),
-    "impulse": ("contact by impulses", {"enforcement": "impulse"}),
     "slow": ("5 km/h", {"speed": 1.39}),
     "friction_0.1": ("friction 0.1", {"friction": 0.1}),
     "friction_0.6": ("friction 0.6", {"friction": 0.6}),

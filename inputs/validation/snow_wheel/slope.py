@@ -34,6 +34,10 @@ class Computed(NamedTuple):
     def tried(self) -> Floats:
         return np.linspace(min(self.slopes), max(self.slopes), TRIED)
 
+    def reaches(self, depths: Sequence[float]) -> bool:
+        """Whether all of them lie between those that were run."""
+        return bool(self.depths[0] <= min(depths) and max(depths) <= self.depths[-1])
+
     def at(self, what: str, depths: Sequence[float]) -> Floats:
         """(slope of tried(), depth of a row)"""
         rows = np.array([np.interp(depths, self.depths, line) for line in self.values[what]])
@@ -82,14 +86,14 @@ def identify(rows: Sequence[Mapping[str, float]], computed: Computed) -> Found:
 
 
 def table(measured: Sequence[Row], readings: Sequence[Reading]) -> list[Row]:
-    """For each reading, and each choice of rows whose depths were run with its slopes. measured:
+    """For each reading, and each choice of rows whose depths its slopes were run for. measured:
     rows of rows.csv; the others are predicted with the slope that is found, as far as models with
     such slopes were run."""
     found = []
     for reading in readings:
         for name, chosen in table11.SLOPE_ROWS.items():
             mine = [row for row in measured if chosen(row)]
-            if max(row["depth_m"] for row in mine) <= max(reading.computed.depths):
+            if mine and reading.computed.reaches([row["depth_m"] for row in mine]):
                 others = [row for row in measured if not chosen(row)]
                 found.append({"rows": name, **_line(reading, mine, others)})
     return found

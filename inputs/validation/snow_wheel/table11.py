@@ -33,6 +33,7 @@ def has_calibration_density(row: Mapping[str, Any]) -> bool:
 
 # Choices of rows that the slope is identified on; all others are predicted
 SLOPE_ROWS: dict[str, Callable[[Mapping[str, Any]], bool]] = {
+    "220 kg/m3, 0.20 m: 3": lambda row: has_calibration_density(row) and row["depth_m"] == 0.20,
     "220 kg/m3, 0.18 to 0.22 m: 12": is_calibration,
     "220 kg/m3, with 0.38 m: 13": has_calibration_density,
 }

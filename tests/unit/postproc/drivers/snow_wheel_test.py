@@ -146,9 +146,16 @@ class IdentifiedSlopeTest(unittest.TestCase):
                     for what, plus in (("sinkage_m", 0.0), ("rut_depth_m", 0.0), ("resistance", 0.1))
                 },
             }
-            for depth, density, m in ((0.2, 220, 2.6), (0.38, 220, 2.2), (0.2, 110, 2.2))
+            for depth, density, m in (
+                (0.2, 220, 2.6),
+                (0.22, 220, 2.6),
+                (0.38, 220, 2.2),
+                (0.2, 110, 2.2),
+            )
         ]
-        shallow, both, rut = slope.table(measured, self.readings())
+        lines = slope.table(measured, self.readings())
+        self.assertEqual(len(lines), 5)  # the ruts' runs do not reach 0.38 m
+        (_, shallow, both), rut = lines[:3], lines[4]
         self.assertEqual((shallow["reading"], rut["reading"]), ("hub", "rut"))
         self.assertEqual(rut["others_slope"], snow.FLOWING)
         self.assertEqual(shallow["slope"], 2.6)
