@@ -238,9 +238,21 @@ def spreading_name(slope: float, density: float, depth: float) -> str:
     return f"m_{slope:g}_{density:.0f}_{100 * depth:.0f}cm"
 
 
+def spreading_run(name: str, slope: float, density: float, depth: float, cells: int) -> Case:
+    return on_field_snow(
+        name,
+        "spreading",
+        density,
+        depth,
+        beginning=snow.TWO_STRESSES,
+        cells=cells,
+        slope=slope,
+    )
+
+
 def spreading_rows() -> list[Case]:
     """The same, with two identified stresses, on snow that goes aside so easily that ruts are as
-    deep as the measured sinkages; and what its slope is identified with."""
+    deep as the measured sinkages; what its slope is identified with; and one in finer cells."""
     wanted = [(snow.SPREADING, *row) for row in densities_and_depths()]
     wanted += [
         (slope, table11.CALIBRATION_DENSITY, depth)
@@ -248,18 +260,9 @@ def spreading_rows() -> list[Case]:
         if slope != snow.SPREADING
         for depth in SPREADING_DEPTHS
     ]
-    return [
-        on_field_snow(
-            spreading_name(slope, density, depth),
-            "spreading",
-            density,
-            depth,
-            beginning=snow.TWO_STRESSES,
-            cells=coarse(depth),
-            slope=slope,
-        )
-        for slope, density, depth in wanted
-    ]
+    made = [spreading_run(spreading_name(*row), *row, coarse(row[-1])) for row in wanted]
+    finer = snow.SPREADING, table11.CALIBRATION_DENSITY, 0.20
+    return [*made, spreading_run(f"{spreading_name(*finer)}_fine", *finer, CELLS)]
 
 
 ERROR_BASE = row_name(220, 0.20)
