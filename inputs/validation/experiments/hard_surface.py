@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
-from overview import Experiment, Group, Stored
+from overview import NOTHING, Experiment, Group, Stored
 
 from .stored import GIVEN, PERCENT, of
 
@@ -211,6 +211,26 @@ HARD_SURFACE = Group(
             hours="22",
             cost=brick_rolling("user_s"),
             remark=BRICK + ", smooth; the report's at 120 sections",
+        ),
+        Experiment(
+            "Table 10",
+            "ribbed tread, whole tyre: 25 mm of rolling in the report, 2 m here",
+            "",
+            hours="488",
+            remark=BRICK + "; 481 core s, one run by hand: cost alone (page of tyre_brick)",
+            aside=NOTHING,
+        ),
+        Experiment(
+            "Fig 54",
+            "buckling of ribs: lean of a rib's outer wall, 103 kPa, 6227 N",
+            "angle",
+            "degrees",
+            ours=Stored(
+                "tyre_brick/ribs.csv",
+                {"pressure_kPa": "103", "load_N": "6227"},
+                "lean_at_2.9_cm_deg",
+            ),
+            remark=BRICK + ", ribbed; only drawn; here its walls lean apart: no buckling",
         ),
         *(
             Experiment(

@@ -75,6 +75,9 @@ FUTURE = Group(
             for what, lacks in (
                 ("temperature, melting, sintering in time", "no law knows temperature or age"),
                 ("rate effects, wet snow, thawing soil", "no law knows rate or water"),
+                ("suspension, washboard", "a rig's load has a mass and no spring"),
+                ("pavements, geosynthetics, pore water", "no layers of unlike ground, no water in it"),
+                ("rubber that creeps", "the rubber's law is elastic, its damping viscous"),
             )
         ),
         *(

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Plates on snow."""
 
+from collections.abc import Iterator
+
 from overview import Experiment, Group
 
 from .stored import PLATE, PLATE_VARIANTS, of
@@ -58,6 +60,29 @@ def below() -> tuple[Experiment, ...]:
     )
 
 
+ASIDE = "its law lets snow flow aside; so does the report's cap model (Fig 28) (plate_variants)"
+
+
+def aside() -> Iterator[Experiment]:
+    """What stood at the plate's edge: marks in the report's snow stayed where they were."""
+    for case, what in (
+        ("cap_20", "variant 1: cap law"),
+        ("cap_slide_25", "variant 2: with the slide surface"),
+        ("foam_slide", "variant 3: foam, slide surface"),
+    ):
+        yield Experiment(
+            "Fig 28",
+            f"{what}, snow at the plate's edge",
+            "moved out",
+            "mm",
+            measured="2",
+            ours=of(PLATE_VARIANTS, case, "edge_moved_out_mm", key="case"),
+            limit=True,
+            remark="none was seen; here less than 1 % of the plate's width",
+            why=ASIDE,
+        )
+
+
 PLATES = Group(
     "Plates on snow",
     (
@@ -70,7 +95,8 @@ PLATES = Group(
             "the same, foam of Table 1",
             "foam",
             "without the slide surface",
-            why="twice the oedometer's stress, and more than half goes past the sides (snow_plate)",
+            "snow_plate/foam.csv",
+            "twice the oedometer's stress, and more than half goes past the sides (snow_plate)",
         ),
         variant("cap_20", "variant 1: cap law of Tables 1 and 3", "cap_25"),
         size_zero("cap", "the same"),
@@ -80,7 +106,7 @@ PLATES = Group(
             "foam_slide",
             "variant 3: foam of Table 1, slide surface",
             "",
-            "its lambda; with the oedometer's 5881 N (plate_variants)",
+            "its lambda; with the oedometer's 6027 N (plate_variants)",
         ),
         Experiment(
             "Fig 30",
@@ -94,6 +120,17 @@ PLATES = Group(
             why="settled here from 3.1 to 2.0 cm; an element averages more snow (plate_variants)",
         ),
         *below(),
+        Experiment(
+            "Fig 31",
+            "variant 1, beside the plate",
+            "density",
+            "kg/m3",
+            measured="195",
+            ours=of(PLATE_VARIANTS, "cap_20", "beside_kg_m3", key="case"),
+            near=of(PLATE_VARIANTS, "cap_25", "beside_kg_m3", key="case"),
+            remark="measured: 180 to 210",
+        ),
+        *aside(),
         Experiment(
             "Fig 29b",
             "field plate, 20 cm on 40 cm of snow, slide surface",

@@ -24,6 +24,7 @@ def not_done(place: str, what: str, quantity: str, reason: str, aside: str = "")
 
 
 HELD = "held at zero slip, a wheel drives with its friction: c is linear in slip (report_wheel)"
+SLIDES = "under a slippery wheel soft snow flows further: 17.9 cm, not 16.0 (report_wheel)"
 
 
 def effect(place: str, what: str, run: str, limit: str = "") -> tuple[Experiment, ...]:
@@ -40,7 +41,7 @@ def effect(place: str, what: str, run: str, limit: str = "") -> tuple[Experiment
             limit=bool(limit),
             cost=of(WHEEL, run, "user_s") if quantity == "z" else None,
             remark=remark,
-            why=HELD,
+            why=HELD if quantity == "c" else SLIDES,
         )
         for quantity, column in (("z", "sinkage"), ("c", "resistance"))
     )

@@ -11,6 +11,7 @@ from .stored import PERCENT, SAND, TYRE_ON_SNOW, of
 SOFT = "its 8 cm are those of its rigid wheel: d 30 to 40 kPa, coarse mesh (report_wheel)"
 ANOTHER = "so the report's 3 mm are another quantity (tyre_shift)"
 SOFTER = "the field's snow, on which 16 cm were measured, is softer than the report's (snow_wheel)"
+STANDS_IN = "the tyre caps the pressure, and the wheel does not (tyre_on_snow)"
 SHIFTS = "5 mm are the tread moving as a whole, whatever the ground (tyre_shift)"
 
 
@@ -36,6 +37,48 @@ def tyre(run: str, what: str, remark: str = "") -> tuple[Experiment, ...]:
         )
         for quantity, unit, column, scale, report in numbers
     )
+
+
+def softer_tyres() -> Iterator[Experiment]:
+    """At the other pressures; the report has its tyre on snow at 241 kPa only."""
+    for pressure, road in (("179", "28"), ("103", "38")):
+        for quantity, unit, column, scale in (
+            ("z", "cm", "sinkage_mm", 0.1),
+            ("deflection over section height", "%", "deflection_share_section", PERCENT),
+        ):
+            run = f"tyre_{pressure}_50"
+            yield Experiment(
+                "p. 54",
+                f"tyre, {pressure} kPa, 20 cm of snow, zero slip, d 5 kPa",
+                quantity,
+                unit,
+                ours=of(TYRE_ON_SNOW, run, column, scale, key="case"),
+                cost=of(TYRE_ON_SNOW, run, "user_s", key="case") if quantity == "z" else None,
+                remark=f"not in the report; on a road {road} % (Table 6)" if unit == "%" else "",
+            )
+
+
+def stand_in() -> Iterator[Experiment]:
+    """The report's conclusion: a rigid wheel may stand in for the tyre."""
+    for d, rigid, of_tyre in (
+        ("5", "rigid_50", "tyre_241_50"),
+        ("30", "rigid_d30_50", "tyre_241_d30_50"),
+    ):
+        for quantity, unit, column, scale in (
+            ("z", "cm", "sinkage_mm", 0.1),
+            ("c", "", "coefficient", 1.0),
+        ):
+            yield Experiment(
+                "p. 54",
+                f"rigid wheel in place of the tyre, d {d} kPa",
+                quantity,
+                unit,
+                report=of(TYRE_ON_SNOW, of_tyre, column, scale, key="case"),
+                ours=of(TYRE_ON_SNOW, rigid, column, scale, key="case"),
+                cost=of(TYRE_ON_SNOW, rigid, "user_s", key="case") if quantity == "z" else None,
+                remark="report: our tyre, 241 kPa, with its deflection in z",
+                why=STANDS_IN,
+            )
 
 
 def ahead(state: str, what: str) -> Experiment:
@@ -176,6 +219,8 @@ TYRE_ON_GROUND = Group(
     (
         *tyre("tyre_241_50", "tyre, 241 kPa, 20 cm of snow, zero slip, d 5 kPa"),
         *tyre("tyre_241_d30_50", "the same, d 30 kPa"),
+        *softer_tyres(),
+        *stand_in(),
         *shifts(),
         *(
             Experiment(

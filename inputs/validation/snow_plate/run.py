@@ -3,7 +3,8 @@
 """Plate of 20.32 cm into 50 cm of fresh snow, continuum, against the measured peak load. See
 README.md.
 
-Makes the runs that are missing and writes results.csv, curves.png, foam.png and density.png.
+Makes the runs that are missing and writes results.csv (cap laws and Cam clay), foam.csv, curves.png,
+foam.png and density.png.
 --check makes one of them, in seconds.
 """
 
@@ -343,13 +344,17 @@ def draw_density(runner: Runner, target: Path) -> None:
 
 def evaluate(runner: Runner, output: Output) -> Sequence[str]:
     peak = reference()["peak_load_N"]
-    rows = [
-        row_of(case, runner.folder(case), record, peak)
-        for case in CASES
-        if (record := runner.ended(case))
-    ]
-    output.table("results.csv", rows)
-    if rows:
+    tables = {
+        name: [
+            row_of(case, runner.folder(case), record, peak)
+            for case in CASES
+            if case.stage == stage and (record := runner.ended(case))
+        ]
+        for name, stage in (("results.csv", "cap"), ("foam.csv", "foam"))
+    }
+    for name, rows in tables.items():
+        output.table(name, rows)
+    if any(tables.values()):
         draw_curves(runner, output.path("curves.png"))
         draw_density(runner, output.path("density.png"))
         draw_foam(runner, output.path("foam.png"))

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What is run: the lists of runs and the snow they use."""
 
-import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from furrow_post.csv_table import read_numbers
+import snow
+import table11
+
 from furrow_post.study.case import FOLDER, Case, Value
 from furrow_post.study.furrow_cases import script_case
 
@@ -39,11 +40,6 @@ BASE: dict[str, Value] = {
 WINDOW = 0.5  # [m] of travel at the end that is averaged
 DEEP: dict[str, Value] = {"width": 1.0, "distance": 2.0, "clearance_above": 0.6}  # above 0.3 m
 
-# The rows of reference.csv that the identification may see: density [kg/m3], depths [m]
-CALIBRATION_DENSITY = 220.0
-CALIBRATION_DEPTHS = (0.18, 0.22)
-GOAL = {"sinkage_m": 0.012, "resistance": 0.031}  # rms over rows
-
 # ---- wheels: the measured one was a tyre
 
 PRESSURE = 179e3  # [Pa] of the measured tyre
@@ -65,59 +61,6 @@ def tyre(pressure: float = PRESSURE, mesh: str = "4 36") -> dict[str, Value]:
         "load": "load_force 6227",
         "radius": 0.3483,
     }
-
-
-# ---- the field's snow: one compaction curve for every initial density
-
-# Final densities [kg/m3] under wheels of such pressures [Pa], as the sinkage formula of [CRREL95-7]
-# takes them, which was fitted to tests: its classes of pressure, and middles of their densities
-FINAL_DENSITIES = {525.0: 210e3, 575.0: 350e3, 625.0: 700e3, 660.0: 1400e3}
-IDENTIFIED_DENSITIES = (380.0, 450.0, 490.0)  # [kg/m3] of the beginning, which is searched
-START = (100.0, 15.0)  # [kg/m3], [Pa]: below the lightest snow of the rows, hardly any strength
-# Slopes M of Cam clay
-CRUSHED = 3.3  # K0 = 0.12 [Shoop2001] eq 24
-FLOWING = 2.0  # K0 = 0.41: round; slope.py finds 1.84 (1.73 to 1.98) on all rows of 220 kg/m3
-SOFTEST = 1.4  # K0 = 0.61: beyond what it finds
-TENSION_RATIO = 0.1  # of fresh_snow_cam_clay.yaml
-
-Beginning = tuple[float, float, float]  # axial stresses [Pa] at IDENTIFIED_DENSITIES
-
-# Rounded from what identify.py found; inputs/materials/field_snow.yaml
-FIELD_SNOW: Beginning = (4e3, 25e3, 100e3)
-
-
-def confined(slope: float) -> tuple[float, float]:
-    """K0, and p0 over axial stress, in confined compression: closed form of
-    cohesive_cam_clay.h."""
-    beta = TENSION_RATIO
-    ratio = slope / math.sqrt(1 + 2 * beta)
-    root = math.sqrt(9 + 4 * ratio**2)
-    centre, half = (1 - beta) / 2, (1 + beta) / 2  # of the ellipse, over p0
-    p, q = centre + 3 * half / root, 2 * ratio**2 * half / root
-    axial = p + 2 * q / 3
-    return (p - q / 3) / axial, round(1 / axial, 3)
-
-
-def field_snow(
-    density: float, beginning: Beginning = FIELD_SNOW, title: str = "", slope: float = CRUSHED
-) -> str:
-    """A material file; density [kg/m3] at the start; slope: M."""
-    _, share = confined(slope)
-    rows = [START]
-    curve = {**dict(zip(IDENTIFIED_DENSITIES, beginning)), **FINAL_DENSITIES}
-    rows += [(rho, share * stress) for rho, stress in curve.items()]
-    return (
-        f"title: {title or 'Field snow'}\n"
-        f"law: {{type: cohesive_cam_clay, density: {density:g}, M: {slope:g}, "
-        f"tension_ratio: {TENSION_RATIO:g}}}\n"
-        "elasticity: {type: linear, E: 13.79e6, nu: 0.3}\n"
-        "hardening:\n"
-        "  type: by_density\n"
-        f"  rho: [{', '.join(f'{rho:g}' for rho, _ in rows)}]\n"
-        f"  p: [{', '.join(f'{p:.6g}' for _, p in rows)}]\n"
-        "  interpolation: log\n"
-        "  beyond: extrapolate\n"
-    )
 
 
 # ---- runs
@@ -178,10 +121,10 @@ def on_field_snow(
     density: float,
     depth: float,
     wheel: Mapping[str, Value] | None = None,
-    beginning: Beginning = FIELD_SNOW,
+    beginning: snow.Beginning = snow.FIELD_SNOW,
     cells: int | None = None,
     what: str = "",
-    slope: float = CRUSHED,
+    slope: float = snow.CRUSHED,
     **changes: Value,
 ) -> Case:
     """The tyre, unless another wheel is given, on the field's snow."""
@@ -190,7 +133,7 @@ def on_field_snow(
         "material": f"{FOLDER}/material.yaml",
         **changes,
     }
-    text = field_snow(density, beginning, f"field snow of {density:g} kg/m3", slope)
+    text = snow.field_snow(density, beginning, f"field snow of {density:g} kg/m3", slope)
     return case(name, stage, depth, given, cells, what, {"material.yaml": text})
 
 
@@ -221,7 +164,7 @@ def row_name(density: float, depth: float) -> str:
 
 def densities_and_depths() -> list[tuple[float, float]]:
     """Of the shared rows [kg/m3], [m]; the densest and deepest first."""
-    return sorted({(r["density_kgm3"], r["depth_m"]) for r in reference()}, reverse=True)
+    return sorted({(r["density_kgm3"], r["depth_m"]) for r in table11.reference()}, reverse=True)
 
 
 def rows() -> list[Case]:
@@ -250,22 +193,22 @@ def flowing_rows() -> list[Case]:
             density,
             depth,
             cells=coarse(depth),
-            slope=FLOWING,
+            slope=snow.FLOWING,
         )
         for density, depth in densities_and_depths()
     ]
 
 
-SLOPES = (SOFTEST, FLOWING, CRUSHED)  # with which the slope is identified
+SLOPES = (snow.SOFTEST, snow.FLOWING, snow.CRUSHED)  # with which the slope is identified
 SLOPE_DEPTHS = (0.18, 0.20, 0.22, 0.38)  # [m]
 
 
 def slope_name(slope: float, depth: float) -> str:
     """Of the run in 220 kg/m3; other stages have some with the same cells."""
     elsewhere = {
-        (CRUSHED, 0.18): row_name(CALIBRATION_DENSITY, 0.18),
-        (CRUSHED, 0.20): f"error_{COARSE}",
-        **{(FLOWING, h): flowing_name(CALIBRATION_DENSITY, h) for h in SLOPE_DEPTHS},
+        (snow.CRUSHED, 0.18): row_name(table11.CALIBRATION_DENSITY, 0.18),
+        (snow.CRUSHED, 0.20): f"error_{COARSE}",
+        **{(snow.FLOWING, h): flowing_name(table11.CALIBRATION_DENSITY, h) for h in SLOPE_DEPTHS},
     }
     return elsewhere.get((slope, depth), f"slope_{slope:g}_{100 * depth:.0f}cm")
 
@@ -277,7 +220,7 @@ def slopes() -> list[Case]:
         on_field_snow(
             name,
             "slope",
-            CALIBRATION_DENSITY,
+            table11.CALIBRATION_DENSITY,
             depth,
             cells=coarse(depth),
             slope=slope,
@@ -285,6 +228,41 @@ def slopes() -> list[Case]:
         for name, slope, depth in wanted
         if name.startswith("slope")
     ]
+
+
+SPREADING_SLOPES = (1.0, snow.SPREADING, 1.4)  # with which that of the rut's depth is identified
+SPREADING_DEPTHS = (0.20,)  # [m]
+
+
+def spreading_name(slope: float, density: float, depth: float) -> str:
+    return f"m_{slope:g}_{density:.0f}_{100 * depth:.0f}cm"
+
+
+def spreading_run(name: str, slope: float, density: float, depth: float, cells: int) -> Case:
+    return on_field_snow(
+        name,
+        "spreading",
+        density,
+        depth,
+        beginning=snow.TWO_STRESSES,
+        cells=cells,
+        slope=slope,
+    )
+
+
+def spreading_rows() -> list[Case]:
+    """The same, with two identified stresses, on snow that goes aside so easily that ruts are as
+    deep as the measured sinkages; what its slope is identified with; and one in finer cells."""
+    wanted = [(snow.SPREADING, *row) for row in densities_and_depths()]
+    wanted += [
+        (slope, table11.CALIBRATION_DENSITY, depth)
+        for slope in SPREADING_SLOPES
+        if slope != snow.SPREADING
+        for depth in SPREADING_DEPTHS
+    ]
+    made = [spreading_run(spreading_name(*row), *row, coarse(row[-1])) for row in wanted]
+    finer = snow.SPREADING, table11.CALIBRATION_DENSITY, 0.20
+    return [*made, spreading_run(f"{spreading_name(*finer)}_fine", *finer, CELLS)]
 
 
 ERROR_BASE = row_name(220, 0.20)
@@ -361,7 +339,7 @@ PASSES = 3
 
 def passes() -> Case:
     """The tyre on the field snow of 220 kg/m3, several times in one rut."""
-    text = field_snow(220, title="field snow of 220 kg/m3")
+    text = snow.field_snow(220, title="field snow of 220 kg/m3")
     variables: dict[str, Value] = {
         **{name: BASE[name] for name in ("speed", "settle", "accelerate", "width", "fine_width")},
         **{name: BASE[name] for name in ("damping", "particles", "friction")},
@@ -390,30 +368,6 @@ def passes() -> Case:
 
 def all_cases() -> dict[str, Case]:
     """Name -> case, in the order in which they are made."""
-    made = predictions() + rows() + flowing_rows() + slopes() + errors() + designs() + [passes()]
+    made = predictions() + rows() + flowing_rows() + slopes() + spreading_rows()
+    made += errors() + designs() + [passes()]
     return {case.name: case for case in made}
-
-
-# ---- measurements
-
-
-def reference() -> list[dict[str, float]]:
-    """Rows of reference.csv."""
-    return read_numbers(HERE / "reference.csv")
-
-
-def is_calibration(row: Mapping[str, Any]) -> bool:
-    low, high = CALIBRATION_DEPTHS
-    return has_calibration_density(row) and bool(low <= row["depth_m"] <= high)
-
-
-def has_calibration_density(row: Mapping[str, Any]) -> bool:
-    """In snow of any depth."""
-    return bool(row["density_kgm3"] == CALIBRATION_DENSITY)
-
-
-# Choices of rows that the slope is identified on; all others are predicted
-SLOPE_ROWS: dict[str, Callable[[Mapping[str, Any]], bool]] = {
-    "220 kg/m3, 0.18 to 0.22 m: 12": is_calibration,
-    "220 kg/m3, with 0.38 m: 13": has_calibration_density,
-}

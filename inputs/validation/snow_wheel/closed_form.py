@@ -11,8 +11,8 @@ the work of compaction in a metre of track, over the load.
 from collections.abc import Callable
 from typing import NamedTuple
 
-import cases
 import numpy as np
+import snow
 from scipy.integrate import trapezoid
 from scipy.optimize import brentq
 
@@ -28,9 +28,9 @@ class Rigid(NamedTuple):
 
 def axial_stress(density: Floats) -> Floats:
     """[Pa] of the field's snow in confined compression; straight in ln p between its points."""
-    densities = [*cases.IDENTIFIED_DENSITIES, *cases.FINAL_DENSITIES]
-    logs = np.log([*cases.FIELD_SNOW, *cases.FINAL_DENSITIES.values()])
-    start, first = cases.START
+    densities = [*snow.IDENTIFIED_DENSITIES, *snow.FINAL_DENSITIES]
+    logs = np.log([*snow.FIELD_SNOW, *snow.FINAL_DENSITIES.values()])
+    start, first = snow.START
     stress: Floats = np.exp(np.interp(density, [start, *densities], [np.log(first), *logs]))
     return stress
 
@@ -53,7 +53,7 @@ def rigid(
         pressure = stress(density * depth / (depth - z))
         return width * trapezoid(pressure, x), width * trapezoid(pressure, z)
 
-    deepest = depth * (1 - density / max(cases.FINAL_DENSITIES))
+    deepest = depth * (1 - density / max(snow.FINAL_DENSITIES))
     sinkage = brentq(lambda z: bearing(z)[0] - load, 0.05 * depth, deepest)
     found, work = bearing(sinkage)
     return Rigid(float(sinkage), float(work / found))

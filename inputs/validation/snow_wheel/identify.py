@@ -25,6 +25,8 @@ import numpy as np
 
 import cases
 import report
+import snow
+import table11
 
 from furrow_post.analyse.statistics import rms
 from furrow_post.arguments import at_least, path, positive
@@ -39,16 +41,16 @@ from furrow_post.study.runner import Runner
 from furrow_post.study.tables import aligned
 
 DEPTHS = (0.18, 0.20, 0.22)  # [m]
-# [kg/m3] measured [Shoop2001], scale
-DENSITY = {"density_under": (510, 50)}
-START: cases.Beginning = (4e3, 25e3, 100e3)  # [Pa]
+# [kg/m3] measured, scale
+DENSITY = {"density_under": (table11.DENSITY_UNDER, 50)}
+START: snow.Beginning = (4e3, 25e3, 100e3)  # [Pa]
 STEP = 0.2  # of a logarithm, for differences: moves residuals by ten times the runs' scatter
 LARGEST = 0.5  # change of a logarithm in an iteration
 SETTLED = 0.03  # relative gain below which the search ends: the runs' scatter is as large
 
 Trial = dict[str, Any]  # a row of identified.csv
 
-SEARCHED = tuple(f"stress_{rho:.0f}" for rho in cases.IDENTIFIED_DENSITIES)  # [Pa]
+SEARCHED = tuple(f"stress_{rho:.0f}" for rho in snow.IDENTIFIED_DENSITIES)  # [Pa]
 # Physical range of all three: above what half a metre of snow weighs, below the stress at 525 kg/m3
 # [CRREL95-7]
 LOWEST, HIGHEST = 1e3, 210e3  # [Pa]
@@ -57,11 +59,11 @@ LOWEST, HIGHEST = 1e3, 210e3  # [Pa]
 class Search:
     """make: makes a run unless it is there, and evaluates it."""
 
-    def __init__(self, start: cases.Beginning, make: Callable[[Case], report.Row]) -> None:
+    def __init__(self, start: snow.Beginning, make: Callable[[Case], report.Row]) -> None:
         self.start, self.make = start, make
         self.trials: list[Trial] = []
 
-    def stresses(self, logs: Floats) -> cases.Beginning:
+    def stresses(self, logs: Floats) -> snow.Beginning:
         """[Pa], increasing, in their range; logs: of the factors on the start."""
         inside = np.clip(self.start * np.exp(logs), LOWEST, HIGHEST)
         first, second, third = (float(f"{x:.4g}") for x in np.maximum.accumulate(inside))
@@ -74,18 +76,18 @@ class Search:
         found = []
         for depth in DEPTHS:
             name = f"identify/{label}_{100 * depth:.0f}cm"
-            density = cases.CALIBRATION_DENSITY
+            density = table11.CALIBRATION_DENSITY
             run = self.make(
                 cases.on_field_snow(name, "identify", density, depth, beginning=beginning)
             )
             if run["error"]:
                 raise ResultsError(f"{run['run']}: {run['error']}")
             found.append(run)
-        rows = [row for row in cases.reference() if cases.is_calibration(row)]
+        rows = [row for row in table11.reference() if table11.is_calibration(row)]
         depths = [row["depth_m"] for row in rows]
         trial: Trial = {"trial": note, **dict(zip(SEARCHED, beginning))}
         parts: list[float] = []
-        for what, goal in cases.GOAL.items():
+        for what, goal in table11.GOAL.items():
             computed = np.interp(depths, DEPTHS, [run[what] for run in found])
             wrong = computed - np.array([row[what] for row in rows])
             trial[f"{what}_rms"] = round(rms(wrong), 4)

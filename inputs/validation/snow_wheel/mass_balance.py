@@ -11,11 +11,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from table11 import DENSITY_UNDER, WITHIN
 
 from furrow_post.analyse.statistics import rms
 from furrow_post.arrays import Floats
 
-MEASURED, WITHIN = 510.0, 0.05  # density under the wheel [kg/m3] [Shoop2001], and its goal
 SHARES = (1.0, 0.9)  # of the mass that is left
 DEFLECTIONS = (0.0, 0.045)  # [m]; 0.045: on a plane under the load [Shoop2001] Table 6, 179 kPa
 
@@ -53,7 +53,7 @@ def trend(rows: Sequence[Mapping[str, float]]) -> tuple[float, float, float]:
 def table(choices: Mapping[str, Sequence[Mapping[str, float]]]) -> list[Row]:
     """Least errors over each choice of rows, for densities within the goal."""
     found = []
-    for density in (MEASURED * (1 - WITHIN), MEASURED, MEASURED * (1 + WITHIN)):
+    for density in (DENSITY_UNDER * (1 - WITHIN), DENSITY_UNDER, DENSITY_UNDER * (1 + WITHIN)):
         for share in SHARES:
             row: Row = {"density_kgm3": round(density), "mass_left": share}
             for name, rows in choices.items():

@@ -13,6 +13,8 @@ import cases
 import closed_form
 import mass_balance
 import slope
+import snow
+import table11
 
 from furrow_post.analyse import empirical
 from furrow_post.analyse.rut import bow_wave, rut_densities, rut_depth, share_left
@@ -50,14 +52,17 @@ ROWS: dict[str, Callable[[Row], bool]] = {
     "calibration": lambda row: bool(row["used"] == "calibration"),
     "prediction": lambda row: bool(row["used"] == "prediction"),
     "all": lambda row: True,
-    "220 kg/m3": cases.has_calibration_density,
-    "other densities": lambda row: not cases.has_calibration_density(row),
+    "220 kg/m3": table11.has_calibration_density,
+    "other densities": lambda row: not table11.has_calibration_density(row),
 }
 COMPUTED = {  # model of rows.csv -> name, colour, mark
     "tyre": ("tyre on field snow", "tab:blue", "s"),
     "flowing": ("the same with K0 0.41", "tab:orange", "^"),
+    "spreading": ("K0 0.72, depth of the rut", "tab:green", "v"),
 }
-IDENTIFIED_ON = {"tyre": "calibration", "flowing": "220 kg/m3"}  # model -> of ROWS
+# Model -> of ROWS
+IDENTIFIED_ON = {"tyre": "calibration", "flowing": "220 kg/m3", "spreading": "calibration"}
+RUTS = ("spreading",)  # models whose rut is held against the measured sinkage
 SECTIONS = {  # runs that are drawn -> title
     cases.ERROR_BASE: "tyre on field snow, 220 kg/m3",
     "rigid_towed": "rigid wheel on fresh_snow, towed",
@@ -148,14 +153,14 @@ def row_table(found: Found) -> list[Row]:
 
     NRMM: from its own and from the measured sinkage.
     """
-    return [measured_row(found, r) for r in cases.reference()]
+    return [measured_row(found, r) for r in table11.reference()]
 
 
 def measured_row(found: Found, r: Mapping[str, float]) -> Row:
     depth, density, sinkage = r["depth_m"], r["density_kgm3"], r["sinkage_m"]
     row: Row = {
         "row": int(r["row"]),
-        "used": "calibration" if cases.is_calibration(r) else "prediction",
+        "used": "calibration" if table11.is_calibration(r) else "prediction",
         "depth_m": depth,
         "density_kgm3": int(density),
         "sinkage_m": sinkage,
@@ -164,6 +169,7 @@ def measured_row(found: Found, r: Mapping[str, float]) -> Row:
     for model, name in (
         ("tyre", cases.row_name(density, depth)),
         ("flowing", cases.flowing_name(density, depth)),
+        ("spreading", cases.spreading_name(snow.SPREADING, density, depth)),
     ):
         computed = found(name)
         for what in COMPARED:
@@ -196,15 +202,55 @@ def accuracy(table: Sequence[Row], used: str, model: str) -> Row:
     return out
 
 
+def computed(found: Found, names: Sequence[Sequence[str]], sinkage: str) -> Mapping[str, Floats]:
+    """Quantity of slope.GOAL -> values of these runs; empty where one is missing or failed.
+    sinkage: the column that is read as such."""
+    runs = [[found(name) for name in line] for line in names]
+    if not all(run and not run["error"] for line in runs for run in line):
+        return {}
+    columns = {what: sinkage if what == "sinkage_m" else what for what in slope.GOAL}
+    return {
+        what: np.array([[run[column] for run in line] for line in runs])
+        for what, column in columns.items()
+    }
+
+
+def readings(found: Found) -> list[slope.Reading]:
+    """Of the measured sinkages, as far as their runs are there."""
+    hub = [[cases.slope_name(m, h) for h in cases.SLOPE_DEPTHS] for m in cases.SLOPES]
+    rut = [
+        [cases.spreading_name(m, table11.CALIBRATION_DENSITY, h) for h in cases.SPREADING_DEPTHS]
+        for m in cases.SPREADING_SLOPES
+    ]
+    slopes = {snow.FLOWING: "flowing", snow.CRUSHED: "tyre"}
+    made = []
+    for name, runs, tried, depths, models, column in (
+        ("hub", hub, cases.SLOPES, cases.SLOPE_DEPTHS, slopes, "sinkage_m"),
+        (
+            "rut",
+            rut,
+            cases.SPREADING_SLOPES,
+            cases.SPREADING_DEPTHS,
+            {snow.SPREADING: "spreading"},
+            "rut_depth_m",
+        ),
+    ):
+        if values := computed(found, runs, column):
+            of_runs = slope.Computed(tried, depths, values)
+            made.append(slope.Reading(name, of_runs, models, column))
+    return made
+
+
 def slope_table(found: Found, table: Sequence[Row]) -> list[Row]:
-    """Empty where a run is missing or failed."""
-    runs = [[found(cases.slope_name(m, h)) for h in cases.SLOPE_DEPTHS] for m in cases.SLOPES]
-    models = ("tyre_sinkage_m", "flowing_sinkage_m")
-    there = all(run and not run["error"] for line in runs for run in line)
-    if not there or any(row[model] == "" for row in table for model in models):
+    """Empty where a run of the rows is missing or failed."""
+    if any(row[f"{model}_sinkage_m"] == "" for row in table for model in COMPUTED):
         return []
-    values = {what: np.array([[run[what] for run in line] for line in runs]) for what in cases.GOAL}
-    return slope.table(table, slope.Computed(cases.SLOPE_DEPTHS, values))
+    return slope.table(table, readings(found))
+
+
+def column_of(model: str, what: str) -> str:
+    """Of rows.csv, that is held against the measured quantity."""
+    return f"{model}_rut_depth_m" if what == "sinkage_m" and model in RUTS else f"{model}_{what}"
 
 
 def draw_comparison(table: Sequence[Row], path: Path) -> None:
@@ -214,18 +260,19 @@ def draw_comparison(table: Sequence[Row], path: Path) -> None:
         (panels[0], "sinkage_m", "sinkage [m]"),
         (panels[1], "resistance", "resistance over load"),
     ):
-        sources = (what, f"nrmm_{what}", *(f"{model}_{what}" for model in COMPUTED))
+        columns = {model: column_of(model, what) for model in COMPUTED}
+        sources = (what, f"nrmm_{what}", *columns.values())
         top = 1.08 * max(r[source] or 0 for r in table for source in sources)
         axes.plot([0, top], [0, top], color="0.5", lw=0.8)
         for model, (name, colour, mark) in COMPUTED.items():
             identified = ROWS[IDENTIFIED_ON[model]]
             for used, how, fill in ((True, "identified on", "none"), (False, "others", colour)):
-                mine = [r for r in table if identified(r) is used and r[f"{model}_{what}"] != ""]
-                measured, computed = [r[what] for r in mine], [r[f"{model}_{what}"] for r in mine]
+                mine = [r for r in table if identified(r) is used and r[columns[model]] != ""]
+                places = [r[what] for r in mine], [r[columns[model]] for r in mine]
                 look = {"ms": 5, "color": colour, "mfc": fill}
-                axes.plot(measured, computed, mark, **look, label=f"{name}, {how}")
-        measured, nrmm = [r[what] for r in table], [r[f"nrmm_{what}"] for r in table]
-        axes.plot(measured, nrmm, "x", ms=4, color="0.4", label="NRMM")
+                axes.plot(*places, mark, **look, label=f"{name}, {how}")
+        nrmm = [r[what] for r in table], [r[f"nrmm_{what}"] for r in table]
+        axes.plot(*nrmm, "x", ms=4, color="0.4", label="NRMM")
         axes.set(xlabel=f"measured {title}", ylabel=f"computed {title}")
         axes.set(xlim=(0, top), ylim=(0, top))
         axes.legend(frameon=False, fontsize=8)
@@ -386,11 +433,12 @@ def pass_table(runner: Runner) -> list[Row]:
 
 
 def run_table(found: Found) -> list[Row]:
-    """Every run of the stages predict, rows, flowing and slope."""
+    """Every run of the stages predict, rows, flowing, slope and spreading."""
     staged = [("predict", case) for case in cases.predictions()]
     staged += [("rows", case) for case in cases.rows()]
     staged += [("flowing", case) for case in cases.flowing_rows()]
     staged += [("slope", case) for case in cases.slopes()]
+    staged += [("spreading", case) for case in cases.spreading_rows()]
     return [
         {"stage": stage, "what": case.what, **row}
         for stage, case in staged
@@ -407,15 +455,15 @@ def report(runner: Runner, output: Output) -> list[str]:
     draw_comparison(table, output.path("comparison.png"))
     scores = [
         accuracy(table, used, model)
-        for model in ("tyre", "flowing", "nrmm")
+        for model in (*COMPUTED, "nrmm")
         for used in ROWS
     ]
     output.table("accuracy.csv", scores)
     output.table("slope.csv", slope_table(found, table))
-    measured = cases.reference()
+    measured = table11.reference()
     choices = {
-        "prediction": [row for row in measured if not cases.is_calibration(row)],
-        "other_densities": [row for row in measured if not cases.has_calibration_density(row)],
+        "prediction": [row for row in measured if not table11.is_calibration(row)],
+        "other_densities": [row for row in measured if not table11.has_calibration_density(row)],
         "all": measured,
     }
     output.table("mass_balance.csv", mass_balance.table(choices))

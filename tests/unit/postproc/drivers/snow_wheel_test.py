@@ -18,6 +18,7 @@ import closed_form
 import mass_balance
 import report
 import slope
+import snow
 
 
 def number(text: str, key: str) -> float:
@@ -36,7 +37,7 @@ def column(text: str, key: str) -> list[float]:
 class FieldSnowTest(unittest.TestCase):
     def test_strength_is_one_function_of_density(self) -> None:
         """Whatever the initial density; from 525 kg/m3 on the final densities under wheels."""
-        first, second = cases.field_snow(110.0), cases.field_snow(220.0)
+        first, second = snow.field_snow(110.0), snow.field_snow(220.0)
         self.assertEqual((number(first, "density"), number(second, "density")), (110, 220))
         rho, p = column(first, "rho"), column(first, "p")
         self.assertEqual((rho, p), (column(second, "rho"), column(second, "p")))
@@ -45,7 +46,7 @@ class FieldSnowTest(unittest.TestCase):
 
     def test_the_preset_is_what_was_identified(self) -> None:
         preset = (SOURCE / "inputs/materials/field_snow.yaml").read_text()
-        found = cases.field_snow(220.0)
+        found = snow.field_snow(220.0)
         for key in ("rho", "p"):
             np.testing.assert_allclose(column(preset, key), column(found, key), rtol=1e-3)
         for key in ("M", "tension_ratio", "E", "nu"):
@@ -63,21 +64,21 @@ class FieldSnowTest(unittest.TestCase):
 class SlopeTest(unittest.TestCase):
     def test_k0_and_strength_are_those_of_confined_compression(self) -> None:
         """K0 as src/material/snow.md has it; p and q under an axial stress of 1 on the ellipse."""
-        beta = cases.TENSION_RATIO
-        for slope, k0 in ((cases.CRUSHED, 0.12), (cases.FLOWING, 0.41), (1.5, 0.57)):
-            found, p0 = cases.confined(slope)
+        beta = snow.TENSION_RATIO
+        for slope, k0 in ((snow.CRUSHED, 0.12), (snow.FLOWING, 0.41), (1.5, 0.57)):
+            found, p0 = snow.confined(slope)
             self.assertAlmostEqual(found, k0, delta=0.005)
             p, q = (1 + 2 * found) / 3, 1 - found
             on_ellipse = q * q * (1 + 2 * beta) / slope**2
             self.assertAlmostEqual((p + beta * p0) * (p0 - p), on_ellipse, delta=1e-3)
 
     def test_flowing_snow_differs_in_that_alone(self) -> None:
-        first, second = (cases.field_snow(220.0, slope=m) for m in (cases.CRUSHED, cases.FLOWING))
+        first, second = (snow.field_snow(220.0, slope=m) for m in (snow.CRUSHED, snow.FLOWING))
         self.assertEqual(number(second, "M"), 2.0)
         self.assertEqual(column(first, "rho"), column(second, "rho"))
         axial = [
-            np.array(column(text, "p")[1:]) / cases.confined(slope)[1]
-            for text, slope in ((first, cases.CRUSHED), (second, cases.FLOWING))
+            np.array(column(text, "p")[1:]) / snow.confined(slope)[1]
+            for text, slope in ((first, snow.CRUSHED), (second, snow.FLOWING))
         ]
         np.testing.assert_allclose(axial[0], axial[1], rtol=1e-5)
 
@@ -93,7 +94,16 @@ class IdentifiedSlopeTest(unittest.TestCase):
 
     def computed(self) -> slope.Computed:
         z = np.array([[self.sinkage(m, h) for h in self.depths] for m in cases.SLOPES])
-        return slope.Computed(self.depths, {"sinkage_m": z, "resistance": 0.1 + z})
+        values = {"sinkage_m": z, "resistance": 0.1 + z, "density_under": 510.0 + 0 * z}
+        return slope.Computed(cases.SLOPES, self.depths, values)
+
+    def readings(self) -> list[slope.Reading]:
+        models = {snow.FLOWING: "flowing", snow.CRUSHED: "tyre"}
+        shallow = self.computed()._replace(depths=(0.18, 0.20, 0.22))
+        return [
+            slope.Reading("hub", self.computed(), models, "sinkage_m"),
+            slope.Reading("rut", shallow, {snow.FLOWING: "flowing"}, "rut_depth_m"),
+        ]
 
     def rows(self, m: float, scatter: float = 0.0) -> list[dict[str, float]]:
         return [
@@ -109,17 +119,18 @@ class IdentifiedSlopeTest(unittest.TestCase):
         self.assertAlmostEqual(found.left["sinkage_m"], 0.0, places=4)
 
     def test_scatter_widens_the_range_as_the_standard_error_does(self) -> None:
-        """Of z alone: its error over dz/dM, from N = 6 tests; here z and c say the same."""
+        """Of z alone: its error over dz/dM, from N = 6 tests; here z and c say the same, and the
+        density is a thirteenth term, without scatter."""
         for scatter in (0.002, 0.003):
             found = slope.identify(self.rows(2.4, scatter), self.computed())
-            expected = scatter / math.sqrt(11) / (0.2 * 2.4**-3 + 0.08 * 2.4**-5)
+            expected = scatter / math.sqrt(12) / (0.2 * 2.4**-3 + 0.08 * 2.4**-5)
             self.assertAlmostEqual(found.slope, 2.4, delta=0.01)
             self.assertAlmostEqual((found.high - found.low) / (2 * expected), 1.0, delta=0.05)
 
     def test_a_slope_beyond_the_runs_is_a_bound(self) -> None:
         found = slope.identify(self.rows(4.0), self.computed())
-        self.assertEqual((found.slope, found.high), (cases.CRUSHED, cases.CRUSHED))
-        self.assertLess(found.low, cases.CRUSHED)
+        self.assertEqual((found.slope, found.high), (snow.CRUSHED, snow.CRUSHED))
+        self.assertLess(found.low, snow.CRUSHED)
 
     def test_both_choices_of_rows_predict_the_others(self) -> None:
         """Shallow tests say M = 2.6, deep ones 2.2: the choice with both lies between."""
@@ -131,17 +142,26 @@ class IdentifiedSlopeTest(unittest.TestCase):
                 "resistance": 0.1 + self.sinkage(m, depth),
                 **{
                     f"{model}_{what}": self.sinkage(s, depth) + plus
-                    for model, s in (("flowing", cases.FLOWING), ("tyre", cases.CRUSHED))
-                    for what, plus in (("sinkage_m", 0.0), ("resistance", 0.1))
+                    for model, s in (("flowing", snow.FLOWING), ("tyre", snow.CRUSHED))
+                    for what, plus in (("sinkage_m", 0.0), ("rut_depth_m", 0.0), ("resistance", 0.1))
                 },
             }
-            for depth, density, m in ((0.2, 220, 2.6), (0.38, 220, 2.2), (0.2, 110, 2.2))
+            for depth, density, m in (
+                (0.2, 220, 2.6),
+                (0.22, 220, 2.6),
+                (0.38, 220, 2.2),
+                (0.2, 110, 2.2),
+            )
         ]
-        shallow, both = slope.table(measured, self.computed())
+        lines = slope.table(measured, self.readings())
+        self.assertEqual(len(lines), 5)  # the ruts' runs do not reach 0.38 m
+        (_, shallow, both), rut = lines[:3], lines[4]
+        self.assertEqual((shallow["reading"], rut["reading"]), ("hub", "rut"))
+        self.assertEqual(rut["others_slope"], snow.FLOWING)
         self.assertEqual(shallow["slope"], 2.6)
         self.assertTrue(2.2 < both["slope"] < 2.6)
         self.assertLess(both["others_sinkage_m_rms"], shallow["others_sinkage_m_rms"])
-        self.assertEqual(shallow["k0"], round(cases.confined(2.6)[0], 2))
+        self.assertEqual(shallow["k0"], round(snow.confined(2.6)[0], 2))
 
 
 class MassBalanceTest(unittest.TestCase):
@@ -194,10 +214,10 @@ class RigidWheelTest(unittest.TestCase):
         self.assertAlmostEqual(found.resistance / expected, 1.0, delta=0.01)
 
     def test_pressure_is_the_material_s_in_confined_compression(self) -> None:
-        text = cases.field_snow(220.0)
+        text = snow.field_snow(220.0)
         rho, p = column(text, "rho"), column(text, "p")
         stress = closed_form.axial_stress(np.array(rho[1:]))
-        _, share = cases.confined(cases.CRUSHED)
+        _, share = snow.confined(snow.CRUSHED)
         np.testing.assert_allclose(stress, np.array(p[1:]) / share, rtol=1e-5)
 
     def test_the_report_s_wheel_is_the_one_of_the_other_stages(self) -> None:
