@@ -24,7 +24,7 @@ import furrow_post  # first: says which of the next ones are missing
 import numpy as np
 
 import cases
-import report
+import one_run
 import snow
 import table11
 
@@ -59,7 +59,7 @@ LOWEST, HIGHEST = 1e3, 210e3  # [Pa]
 class Search:
     """make: makes a run unless it is there, and evaluates it."""
 
-    def __init__(self, start: snow.Beginning, make: Callable[[Case], report.Row]) -> None:
+    def __init__(self, start: snow.Beginning, make: Callable[[Case], one_run.Row]) -> None:
         self.start, self.make = start, make
         self.trials: list[Trial] = []
 
@@ -148,12 +148,12 @@ def identify(parsed: argparse.Namespace) -> None:
     runner = Runner(results, tools)
     made: list[Record] = []
 
-    def make(case: Case) -> report.Row:
+    def make(case: Case) -> one_run.Row:
         runner.run([case])
         record = runner.ended(case)
         assert record
         made.append(record)
-        return report.row_of(case, runner.folder(case), record)
+        return one_run.row_of(case, runner.folder(case), record)
 
     first, second, third = parsed.start
     search = Search((first, second, third), make)

@@ -1,42 +1,33 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is made of the runs: tables, accuracy, figures."""
+"""What is made of all runs: tables, accuracy, figures."""
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
 
 import cases
 import closed_form
+import error_study
 import mass_balance
 import slope
 import snow
 import table11
+from one_run import LOAD, Found, Row, means
 
 from furrow_post.analyse import empirical
-from furrow_post.analyse.rut import bow_wave, rut_densities, rut_depth, share_left
 from furrow_post.analyse.statistics import rms
 from furrow_post.arrays import Floats
-from furrow_post.csv_table import read_matrix
 from furrow_post.figures.style import save
 from furrow_post.figures.terrain import draw_terrain
 from furrow_post.read.results import Results
-from furrow_post.read.terrain import Outline, Terrain, read_terrain_history
-from furrow_post.study.case import Case
 from furrow_post.study.output import Output
-from furrow_post.study.record import Record
 from furrow_post.study.runner import Runner
 
-LOAD = cases.LOAD_MASS * 9.80665  # [N]
 RADIUS = 0.38  # [m] Table 11
-TIME_STEP = 2e-4  # [s] of wheel.lig
 CRUISE = 2  # stage of a history
 FORCES = ("force_x", "force_z")
-
-Row = dict[str, Any]  # of a table
 
 # Of a run, beside each measured row
 COMPARED = (
@@ -68,80 +59,6 @@ SECTIONS = {  # runs that are drawn -> title
     "rigid_towed": "rigid wheel on fresh_snow, towed",
     "report_towed": "rigid wheel on fresh_snow_shoop, towed",
 }
-
-
-# ---- one run
-
-
-def row_of(case: Case, folder: Path, record: Record) -> Row:
-    """Means over the last WINDOW of travel with their changes between its halves; densities.
-
-    Energies are those of both halves of the model per metre, over the load. A failed run has its
-    error alone.
-    """
-    row: Row = {
-        "run": case.name.rpartition("/")[2],
-        "user_s": round(record.cpu_time, 1),
-        "error": record.error,
-        "remap_interval": int(record.variable("remap_interval")),
-    }
-    if record.error:
-        return row
-    wheel, terrain = Results(folder).columns, read_terrain_history(folder)
-    contact = read_matrix(folder / "contact.txt", 3)
-    x = wheel["x"] - wheel["x"][0]
-    end = float(x[-1])
-    start, middle = end - cases.WINDOW, end - cases.WINDOW / 2
-    value = means(wheel, x, start, end)
-    change = 0.5 * np.abs(means(wheel, x, middle, end) - means(wheel, x, start, middle))
-    row["sinkage_m"], row["sinkage_change_m"] = round(value[0], 4), round(change[0], 4)
-    row["resistance"], row["resistance_change"] = round(value[1], 4), round(change[1], 4)
-    row["slip"] = round(value[2], 3)
-
-    def per_metre(time: Floats, energy: Floats) -> float:
-        """Of the window, over the load."""
-        ends = np.interp(np.interp([start, end], x, wheel["time"]), time, energy)
-        return round(float((ends[1] - ends[0]) / cases.WINDOW / LOAD), 4)
-
-    taken = terrain["stored_energy"] + terrain["dissipated_energy"]
-    row["snow"] = per_metre(terrain["time"], 2 * taken)
-    row["numerical"] = per_metre(terrain["time"], 2 * terrain["numerical_loss"])
-    row["friction"] = per_metre(contact[:, 0] * TIME_STEP, contact[:, 1])
-    snow = Terrain.read(folder)
-    body = Outline(folder, snow)
-    densities = rut_densities(snow, body)
-    row["density_under"] = round(densities.under)
-    row["density_shoulder"] = round(densities.shoulder)
-    row["density_behind"] = round(densities.in_rut)
-    row["rut_depth_m"] = round(rut_depth(snow, body), 3)
-    row["mass_left"] = round(share_left(snow, body), 3)
-    row["bow_wave_m"] = round(bow_wave(snow, body), 3)
-    row["particles"] = int(record.facts["particles"])
-    row["penetration_mm"] = round(1000 * record.facts["deepest_penetration"], 1)
-    return row
-
-
-def means(wheel: Mapping[str, Floats], x: Floats, low: float, high: float) -> Floats:
-    """(3) Sinkage [m], resistance coefficient, slip over a part of the travel [m]."""
-    part = (x >= low) & (x <= high)
-    resistance = -wheel["force_x"][part].sum() / wheel["force_z"][part].sum()
-    return np.array([wheel["sinkage"][part].mean(), resistance, wheel["slip"][part].mean()])
-
-
-class Found:
-    """Rows of the runs that are there, evaluated once."""
-
-    def __init__(self, runner: Runner) -> None:
-        self.runner, self.cases = runner, cases.all_cases()
-        self.rows: dict[str, Row] = {}
-
-    def __call__(self, name: str) -> Row:
-        """Empty where the run is not there."""
-        case = self.cases[name]
-        if name not in self.rows:
-            record = self.runner.ended(case)
-            self.rows[name] = row_of(case, self.runner.folder(case), record) if record else {}
-        return self.rows[name]
 
 
 # ---- measured rows
@@ -280,80 +197,6 @@ def draw_comparison(table: Sequence[Row], path: Path) -> None:
     save(figure, path, dpi=90)
 
 
-# ---- error against cost
-
-
-def extrapolated(sizes: Sequence[float], values: Floats) -> tuple[float, float]:
-    """Value at size zero, mean of the straight lines in h and in h^2, and its uncertainty.
-
-    Half their difference plus the scatter about both.
-    """
-    guesses, scatter = [], 0.0
-    for order in (1, 2):
-        powers = np.array(sizes) ** order
-        fit = np.polyfit(powers, values, 1)
-        guesses.append(float(fit[1]))
-        left = values - np.polyval(fit, powers)
-        scatter = max(scatter, math.sqrt((left**2).sum() / max(len(sizes) - 2, 1)))
-    return float(np.mean(guesses)), 0.5 * abs(guesses[1] - guesses[0]) + scatter
-
-
-Limits = dict[str, tuple[float, float]]  # quantity -> value at size zero, its uncertainty
-
-
-def error_table(found: Found) -> tuple[list[Row], Limits]:
-    """Each change of one choice beside the base; and size zero."""
-    base = found(cases.ERROR_BASE)
-    if not base or base["error"]:
-        return [], {}
-    lines = [("base: cells of 4 cm, tyre of 4 x 36 elements", cases.ERROR_BASE)]
-    lines += [(case.what, case.name) for case in cases.errors()]
-    table = []
-    for what, name in lines:
-        if computed := found(name):
-            cell = float(str(found.cases[name].variables["cell"]))
-            table.append({"change": what, "cell_m": round(cell, 4), **computed})
-    grids = grid_series(table)
-    limits = {}
-    if len(grids) >= 3:
-        for what in ("sinkage_m", "resistance"):
-            sizes, values = [r["cell_m"] for r in grids], np.array([r[what] for r in grids])
-            limits[what] = extrapolated(sizes, values)
-    return table, limits
-
-
-def grid_series(table: Sequence[Row]) -> list[Row]:
-    """Rows that differ in the cells alone: the base, and other sizes."""
-    sound = [r for r in table if not r["error"]]
-    return [r for r in sound if r["cell_m"] != 0.04 or r is table[0]]
-
-
-def draw_errors(table: Sequence[Row], limits: Limits, path: Path) -> None:
-    """Distance from size zero over cost, one point per size of cell."""
-    grids = sorted(grid_series(table), key=lambda r: -float(r["cell_m"]))
-    figure, panels = plt.subplots(1, 2, figsize=(10, 4.2), constrained_layout=True)
-    for axes, what, label in (
-        (panels[0], "sinkage_m", "sinkage"),
-        (panels[1], "resistance", "resistance coefficient"),
-    ):
-        limit, uncertain = limits[what]
-        places = [(r["user_s"], abs(r[what] - limit) / limit) for r in grids]
-        cost, error = zip(*places)
-        axes.errorbar(cost, error, uncertain / limit, fmt="o-", capsize=3)
-        for r, place in zip(grids, places):
-            text = f"{100 * r['cell_m']:.3g} cm"
-            axes.annotate(text, place, textcoords="offset points", xytext=(6, 6))
-        axes.set(
-            xscale="log",
-            xlabel="cost [core seconds]",
-            ylabel=f"error of {label}, relative",
-            title=f"{label}: {limit:.3f} ± {uncertain:.3f} at size zero",
-            ylim=(0, None),
-        )
-        axes.grid(alpha=0.3, which="both")
-    save(figure, path, dpi=90)
-
-
 # ---- design
 
 
@@ -469,12 +312,12 @@ def report(runner: Runner, output: Output) -> list[str]:
     output.table("mass_balance.csv", mass_balance.table(choices))
     start, density, off = mass_balance.trend(measured)
     print(f"measured h - z: {start:.4f} m + mass/({density:.0f} kg/m3), rms {off:.4f} m")
-    errors, limits = error_table(found)
-    output.table("error.csv", errors)
+    changes, limits = error_study.error_table(found)
+    output.table("error.csv", changes)
     for what, (value, uncertain) in limits.items():
         print(f"size zero: {what} {value:.4f} +- {uncertain:.4f}")
     if limits:
-        draw_errors(errors, limits, output.path("error.png"))
+        error_study.draw_errors(changes, limits, output.path("error.png"))
     output.table("design.csv", design_table(found))
     output.table("pressures.csv", pressure_table(found))
     output.table("passes.csv", pass_table(runner))
