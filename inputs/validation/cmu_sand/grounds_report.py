@@ -4,7 +4,7 @@
 import csv
 import math
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
@@ -28,6 +28,9 @@ from furrow_post.study.runner import Runner
 WINDOW = (0.1, 0.002)
 RADIUS = 58.0  # [mm]
 QUANTITIES = {"fx_over_fz": "fx_over_fz_error", "sinkage_mm": "sinkage_error_mm"}
+LIMIT_COLUMNS = tuple(
+    column for key, error in QUANTITIES.items() for column in ("measured_" + key, key, error)
+)
 Row = dict[str, Any]  # of a table
 
 GRAINS, CONTINUUM = "grains", "continuum"
@@ -146,6 +149,24 @@ def scatter_of_pours(rows: Sequence[Row], key: str) -> float:
     return rms(pairs) / math.sqrt(2.0) if pairs else math.nan
 
 
+def limit_of(
+    rows: Sequence[Row], pours: Mapping[str, float], errors: Mapping[str, str] = QUANTITIES
+) -> Row:
+    """Of one ground at one slip, at size zero, along a straight line through all its runs.
+
+    pours: standard deviation of a run on grains from one pour to the next, by quantity; a continuum
+    has none, and its error in time counts. errors: columns of the quantities' errors.
+    """
+    poured = rows[0]["ground"].startswith(GRAINS)
+    sizes = [row["size_mm"] for row in rows]
+    found: Row = {}
+    for key, error in errors.items():
+        scatter = pours[key] if poured else rms([row[error] for row in rows])
+        limit = at_size_zero(sizes, [row[key] for row in rows], scatter)
+        found.update({key: round(limit.value, 4), error: round(limit.error, 4)})
+    return found
+
+
 def limit_table(rows: Sequence[Row]) -> list[Row]:
     """A row for each ground and slip with two sizes or more."""
     rows = straight(rows)
@@ -157,15 +178,9 @@ def limit_table(rows: Sequence[Row]) -> list[Row]:
             sizes = [row["size_mm"] for row in mine]
             if len(set(sizes)) < 2:
                 continue
-            row: Row = {"ground": ground, "slip": slip, "runs": len(mine), "finest_mm": min(sizes)}
-            for key, error in QUANTITIES.items():
-                times = rms([each[error] for each in mine])
-                scatter = pours[key] if ground.startswith(GRAINS) else times
-                limit = at_size_zero(sizes, [each[key] for each in mine], scatter)
-                row["measured_" + key] = mine[0]["measured_" + key]
-                row[key] = round(limit.value, 4)
-                row[error] = round(limit.error, 4)
-            found.append(row)
+            head = {"ground": ground, "slip": slip, "runs": len(mine), "finest_mm": min(sizes)}
+            limit = {**mine[0], **limit_of(mine, pours)}
+            found.append({**head, **{name: limit[name] for name in LIMIT_COLUMNS}})
     return found
 
 

@@ -19,11 +19,12 @@ from grounds import BETWEEN, FASTEST, SOFT, Changes, grains_case
 from grounds_report import BETWEEN as BETWEEN_LAW
 from grounds_report import (
     GRAINS,
+    LIMIT_COLUMNS,
     QUANTITIES,
     RADIUS,
     Row,
     accuracy,
-    at_size_zero,
+    limit_of,
     row_of,
     scatter_of_pours,
 )
@@ -109,19 +110,9 @@ def limits_of(rows: Sequence[Row]) -> list[Row]:
     found = []
     for slip in sorted({row["slip"] for row in rows}):
         mine = [row for row in rows if row["slip"] == slip]
-        sizes = [row["size_mm"] for row in mine]
-        if len(sizes) < len(SIZES):
-            continue
-        limit: Row = {**mine[0], "size_mm": 0.0}
-        for key, error in QUANTITIES.items():
-            value = at_size_zero(sizes, [row[key] for row in mine], pours[key])
-            limit.update({key: round(value.value, 4), error: round(value.error, 4)})
-        found.append(limit)
+        if len(mine) == len(SIZES):
+            found.append({**mine[0], "size_mm": 0.0, **limit_of(mine, pours)})
     return found
-
-
-LIMIT_COLUMNS = ("ground", "slip", *(column for key, error in QUANTITIES.items()
-                 for column in ("measured_" + key, key, error)))  # fmt: skip
 
 
 def draw(path: Path, rows: Sequence[Row]) -> None:
@@ -151,17 +142,17 @@ def draw(path: Path, rows: Sequence[Row]) -> None:
 
 def evaluate(runner: Runner, output: Output) -> list[str]:
     rows, assumed = (
-        [row_of(runner, case, record) for case in cases if (record := runner.record(case))]
-        for cases in (SIZE_RUNS, ASSUMED)
-    )
-    for row, case in zip(assumed, [case for case in ASSUMED if runner.record(case)]):
-        row["changed"] = case.what
+        [{**row_of(runner, case, record), "changed": case.what}
+         for case in runs if (record := runner.record(case))]
+        for runs in (SIZE_RUNS, ASSUMED)
+    )  # fmt: skip
     output.table("grousers_assumed.csv", assumed)
     if not rows:
         return []
     output.table("grousers.csv", rows)
     limits = limits_of(rows)
-    output.table("grousers_size_zero.csv", [{k: row[k] for k in LIMIT_COLUMNS} for row in limits])
+    columns = ("ground", "slip", *LIMIT_COLUMNS)
+    output.table("grousers_size_zero.csv", [{k: row[k] for k in columns} for row in limits])
     reached = accuracy_rows([*rows, *limits])
     output.table("grousers_accuracy.csv", reached)
     draw(output.path("grousers.png"), [*rows, *limits])

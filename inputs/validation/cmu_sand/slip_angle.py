@@ -7,18 +7,17 @@ The laws of the grains are the one that was found at slip angle 0 and a stronger
 """
 
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "postproc"))
 
 from grounds import BETWEEN, SIDEWAYS, STRONG_SOIL, Changes, continuum_case, grains_case
-from grounds_report import GRAINS, QUANTITIES, Row, at_size_zero, row_of, scatter_of_pours
+from grounds_report import QUANTITIES, Row, limit_of, row_of, scatter_of_pours
 
 import matplotlib.pyplot as plt
 
-from furrow_post.analyse.statistics import rms
 from furrow_post.figures.style import save
 from furrow_post.study.case import Case
 from furrow_post.study.output import Output
@@ -66,19 +65,6 @@ RUNS = [
 ]
 
 
-def limit_of(rows: Sequence[Row], scatter: Mapping[str, float]) -> Row:
-    """Of one law at size zero, along a straight line through all its runs; scatter: of pours, which
-    a continuum has not."""
-    sizes = [row["size_mm"] for row in rows]
-    poured = rows[0]["ground"].startswith(GRAINS)
-    limit: Row = {"ground": rows[0]["ground"], "finest_mm": min(sizes), "runs": len(rows)}
-    for key, error in ERRORS.items():
-        one = scatter[key] if poured else rms([row[error] for row in rows])
-        value = at_size_zero(sizes, [row[key] for row in rows], one)
-        limit.update({key: round(value.value, 4), error: round(value.error, 4)})
-    return limit
-
-
 def draw(path: Path, rows: Sequence[Row], limits: Sequence[Row]) -> None:
     """Lateral and longitudinal force and sinkage over the size of the grains."""
     figure, panels = plt.subplots(1, len(LABELS), figsize=(11, 3.6), layout="constrained")
@@ -107,10 +93,18 @@ def evaluate(runner: Runner, output: Output) -> list[str]:
     scatter = {key: scatter_of_pours(rows, key) for key in ERRORS}
     by_law = [[row for row in rows if row["ground"] == ground] for ground in COLOURS]
     known = [mine for mine in by_law if len({row["size_mm"] for row in mine}) > 1]
-    limits = [limit_of(mine, scatter) for mine in known]
+    finest = [min(mine, key=lambda row: float(row["size_mm"])) for mine in known]
+    limits = [
+        {
+            "ground": last["ground"],
+            "finest_mm": last["size_mm"],
+            "runs": len(mine),
+            **limit_of(mine, scatter, ERRORS),
+        }
+        for mine, last in zip(known, finest)
+    ]
     output.table("slip_angle_limit.csv", limits)
     draw(output.path("slip_angle.png"), rows, limits)
-    finest = [min(mine, key=lambda row: float(row["size_mm"])) for mine in known]
     return [
         f"{row['ground']}, {row['size_mm']:g} mm: Fy/Fz is {row['fy_over_fz']}, not {low} to {high}"
         for row in finest

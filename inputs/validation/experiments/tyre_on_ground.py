@@ -15,6 +15,10 @@ STANDS_IN = "the tyre caps the pressure, and the wheel does not (tyre_on_snow)"
 SHIFTS = "5 mm are the tread moving as a whole, whatever the ground (tyre_shift)"
 
 
+def on_snow(run: str, column: str, scale: float = 1.0) -> Stored:
+    return of(TYRE_ON_SNOW, run, column, scale, key="case")
+
+
 def tyre(run: str, what: str, remark: str = "") -> tuple[Experiment, ...]:
     numbers = (
         ("z", "cm", "sinkage_mm", 0.1, "8"),
@@ -29,9 +33,9 @@ def tyre(run: str, what: str, remark: str = "") -> tuple[Experiment, ...]:
             quantity,
             unit,
             report=report,
-            ours=of(TYRE_ON_SNOW, run, column, scale, key="case"),
-            near=of(TYRE_ON_SNOW, finer, column, scale, key="case") if finer else None,
-            cost=of(TYRE_ON_SNOW, run, "user_s", key="case"),
+            ours=on_snow(run, column, scale),
+            near=on_snow(finer, column, scale) if finer else None,
+            cost=on_snow(run, "user_s"),
             remark=remark,
             why=SOFT if quantity == "z" else SHIFTS,
         )
@@ -52,8 +56,8 @@ def softer_tyres() -> Iterator[Experiment]:
                 f"tyre, {pressure} kPa, 20 cm of snow, zero slip, d 5 kPa",
                 quantity,
                 unit,
-                ours=of(TYRE_ON_SNOW, run, column, scale, key="case"),
-                cost=of(TYRE_ON_SNOW, run, "user_s", key="case") if quantity == "z" else None,
+                ours=on_snow(run, column, scale),
+                cost=on_snow(run, "user_s") if quantity == "z" else None,
                 remark=f"not in the report; on a road {road} % (Table 6)" if unit == "%" else "",
             )
 
@@ -73,9 +77,9 @@ def stand_in() -> Iterator[Experiment]:
                 f"rigid wheel in place of the tyre, d {d} kPa",
                 quantity,
                 unit,
-                report=of(TYRE_ON_SNOW, of_tyre, column, scale, key="case"),
-                ours=of(TYRE_ON_SNOW, rigid, column, scale, key="case"),
-                cost=of(TYRE_ON_SNOW, rigid, "user_s", key="case") if quantity == "z" else None,
+                report=on_snow(of_tyre, column, scale),
+                ours=on_snow(rigid, column, scale),
+                cost=on_snow(rigid, "user_s") if quantity == "z" else None,
                 remark="report: our tyre, 241 kPa, with its deflection in z",
                 why=STANDS_IN,
             )

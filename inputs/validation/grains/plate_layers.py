@@ -15,6 +15,7 @@ import furrow_post  # first: says which of the next ones are missing
 
 import numpy as np
 
+from furrow_post.analyse.statistics import rms
 from furrow_post.arguments import path, positive
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_numbers
@@ -94,12 +95,12 @@ def report(folders: list[Path], density: float) -> str:
     mean = each.mean(axis=0)
     measured = read_numbers(HERE.parent / "plate_variants" / "reference.csv")[0]
     real = np.array([measured[f"density_{n}"] for n in range(1, LAYERS + 1)])
-    rms = float(np.sqrt(np.mean(np.log(mean[1 : LAYERS + 1] / real) ** 2)))
+    off = rms(np.log(mean[1 : LAYERS + 1] / real))
     peak, (edge, farthest, left) = mean[0], mean[-3:]
     lines = [
         f"peak {peak:.0f} N, {peak / measured['peak_load_N']:.2f} of the measured one",
         f"kg/m3 from the plate to the base: {in_row(mean)}",
-        f"measured: {' '.join(f'{value:.0f}' for value in real)}; rms of ln(density) {rms:.2f}",
+        f"measured: {' '.join(f'{value:.0f}' for value in real)}; rms of ln(density) {off:.2f}",
         f"outwards, mm: under the edge {edge:.1f}, the tenth that went farthest {farthest:.1f}",
         f"mass left below the plate: {left:.2f}",
     ]
