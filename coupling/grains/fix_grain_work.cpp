@@ -43,21 +43,21 @@ const Outputs<FixGrainWork>& FixGrainWork::outputs() {
   static const Outputs<Fix> list = {
       {"slide", "J",
        "work of tangential forces between grains: friction, and what their springs hold",
-       [](Fix& fix) { return fix.over_ranks(fix.taken_.slide); }},
+       [](Fix& fix) { return fix.over_ranks(fix.work_.slide); }},
       {"roll", "J", "work of rolling friction between grains",
-       [](Fix& fix) { return fix.over_ranks(fix.taken_.roll); }},
+       [](Fix& fix) { return fix.over_ranks(fix.work_.roll); }},
       {"press", "J", "work of forces square to the contacts: damping, and what their springs hold",
-       [](Fix& fix) { return fix.over_ranks(fix.taken_.press); }},
+       [](Fix& fix) { return fix.over_ranks(fix.work_.square); }},
       {"below", "J", "of these three, at contacts below the track",
-       [](Fix& fix) { return fix.over_ranks(fix.in_place_[below]); }},
+       [](Fix& fix) { return fix.over_ranks(fix.work_.below); }},
       {"ahead", "J", "of these three, at contacts ahead of it, within its width",
-       [](Fix& fix) { return fix.over_ranks(fix.in_place_[ahead]); }},
+       [](Fix& fix) { return fix.over_ranks(fix.work_.ahead); }},
       {"aside", "J", "of these three, at contacts beside it",
-       [](Fix& fix) { return fix.over_ranks(fix.in_place_[aside]); }},
+       [](Fix& fix) { return fix.over_ranks(fix.work_.aside); }},
       {"walls", "J", "taken by contacts of grains with anything but grains and the wheel",
-       [](Fix& fix) { return fix.over_ranks(fix.walls_); }},
+       [](Fix& fix) { return fix.over_ranks(fix.work_.walls); }},
       {"lifted", "J", "work of all grains against gravity",
-       [](Fix& fix) { return fix.over_ranks(fix.lifted_); }},
+       [](Fix& fix) { return fix.over_ranks(fix.work_.lifted); }},
       {"kinetic", "J", "energy of all grains, rotation included, now",
        [](Fix& fix) { return fix.over_ranks(fix.kinetic_energy()); }},
   };
@@ -103,28 +103,21 @@ void FixGrainWork::end_of_step() {
     // the other rank sees a contact with one of its grains too
     const double share = contact.j < atom->nlocal ? 1.0 : 0.5;
     const Taken power_taken = power(contact);
-    taken_.slide += share * interval * power_taken.slide;
-    taken_.roll += share * interval * power_taken.roll;
-    taken_.press += share * interval * power_taken.press;
-    in_place_[place_of(contact, where)] += share * interval * power_taken.sum();
+    work_.slide += share * interval * power_taken.slide;
+    work_.roll += share * interval * power_taken.roll;
+    work_.square += share * interval * power_taken.press;
+    work_.*place_of(contact, where) += share * interval * power_taken.sum();
     between_grains += share * power_taken.sum();
   });
   const double lifting = lifting_power();
-  lifted_ += interval * lifting;
-  walls_ += interval * (power_of_wheel() - between_grains - lifting - power_of_all_forces());
+  work_.lifted += interval * lifting;
+  work_.walls += interval * (power_of_wheel() - between_grains - lifting - power_of_all_forces());
 }
 
 GrainWork FixGrainWork::work() const {
-  GrainWork of_all;
-  of_all.slide = over_ranks(taken_.slide);
-  of_all.roll = over_ranks(taken_.roll);
-  of_all.square = over_ranks(taken_.press);
-  of_all.below = over_ranks(in_place_[below]);
-  of_all.ahead = over_ranks(in_place_[ahead]);
-  of_all.aside = over_ranks(in_place_[aside]);
-  of_all.walls = over_ranks(walls_);
-  of_all.lifted = over_ranks(lifted_);
-  of_all.kinetic = over_ranks(kinetic_energy());
+  GrainWork of_all = work_;
+  of_all.kinetic = kinetic_energy();
+  for (double* number : of_all.numbers()) *number = over_ranks(*number);
   return of_all;
 }
 
@@ -144,8 +137,8 @@ FixGrainWork::Place FixGrainWork::place_of(const PairContact& contact, const Tra
   double x = 0.5 * (atom->x[contact.i][0] + atom->x[contact.j][0]) - track.centre[0];
   const double y = 0.5 * (atom->x[contact.i][1] + atom->x[contact.j][1]) - track.centre[1];
   if (domain->xperiodic) x -= domain->prd[0] * std::round(x / domain->prd[0]);
-  if (std::abs(y) > track.half_width) return aside;
-  return x > track.front ? ahead : below;
+  if (std::abs(y) > track.half_width) return &GrainWork::aside;
+  return x > track.front ? &GrainWork::ahead : &GrainWork::below;
 }
 
 double FixGrainWork::friction(const PairContact& contact) const {
@@ -216,14 +209,11 @@ double FixGrainWork::kinetic_energy() const {
 double FixGrainWork::over_ranks(double value) const { return Communicator(&world).sum(value); }
 
 void FixGrainWork::checkpoint(Checkpoint& state) {
-  double sums[] = {taken_.slide,     taken_.roll,      taken_.press, in_place_[below],
-                   in_place_[ahead], in_place_[aside], walls_,       lifted_};
+  double sums[] = {work_.slide, work_.roll,  work_.square, work_.below,
+                   work_.ahead, work_.aside, work_.walls,  work_.lifted};
   checkpoint_totals(state, Communicator(&world), sums);
   if (state.saving()) return;
-  taken_ = {sums[0], sums[1], sums[2]};
-  in_place_ = {sums[3], sums[4], sums[5]};
-  walls_ = sums[6];
-  lifted_ = sums[7];
+  work_ = {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], sums[7]};
 }
 
 }  // namespace furrow::coupling

@@ -3,8 +3,6 @@
 /// fix grain/work: where among the grains the work goes that a wheel does on them. See
 /// fix_grain_work.md.
 
-#include <array>
-
 #include "coupling/base/furrow_fix.h"
 #include "coupling/bodies/fix_body.h"
 #include "coupling/liggghts/pair_contacts.h"
@@ -44,7 +42,7 @@ class FixGrainWork : public FurrowFix {
   struct Track {
     double centre[2], half_width, front;
   };
-  enum Place { below, ahead, aside, count };
+  using Place = double GrainWork::*;  // below, ahead or aside
 
   /// Largest tangential over normal force of a contact; infinite where bonds carry more.
   double friction(const PairContact& contact) const;
@@ -63,10 +61,7 @@ class FixGrainWork : public FurrowFix {
   double level_;  // [m]
   long every_;
   LAMMPS_NS::FixPropertyGlobal* friction_ = nullptr;  // of pairs of types
-  // of this rank, since the start [J]
-  Taken taken_;
-  std::array<double, count> in_place_ = {};
-  double walls_ = 0.0, lifted_ = 0.0;
+  GrainWork work_;  // of this rank; but for `kinetic`, which is found when it is asked for
 };
 
 }  // namespace furrow::coupling

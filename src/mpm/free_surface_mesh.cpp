@@ -15,6 +15,9 @@ std::vector<std::size_t> places_of_nodes(std::size_t count, std::size_t every) {
   return places;
 }
 
+/// -1 at the first of a row, 1 at its last, 0 between them.
+double outwards(std::size_t n, std::size_t last) { return n == 0 ? -1.0 : n == last ? 1.0 : 0.0; }
+
 /// A node in the cross-section of the ground.
 struct SectionNode {
   std::size_t row, level;  // of its particle
@@ -30,11 +33,7 @@ std::vector<SectionNode> nodes_across(const TerrainFill& fill, std::size_t rows,
     while (to < rows && fill.first_level(to) == level) ++to;
     const std::vector<std::size_t> places = places_of_nodes(to - from, every);
     for (const std::size_t n : places)
-      nodes.push_back({from + n, level,
-                       n == places.front()  ? -1.0
-                       : n == places.back() ? 1.0
-                                            : 0.0,
-                       1.0});
+      nodes.push_back({from + n, level, outwards(n, places.back()), 1.0});
     if (to == rows) break;
     // The corners belong to the level stretches.
     const std::size_t next = fill.first_level(to);
@@ -66,10 +65,7 @@ FreeSurfaceMesh::FreeSurfaceMesh(const TerrainFill& fill, const Grid& grid, std:
     for (std::size_t r = 0; r < rows; ++r) {
       const SectionNode& place = across[r];
       nodes_.push_back({fill.id(grid, along[c], place.row, place.level), node(c, r)});
-      offset_.col(node(c, r)) << (c == 0             ? -1.0
-                                  : c + 1 == columns ? 1.0
-                                                     : 0.0),
-          place.beside, place.above;
+      offset_.col(node(c, r)) << outwards(c, columns - 1), place.beside, place.above;
     }
   std::sort(nodes_.begin(), nodes_.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   for (std::size_t c = 0; c + 1 < columns; ++c)

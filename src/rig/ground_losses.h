@@ -2,6 +2,8 @@
 #pragma once
 /// Where the work of a wheel on its ground went.
 
+#include <array>
+
 namespace furrow {
 
 /// Where a wheel's work on grains went, of all grains, since the start [J]: zero where nothing
@@ -19,6 +21,10 @@ struct GrainWork {
   double walls = 0.0;    ///< by contacts with anything but grains and the wheel
   double lifted = 0.0;   ///< against gravity
   double kinetic = 0.0;  ///< energy of their motion
+
+  std::array<double*, 9> numbers() {
+    return {&slide, &roll, &square, &below, &ahead, &aside, &walls, &lifted, &kinetic};
+  }
 };
 
 /// Since the start, of all that the wheel touches, both halves of a half model [J].

@@ -4,9 +4,10 @@
 A measured sinkage is read as the hub's, or as the depth of the rut that is left. Sinkage,
 resistance and density under the wheel of runs with three slopes are interpolated, over the slope by
 a parabola in 1/M^2, of which they are nearly straight lines, and over the depth by straight lines;
-the slope is the one of the least sum of squares over the goals. Its range: where that sum exceeds the least one by no more
-than the share 1/(N - 1) of it, N the number of its terms; one standard error where the tests'
-scatter is all that is left. A slope at an end of those that were run is a bound.
+the slope is the one of the least sum of squares over the goals. Its range: where that sum exceeds
+the least one by no more than the share 1/(N - 1) of it, N the number of its terms; one standard
+error where the tests' scatter is all that is left. A slope at an end of those that were run is a
+bound.
 """
 
 from collections.abc import Mapping, Sequence
