@@ -5,7 +5,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from furrow_post.analyse.cost_table import Components
-from furrow_post.analyse.curves import pressure_at
+from furrow_post.analyse.plates import pressure_at
 from furrow_post.analyse.entry import FORMULA, LIMIT, MEASURED, RUN, Entry
 from furrow_post.analyse.judgement import judge
 from furrow_post.analyse.verdict import COVERAGE, QUANTITIES, Agreement, Quantity

@@ -10,7 +10,7 @@ from cases import BASE, INPUTS, Made, Planned
 from lines import OutputRow, line_of
 from wheel_cases import BEKKER
 
-from furrow_post.analyse import curves, empirical
+from furrow_post.analyse import curves, empirical, plates
 from furrow_post.analyse.cost_table import Components
 from furrow_post.analyse.curves import Curve
 from furrow_post.analyse.entry import FORMULA, MEASURED, Entry
@@ -40,7 +40,7 @@ class PlateCase:
             for other in self.made.plans
             if other.is_check and other.ground == planned.ground
         ]
-        return curves.plate_entries(self.curves[planned.run.name], checks, level)
+        return plates.plate_entries(self.curves[planned.run.name], checks, level)
 
     def lines(self) -> Iterator[OutputRow]:
         for level in LEVELS[self.case]:
@@ -54,7 +54,7 @@ class PlateCase:
     def formulas(self, level: float) -> Iterator[Entry]:
         for line in self.formula_lines():
             pressure = float(np.interp(level, line.x, line.y))
-            yield Entry(curves.pressure_at(level), line.label, pressure, Components(), FORMULA)
+            yield Entry(plates.pressure_at(level), line.label, pressure, Components(), FORMULA)
 
     def formula_lines(self) -> list[Line]:
         """On sand; b of a round plate is its radius."""
@@ -74,7 +74,7 @@ class PlateCase:
         for row in read_numbers(MEASURED_PLATE):
             if math.isclose(row["sinkage_m"], level):
                 pressure = row["peak_load_N"] / (0.25 * math.pi * row["diameter_m"] ** 2)
-                yield Entry(curves.pressure_at(level), MEASURED, pressure, Components(), MEASURED)
+                yield Entry(plates.pressure_at(level), MEASURED, pressure, Components(), MEASURED)
 
     def draw(self, output: Output) -> None:
         result = curves.compare_curves(

@@ -4,8 +4,8 @@
 A family is one ground, whole or half model, one kind of wheel. Within a family the value at size h
 is taken as f0 + C h (first order in the size of cells or grains), fitted by least squares to the
 runs that differ in size and packing: f0 is the value at size zero, |f - f0| the error of the size.
-Runs in another domain or with another packing (seed) give those two components, as differences from
-runs of the same size: of the domain the largest, of packings the standard deviation of one run.
+Runs in another domain or with another packing (seed) give those two components beside runs of the
+same size: of a domain the mean difference, of packings the standard deviation of one run.
 """
 
 import csv
@@ -16,15 +16,15 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any, ClassVar, NamedTuple
 
-import numpy as np
-
 from ..csv_table import read_comments, read_rows
 from ..errors import ResultsError, content_of
 from ..read.wheel_run import WheelRun
+from .size_line import Fit, fit_line, mean_shift, pooled_scatter
 from .statistics import commonest
 from .verdict import QUANTITIES
 
 QUANTITY_KEYS = tuple(quantity.key for quantity in QUANTITIES)
+LEAST_RELATIVE_ERROR = 1e-3  # of a value in a fit: no time average is taken to be better
 
 
 class FamilyKey(NamedTuple):
@@ -172,17 +172,8 @@ class Components:
         return math.sqrt(sum(self.part(name) ** 2 for name in self.known))
 
 
-class Fit(NamedTuple):
-    """f = at_zero + slope h, with standard errors."""
-
-    at_zero: float
-    slope: float
-    at_zero_error: float
-    slope_error: float
-
-
 class Family:
-    """The rows of one family: bases differ in size alone, variants in domain or seed too."""
+    """The rows of one family; its bases differ in size alone."""
 
     def __init__(self, rows: Sequence[Row]) -> None:
         self.rows = rows
@@ -190,7 +181,6 @@ class Family:
         self.seed = commonest([r.seed for r in rows])
         bases = [r for r in rows if r.domain == self.domain and r.seed == self.seed]
         self.bases = sorted(bases, key=lambda r: -r.size)  # the finest last
-        self.variants = [r for r in rows if r not in self.bases]
 
     @property
     def key(self) -> FamilyKey:
@@ -198,23 +188,17 @@ class Family:
 
     def fit(self, key: str) -> Fit | None:
         """None with fewer than two sizes. Two sizes: the error is that of times and packings."""
-        rows = [row for row in self.rows if row.domain == self.domain]
-        h = np.array([row.size for row in rows])
         if len({row.size for row in self.bases}) < 2:
             return None
-        f, u = (np.array(column) for column in zip(*(row.value(key) for row in rows)))
+        rows = [row for row in self.rows if row.domain == self.domain]
         packing = self.packing(key)
         scatter = packing if math.isfinite(packing) else 0.0
-        weight = 1 / np.hypot(np.maximum(u, 1e-3 * np.abs(f)), scatter)
-        design = np.column_stack([np.ones_like(h), h]) * weight[:, None]
-        inverse = np.linalg.inv(design.T @ design)
-        at_zero, slope = inverse @ design.T @ (f * weight)
-        spread = 1.0
-        if len(h) > 2:
-            residuals = (f - at_zero - slope * h) * weight
-            spread = max(np.sum(residuals**2) / (len(h) - 2), 1.0)
-        errors = np.sqrt(spread * np.diag(inverse))
-        return Fit(float(at_zero), float(slope), float(errors[0]), float(errors[1]))
+        values, errors = zip(*(row.value(key) for row in rows))
+        noise = [
+            math.hypot(max(u, LEAST_RELATIVE_ERROR * abs(f)), scatter)
+            for f, u in zip(values, errors)
+        ]
+        return fit_line([row.size for row in rows], values, noise)
 
     def reference(self, key: str) -> tuple[float, float]:
         """Value at size zero with its error; of one size the finest run, whose error is NaN."""
@@ -223,17 +207,27 @@ class Family:
             return fit.at_zero, fit.at_zero_error
         return self.bases[-1].value(key)[0], math.nan
 
-    def _apart(self, key: str, row: Row) -> list[float]:
-        """How far a variant is from every base of its size."""
-        return [row.value(key)[0] - base.value(key)[0] for base in self._bases_of(row.size)]
-
     def packing(self, key: str) -> float:
         """Standard deviation of one packing; 0 of a lattice, NaN where there is one alone."""
         if self.key.ground == "continuum":
             return 0.0  # nothing is random
-        others = [row for row in self.variants if row.domain == self.domain]
-        apart = [difference for row in others for difference in self._apart(key, row)[:1]]
-        return float(np.std([0.0, *apart], ddof=1)) if apart else math.nan
+        return pooled_scatter(self._values_of(key, base.size) for base in self.bases)
+
+    def domain_error(self, key: str) -> float:
+        """Mean difference of a domain from the common one; of several the largest, NaN of none.
+
+        Each run counts against the mean of all packings of its size in the common domain.
+        """
+        others = dict.fromkeys(row.domain for row in self.rows if row.domain != self.domain)
+        shifts = [
+            mean_shift(
+                (row.value(key)[0], self._values_of(key, row.size))
+                for row in self.rows
+                if row.domain == other
+            )
+            for other in others
+        ]
+        return max((shift for shift in shifts if math.isfinite(shift)), default=math.nan)
 
     def components(self, key: str, size: float, time_error: float = math.nan) -> Components:
         """Parts of the error of a run of this size [m].
@@ -242,12 +236,8 @@ class Family:
         lies further from the value at size zero than by its noise: no line goes through all runs.
         """
         fit = self.fit(key)
-        wider = [row for row in self.variants if row.domain != self.domain]
-        domains = [abs(difference) for row in wider for difference in self._apart(key, row)]
-        domain = max(domains, default=math.nan)
-        packing = self.packing(key)
         of_size = max(abs(fit.slope) * size, self._beyond_noise(key, size, fit)) if fit else math.nan
-        return Components(time_error, of_size, domain, packing)
+        return Components(time_error, of_size, self.domain_error(key), self.packing(key))
 
     def _beyond_noise(self, key: str, size: float, fit: Fit) -> float:
         """How far the base of this size is from the value at size zero, less what noise explains."""
@@ -260,21 +250,35 @@ class Family:
         return math.sqrt(max(beyond))
 
     def _bases_of(self, size: float) -> list[Row]:
-        return [base for base in self.bases if abs(base.size - size) < 0.02 * size]
+        return [base for base in self.bases if _same_size(base, size)]
+
+    def _values_of(self, key: str, size: float) -> list[float]:
+        """Of all packings of this size in the common domain."""
+        rows = [row for row in self.rows if row.domain == self.domain and _same_size(row, size)]
+        return [row.value(key)[0] for row in rows]
 
     def at_size_zero(
         self, key: str, size: float, value: float, time_error: float
     ) -> tuple[float, Components] | None:
-        """What a run of this size [m] and value comes to along the family's slope, f - C h, with
-        the parts of its error: that of the size is the slope's standard error times h.
+        """What a run of this size [m] and value comes to, with the parts of its error.
 
-        The run may have another load or speed than the table's. None with fewer than two sizes.
+        A run of the table comes to the family's value at size zero, whose error is that of the line
+        through all runs, times and packings included. Another, which may have another load or
+        speed, goes along the family's slope, f - C h: the error of the size is the slope's standard
+        error times h. None with fewer than two sizes.
         """
         fit = self.fit(key)
         if fit is None:
             return None
+        if any(math.isclose(row.value(key)[0], value, rel_tol=1e-5) for row in self._bases_of(size)):
+            parts = Components(0.0, fit.at_zero_error, self.domain_error(key), 0.0)
+            return fit.at_zero, parts
         parts = self.components(key, size, time_error)
         return value - fit.slope * size, replace(parts, size=fit.slope_error * size)
+
+
+def _same_size(row: Row, size: float) -> bool:
+    return abs(row.size - size) < 0.02 * size
 
 
 def families(rows: Iterable[Row]) -> dict[FamilyKey, Family]:

@@ -28,9 +28,6 @@ from .verdict import Quantity
 PLATE_LEVELS = (0.05, 0.1, 0.2, 0.3, 0.5)  # sinkage over depth of the ground
 STRESS_LEVELS = (2e3, 1e4, 5e4, 1e5, 2e5, 5e5)  # [Pa]
 TOLERANCES = {"size": 0.02, "depth": 0.06, "density": 0.1, "speed": 0.02}  # relative
-NUMERICAL_PARTS = ("size", "domain", "packing")
-
-NumericalErrors = dict[str, Floats]  # of NUMERICAL_PARTS -> relative standard deviation per level
 
 
 class CurveKind(enum.Enum):
@@ -218,116 +215,6 @@ def _differences(curves: Sequence[Curve]) -> list[str]:
             texts = "; ".join(f"{label}: {value:.4g}" for label, value in have)
             differences.append(f"{name}: {texts} (they may differ by {100 * relative:g} %)")
     return differences
-
-
-def _same(a: float, b: float) -> bool:
-    """Also where one is not known: that differs in nothing."""
-    return not abs(a - b) > 0.02 * abs(a)
-
-
-def _log_at(curve: Curve, levels: Sequence[float]) -> Floats:
-    """ln y at the levels; NaN beyond the curve's ends and where it carries nothing yet."""
-    y = np.interp(levels, curve.x, curve.y, left=math.nan, right=math.nan)
-    log: Floats = np.log(np.where(y > 0, y, math.nan))
-    return log
-
-
-@dataclass(frozen=True)
-class _Trend:
-    """d ln y / dh over the sizes of a series at the levels [1/m], and its standard error."""
-
-    slope: Floats
-    error: Floats
-
-
-def _trend(series: Sequence[Curve], levels: Sequence[float], packing: Floats) -> _Trend:
-    """Of curves of several sizes; NaN of one size alone, and where one of them has no value.
-
-    The error is that of the scatter about the line, at least that of the curves' noise and of one
-    packing (relative; NaN: not known).
-    """
-    if len(series) < 2:
-        nothing = np.full(len(levels), np.nan)
-        return _Trend(nothing, nothing)
-    h = np.array([curve.size for curve in series]) - np.mean([curve.size for curve in series])
-    logs = np.array([_log_at(curve, levels) for curve in series])
-    noise = np.array([np.interp(levels, c.x, c.noise) for c in series]) / np.exp(logs)
-    slope = h @ logs / np.sum(h**2)
-    residuals = logs - logs.mean(axis=0) - np.outer(h, slope)
-    scatter = np.sum(residuals**2, axis=0) / max(len(series) - 2, 1)
-    least = np.mean(noise**2, axis=0) + np.nan_to_num(packing) ** 2
-    variance = np.maximum(scatter, least) / np.sum(h**2)
-    return _Trend(slope, np.sqrt(variance))
-
-
-def _sizes(base: Curve, checks: Sequence[Curve]) -> list[Curve]:
-    """The base and the first check of each other size."""
-    series = [base]
-    for check in checks:
-        if not any(_same(curve.size, check.size) for curve in series):
-            series.append(check)
-    return series
-
-
-def numerical_errors(
-    base: Curve, checks: Sequence[Curve], levels: Sequence[float]
-) -> NumericalErrors:
-    """Relative standard deviations of base's y at the levels by what checks vary; NaN: not known.
-
-    checks are curves of the same test. A check with another size (facts cell or diameter) and
-    base's seed gives the error of the size, of first order as in cost_table; one with another box
-    the error of the domain; else it is another packing. The last two are differences from the curve
-    of the same size.
-    """
-    found = {name: np.full(len(levels), np.nan) for name in NUMERICAL_PARTS}
-    series = _sizes(base, checks)
-    for check in checks:
-        if any(check is curve for curve in series):
-            continue
-        twin = next((curve for curve in series if _same(curve.size, check.size)), None)
-        if twin is None:
-            continue
-        difference = np.abs(_log_at(check, levels) - _log_at(twin, levels))
-        if _same(twin.box, check.box):
-            # two packings: the standard deviation of one is the difference over sqrt(2)
-            found["packing"] = np.fmax(found["packing"], difference / math.sqrt(2))
-        else:
-            found["domain"] = np.fmax(found["domain"], difference)
-    if base.ground == "continuum":
-        found["packing"] = np.zeros(len(levels))  # a lattice: nothing is random
-    found["size"] = np.abs(_trend(series, levels, found["packing"]).slope) * base.size
-    return found
-
-
-def pressure_at(sinkage: float) -> Quantity:
-    """Mean pressure of a plate at this sinkage [m], as verdicts are given on it."""
-    millimetres = f"{1e3 * sinkage:g} mm"
-    return Quantity(f"pressure_{sinkage:g}", f"pressure at {millimetres}", "kPa", 1e-3)
-
-
-def plate_entries(base: Curve, checks: Sequence[Curve], sinkage: float) -> list[Entry]:
-    """A plate's pressure at this sinkage [m], and at size zero where checks have other sizes.
-
-    As of wheels in entry.py. Empty where the curve does not come so far.
-    """
-    log = float(_log_at(base, [sinkage])[0])
-    if not math.isfinite(log):
-        return []
-    quantity, value = pressure_at(sinkage), math.exp(log)
-    errors = numerical_errors(base, checks, [sinkage])
-    relative = {name: float(error[0]) for name, error in errors.items()}
-    relative["time"] = float(np.interp(sinkage, base.x, base.noise)) / value
-    trend = _trend(_sizes(base, checks), [sinkage], errors["packing"])
-    at_zero = value * math.exp(-trend.slope[0] * base.size)
-    entries = []
-    for kind, y, size in (
-        (RUN, value, relative["size"]),
-        (LIMIT, at_zero, float(trend.error[0]) * base.size),
-    ):
-        parts = {name: y * error for name, error in {**relative, "size": size}.items()}
-        if math.isfinite(y):
-            entries.append(Entry(quantity, base.label, y, Components(**parts), kind))
-    return entries
 
 
 def curve_report(result: CurveComparison) -> str:

@@ -24,12 +24,11 @@ from ..arrays import Floats
 from ..errors import ResultsError
 from ..formatting import duration
 from .cost import ByQuantity, elements_name
-from .cost_table import QUANTITY_KEYS, Family, Row
+from .cost_table import LEAST_RELATIVE_ERROR, QUANTITY_KEYS, Family, Row
 from .verdict import QUANTITIES, Quantity
 
 LONGER = 4.0  # times the length: half of the time average's error
 FINER = 0.8  # times the finest size
-LEAST_RELATIVE_ERROR = 1e-3  # of a run's value, as the fit of a family has it
 MOST_STEPS = 20
 
 

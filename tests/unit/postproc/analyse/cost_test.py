@@ -27,15 +27,32 @@ class TableTest(unittest.TestCase):
         slope = 0.12 * 3 + 0.001 / 0.02
         self.assertAlmostEqual(parts.size, slope * 0.03, places=5)
         self.assertAlmostEqual(parts.packing, 0.002 / math.sqrt(2), places=9)
-        self.assertAlmostEqual(parts.domain, 0.005, places=9)
-        squares = 1e-8 + (slope * 0.03) ** 2 + 0.002**2 / 2 + 0.005**2
+        # the wider one is 5 mm below one packing and 7 mm below the other
+        self.assertAlmostEqual(parts.domain, 0.006, places=9)
+        squares = 1e-8 + (slope * 0.03) ** 2 + 0.002**2 / 2 + 0.006**2
         self.assertAlmostEqual(parts.total, math.sqrt(squares), places=5)
 
-    def test_the_domain_s_error_is_the_largest_difference_from_runs_of_the_size(self) -> None:
-        # a second run of 40 mm that the wider one happens to agree with
-        rows = [*made_runs(), row("long", "grains", 0.04, 0.12 * 1.12 - 0.005, 0.26, 1.0)]
-        parts = cost_table.families(rows)[GRAINS].components("sinkage", 0.04)
-        self.assertAlmostEqual(parts.domain, 0.005, places=9)
+    def test_the_domain_s_error_is_the_mean_difference_from_all_packings_of_the_size(self) -> None:
+        mean = 0.12 * 1.12 + 0.001  # of the two packings of 40 mm
+        wider = row("wider", "grains", 0.04, mean + 0.002, 0.26, 1.0, domain="2x2", seed="2")
+        longer = row("longer", "grains", 0.04, mean + 0.003, 0.26, 1.0, domain="3x1")
+        family = cost_table.families([*made_runs(), wider])[GRAINS]
+        self.assertAlmostEqual(family.domain_error("sinkage"), (0.006 - 0.002) / 2, places=9)
+        family = cost_table.families([*made_runs(), wider, longer])[GRAINS]
+        self.assertAlmostEqual(family.domain_error("sinkage"), 0.003, places=9)  # the largest
+
+    def test_packings_of_several_sizes_have_one_scatter(self) -> None:
+        third = row("third", "grains", 0.04, 0.12 * 1.12 + 0.004, 0.25, 1.0, seed="3")
+        other = row("other", "grains", 0.02, 0.12 * 1.06 + 0.006, 0.25, 1.0, seed="2")
+        family = cost_table.families([*made_runs(), third, other])[GRAINS]
+        squares = 2 * 0.002**2 + 2 * 0.003**2  # about the means of three and of two
+        self.assertAlmostEqual(family.packing("sinkage"), math.sqrt(squares / 3), places=9)
+
+    def test_a_run_of_the_table_comes_to_the_value_of_all_its_runs(self) -> None:
+        family = cost_table.families(made_runs())[GRAINS]
+        value, parts = family.at_size_zero("sinkage", 0.04, 0.12 * 1.12, 1e-4) or self.fail()
+        zero, error = family.reference("sinkage")
+        self.assertEqual((value, parts.parts()), (zero, [0.0, error, family.domain_error("sinkage"), 0.0]))
 
     def test_a_run_of_another_load_comes_to_size_zero_along_the_slope(self) -> None:
         family = cost_table.families(made_runs())[CONTINUUM]
@@ -94,7 +111,7 @@ class TableTest(unittest.TestCase):
         size = (0.12 * 3 + 0.001 / 0.02) * 0.02 / zero
         packing = 0.002 / math.sqrt(2) / zero
         left = math.sqrt(4.5) * packing  # open at size zero: [(X^T X)^-1]_00 of 20, 40, 40 mm
-        squares = size**2 + packing**2 + (0.005 / zero) ** 2 + left**2
+        squares = size**2 + packing**2 + (0.006 / zero) ** 2 + left**2
         self.assertAlmostEqual(errors["g0.02"], math.sqrt(squares), places=4)
         self.assertEqual({a.row.run for a in assessed if not a.pareto}, {"slow"})
         for wanted, name, reached in (

@@ -6,7 +6,7 @@ import sys
 import unittest
 
 from furrow_post.analyse.cost_table import Components
-from furrow_post.analyse.curves import pressure_at
+from furrow_post.analyse.plates import pressure_at
 from furrow_post.analyse.entry import FORMULA, LIMIT, RUN, Entry
 from furrow_post.analyse.verdict import COEFFICIENT, SINKAGE
 from furrow_post.csv_table import read_comments, read_rows

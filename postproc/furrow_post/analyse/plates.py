@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Pressure under a plate at one sinkage, with its error from runs of other sizes, packings, boxes.
+
+As of wheels (cost_table.py), on the logarithm: ln p = ln p0 + C h.
+"""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from .cost_table import Components
+from .curves import Curve
+from .entry import LIMIT, RUN, Entry
+from .size_line import fit_line, mean_shift, pooled_scatter
+from .verdict import Quantity
+
+LEAST_ERROR = 1e-3  # relative, of a pressure in a fit
+
+
+def pressure_at(sinkage: float) -> Quantity:
+    """Mean pressure of a plate at this sinkage [m], as verdicts are given on it."""
+    millimetres = f"{1e3 * sinkage:g} mm"
+    return Quantity(f"pressure_{sinkage:g}", f"pressure at {millimetres}", "kPa", 1e-3)
+
+
+class PlateFamily:
+    """ln p at one sinkage [m] of the curves of one test on one ground, the first being the base."""
+
+    def __init__(self, curves: Sequence[Curve], sinkage: float) -> None:
+        self.base = curves[0]
+        logs = ((curve, _log_at(curve, sinkage)) for curve in curves)
+        self.logs = [(curve, log) for curve, log in logs if math.isfinite(log)]
+        self.noise = {
+            id(curve): float(np.interp(sinkage, curve.x, curve.noise)) / math.exp(log)
+            for curve, log in self.logs
+        }
+
+    def of_size(self, size: float) -> list[float]:
+        """ln p of all packings of this size in the base's box."""
+        return [log for curve, log in self.in_box() if _same(curve.size, size)]
+
+    def in_box(self) -> list[tuple[Curve, float]]:
+        return [(curve, log) for curve, log in self.logs if _same(curve.box, self.base.box)]
+
+    def packing(self) -> float:
+        """Relative standard deviation of one packing; 0 of a lattice, NaN where there is one."""
+        if self.base.ground == "continuum":
+            return 0.0
+        sizes: list[float] = []
+        for curve, _ in self.in_box():
+            if not any(_same(curve.size, size) for size in sizes):
+                sizes.append(curve.size)
+        return pooled_scatter(self.of_size(size) for size in sizes)
+
+    def domain(self) -> float:
+        """Relative mean difference of wider boxes from the base's; NaN without one."""
+        wider = [(curve, log) for curve, log in self.logs if not _same(curve.box, self.base.box)]
+        return mean_shift((log, self.of_size(curve.size)) for curve, log in wider)
+
+    def entries(self, quantity: Quantity) -> list[Entry]:
+        """Of the base, and at size zero where there are runs of two sizes: there the error of the
+        line through all runs has that of noise and packings in it. Empty where the base has none.
+        """
+        log = next((log for curve, log in self.logs if curve is self.base), math.nan)
+        if not math.isfinite(log):
+            return []
+        value, packing, domain = math.exp(log), self.packing(), self.domain()
+        runs = self.in_box()
+        sizes = [curve.size for curve, _ in runs]
+        size = math.nan
+        limits = []
+        if not all(_same(size, self.base.size) for size in sizes):
+            scatter = packing if math.isfinite(packing) else 0.0
+            noise = [
+                math.hypot(max(self.noise[id(curve)], LEAST_ERROR), scatter) for curve, _ in runs
+            ]
+            fit = fit_line(sizes, [log for _, log in runs], noise)
+            size = abs(fit.slope) * self.base.size
+            zero = math.exp(fit.at_zero)
+            parts = Components(0.0, zero * fit.at_zero_error, zero * domain, 0.0)
+            limits = [Entry(quantity, self.base.label, zero, parts, LIMIT)]
+        relative = (self.noise[id(self.base)], size, domain, packing)
+        parts = Components(*(value * error for error in relative))
+        return [Entry(quantity, self.base.label, value, parts, RUN), *limits]
+
+
+def plate_entries(base: Curve, checks: Sequence[Curve], sinkage: float) -> list[Entry]:
+    """A plate's pressure at this sinkage [m], and at size zero where checks have other sizes.
+
+    checks are curves of the same test with another size (facts cell or diameter), packing or box.
+    """
+    return PlateFamily([base, *checks], sinkage).entries(pressure_at(sinkage))
+
+
+def _same(a: float, b: float) -> bool:
+    """Also where one is not known: that differs in nothing."""
+    return not abs(a - b) > 0.02 * abs(a)
+
+
+def _log_at(curve: Curve, sinkage: float) -> float:
+    """NaN beyond the curve's ends and where it carries nothing yet."""
+    y = float(np.interp(sinkage, curve.x, curve.y, left=math.nan, right=math.nan))
+    return math.log(y) if y > 0 else math.nan

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Values of runs that differ in size, packing and domain: their line to size zero, their scatter.
+
+The value at size h (edge of a cell, diameter of a grain) is taken as f0 + C h.
+"""
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+
+class Fit(NamedTuple):
+    """f = at_zero + slope h, with standard errors."""
+
+    at_zero: float
+    slope: float
+    at_zero_error: float
+    slope_error: float
+
+
+def fit_line(sizes: npt.ArrayLike, values: npt.ArrayLike, errors: npt.ArrayLike) -> Fit:
+    """By least squares, weighted with the errors (all of n) of the values, each above 0.
+
+    Where the values scatter about the line by more than their errors, that scatter counts.
+    """
+    h, f = np.asarray(sizes, float), np.asarray(values, float)
+    weight = 1.0 / np.asarray(errors, float)
+    design = np.column_stack([np.ones_like(h), h]) * weight[:, None]
+    inverse = np.linalg.inv(design.T @ design)
+    at_zero, slope = inverse @ design.T @ (f * weight)
+    spread = 1.0
+    if len(h) > 2:
+        residuals = (f - at_zero - slope * h) * weight
+        spread = max(np.sum(residuals**2) / (len(h) - 2), 1.0)
+    found = np.sqrt(spread * np.diag(inverse))
+    return Fit(float(at_zero), float(slope), float(found[0]), float(found[1]))
+
+
+def pooled_scatter(groups: Iterable[Sequence[float]]) -> float:
+    """Standard deviation of one value about the mean of its group; NaN where none has two."""
+    several = [np.asarray(group) for group in groups if len(group) > 1]
+    if not several:
+        return math.nan
+    squares = sum(float(np.sum((group - group.mean()) ** 2)) for group in several)
+    return math.sqrt(squares / sum(len(group) - 1 for group in several))
+
+
+def mean_shift(pairs: Iterable[tuple[float, Sequence[float]]]) -> float:
+    """|mean| over the pairs of how far a value is from the mean of others; NaN without pairs."""
+    shifts = [value - float(np.mean(others)) for value, others in pairs if len(others)]
+    return abs(float(np.mean(shifts))) if shifts else math.nan
