@@ -14,6 +14,7 @@ from furrow_post.study.runner import Runner
 HERE = Path(__file__).resolve().parent
 INPUTS = HERE.parent
 BASE, LAW, FLOW = "base", "law", "flow"
+SERIES = "at "  # "at load=3120"
 CHECKS = (BASE, "size", "packing", "domain")  # kinds of roles that say how sure the base is
 
 
@@ -24,18 +25,23 @@ class Planned:
     case: str
     ground: str  # continuum, grains or hybrid
     script: str
-    role: str  # base, a check of the base's error, another law, or flow
+    role: str  # base, a check of the base's error, another law, flow, or a point of a series
     run: Case
 
     @property
     def kind(self) -> str:
-        """The role without its value: base, size, packing, domain, law, flow."""
+        """The role without its value: base, size, packing, domain, law, flow, at load."""
         return self.role.partition("=")[0]
 
     @property
     def is_check(self) -> bool:
         """Of the base, which is none of itself."""
         return self.role != BASE and self.kind in CHECKS
+
+    @property
+    def is_point(self) -> bool:
+        """Of a series: as the base, but for one condition."""
+        return self.role.startswith(SERIES)
 
     @property
     def of_wheel(self) -> bool:
@@ -51,7 +57,8 @@ def plan() -> list[Planned]:
 
 def make_case(row: Mapping[str, str]) -> Case:
     """Scripts of this folder are told where it is, for what they include; scenes need not be."""
-    name = f"{row['case']}/{row['ground']}_{row['role'].replace('=', '_')}"
+    role = row["role"].replace("=", "_").replace(" ", "_")
+    name = f"{row['case']}/{row['ground']}_{role}"
     script = (HERE / f"{row['script']}.lig").resolve()
     variables = named_values(row["variables"])
     if script.parent == HERE:

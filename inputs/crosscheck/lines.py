@@ -16,8 +16,8 @@ OutputRow = dict[str, str]
 
 HEAD = (
     "# Written by run.py; SI units, uncertainties are standard deviations, their parts named",
-    "# error_*; empty: not known. place: base, or another law of the continuum; element: size of",
-    "# cells or grains; program: of the executable, SHA-256.",
+    "# error_*; empty: not known. place: base, another law of the continuum, or the condition that a",
+    "# point of a series has; element: size of cells or grains; program: of the executable, SHA-256.",
 )
 GROUNDS = ("continuum", "grains", "hybrid")
 PRESSURE = "pressure_"
@@ -27,6 +27,9 @@ ANSWERS = {
     Agreement.UNDECIDED: "cannot be told",
     Agreement.UNKNOWN: "error not known",
 }
+SERIES_HEAD = (
+    "case", "at", "continuum: mm", "grains: mm", "agree?", "continuum: c", "grains: c", "agree?",
+)
 TABLE_HEAD = ("case", "", "at", *GROUNDS, "formulas", "measured", "agree?")
 
 
@@ -80,7 +83,36 @@ def quantity_of(key: str) -> Quantity:
 
 def is_value(line: Mapping[str, str]) -> bool:
     """Whether the line has a place in the table."""
-    return line["kind"] in (RUN, LIMIT, FORMULA, MEASURED)
+    return line["kind"] in (RUN, LIMIT, FORMULA, MEASURED) and not is_point(line)
+
+
+def is_point(line: Mapping[str, str]) -> bool:
+    """Whether it is of a series."""
+    return "=" in line["place"]
+
+
+def series_value(line: Mapping[str, str], name: str) -> float | None:
+    """The value of this condition at a point of its series; None of other lines."""
+    own, _, value = line["place"].partition("=")
+    return float(value) if own == name else None
+
+
+def series_table(lines: Iterable[Mapping[str, str]]) -> list[str]:
+    """A row for each point of the series, at size zero."""
+    points: dict[tuple[str, str], list[Mapping[str, str]]] = {}
+    for line in lines:
+        if is_point(line) and line["kind"] == LIMIT:
+            points.setdefault((line["case"], line["place"]), []).append(line)
+    rows = []
+    for (case, place), group in points.items():
+        cells = [case.replace("_", " "), place.replace("=", " ")]
+        for quantity in QUANTITIES:
+            found = [entry_of(line) for line in group if line["quantity"] == quantity.key]
+            own = {entry.source: entry for entry in found}
+            cells += [own[ground].text() if ground in own else "" for ground in GROUNDS[:2]]
+            cells.append("; ".join(answers(own)))
+        rows.append(cells)
+    return markdown(SERIES_HEAD, rows)
 
 
 def table(lines: Iterable[Mapping[str, str]]) -> list[str]:

@@ -14,13 +14,16 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postproc"))
 
 from cases import Made, plan
-from lines import HEAD, OutputRow, table
+from lines import HEAD, OutputRow, series_table, table
 from plate_cases import PlateCase
-from wheel_cases import WheelCase, cited_lines
+from series import draw_series, lines_of_series
+from wheel_cases import WheelCase, cited_lines, cited_table
 
 from furrow_post.study.output import Output
 from furrow_post.study.runner import Runner
 from furrow_post.study.study import Study, run_study
+
+SERIES_TEXT = "Series, the base with one condition changed, at size zero:"
 
 
 def evaluate(runner: Runner, output: Output) -> Sequence[str]:
@@ -34,13 +37,18 @@ def evaluate(runner: Runner, output: Output) -> Sequence[str]:
             if wheels.complete:
                 lines += [*wheels.lines(), *wheels.flow(output)]
                 wheels.draw(output)
+            bases = [line for line in lines if line["case"] == name]
+            points = list(lines_of_series(made, cited_table(name) or wheels.table, bases))
+            lines += points
+            if points:
+                draw_series(name, [*bases, *points], output.path(f"{name}_series.png"))
         else:
             plates = PlateCase(name, made)
             if len(plates.bases) > 1:
                 lines += plates.lines()
                 plates.draw(output)
     output.table("results.csv", lines, HEAD)
-    output.section(table(lines))
+    output.section([*table(lines), "", SERIES_TEXT, "", *series_table(lines)])
     return []
 
 

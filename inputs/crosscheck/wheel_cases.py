@@ -130,6 +130,13 @@ class WheelCase:
         cost_table.write_table(output.path(f"{self.case}_runs.csv"), self.table, [comment])
 
 
+def cited_table(case: str) -> list[cost_table.Row]:
+    """Runs of a case that cited.csv names, of all its grounds; empty of another case."""
+    tables = {line["table"] for line in read_rows(HERE / "cited.csv") if line["case"] == case}
+    read = (cost_table.read_table(INPUTS / "costs" / f"{name}.csv") for name in sorted(tables))
+    return [row for rows, _ in read for row in rows]
+
+
 def cited_lines() -> Iterator[OutputRow]:
     """Of the cases of cited.csv, a family of a table of inputs/costs each."""
     cited = read_rows(HERE / "cited.csv")

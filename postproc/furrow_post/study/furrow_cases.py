@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Cases of the programs: a LIGGGHTS script, a laboratory test, a path of a material point."""
 
+import shlex
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -10,8 +11,8 @@ from .case import FOLDER, Case, Value
 
 
 def named_values(text: str) -> dict[str, Value]:
-    """Variables of a script from "name=value name=value", as tables of runs have them."""
-    pairs = (word.partition("=") for word in text.split())
+    """Variables of a script from "name=value name='two words'", as tables of runs have them."""
+    pairs = (word.partition("=") for word in shlex.split(text))
     return {name: value for name, _, value in pairs}
 
 
