@@ -73,16 +73,22 @@ void GrainBedCheck::start(const Body& body, const Body* terrain) {
 }
 
 void GrainBedCheck::choose_overlap_limit() {
-  if (ModelSnowBond::is_pair_style(lammps_)) {
+  if (ModelSnowBond::is_pair_style(lammps_))
     overlap_limit_ = GrainBedLimits::snow_overlap;
-    overlap_remedy_ = "the snow is crushed to ice: lower the load, or raise snowDenseStrength";
-  } else if (property_of_types(lammps_, "youngsModulus")) {
+  else if (property_of_types(lammps_, "youngsModulus"))
     overlap_limit_ = GrainBedLimits::overlap;
-    overlap_remedy_ =
-        "the grains are too soft for this load: raise youngsModulus and settle the bed again";
-  } else {
+  else
     overlap_limit_ = std::numeric_limits<double>::infinity();
-  }
+}
+
+/// Overlaps of Hertz contacts go with E^(-2/3) under one force.
+std::string GrainBedCheck::overlap_remedy(double deepest) const {
+  if (ModelSnowBond::is_pair_style(lammps_))
+    return "the snow is crushed to ice: lower the load, or raise snowDenseStrength";
+  return fmt::format(
+      "the grains are too soft for this load: make the bed with a youngsModulus {:.2g} times as "
+      "large, or by 'young auto' with a higher pressure (command bed)",
+      std::pow(deepest / overlap_limit_, 1.5));
 }
 
 void GrainBedCheck::contact(double overlap, double radius, const Vector3& point,
@@ -117,7 +123,7 @@ void GrainBedCheck::finish_step(const Surface& surface) {
     warn(warned_overlap_,
          fmt::format("a grain overlaps the body by {:.3g} of its diameter (recommended: at most "
                      "{:g}); {}",
-                     deepest, overlap_limit_, overlap_remedy_));
+                     deepest, overlap_limit_, overlap_remedy(deepest)));
   const double area = extent[0] * extent[1];
   const double force = std::abs(sum[2]);
   if (!(area > min_area * mean_diameter_ * mean_diameter_) || !(force > 0.0)) return;

@@ -41,13 +41,13 @@ class GrainBedCheck {
 
  private:
   void choose_overlap_limit();
+  std::string overlap_remedy(double deepest) const;
   void warn(bool& done, const std::string& text);
 
   LAMMPS_NS::LAMMPS& lammps_;
   std::string where_;
-  // of a grain's diameter, and why; infinite for plastic contacts, which overlap by design
+  // of a grain's diameter; infinite for plastic contacts, which overlap by design
   double overlap_limit_ = 0.0;
-  std::string overlap_remedy_;
   double mean_diameter_ = 0.0, density_ = 0.0;
   double deepest_ = 0.0;
   Vector3 force_ = Vector3::Zero(), lower_, upper_;

@@ -18,10 +18,8 @@ namespace furrow::coupling {
 
 namespace {
 
-constexpr double least_size = 2.0;  // of the box, in mean diameters
-// Of the beds that come with Furrow: the smallest diameter, and the mean volume over that of the
-// mean diameter (0.85, 1 and 1.15 of it in equal numbers).
-constexpr double smallest_grain = 0.85, mean_volume = 1.045;
+constexpr double least_size = 2.0;       // of the box, in mean diameters
+constexpr double mean_volume = 1.045;    // over that of the mean diameter, of the same beds
 constexpr double poured_share = 0.6;     // solid over volume, when nothing else is known
 constexpr double bytes_of_grain = 3000;  // with its contacts and neighbours, measured
 constexpr double linear_step_limit =

@@ -7,6 +7,10 @@
 
 namespace furrow::coupling {
 
+/// Over the mean diameter, in the beds that come with Furrow: 0.85, 1 and 1.15 of it, in equal
+/// numbers.
+inline constexpr double smallest_grain = 0.85;
+
 /// Sizes against grains, memory, and time step, as far as the parameters have the names that the
 /// beds of inputs/beds have: length, width, depth, diameter, density, bulk, step; young and
 /// poisson, or stiffness and unloading, or modulus.

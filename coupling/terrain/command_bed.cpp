@@ -17,6 +17,7 @@
 #include "coupling/liggghts/first_rank.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/signals.h"
+#include "coupling/terrain/bed_choice.h"
 #include "coupling/terrain/bed_facts.h"
 #include "coupling/terrain/bed_limits.h"
 #include "domain.h"
@@ -122,12 +123,18 @@ CommandBed::Request CommandBed::read_request(const std::vector<std::string>& wor
     throw InputError("command bed", fmt::format("has {} words", words.size()),
                      "bed <script> <name> <value> <name> <value> ...",
                      "every parameter of the bed needs a value");
+  BedWords line;
+  for (std::size_t i = 1; i < words.size(); i += 2) line.emplace_back(words[i], words[i + 1]);
+  const std::string chosen = choose_bed_values(line);
+  if (!chosen.empty() && comm->me == 0)
+    for (FILE* file : {screen, logfile})
+      if (file) fmt::print(file, "Chosen for the bed: {}\n", chosen);
   std::vector<Entry> entries = {{"script", {words[0]}}};
   std::vector<Parameter> parameters;
-  for (std::size_t i = 1; i < words.size(); i += 2) {
-    const std::string name = current_name(words[i]);
-    entries.push_back({name, {words[i + 1]}});
-    if (name != "from") parameters.push_back({name, words[i + 1], words[i]});
+  for (const auto& [written, value] : line) {
+    const std::string name = current_name(written);
+    entries.push_back({name, {value}});
+    if (name != "from") parameters.push_back({name, value, written});
   }
   BedScript script(fs::path(script_folder(*lmp)) / words[0]);
   Schema keys = schema();
