@@ -5,9 +5,9 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from furrow_post.analyse.cost_table import Components
-from furrow_post.analyse.plates import pressure_at
 from furrow_post.analyse.entry import FORMULA, LIMIT, MEASURED, RUN, Entry
 from furrow_post.analyse.judgement import judge
+from furrow_post.analyse.plates import pressure_at
 from furrow_post.analyse.verdict import COVERAGE, QUANTITIES, Agreement, Quantity
 from furrow_post.formatting import in_unit, percent
 from furrow_post.study.tables import markdown
@@ -16,8 +16,8 @@ OutputRow = dict[str, str]
 
 HEAD = (
     "# Written by run.py; SI units, uncertainties are standard deviations, their parts named",
-    "# error_*; empty: not known. place: base, another law of the continuum, or the condition that a",
-    "# point of a series has; element: size of cells or grains; program: of the executable, SHA-256.",
+    "# error_*; empty: not known. place: base, another law of the continuum, or the condition of a",
+    "# point of a series; element: size of cells or grains; program: of the executable, SHA-256.",
 )
 GROUNDS = ("continuum", "grains", "hybrid")
 PRESSURE = "pressure_"

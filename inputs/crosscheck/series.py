@@ -94,7 +94,12 @@ def draw_series(case: str, lines: Sequence[Mapping[str, str]], target: Path) -> 
     use_style()
     names = [name for name in UNITS if any(series_value(line, name) is not None for line in lines)]
     figure, panels = plt.subplots(
-        len(QUANTITIES), len(names), figsize=(11, 5), layout="constrained", squeeze=False, sharey="row"
+        len(QUANTITIES),
+        len(names),
+        figsize=(11, 5),
+        layout="constrained",
+        squeeze=False,
+        sharey="row",
     )
     letters = panel_letters()
     for row, quantity in zip(panels, QUANTITIES):
@@ -120,7 +125,10 @@ def draw_series(case: str, lines: Sequence[Mapping[str, str]], target: Path) -> 
 
 
 def curve_of(
-    lines: Sequence[Mapping[str, str]], which: tuple[str, str, str], name: str, at_base: float | None
+    lines: Sequence[Mapping[str, str]],
+    which: tuple[str, str, str],
+    name: str,
+    at_base: float | None,
 ) -> dict[float, Entry]:
     """Points over a condition, the base among them where it has a value of it.
 

@@ -4,19 +4,22 @@
 import math
 import sys
 import unittest
+from dataclasses import replace
 
 from furrow_post.analyse.cost_table import Components
-from furrow_post.analyse.plates import pressure_at
 from furrow_post.analyse.entry import FORMULA, LIMIT, RUN, Entry
+from furrow_post.analyse.plates import pressure_at
 from furrow_post.analyse.verdict import COEFFICIENT, SINKAGE
 from furrow_post.csv_table import read_comments, read_rows
 from support.command import SOURCE
+from support.tables import row
 
 FOLDER = SOURCE / "inputs" / "crosscheck"
 sys.path.insert(0, str(FOLDER))
 
 import cases
 import lines
+import series
 import wheel_cases
 
 
@@ -86,6 +89,59 @@ class LinesTest(unittest.TestCase):
         )
 
 
+class SeriesTest(unittest.TestCase):
+    """A point of a series is moved to size zero as its twin among the base's runs is."""
+
+    parts = Components(0.0, 0.002, 0.001, 0.0)
+    twin = row("base", "grains", 0.04, 0.08, 0.20, 10.0, error=0.001)
+    point = row("point", "grains", 0.0401, 0.12, 0.26, 10.0, error=0.003)
+
+    def test_sinkages_go_by_the_ratio(self) -> None:
+        zero = series.moved(
+            Entry(SINKAGE, "grains", 0.1, self.parts, LIMIT), self.point, self.twin, 0.004
+        )
+        self.assertAlmostEqual(zero.value, 0.1 * 1.5)
+        time = 0.15 * math.hypot(0.003 / 0.12, 0.001 / 0.08)
+        for found, expected in zip(zero.parts.parts(), (time, 0.003, 0.0015, 0.006)):
+            self.assertAlmostEqual(found, expected)
+
+    def test_coefficients_go_by_the_difference(self) -> None:
+        zero = series.moved(
+            Entry(COEFFICIENT, "grains", 0.15, self.parts, LIMIT), self.point, self.twin, 0.004
+        )
+        self.assertAlmostEqual(zero.value, 0.15 + 0.06)
+        time = math.hypot(0.003, 0.001)
+        for found, expected in zip(zero.parts.parts(), (time, 0.002, 0.001, 0.004)):
+            self.assertAlmostEqual(found, expected)
+
+    def test_the_twin_has_the_point_s_size_packing_and_width(self) -> None:
+        others = [
+            row("coarse", "grains", 0.05, 0.1, 0.2, 99.0),
+            row("packing", "grains", 0.04, 0.1, 0.2, 99.0, seed="2"),
+            row("wide", "grains", 0.04, 0.1, 0.2, 99.0, domain="2x2"),
+            row("short", "grains", 0.04, 0.1, 0.2, 1.0, domain="1.5x1"),
+        ]
+        self.assertIs(series.twin_of(self.point, [*others, self.twin]), self.twin)
+
+    def test_the_table_has_a_row_for_each_point(self) -> None:
+        made = [
+            lines.line_of("wheel_on_sand", place, replace(entry(ground, z, 0.002), kind=kind), 0.04)
+            for place, kind in (("base", LIMIT), ("load=1560", RUN), ("load=1560", LIMIT))
+            for ground, z in (("continuum", 0.1), ("grains", 0.102))
+        ]
+        made += [
+            {**line, "quantity": COEFFICIENT.key} for line in made if line["place"] == "load=1560"
+        ]
+        self.assertEqual(
+            lines.series_table(made)[2:],
+            [
+                "| wheel on sand | load 1560 | 100 ± 2 | 102 ± 2 | yes, +2 %, 6 % allowed "
+                "| 0.100 ± 0.002 | 0.102 ± 0.002 | yes, +2 %, 6 % allowed |"
+            ],
+        )
+        self.assertEqual(len(lines.table(made)), 2 + 1)  # the base alone
+
+
 class PlanTest(unittest.TestCase):
     def test_lines_of_cases_csv_become_runs(self) -> None:
         plans = {plan.run.name: plan for plan in cases.plan()}
@@ -133,14 +189,16 @@ class PageTest(unittest.TestCase):
         wanted = {(plan.case, plan.ground) for plan in cases.plan()}
         cited = {(row["case"], row["ground"]) for row in read_rows(FOLDER / "cited.csv")}
         self.assertEqual(there, wanted | cited)
-        for hybrid_wheel in (False, True):  # a later program made the wheel on the hybrid
-            programs = {
-                row["program"]
-                for row in runs
-                if row["program"]
-                and hybrid_wheel == ((row["case"], row["source"]) == ("wheel_on_sand", "hybrid"))
-            }
-            self.assertEqual(len(programs), 1)
+        programs = {row["program"] for row in runs if row["program"]}
+        self.assertEqual(len(programs), 1)
+
+    def test_the_page_s_series_are_those_of_results_csv(self) -> None:
+        page = (FOLDER / "README.md").read_text(encoding="utf-8").splitlines()
+        table = lines.series_table(self.rows)
+        points = {plan.role for plan in cases.plan() if plan.is_point}
+        self.assertGreater(len(table), 2 + len(points))  # some are of two cases
+        start = page.index(table[0])
+        self.assertEqual(page[start : start + len(table)], table)
 
 
 if __name__ == "__main__":
