@@ -32,14 +32,17 @@ BASES = {  # conditions of the bases, SI; that on snow is towed, and finds its s
 def lines_of_series(
     made: Made, table: Sequence[Row], bases: Sequence[Mapping[str, str]]
 ) -> Iterator[OutputRow]:
-    """At the points' size and at size zero. table: runs of the base; bases: its lines."""
+    """At the points' size and at size zero, where the base is known.
+
+    table: runs of the base; bases: its lines
+    """
     own = {
         (line["kind"], line["source"], line["quantity"]): entry_of(line)
         for line in bases
         if line["place"] == BASE
     }
     for planned in made.plans:
-        if not planned.is_point:
+        if not planned.is_point or (LIMIT, planned.ground, SINKAGE.key) not in own:
             continue
         row = row_of(read_wheel_run(made.folder(planned), planned.ground))
         twin = twin_of(row, table)
