@@ -44,7 +44,8 @@ class Body {
   virtual void advance(double dt) = 0;
   /// Called around the steps that make up an interval of the system: what a body reports of "the
   /// last step" is then the mean over the interval.
-  virtual void begin_interval() {}
+  /// @param touched contacts look at surface() in every step; else it need not follow until the end
+  virtual void begin_interval(bool /*touched*/) {}
   virtual void end_interval() {}
   virtual Surface& surface() = 0;
   const Surface& surface() const { return const_cast<Body*>(this)->surface(); }

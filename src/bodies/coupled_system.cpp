@@ -68,7 +68,7 @@ void CoupledSystem::begin_interval(int sub_steps) {
     m.external_force = f;
     f *= sub_steps;
     if (!contacts_.empty()) m.contact_force.setZero(3, f.cols());
-    m.body->begin_interval();
+    m.body->begin_interval(!contacts_.empty());
   }
   published_ = false;
 }

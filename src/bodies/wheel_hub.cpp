@@ -117,7 +117,7 @@ Matrix3 WheelHub::attitude() const {
          Eigen::AngleAxisd(angles_[0], Vector3::UnitY()).toRotationMatrix();
 }
 
-void WheelHub::begin_interval() {
+void WheelHub::begin_interval(bool /*touched*/) {
   interval_ = 0.0;
   constraint_impulse_.values.fill(0.0);
 }

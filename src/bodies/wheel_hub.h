@@ -105,7 +105,7 @@ class WheelHub : public Body {
   double constraint(Coordinate coordinate) const { return constraint_[coordinate]; }
   /// [J] taken out by the vertical damping since the start
   double damping_loss() const { return dissipated_; }
-  void begin_interval() override;
+  void begin_interval(bool touched) override;
   void end_interval() override;
 
   /// [m] without load, grousers or ground: the rim speed's radius

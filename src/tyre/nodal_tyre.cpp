@@ -128,6 +128,17 @@ void NodalTyre::compute_contact() {
   nodes_.force += contact_;
 }
 
+void NodalTyre::begin_interval(bool touched) {
+  WheelHub::begin_interval(touched);
+  surface_follows_ = touched;
+}
+
+void NodalTyre::end_interval() {
+  WheelHub::end_interval();
+  if (!surface_follows_) place_surface();
+  surface_follows_ = true;
+}
+
 /// What a deformed tyre is refused for is seldom what is wrong.
 void NodalTyre::advance(double dt) try { step(dt); } catch (const StateError& problem) {
   throw StateError(
@@ -163,8 +174,9 @@ void NodalTyre::step(double dt) {
   nodes_.drift(dt);
   place_beads();
   count_stored_energy();
-  place_surface();
-  if (!nodes_.x.allFinite()) surface().check_finite("tyre");
+  const bool finite = nodes_.x.allFinite();
+  if (surface_follows_ || !finite) place_surface();
+  if (!finite) surface().check_finite("tyre");
 }
 
 /// The deformed shape moves along; the stored energy stays.

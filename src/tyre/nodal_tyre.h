@@ -28,6 +28,8 @@ class NodalTyre : public Tyre {
   void advance(double dt) override;
   EnergyBudget energy_budget() const override;
   bool half_model() const override { return tread_grid().half; }
+  void begin_interval(bool touched) override;
+  void end_interval() override;
 
   // WheelHub
   double lowest_point() const override;  ///< of the undeformed tread about the present axle
@@ -107,6 +109,8 @@ class NodalTyre : public Tyre {
   double pressure_;     // [Pa]
   RimDamping damping_;
   std::vector<Eigen::Index> beads_;
+
+  bool surface_follows_ = true;  // in every step
 
   // Of the present step, of the whole tyre
   double elastic_ = 0.0;    // [J]
