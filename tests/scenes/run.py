@@ -223,7 +223,7 @@ def laboratory(script, results):
         words = [head.script.stem, *head.quick]
     else:
         words = [*head.quick, "--ground", head.script.stem]
-    run([sys.executable, LABORATORY / "run.py", *words, "-o", folder / BLANKS], folder=PROJECT,
+    run([sys.executable, LABORATORY / "run.py", *words, "-o", folder / BLANKS],
         FURROW_CACHE=str(folder / "cache"))
     quantities = json.loads((folder / BLANKS / "laboratory.json").read_text())["quantities"]
     head.check({name.replace("_", " "): (quantity["value"], quantity["unit"])
