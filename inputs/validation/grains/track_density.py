@@ -24,7 +24,7 @@ from furrow_post.read.wheel_run import WheelRun, read_wheel_run
 
 BEHIND = (-1.3, -0.6)  # [radii] from the axle: rolled over, as in furrow-post compare
 SHOULDER = 0.05  # [m] outwards of the wheel's side
-AHEAD = (0.2, 0.5)  # [m] from the axle: where a bow wave would be
+AHEAD = (0.3, 0.6)  # [m] from the axle: before the contact begins, where a bow wave would be
 FAR, FAR_BESIDE = (0.75, 0.95), (0.0, 0.2)  # [m] from the axle, of |y|: undisturbed
 
 _AXIS = np.linspace(-0.8, 0.8, 5)
