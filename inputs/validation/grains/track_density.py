@@ -3,7 +3,7 @@
 """Snow of clusters behind a wheel and ahead of it: density under the track and beside it, how much
 is left there, and the surface ahead. Density is mass over volume between floor and surface. The
 surface is the mean of the highest tops in squares of two diameters, less what that is above the
-level of the undisturbed bed far ahead."""
+level of the undisturbed bed."""
 
 import argparse
 import sys
@@ -24,8 +24,8 @@ from furrow_post.read.wheel_run import WheelRun, read_wheel_run
 
 BEHIND = (-1.3, -0.6)  # [radii] from the axle: rolled over, as in furrow-post compare
 SHOULDER = 0.05  # [m] outwards of the wheel's side
-AHEAD = (0.3, 0.6)  # [m] from the axle: before the contact begins, where a bow wave would be
-FAR, FAR_BESIDE = (0.75, 0.95), (0.0, 0.2)  # [m] from the axle, of |y|: undisturbed
+AHEAD = (0.4, 0.8)  # [m] from the axle: where a bow wave would be
+EVERYWHERE = (-np.inf, np.inf)
 
 _AXIS = np.linspace(-0.8, 0.8, 5)
 _LATTICE = np.stack(np.meshgrid(_AXIS, _AXIS, _AXIS), axis=-1).reshape(-1, 3)
@@ -39,10 +39,12 @@ class Ground:
         points = ground_points(run)
         self.x, self.size = points.x, points.size
         self.floor = run.floor - run.ground_level
-        self.rough = self.tops(FAR, FAR_BESIDE) - run.number("depth")  # [m] tops over the level
         reach = 0.5 * self.size[:, None, None] * IN_SPHERE
         self.parts: Floats = (self.x[:, None, :] + reach).reshape(-1, 3)
         self.part_mass = np.repeat(points.mass / len(IN_SPHERE), len(IN_SPHERE))
+        before = run.results.grains("reference")
+        tops = _tops(before.x, 2 * before.radius, run.floor, EVERYWHERE, (0.0, np.inf))
+        self.rough = tops - run.number("depth")  # [m] of tops over the level
 
     def mass(self, along: Interval, beside: Interval) -> float:
         """Above the floor on both sides of the wheel's middle plane [kg/m2]. beside: of |y| [m]"""
@@ -51,21 +53,20 @@ class Ground:
         return float(self.part_mass[inside].sum()) / area
 
     def surface(self, along: Interval, beside: Interval) -> float:
-        """Above the floor [m]."""
-        return self.tops(along, beside) - self.rough
+        """Above the floor [m]. @raises ResultsError without clusters"""
+        return _tops(self.x, self.size, self.floor, along, beside) - self.rough
 
-    def tops(self, along: Interval, beside: Interval) -> float:
-        """Mean of the highest in each square above the floor [m]. @raises ResultsError of none"""
-        square = 2 * np.median(self.size)
-        tops: dict[tuple[int, int], float] = {}
-        for i in np.flatnonzero(_inside(self.x, along, beside) & (self.x[:, 2] > self.floor)):
-            place = (int(self.x[i, 0] // square), int(self.x[i, 1] // square))
-            tops[place] = max(tops.get(place, 0.0), self.x[i, 2] + self.size[i] / 2 - self.floor)
-        if not tops:
-            raise ResultsError(
-                f"no clusters {along[0]:.2f} to {along[1]:.2f} m from the axle; roll farther"
-            )
-        return float(np.mean(list(tops.values())))
+
+def _tops(x: Floats, size: Floats, floor: float, along: Interval, beside: Interval) -> float:
+    """Mean of the highest in each square, above the floor [m]. @raises ResultsError of none"""
+    square = 2 * np.median(size)
+    tops: dict[tuple[int, int], float] = {}
+    for i in np.flatnonzero(_inside(x, along, beside) & (x[:, 2] > floor)):
+        place = (int(x[i, 0] // square), int(x[i, 1] // square))
+        tops[place] = max(tops.get(place, 0.0), x[i, 2] + size[i] / 2 - floor)
+    if not tops:
+        raise ResultsError(f"no clusters {along[0]:.2f} to {along[1]:.2f} m from the axle")
+    return float(np.mean(list(tops.values())))
 
 
 def _inside(x: Floats, along: Interval, beside: Interval) -> Booleans:
@@ -81,6 +82,8 @@ def report(folder: Path) -> str:
     run = read_wheel_run(folder, folder.name)
     if run.ground != "grains":
         raise ResultsError(f"{folder}: its ground is no grains ({run.ground})")
+    if not np.isfinite(run.number("density")):
+        raise ResultsError(f"{folder}: its bed did not measure its density")
     ground, side = Ground(run), 0.5 * run.number("wheel_width")
     behind = (BEHIND[0] * run.radius, BEHIND[1] * run.radius)
     before = run.number("density") * run.number("depth")

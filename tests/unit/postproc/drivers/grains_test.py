@@ -77,18 +77,24 @@ def rolled_over(x: Floats) -> Floats:
 class TrackTest(unittest.TestCase):
     """A bed on a frozen layer, of which a wheel leaves half of the height."""
 
-    def report(self, ground: str = "grains") -> str:
+    def report(self, ground: str = "grains", bulk: float = BULK) -> str:
         axes = [np.arange(low + SIZE / 2, high, SIZE) for low, high in ((-1, 1), (-0.3, 0.3))]
         heights = np.arange(-SIZE / 2, DEPTH, SIZE)  # the lowest: frozen to the ground
         x = np.stack(np.meshgrid(*axes, heights, indexing="ij"), axis=-1).reshape(-1, 3)
+        before = SimpleNamespace(x=x, radius=np.full(len(x), SIZE / 2))
         x = rolled_over(x) - [0, 0, DEPTH]
         clusters = np.ones(len(x))
         points = GroundPoints(
             x, BULK * SIZE**3 * clusters, np.pi / 6 * SIZE**3 * clusters, SIZE * clusters, True
         )
-        numbers = {"density": BULK, "depth": DEPTH, "wheel_width": 2 * SIDE}
+        numbers = {"density": bulk, "depth": DEPTH, "wheel_width": 2 * SIDE}
         run = SimpleNamespace(
-            ground=ground, floor=0.0, ground_level=DEPTH, radius=0.4, number=numbers.__getitem__
+            ground=ground,
+            floor=0.0,
+            ground_level=DEPTH,
+            radius=0.4,
+            number=numbers.__getitem__,
+            results=SimpleNamespace(grains=lambda time: before),
         )
         with (
             patch.object(track_density, "read_wheel_run", return_value=run),
@@ -103,11 +109,13 @@ class TrackTest(unittest.TestCase):
         self.assertAlmostEqual(height, 0.5e3 * DEPTH, delta=0.5e3 * SIZE / 2)
         self.assertAlmostEqual(left, 1.0, delta=0.05)
         self.assertIn(" 200 kg/m3, 200 mm high, 1.00 of the mass before", beside)
-        self.assertIn("ahead   +0 mm risen", ahead)
+        self.assertRegex(ahead, "ahead +[+-]0 mm risen")
 
-    def test_refuses_a_continuum(self) -> None:
+    def test_refuses_what_has_no_density_of_clusters(self) -> None:
         with self.assertRaisesRegex(ResultsError, "its ground is no grains"):
             self.report("continuum")
+        with self.assertRaisesRegex(ResultsError, "did not measure its density"):
+            self.report(bulk=math.nan)
 
 
 if __name__ == "__main__":
