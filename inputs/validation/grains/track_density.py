@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Density under the track of a wheel on clusters: mass over volume below the rut's surface, behind
-the wheel."""
+"""Snow of clusters behind a wheel and ahead of it: density under the track and beside it, how much
+is left there, and the surface ahead. Density is mass over volume between floor and surface. The
+surface is the mean of the highest tops in squares of two diameters, less what that is above the
+level of the undisturbed bed."""
 
 import argparse
 import sys
@@ -13,55 +15,98 @@ import furrow_post  # first: says which of the next ones are missing
 
 import numpy as np
 
-from furrow_post.arguments import path, positive
+from furrow_post.analyse.density import Interval, ground_points
+from furrow_post.arguments import path
+from furrow_post.arrays import Booleans, Floats
 from furrow_post.errors import ResultsError
 from furrow_post.program import run_program
-from furrow_post.read.results import Results
+from furrow_post.read.wheel_run import WheelRun, read_wheel_run
 
-HALF_WIDTH = 0.09  # [m] the middle two thirds of a wheel 0.272 m wide
-BEHIND = (-0.50, -0.15)  # [m] from the axle: rolled over, and away from the start
+BEHIND = (-1.3, -0.6)  # [radii] from the axle: rolled over, as in furrow-post compare
+SHOULDER = 0.05  # [m] outwards of the wheel's side
+AHEAD = (0.4, 0.8)  # [m] from the axle: where a bow wave would be
+EVERYWHERE = (-np.inf, np.inf)
+
+_AXIS = np.linspace(-0.8, 0.8, 5)
+_LATTICE = np.stack(np.meshgrid(_AXIS, _AXIS, _AXIS), axis=-1).reshape(-1, 3)
+IN_SPHERE = _LATTICE[np.linalg.norm(_LATTICE, axis=1) < 1]  # stand for a cluster's volume
 
 
-def report(folder: Path, cluster_density: float) -> str:
-    """Two lines. cluster_density [kg/m3]; @raises ResultsError without grains or wheel"""
-    results = Results(folder)
-    grains, surface = results.grains("final"), results.surface()
-    if surface is None:
-        raise ResultsError(f"{results.file}: has no surface of a wheel")
-    axle = surface.x[:, 0].mean()
-    x, y, z = grains.x.T
-    low, high = axle + BEHIND[0], axle + BEHIND[1]
-    # below z = 0 is what a bed froze to its ground
-    inside = (abs(y) < HALF_WIDTH) & (x > low) & (x < high) & (z > 0)
-    # Surface: mean of the highest cluster's top in squares of two diameters
-    size = 4 * np.median(grains.radius)
+class Ground:
+    """The clusters at the end of a run, in the wheel's coordinates."""
+
+    def __init__(self, run: WheelRun) -> None:
+        points = ground_points(run)
+        self.x, self.size = points.x, points.size
+        self.floor = run.floor - run.ground_level
+        reach = 0.5 * self.size[:, None, None] * IN_SPHERE
+        self.parts: Floats = (self.x[:, None, :] + reach).reshape(-1, 3)
+        self.part_mass = np.repeat(points.mass / len(IN_SPHERE), len(IN_SPHERE))
+        before = run.results.grains("reference")
+        tops = _tops(before.x, 2 * before.radius, run.floor, EVERYWHERE, (0.0, np.inf))
+        self.rough = tops - run.number("depth")  # [m] of tops over the level
+
+    def mass(self, along: Interval, beside: Interval) -> float:
+        """Above the floor on both sides of the wheel's middle plane [kg/m2]. beside: of |y| [m]"""
+        inside = _inside(self.parts, along, beside) & (self.parts[:, 2] > self.floor)
+        area = 2 * (beside[1] - beside[0]) * (along[1] - along[0])
+        return float(self.part_mass[inside].sum()) / area
+
+    def surface(self, along: Interval, beside: Interval) -> float:
+        """Above the floor [m]. @raises ResultsError without clusters"""
+        return _tops(self.x, self.size, self.floor, along, beside) - self.rough
+
+
+def _tops(x: Floats, size: Floats, floor: float, along: Interval, beside: Interval) -> float:
+    """Mean of the highest in each square, above the floor [m]. @raises ResultsError of none"""
+    square = 2 * np.median(size)
     tops: dict[tuple[int, int], float] = {}
-    for i in np.flatnonzero(inside):
-        square = (int((x[i] - low) / size), int((y[i] + HALF_WIDTH) / size))
-        tops[square] = max(tops.get(square, 0.0), float(z[i] + grains.radius[i]))
+    for i in np.flatnonzero(_inside(x, along, beside) & (x[:, 2] > floor)):
+        place = (int(x[i, 0] // square), int(x[i, 1] // square))
+        tops[place] = max(tops.get(place, 0.0), x[i, 2] + size[i] / 2 - floor)
     if not tops:
-        raise ResultsError(
-            f"{results.file}: has no grains {-BEHIND[1]:g} to {-BEHIND[0]:g} m behind the wheel; "
-            "roll farther"
-        )
-    height = float(np.mean(list(tops.values())))
-    mass = cluster_density * (4 / 3 * np.pi * grains.radius**3)[inside].sum()
-    area = (high - low) * 2 * HALF_WIDTH
-    level = grains.bed_level
-    return (
-        f"surface of the track {1e3 * height:.0f} mm above the floor "
-        f"(bed level {1e3 * level:.0f} mm)\n"
-        f"density under the track {mass / (area * height):.0f} kg/m3; "
-        f"over the bed's level as it was: {mass / (area * level):.0f}"
+        raise ResultsError(f"no clusters {along[0]:.2f} to {along[1]:.2f} m from the axle")
+    return float(np.mean(list(tops.values())))
+
+
+def _inside(x: Floats, along: Interval, beside: Interval) -> Booleans:
+    across = np.abs(x[:, 1])
+    inside: Booleans = (
+        (x[:, 0] > along[0]) & (x[:, 0] < along[1]) & (across >= beside[0]) & (across < beside[1])
     )
+    return inside
+
+
+def report(folder: Path) -> str:
+    """A line for each place. @raises ResultsError without grains or wheel"""
+    run = read_wheel_run(folder, folder.name)
+    if run.ground != "grains":
+        raise ResultsError(f"{folder}: its ground is no grains ({run.ground})")
+    if not np.isfinite(run.number("density")):
+        raise ResultsError(f"{folder}: its bed did not measure its density")
+    ground, side = Ground(run), 0.5 * run.number("wheel_width")
+    behind = (BEHIND[0] * run.radius, BEHIND[1] * run.radius)
+    before = run.number("density") * run.number("depth")
+    lines = []
+    for name, beside in (
+        ("middle half of the track", (0.0, 0.5 * side)),
+        (f"{100 * SHOULDER:.0f} cm beside it", (side, side + SHOULDER)),
+    ):
+        mass, height = ground.mass(behind, beside), ground.surface(behind, beside)
+        lines.append(
+            f"{name:25} {mass / height:4.0f} kg/m3, {1e3 * height:3.0f} mm high, "
+            f"{mass / before:.2f} of the mass before"
+        )
+    risen = ground.surface(AHEAD, (0.0, side)) - run.number("depth")
+    lines.append(f"surface {AHEAD[0]:g} to {AHEAD[1]:g} m ahead   {1e3 * risen:+.0f} mm risen")
+    return "\n".join(lines)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("results", type=path, help="results folder of the run")
-    parser.add_argument("density", type=positive, help="of a cluster [kg/m3]")
     parsed = parser.parse_args()
-    print(report(parsed.results, parsed.density))
+    print(report(parsed.results))
 
 
 if __name__ == "__main__":

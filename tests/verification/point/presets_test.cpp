@@ -104,6 +104,21 @@ TEST(Presets, DrySandFollowsTheOedometerOfItsGrains) {
   }
 }
 
+/// The curve that the clusters of the ground snow_bonded_field were calibrated on is this law's.
+TEST(Presets, FieldSnowIsTheCurveOfItsGrains) {
+  const CsvTable curve = CsvTable::read(inputs + "/validation/grains/field_snow_oedometer.csv");
+  const std::vector<double> rho = curve.numbers("rho_kgm3");
+  ASSERT_EQ(rho.size(), 10u);
+  const auto snow = file_of("field_snow").make();
+  const PointHistory history = oedometer(*snow, curve.numbers("sigma1_Pa"));
+  for (std::size_t i = 0; i < rho.size(); ++i) {
+    const VectorX& state = history.records[200 * (i + 1)].state;
+    const Vector6 stress = stress_of(state);
+    EXPECT_NEAR(snow->current_density(state), rho[i], 0.1) << i;
+    EXPECT_NEAR(stress[0] / stress[2], 0.128, 0.01) << i;  // K0
+  }
+}
+
 TEST(Presets, SnowAsPrintedIsTRTable3) {
   const MaterialOptions snow = options_of("fresh_snow_as_printed");
   const CsvTable table = reference("snow_tr_table3");
