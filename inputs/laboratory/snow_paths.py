@@ -17,6 +17,7 @@ from furrow_post.study.launch import Tools
 
 TENSION_STRAIN = 0.03  # in which every law here has its tensile strength
 REBOUND = 0.1  # of strain when compacted snow is released, at most
+SHEAR_STRAIN = 0.2  # up to which shear is compared
 
 Columns = dict[str, Floats]
 Evaluation = tuple[str, Callable[[Columns, Row], float]]  # a path, and a row's value on it
@@ -100,14 +101,32 @@ def _unconfined(compaction: float, _: float, __: Sequence[Row]) -> Evaluation:
     return _after_compaction(compaction, -STRAINS[-1] - REBOUND), value
 
 
+def _shear(compaction: float, normal: float, _: Sequence[Row]) -> Evaluation:
+    """Confined compression, release, the normal stress, then shear of level planes under it, all
+    between sides that do not move."""
+    before = f"{{strain_zz: {-compaction:.6g}}}, {{stress_zz: 0}}, " if compaction else ""
+    loaded = f"{{stress_zz: {-normal:.6g}}}"
+    rows = f"{before}{loaded}, {{strain_xz: {SHEAR_STRAIN:g}}}"
+
+    def value(columns: Columns, row: Row) -> float:
+        begins = int(np.flatnonzero(columns["segment"] < columns["segment"][-1])[-1])
+        if row.quantity == "density":
+            return float(columns["density"][begins])
+        return float(np.max(np.abs(columns["stress_xz"][begins:])))
+
+    return f"{{type: table, motion: shear, steps: 400, rows: [{rows}]}}", value
+
+
 def _triaxial(_: float, confinement: float, __: Sequence[Row]) -> Evaluation:
     strain = f"axial_strain: [{TRIAXIAL_STRAIN:g}]"
     path = f"{{type: triaxial, confinement: {confinement:g}, {strain}, steps: 400}}"
 
     def value(columns: Columns, row: Row) -> float:
-        axial, _, stress = _last(columns)
+        axial, lateral, stress = _last(columns)
         if row.quantity == "deviator":
             return float(np.interp(row.level, axial, stress)) - confinement
+        if row.quantity == "lateral_ratio":
+            return float(-np.interp(row.level, axial, lateral) / row.level)
         return float(np.interp(row.level, axial, columns["density"][-len(axial) :]))
 
     return path, value
@@ -117,6 +136,7 @@ PATHS: dict[str, Callable[[float, float, Sequence[Row]], Evaluation]] = {
     "oedometer": _oedometer,
     "tension": _tension,
     "unconfined": _unconfined,
+    "shear": _shear,
     "triaxial": _triaxial,
 }
 

@@ -70,6 +70,11 @@ class RecordTest(WithFolder):
             rows = cell_rows(strain, triaxial_stress(0.0, -pull))
             facts = "test tension ground made compaction 0"
             tests.append(write_test(self.folder / f"t{packing}", facts, rows))
+            still = cell_rows(np.zeros((400, 3)), triaxial_stress(0.0, np.full(400, 1e3)), 300.0)
+            tau = np.append(0.0, 6e3 * strength * np.minimum(np.linspace(0, 5, 400), 1))
+            rows = np.column_stack((still[:, :8], np.linspace(0, 0.01, 401), tau))
+            facts = "test shear ground made compaction 0.4 confinement 1000"
+            tests.append(write_test(self.folder / f"s{packing}", facts, rows))
         rows_of = record_of(LaboratoryTest(test) for test in tests)
         write_record(self.folder / "record.csv", rows_of)
         found = {row.place: row for row in read_record(self.folder / "record.csv")}
@@ -79,6 +84,8 @@ class RecordTest(WithFolder):
             Place("unconfined", 0.7, 0, 0.1, "stress"): (5.25e3, 500 / np.sqrt(2)),
             Place("tension", 0, 0, 0, "strength"): (4.2e3, 400 / np.sqrt(2)),
             Place("tension", 0, 0, 0, "modulus"): (1e7, 0.0),
+            Place("shear", 0.4, 1e3, 0, "strength"): (6.3e3, 600 / np.sqrt(2)),
+            Place("shear", 0.4, 1e3, 0, "density"): (300.0, 0.0),
         }
         for place, (value, scatter) in expected.items():
             self.assertEqual(found[place].packings, 2)
@@ -90,8 +97,8 @@ class RecordTest(WithFolder):
 
     def test_refusals(self) -> None:
         rows = np.ones((20, 9))
-        sand = write_test(self.folder / "s", "test shear ground made", rows)
-        with self.assertRaisesRegex(ResultsError, "is a test 'shear'; name results of oedometer"):
+        sand = write_test(self.folder / "s", "test plate ground made", rows)
+        with self.assertRaisesRegex(ResultsError, "is a test 'plate'; name results of oedometer"):
             record_of([LaboratoryTest(sand)])
         with self.assertRaisesRegex(ResultsError, "name results of that test too"):
             record_of([])
@@ -122,6 +129,20 @@ class FitTest(WithFolder):
         for density, strength in found.table:
             made = np.interp(np.log(density / 200), STRAINS, np.log([p for _, p in TABLE]))
             self.assertAlmostEqual(np.log(strength), made, delta=0.03)
+
+    def test_shear_of_a_law_in_closed_form(self) -> None:
+        """Shear of Cam clay between sides that do not move comes to flow without lateral strain:
+        df/d(sigma_xx) = 0 with sigma_zz given, on q^2 (1 + 2 beta) = M^2 (p + beta p0)(p0 - p)."""
+        loads = (1.0, 300.0)
+        rows = [Row("shear", 0.0, load, 0.0, "strength", 0.0, 0.0, 1) for load in loads]
+        values = predicted(MADE.sections(), rows, self.points())
+        (M, beta), p0 = MADE.shape, TABLE[0][1]
+        for row in rows:
+            side = M**2 * ((1 - beta) * p0 - 2 * row.confinement) / (9 * (1 + 2 * beta) + 4 * M**2)
+            p = row.confinement + 2 * side  # side: deviatoric stress along x and y
+            q2 = M**2 * (p + beta * p0) * (p0 - p) / (1 + 2 * beta)
+            tau = float(np.sqrt(q2 / 3 - 3 * side**2))
+            self.assertAlmostEqual(values[row.place] / tau, 1.0, delta=2e-3)
 
     def test_preset_is_that_of_its_record(self) -> None:
         record = read_record(RECORD)
