@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """inputs/laboratory/identify_snow.py: what it reads from curves, that it finds the law a record was
-made with, and that the preset is what it makes of its record."""
+made with, and that the preset is what it makes of its record; snow_strength.py: what it draws."""
 
 import re
 import sys
@@ -20,6 +20,7 @@ from support.laboratory import cell_rows, triaxial_stress, write_test
 sys.path.insert(0, str(SOURCE / "inputs" / "laboratory"))
 
 import identify_snow
+import snow_strength
 from snow_laws import LAWS, Elastic, Material, fit, judged
 from snow_paths import Points, predicted
 from snow_record import Place, Row, read_record, record_of, write_record
@@ -35,6 +36,14 @@ NUMBER = r"(?<![\w.])-?\d+\.?\d*(?:e[+-]?\d+)?"
 STRAINS = np.array([0.0, 0.15, 0.3, 0.45, 0.6])
 TABLE = [(200 * float(np.exp(e)), 1e3 * float(np.exp(e / 0.15))) for e in STRAINS]
 MADE = Material(LAWS["cam_clay"], (3.0, 0.25), Elastic(2e7, 0.0), 200.0, TABLE)
+
+
+def shear_strength(M: float, beta: float, p0: float, load: float) -> float:
+    """Of Cam clay between sides that do not move: stress tau that flows without lateral strain."""
+    side = M**2 * ((1 - beta) * p0 - 2 * load) / (9 * (1 + 2 * beta) + 4 * M**2)
+    p = load + 2 * side  # side: deviatoric stress along x and y
+    q2 = M**2 * (p + beta * p0) * (p0 - p) / (1 + 2 * beta)
+    return float(np.sqrt(q2 / 3 - 3 * side**2))
 
 
 class WithFolder(unittest.TestCase):
@@ -131,18 +140,33 @@ class FitTest(WithFolder):
             self.assertAlmostEqual(np.log(strength), made, delta=0.03)
 
     def test_shear_of_a_law_in_closed_form(self) -> None:
-        """Shear of Cam clay between sides that do not move comes to flow without lateral strain:
-        df/d(sigma_xx) = 0 with sigma_zz given, on q^2 (1 + 2 beta) = M^2 (p + beta p0)(p0 - p)."""
+        """It comes to flow without lateral strain: df/d(sigma_xx) = 0 with sigma_zz given, on
+        q^2 (1 + 2 beta) = M^2 (p + beta p0)(p0 - p)."""
         loads = (1.0, 300.0)
         rows = [Row("shear", 0.0, load, 0.0, "strength", 0.0, 0.0, 1) for load in loads]
         values = predicted(MADE.sections(), rows, self.points())
         (M, beta), p0 = MADE.shape, TABLE[0][1]
         for row in rows:
-            side = M**2 * ((1 - beta) * p0 - 2 * row.confinement) / (9 * (1 + 2 * beta) + 4 * M**2)
-            p = row.confinement + 2 * side  # side: deviatoric stress along x and y
-            q2 = M**2 * (p + beta * p0) * (p0 - p) / (1 + 2 * beta)
-            tau = float(np.sqrt(q2 / 3 - 3 * side**2))
+            tau = shear_strength(M, beta, p0, row.confinement)
             self.assertAlmostEqual(values[row.place] / tau, 1.0, delta=2e-3)
+
+    def test_strengths_beside_measurements(self) -> None:
+        """Clusters as the record has them, a preset's undisturbed snow in closed form, slabs of
+        200 kg/m3 as [Sigrist2006] has them."""
+        record = read_record(RECORD)
+        found = snow_strength.of_clusters(record)
+        for kind, load in (("tension", 0.0), ("shear", 100.0)):
+            rows = [r for r in record if (r.test, r.confinement, r.quantity) == (kind, load, "strength")]
+            np.testing.assert_array_equal(found[kind].strength, [row.value for row in rows])
+            self.assertTrue((np.diff(found[kind].density) > 50).all())
+        law = snow_strength.of_law("snow_bonded", 100.0, self.points())["shear"]
+        text = PRESET.read_text(encoding="utf-8")
+        M, beta, p0 = (
+            float(re.findall(rf"{key}: +\[?({NUMBER})", text)[0]) for key in ("M", "tension_ratio", "p")
+        )
+        self.assertAlmostEqual(law.strength[0] / shear_strength(M, beta, p0, 100.0), 1.0, delta=5e-3)
+        slabs = next(fit for fit in snow_strength.measured() if fit.kind == "tension")
+        self.assertAlmostEqual(float(slabs.at(200.0)), 5.85e3, delta=10)
 
     def test_preset_is_that_of_its_record(self) -> None:
         record = read_record(RECORD)
