@@ -21,6 +21,7 @@ SHEAR_STRAIN = 0.2  # up to which shear is compared
 
 Columns = dict[str, Floats]
 Evaluation = tuple[str, Callable[[Columns, Row], float]]  # a path, and a row's value on it
+Run = Callable[[str], Columns | None]  # a path on the law
 
 
 class Points:
@@ -50,7 +51,7 @@ def end_of(columns: Columns, segment: int) -> int:
     return int(np.flatnonzero(columns["segment"] == segment)[-1])
 
 
-def _oedometer(_: float, __: float, rows: Sequence[Row]) -> Evaluation:
+def _oedometer(_: float, __: float, rows: Sequence[Row], ___: Run) -> Evaluation:
     levels = sorted({row.level for row in rows} - {0.0})
 
     def value(columns: Columns, row: Row) -> float:
@@ -81,7 +82,7 @@ def _last(columns: Columns) -> tuple[Floats, Floats, Floats]:
     return axial - axial[0], lateral - lateral[0], -columns["stress_zz"][begins:]
 
 
-def _tension(compaction: float, _: float, __: Sequence[Row]) -> Evaluation:
+def _tension(compaction: float, _: float, __: Sequence[Row], ___: Run) -> Evaluation:
     def value(columns: Columns, row: Row) -> float:
         axial, _, stress = _last(columns)
         if row.quantity == "strength":
@@ -91,7 +92,7 @@ def _tension(compaction: float, _: float, __: Sequence[Row]) -> Evaluation:
     return _after_compaction(compaction, TENSION_STRAIN + REBOUND), value
 
 
-def _unconfined(compaction: float, _: float, __: Sequence[Row]) -> Evaluation:
+def _unconfined(compaction: float, _: float, __: Sequence[Row], ___: Run) -> Evaluation:
     def value(columns: Columns, row: Row) -> float:
         axial, lateral, stress = _last(columns)
         if row.quantity == "stress":
@@ -101,12 +102,18 @@ def _unconfined(compaction: float, _: float, __: Sequence[Row]) -> Evaluation:
     return _after_compaction(compaction, -STRAINS[-1] - REBOUND), value
 
 
-def _shear(compaction: float, normal: float, _: Sequence[Row]) -> Evaluation:
-    """Confined compression, release, the normal stress, then shear of level planes under it, all
-    between sides that do not move."""
-    before = f"{{strain_zz: {-compaction:.6g}}}, {{stress_zz: 0}}, " if compaction else ""
-    loaded = f"{{stress_zz: {-normal:.6g}}}"
-    rows = f"{before}{loaded}, {{strain_xz: {SHEAR_STRAIN:g}}}"
+def _shear(compaction: float, normal: float, _: Sequence[Row], run: Run) -> Evaluation:
+    """Confined compression and release from all sides; then the normal stress, and shear of level
+    planes under it, between sides that stay where the release has left them."""
+    head = "type: table, motion: shear, steps: 400"
+    before = ""
+    if compaction:
+        released = "{stress_xx: 0, stress_yy: 0, stress_zz: 0}"
+        before = f"{{strain_zz: {-compaction:.6g}}}, {released}"
+        columns = run(f"{{{head}, rows: [{before}]}}")
+        side = 0.0 if columns is None else columns["strain_xx"][-1]
+        before += f", {{strain_xx: {side:.9g}, strain_yy: {side:.9g}, stress_zz: 0}}, "
+    rows = f"{before}{{stress_zz: {-normal:.6g}}}, {{strain_xz: {SHEAR_STRAIN:g}}}"
 
     def value(columns: Columns, row: Row) -> float:
         begins = int(np.flatnonzero(columns["segment"] < columns["segment"][-1])[-1])
@@ -114,10 +121,10 @@ def _shear(compaction: float, normal: float, _: Sequence[Row]) -> Evaluation:
             return float(columns["density"][begins])
         return float(np.max(np.abs(columns["stress_xz"][begins:])))
 
-    return f"{{type: table, motion: shear, steps: 400, rows: [{rows}]}}", value
+    return f"{{{head}, rows: [{rows}]}}", value
 
 
-def _triaxial(_: float, confinement: float, __: Sequence[Row]) -> Evaluation:
+def _triaxial(_: float, confinement: float, __: Sequence[Row], ___: Run) -> Evaluation:
     strain = f"axial_strain: [{TRIAXIAL_STRAIN:g}]"
     path = f"{{type: triaxial, confinement: {confinement:g}, {strain}, steps: 400}}"
 
@@ -132,7 +139,7 @@ def _triaxial(_: float, confinement: float, __: Sequence[Row]) -> Evaluation:
     return path, value
 
 
-PATHS: dict[str, Callable[[float, float, Sequence[Row]], Evaluation]] = {
+PATHS: dict[str, Callable[[float, float, Sequence[Row], Run], Evaluation]] = {
     "oedometer": _oedometer,
     "tension": _tension,
     "unconfined": _unconfined,
@@ -148,7 +155,9 @@ def predicted(sections: str, record: Sequence[Row], points: Points) -> Values:
     for row in record:
         paths.setdefault((row.test, row.compaction, row.confinement), []).append(row)
     for (test, compaction, confinement), rows in paths.items():
-        path, evaluate = PATHS[test](compaction, confinement, rows)
+        path, evaluate = PATHS[test](
+            compaction, confinement, rows, lambda way: points.run(sections, way)
+        )
         columns = points.run(sections, path)
         for row in rows:
             found[row.place] = math.nan if columns is None else evaluate(columns, row)
