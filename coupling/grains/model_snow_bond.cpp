@@ -13,6 +13,7 @@
 #include "coupling/contact/time_step_check.h"
 #include "coupling/grains/fix_snow_energy.h"
 #include "coupling/grains/fix_snow_sinter.h"
+#include "coupling/grains/snow_overlap_check.h"
 #include "coupling/liggghts/add_contact_model.h"
 #include "coupling/liggghts/errors.h"
 #include "coupling/liggghts/global_properties.h"
@@ -84,7 +85,9 @@ class NormalModel<furrow::coupling::model_id> : public NormalModelBase {
   void connectToProperties(PropertyRegistry&) override;
   double stressStrainExponent() override { return 1.0; }
   void beginPass(SurfacesIntersectData&, ForceData&, ForceData&) override {}
-  void endPass(SurfacesIntersectData&, ForceData&, ForceData&) override {}
+  void endPass(SurfacesIntersectData&, ForceData&, ForceData&) override {
+    if (!is_wall_) overlaps_.finish_step();
+  }
   void surfacesIntersect(SurfacesIntersectData& touching, ForceData& on_i,
                          ForceData& on_j) override;
   void surfacesClose(SurfacesCloseData& parted, ForceData&, ForceData&) override;
@@ -100,7 +103,7 @@ class NormalModel<furrow::coupling::model_id> : public NormalModelBase {
   }
   furrow::SnowContact contact_of(const SurfacesIntersectData& touching) const;
   template <bool counts_energy>
-  void advance(const SurfacesIntersectData& touching, ForceData& on_i, ForceData& on_j) const;
+  void advance(const SurfacesIntersectData& touching, ForceData& on_i, ForceData& on_j);
   void exert(const Response& response, const SurfacesIntersectData& touching, ForceData& on_i,
              ForceData& on_j) const;
   Response yield(const furrow::SnowBondParameters& parameters, const furrow::SnowContact& contact,
@@ -147,6 +150,7 @@ class NormalModel<furrow::coupling::model_id> : public NormalModelBase {
   int stride_ = 0;                                // of laws_, from one type to the next
   furrow::coupling::FixSnowSinter* sinter_ = nullptr;
   furrow::coupling::FixSnowEnergy* energy_ = nullptr;
+  furrow::coupling::SnowOverlapCheck overlaps_;
   std::string warned_;  // of the time step
 };
 
@@ -154,7 +158,7 @@ using SnowBondModel = NormalModel<furrow::coupling::model_id>;
 
 /// "1": changes its sign when i and j swap.
 SnowBondModel::NormalModel(LAMMPS* lammps, IContactHistorySetup* history, ContactModelBase* model)
-    : NormalModelBase(lammps, history, model), is_wall_(model->is_wall()) {
+    : NormalModelBase(lammps, history, model), is_wall_(model->is_wall()), overlaps_(*lammps) {
   using Value = std::pair<const char*, const char*>;
   constexpr std::array<Value, State::size> values = {{{"plastic", "0"},
                                                       {"at_sintering", "0"},
@@ -296,7 +300,7 @@ void SnowBondModel::exert(const Response& response, const SurfacesIntersectData&
 /// Each way exerts its forces itself: those of the elastic one then never leave the registers.
 template <bool counts_energy>
 void SnowBondModel::advance(const SurfacesIntersectData& touching, ForceData& on_i,
-                            ForceData& on_j) const {
+                            ForceData& on_j) {
   const furrow::SnowContact contact = contact_of(touching);
   const furrow::SnowBondParameters& parameters = law(touching.itype, touching.jtype);
   double* values = touching.contact_history + first_value_;
@@ -305,9 +309,11 @@ void SnowBondModel::advance(const SurfacesIntersectData& touching, ForceData& on
   Response response;
   furrow::SnowBondEnergy energy;
   if (!Law::advance_elastic(parameters, contact, trial, state, response,
-                            counts_energy ? &energy : nullptr))
+                            counts_energy ? &energy : nullptr)) {
+    if (!is_wall_) overlaps_.contact(contact.overlap, contact.d, touching.i, touching.j);
     return exert((this->*yield_)(parameters, contact, trial, values, share(touching)), touching,
                  on_i, on_j);
+  }
   state.store_elastic(values);
   if (counts_energy) energy_->add_elastic(energy, share(touching));
   exert(response, touching, on_i, on_j);

@@ -26,7 +26,7 @@ namespace furrow::coupling {
 /// loop is short, and compiled in one with the model. What passes between the two is local, so the
 /// compiler keeps in registers what LIGGGHTS's loop writes to memory for each pair. Every sum has
 /// LIGGGHTS's order: forces are the same to the last bit. Any other case goes LIGGGHTS's own way.
-/// For a model whose beginPass and endPass do nothing.
+/// For a model whose beginPass does nothing, and whose endPass takes nothing from the last contact.
 ///
 /// Where the processor has AVX2, the loop is compiled for it, whose instructions have three
 /// operands and so move less; without fused multiplication the bits stay the same.
@@ -123,6 +123,9 @@ class ShortPairLoop final : public LIGGGHTS::PairStyles::Granular<Model> {
                             on_i.delta_F[2], dx, dy, dz);
       }
     }
+    Touching last;
+    Force on_i, on_j;
+    model_.endPass(last, on_i, on_j);
   }
 
   /// A frozen grain is as good as infinitely heavy.

@@ -7,8 +7,8 @@
   compare RECORD.csv MATERIAL.yaml ...                       all values, and the deviations
 
 Laws: cohesive Cam clay, the Drucker-Prager cap, the crushable foam. Two numbers give each its shape
-(--law says which); they are fitted to all tests but the triaxial at once, least squares of ln of
-stresses, of densities (0.1 of a logarithm weighs as much as a factor of e in a stress), K0 (0.1)
+(--law says which); they are fitted to all tests but shear and triaxial at once, least squares of ln
+of stresses, of densities (0.1 of a logarithm weighs as much as a factor of e in a stress), K0 (0.1)
 and lateral strain over axial strain (0.2), each quantity of each test with the same weight; a value
 where the law has no state counts as a factor of 20. For each shape the hardening is that with which
 the law follows the oedometer. E is the mean of the moduli in tension, nu 0.

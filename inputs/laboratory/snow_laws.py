@@ -195,9 +195,9 @@ def judged(record: Sequence[Row]) -> list[Row]:
 
 
 def is_fitted(test: str) -> bool:
-    """Triaxial compression is predicted: it begins with pressure from all sides, which crushes
-    clusters at far lower stress than the axial one that hardening is taken from."""
-    return test != "triaxial"
+    """Shear is predicted. So is triaxial compression: it begins with pressure from all sides, which
+    crushes clusters at far lower stress than the axial one that hardening is taken from."""
+    return test not in ("shear", "triaxial")
 
 
 def weights(rows: Sequence[Row]) -> Floats:

@@ -17,9 +17,11 @@ from furrow_post.study.launch import Tools
 
 TENSION_STRAIN = 0.03  # in which every law here has its tensile strength
 REBOUND = 0.1  # of strain when compacted snow is released, at most
+SHEAR_STRAIN = 0.2  # up to which shear is compared
 
 Columns = dict[str, Floats]
 Evaluation = tuple[str, Callable[[Columns, Row], float]]  # a path, and a row's value on it
+Run = Callable[[str], Columns | None]  # a path on the law
 
 
 class Points:
@@ -49,7 +51,7 @@ def end_of(columns: Columns, segment: int) -> int:
     return int(np.flatnonzero(columns["segment"] == segment)[-1])
 
 
-def _oedometer(_: float, __: float, rows: Sequence[Row]) -> Evaluation:
+def _oedometer(_: float, __: float, rows: Sequence[Row], ___: Run) -> Evaluation:
     levels = sorted({row.level for row in rows} - {0.0})
 
     def value(columns: Columns, row: Row) -> float:
@@ -80,7 +82,7 @@ def _last(columns: Columns) -> tuple[Floats, Floats, Floats]:
     return axial - axial[0], lateral - lateral[0], -columns["stress_zz"][begins:]
 
 
-def _tension(compaction: float, _: float, __: Sequence[Row]) -> Evaluation:
+def _tension(compaction: float, _: float, __: Sequence[Row], ___: Run) -> Evaluation:
     def value(columns: Columns, row: Row) -> float:
         axial, _, stress = _last(columns)
         if row.quantity == "strength":
@@ -90,7 +92,7 @@ def _tension(compaction: float, _: float, __: Sequence[Row]) -> Evaluation:
     return _after_compaction(compaction, TENSION_STRAIN + REBOUND), value
 
 
-def _unconfined(compaction: float, _: float, __: Sequence[Row]) -> Evaluation:
+def _unconfined(compaction: float, _: float, __: Sequence[Row], ___: Run) -> Evaluation:
     def value(columns: Columns, row: Row) -> float:
         axial, lateral, stress = _last(columns)
         if row.quantity == "stress":
@@ -100,23 +102,48 @@ def _unconfined(compaction: float, _: float, __: Sequence[Row]) -> Evaluation:
     return _after_compaction(compaction, -STRAINS[-1] - REBOUND), value
 
 
-def _triaxial(_: float, confinement: float, __: Sequence[Row]) -> Evaluation:
+def _shear(compaction: float, normal: float, _: Sequence[Row], run: Run) -> Evaluation:
+    """Confined compression and release from all sides; then the normal stress, and shear of level
+    planes under it, between sides that stay where the release has left them."""
+    head = "type: table, motion: shear, steps: 400"
+    before = ""
+    if compaction:
+        released = "{stress_xx: 0, stress_yy: 0, stress_zz: 0}"
+        before = f"{{strain_zz: {-compaction:.6g}}}, {released}"
+        columns = run(f"{{{head}, rows: [{before}]}}")
+        side = 0.0 if columns is None else columns["strain_xx"][-1]
+        before += f", {{strain_xx: {side:.9g}, strain_yy: {side:.9g}, stress_zz: 0}}, "
+    rows = f"{before}{{stress_zz: {-normal:.6g}}}, {{strain_xz: {SHEAR_STRAIN:g}}}"
+
+    def value(columns: Columns, row: Row) -> float:
+        begins = int(np.flatnonzero(columns["segment"] < columns["segment"][-1])[-1])
+        if row.quantity == "density":
+            return float(columns["density"][begins])
+        return float(np.max(np.abs(columns["stress_xz"][begins:])))
+
+    return f"{{{head}, rows: [{rows}]}}", value
+
+
+def _triaxial(_: float, confinement: float, __: Sequence[Row], ___: Run) -> Evaluation:
     strain = f"axial_strain: [{TRIAXIAL_STRAIN:g}]"
     path = f"{{type: triaxial, confinement: {confinement:g}, {strain}, steps: 400}}"
 
     def value(columns: Columns, row: Row) -> float:
-        axial, _, stress = _last(columns)
+        axial, lateral, stress = _last(columns)
         if row.quantity == "deviator":
             return float(np.interp(row.level, axial, stress)) - confinement
+        if row.quantity == "lateral_ratio":
+            return float(-np.interp(row.level, axial, lateral) / row.level)
         return float(np.interp(row.level, axial, columns["density"][-len(axial) :]))
 
     return path, value
 
 
-PATHS: dict[str, Callable[[float, float, Sequence[Row]], Evaluation]] = {
+PATHS: dict[str, Callable[[float, float, Sequence[Row], Run], Evaluation]] = {
     "oedometer": _oedometer,
     "tension": _tension,
     "unconfined": _unconfined,
+    "shear": _shear,
     "triaxial": _triaxial,
 }
 
@@ -128,7 +155,9 @@ def predicted(sections: str, record: Sequence[Row], points: Points) -> Values:
     for row in record:
         paths.setdefault((row.test, row.compaction, row.confinement), []).append(row)
     for (test, compaction, confinement), rows in paths.items():
-        path, evaluate = PATHS[test](compaction, confinement, rows)
+        path, evaluate = PATHS[test](
+            compaction, confinement, rows, lambda way: points.run(sections, way)
+        )
         columns = points.run(sections, path)
         for row in rows:
             found[row.place] = math.nan if columns is None else evaluate(columns, row)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What laboratory tests on clusters of snow measured, in rows that a law can be held against:
-confined compression, and tension, compression with free sides, and triaxial compression of snow
+confined compression; triaxial compression; tension, compression with free sides and shear of snow
 that was compressed in confined compression before."""
 
 import csv
@@ -14,6 +14,7 @@ import numpy as np
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError, content_of
+from furrow_post.laboratory.quantity import around_peak
 from furrow_post.read.laboratory import LaboratoryTest, cell_curve
 
 LEVELS = (3e3, 5e3, 1e4, 2e4, 5e4, 1e5, 2e5, 5e5, 1e6)  # [Pa] axial stresses of the oedometer
@@ -25,9 +26,9 @@ ELASTIC = 5e-5  # axial strain up to which a cell that is pulled is elastic
 class Place(NamedTuple):
     """What was done, and where it is compared."""
 
-    test: str  # oedometer, tension, unconfined or triaxial
+    test: str  # oedometer, tension, unconfined, shear or triaxial
     compaction: float  # logarithmic strain of the confined compression before
-    confinement: float  # [Pa]
+    confinement: float  # [Pa] lateral stress; of shear: normal stress
     level: float  # axial stress [Pa] of the oedometer, axial strain of the others
     quantity: str
 
@@ -54,7 +55,8 @@ Values = dict[Place, float]
 Found = dict[tuple[float, str], float]  # (level, quantity) -> value, of one test
 
 
-def oedometer_values(strain: Floats, stress: Floats, density: Floats) -> Found:
+def oedometer_values(rows: Floats) -> Found:
+    _, stress, density = cell_curve(rows)
     end = int(np.argmax(stress[:, 2])) + 1
     axial = np.maximum.accumulate(np.maximum(stress[:end, 2], 1.0))
     lateral = 0.5 * (stress[:end, 0] + stress[:end, 1])
@@ -67,7 +69,8 @@ def oedometer_values(strain: Floats, stress: Floats, density: Floats) -> Found:
     return found
 
 
-def tension_values(strain: Floats, stress: Floats, _: Floats) -> Found:
+def tension_values(rows: Floats) -> Found:
+    strain, stress, _ = cell_curve(rows)
     pulled, pull = -strain[:, 2], -stress[:, 2]
     first = pulled <= ELASTIC
     found = {(0.0, "strength"): float(pull.max())}
@@ -76,7 +79,8 @@ def tension_values(strain: Floats, stress: Floats, _: Floats) -> Found:
     return found
 
 
-def unconfined_values(strain: Floats, stress: Floats, _: Floats) -> Found:
+def unconfined_values(rows: Floats) -> Found:
+    strain, stress, _ = cell_curve(rows)
     axial, lateral = strain[:, 2], strain[:, :2].mean(axis=1)
     found = {}
     for level in STRAINS:
@@ -87,20 +91,31 @@ def unconfined_values(strain: Floats, stress: Floats, _: Floats) -> Found:
     return found
 
 
-def triaxial_values(strain: Floats, stress: Floats, density: Floats) -> Found:
+def shear_values(rows: Floats) -> Found:
+    """Shear stress is the column after those of the cell and the displacement."""
+    _, _, density = cell_curve(rows)
+    _, _, strength = around_peak(rows[:, 9])
+    return {(0.0, "density"): float(density[0]), (0.0, "strength"): strength}
+
+
+def triaxial_values(rows: Floats) -> Found:
+    strain, stress, density = cell_curve(rows)
     found = {(0.0, "density"): float(density[0])}
     near = np.abs(strain[:, 2] - TRIAXIAL_STRAIN) < 0.05 * TRIAXIAL_STRAIN
     if near.any():
         deviator = stress[near, 2] - 0.5 * (stress[near, 0] + stress[near, 1])
         found[TRIAXIAL_STRAIN, "deviator"] = float(deviator.mean())
         found[TRIAXIAL_STRAIN, "density"] = float(density[near].mean())
+        lateral = strain[near, :2].mean(axis=1)
+        found[TRIAXIAL_STRAIN, "lateral_ratio"] = float(np.mean(-lateral / strain[near, 2]))
     return found
 
 
-MEASURES: dict[str, Callable[[Floats, Floats, Floats], Found]] = {
+MEASURES: dict[str, Callable[[Floats], Found]] = {
     "oedometer": oedometer_values,
     "tension": tension_values,
     "unconfined": unconfined_values,
+    "shear": shear_values,
     "triaxial": triaxial_values,
 }
 
@@ -113,7 +128,7 @@ def values_at(test: LaboratoryTest) -> Values:
     facts = test.numbers
     compaction, confinement = facts.get("compaction", 0.0), facts.get("confinement", 0.0)
     with content_of(test.folder, "make the test again"):
-        found = MEASURES[test.kind](*cell_curve(test.curve()))
+        found = MEASURES[test.kind](test.curve())
     return {
         Place(test.kind, compaction, confinement, level, quantity): value
         for (level, quantity), value in found.items()

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The test of a sheared layer: strength, and the displacement that it takes."""
+"""The test of a sheared layer: strength, and the displacement and shear strain that it takes."""
+
+import math
 
 import numpy as np
 from scipy.optimize import curve_fit
@@ -9,19 +11,24 @@ from ..arrays import Floats
 from ..read.laboratory import LaboratoryTest, cell_curve
 from .quantity import LaboratoryQuantity, around_peak, degrees
 
+REACHED = 0.95  # of the peak: a strength that is then kept, or grows slowly, has been reached there
+
 
 def shear(test: LaboratoryTest) -> list[LaboratoryQuantity]:
     rows = test.curve()
     _, stress, density = cell_curve(rows)
     travel, tau, normal = rows[:, 8], rows[:, 9], stress[:, 2]
     peak, window, largest = around_peak(tau)
-    around, end = slice(max(peak - window, 0), peak + window + 1), travel > 0.6 * travel[-1]
+    first = max(peak - window // 2, 0)
+    around, end = slice(first, first + window), travel > 0.6 * travel[-1]
     angle = np.arctan2(tau, normal)
     rise = slice(0, peak + 1)
     start = (largest, max(travel[peak] / 3, 1e-6))
     bounds = ((0, 1e-9), (np.inf, np.inf))
     (top, length), covariance = curve_fit(_janosi, travel[rise], tau[rise], p0=start, bounds=bounds)
     top_error, length_error = (float(e) for e in np.sqrt(np.diag(covariance)))
+    reached = float(travel[np.argmax(tau > REACHED * largest)])
+    gap = test.numbers.get("gap", math.nan)  # of results before there was one: none
     quantity = LaboratoryQuantity
     at_travel = f"at a displacement of {travel[peak] * 1e3:.2f} mm"
     fitted = "of tau_max (1 - exp(-j/K)), fitted up to the peak"
@@ -29,6 +36,13 @@ def shear(test: LaboratoryTest) -> list[LaboratoryQuantity]:
         quantity("initial_density", density[0], 0.0, "kg/m3", "after consolidation"),
         quantity("normal_stress", *block_mean(normal), "Pa", "mean of the test"),
         quantity("peak_shear", *block_mean(tau[around]), "Pa", at_travel),
+        quantity(
+            "strain_at_peak",
+            reached / gap,
+            math.nan,
+            "",
+            f"displacement over gap where {REACHED:.0%} of the peak are first borne",
+        ),
         quantity("residual_shear", *block_mean(tau[end]), "Pa", "over the last 40 % of the travel"),
         quantity(
             "friction_angle_peak",

@@ -100,16 +100,25 @@ def same(furrow, mpirun, folder):
 
 
 def overlaps(furrow, mpirun, folder):
-    """Those of crushed snow are accepted; on a body beyond 0.4 of a diameter there is a warning."""
-    for load, speed in (("plate", 1.2), ("soft", 2.5)):
-        grains, _ = run(furrow, mpirun, folder / load, 1, load, speed=speed)
+    """Those of crushed snow are accepted; on a body beyond 0.4 of a diameter there is a warning, and
+    one where two clusters leave less room to the snow between them than ice has."""
+    ice = 917.0  # kg/m3
+    for load, speed, density, ranks in (("plate", 1.2, 340, 1), ("soft", 2.5, 340, 1), ("plate", 1.2, 700, 2)):
+        place = folder / f"{load}_{density}"
+        grains, _ = run(furrow, mpirun, place, ranks, load, speed=speed, density=density)
         distances = np.linalg.norm(grains[:, None, 1:4] - grains[None, :, 1:4], axis=2)
         between = 1.0 - distances[distances > 0.0].min() / DIAMETER
-        screen = (folder / load / "screen.txt").read_text()
+        screen = (place / "screen.txt").read_text()
         on_plate = re.findall(r"overlaps the body by ([\d.]+) of its diameter", screen)
-        print(f"{load}: {between:.2f} between clusters, warned of on the plate: {on_plate}")
+        of_clusters = re.findall(r"two clusters overlap by ([\d.]+) .* has (\d+) kg/m3", screen)
+        print(f"{load}: {between:.2f} between clusters of {density} kg/m3, warned of {of_clusters}, "
+              f"on the plate: {on_plate}")
         assert load == "soft" or between > 0.2, "the snow is hardly crushed"
         assert len(on_plate) == (load == "soft") and all(float(overlap) > 0.4 for overlap in on_plate)
+        assert len(of_clusters) == (density == 700), screen
+        for overlap, pressed in of_clusters:  # from then on: at the end it may be more
+            assert 1.0 - density / ice <= float(overlap) + 0.005 <= between + 0.015
+            assert abs(density / (1.0 - float(overlap)) - float(pressed)) < 0.01 * ice
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """inputs/laboratory/identify_snow.py: what it reads from curves, that it finds the law a record was
-made with, and that the preset is what it makes of its record."""
+made with, and that the preset is what it makes of its record; snow_strength.py: what it draws."""
 
 import re
 import sys
@@ -20,6 +20,7 @@ from support.laboratory import cell_rows, triaxial_stress, write_test
 sys.path.insert(0, str(SOURCE / "inputs" / "laboratory"))
 
 import identify_snow
+import snow_strength
 from snow_laws import LAWS, Elastic, Material, fit, judged
 from snow_paths import Points, predicted
 from snow_record import Place, Row, read_record, record_of, write_record
@@ -35,6 +36,14 @@ NUMBER = r"(?<![\w.])-?\d+\.?\d*(?:e[+-]?\d+)?"
 STRAINS = np.array([0.0, 0.15, 0.3, 0.45, 0.6])
 TABLE = [(200 * float(np.exp(e)), 1e3 * float(np.exp(e / 0.15))) for e in STRAINS]
 MADE = Material(LAWS["cam_clay"], (3.0, 0.25), Elastic(2e7, 0.0), 200.0, TABLE)
+
+
+def shear_strength(M: float, beta: float, p0: float, load: float) -> float:
+    """Of Cam clay between sides that do not move: stress tau that flows without lateral strain."""
+    side = M**2 * ((1 - beta) * p0 - 2 * load) / (9 * (1 + 2 * beta) + 4 * M**2)
+    p = load + 2 * side  # side: deviatoric stress along x and y
+    q2 = M**2 * (p + beta * p0) * (p0 - p) / (1 + 2 * beta)
+    return float(np.sqrt(q2 / 3 - 3 * side**2))
 
 
 class WithFolder(unittest.TestCase):
@@ -70,6 +79,11 @@ class RecordTest(WithFolder):
             rows = cell_rows(strain, triaxial_stress(0.0, -pull))
             facts = "test tension ground made compaction 0"
             tests.append(write_test(self.folder / f"t{packing}", facts, rows))
+            still = cell_rows(np.zeros((400, 3)), triaxial_stress(0.0, np.full(400, 1e3)), 300.0)
+            tau = np.append(0.0, 6e3 * strength * np.minimum(np.linspace(0, 5, 400), 1))
+            rows = np.column_stack((still[:, :8], np.linspace(0, 0.01, 401), tau))
+            facts = "test shear ground made compaction 0.4 confinement 1000"
+            tests.append(write_test(self.folder / f"s{packing}", facts, rows))
         rows_of = record_of(LaboratoryTest(test) for test in tests)
         write_record(self.folder / "record.csv", rows_of)
         found = {row.place: row for row in read_record(self.folder / "record.csv")}
@@ -79,6 +93,8 @@ class RecordTest(WithFolder):
             Place("unconfined", 0.7, 0, 0.1, "stress"): (5.25e3, 500 / np.sqrt(2)),
             Place("tension", 0, 0, 0, "strength"): (4.2e3, 400 / np.sqrt(2)),
             Place("tension", 0, 0, 0, "modulus"): (1e7, 0.0),
+            Place("shear", 0.4, 1e3, 0, "strength"): (6.3e3, 600 / np.sqrt(2)),
+            Place("shear", 0.4, 1e3, 0, "density"): (300.0, 0.0),
         }
         for place, (value, scatter) in expected.items():
             self.assertEqual(found[place].packings, 2)
@@ -90,8 +106,8 @@ class RecordTest(WithFolder):
 
     def test_refusals(self) -> None:
         rows = np.ones((20, 9))
-        sand = write_test(self.folder / "s", "test shear ground made", rows)
-        with self.assertRaisesRegex(ResultsError, "is a test 'shear'; name results of oedometer"):
+        sand = write_test(self.folder / "s", "test plate ground made", rows)
+        with self.assertRaisesRegex(ResultsError, "is a test 'plate'; name results of oedometer"):
             record_of([LaboratoryTest(sand)])
         with self.assertRaisesRegex(ResultsError, "name results of that test too"):
             record_of([])
@@ -122,6 +138,35 @@ class FitTest(WithFolder):
         for density, strength in found.table:
             made = np.interp(np.log(density / 200), STRAINS, np.log([p for _, p in TABLE]))
             self.assertAlmostEqual(np.log(strength), made, delta=0.03)
+
+    def test_shear_of_a_law_in_closed_form(self) -> None:
+        """It comes to flow without lateral strain: df/d(sigma_xx) = 0 with sigma_zz given, on
+        q^2 (1 + 2 beta) = M^2 (p + beta p0)(p0 - p)."""
+        loads = (1.0, 300.0)
+        rows = [Row("shear", 0.0, load, 0.0, "strength", 0.0, 0.0, 1) for load in loads]
+        values = predicted(MADE.sections(), rows, self.points())
+        (M, beta), p0 = MADE.shape, TABLE[0][1]
+        for row in rows:
+            tau = shear_strength(M, beta, p0, row.confinement)
+            self.assertAlmostEqual(values[row.place] / tau, 1.0, delta=2e-3)
+
+    def test_strengths_beside_measurements(self) -> None:
+        """Clusters as the record has them, a preset's undisturbed snow in closed form, slabs of
+        200 kg/m3 as [Sigrist2006] has them."""
+        record = read_record(RECORD)
+        found = snow_strength.of_clusters(record)
+        for kind, load in (("tension", 0.0), ("shear", 100.0)):
+            rows = [r for r in record if (r.test, r.confinement, r.quantity) == (kind, load, "strength")]
+            np.testing.assert_array_equal(found[kind].strength, [row.value for row in rows])
+            self.assertTrue((np.diff(found[kind].density) > 50).all())
+        law = snow_strength.of_law("snow_bonded", 100.0, self.points())["shear"]
+        text = PRESET.read_text(encoding="utf-8")
+        M, beta, p0 = (
+            float(re.findall(rf"{key}: +\[?({NUMBER})", text)[0]) for key in ("M", "tension_ratio", "p")
+        )
+        self.assertAlmostEqual(law.strength[0] / shear_strength(M, beta, p0, 100.0), 1.0, delta=5e-3)
+        slabs = next(fit for fit in snow_strength.measured() if fit.kind == "tension")
+        self.assertAlmostEqual(float(slabs.at(200.0)), 5.85e3, delta=10)
 
     def test_preset_is_that_of_its_record(self) -> None:
         record = read_record(RECORD)

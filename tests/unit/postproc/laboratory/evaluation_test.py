@@ -82,12 +82,16 @@ class LaboratoryTests(unittest.TestCase):
             return np.concatenate((values[:1], values))
 
         rows = np.column_stack((rows[:, :8], from_first(j), from_first(tau)))
-        facts = f"test shear ground clay confinement {sigma}"
+        facts = f"test shear ground clay confinement {sigma} gap 0.1"
         return write_test(self.folder / f"shear_{sigma:g}", facts, rows)
 
     def test_janosi_from_shear(self) -> None:
         folders = [self.shear(sigma) for sigma in (1e4, 3e4, 6e4)]
-        self.assertAlmostEqual(self.values(folders[0])["janosi_K"], 0.004, delta=2e-5)
+        values = self.values(folders[0])
+        self.assertAlmostEqual(values["janosi_K"], 0.004, delta=2e-5)
+        strength = COHESION + 1e4 * np.tan(np.radians(PHI))
+        self.assertAlmostEqual(values["peak_shear"] / strength, 1, delta=1e-4)
+        self.assertAlmostEqual(values["strain_at_peak"], 0.004 * np.log(20) / 0.1, delta=2e-3)
         found = self.together(folders)
         self.assertAlmostEqual(found["friction_angle_residual"].value, PHI, delta=0.05)
         self.assertAlmostEqual(found["cohesion_residual"].value, COHESION, delta=10)
