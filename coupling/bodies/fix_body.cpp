@@ -5,7 +5,9 @@ namespace furrow::coupling {
 
 FixBody::FixBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema,
                  const MakeBody& make_body)
-    : FurrowFix(lammps, narg, arg, schema), body_(make_body(options())) {
+    : FurrowFix(lammps, narg, arg, schema),
+      body_(make_body(options())),
+      nodes_as_made_(body_->surface().x) {
   contribute(*body_);
   keep_state();
   can_create_mesh_ = true;

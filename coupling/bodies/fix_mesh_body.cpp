@@ -28,16 +28,20 @@ constexpr double skin_share = 0.5;
 
 }  // namespace
 
-BodyMesh::BodyMesh(LAMMPS_NS::LAMMPS* lammps, const char* id, const Surface& surface)
+BodyMesh::BodyMesh(LAMMPS_NS::LAMMPS* lammps, const char* id, const Surface& surface,
+                   const Matrix3X& nodes_as_made)
     : TriMesh(lammps), surface_(surface) {
   setMeshID(id);
   // Every triangle on every rank: LIGGGHTS keeps those it owns. Its triangle ids then are our
   // triangle numbers.
   for (const Vector3i& triangle : surface.triangles) {
+    const Vector3 shift = shift_into_box(
+        (surface.x.col(triangle[0]) + surface.x.col(triangle[1]) + surface.x.col(triangle[2])) /
+        3.0);
     double nodes[3][3];
     double* pointers[3] = {nodes[0], nodes[1], nodes[2]};
     for (int j = 0; j < 3; ++j)
-      for (int k = 0; k < 3; ++k) nodes[j][k] = surface.x(k, triangle[j]);
+      for (int k = 0; k < 3; ++k) nodes[j][k] = surface.x(k, triangle[j]) + shift[k];
     addElement(pointers, -1);
   }
   if (static_cast<std::size_t>(sizeLocal()) != surface.triangle_count())
@@ -52,8 +56,19 @@ BodyMesh::BodyMesh(LAMMPS_NS::LAMMPS* lammps, const char* id, const Surface& sur
                        domain->yperiodic ? domain->prd[1] : 0.0,
                        domain->zperiodic ? domain->prd[2] : 0.0);
   const auto [lower, upper] = surface.bounds();
-  weld_ = weld_nodes(surface.x, period, weld_distance * (upper - lower).norm());
+  weld_ = weld_nodes(nodes_as_made, period, weld_distance * (upper - lower).norm());
   remember_rebuild();
+}
+
+/// Of a body that a checkpoint has brought, periods away: LIGGGHTS takes no triangle whose centre
+/// is outside of the box.
+Vector3 BodyMesh::shift_into_box(const Vector3& centre) const {
+  const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
+  Vector3 shift = Vector3::Zero();
+  for (int k = 0; k < 3; ++k)
+    if (periodic[k])
+      shift[k] = -std::floor((centre[k] - domain->boxlo[k]) / domain->prd[k]) * domain->prd[k];
+  return shift;
 }
 
 void BodyMesh::follow_surface() {
@@ -195,7 +210,7 @@ FixMeshBody::FixMeshBody(LAMMPS_NS::LAMMPS* lammps, Arguments arguments)
       options_(arguments.options),
       body_fix_(arguments.body_fix),
       body_(arguments.body_fix.body()),
-      body_mesh_(new BodyMesh(lammps, id, body_.surface())) {
+      body_mesh_(new BodyMesh(lammps, id, body_.surface(), body_fix_.nodes_as_made())) {
   replace_mesh(*this, body_mesh_);
   restart_global = 0;  // the body keeps its own state
 }

@@ -22,7 +22,10 @@ class FixBody;
 /// replicated surface.
 class BodyMesh : public LAMMPS_NS::TriMesh {
  public:
-  BodyMesh(LAMMPS_NS::LAMMPS* lammps, const char* id, const Surface& surface);
+  /// @param nodes_as_made  of the surface before anything has deformed it: those in one place there
+  /// are one node, a period apart too
+  BodyMesh(LAMMPS_NS::LAMMPS* lammps, const char* id, const Surface& surface,
+           const Matrix3X& nodes_as_made);
 
   bool isDeforming() override { return true; }
   bool isMoving() override { return true; }
@@ -50,6 +53,7 @@ class BodyMesh : public LAMMPS_NS::TriMesh {
   }
 
  private:
+  Vector3 shift_into_box(const Vector3& centre) const;
   void follow(int local_triangle);
   void derive_edges(int local_triangle);
 

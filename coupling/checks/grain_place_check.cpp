@@ -2,6 +2,7 @@
 #include "coupling/checks/grain_place_check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,20 +52,27 @@ struct Floors {
   std::vector<LAMMPS_NS::PrimitiveWall*> walls;
   std::vector<std::pair<Vector3, Vector3>> bodies;  // corners of the boxes around them
   bool others = false;                              // whose place is not looked at
+  double period = 0.0;                              // of the box along x [m]; 0: it has ends
 
   bool hold(double* x) const {
     return std::any_of(walls.begin(), walls.end(),
                        [&](auto* wall) { return is_below(*wall, x); }) ||
            std::any_of(bodies.begin(), bodies.end(), [&](const auto& corners) {
              const auto& [lower, upper] = corners;
-             return x[0] > lower.x() && x[0] < upper.x() && x[1] > lower.y() && x[1] < upper.y() &&
+             return is_along(x[0], lower.x(), upper.x()) && x[1] > lower.y() && x[1] < upper.y() &&
                     x[2] > lower.z();
            });
+  }
+  /// Bodies that go with a wheel may be any number of periods away from the box.
+  bool is_along(double x, double lower, double upper) const {
+    const double off = x - 0.5 * (lower + upper);
+    return std::abs(period > 0.0 ? std::remainder(off, period) : off) <= 0.5 * (upper - lower);
   }
 };
 
 Floors find_floors(const LAMMPS_NS::LAMMPS& lammps) {
   Floors floors;
+  if (lammps.domain->xperiodic) floors.period = lammps.domain->prd[0];
   for (auto* fix : fixes_of<LAMMPS_NS::Fix>(*lammps.modify)) {
     auto* wall = dynamic_cast<LAMMPS_NS::FixWallGran*>(fix);
     if (!wall)

@@ -11,9 +11,11 @@
 #include "core/communicator.h"
 #include "core/error.h"
 #include "coupling/base/refuse_double.h"
+#include "coupling/base/fixes_of.h"
 #include "coupling/bodies/fix_body.h"
 #include "coupling/liggghts/exchange_buffer.h"
 #include "domain.h"
+#include "geometry/closest_feature.h"
 #include "modify.h"
 #include "update.h"
 
@@ -21,9 +23,10 @@ namespace furrow::coupling {
 
 namespace {
 
-// A grain of the rut that lies deeper than this share of the sum of radii in a renewed grain is
-// taken out.
+// A grain of the rut that lies deeper than this share of the sum of radii in a renewed grain, or of
+// its radius in the renewed ground, is taken out.
 constexpr double seam_overlap = 0.05;
+constexpr double same_place = 1e-6;  // of a slab: where terrain and bed begin
 
 }  // namespace
 
@@ -33,6 +36,8 @@ Schema FixBedWindow::schema() {
   schema.integer("slabs", Range::at_least(4), "number of slabs that the bed is cut into along x");
   schema.number("behind", "m", Range::positive(),
                 "distance behind the middle of the body at which slabs are renewed");
+  schema.text("terrain", "id of the fix of the terrain that carries the bed and moves on with it")
+      .optional();
   return schema;
 }
 
@@ -70,12 +75,55 @@ FixBedWindow::FixBedWindow(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
         fmt::format("{:.4g} (half the body) to {:.4g} m (box less half the body less two slabs)",
                     half, longest),
         "make the bed longer, or cut it into more slabs");
+  if (options().given("terrain")) terrain_ = &use<FixTerrainContinuum>("terrain", {Kind::terrain});
+  check_terrain();
   refuse_double<FixBedWindow>(*modify, options().subject(), "renews the bed of the box",
                               "one bed/window", [](FixBedWindow&) { return true; });
   force_reneighbor = 1;
   next_reneighbor = -1;
   provide(outputs());
   keep_state();
+}
+
+/// Terrain that carries the bed is renewed with it, slab by slab.
+void FixBedWindow::check_terrain() const {
+  const std::string where = options().where("terrain");
+  if (!terrain_) {
+    for (const auto* each : fixes_of<const FixTerrainContinuum>(*modify))
+      if (each->options().flag("sheet"))
+        throw InputError(where, fmt::format("is missing, and {} carries grains", each->name()),
+                         fmt::format("'terrain {}'", each->id),
+                         "grains that are put in again would lie on a rut");
+    return;
+  }
+  if (!terrain_->options().given("slabs"))
+    throw InputError(
+        where, fmt::format("is '{}', which does not move on", terrain_->id),
+        "a fix terrain/continuum with 'sheet yes', 'follow' and 'slabs'",
+        fmt::format("write 'follow {} slabs {}' in its line", options().text("body"), slabs_));
+  if (const long slabs = terrain_->options().integer("slabs"); slabs != slabs_)
+    throw InputError(options().where("slabs"),
+                     fmt::format("is {}, and {} has {}", slabs_, terrain_->name(), slabs),
+                     "as many slabs as the terrain that carries the bed has",
+                     "write the same number in both lines");
+  if (!terrain_->follows(body_))
+    throw InputError(options().where("body"),
+                     fmt::format("is '{}', and {} follows '{}'", options().text("body"),
+                                 terrain_->name(), terrain_->options().text("follow")),
+                     "the body that the terrain follows", "name one body in both lines");
+}
+
+/// Its slabs must be those of the bed, and it must begin where the bed is renewed first.
+void FixBedWindow::check_place_of_terrain() const {
+  const double lower = terrain_->terrain().grid().axis(0).lower(), wanted = slab_end(next_ - 1);
+  if (std::abs(lower - wanted) <= same_place * slab_length_) return;
+  throw InputError(
+      terrain_->options().where("centre"), fmt::format("lets the terrain begin at {:.6g} m", lower),
+      fmt::format("{:.6g} m, from where on fix bed/window renews the bed: the end of a slab, "
+                  "'behind' or less than a slab more behind the body",
+                  wanted),
+      fmt::format("write 'centre {:.6g} <y>', or let the body start elsewhere, or change 'behind'",
+                  wanted + 0.5 * domain->prd[0]));
 }
 
 /// The undisturbed bed is in no grain of the checkpoint any more.
@@ -115,6 +163,7 @@ void FixBedWindow::setup_pre_neighbor() {
     bed_->remember(*lmp);
     next_ = static_cast<std::int64_t>(
         std::floor((middle_of_body() - behind_ - domain->boxlo[0]) / slab_length_));
+    if (terrain_) check_place_of_terrain();
   });
 }
 
@@ -128,10 +177,20 @@ bool FixBedWindow::is_frozen(int i) const {
   return atom->tag[i] >= first_frozen_tag_ && atom->tag[i] <= last_frozen_tag_;
 }
 
+double FixBedWindow::slab_end(std::int64_t slab) const {
+  return domain->boxlo[0] + static_cast<double>(slab + 1) * slab_length_;
+}
+
 void FixBedWindow::initial_integrate(int) {
-  const double limit = middle_of_body() - behind_;
-  due_ = domain->boxlo[0] + static_cast<double>(next_ + 1) * slab_length_ <= limit;
+  due_ = terrain_ ? moved_on() : slab_end(next_) <= middle_of_body() - behind_;
   if (due_) next_reneighbor = update->ntimestep;
+}
+
+/// Terrain moves on when a remap interval of its own ends; the bed follows in the same step.
+bool FixBedWindow::moved_on() {
+  ContinuumTerrain& terrain = terrain_->terrain();
+  terrain.follow(middle_of_body() - behind_ + 0.5 * domain->prd[0]);
+  return static_cast<std::int64_t>(terrain.dropped_slabs()) > renewed_;
 }
 
 /// Lists are about to be made, on all ranks. LIGGGHTS has fix contacthistory gather its values into
@@ -162,7 +221,7 @@ void FixBedWindow::renew(std::int64_t slab) {
 }
 
 /// What stands in the slab, the slab frozen until now, and grains of the rut that lie in the grains
-/// to come.
+/// to come or in the ground that has come.
 void FixBedWindow::take_out(std::int64_t slab, const std::vector<std::size_t>& fresh) {
   const double middle = domain->boxlo[0] + (static_cast<double>(slab) + 0.5) * slab_length_;
   const auto from_middle = [&](double x) {
@@ -178,7 +237,9 @@ void FixBedWindow::take_out(std::int64_t slab, const std::vector<std::size_t>& f
 
   for (int i = 0; i < atom->nlocal;) {
     const double x = atom->x[i][0];
-    if (slab_of(x) == slab || is_frozen(i) || (from_middle(x) < outer && overlaps(i, at_seam))) {
+    const bool at_seam_too = from_middle(x) < outer;
+    if (slab_of(x) == slab || is_frozen(i) ||
+        (at_seam_too && (overlaps(i, at_seam) || overlaps_fresh_sheet(i)))) {
       remove_grain(*lmp, i);  // another one comes to this index
       --inserted_minus_removed_;
     } else {
@@ -197,6 +258,27 @@ bool FixBedWindow::overlaps(int i, const std::vector<std::size_t>& grains) const
     const double reach = (1.0 - seam_overlap) * (atom->radius[i] + bed_->radius(g));
     return dx * dx + dy * dy + dz * dz < reach * reach;
   });
+}
+
+/// The terrain's newest slab has the patch of the sheet of the one that it dropped.
+bool FixBedWindow::overlaps_fresh_sheet(int i) const {
+  if (!terrain_) return false;
+  const Surface& sheet = terrain_->terrain().surface();
+  const std::size_t slabs = static_cast<std::size_t>(slabs_),
+                    patch = (terrain_->terrain().dropped_slabs() - 1) % slabs,
+                    triangles = sheet.triangle_count() / slabs;
+  const Vector3 centre = Eigen::Map<const Vector3>(atom->x[i]);
+  const double reach = (1.0 - seam_overlap) * atom->radius[i];
+  for (std::size_t t = patch * triangles; t < (patch + 1) * triangles; ++t) {
+    const Vector3i& nodes = sheet.triangles[t];
+    Vector3 p = centre;
+    p.x() = sheet.x(0, nodes[0]) + std::remainder(p.x() - sheet.x(0, nodes[0]), domain->prd[0]);
+    if (closest_point_on_triangle(p, sheet.x.col(nodes[0]), sheet.x.col(nodes[1]),
+                                  sheet.x.col(nodes[2]))
+            .distance < reach)
+      return true;
+  }
+  return false;
 }
 
 /// @param rut slab whose grains are no partners: they are gone

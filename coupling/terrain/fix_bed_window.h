@@ -9,6 +9,7 @@
 
 #include "coupling/base/fix_order.h"
 #include "coupling/base/furrow_fix.h"
+#include "coupling/terrain/fix_terrain_continuum.h"
 #include "coupling/terrain/remembered_bed.h"
 
 namespace furrow::coupling {
@@ -31,21 +32,27 @@ class FixBedWindow : public FurrowFix, public FollowsSystem {
   void post_force(int vflag) override;
 
  private:
+  void check_terrain() const;
+  void check_place_of_terrain() const;
   void checkpoint(Checkpoint& state) override;
   double middle_of_body() const { return body_.surface().x.row(0).mean(); }  // [m] along x
   std::int64_t slab_of(double x) const;  // 0 to slabs_-1, x anywhere
   std::int64_t slab_of_grain(std::size_t grain) const { return slab_of(bed_->position(grain)[0]); }
   bool is_frozen(int local_grain) const;
+  double slab_end(std::int64_t slab) const;  // [m], of the x that keeps growing
+  bool moved_on();
   void renew(std::int64_t slab);
   void take_out(std::int64_t slab, const std::vector<std::size_t>& fresh);
   bool overlaps(int local_grain, const std::vector<std::size_t>& grains) const;
+  bool overlaps_fresh_sheet(int local_grain) const;
   void put_in(const std::vector<std::size_t>& grains, std::optional<std::int64_t> rut);
 
   const Body& body_;
   double behind_;  // [m]
   std::int64_t slabs_;
-  double slab_length_;     // [m]
-  std::int64_t next_ = 0;  // slab to be renewed
+  double slab_length_;                            // [m]
+  const FixTerrainContinuum* terrain_ = nullptr;  // that carries the bed, if any
+  std::int64_t next_ = 0;                         // slab to be renewed
   std::int64_t renewed_ = 0;
   std::int64_t inserted_minus_removed_ = 0;  // grains of this rank
   bool due_ = false;

@@ -13,6 +13,7 @@
 #include "coupling/base/refuse_double.h"
 #include "coupling/bodies/fix_wheel_hub.h"
 #include "coupling/liggghts/script.h"
+#include "domain.h"
 #include "io/terrain_input.h"
 #include "mpm/length_under_wheel.h"
 #include "update.h"
@@ -26,6 +27,7 @@ constexpr int most_empty_cells = 20;  // above the surface, over those below
 constexpr long check_every = 100;     // steps between looks at the energy
 // [J/kg] of the terrain, its weight lifted by 0.1 mm: below it an imbalance does not matter
 constexpr double energy_floor = 1e-3;
+constexpr double same_length = 1e-6;  // of a cell: ground and period of the box
 const std::vector<Kind> followable = {Kind::wheel, Kind::body};
 
 /// Of ground that follows one wheel: by what the wheel's line says, not by where the wheel is, so
@@ -48,6 +50,7 @@ std::unique_ptr<Body> make_terrain(LAMMPS_NS::LAMMPS& lammps, const Options& opt
   for (const TerrainLayer& layer : parameters.layers)
     for (const std::string& warning : layer.warnings) warn(lammps, warning);
   parameters.window = options.given("follow");
+  if (options.given("slabs")) parameters.slabs = static_cast<std::size_t>(options.integer("slabs"));
   return std::make_unique<ContinuumTerrain>(parameters, Communicator(&lammps.world),
                                             options.subject());
 }
@@ -61,6 +64,11 @@ Schema FixTerrainContinuum::schema(std::optional<double> length) {
       .text("follow_last",
             "of several bodies in a row the other end: the middle between it and that of `follow` "
             "is followed")
+      .optional();
+  schema
+      .integer("slabs", Range::at_least(4),
+               "with `follow` and a sheet: parts of the length, of which one at a time is dropped "
+               "and added")
       .optional();
   schema
       .number("energy_tolerance", "", Range::positive(),
@@ -79,11 +87,37 @@ FixTerrainContinuum::FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, ch
                      "for one body write 'follow' alone");
   for (const char* key : {"follow", "follow_last"})
     if (options().given(key)) followed_.push_back(&use<FixBody>(key, followable).body());
+  if (options().given("slabs")) check_slabs();
   refuse_overlap();
   contribute(static_cast<MotionController&>(*this));
   provide(outputs(), [this] { return TerrainReading(terrain()); });
   nevery = 1;
   report();
+}
+
+/// Ground that goes round with the grains that it carries, in a box that closes on itself.
+void FixTerrainContinuum::check_slabs() const {
+  const std::string where = options().where("slabs");
+  const bool follows = options().given("follow");
+  if (!follows || !options().flag("sheet"))
+    throw InputError(where, fmt::format("is given without '{}'", follows ? "sheet yes" : "follow"),
+                     "slabs of ground that follows a body and carries grains",
+                     "other ground that follows a body moves on cell by cell");
+  if (options().given("follow_last"))
+    throw InputError(
+        where, "is given with 'follow_last'", "slabs of ground that follows one body",
+        "remove 'follow_last': the bed behind the last of several bodies is renewed by "
+        "bed/window");
+  const double length = options().number("length"), period = domain->prd[0];
+  if (!domain->xperiodic ||
+      std::abs(length - period) > same_length * terrain().grid().axis(0).shortest())
+    throw InputError(
+        where,
+        fmt::format("is given for ground {:.6g} m long in a box {}", length,
+                    domain->xperiodic ? fmt::format("whose period is {:.6g} m", period)
+                                      : "that is not periodic along x"),
+        "ground as long as the period of the box",
+        "use a bed that closes on itself, inputs/beds/sand_window.lig, and its length");
 }
 
 /// Two of them side by side, or one on top of the other, share a face.
@@ -103,6 +137,10 @@ void FixTerrainContinuum::refuse_overlap() {
                                      "terrains that do not overlap; layers of one terrain are in "
                                      "its keyword 'material'",
                                      overlaps);
+}
+
+bool FixTerrainContinuum::follows(const Body& body) const {
+  return std::find(followed_.begin(), followed_.end(), &body) != followed_.end();
 }
 
 std::pair<double, double> FixTerrainContinuum::extent(int direction) const {
@@ -174,7 +212,22 @@ void FixTerrainContinuum::apply(double, double) {
   if (followed_.empty()) return;
   double middle = 0.0;
   for (const Body* body : followed_) middle += body->surface().x.row(0).mean();
-  terrain().follow(middle / static_cast<double>(followed_.size()));
+  middle /= static_cast<double>(followed_.size());
+  if (options().given("slabs"))
+    refuse_to_be_left(middle);
+  else
+    terrain().follow(middle);
+}
+
+/// Ground with slabs moves on with the grains on it, when their bed/window says so.
+void FixTerrainContinuum::refuse_to_be_left(double middle) const {
+  const Axis& x = terrain().grid().axis(0);
+  const double slab = (x.upper() - x.lower()) / static_cast<double>(options().integer("slabs"));
+  if (middle <= x.upper() - slab) return;
+  throw StateError(fmt::format(
+      "the body that the terrain follows is at {:.4g} m, and the terrain, which ends at "
+      "{:.4g} m, has not moved on with it: write a line bed/window with 'terrain {}'",
+      middle, x.upper(), id));
 }
 
 void FixTerrainContinuum::end_of_step() {

@@ -21,6 +21,8 @@ class FixTerrainContinuum : public FixBody, public MotionController {
 
   ContinuumTerrain& terrain() const { return static_cast<ContinuumTerrain&>(body()); }
   bool half_model() const { return options().flag("symmetry"); }
+  /// Whether one of the bodies that it follows is this one.
+  bool follows(const Body& body) const;
   /// Of the undisturbed terrain along x, y or z [m].
   std::pair<double, double> extent(int direction) const;
   /// Whether a point lies in the undisturbed terrain; a trough does not belong to it.
@@ -32,7 +34,9 @@ class FixTerrainContinuum : public FixBody, public MotionController {
   void apply(double time, double dt) override;
 
  private:
+  void check_slabs() const;
   void refuse_overlap();
+  void refuse_to_be_left(double middle) const;
   void report();
   void warn_of_extremes();
   void check_energy();

@@ -62,6 +62,7 @@ Axis::Axis(const AxisLayout& layout, const std::string& where) {
   knot_.back() = layout.upper;
   initial_knot_ = knot_;
   tabulate();
+  shortest_at_start_ = shortest_;
 }
 
 double Axis::cell_count(const AxisLayout& layout) {

@@ -66,8 +66,10 @@ class Axis {
   double upper() const { return knot_.back(); }
   /// lower end of a cell [m]
   double knot(int cell) const { return knot_[static_cast<std::size_t>(cell)]; }
-  double length(int cell) const { return knot(cell + 1) - knot(cell); }    ///< [m]
-  double shortest() const { return shortest_; }                            ///< length of a cell [m]
+  double length(int cell) const { return knot(cell + 1) - knot(cell); }  ///< [m]
+  double shortest() const { return shortest_; }                          ///< length of a cell [m]
+  /// The same before any shift: with the same bits wherever the axis has gone [m].
+  double shortest_at_start() const { return shortest_at_start_; }
   double node(int i) const { return node_[static_cast<std::size_t>(i)]; }  ///< [m]
   /// integral of the node's B-spline [m]
   double extent(int i) const;
@@ -94,8 +96,8 @@ class Axis {
   std::vector<int> irregular_;
   int regular_from_ = 0;
   int regular_to_ = 0;
-  double shortest_ = 0.0;         // [m]
-  double bins_per_length_ = 0.0;  // [1/m]
+  double shortest_ = 0.0, shortest_at_start_ = 0.0;  // [m]
+  double bins_per_length_ = 0.0;                     // [1/m]
   bool uniform_ = true;
 };
 

@@ -67,9 +67,14 @@ void ContinuumTerrain::fill(const std::string& where) {
   if (slide_) check_both_sides(discretisation_, where);
   energy_.add_initial(internal_energy(discretisation_.groups));
   if (parameters_.surface_mesh)
-    free_surface_ = FreeSurfaceMesh(fill_, grid, parameters_.sheet_every);
+    free_surface_ = FreeSurfaceMesh(fill_, grid, parameters_.sheet_every,
+                                    std::max<std::size_t>(1, parameters_.slabs));
   sort_particles();
   if (free_surface_.exists()) free_surface_.update(discretisation_.groups, ranks());
+}
+
+void ContinuumTerrain::place_sheet() {
+  if (free_surface_.exists()) free_surface_.place(fill_, grid(), window_.dropped_slabs());
 }
 
 void ContinuumTerrain::sort_particles() {
@@ -117,8 +122,11 @@ void ContinuumTerrain::step(double dt, const Matrix3X& sheet_forces) {
   if (free_surface_.exists())
     free_surface_.add_forces_to(loads_, discretisation_.groups, sheet_forces);
   step_.advance(dt);
-  if (!remap_.interval_running() && (window_.move() || distribution_.sorting_due()))
-    sort_particles();
+  if (!remap_.interval_running()) {
+    const bool moved = window_.move();
+    if (moved) place_sheet();
+    if (moved || distribution_.sorting_due()) sort_particles();
+  }
   if (free_surface_.exists()) {
     step_.grid_to_particles();
     free_surface_.update(discretisation_.groups, ranks());
@@ -164,7 +172,7 @@ double ContinuumTerrain::particle_count() const {
 void ContinuumTerrain::checkpoint(Checkpoint& state) {
   for (int a = 0; a < 3; ++a) {
     state.match("cells", grid().axis(a).cells());
-    state.match("shortest_cell", grid().axis(a).shortest());
+    state.match("shortest_cell", grid().axis(a).shortest_at_start());
   }
   state.match("layers", discretisation_.groups.size());
   for (const TerrainLayer& layer : parameters_.layers) match_layer(layer, state);
@@ -210,6 +218,7 @@ void ContinuumTerrain::match_layer(const TerrainLayer& layer, Checkpoint& state)
 void ContinuumTerrain::resume() {
   step_.restore_stress_forces();
   if (!free_surface_.exists()) return;
+  place_sheet();
   free_surface_.attach(discretisation_.groups);
   free_surface_.update(discretisation_.groups, ranks());
   multirate_.resume(free_surface_.surface());

@@ -100,15 +100,17 @@ class ContinuumTerrain : public Body {
 
   // ---- moving window; not collective ------------------------------------------------------------
 
-  /// The middle of the terrain follows this x [m], by whole cells, from the next remap on.
+  /// The middle of the terrain follows this x [m], by whole cells or slabs, from the next remap on.
   void follow(double x) { window_.follow(x); }
   const RutRecord& rut() const { return window_.rut(); }
   double travelled() const { return window_.travelled(); }  ///< of the grid since the start [m]
+  std::size_t dropped_slabs() const { return window_.dropped_slabs(); }  ///< since the start
 
  private:
   void fill(const std::string& where);
   double stable_step_now() const;
   void step(double dt, const Matrix3X& sheet_forces);
+  void place_sheet();
   void sort_particles();
   void checkpoint_boundary(Checkpoint& state);
   static void match_layer(const TerrainLayer& layer, Checkpoint& state);

@@ -18,15 +18,12 @@ std::vector<std::size_t> places_of_nodes(std::size_t count, std::size_t every) {
 /// -1 at the first of a row, 1 at its last, 0 between them.
 double outwards(std::size_t n, std::size_t last) { return n == 0 ? -1.0 : n == last ? 1.0 : 0.0; }
 
-/// A node in the cross-section of the ground.
-struct SectionNode {
-  std::size_t row, level;  // of its particle
-  double beside, above;    // of it, in half spacings along y and z
-};
+}  // namespace
 
 /// From the first row to the last, along level stretches and up or down between them.
-std::vector<SectionNode> nodes_across(const TerrainFill& fill, std::size_t rows,
-                                      std::size_t every) {
+std::vector<FreeSurfaceMesh::SectionNode> FreeSurfaceMesh::nodes_across(const TerrainFill& fill,
+                                                                        std::size_t rows,
+                                                                        std::size_t every) {
   std::vector<SectionNode> nodes;
   for (std::size_t from = 0, to = 0; from < rows; from = to) {
     const std::size_t level = fill.first_level(from);
@@ -48,30 +45,27 @@ std::vector<SectionNode> nodes_across(const TerrainFill& fill, std::size_t rows,
   return nodes;
 }
 
-}  // namespace
+FreeSurfaceMesh::FreeSurfaceMesh(const TerrainFill& fill, const Grid& grid, std::size_t every,
+                                 std::size_t slabs)
+    : slabs_(slabs),
+      columns_of_slab_(fill.columns(grid) / slabs),
+      along_(places_of_nodes(columns_of_slab_, every)),
+      across_(nodes_across(fill, fill.rows(grid), every)) {
+  const std::size_t nodes = slabs_ * along_.size() * across_.size();
+  surface_.resize(nodes);
+  motion_.resize(6 * nodes);
+  for (std::size_t patch = 0; patch < slabs_; ++patch) add_triangles(patch);
+  place(fill, grid, 0);
+}
 
-FreeSurfaceMesh::FreeSurfaceMesh(const TerrainFill& fill, const Grid& grid, std::size_t every) {
-  const std::vector<std::size_t> along = places_of_nodes(fill.columns(grid), every);
-  const std::vector<SectionNode> across = nodes_across(fill, fill.rows(grid), every);
-  const std::size_t columns = along.size();
-  const std::size_t rows = across.size();
-  const auto node = [&](std::size_t column, std::size_t row) {
-    return static_cast<int>(column * rows + row);
-  };
-  surface_.resize(columns * rows);
-  motion_.resize(6 * columns * rows);
-  offset_.resize(3, surface_.x.cols());
-  for (std::size_t c = 0; c < columns; ++c)
-    for (std::size_t r = 0; r < rows; ++r) {
-      const SectionNode& place = across[r];
-      nodes_.push_back({fill.id(grid, along[c], place.row, place.level), node(c, r)});
-      offset_.col(node(c, r)) << outwards(c, columns - 1), place.beside, place.above;
-    }
-  std::sort(nodes_.begin(), nodes_.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
-  for (std::size_t c = 0; c + 1 < columns; ++c)
-    for (std::size_t r = 0; r + 1 < rows; ++r) {
+void FreeSurfaceMesh::add_triangles(std::size_t patch) {
+  for (std::size_t c = 0; c + 1 < along_.size(); ++c)
+    for (std::size_t r = 0; r + 1 < across_.size(); ++r) {
       // Diagonals alternate: no direction is preferred.
-      const int a = node(c, r), b = node(c + 1, r), d = node(c, r + 1), e = node(c + 1, r + 1);
+      const auto at = [&](std::size_t column, std::size_t row) {
+        return static_cast<int>(node(patch, column, row));
+      };
+      const int a = at(c, r), b = at(c + 1, r), d = at(c, r + 1), e = at(c + 1, r + 1);
       if ((c + r) % 2 == 0) {
         surface_.triangles.emplace_back(a, b, e);
         surface_.triangles.emplace_back(a, e, d);
@@ -82,16 +76,41 @@ FreeSurfaceMesh::FreeSurfaceMesh(const TerrainFill& fill, const Grid& grid, std:
     }
 }
 
+void FreeSurfaceMesh::place(const TerrainFill& fill, const Grid& grid, std::size_t dropped_slabs) {
+  nodes_.clear();
+  for (std::size_t slab = dropped_slabs; slab < dropped_slabs + slabs_; ++slab)
+    for (std::size_t c = 0; c < along_.size(); ++c) {
+      const std::size_t column = slab * columns_of_slab_ + along_[c];
+      const double along_x = outwards(c, along_.size() - 1);
+      const bool meets_next = along_x < 0.0   ? slab > dropped_slabs
+                              : along_x > 0.0 ? slab + 1 < dropped_slabs + slabs_
+                                              : false;
+      for (std::size_t r = 0; r < across_.size(); ++r) {
+        const SectionNode& section = across_[r];
+        const auto add = [&](std::size_t column_of_particle, double share, double from_particle) {
+          nodes_.push_back({fill.id(grid, column_of_particle, section.row, section.level),
+                            node(slab % slabs_, c, r), share,
+                            Vector3(from_particle, section.beside, section.above)});
+        };
+        add(column, meets_next ? 0.5 : 1.0, along_x);
+        if (meets_next) add(along_x < 0.0 ? column - 1 : column + 1, 0.5, -along_x);
+      }
+    }
+  std::sort(nodes_.begin(), nodes_.end(), [](const auto& a, const auto& b) {
+    return a.id != b.id ? a.id < b.id : a.node < b.node;
+  });
+}
+
 void FreeSurfaceMesh::attach(const std::vector<ParticleGroup>& groups) {
   attachments_.clear();
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const double* id = groups[g].particles.data(column::id);
     for (std::size_t p = 0; p < groups[g].particles.size(); ++p) {
-      const auto found = std::lower_bound(
+      auto found = std::lower_bound(
           nodes_.begin(), nodes_.end(), id[p],
           [](const NodeOfParticle& node, double number) { return node.id < number; });
-      if (found != nodes_.end() && found->id == id[p])
-        attachments_.push_back({found->node, {g, p}});
+      for (; found != nodes_.end() && found->id == id[p]; ++found)
+        attachments_.push_back({static_cast<std::size_t>(found - nodes_.begin()), {g, p}});
     }
   }
 }
@@ -101,7 +120,7 @@ Vector3 FreeSurfaceMesh::offset(const std::vector<ParticleGroup>& groups,
   const Particles& particles = groups[attachment.particle.group].particles;
   Vector3 half = particles.half_spacing(attachment.particle.particle);
   half.z() *= particles.volume_ratio(attachment.particle.particle);
-  return half.cwiseProduct(offset_.col(attachment.node));
+  return half.cwiseProduct(nodes_[attachment.of].offset);
 }
 
 void FreeSurfaceMesh::update(const std::vector<ParticleGroup>& groups, const Communicator& ranks) {
@@ -112,11 +131,12 @@ void FreeSurfaceMesh::update(const std::vector<ParticleGroup>& groups, const Com
     const Vector3 from_particle = offset(groups, attachment);
     const Vector3 x = particles.position(p) + from_particle;
     const Vector3 v = particles.velocity(p) + particles.affine(p) * from_particle;
-    double* node = motion_.data() + 6 * attachment.node;
-    std::copy_n(x.data(), 3, node);
-    std::copy_n(v.data(), 3, node + 3);
+    const auto& [id, index, share, half_spacings] = nodes_[attachment.of];
+    double* node = motion_.data() + 6 * index;
+    Eigen::Map<Vector3>(node) += share * x;
+    Eigen::Map<Vector3>(node + 3) += share * v;
   }
-  // Each node is set on one rank and zero on the others.
+  // A share of a node is added on one rank; there are no more than two.
   ranks.sum(motion_.data(), motion_.size());
   for (Eigen::Index n = 0; n < surface_.x.cols(); ++n) {
     surface_.x.col(n) = Eigen::Map<const Vector3>(motion_.data() + 6 * n);
@@ -127,7 +147,8 @@ void FreeSurfaceMesh::update(const std::vector<ParticleGroup>& groups, const Com
 void FreeSurfaceMesh::add_forces_to(PointLoads& loads, const std::vector<ParticleGroup>& groups,
                                     const Matrix3X& forces) const {
   for (const NodeAttachment& attachment : attachments_) {
-    const Vector3 force = forces.col(attachment.node);
+    const NodeOfParticle& of_node = nodes_[attachment.of];
+    const Vector3 force = of_node.share * forces.col(of_node.node);
     if (!(force.squaredNorm() > 0.0)) continue;
     const ParticleIndex& particle = attachment.particle;
     const Vector3 point =

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 
 namespace furrow {
@@ -12,6 +14,8 @@ MovingWindow::MovingWindow(const TerrainParameters& parameters, Discretisation& 
                            Boundary& boundary, TerrainFill& fill, TerrainEnergy& energy,
                            const std::string& where)
     : enabled_(parameters.window),
+      per_cell_(static_cast<std::size_t>(parameters.particles_per_cell[0])),
+      sheet_(parameters.surface_mesh),
       discretisation_(discretisation),
       boundary_(boundary),
       fill_(fill),
@@ -19,37 +23,62 @@ MovingWindow::MovingWindow(const TerrainParameters& parameters, Discretisation& 
       followed_x_(0.5 * (parameters.x.lower + parameters.x.upper)),
       start_(parameters.x.lower) {
   if (!enabled_) return;
-  if (!discretisation.grid.axis(0).uniform())
+  check(parameters, where);
+  if (parameters.slabs > 0)
+    stride_ = discretisation.grid.axis(0).cells() / static_cast<int>(parameters.slabs);
+}
+
+void MovingWindow::check(const TerrainParameters& parameters, const std::string& where) const {
+  const Axis& x = discretisation_.grid.axis(0);
+  if (!x.uniform())
     throw InputError(where, "moves along a graded x axis",
                      "a uniform x axis for ground that moves");
-  if (parameters.surface_mesh)
-    throw InputError(where, "moves along x and carries a sheet", "one of the two",
-                     "grains on moving ground would be left behind");
+  const int slabs = static_cast<int>(parameters.slabs);
+  if (sheet_ && slabs == 0)
+    throw InputError(where, "moves along x and carries a sheet", "ground that moves on by slabs",
+                     "write 'slabs' and how many, and name the ground as 'terrain' in the line of "
+                     "the bed/window that renews the grains on it");
+  if (slabs > 0 && x.cells() % slabs != 0)
+    throw InputError(where, fmt::format("has {} cells along x in {} slabs", x.cells(), slabs),
+                     "slabs of a whole number of cells",
+                     fmt::format("make 'length' {:.6g} or {:.6g} m, or change 'cell' or 'slabs'",
+                                 (x.cells() / slabs) * slabs * x.length(0),
+                                 (x.cells() / slabs + 1) * slabs * x.length(0)));
 }
 
 double MovingWindow::travelled() const { return discretisation_.grid.axis(0).lower() - start_; }
+
+std::size_t MovingWindow::dropped_slabs() const {
+  return static_cast<std::size_t>(shifts_ / stride_);
+}
 
 bool MovingWindow::move() {
   if (!enabled_) return false;
   const Axis& x = discretisation_.grid.axis(0);
   bool moved = false;
-  while (followed_x_ > 0.5 * (x.lower() + x.upper()) + x.length(0)) {
-    remove_first_cells();
+  while (followed_x_ > 0.5 * (x.lower() + x.upper()) + stride_ * x.length(0)) {
     // Rows of the far field pass from rank to rank when the grid moves.
     if (!moved)
       boundary_.synchronise(discretisation_.ranks(), discretisation_.partition.owned_nodes());
-    discretisation_.grid.shift_x(1);
-    boundary_.shift_x(1);
-    ++shifts_;
-    const double before = internal_energy(discretisation_.groups);
-    fill_.add_cells(x.cells() - 1, discretisation_);
-    energy_.add_initial(internal_energy(discretisation_.groups) - before);
+    for (int cell = 0; cell < stride_; ++cell) move_by_cell();
     moved = true;
   }
   return moved;
 }
 
-/// Removes this rank's particles in the first layer of cells across x. Collective.
+void MovingWindow::move_by_cell() {
+  remove_first_cells();
+  discretisation_.grid.shift_x(1);
+  boundary_.shift_x(1);
+  ++shifts_;
+  const double before = internal_energy(discretisation_.groups);
+  fill_.add_cells(discretisation_.grid.axis(0).cells() - 1, discretisation_);
+  energy_.add_initial(internal_energy(discretisation_.groups) - before);
+}
+
+/// Removes this rank's particles in the first layer of cells across x. Of those that carry a sheet,
+/// particles that came there from further ahead, against the travel, are kept: they go to the new
+/// end of the ground, where undisturbed ones would be. Collective.
 void MovingWindow::remove_first_cells() {
   const Axis& y = discretisation_.grid.axis(1);
   const double edge = discretisation_.grid.axis(0).knot(1);
@@ -62,10 +91,15 @@ void MovingWindow::remove_first_cells() {
   const double dissipated_before = sum_energy(discretisation_.groups, field::dissipated_energy);
   std::vector<std::size_t> kept;
   for (ParticleGroup& group : discretisation_.groups) {
-    const Particles& particles = group.particles;
+    Particles& particles = group.particles;
     kept.clear();
     for (std::size_t p = 0; p < particles.size(); ++p) {
-      if (particles.data(column::x)[p] >= edge) {
+      double& x = particles.data(column::x)[p];
+      const bool came_back = x < edge && sheet_ &&
+                             fill_.column_of(discretisation_.grid, particles.data(column::id)[p]) >=
+                                 static_cast<std::size_t>(shifts_ + 1) * per_cell_;
+      if (came_back) x = edge + particles.half_spacing(p).x();
+      if (x >= edge) {
         kept.push_back(p);
         continue;
       }
@@ -77,7 +111,7 @@ void MovingWindow::remove_first_cells() {
       volume[row] += particles.data(column::volume)[p] * ratio;
       energy_.add_removed_kinetic(0.5 * group.mass(p) * particles.velocity(p).squaredNorm());
     }
-    group.particles.reorder(kept);
+    particles.reorder(kept);
   }
   energy_.add_removed(
       internal_before - internal_energy(discretisation_.groups),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Ground that moves along with a body: removed behind, added ahead, one layer of cells at a time.
+/// Ground that moves along with a body: removed behind, added ahead, one layer of cells at a time;
+/// or one slab of some at a time, where it carries a sheet.
 
 #include <string>
 #include <vector>
@@ -18,18 +19,20 @@ namespace furrow {
 class MovingWindow {
  public:
   /// All parts must outlive the window. @param where  names the terrain in errors
-  /// @throws InputError for a window with a graded x axis or a surface mesh
+  /// @throws InputError for a window with a graded x axis, with a surface mesh and no slabs, or
+  /// with slabs of no whole number of cells
   MovingWindow(const TerrainParameters& parameters, Discretisation& discretisation,
                Boundary& boundary, TerrainFill& fill, TerrainEnergy& energy,
                const std::string& where);
 
   /// The middle of the window is to follow this x [m].
   void follow(double x) { followed_x_ = x; }
-  /// Moves until the middle is within a cell of what it follows. Particles must be up to date with
-  /// the grid. Collective. @return whether it moved: particles must then be sorted
+  /// Moves until the middle is within a cell (a slab) of what it follows. Particles must be up to
+  /// date with the grid. Collective. @return whether it moved: particles must then be sorted
   bool move();
 
-  double travelled() const;  ///< of the grid since the start [m]
+  double travelled() const;           ///< of the grid since the start [m]
+  std::size_t dropped_slabs() const;  ///< since the start
   const RutRecord& rut() const { return rut_; }
 
   /// Brings the grid back to where it was; to be restored before whatever depends on it.
@@ -37,11 +40,16 @@ class MovingWindow {
   void checkpoint_rut(Checkpoint& state);  ///< collective
 
  private:
+  void move_by_cell();
   void remove_first_cells();
+  void check(const TerrainParameters& parameters, const std::string& where) const;
   void record_rut(const std::vector<double>& top, const std::vector<double>& mass,
                   const std::vector<double>& volume);
 
   bool enabled_;
+  int stride_ = 1;        // cells that it moves by at a time
+  std::size_t per_cell_;  // columns of particles
+  bool sheet_;            // whose nodes are attached to particles
   Discretisation& discretisation_;
   Boundary& boundary_;
   TerrainFill& fill_;

@@ -172,6 +172,10 @@ double TerrainFill::id(const Grid& grid, std::size_t column, std::size_t row,
   return static_cast<double>((column * rows(grid) + row) * levels_.size() + level);
 }
 
+std::size_t TerrainFill::column_of(const Grid& grid, double id) const {
+  return static_cast<std::size_t>(id) / (rows(grid) * levels_.size());
+}
+
 void TerrainFill::checkpoint(Checkpoint& state) { state.value("next_id", next_id_); }
 
 }  // namespace furrow

@@ -34,13 +34,14 @@ class TerrainFill {
   /// all ranks; every rank calls it for every layer. A slide surface gives each particle its side.
   void add_cells(int x_cell, Discretisation& discretisation);
 
-  // Particles after the first fill: columns count along x, rows along y, levels from the surface
-  // down.
+  // Columns count along x, rows along y, levels from the surface down; how many, in the grid.
   std::size_t columns(const Grid& grid) const;
   std::size_t rows(const Grid& grid) const;
   /// The uppermost one of a row: 0, but in a trough.
   std::size_t first_level(std::size_t row) const;
+  /// Columns go on ahead of a moving window.
   double id(const Grid& grid, std::size_t column, std::size_t row, std::size_t level) const;
+  std::size_t column_of(const Grid& grid, double id) const;  ///< of the particle
 
   void checkpoint(Checkpoint& state);
 

@@ -6,7 +6,9 @@
 What the base of the continuum gives is the weight of grains and continuum and the load of the wheel
 (momentum), but for what walls around the grains carry by friction; the continuum gives way where a
 rigid floor under the same grains does not; and its long steps change the sinkage by less than the
-scatter of grains. Likewise with the grains in a trough of the continuum, another packing.
+scatter of grains. Likewise with the grains in a trough of the continuum, another packing; and where
+grains and continuum go with the wheel, over more than the length of both: then the ground loses and
+gains no more than the wheel pushes aside, and the wheel does not sink away or come up.
 """
 
 import subprocess
@@ -54,17 +56,41 @@ def check_momentum(results: Path) -> None:
         sys.exit("the base does not give what it carries")
 
 
+def check_steady(results: Path) -> None:
+    """Means over the first and the second half of the way in cruise."""
+    with h5py.File(results / "history.h5") as content:
+        history = content["history"]
+        x, sinkage = history["x"][:] - history["x"][0], history["sinkage"][:]
+    half = 0.5 * x[-1]
+    first, second = sinkage[(x > 0.2) & (x < half)].mean(), sinkage[x >= half].mean()
+    with h5py.File(results / "terrain.h5") as content:
+        history = content["history"]
+        particles, travelled = history["particles"][:], history["travelled"][-1]
+    print(f"sinkage {1e3 * first:.2f} and {1e3 * second:.2f} mm, ground went on {travelled:.3f} m, "
+          f"{particles.min():.0f} to {particles.max():.0f} particles")
+    if not 1.2 <= travelled <= x[-1] + 0.1:
+        sys.exit("the ground does not go with the wheel")
+    if np.ptp(particles) > 0.005 * particles[0]:
+        sys.exit("ground is lost or made")
+    if abs(second - first) > 0.3 * first:
+        sys.exit("the sinkage is not steady")
+
+
 with tempfile.TemporaryDirectory() as name:
     folder = Path(name)
     cell = {"cell": 0.0666667}
     long_steps = run(folder / "long", "wheel_sand_hybrid", **cell)
     short_steps = run(folder / "short", "wheel_sand_hybrid", multirate="no", **cell)
     trough = run(folder / "trough", "wheel_sand_hybrid", trough=0.4, every=2, **cell)
+    run(folder / "moving", "wheel_sand_hybrid", trough=0.4, every=2, period=1.2, slabs=9, behind=0.42,
+        bed_script="../beds/sand_window.lig", **cell | {"distance": 1.4})
     rigid = run(folder / "rigid", "wheel_sand_grains", depth=0.15)
     print(f"sinkage {1e3 * long_steps:.2f} mm, with short steps {1e3 * short_steps:.2f} mm, "
           f"in a trough {1e3 * trough:.2f} mm, on a rigid floor {1e3 * rigid:.2f} mm")
     check_momentum(folder / "long")
     check_momentum(folder / "trough")
+    check_momentum(folder / "moving")
+    check_steady(folder / "moving")
     if abs(long_steps - short_steps) > 0.15 * short_steps:
         sys.exit("the continuum's long steps change the sinkage")
     if min(long_steps, trough) < rigid + 0.004:

@@ -14,6 +14,9 @@ channel:
                 with LIGGGHTS's set-up.
     one_to_two  continued on two ranks: 3e-11. Sums over ranks and ghosts come in another order.
     two         two ranks throughout: every bit
+    hybrid      on grains and a continuum that go with the wheel, renewed before the checkpoint and
+                after it: every bit
+    hybrid_two  the same on two ranks: every bit
 Rounding differences grow with time, because grains are chaotic; the bound of 1e-9 leaves room for
 them over these 2000 steps, and none for a missing state: without the forces of the checkpoint's
 step the difference was 1e-2.
@@ -41,6 +44,8 @@ CASES = {
     "two_runs": ({}, 1, 1, 0.0, "two_runs"),
     "one_to_two": ({}, 1, 2, ROUNDING, "wheel"),
     "two": ({}, 2, 2, 0.0, "wheel"),
+    "hybrid": ({}, 1, 1, 0.0, "hybrid"),
+    "hybrid_two": ({}, 2, 2, 0.0, "hybrid"),
 }
 
 
@@ -83,7 +88,7 @@ def main(case, furrow, *mpirun):
         # be dropped.
         run("parts", script, ranks=before, until=checkpoint + 500)
         assert len(history(Path(folder) / "parts")["time"]) < len(history(Path(folder) / "whole")["time"])
-        run("parts", ranks=after, **{"from": f"checkpoint.{checkpoint}"})
+        run("parts", "wheel" if script == "two_runs" else script, ranks=after, **{"from": f"checkpoint.{checkpoint}"})
 
         whole, parts = Path(folder) / "whole", Path(folder) / "parts"
         largest = difference(history(whole), history(parts))

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Grains on a continuum, both renewed behind a body that flies over them and touches nothing: they
+// must not notice. Grains and ground that come back are those that lay there at rest, so that
+// nothing jumps, and the sheet bears the weight of the grains all the time.
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "atom.h"
+#include "coupling/terrain/fix_terrain_continuum.h"
+#include "modify.h"
+#include "tests/coupled/support/scene.h"
+#include "tests/support/max_error.h"
+
+namespace furrow::test {
+namespace {
+
+constexpr const char* hertz = "model hertz tangential history rolling_friction epsd2";
+constexpr double diameter = 0.008, length = 0.24, step = 4e-5, gravity = 9.81, speed = 1.0;
+constexpr int rest = 2000, rounds = 1, slabs = 8,  // and half a slab
+    steps = static_cast<int>((rounds * length + 0.015) / speed / step);
+
+/// Grains in a box that closes on itself along x, at rest on its floor.
+void make_bed(Scene& scene) {
+  scene.granular_box(Vector3(-length / 2, -0.06, -0.01), Vector3(length / 2, 0.06, 0.2), 0.003,
+                     "p f f");
+  scene.contact_properties(5e6, 0.3, 0.3, 0.5);
+  scene.command(
+      "fix roll all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 0.1 0.1");
+  scene.commands(fmt::format(
+      "pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity {} vector 0 0 -1",
+      hertz, step, gravity));
+  for (const char* wall : {"y1 yplane -0.03", "y2 yplane 0.03", "floor zplane 0"})
+    scene.command(fmt::format("fix {0:.{1}} all wall/gran {2} primitive type 1 {3}", wall,
+                              std::string(wall).find(' '), hertz,
+                              std::string(wall).substr(std::string(wall).find(' ') + 1)));
+  scene.commands(
+      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
+      "constant 0.004\n"
+      "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
+      "region fill block -0.12 0.12 -0.03 0.03 0 0.08 units box\n"
+      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once "
+      "overlapcheck yes all_in no "
+      "particles_in_region 1000 region fill\n"
+      "fix move all nve/sphere\nfix calm all viscous 0.05\nthermo 100000\nrun 24000\nunfix calm\n"
+      "unfix floor");
+}
+
+/// A sheet far above the grains, which goes on along x once they are at rest.
+std::unique_ptr<Body> kite() {
+  Surface sheet = make_sheet(2, 0.04, 0.18);
+  return std::make_unique<PrescribedBody>(sheet, [start = sheet.x](double time, Surface& surface) {
+    surface.x = start;
+    surface.x.row(0).array() += speed * std::max(0.0, time - rest * step);
+    surface.v.setZero();
+  });
+}
+
+/// Held by tangential springs on one patch of the sheet: sum of forces along its nodes [N].
+double held_along(const Surface& sheet, std::size_t patch) {
+  const Eigen::Index nodes = sheet.f.cols() / slabs;
+  return sheet.f.middleCols(static_cast<Eigen::Index>(patch) * nodes, nodes)
+      .topRows<2>()
+      .colwise()
+      .norm()
+      .sum();
+}
+
+/// Where the ground is, and what it is like.
+struct Ground {
+  const char* name;
+  const char* place;
+  const char* walls;  ///< that it replaces
+};
+
+class MovingHybrid : public ::testing::TestWithParam<Ground> {};
+INSTANTIATE_TEST_SUITE_P(
+    Grounds, MovingHybrid,
+    ::testing::Values(Ground{"layer", "width 0.06 depth 0.03 surface 0", ""},
+                      Ground{"trough",
+                             "width 0.1 depth 0.06 surface 0.03 trough 0.06 0.03 multirate yes",
+                             "unfix y1\nunfix y2"}),
+    [](const auto& one) { return one.param.name; });
+
+TEST_P(MovingHybrid, RenewedGroundAndGrainsFitWithoutAJolt) {
+  Scene scene;
+  make_bed(scene);
+  scene.commands(GetParam().walls);
+  scene.add_body("kite", kite());
+  const double grains = scene.sum(scene.lammps().atom->nlocal), mass = scene.grain_mass(),
+               weight = mass * gravity;
+  scene.command(
+      fmt::format("fix soil all terrain/continuum material "
+                  "{}/inputs/materials/rubber.yaml length {} centre 0.06 0 cell 0.01 {} "
+                  "surcharge {} "
+                  "gravity {} sheet yes follow kite slabs 8",
+                  FURROW_SOURCE_DIR, length, GetParam().place, weight / (length * 0.06), gravity));
+  scene.command("fix base all mesh/body body soil type 1");
+  scene.command("fix skin all mesh/body body kite type 2");
+  scene.command(
+      fmt::format("fix wall all wall/gran/body {} mesh n_meshes 2 meshes base skin", hertz));
+  scene.command(fmt::format("run {}", rest));
+
+  auto& ground = static_cast<coupling::FixTerrainContinuum*>(
+                     scene.lammps().modify->find_fix_id(const_cast<char*>("soil")))
+                     ->terrain();
+  const double particles = ground.particle_count();
+  const Surface at_rest = ground.surface();
+  scene.command("fix renew all bed/window body kite slabs 8 behind 0.06 terrain soil");
+  MaxError kinetic_energy, off_weight;
+  scene.at_end_of_step([&] {
+    kinetic_energy.add(scene.grain_kinetic_energy());
+    off_weight.add(-ground.surface().total_force().z() / weight - 1.0);
+  });
+  scene.command(fmt::format("run {}", steps));
+
+  const double renewed = scene.lammps().modify->find_fix_id("renew")->compute_vector(0);
+  // energy of the bed falling by a thousandth of a grain
+  const double fall = mass * gravity * 0.001 * diameter;
+  EXPECT_EQ(renewed, slabs * rounds);
+  EXPECT_EQ(ground.dropped_slabs(), static_cast<std::size_t>(slabs * rounds));
+  EXPECT_NEAR(ground.travelled(), rounds * length, 1e-12);
+  EXPECT_EQ(scene.sum(scene.lammps().atom->nlocal), grains);
+  EXPECT_NEAR(scene.grain_mass() / mass, 1.0, 1e-12);
+  EXPECT_EQ(ground.particle_count(), particles);
+  EXPECT_LT(kinetic_energy.max(), fall);
+  // Only the slab that stands still may bear other than its weight.
+  EXPECT_LT(off_weight.max(), 1.0 / slabs);
+  // Its grains lie on its patch as they did, and hold on to it as they did.
+  const std::size_t newest = (ground.dropped_slabs() - 1) % slabs;
+  const double held = held_along(at_rest, newest);
+  EXPECT_GT(held, 0.01 * weight / slabs);
+  EXPECT_NEAR(held_along(ground.surface(), newest) / held, 1.0, 0.5);
+  RecordProperty("held", fmt::to_string(held_along(ground.surface(), newest) / held));
+  RecordProperty("off_weight", fmt::to_string(off_weight.max()));
+  const coupling::MomentumAudit& audit = scene.system().audit(ground);
+  EXPECT_LT(audit.force, 1e-10);
+  EXPECT_LT(audit.moment, 1e-10);
+}
+
+}  // namespace
+}  // namespace furrow::test
