@@ -20,31 +20,71 @@ inline std::size_t scatter_momentum(const GridView& grid, const ParticleView& al
     for_cells(
         grid, weights,
         particles.size, [&](auto& sum, std::size_t p) __attribute__((always_inline)) {
+          using Sum = PairedCellSum;
           const double mass = density * particles.volume[p];
-          const Stored4* affine = reinterpret_cast<const Stored4*>(particles.affine + 12 * p);
           Vector4 base = *reinterpret_cast<const Stored4*>(particles.velocity + 4 * p);
           base[3] = 1.0;
-          const Vector4 slope[3] = {mass * affine[0], mass * affine[1], mass * affine[2]};
-          sum.add(weights, p, mass * base, slope);
+          const double* affine = particles.affine + 12 * p;
+          const Sum::Carried slope[3] = {mass * Sum::carry(affine), mass * Sum::carry(affine + 4),
+                                         mass * Sum::carry(affine + 8)};
+          sum.add(weights, p, mass * Sum::carry(reinterpret_cast<const double*>(&base)), slope);
         });
   });
   return outside;
+}
+
+/// -V sigma of the particles of a batch, row by row of the stress; fourth numbers are zero [N m].
+struct StressRows {
+  alignas(64) double row[3][batch][4];
+};
+
+#ifdef __AVX512F__
+
+/// Of eight particles from p on.
+[[gnu::always_inline]] inline void find_eight_rows(const ParticleView& particles, std::size_t p,
+                                                   StressRows& rows) {
+  const auto load = [p](const double* values) __attribute__((always_inline)) {
+    return Vector8(*reinterpret_cast<const Stored8*>(values + p));
+  };
+  const Vector8 volume = -load(particles.volume) * load(particles.volume_ratio);
+  Vector8 s[6];
+  for (int k = 0; k < 6; ++k) s[k] = volume * load(particles.stress[k]);
+  interleave(s[0], s[3], s[5], rows.row[0][p]);
+  interleave(s[3], s[1], s[4], rows.row[1][p]);
+  interleave(s[5], s[4], s[2], rows.row[2][p]);
+}
+
+#endif
+
+inline void find_stress_rows(const ParticleView& particles, StressRows& rows) {
+  std::size_t p = 0;
+#ifdef __AVX512F__
+  for (; p + 8 <= particles.size; p += 8) find_eight_rows(particles, p, rows);
+#endif
+  constexpr int component[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+  for (; p < particles.size; ++p) {
+    const double volume = -particles.volume[p] * particles.volume_ratio[p];
+    for (int r = 0; r < 3; ++r) {
+      const int* c = component[r];
+      const Vector4 row = {particles.stress[c[0]][p], particles.stress[c[1]][p],
+                           particles.stress[c[2]][p], 0.0};
+      *reinterpret_cast<Stored4*>(rows.row[r][p]) = volume * row;
+    }
+  }
 }
 
 inline void scatter_force(const GridView& grid, const ParticleView& all,
                           const Weights* of_batches) {
   for_batches(all, [&](const ParticleView& particles, std::size_t first) {
     const Weights& weights = of_batches[first / batch];
-    alignas(64) double force[6][batch];  // -V sigma
-    for (int s = 0; s < 6; ++s)
-      for (std::size_t p = 0; p < particles.size; ++p)
-        force[s][p] = -particles.volume[p] * particles.volume_ratio[p] * particles.stress[s][p];
+    StressRows rows;
+    find_stress_rows(particles, rows);
     for_cells(
         grid, weights,
         particles.size, [&](auto& sum, std::size_t p) __attribute__((always_inline)) {
-          const double xx = force[0][p], yy = force[1][p], zz = force[2][p], xy = force[3][p],
-                       yz = force[4][p], xz = force[5][p];
-          const Vector4 flux[3] = {{xx, xy, xz, 0.0}, {xy, yy, yz, 0.0}, {xz, yz, zz, 0.0}};
+          using Sum = PairedCellSum;
+          const Sum::Carried flux[3] = {Sum::carry(rows.row[0][p]), Sum::carry(rows.row[1][p]),
+                                        Sum::carry(rows.row[2][p])};
           sum.add(weights, p, flux);
         });
   });
