@@ -33,58 +33,53 @@ inline std::size_t scatter_momentum(const GridView& grid, const ParticleView& al
   return outside;
 }
 
-/// -V sigma of the particles of a batch, row by row of the stress; fourth numbers are zero [N m].
-struct StressRows {
-  alignas(64) double row[3][batch][4];
-};
+/// -V sigma of the particles of a batch [N m].
+struct BatchStress {
+  alignas(64) double force[6][batch];
 
+  explicit BatchStress(const ParticleView& particles) {
+    for (int s = 0; s < 6; ++s)
+      for (std::size_t p = 0; p < particles.size; ++p)
+        force[s][p] = -particles.volume[p] * particles.volume_ratio[p] * particles.stress[s][p];
 #ifdef __AVX512F__
-
-/// Of eight particles from p on.
-[[gnu::always_inline]] inline void find_eight_rows(const ParticleView& particles, std::size_t p,
-                                                   StressRows& rows) {
-  const auto load = [p](const double* values) __attribute__((always_inline)) {
-    return Vector8(*reinterpret_cast<const Stored8*>(values + p));
-  };
-  const Vector8 volume = -load(particles.volume) * load(particles.volume_ratio);
-  Vector8 s[6];
-  for (int k = 0; k < 6; ++k) s[k] = volume * load(particles.stress[k]);
-  interleave(s[0], s[3], s[5], rows.row[0][p]);
-  interleave(s[3], s[1], s[4], rows.row[1][p]);
-  interleave(s[5], s[4], s[2], rows.row[2][p]);
-}
-
-#endif
-
-inline void find_stress_rows(const ParticleView& particles, StressRows& rows) {
-  std::size_t p = 0;
-#ifdef __AVX512F__
-  for (; p + 8 <= particles.size; p += 8) find_eight_rows(particles, p, rows);
-#endif
-  constexpr int component[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-  for (; p < particles.size; ++p) {
-    const double volume = -particles.volume[p] * particles.volume_ratio[p];
-    for (int r = 0; r < 3; ++r) {
-      const int* c = component[r];
-      const Vector4 row = {particles.stress[c[0]][p], particles.stress[c[1]][p],
-                           particles.stress[c[2]][p], 0.0};
-      *reinterpret_cast<Stored4*>(rows.row[r][p]) = volume * row;
+    const auto load = [&](int s, std::size_t p) __attribute__((always_inline)) {
+      return Vector8(*reinterpret_cast<const Stored8*>(force[s] + p));
+    };
+    for (std::size_t p = 0; p < particles.size; p += 8) {
+      const Vector8 xy = load(3, p), yz = load(4, p), xz = load(5, p);
+      interleave(load(0, p), xy, xz, row[0][p]);
+      interleave(xy, load(1, p), yz, row[1][p]);
+      interleave(xz, yz, load(2, p), row[2][p]);
     }
   }
-}
+  /// Row by row of the stress; fourth numbers are zero.
+  alignas(64) double row[3][batch][4];
+
+  [[gnu::always_inline]] void flux(std::size_t p, Vector8* rows) const {
+    for (int r = 0; r < 3; ++r) rows[r] = PairedCellSum::carry(row[r][p]);
+  }
+#else
+  }
+  [[gnu::always_inline]] void flux(std::size_t p, Vector4* rows) const {
+    const double xx = force[0][p], yy = force[1][p], zz = force[2][p], xy = force[3][p],
+                 yz = force[4][p], xz = force[5][p];
+    rows[0] = Vector4{xx, xy, xz, 0.0};
+    rows[1] = Vector4{xy, yy, yz, 0.0};
+    rows[2] = Vector4{xz, yz, zz, 0.0};
+  }
+#endif
+};
 
 inline void scatter_force(const GridView& grid, const ParticleView& all,
                           const Weights* of_batches) {
   for_batches(all, [&](const ParticleView& particles, std::size_t first) {
     const Weights& weights = of_batches[first / batch];
-    StressRows rows;
-    find_stress_rows(particles, rows);
+    const BatchStress stress(particles);
     for_cells(
         grid, weights,
         particles.size, [&](auto& sum, std::size_t p) __attribute__((always_inline)) {
-          using Sum = PairedCellSum;
-          const Sum::Carried flux[3] = {Sum::carry(rows.row[0][p]), Sum::carry(rows.row[1][p]),
-                                        Sum::carry(rows.row[2][p])};
+          PairedCellSum::Carried flux[3];
+          stress.flux(p, flux);
           sum.add(weights, p, flux);
         });
   });

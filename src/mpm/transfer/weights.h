@@ -85,7 +85,12 @@ void find_batch_weights(const GridView& grid, const double* const* position, std
       const double difference = axis.knot[c + 1] - axis.knot[c] - h;
       return difference < 1e-9 * h && difference > -1e-9 * h;
     };
-    const bool here = kind == Slope::gradient && axis.regular_to > axis.regular_from;
+#ifdef __AVX512F__  // without its masks the selections cost more than the table
+    constexpr bool here_too = kind == Slope::gradient;
+#else
+    constexpr bool here_too = false;
+#endif
+    const bool here = here_too && axis.regular_to > axis.regular_from;
     const int first_cell = here && axis.regular_from == 1 && is_like_run(0) ? 0 : none;
     const int last_cell = here && axis.regular_to == last && is_like_run(last) ? last : none;
     int any_irregular = 0;
@@ -94,7 +99,7 @@ void find_batch_weights(const GridView& grid, const double* const* position, std
       const double in_cells = from_start + axis.regular_from;
       const int c = static_cast<int>(in_cells);
       const double f = in_cells - c, g = 1.0 - f;
-      const bool is_first = c == first_cell, is_last = c == last_cell;
+      const bool is_first = here_too && c == first_cell, is_last = here_too && c == last_cell;
       const double u0 = is_first ? g : 0.5 * g, u2 = is_last ? f : 0.5 * f;
       const double w0 = u0 * g, w2 = u2 * f, w1 = 1.0 - w0 - w2;
       weights.value[a][0][p] = w0;
