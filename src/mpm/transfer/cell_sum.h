@@ -11,6 +11,11 @@ inline namespace FURROW_ISA {
 /// Particle p adds N_i base + sum_d slope_d flux_d to every node i; slope_d: Weights::slope along d
 /// times the values along the other axes.
 struct CellSum {
+  using Carried = Vector4;
+  [[gnu::always_inline]] static Carried carry(const double* four) {
+    return *reinterpret_cast<const Stored4*>(four);
+  }
+
   Vector4 node[stencil][stencil][stencil];
 
   [[gnu::always_inline]] void add(const Weights& weights, std::size_t p, const Vector4& base,
@@ -78,8 +83,10 @@ typedef double Stored8 __attribute__((vector_size(64), aligned(8), may_alias));
 [[gnu::always_inline]] inline Vector8 both(const Vector4& v) {
   return __builtin_shufflevector(v, v, 0, 1, 2, 3, 4, 5, 6, 7);
 }
-[[gnu::always_inline]] inline Vector8 both(double a, double b) {
-  return Vector8{a, a, a, a, b, b, b, b};
+[[gnu::always_inline]] inline Vector8 all_of(double a) { return Vector8(_mm512_set1_pd(a)); }
+/// The lower half of a and the upper half of b.
+[[gnu::always_inline]] inline Vector8 halves(const Vector8& a, const Vector8& b) {
+  return Vector8(_mm512_mask_mov_pd(a, 0xF0, b));
 }
 [[gnu::always_inline]] inline Vector4 lower(const Vector8& v) {
   return __builtin_shufflevector(v, v, 0, 1, 2, 3);
@@ -89,24 +96,33 @@ typedef double Stored8 __attribute__((vector_size(64), aligned(8), may_alias));
 }
 
 /// The same with two nodes in a register: the two lower nodes along z are neighbours in memory, the
-/// upper ones are paired along x.
+/// upper ones are paired along x. What a particle brings comes twice side by side.
 struct PairedCellSum {
+  using Carried = Vector8;
+  /// From the four numbers of a vector in memory: a load alone, no shuffle.
+  [[gnu::always_inline]] static Carried carry(const double* four) {
+    return Vector8(_mm512_broadcast_f64x4(_mm256_loadu_pd(four)));
+  }
+
   Vector8 low[stencil][stencil];  // at i, j: k = 0 and 1
   Vector8 top[stencil];           // at j, k = 2: i = 0 and 1
   Vector4 last[stencil];          // at j, k = 2: i = 2
 
-  [[gnu::always_inline]] void add(const Weights& weights, std::size_t p, const Vector4& base,
-                                  const Vector4* flux) {
+  [[gnu::always_inline]] void add(const Weights& weights, std::size_t p, const Vector8& base,
+                                  const Vector8* flux) {
     const auto& w = weights.value[2];
     const auto& g = weights.slope[2];
-    add_rows(weights, p,
-             both(w[0][p], w[1][p]) * both(base) + both(g[0][p], g[1][p]) * both(flux[2]),
-             w[2][p] * base + g[2][p] * flux[2], flux);
+    const Vector8 low_w = halves(all_of(w[0][p]), all_of(w[1][p])),
+                  low_g = halves(all_of(g[0][p]), all_of(g[1][p]));
+    add_rows(weights, p, low_w, low_w * base + low_g * flux[2], w[2][p] * base + g[2][p] * flux[2],
+             flux);
   }
 
-  [[gnu::always_inline]] void add(const Weights& weights, std::size_t p, const Vector4* flux) {
+  [[gnu::always_inline]] void add(const Weights& weights, std::size_t p, const Vector8* flux) {
+    const auto& w = weights.value[2];
     const auto& g = weights.slope[2];
-    add_rows(weights, p, both(g[0][p], g[1][p]) * both(flux[2]), g[2][p] * flux[2], flux);
+    add_rows(weights, p, halves(all_of(w[0][p]), all_of(w[1][p])),
+             halves(all_of(g[0][p]), all_of(g[1][p])) * flux[2], g[2][p] * flux[2], flux);
   }
 
   [[gnu::always_inline]] void add_to(const GridView& grid, const Strides& stride,
@@ -125,21 +141,25 @@ struct PairedCellSum {
   }
 
  private:
+  /// @param low_w  N of the nodes k = 0 and 1 along z
   /// @param low_z, top_z  what the nodes k = 0 and 1, and k = 2, get along z
-  [[gnu::always_inline]] void add_rows(const Weights& weights, std::size_t p, const Vector8& low_z,
-                                       const Vector4& top_z, const Vector4* flux) {
-    const Vector8 low_w = both(weights.value[2][0][p], weights.value[2][1][p]);
+  [[gnu::always_inline]] void add_rows(const Weights& weights, std::size_t p, const Vector8& low_w,
+                                       const Vector8& low_z, const Vector8& top_z,
+                                       const Vector8* flux) {
     const double top_w = weights.value[2][2][p];
-    const Vector8 low_x = low_w * both(flux[0]), low_y = low_w * both(flux[1]);
-    const Vector4 top_x = top_w * flux[0], top_y = top_w * flux[1];
-    const auto& w = weights.value[0];
-    const auto& g = weights.slope[0];
+    const Vector8 low_x = low_w * flux[0], low_y = low_w * flux[1];
+    const Vector8 top_x = top_w * flux[0], top_y = top_w * flux[1];
+    Vector8 w[stencil], g[stencil];
 #pragma GCC unroll 3
-    for (std::size_t i = 0; i < stencil; ++i)
-      add_row(weights, p, w[i][p] * low_z + g[i][p] * low_x, w[i][p] * low_y, low[i]);
-    const Vector8 pair_w = both(w[0][p], w[1][p]), pair_g = both(g[0][p], g[1][p]);
-    add_row(weights, p, pair_w * both(top_z) + pair_g * both(top_x), pair_w * both(top_y), top);
-    add_row(weights, p, w[2][p] * top_z + g[2][p] * top_x, w[2][p] * top_y, last);
+    for (std::size_t i = 0; i < stencil; ++i) {
+      w[i] = all_of(weights.value[0][i][p]);
+      g[i] = all_of(weights.slope[0][i][p]);
+      add_row(weights, p, w[i] * low_z + g[i] * low_x, w[i] * low_y, low[i]);
+    }
+    const Vector8 pair_w = halves(w[0], w[1]), pair_g = halves(g[0], g[1]);
+    add_row(weights, p, pair_w * top_z + pair_g * top_x, pair_w * top_y, top);
+    const Vector4 last_w = lower(w[2]), last_g = lower(g[2]);
+    add_row(weights, p, last_w * lower(top_z) + last_g * lower(top_x), last_w * lower(top_y), last);
   }
 
   template <class Vector>
@@ -153,6 +173,21 @@ struct PairedCellSum {
     }
   }
 };
+
+/// Writes the vectors (a, b, c, 0) of eight particles one after the other.
+[[gnu::always_inline]] inline void interleave(const Vector8& a, const Vector8& b, const Vector8& c,
+                                              double* vectors) {
+  const Vector8 zero = {};
+  const Vector8 ab[2] = {__builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11),
+                         __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15)};
+  const Vector8 c0[2] = {__builtin_shufflevector(c, zero, 0, 8, 1, 8, 2, 8, 3, 8),
+                         __builtin_shufflevector(c, zero, 4, 8, 5, 8, 6, 8, 7, 8)};
+  Stored8* pairs = reinterpret_cast<Stored8*>(vectors);
+  for (int h = 0; h < 2; ++h) {
+    pairs[2 * h] = __builtin_shufflevector(ab[h], c0[h], 0, 1, 8, 9, 2, 3, 10, 11);
+    pairs[2 * h + 1] = __builtin_shufflevector(ab[h], c0[h], 4, 5, 12, 13, 6, 7, 14, 15);
+  }
+}
 
 #else
 

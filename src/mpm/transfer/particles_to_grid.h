@@ -20,31 +20,66 @@ inline std::size_t scatter_momentum(const GridView& grid, const ParticleView& al
     for_cells(
         grid, weights,
         particles.size, [&](auto& sum, std::size_t p) __attribute__((always_inline)) {
+          using Sum = PairedCellSum;
           const double mass = density * particles.volume[p];
-          const Stored4* affine = reinterpret_cast<const Stored4*>(particles.affine + 12 * p);
           Vector4 base = *reinterpret_cast<const Stored4*>(particles.velocity + 4 * p);
           base[3] = 1.0;
-          const Vector4 slope[3] = {mass * affine[0], mass * affine[1], mass * affine[2]};
-          sum.add(weights, p, mass * base, slope);
+          const double* affine = particles.affine + 12 * p;
+          const Sum::Carried slope[3] = {mass * Sum::carry(affine), mass * Sum::carry(affine + 4),
+                                         mass * Sum::carry(affine + 8)};
+          sum.add(weights, p, mass * Sum::carry(reinterpret_cast<const double*>(&base)), slope);
         });
   });
   return outside;
 }
 
+/// -V sigma of the particles of a batch [N m].
+struct BatchStress {
+  alignas(64) double force[6][batch];
+
+  explicit BatchStress(const ParticleView& particles) {
+    for (int s = 0; s < 6; ++s)
+      for (std::size_t p = 0; p < particles.size; ++p)
+        force[s][p] = -particles.volume[p] * particles.volume_ratio[p] * particles.stress[s][p];
+#ifdef __AVX512F__
+    const auto load = [&](int s, std::size_t p) __attribute__((always_inline)) {
+      return Vector8(*reinterpret_cast<const Stored8*>(force[s] + p));
+    };
+    for (std::size_t p = 0; p < particles.size; p += 8) {
+      const Vector8 xy = load(3, p), yz = load(4, p), xz = load(5, p);
+      interleave(load(0, p), xy, xz, row[0][p]);
+      interleave(xy, load(1, p), yz, row[1][p]);
+      interleave(xz, yz, load(2, p), row[2][p]);
+    }
+  }
+  /// Row by row of the stress; fourth numbers are zero.
+  alignas(64) double row[3][batch][4];
+
+  [[gnu::always_inline]] void flux(std::size_t p, Vector8* rows) const {
+    for (int r = 0; r < 3; ++r) rows[r] = PairedCellSum::carry(row[r][p]);
+  }
+#else
+  }
+  [[gnu::always_inline]] void flux(std::size_t p, Vector4* rows) const {
+    const double xx = force[0][p], yy = force[1][p], zz = force[2][p], xy = force[3][p],
+                 yz = force[4][p], xz = force[5][p];
+    rows[0] = Vector4{xx, xy, xz, 0.0};
+    rows[1] = Vector4{xy, yy, yz, 0.0};
+    rows[2] = Vector4{xz, yz, zz, 0.0};
+  }
+#endif
+};
+
 inline void scatter_force(const GridView& grid, const ParticleView& all,
                           const Weights* of_batches) {
   for_batches(all, [&](const ParticleView& particles, std::size_t first) {
     const Weights& weights = of_batches[first / batch];
-    alignas(64) double force[6][batch];  // -V sigma
-    for (int s = 0; s < 6; ++s)
-      for (std::size_t p = 0; p < particles.size; ++p)
-        force[s][p] = -particles.volume[p] * particles.volume_ratio[p] * particles.stress[s][p];
+    const BatchStress stress(particles);
     for_cells(
         grid, weights,
         particles.size, [&](auto& sum, std::size_t p) __attribute__((always_inline)) {
-          const double xx = force[0][p], yy = force[1][p], zz = force[2][p], xy = force[3][p],
-                       yz = force[4][p], xz = force[5][p];
-          const Vector4 flux[3] = {{xx, xy, xz, 0.0}, {xy, yy, yz, 0.0}, {xz, yz, zz, 0.0}};
+          PairedCellSum::Carried flux[3];
+          stress.flux(p, flux);
           sum.add(weights, p, flux);
         });
   });

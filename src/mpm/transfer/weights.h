@@ -77,22 +77,44 @@ void find_batch_weights(const GridView& grid, const double* const* position, std
     const double per_length = 1.0 / h;
     const double inverse_spread = 4.0 * per_length * per_length;
     const double scale = kind == Slope::moment ? h : h * inverse_spread;
+    // Cells of the same length that end the axis differ in one spline; where G = grad N is asked
+    // for they are done here too.
+    constexpr int none = -(1 << 30);  // no cell, and no position counts as in it
+    const int last = axis.cells - 1;
+    const auto is_like_run = [&](int c) {
+      const double difference = axis.knot[c + 1] - axis.knot[c] - h;
+      return difference < 1e-9 * h && difference > -1e-9 * h;
+    };
+#ifdef __AVX512F__  // without its masks the selections cost more than the table
+    constexpr bool here_too = kind == Slope::gradient;
+#else
+    constexpr bool here_too = false;
+#endif
+    const bool here = here_too && axis.regular_to > axis.regular_from;
+    const int first_cell = here && axis.regular_from == 1 && is_like_run(0) ? 0 : none;
+    const int last_cell = here && axis.regular_to == last && is_like_run(last) ? last : none;
     int any_irregular = 0;
     for (std::size_t p = 0; p < count; ++p) {
       const double from_start = (x[p] - axis.regular_start) * per_length;
       const double in_cells = from_start + axis.regular_from;
       const int c = static_cast<int>(in_cells);
       const double f = in_cells - c, g = 1.0 - f;
-      const double w0 = 0.5 * g * g, w2 = 0.5 * f * f, w1 = 1.0 - w0 - w2;
+      const bool is_first = here_too && c == first_cell, is_last = here_too && c == last_cell;
+      const double u0 = is_first ? g : 0.5 * g, u2 = is_last ? f : 0.5 * f;
+      const double w0 = u0 * g, w2 = u2 * f, w1 = 1.0 - w0 - w2;
       weights.value[a][0][p] = w0;
       weights.value[a][1][p] = w1;
       weights.value[a][2][p] = w2;
-      weights.slope[a][0][p] = w0 * (-0.5 - f) * scale;
-      weights.slope[a][1][p] = w1 * (0.5 - f) * scale;
-      weights.slope[a][2][p] = w2 * (1.5 - f) * scale;
+      const bool grad = is_first | is_last;
+      const double s0 = grad ? -2.0 * per_length * u0 : w0 * (-0.5 - f) * scale;
+      const double s2 = grad ? 2.0 * per_length * u2 : w2 * (1.5 - f) * scale;
+      weights.slope[a][0][p] = s0;
+      weights.slope[a][1][p] = grad ? -s0 - s2 : w1 * (0.5 - f) * scale;
+      weights.slope[a][2][p] = s2;
       if (kind == Slope::moment) weights.inverse_spread[a][p] = inverse_spread;
       cell[a][p] = c;
-      irregular[p] = static_cast<int>(from_start < 0.0) | static_cast<int>(c >= axis.regular_to);
+      irregular[p] = (static_cast<int>(from_start < 0.0) & static_cast<int>(!is_first)) |
+                     (static_cast<int>(c >= axis.regular_to) & static_cast<int>(!is_last));
       any_irregular |= irregular[p];
     }
     if (any_irregular)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mpm/transfer.h"
 
+#include <algorithm>
 #include <cstring>
 #include <random>
 
@@ -153,6 +154,42 @@ TEST(Transfer, AllInstructionSetsAgree) {
     for (std::size_t n = 0; n < after.size(); ++n)
       ASSERT_NEAR(after[n], moved[n], 1e-9 * (1.0 + std::abs(moved[n]))) << to_string(set);
   }
+}
+
+/// On an axis of equal cells, N and G in closed form: those of unit cells inside, with G = N D^-1
+/// d; in the cells at both ends the spline of the end alone differs, and G = grad N (transfer.h).
+TEST(Transfer, WeightsOfEqualCellsAndOfThoseAtTheEnds) {
+  const double h = 0.125;
+  Grid grid(Axis(even(-0.5, 0.5, h), "x"), Axis(even(0.0, 0.5, h), "y"),
+            Axis(even(0.0, 1.0, h), "z"));
+  const double y = 0.25 + 0.3 * h, z = 0.4;  // x goes through all cells
+  for (const InstructionSet set : available_instruction_sets())
+    for (int n = 0; n <= 64; ++n) {
+      const double x = -0.5 + n / 64.0;
+      ParticleView particle;
+      particle.size = 1;
+      particle.shape_position[0] = &x;
+      particle.shape_position[1] = &y;
+      particle.shape_position[2] = &z;
+      Weights weights;
+      kernels_for<TransferKernels>(set).find_weights(grid.view(), particle, &weights);
+      const int cell = std::min(n / 8, 7);
+      const double f = n / 8.0 - cell, g = 1.0 - f, first = cell == 0 ? 1.0 : 0.5,
+                   last = cell == 7 ? 1.0 : 0.5;
+      const double N[3] = {first * g * g, 1.0 - first * g * g - last * f * f, last * f * f};
+      double G[3] = {-4.0 / h * N[0] * (0.5 + f), 4.0 / h * N[1] * (0.5 - f),
+                     4.0 / h * N[2] * (1.5 - f)};
+      if (cell == 0 || cell == 7) {
+        G[0] = -2.0 / h * first * g;
+        G[2] = 2.0 / h * last * f;
+        G[1] = -G[0] - G[2];
+      }
+      EXPECT_EQ(weights.first_node[0] / (grid.nodes(1) * grid.nodes(2)), cell) << n;
+      for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(weights.value[0][i][0], N[i], 1e-15) << to_string(set) << ' ' << n;
+        EXPECT_NEAR(weights.slope[0][i][0], G[i], 1e-15 / h * 10.0) << to_string(set) << ' ' << n;
+      }
+    }
 }
 
 /// 1 to 20 neighbouring particles in each of some cells: taken together, in the lanes of registers,

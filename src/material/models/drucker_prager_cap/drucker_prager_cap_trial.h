@@ -19,7 +19,12 @@ struct CapTrial {
   CapSurfaces start;  ///< at the start of the step
   Lanes p;            ///< of the elastic trial [Pa]
   Lanes t;
-  Lanes noise;  ///< strain that rounding of p and eps amounts to
+
+  /// Strain that rounding of p and eps amounts to.
+  FURROW_INLINE Lanes noise() const {
+    const Lanes stress = abs(elastic.p_n) + abs(start.pa);
+    return Lanes(4e-16) * (abs(eps) + abs(dv)) + Lanes(8e-16) * stress / elastic.bulk_at_start();
+  }
 };
 
 /// @param deviator  a DeviatoricReturn
@@ -27,19 +32,14 @@ template <class Deviator>
 FURROW_INLINE CapTrial make_trial(const DruckerPragerCapParameters& parameters,
                                   const ElasticStep& elastic, const Deviator& deviator,
                                   Hardening& hardening, const Lanes& dv, const Lanes& eps) {
-  const CapSurfaces start = surfaces_at(parameters, hardening, eps);
-  const Lanes stress = abs(elastic.p_n) + abs(start.pa);
-  const Lanes noise =
-      Lanes(4e-16) * (abs(eps) + abs(dv)) + Lanes(8e-16) * stress / elastic.bulk_at_start();
   return {elastic,
           deviator.stiffness(elastic.shear),
           hardening,
           dv,
           eps,
-          start,
+          surfaces_at(parameters, hardening, eps),
           elastic.pressure(dv),
-          deviator.t(),
-          noise};
+          deviator.t()};
 }
 
 /// The end of a step.

@@ -48,6 +48,7 @@ FURROW_INLINE Mask solve_cap_together(const DruckerPragerCapParameters& paramete
   Lanes cosine = 1.0;
   Lanes sine = 0.0;
   Mask solved(false);
+  const Lanes tolerance = Lanes(2e-14) * trial.p + bulk * trial.noise();
   constexpr int max_iterations = 9;
   for (int i = 0;; ++i) {
     now = surfaces_at(parameters, trial.hardening, trial.eps + de);
@@ -56,8 +57,7 @@ FURROW_INLINE Mask solve_cap_together(const DruckerPragerCapParameters& paramete
     const Lanes f = trial.p - bulk * de - now.pa - R * now.Q * cosine;
     const Lanes g = A * now.Q * sine + b * de * u - trial.t;
     stdx::where(active && !solved, end.iterations) += 1.0;
-    const Mask converged =
-        abs(f) <= Lanes(2e-14) * trial.p + bulk * trial.noise && abs(g) <= Lanes(1e-13) * trial.t;
+    const Mask converged = abs(f) <= tolerance && abs(g) <= Lanes(1e-13) * trial.t;
     solved = solved || (converged && de >= Lanes(0.0) && u >= Lanes(0.0));
     if (i == max_iterations || all(solved || !active)) break;
     // - f = f_de dde + f_u du,  - g = g_de dde + g_u du
@@ -141,7 +141,7 @@ inline void solve_cap_nested(const DruckerPragerCapParameters& parameters, const
   const Lanes high =
       trial.dv - elastic.strain(parameters.elasticity.porous ? floor : trial.start.pa);
   const Lanes de =
-      decreasing_root(residual, min(guess, high), 0.0, high, Lanes(1e-13) * high + trial.noise,
+      decreasing_root(residual, min(guess, high), 0.0, high, Lanes(1e-13) * high + trial.noise(),
                       active && high > Lanes(0.0), end.iterations);
   const Lanes solution = select(active, max(de, 0.0), 0.0);
   residual(solution);
