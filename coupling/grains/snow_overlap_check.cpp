@@ -11,13 +11,13 @@ namespace furrow::coupling {
 
 namespace {
 
-constexpr LAMMPS_NS::bigint every = 200;  // steps between comparisons
+constexpr LAMMPS_NS::bigint compare_every = 200;  // steps between comparisons
 
 }  // namespace
 
 void SnowOverlapCheck::finish_step() {
   const LAMMPS_NS::Update& now = *lammps_.update;
-  if (warned_ || (now.ntimestep % every != 0 && now.ntimestep != now.laststep)) return;
+  if (warned_ || (now.ntimestep % compare_every != 0 && now.ntimestep != now.laststep)) return;
   double found[] = {densest_, largest_};
   Communicator(&lammps_.world).max(found, 2);
   warned_ = found[0] > ice_density;
