@@ -202,6 +202,13 @@ void check_command_line(const CommandLine& line) {
   if (!line.script.empty() && fs::is_regular_file(line.script)) check_variables(line);
 }
 
+std::vector<std::string> words_for_liggghts(std::vector<std::string> words) {
+  for (std::size_t i = 2; i < words.size(); ++i)
+    if ((words[i - 1] == "-screen" || words[i - 1] == "-sc") && words[i] == "none")
+      words[i] = "/dev/null";
+  return words;
+}
+
 std::string usage() {
   return "Usage: furrow -in <script> [-var <name> <value>]... [-log <file>|none] "
          "[-screen <file>|none]\n"

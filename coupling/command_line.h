@@ -26,6 +26,10 @@ CommandLine read_command_line(const std::vector<std::string>& words);
 /// @throws InputError
 void check_command_line(const CommandLine& line);
 
+/// What LIGGGHTS is started with instead of "-screen none": its mesh fixes write to the screen
+/// without asking whether there is one. @param words the program's name and what follows
+std::vector<std::string> words_for_liggghts(std::vector<std::string> words);
+
 std::string usage();
 
 }  // namespace furrow::coupling

@@ -6,6 +6,8 @@
 #include <exception>
 #include <new>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <mpi.h>
 
@@ -63,7 +65,10 @@ int main(int argc, char** argv) {
   confirm_signals(rank == 0);
   std::optional<int> status = read_words(argc, argv, rank == 0);
   if (!status) {
-    auto* lammps = new LAMMPS_NS::LAMMPS(argc, argv, MPI_COMM_WORLD);
+    std::vector<std::string> words = words_for_liggghts({argv, argv + argc});
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    auto* lammps = new LAMMPS_NS::LAMMPS(argc, pointers.data(), MPI_COMM_WORLD);
     start_rescue(*lammps);
     run_script(*lammps);
     if (agreed_signal()) report_stop(*lammps);

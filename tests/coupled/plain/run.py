@@ -5,6 +5,8 @@
         thermo lines and the final grains, every digit
     run.py clear <furrow>
         Furrow's styles after clear: as in a fresh process
+    run.py silent <furrow>
+        a script with a mesh without a screen, where liggghts itself breaks down
 """
 
 import subprocess
@@ -74,6 +76,13 @@ def history(folder):
         return {name: data[:].tobytes() for name, data in file["history"].items()}
 
 
+def silent(furrow):
+    with tempfile.TemporaryDirectory() as folder:
+        output = run([furrow, "-screen", "none"], HERE / "moving_mesh.lig", folder)
+        assert "Step" not in output, f"the run was not silent:\n{output}"
+        assert (Path(folder) / "grains.txt").stat().st_size > 0
+
+
 def clear(furrow):
     with tempfile.TemporaryDirectory() as one, tempfile.TemporaryDirectory() as other:
         run([furrow], HERE / "clear.lig", one)
@@ -86,4 +95,4 @@ def clear(furrow):
 
 
 if __name__ == "__main__":
-    {"same": same, "clear": clear}[sys.argv[1]](*sys.argv[2:])
+    {"same": same, "clear": clear, "silent": silent}[sys.argv[1]](*sys.argv[2:])
