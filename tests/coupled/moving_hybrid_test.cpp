@@ -128,11 +128,12 @@ TEST_P(MovingHybrid, RenewedGroundAndGrainsFitWithoutAJolt) {
   EXPECT_LT(kinetic_energy.max(), fall);
   // Only the slab that stands still may bear other than its weight.
   EXPECT_LT(off_weight.max(), 1.0 / slabs);
-  // Its grains lie on its patch as they did, and hold on to it as they did.
+  // Its grains lie on its patch as they did, and hold on to it as they did: 1.24 and 1.09 times as
+  // much, but 0.04 and 0.61 where they lose their histories with the sheet.
   const std::size_t newest = (ground.dropped_slabs() - 1) % slabs;
   const double held = held_along(at_rest, newest);
   EXPECT_GT(held, 0.01 * weight / slabs);
-  EXPECT_NEAR(held_along(ground.surface(), newest) / held, 1.0, 0.5);
+  EXPECT_NEAR(held_along(ground.surface(), newest) / held, 1.0, 0.35);
   RecordProperty("held", fmt::to_string(held_along(ground.surface(), newest) / held));
   RecordProperty("off_weight", fmt::to_string(off_weight.max()));
   const coupling::MomentumAudit& audit = scene.system().audit(ground);
