@@ -126,9 +126,7 @@ CommandBed::Request CommandBed::read_request(const std::vector<std::string>& wor
   BedWords line;
   for (std::size_t i = 1; i < words.size(); i += 2) line.emplace_back(words[i], words[i + 1]);
   const std::string chosen = choose_bed_values(line);
-  if (!chosen.empty() && comm->me == 0)
-    for (FILE* file : {screen, logfile})
-      if (file) fmt::print(file, "Chosen for the bed: {}\n", chosen);
+  if (!chosen.empty()) announce(*lmp, "Chosen for the bed: " + chosen);
   std::vector<Entry> entries = {{"script", {words[0]}}};
   std::vector<Parameter> parameters;
   for (const auto& [written, value] : line) {

@@ -18,6 +18,7 @@ from lines import OutputRow, entry_of, line_of, series_value
 
 from furrow_post.analyse.cost_table import Components, Row, row_of
 from furrow_post.analyse.entry import LIMIT, RUN, Entry
+from furrow_post.analyse.size_line import same_size
 from furrow_post.analyse.verdict import COVERAGE, QUANTITIES, SINKAGE
 from furrow_post.figures.style import RUN_COLOURS, annotate_panel, panel_letters, save, use_style
 from furrow_post.read.wheel_run import read_wheel_run
@@ -66,7 +67,7 @@ def twin_of(row: Row, table: Sequence[Row]) -> Row:
         other
         for other in table
         if (other.family, other.seed) == (row.family, row.seed)
-        and abs(other.size - row.size) < 0.02 * row.size
+        and same_size(other.size, row.size)
     ]
     same = [twin for twin in twins if twin.domain.split("x")[1] == row.domain.split("x")[1]]
     return max(same, key=lambda twin: twin.cpu_time)

@@ -82,9 +82,8 @@ void FreeSurfaceMesh::place(const TerrainFill& fill, const Grid& grid, std::size
     for (std::size_t c = 0; c < along_.size(); ++c) {
       const std::size_t column = slab * columns_of_slab_ + along_[c];
       const double along_x = outwards(c, along_.size() - 1);
-      const bool meets_next = along_x < 0.0   ? slab > dropped_slabs
-                              : along_x > 0.0 ? slab + 1 < dropped_slabs + slabs_
-                                              : false;
+      const bool meets_another = (along_x < 0.0 && slab > dropped_slabs) ||
+                                 (along_x > 0.0 && slab + 1 < dropped_slabs + slabs_);
       for (std::size_t r = 0; r < across_.size(); ++r) {
         const SectionNode& section = across_[r];
         const auto add = [&](std::size_t column_of_particle, double share, double from_particle) {
@@ -92,8 +91,8 @@ void FreeSurfaceMesh::place(const TerrainFill& fill, const Grid& grid, std::size
                             node(slab % slabs_, c, r), share,
                             Vector3(from_particle, section.beside, section.above)});
         };
-        add(column, meets_next ? 0.5 : 1.0, along_x);
-        if (meets_next) add(along_x < 0.0 ? column - 1 : column + 1, 0.5, -along_x);
+        add(column, meets_another ? 0.5 : 1.0, along_x);
+        if (meets_another) add(along_x < 0.0 ? column - 1 : column + 1, 0.5, -along_x);
       }
     }
   std::sort(nodes_.begin(), nodes_.end(), [](const auto& a, const auto& b) {
@@ -131,10 +130,10 @@ void FreeSurfaceMesh::update(const std::vector<ParticleGroup>& groups, const Com
     const Vector3 from_particle = offset(groups, attachment);
     const Vector3 x = particles.position(p) + from_particle;
     const Vector3 v = particles.velocity(p) + particles.affine(p) * from_particle;
-    const auto& [id, index, share, half_spacings] = nodes_[attachment.of];
-    double* node = motion_.data() + 6 * index;
-    Eigen::Map<Vector3>(node) += share * x;
-    Eigen::Map<Vector3>(node + 3) += share * v;
+    const NodeOfParticle& of_node = nodes_[attachment.of];
+    double* node = motion_.data() + 6 * of_node.node;
+    Eigen::Map<Vector3>(node) += of_node.share * x;
+    Eigen::Map<Vector3>(node + 3) += of_node.share * v;
   }
   // A share of a node is added on one rank; there are no more than two.
   ranks.sum(motion_.data(), motion_.size());

@@ -47,14 +47,15 @@ constexpr double spline_powers[6][spline_order] = {
     {1, 26, 66, 26, 1, 0},    {-5, -50, 0, 50, 5, 0},  {10, 20, -60, 20, 10, 0},
     {-10, 20, 0, -20, 10, 0}, {5, -20, 30, -20, 5, 0}, {-1, 5, -10, 10, -5, 1}};
 
-/// The six B-splines with their derivatives at 0 <= x <= 1 in steps.
+/// The six B-splines with their first derivatives, or two, at 0 <= x <= 1 in steps.
+template <int derivatives>
 struct SplineBasis {
-  SplineRow row[3];  // of the derivative 0, 1, 2
-  double number[3][spline_padded];
+  SplineRow row[derivatives + 1];
+  double number[derivatives + 1][spline_padded];
 
   FURROW_INLINE SplineBasis(double x, double per_step) {
     double scale = 1.0 / 120.0;
-    for (int derivative = 0; derivative < 3; ++derivative, scale *= per_step) {
+    for (int derivative = 0; derivative <= derivatives; ++derivative, scale *= per_step) {
       SplineRow sum;
       for (int n = 5; n >= derivative; --n) {
         double factor = scale;  // of x^n when it is differentiated
@@ -74,7 +75,8 @@ struct SplineBasis {
 /// derivatives along axes 0 and 1.
 template <bool with_hessian>
 FURROW_INLINE void evaluate_spline(const QuinticSplineCell& cell, QuinticSplineResult& result) {
-  const SplineBasis b0(cell.inside[0], cell.per_step[0]), b1(cell.inside[1], cell.per_step[1]),
+  using Basis = SplineBasis<with_hessian ? 2 : 1>;
+  const Basis b0(cell.inside[0], cell.per_step[0]), b1(cell.inside[1], cell.per_step[1]),
       b2(cell.inside[2], cell.per_step[2]);
   SplineRow s00, s10, s01, s20, s11, s02;
   for (int i = 0; i < spline_order; ++i) {

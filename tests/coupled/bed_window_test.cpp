@@ -8,38 +8,14 @@
 
 #include "atom.h"
 #include "modify.h"
-#include "tests/coupled/support/scene.h"
+#include "tests/coupled/support/sand.h"
 #include "tests/coupled/support/snow.h"
 #include "tests/support/max_error.h"
 
 namespace furrow::test {
 namespace {
 
-constexpr const char* hertz = "model hertz tangential history rolling_friction epsd2";
-constexpr double diameter = 0.008, length = 0.24, step = 4e-5;
-
-void make_bed(Scene& scene) {
-  scene.granular_box(Vector3(-length / 2, -0.04, -0.01), Vector3(length / 2, 0.04, 0.2), 0.003,
-                     "p f f");
-  scene.contact_properties(5e6, 0.3, 0.3, 0.5);
-  scene.command(
-      "fix roll all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 0.1 0.1");
-  scene.commands(fmt::format(
-      "pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity 9.81 vector 0 0 -1",
-      hertz, step));
-  for (const char* wall : {"yplane -0.03", "yplane 0.03", "zplane 0"})
-    scene.command(fmt::format("fix {0:.1}{1} all wall/gran {2} primitive type 1 {0}", wall,
-                              wall[7] == '-' ? 1 : 2, hertz));
-  scene.commands(
-      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
-      "constant 0.004\n"
-      "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
-      "region fill block -0.12 0.12 -0.03 0.03 0 0.08 units box\n"
-      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once "
-      "overlapcheck yes all_in no "
-      "particles_in_region 1000 region fill\n"
-      "fix move all nve/sphere\nfix calm all viscous 0.05\nthermo 100000\nrun 24000\nunfix calm");
-}
+constexpr double diameter = SandBed::diameter, length = SandBed::length, step = SandBed::step;
 
 double mean_height(Scene& scene) {
   const LAMMPS_NS::Atom& atom = *scene.lammps().atom;
@@ -115,7 +91,8 @@ TEST_P(BedWindow, RenewedSlabsFitWithoutAJolt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Beds, BedWindow,
-                         testing::Values(Bed{make_bed, hertz, 1.0, 15000},
+                         testing::Values(Bed{[](Scene& scene) { make_sand_bed(scene); }, hertz, 1.0,
+                                             15000},
                                          Bed{make_sintered_bed, snow_model, 5.0, 8000}),
                          [](const auto& entry) { return entry.index == 0 ? "sand" : "snow"; });
 

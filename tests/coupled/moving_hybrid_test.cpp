@@ -11,42 +11,16 @@
 #include "atom.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
 #include "modify.h"
-#include "tests/coupled/support/scene.h"
+#include "tests/coupled/support/sand.h"
 #include "tests/support/max_error.h"
 
 namespace furrow::test {
 namespace {
 
-constexpr const char* hertz = "model hertz tangential history rolling_friction epsd2";
-constexpr double diameter = 0.008, length = 0.24, step = 4e-5, gravity = 9.81, speed = 1.0;
+constexpr double length = SandBed::length, step = SandBed::step, gravity = SandBed::gravity,
+                 speed = 1.0;
 constexpr int rest = 2000, rounds = 1, slabs = 8,  // and half a slab
     steps = static_cast<int>((rounds * length + 0.015) / speed / step);
-
-/// Grains in a box that closes on itself along x, at rest on its floor.
-void make_bed(Scene& scene) {
-  scene.granular_box(Vector3(-length / 2, -0.06, -0.01), Vector3(length / 2, 0.06, 0.2), 0.003,
-                     "p f f");
-  scene.contact_properties(5e6, 0.3, 0.3, 0.5);
-  scene.command(
-      "fix roll all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 0.1 0.1");
-  scene.commands(fmt::format(
-      "pair_style gran {}\npair_coeff * *\ntimestep {}\nfix weight all gravity {} vector 0 0 -1",
-      hertz, step, gravity));
-  for (const char* wall : {"y1 yplane -0.03", "y2 yplane 0.03", "floor zplane 0"})
-    scene.command(fmt::format("fix {0:.{1}} all wall/gran {2} primitive type 1 {3}", wall,
-                              std::string(wall).find(' '), hertz,
-                              std::string(wall).substr(std::string(wall).find(' ') + 1)));
-  scene.commands(
-      "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
-      "constant 0.004\n"
-      "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
-      "region fill block -0.12 0.12 -0.03 0.03 0 0.08 units box\n"
-      "fix ins all insert/pack seed 32452867 distributiontemplate pdd insert_every once "
-      "overlapcheck yes all_in no "
-      "particles_in_region 1000 region fill\n"
-      "fix move all nve/sphere\nfix calm all viscous 0.05\nthermo 100000\nrun 24000\nunfix calm\n"
-      "unfix floor");
-}
 
 /// A sheet far above the grains, which goes on along x once they are at rest.
 std::unique_ptr<Body> kite() {
@@ -81,12 +55,13 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Ground{"layer", "width 0.06 depth 0.03 surface 0", ""},
                       Ground{"trough",
                              "width 0.1 depth 0.06 surface 0.03 trough 0.06 0.03 multirate yes",
-                             "unfix y1\nunfix y2"}),
+                             "unfix left\nunfix right"}),
     [](const auto& one) { return one.param.name; });
 
 TEST_P(MovingHybrid, RenewedGroundAndGrainsFitWithoutAJolt) {
   Scene scene;
-  make_bed(scene);
+  make_sand_bed(scene, 0.03);
+  scene.command("unfix floor");
   scene.commands(GetParam().walls);
   scene.add_body("kite", kite());
   const double grains = scene.sum(scene.lammps().atom->nlocal), mass = scene.grain_mass(),
@@ -118,7 +93,7 @@ TEST_P(MovingHybrid, RenewedGroundAndGrainsFitWithoutAJolt) {
 
   const double renewed = scene.lammps().modify->find_fix_id("renew")->compute_vector(0);
   // energy of the bed falling by a thousandth of a grain
-  const double fall = mass * gravity * 0.001 * diameter;
+  const double fall = mass * gravity * 0.001 * SandBed::diameter;
   EXPECT_EQ(renewed, slabs * rounds);
   EXPECT_EQ(ground.dropped_slabs(), static_cast<std::size_t>(slabs * rounds));
   EXPECT_NEAR(ground.travelled(), rounds * length, 1e-12);

@@ -19,12 +19,11 @@ from typing import Any, ClassVar, NamedTuple
 from ..csv_table import read_comments, read_rows
 from ..errors import ResultsError, content_of
 from ..read.wheel_run import WheelRun
-from .size_line import Fit, fit_line, mean_shift, pooled_scatter
+from .size_line import Fit, fit_line, mean_shift, noise_of, pooled_scatter, same_size
 from .statistics import commonest
 from .verdict import QUANTITIES
 
 QUANTITY_KEYS = tuple(quantity.key for quantity in QUANTITIES)
-LEAST_RELATIVE_ERROR = 1e-3  # of a value in a fit: no time average is taken to be better
 
 
 class FamilyKey(NamedTuple):
@@ -192,12 +191,8 @@ class Family:
             return None
         rows = [row for row in self.rows if row.domain == self.domain]
         packing = self.packing(key)
-        scatter = packing if math.isfinite(packing) else 0.0
         values, errors = zip(*(row.value(key) for row in rows))
-        noise = [
-            math.hypot(max(u, LEAST_RELATIVE_ERROR * abs(f)), scatter)
-            for f, u in zip(values, errors)
-        ]
+        noise = [noise_of(f, u, packing) for f, u in zip(values, errors)]
         return fit_line([row.size for row in rows], values, noise)
 
     def reference(self, key: str) -> tuple[float, float]:
@@ -250,11 +245,11 @@ class Family:
         return math.sqrt(max(beyond))
 
     def _bases_of(self, size: float) -> list[Row]:
-        return [base for base in self.bases if _same_size(base, size)]
+        return [base for base in self.bases if same_size(base.size, size)]
 
     def _values_of(self, key: str, size: float) -> list[float]:
         """Of all packings of this size in the common domain."""
-        rows = [row for row in self.rows if row.domain == self.domain and _same_size(row, size)]
+        rows = [row for row in self.rows if row.domain == self.domain and same_size(row.size, size)]
         return [row.value(key)[0] for row in rows]
 
     def at_size_zero(
@@ -275,10 +270,6 @@ class Family:
             return fit.at_zero, parts
         parts = self.components(key, size, time_error)
         return value - fit.slope * size, replace(parts, size=fit.slope_error * size)
-
-
-def _same_size(row: Row, size: float) -> bool:
-    return abs(row.size - size) < 0.02 * size
 
 
 def families(rows: Iterable[Row]) -> dict[FamilyKey, Family]:

@@ -24,7 +24,8 @@ from ..arrays import Floats
 from ..errors import ResultsError
 from ..formatting import duration
 from .cost import ByQuantity, elements_name
-from .cost_table import LEAST_RELATIVE_ERROR, QUANTITY_KEYS, Family, Row
+from .cost_table import QUANTITY_KEYS, Family, Row
+from .size_line import LEAST_RELATIVE_ERROR
 from .verdict import QUANTITIES, Quantity
 
 LONGER = 4.0  # times the length: half of the time average's error

@@ -12,10 +12,8 @@ import numpy as np
 from .cost_table import Components
 from .curves import Curve
 from .entry import LIMIT, RUN, Entry
-from .size_line import fit_line, mean_shift, pooled_scatter
+from .size_line import fit_line, mean_shift, noise_of, pooled_scatter, same_size
 from .verdict import Quantity
-
-LEAST_ERROR = 1e-3  # relative, of a pressure in a fit
 
 
 def pressure_at(sinkage: float) -> Quantity:
@@ -38,10 +36,10 @@ class PlateFamily:
 
     def of_size(self, size: float) -> list[float]:
         """ln p of all packings of this size in the base's box."""
-        return [log for curve, log in self.in_box() if _same(curve.size, size)]
+        return [log for curve, log in self.in_box() if same_size(curve.size, size)]
 
     def in_box(self) -> list[tuple[Curve, float]]:
-        return [(curve, log) for curve, log in self.logs if _same(curve.box, self.base.box)]
+        return [(curve, log) for curve, log in self.logs if same_size(curve.box, self.base.box)]
 
     def packing(self) -> float:
         """Relative standard deviation of one packing; 0 of a lattice, NaN where there is one."""
@@ -49,13 +47,13 @@ class PlateFamily:
             return 0.0
         sizes: list[float] = []
         for curve, _ in self.in_box():
-            if not any(_same(curve.size, size) for size in sizes):
+            if not any(same_size(curve.size, size) for size in sizes):
                 sizes.append(curve.size)
         return pooled_scatter(self.of_size(size) for size in sizes)
 
     def domain(self) -> float:
         """Relative mean difference of wider boxes from the base's; NaN without one."""
-        wider = [(curve, log) for curve, log in self.logs if not _same(curve.box, self.base.box)]
+        wider = [(curve, log) for curve, log in self.logs if not same_size(curve.box, self.base.box)]
         return mean_shift((log, self.of_size(curve.size)) for curve, log in wider)
 
     def entries(self, quantity: Quantity) -> list[Entry]:
@@ -70,11 +68,9 @@ class PlateFamily:
         sizes = [curve.size for curve, _ in runs]
         size = math.nan
         limits = []
-        if not all(_same(size, self.base.size) for size in sizes):
-            scatter = packing if math.isfinite(packing) else 0.0
-            noise = [
-                math.hypot(max(self.noise[id(curve)], LEAST_ERROR), scatter) for curve, _ in runs
-            ]
+        if not all(same_size(size, self.base.size) for size in sizes):
+            # errors of ln p are relative: those of a value of 1
+            noise = [noise_of(1.0, self.noise[id(curve)], packing) for curve, _ in runs]
             fit = fit_line(sizes, [log for _, log in runs], noise)
             size = abs(fit.slope) * self.base.size
             zero = math.exp(fit.at_zero)
@@ -91,11 +87,6 @@ def plate_entries(base: Curve, checks: Sequence[Curve], sinkage: float) -> list[
     checks are curves of the same test with another size (facts cell or diameter), packing or box.
     """
     return PlateFamily([base, *checks], sinkage).entries(pressure_at(sinkage))
-
-
-def _same(a: float, b: float) -> bool:
-    """Also where one is not known: that differs in nothing."""
-    return not abs(a - b) > 0.02 * abs(a)
 
 
 def _log_at(curve: Curve, sinkage: float) -> float:

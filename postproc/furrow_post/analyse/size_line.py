@@ -11,6 +11,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+LEAST_RELATIVE_ERROR = 1e-3  # of a value in a fit: no time average is taken to be better
+
 
 class Fit(NamedTuple):
     """f = at_zero + slope h, with standard errors."""
@@ -37,6 +39,17 @@ def fit_line(sizes: npt.ArrayLike, values: npt.ArrayLike, errors: npt.ArrayLike)
         spread = max(np.sum(residuals**2) / (len(h) - 2), 1.0)
     found = np.sqrt(spread * np.diag(inverse))
     return Fit(float(at_zero), float(slope), float(found[0]), float(found[1]))
+
+
+def noise_of(value: float, error: float, packing: float) -> float:
+    """For a fit: error of the time average, and scatter of packings (NaN: not known)."""
+    least = max(error, LEAST_RELATIVE_ERROR * abs(value))
+    return math.hypot(least, packing if math.isfinite(packing) else 0.0)
+
+
+def same_size(a: float, b: float) -> bool:
+    """Within 2 %: grains of another packing have another mean. Not known is no difference."""
+    return not abs(a - b) > 0.02 * abs(b)
 
 
 def pooled_scatter(groups: Iterable[Sequence[float]]) -> float:

@@ -41,25 +41,28 @@ struct BatchStress {
     for (int s = 0; s < 6; ++s)
       for (std::size_t p = 0; p < particles.size; ++p)
         force[s][p] = -particles.volume[p] * particles.volume_ratio[p] * particles.stress[s][p];
+    transpose(particles.size);
+  }
+
 #ifdef __AVX512F__
+  alignas(64) double row[3][batch][4];  // of the stress; fourth numbers are zero
+
+  void transpose(std::size_t count) {
     const auto load = [&](int s, std::size_t p) __attribute__((always_inline)) {
       return Vector8(*reinterpret_cast<const Stored8*>(force[s] + p));
     };
-    for (std::size_t p = 0; p < particles.size; p += 8) {
+    for (std::size_t p = 0; p < count; p += 8) {
       const Vector8 xy = load(3, p), yz = load(4, p), xz = load(5, p);
       interleave(load(0, p), xy, xz, row[0][p]);
       interleave(xy, load(1, p), yz, row[1][p]);
       interleave(xz, yz, load(2, p), row[2][p]);
     }
   }
-  /// Row by row of the stress; fourth numbers are zero.
-  alignas(64) double row[3][batch][4];
-
   [[gnu::always_inline]] void flux(std::size_t p, Vector8* rows) const {
     for (int r = 0; r < 3; ++r) rows[r] = PairedCellSum::carry(row[r][p]);
   }
 #else
-  }
+  static void transpose(std::size_t) {}  // rows are put together where they are used
   [[gnu::always_inline]] void flux(std::size_t p, Vector4* rows) const {
     const double xx = force[0][p], yy = force[1][p], zz = force[2][p], xy = force[3][p],
                  yz = force[4][p], xz = force[5][p];

@@ -13,12 +13,9 @@ namespace furrow {
 namespace {
 
 using ::testing::HasSubstr;
-using testing_terrain::box;
 using testing_terrain::elastic;
-using testing_terrain::even;
 using testing_terrain::for_particles;
-using testing_terrain::material_of;
-using testing_terrain::set_boundary;
+using testing_terrain::ground_with_trough;
 using testing_terrain::sums_of;
 
 constexpr double length = 0.8, cell = 0.05, slab = 0.2, step = 1e-4;  // [m, m, m, s]
@@ -27,12 +24,8 @@ constexpr std::size_t slabs = 4;
 /// 16 cells along x in four slabs, with a trough.
 TerrainParameters moving_ground() {
   TerrainParameters ground =
-      box(material_of(elastic(1e7, 0.25, 1500.0)), {0.0, -0.3, 0.0}, {length, 0.3, 0.3}, cell);
-  ground.z = even(0.0, 0.45, cell);
-  set_boundary(ground, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
-  ground.surface_mesh = true;
+      ground_with_trough(elastic(1e7, 0.25, 1500.0), {length, 0.6, 0.3}, 0.45, {0.3, 0.1}, cell);
   ground.sheet_every = 2;
-  ground.trough = Trough{0.3, 0.1};
   ground.window = true;
   ground.slabs = slabs;
   return ground;

@@ -66,6 +66,19 @@ inline void set_boundary(TerrainParameters& ground, const FaceArray<const char*>
   for (const Face face : all_faces) ground.boundary[face] = boundary_kind(kinds[face]);
 }
 
+/// Weightless ground of this length, width and depth, symmetric about y = 0, on a rough base
+/// between smooth sides; with a sheet, a trough along x, and a grid that goes on to `top`.
+inline TerrainParameters ground_with_trough(const std::string& material, const Vector3& size,
+                                            double top, const Trough& trough, double cell) {
+  TerrainParameters ground = box(material_of(material), {0.0, -0.5 * size.y(), 0.0},
+                                 {size.x(), 0.5 * size.y(), size.z()}, cell);
+  ground.z = even(0.0, top, cell);
+  set_boundary(ground, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
+  ground.surface_mesh = true;
+  ground.trough = trough;
+  return ground;
+}
+
 /// Calls visit(particles, index) for all particles of this rank.
 template <class Visit>
 void for_particles(ContinuumTerrain& ground, Visit visit) {

@@ -14,11 +14,6 @@ namespace furrow {
 namespace {
 
 using ::testing::HasSubstr;
-using testing_terrain::box;
-using testing_terrain::elastic;
-using testing_terrain::even;
-using testing_terrain::material_of;
-using testing_terrain::set_boundary;
 
 constexpr double length = 0.5, width = 0.8, depth = 0.3, rho = 1500.0, nu = 0.25,
                  weight = rho * standard_gravity;  // of ground and grains [N/m^3]
@@ -27,13 +22,8 @@ constexpr Trough trough = {0.4, 0.15};
 /// The grid goes on above the surface; the bottom of the trough is at z = 0.15, its sides at y =
 /// -0.2 and 0.2.
 TerrainParameters ground_with_trough(Trough shape = trough, double cell = 0.05) {
-  TerrainParameters ground = box(material_of(elastic(1e7, nu, rho)), {0.0, -0.5 * width, 0.0},
-                                 {length, 0.5 * width, depth}, cell);
-  ground.z = even(0.0, 0.5, cell);
-  set_boundary(ground, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
-  ground.surface_mesh = true;
-  ground.trough = shape;
-  return ground;
+  return testing_terrain::ground_with_trough(testing_terrain::elastic(1e7, nu, rho),
+                                             {length, width, depth}, 0.5, shape, cell);
 }
 
 /// With the stress of its weight, and that of grains of its density in the trough.

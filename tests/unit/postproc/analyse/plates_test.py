@@ -9,6 +9,7 @@ import numpy as np
 from furrow_post.analyse import plates
 from furrow_post.analyse.curves import Curve, CurveKind
 from furrow_post.analyse.entry import LIMIT, RUN
+from furrow_post.analyse.size_line import LEAST_RELATIVE_ERROR
 from furrow_post.analyse.statistics import rms
 
 
@@ -47,7 +48,7 @@ class PlateErrorsTest(unittest.TestCase):
         # on the line: what is left is the least error of a value, [(X^T X)^-1]_00 of 2, 4, 6 cm
         h = np.array([0.02, 0.04, 0.06])
         open_at_zero = math.sqrt(1 / 3 + h.mean() ** 2 / np.sum((h - h.mean()) ** 2))
-        self.assertAlmostEqual(limit.parts.size, 1e4 * plates.LEAST_ERROR * open_at_zero, places=6)
+        self.assertAlmostEqual(limit.parts.size, 1e4 * LEAST_RELATIVE_ERROR * open_at_zero, places=6)
         self.assertAlmostEqual(run.parts.size, run.value * 5 * 0.02, places=6)
         self.assertEqual(run.unknown, ["domain", "packing"])
         self.assertEqual(run.quantity.label, "pressure at 10 mm [kPa]")
