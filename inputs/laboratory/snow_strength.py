@@ -84,7 +84,11 @@ def of_clusters(record: Sequence[Row]) -> dict[str, Strengths]:
     """Tension and shear start from the same pressed and released snow: one density for both."""
     sheared = [row for row in record if row.test == "shear"]
     least = min(row.confinement for row in sheared)
-    places = {(row.test, row.compaction, row.quantity): row for row in record if row.confinement in (0, least)}
+    places = {
+        (row.test, row.compaction, row.quantity): row
+        for row in record
+        if row.confinement in (0, least)
+    }
     pressed = sorted({row.compaction for row in sheared})
     density = np.array([places["shear", c, "density"].value for c in pressed])
     found = {}
@@ -98,7 +102,11 @@ def of_clusters(record: Sequence[Row]) -> dict[str, Strengths]:
 def of_law(ground: str, normal: float, points: Points) -> dict[str, Strengths]:
     """normal: stress [Pa] that shear is under"""
     sections = sections_of(PROJECT / "inputs" / "materials" / f"{ground}_cam_clay.yaml")
-    wanted = (("tension", 0.0, "strength"), ("shear", normal, "strength"), ("shear", normal, "density"))
+    wanted = (
+        ("tension", 0.0, "strength"),
+        ("shear", normal, "strength"),
+        ("shear", normal, "density"),
+    )
     rows = [
         Row(test, float(compaction), confinement, 0.0, quantity, 0.0, 0.0, 1)
         for compaction in COMPACTIONS
@@ -124,23 +132,27 @@ def table(clusters: dict[str, dict[str, Strengths]], laws: dict[str, dict[str, S
                 by_law = np.interp(density, law.density, law.strength)
                 values = [strength, scatter, by_law, *(float(fit.at(density)) for fit in fits)]
                 kilopascals = [f"{KILOPASCAL * value:.2g}" for value in values]
+                own = " ± ".join(kilopascals[:2])
                 measurements = "; ".join(kilopascals[3:])
-                lines.append(
-                    [kind, ground, f"{density:.0f}", " ± ".join(kilopascals[:2]), kilopascals[2], measurements]
-                )
+                lines.append([kind, ground, f"{density:.0f}", own, kilopascals[2], measurements])
     return "\n".join(markdown(["", "", "kg/m3", "clusters", "law", "measured"], lines))
 
 
 def draw_kind(
-    axes: Axes, kind: str, clusters: dict[str, dict[str, Strengths]], laws: dict[str, dict[str, Strengths]]
+    axes: Axes,
+    kind: str,
+    clusters: dict[str, dict[str, Strengths]],
+    laws: dict[str, dict[str, Strengths]],
 ) -> None:
     styles = ("-", "--", "-.", ":")
     for fit, style in zip((fit for fit in measured() if fit.kind == kind), styles):
         label = f"measured: {fit.snow} [{fit.source}]"
-        axes.semilogy(DENSITIES, KILOPASCAL * np.asarray(fit.at(DENSITIES)), style, color="0.35", lw=1.2, label=label)
+        strength = KILOPASCAL * np.asarray(fit.at(DENSITIES))
+        axes.semilogy(DENSITIES, strength, style, color="0.35", lw=1.2, label=label)
     for ground, colour in zip(GROUNDS, RUN_COLOURS):
         law, found = laws[ground][kind], clusters[ground][kind]
-        axes.semilogy(law.density, KILOPASCAL * law.strength, color=colour, lw=1.2, label=f"Cam clay of {ground}")
+        label = f"Cam clay of {ground}"
+        axes.semilogy(law.density, KILOPASCAL * law.strength, color=colour, lw=1.2, label=label)
         axes.errorbar(
             found.density,
             KILOPASCAL * found.strength,
@@ -150,7 +162,8 @@ def draw_kind(
             color=colour,
             label=f"clusters: {ground}",
         )
-    axes.set(xlabel="density [kg/m³]", ylabel=f"{'tensile' if kind == 'tension' else 'shear'} strength [kPa]")
+    name = "tensile" if kind == "tension" else kind
+    axes.set(xlabel="density [kg/m³]", ylabel=f"{name} strength [kPa]")
     axes.legend(fontsize=7, loc="upper left")
 
 
@@ -159,7 +172,9 @@ def main() -> None:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--build", type=path, help="default: $FURROW_BUILD, or build in the tree")
-    parser.add_argument("-o", "--output", type=path, default=HERE / "snow_strength.png", metavar="FIGURE")
+    parser.add_argument(
+        "-o", "--output", type=path, default=HERE / "snow_strength.png", metavar="FIGURE"
+    )
     parsed = parser.parse_args()
     records = {ground: read_record(HERE / "records" / f"{ground}.csv") for ground in GROUNDS}
     clusters = {ground: of_clusters(record) for ground, record in records.items()}
