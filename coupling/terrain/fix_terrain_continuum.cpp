@@ -15,7 +15,6 @@
 #include "coupling/liggghts/script.h"
 #include "domain.h"
 #include "io/terrain_input.h"
-#include "mpm/length_under_wheel.h"
 #include "update.h"
 
 namespace furrow::coupling {
@@ -32,17 +31,20 @@ const std::vector<Kind> followable = {Kind::wheel, Kind::body};
 
 /// Of ground that follows one wheel: by what the wheel's line says, not by where the wheel is, so
 /// that it is the same when a run is continued.
-std::optional<double> length_by_wheel(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
+std::optional<GroundSize> size_by_wheel(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
   if (!options.given("follow") || options.given("follow_last")) return {};
   const Body& followed = find_fix<FixBody>(lammps, options, "follow", followable).body();
   const auto* wheel = dynamic_cast<const WheelHub*>(&followed);
   if (!wheel) return {};
-  return length_under_wheel(wheel->nominal_radius(), options.number("depth"));
+  GroundSize size =
+      ground_under_wheel(wheel->nominal_radius(), wheel->nominal_width(), options.number("depth"));
+  if (options.given("width") || options.flag("sheet")) size.fine_width = 0.0;  // all is fine
+  return size;
 }
 
 Schema schema_of_line(LAMMPS_NS::LAMMPS& lammps, int narg, char** arg) {
   const Options options = FixTerrainContinuum::schema().read(args_after_style(narg, arg));
-  return FixTerrainContinuum::schema(length_by_wheel(lammps, options));
+  return FixTerrainContinuum::schema(size_by_wheel(lammps, options));
 }
 
 std::unique_ptr<Body> make_terrain(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
@@ -57,8 +59,8 @@ std::unique_ptr<Body> make_terrain(LAMMPS_NS::LAMMPS& lammps, const Options& opt
 
 }  // namespace
 
-Schema FixTerrainContinuum::schema(std::optional<double> length) {
-  Schema schema = terrain_schema("fix terrain/continuum", length);
+Schema FixTerrainContinuum::schema(const std::optional<GroundSize>& size) {
+  Schema schema = terrain_schema("fix terrain/continuum", size);
   schema.text("follow", "id of the fix of the body that the terrain moves along with").optional();
   schema
       .text("follow_last",
@@ -172,10 +174,12 @@ void FixTerrainContinuum::report() {
                                       partition.blocks(1), comm->nprocs);
   if (comm->me == 0 && screen)
     fmt::print(screen,
-               "Continuum terrain: {:.4g} m long{}, {} x {} x {} cells, shortest {:.4g} m, {:.0f} "
-               "particles; stable step {:.3g} s{}\n",
+               "Continuum terrain: {:.4g} m long{}, {:.4g} m wide{}, {} x {} x {} cells, shortest "
+               "{:.4g} m, {:.0f} particles; stable step {:.3g} s{}\n",
                options().number("length"),
                options().given("length") ? "" : " by the wheel's radius and the depth",
+               options().number("width"),
+               options().given("width") ? "" : " by the wheel's width and the depth",
                grid.axis(0).cells(), grid.axis(1).cells(), grid.axis(2).cells(),
                grid.shortest_cell(), particles, step, blocks);
   warn_of_extremes();

@@ -9,14 +9,15 @@
 #include "coupling/bodies/fix_body.h"
 #include "coupling/terrain/terrain_outputs.h"
 #include "mpm/continuum_terrain.h"
+#include "mpm/ground_under_wheel.h"
 
 namespace furrow::coupling {
 
 class FixTerrainContinuum : public FixBody, public MotionController {
  public:
   FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
-  /// @param length  [m] of a line that gives none
-  static Schema schema(std::optional<double> length = {});
+  /// @param size  of a line that gives none
+  static Schema schema(const std::optional<GroundSize>& size = {});
   static const Outputs<TerrainReading>& outputs() { return terrain_outputs(); }
 
   ContinuumTerrain& terrain() const { return static_cast<ContinuumTerrain&>(body()); }

@@ -28,6 +28,7 @@ class RigidWheel : public WheelHub {
 
   const RigidWheelParameters& parameters() const { return parameters_; }
   double nominal_radius() const override { return parameters_.geometry.radius(); }
+  double nominal_width() const override { return parameters_.geometry.width; }
   double lowest_point() const override;  ///< of the true circle and shoulders
 
   double stable_time_step() const override;  ///< infinity

@@ -110,6 +110,8 @@ class WheelHub : public Body {
 
   /// [m] without load, grousers or ground: the rim speed's radius
   virtual double nominal_radius() const = 0;
+  /// [m] across what rolls on the ground, likewise: of a tyre its tread or carcass
+  virtual double nominal_width() const = 0;
   /// [m] z of the unloaded shape, without grousers: what a sinkage is counted to
   virtual double lowest_point() const = 0;
   /// Of all that touches the wheel now; a half model's is that of the whole.

@@ -176,9 +176,12 @@ std::optional<Trough> read_trough(const Options& options) {
 AxisLayout layout(const Options& options, double lower, double upper, double middle,
                   const std::string& fine_key) {
   AxisLayout axis{lower, upper, options.number("cell"), lower, upper, options.number("growth")};
-  if (!options.given(fine_key)) return axis;
-  axis.fine_lower = std::max(lower, middle - 0.5 * options.number(fine_key));
-  axis.fine_upper = std::min(upper, middle + 0.5 * options.number(fine_key));
+  if (!options.has(fine_key)) return axis;
+  double half = 0.5 * options.number(fine_key);
+  // one that the wheel chose leaves the cells as long as they were asked for
+  if (!options.given(fine_key)) half = axis.cell * std::ceil(half / axis.cell - round_off);
+  axis.fine_lower = std::max(lower, middle - half);
+  axis.fine_upper = std::min(upper, middle + half);
   return axis;
 }
 
@@ -198,15 +201,17 @@ AxisLayout vertical_layout(const Options& options) {
 
 }  // namespace
 
-Schema terrain_schema(const std::string& subject, std::optional<double> length) {
+Schema terrain_schema(const std::string& subject, const std::optional<GroundSize>& size) {
   Schema schema(subject);
   schema
       .text("material",
             "material file, or layers from the top down: file:thickness,file:thickness,file")
       .may_change();  // of place and name: checkpoints compare what is in it
   schema.number("length", "m", Range::positive(), "along x").optional();
-  if (length) schema.by_default(*length);
-  schema.number("width", "m", Range::positive(), "along y; of a half model, both halves");
+  if (size) schema.by_default(size->length);
+  schema.number("width", "m", Range::positive(), "along y; of a half model, both halves")
+      .optional();
+  if (size) schema.by_default(size->width);
   schema.number("depth", "m", Range::positive(), "of the ground");
   schema.number("cell", "m", Range::positive(), "edge of the cells, in the fine part");
   schema.numbers("centre", 2, "m", Range::any(), "x y of the middle")
@@ -224,6 +229,7 @@ Schema terrain_schema(const std::string& subject, std::optional<double> length) 
       .number("fine_width", "m", Range::positive(),
               "along y around the middle with cells of size `cell`")
       .optional();
+  if (size && size->fine_width > 0.0) schema.by_default(size->fine_width);
   schema.number("fine_depth", "m", Range::positive(), "below the surface with cells of size `cell`")
       .optional();
   schema
@@ -280,9 +286,10 @@ Schema terrain_schema(const std::string& subject, std::optional<double> length) 
 }
 
 TerrainParameters read_terrain(const Options& options, const std::string& folder) {
-  if (!options.has("length"))
-    throw InputError(options.where("length"), "is missing", "a number > 0 [m]",
-                     "only ground that follows one wheel can do without");
+  for (const char* key : {"length", "width"})
+    if (!options.has(key))
+      throw InputError(options.where(key), "is missing", "a number > 0 [m]",
+                       "only ground that follows one wheel can do without");
   TerrainParameters ground;
   check_cells(options);
   ground.layers = read_layers(options, folder);

@@ -6,14 +6,15 @@
 #include <optional>
 
 #include "core/options.h"
+#include "mpm/ground_under_wheel.h"
 #include "mpm/terrain_parameters.h"
 
 namespace furrow {
 
 /// The keys of continuum ground. @param subject names the owner in errors
-/// @param length  where the ground need not say its own [m]
+/// @param size  where the ground need not say its own
 Schema terrain_schema(const std::string& subject = "continuum ground",
-                      std::optional<double> length = {});
+                      const std::optional<GroundSize>& size = {});
 /// Reads the material files and lays out the grid. @throws InputError
 /// @param folder from which relative paths of material files are found
 TerrainParameters read_terrain(const Options& options, const std::string& folder = "");

@@ -45,6 +45,7 @@ class BrickTyre : public NodalTyre {
 
   // WheelHub
   double nominal_radius() const override { return tyre_.radius(); }
+  double nominal_width() const override { return tyre_.width(); }
 
   // Tyre
   const TreadGrid& tread_grid() const override { return mesh_.grid; }

@@ -7,6 +7,7 @@
 /// outwards from the mid-plane, R the radius about the axle, and s the length along the carcass's
 /// outline from the mid-plane on, all stress-free.
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,9 @@ struct BrickTyreParameters {
   double bead_spacing() const { return 2.0 * carcass.axial.back(); }  ///< [m]
   double radius() const {                                             ///< [m] of the tread
     return carcass.radius.front() + tread.thickness.front();
+  }
+  double width() const {  ///< [m] of the carcass
+    return 2.0 * *std::max_element(carcass.axial.begin(), carcass.axial.end());
   }
 };
 

@@ -59,6 +59,7 @@ class DarnellTyre : public NodalTyre {
 
   // WheelHub
   double nominal_radius() const override { return tyre_.tread.radius; }
+  double nominal_width() const override { return 2.0 * tyre_.tread.half_width; }
 
   // Tyre
   const TreadGrid& tread_grid() const override { return grid_; }

@@ -18,7 +18,8 @@ namespace furrow {
 
 class WheelOnGround {
  public:
-  static constexpr double depth = 0.2, radius = 0.37, speed = 2.2352;  // [m, m, m/s]
+  static constexpr double depth = 0.2, radius = 0.37, width = 0.272;  // [m]
+  static constexpr double speed = 2.2352;                             // [m/s]
 
   struct Ground {
     double cell = 0.04, length = 1.6, half_width = 0.4;  ///< [m]
@@ -83,7 +84,7 @@ class WheelOnGround {
   static RigidWheelParameters parameters() {
     RigidWheelParameters wheel;
     wheel.geometry.diameter = 2.0 * radius;
-    wheel.geometry.width = 0.272;
+    wheel.geometry.width = width;
     wheel.geometry.shoulder = 0.051;
     wheel.hub = {{636.0, 2.15, 1.5}, {0.0, 0.0, depth + radius + 0.005}};
     return wheel;
