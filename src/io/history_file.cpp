@@ -12,7 +12,10 @@
 #include <utility>
 
 #include "core/error.h"
+#include "io/closing_group.h"
+#include "io/grains_group.h"
 #include "io/hdf5_file.h"
+#include "io/history_rows.h"
 #include "io/replace_file.h"
 #include "io/terrain_fields.h"
 #include "statistics/rig_stage.h"
@@ -23,7 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-using NumberMember = std::pair<const char*, double Audit::*>;
 
 constexpr double flush_interval = 5.0;            // [s] between flushes that come by themselves
 constexpr double least_flush_ratio = 100.0;       // of that interval to the duration of a flush
@@ -33,110 +35,8 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::string dataset_of(const Channel& channel) { return "/history/" + channel.name; }
-
 std::string utc_now() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
-}
-
-std::string join_lines(const std::vector<std::string>& lines) {
-  return fmt::format("{}", fmt::join(lines, "\n"));
-}
-
-std::vector<std::string> split_lines(const std::string& text) {
-  std::vector<std::string> lines;
-  for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    lines.push_back(text.substr(start, end - start));
-    start = end + 1;
-  }
-  return lines;
-}
-
-// The numbers of /audit, by attribute
-const NumberMember audit_numbers[] = {
-    {"energy_residual", &Audit::energy_residual},   {"energy_scale", &Audit::energy_scale},
-    {"force_imbalance", &Audit::force_imbalance},   {"force_scale", &Audit::force_scale},
-    {"moment_imbalance", &Audit::moment_imbalance}, {"moment_scale", &Audit::moment_scale}};
-
-void write_grains(Hdf5File& file, const std::string& group, const Grains& grains,
-                  bool with_velocity) {
-  file.remove(group);
-  file.create_group(group);
-  file.write(group + "/id", grains.id);
-  file.write(group + "/x", grains.x);
-  file.write(group + "/radius", std::vector<double>(grains.radius.data(),
-                                                    grains.radius.data() + grains.radius.size()));
-  if (with_velocity) file.write(group + "/v", grains.v);
-  if (grains.virial.cols() > 0) {
-    file.write(group + "/virial", grains.virial);
-    file.set_attribute(group + "/virial", "unit", "J");
-    file.set_attribute(group + "/virial", "meaning",
-                       "xx, yy, zz of stress times volume by contacts between grains, tension "
-                       "positive");
-  }
-  file.write(group + "/period",
-             std::vector<double>{grains.period.x(), grains.period.y(), grains.period.z()});
-  file.set_attribute(group, "bed_level", grains.bed_level);
-  for (const char* length : {"x", "radius", "period"})
-    file.set_attribute(group + "/" + length, "unit", "m");
-  if (with_velocity) file.set_attribute(group + "/v", "unit", "m/s");
-}
-
-Grains read_grains(const std::string& path, const std::string& group) {
-  const Hdf5File file(path, Hdf5File::Mode::read);
-  if (!file.exists(group))
-    throw Error(fmt::format("{}: has no {}; the run kept no grains there", path, group));
-  Grains grains;
-  grains.id = file.read_integers(group + "/id");
-  grains.x = file.read_columns(group + "/x");
-  const std::vector<double> radius = file.read_numbers(group + "/radius");
-  grains.radius = Eigen::Map<const VectorX>(radius.data(), Eigen::Index(radius.size()));
-  grains.v = file.exists(group + "/v") ? file.read_columns(group + "/v")
-                                       : Matrix3X(Matrix3X::Zero(3, grains.x.cols()));
-  if (file.exists(group + "/virial")) grains.virial = file.read_columns(group + "/virial");
-  const std::vector<double> period = file.read_numbers(group + "/period");
-  if (period.size() != 3) throw Error(fmt::format("{}: {}/period must be 3 numbers", path, group));
-  grains.period = Vector3(period[0], period[1], period[2]);
-  grains.bed_level = file.number_attribute(group, "bed_level");
-  grains.check();
-  return grains;
-}
-
-/// @throws Error where a row is not later [s] than the row above
-void check_time(const std::string& path, const std::vector<double>& time) {
-  for (std::size_t i = 1; i < time.size(); ++i)
-    if (!(time[i] > time[i - 1]))
-      throw Error(
-          fmt::format("{}: time does not run forwards: row {} of the history is at {} s, after {} "
-                      "s; two runs wrote into one folder, or the file is damaged: repeat the run, "
-                      "into a folder of its own",
-                      path, i + 1, time[i], time[i - 1]));
-}
-
-History read_rows(const Hdf5File& file) {
-  if (!file.exists("/history"))
-    throw Error(fmt::format("{}: has no /history; is it a results file of Furrow?", file.path()));
-  std::vector<Channel> channels;
-  std::vector<std::vector<double>> columns;
-  for (const std::string& name : file.members("/history")) {
-    const std::string dataset = "/history/" + name;
-    channels.push_back(
-        {name, file.text_attribute(dataset, "unit"), file.text_attribute(dataset, "meaning")});
-    columns.push_back(file.read_numbers(dataset));
-    if (columns.back().size() != columns.front().size())
-      throw Error(fmt::format("{}: {} has {} rows, {} has {}", file.path(), dataset,
-                              columns.back().size(), dataset_of(channels.front()),
-                              columns.front().size()));
-  }
-  if (!columns.empty()) check_time(file.path(), columns.front());
-  History history(channels);
-  std::vector<double> row(channels.size());
-  for (std::size_t i = 0; !columns.empty() && i < columns.front().size(); ++i) {
-    for (std::size_t j = 0; j < row.size(); ++j) row[j] = columns[j][i];
-    history.append(row);
-  }
-  return history;
 }
 
 void check_channels(const std::string& path, const std::vector<Channel>& found,
@@ -331,31 +231,7 @@ void HistoryFile::write_terrain(const TerrainSnapshot& terrain, const std::vecto
 }
 
 void HistoryFile::write_closing(const RunClosing& closing) {
-  replace_with([&](Hdf5File& file) {
-    file.remove("/audit");
-    file.create_group("/audit");
-    for (const auto& [name, member] : audit_numbers)
-      file.set_attribute("/audit", name, closing.audit.*member);
-    std::vector<double> energies;
-    std::vector<std::string> terms;
-    for (const EnergyTerm& term : closing.audit.energies) {
-      energies.push_back(term.value);
-      terms.push_back(term.name);
-    }
-    file.write("/audit/energies", energies);
-    file.set_attribute("/audit/energies", "terms", join_lines(terms));
-    file.set_attribute("/audit/energies", "unit", "J");
-
-    file.remove("/cost");
-    file.create_group("/cost");
-    file.set_attribute("/cost", "wall_time", closing.cost.wall_time);
-    file.set_attribute("/cost", "simulated_time", closing.cost.simulated_time);
-    file.set_attribute("/cost", "steps", double(closing.cost.steps));
-    file.set_attribute("/cost", "grains", double(closing.cost.grains));
-    file.set_attribute("/cost", "ranks", closing.cost.ranks);
-    file.set_attribute("/cost", "memory", closing.cost.memory);
-    file.write("/warnings", join_lines(closing.warnings));
-  });
+  replace_with([&](Hdf5File& file) { furrow::write_closing(file, closing); });
 }
 
 History read_history(const std::string& path) {
@@ -381,36 +257,18 @@ RunInfo read_run_info(const std::string& path) {
 }
 
 Grains read_reference_grains(const std::string& path) {
-  return read_grains(path, "/grains/reference");
+  return read_grains(Hdf5File(path, Hdf5File::Mode::read), "/grains/reference");
 }
-Grains read_final_grains(const std::string& path) { return read_grains(path, "/grains/final"); }
+Grains read_final_grains(const std::string& path) {
+  return read_grains(Hdf5File(path, Hdf5File::Mode::read), "/grains/final");
+}
 
 bool has_closing(const std::string& path) {
   return Hdf5File(path, Hdf5File::Mode::read).exists("/cost");
 }
 
 RunClosing read_closing(const std::string& path) {
-  const Hdf5File file(path, Hdf5File::Mode::read);
-  if (!file.exists("/cost"))
-    throw Error(fmt::format("{}: has no /cost; the run did not come to its end", path));
-  RunClosing closing;
-  for (const auto& [name, member] : audit_numbers)
-    closing.audit.*member = file.number_attribute("/audit", name);
-  const std::vector<double> energies = file.read_numbers("/audit/energies");
-  const std::vector<std::string> terms =
-      split_lines(file.text_attribute("/audit/energies", "terms"));
-  if (energies.size() != terms.size())
-    throw Error(fmt::format("{}: /audit/energies and its names differ in number", path));
-  for (std::size_t i = 0; i < terms.size(); ++i)
-    closing.audit.energies.push_back({terms[i], energies[i]});
-  closing.cost.wall_time = file.number_attribute("/cost", "wall_time");
-  closing.cost.simulated_time = file.number_attribute("/cost", "simulated_time");
-  closing.cost.steps = std::lround(file.number_attribute("/cost", "steps"));
-  closing.cost.grains = std::lround(file.number_attribute("/cost", "grains"));
-  closing.cost.ranks = int(file.number_attribute("/cost", "ranks"));
-  closing.cost.memory = file.number_attribute("/cost", "memory");
-  closing.warnings = split_lines(file.read_text("/warnings"));
-  return closing;
+  return read_closing(Hdf5File(path, Hdf5File::Mode::read));
 }
 
 }  // namespace furrow

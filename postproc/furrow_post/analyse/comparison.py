@@ -14,12 +14,13 @@ import numpy as np
 from ..errors import ResultsError
 from ..formatting import with_error
 from ..read.wheel_run import WheelRun
-from . import cost_table, empirical
+from . import cost_table
 from .conditions import Difference, incomparable
 from .density import track_density
 from .entry import LIMIT, MEASURED, RUN, Entry, entries_of_run, formula_entries, limits_of_run
 from .judgement import judge, summed_up
 from .measured import measured_entries
+from .prediction import Prediction
 from .statistics import commonest
 from .verdict import COVERAGE, QUANTITIES, Quantity, Verdict
 from .wheel_histories import settling_curve
@@ -55,7 +56,7 @@ def uniquely_labelled(runs: Sequence[WheelRun]) -> list[WheelRun]:
 def compare(
     runs: Sequence[WheelRun],
     table: Sequence[cost_table.Row] | None = None,
-    formulas: Sequence[empirical.Prediction] = (),
+    formulas: Sequence[Prediction] = (),
     measured: Path | None = None,
     anyway: bool = False,
 ) -> Comparison:

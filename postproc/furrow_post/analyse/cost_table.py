@@ -185,11 +185,16 @@ class Family:
     def key(self) -> FamilyKey:
         return self.rows[0].family
 
+    @property
+    def rows_of_line(self) -> list[Row]:
+        """Of all sizes and packings in the common domain."""
+        return [row for row in self.rows if row.domain == self.domain]
+
     def fit(self, key: str) -> Fit | None:
         """None with fewer than two sizes. Two sizes: the error is that of times and packings."""
         if len({row.size for row in self.bases}) < 2:
             return None
-        rows = [row for row in self.rows if row.domain == self.domain]
+        rows = self.rows_of_line
         packing = self.packing(key)
         values, errors = zip(*(row.value(key) for row in rows))
         noise = [noise_of(f, u, packing) for f, u in zip(values, errors)]
@@ -249,8 +254,7 @@ class Family:
 
     def _values_of(self, key: str, size: float) -> list[float]:
         """Of all packings of this size in the common domain."""
-        rows = [row for row in self.rows if row.domain == self.domain and same_size(row.size, size)]
-        return [row.value(key)[0] for row in rows]
+        return [row.value(key)[0] for row in self.rows_of_line if same_size(row.size, size)]
 
     def at_size_zero(
         self, key: str, size: float, value: float, time_error: float

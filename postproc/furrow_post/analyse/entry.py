@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 from ..formatting import value_text
 from ..read.wheel_run import WheelRun
-from . import empirical
 from .cost_table import Components, Family, FamilyKey
+from .prediction import Prediction
 from .verdict import QUANTITIES, Quantity
 
 # Kinds of entries; LIMIT: what a run comes to at size zero
@@ -90,7 +90,7 @@ def limits_of_run(run: WheelRun, families: Mapping[FamilyKey, Family]) -> list[E
     return entries
 
 
-def formula_entries(prediction: empirical.Prediction) -> list[Entry]:
+def formula_entries(prediction: Prediction) -> list[Entry]:
     note = "extrapolated" if prediction.outside else ""
     values = (
         (prediction.sinkage, prediction.sinkage_scatter),

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from ..errors import ResultsError
 from ..read.wheel_run import WheelRun
 from . import empirical
-from .empirical import Prediction
+from .prediction import Prediction
 
 
 def predictions_for(run: WheelRun, names: Iterable[str], extrapolate: bool) -> list[Prediction]:

@@ -20,12 +20,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import Floats
 from ..errors import ResultsError
 from ..formatting import duration
 from .cost import ByQuantity, elements_name
 from .cost_table import QUANTITY_KEYS, Family, Row
-from .size_line import LEAST_RELATIVE_ERROR
+from .size_line import Fit, line_covariance, noise_of
 from .verdict import QUANTITIES, Quantity
 
 LONGER = 4.0  # times the length: half of the time average's error
@@ -79,10 +78,9 @@ class Plan:
 
 
 class _Line:
-    """What is known of a family's line: values, scatter of packings, domain, misfit."""
+    """What is known of a family's line: its fit, scatter of packings, domain."""
 
     def __init__(self, family: Family) -> None:
-        rows = [row for row in family.rows if row.domain == family.domain]
         self.points = [
             Point(
                 row.run,
@@ -90,44 +88,25 @@ class _Line:
                 tuple(row.value(key)[1] for key in QUANTITY_KEYS),
                 row.cpu_time,
             )
-            for row in rows
+            for row in family.rows_of_line
         ]
-        self._values: ByQuantity = {}
-        self._floors: ByQuantity = {}
-        self._packing: ByQuantity = {}
-        self._domain: ByQuantity = {}
-        self._misfit: ByQuantity = {}
-        for key in QUANTITY_KEYS:
-            parts = family.components(key, family.bases[-1].size)
-            self._packing[key] = parts.packing if math.isfinite(parts.packing) else 0.0
-            self._domain[key] = parts.domain if math.isfinite(parts.domain) else 0.0
-            f = np.array([row.value(key)[0] for row in rows])
-            self._floors[key] = LEAST_RELATIVE_ERROR * float(np.abs(f).mean())
-            design, weight = self._design(key, self.points)
-            line, *_ = np.linalg.lstsq(design * weight[:, None], f * weight, rcond=None)
-            freedom = len(f) - 2
-            squares = float(np.sum(((f - design @ line) * weight) ** 2))
-            self._values[key] = float(line[0])
-            self._misfit[key] = max(squares / freedom, 1.0) if freedom > 0 else 1.0
-
-    def _design(self, key: str, points: Sequence[Point]) -> tuple[Floats, Floats]:
-        index = QUANTITY_KEYS.index(key)
-        u = [
-            math.hypot(max(p.errors[index], self._floors[key]), self._packing[key]) for p in points
-        ]
-        h = np.array([p.size for p in points])
-        return np.column_stack([np.ones_like(h), h]), 1.0 / np.array(u)
+        fits = {key: family.fit(key) for key in QUANTITY_KEYS}
+        self._fits: dict[str, Fit] = {key: fit for key, fit in fits.items() if fit}
+        self._packing = {key: family.packing(key) for key in QUANTITY_KEYS}
+        domains = {key: family.domain_error(key) for key in QUANTITY_KEYS}
+        self._domain = {key: u if math.isfinite(u) else 0.0 for key, u in domains.items()}
 
     def value(self, key: str) -> float:
-        return self._values[key]
+        return self._fits[key].at_zero
 
     def errors(self, points: Sequence[Point]) -> ByQuantity:
         """At size zero, of these runs."""
+        sizes = [p.size for p in points]
         found = {}
-        for key in QUANTITY_KEYS:
-            design, weight = self._design(key, points)
-            weighted = design * weight[:, None]
-            variance = np.linalg.inv(weighted.T @ weighted)[0, 0] * self._misfit[key]
+        for index, key in enumerate(QUANTITY_KEYS):
+            fit, packing = self._fits[key], self._packing[key]
+            noise = [noise_of(fit.at(p.size), p.errors[index], packing) for p in points]
+            variance = fit.spread * line_covariance(sizes, noise)[0, 0]
             found[key] = math.hypot(math.sqrt(variance), self._domain[key])
         return found
 

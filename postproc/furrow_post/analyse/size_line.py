@@ -11,6 +11,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import Floats
+
 LEAST_RELATIVE_ERROR = 1e-3  # of a value in a fit: no time average is taken to be better
 
 
@@ -21,6 +23,17 @@ class Fit(NamedTuple):
     slope: float
     at_zero_error: float
     slope_error: float
+    spread: float  # square of the scatter about the line over what the errors allow; 1 or more
+
+    def at(self, size: float) -> float:
+        return self.at_zero + self.slope * size
+
+
+def line_covariance(sizes: npt.ArrayLike, errors: npt.ArrayLike) -> Floats:
+    """(2, 2) of at_zero and slope, of values (n) with these errors, each above 0."""
+    design = _weighted(sizes, errors)
+    inverse: Floats = np.linalg.inv(design.T @ design)
+    return inverse
 
 
 def fit_line(sizes: npt.ArrayLike, values: npt.ArrayLike, errors: npt.ArrayLike) -> Fit:
@@ -30,15 +43,21 @@ def fit_line(sizes: npt.ArrayLike, values: npt.ArrayLike, errors: npt.ArrayLike)
     """
     h, f = np.asarray(sizes, float), np.asarray(values, float)
     weight = 1.0 / np.asarray(errors, float)
-    design = np.column_stack([np.ones_like(h), h]) * weight[:, None]
-    inverse = np.linalg.inv(design.T @ design)
+    design, inverse = _weighted(h, errors), line_covariance(h, errors)
     at_zero, slope = inverse @ design.T @ (f * weight)
     spread = 1.0
     if len(h) > 2:
         residuals = (f - at_zero - slope * h) * weight
-        spread = max(np.sum(residuals**2) / (len(h) - 2), 1.0)
+        spread = float(max(np.sum(residuals**2) / (len(h) - 2), 1.0))
     found = np.sqrt(spread * np.diag(inverse))
-    return Fit(float(at_zero), float(slope), float(found[0]), float(found[1]))
+    return Fit(float(at_zero), float(slope), float(found[0]), float(found[1]), spread)
+
+
+def _weighted(sizes: npt.ArrayLike, errors: npt.ArrayLike) -> Floats:
+    """(n, 2): of each value the factors of at_zero and slope, over its error."""
+    h, weight = np.asarray(sizes, float), 1.0 / np.asarray(errors, float)
+    design: Floats = np.column_stack([np.ones_like(h), h]) * weight[:, None]
+    return design
 
 
 def noise_of(value: float, error: float, packing: float) -> float:

@@ -12,13 +12,14 @@ from ..arrays import Floats
 from ..errors import ResultsError
 from ..read.motion import Motion
 from ..read.results import Surface
-from . import render
+from .canvas import View
 from .quantities import COLOURS, Quantity, quantities_of
+from .render import SURFACE_COLOUR, shaded_picture
 from .style import GROUND_COLOURS, use_style
 
 DOTS = 100  # per inch
 ROOM_ABOVE = 0.2  # for words and scale, of the height of what is shown
-VIEW = render.View.of_angles(-62.0, 24.0)
+VIEW = View.of_angles(-62.0, 24.0)
 GREY = (0.62, 0.62, 0.60)  # of points whose quantity is not known
 
 
@@ -99,8 +100,8 @@ class MovingPictures:
         x, radius, colours, body = self._parts(time)
         if not len(x):  # a wheel on a road: the renderer takes its scale from spheres
             assert body is not None
-            x, radius, colours = body.x[:1], np.full(1, 1e-3), np.array([render.SURFACE_COLOUR])
-        image, _ = render.shaded_picture(
+            x, radius, colours = body.x[:1], np.full(1, 1e-3), np.array([SURFACE_COLOUR])
+        image, _ = shaded_picture(
             x, radius, colours, body, VIEW, self.pixel, corners=self.corners
         )
         figure = plt.figure(figsize=(self.width / DOTS, self.height / DOTS), dpi=DOTS)

@@ -11,114 +11,25 @@ from matplotlib.collections import EllipseCollection, LineCollection
 from matplotlib.colors import Normalize, TwoSlopeNorm
 from matplotlib.figure import Figure
 
-from ..arrays import Floats, Integers
 from ..errors import ResultsError
-from ..read.results import Results, Surface
-from . import render
+from ..read.results import Results
+from .bed_scene import BedScene
+from .canvas import View
+from .cut import cut
+from .render import shaded_picture
 from .style import (
     CENTIMETRE,
     GROUND_COLOURS,
     MILLIMETRE,
     WHEEL_COLOUR,
     annotate_panel,
+    round_up,
     save,
     use_style,
 )
 
 WIDTH = 11.0  # of the figure [inch]
 HEAD = 0.95  # of its title [inch]
-
-
-class Scene:
-    """What all panels share: grains, displacement, wheel, bed level, the box in plan.
-
-    x (n, 3), radius, moved (n) [m]; low, high: corners (3) of the bed before [m]; heights: of the
-    ground over the bed level on a grid in plan with cells of cell [m], row 0 at the lowest y.
-    """
-
-    def __init__(self, results: Results) -> None:
-        """@raises ResultsError when the run kept no grains"""
-        reference, final = results.grains("reference"), results.grains("final")
-        self.x, self.radius = final.x, final.radius
-        self.moved: Floats = np.linalg.norm(final.displacement_from(reference), axis=1)
-        self.diameter = float(2 * self.radius.mean())
-        self.low, self.high = reference.corners
-        surface = results.surface()
-        self.surface = None if surface is None else reference.image_of(surface)
-        self.cell = 0.5 * self.diameter
-        if np.isfinite(reference.bed_level):
-            self.bed_level = reference.bed_level
-        else:
-            self.bed_level = float(np.nanmedian(self._heights(reference.x, reference.radius)))
-        self.heights = self._heights(self.x, self.radius) - self.bed_level
-        # none is known in a bed that was renewed as a whole
-        self.followed = bool(np.isfinite(self.moved).any())
-        largest = float(np.nanpercentile(self.moved, 99.5)) if self.followed else 1.0
-        self.range = Normalize(0, render.round_up(largest))
-        if self.surface is not None:
-            self.wheel_low: Floats = self.surface.x.min(axis=0)
-            self.wheel_high: Floats = self.surface.x.max(axis=0)
-
-    def _heights(self, x: Floats, radius: Floats) -> Floats:
-        return render.top_heights(x, radius, self.low[:2], self.high[:2], self.cell)
-
-    @property
-    def middle(self) -> float:
-        """y of the lengthwise section: the wheel's middle plane, or the bed's [m]."""
-        if self.surface is None:
-            return float(0.5 * (self.low[1] + self.high[1]))
-        return float(0.5 * (self.wheel_low[1] + self.wheel_high[1]))
-
-    @property
-    def cross_section(self) -> float:
-        """x of the cross section: where the rut is deepest on average, clear of the wheel [m]."""
-        rows = np.abs(self._cell_middles(1) - self.middle) < 0.25 * self._rut_width()
-        counted = rows[:, None] & np.isfinite(self.heights)
-        total = np.where(counted, self.heights, 0.0).sum(axis=0)
-        count = counted.sum(axis=0)
-        profile = np.where(count > 0, total / np.maximum(count, 1), np.nan)
-        x = self._cell_middles(0)
-        if self.surface is not None:
-            clear = (x < self.wheel_low[0]) | (x > self.wheel_high[0])
-            profile = np.where(clear, profile, np.nan)
-        if not np.isfinite(profile).any():
-            return float(0.5 * (self.low[0] + self.high[0]))
-        width = max(int(4 * self.diameter / self.cell), 1)
-        smooth = np.convolve(np.nan_to_num(profile), np.ones(width) / width, "same")
-        smooth[~np.isfinite(profile)] = np.inf
-        return float(x[np.argmin(smooth)])
-
-    def _rut_width(self) -> float:
-        if self.surface is not None:
-            return float(self.wheel_high[1] - self.wheel_low[1])
-        return float(0.2 * (self.high[1] - self.low[1]))
-
-    def _cell_middles(self, axis: int) -> Floats:
-        middles: Floats = self.low[axis] + self.cell * (
-            np.arange(self.heights.shape[1 - axis]) + 0.5
-        )
-        return middles
-
-    def colours(self, values: Floats) -> Floats:
-        """(n, 4) RGBA of displacements (n) [m]."""
-        colours: Floats = GROUND_COLOURS(self.range(np.nan_to_num(values)))
-        return colours
-
-    def visible_from(self, view: render.View) -> Integers:
-        """Grains that are not buried: near the surface, or near a side of the box in view."""
-        depth = 4 * self.diameter
-        rows, columns = self.heights.shape
-        column = ((self.x[:, 0] - self.low[0]) / self.cell).astype(int).clip(0, columns - 1)
-        row = ((self.x[:, 1] - self.low[1]) / self.cell).astype(int).clip(0, rows - 1)
-        heights = np.nan_to_num(self.heights, nan=-np.inf)
-        lowest = _lowest_around(heights, int(depth / self.cell))
-        shown = self.x[:, 2] > lowest[row, column] + self.bed_level - depth
-        for axis in (0, 1):
-            x, low, high = self.x[:, axis], self.low[axis], self.high[axis]
-            outside = (x < low) | (x > high)
-            near = x < low + depth if view.towards[axis] < 0 else x > high - depth
-            shown |= near | outside
-        return np.flatnonzero(shown)
 
 
 def draw_picture(results: Results, numbers: str, target: Path, pixels: int = 1500) -> None:
@@ -130,7 +41,7 @@ def draw_picture(results: Results, numbers: str, target: Path, pixels: int = 150
     use_style()
     if not all(len(results.grains(when).id) for when in ("reference", "final")):
         raise ResultsError(f"{results.file}: lists no grains; there is nothing to draw")
-    scene = Scene(results)
+    scene = BedScene(results)
     cross = scene.cross_section
     figure = plt.figure(layout="constrained")
     grid = figure.add_gridspec(3, 2, height_ratios=[1, 1, 1], width_ratios=[1, 1.6])
@@ -188,43 +99,13 @@ def _aspect(axes: Axes) -> float:
     return float(abs((top - bottom) / (right - left)))
 
 
-def _lowest_around(image: Floats, reach: int) -> Floats:
-    """Least value within reach cells along both axes, the edge repeated."""
-    for axis in (0, 1):
-        first = np.repeat(image.take([0], axis), reach, axis)
-        last = np.repeat(image.take([-1], axis), reach, axis)
-        padded = np.concatenate([first, image, last], axis)
-        size = image.shape[axis]
-        shifted = [padded.take(range(k, k + size), axis) for k in range(2 * reach + 1)]
-        image = np.minimum.reduce(shifted)
-    return image
-
-
-def _median_around(image: Floats) -> Floats:
-    """Median of the 3 x 3 cells about each cell that have a value; NaN where none has.
-
-    Fills the pits between single grains.
-    """
-    padded = np.pad(image, 1, constant_values=np.nan)
-    rows, columns = image.shape
-    shifted = [padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)]
-    around = np.sort(shifted, axis=0)  # NaN last
-    count = np.isfinite(around).sum(axis=0)
-    low, high = (
-        np.take_along_axis(around, np.minimum(place, 8)[None], 0)[0]
-        for place in (np.maximum(count - 1, 0) // 2, count // 2)
-    )
-    median: Floats = 0.5 * (low + high)
-    return median
-
-
-def _draw_oblique(axes: Axes, scene: Scene, pixels: int) -> None:
+def _draw_oblique(axes: Axes, scene: BedScene, pixels: int) -> None:
     """The whole bed from behind and beside the wheel."""
-    view = render.View.of_angles(-112.0, 30.0)
+    view = View.of_angles(-112.0, 30.0)
     shown = scene.visible_from(view)
     width = np.abs(view.right) @ (scene.high - scene.low)
     colours = scene.colours(scene.moved[shown])[:, :3]
-    picture, extent = render.shaded_picture(
+    picture, extent = shaded_picture(
         scene.x[shown], scene.radius[shown], colours, scene.surface, view, width / pixels
     )
     axes.imshow(picture, extent=[CENTIMETRE * e for e in extent], interpolation="antialiased")
@@ -233,10 +114,10 @@ def _draw_oblique(axes: Axes, scene: Scene, pixels: int) -> None:
     _draw_scale_bar(axes, scene, view)
 
 
-def _draw_scale_bar(axes: Axes, scene: Scene, view: render.View) -> None:
+def _draw_scale_bar(axes: Axes, scene: BedScene, view: View) -> None:
     """A length along the travel direction on the ground beside the bed, with an arrow."""
     bed_length = scene.high[0] - scene.low[0]
-    length = render.round_up(0.2 * bed_length)
+    length = round_up(0.2 * bed_length)
     start = np.array([scene.low[0], scene.low[1] - 0.06 * bed_length, scene.low[2]])
     ends = CENTIMETRE * view.project(np.array([start, start + [length, 0, 0]]))[:, :2]
     arrow = {"arrowstyle": "-|>", "color": "0.2", "lw": 1.4}
@@ -260,7 +141,7 @@ def _draw_scale_bar(axes: Axes, scene: Scene, view: render.View) -> None:
 
 
 def _draw_section(
-    axes: Axes, scene: Scene, axis: int, position: float, thickness: float = 2.0
+    axes: Axes, scene: BedScene, axis: int, position: float, thickness: float = 2.0
 ) -> None:
     """Grains near the plane x[axis] = position, the wheel cut by the plane itself.
 
@@ -304,25 +185,9 @@ def _draw_section(
     axes.set_ylabel("z [cm]")
 
 
-def cut(surface: Surface, axis: int, position: float) -> Floats:
-    """Segments (k, 2, 3) in which triangles cross the plane x[axis] = position [m]."""
-    corners = surface.x[surface.triangles]
-    side = corners[:, :, axis] - position
-    crossed = np.flatnonzero((side.min(axis=1) < 0) & (side.max(axis=1) >= 0))
-    segments = np.empty((len(crossed), 2, 3))
-    for i, t in enumerate(crossed):
-        ends = []
-        for a, b in ((0, 1), (1, 2), (2, 0)):
-            if (side[t, a] < 0) != (side[t, b] < 0):
-                share = side[t, a] / (side[t, a] - side[t, b])
-                ends.append(corners[t, a] + share * (corners[t, b] - corners[t, a]))
-        segments[i] = ends
-    return segments
-
-
-def _draw_height_map(figure: Figure, axes: Axes, scene: Scene, cross: float) -> None:
+def _draw_height_map(figure: Figure, axes: Axes, scene: BedScene, cross: float) -> None:
     """Height of the ground over the bed level, from above. cross: x of the cross section [m]"""
-    values = MILLIMETRE * _median_around(scene.heights)
+    values = MILLIMETRE * scene.smooth_heights()
     low, high = np.nanpercentile(values, [0.5, 99.5])
     # the eye reads depth and heap on one scale when both sides have the same unit length
     limit = max(-low, high, MILLIMETRE * scene.diameter)

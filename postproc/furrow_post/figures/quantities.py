@@ -9,8 +9,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..read.motion import Motion, evenly_chosen
-from .render import round_up
-from .style import MILLIMETRE
+from .style import MILLIMETRE, round_up
 
 COLOURS = 255  # levels of a scale: 0 ... 254; 255: not known
 SAMPLES = 12  # frames from which a scale is taken

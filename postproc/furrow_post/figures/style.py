@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import matplotlib.pyplot as plt
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
@@ -57,3 +58,12 @@ def save(figure: Figure, target: Path, dpi: float = 150) -> None:
     """Writes and closes a figure; the ending of target says the format."""
     figure.savefig(target, dpi=dpi)
     plt.close(figure)
+
+
+def round_up(value: float) -> float:
+    """The end of a scale: to 1, 1.5, 2, 3, 5, 7 times a power of ten."""
+    if not value > 0:
+        return 1e-3
+    power = float(10.0 ** np.floor(np.log10(value)))
+    steps = (1, 1.5, 2, 3, 5, 7, 10)
+    return power * min(step for step in steps if step * power >= value * (1 - 1e-9))

@@ -21,9 +21,18 @@ from ..arrays import Floats
 from ..errors import ResultsError
 from ..read.results import Surface
 from ..read.terrain import Outline, Terrain
-from . import render
-from .picture import cut
-from .style import CENTIMETRE, GROUND_COLOURS, WHEEL_COLOUR, annotate_panel, save, use_style
+from .canvas import View
+from .cut import cut
+from .render import shaded_picture
+from .style import (
+    CENTIMETRE,
+    GROUND_COLOURS,
+    WHEEL_COLOUR,
+    annotate_panel,
+    round_up,
+    save,
+    use_style,
+)
 
 Extent = tuple[float, float, float, float]  # left, right, bottom, top [m]
 
@@ -40,7 +49,7 @@ def draw_terrain(
     terrain = Terrain.read(folder)
     body = Outline(folder, terrain)
     densities = rut_densities(terrain, body)
-    densest = render.round_up(float(np.percentile(terrain.density, 99.5)))
+    densest = round_up(float(np.percentile(terrain.density, 99.5)))
     norm = Normalize(0.9 * terrain.undisturbed, densest)
     axle = float(body.centre[0])
     behind = axle + rut_place(terrain, body)
@@ -85,7 +94,7 @@ def draw_density_section(
     figure: Figure, axes: Axes, terrain: Terrain, axis: int, position: float
 ) -> None:
     """The section x[axis] = position [m] without a body, with its scale: for plates, columns."""
-    densest = render.round_up(float(terrain.density.max()))
+    densest = round_up(float(terrain.density.max()))
     norm = Normalize(0.9 * terrain.undisturbed, densest)
     draw_section(axes, terrain, terrain.density, None, norm, axis, position)
     scale = ScalarMappable(norm, GROUND_COLOURS)
@@ -95,11 +104,11 @@ def draw_density_section(
 def _draw_oblique(
     axes: Axes, terrain: Terrain, body: Outline, norm: Normalize, pixels: int
 ) -> None:
-    view = render.View.of_angles(-112.0, 30.0)
+    view = View.of_angles(-112.0, 30.0)
     radius = 0.62 * np.cbrt(terrain.volume * terrain.density / terrain.undisturbed)
     width = np.abs(view.right) @ np.ptp(terrain.x, axis=0)
     colours = GROUND_COLOURS(norm(terrain.density))[:, :3]
-    picture, extent = render.shaded_picture(
+    picture, extent = shaded_picture(
         terrain.x, radius, colours, body.surface, view, width / pixels
     )
     axes.imshow(picture, extent=[CENTIMETRE * e for e in extent], interpolation="antialiased")

@@ -18,8 +18,15 @@ from matplotlib.figure import Figure
 from ..analyse.stress import Arc, arc_ahead, in_plane
 from ..arrays import Floats
 from ..read.terrain import Outline, Terrain, TerrainStress
-from . import render
-from .style import CENTIMETRE, GROUND_COLOURS, KILOPASCAL, annotate_panel, save, use_style
+from .style import (
+    CENTIMETRE,
+    GROUND_COLOURS,
+    KILOPASCAL,
+    annotate_panel,
+    round_up,
+    save,
+    use_style,
+)
 from .terrain import draw_frame, draw_section, draw_tracers
 
 COMPRESSION_COLOUR, TENSION_COLOUR = "#1f3a5f", "#c0281c"
@@ -85,7 +92,7 @@ def _draw_field(
 ) -> None:
     """A number of each particle on the plane x[axis] = position [m], with its scale from 0."""
     near = np.abs(terrain.x[:, axis] - position) < 0.75 * terrain.spacing
-    norm = Normalize(0.0, render.round_up(float(np.percentile(values[near], PERCENTILE))))
+    norm = Normalize(0.0, round_up(float(np.percentile(values[near], PERCENTILE))))
     draw_section(axes, terrain, values, body.surface, norm, axis, position)
     scale = ScalarMappable(norm, GROUND_COLOURS)
     bar = figure.colorbar(scale, ax=axes, shrink=0.7, extend="max", panchor=False)

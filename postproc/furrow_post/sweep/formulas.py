@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..analyse.empirical import Prediction
+from ..analyse.prediction import Prediction
 from ..analyse.formulas import predictions_for
 from ..errors import ResultsError
 from .curves import EFFICIENCY, PULL, RESISTANCE, SINKAGE, TORQUE, Axis, Line

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""NRMM: a wheel in shallow snow. SI units."""
+
+import math
+
+import numpy as np
+
+from ..errors import ResultsError
+from .prediction import Limit, Prediction, Result, require_positive, require_range
+
+NRMM_SOURCE = (
+    "NRMM shallow snow, P. W. Richmond et al.; S. A. Shoop, ERDC/CRREL TR-01-16 (2001), eq 29-33"
+)
+# The tests that [Shoop2001] holds against the formula (Table 11), which gives no other range.
+# Radius: 10 % to both sides of its only wheel.
+NRMM_TESTS = "tests of Shoop (2001), Table 11"
+NRMM_DENSITY = (105.0, 225.0)  # [kg/m3] rows of 110 to 220, which are rounded to 10
+NRMM_DEPTH = (0.13, 0.38)  # [m]
+NRMM_RADIUS = (0.342, 0.418)  # [m]
+DENSEST = 0.917  # ice: largest final density [Mg/m3]
+# rms of the formula against the rows of Table 11 in inputs/validation/snow_wheel/reference.csv:
+# coefficient from the measured sinkage, sinkage [m] at 179 kPa; empirical_test.py holds it
+NRMM_COEFFICIENT_RMS, NRMM_SINKAGE_RMS = 0.031, 0.0126
+
+
+def nrmm_final_density(pressure: float) -> float:
+    """Density [kg/m3] under the largest contact pressure [Pa]: 0.519 + 0.0023 p, at most ice.
+
+    Eq 31, in Mg/m3 and kPa.
+    """
+    return 1e3 * min(0.519 + 0.0023 * pressure / 1e3, DENSEST)
+
+
+def nrmm_sinkage(depth: float, density: float, pressure: float) -> float:
+    """z = h (1 - rho0/rho_f) [m]. depth [m], density [kg/m3], pressure [Pa]"""
+    return depth * (1 - density / nrmm_final_density(pressure))
+
+
+def nrmm_resistance(density: float, width: float, radius: float, sinkage: float) -> float:
+    """Motion resistance [N] of one wheel: 13.6041 (rho0 w a)^1.26, the arc a = r acos((r - z)/r).
+
+    density [kg/m3], width, radius, sinkage [m]. Deep snow denser than 150 kg/m3: x 1.5 beyond
+    z = 2r/3, x 2.5 beyond z = r.
+    """
+    arc = radius * np.arccos(max((radius - sinkage) / radius, -1.0))
+    resistance = 13.6041 * (density * width * arc) ** 1.26
+    if density > 150:
+        resistance *= 2.5 if sinkage > radius else 1.5 if sinkage > 2 * radius / 3 else 1.0
+    return float(resistance)
+
+
+def nrmm(
+    load: float,
+    radius: float,
+    width: float,
+    depth: float,
+    density: float,
+    pressure: float,
+    sinkage: float | None = None,
+    extrapolate: bool = False,
+) -> Prediction:
+    """Sinkage (unless a measured one is given) and resistance of a wheel in shallow snow.
+
+    load [N], radius, width, depth, sinkage [m], density [kg/m3], pressure [Pa] the largest contact
+    pressure. @raises OutOfRange
+    """
+    sizes = {"load": load, "radius": radius, "width": width, "depth": depth}
+    require_positive("NRMM", **sizes, density=density, pressure=pressure)
+    if sinkage is not None and not 0.0 <= sinkage < depth:
+        raise ResultsError(
+            f"NRMM: a sinkage of {sinkage:g} m in snow {depth:g} m deep; allowed: from 0 to below "
+            "the depth"
+        )
+    z = nrmm_sinkage(depth, density, pressure) if sinkage is None else sinkage
+    final = nrmm_final_density(pressure)
+    why = f"within 10 % of the wheel of {NRMM_TESTS}"
+    outside = require_range(
+        "NRMM",
+        [
+            Limit("density", density, *NRMM_DENSITY, "kg/m3", NRMM_TESTS),
+            Limit("depth", depth, *NRMM_DEPTH, "m", NRMM_TESTS),
+            Limit("wheel radius", radius, *NRMM_RADIUS, "m", why),
+            Limit("sinkage", z, -math.inf, depth, "m", "the snow is not deeper"),
+            Limit(
+                "final over initial density",
+                final / density,
+                1.0,
+                math.inf,
+                "",
+                "snow does not swell",
+            ),
+        ],
+        extrapolate,
+    )
+    return Prediction(
+        "NRMM",
+        NRMM_SOURCE,
+        z,
+        nrmm_resistance(density, width, radius, z),
+        load,
+        NRMM_SINKAGE_RMS,
+        NRMM_COEFFICIENT_RMS,
+        outside,
+        (Result("final density", final, "kg/m3"),),
+    )

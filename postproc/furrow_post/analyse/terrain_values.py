@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Published pressure-sinkage and shear values of terrains: terrains.csv. SI units."""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..arrays import Floats
+from ..csv_table import read_rows
+from ..errors import ResultsError
+
+
+@dataclass(frozen=True)
+class TerrainValues:
+    """One row of terrains.csv, whose head says what the columns are; NaN: not in the source."""
+
+    name: str
+    kind: str
+    pressure: str  # whose pressure-sinkage law: "bekker" or "reece"
+    k_1: float
+    k_2: float
+    n: float
+    c: float  # cohesion [Pa]
+    phi: float  # friction angle [degrees]
+    K: float  # shear displacement [m]
+    c1: float
+    c2: float
+
+    def modulus(self, width: float) -> float:
+        """k of p = k z^n [Pa/m^n] under a contact of this width [m]."""
+        if self.pressure == "bekker":
+            return self.k_1 / width + self.k_2
+        return float((self.k_1 + self.k_2 * width) / width**self.n)
+
+    def plate_pressure(self, sinkage: Floats, width: float) -> Floats:
+        """Mean pressure [Pa] under a plate at this sinkage [m]."""
+        pressure: Floats = self.modulus(width) * np.asarray(sinkage) ** self.n
+        return pressure
+
+
+def terrains() -> dict[str, TerrainValues]:
+    """Name -> values, from terrains.csv."""
+    numeric = ("k_1", "k_2", "n", "c", "phi", "K", "c1", "c2")
+    return {
+        row["name"]: TerrainValues(
+            row["name"],
+            row["kind"],
+            row["pressure"],
+            *(float(row[key]) if row[key] else math.nan for key in numeric),
+        )
+        for row in read_rows(Path(__file__).with_name("terrains.csv"))
+    }
+
+
+def terrain(name: str) -> TerrainValues:
+    """@raises ResultsError for an unknown name"""
+    known = terrains()
+    if name not in known:
+        raise ResultsError(f"there is no terrain '{name}'; there are: {', '.join(known)}")
+    return known[name]

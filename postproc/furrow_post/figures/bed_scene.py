@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A bed of grains that a wheel has rolled over: grains, how far each has moved, heights, the rut."""
+
+import numpy as np
+from matplotlib.colors import Normalize
+
+from ..arrays import Floats, Integers
+from ..read.results import Results
+from .canvas import View, top_heights
+from .style import GROUND_COLOURS, round_up
+
+
+class BedScene:
+    """What all panels share: grains, displacement, wheel, bed level, the box in plan.
+
+    x (n, 3), radius, moved (n) [m]; low, high: corners (3) of the bed before [m]; heights: of the
+    ground over the bed level on a grid in plan with cells of cell [m], row 0 at the lowest y.
+    """
+
+    def __init__(self, results: Results) -> None:
+        """@raises ResultsError when the run kept no grains"""
+        reference, final = results.grains("reference"), results.grains("final")
+        self.x, self.radius = final.x, final.radius
+        self.moved: Floats = np.linalg.norm(final.displacement_from(reference), axis=1)
+        self.diameter = float(2 * self.radius.mean())
+        self.low, self.high = reference.corners
+        surface = results.surface()
+        self.surface = None if surface is None else reference.image_of(surface)
+        self.cell = 0.5 * self.diameter
+        if np.isfinite(reference.bed_level):
+            self.bed_level = reference.bed_level
+        else:
+            self.bed_level = float(np.nanmedian(self._heights(reference.x, reference.radius)))
+        self.heights = self._heights(self.x, self.radius) - self.bed_level
+        # none is known in a bed that was renewed as a whole
+        self.followed = bool(np.isfinite(self.moved).any())
+        largest = float(np.nanpercentile(self.moved, 99.5)) if self.followed else 1.0
+        self.range = Normalize(0, round_up(largest))
+        if self.surface is not None:
+            self.wheel_low: Floats = self.surface.x.min(axis=0)
+            self.wheel_high: Floats = self.surface.x.max(axis=0)
+
+    def _heights(self, x: Floats, radius: Floats) -> Floats:
+        return top_heights(x, radius, self.low[:2], self.high[:2], self.cell)
+
+    @property
+    def middle(self) -> float:
+        """y of the lengthwise section: the wheel's middle plane, or the bed's [m]."""
+        if self.surface is None:
+            return float(0.5 * (self.low[1] + self.high[1]))
+        return float(0.5 * (self.wheel_low[1] + self.wheel_high[1]))
+
+    @property
+    def cross_section(self) -> float:
+        """x of the cross section: where the rut is deepest on average, clear of the wheel [m]."""
+        rows = np.abs(self._cell_middles(1) - self.middle) < 0.25 * self._rut_width()
+        counted = rows[:, None] & np.isfinite(self.heights)
+        total = np.where(counted, self.heights, 0.0).sum(axis=0)
+        count = counted.sum(axis=0)
+        profile = np.where(count > 0, total / np.maximum(count, 1), np.nan)
+        x = self._cell_middles(0)
+        if self.surface is not None:
+            clear = (x < self.wheel_low[0]) | (x > self.wheel_high[0])
+            profile = np.where(clear, profile, np.nan)
+        if not np.isfinite(profile).any():
+            return float(0.5 * (self.low[0] + self.high[0]))
+        width = max(int(4 * self.diameter / self.cell), 1)
+        smooth = np.convolve(np.nan_to_num(profile), np.ones(width) / width, "same")
+        smooth[~np.isfinite(profile)] = np.inf
+        return float(x[np.argmin(smooth)])
+
+    def _rut_width(self) -> float:
+        if self.surface is not None:
+            return float(self.wheel_high[1] - self.wheel_low[1])
+        return float(0.2 * (self.high[1] - self.low[1]))
+
+    def _cell_middles(self, axis: int) -> Floats:
+        middles: Floats = self.low[axis] + self.cell * (
+            np.arange(self.heights.shape[1 - axis]) + 0.5
+        )
+        return middles
+
+    def smooth_heights(self) -> Floats:
+        """Heights with the pits between single grains filled."""
+        return _median_around(self.heights)
+
+    def colours(self, values: Floats) -> Floats:
+        """(n, 4) RGBA of displacements (n) [m]."""
+        colours: Floats = GROUND_COLOURS(self.range(np.nan_to_num(values)))
+        return colours
+
+    def visible_from(self, view: View) -> Integers:
+        """Grains that are not buried: near the surface, or near a side of the box in view."""
+        depth = 4 * self.diameter
+        rows, columns = self.heights.shape
+        column = ((self.x[:, 0] - self.low[0]) / self.cell).astype(int).clip(0, columns - 1)
+        row = ((self.x[:, 1] - self.low[1]) / self.cell).astype(int).clip(0, rows - 1)
+        heights = np.nan_to_num(self.heights, nan=-np.inf)
+        lowest = _lowest_around(heights, int(depth / self.cell))
+        shown = self.x[:, 2] > lowest[row, column] + self.bed_level - depth
+        for axis in (0, 1):
+            x, low, high = self.x[:, axis], self.low[axis], self.high[axis]
+            outside = (x < low) | (x > high)
+            near = x < low + depth if view.towards[axis] < 0 else x > high - depth
+            shown |= near | outside
+        return np.flatnonzero(shown)
+
+
+def _lowest_around(image: Floats, reach: int) -> Floats:
+    """Least value within reach cells along both axes, the edge repeated."""
+    for axis in (0, 1):
+        first = np.repeat(image.take([0], axis), reach, axis)
+        last = np.repeat(image.take([-1], axis), reach, axis)
+        padded = np.concatenate([first, image, last], axis)
+        size = image.shape[axis]
+        shifted = [padded.take(range(k, k + size), axis) for k in range(2 * reach + 1)]
+        image = np.minimum.reduce(shifted)
+    return image
+
+
+def _median_around(image: Floats) -> Floats:
+    """Median of the 3 x 3 cells about each cell that have a value; NaN where none has.
+
+    Fills the pits between single grains.
+    """
+    padded = np.pad(image, 1, constant_values=np.nan)
+    rows, columns = image.shape
+    shifted = [padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)]
+    around = np.sort(shifted, axis=0)  # NaN last
+    count = np.isfinite(around).sum(axis=0)
+    low, high = (
+        np.take_along_axis(around, np.minimum(place, 8)[None], 0)[0]
+        for place in (np.maximum(count - 1, 0) // 2, count // 2)
+    )
+    median: Floats = 0.5 * (low + high)
+    return median

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a rig is told: its keys, and which of them contradict each other.
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "rig/wheel_rig.h"
+
+namespace furrow {
+
+namespace {
+
+// Load over the weight of the wheel: beyond, it does not move, or is shot away.
+constexpr double least_load = 1e-3, largest_load = 1e5;
+// Of the diameter: a rig's damping that lets the wheel go down by less while it settles holds it.
+constexpr double least_travel = 1e-3;
+// Of load x radius: no ground holds it.
+constexpr double largest_torque = 100.0;
+// Of the load.
+constexpr double largest_drawbar_load = 100.0;
+
+/// @throws InputError when key is missing (needed) or given (not needed)
+void expect_key(const Options& options, const std::string& key, bool needed,
+                const std::string& context, const std::string& allowed) {
+  if (needed && !options.has(key))
+    throw InputError(options.where(key), "is missing " + context, allowed,
+                     fmt::format("add '{} <value>'", key));
+  if (!needed && options.given(key))
+    throw InputError(options.where(key), "is given " + context, allowed,
+                     "remove it or change the mode");
+}
+
+}  // namespace
+
+Schema WheelRig::schema(const std::string& subject) {
+  Schema schema(subject);
+  schema
+      .number("load_mass", "kg", Range::positive(),
+              "load as a mass: level ground carries load_mass x gravity, wheel included")
+      .optional();
+  schema
+      .number("load_force", "N", Range::positive(),
+              "load as a force: what level ground carries at rest, weight of the wheel included")
+      .optional();
+  schema
+      .number("sinkage", "m", Range::any(),
+              "instead of a load: the wheel is lowered to this sinkage and held there")
+      .optional();
+  schema
+      .choice("travel", {"prescribed", "free"},
+              "along x: at a speed, or free under drawbar_load, slope and inertia")
+      .by_default("prescribed");
+  schema
+      .number("speed", "m/s", Range::closed(0.0, 1000.0),
+              "speed of the axle along x in cruise, with travel prescribed")
+      .optional();
+  schema.choice("mode", {"towed", "slip", "torque", "spin"},
+                "free spin, prescribed slip, prescribed axle torque, or prescribed spin");
+  schema.number("slip", "", Range::any(), "slip in mode slip, driving positive").optional();
+  schema
+      .choice(
+          "slip_definition", slip_definition_words(),
+          "slip by the larger of rim and vehicle speed, by rim speed, or by vehicle speed (speed "
+          "in the wheel plane)")
+      .by_default("larger_speed");
+  schema.number("torque", "N m", Range::any(), "axle torque in mode torque; < 0 brakes").optional();
+  schema.number("spin_rate", "rad/s", Range::any(), "in mode spin; > 0 rolls forward").optional();
+  schema
+      .number("drawbar_load", "N", Range::any(),
+              "with travel free: what holds the axle back along x; < 0 pushes it")
+      .by_default(0.0);
+  schema
+      .number("dragged_mass", "kg", Range::positive(),
+              "with travel free: all that moves along x with the axle, wheel included; by default "
+              "that of the load")
+      .optional();
+  schema
+      .number(
+          "slope", "degrees", Range::closed(-45, 45),
+          "rise of the ground along the travel; turns the weight of wheel, grains and continuum")
+      .by_default(0.0);
+  schema.integer("passes", Range::closed(1, 1000), "times that the wheel rolls in the same rut")
+      .by_default("1");
+  schema
+      .number("pass_length", "m", Range::positive(),
+              "travel of each pass but the last, which goes on; with passes > 1")
+      .optional();
+  schema
+      .number("return_time", "s", Range::positive(),
+              "a third each to lift the wheel, bring it back and lower it; with passes > 1")
+      .optional();
+  schema
+      .number("lift", "m", Range::non_negative(),
+              "height above its start at which it goes back; by default a tenth of its diameter")
+      .optional();
+  schema
+      .number("slip_angle", "degrees", Range::open(-90, 90),
+              "angle from the travel to the wheel plane about z")
+      .by_default(0.0);
+  schema.number("camber", "degrees", Range::closed(-45, 45), "roll of the wheel about its heading")
+      .by_default(0.0);
+  schema
+      .number("start", "s", Range::non_negative(),
+              "time at which the settling begins; the wheel is held until then")
+      .by_default(0.0);
+  schema.number("settle_time", "s", Range::positive(), "duration of the settling at standstill");
+  schema
+      .number("load_ramp_time", "s", Range::non_negative(),
+              "the load grows in this time; by default half of settle_time")
+      .optional();
+  schema.number("accelerate_time", "s", Range::positive(), "duration of the acceleration");
+  schema.number("ground_level", "m", Range::any(),
+                "z of the undisturbed ground: datum of the sinkage");
+  schema.number("gravity", "m/s^2", Range::positive(), "acceleration of gravity")
+      .by_default(standard_gravity);
+  schema
+      .number("damping", "N s/m", Range::non_negative(),
+              "viscous resistance to the wheel's vertical motion, throughout; its loss is recorded")
+      .by_default(0.0);
+  return schema;
+}
+
+WheelRig::WheelRig(const Options& options, WheelHub& wheel) : wheel_(wheel) {
+  ground_level_ = options.number("ground_level");
+  const double settle_time = options.number("settle_time");
+  load_ramp_ = {options.number("start"), options.has("load_ramp_time")
+                                             ? options.number("load_ramp_time")
+                                             : 0.5 * settle_time};
+  if (load_ramp_.duration > settle_time)
+    throw InputError(options.where("load_ramp_time"), fmt::format("is {} s", load_ramp_.duration),
+                     fmt::format("0 to settle_time, {} s", settle_time), "lengthen settle_time");
+  speed_ramp_ = {load_ramp_.start + settle_time, options.number("accelerate_time")};
+
+  for (const char* key : {"slip_angle", "camber"})
+    if (wheel_.half_model() && options.number(key) != 0.0)
+      throw InputError(options.where(key),
+                       fmt::format("is {} degrees with a half model, which moves in its plane of "
+                                   "symmetry",
+                                   options.number(key)),
+                       "0 degrees", "model the whole: 'half no', and ground without symmetry");
+  wheel_.place(wheel_.centre(), radians(options.number("slip_angle")),
+               radians(options.number("camber")));
+  slope_ = radians(options.number("slope"));
+  read_vertical(options);
+  read_travel(options);
+  read_drive(options);
+  read_passes(options);
+  wheel_.set_vertical_damping(options.number("damping"));
+  wheel_.set_axle_torque(0.0);
+  for (const auto coordinate : {Coordinate::y, Coordinate::yaw, Coordinate::camber})
+    wheel_.hold(coordinate);
+}
+
+void WheelRig::read_vertical(const Options& options) {
+  std::string given;
+  int count = 0;
+  for (const char* key : {"load_mass", "load_force", "sinkage"})
+    if (options.given(key)) given += (count++ ? " and " : "") + std::string(key);
+  if (count != 1)
+    throw InputError(options.subject(), count == 0 ? "has no load" : fmt::format("has {}", given),
+                     "exactly one of load_mass [kg], load_force [N], sinkage [m]",
+                     count == 0 ? "say what the ground carries, weight of the wheel included"
+                                : "keep the one that is meant");
+  sinkage_prescribed_ = options.given("sinkage");
+  if (options.given("load_mass")) load_ = options.number("load_mass") * options.number("gravity");
+  if (options.given("load_force")) load_ = options.number("load_force");
+  check_load(options);
+  if (sinkage_prescribed_ && load_ramp_.duration == 0.0)
+    throw InputError(options.where("load_ramp_time"), "is 0 s with a prescribed sinkage",
+                     "a number > 0 [s]", "the wheel needs time to go down");
+  if (sinkage_prescribed_)
+    lowering_ = ground_level_ - options.number("sinkage") - wheel_.lowest_point();
+}
+
+void WheelRig::check_load(const Options& options) const {
+  if (sinkage_prescribed_) {
+    const double diameter = 2.0 * wheel_.nominal_radius();
+    if (std::abs(options.number("sinkage")) > diameter)
+      throw InputError(
+          options.where("sinkage"), fmt::format("is {} m", options.number("sinkage")),
+          fmt::format("-{:.4g} to {:.4g} m, the diameter of the wheel", diameter, diameter));
+    return;
+  }
+  const double share = load_ / (wheel_.total_mass() * standard_gravity);
+  if (!(share >= least_load && share <= largest_load))
+    throw InputError(
+        options.where(options.given("load_mass") ? "load_mass" : "load_force"),
+        fmt::format("makes {:.4g} N, {:.3g} of the weight of the wheel's own {:.4g} kg", load_,
+                    share, wheel_.total_mass()),
+        fmt::format("{:g} to {:g} of it", least_load, largest_load),
+        "check the load and the mass of the wheel: what hangs on the axle is part of its mass");
+  const double settle_time = options.number("settle_time"), damping = options.number("damping"),
+               travel = load_ * settle_time / damping,
+               least = least_travel * 2.0 * wheel_.nominal_radius();
+  if (travel < least)
+    throw InputError(options.where("damping"),
+                     fmt::format("is {:g} N s/m: under {:.4g} N the wheel goes down by {:.3g} m in "
+                                 "a settle_time of {:g} s",
+                                 damping, load_, travel, settle_time),
+                     fmt::format("at most {:.3g} N s/m", load_ * settle_time / least),
+                     "it is there to calm the wheel, not to hold it");
+}
+
+void WheelRig::read_travel(const Options& options) {
+  travel_free_ = options.text("travel") == "free";
+  const std::string context = fmt::format("with travel {}", options.text("travel"));
+  expect_key(options, "speed", !travel_free_, context,
+             "a speed with travel prescribed, and only there");
+  if (!travel_free_) {
+    for (const char* key : {"drawbar_load", "dragged_mass"})
+      expect_key(options, key, false, context, "only with travel free");
+    speed_ = options.number("speed");
+    plane_speed_ = speed_ * std::cos(radians(options.number("slip_angle")));
+    return;
+  }
+  if (sinkage_prescribed_)
+    throw InputError(options.where("travel"), "is free with a prescribed sinkage",
+                     "travel free with load_mass or load_force",
+                     "say what the wheel carries: its weight drives it on a slope");
+  drawbar_load_ = options.number("drawbar_load");
+  const double most = largest_drawbar_load * load_;
+  if (std::abs(drawbar_load_) > most)
+    throw InputError(
+        options.where("drawbar_load"),
+        fmt::format("is {:g} N under a load of {:.4g} N", drawbar_load_, load_),
+        fmt::format("{:.3g} to {:.3g} N, {:g} times the load", -most, most, largest_drawbar_load),
+        "the ground holds a pull of about the load");
+  const double own = wheel_.total_mass();
+  const double dragged = options.has("dragged_mass")
+                             ? options.number("dragged_mass")
+                             : std::max(own, load_ / options.number("gravity"));
+  if (dragged < own)
+    throw InputError(options.where("dragged_mass"), fmt::format("is {:g} kg", dragged),
+                     fmt::format("at least {:.4g} kg, the mass of the wheel", own),
+                     "the wheel is part of what moves");
+  wheel_.set_dragged_mass(dragged - own);
+}
+
+void WheelRig::read_drive(const Options& options) {
+  const std::string& mode = options.text("mode");
+  mode_ = mode == "towed"    ? Mode::towed
+          : mode == "slip"   ? Mode::slip
+          : mode == "torque" ? Mode::torque
+                             : Mode::spin;
+  const std::string context = fmt::format("in mode {}", mode);
+  expect_key(options, "slip", mode_ == Mode::slip, context, "a slip in mode slip, and only there");
+  expect_key(options, "slip_definition", mode_ == Mode::slip, context,
+             "a slip_definition in mode slip, and only there");
+  expect_key(options, "torque", mode_ == Mode::torque, context,
+             "a torque in mode torque, and only there");
+  expect_key(options, "spin_rate", mode_ == Mode::spin, context,
+             "a spin_rate in mode spin, and only there");
+  if (mode_ == Mode::torque) torque_ = options.number("torque");
+  if (mode_ == Mode::spin) rim_speed_ = options.number("spin_rate") * wheel_.nominal_radius();
+  const double most = largest_torque * load_ * wheel_.nominal_radius();
+  if (!sinkage_prescribed_ && std::abs(torque_) > most)
+    throw InputError(
+        options.where("torque"),
+        fmt::format("is {:g} N m under a load of {:.4g} N", torque_, load_),
+        fmt::format("{:.3g} to {:.3g} N m, {:g} times load x radius", -most, most, largest_torque),
+        "the ground holds a torque of about load x radius");
+  if (mode_ != Mode::slip) return;
+  if (travel_free_)
+    throw InputError(options.where("mode"), "is slip with travel free",
+                     "towed, torque or spin: with travel free the slip is an answer",
+                     "write 'mode spin spin_rate <rad/s>', or 'travel prescribed'");
+  if (speed_ == 0.0)
+    throw InputError(options.where("speed"), "is 0 m/s in mode slip", "a number > 0 [m/s]",
+                     "give a speed, or drive a standing wheel with mode torque");
+  try {
+    rim_speed_ = rim_speed(slip_definition(options.text("slip_definition")), options.number("slip"),
+                           plane_speed_);
+  } catch (const StateError&) {
+    throw InputError(
+        options.where("slip"),
+        fmt::format("is {} with slip_definition {}", options.number("slip"),
+                    options.text("slip_definition")),
+        "-1 to below 1 by the larger speed, below 1 by rim speed, at least -1 by vehicle speed",
+        "a wheel that spins on the spot or backwards needs mode torque");
+  }
+}
+
+void WheelRig::read_passes(const Options& options) {
+  const int passes = static_cast<int>(options.integer("passes"));
+  const bool several = passes > 1;
+  const std::string context = fmt::format("with passes {}", passes);
+  for (const char* key : {"pass_length", "return_time"})
+    expect_key(options, key, several, context, "with passes > 1, and only there");
+  if (!several) {
+    expect_key(options, "lift", false, context, "with passes > 1, and only there");
+    return;
+  }
+  if (travel_free_ || sinkage_prescribed_)
+    throw InputError(
+        options.where("passes"),
+        fmt::format("is {} with {}", passes, travel_free_ ? "travel free" : "a prescribed sinkage"),
+        "1, or more with a speed and a load", "passes are compared at the same speed and load");
+  const double least = speed_ * speed_ramp_.integral(speed_ramp_.end());
+  const double length = options.number("pass_length");
+  if (!(speed_ > 0.0 && length > least))
+    throw InputError(options.where("pass_length"), fmt::format("is {:g} m", length),
+                     speed_ > 0.0
+                         ? fmt::format("more than {:.4g} m, the travel of the acceleration", least)
+                         : std::string("a speed > 0"),
+                     "each pass needs a cruise");
+  const double start = load_ramp_.start, back = options.number("return_time");
+  passes_ =
+      PassSchedule(passes, start, speed_ramp_.end() - start + (length - least) / speed_, back);
+  const double diameter = 2.0 * wheel_.nominal_radius();
+  const double lift = options.has("lift") ? options.number("lift") : 0.1 * diameter;
+  first_x_ = wheel_.centre().x();
+  lifted_z_ = wheel_.centre().z() + lift;
+  // to half a diameter below the start in most of the time for it
+  lowering_speed_ = (lift + 0.5 * diameter) / (0.9 * passes_.lowering().duration);
+}
+
+}  // namespace furrow
