@@ -6,6 +6,7 @@
     run.py laboratory <script> <results>        inputs/laboratory/run.py, for a test or a ground
     run.py sweep <results>                      the page of sweeps, one of them killed and resumed
     run.py until_steady <results>               a run that goes on until it is steady
+    run.py error <results>                      two runs for an error that none alone reaches
     run.py usage                                the list of scenes, and what inputs/run refuses
 
 The head of a script says what is run and what must come out, in SI units:
@@ -15,12 +16,12 @@ The head of a script says what is run and what must come out, in SI units:
 
 A scene's quantities are those of summary.json (means over the cruise of a wheel; of a further
 wheel, whose folder is within the first one's, with the name of the folder before), of its history
-("<channel> at the end", underscores as spaces: the last twentieth), of curve.txt (a plate) and of the continuum's history; those
-of a laboratory test are in laboratory.json. Every run must also keep its energies and momenta.
+("<channel> at the end", underscores as spaces: the last twentieth), of curve.txt (a plate) and of
+the continuum's history; those of a laboratory test are in laboratory.json. Every run must also keep
+its energies and momenta.
 """
 
 import json
-import math
 import os
 import re
 import shlex
@@ -33,62 +34,14 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from head import Head
+from quantities import continuum_quantities, plate_quantities, wheel_quantities
+from refused import REFUSED
+
 PROJECT = Path(__file__).resolve().parents[2]
 SCENES = PROJECT / "inputs" / "scenes"
 LABORATORY = PROJECT / "inputs" / "laboratory"
-ENERGY_LIMIT = 5e-3  # of the largest energy, for a wheel or tyre: the error of its time step
-CONTINUUM_LIMIT = 0.05  # the same for a continuum, as in tests/verification/mpm/hard_cases_test.cpp
 BLANKS = "Lauf mit Größe"  # name of a results folder: LIGGGHTS splits lines at blanks
-MOMENTUM_LIMIT = 1e-10  # of the largest force or moment: round-off
-
-
-class Head:
-    """The comment at the top of a script: title, words of the small version, what it gives."""
-
-    def __init__(self, script):
-        self.script = Path(script)
-        self.lines = []
-        for line in self.script.read_text().splitlines():
-            if not line.startswith("#"):
-                break
-            self.lines.append(line)
-        self.title = self.lines[0].lstrip("# ")
-        self.quick = shlex.split(self._entry("Quick"))
-        self.gives = [self._expectation(text) for text in self._entry("Gives").split(", ")]
-
-    def _entry(self, name):
-        start = f"# {name}:"
-        found = [line[len(start):].strip() for line in self.lines if line.startswith(start)]
-        if len(found) != 1 or not found[0]:
-            sys.exit(f"{self.script}: its head needs one line '{start} ...', it has {len(found)}; "
-                     "see tests/scenes/run.py")
-        return found[0]
-
-    def _expectation(self, text):
-        """(name, lowest, highest, unit) of "sinkage 0.15 to 0.17 m"."""
-        parts = re.fullmatch(r"(.+?) (\S+) to (\S+)(?: (\S+))?", text)
-        if not parts:
-            sys.exit(f"{self.script}: '{text}' is not 'name lowest to highest unit'")
-        lowest, highest = float(parts[2]), float(parts[3])
-        if not lowest < highest:
-            sys.exit(f"{self.script}: '{text}' is an empty range")
-        return parts[1], lowest, highest, parts[4] or ""
-
-    def check(self, found):
-        """Every quantity of the line Gives lies in its range. found: (value, unit) by name."""
-        missed = []
-        for name, lowest, highest, unit in self.gives:
-            if name not in found:
-                sys.exit(f"{self.script}: '{name}' is not among {', '.join(sorted(found))}")
-            value, its_unit = found[name]
-            if unit != its_unit:
-                sys.exit(f"{self.script}: the unit of '{name}' is '{its_unit}', not '{unit}'")
-            value = math.nan if value is None else float(value)
-            print(f"  {name}: {value:.6g} {unit}, expected {lowest:g} to {highest:g}")
-            if not lowest <= value <= highest:
-                missed.append(f"{name} is {value:.6g} {unit}, not {lowest:g} to {highest:g}")
-        if missed:
-            sys.exit(f"{self.script}: {'; '.join(missed)}")
 
 
 def run(command, status=0, folder=None, **environment):
@@ -111,78 +64,6 @@ def empty(folder):
     shutil.rmtree(folder, ignore_errors=True)
     Path(folder).mkdir(parents=True)
     return Path(folder)
-
-
-def check_share(name, part, whole, limit):
-    """|part| <= limit whole, and neither is NaN."""
-    print(f"  {name}: {part:.3g} of {whole:.3g}")
-    if not abs(part) <= limit * whole:
-        sys.exit(f"{name}: {part:.3g} of {whole:.3g} is more than {limit:g} of it")
-
-
-def check_audit(audit, name, energy_limit):
-    if not audit["energy_scale"] > 0:
-        sys.exit(f"{name}: there was no energy at all")
-    check_share(f"{name}, energy not accounted for", audit["energy_residual"],
-                audit["energy_scale"], energy_limit)
-    for what in ("force", "moment"):
-        check_share(f"{name}, {what}s on nodes and grains", audit[f"{what}_imbalance"],
-                    audit[f"{what}_scale"], MOMENTUM_LIMIT)
-
-
-def wheel_quantities(folder):
-    """Of summary.json, which the run itself writes, and of history.h5."""
-    summary = json.loads((folder / "summary.json").read_text())
-    if not summary["complete"]:
-        sys.exit(f"{folder} did not come to its end")
-    check_audit(summary["audit"], "wheel", ENERGY_LIMIT)
-    pictures = ["histories.png"]
-    if summary["cost"]["grains"] > 0 or len(list(folder.glob("*.h5"))) > 1:
-        pictures.append("rut.png")
-    for picture in pictures:
-        if not (folder / picture).read_bytes().startswith(b"\x89PNG"):
-            sys.exit(f"{folder / picture} is no picture")
-    with h5py.File(folder / "history.h5") as content:
-        found = {}
-        for name, column in content["history"].items():
-            unit = column.attrs["unit"]
-            unit = unit.decode() if isinstance(unit, bytes) else unit
-            found[f"{name} at the end"] = column[-max(len(column) // 20, 1):].mean(), unit
-    found.update(steady_values(summary))
-    for further in folder.glob("*/summary.json"):
-        its = json.loads(further.read_text())
-        check_audit(its["audit"], f"wheel of {further.parent.name}", ENERGY_LIMIT)
-        found.update((f"{further.parent.name}_{name}", value)
-                     for name, value in steady_values(its).items())
-    return {name.replace("_", " "): value for name, value in found.items()}
-
-
-def steady_values(summary):
-    """(value, unit) by name."""
-    return {name: (value["mean"], value["unit"])
-            for name, value in summary.get("quantities", {}).items()}
-
-
-def plate_quantities(folder):
-    """Of curve.txt: time step, sinkage, force, pressure; its end is the last twentieth."""
-    curve = np.loadtxt(folder / "curve.txt")
-    end = curve[-max(len(curve) // 20, 1):].mean(axis=0)
-    return {"peak force": (curve[:, 2].max(), "N"), "force at the end": (end[2], "N"),
-            "pressure at the end": (end[3], "Pa"), "sinkage reached": (curve[-1, 1], "m")}
-
-
-def continuum_quantities(folder):
-    """Of the history of terrain/continuum: what the base carries in the last third."""
-    for file in folder.glob("*.h5"):
-        with h5py.File(file) as content:
-            if "history/base_impulse" not in content:
-                continue
-            check_audit(content["audit"].attrs, "continuum", CONTINUUM_LIMIT)
-            time, impulse = content["history/time"][()], content["history/base_impulse"][()]
-        first = 2 * len(time) // 3
-        force = (impulse[-1] - impulse[first]) / (time[-1] - time[first])
-        return {"base force": (force, "N")}
-    return {}
 
 
 def check_scene(script, folder):
@@ -325,67 +206,6 @@ def error(results):
             sys.exit(f"there is no {name} run:\n{said}")
     if "sinkage at size zero: " not in said or "The estimate " not in said:
         sys.exit(f"it does not end with the values at size zero:\n{said}")
-
-
-SCENE = "wheel_on_snow"
-# (words of inputs/run, what is said); everything is refused before anything runs
-REFUSED = (
-    (["no_such_scene"], "no scene 'no_such_scene'"),
-    (["--fast"], "does not know '--fast'"),
-    ([""], "an argument is empty"),
-    ([SCENE, "wheel_on_sand"], "are two scenes; name one"),
-    ([SCENE, "-n", "two"], "whole number of ranks"),
-    ([SCENE, "-n", "0"], "whole number of ranks"),
-    ([SCENE, "-n", "-2"], "whole number of ranks"),
-    ([SCENE, "-n"], "-n needs the number of ranks"),
-    ([SCENE, "-n", ""], "-n needs the number of ranks"),
-    ([SCENE, "-n", "1", "-n", "2"], "-n is given twice"),
-    ([SCENE, "-n", str(4 * len(os.sched_getaffinity(0)) + 1)], "would crawl"),
-    ([SCENE, "-o"], "-o needs a folder"),
-    ([SCENE, "-o", " "], "-o needs a folder"),
-    ([SCENE, "-o", "a", "-o", "b"], "-o is given twice"),
-    ([SCENE, "-o", str(Path(__file__).resolve())], "there is a file of this name"),
-    ([SCENE, "-o", "/proc/x"], "no right to write"),
-    (["-v", "speed", "1"], "name one"),
-    (["-n", "1"], "name one"),
-    ([SCENE, "-v"], "-v needs a name and a value"),
-    ([SCENE, "-v", "cell"], "-v cell needs a value"),
-    ([SCENE, "-v", "cell", ""], "-v cell has an empty value"),
-    ([SCENE, "-v", "", "1"], "-v needs a name and a value"),
-    ([SCENE, "-v", "widht", "3"], "no line reads 'widht'; did you mean width?"),
-    ([SCENE, "--quick", "-v", "sell", "3"], "no line reads 'sell'; did you mean cell?"),
-    ([SCENE, "-v", "steps", "3"], "computes 'steps' itself"),
-    ([SCENE, "-v", "results", "x"], "-v results: use -o"),
-    ([SCENE, "-v", "cell", "0.1", "-v", "cell", "0.2"], "-v cell is given 2 times"),
-    (["wheel_on_sand", "-v", "bed_level", "0.1"], "no line reads 'bed_level'"),
-    ([SCENE, "--error", "10%", "-v", "widht", "3"], "no line reads 'widht'"),
-    ([SCENE, "--error", "much"], "'much' is not a number"),
-    ([SCENE, "--error", "200%"], "'200%' does not lie between"),
-    ([SCENE, "--error", ""], "--error needs a relative error"),
-    (["plate_on_sand", "--error", "10%"], "errors of 'plate_on_sand' are not known"),
-    ([SCENE, "--quick", "--error", "10%"], "give one of them"),
-    # 10 % against Table 6 is the other tyre's scene, which has sections and no mesh
-    (["tyre_on_plane", "--error", "10%", "-v", "mesh", "4 36"], "no line reads 'mesh'"),
-    ([SCENE, "--sweep"], "--sweep needs a variable and its values"),
-    (["--sweep", "slip=0,1"], "--sweep and --until-steady belong to a scene"),
-    ([SCENE, "--sweep", "slip"], "'slip' has no ="),
-    ([SCENE, "--sweep", "slip=0:1:0.1"], "not the step"),
-    ([SCENE, "--sweep", "sell=0.1,0.2"], "no line reads 'sell'; did you mean cell?"),
-    ([SCENE, "--sweep", "results=a,b"], "--sweep results: use -o"),
-    ([SCENE, "--sweep", "cell=0.1,0.2", "-v", "cell", "0.1"], "given both by -v and by --sweep"),
-    ([SCENE, "--sweep", "cell=0.1,0.2", "--packings", "2"], "no line of"),
-    ([SCENE, "--sweep", "cell=0.1,0.2", "--jobs", "0"], "0 is below 1"),
-    ([SCENE, "--sweep", "cell=0.1,0.2", "--error", "10%"], "--error chooses one run"),
-    ([SCENE, "--sweep", "cell=0.1,0.2", "--submit", "pbs"], "invalid choice: 'pbs'"),
-    ([SCENE, "--sweep", "cell=0.1,0.2", "--formula", "x"], "there is no formula 'x'"),
-    ([SCENE, "--sweep", "cell=0.1,0.2", "--measured", "x.csv"], "x.csv: no such file"),
-    ([SCENE, "--jobs", "2"], "--jobs belongs to --sweep"),
-    ([SCENE, "--again"], "--again belongs to --sweep"),
-    ([SCENE, "--until-steady", "much"], "'much' is not a number"),
-    ([SCENE, "--until-steady", "3%", "--until-steady", "4%"], "--until-steady is given twice"),
-    ([SCENE, "--time-limit", "2h"], "--time-limit belongs to --until-steady or --sweep"),
-    ([SCENE, "--until-steady", "3%", "--time-limit", "long"], "'long' is not a number"),
-)
 
 
 def usage():
