@@ -51,9 +51,40 @@ struct ElementDynamics {
   }
 };
 
+constexpr double same_stiffness = 1e-9;  // of the largest
+
+/// K of the mirror image (Shell4Mirror).
+Matrix24 mirror_image(const Matrix24& K) {
+  Matrix24 P = Matrix24::Zero();
+  for (int pair = 0; pair < 2; ++pair)
+    for (int k = 0; k < 6; ++k) {
+      const int own = 6 * Shell4Mirror::first[pair] + k, image = 6 * Shell4Mirror::second[pair] + k;
+      P(own, image) = P(image, own) = Shell4Mirror::sign[k];
+    }
+  return P * K * P;
+}
+
+/// With e = u + P u and o = u - P u of the first node of each pair, and both of K's blocks between
+/// first nodes (A) and from second to first ones (B): g = (A + B P)/2 e + (A - B P)/2 o.
+void split(const Matrix24& K, Shell4Kind& kind) {
+  for (int pair = 0; pair < 2; ++pair)
+    for (int from = 0; from < 2; ++from)
+      for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < 6; ++j) {
+          const int row = 6 * Shell4Mirror::first[pair] + i;
+          const double A = K(row, 6 * Shell4Mirror::first[from] + j),
+                       BP = K(row, 6 * Shell4Mirror::second[from] + j) * Shell4Mirror::sign[j];
+          kind.mirror_even[6 * pair + i][6 * from + j] = 0.5 * (A + BP);
+          kind.mirror_odd[6 * pair + i][6 * from + j] = 0.5 * (A - BP);
+        }
+}
+
 /// All but where its elements are.
 Shell4Kind make_kind(const Shell4Shape& shape, const Matrix24& K, Shell4Turning turning) {
-  Shell4Kind kind;
+  Shell4Kind kind = {};
+  const Matrix24 image = mirror_image(K);
+  kind.mirrored = (image - K).cwiseAbs().maxCoeff() < same_stiffness * K.cwiseAbs().maxCoeff();
+  if (kind.mirrored) split(0.5 * (K + image), kind);
   for (int i = 0; i < 24; ++i)
     for (int j = 0; j < 24; ++j) kind.stiffness[i][j] = K(i, j);
   for (int n = 0; n < 4; ++n)
@@ -71,21 +102,22 @@ Shell4Kind make_kind(const Shell4Shape& shape, const Matrix24& K, Shell4Turning 
 
 struct Shell4::Places {
   std::array<std::vector<int>, 4> node;
-  std::array<std::vector<double>, 9> axes;
-  std::vector<unsigned char> active;
+  std::array<std::vector<double>, 4> axes;
   std::vector<int> element;
+  std::vector<double> on_node;  // 8 numbers each
 
-  void add(const Shell4Element& added, int number, bool is_active) {
+  void add(const Shell4Element& added, int number) {
+    const Quaternion turn(added.axes);
     for (std::size_t k = 0; k < 4; ++k) node[k].push_back(added.nodes[k]);
-    for (std::size_t k = 0; k < 9; ++k) axes[k].push_back(added.axes.data()[k]);
-    active.push_back(is_active);
+    for (std::size_t k = 0; k < 4; ++k) axes[k].push_back(turn.coeffs()[Eigen::Index(k)]);
     element.push_back(number);
   }
   Shell4Places view() const {
     Shell4Places places;
-    for (std::size_t k = 0; k < 4; ++k) places.node[k] = node[k].data();
-    for (std::size_t k = 0; k < 9; ++k) places.axes[k] = axes[k].data();
-    places.active = active.data();
+    for (std::size_t k = 0; k < 4; ++k) {
+      places.node[k] = node[k].data();
+      places.axes[k] = axes[k].data();
+    }
     return places;
   }
 };
@@ -130,9 +162,10 @@ void Shell4::add_kind(const std::vector<Shell4Element>& elements, const std::vec
   }
   Shell4Kind kind = make_kind(shape, K, turning);
   kind.first = places_->element.size();
-  for (const int e : members) places_->add(elements[static_cast<std::size_t>(e)], e, true);
+  for (const int e : members) places_->add(elements[static_cast<std::size_t>(e)], e);
+  kind.last = places_->element.size();
   while (places_->element.size() % shell4_padding != 0)
-    places_->add(elements[static_cast<std::size_t>(members.back())], members.back(), false);
+    places_->add(elements[static_cast<std::size_t>(members.back())], members.back());
   kind.end = places_->element.size();
   kinds_.push_back(kind);
 
@@ -149,12 +182,21 @@ void Shell4::add_kind(const std::vector<Shell4Element>& elements, const std::vec
 }
 
 void Shell4::add_forces(ShellNodes& nodes, double pressure) {
-  const Shell4Result result = kernels<Shell4Kernels>().forces(
-      kinds_.data(), kinds_.size(), places_->view(), nodes.x.data(), nodes.rotation.data(),
-      pressure, nodes.force.data(), nodes.moment.data());
+  std::vector<double>& on_node = places_->on_node;
+  on_node.assign(8 * nodes.q.size(), 0.0);
+  const Shell4Result result =
+      kernels<Shell4Kernels>().forces(kinds_.data(), kinds_.size(), places_->view(), nodes.x.data(),
+                                      nodes.q[0].coeffs().data(), pressure, on_node.data());
   if (!result.finite || !(result.least_four_cos2 > folded_four_cos2))
     throw StateError(fmt::format("shell: element {} is folded or its nodes are not finite",
                                  places_->element[result.most_rotated]));
+  for (Eigen::Index n = 0; n < nodes.count(); ++n) {
+    const double* sum = on_node.data() + 8 * n;
+    for (int k = 0; k < 3; ++k) {
+      nodes.force(k, n) += sum[k];
+      nodes.moment(k, n) += sum[4 + k];
+    }
+  }
   energy_ = result.energy;
   volume_ = result.volume;
 }
