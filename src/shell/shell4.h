@@ -13,6 +13,7 @@
 namespace furrow {
 
 struct Shell4Kind;
+struct ShellGroup;
 
 /// What turns an element's axes in its plane.
 enum class Shell4Turning {
@@ -69,13 +70,13 @@ class Shell4 {
   /// [kg] a quarter of each element at its nodes
   const VectorX& mass() const { return mass_; }
   const VectorX& rotary_inertia() const { return inertia_; }  ///< [kg m^2] raised, see above
-  /// [s] 2/omega of the stiffest element, stress-free
+  /// [s] 2/omega of the highest frequency of the mesh, stress-free, with a reserve
   double stable_time_step() const { return stable_step_; }
   std::size_t kind_count() const;  ///< distinct stiffness matrices
 
  private:
   struct Places;  // of the elements in the kernel's arrays, kind by kind
-  void add_kind(const std::vector<Shell4Element>& elements, const std::vector<int>& members,
+  void add_kind(const std::vector<Shell4Element>& elements, ShellGroup& group,
                 const ShellSection& section, Shell4Turning turning);
 
   std::vector<Quad> quads_;

@@ -14,20 +14,31 @@ constexpr std::size_t shell4_padding =
 
 /// Elements of one stress-free shape share its stiffness.
 struct Shell4Kind {
-  double stiffness[24][24];  ///< in the element's axes
-  double x[4][3];            ///< stress-free nodes in the element's axes [m]
+  /// in the element's axes; unless the element is mirrored
+  double stiffness[24][24];
+  /// of half the sums and of half the differences of nodes that are each other's mirror image
+  /// (Shell4Mirror), if the element is its own mirror image in the plane of its axes 1 and 3
+  double mirror_even[12][12], mirror_odd[12][12];
+  bool mirrored = false;
+  double x[4][3];  ///< stress-free nodes in the element's axes [m]
   /// inverse of the stress-free medians (columns), rows (p1, p2) and (0, q2) [1/m]; p2 = q2 = 0
   /// where the axes turn with the first median alone
   double p1, p2, q2;
-  std::size_t first = 0, end = 0;  ///< range of places, padded
+  std::size_t first = 0, last = 0;  ///< range of its elements' places
+  std::size_t end = 0;              ///< of the places that pad them, which have nodes of another
 };
 
-/// Places of elements, sorted by kind; a place that only pads has the nodes of another and active =
-/// 0.
+/// Mirror image in the plane of an element's axes 1 and 3: of node n, and the sign of each of its
+/// six displacements and rotations.
+struct Shell4Mirror {
+  static constexpr int first[2] = {0, 1}, second[2] = {3, 2};
+  static constexpr double sign[6] = {1, -1, 1, -1, 1, -1};
+};
+
+/// Places of elements, sorted by kind.
 struct Shell4Places {
   const int* node[4];
-  const double* axes[9];  ///< stress-free element axes in space, axes[3 c + r]: row r of axis c
-  const unsigned char* active;
+  const double* axes[4];  ///< stress-free element axes in space, as a quaternion x, y, z, w
 };
 
 struct Shell4Result {
@@ -44,11 +55,12 @@ struct Shell4Result {
 struct Shell4Kernels : KernelTable {
   /// Adds what the shell does to its nodes: -dU/dx [N], the moment conjugate to the nodal spin [N
   /// m], and the follower pressure.
-  /// @param x        3 numbers a node [m]
-  /// @param rotation 9 numbers a node, column by column: from the stress-free state
+  /// @param x      3 numbers a node [m]
+  /// @param turn   4 numbers a node, the quaternion x, y, z, w: from the stress-free state
+  /// @param on_node 8 numbers a node: force, 0, moment, 0
   Shell4Result (*forces)(const Shell4Kind* kinds, std::size_t kind_count, const Shell4Places&,
-                         const double* x, const double* rotation, double pressure, double* force,
-                         double* moment) = nullptr;
+                         const double* x, const double* turn, double pressure,
+                         double* on_node) = nullptr;
 
   static const Shell4Kernels& baseline();
   static const Shell4Kernels& avx2();

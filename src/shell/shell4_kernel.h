@@ -15,7 +15,7 @@
 ///                  u_a     = e^T (x_a - c) - X_a
 ///                  theta_a = 2 sin(angle/2) axis  of  T_a = e^T Q_a E
 ///                (c: mean of the nodes, X_a: stress-free nodes, E: stress-free axes, Q_a: rotation
-///                of the node)
+///                of the node; T_a as the product of their quaternions)
 ///   energy       U = 1/2 u^T K u and its gradient K u
 ///   forces       the exact gradient of U, the rotation of the axes included: they balance in force
 ///                and moment, and a free shell keeps its energy
@@ -23,7 +23,8 @@
 ///   scatter      to the nodes, one element after the other
 
 #include "shell/shell4_block.h"
-#include "simd/triple.h"
+#include "simd/records.h"
+#include "simd/turn.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {
@@ -42,7 +43,9 @@ struct Quadrilateral {
   FURROW_INLINE Quadrilateral(const Shell4Places& places, std::size_t first, const double* x) {
     for (int n = 0; n < 4; ++n) {
       const int* index = places.node[n] + first;
-      node[n] = {gather(x, index, 3, 0), gather(x, index, 3, 1), gather(x, index, 3, 2)};
+      Lanes numbers[4];
+      to_lanes([&](int lane) { return load_triple(x + 3 * index[lane]); }, numbers);
+      node[n] = {numbers[0], numbers[1], numbers[2]};
     }
     centre = Lanes(0.25) * (node[0] + node[1] + (node[2] + node[3]));
     a = Lanes(0.5) * (node[1] + node[2] - (node[0] + node[3]));
@@ -92,10 +95,18 @@ struct Deformation {
   Lanes least_four_cos2 = 4.0;
 
   FURROW_INLINE Deformation(const Quadrilateral& quad, const Frame& frame, const Shell4Kind& kind,
-                            const Shell4Places& places, std::size_t first, const double* rotation) {
+                            const Shell4Places& places, std::size_t first, const double* turn) {
+    const Turn axes = {load(places.axes[0] + first), load(places.axes[1] + first),
+                       load(places.axes[2] + first), load(places.axes[3] + first)};
+    Turn back;  // from space to the element's axes
     for (int n = 0; n < 4; ++n) {
+      const int* index = places.node[n] + first;
+      Lanes q[4];
+      to_lanes([&](int lane) { return load_record(turn + 4 * index[lane]); }, q);
+      const Turn turned = Turn{q[0], q[1], q[2], q[3]} * axes;
+      if (n == 0) back = conjugate(turn_of({frame.e1, frame.e2, frame.e3}, turned));
       set_displacement(n, frame.local(quad.node[n] - quad.centre), kind);
-      set_rotation(n, frame, places, first, rotation);
+      set_rotation(n, back * turned);
     }
   }
 
@@ -107,50 +118,60 @@ struct Deformation {
     u[6 * n + 2] = local.z - kind.x[n][2];
   }
 
-  /// 4 cos^2(angle/2) = 1 + tr T, and 2 sin(angle/2) axis is the axial vector of T - T^T over
-  /// 2 cos(angle/2).
-  FURROW_INLINE void set_rotation(int n, const Frame& frame, const Shell4Places& places,
-                                  std::size_t first, const double* rotation) {
-    const int* index = places.node[n] + first;
-    Lanes Q[9];
-    for (int entry = 0; entry < 9; ++entry) Q[entry] = gather(rotation, index, 9, entry);
-    Triple T[3];  // columns
-    for (int c = 0; c < 3; ++c) {
-      const Lanes E0 = load(places.axes[3 * c] + first);
-      const Lanes E1 = load(places.axes[3 * c + 1] + first);
-      const Lanes E2 = load(places.axes[3 * c + 2] + first);
-      T[c] = frame.local({Q[0] * E0 + Q[3] * E1 + Q[6] * E2, Q[1] * E0 + Q[4] * E1 + Q[7] * E2,
-                          Q[2] * E0 + Q[5] * E1 + Q[8] * E2});
-    }
-    const Lanes four_cos2 = Lanes(1.0) + T[0].x + T[1].y + T[2].z;
-    least_four_cos2 = min(least_four_cos2, four_cos2);
-    const Lanes two_cos = sqrt(four_cos2);
-    const Lanes inverse = Lanes(1.0) / two_cos;
-    const Triple theta = inverse * Triple{T[1].z - T[2].y, T[2].x - T[0].z, T[0].y - T[1].x};
-    cosine[n] = Lanes(0.5) * two_cos;
-    half_theta[n] = Lanes(0.5) * theta;
-    u[6 * n + 3] = theta.x;
-    u[6 * n + 4] = theta.y;
-    u[6 * n + 5] = theta.z;
+  FURROW_INLINE void set_rotation(int n, const Turn& relative) {
+    const Lanes sign = select(relative.w < Lanes(0.0), Lanes(-1.0), Lanes(1.0));
+    cosine[n] = sign * relative.w;
+    least_four_cos2 = min(least_four_cos2, Lanes(4.0) * relative.w * relative.w);
+    half_theta[n] = {sign * relative.x, sign * relative.y, sign * relative.z};
+    u[6 * n + 3] = half_theta[n].x + half_theta[n].x;
+    u[6 * n + 4] = half_theta[n].y + half_theta[n].y;
+    u[6 * n + 5] = half_theta[n].z + half_theta[n].z;
   }
 };
 
-/// g = K u. Four sums at once: their additions need not wait for each other.
-FURROW_INLINE void multiply_stiffness(const Shell4Kind& kind, const Lanes (&u)[24],
-                                      Lanes (&g)[24]) {
-  for (int row = 0; row < 24; row += 4) {
+/// g = M u. Four sums at once: their additions need not wait for each other.
+template <int size>
+FURROW_INLINE void multiply(const double (&matrix)[size][size], const Lanes (&u)[size],
+                            Lanes (&g)[size]) {
+  for (int row = 0; row < size; row += 4) {
     Lanes sum0 = 0.0, sum1 = 0.0, sum2 = 0.0, sum3 = 0.0;
-    for (int c = 0; c < 24; ++c) {
-      sum0 += kind.stiffness[row][c] * u[c];
-      sum1 += kind.stiffness[row + 1][c] * u[c];
-      sum2 += kind.stiffness[row + 2][c] * u[c];
-      sum3 += kind.stiffness[row + 3][c] * u[c];
+    for (int c = 0; c < size; ++c) {
+      sum0 += matrix[row][c] * u[c];
+      sum1 += matrix[row + 1][c] * u[c];
+      sum2 += matrix[row + 2][c] * u[c];
+      sum3 += matrix[row + 3][c] * u[c];
     }
     g[row] = sum0;
     g[row + 1] = sum1;
     g[row + 2] = sum2;
     g[row + 3] = sum3;
   }
+}
+
+/// g = K u: of an element that is its own mirror image by sums and differences of images, which
+/// takes half the products.
+FURROW_INLINE void multiply_stiffness(const Shell4Kind& kind, const Lanes (&u)[24],
+                                      Lanes (&g)[24]) {
+  if (!kind.mirrored) {
+    multiply(kind.stiffness, u, g);
+    return;
+  }
+  Lanes even[12], odd[12], even_g[12], odd_g[12];
+  for (int pair = 0; pair < 2; ++pair)
+    for (int k = 0; k < 6; ++k) {
+      const Lanes& own = u[6 * Shell4Mirror::first[pair] + k];
+      const Lanes image = Shell4Mirror::sign[k] * u[6 * Shell4Mirror::second[pair] + k];
+      even[6 * pair + k] = own + image;
+      odd[6 * pair + k] = own - image;
+    }
+  multiply(kind.mirror_even, even, even_g);
+  multiply(kind.mirror_odd, odd, odd_g);
+  for (int pair = 0; pair < 2; ++pair)
+    for (int k = 0; k < 6; ++k) {
+      const int i = 6 * pair + k;
+      g[6 * Shell4Mirror::first[pair] + k] = even_g[i] + odd_g[i];
+      g[6 * Shell4Mirror::second[pair] + k] = Shell4Mirror::sign[k] * (even_g[i] - odd_g[i]);
+    }
 }
 
 FURROW_INLINE Lanes half_product(const Lanes (&u)[24], const Lanes (&g)[24]) {
@@ -206,19 +227,18 @@ struct UnitPressure {
   FURROW_INLINE Triple on_node(int n) const { return AB + shell4_xi[n] * AC + shell4_eta[n] * CB; }
 };
 
-/// Adds to node n of each element that is no padding.
-FURROW_INLINE void scatter(const Shell4Places& places, std::size_t first, int n,
-                           const Triple& on_node, const Triple& spin_gradient, double* force,
-                           double* moment) {
+/// Adds to node n of the first `count` elements.
+FURROW_INLINE void scatter(const Shell4Places& places, std::size_t first, int count, int n,
+                           const Triple& force, const Triple& spin_gradient, double* on_node) {
+  const Triple moment = Triple{0.0, 0.0, 0.0} - spin_gradient;
+  Record forces[lane_count], moments[lane_count];
+  to_records({force.x, force.y, force.z, 0.0}, forces);
+  to_records({moment.x, moment.y, moment.z, 0.0}, moments);
+  const int* index = places.node[n] + first;
   for (int lane = 0; lane < lane_count; ++lane) {
-    if (!places.active[first + static_cast<std::size_t>(lane)]) continue;
-    const int index = 3 * places.node[n][first + static_cast<std::size_t>(lane)];
-    force[index] += on_node.x[lane];
-    force[index + 1] += on_node.y[lane];
-    force[index + 2] += on_node.z[lane];
-    moment[index] -= spin_gradient.x[lane];
-    moment[index + 1] -= spin_gradient.y[lane];
-    moment[index + 2] -= spin_gradient.z[lane];
+    if (lane >= count) break;
+    add_record(forces[lane], on_node + 8 * index[lane]);
+    add_record(moments[lane], on_node + 8 * index[lane] + 4);
   }
 }
 
@@ -235,19 +255,20 @@ FURROW_INLINE void note_most_rotated(const Lanes& four_cos2, std::size_t first,
 
 /// Shell4Kernel of shell4_block.h.
 inline Shell4Result shell4_forces(const Shell4Kind* kinds, std::size_t kind_count,
-                                  const Shell4Places& places, const double* x,
-                                  const double* rotation, double pressure, double* force,
-                                  double* moment) {
+                                  const Shell4Places& places, const double* x, const double* turn,
+                                  double pressure, double* on_node) {
   Shell4Result result;
   Lanes energy = 0.0;
   Lanes volume = 0.0;
+  const Lanes place([](auto lane) { return static_cast<double>(lane); });
   for (std::size_t k = 0; k < kind_count; ++k) {
     const Shell4Kind& kind = kinds[k];
     for (std::size_t i = kind.first; i < kind.end; i += lane_count) {
-      const Lanes weight([&](auto lane) { return places.active[i + lane] ? 1.0 : 0.0; });
+      const int count = kind.last - i < lane_count ? static_cast<int>(kind.last - i) : lane_count;
+      const Lanes weight = select(place < Lanes(count), Lanes(1.0), Lanes(0.0));
       const Quadrilateral quad(places, i, x);
       const Frame frame(quad.a, quad.b, kind);
-      const Deformation deformation(quad, frame, kind, places, i, rotation);
+      const Deformation deformation(quad, frame, kind, places, i, turn);
       Lanes g[24];
       multiply_stiffness(kind, deformation.u, g);
       energy += weight * half_product(deformation.u, g);
@@ -256,8 +277,8 @@ inline Shell4Result shell4_forces(const Shell4Kind* kinds, std::size_t kind_coun
       for (int n = 0; n < 4; ++n) {
         const Triple push = unit.on_node(n);
         volume += weight * (dot(push, quad.node[n]) * Lanes(1.0 / 3.0));
-        const Triple on_node = pressure * push - frame.space(gradient.by_position(n));
-        scatter(places, i, n, on_node, frame.space(gradient.by_spin(n)), force, moment);
+        const Triple force = pressure * push - frame.space(gradient.by_position(n));
+        scatter(places, i, count, n, force, frame.space(gradient.by_spin(n)), on_node);
       }
       note_most_rotated(deformation.least_four_cos2, i, result);
     }

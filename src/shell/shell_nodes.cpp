@@ -9,13 +9,10 @@ namespace furrow {
 ShellNodes::ShellNodes(const Matrix3X& start)
     : x(start),
       q(static_cast<std::size_t>(start.cols()), Quaternion::Identity()),
-      rotation(9, start.cols()),
       mass(VectorX::Zero(start.cols())),
       inertia(VectorX::Zero(start.cols())) {
   for (Matrix3X* m : {&v, &w, &force, &moment}) m->setZero(3, start.cols());
   for (Matrix3X* m : {&free_to_move, &free_to_turn}) m->setOnes(3, start.cols());
-  rotation.colwise() =
-      Eigen::Map<const Eigen::Matrix<double, 9, 1>>(Matrix3::Identity().eval().data());
 }
 
 void ShellNodes::hold(Eigen::Index node) {
@@ -28,11 +25,6 @@ void ShellNodes::kick(double dt) {
     v.col(n) += (dt / mass[n]) * force.col(n).cwiseProduct(free_to_move.col(n));
     w.col(n) += (dt / inertia[n]) * moment.col(n).cwiseProduct(free_to_turn.col(n));
   }
-}
-
-void ShellNodes::set_rotation(Eigen::Index n, const Quaternion& turned) {
-  q[static_cast<std::size_t>(n)] = turned;
-  Eigen::Map<Matrix3>(rotation.col(n).data()) = turned.toRotationMatrix();
 }
 
 void ShellNodes::drift(double dt) {

@@ -9,8 +9,6 @@
 
 namespace furrow {
 
-using Matrix9X = Eigen::Matrix<double, 9, Eigen::Dynamic>;
-
 /// Leapfrog: velocities belong to half steps. Rotary inertia is the same about all axes, so a
 /// node's spin obeys J dw/dt = m. Works of forces held over a step are forces times the mean of the
 /// velocities before and after: exact for the kinetic energy.
@@ -21,7 +19,6 @@ struct ShellNodes {
   Matrix3X v;                 ///< [m/s] half a step ago
   Matrix3X w;                 ///< [rad/s] in space, half a step ago
   std::vector<Quaternion> q;  ///< rotation from the start
-  Matrix9X rotation;          ///< the same as matrices, column by column
   VectorX mass;               ///< [kg]
   VectorX inertia;            ///< [kg m^2]
   Matrix3X free_to_move;      ///< 1, or 0 for a component that is held
@@ -36,7 +33,9 @@ struct ShellNodes {
   double kinetic_energy() const;
   /// Largest force on a free component [N]; moments are divided by a length.
   double largest_unbalanced(double length) const;
-  void set_rotation(Eigen::Index node, const Quaternion& rotation);
+  void set_rotation(Eigen::Index node, const Quaternion& rotation) {
+    q[static_cast<std::size_t>(node)] = rotation;
+  }
 
   void checkpoint(Checkpoint& state);
 };

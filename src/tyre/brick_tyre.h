@@ -15,7 +15,7 @@ namespace furrow {
 struct BrickTyreSettings {
   int sections = 120;           ///< round the tyre; the mesh across follows (brick_tyre_mesh.h)
   bool half = false;            ///< only y >= 0, mirrored: for straight travel on symmetric ground
-  double damping_rate = 100.0;  ///< [1/s] c of rim_damping.h
+  double damping_rate = 100.0;  ///< [1/s] c of node_step.h
 };
 
 /// @throws InputError for settings that cannot be

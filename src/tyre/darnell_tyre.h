@@ -25,7 +25,7 @@ struct DarnellTyreSettings {
   bool direct = false;  ///< solve the chain at every station instead of looking it up
   /// rows of nodes on each side between bead and tread, for contact; 0: the tread alone can touch
   int sidewall_rows = 4;
-  double damping_rate = 100.0;  ///< [1/s] c of rim_damping.h
+  double damping_rate = 100.0;  ///< [1/s] c of node_step.h
 };
 
 /// @throws InputError for settings that cannot be

@@ -24,7 +24,7 @@ NodalTyre::NodalTyre(const HubParameters& hub, const Making& making)
       nodes_(making.reference.colwise() + hub.centre),
       reference_(making.reference),
       pressure_(making.pressure),
-      damping_(making.damping_rate),
+      node_step_(making.damping_rate),
       contact_(Matrix3X::Zero(3, nodes_.count())) {}
 
 void NodalTyre::start() {
@@ -35,6 +35,7 @@ void NodalTyre::start() {
     throw InputError("tyre, mass of the rim",
                      fmt::format("is {} kg under a tread of {:.4g} kg", rim, band),
                      fmt::format("at least {:.3g} kg", min_mass_share * band));
+  node_step_.take_supports(nodes_);
   compute_internal();
   zero_ = potential();
   place_surface();
@@ -101,31 +102,38 @@ void NodalTyre::set_pressure(double pressure) {
   inflation_work_ += stored_ - before;
 }
 
-/// Elements and pressure: sets nodes_.force, nodes_.moment, internal_on_rim_, elastic_, volume_.
+/// Elements and pressure: sets nodes_.force, nodes_.moment, elastic_, volume_.
 void NodalTyre::compute_internal() {
   nodes_.force.setZero();
   nodes_.moment.setZero();
   const Internal internal = add_internal_forces();
   elastic_ = copies() * internal.energy;
   volume_ = copies() * internal.volume;
-  internal_on_rim_.force = -nodes_.force.rowwise().sum();
-  internal_on_rim_.moment = -nodes_.moment.rowwise().sum();
-  for (Eigen::Index n = 0; n < nodes_.count(); ++n)
-    internal_on_rim_.moment -=
-        Vector3(nodes_.x.col(n) - centre()).cross(Vector3(nodes_.force.col(n)));
-  for (const Eigen::Index n : beads_) {  // their forces the rim takes itself
-    internal_on_rim_.force += nodes_.force.col(n);
-    internal_on_rim_.moment +=
-        Vector3(nodes_.moment.col(n)) +
-        Vector3(nodes_.x.col(n) - centre()).cross(Vector3(nodes_.force.col(n)));
-  }
-  internal_on_rim_ = of_whole(internal_on_rim_);
 }
 
-/// Adds the forces on the surface to nodes_.force, and sets contact_ and contact_on_rim_.
-void NodalTyre::compute_contact() {
-  contact_on_rim_ = of_whole(hand_over(contact_));
-  nodes_.force += contact_;
+/// Forces on the surface: sets contact_ and contact_on_rim_.
+void NodalTyre::compute_contact() { contact_on_rim_ = of_whole(hand_over(contact_)); }
+
+/// What elements and pressure do to the rim of the whole: the opposite of their sum on the nodes,
+/// and what they do to beads.
+Wrench NodalTyre::internal_on_rim() const {
+  Wrench on_rim = internal_on_beads();
+  on_rim.force -= nodes_.force.rowwise().sum();
+  on_rim.moment -= nodes_.moment.rowwise().sum();
+  for (Eigen::Index n = 0; n < nodes_.count(); ++n)
+    on_rim.moment -= Vector3(nodes_.x.col(n) - centre()).cross(Vector3(nodes_.force.col(n)));
+  return of_whole(on_rim);
+}
+
+/// Of the computed part.
+Wrench NodalTyre::internal_on_beads() const {
+  Wrench on_beads;
+  for (const Eigen::Index n : beads_) {
+    on_beads.force += nodes_.force.col(n);
+    on_beads.moment += Vector3(nodes_.moment.col(n)) +
+                       Vector3(nodes_.x.col(n) - centre()).cross(Vector3(nodes_.force.col(n)));
+  }
+  return on_beads;
 }
 
 void NodalTyre::begin_interval(bool touched) {
@@ -151,32 +159,28 @@ void NodalTyre::advance(double dt) try { step(dt); } catch (const StateError& pr
 
 void NodalTyre::step(double dt) {
   compute_internal();
-  damping_.add(nodes_, *this);
-  Wrench on_rim = of_whole(damping_.reaction(nodes_, centre()));
-  on_rim.force = internal_on_rim_.force + on_rim.force;
-  on_rim.moment = internal_on_rim_.moment + on_rim.moment;
   compute_contact();
-  const Matrix3X v_before = nodes_.v;
-  const Matrix3X w_before = nodes_.w;
+  const Wrench on_beads = internal_on_beads();
+  const NodeStep::Sums sums = node_step_.move(nodes_, contact_, *this, dt);
+  const Wrench damping = of_whole({Vector3(-sums.damping.force), Vector3(-sums.damping.moment)});
+  const Wrench internal = of_whole({Vector3(on_beads.force - sums.internal.force),
+                                    Vector3(on_beads.moment - sums.internal.moment)});
   const Vector3 V_before = velocity();
   const Vector3 Omega_before = angular_velocity();
-  nodes_.kick(dt);
-  advance_hub(dt, on_rim.force + contact_on_rim_.force, on_rim.moment + contact_on_rim_.moment);
+  advance_hub(dt, internal.force + damping.force + contact_on_rim_.force,
+              internal.moment + damping.moment + contact_on_rim_.moment);
 
   const Vector3 V = 0.5 * (V_before + velocity());
   const Vector3 Omega = 0.5 * (Omega_before + angular_velocity());
-  contact_work_ += dt * copies() * (contact_.cwiseProduct(0.5 * (v_before + nodes_.v))).sum();
-  contact_work_ += dt * (contact_on_rim_.force.dot(V) + contact_on_rim_.moment.dot(Omega));
-  const double power = damping_.power(nodes_, v_before, w_before);
-  const Wrench reaction = of_whole(damping_.reaction(nodes_, centre() - dt * velocity()));
-  damped_ -= dt * (copies() * power + reaction.force.dot(V) + reaction.moment.dot(Omega));
+  contact_work_ += dt * (copies() * sums.contact_power + contact_on_rim_.force.dot(V) +
+                         contact_on_rim_.moment.dot(Omega));
+  damped_ -=
+      dt * (copies() * sums.damping_power + damping.force.dot(V) + damping.moment.dot(Omega));
 
-  nodes_.drift(dt);
   place_beads();
   count_stored_energy();
-  const bool finite = nodes_.x.allFinite();
-  if (surface_follows_ || !finite) place_surface();
-  if (!finite) surface().check_finite("tyre");
+  if (surface_follows_ || !sums.finite) place_surface();
+  if (!sums.finite) surface().check_finite("tyre");
 }
 
 /// The deformed shape moves along; the stored energy stays.

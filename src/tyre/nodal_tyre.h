@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "shell/shell_nodes.h"
-#include "tyre/rim_damping.h"
+#include "tyre/node_step.h"
 #include "tyre/tyre.h"
 
 namespace furrow {
 
-/// On the nodes act internal forces, of elements and pressure, and the damping (rim_damping.h).
+/// On the nodes act internal forces, of elements and pressure, and the damping (node_step.h).
 /// What these sum up to acts on the rim with the opposite sign, so momentum is kept to round-off.
 /// Without the damping they have the potential U - p V; the stored energy is counted from the state
 /// as made, so inflating the tyre is work of the pressure (load_work).
@@ -45,7 +45,7 @@ class NodalTyre : public Tyre {
   struct Making {
     Matrix3X reference;         ///< [m] stress-free nodes about the axle centre
     double pressure = 0.0;      ///< [Pa]
-    double damping_rate = 0.0;  ///< [1/s] c of rim_damping.h
+    double damping_rate = 0.0;  ///< [1/s] c of node_step.h
   };
   NodalTyre(const HubParameters& hub, const Making& making);
   /// To be called at the end of a constructor, when masses and supports are set.
@@ -94,6 +94,8 @@ class NodalTyre : public Tyre {
   void step(double dt);
   void compute_internal();
   void compute_contact();
+  Wrench internal_on_rim() const;
+  Wrench internal_on_beads() const;
   void place_beads();
   double potential() const { return elastic_ - pressure_ * volume_; }
   void count_stored_energy() { stored_ = potential() - zero_; }
@@ -107,17 +109,16 @@ class NodalTyre : public Tyre {
 
   Matrix3X reference_;  // [m] stress-free nodes about the axle centre
   double pressure_;     // [Pa]
-  RimDamping damping_;
+  NodeStep node_step_;
   std::vector<Eigen::Index> beads_;
 
   bool surface_follows_ = true;  // in every step
 
   // Of the present step, of the whole tyre
-  double elastic_ = 0.0;    // [J]
-  double volume_ = 0.0;     // [m^3] of the air, but for a constant
-  Wrench internal_on_rim_;  // by elements and pressure
-  Wrench contact_on_rim_;   // handed over by the surface
-  Matrix3X contact_;        // [N] on the nodes
+  double elastic_ = 0.0;   // [J]
+  double volume_ = 0.0;    // [m^3] of the air, but for a constant
+  Wrench contact_on_rim_;  // handed over by the surface
+  Matrix3X contact_;       // [N] on the nodes
 
   // [J] of the whole tyre
   double zero_ = 0.0;    // potential in the state as made

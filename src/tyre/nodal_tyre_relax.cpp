@@ -34,7 +34,9 @@ class NodalTyre::Relaxing : public RelaxingStructure {
     surface().f = forces_of_others_;
     if (plane_) plane_->press_on(surface());
     tyre_.compute_contact();
-    return tyre_.internal_on_rim_.force.z() + tyre_.contact_on_rim_.force.z() + tyre_.load().z();
+    const double internal = tyre_.internal_on_rim().force.z();
+    nodes().force += tyre_.contact_;
+    return internal + tyre_.contact_on_rim_.force.z() + tyre_.load().z();
   }
 
   void follow(double axle_height) override {

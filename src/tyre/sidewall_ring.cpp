@@ -40,7 +40,7 @@ SidewallRing::Station SidewallRing::locate(std::size_t station, const ShellNodes
   const Eigen::Index node = edge_[station];
   Station s;
   s.A = side_ * rim.attitude.col(1);
-  const Eigen::Map<const Matrix3> Q(nodes.rotation.col(node).data());
+  const Matrix3 Q = nodes.q[static_cast<std::size_t>(node)].toRotationMatrix();
   s.arm = Q * link_.col(static_cast<Eigen::Index>(station));
   const Vector3 d = nodes.x.col(node) + s.arm - rim.centre - rim.attitude * bead(station);
   s.end.a = d.dot(s.A);
