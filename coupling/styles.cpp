@@ -27,6 +27,7 @@
 #include "coupling/liggghts/script.h"
 #include "coupling/output/fix_progress.h"
 #include "coupling/output/fix_terrain_history.h"
+#include "coupling/output/fix_wheel_arc.h"
 #include "coupling/output/fix_wheel_history.h"
 #include "coupling/restart/command_read_restart.h"
 #include "coupling/restart/fix_expected_states.h"
@@ -121,6 +122,7 @@ const std::vector<Style>& styles() {
       fix<FixWheelRig>("wheel/rig", Kind::rig, "drive/fix_wheel_rig.md"),
       command<CommandRunUntilSteady>("run_until_steady", "drive/command_run_until_steady.md"),
       fix<FixWheelHistory>("wheel/history", Kind::history, "output/fix_wheel_history.md"),
+      fix<FixWheelArc>("wheel/arc", Kind::history, "output/fix_wheel_arc.md"),
       fix<FixTerrainHistory>("terrain/history", Kind::history, "output/fix_terrain_history.md"),
       command<CommandReadRestart>("read_restart", "restart/command_read_restart.md"),
       fix<FixProgress>("progress", Kind::progress, "output/fix_progress.md"),

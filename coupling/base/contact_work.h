@@ -31,6 +31,7 @@ struct GrainContact {
   int grain;              ///< local index
   Vector3 force, torque;  ///< on the grain [N], [N m]
   Vector3 normal;         ///< unit vector square to the surface
+  Vector3 point;          ///< of the surface, where the body is [m]
   Vector3 arm;            ///< from the grain's centre to where the contact model lets force act [m]
   Vector3 surface_velocity;  ///< there [m/s]
 };

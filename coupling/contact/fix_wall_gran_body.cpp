@@ -364,7 +364,7 @@ void FixWallGranBody::apply(const MeshAtWork& at_work, int grain, const ContactC
   ledger.contacts += 1.0;
   const Vector3 normal = contact.point.separation.normalized();
   // LIGGGHTS's arm
-  at_work.contacts.push_back({grain, contact_force, contact_torque, normal,
+  at_work.contacts.push_back({grain, contact_force, contact_torque, normal, contact_point,
                               -(radius - 0.5 * overlap) * normal, wall_velocity});
 }
 

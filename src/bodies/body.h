@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "bodies/contact_record.h"
 #include "core/checkpoint.h"
 #include "geometry/surface.h"
 #include "core/types.h"
@@ -54,9 +55,16 @@ class Body {
   /// loads and energy budget are those of the whole.
   virtual bool half_model() const { return false; }
 
+  /// Who is told of each contact of this body; not owned, null for nobody.
+  void set_contact_record(ContactRecord* record) { contact_record_ = record; }
+  ContactRecord* contact_record() const { return contact_record_; }
+
   /// Saves everything needed to continue exactly, or brings it back. Collective for a body that is
   /// spread over the ranks. @throws Error when the saved state belongs to another body
   virtual void checkpoint(Checkpoint& state) = 0;
+
+ private:
+  ContactRecord* contact_record_ = nullptr;
 };
 
 }  // namespace furrow

@@ -83,6 +83,8 @@ void TerrainContact::select_active() {
 template <class Law>
 void TerrainContact::add_forces(const Law& law, double dt) {
   const Surface& surface = body_.surface();
+  ContactRecord* const record = body_.contact_record();
+  const double halves = mirror_ || body_.half_model() ? 2.0 : 1.0;
   for (std::size_t n = 0; n < active_.size(); ++n) {
     const ParticleIndex& particle = active_particles_[n];
     const ParticleGroup& group = group_of(particle);
@@ -112,6 +114,7 @@ void TerrainContact::add_forces(const Law& law, double dt) {
         law.force({contact, velocity, group.mass(particle.particle)}, dt, history, step_.losses);
     terrain_.add_point_force(particle, force, contact.position, &terrain_work_);
     for (int c = 0; c < 3; ++c) nodal_forces_.col(nodes[c]) -= contact.barycentric[c] * force;
+    if (record) record->add(contact.position, -halves * force, -velocity, dt);
 
     const double length = std::cbrt(group.particles.data(column::volume)[particle.particle]);
     step_.contacts += 1.0;

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/output/fix_wheel_arc.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "atom.h"
+#include "comm.h"
+#include "core/error.h"
+#include "coupling/base/fix_coupled_system.h"
+#include "coupling/base/fixes_of.h"
+#include "coupling/base/refuse_double.h"
+#include "coupling/bodies/fix_wheel_hub.h"
+#include "coupling/contact/fix_contact_plane.h"
+#include "coupling/liggghts/vector.h"
+#include "coupling/output/results_folder.h"
+#include "io/csv_file.h"
+#include "io/replace_file.h"
+#include "update.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+constexpr double degree = pi / 180.0;
+
+const std::vector<Channel>& channels() {
+  static const std::vector<Channel> list = {
+      {"time", "s", "end of the interval"},
+      {"angle", "degrees", "about the axle, 0 at the lowest point, > 0 ahead"},
+      {"normal_stress", "Pa", "mean over the interval and the wheel's width, > 0 presses"},
+      {"shear_stress", "Pa", "the same, along the rim, > 0 drives the wheel forward"},
+      {"slip_velocity", "m/s",
+       "of the rim over the ground, mean by the normal force, > 0 backwards; 0 where nothing "
+       "presses"}};
+  return list;
+}
+
+}  // namespace
+
+Schema FixWheelArc::schema() {
+  Schema schema("fix wheel/arc");
+  schema.text("wheel", "id of the fix of the wheel or tyre");
+  schema.text("folder", "folder for arc.csv; made if it is missing, an earlier file is replaced");
+  schema.integer("every", Range::at_least(1), "steps in the interval of a profile");
+  schema.integer("sectors", Range::closed(6, 3600), "of 180 degrees").by_default(60);
+  return schema;
+}
+
+OutputTable FixWheelArc::outputs() { return {"column", channels()}; }
+
+FixWheelArc::FixWheelArc(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
+    : FurrowFix(lammps, narg, arg, schema()),
+      wheel_fix_(use<FixWheelHub>("wheel", {Kind::wheel})),
+      arc_(wheel_fix_.hub(), static_cast<std::size_t>(options().integer("sectors"))),
+      every_(options().integer("every")),
+      columns_(channels().size()) {
+  refuse_double<FixWheelArc>(*modify, options().subject(),
+                             fmt::format("records the arc of '{}'", wheel_fix_.id),
+                             "one wheel/arc for each wheel",
+                             [&](FixWheelArc& other) { return &other.wheel_fix_ == &wheel_fix_; });
+  nevery = 1;
+  keep_state();
+  wheel_fix_.hub().set_contact_record(&arc_);
+}
+
+FixWheelArc::~FixWheelArc() { wheel_fix_.hub().set_contact_record(nullptr); }
+
+void FixWheelArc::init() {
+  collectively([&] {
+    for (const auto* plane : fixes_of<FixContactPlane>(*modify))
+      if (&plane->body_fix() == &wheel_fix_)
+        throw InputError(options().where("wheel"),
+                         fmt::format("is '{}', on the plane of '{}'", wheel_fix_.id, plane->id),
+                         "a wheel on grains or continuum terrain");
+  });
+  on_this_rank([&] {
+    if (comm->me == 0) make_results_folder(options());
+  });
+}
+
+void FixWheelArc::end_of_step() {
+  add_grains();
+  duration_ += update->dt;
+  if (update->ntimestep % every_ == 0) write_profile();
+}
+
+void FixWheelArc::add_grains() {
+  const double halves = wheel_fix_.hub().half_model() ? 2.0 : 1.0;
+  for (const GrainContact& contact : FixCoupledSystem::of(*lmp).contacts(wheel_fix_.hub())) {
+    const Vector3 ground =
+        vector(atom->v[contact.grain]) + vector(atom->omega[contact.grain]).cross(contact.arm);
+    arc_.add(contact.point, -halves * contact.force, contact.surface_velocity - ground, update->dt);
+  }
+}
+
+void FixWheelArc::write_profile() {
+  FixCoupledSystem& system = FixCoupledSystem::of(*lmp);
+  std::vector<double>& sums = arc_.sums();
+  system.communicator().sum(sums.data(), sums.size());
+  const ContactArc::Profile profile = arc_.profile(sums, duration_);
+  std::fill(sums.begin(), sums.end(), 0.0);
+  duration_ = 0.0;
+  on_this_rank([&] {
+    if (comm->me != 0) return;
+    for (std::size_t s = 0; s < profile.angle.size(); ++s) {
+      const double row[] = {system.time(), profile.angle[s] / degree, profile.normal[s],
+                            profile.shear[s], profile.slip[s]};
+      for (std::size_t c = 0; c < columns_.size(); ++c) columns_[c].push_back(row[c]);
+    }
+    std::vector<std::string> names, units;
+    for (const Channel& channel : channels()) {
+      names.push_back(channel.name);
+      units.push_back(fmt::format("{} [{}]: {}", channel.name, channel.unit, channel.meaning));
+    }
+    write_text_file(options().text("folder") + "/arc.csv", csv_text(units, names, columns_));
+  });
+}
+
+/// The rows so far are part of it: the file of a run that went further is written anew.
+void FixWheelArc::checkpoint(Checkpoint& state) {
+  const Communicator& ranks = FixCoupledSystem::of(*lmp).communicator();
+  std::vector<double> sums = arc_.sums();
+  if (state.saving()) ranks.sum(sums.data(), sums.size());
+  state.match("sectors", options().integer("sectors"));
+  state.values("sums", sums);
+  state.value("duration", duration_);
+  for (std::size_t c = 0; c < columns_.size(); ++c) state.values(channels()[c].name, columns_[c]);
+  if (!state.saving() && ranks.rank() == 0) arc_.sums() = sums;
+}
+
+}  // namespace furrow::coupling

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Stress and slip along the arc in which a wheel touches the ground.
+
+#include <vector>
+
+#include "bodies/contact_record.h"
+#include "bodies/wheel_hub.h"
+
+namespace furrow {
+
+/// Sums of contacts over the angle theta about the axle, 0 at the lowest point, > 0 ahead, up to
+/// 90 degrees to either side. With the unit vectors e_r from the axle to the contact and e_t = e_r
+/// x a along the rim, a the axle, F the force on the wheel and v the velocity of the rim over the
+/// ground, a sector has
+///   normal stress  sigma = - int F . e_r dt/(T A),
+///   shear stress   tau   =   int F . e_t dt/(T A), > 0 drives the wheel forward,
+///   slip velocity  v_s   = - int (F . e_r)(v . e_t) dt/int F . e_r dt, > 0 where the rim goes
+///                            backwards over the ground,
+/// A its share of the cylinder of the wheel's width and nominal radius.
+class ContactArc : public ContactRecord {
+ public:
+  struct Profile {
+    std::vector<double> angle;   ///< [rad] middle of each sector
+    std::vector<double> normal;  ///< [Pa]
+    std::vector<double> shear;   ///< [Pa]
+    std::vector<double> slip;    ///< [m/s]; 0 where nothing presses
+  };
+
+  /// The hub must outlive it. @param sectors in 180 degrees
+  ContactArc(const WheelHub& hub, std::size_t sectors);
+
+  void add(const Vector3& point, const Vector3& force, const Vector3& sliding, double dt) override;
+
+  std::vector<double>& sums() { return sums_; }  ///< for a sum over ranks and checkpoints
+  /// @param sums of all ranks; @param duration T [s]
+  Profile profile(const std::vector<double>& sums, double duration) const;
+  double width() const { return width_; }  ///< of the wheel, along its axle [m]
+
+ private:
+  const WheelHub& hub_;
+  std::size_t sectors_;
+  double width_;
+  std::vector<double> sums_;  // of each sector: normal, shear [N s], normal times slip [N m]
+};
+
+}  // namespace furrow
