@@ -12,7 +12,7 @@ from faults import WHEEL, Table, run_script
 SAND = {"length": "0.16", "width": "0.08", "depth": "0.03", "clearance_above": "0.05", "diameter": "0.014", "density": "2600",
         "young": "5e6", "poisson": "0.25", "restitution": "0.3", "friction": "0.6", "rolling": "0.15", "pour_friction": "0.3",
         "step": "1e-4", "seed": "86028121"}
-SNOW = {"length": "0.3", "width": "0.3", "depth": "0.1", "clearance_above": "0.1", "diameter": "0.03", "bulk": "165",
+SNOW = {"length": "0.3", "closed": "0", "width": "0.3", "depth": "0.1", "clearance_above": "0.1", "diameter": "0.03", "bulk": "165",
         "density": "700", "stiffness": "3.12e6", "strength": "5.55e3", "unloading": "3", "plasticity": "0.226",
         "adhesion": "0.5", "friction": "0.5", "rolling": "0.2", "restitution": "0.1", "step": "1e-5", "seed": "86028121"}
 AFTER = ("fix m4 all property/global coefficientFriction peratomtypepair 2 0.6 0.5 0.5 0.5\nrun 0\n"
