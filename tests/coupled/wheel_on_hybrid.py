@@ -82,8 +82,7 @@ with tempfile.TemporaryDirectory() as name:
     long_steps = run(folder / "long", "wheel_sand_hybrid", **cell)
     short_steps = run(folder / "short", "wheel_sand_hybrid", multirate="no", **cell)
     trough = run(folder / "trough", "wheel_sand_hybrid", trough=0.4, every=2, **cell)
-    run(folder / "moving", "wheel_sand_hybrid", trough=0.4, every=2, period=1.2, slabs=9, behind=0.42,
-        bed_script="../beds/sand_window.lig", **cell | {"distance": 1.4})
+    run(folder / "moving", "wheel_sand_hybrid", period=1.2, slabs=8, distance=1.4)
     rigid = run(folder / "rigid", "wheel_sand_grains", depth=0.15)
     print(f"sinkage {1e3 * long_steps:.2f} mm, with short steps {1e3 * short_steps:.2f} mm, "
           f"in a trough {1e3 * trough:.2f} mm, on a rigid floor {1e3 * rigid:.2f} mm")
