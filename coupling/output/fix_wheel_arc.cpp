@@ -25,7 +25,7 @@ namespace {
 
 constexpr double degree = pi / 180.0;
 
-const std::vector<Channel>& channels() {
+const std::vector<Channel>& arc_channels() {
   static const std::vector<Channel> list = {
       {"time", "s", "end of the interval"},
       {"angle", "degrees", "about the axle, 0 at the lowest point, > 0 ahead"},
@@ -48,14 +48,14 @@ Schema FixWheelArc::schema() {
   return schema;
 }
 
-OutputTable FixWheelArc::outputs() { return {"column", channels()}; }
+OutputTable FixWheelArc::outputs() { return {"column", arc_channels()}; }
 
 FixWheelArc::FixWheelArc(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FurrowFix(lammps, narg, arg, schema()),
       wheel_fix_(use<FixWheelHub>("wheel", {Kind::wheel})),
       arc_(wheel_fix_.hub(), static_cast<std::size_t>(options().integer("sectors"))),
       every_(options().integer("every")),
-      columns_(channels().size()) {
+      columns_(arc_channels().size()) {
   refuse_double<FixWheelArc>(*modify, options().subject(),
                              fmt::format("records the arc of '{}'", wheel_fix_.id),
                              "one wheel/arc for each wheel",
@@ -110,7 +110,7 @@ void FixWheelArc::write_profile() {
       for (std::size_t c = 0; c < columns_.size(); ++c) columns_[c].push_back(row[c]);
     }
     std::vector<std::string> names, units;
-    for (const Channel& channel : channels()) {
+    for (const Channel& channel : arc_channels()) {
       names.push_back(channel.name);
       units.push_back(fmt::format("{} [{}]: {}", channel.name, channel.unit, channel.meaning));
     }
@@ -126,7 +126,7 @@ void FixWheelArc::checkpoint(Checkpoint& state) {
   state.match("sectors", options().integer("sectors"));
   state.values("sums", sums);
   state.value("duration", duration_);
-  for (std::size_t c = 0; c < columns_.size(); ++c) state.values(channels()[c].name, columns_[c]);
+  for (std::size_t c = 0; c < columns_.size(); ++c) state.values(arc_channels()[c].name, columns_[c]);
   if (!state.saving() && ranks.rank() == 0) arc_.sums() = sums;
 }
 
