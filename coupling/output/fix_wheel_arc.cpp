@@ -126,7 +126,8 @@ void FixWheelArc::checkpoint(Checkpoint& state) {
   state.match("sectors", options().integer("sectors"));
   state.values("sums", sums);
   state.value("duration", duration_);
-  for (std::size_t c = 0; c < columns_.size(); ++c) state.values(arc_channels()[c].name, columns_[c]);
+  for (std::size_t c = 0; c < columns_.size(); ++c)
+    state.values(arc_channels()[c].name, columns_[c]);
   if (!state.saving() && ranks.rank() == 0) arc_.sums() = sums;
 }
 
