@@ -5,17 +5,8 @@
 
 namespace furrow {
 
-namespace {
-
-double width_of(const WheelHub& hub) {
-  const VectorX along = hub.surface().x.transpose() * hub.axle();
-  return (hub.half_model() ? 2.0 : 1.0) * (along.maxCoeff() - along.minCoeff());
-}
-
-}  // namespace
-
 ContactArc::ContactArc(const WheelHub& hub, std::size_t sectors)
-    : hub_(hub), sectors_(sectors), width_(width_of(hub)), sums_(3 * sectors, 0.0) {}
+    : hub_(hub), sectors_(sectors), sums_(3 * sectors, 0.0) {}
 
 void ContactArc::add(const Vector3& point, const Vector3& force, const Vector3& sliding,
                      double dt) {
@@ -36,8 +27,9 @@ void ContactArc::add(const Vector3& point, const Vector3& force, const Vector3& 
 }
 
 ContactArc::Profile ContactArc::profile(const std::vector<double>& sums, double duration) const {
-  const double opening = pi / static_cast<double>(sectors_);                   // [rad] of a sector
-  const double impulse = opening * hub_.nominal_radius() * width_ * duration;  // [N s] of 1 Pa
+  const double opening = pi / static_cast<double>(sectors_);  // [rad] of a sector
+  const double area = opening * hub_.nominal_radius() * hub_.nominal_width();
+  const double impulse = area * duration;  // [N s] of 1 Pa
   Profile found;
   for (std::size_t s = 0; s < sectors_; ++s) {
     found.angle.push_back((static_cast<double>(s) + 0.5) * opening - 0.5 * pi);

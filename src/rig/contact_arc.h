@@ -17,7 +17,7 @@ namespace furrow {
 ///   shear stress   tau   =   int F . e_t dt/(T A), > 0 drives the wheel forward,
 ///   slip velocity  v_s   = - int (F . e_r)(v . e_t) dt/int F . e_r dt, > 0 where the rim goes
 ///                            backwards over the ground,
-/// A its share of the cylinder of the wheel's width and nominal radius.
+/// A its share of the cylinder of the wheel's nominal width and radius.
 class ContactArc : public ContactRecord {
  public:
   struct Profile {
@@ -35,12 +35,10 @@ class ContactArc : public ContactRecord {
   std::vector<double>& sums() { return sums_; }  ///< for a sum over ranks and checkpoints
   /// @param sums of all ranks; @param duration T [s]
   Profile profile(const std::vector<double>& sums, double duration) const;
-  double width() const { return width_; }  ///< of the wheel, along its axle [m]
 
  private:
   const WheelHub& hub_;
   std::size_t sectors_;
-  double width_;
   std::vector<double> sums_;  // of each sector: normal, shear [N s], normal times slip [N m]
 };
 

@@ -32,7 +32,6 @@ TEST(ContactArc, FindsStressesAndSlipOfAnySetOfForces) {
     wheel.place({1.0, -2.0, 0.2}, yaw, 0.1);
     const Directions at(wheel);
     ContactArc arc(wheel, sectors);
-    EXPECT_NEAR(arc.width(), width, 1e-12);
     constexpr double p0 = 1e5, dt = 0.01, fine = 0.1 * degree;
     for (int step = 0; step < 3; ++step)
       for (double angle = 0.5 * fine; angle < 40.0 * degree; angle += fine)
