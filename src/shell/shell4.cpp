@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <Eigen/Eigenvalues>
@@ -10,7 +11,6 @@
 
 #include "core/error.h"
 #include "shell/shell4_block.h"
-#include "shell/shell_frequency.h"
 #include "simd/dispatch.h"
 
 namespace furrow {
@@ -27,18 +27,29 @@ double largest_eigenvalue(const Eigen::MatrixXd& symmetric) {
       .maxCoeff();
 }
 
-/// [m^2] rotary inertia per mass of an element, raised (see Shell4).
-double inertia_per_mass(const Matrix24& K, double thickness) {
-  Eigen::Matrix<double, 12, 12> displacement;
-  Eigen::Matrix<double, 12, 12> rotation;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) {
-      displacement.block<3, 3>(3 * i, 3 * j) = K.block<3, 3>(6 * i, 6 * j);
-      rotation.block<3, 3>(3 * i, 3 * j) = K.block<3, 3>(6 * i + 3, 6 * j + 3);
+/// Rotary inertia per mass of an element, and its highest frequency squared with it.
+struct ElementDynamics {
+  double inertia_per_mass = 0.0;  // [m^2]
+  double omega_squared = 0.0;     // [1/s^2]
+
+  ElementDynamics(const Matrix24& K, double nodal_mass, double thickness) {
+    Eigen::Matrix<double, 12, 12> displacement;
+    Eigen::Matrix<double, 12, 12> rotation;
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) {
+        displacement.block<3, 3>(3 * i, 3 * j) = K.block<3, 3>(6 * i, 6 * j);
+        rotation.block<3, 3>(3 * i, 3 * j) = K.block<3, 3>(6 * i + 3, 6 * j + 3);
+      }
+    inertia_per_mass = std::max(thickness * thickness / 12.0,
+                                largest_eigenvalue(rotation) / largest_eigenvalue(displacement));
+    Eigen::Matrix<double, 24, 1> scale;
+    for (int i = 0; i < 4; ++i) {
+      scale.segment<3>(6 * i).setConstant(1.0 / std::sqrt(nodal_mass));
+      scale.segment<3>(6 * i + 3).setConstant(1.0 / std::sqrt(nodal_mass * inertia_per_mass));
     }
-  return std::max(thickness * thickness / 12.0,
-                  largest_eigenvalue(rotation) / largest_eigenvalue(displacement));
-}
+    omega_squared = largest_eigenvalue(scale.asDiagonal() * K * scale.asDiagonal());
+  }
+};
 
 constexpr double same_stiffness = 1e-9;  // of the largest
 
@@ -124,32 +135,32 @@ Shell4::Shell4(const Matrix3X& reference, std::vector<Quad> quads, const ShellSe
       inertia_(VectorX::Zero(reference.cols())) {
   const std::vector<Shell4Element> elements =
       shell4_elements(reference, quads_, fibre, largest_kink);
-  std::vector<ShellGroup> groups;
+  std::vector<std::vector<int>> kinds;  // elements of each
   for (std::size_t e = 0; e < elements.size(); ++e) {
-    const auto group = std::find_if(groups.begin(), groups.end(), [&](const ShellGroup& other) {
-      return alike(elements[static_cast<std::size_t>(other.members[0])].shape, elements[e].shape);
-    });
-    if (group != groups.end())
-      group->members.push_back(static_cast<int>(e));
+    const auto kind =
+        std::find_if(kinds.begin(), kinds.end(), [&](const std::vector<int>& members) {
+          return alike(elements[static_cast<std::size_t>(members[0])].shape, elements[e].shape);
+        });
+    if (kind != kinds.end())
+      kind->push_back(static_cast<int>(e));
     else
-      groups.push_back({Matrix24::Zero(), {static_cast<int>(e)}});
+      kinds.push_back({static_cast<int>(e)});
   }
-  for (ShellGroup& group : groups) add_kind(elements, group, section, turning);
-  stable_step_ = stability_reserve * 2.0 /
-                 std::sqrt(highest_frequency_squared(elements, groups, mass_, inertia_));
+  stable_step_ = std::numeric_limits<double>::infinity();
+  for (const std::vector<int>& members : kinds) add_kind(elements, members, section, turning);
 }
 
-/// @param group elements that are alike; its stiffness is set
-void Shell4::add_kind(const std::vector<Shell4Element>& elements, ShellGroup& group,
+/// @param members elements that are alike
+void Shell4::add_kind(const std::vector<Shell4Element>& elements, const std::vector<int>& members,
                       const ShellSection& section, Shell4Turning turning) {
-  const std::vector<int>& members = group.members;
   const Shell4Shape& shape = elements[static_cast<std::size_t>(members[0])].shape;
+  Matrix24 K;
   try {
-    group.K = shell4_stiffness(shape, section);
+    K = shell4_stiffness(shape, section);
   } catch (const StateError& error) {
     throw StateError(fmt::format("{} (element {})", error.what(), members[0]));
   }
-  Shell4Kind kind = make_kind(shape, group.K, turning);
+  Shell4Kind kind = make_kind(shape, K, turning);
   kind.first = places_->element.size();
   for (const int e : members) places_->add(elements[static_cast<std::size_t>(e)], e);
   kind.last = places_->element.size();
@@ -160,11 +171,13 @@ void Shell4::add_kind(const std::vector<Shell4Element>& elements, ShellGroup& gr
 
   const double area = first_median(shape.x).cross(second_median(shape.x)).norm();
   const double nodal_mass = 0.25 * section.areal_mass * area;
-  const double nodal_inertia = nodal_mass * inertia_per_mass(group.K, section.thickness);
+  const ElementDynamics dynamics(K, nodal_mass, section.thickness);
+  stable_step_ =
+      std::min(stable_step_, stability_reserve * 2.0 / std::sqrt(dynamics.omega_squared));
   for (const int e : members)
     for (const int node : quads_[static_cast<std::size_t>(e)]) {
       mass_[node] += nodal_mass;
-      inertia_[node] += nodal_inertia;
+      inertia_[node] += nodal_mass * dynamics.inertia_per_mass;
     }
 }
 

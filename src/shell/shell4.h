@@ -13,7 +13,6 @@
 namespace furrow {
 
 struct Shell4Kind;
-struct ShellGroup;
 
 /// What turns an element's axes in its plane.
 enum class Shell4Turning {
@@ -70,13 +69,13 @@ class Shell4 {
   /// [kg] a quarter of each element at its nodes
   const VectorX& mass() const { return mass_; }
   const VectorX& rotary_inertia() const { return inertia_; }  ///< [kg m^2] raised, see above
-  /// [s] 2/omega of the highest frequency of the mesh, stress-free, with a reserve
+  /// [s] 2/omega of the stiffest element, stress-free
   double stable_time_step() const { return stable_step_; }
   std::size_t kind_count() const;  ///< distinct stiffness matrices
 
  private:
   struct Places;  // of the elements in the kernel's arrays, kind by kind
-  void add_kind(const std::vector<Shell4Element>& elements, ShellGroup& group,
+  void add_kind(const std::vector<Shell4Element>& elements, const std::vector<int>& members,
                 const ShellSection& section, Shell4Turning turning);
 
   std::vector<Quad> quads_;
