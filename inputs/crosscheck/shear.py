@@ -13,6 +13,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postproc"))
 
+import furrow_post  # first: says which of the next ones are missing
+
 import matplotlib.pyplot as plt
 import numpy as np
 

@@ -15,7 +15,8 @@ from ..errors import ResultsError, content_of
 
 # Styles of the command variable that leave a value of the command line as it is
 SETTABLE = ("index", "loop", "world", "universe", "uloop")
-DECLARED = re.compile(r"""(?:^|["'])\s*variable\s+(\S+)\s+(\w+)\s*(.*)""")
+# By a line, or, in quotes, by a command "if"
+DECLARED = re.compile(r"""(?:^|(["']))\s*variable\s+(\S+)\s+(\w+)\s*(.*?)(?:\1|$)""")
 READ = re.compile(r"\$\{([^}]+)\}|\$(\w)|\bv_(\w+)")
 OF_BED = "bed_"  # variables that the command bed makes begin so
 
@@ -105,15 +106,21 @@ class _Reader:
         self.found.files.append(file.resolve())
         with content_of(file, "name a LIGGGHTS script"):
             lines = list(_lines(file.read_text(encoding="utf-8")))
+        on_condition = []
         for line in lines:
             self.found.read |= {a or b or c for a, b, c in READ.findall(line)}
-            for name, style, value in DECLARED.findall(line):
-                self._declare(name, style, value.strip())
+            for quote, name, style, value in DECLARED.findall(line):
+                if quote and style in SETTABLE:
+                    on_condition.append((name, style, value))
+                else:
+                    self._declare(name, style, value.strip())
             command, *words = line.split()
             if command in ("include", "jump", "bed") and words and words[0] != "SELF":
                 name = _unquoted(self._substituted(words[0]))
                 # Furrow's paths are relative to the file with the line, LIGGGHTS's to where it runs
                 self._follow(file.parent / name if command == "bed" else Path(name))
+        for name, style, value in on_condition:  # a default that holds without it comes first
+            self._declare(name, style, value.strip())
 
     def _declare(self, name: str, style: str, value: str) -> None:
         if style in SETTABLE:

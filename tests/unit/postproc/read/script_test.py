@@ -52,6 +52,14 @@ class ScriptTest(unittest.TestCase):
         self.assertEqual(found.defaults["size"], '"0.1 0.2"')
         self.assertTrue({"steps", "kind", "contact"} <= found.computed)
 
+    def test_a_default_without_a_condition_comes_before_one_with(self) -> None:
+        self.script.write_text(
+            """if "1 > 0" then "variable cell index 0.075" 'variable bed index a.lig'\n"""
+            'variable cell index 0.05\nprint "${cell} ${bed}"\n'
+        )
+        found = script_variables(self.script, self.here)
+        self.assertEqual(found.defaults, {"cell": "0.05", "bed": "a.lig"})
+
     def test_a_value_of_the_command_line_chooses_the_file(self) -> None:
         self.script.write_text("variable kind index soft\ninclude ${here}/parts/${kind}.part\n")
         found = script_variables(self.script, {**self.here, "kind": "hard"})
