@@ -8,7 +8,6 @@ wheel_on_snow_shear.csv, and draws wheel_on_snow_shear.png from it. Without a fo
 
 import argparse
 import sys
-from collections.abc import Sequence
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postproc"))
@@ -18,9 +17,11 @@ import furrow_post  # first: says which of the next ones are missing
 import matplotlib.pyplot as plt
 import numpy as np
 
+from furrow_post.arguments import path
 from furrow_post.arrays import Floats
-from furrow_post.csv_table import read_columns, read_rows
+from furrow_post.csv_table import read_columns, read_rows, write_rows
 from furrow_post.figures.style import RUN_COLOURS, annotate_panel, panel_letters, save, use_style
+from furrow_post.program import run_program
 
 HERE = Path(__file__).resolve().parent
 TABLE, FIGURE = HERE / "wheel_on_snow_shear.csv", HERE / "wheel_on_snow_shear.png"
@@ -36,9 +37,10 @@ WINDOW = 0.5  # [s] at the end of a run
 SPEED = 2.235  # [m/s]
 LEAST = 3e3  # [Pa] below it friction and slip are not drawn
 COLUMNS = ("ground", "run", "angle", "normal_stress", "shear_stress", "slip_velocity")
-COMMENT = """# Means along the wheel's arc over the last 0.5 s of each run: degrees, Pa, Pa, m/s.
-# Made by shear.py
-"""
+COMMENTS = (
+    "# Means along the wheel's arc over the last 0.5 s of each run: degrees, Pa, Pa, m/s.",
+    "# Made by shear.py",
+)
 
 
 def mean_profile(file: Path) -> list[Floats]:
@@ -55,16 +57,16 @@ def mean_profile(file: Path) -> list[Floats]:
 
 
 def write_table(results: Path) -> None:
-    lines = [",".join(COLUMNS)]
+    rows = []
     for ground in GROUNDS:
         for run in RUNS:
             profile = mean_profile(results / f"{ground}_{run}" / "arc.csv")
-            lines += [
-                f"{ground},{run}," + ",".join(f"{number:.6g}" for number in numbers)
+            rows += [
+                dict(zip(COLUMNS, (ground, run, *(f"{number:.6g}" for number in numbers))))
                 for numbers in zip(*profile)
                 if numbers[1] > 0.0
             ]
-    TABLE.write_text(COMMENT + "\n".join(lines) + "\n", encoding="utf-8")
+    write_rows(TABLE, rows, COMMENTS)
 
 
 def draw() -> None:
@@ -100,16 +102,16 @@ def draw() -> None:
     save(figure, FIGURE)
 
 
-def main(arguments: Sequence[str] | None = None) -> None:
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument(
-        "results", nargs="?", type=Path, help="folder with continuum_towed, clusters_slip_0, ..."
+        "results", nargs="?", type=path, help="folder with continuum_towed, clusters_slip_0, ..."
     )
-    results = parser.parse_args(arguments).results
+    results = parser.parse_args().results
     if results:
         write_table(results)
     draw()
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(run_program("shear.py", main))
