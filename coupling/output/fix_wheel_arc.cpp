@@ -86,12 +86,12 @@ void FixWheelArc::end_of_step() {
   if (update->ntimestep % every_ == 0) write_profile();
 }
 
+/// A body on grains is whole: mesh/body refuses half models.
 void FixWheelArc::add_grains() {
-  const double halves = wheel_fix_.hub().half_model() ? 2.0 : 1.0;
   for (const GrainContact& contact : FixCoupledSystem::of(*lmp).contacts(wheel_fix_.hub())) {
     const Vector3 ground =
         vector(atom->v[contact.grain]) + vector(atom->omega[contact.grain]).cross(contact.arm);
-    arc_.add(contact.point, -halves * contact.force, contact.surface_velocity - ground, update->dt);
+    arc_.add(contact.point, -contact.force, contact.surface_velocity - ground, update->dt);
   }
 }
 
