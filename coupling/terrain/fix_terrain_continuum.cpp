@@ -36,9 +36,13 @@ std::optional<GroundSize> size_by_wheel(LAMMPS_NS::LAMMPS& lammps, const Options
   const Body& followed = find_fix<FixBody>(lammps, options, "follow", followable).body();
   const auto* wheel = dynamic_cast<const WheelHub*>(&followed);
   if (!wheel) return {};
+  const double cell = options.number("cell");
   GroundSize size =
       ground_under_wheel(wheel->nominal_radius(), wheel->nominal_width(), options.number("depth"));
-  if (options.given("width") || options.flag("sheet")) size.fine_width = 0.0;  // all is fine
+  if (options.given("width") || options.flag("sheet"))
+    size.fine_width = 0.0;  // all is fine
+  else                      // whole cells on either side, as long as they were asked for
+    size.fine_width = 2.0 * cell * std::ceil(0.5 * size.fine_width / cell * (1.0 - same_length));
   return size;
 }
 

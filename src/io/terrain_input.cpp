@@ -177,11 +177,8 @@ AxisLayout layout(const Options& options, double lower, double upper, double mid
                   const std::string& fine_key) {
   AxisLayout axis{lower, upper, options.number("cell"), lower, upper, options.number("growth")};
   if (!options.has(fine_key)) return axis;
-  double half = 0.5 * options.number(fine_key);
-  // one that the wheel chose leaves the cells as long as they were asked for
-  if (!options.given(fine_key)) half = axis.cell * std::ceil(half / axis.cell - round_off);
-  axis.fine_lower = std::max(lower, middle - half);
-  axis.fine_upper = std::min(upper, middle + half);
+  axis.fine_lower = std::max(lower, middle - 0.5 * options.number(fine_key));
+  axis.fine_upper = std::min(upper, middle + 0.5 * options.number(fine_key));
   return axis;
 }
 
