@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/half_turn.h"
+
 namespace furrow {
 
 ShellNodes::ShellNodes(const Matrix3X& start)
@@ -33,17 +35,12 @@ void ShellNodes::drift(double dt) {
     const Vector3 half = 0.5 * dt * w.col(n);
     const double squared = half.squaredNorm();
     if (squared == 0.0) continue;
-    // cos and sin(angle)/angle of half the turn, by series while it is small
-    double cosine, sinc;
-    if (squared < 1e-4) {
-      cosine = 1.0 - squared / 2.0 *
-                         (1.0 - squared / 12.0 * (1.0 - squared / 30.0 * (1.0 - squared / 56.0)));
-      sinc = 1.0 - squared / 6.0 * (1.0 - squared / 20.0 * (1.0 - squared / 42.0));
-    } else {
+    HalfTurn<double> turn = half_turn(squared);
+    if (squared > small_half_turn) {
       const double angle = std::sqrt(squared);
-      cosine = std::cos(angle);
-      sinc = std::sin(angle) / angle;
+      turn = {std::cos(angle), std::sin(angle) / angle};
     }
+    const auto [cosine, sinc] = turn;
     Quaternion turned = Quaternion(cosine, sinc * half.x(), sinc * half.y(), sinc * half.z()) *
                         q[static_cast<std::size_t>(n)];
     turned.normalize();

@@ -3,6 +3,7 @@
 /// A step of a tyre's nodes, several at once: damping, kick and drift in one pass. Included by
 /// kernel units only (simd/lanes.h says why).
 
+#include "core/half_turn.h"
 #include "simd/records.h"
 #include "simd/turn.h"
 #include "tyre/node_step_block.h"
@@ -72,16 +73,10 @@ class NodeGroup {
 FURROW_INLINE Turn turn_by(const Triple& w, double dt) {
   const Triple half = Lanes(0.5 * dt) * w;
   const Lanes squared = dot(half, half);
-  const Lanes one = 1.0;
-  Lanes cosine =
-      one - squared * 0.5 *
-                (one - squared * (1.0 / 12.0) *
-                           (one - squared * (1.0 / 30.0) * (one - squared * (1.0 / 56.0))));
-  Lanes sinc =
-      one - squared * (1.0 / 6.0) * (one - squared * (1.0 / 20.0) * (one - squared * (1.0 / 42.0)));
-  const Mask large = squared > Lanes(1e-4);
+  auto [cosine, sinc] = half_turn(squared);
+  const Mask large = squared > Lanes(small_half_turn);
   if (any(large)) {
-    const Lanes angle = sqrt(select(large, squared, one));
+    const Lanes angle = sqrt(select(large, squared, Lanes(1.0)));
     cosine = select(large, per_lane(angle, [](double a) { return __builtin_cos(a); }), cosine);
     sinc = select(large, per_lane(angle, [](double a) { return __builtin_sin(a); }) / angle, sinc);
   }
