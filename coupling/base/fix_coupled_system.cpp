@@ -13,10 +13,10 @@
 #include "atom.h"
 #include "core/error.h"
 #include "coupling/base/fix_order.h"
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/base/furrow_fix.h"
 #include "coupling/base/grain_check.h"
-#include "coupling/base/has_options.h"
+#include "coupling/liggghts/has_options.h"
 #include "coupling/base/restart_record.h"
 #include "coupling/base/uses_fix.h"
 #include "coupling/bodies/fix_mesh_body.h"
@@ -25,6 +25,7 @@
 #include "coupling/liggghts/global_properties.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/stream_check.h"
+#include "coupling/liggghts/style_registry.h"
 #include "modify.h"
 #include "update.h"
 
@@ -55,6 +56,8 @@ std::string text_of(const std::map<std::string, std::string>& properties) {
 }
 
 }  // namespace
+
+const StyleRow system_style = fix_style<FixCoupledSystem>("furrow/system", "internal", "");
 
 FixCoupledSystem::FixCoupledSystem(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : Fix(lammps, narg, arg),

@@ -25,7 +25,7 @@
 #include "coupling/base/motion_controller.h"
 #include "coupling/checks/scene_checks.h"
 #include "coupling/liggghts/saved_histories.h"
-#include "coupling/styles.h"
+#include "coupling/liggghts/style_registry.h"
 #include "fix.h"
 
 namespace furrow::coupling {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "coupling/base/has_options.h"
+#include "coupling/liggghts/has_options.h"
 
 namespace furrow::coupling {
 

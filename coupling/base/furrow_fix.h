@@ -9,7 +9,7 @@
 ///                          before this one
 ///   - what the coupled system shall call: contribute(body | contact | controller)
 ///   - its state:           checkpoint(), and keep_state()
-/// The class comes into the table of styles (styles.cpp), its page beside it.
+/// Its source file adds a row to the table of styles (style_registry.h); its page lies next to it.
 
 #include <functional>
 #include <string>
@@ -21,8 +21,8 @@
 #include "bodies/contact.h"
 #include "core/checkpoint.h"
 #include "core/outputs.h"
-#include "coupling/base/find_fix.h"
-#include "coupling/base/has_options.h"
+#include "coupling/liggghts/find_fix.h"
+#include "coupling/liggghts/has_options.h"
 #include "coupling/base/motion_controller.h"
 #include "coupling/base/uses_fix.h"
 #include "coupling/liggghts/errors.h"
@@ -66,7 +66,7 @@ class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix {
   // --------------------------------------------------
   /// The fix named by a keyword. @throws InputError
   template <class Wanted>
-  Wanted& use(const std::string& key, const std::vector<Kind>& kinds) {
+  Wanted& use(const std::string& key, const std::vector<std::string>& kinds) {
     Wanted& fix = find_fix<Wanted>(*lmp, options_, key, kinds);
     used_.push_back(&fix);
     return fix;

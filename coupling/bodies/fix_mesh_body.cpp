@@ -6,9 +6,10 @@
 #include <fmt/format.h>
 
 #include "atom.h"
+#include "coupling/liggghts/style_registry.h"
 #include "geometry/weld.h"
 #include "core/error.h"
-#include "coupling/base/find_fix.h"
+#include "coupling/liggghts/find_fix.h"
 #include "coupling/base/read_options.h"
 #include "coupling/bodies/fix_body.h"
 #include "coupling/liggghts/access.h"
@@ -27,6 +28,9 @@ constexpr double weld_distance = 1e-9;
 constexpr double skin_share = 0.5;
 
 }  // namespace
+
+const StyleRow mesh_body_style =
+    fix_style<FixMeshBody>("mesh/body", "mesh", "bodies/fix_mesh_body.md");
 
 BodyMesh::BodyMesh(LAMMPS_NS::LAMMPS* lammps, const char* id, const Surface& surface,
                    const Matrix3X& nodes_as_made)
@@ -181,8 +185,7 @@ Schema FixMeshBody::schema() {
 
 FixMeshBody::Arguments::Arguments(LAMMPS_NS::LAMMPS& lammps, int narg, char** arg)
     : options(read_options(lammps, schema(), narg, arg)),
-      body_fix(
-          find_fix<FixBody>(lammps, options, "body", {Kind::wheel, Kind::body, Kind::terrain})),
+      body_fix(find_fix<FixBody>(lammps, options, "body", {"wheel", "body", "terrain"})),
       words{arg[0],
             arg[1],
             "mesh/surface",

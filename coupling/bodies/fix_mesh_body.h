@@ -8,9 +8,9 @@
 #include "bodies/body.h"
 #include "core/options.h"
 #include "coupling/base/fix_order.h"
-#include "coupling/base/has_options.h"
+#include "coupling/liggghts/has_options.h"
 #include "coupling/base/uses_fix.h"
-#include "coupling/styles.h"
+#include "coupling/liggghts/style_registry.h"
 #include "fix_mesh_surface.h"
 #include "tri_mesh.h"
 

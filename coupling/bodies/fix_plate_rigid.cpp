@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/bodies/fix_plate_rigid.h"
 
+#include "coupling/liggghts/style_registry.h"
+
 namespace furrow::coupling {
+
+const StyleRow plate_rigid_style =
+    fix_style<FixPlateRigid>("plate/rigid", "body", "bodies/fix_plate_rigid.md");
 
 Schema FixPlateRigid::schema() {
   Schema schema = RigidPlate::schema("fix plate/rigid");

@@ -6,6 +6,7 @@
 #include "atom.h"
 #include "core/communicator.h"
 #include "coupling/liggghts/script.h"
+#include "coupling/liggghts/style_registry.h"
 #include "io/brick_tyre_file.h"
 
 namespace furrow::coupling {
@@ -29,6 +30,9 @@ std::unique_ptr<WheelHub> make_brick_tyre(LAMMPS_NS::LAMMPS& lammps, const Optio
 }
 
 }  // namespace
+
+const StyleRow tyre_brick_style =
+    fix_style<FixTyreBrick>("tyre/brick", "wheel", "bodies/fix_tyre_brick.md");
 
 Schema FixTyreBrick::schema() {
   Schema schema("fix tyre/brick");

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "coupling/liggghts/style_registry.h"
 #include "io/sidewall_cache.h"
 #include "io/tyre_file.h"
 
@@ -48,6 +49,9 @@ std::unique_ptr<WheelHub> make_darnell_tyre(LAMMPS_NS::LAMMPS& lammps, const Opt
 }
 
 }  // namespace
+
+const StyleRow tyre_darnell_style =
+    fix_style<FixTyreDarnell>("tyre/darnell", "wheel", "bodies/fix_tyre_darnell.md");
 
 Schema FixTyreDarnell::schema() {
   Schema schema("fix tyre/darnell");

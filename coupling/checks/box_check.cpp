@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/bodies/fix_body.h"
 #include "coupling/terrain/fix_bed_window.h"
 #include "domain.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/checks/driven_bodies.h"
 
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/bodies/fix_plate_rigid.h"
 #include "coupling/bodies/fix_wheel_hub.h"
 #include "coupling/drive/fix_wheel_rig.h"

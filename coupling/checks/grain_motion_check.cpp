@@ -10,7 +10,7 @@
 #include "core/communicator.h"
 #include "core/error.h"
 #include "core/types.h"
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/checks/lost_grains_check.h"
 #include "coupling/contact/fix_wall_gran_body.h"
 #include "coupling/contact/grain_bed_check.h"

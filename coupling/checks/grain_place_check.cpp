@@ -13,7 +13,7 @@
 #include "core/communicator.h"
 #include "core/error.h"
 #include "coupling/base/fix_coupled_system.h"
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/bodies/fix_mesh_body.h"
 #include "coupling/checks/grain_motion_check.h"
 #include "coupling/checks/lost_grains_check.h"

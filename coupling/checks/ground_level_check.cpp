@@ -14,7 +14,7 @@
 #include "core/communicator.h"
 #include "core/error.h"
 #include "coupling/base/fix_coupled_system.h"
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/checks/driven_bodies.h"
 #include "coupling/checks/touch_check.h"
 #include "coupling/contact/fix_contact_continuum.h"

@@ -5,7 +5,7 @@
 
 #include "atom.h"
 #include "core/communicator.h"
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/terrain/fix_bed_window.h"
 
 namespace furrow::coupling {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/checks/box_check.h"
 #include "coupling/checks/grain_motion_check.h"
 #include "coupling/checks/grain_place_check.h"

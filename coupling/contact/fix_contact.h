@@ -17,8 +17,7 @@ class FixContact : public FurrowFix {
  protected:
   /// @param schema with the key of declare_body()
   FixContact(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema)
-      : FurrowFix(lammps, narg, arg, schema),
-        body_fix_(use<FixBody>("body", {Kind::wheel, Kind::body})) {
+      : FurrowFix(lammps, narg, arg, schema), body_fix_(use<FixBody>("body", {"wheel", "body"})) {
     if (body().surface().triangle_count() == 0)
       throw InputError(options().where("body"),
                        fmt::format("is '{}', which has no surface", options().text("body")),

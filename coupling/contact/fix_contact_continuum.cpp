@@ -5,9 +5,13 @@
 
 #include "core/error.h"
 #include "coupling/base/refuse_double.h"
+#include "coupling/liggghts/style_registry.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
 
 namespace furrow::coupling {
+
+const StyleRow contact_continuum_style = fix_style<FixContactContinuum>(
+    "contact/continuum", "contact", "contact/fix_contact_continuum.md", {"contact/bodies"});
 
 Schema FixContactContinuum::schema() {
   Schema schema = ContactParameters::schema("fix contact/continuum");
@@ -43,7 +47,7 @@ const Outputs<FixContactContinuum>& FixContactContinuum::outputs() {
 
 /// A half body needs half the terrain with the same plane of symmetry, y = 0.
 FixTerrainContinuum& FixContactContinuum::find_terrain() {
-  auto& fix = use<FixTerrainContinuum>("terrain", {Kind::terrain});
+  auto& fix = use<FixTerrainContinuum>("terrain", {"terrain"});
   refuse_double<FixContactContinuum>(
       *modify, options().subject(), fmt::format("presses '{}' on '{}'", body_fix().id, fix.id),
       "one contact for each pair", [&](FixContactContinuum& other) {

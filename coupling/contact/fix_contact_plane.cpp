@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "coupling/base/refuse_double.h"
+#include "coupling/liggghts/style_registry.h"
 #include "tyre/tyre.h"
 #include "update.h"
 
@@ -35,6 +36,9 @@ double touching_area(const RigidPlane& plane) {
 }
 
 }  // namespace
+
+const StyleRow contact_plane_style =
+    fix_style<FixContactPlane>("contact/plane", "contact", "contact/fix_contact_plane.md");
 
 Schema FixContactPlane::schema() {
   Schema schema("fix contact/plane");

@@ -11,13 +11,14 @@
 #include "contact_interface.h"
 #include "core/error.h"
 #include "coupling/base/fix_coupled_system.h"
-#include "coupling/base/fixes_of.h"
-#include "coupling/base/has_options.h"
+#include "coupling/liggghts/fixes_of.h"
+#include "coupling/liggghts/has_options.h"
 #include "coupling/base/settings_check.h"
 #include "coupling/bodies/fix_mesh_body.h"
 #include "coupling/contact/sheet_check.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/errors.h"
+#include "coupling/liggghts/style_registry.h"
 #include "coupling/liggghts/wall_meshes.h"
 #include "fix_neighlist_mesh.h"
 #include "geometry/winding_number.h"
@@ -35,6 +36,9 @@ constexpr double max_overlap_at_start = 0.1;
 constexpr long sheet_check_every = 100;  // steps
 
 }  // namespace
+
+const StyleRow wall_gran_body_style =
+    fix_style<FixWallGranBody>("wall/gran/body", "wall", "contact/fix_wall_gran_body.md");
 
 FixWallGranBody::FixWallGranBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixWallGran(lammps, checked(*lammps, narg, arg), arg) {

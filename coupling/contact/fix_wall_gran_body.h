@@ -8,7 +8,7 @@
 
 #include "coupling/base/uses_fix.h"
 #include "coupling/contact/grain_bed_check.h"
-#include "coupling/styles.h"
+#include "coupling/liggghts/style_registry.h"
 #include "fix_wall_gran.h"
 #include "geometry/closest_feature.h"
 

@@ -13,10 +13,11 @@
 #include "bodies/wheel_hub.h"
 #include "core/error.h"
 #include "coupling/base/fix_coupled_system.h"
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/liggghts/first_rank.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/signals.h"
+#include "coupling/liggghts/style_registry.h"
 #include "coupling/output/fix_wheel_history.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
 #include "domain.h"
@@ -51,6 +52,9 @@ std::vector<std::string> reasons(const Summary& summary, double target) {
 }
 
 }  // namespace
+
+const StyleRow run_until_steady_style =
+    command_style<CommandRunUntilSteady>("run_until_steady", "drive/command_run_until_steady.md");
 
 Schema CommandRunUntilSteady::schema() {
   Schema schema("command run_until_steady");

@@ -5,11 +5,12 @@
 
 #include "core/error.h"
 #include "coupling/base/fix_coupled_system.h"
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/bodies/fix_wheel_hub.h"
 #include "coupling/contact/fix_contact_continuum.h"
 #include "coupling/drive/tilted_gravity.h"
 #include "coupling/liggghts/script.h"
+#include "coupling/liggghts/style_registry.h"
 #include "coupling/terrain/fix_bed_window.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
 #include "update.h"
@@ -38,6 +39,9 @@ WheelRig make_rig(const Options& options, FixWheelHub& wheel_fix) {
 }
 
 }  // namespace
+
+const StyleRow wheel_rig_style =
+    fix_style<FixWheelRig>("wheel/rig", "rig", "drive/fix_wheel_rig.md");
 
 Schema FixWheelRig::schema() {
   Schema schema = WheelRig::schema("fix wheel/rig");
@@ -121,7 +125,7 @@ void FixWheelRig::warn_of_short_ramps() {
 
 /// The wheel of the keyword, if no other rig has it.
 FixWheelHub& FixWheelRig::find_free_wheel() {
-  auto& wheel = use<FixWheelHub>("wheel", {Kind::wheel});
+  auto& wheel = use<FixWheelHub>("wheel", {"wheel"});
   for (FixWheelRig* other : fixes_of<FixWheelRig>(*modify))
     if (&other->wheel_fix() == &wheel)
       throw InputError(options().where("wheel"),

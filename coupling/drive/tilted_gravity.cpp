@@ -2,7 +2,7 @@
 #include "coupling/drive/tilted_gravity.h"
 
 #include "atom.h"
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
 #include "fix_gravity.h"
 #include "lammps.h"

@@ -17,6 +17,7 @@
 #include "coupling/base/refuse_double.h"
 #include "coupling/grains/model_snow_bond.h"
 #include "coupling/liggghts/global_properties.h"
+#include "coupling/liggghts/style_registry.h"
 #include "coupling/liggghts/vector.h"
 #include "domain.h"
 #include "fix_gravity.h"
@@ -26,6 +27,9 @@
 #include "update.h"
 
 namespace furrow::coupling {
+
+const StyleRow grain_work_style =
+    fix_style<FixGrainWork>("grain/work", "bed", "grains/fix_grain_work.md");
 
 Schema FixGrainWork::schema() {
   Schema schema("fix grain/work");
@@ -66,7 +70,7 @@ const Outputs<FixGrainWork>& FixGrainWork::outputs() {
 
 FixGrainWork::FixGrainWork(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FurrowFix(lammps, narg, arg, schema()),
-      body_(use<FixBody>("body", {Kind::wheel, Kind::body}).body()),
+      body_(use<FixBody>("body", {"wheel", "body"}).body()),
       level_(options().number("level")),
       every_(options().integer("every")) {
   refuse_double<FixGrainWork>(*modify, options().subject(), "counts the work between grains",

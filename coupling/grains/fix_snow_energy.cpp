@@ -5,8 +5,12 @@
 #include "coupling/base/checkpoint_totals.h"
 #include "coupling/base/refuse_double.h"
 #include "coupling/grains/model_snow_bond.h"
+#include "coupling/liggghts/style_registry.h"
 
 namespace furrow::coupling {
+
+const StyleRow snow_energy_style =
+    fix_style<FixSnowEnergy>("snow/energy", "snow", "grains/fix_snow_energy.md");
 
 const Outputs<FixSnowEnergy>& FixSnowEnergy::outputs() {
   using Fix = FixSnowEnergy;

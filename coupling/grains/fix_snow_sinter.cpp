@@ -4,8 +4,12 @@
 #include "atom.h"
 #include "coupling/base/refuse_double.h"
 #include "coupling/grains/model_snow_bond.h"
+#include "coupling/liggghts/style_registry.h"
 
 namespace furrow::coupling {
+
+const StyleRow snow_sinter_style =
+    fix_style<FixSnowSinter>("snow/sinter", "snow", "grains/fix_snow_sinter.md");
 
 FixSnowSinter::FixSnowSinter(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FurrowFix(lammps, narg, arg, schema()) {

@@ -9,7 +9,7 @@
 
 #include "atom.h"
 #include "core/error.h"
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/contact/time_step_check.h"
 #include "coupling/grains/fix_snow_energy.h"
 #include "coupling/grains/fix_snow_sinter.h"
@@ -18,6 +18,7 @@
 #include "coupling/liggghts/errors.h"
 #include "coupling/liggghts/global_properties.h"
 #include "coupling/liggghts/script.h"
+#include "coupling/liggghts/style_registry.h"
 #include "coupling/liggghts/vector.h"
 #include "fix_property_global.h"
 #include "force.h"
@@ -56,6 +57,8 @@ SnowBondParameters read_parameters(LAMMPS_NS::LAMMPS& lammps, int type, int othe
 }
 
 }  // namespace
+
+const StyleRow snow_bond_style = model_style<ModelSnowBond>("grains/model_snow_bond.md");
 
 Schema ModelSnowBond::schema() { return SnowBondParameters::schema(); }
 

@@ -15,6 +15,7 @@
 #include "coupling/checks/step_check.h"
 #include "coupling/contact/time_step_check.h"
 #include "coupling/liggghts/script.h"
+#include "coupling/liggghts/style_registry.h"
 #include "domain.h"
 #include "modify.h"
 #include "update.h"
@@ -34,6 +35,9 @@ constexpr double largest_stress = 10.0;  // of the stiffness
 constexpr double min_steps_of_response = 5.0;
 
 }  // namespace
+
+const StyleRow cell_servo_style =
+    fix_style<FixCellServo>("cell/servo", "laboratory", "laboratory/fix_cell_servo.md");
 
 Schema FixCellServo::schema() {
   Schema schema("fix cell/servo");

@@ -14,6 +14,7 @@
 #include "coupling/checks/step_check.h"
 #include "coupling/liggghts/box_motion.h"
 #include "coupling/liggghts/script.h"
+#include "coupling/liggghts/style_registry.h"
 #include "update.h"
 
 namespace furrow::coupling {
@@ -23,6 +24,9 @@ namespace {
 constexpr double largest_travel_of_step = 0.1;  // of the radius of the smallest grain
 
 }  // namespace
+
+const StyleRow layer_shear_style =
+    fix_style<FixLayerShear>("layer/shear", "laboratory", "laboratory/fix_layer_shear.md");
 
 Schema FixLayerShear::schema() {
   Schema schema("fix layer/shear");

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "atom.h"
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "fix_property_global.h"
 
 namespace furrow::coupling {

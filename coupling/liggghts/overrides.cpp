@@ -14,7 +14,7 @@
 #include "coupling/liggghts/library_check.h"
 #include "coupling/liggghts/signals.h"
 #include "coupling/liggghts/stream_check.h"
-#include "coupling/styles.h"
+#include "coupling/liggghts/style_registry.h"
 #include "dump.h"
 #include "error.h"
 #include "fix.h"

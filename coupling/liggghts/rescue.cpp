@@ -10,7 +10,7 @@
 #include <mpi.h>
 #include <unistd.h>
 
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/liggghts/flushes_on_error.h"
 
 namespace furrow::coupling {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "atom.h"
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/liggghts/contact_history.h"
 #include "fix_contact_history_mesh.h"
 #include "fix_property_atom.h"

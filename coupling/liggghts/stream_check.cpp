@@ -9,7 +9,7 @@
 
 #include "core/communicator.h"
 #include "core/error.h"
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/checked_stream.h"
 #include "coupling/liggghts/first_rank.h"

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "coupling/base/refuse_double.h"
 #include "coupling/base/fix_coupled_system.h"
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/output/results_folder.h"
 #include "coupling/output/style_records.h"

@@ -13,8 +13,9 @@
 #include "atom.h"
 #include "comm.h"
 #include "coupling/base/fix_coupled_system.h"
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/bodies/fix_tyre.h"
+#include "coupling/liggghts/style_registry.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
 #include "update.h"
 
@@ -38,6 +39,9 @@ std::string count_text(double count) {
 }
 
 }  // namespace
+
+const StyleRow progress_style =
+    fix_style<FixProgress>("progress", "progress", "output/fix_progress.md");
 
 Schema FixProgress::schema() {
   Schema schema("fix progress");

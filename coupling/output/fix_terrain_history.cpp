@@ -2,6 +2,7 @@
 #include "coupling/output/fix_terrain_history.h"
 
 #include "comm.h"
+#include "coupling/liggghts/style_registry.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
 #include "coupling/terrain/terrain_outputs.h"
 #include "mpm/terrain_snapshot.h"
@@ -21,6 +22,9 @@ std::vector<Channel> channels() {
 
 }  // namespace
 
+const StyleRow terrain_history_style =
+    fix_style<FixTerrainHistory>("terrain/history", "history", "output/fix_terrain_history.md");
+
 Schema FixTerrainHistory::schema() {
   Schema schema("fix terrain/history");
   schema.text("terrain", "id of the fix of the terrain that is recorded");
@@ -33,7 +37,7 @@ OutputTable FixTerrainHistory::outputs() { return {"channel", channels()}; }
 
 FixTerrainHistory::FixTerrainHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixHistory(lammps, narg, arg, schema()),
-      terrain_fix_(use<FixTerrainContinuum>("terrain", {Kind::terrain})) {}
+      terrain_fix_(use<FixTerrainContinuum>("terrain", {"terrain"})) {}
 
 void FixTerrainHistory::open(std::optional<double> resume_time) {
   if (comm->me != 0) return;

@@ -9,10 +9,11 @@
 #include "comm.h"
 #include "core/error.h"
 #include "coupling/base/fix_coupled_system.h"
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/base/refuse_double.h"
 #include "coupling/bodies/fix_wheel_hub.h"
 #include "coupling/contact/fix_contact_plane.h"
+#include "coupling/liggghts/style_registry.h"
 #include "coupling/liggghts/vector.h"
 #include "coupling/output/results_folder.h"
 #include "io/csv_file.h"
@@ -39,6 +40,9 @@ const std::vector<Channel>& arc_channels() {
 
 }  // namespace
 
+const StyleRow wheel_arc_style =
+    fix_style<FixWheelArc>("wheel/arc", "history", "output/fix_wheel_arc.md");
+
 Schema FixWheelArc::schema() {
   Schema schema("fix wheel/arc");
   schema.text("wheel", "id of the fix of the wheel or tyre");
@@ -52,7 +56,7 @@ OutputTable FixWheelArc::outputs() { return {"column", arc_channels()}; }
 
 FixWheelArc::FixWheelArc(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FurrowFix(lammps, narg, arg, schema()),
-      wheel_fix_(use<FixWheelHub>("wheel", {Kind::wheel})),
+      wheel_fix_(use<FixWheelHub>("wheel", {"wheel"})),
       arc_(wheel_fix_.hub(), static_cast<std::size_t>(options().integer("sectors"))),
       every_(options().integer("every")),
       columns_(arc_channels().size()) {

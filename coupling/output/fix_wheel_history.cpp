@@ -6,12 +6,13 @@
 #include "atom.h"
 #include "comm.h"
 #include "coupling/base/fix_coupled_system.h"
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/contact/fix_contact_continuum.h"
 #include "coupling/contact/fix_contact_plane.h"
 #include "coupling/drive/fix_wheel_rig.h"
 #include "coupling/bodies/fix_wheel_hub.h"
 #include "coupling/grains/fix_grain_work.h"
+#include "coupling/liggghts/style_registry.h"
 #include "coupling/output/gather_grains.h"
 #include "coupling/output/grain_virial.h"
 #include "coupling/terrain/fix_terrain_continuum.h"
@@ -19,6 +20,9 @@
 #include "update.h"
 
 namespace furrow::coupling {
+
+const StyleRow wheel_history_style =
+    fix_style<FixWheelHistory>("wheel/history", "history", "output/fix_wheel_history.md");
 
 Schema FixWheelHistory::schema() {
   Schema schema("fix wheel/history");
@@ -29,7 +33,7 @@ Schema FixWheelHistory::schema() {
 }
 
 FixWheelHistory::FixWheelHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixHistory(lammps, narg, arg, schema()), rig_fix_(use<FixWheelRig>("rig", {Kind::rig})) {}
+    : FixHistory(lammps, narg, arg, schema()), rig_fix_(use<FixWheelRig>("rig", {"rig"})) {}
 
 OutputTable FixWheelHistory::outputs() { return {"channel", WheelRig::channels()}; }
 

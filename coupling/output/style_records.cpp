@@ -4,10 +4,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "coupling/base/fixes_of.h"
-#include "coupling/base/has_options.h"
+#include "coupling/liggghts/fixes_of.h"
+#include "coupling/liggghts/has_options.h"
 #include "coupling/liggghts/script.h"
-#include "coupling/styles.h"
+#include "coupling/liggghts/style_registry.h"
 #include "coupling/terrain/command_bed.h"
 #include "group.h"
 
@@ -17,14 +17,14 @@ std::vector<StyleRecord> style_records(LAMMPS_NS::LAMMPS& lammps) {
   std::vector<StyleRecord> records;
   const auto bed = bed_line(lammps);
   if (!bed.empty()) {
-    StyleRecord record{"", "", "bed", name_of(find_style("bed")->kind), {}};
+    StyleRecord record{"", "", "bed", find_style("bed")->kind, {}};
     for (const auto& [name, value] : bed) record.options.push_back({name, {typed_value(value)}});
     records.push_back(std::move(record));
   }
   for (const auto* described : fixes_of<const HasOptions>(*lammps.modify)) {
     const LAMMPS_NS::Fix& fix = as_fix(*described);
     if (const Style* style = find_style(style_of(fix)))
-      records.push_back({fix.id, lammps.group->names[fix.igroup], style->name, name_of(style->kind),
+      records.push_back({fix.id, lammps.group->names[fix.igroup], style->name, style->kind,
                          typed_values(described->options())});
   }
   return records;

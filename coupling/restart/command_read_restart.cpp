@@ -9,11 +9,15 @@
 
 #include "core/error.h"
 #include "coupling/liggghts/checkpoint_file.h"
+#include "coupling/liggghts/style_registry.h"
 #include "coupling/restart/fix_expected_states.h"
 #include "domain.h"
 #include "read_restart.h"
 
 namespace furrow::coupling {
+
+const StyleRow read_restart_style =
+    command_style<CommandReadRestart>("read_restart", "restart/command_read_restart.md");
 
 Schema CommandReadRestart::schema() {
   Schema schema("command read_restart");

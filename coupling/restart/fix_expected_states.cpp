@@ -10,6 +10,7 @@
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/errors.h"
 #include "coupling/liggghts/script.h"
+#include "coupling/liggghts/style_registry.h"
 #include "modify.h"
 
 namespace furrow::coupling {
@@ -19,6 +20,9 @@ namespace {
 constexpr char expected_id[] = "furrow_expected_states";
 
 }  // namespace
+
+const StyleRow expected_states_style =
+    fix_style<FixExpectedStates>("furrow/expected_states", "internal", "");
 
 FixExpectedStates::FixExpectedStates(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : Fix(lammps, narg, arg) {

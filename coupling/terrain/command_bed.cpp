@@ -17,6 +17,7 @@
 #include "coupling/liggghts/first_rank.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/signals.h"
+#include "coupling/liggghts/style_registry.h"
 #include "coupling/terrain/bed_choice.h"
 #include "coupling/terrain/bed_facts.h"
 #include "coupling/terrain/bed_limits.h"
@@ -75,6 +76,8 @@ void check_folder(const fs::path& folder) {
 }
 
 }  // namespace
+
+const StyleRow bed_style = command_style<CommandBed>("bed", "terrain/command_bed.md");
 
 Schema CommandBed::schema() {
   Schema schema("command bed");

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/options.h"
-#include "coupling/styles.h"
+#include "coupling/liggghts/style_registry.h"
 #include "coupling/terrain/bed_script.h"
 #include "pointers.h"
 

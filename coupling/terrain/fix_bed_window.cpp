@@ -10,10 +10,11 @@
 #include "atom.h"
 #include "core/communicator.h"
 #include "core/error.h"
-#include "coupling/base/fixes_of.h"
+#include "coupling/liggghts/fixes_of.h"
 #include "coupling/base/refuse_double.h"
 #include "coupling/bodies/fix_body.h"
 #include "coupling/liggghts/exchange_buffer.h"
+#include "coupling/liggghts/style_registry.h"
 #include "domain.h"
 #include "geometry/closest_feature.h"
 #include "modify.h"
@@ -29,6 +30,9 @@ constexpr double seam_overlap = 0.05;
 constexpr double same_place = 1e-6;  // of a slab: where terrain and bed begin
 
 }  // namespace
+
+const StyleRow bed_window_style =
+    fix_style<FixBedWindow>("bed/window", "bed", "terrain/fix_bed_window.md");
 
 Schema FixBedWindow::schema() {
   Schema schema("fix bed/window");
@@ -58,7 +62,7 @@ const Outputs<FixBedWindow>& FixBedWindow::outputs() {
 
 FixBedWindow::FixBedWindow(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FurrowFix(lammps, narg, arg, schema()),
-      body_(use<FixBody>("body", {Kind::wheel, Kind::body}).body()),
+      body_(use<FixBody>("body", {"wheel", "body"}).body()),
       behind_(options().number("behind")),
       slabs_(options().integer("slabs")),
       slab_length_(domain->prd[0] / static_cast<double>(slabs_)) {
@@ -75,7 +79,7 @@ FixBedWindow::FixBedWindow(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
         fmt::format("{:.4g} (half the body) to {:.4g} m (box less half the body less two slabs)",
                     half, longest),
         "make the bed longer, or cut it into more slabs");
-  if (options().given("terrain")) terrain_ = &use<FixTerrainContinuum>("terrain", {Kind::terrain});
+  if (options().given("terrain")) terrain_ = &use<FixTerrainContinuum>("terrain", {"terrain"});
   check_terrain();
   refuse_double<FixBedWindow>(*modify, options().subject(), "renews the bed of the box",
                               "one bed/window", [](FixBedWindow&) { return true; });

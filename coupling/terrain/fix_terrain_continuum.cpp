@@ -8,11 +8,12 @@
 
 #include "comm.h"
 #include "core/error.h"
-#include "coupling/base/find_fix.h"
+#include "coupling/liggghts/find_fix.h"
 #include "coupling/base/read_options.h"
 #include "coupling/base/refuse_double.h"
 #include "coupling/bodies/fix_wheel_hub.h"
 #include "coupling/liggghts/script.h"
+#include "coupling/liggghts/style_registry.h"
 #include "domain.h"
 #include "io/terrain_input.h"
 #include "update.h"
@@ -27,7 +28,7 @@ constexpr long check_every = 100;     // steps between looks at the energy
 // [J/kg] of the terrain, its weight lifted by 0.1 mm: below it an imbalance does not matter
 constexpr double energy_floor = 1e-3;
 constexpr double same_length = 1e-6;  // of a cell: ground and period of the box
-const std::vector<Kind> followable = {Kind::wheel, Kind::body};
+const std::vector<std::string> followable = {"wheel", "body"};
 
 /// Of ground that follows one wheel: by what the wheel's line says, not by where the wheel is, so
 /// that it is the same when a run is continued.
@@ -62,6 +63,9 @@ std::unique_ptr<Body> make_terrain(LAMMPS_NS::LAMMPS& lammps, const Options& opt
 }
 
 }  // namespace
+
+const StyleRow terrain_continuum_style = fix_style<FixTerrainContinuum>(
+    "terrain/continuum", "terrain", "terrain/fix_terrain_continuum.md");
 
 Schema FixTerrainContinuum::schema(const std::optional<GroundSize>& size) {
   Schema schema = terrain_schema("fix terrain/continuum", size);

@@ -9,9 +9,9 @@
 
 #include "core/error.h"
 #include "core/options.h"
-#include "coupling/base/fixes_of.h"
-#include "coupling/base/has_options.h"
-#include "coupling/styles.h"
+#include "coupling/liggghts/fixes_of.h"
+#include "coupling/liggghts/has_options.h"
+#include "coupling/liggghts/style_registry.h"
 #include "lammps.h"
 
 namespace furrow::coupling {
@@ -21,7 +21,7 @@ namespace furrow::coupling {
 /// @throws InputError when there is no fix of that id, or one of another class
 template <class Wanted>
 Wanted& find_fix(LAMMPS_NS::LAMMPS& lammps, const Options& options, const std::string& key,
-                 const std::vector<Kind>& kinds) {
+                 const std::vector<std::string>& kinds) {
   const std::string& id = options.text(key);
   LAMMPS_NS::Modify& modify = *lammps.modify;
   LAMMPS_NS::Fix* fix = modify.find_fix_id(id.c_str());
