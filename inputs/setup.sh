@@ -52,6 +52,7 @@ build_furrow() {
   # switching back and forth would compile for nothing.
   [ ! -f "$furrow_build/CMakeCache.txt" ] || at_first=()
   grep -qs 'FURROW_TESTS:BOOL=ON' "$furrow_build/CMakeCache.txt" && tests=ON
+  [ -z "${FURROW_WERROR:-}" ] || furrow_options+=(-D FURROW_WERROR="$FURROW_WERROR")
   { cmake -S "$furrow_root" -B "$furrow_build" "${at_first[@]}" -D FURROW_TESTS="$tests" "${furrow_options[@]}" &&
       cmake --build "$furrow_build" --parallel "$(nproc)" --target "$@"; } >"$log" 2>&1 ||
     { show_build_errors "$log"; echo "The build failed; whole log: $log" >&2; exit 1; }
