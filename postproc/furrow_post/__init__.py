@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from .read.results import Results
 
-__version__ = "0.1.0"  # of the whole project: pyproject.toml and CMakeLists.txt read this line
+__version__ = "0.2.0"  # of the whole project: pyproject.toml and CMakeLists.txt read this line
 
 # Said here, before any module imports them, and imported first by programs that need them
 # themselves: a program then ends with one line.
