@@ -19,7 +19,7 @@ __version__ = "0.2.0"  # of the whole project: pyproject.toml and CMakeLists.txt
 
 # Said here, before any module imports them, and imported first by programs that need them
 # themselves: a program then ends with one line.
-_absent = [name for name in ("numpy", "h5py", "matplotlib", "scipy") if not find_spec(name)]
+_absent = [name for name in ("numpy", "h5py", "matplotlib", "scipy", "yaml") if not find_spec(name)]
 if _absent:
     sys.exit(
         f"furrow_post: {sys.executable} has no {', '.join(_absent)}; write 'apt install "

@@ -78,6 +78,7 @@ SUBCOMMANDS = (
     Subcommand(
         "cost", "error against cost of the runs of a scene, and which to take -> cost.png, cost.csv"
     ),
+    Subcommand("study", "the studies under inputs: their runs, tables and the values in pages"),
     Subcommand("plan", "the runs that bring a scene's error down to a goal most cheaply"),
     Subcommand(
         "choose",

@@ -9,9 +9,9 @@ from pathlib import Path
 from support.command import SOURCE
 
 PACKAGE = SOURCE / "postproc" / "furrow_post"
-# A room imports from those before it and from itself; cli stands beside study
+# A room imports from those before it and from itself
 ROOMS = ("", "read", "analyse", "laboratory", "figures", "study", "sweep", "cli")
-FORBIDDEN = {("cli", "study"), ("study", "figures")}
+FORBIDDEN = {("study", "figures")}
 
 
 def modules() -> dict[str, Path]:

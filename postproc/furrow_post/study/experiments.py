@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""inputs/validation/experiments.csv: every value of every study, and how many have which verdict."""
+
+import csv
+import io
+from collections.abc import Iterable
+from pathlib import Path
+
+from .provenance import read_origins
+from .values import VERDICTS, Registry, Value
+
+HEAD = (
+    "# Every value of the studies. error: standard error, empty where it is not known. reference_of:",
+    "# measured, report (computed by the source), formula, ours. label: fitted (the value was used in a",
+    "# fit), known (measured value known before the model was fixed), blind. verdict: agrees, within",
+    "# 10 % or twice the error of the reference; near, within 25 %; differs; met or missed, of a limit;",
+    "# inconclusive, where twice the errors decide, or allow more than 25 %. program: commit of the",
+    "# source tree that made the runs, + with uncommitted changes. Written by furrow-post study --pages.",
+)
+
+
+def path_of(root: Path) -> Path:
+    return root / "inputs" / "validation" / "experiments.csv"
+
+
+def commits(value: Value) -> str:
+    """Of the source trees that made the table of a value, "+" with changes; empty where not known."""
+    if value.stored is None:
+        return ""
+    table = value.stored.table
+    origin = read_origins(table.parent).get(table.name)
+    return " ".join(dict.fromkeys(origin.commit.split())) if origin else ""
+
+
+def experiments_text(registry: Registry) -> str:
+    """The content of the file. @raises ResultsError"""
+    rows = [{**value.row(), "program": commits(value)} for value in registry]
+    file = io.StringIO()
+    file.writelines(f"{line}\n" for line in HEAD)
+    writer = csv.DictWriter(file, list(rows[0]) if rows else ["id"], lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return file.getvalue()
+
+
+def counts(values: Iterable[Value]) -> str:
+    """How many values have which verdict."""
+    found = [value.verdict() for value in values]
+    parts = [f"{found.count(name)} {name}" for name in VERDICTS if name in found]
+    return f"{len(found)} values: {', '.join(parts)}."

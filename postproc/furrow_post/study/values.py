@@ -1,0 +1,281 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The values of a study: where each one is stored, its error, its reference and its verdict.
+
+`values` in a study.yaml lists them. A value is the number in one column of the one row of a table
+that has the given texts. The tables lie beside the study.yaml.
+"""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from ..csv_table import read_rows
+from ..errors import ResultsError, content_of
+
+DEFINITION = "study.yaml"
+RESULTS = "results.csv"  # table of a value that names none
+LABELS = ("fitted", "known", "blind")
+REFERENCES = ("measured", "report", "formula", "ours")  # who gives the reference
+AGREES, NEAR = 0.10, 0.25  # relative differences
+COVERAGE = 2.0  # standard errors within which values may differ
+
+# Verdicts
+AGREE, MET, CLOSE, DIFFERS, MISSED = "agrees", "met", "near", "differs", "missed"
+INCONCLUSIVE, NOTHING = "inconclusive", "nothing to compare"
+NOT_DONE, OUTSIDE = "not done", "outside"
+VERDICTS = (AGREE, MET, CLOSE, DIFFERS, MISSED, INCONCLUSIVE, NOTHING, NOT_DONE, OUTSIDE)
+NEED_REASON = (CLOSE, DIFFERS, MISSED, NOT_DONE, OUTSIDE)
+
+
+def verdict_of(value: float, error: float, reference: float, reference_error: float = 0.0) -> str:
+    """Of a value that should be equal to its reference; errors are standard errors, 0: not known.
+
+    Values agree within 10 % of the reference, or within the scatter of the measurement. A value
+    that only its own error brings within reach of the reference is inconclusive, and so is every
+    agreement that would allow more than 25 %.
+    """
+    off, scale = abs(value - reference), abs(reference)
+    allowed = max(AGREES * scale, COVERAGE * reference_error)
+    reach = max(allowed, COVERAGE * math.hypot(error, reference_error))
+    if off <= reach:
+        return AGREE if off <= allowed and reach <= NEAR * scale else INCONCLUSIVE
+    return CLOSE if off <= NEAR * scale else DIFFERS
+
+
+def limit_verdict(value: float, error: float, reference: float, upper: bool) -> str:
+    """Of a value that should not be above (upper) or below its reference."""
+    inside = reference - value if upper else value - reference
+    if abs(inside) < COVERAGE * error:
+        return INCONCLUSIVE
+    return MET if inside >= 0.0 else MISSED
+
+
+@cache
+def table_rows(path: Path) -> list[dict[str, str]]:
+    return read_rows(path)
+
+
+@dataclass(frozen=True)
+class Stored:
+    """One number of a study's table: that of a column in the one row with these texts."""
+
+    table: Path
+    row: Mapping[str, str]
+    column: str
+    scale: float = 1.0
+
+    def read(self, folder: Path | None = None) -> float:
+        """folder: another one with the same tables. @raises ResultsError"""
+        path = folder / self.table.name if folder else self.table
+        if not path.is_file():
+            raise ResultsError(f"{path}: no such table; furrow-post study {path.parent} writes it")
+        rows = table_rows(path)
+        found = [r for r in rows if all(r.get(name) == text for name, text in self.row.items())]
+        if len(found) != 1:
+            raise ResultsError(f"{path}: {len(found)} rows have {dict(self.row)}, one is needed")
+        try:
+            return self.scale * float(found[0][self.column])
+        except (KeyError, ValueError) as error:
+            raise ResultsError(
+                f"{path}: no number in column '{self.column}' of {self.row}"
+            ) from error
+
+
+@dataclass(frozen=True)
+class Value:
+    """A number of a study, and what it is compared with.
+
+    reference: a number, or another stored one; limit: "upper" or "lower" where the reference is
+    one; without: verdict of an entry that nothing was computed for.
+    """
+
+    id: str
+    stored: Stored | None = None
+    error: float | Stored | None = None  # standard error
+    next: Stored | None = None  # the same with the next size of cells: its distance is the error
+    unit: str = ""
+    place: str = ""  # page, table or figure of the source
+    group: str = ""
+    what: str = ""
+    quantity: str = ""
+    reference: float | Stored | None = None
+    reference_error: float = 0.0
+    reference_of: str = ""
+    limit: str = ""
+    label: str = "known"
+    reason: str = ""
+    remark: str = ""
+    hours: str = ""  # [h] that the source's computation took
+    cost: Stored | None = None  # [s] of one core
+    cheap: bool = False  # the test of seconds repeats it
+    without: str = NOT_DONE
+
+    @property
+    def study(self) -> str:
+        return self.id.partition(".")[0]
+
+    def computed(self, folder: Path | None = None) -> float | None:
+        return self.stored.read(folder) if self.stored else None
+
+    def uncertainty(self) -> float | None:
+        """Standard error of the computed value; None where it is not known."""
+        if isinstance(self.error, Stored):
+            return abs(self.error.read())
+        if self.error is not None or self.next is None or self.stored is None:
+            return self.error
+        return abs(self.next.read() - self.stored.read())
+
+    def expected(self) -> float | None:
+        return self.reference.read() if isinstance(self.reference, Stored) else self.reference
+
+    def verdict(self, folder: Path | None = None) -> str:
+        value, expected = self.computed(folder), self.expected()
+        if value is None:
+            return self.without
+        if expected is None:
+            return NOTHING
+        error = self.uncertainty() or 0.0
+        if self.limit:
+            return limit_verdict(value, error, expected, self.limit == "upper")
+        return verdict_of(value, error, expected, self.reference_error)
+
+    def row(self) -> dict[str, str]:
+        """Of experiments.csv."""
+        cost = self.cost.read() if self.cost else None
+        verdict = self.verdict()
+        return {
+            "id": self.id,
+            "group": self.group,
+            "source": self.place,
+            "what": self.what,
+            "quantity": self.quantity,
+            "unit": self.unit,
+            "computed": number(self.computed(), 4),
+            "error": number(self.uncertainty(), 2),
+            "reference": number(self.expected(), 4),
+            "reference_error": number(self.reference_error or None, 2),
+            "reference_of": self.reference_of,
+            "limit": self.limit,
+            "label": self.label if self.stored and self.reference is not None else "",
+            "verdict": verdict,
+            "study": self.study,
+            "hours": self.hours,
+            "core_s": number(cost),
+            "remark": self.remark,
+            "reason": self.reason if verdict in NEED_REASON else "",
+        }
+
+
+def number(value: float | None, digits: int = 3) -> str:
+    """Rounded to so many digits, without an exponent; empty for None."""
+    if value is None:
+        return ""
+    text = f"{float(f'{value:.{digits}g}'):f}"
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+# ---- study.yaml
+
+
+def load_yaml(path: Path) -> dict[str, Any]:
+    """The mapping of a study.yaml. @raises ResultsError"""
+    try:
+        with content_of(path, "a study is described in YAML"), open(path, encoding="utf-8") as file:
+            content = yaml.load(file, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    except yaml.YAMLError as error:
+        raise ResultsError(f"{path}: {' '.join(str(error).split())}; correct the YAML") from error
+    if not isinstance(content, dict):
+        raise ResultsError(f"{path}: is no mapping; a study has keys such as title, cases, values")
+    return content
+
+
+@dataclass(frozen=True)
+class _Reader:
+    """Turns entries of `values` into Values; folder: of the study."""
+
+    folder: Path
+    name: str
+
+    def stored(self, entry: Any, like: Stored | None, key: str) -> Stored:
+        """entry: a mapping with table, row, column, scale; what it lacks is as in like."""
+        if not isinstance(entry, Mapping):
+            entry = {"column": entry}
+        unknown = set(entry) - {"table", "row", "column", "scale"}
+        if unknown:
+            raise ResultsError(
+                f"{self.folder / DEFINITION}: {key} has unknown keys {sorted(unknown)}; "
+                "allowed are table, row, column, scale"
+            )
+        table = entry.get("table") or (like.table.name if like else RESULTS)
+        row = entry.get("row", like.row if like else {})
+        return Stored(
+            self.folder / str(table),
+            {str(name): str(text) for name, text in row.items()},
+            str(entry.get("column") or (like.column if like else "")),
+            float(entry.get("scale", like.scale if like else 1.0)),
+        )
+
+    def value(self, entry: Mapping[str, Any]) -> Value:
+        known = {item.name for item in fields(Value)} | {"table", "row", "column", "scale"}
+        where = f"{self.folder / DEFINITION}: value '{entry.get('id', '')}'"
+        if unknown := set(entry) - known:
+            raise ResultsError(f"{where} has unknown keys {sorted(unknown)}; allowed are {sorted(known)}")
+        if not entry.get("id"):
+            raise ResultsError(f"{where} has no id; give each value one")
+        given = {k: v for k, v in entry.items() if k not in ("table", "row", "column", "scale")}
+        given["id"] = f"{self.name}.{entry['id']}"
+        stored = self.stored(
+            {k: entry[k] for k in ("table", "row", "column", "scale") if k in entry}, None, where
+        ) if "column" in entry else None
+        given["stored"] = stored
+        for key in ("error", "next", "reference", "cost"):
+            if key in given and not isinstance(given[key], (int, float)):
+                one = self.stored(given[key], stored, f"{where}: {key}")
+                if key == "cost" and isinstance(given[key], str):  # in seconds, whatever the value
+                    one = Stored(one.table, one.row, one.column)
+                given[key] = one
+        value = Value(**given)
+        for key, allowed in (("label", LABELS), ("reference_of", ("", *REFERENCES)),
+                             ("limit", ("", "upper", "lower")), ("without", VERDICTS)):
+            if getattr(value, key) not in allowed:
+                raise ResultsError(f"{where}: {key} is one of {', '.join(filter(None, allowed))}")
+        return value
+
+
+def values_of(folder: Path) -> list[Value]:
+    """Of the study in this folder. @raises ResultsError"""
+    reader = _Reader(folder, folder.name)
+    return [reader.value(entry) for entry in load_yaml(folder / DEFINITION).get("values") or []]
+
+
+def study_folders(root: Path) -> list[Path]:
+    """All folders below the inputs of a project that hold a study."""
+    return sorted(path.parent for path in (root / "inputs").rglob(DEFINITION))
+
+
+class Registry:
+    """The values of all studies by their id. @raises ResultsError where two have the same"""
+
+    def __init__(self, values: Sequence[Value]) -> None:
+        self.values: dict[str, Value] = {}
+        for value in values:
+            if value.id in self.values:
+                raise ResultsError(f"two values are called '{value.id}'; rename one of them")
+            self.values[value.id] = value
+
+    @classmethod
+    def of(cls, root: Path) -> "Registry":
+        return cls([value for folder in study_folders(root) for value in values_of(folder)])
+
+    def __iter__(self) -> Iterator[Value]:
+        return iter(self.values.values())
+
+    def __getitem__(self, id: str) -> Value:
+        if id not in self.values:
+            raise ResultsError(f"no value is called '{id}'; inputs/validation/experiments.csv lists all")
+        return self.values[id]

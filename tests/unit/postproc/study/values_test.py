@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Values of studies: verdicts, entries of study.yaml, and values in pages."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+from furrow_post.cli.study import write_pages
+from furrow_post.errors import ResultsError
+from furrow_post.study.pages import shown, stale_pages, with_values
+from furrow_post.study.provenance import read_origins
+from furrow_post.study.values import (
+    NEED_REASON,
+    Registry,
+    Value,
+    limit_verdict,
+    study_folders,
+    values_of,
+    verdict_of,
+)
+from support.command import SOURCE
+
+
+class VerdictTest(unittest.TestCase):
+    def test_equal_values(self) -> None:
+        for expected, value, error, reference_error in (
+            ("agrees", 10.9, 0.0, 0.0),
+            ("near", 12.0, 0.0, 0.0),
+            ("differs", 13.0, 0.0, 0.0),
+            ("agrees", 12.0, 0.0, 1.0),  # within the scatter of the measurement
+            ("inconclusive", 12.0, 1.1, 0.0),  # only a large error reaches the reference
+            ("inconclusive", 10.5, 2.0, 0.0),  # an agreement that would allow 40 %
+            ("inconclusive", 12.0, 0.0, 2.0),
+            ("differs", 15.0, 1.0, 0.0),
+        ):
+            with self.subTest(value=value, error=error, reference_error=reference_error):
+                self.assertEqual(verdict_of(value, error, 10.0, reference_error), expected)
+
+    def test_a_larger_error_never_makes_a_value_agree(self) -> None:
+        for value in (9.0, 10.5, 11.5, 13.0):
+            verdicts = [verdict_of(value, error, 10.0) for error in (0.0, 0.2, 0.5, 1.0, 3.0)]
+            if verdicts[0] != "agrees":
+                self.assertNotIn("agrees", verdicts)
+
+    def test_limits_use_the_error(self) -> None:
+        for expected, value, error, upper in (
+            ("met", 9.0, 0.0, True),
+            ("missed", 11.0, 0.0, True),
+            ("met", 11.0, 0.4, False),
+            ("missed", 9.0, 0.4, False),
+            ("inconclusive", 9.5, 0.4, True),
+            ("inconclusive", 10.5, 0.4, True),
+        ):
+            with self.subTest(value=value, upper=upper):
+                self.assertEqual(limit_verdict(value, error, 10.0, upper), expected)
+
+
+class Study:
+    """A project with one study in a temporary folder."""
+
+    def __init__(self, test: unittest.TestCase, values: str, table: str) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        test.addCleanup(temporary.cleanup)
+        self.root = Path(temporary.name)
+        self.folder = self.root / "inputs" / "plate"
+        self.folder.mkdir(parents=True)
+        (self.folder / "study.yaml").write_text(values, encoding="utf-8")
+        (self.folder / "results.csv").write_text(table, encoding="utf-8")
+
+    def registry(self) -> Registry:
+        return Registry.of(self.root)
+
+
+TABLE = "run,z,e\na,0.1234,0.0031\nb,0.130,\nc,5,\nc,6,\n"
+ENTRY = "values:\n  - {{id: z, row: {{run: {run}}}, column: z, scale: 100, unit: cm{more}}}\n"
+
+
+class EntryTest(unittest.TestCase):
+    def value(self, more: str = "", run: str = "a") -> Value:
+        return Study(self, ENTRY.format(run=run, more=more), TABLE).registry()["plate.z"]
+
+    def test_a_value_is_scaled_and_its_error_too(self) -> None:
+        for more, error in ((", error: e", 0.31), (", error: 0.5", 0.5), ("", None)):
+            value = self.value(more)
+            self.assertAlmostEqual(value.computed() or 0, 12.34)
+            self.assertAlmostEqual(value.uncertainty() or 0, error or 0)
+
+    def test_the_error_of_the_next_size_is_the_distance(self) -> None:
+        value = self.value(", next: {row: {run: b}}, reference: 12, reference_of: measured")
+        self.assertAlmostEqual(value.uncertainty() or 0, 0.66)
+        self.assertEqual(value.verdict(), "agrees")
+
+    def test_a_reference_may_be_stored_too(self) -> None:
+        value = self.value(", reference: {row: {run: b}}, limit: upper, reference_of: formula")
+        self.assertAlmostEqual(value.expected() or 0, 13.0)
+        self.assertEqual(value.verdict(), "met")
+
+    def test_mistakes_are_refused(self) -> None:
+        for more, run, message in (
+            ("", "c", "2 rows have"),
+            ("", "d", "0 rows have"),
+            (", error: none", "a", "no number in column 'none'"),
+            (", lable: known", "a", "unknown keys"),
+            (", label: guessed", "a", "label is one of fitted, known, blind"),
+            (", limit: above", "a", "limit is one of upper, lower"),
+            (", next: {rows: 1}", "a", "unknown keys"),
+        ):
+            with self.subTest(more=more, run=run), self.assertRaisesRegex(ResultsError, message):
+                value = self.value(more, run)
+                value.row()
+
+    def test_two_values_of_one_name_are_refused(self) -> None:
+        entry = ENTRY.format(run="a", more="")
+        with self.assertRaisesRegex(ResultsError, "two values are called 'plate.z'"):
+            Study(self, entry + entry.partition("\n")[2], TABLE).registry()
+
+
+class PagesTest(unittest.TestCase):
+    def setUp(self) -> None:
+        more = ", error: e, reference: 12.5, reference_of: measured"
+        self.study = Study(self, ENTRY.format(run="a", more=more), TABLE)
+
+    def test_a_value_is_rounded_to_its_error(self) -> None:
+        value = self.study.registry()["plate.z"]
+        for form, text in (
+            ("", "12.3 ± 0.3"),
+            ("value", "12.3"),
+            ("error", "0.3"),
+            ("reference", "12.5"),
+            ("verdict", "agrees"),
+        ):
+            self.assertEqual(shown(value, form), text)
+
+    def test_a_page_gets_the_stored_values(self) -> None:
+        page = self.study.root / "page.md"
+        page.write_text("z <!-- value: plate.z -->?<!-- end value --> cm\n", encoding="utf-8")
+        stale = stale_pages(self.study.root, self.study.registry())
+        expected = "z <!-- value: plate.z -->12.3 ± 0.3<!-- end value --> cm\n"
+        self.assertEqual(stale, {page: expected})
+        page.write_text(expected, encoding="utf-8")
+        self.assertEqual(stale_pages(self.study.root, self.study.registry()), {})
+
+    def test_mistakes_in_a_page_are_refused(self) -> None:
+        for text, message in (
+            ("<!-- value: plate.y -->1<!-- end value -->", "no value is called 'plate.y'"),
+            ("<!-- value: plate.z -->1", "no '<!-- end value -->'"),
+            ("<!-- value: plate.z big -->1<!-- end value -->", "after the name may come"),
+        ):
+            with self.subTest(text), self.assertRaisesRegex(ResultsError, message):
+                with_values(text, self.study.registry())
+
+
+class StoredTest(unittest.TestCase):
+    """The studies of the project."""
+
+    def test_pages_and_experiments_have_the_stored_values(self) -> None:
+        from_studies = Registry.of(SOURCE)
+        self.assertGreater(len(list(from_studies)), 200)
+        write_pages(SOURCE, check=True)
+
+    def test_what_does_not_agree_has_a_reason(self) -> None:
+        for value in Registry.of(SOURCE):
+            if value.verdict() in NEED_REASON:
+                with self.subTest(value.id):
+                    self.assertTrue(value.reason)
+
+    def test_every_table_has_its_origin(self) -> None:
+        for folder in study_folders(SOURCE):
+            tables = {value.stored.table.name for value in values_of(folder) if value.stored}
+            self.assertLessEqual(tables, set(read_origins(folder)), folder)
+
+
+if __name__ == "__main__":
+    unittest.main()
