@@ -63,7 +63,7 @@ FixCoupledSystem::FixCoupledSystem(LAMMPS_NS::LAMMPS* lammps, int narg, char** a
     : Fix(lammps, narg, arg),
       communicator_(&world),
       grain_forces_(*lammps),
-      scene_checks_(*lammps) {
+      scene_watch_(watch_scene(*lammps)) {
   if (id != std::string(system_id) || narg > 3)
     throw InputError("fix furrow/system", "is written in the script", "no such line",
                      "remove it: the fix of the first body makes it");
@@ -131,7 +131,7 @@ void FixCoupledSystem::init() {
   with_collective_errors(*error, [&] { check_fix_order(*modify, *this); });
   with_collective_errors(*error, [&] { check_restored_fixes(); });
   with_local_errors(*error, [&] { check_grains_finite(*lmp); });
-  with_collective_errors(*error, [&] { scene_checks_.before_run(); });
+  with_collective_errors(*error, [&] { scene_watch_->before_run(); });
 }
 
 /// What the checkpoint keeps and the script does not have is lost; what the script has and the
@@ -250,7 +250,7 @@ void FixCoupledSystem::initial_integrate(int) {
       } catch (const StateError& problem) {
         throw StateError(fmt::format("fix {}: {}", each.name, problem.what()));
       }
-    scene_checks_.after_step(advance_bodies());
+    scene_watch_->after_step(advance_bodies());
     time_ += update->dt;
     clear_forces();
   });
@@ -262,12 +262,12 @@ int FixCoupledSystem::advance_bodies() try {
   sub_steps_ += sub_steps;
   return sub_steps;
 } catch (const StateError& problem) {
-  throw StateError(problem.what() + scene_checks_.likely_cause());
+  throw StateError(problem.what() + scene_watch_->likely_cause());
 }
 
 void FixCoupledSystem::post_run() {
   with_collective_errors(*error, [&] {
-    scene_checks_.after_run();
+    scene_watch_->after_run();
     check_streams(*lmp);
   });
 }

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,7 @@
 #include "coupling/base/grain_forces.h"
 #include "coupling/base/momentum_audit.h"
 #include "coupling/base/motion_controller.h"
-#include "coupling/checks/scene_checks.h"
+#include "coupling/base/scene_watch.h"
 #include "coupling/liggghts/saved_histories.h"
 #include "coupling/liggghts/style_registry.h"
 #include "fix.h"
@@ -145,7 +146,7 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   std::vector<double> buffer_;
   GrainForces grain_forces_;
   SavedHistories saved_histories_;
-  SceneChecks scene_checks_;
+  std::unique_ptr<SceneWatch> scene_watch_;
   double time_ = 0.0, sub_steps_ = 0.0;
   bool restored_ = false;
   ForceState forces_ = ForceState::partial;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/base/grain_check.h"
 
+#include <string>
+
 #include <fmt/format.h>
 
 #include "atom.h"
@@ -45,5 +47,11 @@ void check_velocities_finite(const LAMMPS_NS::LAMMPS& lammps) {
   const LAMMPS_NS::Atom& atom = *lammps.atom;
   if (atom.nlocal > 0 && !all_finite(atom.v[0], 3 * atom.nlocal)) refuse(lammps);
 }
+
+bool moves_grains(const LAMMPS_NS::Fix& fix) {
+  return fix.time_integrate != 0 || std::string(fix.style).rfind("multisphere", 0) == 0;
+}
+
+bool freezes_grains(const LAMMPS_NS::Fix& fix) { return fix.style == std::string("freeze"); }
 
 }  // namespace furrow::coupling

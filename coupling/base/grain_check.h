@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Are all grains where a grain can be?
+/// Are all grains where a grain can be, and what moves them?
 
+#include "fix.h"
 #include "lammps.h"
 
 namespace furrow::coupling {
@@ -13,5 +14,10 @@ void check_grains_finite(const LAMMPS_NS::LAMMPS& lammps);
 /// The same between steps, where velocities tell all: a position goes wrong only through its
 /// velocity.
 void check_velocities_finite(const LAMMPS_NS::LAMMPS& lammps);
+
+/// LIGGGHTS's multisphere, in all its forms, moves its clumps without saying so by its flag.
+bool moves_grains(const LAMMPS_NS::Fix& fix);
+/// Takes all forces off a group, so that its grains are meant to stand still.
+bool freezes_grains(const LAMMPS_NS::Fix& fix);
 
 }  // namespace furrow::coupling

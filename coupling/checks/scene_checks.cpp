@@ -1,75 +1,167 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/checks/scene_checks.h"
 
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+#include <type_traits>
+
 #include <fmt/format.h>
 
+#include "core/error.h"
+#include "coupling/base/fix_coupled_system.h"
 #include "coupling/liggghts/fixes_of.h"
-#include "coupling/checks/box_check.h"
-#include "coupling/checks/grain_motion_check.h"
-#include "coupling/checks/grain_place_check.h"
-#include "coupling/checks/ground_level_check.h"
-#include "coupling/checks/lost_grains_check.h"
-#include "coupling/checks/properties_check.h"
-#include "coupling/checks/resolution_check.h"
-#include "coupling/checks/run_command_check.h"
-#include "coupling/checks/schedule_check.h"
-#include "coupling/checks/speed_check.h"
-#include "coupling/checks/step_check.h"
-#include "coupling/checks/touch_check.h"
-#include "coupling/contact/fix_wall_gran_body.h"
-#include "coupling/contact/time_step_check.h"
+#include "coupling/base/scene_watch.h"
 #include "coupling/liggghts/script.h"
 #include "update.h"
 
 namespace furrow::coupling {
 
-SceneChecks::SceneChecks(LAMMPS_NS::LAMMPS& lammps) : lammps_(lammps), box_(edges_of_box(lammps)) {}
+double Scene::time() const { return FixCoupledSystem::of(lammps).time(); }
+double Scene::step() const { return lammps.update->dt; }
+double Scene::end() const { return time() + step() * static_cast<double>(lammps.update->nsteps); }
 
-void SceneChecks::say(const std::string& warning) {
-  if (said_.insert(warning).second) warn(lammps_, warning);
-}
+namespace {
 
-void SceneChecks::after_step(int sub_steps) {
-  const Warn warn = [this](const std::string& text) { say(text); };
-  if (first_step_) {
-    check_weight(lammps_, warn);
-    warn_of_grains_without_floor(lammps_, warn);
+constexpr LAMMPS_NS::bigint watch_every = 100;  // steps
+
+using Report = std::function<void(const Finding&)>;
+
+/// Applies a rule to all that it looks at: the scene, each fix of a class or each driven body.
+template <auto rule>
+struct Apply;
+template <Found (*rule)(const Scene&)>
+struct Apply<rule> {
+  static void to(const Scene& scene, const Report& report) {
+    if (const Found found = rule(scene)) report(*found);
   }
-  first_step_ = false;
-  if (slow_step_.empty() && sub_steps > many_sub_steps) slow_step_ = check_sub_steps(lammps_, warn);
+};
+template <class Item, Found (*rule)(const Scene&, Item&)>
+struct Apply<rule> {
+  static void to(const Scene& scene, const Report& report) {
+    const LAMMPS_NS::Modify& modify = *scene.lammps.modify;
+    if constexpr (std::is_same_v<Item, const DrivenBody>) {
+      for (Item& body : driven_bodies(modify))
+        if (const Found found = rule(scene, body)) report(*found);
+    } else {
+      for (Item* fix : fixes_of<Item>(modify))
+        if (const Found found = rule(scene, *fix)) report(*found);
+    }
+  }
+};
+
+enum class When {
+  set_up,      ///< before every run, also one of no steps, of a scene that may not be complete
+  before_run,  ///< of one step or more
+  first_step,  ///< of a run
+  during_run,  ///< in the first step and in every one that watch_every divides
+  after_run,
+};
+
+struct Rule {
+  When when;
+  void (*apply)(const Scene&, const Report&);
+};
+
+template <auto function>
+constexpr Rule rule(When when) {
+  return {when, Apply<function>::to};
 }
 
-std::string SceneChecks::likely_cause() const {
-  return slow_step_.empty() ? "" : fmt::format("; a likely cause: {}", slow_step_);
-}
+/// Within one time they are applied in this order; the first refusal ends the run.
+constexpr Rule rules[] = {
+    rule<run_has_whole_numbers>(When::set_up),
+    rule<stock_wall_has_no_body>(When::set_up),
+    rule<moved_mesh_has_no_body>(When::set_up),
 
-void SceneChecks::after_run() {
-  warn_of_lost_grains(lammps_, grains_, [this](const std::string& text) { say(text); });
-}
+    rule<timestep_is_given>(When::before_run),
+    rule<timestep_is_no_zero>(When::before_run),
+    rule<step_suits_grains>(When::before_run),
+    rule<properties_are_not_negative>(When::before_run),
+    rule<sub_steps_are_few>(When::before_run),
+    rule<box_is_as_it_was>(When::before_run),
+    rule<grains_turn>(When::before_run),
+    rule<one_fix_moves_a_grain>(When::before_run),
+    rule<bed_has_one_weight>(When::before_run),
+    rule<some_fix_moves_a_grain>(When::before_run),
+    rule<grains_are_above_terrain>(When::before_run),
+    rule<mesh_is_in_a_wall>(When::before_run),
+    rule<something_presses_on_terrain>(When::before_run),
+    rule<sheet_is_in_a_wall>(When::before_run),
+    rule<half_terrain_has_half_the_grains>(When::before_run),
+    rule<body_touches_something>(When::before_run),
+    rule<bodies_are_apart>(When::before_run),
+    rule<plane_is_below_terrain>(When::before_run),
+    rule<body_sets_off>(When::before_run),
+    rule<body_comes_to_its_speed>(When::before_run),
+    rule<terrain_is_wide_enough>(When::before_run),
+    rule<terrain_is_long_enough>(When::before_run),
+    rule<cells_show_the_body>(When::before_run),
+    rule<body_is_over_terrain>(When::before_run),
+    rule<cells_enter_grooves>(When::before_run),
+    rule<waves_outrun_body>(When::before_run),
+    rule<body_passes_no_grain_in_a_step>(When::before_run),
+    rule<body_starts_at_the_ground>(When::before_run),
+    rule<ground_level_is_the_ground>(When::before_run),
 
-void SceneChecks::before_run() {
-  const Warn warn = [this](const std::string& text) { say(text); };
-  grains_ = count_grains(lammps_);
-  first_step_ = true;
-  check_run_command(lammps_);
-  check_mesh_walls(lammps_);
-  check_mesh_motion(lammps_);
-  if (lammps_.update->nsteps == 0) return;  // a set-up: the scene may not be complete yet
-  check_step_length(lammps_);
-  for (const auto* wall : fixes_of<const FixWallGranBody>(*lammps_.modify))
-    check_time_step(lammps_, fmt::format("fix wall/gran/body '{}'", wall->id));
-  check_contact_properties(lammps_);
-  slow_step_ = check_sub_steps(lammps_, warn);
-  warn_of_changed_box(lammps_, box_, warn);
-  check_grain_motion(lammps_, warn);
-  check_grains_in_terrain(lammps_, warn);
-  warn_of_bodies_that_touch_nothing(lammps_, warn);
-  warn_of_bodies_in_one_place(lammps_, warn);
-  warn_of_planes_in_terrain(lammps_, warn);
-  check_schedules(lammps_, warn);
-  check_ground_under_bodies(lammps_, warn);
-  check_speeds(lammps_, warn);
-  check_ground_levels(lammps_, warn);
+    rule<weight_pulls_down>(When::first_step),
+    rule<grains_have_a_floor>(When::first_step),
+    rule<body_stays_off_the_sheet>(When::during_run),
+
+    rule<grains_stay_in_the_box>(When::after_run),
+};
+
+class SceneChecks : public SceneWatch {
+ public:
+  explicit SceneChecks(LAMMPS_NS::LAMMPS& lammps) : scene_{lammps, edges_of_box(lammps)} {}
+
+  void before_run() override {
+    scene_.grains = count_grains(scene_.lammps);
+    first_step_ = true;
+    likely_cause_.clear();
+    apply(When::set_up);
+    if (scene_.lammps.update->nsteps > 0) apply(When::before_run);
+  }
+
+  /// A body may come to need shorter steps while it is deformed.
+  void after_step(int sub_steps) override {
+    if (first_step_) apply(When::first_step);
+    if (first_step_ || scene_.lammps.update->ntimestep % watch_every == 0) apply(When::during_run);
+    first_step_ = false;
+    if (likely_cause_.empty() && sub_steps > many_sub_steps)
+      if (const Found found = sub_steps_are_few(scene_)) report(*found);
+  }
+
+  void after_run() override { apply(When::after_run); }
+
+  std::string likely_cause() const override {
+    return likely_cause_.empty() ? "" : fmt::format("; a likely cause: {}", likely_cause_);
+  }
+
+ private:
+  void apply(When when) {
+    for (const Rule& rule : rules)
+      if (rule.when == when) rule.apply(scene_, [this](const Finding& found) { report(found); });
+  }
+
+  /// A warning comes once, however many runs there are.
+  void report(const Finding& found) {
+    if (found.stops) throw InputError(found.text);
+    if (found.explains_errors) likely_cause_ = found.text;
+    if (warned_.insert(found.text).second) warn(scene_.lammps, found.text);
+  }
+
+  Scene scene_;
+  std::set<std::string> warned_;
+  std::string likely_cause_;
+  bool first_step_ = false;  // of the run, comes next
+};
+
+}  // namespace
+
+std::unique_ptr<SceneWatch> watch_scene(LAMMPS_NS::LAMMPS& lammps) {
+  return std::make_unique<SceneChecks>(lammps);
 }
 
 }  // namespace furrow::coupling

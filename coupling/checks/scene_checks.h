@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What only the scene as a whole shows: a wheel that touches nothing, cells too wide for it,
-/// grains that nothing moves. furrow/system looks before every run; what one line shows, its fix
-/// refuses itself.
+/// grains that nothing moves. One table of rules (scene_checks.cpp), which furrow/system applies to
+/// every run. What one line shows to be wrong, its fix refuses by itself.
+///
+/// A rule is a function that looks at the scene, at one of its fixes or at one driven body, and
+/// returns a finding or nothing. All ranks call it alike, and it returns the same on all.
 
 #include <array>
-#include <functional>
-#include <set>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "coupling/base/finding.h"
+#include "coupling/bodies/fix_body.h"
+#include "coupling/bodies/fix_mesh_body.h"
+#include "coupling/contact/fix_contact_continuum.h"
+#include "coupling/contact/fix_contact_plane.h"
+#include "coupling/contact/fix_wall_gran_body.h"
+#include "coupling/terrain/fix_terrain_continuum.h"
+#include "fix_gravity.h"
+#include "fix_move_mesh.h"
 #include "lammps.h"
 
 namespace furrow::coupling {
@@ -16,32 +28,96 @@ namespace furrow::coupling {
 /// Edges of the simulation box [m].
 using Box = std::array<double, 6>;
 
-/// Says what may be meant but probably is not.
-using Warn = std::function<void(const std::string&)>;
+struct Scene {
+  LAMMPS_NS::LAMMPS& lammps;
+  Box box_of_bodies;    ///< when the first body was made
+  double grains = 0.0;  ///< of all ranks, at the start of the run
 
-class SceneChecks {
- public:
-  explicit SceneChecks(LAMMPS_NS::LAMMPS& lammps);
-
-  /// All checks; a warning comes once, however many runs there are. Collective.
-  /// @throws StateError, InputError
-  void before_run();
-  /// Collective.
-  void after_run();
-  /// A body may come to need shorter steps while it is deformed. Collective.
-  void after_step(int sub_steps);
-  /// What may be behind an error of this run, as an end of its message; may be empty.
-  std::string likely_cause() const;
-
- private:
-  void say(const std::string& warning);
-
-  LAMMPS_NS::LAMMPS& lammps_;
-  std::set<std::string> said_;
-  std::string slow_step_;    // why steps are slow; empty unless that was said
-  bool first_step_ = false;  // of the run, comes next
-  double grains_ = 0;        // at the start of the run
-  Box box_;                  // when the first body was made
+  double time() const;  ///< [s]
+  double step() const;  ///< [s]
+  double end() const;   ///< of this run [s]
 };
+
+/// A body and the line that drives it: a wheel and its rig, or a plate.
+struct DrivenBody {
+  const FixBody& body;
+  const Options& options;  ///< with the keys "ground_level", "start" and, unless free, "speed"
+  double full_speed;       ///< time from which it has its speed [s]
+  std::string stages;      ///< the keys of the time until then
+};
+std::vector<DrivenBody> driven_bodies(const LAMMPS_NS::Modify& modify);
+
+using Found = std::optional<Finding>;
+
+// ---- lines of the script and the step (step.cpp)
+/// LIGGGHTS takes "ten" for 0 steps and "1e5" for 1.
+Found run_has_whole_numbers(const Scene& scene);
+Found timestep_is_given(const Scene& scene);
+Found timestep_is_no_zero(const Scene& scene);
+/// Bodies take as many sub-steps in a step as their stable step asks for.
+Found sub_steps_are_few(const Scene& scene);
+Found step_suits_grains(const Scene& scene);
+/// Friction below zero would drive the grains, and cohesion push them apart.
+Found properties_are_not_negative(const Scene& scene);
+
+// ---- what moves (motion.cpp)
+/// A mesh/body would return to its body in every step.
+Found moved_mesh_has_no_body(const Scene& scene, LAMMPS_NS::FixMoveMesh& motion);
+/// LIGGGHTS's `nve` leaves out what turns a grain.
+Found grains_turn(const Scene& scene, const LAMMPS_NS::Fix& mover);
+/// A grain that two fixes move goes twice as far.
+Found one_fix_moves_a_grain(const Scene& scene);
+Found bed_has_one_weight(const Scene& scene);
+Found some_fix_moves_a_grain(const Scene& scene);
+/// In a step, when a gravity of variables has its value.
+Found weight_pulls_down(const Scene& scene, LAMMPS_NS::FixGravity& gravity);
+/// A run may be the first of several: warnings.
+Found body_sets_off(const Scene& scene, const DrivenBody& driven);
+Found body_comes_to_its_speed(const Scene& scene, const DrivenBody& driven);
+/// Beyond the waves' speed the ground ahead answers as to an impact, not to a roll.
+Found waves_outrun_body(const Scene& scene, FixContactContinuum& contact);
+Found body_passes_no_grain_in_a_step(const Scene& scene, const DrivenBody& driven);
+
+// ---- where things are (place.cpp)
+Box edges_of_box(const LAMMPS_NS::LAMMPS& lammps);
+/// Grains of all ranks. Collective.
+double count_grains(const LAMMPS_NS::LAMMPS& lammps);
+/// `change_box` moves and stretches grains; bodies and terrain stay.
+Found box_is_as_it_was(const Scene& scene);
+Found grains_are_above_terrain(const Scene& scene, FixTerrainContinuum& terrain);
+/// In a step, when gravity is known: grains with no wall, mesh or standing grain below them.
+Found grains_have_a_floor(const Scene& scene);
+/// After a run: LIGGGHTS drops grains that leave the box without an error.
+Found grains_stay_in_the_box(const Scene& scene);
+/// Two wheels that a copied line has put into one another. @return of the first such body
+Found bodies_are_apart(const Scene& scene, const FixBody& body);
+/// A road below the base is a hard bottom; above it, it carries what the terrain should.
+Found plane_is_below_terrain(const Scene& scene, FixContactContinuum& contact);
+// In the run in which a body sets off; later there is a rut. A continuum and a plane know their
+// level; of grains the highest under the body counts.
+Found body_starts_at_the_ground(const Scene& scene, const DrivenBody& driven);
+Found ground_level_is_the_ground(const Scene& scene, const DrivenBody& driven);
+/// During a run: has a body come through the grains to the sheet of the terrain that carries them?
+Found body_stays_off_the_sheet(const Scene& scene, const FixWallGranBody& wall);
+
+// ---- what touches what (contact.cpp)
+/// Is a mesh of this body in a wall/gran/body?
+bool touches_grains(const LAMMPS_NS::LAMMPS& lammps, const FixBody& body);
+/// A stock wall would move grains without moving the body.
+Found stock_wall_has_no_body(const Scene& scene, const LAMMPS_NS::FixWallGran& wall);
+// A wheel may be meant to be free, and a mesh to be drawn only: warnings.
+Found mesh_is_in_a_wall(const Scene& scene, const FixMeshBody& mesh);
+Found something_presses_on_terrain(const Scene& scene, const FixTerrainContinuum& terrain);
+Found sheet_is_in_a_wall(const Scene& scene, const FixTerrainContinuum& terrain);
+Found half_terrain_has_half_the_grains(const Scene& scene, const FixTerrainContinuum& terrain);
+Found body_touches_something(const Scene& scene, FixBody& body);
+// Is continuum terrain large enough, and fine enough, for what presses on it?
+Found terrain_is_wide_enough(const Scene& scene, FixContactContinuum& contact);
+Found terrain_is_long_enough(const Scene& scene, FixContactContinuum& contact);
+Found cells_show_the_body(const Scene& scene, FixContactContinuum& contact);
+Found body_is_over_terrain(const Scene& scene, FixContactContinuum& contact);
+Found cells_enter_grooves(const Scene& scene, FixContactContinuum& contact);
+
+inline constexpr double many_sub_steps = 100;  ///< beyond, a step of LIGGGHTS is a long pause
 
 }  // namespace furrow::coupling

@@ -15,7 +15,6 @@
 #include "coupling/liggghts/has_options.h"
 #include "coupling/base/settings_check.h"
 #include "coupling/bodies/fix_mesh_body.h"
-#include "coupling/contact/sheet_check.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/errors.h"
 #include "coupling/liggghts/style_registry.h"
@@ -33,7 +32,6 @@ namespace {
 // of its radius: a grain that overlaps a body by more before the first step would be shot out of
 // the bed
 constexpr double max_overlap_at_start = 0.1;
-constexpr long sheet_check_every = 100;  // steps
 
 }  // namespace
 
@@ -170,15 +168,8 @@ const Body* FixWallGranBody::carrying_terrain() const {
   return nullptr;
 }
 
-void FixWallGranBody::refuse_bodies_at_sheet() const {
-  with_collective_errors(*error, [&] {
-    coupling::refuse_bodies_at_sheet(bodies(), fmt::format("fix wall/gran/body '{}'", id));
-  });
-}
-
 void FixWallGranBody::post_force_mesh(int vflag) {
   deepest_ = 0.0;
-  if (update->ntimestep % sheet_check_every == 0) refuse_bodies_at_sheet();
   if (!stock_meshes_.empty()) post_force_stock_meshes(vflag);
   for (int m = 0; m < n_FixMesh_; ++m)
     if (auto* mesh_fix = dynamic_cast<FixMeshBody*>(FixMesh_list_[m]))

@@ -27,6 +27,8 @@ class FixWallGranBody : public LAMMPS_NS::FixWallGran, public UsesFix {
   static OutputTable outputs() { return {}; }
 
   bool uses(const LAMMPS_NS::Fix& other) const override;
+  /// Of its meshes.
+  std::vector<const Body*> bodies() const;
   void setup(int vflag) override;
 
  protected:
@@ -54,8 +56,6 @@ class FixWallGranBody : public LAMMPS_NS::FixWallGran, public UsesFix {
   GrainBedCheck* check_of(int mesh_number);
   void refuse_deep_start() const;
   void refuse_grains_inside() const;
-  void refuse_bodies_at_sheet() const;
-  std::vector<const Body*> bodies() const;
   const Body* carrying_terrain() const;
 
   ContactSelection selection_;

@@ -9,8 +9,8 @@
 
 #include "atom.h"
 #include "core/error.h"
+#include "coupling/base/time_step_check.h"
 #include "coupling/liggghts/fixes_of.h"
-#include "coupling/contact/time_step_check.h"
 #include "coupling/grains/fix_snow_energy.h"
 #include "coupling/grains/fix_snow_sinter.h"
 #include "coupling/grains/snow_overlap_check.h"
@@ -207,10 +207,11 @@ void SnowBondModel::connectToProperties(PropertyRegistry&) {
       for (int other = 1; other <= atom->ntypes; ++other) most = std::max(most, law(type, other).E);
       return most;
     };
-    check_snow_time_step(*lmp, "model snow/bond", stiffest, [this](const std::string& text) {
-      if (text != warned_) warn(*lmp, text);
-      warned_ = text;
-    });
+    const auto found = check_snow_time_step(*lmp, "model snow/bond", stiffest);
+    if (!found) return;
+    if (found->stops) throw furrow::InputError(found->text);
+    if (found->text != warned_) warn(*lmp, found->text);
+    warned_ = found->text;
   });
 }
 

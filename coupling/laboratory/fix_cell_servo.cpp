@@ -11,9 +11,6 @@
 #include "core/communicator.h"
 #include "core/error.h"
 #include "coupling/base/refuse_double.h"
-#include "coupling/checks/grain_motion_check.h"
-#include "coupling/checks/step_check.h"
-#include "coupling/contact/time_step_check.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"
 #include "domain.h"
@@ -151,17 +148,10 @@ void FixCellServo::init() {
   mean_diameter_ = sums[3] > 0.0 ? sums[2] / sums[3] : 0.0;
   modify->compute[modify->find_compute(pressure_id)]->addstep(update->ntimestep + 1);
   collectively([&] {
-    check_time_step(*lmp, name());
-    check_grains();
     check_rates();
     check_stresses();
     check_other_box_changes();
   });
-}
-
-void FixCellServo::check_grains() {
-  check_step_length(*lmp);
-  check_grain_motion(*lmp, [this](const std::string& text) { warn(*lmp, text); });
 }
 
 /// In a step a grain shall not pass its neighbours.

@@ -23,6 +23,8 @@ class FixCellServo : public FurrowFix {
   void end_of_step() override;
 
  private:
+  /// For the rules of the scene (coupling/checks).
+  bool needs_system() const override { return true; }
   struct Axis {
     enum class Control { hold, rate, stress } control = Control::hold;
     // strain rate, compression positive [1/s], or normal stress, compression positive [Pa]
@@ -34,7 +36,6 @@ class FixCellServo : public FurrowFix {
   std::array<double, 3> rates() const;
   double density() const;          // [kg/m^3]
   double inertial_number() const;  // of the cell now
-  void check_grains();
   void check_rates() const;
   void check_stresses() const;
   void check_other_box_changes() const;

@@ -10,8 +10,6 @@
 #include "atom.h"
 #include "core/communicator.h"
 #include "core/error.h"
-#include "coupling/checks/grain_motion_check.h"
-#include "coupling/checks/step_check.h"
 #include "coupling/liggghts/box_motion.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"
@@ -81,11 +79,7 @@ void FixLayerShear::init() {
                        "define the group by a region that holds a layer of grains");
   });
   height_ = sums[0] / sums[1];
-  collectively([&] {
-    check_step_length(*lmp);
-    check_speed();
-    check_grain_motion(*lmp, [this](const std::string& text) { warn(*lmp, text); });
-  });
+  collectively([&] { check_speed(); });
 }
 
 /// In a step the layer shall not pass a grain.

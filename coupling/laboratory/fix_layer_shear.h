@@ -22,6 +22,8 @@ class FixLayerShear : public FurrowFix {
   void final_integrate() override;
 
  private:
+  /// For the rules of the scene (coupling/checks).
+  bool needs_system() const override { return true; }
   void check_speed() const;
 
   double speed_;  // [m/s] along x

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/options.h"
-#include "coupling/contact/time_step_check.h"
+#include "coupling/base/time_step_check.h"
 #include "coupling/terrain/bed_limits.h"
 
 namespace furrow::coupling {

@@ -12,7 +12,7 @@
 #include <sys/resource.h>
 
 #include "core/error.h"
-#include "coupling/contact/time_step_check.h"
+#include "coupling/base/time_step_check.h"
 
 namespace furrow::coupling {
 

@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
-#include "coupling/contact/time_step_check.h"
+#include "coupling/base/time_step_check.h"
 
 namespace furrow::coupling {
 namespace {

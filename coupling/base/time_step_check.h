@@ -3,9 +3,10 @@
 /// Is the step short enough for the stiffness of the grains?
 
 #include <functional>
+#include <optional>
 #include <string>
 
-#include "coupling/checks/scene_checks.h"
+#include "coupling/base/finding.h"
 #include "lammps.h"
 
 namespace furrow::coupling {
@@ -21,11 +22,10 @@ inline constexpr double step_limit = 0.5;
 /// LIGGGHTS's check/timestep/gran uses it too).
 double rayleigh_time(double radius, double density, double young, double poisson);
 
-/// Compares the step with the Rayleigh time of the worst grain. Warns above step_warning of it.
-/// Collective. Without grains, or without the properties youngsModulus and poissonsRatio (contact
-/// models that have none), there is nothing to compare.
-/// @throws StateError above step_limit of it
-void check_time_step(LAMMPS_NS::LAMMPS& lammps, const std::string& where);
+/// Compares the step with the Rayleigh time of the worst grain: a warning above step_warning of it,
+/// a refusal above step_limit. Collective. Without grains, or without the properties youngsModulus
+/// and poissonsRatio (contact models that have none), there is nothing to compare.
+std::optional<Finding> check_time_step(LAMMPS_NS::LAMMPS& lammps, const std::string& where);
 
 // Shares of the contact time of snow (below): at 0.33 strengths are those of shorter steps, at 0.44
 // bonds break of themselves, which nothing else shows.
@@ -38,11 +38,11 @@ inline constexpr double snow_step_limit = 0.33;
 /// sqrt(2.5 Z)/T; leapfrog with dampers is stable to about 0.45 T.
 double snow_contact_time(double radius, double density, double modulus);
 
-/// Compares the step with the contact time of the worst grain; warns above snow_step_warning of it.
-/// Collective.
+/// Compares the step with the contact time of the worst grain: a warning above snow_step_warning of
+/// it, a refusal above snow_step_limit. Collective.
 /// @param modulus  E of the stiffest contact that grains of a type may have [Pa]
-/// @throws StateError above snow_step_limit
-void check_snow_time_step(const LAMMPS_NS::LAMMPS& lammps, const std::string& where,
-                          const std::function<double(int type)>& modulus, const Warn& warn);
+std::optional<Finding> check_snow_time_step(const LAMMPS_NS::LAMMPS& lammps,
+                                            const std::string& where,
+                                            const std::function<double(int type)>& modulus);
 
 }  // namespace furrow::coupling

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/contact/time_step_check.h"
+#include "coupling/base/time_step_check.h"
 
 #include <cmath>
 #include <limits>
@@ -8,9 +8,7 @@
 
 #include "atom.h"
 #include "core/communicator.h"
-#include "core/error.h"
 #include "coupling/liggghts/global_properties.h"
-#include "coupling/liggghts/script.h"
 #include "fix_property_global.h"
 #include "update.h"
 
@@ -45,17 +43,16 @@ double shortest_time(const LAMMPS_NS::LAMMPS& lammps, TimeOfGrain&& time_of_grai
   return -Communicator(&lammps.world).max(-shortest);
 }
 
-/// @throws StateError
-void compare(double step, double shortest, const Measure& measure, const std::string& where,
-             const Warn& warn) {
-  if (std::isinf(shortest)) return;  // no grains
+std::optional<Finding> compare(double step, double shortest, const Measure& measure,
+                               const std::string& where) {
+  if (std::isinf(shortest)) return {};  // no grains
   if (!(shortest > 0.0))
-    throw StateError(where +
-                     ": a grain has a diameter or a density of 0, or no stiffness; write 'set "
-                     "group all diameter "
-                     "<m> density <kg/m3>' with numbers above 0");
+    return Finding{where +
+                       ": a grain has a diameter or a density of 0, or no stiffness; write 'set "
+                       "group all diameter <m> density <kg/m3>' with numbers above 0",
+                   true};
   const double share = step / shortest;
-  if (share <= measure.warning) return;
+  if (share <= measure.warning) return {};
   const std::string finding = fmt::format(
       "{}: timestep {:.4g} s is {:.3g} of {} of the smallest, lightest or stiffest grain, {:.4g} s",
       where, step, share, measure.what, shortest);
@@ -63,8 +60,9 @@ void compare(double step, double shortest, const Measure& measure, const std::st
       fmt::format("write 'timestep {:.2g}' or less, or lower {}",
                   rounded_down(measure.recommended * shortest), measure.stiffness);
   if (!(share <= measure.limit))
-    throw StateError(fmt::format("{} (limit {:g}); {}", finding, measure.limit, remedy));
-  warn(fmt::format("{} (recommended: at most {:g}); {}", finding, measure.warning, remedy));
+    return Finding{fmt::format("{} (limit {:g}); {}", finding, measure.limit, remedy), true};
+  return warning(
+      fmt::format("{} (recommended: at most {:g}); {}", finding, measure.warning, remedy));
 }
 
 }  // namespace
@@ -73,13 +71,14 @@ double snow_contact_time(double radius, double density, double modulus) {
   return 2.0 * radius * std::sqrt(M_PI / 6.0 * density / modulus);
 }
 
-void check_snow_time_step(const LAMMPS_NS::LAMMPS& lammps, const std::string& where,
-                          const std::function<double(int type)>& modulus, const Warn& warn) {
+std::optional<Finding> check_snow_time_step(const LAMMPS_NS::LAMMPS& lammps,
+                                            const std::string& where,
+                                            const std::function<double(int type)>& modulus) {
   const LAMMPS_NS::Atom& atom = *lammps.atom;
   const double shortest = shortest_time(lammps, [&](int i) {
     return snow_contact_time(atom.radius[i], atom.density[i], modulus(atom.type[i]));
   });
-  compare(lammps.update->dt, shortest, snow, where, warn);
+  return compare(lammps.update->dt, shortest, snow, where);
 }
 
 double rayleigh_time(double radius, double density, double young, double poisson) {
@@ -87,10 +86,10 @@ double rayleigh_time(double radius, double density, double young, double poisson
   return M_PI * radius * std::sqrt(density / shear) / (0.1631 * poisson + 0.8766);
 }
 
-void check_time_step(LAMMPS_NS::LAMMPS& lammps, const std::string& where) {
+std::optional<Finding> check_time_step(LAMMPS_NS::LAMMPS& lammps, const std::string& where) {
   auto *young = property_of_types(lammps, "youngsModulus"),
        *poisson = property_of_types(lammps, "poissonsRatio");
-  if (!young || !poisson) return;
+  if (!young || !poisson) return {};
 
   const LAMMPS_NS::Atom& atom = *lammps.atom;
   const double shortest = shortest_time(lammps, [&](int i) {
@@ -98,8 +97,7 @@ void check_time_step(LAMMPS_NS::LAMMPS& lammps, const std::string& where) {
     return rayleigh_time(atom.radius[i], atom.density[i], young->get_values()[type],
                          poisson->get_values()[type]);
   });
-  compare(lammps.update->dt, shortest, rayleigh, where,
-          [&](const std::string& text) { warn(lammps, text); });
+  return compare(lammps.update->dt, shortest, rayleigh, where);
 }
 
 }  // namespace furrow::coupling

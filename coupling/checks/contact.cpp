@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Rules for what touches what: bodies and grains, bodies and a continuum.
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "coupling/liggghts/fixes_of.h"
+#include "coupling/bodies/fix_tyre_brick.h"
+#include "coupling/bodies/fix_wheel_hub.h"
+#include "coupling/checks/scene_checks.h"
+#include "domain.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+constexpr double round_off = 1e-6;  // of a length
+// Cells across a body, and in the radius of a wheel.
+constexpr double min_cells = 2.0, good_cells = 4.0;
+// A polygon is a little narrower than its circle.
+constexpr double nearly = 0.98;
+
+struct Span {
+  double lower, upper;  // [m]
+  double length() const { return upper - lower; }
+};
+
+/// What the check knows of a contact.
+struct Pair {
+  const FixBody& body;
+  const FixTerrainContinuum& terrain;
+  Span body_x, body_y, terrain_x, terrain_y;
+};
+
+/// A half model stands for the whole.
+Pair describe(FixContactContinuum& contact) {
+  const Body& body = contact.body_fix().body();
+  const FixTerrainContinuum& terrain = contact.terrain_fix();
+  const Grid& grid = contact.terrain_fix().terrain().grid();
+  const auto [lower, upper] = body.surface().bounds();
+  const Span y{grid.axis(1).lower(), grid.axis(1).upper()};
+  return {contact.body_fix(),
+          terrain,
+          {lower[0], upper[0]},
+          {body.half_model() ? -upper[1] : lower[1], upper[1]},
+          {grid.axis(0).lower(), grid.axis(0).upper()},
+          {terrain.half_model() ? 2.0 * y.lower - y.upper : y.lower, y.upper}};
+}
+
+bool is_wheel(const FixBody& body) { return dynamic_cast<const FixWheelHub*>(&body) != nullptr; }
+
+/// Cells of an axis within a span, fractions included.
+double cells_within(const Axis& axis, const Span& span) {
+  double count = 0.0;
+  for (int c = 0; c < axis.cells(); ++c) {
+    const double lower = std::max(axis.knot(c), span.lower),
+                 upper = std::min(axis.knot(c + 1), span.upper);
+    count += std::max(0.0, upper - lower) / axis.length(c);
+  }
+  return count;
+}
+
+bool in_a_wall(const LAMMPS_NS::Modify& modify, const FixMeshBody& mesh) {
+  const auto walls = fixes_of<const FixWallGranBody>(modify);
+  return std::any_of(walls.begin(), walls.end(),
+                     [&](const FixWallGranBody* wall) { return wall->uses(mesh); });
+}
+
+bool has_contact(const LAMMPS_NS::Modify& modify, const FixBody& fix) {
+  const auto contacts = fixes_of<const FixContact>(modify);
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [&](const FixContact* contact) { return contact->uses(fix); });
+}
+
+}  // namespace
+
+bool touches_grains(const LAMMPS_NS::LAMMPS& lammps, const FixBody& body) {
+  const auto meshes = fixes_of<const FixMeshBody>(*lammps.modify);
+  return std::any_of(meshes.begin(), meshes.end(), [&](const FixMeshBody* mesh) {
+    return mesh->uses(body) && in_a_wall(*lammps.modify, *mesh);
+  });
+}
+
+Found stock_wall_has_no_body(const Scene&, const LAMMPS_NS::FixWallGran& wall) {
+  if (!wall.is_mesh_wall() || dynamic_cast<const FixWallGranBody*>(&wall)) return {};
+  for (int m = 0; m < wall.n_meshes(); ++m)
+    if (const auto* mesh = dynamic_cast<const FixMeshBody*>(wall.mesh_list()[m]))
+      return refusal(fmt::format("fix {} '{}'", wall.style, wall.id),
+                     fmt::format("holds the mesh/body '{}', and would not hand the forces of "
+                                 "the grains on to its body",
+                                 mesh->id),
+                     "a mesh/body in a wall/gran/body",
+                     "write 'wall/gran/body' in place of 'wall/gran' in that line");
+  return {};
+}
+
+Found mesh_is_in_a_wall(const Scene& scene, const FixMeshBody& mesh) {
+  if (in_a_wall(*scene.lammps.modify, mesh)) return {};
+  return warning(
+      fmt::format("fix mesh/body '{}' is in no wall/gran/body: grains do not feel it; add 'fix "
+                  "<id> all wall/gran/body <contact> mesh n_meshes 1 meshes {}'",
+                  mesh.id, mesh.id));
+}
+
+Found something_presses_on_terrain(const Scene& scene, const FixTerrainContinuum& terrain) {
+  if (has_contact(*scene.lammps.modify, terrain) || touches_grains(scene.lammps, terrain) ||
+      terrain.options().flag("sheet"))
+    return {};
+  return warning(
+      fmt::format("nothing presses on {}: no contact/continuum names it", terrain.name()));
+}
+
+Found sheet_is_in_a_wall(const Scene& scene, const FixTerrainContinuum& terrain) {
+  if (!terrain.options().flag("sheet") || touches_grains(scene.lammps, terrain)) return {};
+  return warning(
+      fmt::format("{} has a sheet that no wall/gran/body holds: grains fall through it; add "
+                  "a mesh/body of it",
+                  terrain.name()));
+}
+
+Found half_terrain_has_half_the_grains(const Scene& scene, const FixTerrainContinuum& terrain) {
+  if (!terrain.half_model() || !touches_grains(scene.lammps, terrain) ||
+      scene.lammps.domain->boxlo[1] >= 0.0)
+    return {};
+  return warning(
+      fmt::format("{} is there for y >= 0 only: grains at y < 0 have nothing below them; "
+                  "write 'symmetry no', or a box and walls that keep them at y >= 0",
+                  terrain.name()));
+}
+
+Found body_touches_something(const Scene& scene, FixBody& body) {
+  if (dynamic_cast<const FixTerrainContinuum*>(&body) || touches_grains(scene.lammps, body) ||
+      has_contact(*scene.lammps.modify, body))
+    return {};
+  return warning(
+      fmt::format("{} touches nothing: there is no contact/continuum or contact/plane of it, "
+                  "and no mesh/body of it in a wall/gran/body; it will feel no force",
+                  body.name()));
+}
+
+Found terrain_is_wide_enough(const Scene&, FixContactContinuum& contact) {
+  const Pair pair = describe(contact);
+  const double body = pair.body_y.length(), ground = pair.terrain_y.length();
+  if (body <= (1.0 + round_off) * ground) return {};
+  return refusal(pair.terrain.options().where("width"),
+                 fmt::format("is {:.4g} m, and '{}', which presses on it, is {:.4g} m wide", ground,
+                             pair.body.id, body),
+                 "ground wider than the body", "two or three times as wide is usual");
+}
+
+/// A wheel touches with less than its diameter.
+Found terrain_is_long_enough(const Scene&, FixContactContinuum& contact) {
+  const Pair pair = describe(contact);
+  const double body = pair.body_x.length(), ground = (1.0 + round_off) * pair.terrain_x.length();
+  if (body <= ground) return {};
+  const std::string where = pair.terrain.options().where("length"),
+                    problem =
+                        fmt::format("is {:.4g} m, and '{}', which presses on it, is {:.4g} m long",
+                                    pair.terrain_x.length(), pair.body.id, body);
+  if ((is_wheel(pair.body) ? 0.5 * body : body) > ground)
+    return refusal(where, problem, "ground longer than the body", "make it longer");
+  return warning(
+      fmt::format("{} {}; its ends will hold the ground: make it longer", where, problem));
+}
+
+Found cells_show_the_body(const Scene&, FixContactContinuum& contact) {
+  const Pair pair = describe(contact);
+  const Grid& grid = contact.terrain_fix().terrain().grid();
+  // Half of the ground has half of the cells.
+  const double across =
+      (pair.terrain.half_model() ? 2.0 : 1.0) * cells_within(grid.axis(1), pair.body_y);
+  const bool wheel = is_wheel(pair.body);
+  const double along = (wheel ? 0.5 : 1.0) * pair.body_x.length() / grid.axis(0).shortest();
+  const double fewest = std::min(across, along);
+  if (fewest >= nearly * good_cells) return {};
+  const std::string where = pair.terrain.options().where("cell");
+  const std::string problem = fmt::format(
+      "is {:.4g} m: {:.2g} cells across '{}' and {:.2g} {}", pair.terrain.options().number("cell"),
+      across, pair.body.id, along, wheel ? "in its radius" : "along it");
+  const std::string remedy = "choose smaller cells, and a larger fine_width if there is one";
+  if (fewest < nearly * min_cells)
+    return refusal(where, problem, fmt::format("at least {:g} of both", min_cells), remedy);
+  return warning(fmt::format("{} {} (recommended: at least {:g}): forces will be coarse; {}", where,
+                             problem, good_cells, remedy));
+}
+
+/// A wheel may stand over an end of the ground, but not over its side.
+Found body_is_over_terrain(const Scene&, FixContactContinuum& contact) {
+  const Pair pair = describe(contact);
+  const double slack = round_off * pair.body_y.length();
+  const auto over = [&](const Span& body, const Span& ground) {
+    return body.lower < ground.lower - slack || body.upper > ground.upper + slack;
+  };
+  if (!over(pair.body_y, pair.terrain_y) &&
+      (is_wheel(pair.body) || !over(pair.body_x, pair.terrain_x)))
+    return {};
+  return warning(
+      fmt::format("'{}' stands over the edge of terrain '{}': it spans x = {:.4g} to {:.4g} m, "
+                  "y = {:.4g} to {:.4g} m, the terrain {:.4g} to {:.4g} m, {:.4g} to {:.4g} m",
+                  pair.body.id, pair.terrain.id, pair.body_x.lower, pair.body_x.upper,
+                  pair.body_y.lower, pair.body_y.upper, pair.terrain_x.lower, pair.terrain_x.upper,
+                  pair.terrain_y.lower, pair.terrain_y.upper));
+}
+
+/// Ground enters a groove, or the gap between two bars, with particles that are narrower.
+Found cells_enter_grooves(const Scene&, FixContactContinuum& contact) {
+  const Pair pair = describe(contact);
+  const auto* tyre = dynamic_cast<const FixTyreBrick*>(&pair.body);
+  if (tyre == nullptr) return {};
+  const BrickTyreParameters& parameters = tyre->tyre().parameters();
+  const double groove = parameters.tread.narrowest_void(parameters.radius());
+  const double rib = parameters.tread.narrowest_rib(parameters.radius());
+  const ContinuumTerrain& terrain = pair.terrain.terrain();
+  const int count = terrain.parameters().particles_per_cell[1];
+  const double spacing = terrain.grid().axis(1).shortest() / count;
+  const double narrowest = std::min(groove, rib);
+  if (spacing < narrowest) return {};
+  return warning(fmt::format(
+      "{} is {:.4g} m: particles are {:.3g} m apart under '{}', whose narrowest groove "
+      "is {:.3g} m wide and its narrowest rib {:.3g} m: ground bridges the grooves, and "
+      "the tread acts nearly as a smooth one; choose cells narrower than {:.3g} m, or a "
+      "smooth tread",
+      pair.terrain.options().where("cell"), pair.terrain.options().number("cell"), spacing,
+      pair.body.id, groove, rib, count * narrowest));
+}
+
+}  // namespace furrow::coupling

@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Rules for where things are: box, grains, bodies and the level of the ground.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "atom.h"
+#include "core/communicator.h"
+#include "coupling/liggghts/fixes_of.h"
+#include "coupling/base/grain_check.h"
+#include "coupling/checks/scene_checks.h"
+#include "coupling/terrain/fix_bed_window.h"
+#include "domain.h"
+#include "geometry/winding_number.h"
+#include "primitive_wall.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+constexpr int shrink_wrapped = 2;         // of Domain::nonperiodic
+constexpr double large_overlap = 0.5;     // of the smaller of two boxes around bodies
+constexpr double inside = 0.5;            // winding number
+constexpr double level_tolerance = 1e-3;  // of the body's size, on a continuum or a plane
+// Of the largest diameter, on grains: a bed's level may be that of its middles, of its highest
+// grains or a mean, and a few grains may stick out.
+constexpr double grain_tolerance = 3.0;
+
+bool changes_on_purpose(const LAMMPS_NS::LAMMPS& lammps) {
+  const auto fixes = fixes_of<const LAMMPS_NS::Fix>(*lammps.modify);
+  return lammps.domain->nonperiodic == shrink_wrapped ||
+         !fixes_of<const FixBedWindow>(*lammps.modify).empty() ||
+         std::any_of(fixes.begin(), fixes.end(), [](const LAMMPS_NS::Fix* fix) {
+           return fix->box_change_size || fix->box_change_shape || fix->box_change_domain;
+         });
+}
+
+std::string text(const Box& box) {
+  return fmt::format("({:g} {:g} {:g}) to ({:g} {:g} {:g})", box[0], box[1], box[2], box[3], box[4],
+                     box[5]);
+}
+
+bool is_wall(const LAMMPS_NS::Fix& fix) { return std::string(fix.style).rfind("wall/", 0) == 0; }
+
+bool are_pulled_down(const LAMMPS_NS::LAMMPS& lammps) {
+  Vector3 sum = Vector3::Zero();
+  for (auto* fix : fixes_of<LAMMPS_NS::FixGravity>(*lammps.modify)) {
+    Vector3 weight;
+    fix->get_gravity(weight.data());
+    sum += weight;
+  }
+  return sum.z() < 0.0;
+}
+
+/// Planes, which do not end; cylinders along x or y have a lower half.
+bool is_below(LAMMPS_NS::PrimitiveWall& wall, double* x) {
+  double to_wall[3] = {0.0, 0.0, 0.0};
+  wall.resolveContact(x, 0.0, to_wall);
+  return to_wall[2] < 0.0 || (to_wall[2] != 0.0 && (to_wall[0] != 0.0 || to_wall[1] != 0.0));
+}
+
+/// What may hold up a grain that is above it.
+struct Floors {
+  std::vector<LAMMPS_NS::PrimitiveWall*> walls;
+  std::vector<std::pair<Vector3, Vector3>> bodies;  // corners of the boxes around them
+  bool others = false;                              // whose place is not looked at
+  double period = 0.0;                              // of the box along x [m]; 0: it has ends
+
+  bool hold(double* x) const {
+    return std::any_of(walls.begin(), walls.end(),
+                       [&](auto* wall) { return is_below(*wall, x); }) ||
+           std::any_of(bodies.begin(), bodies.end(), [&](const auto& corners) {
+             const auto& [lower, upper] = corners;
+             return is_along(x[0], lower.x(), upper.x()) && x[1] > lower.y() && x[1] < upper.y() &&
+                    x[2] > lower.z();
+           });
+  }
+  /// Bodies that go with a wheel may be any number of periods away from the box.
+  bool is_along(double x, double lower, double upper) const {
+    const double off = x - 0.5 * (lower + upper);
+    return std::abs(period > 0.0 ? std::remainder(off, period) : off) <= 0.5 * (upper - lower);
+  }
+};
+
+Floors find_floors(const LAMMPS_NS::LAMMPS& lammps) {
+  Floors floors;
+  if (lammps.domain->xperiodic) floors.period = lammps.domain->prd[0];
+  for (auto* fix : fixes_of<LAMMPS_NS::Fix>(*lammps.modify)) {
+    auto* wall = dynamic_cast<LAMMPS_NS::FixWallGran*>(fix);
+    if (!wall)
+      floors.others |= is_wall(*fix) || freezes_grains(*fix);
+    else if (!wall->is_mesh_wall() && wall->primitiveWall())
+      floors.walls.push_back(wall->primitiveWall());
+    else
+      for (int m = 0; m < wall->n_meshes(); ++m) {
+        if (const auto* mesh = dynamic_cast<const FixMeshBody*>(wall->mesh_list()[m]))
+          floors.bodies.push_back(mesh->body().surface().bounds());
+        else
+          floors.others = true;
+      }
+  }
+  return floors;
+}
+
+/// Bits of the groups that a fix moves.
+int moved_groups(const LAMMPS_NS::Modify& modify) {
+  int groups = 0;
+  for (const auto* fix : fixes_of<const LAMMPS_NS::Fix>(modify))
+    if (moves_grains(*fix)) groups |= fix->groupbit;
+  return groups;
+}
+
+/// The first node of the sheet inside of the surface; -1 for none.
+Eigen::Index node_inside(const Surface& surface, const Surface& sheet) {
+  const auto [lower, upper] = surface.bounds();
+  for (Eigen::Index n = 0; n < sheet.x.cols(); ++n) {
+    const Vector3 node = sheet.x.col(n);
+    if ((node.array() > lower.array()).all() && (node.array() < upper.array()).all() &&
+        winding_number(surface, node) > inside)
+      return n;
+  }
+  return -1;
+}
+
+/// The level of something under a body, and how well it is known.
+struct Level {
+  double z;          // [m]
+  double tolerance;  // [m]
+  std::string what;
+};
+
+/// z of the highest grain within the body's outline from above, of all ranks.
+std::optional<Level> level_of_grains(const LAMMPS_NS::LAMMPS& lammps, const Body& body) {
+  const LAMMPS_NS::Atom& atom = *lammps.atom;
+  const auto [lower, upper] = body.surface().bounds();
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  double top = none, largest = 0.0;
+  for (int i = 0; i < atom.nlocal; ++i) {
+    const double* x = atom.x[i];
+    if (x[0] < lower[0] || x[0] > upper[0] || x[1] < lower[1] || x[1] > upper[1]) continue;
+    top = std::max(top, x[2] + atom.radius[i]);
+    largest = std::max(largest, 2.0 * atom.radius[i]);
+  }
+  const Communicator ranks(&lammps.world);
+  top = ranks.max(top);
+  largest = ranks.max(largest);
+  if (top == none) return std::nullopt;
+  return Level{top, grain_tolerance * largest, "the highest grain under it"};
+}
+
+std::vector<Level> levels_under(const LAMMPS_NS::LAMMPS& lammps, const FixBody& fix, double size) {
+  std::vector<Level> levels;
+  for (auto* contact : fixes_of<FixContactContinuum>(*lammps.modify))
+    if (&contact->body_fix() == &fix)
+      levels.push_back({contact->terrain_fix().terrain().parameters().surface,
+                        level_tolerance * size,
+                        fmt::format("the surface of terrain '{}'", contact->terrain_fix().id)});
+  for (auto* contact : fixes_of<FixContactPlane>(*lammps.modify))
+    if (&contact->body_fix() == &fix)
+      levels.push_back({contact->options().number("level"), level_tolerance * size,
+                        fmt::format("the level of fix contact/plane '{}'", contact->id)});
+  if (touches_grains(lammps, fix))
+    if (const auto grains = level_of_grains(lammps, fix.body())) levels.push_back(*grains);
+  return levels;
+}
+
+double size_of(const FixBody& fix) {
+  const auto [lower, upper] = fix.body().surface().bounds();
+  return (upper - lower).maxCoeff();
+}
+
+/// By how much a level differs from a given one beyond what is known of it.
+double excess(const Level& level, double given) {
+  return std::abs(given - level.z) - level.tolerance;
+}
+
+/// Of those under a body that sets off in this run, the one nearest to its ground_level.
+std::optional<Level> level_at_start(const Scene& scene, const DrivenBody& driven) {
+  const double start = driven.options.number("start") + 0.5 * scene.step();
+  if (scene.time() > start || scene.end() <= start) return std::nullopt;
+  const double given = driven.options.number("ground_level");
+  const auto levels = levels_under(scene.lammps, driven.body, size_of(driven.body));
+  const auto nearest = std::min_element(
+      levels.begin(), levels.end(),
+      [&](const Level& a, const Level& b) { return excess(a, given) < excess(b, given); });
+  return nearest == levels.end() ? std::nullopt : std::optional(*nearest);
+}
+
+}  // namespace
+
+Box edges_of_box(const LAMMPS_NS::LAMMPS& lammps) {
+  const double *lower = lammps.domain->boxlo, *upper = lammps.domain->boxhi;
+  return {lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]};
+}
+
+double count_grains(const LAMMPS_NS::LAMMPS& lammps) {
+  return Communicator(&lammps.world).sum(lammps.atom->nlocal);
+}
+
+/// Boxes that follow their grains, or that a fix deforms, change on purpose.
+Found box_is_as_it_was(const Scene& scene) {
+  const Box now = edges_of_box(scene.lammps);
+  if (now == scene.box_of_bodies || fixes_of<const FixBody>(*scene.lammps.modify).empty() ||
+      changes_on_purpose(scene.lammps))
+    return {};
+  return warning(
+      fmt::format("the box was {} when the first body was made, and is {}: bodies and terrain have "
+                  "stayed where they were; change the box before their lines",
+                  text(scene.box_of_bodies), text(now)));
+}
+
+/// Before the first step of a scene.
+Found grains_are_above_terrain(const Scene& scene, FixTerrainContinuum& terrain) {
+  if (scene.time() > 0.0) return {};
+  const LAMMPS_NS::Atom& atom = *scene.lammps.atom;
+  double below = 0.0;
+  for (int i = 0; i < atom.nlocal; ++i)
+    below += terrain.contains(Eigen::Map<const Vector3>(atom.x[i])) ? 1.0 : 0.0;
+  below = Communicator(&scene.lammps.world).sum(below);
+  if (below == 0.0) return {};
+  const std::string count = fmt::format("{:.0f} of {:.0f} grains", below, scene.grains);
+  if (touches_grains(scene.lammps, terrain))
+    return refusal(
+        terrain.name(), fmt::format("has {} inside, below the sheet that carries them", count),
+        "grains above the surface of the terrain", "put the grains higher, or lower 'surface'");
+  return warning(
+      fmt::format("{} are inside {}, and neither feels the other: two grounds in one place; move "
+                  "one of them, or give the terrain 'sheet yes' and a mesh/body, and put the "
+                  "grains above it",
+                  count, terrain.name()));
+}
+
+Found grains_have_a_floor(const Scene& scene) {
+  const LAMMPS_NS::LAMMPS& lammps = scene.lammps;
+  if (lammps.atom->natoms == 0 || lammps.domain->zperiodic || !are_pulled_down(lammps)) return {};
+  const Floors floors = find_floors(lammps);
+  if (floors.others) return {};
+  const LAMMPS_NS::Atom& atom = *lammps.atom;
+  const int moved = moved_groups(*lammps.modify);
+  double falling = 0.0, still = 0.0;
+  for (int i = 0; i < atom.nlocal; ++i) {
+    if (!(atom.mask[i] & moved))
+      still += 1.0;
+    else if (!floors.hold(atom.x[i]))
+      falling += 1.0;
+  }
+  const Communicator ranks(&lammps.world);
+  falling = ranks.sum(falling);
+  still = ranks.sum(still);
+  if (falling == 0.0 || still > 0.0) return {};
+  return warning(
+      fmt::format("nothing is below {:.0f} of {:.0f} grains: they fall until they leave the box; "
+                  "write 'fix floor all wall/gran <contact> primitive type 1 zplane <z>', or put "
+                  "them above a mesh",
+                  falling, count_grains(lammps)));
+}
+
+/// A bed/window removes grains on purpose.
+Found grains_stay_in_the_box(const Scene& scene) {
+  const double lost = scene.grains - count_grains(scene.lammps);
+  if (lost <= 0.0 || !fixes_of<const FixBedWindow>(*scene.lammps.modify).empty()) return {};
+  return warning(
+      fmt::format("{:.0f} of {:.0f} grains have left the box in this run; if they were not meant "
+                  "to, look for a time step that is too large or for a wall that is missing",
+                  lost, scene.grains));
+}
+
+Found bodies_are_apart(const Scene& scene, const FixBody& body) {
+  const auto is_terrain = [](const FixBody& fix) {
+    return dynamic_cast<const FixTerrainContinuum*>(&fix) != nullptr;
+  };
+  if (is_terrain(body)) return {};
+  const auto bodies = fixes_of<const FixBody>(*scene.lammps.modify);
+  const auto [lower, upper] = body.body().surface().bounds();
+  for (auto other = std::find(bodies.begin(), bodies.end(), &body) + 1; other != bodies.end();
+       ++other) {
+    if (is_terrain(**other)) continue;
+    const auto [other_lower, other_upper] = (*other)->body().surface().bounds();
+    const Vector3 common = upper.cwiseMin(other_upper) - lower.cwiseMax(other_lower);
+    const double smaller = std::min((upper - lower).prod(), (other_upper - other_lower).prod());
+    if (common.minCoeff() > 0.0 && common.prod() > large_overlap * smaller)
+      return warning(
+          fmt::format("{} and {} are in one place, and do not feel one another; move one of "
+                      "them or remove its lines",
+                      body.name(), (*other)->name()));
+  }
+  return {};
+}
+
+Found plane_is_below_terrain(const Scene& scene, FixContactContinuum& contact) {
+  for (const auto* plane : fixes_of<FixContactPlane>(*scene.lammps.modify)) {
+    const double level = plane->options().number("level"),
+                 base = contact.terrain_fix().terrain().grid().axis(2).lower();
+    if (&contact.body_fix() != &plane->body_fix() || level <= base) continue;
+    return warning(
+        fmt::format("{} is {:.4g} m, above the base of terrain '{}' at z = {:.4g} m: '{}' stands "
+                    "on both; remove one of the contacts",
+                    plane->options().where("level"), level, contact.terrain_fix().id, base,
+                    plane->body_fix().id));
+  }
+  return {};
+}
+
+Found body_starts_at_the_ground(const Scene& scene, const DrivenBody& driven) {
+  const auto level = level_at_start(scene, driven);
+  const auto [lower, upper] = driven.body.body().surface().bounds();
+  if (!level) {
+    const double start = driven.options.number("start") + 0.5 * scene.step();
+    const bool sets_off = scene.time() <= start && scene.end() > start;
+    if (sets_off && touches_grains(scene.lammps, driven.body) && scene.grains > 0.0)
+      return warning(
+          fmt::format("'{}' does not stand over the grains: none lies between its ends and sides",
+                      driven.body.id));
+    return {};
+  }
+  const double gap = lower[2] - level->z;
+  if (upper[2] < level->z)
+    return warning(
+        fmt::format("'{}' lies below the ground and cannot press on it: it reaches up to z = "
+                    "{:.4g} m, and {} is at z = {:.4g} m; let it start above",
+                    driven.body.id, upper[2], level->what, level->z));
+  if (gap > size_of(driven.body))
+    return warning(
+        fmt::format("'{}' starts {:.4g} m above the ground, more than its own size: it may not "
+                    "come down in time; let it start just above z = {:.4g} m",
+                    driven.body.id, gap, level->z));
+  return {};
+}
+
+Found ground_level_is_the_ground(const Scene& scene, const DrivenBody& driven) {
+  const auto level = level_at_start(scene, driven);
+  const double given = driven.options.number("ground_level"), size = size_of(driven.body);
+  if (!level || excess(*level, given) <= 0.0) return {};
+  const std::string problem =
+      fmt::format("is {:.6g} m, and {} is at z = {:.6g} m", given, level->what, level->z);
+  const std::string remedy =
+      fmt::format("sinkages count from it; write 'ground_level {:.6g}'", level->z);
+  const std::string where = driven.options.where("ground_level");
+  if (excess(*level, given) > size)
+    return refusal(where, problem,
+                   fmt::format("the level of the ground, at least within {:.3g} m, the size of "
+                               "the body",
+                               size),
+                   remedy);
+  return warning(fmt::format("{} {}; {}", where, problem, remedy));
+}
+
+/// Surfaces are replicated, so all ranks agree.
+Found body_stays_off_the_sheet(const Scene&, const FixWallGranBody& wall) {
+  const std::vector<const Body*> bodies = wall.bodies();
+  const auto is_terrain = [](const Body* body) {
+    return dynamic_cast<const ContinuumTerrain*>(body) != nullptr;
+  };
+  for (const Body* terrain : bodies)
+    for (const Body* body : bodies) {
+      if (!is_terrain(terrain) || is_terrain(body)) continue;
+      const Surface& sheet = terrain->surface();
+      const Eigen::Index node = node_inside(body->surface(), sheet);
+      if (node < 0) continue;
+      Finding found = warning(fmt::format(
+          "fix wall/gran/body '{}': a body has come through the grains to the sheet of the terrain "
+          "that carries them, at {:.4g} {:.4g} {:.4g} m, and does not feel it: it may touch grains "
+          "only; make their layer deeper, and a trough wider than what it may sink and turn aside",
+          wall.id, sheet.x(0, node), sheet.x(1, node), sheet.x(2, node)));
+      found.stops = true;
+      return found;
+    }
+  return {};
+}
+
+}  // namespace furrow::coupling
