@@ -39,7 +39,7 @@ using Clock = std::chrono::steady_clock;
 std::vector<std::string> reasons(const Summary& summary, double target) {
   if (!summary.trouble.empty()) return {summary.trouble};
   std::vector<std::string> found;
-  for (const char* name : {"sinkage", "resistance_coefficient"}) {
+  for (const char* name : {"hub_drop", "resistance_coefficient"}) {
     const SteadyValue& value = summary.resistance.value(name);
     const double least = value.unit.empty() ? smallest_scale : 0.0;
     const double share = value.standard_error / std::max(std::abs(value.mean), least);
@@ -59,7 +59,7 @@ const StyleRow run_until_steady_style =
 Schema CommandRunUntilSteady::schema() {
   Schema schema("command run_until_steady");
   schema.number("error", "", Range::open(0.0, 1.0),
-                "largest standard error of sinkage and resistance coefficient, over the value; of "
+                "largest standard error of hub drop and resistance coefficient, over the value; of "
                 "a coefficient below 0.1 over 0.1");
   schema
       .number("wall_time", "s", Range::positive(),
@@ -97,7 +97,7 @@ void CommandRunUntilSteady::command(int narg, char** arg) {
   if (agreed_signal()) return;
   const long added = static_cast<long>(update->ntimestep) - first;
   if (end.empty())
-    announce(*lmp, fmt::format("run_until_steady: sinkage and resistance coefficient are steady "
+    announce(*lmp, fmt::format("run_until_steady: hub drop and resistance coefficient are steady "
                                "within {:g} %, after {} steps more",
                                100.0 * target, added));
   else

@@ -19,7 +19,7 @@ from lines import OutputRow, entry_of, line_of, series_value
 from furrow_post.analyse.cost_table import Components, Row, row_of
 from furrow_post.analyse.entry import LIMIT, RUN, Entry
 from furrow_post.analyse.size_line import same_size
-from furrow_post.analyse.verdict import COVERAGE, QUANTITIES, SINKAGE
+from furrow_post.analyse.verdict import COVERAGE, HUB_DROP, QUANTITIES
 from furrow_post.figures.style import RUN_COLOURS, annotate_panel, panel_letters, save, use_style
 from furrow_post.read.wheel_run import read_wheel_run
 
@@ -43,7 +43,7 @@ def lines_of_series(
         if line["place"] == BASE
     }
     for planned in made.plans:
-        if not planned.is_point or (LIMIT, planned.ground, SINKAGE.key) not in own:
+        if not planned.is_point or (LIMIT, planned.ground, HUB_DROP.key) not in own:
             continue
         row = row_of(read_wheel_run(made.folder(planned), planned.ground))
         twin = twin_of(row, table)
@@ -80,7 +80,7 @@ def moved(base: Entry, row: Row, twin: Row, packing: float) -> Entry:
     not what it does to them.
     """
     (value, error), (own, own_error) = row.value(base.quantity.key), twin.value(base.quantity.key)
-    if base.quantity == SINKAGE:
+    if base.quantity == HUB_DROP:
         ratio = value / own
         parts = Components(
             base.value * ratio * float(np.hypot(error / value, own_error / own)),

@@ -24,7 +24,7 @@ channels = run.channels
 CRUISE = 2  # of the channel stage
 cruise = channels[channels["stage"] == CRUISE]
 c = -cruise["force_x"].mean() / cruise["force_z"].mean()
-print(f"{run.title}: {len(cruise)} rows of cruise, sinkage {cruise['sinkage'].mean():.4f} m, c {c:.3f}")
+print(f"{run.title}: {len(cruise)} rows of cruise, hub drop {cruise['hub_drop'].mean():.4f} m, c {c:.3f}")
 
 axes = channels.plot("time", ["force_x", "force_z"], xlabel="time [s]")
 axes.set_ylabel(f"force [{run.units['force_x']}]")

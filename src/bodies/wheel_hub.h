@@ -112,8 +112,10 @@ class WheelHub : public Body {
   virtual double nominal_radius() const = 0;
   /// [m] across what rolls on the ground, likewise: of a tyre its tread or carcass
   virtual double nominal_width() const = 0;
-  /// [m] z of the unloaded shape, without grousers: what a sinkage is counted to
+  /// [m] z of the unloaded shape, without grousers: what the hub drop is counted to
   virtual double lowest_point() const = 0;
+  /// [m] by which the loaded surface lies above lowest_point(); 0 for a rigid wheel
+  virtual double deflection() const { return 0.0; }
   /// Of all that touches the wheel now; a half model's is that of the whole.
   virtual Wrench ground_wrench() const {
     return {surface().total_force(), surface().total_moment(centre_)};

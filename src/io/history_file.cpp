@@ -27,9 +27,11 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr double flush_interval = 5.0;            // [s] between flushes that come by themselves
-constexpr double least_flush_ratio = 100.0;       // of that interval to the duration of a flush
-constexpr char former_stage_channel[] = "phase";  // in older files
+constexpr double flush_interval = 5.0;       // [s] between flushes that come by themselves
+constexpr double least_flush_ratio = 100.0;  // of that interval to the duration of a flush
+// names in older files, and what they are called since
+constexpr std::pair<const char*, const char*> former_channels[] = {{"phase", stage_channel},
+                                                                   {"sinkage", hub_drop_channel}};
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -238,7 +240,8 @@ History read_history(const std::string& path) {
   const History read = read_rows(Hdf5File(path, Hdf5File::Mode::read));
   std::vector<Channel> channels = read.channels();
   for (Channel& channel : channels)
-    if (channel.name == former_stage_channel) channel.name = stage_channel;
+    for (const auto& [former, name] : former_channels)
+      if (channel.name == former) channel.name = name;
   return read.renamed(channels);
 }
 

@@ -43,15 +43,18 @@ std::string row_of(const std::string& name, const SteadyValue& v, const std::str
                      v.unit, word);
 }
 
+const char* coefficient_of(const Resistance& r) {
+  return r.driven ? "net_traction_coefficient" : "resistance_coefficient";
+}
+
 /// What a run is made for, first.
 std::string answer(const Resistance& r) {
   std::string text;
-  for (const auto& [name, quantity] : {std::pair{"sinkage z", "sinkage"},
-                                       {"resistance coefficient c", "resistance_coefficient"},
-                                       {"slip", "slip"},
-                                       {"drive torque", "drive_torque"}}) {
-    const SteadyValue& value = r.value(quantity);
-    text += row_of(name, value, value.steady ? "steady" : "not steady");
+  for (const char* name : {"hub_drop", "tyre_deflection", "rut_depth", coefficient_of(r), "slip",
+                           r.driven ? "drive_torque" : ""}) {
+    if (!r.has(name)) continue;
+    const SteadyValue& value = r.value(name);
+    text += row_of(title_of(name), value, value.steady ? "steady" : "not steady");
   }
   return text;
 }
@@ -62,12 +65,15 @@ std::string steady_table(const Resistance& r) {
                   r.window.begin, r.window.end, r.window.distance, r.window.how);
   if (!r.window.warning.empty()) text += "  note: " + r.window.warning + "\n";
   text += "\nAll values\n";
+  const std::string other = r.driven ? "resistance_coefficient" : "net_traction_coefficient";
   for (const SteadyValue& v : r.values)
-    text += row_of(title_of(v.name), v,
-                   !v.steady ? "not steady"
-                   : v.independent_samples < static_cast<double>(SteadyCriteria{}.min_blocks)
-                       ? "steady, hardly changes"
-                       : fmt::format("steady, {:.0f} independent samples", v.independent_samples));
+    if (v.name != other)
+      text +=
+          row_of(title_of(v.name), v,
+                 !v.steady ? "not steady"
+                 : v.independent_samples < static_cast<double>(SteadyCriteria{}.min_blocks)
+                     ? "steady, hardly changes"
+                     : fmt::format("steady, {:.0f} independent samples", v.independent_samples));
   text +=
       "\n  ± is one standard error of the mean over time (block averages). It does not hold the "
       "influence of grain size, "
@@ -80,9 +86,9 @@ std::string passes_table(const std::vector<Resistance>& passes) {
   if (passes.empty()) return "";
   std::string text =
       "\nPasses in the same rut (all else here is of the first)\n"
-      "  pass        sinkage z [m]   resistance coefficient c   verdict\n";
+      "  pass         hub drop [m]     resistance coefficient   verdict\n";
   for (std::size_t n = 0; n < passes.size(); ++n) {
-    const SteadyValue &z = passes[n].value("sinkage"),
+    const SteadyValue &z = passes[n].value("hub_drop"),
                       &c = passes[n].value("resistance_coefficient");
     text += fmt::format("  {:>4} {:>21} {:>26}   {}\n", n + 1, with_error(z.mean, z.standard_error),
                         with_error(c.mean, c.standard_error),
@@ -190,9 +196,13 @@ std::string summary_text(const Summary& s) {
   text += fmt::format("\nFurrow {}, script {}, started {}\n", s.info.version, s.info.script,
                       s.info.started);
   text +=
-      "Signs: force_z carries the wheel; resistance coefficient = -force_x/force_z; drawbar pull > "
-      "0 pulls the vehicle "
-      "forward;\n"
+      "Depths: hub drop = ground level - lowest point of the unloaded wheel; rut depth = hub drop "
+      "- "
+      "tyre deflection, below\n"
+      "the loaded wheel. Of a rigid wheel the hub drop is the rut depth.\n"
+      "Signs: force_z carries the wheel; drawbar pull > 0 pulls the vehicle forward; resistance "
+      "coefficient (towed wheel) =\n"
+      "-force_x/force_z; net traction coefficient (driven wheel) = drawbar pull/force_z;\n"
       "slip > 0 when driving, (v_rim - v)/max(|v_rim|, |v|); lateral force > 0 to the left of the "
       "heading, moments of the ground\n"
       "about the axle centre: overturning > 0 tips the top to the right, aligning > 0 turns to the "
@@ -262,14 +272,14 @@ std::string vehicle_text(const std::vector<std::string>& folders,
   const VehicleResistance vehicle = measure_vehicle(histories, options);
   std::string text = fmt::format(
       "Wheels that roll together, {:.4g} s to {:.4g} s, {:.4g} m of travel\n"
-      "          load [N]         sinkage z [m]   resistance coefficient c   wheel\n",
+      "          load [N]          hub drop [m]     resistance coefficient   wheel\n",
       vehicle.window.begin, vehicle.window.end, vehicle.window.distance);
   for (std::size_t w = 0; w < folders.size(); ++w) {
     const auto cell = [&](const char* name) {
       const SteadyValue& value = vehicle.wheels[w].value(name);
       return with_error(value.mean, value.standard_error);
     };
-    text += fmt::format("  {:>16} {:>21} {:>26}   {}, {}\n", cell("force_z"), cell("sinkage"),
+    text += fmt::format("  {:>16} {:>21} {:>26}   {}, {}\n", cell("force_z"), cell("hub_drop"),
                         cell("resistance_coefficient"), folders[w],
                         vehicle.wheels[w].steady ? "steady" : "not steady");
   }

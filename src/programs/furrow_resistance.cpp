@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// furrow-resistance: steady sinkage, motion resistance and torque of finished runs, with their
+// furrow-resistance: steady hub drop, resistance and torque of finished runs, with their
 // standard errors. The same code that writes a run's summary; furrow-post resistance calls it.
 
 #include <cstdio>
@@ -18,11 +18,13 @@
 
 namespace {
 
-constexpr const char* quantities[] = {"sinkage",
+constexpr const char* quantities[] = {"hub_drop",
+                                      "tyre_deflection",
+                                      "rut_depth",
                                       "force_z",
                                       "resistance_coefficient",
                                       "drawbar_pull",
-                                      "drawbar_coefficient",
+                                      "net_traction_coefficient",
                                       "drive_torque",
                                       "slip",
                                       "lateral_force",
@@ -122,7 +124,7 @@ void evaluate(const std::string& folder, const Request& request) {
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Steady sinkage, motion resistance and torque of wheel runs, with standard errors by block "
+      "Steady hub drop, resistance and torque of wheel runs, with standard errors by block "
       "averaging.",
       "furrow-resistance");
   Request request;

@@ -27,6 +27,7 @@ struct WheelRig::Reading {
   Vector3 heading() const { return {std::cos(yaw()), std::sin(yaw()), 0.0}; }
   Vector3 left() const { return {-std::sin(yaw()), std::cos(yaw()), 0.0}; }
   double rim_speed() const { return wheel.rate(Coordinate::spin) * wheel.nominal_radius(); }
+  double hub_drop() const { return rig.ground_level_ - wheel.lowest_point(); }  // [m]
   /// [m/s] of the axle
   double speed_in_plane() const { return wheel.velocity().dot(heading()); }
 };
@@ -66,8 +67,16 @@ const Outputs<const WheelRig::Reading>& WheelRig::outputs() {
                     ? 0.0
                     : furrow::slip(SlipDefinition::larger_speed, r.rim_speed(), r.speed_in_plane());
        }},
-      {"sinkage", "m", "ground level minus lowest point of the wheel without grousers",
-       [](R& r) { return r.rig.ground_level_ - r.wheel.lowest_point(); }},
+      {hub_drop_channel, "m",
+       "ground level minus lowest point of the unloaded wheel, without grousers",
+       [](R& r) { return r.hub_drop(); }},
+      {tyre_deflection_channel, "m",
+       "height of the loaded tread's lowest point above that of the unloaded tread; 0 for a rigid "
+       "wheel",
+       [](R& r) { return r.wheel.deflection(); }},
+      {rut_depth_channel, "m",
+       "ground level minus lowest point of the loaded wheel: hub_drop - tyre_deflection",
+       [](R& r) { return r.hub_drop() - r.wheel.deflection(); }},
       {"force_x", "N", "force of the ground on the wheel", [](R& r) { return r.ground.force.x(); }},
       {"force_y", "N", "force of the ground on the wheel", [](R& r) { return r.ground.force.y(); }},
       {"force_z", "N", "force of the ground on the wheel", [](R& r) { return r.ground.force.z(); }},

@@ -76,7 +76,8 @@ TravelVerdict judge_travel(const History& history, std::size_t first_of_cruise) 
     const std::vector<double> column = history.column(name);
     return Course{{column.begin() + static_cast<std::ptrdiff_t>(half), column.end()}, spacing};
   };
-  const Course axle = course("velocity_x"), rim = course("rim_speed"), sinkage = course("sinkage");
+  const Course axle = course("velocity_x"), rim = course("rim_speed"),
+               hub_drop = course(hub_drop_channel);
   const double v = axle.quarter(3), u = rim.quarter(3);
   const double fastest =
       std::max(largest(history.column("velocity_x")), largest(history.column("rim_speed")));
@@ -95,11 +96,11 @@ TravelVerdict judge_travel(const History& history, std::size_t first_of_cruise) 
                         "the second half of the cruise and does not level off, while the axle "
                         "moves at {:.3g} m/s",
                         rim.quarter(0), u, v)};
-  if (!rim_rests && std::abs(v) < digging_share * std::abs(u) && sinkage.grows(least_sinking))
+  if (!rim_rests && std::abs(v) < digging_share * std::abs(u) && hub_drop.grows(least_sinking))
     return {Travel::digs_in,
             fmt::format("the wheel digs in: it sinks from {:.4g} to {:.4g} m over the second half "
                         "of the cruise; {}",
-                        sinkage.quarter(0), sinkage.quarter(3), speeds)};
+                        hub_drop.quarter(0), hub_drop.quarter(3), speeds)};
   if ((rim_rests && axle_rests) || (!rim_rests && std::abs(v) < stalled_share * std::abs(u)))
     return {Travel::stalled, fmt::format("the wheel is stalled: {}", speeds)};
   if (rim_rests ? v < 0.0 : v * u < 0.0)

@@ -10,12 +10,15 @@
 
 #include "core/error.h"
 #include "statistics/free_travel.h"
+#include "statistics/rig_stage.h"
 
 namespace furrow {
 
 namespace {
 
-// the same, below which a lateral force is that of a wheel that runs straight
+// of load times radius, below which an axle torque is rounding: the wheel is towed
+constexpr double no_torque = 1e-9;
+// of the load, below which a lateral force is that of a wheel that runs straight
 constexpr double noise_sideways = 0.02;
 
 bool is_sideways(const SteadyValue& value) {
@@ -28,6 +31,10 @@ std::vector<double> part_of(const History& history, const std::string& channel,
   const std::vector<double> column = history.column(channel);
   return {column.begin() + static_cast<std::ptrdiff_t>(window.first),
           column.begin() + static_cast<std::ptrdiff_t>(window.last)};
+}
+
+bool any_not_zero(const std::vector<double>& values) {
+  return std::any_of(values.begin(), values.end(), [](double value) { return value != 0.0; });
 }
 
 /// Of the wheel [m], from its fastest turn; 0 where the history does not have it.
@@ -87,7 +94,7 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
     if (!verdict.sentence.empty()) throw StateError(verdict.sentence);
   }
   result.window = select_window(history, options.window,
-                                {"sinkage", "force_x", "force_z", "drive_torque", "slip"});
+                                {hub_drop_channel, "force_x", "force_z", "drive_torque", "slip"});
   const Window& window = result.window;
   const double spacing = spacing_of(part_of(history, "time", window));
   const auto part = [&](const std::string& channel) { return part_of(history, channel, window); };
@@ -98,7 +105,7 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
   };
 
   const std::vector<double> force_z = part("force_z"), drawbar_pull = part("drawbar_pull");
-  if (std::all_of(force_z.begin(), force_z.end(), [](double force) { return force == 0.0; }))
+  if (!any_not_zero(force_z))
     throw StateError(fmt::format(
         "the wheel bears no load in the window ({}): it has not touched the ground; take "
         "a later window, such as the cruise, which is the default",
@@ -107,14 +114,18 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
   for (double& force : resistance) force = -force;
 
   const double radius = radius_of(history);
-  add("sinkage", "m", part("sinkage"), sinkage_scale * radius);
+  add(hub_drop_channel, "m", part(hub_drop_channel), depth_scale * radius);
+  if (history.has(tyre_deflection_channel) && any_not_zero(part(tyre_deflection_channel)))
+    for (const char* depth : {tyre_deflection_channel, rut_depth_channel})
+      add(depth, "m", part(depth), depth_scale * radius);
   add("force_z", "N", force_z, 0.0);
   const double force_scale = coefficient_scale * std::abs(result.values.back().mean),
                torque_scale = force_scale * radius;
   add("resistance_coefficient", "", linearised_ratio(resistance, force_z), coefficient_scale);
   add("drawbar_pull", "N", drawbar_pull, force_scale);
-  add("drawbar_coefficient", "", linearised_ratio(drawbar_pull, force_z), coefficient_scale);
+  add("net_traction_coefficient", "", linearised_ratio(drawbar_pull, force_z), coefficient_scale);
   add("drive_torque", "N m", part("drive_torque"), torque_scale);
+  result.driven = std::abs(result.values.back().mean) > no_torque * torque_scale;
   add("slip", "", part("slip"), slip_scale);
   const bool sideways = history.has("lateral_force");
   if (sideways) {

@@ -13,10 +13,10 @@ namespace furrow {
 /// Scales of the answers: a value that is smaller is judged as one of this size (SteadyCriteria),
 /// so that no change is one of 0.02 in slip, 2 % of the speed; of 0.5 % of the load in a force or
 /// coefficient, in a torque or moment of load times radius, half of what careful tests scatter by
-/// (0.01 to 0.02, [Pavlov2024], [Shoop2001]) or less; of 0.2 % of the radius in sinkage.
+/// (0.01 to 0.02, [Pavlov2024], [Shoop2001]) or less; of 0.2 % of the radius in a depth.
 constexpr double slip_scale = 1.0;
 constexpr double coefficient_scale = 0.25;  ///< of force_z, or of force_z times radius
-constexpr double sinkage_scale = 0.1;       ///< of the radius
+constexpr double depth_scale = 0.1;         ///< of the radius
 
 struct ResistanceOptions {
   WindowRequest window;
@@ -28,12 +28,14 @@ struct ResistanceOptions {
 /// Steady values of a wheel run over one window.
 struct Resistance {
   Window window;
-  /// sinkage [m], force_z [N], resistance_coefficient, drawbar_pull [N], drawbar_coefficient,
-  /// drive_torque [N m], slip; where the history has them also lateral_force [N],
+  /// hub_drop [m], of a tyre also tyre_deflection and rut_depth [m]; force_z [N],
+  /// resistance_coefficient, drawbar_pull [N], net_traction_coefficient, drive_torque [N m], slip;
+  /// where the history has them also lateral_force [N],
   /// overturning_moment and aligning_moment [N m], which count for the verdict where the lateral
   /// force is more than 2 % of force_z: of a wheel without slip angle and camber they are noise
   std::vector<SteadyValue> values;
   ResistanceParts parts;
+  bool driven = false;  ///< an axle torque drives or brakes the wheel: it is not towed
   bool steady = false;  ///< the window is good and every value is steady
   std::string verdict;  ///< "steady", or "not steady: " and what is not, and why
 
@@ -47,9 +49,10 @@ struct Resistance {
 /// @throws Error when the lengths differ, StateError when the mean of b is zero
 std::vector<double> linearised_ratio(const std::vector<double>& a, const std::vector<double>& b);
 
-/// Needs the channels time, x, sinkage, force_x, force_z, drawbar_pull, drive_torque, slip
+/// Needs the channels time, x, hub_drop, force_x, force_z, drawbar_pull, drive_torque, slip
 /// (rig/wheel_rig.h) in equally spaced rows; stage if there is one. resistance_coefficient =
-/// -force_x/force_z and drawbar_coefficient = drawbar_pull/force_z, ratios of means. In a steady
+/// -force_x/force_z and net_traction_coefficient = drawbar_pull/force_z, ratios of means. The first
+/// is for a towed wheel, the second for a driven one. In a steady
 /// run drawbar pull and force_x agree; the first is what a load cell between vehicle and wheel
 /// sees, inertia included. What counts as no change is measured against the value itself, and at
 /// least against the scales above; the radius is that of the channels rim_speed and spin_rate. Of a

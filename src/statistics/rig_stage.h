@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The stages of a wheel's run, as the channel `stage` of its history records them.
+/// Names of the channels of a rig's history that its evaluation reads, and the stages of a run.
 
 namespace furrow {
 
@@ -15,5 +15,10 @@ constexpr char pass_channel[] = "pass";
 
 /// Name of the channel that is 1 where the axle is free along x: speed and slip are then answers.
 constexpr char axle_free_channel[] = "axle_free";
+
+/// Names of three depths [m]: of the hub, of the tyre's deflection, of the ground below the wheel.
+constexpr char hub_drop_channel[] = "hub_drop";
+constexpr char tyre_deflection_channel[] = "tyre_deflection";
+constexpr char rut_depth_channel[] = "rut_depth";
 
 }  // namespace furrow

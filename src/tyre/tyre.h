@@ -53,7 +53,7 @@ class Tyre : public WheelHub {
   virtual const TreadGrid& tread_grid() const = 0;
   double lowest_tread_height() const;  ///< [m] z of the lowest node of the tread
   /// [m] of the lowest node of the tread, from the unloaded tread about the present axle
-  double deflection() const { return lowest_tread_height() - lowest_point(); }
+  double deflection() const override { return lowest_tread_height() - lowest_point(); }
   double crown_radius() const;              ///< [m] mean distance of the middle line from the axle
   virtual double section_width() = 0;       ///< [m] largest, from sidewall to sidewall
   virtual double tread_energy() const = 0;  ///< [J] elastic

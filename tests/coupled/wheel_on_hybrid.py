@@ -33,7 +33,7 @@ def run(results: Path, script: str, **variables: object) -> float:
         sys.exit(f"{script} stopped:\n{(done.stdout + done.stderr)[-3000:]}")
     with h5py.File(results / "history.h5") as content:
         history = content["history"]
-        time, sinkage = history["time"][:], history["sinkage"][:]
+        time, sinkage = history["time"][:], history["hub_drop"][:]
     return float(sinkage[(time > 0.3) & (time < 0.4)].mean())
 
 
@@ -60,7 +60,7 @@ def check_steady(results: Path) -> None:
     """Means over the first and the second half of the way in cruise."""
     with h5py.File(results / "history.h5") as content:
         history = content["history"]
-        x, sinkage = history["x"][:] - history["x"][0], history["sinkage"][:]
+        x, sinkage = history["x"][:] - history["x"][0], history["hub_drop"][:]
     half = 0.5 * x[-1]
     first, second = sinkage[(x > 0.2) & (x < half)].mean(), sinkage[x >= half].mean()
     with h5py.File(results / "terrain.h5") as content:

@@ -31,7 +31,7 @@ class Head:
         return found[0]
 
     def _expectation(self, text):
-        """(name, lowest, highest, unit) of "sinkage 0.15 to 0.17 m"."""
+        """(name, lowest, highest, unit) of "hub drop 0.15 to 0.17 m"."""
         parts = re.fullmatch(r"(.+?) (\S+) to (\S+)(?: (\S+))?", text)
         if not parts:
             sys.exit(f"{self.script}: '{text}' is not 'name lowest to highest unit'")

@@ -12,7 +12,7 @@
 The head of a script says what is run and what must come out, in SI units:
 
     # Quick:    -v cell 0.05 -v distance 0.6
-    # Gives:    sinkage 0.15 to 0.17 m, resistance coefficient 0.16 to 0.20
+    # Gives:    hub drop 0.15 to 0.17 m, resistance coefficient 0.16 to 0.20
 
 A scene's quantities are those of summary.json (means over the cruise of a wheel; of a further
 wheel, whose folder is within the first one's, with the name of the folder before), of its history
@@ -89,7 +89,7 @@ def two_grounds(results):
     check_scene(SCENES / "tyre_on_snow.lig", folder / "run" / "tyre")
     check_scene(SCENES / "wheel_on_snow.lig", folder / "run" / "continuum")
     check_scene(SCENES / "wheel_on_sintered_snow.lig", folder / "run" / "grains")
-    for report, words in (("report.html", ("continuum", "grains", "sinkage")),
+    for report, words in (("report.html", ("continuum", "grains", "hub drop")),
                           ("measured/report.html", ("fitted", "predicted", "measured", "NRMM"))):
         text = (folder / "run" / report).read_text()
         for word in words:
@@ -164,10 +164,10 @@ def sweep(results):
         if not (out / name).stat().st_size:
             sys.exit(f"{out / name} is empty")
     with h5py.File(out / "sweep.h5") as content:
-        pull, slip = content["drawbar_coefficient"][()], content["set_slip"][()]
+        pull, slip = content["net_traction_coefficient"][()], content["set_slip"][()]
     if not np.all(np.diff(pull[np.argsort(slip)]) > 0):
         sys.exit(f"the pull of a tyre on a road does not grow with the slip: {pull} at {slip}")
-    (folder / "tests.csv").write_text("slip_percent,drawbar_coefficient\n10,0.2\n")
+    (folder / "tests.csv").write_text("slip_percent,net_traction_coefficient\n10,0.2\n")
     for words in (words for block in checked for words in block):
         check_command(words, folder)
 
@@ -188,7 +188,7 @@ def until_steady(results):
     words = ["tyre_on_plane", "--quick", "-o", folder / BLANKS, "--until-steady"]
     said = inputs_run(*words, "20%", "--time-limit", "60")
     summary = json.loads((folder / BLANKS / "summary.json").read_text())
-    values = [summary["quantities"][name] for name in ("sinkage", "resistance_coefficient")]
+    values = [summary["quantities"][name] for name in ("hub_drop", "resistance_coefficient")]
     if not all(value["steady"] for value in values) or "are steady within 20 %" not in said:
         sys.exit(f"it did not go on until it was steady:\n{said}")
     said = inputs_run(*words, "0.01%", "--time-limit", "1")
@@ -204,7 +204,7 @@ def error(results):
     for name in ("coarse", "fine"):
         if not (folder / name / "summary.json").is_file():
             sys.exit(f"there is no {name} run:\n{said}")
-    if "sinkage at size zero: " not in said or "The estimate " not in said:
+    if "hub drop at size zero: " not in said or "The estimate " not in said:
         sys.exit(f"it does not end with the values at size zero:\n{said}")
 
 

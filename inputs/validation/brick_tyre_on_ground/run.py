@@ -130,7 +130,7 @@ def row_of(ground: str, wheel: str, folder: Path) -> dict[str, Any]:
     )
     unloaded = watch[0, 1]
     deflection = watch[since > start, 1].mean() - unloaded
-    hub = history["sinkage"][last].mean() - unloaded
+    hub = history["hub_drop"][last].mean() - unloaded
     return {
         "run": f"{ground}_{wheel}",
         "hub_mm": round(1e3 * hub, 1),

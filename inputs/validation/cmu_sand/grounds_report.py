@@ -105,7 +105,7 @@ def row_of(runner: Runner, case: Case, record: Record) -> Row:
         "fx_over_fz": round(-values["resistance_coefficient"], 4),
         "fx_over_fz_error": round(values["resistance_coefficient_error"], 4),
         "measured_sinkage_mm": "" if sideways else point["sinkage_mm"],
-        "sinkage_mm": round(1000 * values["sinkage"] + surface, 2),
+        "sinkage_mm": round(1000 * values["hub_drop"] + surface, 2),
         "sinkage_error_mm": round(1000 * values["sinkage_error"], 2),
         "fy_over_fz": round(values["lateral_force"] / fz, 4) if sideways else "",
         "fy_over_fz_error": round(values["lateral_force_error"] / fz, 4) if sideways else "",

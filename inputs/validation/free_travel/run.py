@@ -24,7 +24,7 @@ from furrow_post.study.furrow_cases import script_case
 from furrow_post.study.output import Output
 from furrow_post.study.runner import Runner
 from furrow_post.study.study import Study, run_study
-from furrow_post.sweep.curves import CONDITIONS, PULL, SINKAGE, SLIP, TORQUE, Axis, Curve, Figure, Line
+from furrow_post.sweep.curves import CONDITIONS, HUB_DROP, PULL, SLIP, TORQUE, Axis, Curve, Figure, Line
 from furrow_post.sweep.drawing import draw_sweep
 from furrow_post.sweep.series import read_series
 
@@ -86,7 +86,7 @@ class Quantity:
 QUANTITIES = (
     Quantity(PULL, "pull_over_load", 0.005),
     Quantity(TORQUE, "torque_over_load_r", 0.005),
-    Quantity(SINKAGE, "sinkage_mm", 0.5, 1e3),
+    Quantity(HUB_DROP, "sinkage_mm", 0.5, 1e3),
 )
 
 
@@ -102,7 +102,7 @@ def figure_of(folders: Mapping[str, Path]) -> Figure:
             raise ResultsError(series.unread[0].text)
         points = sorted(series.points, key=lambda point: point.quantities[SLIP].mean)
         lines.append(Line(rig, tuple(points), tuple(p.quantities[SLIP].mean for p in points)))
-    names = {PULL: "pull–slip, and slope–slip", TORQUE: "torque–slip", SINKAGE: "sinkage–slip"}
+    names = {PULL: "pull–slip, and slope–slip", TORQUE: "torque–slip", HUB_DROP: "hub drop–slip"}
     curves = tuple(Curve(name, axis) for axis, name in names.items())
     return Figure(CONDITIONS[SLIP], curves, tuple(lines))
 

@@ -61,7 +61,7 @@ def row_of(case: Case, folder: Path, record: Record) -> Row:
         means(wheel, x, low, low + window / 2) for low in (end - window, end - window / 2)
     )
     change = 0.5 * np.abs(second - first)
-    row["standing_m"] = round(float(wheel["sinkage"][standing][-1]), 4)
+    row["standing_m"] = round(float(wheel["hub_drop"][standing][-1]), 4)
     row["sinkage_m"], row["sinkage_change_m"] = round(value[0], 4), round(change[0], 4)
     row["resistance"], row["resistance_change"] = round(value[1], 4), round(change[1], 4)
     row["slip"] = round(value[2], 3)
@@ -72,7 +72,7 @@ def means(wheel: dict[str, Floats], x: Floats, low: float, high: float) -> Float
     """(3) Sinkage [m], resistance coefficient, slip over a part of the travel [m]."""
     part = (x >= low) & (x <= high)
     resistance = -wheel["force_x"][part].sum() / wheel["force_z"][part].sum()
-    return np.array([wheel["sinkage"][part].mean(), resistance, wheel["slip"][part].mean()])
+    return np.array([wheel["hub_drop"][part].mean(), resistance, wheel["slip"][part].mean()])
 
 
 def nrmm(depth: float, density: float) -> tuple[float, float]:

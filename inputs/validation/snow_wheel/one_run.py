@@ -76,7 +76,7 @@ def means(wheel: Mapping[str, Floats], x: Floats, low: float, high: float) -> Fl
     """(3) Sinkage [m], resistance coefficient, slip over a part of the travel [m]."""
     part = (x >= low) & (x <= high)
     resistance = -wheel["force_x"][part].sum() / wheel["force_z"][part].sum()
-    return np.array([wheel["sinkage"][part].mean(), resistance, wheel["slip"][part].mean()])
+    return np.array([wheel["hub_drop"][part].mean(), resistance, wheel["slip"][part].mean()])
 
 
 class Found:

@@ -249,7 +249,7 @@ def pass_table(runner: Runner) -> list[Row]:
     table = []
     for number in range(1, cases.PASSES + 1):
         cruise = (wheel["pass"] == number) & (wheel["stage"] == CRUISE)
-        mine = {name: wheel[name][cruise] for name in ("x", "sinkage", "slip", *FORCES)}
+        mine = {name: wheel[name][cruise] for name in ("x", "hub_drop", "slip", *FORCES)}
         end = float(mine["x"][-1])
         middle = end - cases.WINDOW / 2
         value = means(mine, mine["x"], end - cases.WINDOW, end)

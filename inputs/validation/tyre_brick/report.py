@@ -242,7 +242,7 @@ def rolling_table(runner: Runner) -> list[Row]:
                     "travel_m": round(float(wheel["x"][-1] - wheel["x"][0]), 2),
                     "resistance_N": round(mean, 2),
                     "resistance_error_N": round(error, 2),
-                    "deflection_mm": round(1e3 * float(wheel["sinkage"][steady].mean()), 2),
+                    "deflection_mm": round(1e3 * float(wheel["hub_drop"][steady].mean()), 2),
                     "user_s": cost(runner, case),
                 }
             )

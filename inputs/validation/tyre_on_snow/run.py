@@ -120,7 +120,7 @@ def row_of(case: Case, folder: Path, cpu_time: float) -> dict[str, object]:
     history = results.columns
     last = history["x"] > history["x"][-1] - WINDOW
     load = history["force_z"][last].mean()
-    sinkage = history["sinkage"][last]
+    sinkage = history["hub_drop"][last]
     row: dict[str, object] = {
         "case": case.name,
         "what": case.what,

@@ -161,7 +161,7 @@ def rolling_table(runner: Runner) -> list[dict[str, object]]:
                     "damping": damping,
                     "resistance_N": round(mean, 2),
                     "resistance_error_N": round(error, 2),
-                    "deflection_mm": round(1e3 * float(wheel["sinkage"][turn].mean()), 2),
+                    "deflection_mm": round(1e3 * float(wheel["hub_drop"][turn].mean()), 2),
                     "user_s": round(record.cpu_time, 1),
                 }
             )

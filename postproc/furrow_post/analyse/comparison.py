@@ -103,7 +103,7 @@ def remarks(result: Comparison) -> list[str]:
     first = result.runs[0]
     sentences = []
     for other in result.runs[1:]:
-        z = 0.5 * min(run.values["sinkage"].mean for run in (first, other))
+        z = 0.5 * min(run.values["hub_drop"].mean for run in (first, other))
         curves = [settling_curve(run) for run in (first, other)]
         if all(len(x) > 10 and x.min() < z < x.max() for x, _ in curves):
             # the first passage: the wheel may bounce later

@@ -36,7 +36,7 @@ class HasErrors:
 
 @dataclass
 class Assessed(HasErrors):
-    """A run with its relative numerical error, worst of sinkage and coefficient."""
+    """A run with its relative numerical error, worst of hub drop and coefficient."""
 
     row: Row
     errors: ByQuantity  # relative, NaN: not known

@@ -68,7 +68,7 @@ NUMERIC = {f.name for f in fields(Row) if f.type is float}
 
 
 def row_of(run: WheelRun, options: str = "") -> Row:
-    sinkage, coefficient = run.values["sinkage"], run.values["resistance_coefficient"]
+    sinkage, coefficient = run.values["hub_drop"], run.values["resistance_coefficient"]
     return Row(
         run.label,
         run.ground,

@@ -170,14 +170,14 @@ def sections(run: WheelRun, cell: float = 0.01) -> tuple[Section, Section]:
 def height_left(run: WheelRun) -> float:
     """Of ground under the wheel [m].
 
-    A tyre's sinkage counts to its unloaded tread: there the lowest point of the tread at the end is
+    A tyre's hub drop counts to its unloaded tread: there the lowest point of the tread at the end is
     taken.
     """
     depth = run.number("depth")
     surface = run.results.surface() if run.deformable else None
     if surface is not None:
         return float(surface.x[:, 2].min()) - (run.ground_level - depth)
-    return depth - run.values["sinkage"].mean
+    return depth - run.values["hub_drop"].mean
 
 
 def track_density(run: WheelRun) -> tuple[float, float]:

@@ -18,7 +18,7 @@ from .verdict import QUANTITIES, Quantity
 
 # Kinds of entries; LIMIT: what a run comes to at size zero
 RUN, LIMIT, FORMULA, MEASURED = "run", "size zero", "formula", "measured"
-NAME_IN_RUN = {"sinkage": "sinkage", "coefficient": "resistance_coefficient"}
+NAME_IN_RUN = {"sinkage": "hub_drop", "coefficient": "resistance_coefficient"}
 
 
 @dataclass(frozen=True)

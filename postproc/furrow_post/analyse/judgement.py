@@ -67,7 +67,7 @@ def summed_up(among: Sequence[Verdict], who: str) -> str:
         verdict += f"in {joined(undecided)} they" if agreed else f"In {joined(undecided)} the {who}"
         verdict += " cannot be told apart: the uncertainty is too large."
     elif not unknown:
-        verdict = f"The {who} agree within their uncertainty in sinkage and resistance."
+        verdict = f"The {who} agree within their uncertainty in hub drop and resistance."
     elif agreed:
         verdict = f"The {who} agree in {joined(agreed)} within their uncertainty."
     if unknown:

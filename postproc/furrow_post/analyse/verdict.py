@@ -30,13 +30,14 @@ class Quantity:
 
     @property
     def label(self) -> str:
-        """ "sinkage [mm]"."""
+        """ "hub drop [mm]"."""
         return self.name + in_unit(self.unit)
 
 
-SINKAGE = Quantity("sinkage", "sinkage", "mm", 1e3)
+# key: the column of inputs/costs/*.csv
+HUB_DROP = Quantity("sinkage", "hub drop", "mm", 1e3)
 COEFFICIENT = Quantity("coefficient", "resistance coefficient", "", 1.0)
-QUANTITIES = (SINKAGE, COEFFICIENT)
+QUANTITIES = (HUB_DROP, COEFFICIENT)
 
 
 @dataclass(frozen=True)

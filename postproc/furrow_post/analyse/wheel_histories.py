@@ -24,14 +24,14 @@ class CruiseHistory(NamedTuple):
     """Over the travel from the start of the cruise on."""
 
     distance: Floats  # [m], negative while it accelerates
-    sinkage: Floats  # [m]
+    hub_drop: Floats  # [m]
     coefficient: Floats  # resistance coefficient, NaN while the ground does not carry the wheel yet
 
 
 class SettlingCurve(NamedTuple):
     """While the wheel is lowered onto the ground."""
 
-    sinkage: Floats  # [m]
+    hub_drop: Floats  # [m]
     pressure: Floats  # mean over the projected contact [Pa]
 
 
@@ -42,7 +42,7 @@ def _rows_of_first_pass(stage: Floats) -> int:
 
 
 def cruise_history(run: WheelRun) -> CruiseHistory:
-    """Sinkage and resistance coefficient over travel, the latter smoothed over 0.1 radius.
+    """Hub drop and resistance coefficient over travel, the latter smoothed over 0.1 radius.
 
     Of several passes, the first.
     """
@@ -61,16 +61,16 @@ def cruise_history(run: WheelRun) -> CruiseHistory:
         carried = force_z > 0.2 * run.number("load")
         coefficient = np.where(carried, -force_x / force_z, np.nan)
     shift = run.number("datum_shift") if "datum_shift" in run.conditions else 0.0
-    return CruiseHistory(distance, columns["sinkage"][moving] + shift, coefficient)
+    return CruiseHistory(distance, columns["hub_drop"][moving] + shift, coefficient)
 
 
 def settling_curve(run: WheelRun) -> SettlingCurve:
     """Force over the projected contact of a rigid cylinder, 2 b sqrt(2 r z - z^2), against z."""
     columns = run.results.columns
-    deep_enough = columns["sinkage"] > 0.02 * run.radius
+    deep_enough = columns["hub_drop"] > 0.02 * run.radius
     rows = _rows_of_first_pass(columns["stage"])
     chosen = np.flatnonzero((columns["stage"] == Stage.SETTLE)[:rows] & deep_enough[:rows])
-    z = columns["sinkage"][chosen]
+    z = columns["hub_drop"][chosen]
     chord = np.sqrt(np.maximum(2 * run.radius * z - z * z, 1e-12))
     area = 2 * run.number("wheel_width") * chord
     window = max(len(z) // 60, 1)

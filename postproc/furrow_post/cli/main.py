@@ -37,9 +37,9 @@ class Module(Protocol):
 SUBCOMMANDS = (
     Subcommand(
         "resistance",
-        "steady sinkage, motion resistance and torque with standard errors (furrow-resistance)",
+        "steady hub drop, resistance and torque with standard errors (furrow-resistance)",
     ),
-    Subcommand("plot", "forces, sinkage, torque and slip against time -> histories.png"),
+    Subcommand("plot", "forces, depths, torque and slip against time -> histories.png"),
     Subcommand(
         "picture",
         "the rut from four sides, grains coloured by displacement, continuum by density -> rut.png",

@@ -33,7 +33,7 @@ from .comparison import add_comparison_arguments, compared
 from .output import prepare_page
 
 COMPARISON_CAPTION = (
-    "a, b: values with two standard deviations. c to e: histories, datum of the sinkage the top of "
+    "a, b: values with two standard deviations. c to e: histories, datum of the hub drop the top of "
     "the undisturbed ground. Below: density, same scale; grains are smoothed over about one grain."
 )
 COST_CAPTION = "Numerical error of the runs of this scene against their cost; values against size."

@@ -16,7 +16,7 @@ from matplotlib.image import AxesImage
 from ..analyse.comparison import Comparison, overall
 from ..analyse.density import Section, sections
 from ..analyse.entry import FORMULA, LIMIT, MEASURED, RUN
-from ..analyse.verdict import COEFFICIENT, COVERAGE, QUANTITIES, SINKAGE, Quantity
+from ..analyse.verdict import COEFFICIENT, COVERAGE, QUANTITIES, HUB_DROP, Quantity
 from ..analyse.wheel_histories import cruise_history, settling_curve
 from ..read.wheel_run import WheelRun
 from .style import (
@@ -39,7 +39,7 @@ def draw_comparison(result: Comparison, target: Path) -> None:
     use_style()
     grounds = [run for run in result.runs if run.ground != "none"]
     colours = {run.label: RUN_COLOURS[k % len(RUN_COLOURS)] for k, run in enumerate(result.runs)}
-    many = max(len(result.of(SINKAGE)) - 4, 0)  # entries that need more room
+    many = max(len(result.of(HUB_DROP)) - 4, 0)  # entries that need more room
     tall = 5.9 + SECTION_HEIGHT * len(grounds) + 0.4 * many
     figure = plt.figure(figsize=(11, tall), layout="constrained")
     figure.get_layout_engine().set(hspace=0.04)
@@ -53,7 +53,7 @@ def draw_comparison(result: Comparison, target: Path) -> None:
     sink, resist, settle = (figure.add_subplot(grid[1, 2 * k : 2 * k + 2]) for k in range(3))
     _draw_histories(sink, resist, settle, result, colours)
     titles = (
-        (sink, "sinkage"),
+        (sink, "hub drop"),
         (resist, "resistance, smoothed"),
         (settle, "pressure while it is lowered"),
     )
@@ -109,23 +109,23 @@ def _draw_histories(
     for run in result.runs:
         colour = colours[run.label]
         history, settling = cruise_history(run), settling_curve(run)
-        sinkage = CENTIMETRE * history.sinkage
-        sink.plot(history.distance, sinkage, color=colour, lw=1.2, label=run.label)
+        hub_drop = CENTIMETRE * history.hub_drop
+        sink.plot(history.distance, hub_drop, color=colour, lw=1.2, label=run.label)
         resist.plot(history.distance, history.coefficient, color=colour, lw=1.2)
         pressure = KILOPASCAL * settling.pressure
-        settle.plot(CENTIMETRE * settling.sinkage, pressure, color=colour, lw=1.2)
-    sink.set(xlabel="travel in cruise [m]", ylabel="sinkage [cm]")
+        settle.plot(CENTIMETRE * settling.hub_drop, pressure, color=colour, lw=1.2)
+    sink.set(xlabel="travel in cruise [m]", ylabel="hub drop [cm]")
     resist.set(xlabel="travel in cruise [m]", ylabel="resistance coefficient")
     steady = [e.value for e in result.of(COEFFICIENT, RUN)]
     resist.set_ylim(min(0, 1.5 * min(steady)), max(2.2 * max(steady), 0.05))
     sink.set_ylim(0, None)
-    settle.set(xlabel="sinkage [cm]", ylabel="mean pressure [kPa]", ylim=(0, None), xlim=(0, None))
+    settle.set(xlabel="hub drop [cm]", ylabel="mean pressure [kPa]", ylim=(0, None), xlim=(0, None))
     sink.legend(fontsize=8)
 
 
 def _draw_wheel_outline(axes: Axes, run: WheelRun) -> None:
     """A circle in the lengthwise section."""
-    z = run.radius - run.results.columns["sinkage"][-1]
+    z = run.radius - run.results.columns["hub_drop"][-1]
     radius = CENTIMETRE * run.radius
     axes.add_patch(plt.Circle((0, CENTIMETRE * z), radius, fill=False, ec=WHEEL_COLOUR, lw=1.4))
 

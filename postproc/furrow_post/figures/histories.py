@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Sinkage, forces, torque and slip against time."""
+"""Depths, forces, torque and slip against time."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -30,7 +30,17 @@ class Panel:
 
 
 PANELS = (
-    Panel("sinkage", "mm", MILLIMETRE, (("sinkage", "sinkage"),), "sinkage"),
+    Panel(
+        "depth",
+        "mm",
+        MILLIMETRE,
+        (
+            ("hub_drop", "hub drop"),
+            ("tyre_deflection", "tyre deflection"),
+            ("rut_depth", "rut depth"),
+        ),
+        "hub_drop",
+    ),
     Panel(
         "forces of the ground",
         "N",
@@ -42,6 +52,7 @@ PANELS = (
     Panel("axle torque", "N m", 1.0, (("drive_torque", "axle torque"),), "drive_torque"),
     Panel("slip", "%", 100.0, (("slip", "slip"),), "slip"),
 )
+OF_TYRES = ("tyre_deflection", "rut_depth")  # of a rigid wheel 0, and the hub drop
 STAGE_COLOURS = {Stage.SETTLE: "0.93", Stage.ACCELERATE: "0.97", Stage.CRUISE: "1.0"}
 
 
@@ -50,7 +61,7 @@ def draw_histories(results: Results, target: Path) -> None:
     use_style()
     summary = Summary(results.folder)
     wanted = ["time", *(name for panel in PANELS for name, _ in panel.channels), "stage"]
-    missing = [name for name in wanted if name not in results.columns]
+    missing = [name for name in wanted if name not in (*results.columns, *OF_TYRES)]
     if missing:
         raise ResultsError(
             f"{results.file}: has no channel {', '.join(missing)}; plot needs the history of a "
@@ -59,13 +70,16 @@ def draw_histories(results: Results, target: Path) -> None:
     time, stage = results.columns["time"], results.columns["stage"]
     if len(time) == 0:
         raise ResultsError(f"{results.file}: the history has no rows yet")
+    rigid = not np.any(results.columns.get("tyre_deflection", 0.0))
+    absent = OF_TYRES if rigid else ()
     figure, all_axes = plt.subplots(
         len(PANELS), 1, figsize=(10, 12), sharex=True, layout="constrained"
     )
     for axes, panel in zip(all_axes, PANELS):
         _shade_stages(axes, time, stage, named=axes is all_axes[0])
-        columns = [results.columns[channel] for channel, _ in panel.channels]
-        for column, (_, legend) in zip(columns, panel.channels):
+        drawn = [(results.columns[c], legend) for c, legend in panel.channels if c not in absent]
+        columns = [column for column, _ in drawn]
+        for column, legend in drawn:
             axes.plot(time, panel.scale * column, lw=0.8, alpha=0.85, label=legend)
         _mark_steady(axes, summary, panel)
         axes.set_ylabel(f"{panel.title} [{panel.unit}]")

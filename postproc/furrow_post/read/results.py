@@ -15,6 +15,8 @@ from ..fields import Fields
 from .hdf5 import opened
 from .styles import Styles
 
+# channel in files of earlier versions -> its name
+FORMER_CHANNELS = {"sinkage": "hub_drop"}
 REPEAT = "repeat the run, into a folder of its own"
 
 
@@ -143,7 +145,8 @@ class Results:
         columns: dict[str, Floats] = {}
         self.units: dict[str, str] = {}
         self.meanings: dict[str, str] = {}
-        for name, data in content["history"].items():
+        for stored, data in content["history"].items():
+            name = FORMER_CHANNELS.get(stored, stored)
             columns[name] = data[()]
             for attribute in ("unit", "meaning"):
                 if attribute not in data.attrs:

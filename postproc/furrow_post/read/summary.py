@@ -30,6 +30,10 @@ class ResistanceParts:
     unexplained: float
 
 
+# quantity in files of earlier versions -> its name
+FORMER_NAMES = {"sinkage": "hub_drop", "drawbar_coefficient": "net_traction_coefficient"}
+
+
 class Summary:
     """summary.json of a results folder; empty where there is none."""
 
@@ -60,8 +64,8 @@ class Summary:
     @property
     def quantities(self) -> dict[str, dict[str, Any]]:
         """Name -> what the file has of it: mean, standard_error, unit, steady, verdict."""
-        quantities: dict[str, dict[str, Any]] = self.content.get("quantities", {})
-        return quantities
+        found: dict[str, dict[str, Any]] = self.content.get("quantities", {})
+        return {FORMER_NAMES.get(name, name): value for name, value in found.items()}
 
     def quantity(self, name: str) -> SteadyValue | None:
         """None where the file has no such quantity or no number for it."""
@@ -92,15 +96,21 @@ class Summary:
             return ResistanceParts(float(found["whole"]), forces, float(found["unexplained"]))
 
     def line(self) -> str:
-        """For a title: "sinkage 15.8 ± 1.9 mm, resistance coefficient 0.330 ± 0.007, ..."."""
+        """For a title: "hub drop 15.8 ± 1.9 mm, resistance coefficient 0.330 ± 0.007, ...".
+
+        A towed wheel has no torque and a resistance coefficient, a driven one has a net traction
+        coefficient.
+        """
         torque = self.quantity("drive_torque")
-        if torque and not (torque.mean or torque.standard_error):
-            torque = None  # a towed wheel has none
+        towed = torque is None or not (torque.mean or torque.standard_error)
+        coefficient = "resistance_coefficient" if towed else "net_traction_coefficient"
         parts = []
         for value, name, scale, unit in (
-            (self.quantity("sinkage"), "sinkage", 1e3, " mm"),
-            (self.quantity("resistance_coefficient"), "resistance coefficient", 1, ""),
-            (torque, "torque", 1, " N m"),
+            (self.quantity("hub_drop"), "hub drop", 1e3, " mm"),
+            (self.quantity("tyre_deflection"), "tyre deflection", 1e3, " mm"),
+            (self.quantity("rut_depth"), "rut depth", 1e3, " mm"),
+            (self.quantity(coefficient), coefficient.replace("_", " "), 1, ""),
+            (None if towed else torque, "torque", 1, " N m"),
             (self.quantity("slip"), "slip", 100, " %"),
         ):
             if value:

@@ -3,7 +3,7 @@
 
 Definitions are aligned here, once. Load is the vertical force that the ground carries at rest. Slip
 is counted as in the history ((v_rim - v)/max(|v_rim|, |v|), driving positive) and by vehicle speed.
-The datum of the sinkage is the top of the undisturbed ground (of grains: of a uniform bed of the
+The datum of the hub drop is the top of the undisturbed ground (of grains: of a uniform bed of the
 same mass). The resistance coefficient is -force_x/force_z.
 """
 
@@ -21,7 +21,7 @@ from .summary import SteadyValue, Summary
 from .terrain import FILE, read_terrain_fields, terrain_file
 
 STEADY_QUANTITIES = (
-    "sinkage",
+    "hub_drop",
     "resistance_coefficient",
     "force_z",
     "drawbar_pull",
@@ -86,7 +86,7 @@ class WheelRun:
 
     @property
     def ground_level(self) -> float:
-        """z from which the rig counts the sinkage [m]."""
+        """z from which the rig counts the hub drop [m]."""
         return self.number("ground_level")
 
     @property
@@ -266,11 +266,11 @@ def _read_values(run: WheelRun, reference: Grains | None) -> None:
     run.conditions["slip"] = Condition(float(run.values["slip"].mean))
     by_speed = float((rim - v) / v) if v else float("nan")
     run.conditions["slip_by_vehicle_speed"] = Condition(by_speed)
-    # The rig counts the sinkage from ground_level, which may differ from the top of the ground
+    # The rig counts the hub drop from ground_level, which may differ from the top of the ground
     if reference is not None and np.isfinite(reference.bed_level):
         shift = float(reference.bed_level - run.ground_level)
-        sinkage = run.values["sinkage"]
-        run.values["sinkage"] = replace(sinkage, mean=sinkage.mean + shift)
+        hub_drop = run.values["hub_drop"]
+        run.values["hub_drop"] = replace(hub_drop, mean=hub_drop.mean + shift)
         run.conditions["datum_shift"] = Condition(shift, "m")
 
 

@@ -129,7 +129,7 @@ def case_of(plan: Plan, point: Point) -> Case:
 
 
 def continued_script(script: Path, error: float, time_limit: float) -> str:
-    """A script that runs another one, and on until sinkage and resistance are steady.
+    """A script that runs another one, and on until hub drop and resistance are steady.
 
     @raises ResultsError for a path that LIGGGHTS cannot include
     """

@@ -45,10 +45,10 @@ CONDITIONS = {
         Axis("density", "density", "kg/m³"),
     )
 }
-PULL = Axis("drawbar_coefficient", "drawbar pull / load")
+PULL = Axis("net_traction_coefficient", "net traction coefficient")
 TORQUE = Axis("torque_coefficient", "torque / (load × radius)")
 EFFICIENCY = Axis("tractive_efficiency", "tractive efficiency")
-SINKAGE = Axis("sinkage", "sinkage", "mm", 1e3)
+HUB_DROP = Axis("hub_drop", "hub drop", "mm", 1e3)
 RESISTANCE = Axis("resistance_coefficient", "resistance coefficient")
 # Of a wheel that does not roll straight on, where the summary has them
 SIDEWAYS = (
@@ -197,10 +197,10 @@ def _curves(x: Axis, points: Sequence[SweepPoint]) -> list[Curve]:
             Curve("pull–slip", PULL),
             Curve("torque–slip", TORQUE),
             *([Curve("tractive efficiency", EFFICIENCY)] if has(EFFICIENCY) else []),
-            Curve("sinkage–slip", SINKAGE),
+            Curve("hub drop–slip", HUB_DROP),
         ]
     if _are_free(points):
-        answers = [TORQUE, *([EFFICIENCY] if has(EFFICIENCY) else []), SINKAGE]
+        answers = [TORQUE, *([EFFICIENCY] if has(EFFICIENCY) else []), HUB_DROP]
         return [
             Curve(f"{x.name}–slip", CONDITIONS[SLIP]),
             *(Curve(f"{axis.name.split(' /')[0]} {against}", axis) for axis in answers),
@@ -210,6 +210,6 @@ def _curves(x: Axis, points: Sequence[SweepPoint]) -> list[Curve]:
         further += [axis for axis in SIDEWAYS if has(axis)]
     return [
         Curve(f"resistance {against}", RESISTANCE),
-        Curve(f"sinkage {against}", SINKAGE),
+        Curve(f"hub drop {against}", HUB_DROP),
         *(Curve(f"{axis.name.split(' /')[0]} {against}", axis) for axis in further),
     ]

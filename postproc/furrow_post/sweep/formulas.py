@@ -10,7 +10,7 @@ import numpy as np
 from ..analyse.prediction import Prediction
 from ..analyse.formulas import predictions_for
 from ..errors import ResultsError
-from .curves import EFFICIENCY, PULL, RESISTANCE, SINKAGE, TORQUE, Axis, Line
+from .curves import EFFICIENCY, HUB_DROP, PULL, RESISTANCE, TORQUE, Axis, Line
 from .quantities import speed_over_rim
 
 
@@ -52,7 +52,7 @@ def _value(prediction: Prediction, y: Axis, radius: float) -> float:
     """NaN where the formula has none. Bekker and NRMM speak of wheels that are towed."""
     extra = {result.name: result.value for result in prediction.extra}
     pull, torque = extra.get("drawbar pull", math.nan), extra.get("torque", math.nan)
-    if y == SINKAGE:
+    if y == HUB_DROP:
         return prediction.sinkage
     if y == RESISTANCE:
         return prediction.coefficient

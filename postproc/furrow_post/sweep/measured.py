@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Measured points for the figure of a sweep: a CSV file with columns of known names.
 
-A column is named as in sweep.csv, in SI units, or with its unit behind: sinkage, sinkage_mm, slip,
-load_kN, drawbar_coefficient. <name>_error is its standard deviation in the same unit; label tells
+A column is named as in sweep.csv, in SI units, or with its unit behind: hub_drop, hub_drop_mm, slip,
+load_kN, net_traction_coefficient. <name>_error is its standard deviation in the same unit; label tells
 several tests in one file apart. A table of another sweep can be read too.
 """
 
@@ -30,7 +30,11 @@ UNITS = {
     "_deg": 1.0,
     "_percent": 1e-2,
 }
-ALSO_CALLED = {"resistance_coefficient": ("resistance",)}  # of inputs/validation/*/reference.csv
+ALSO_CALLED = {  # in inputs/validation/*/reference.csv, and by earlier versions
+    "resistance_coefficient": ("resistance",),
+    "hub_drop": ("sinkage",),
+    "net_traction_coefficient": ("drawbar_coefficient",),
+}
 ERROR = "_error"
 
 
@@ -59,7 +63,7 @@ def read_measured_points(path: Path, label: str | None, figure: Figure) -> list[
     if x is None or not found:
         raise ResultsError(
             f"{path}: needs a column {figure.x.key} and one of {', '.join(wanted)}; a unit may "
-            f"stand behind the name, e.g. sinkage_mm: {', '.join(filter(None, UNITS))}"
+            f"stand behind the name, e.g. hub_drop_mm: {', '.join(filter(None, UNITS))}"
         )
     groups: dict[str, list[dict[str, str]]] = {}
     for row in rows:

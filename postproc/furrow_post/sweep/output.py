@@ -80,7 +80,7 @@ class Result:
         moving = sum(not point.steady for point in points)
         if moving:
             found.append(
-                f"{moving} of {len(points)} points are not called steady in sinkage and "
+                f"{moving} of {len(points)} points are not called steady in hub drop and "
                 "resistance; the reasons are in their summary.txt"
             )
         return found + [one.note for one in self.formulas if one.note]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What a point of a sweep gave: the steady values of its run and what follows from them.
 
-torque coefficient = T/(W r), drawbar coefficient = P/W, tractive efficiency = P v/(T omega), with
+torque coefficient = T/(W r), net traction coefficient = P/W, tractive efficiency = P v/(T omega), with
 the drawbar pull P, the torque T, the vertical force W, the radius r of the undeformed wheel, and
 v/(omega r) from the slip (v_rim - v)/max(|v_rim|, |v|). Errors of ratios take both parts as
 independent, which is too much where both rise and fall together. The efficiency is that of a wheel
@@ -60,8 +60,8 @@ def _of_run(run: WheelRun, families: Families) -> dict[str, Value]:
         name = NAME_IN_RUN[entry.quantity.key]
         found[name] = Value(entry.value, found[name].unit, entry.parts, found[name].steady)
     load, pull, torque = found["force_z"], found["drawbar_pull"], found["drive_torque"]
-    if "drawbar_coefficient" not in found:
-        found["drawbar_coefficient"] = _ratio(pull, load)
+    if "net_traction_coefficient" not in found:
+        found["net_traction_coefficient"] = _ratio(pull, load)
     found["torque_coefficient"] = _ratio(torque, load, 1 / run.radius)
     if pull.mean > 0 and torque.mean > 0:
         speed_ratio = speed_over_rim(found["slip"].mean)

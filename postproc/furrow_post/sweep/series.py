@@ -28,8 +28,8 @@ class SweepPoint:
 
     @property
     def steady(self) -> bool:
-        """Whether sinkage and resistance are steady in all runs."""
-        return all(self.quantities[name].steady for name in ("sinkage", "resistance_coefficient"))
+        """Whether hub drop and resistance are steady in all runs."""
+        return all(self.quantities[name].steady for name in ("hub_drop", "resistance_coefficient"))
 
     @property
     def parts(self) -> ResistanceParts | None:

@@ -49,7 +49,7 @@ def parts_of(results):
     found = summary["resistance_parts"]
     print(json.dumps(found, indent=1))
     assert abs(found["unexplained"]) <= UNEXPLAINED * found["whole"], "parts do not sum to the whole"
-    return found["whole"], found["parts"], summary["quantities"]["sinkage"]["mean"]
+    return found["whole"], found["parts"], summary["quantities"]["hub_drop"]["mean"]
 
 
 def compression_work(file, sinkage):

@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 
 const std::vector<Channel> channels = {
     {"time", "s", "simulated time"},
-    {"sinkage", "m", "bed level minus lowest point of the wheel"},
+    {"hub_drop", "m", "bed level minus lowest point of the wheel"},
     {"force_x", "N", "force of the ground on the wheel along x"}};
 
 std::vector<double> row(int i) { return {0.001 * i, 0.01 * std::sin(0.1 * i), -5.0 + 0.25 * i}; }
@@ -81,17 +81,19 @@ TEST(HistoryFile, StylesAreKeptAsText) {
 }
 
 /// A file of an earlier version is still evaluated, but not continued.
-TEST(HistoryFile, TheFormerNameOfTheStageIsReadAsTheStage) {
+TEST(HistoryFile, FormerNamesOfChannelsAreRead) {
   const Scratch scratch;
   const std::string path = scratch.path("history.h5");
-  const std::vector<Channel> now = {{"time", "s", ""}, {"stage", "", ""}};
-  const std::vector<Channel> former = {{"time", "s", ""}, {"phase", "", ""}};
+  const std::vector<Channel> now = {{"time", "s", ""}, {"stage", "", ""}, {"hub_drop", "m", ""}};
+  const std::vector<Channel> former = {{"time", "s", ""}, {"phase", "", ""}, {"sinkage", "m", ""}};
   {
     HistoryFile file = HistoryFile::create(path, former, {});
-    file.append({0.0, 0.0});
-    file.append({1.0, 2.0});
+    file.append({0.0, 0.0, 0.01});
+    file.append({1.0, 2.0, 0.02});
   }
-  EXPECT_EQ(read_history(path).column("stage"), (std::vector<double>{0.0, 2.0}));
+  const History history = read_history(path);
+  EXPECT_EQ(history.column("stage"), (std::vector<double>{0.0, 2.0}));
+  EXPECT_EQ(history.column("hub_drop"), (std::vector<double>{0.01, 0.02}));
   EXPECT_THROW(HistoryFile::resume(path, now, 1.0), Error);
 }
 
@@ -216,8 +218,8 @@ TEST(HistoryFile, RefusesToContinueWithAGapOrOtherChannels) {
   std::vector<Channel> other = channels;
   other[2] = {"torque", "N m", "torque"};
   EXPECT_THAT(error_of([&] { HistoryFile::resume(path, other, 0.005); }),
-              HasSubstr("has the channels time [s], sinkage [m], force_x [N]; this run has time "
-                        "[s], sinkage [m], torque [N m]"));
+              HasSubstr("has the channels time [s], hub_drop [m], force_x [N]; this run has time "
+                        "[s], hub_drop [m], torque [N m]"));
   expect_rows(read_history(path), 11);  // a refusal leaves the file as it was
 }
 
@@ -228,7 +230,7 @@ TEST(HistoryFile, RefusesRowsThatAreNotFiniteOrNotLater) {
   EXPECT_THAT(error_of([&] {
                 file.append({0.003, std::nan(""), 1.0});
               }),
-              HasSubstr("sinkage is nan at t = 0.003 s"));
+              HasSubstr("hub_drop is nan at t = 0.003 s"));
   EXPECT_THAT(error_of([&] {
                 file.append({0.002, 0.0, 1.0});
               }),
@@ -248,7 +250,7 @@ TEST(HistoryFile, TimeThatRunsBackwardsIsNamed) {
     {
       Hdf5File file(path, Hdf5File::Mode::edit);
       file.append("/history/time", {time});
-      file.append("/history/sinkage", {0.0});
+      file.append("/history/hub_drop", {0.0});
       file.append("/history/force_x", {0.0});
       file.close();
     }

@@ -213,7 +213,7 @@ History made_up(double (*axle)(double), double (*rim)(double), double (*sinkage)
                    {axle_free_channel, "", ""},
                    {"velocity_x", "m/s", ""},
                    {"rim_speed", "m/s", ""},
-                   {"sinkage", "m", ""}});
+                   {"hub_drop", "m", ""}});
   for (int i = 0; i < 400; ++i) {
     const double t = 0.01 * i, ripple = 1.0 + 0.02 * std::sin(37.0 * t);
     history.append({t, 2.0, 1.0, axle(t) * ripple, rim(t), sinkage(t) * ripple});

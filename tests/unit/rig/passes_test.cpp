@@ -80,7 +80,7 @@ TEST(Passes, OnARigidFloorAreAlike) {
   const std::vector<Resistance> passes = measure_passes(history, {});
   ASSERT_EQ(passes.size(), 3u);
   for (const Resistance& pass : passes) {
-    EXPECT_NEAR(pass.value("sinkage").mean, passes[0].value("sinkage").mean, 1e-5);
+    EXPECT_NEAR(pass.value("hub_drop").mean, passes[0].value("hub_drop").mean, 1e-5);
     EXPECT_NEAR(pass.value("force_z").mean, 60.0, 1.0);
     EXPECT_NEAR(pass.value("resistance_coefficient").mean, 0.0, 0.02);
   }

@@ -109,8 +109,8 @@ TEST(WheelRig, ThePrescribedSinkageIsReachedAndKept) {
       make_rig(wheel, {"sinkage", "0.03", "speed", "1", "mode", "towed", "ground_level", "0.02"});
   double last = -1.0;
   run(rig, wheel, 0.6, 1e-4, nullptr, [&](const std::vector<double>& row) {
-    ASSERT_GE(row[channel("sinkage")], last - 1e-15);
-    last = row[channel("sinkage")];
+    ASSERT_GE(row[channel("hub_drop")], last - 1e-15);
+    last = row[channel("hub_drop")];
     if (row[0] > 0.1) {
       ASSERT_NEAR(last, 0.03, 1e-13);
     }

@@ -22,8 +22,8 @@ using ::testing::HasSubstr;
 /// of cruise at 1 m/s.
 struct SyntheticRun {
   unsigned seed = 1;
-  double sinkage_drift = 0.0;  // [m] over the cruise
-  double end = 12.0;           // [s]
+  double hub_drop_drift = 0.0;  // [m] over the cruise
+  double end = 12.0;            // [s]
   double skipped_from = 100.0, skipped_to = 100.0;
   double load = 100.0;  // [N]
   /// About their means, -0.05 and -0.2 load: one slow AR(1) signal of this deviation and
@@ -34,7 +34,7 @@ struct SyntheticRun {
     History result({{"time", "s", ""},
                     {"stage", "", ""},
                     {"x", "m", ""},
-                    {"sinkage", "m", ""},
+                    {"hub_drop", "m", ""},
                     {"force_x", "N", ""},
                     {"force_z", "N", ""},
                     {"drawbar_pull", "N", ""},
@@ -54,7 +54,7 @@ struct SyntheticRun {
       const double force_z = load * (1.0 + vertical), force_x = -0.2 * force_z + own;
       const double stage = time < 1.0 ? 0.0 : time < 2.0 ? 1.0 : 2.0;
       const double sinkage =
-          0.03 + 1e-4 * normal(random) + sinkage_drift * std::max(0.0, time - 2.0) / 10.0;
+          0.03 + 1e-4 * normal(random) + hub_drop_drift * std::max(0.0, time - 2.0) / 10.0;
       const double slow = slow_deviation * wave + slow_drift * std::max(0.0, time - 2.0) / 10.0;
       result.append({time, stage, std::max(0.0, time - 1.5), sinkage, force_x, force_z,
                      slow_deviation > 0.0 ? load * (slow - 0.2) : force_x, 0.0, -0.05 + slow});
@@ -78,12 +78,12 @@ TEST(Resistance, IsTheRatioOfTheMeansWithItsError) {
   EXPECT_EQ(result.verdict, "steady");
   const SteadyValue& c = result.value("resistance_coefficient");
   EXPECT_NEAR(c.mean, 0.2, 4.0 * c.standard_error);
-  EXPECT_NEAR(result.value("sinkage").mean, 0.03, 4.0 * result.value("sinkage").standard_error);
+  EXPECT_NEAR(result.value("hub_drop").mean, 0.03, 4.0 * result.value("hub_drop").standard_error);
   EXPECT_NEAR(result.value("force_z").mean, 100.0, 4.0 * result.value("force_z").standard_error);
   EXPECT_NEAR(result.value("slip").mean, -0.05, 1e-13);
   EXPECT_EQ(result.value("drive_torque").mean, 0.0);
-  EXPECT_DOUBLE_EQ(result.value("drawbar_coefficient").mean, -c.mean);
-  EXPECT_DOUBLE_EQ(result.value("drawbar_coefficient").standard_error, c.standard_error);
+  EXPECT_DOUBLE_EQ(result.value("net_traction_coefficient").mean, -c.mean);
+  EXPECT_DOUBLE_EQ(result.value("net_traction_coefficient").standard_error, c.standard_error);
   EXPECT_EQ(result.value("drawbar_pull").unit, "N");
 }
 
@@ -102,7 +102,7 @@ TEST(Resistance, OfALockedWheelIsTheFriction) {
   EXPECT_TRUE(result.steady) << result.verdict;
   EXPECT_GE(result.window.begin, 0.2 - 1e-9);
   EXPECT_NEAR(result.value("resistance_coefficient").mean, floor.friction, 1e-6);
-  EXPECT_NEAR(result.value("drawbar_coefficient").mean, -floor.friction, 1e-3);
+  EXPECT_NEAR(result.value("net_traction_coefficient").mean, -floor.friction, 1e-3);
   EXPECT_NEAR(result.value("force_z").mean, 60.0, 0.1);
   EXPECT_NEAR(result.value("slip").mean, -1.0, 1e-12);
   EXPECT_NEAR(result.value("drive_torque").mean, -floor.friction * 60.0 * 0.2, 0.05);
@@ -128,14 +128,37 @@ TEST(Resistance, ErrorOfTheRatioIsThatOfItsScatterOverManyRuns) {
   EXPECT_NEAR(std::sqrt(squares / expected), 1.0, 0.15);
 }
 
-TEST(Resistance, ADriftingSinkageMakesTheRunNotSteady) {
+// A tyre has three depths, a rigid wheel one; a wheel with an axle torque is driven.
+TEST(Resistance, ReportsTheDepthsOfATyreAndWhetherTheWheelIsDriven) {
+  const History rigid = SyntheticRun().history();
+  std::vector<Channel> channels = rigid.channels();
+  channels.push_back({"tyre_deflection", "m", ""});
+  channels.push_back({"rut_depth", "m", ""});
+  History tyre(channels);
+  for (std::size_t i = 0; i < rigid.size(); ++i) {
+    std::vector<double> row;
+    for (std::size_t k = 0; k < rigid.channels().size(); ++k) row.push_back(rigid.at(i, k));
+    row[7] = 12.0;  // drive_torque
+    row.push_back(0.012);
+    row.push_back(row[3] - 0.012);
+    tyre.append(row);
+  }
+  const Resistance of_rigid = measure_resistance(rigid), of_tyre = measure_resistance(tyre);
+  EXPECT_FALSE(of_rigid.has("rut_depth"));
+  EXPECT_FALSE(of_rigid.driven);
+  EXPECT_TRUE(of_tyre.driven);
+  EXPECT_NEAR(of_tyre.value("tyre_deflection").mean, 0.012, 1e-12);
+  EXPECT_NEAR(of_tyre.value("rut_depth").mean, of_tyre.value("hub_drop").mean - 0.012, 1e-12);
+}
+
+TEST(Resistance, ADriftingHubDropMakesTheRunNotSteady) {
   SyntheticRun run;
-  run.sinkage_drift = 0.01;
+  run.hub_drop_drift = 0.01;
   const Resistance result = measure_resistance(run.history());
   EXPECT_FALSE(result.steady);
   EXPECT_THAT(result.verdict, HasSubstr("not steady: "));
-  EXPECT_THAT(result.verdict, HasSubstr("sinkage: it drifts by"));
-  EXPECT_FALSE(result.value("sinkage").steady);
+  EXPECT_THAT(result.verdict, HasSubstr("hub_drop: it drifts by"));
+  EXPECT_FALSE(result.value("hub_drop").steady);
   EXPECT_TRUE(result.value("resistance_coefficient").steady);
 }
 
@@ -185,7 +208,7 @@ TEST(Resistance, TorqueAboutZeroIsJudgedByLoadTimesRadius) {
                                          {"force_z", 100.0},
                                          {"rim_speed", 1.0},
                                          {"spin_rate", 5.0},
-                                         {"sinkage", 0.01 + 1e-6 * std::sin(40.0 * x)},
+                                         {"hub_drop", 0.01 + 1e-6 * std::sin(40.0 * x)},
                                          {"drive_torque", amplitude * std::sin(x)}})
         row[history.index(name)] = value;
       history.append(row);

@@ -34,7 +34,7 @@ History history_of(const Wheel& wheel, double first = 0.0, bool ground = true) {
                                                   {"stage", 2.0},
                                                   {"pass", 1.0},
                                                   {"x", t},
-                                                  {"sinkage", 0.03},
+                                                  {"hub_drop", 0.03},
                                                   {"force_z", wheel.load},
                                                   {"force_x", -wheel.put_in},
                                                   {"drawbar_pull", -wheel.put_in},

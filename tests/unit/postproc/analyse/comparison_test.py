@@ -13,7 +13,7 @@ from furrow_post.analyse.cost_table import Components, families
 from furrow_post.analyse.density import height_left
 from furrow_post.analyse.entry import FORMULA, LIMIT, MEASURED, RUN, Entry, limits_of_run
 from furrow_post.analyse.judgement import judge
-from furrow_post.analyse.verdict import COEFFICIENT, SINKAGE, Agreement, Quantity
+from furrow_post.analyse.verdict import COEFFICIENT, HUB_DROP, Agreement, Quantity
 from furrow_post.errors import ResultsError
 from furrow_post.read.results import Results, Surface
 from furrow_post.read.summary import SteadyValue
@@ -23,7 +23,7 @@ from support.tables import CONTINUUM, row
 
 
 def entry(
-    source: str, value: float, u: float, quantity: Quantity = SINKAGE, kind: str = RUN
+    source: str, value: float, u: float, quantity: Quantity = HUB_DROP, kind: str = RUN
 ) -> Entry:
     return Entry(quantity, source, value, Components(u, 0.0, 0.0, 0.0), kind)
 
@@ -42,13 +42,13 @@ class JudgeTest(unittest.TestCase):
         self.assertIn("cannot be told apart: +10 mm (+10 %), 40 allowed, 40 % of the value", verdict.sentence)
 
     def test_no_uncertainty_no_verdict(self) -> None:
-        other = Entry(SINKAGE, "b", 0.1, Components(), RUN)
+        other = Entry(HUB_DROP, "b", 0.1, Components(), RUN)
         verdict = judge(entry("a", 0.1, 0.001), other)
         self.assertEqual(verdict.agreement, Agreement.UNKNOWN)
         self.assertIn("b has no uncertainty", verdict.sentence)
 
     def test_unknown_parts_are_named(self) -> None:
-        other = Entry(SINKAGE, "b", 0.1, Components(time=0.001), RUN)
+        other = Entry(HUB_DROP, "b", 0.1, Components(time=0.001), RUN)
         verdict = judge(entry("a", 0.1, 0.001), other)
         self.assertEqual(verdict.unknown, ("domain of b", "packing of b", "size of b"))
         self.assertIn("not known: domain of b, packing of b, size of b", verdict.sentence)
@@ -64,13 +64,13 @@ class OverallTest(unittest.TestCase):
         agree = entry("a", 0.1, 0.003), entry("b", 0.101, 0.003)
         differ = entry("a", 0.1, 0.003), entry("b", 0.2, 0.003)
         undecided = entry("a", 0.2, 0.1, COEFFICIENT), entry("b", 0.21, 0.1, COEFFICIENT)
-        unknown = entry("a", 0.2, 0.1), Entry(SINKAGE, "b", 0.2, Components(), RUN)
-        both = "The runs agree within their uncertainty in sinkage and resistance."
+        unknown = entry("a", 0.2, 0.1), Entry(HUB_DROP, "b", 0.2, Components(), RUN)
+        both = "The runs agree within their uncertainty in hub drop and resistance."
         self.assertEqual(self.verdict(agree), both)
-        self.assertEqual(self.verdict(differ), "The runs do not agree in sinkage.")
+        self.assertEqual(self.verdict(differ), "The runs do not agree in hub drop.")
         self.assertEqual(
             self.verdict(agree, undecided),
-            "The runs agree in sinkage within their uncertainty; in resistance coefficient they "
+            "The runs agree in hub drop within their uncertainty; in resistance coefficient they "
             "cannot be told apart: the uncertainty is too large.",
         )
         self.assertEqual(
@@ -79,17 +79,17 @@ class OverallTest(unittest.TestCase):
             "large.",
         )
         self.assertEqual(
-            self.verdict(unknown), "There is no verdict in sinkage: an uncertainty is not known."
+            self.verdict(unknown), "There is no verdict in hub drop: an uncertainty is not known."
         )
         self.assertEqual(self.verdict(), "")
 
     def test_a_run_may_be_called_measured(self) -> None:
         values = entry("a", 0.1, 0.003), entry("measured", 0.2, 0.003)
-        self.assertEqual(self.verdict(values), "The runs do not agree in sinkage.")
+        self.assertEqual(self.verdict(values), "The runs do not agree in hub drop.")
 
     def test_a_run_may_be_called_like_a_verdict(self) -> None:
         values = entry("cannot be told apart", 0.1, 0.003), entry("not known", 0.1, 0.003)
-        both = "The runs agree within their uncertainty in sinkage and resistance."
+        both = "The runs agree within their uncertainty in hub drop and resistance."
         self.assertEqual(self.verdict(values), both)
 
     def test_measurements_are_no_part_of_it(self) -> None:
@@ -133,7 +133,7 @@ class CompareTest(unittest.TestCase):
         result = comparison.compare(runs)
         self.assertEqual(
             overall(result),
-            "The runs do not agree in sinkage as far as their uncertainty is known.",
+            "The runs do not agree in hub drop as far as their uncertainty is known.",
         )
 
     def test_measurements_are_judged_against_every_run(self) -> None:
@@ -146,7 +146,7 @@ class CompareTest(unittest.TestCase):
         self.assertTrue(all(verdict.with_measurement for verdict in result.verdicts))
         self.assertEqual(
             overall(result),
-            "The run and the measurements agree within their uncertainty in sinkage and "
+            "The run and the measurements agree within their uncertainty in hub drop and "
             "resistance.",
         )
         run.conditions["depth"] = Condition(0.5, "m")
@@ -170,11 +170,11 @@ class CompareTest(unittest.TestCase):
 
         same = entry("b", 0.0521, 1e-3, kind=LIMIT)
         verdict = judge(limit, same)
-        self.assertIn("sinkage at size zero: a and b agree", verdict.sentence)
+        self.assertIn("hub drop at size zero: a and b agree", verdict.sentence)
         result = Comparison([run, other], [limit, same], at_size_zero=[verdict])
         self.assertEqual(
             overall_at_size_zero(result),
-            "At size zero: The runs agree within their uncertainty in sinkage and resistance.",
+            "At size zero: The runs agree within their uncertainty in hub drop and resistance.",
         )
         self.assertIn(verdict.sentence, comparison_report.findings(result))
         kinds = [line["kind"] for line in comparison_report.table_rows(result)]
@@ -184,7 +184,7 @@ class CompareTest(unittest.TestCase):
     def test_formula_has_its_place_and_no_verdict(self) -> None:
         prediction = empirical.Prediction("made", "nowhere", 0.04, 100.0, 1000.0)
         result = comparison.compare([self.read("a", "a")], formulas=[prediction])
-        (found,) = result.of(SINKAGE, FORMULA)
+        (found,) = result.of(HUB_DROP, FORMULA)
         self.assertEqual((found.source, found.value), ("made", 0.04))
         self.assertEqual(result.verdicts, [])
 
@@ -204,7 +204,7 @@ class HeightLeftTest(unittest.TestCase):
         """0.2 m of ground up to 0.5 m; sinkage of the unloaded outline 0.18 m: 20 mm further up."""
         run = WheelRun(Path(), TyreResults(), "", "continuum", deformable=False)
         run.conditions = {"depth": Condition(0.2), "ground_level": Condition(0.5)}
-        run.values = {"sinkage": SteadyValue(0.18, 0.0, "m", True)}
+        run.values = {"hub_drop": SteadyValue(0.18, 0.0, "m", True)}
         self.assertAlmostEqual(height_left(run), 0.02)
         run.deformable = True
         self.assertAlmostEqual(height_left(run), 0.04)

@@ -72,19 +72,19 @@ class CompareCommandTest(unittest.TestCase):
     def test_compare_writes_table_and_figure(self) -> None:
         done = self.run_post("compare", "one=a", "two=b", "-o", "both")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("sinkage: one and two agree: +1 mm (+2 %), 2.8 allowed", done.stdout)
+        self.assertIn("hub drop: one and two agree: +1 mm (+2 %), 2.8 allowed", done.stdout)
         lines = read_rows(self.folder / "both" / "compare.csv")
         self.assertEqual(
             [(line["quantity"], line["source"], float(line["value"])) for line in lines[:3]],
             [
-                ("sinkage", "one", 0.05),
+                ("hub drop", "one", 0.05),
                 ("resistance coefficient", "one", 0.2),
-                ("sinkage", "two", 0.051),
+                ("hub drop", "two", 0.051),
             ],
         )
         self.assertEqual(lines[0]["u_size"], "")  # not known is not zero
         with h5py.File(self.folder / "both" / "compare.h5", "r") as content:
-            self.assertAlmostEqual(content["runs/two/history/sinkage"][-1], 0.051)
+            self.assertAlmostEqual(content["runs/two/history/hub_drop"][-1], 0.051)
         self.assertGreater((self.folder / "both" / "compare.png").stat().st_size, 20000)
 
     def test_plates_are_compared_at_equal_sinkage(self) -> None:
@@ -130,7 +130,7 @@ class CompareCommandTest(unittest.TestCase):
         self.assertIn(advice, done.stderr)
         done = self.run_post("choose", "made.csv", "--error", "10.1%", "--held", "a")
         self.assertIn(
-            "sinkage: 0.0500 ± 0.0010, -50.0 % from the value at size zero (0.1), "
+            "hub drop: 0.0500 ± 0.0010, -50.0 % from the value at size zero (0.1), "
             "allowed 12 %: NOT HELD",
             done.stdout,
         )
@@ -146,7 +146,7 @@ class CompareCommandTest(unittest.TestCase):
         self.assertIn("one run alone, at best: continuum, cells of 10 mm", done.stderr)
         # both sinkages 0.05: so is that at size zero, its error sqrt(40^2 + 20^2)/20 times theirs
         done = self.run_post("choose", "made.csv", "--error", "4%", "--held", "a", "a")
-        self.assertIn("sinkage at size zero: 0.050 ± 0.002, -50.0 %", done.stdout)
+        self.assertIn("hub drop at size zero: 0.050 ± 0.002, -50.0 %", done.stdout)
         self.assertIn("The estimate did not hold", done.stdout)
         done = self.run_post("choose", "made.csv", "--error", "4%", "--held", "a")
         self.assertEqual(done.returncode, 1)

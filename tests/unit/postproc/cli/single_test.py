@@ -20,7 +20,7 @@ SUMMARY = {
     "window": {"start": 0.9, "end": 3.9},
     "steady": False,
     "quantities": {
-        "sinkage": {"mean": 0.02, "standard_error": 1.6e-4, "unit": "m", "steady": False},
+        "hub_drop": {"mean": 0.02, "standard_error": 1.6e-4, "unit": "m", "steady": False},
         "resistance_coefficient": {
             "mean": 0.2,
             "standard_error": 0.004,
@@ -69,7 +69,7 @@ class SingleRunTest(unittest.TestCase):
         names, values = (line.split(",") for line in done.stdout.strip().splitlines())
         row = dict(zip(names, values))
         for name, mean in (
-            ("sinkage", 0.02),
+            ("hub_drop", 0.02),
             ("resistance_coefficient", 0.2),
             ("slip", 0.1),
             ("drive_torque", 3.0),
@@ -95,7 +95,7 @@ class SingleRunTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         drawn = (folder / "histories.svg").read_text()
         self.assertIn(
-            "sinkage 20.00 ± 0.16 mm, resistance coefficient 0.200 ± 0.004, not all steady, "
+            "hub drop 20.00 ± 0.16 mm, resistance coefficient 0.200 ± 0.004, not all steady, "
             "see summary.txt",
             drawn,
         )

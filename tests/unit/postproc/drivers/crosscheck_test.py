@@ -9,7 +9,7 @@ from dataclasses import replace
 from furrow_post.analyse.cost_table import Components
 from furrow_post.analyse.entry import FORMULA, LIMIT, RUN, Entry
 from furrow_post.analyse.plates import pressure_at
-from furrow_post.analyse.verdict import COEFFICIENT, SINKAGE
+from furrow_post.analyse.verdict import COEFFICIENT, HUB_DROP
 from furrow_post.csv_table import read_comments, read_rows
 from support.command import SOURCE
 from support.tables import row
@@ -24,7 +24,7 @@ import wheel_cases
 
 
 def entry(source: str, value: float, u: float, kind: str = RUN) -> Entry:
-    return Entry(SINKAGE, source, value, Components(u, 0.0, 0.0, 0.0), kind)
+    return Entry(HUB_DROP, source, value, Components(u, 0.0, 0.0, 0.0), kind)
 
 
 class AnswersTest(unittest.TestCase):
@@ -39,12 +39,12 @@ class AnswersTest(unittest.TestCase):
             with self.subTest(value=value, u=u):
                 other = entry("grains", value, u)
                 if math.isnan(u):
-                    other = Entry(SINKAGE, "grains", value, Components(), RUN)
+                    other = Entry(HUB_DROP, "grains", value, Components(), RUN)
                 own = {"continuum": entry("continuum", 0.1, 0.0), "grains": other}
                 self.assertEqual(lines.answers(own), [expected])
 
     def test_parts_that_are_not_known_are_named(self) -> None:
-        other = Entry(SINKAGE, "grains", 0.1, Components(0.001, 0.0, math.nan, 0.0), RUN)
+        other = Entry(HUB_DROP, "grains", 0.1, Components(0.001, 0.0, math.nan, 0.0), RUN)
         (answer,) = lines.answers({"continuum": entry("continuum", 0.1, 0.0), "grains": other})
         self.assertEqual(answer, "yes, +0 %, 2 % allowed (not known: domain of grains)")
 
@@ -58,7 +58,7 @@ class AnswersTest(unittest.TestCase):
 class LinesTest(unittest.TestCase):
     def test_a_line_is_the_entry_again(self) -> None:
         parts = Components(1e-3, 2e-3, math.nan, 0.0)
-        for quantity in (SINKAGE, COEFFICIENT, pressure_at(0.015)):
+        for quantity in (HUB_DROP, COEFFICIENT, pressure_at(0.015)):
             for kind in (RUN, LIMIT):
                 written = Entry(quantity, "grains", 0.25, parts, kind, cpu_time=12.0)
                 read = lines.entry_of(lines.line_of("case", "base", written, 0.03, "abc"))
@@ -74,16 +74,16 @@ class LinesTest(unittest.TestCase):
                 (entry("continuum", 0.11, 0.002, LIMIT), math.nan),
                 (entry("grains", 0.12, 0.002), 0.03),
                 (entry("grains", 0.111, 0.002, LIMIT), math.nan),
-                (Entry(SINKAGE, "made", 0.09, Components(), FORMULA), math.nan),
+                (Entry(HUB_DROP, "made", 0.09, Components(), FORMULA), math.nan),
             )
         ]
         made.append(lines.number_line("wheel_on_sand", "flow", "displacement_difference", 0.2))
         self.assertEqual(
             lines.table(made)[2:],
             [
-                "| wheel on sand | sinkage [mm] | 40, 30 mm | 100 ± 2 | 120 ± 2 |  | made 90 |  "
+                "| wheel on sand | hub drop [mm] | 40, 30 mm | 100 ± 2 | 120 ± 2 |  | made 90 |  "
                 "| no, +20 %, 6 % allowed |",
-                "| wheel on sand | sinkage [mm] | size zero | 110 ± 2 | 111 ± 2 |  |  |  "
+                "| wheel on sand | hub drop [mm] | size zero | 110 ± 2 | 111 ± 2 |  |  |  "
                 "| yes, +1 %, 5 % allowed |",
             ],
         )
@@ -98,7 +98,7 @@ class SeriesTest(unittest.TestCase):
 
     def test_sinkages_go_by_the_ratio(self) -> None:
         zero = series.moved(
-            Entry(SINKAGE, "grains", 0.1, self.parts, LIMIT), self.point, self.twin, 0.004
+            Entry(HUB_DROP, "grains", 0.1, self.parts, LIMIT), self.point, self.twin, 0.004
         )
         self.assertAlmostEqual(zero.value, 0.1 * 1.5)
         time = 0.15 * math.hypot(0.003 / 0.12, 0.001 / 0.08)
@@ -164,7 +164,7 @@ class PlanTest(unittest.TestCase):
 
     def test_cited_bases_have_both_grounds_of_a_case(self) -> None:
         found = [lines.entry_of(line) for line in wheel_cases.cited_lines()]
-        runs = [one for one in found if one.kind == RUN and one.quantity == SINKAGE]
+        runs = [one for one in found if one.kind == RUN and one.quantity == HUB_DROP]
         self.assertEqual([one.source for one in runs], ["continuum", "grains"])
         self.assertTrue(all(not one.unknown for one in runs))
 

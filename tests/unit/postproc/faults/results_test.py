@@ -97,7 +97,7 @@ HISTORIES: tuple[tuple[str, Change, str, str], ...] = (
     ("time not a number", column("time", not_a_number), "plot", "row 501 of the history is at nan"),
     ("force not a number", column("force_z", not_a_number), "report", "'force_z' has a value that"),
     ("no time", without("history/time"), "plot", "history.h5: has no 'time'"),
-    ("no sinkage", without("history/sinkage"), "compare", "history.h5: has no 'sinkage'"),
+    ("no hub drop", without("history/hub_drop"), "compare", "history.h5: has no 'hub_drop'"),
     ("no stage", without("history/stage"), "report", "history.h5: has no 'stage'"),
     ("no channels", renamed_history, "plot", "fewer than two rows"),
     ("no history", without("history"), "plot", "history.h5: has no 'history'"),
@@ -119,7 +119,7 @@ HISTORIES: tuple[tuple[str, Change, str, str], ...] = (
     ),
 )
 
-SUMMARY = '{"window": {"start": %s, "end": %s}, "quantities": {"sinkage": %s}}'
+SUMMARY = '{"window": {"start": %s, "end": %s}, "quantities": {"hub_drop": %s}}'
 # (fault, text of summary.json, subcommand, what is said)
 SUMMARIES = (
     ("cut", "{", "plot", "summary.json: cannot be read"),

@@ -87,7 +87,7 @@ class WheelRunTest(unittest.TestCase):
         )  # the bed's length; its width is that of the grains
         self.assertAlmostEqual(run.number("depth"), 0.1)
         self.assertAlmostEqual(run.number("density"), 1000, delta=2)
-        self.assertAlmostEqual(run.values["sinkage"].mean, 0.05 - 0.02)
+        self.assertAlmostEqual(run.values["hub_drop"].mean, 0.05 - 0.02)
         self.assertAlmostEqual(run.number("datum_shift"), -0.02)
 
     def test_a_hybrid_is_a_bed_whose_floor_is_a_continuum(self) -> None:
@@ -106,7 +106,7 @@ class WheelRunTest(unittest.TestCase):
         self.assertAlmostEqual(run.number("depth"), 0.1 + 0.04)
         solid, layer = 8 / 3 * np.pi * 0.02**3, 0.04 * 0.24 * 0.04
         self.assertAlmostEqual(run.number("density"), 300 * solid / layer)
-        self.assertAlmostEqual(run.values["sinkage"].mean, 0.05 + 0.01)
+        self.assertAlmostEqual(run.values["hub_drop"].mean, 0.05 + 0.01)
         self.assertAlmostEqual(ground_points(run).mass.sum(), 300 * solid)
 
     def test_the_frozen_base_of_a_bed_is_no_ground(self) -> None:
@@ -151,10 +151,20 @@ class WheelRunTest(unittest.TestCase):
         with self.assertRaisesRegex(ResultsError, "has no terrain.h5; give the scene a fix"):
             read_wheel_run(self.folder)
 
+    def test_names_of_earlier_versions_are_read(self) -> None:
+        write_run(self.folder)
+        summary = self.folder / "summary.json"
+        summary.write_text(summary.read_text().replace('"hub_drop"', '"sinkage"'))
+        with h5py.File(self.folder / "history.h5", "a") as content:
+            content.move("history/hub_drop", "history/sinkage")
+        run = read_wheel_run(self.folder)
+        self.assertAlmostEqual(run.values["hub_drop"].mean, 0.05)
+        self.assertAlmostEqual(run.results.columns["hub_drop"][-1], 0.05)
+
     def test_missing_steady_value_names_the_remedy(self) -> None:
         write_run(self.folder)
         (self.folder / "summary.json").unlink()
-        with self.assertRaisesRegex(ResultsError, "no steady sinkage.*resistance --write"):
+        with self.assertRaisesRegex(ResultsError, "no steady hub_drop.*resistance --write"):
             read_wheel_run(self.folder)
 
 

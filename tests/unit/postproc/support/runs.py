@@ -81,7 +81,7 @@ def write_summary(
         return {**entry, "steady": True, "verdict": "steady"}
 
     quantities = {
-        "sinkage": quantity(sinkage, 1e-3, "m"),
+        "hub_drop": quantity(sinkage, 1e-3, "m"),
         "resistance_coefficient": quantity(-pull, 0.01, ""),
         "force_z": quantity(load, 1.0, "N"),
         "drawbar_pull": quantity(pull * load, 1.0, "N"),
@@ -121,7 +121,7 @@ def write_run(
         "z": RADIUS * one,
         "velocity_x": v,
         "spin_rate": rim / RADIUS,
-        "sinkage": sinkage * np.minimum(time / 0.5, 1),
+        "hub_drop": sinkage * np.minimum(time / 0.5, 1),
         "force_x": pull * load * v,
         "force_y": 0 * one,
         "force_z": load * one,
@@ -164,7 +164,7 @@ def write_noisy_history(path: Path, rows: int = 4000) -> None:
         "time": time,
         "stage": np.where(time < 0.5, 0.0, np.where(time < 0.8, 1.0, 2.0)),
         "x": np.maximum(time - 0.65, 0),
-        "sinkage": 0.02 + noise(2e-4),
+        "hub_drop": 0.02 + noise(2e-4),
         "force_x": -20 + noise(1.0),
         "force_y": noise(0.5),
         "force_z": 100 + noise(2.0),

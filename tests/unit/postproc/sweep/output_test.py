@@ -15,7 +15,7 @@ from furrow_post.errors import ResultsError
 from furrow_post.figures.resistance_parts import COLOURS
 from furrow_post.formatting import with_error
 from furrow_post.study.record import Record
-from furrow_post.sweep.curves import EFFICIENCY, PULL, SINKAGE, TORQUE
+from furrow_post.sweep.curves import EFFICIENCY, PULL, HUB_DROP, TORQUE
 from furrow_post.sweep.output import Named, Wanted, evaluate, report_lines, write_sweep
 from furrow_post.sweep.plan import Plan, Point
 from support.command import SOURCE
@@ -54,7 +54,7 @@ class OutputTest(unittest.TestCase):
         result = evaluate([Named(self.folder / "a")], Wanted())
         self.assertEqual(
             [curve.name for curve in result.figure.curves],
-            ["pull–slip", "torque–slip", "tractive efficiency", "sinkage–slip"],
+            ["pull–slip", "torque–slip", "tractive efficiency", "hub drop–slip"],
         )
         (line,) = result.figure.lines
         for (x, _, value), (slip, pull, torque) in zip(line.values(PULL), PULLING):
@@ -87,7 +87,7 @@ class OutputTest(unittest.TestCase):
                 "slope–slip",
                 "torque against slope",
                 "tractive efficiency against slope",
-                "sinkage against slope",
+                "hub drop against slope",
             ],
         )
         (line,) = result.figure.lines
@@ -109,7 +109,7 @@ class OutputTest(unittest.TestCase):
         Plan("scene.lig", ("load",), points=tuple(points)).write(self.folder)
         result = evaluate([Named(self.folder)], Wanted())
         (point,) = result.series[0].points
-        value = point.quantities["sinkage"]
+        value = point.quantities["hub_drop"]
         self.assertAlmostEqual(value.mean, 0.053, 9)
         self.assertAlmostEqual(value.parts.time, 1e-3 / math.sqrt(3), 9)
         self.assertAlmostEqual(value.uncertainty, 3e-3 / math.sqrt(3), 9)  # of the three means
@@ -129,7 +129,7 @@ class OutputTest(unittest.TestCase):
         one, two = result.measured
         self.assertEqual((one.label, two.label), ("one", "two"))
         self.assertEqual(len(one.values(PULL)), 1)
-        x, value, error = one.values(SINKAGE)[0]
+        x, value, error = one.values(HUB_DROP)[0]
         self.assertAlmostEqual(x, 0.1)
         self.assertAlmostEqual(value, 0.04)
         self.assertAlmostEqual(error, 0.002)
@@ -162,11 +162,11 @@ class OutputTest(unittest.TestCase):
         write_sweep(evaluate([Named(self.folder / "a")], Wanted()), self.folder / "a")
         rows = read_rows(self.folder / "a" / "sweep.csv")
         self.assertEqual([row["set_slip"] for row in rows], ["-0.2", "0.1", "0.3"])
-        self.assertEqual(float(rows[1]["sinkage"]), 0.05)
-        self.assertEqual(float(rows[1]["sinkage_error"]), 0.001)
+        self.assertEqual(float(rows[1]["hub_drop"]), 0.05)
+        self.assertEqual(float(rows[1]["hub_drop_error"]), 0.001)
         self.assertEqual(rows[0]["tractive_efficiency"], "")
         with h5py.File(self.folder / "a" / "sweep.h5") as content:
-            self.assertEqual(content["sinkage"].attrs["unit"], "m")
+            self.assertEqual(content["hub_drop"].attrs["unit"], "m")
             self.assertEqual(content["drive_torque_error_time"].attrs["unit"], "N m")
             self.assertAlmostEqual(content["load"][1], LOAD)
         wanted = Wanted(measured=[Named(self.folder / "a" / "sweep.csv")])
@@ -233,7 +233,7 @@ class OutputTest(unittest.TestCase):
         self.assertEqual(result.figure.lines[0].x, (1000.0, 2000.0))
         self.assertEqual(
             [curve.name for curve in result.figure.curves],
-            ["resistance against load", "sinkage against load"],
+            ["resistance against load", "hub drop against load"],
         )
 
     def test_words_are_categories(self) -> None:
