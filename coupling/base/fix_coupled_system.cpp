@@ -12,14 +12,15 @@
 
 #include "atom.h"
 #include "core/error.h"
+#include "coupling/base/bed_line.h"
 #include "coupling/base/fix_order.h"
+#include "coupling/base/keeps_state.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/base/furrow_fix.h"
 #include "coupling/base/grain_check.h"
 #include "coupling/liggghts/has_options.h"
 #include "coupling/base/restart_record.h"
 #include "coupling/base/uses_fix.h"
-#include "coupling/bodies/fix_mesh_body.h"
 #include "coupling/liggghts/contact_history.h"
 #include "coupling/liggghts/errors.h"
 #include "coupling/liggghts/global_properties.h"
@@ -35,16 +36,11 @@ namespace {
 
 constexpr char system_id[] = "furrow_system";
 
-std::string name_of(const FixMeshBody& mesh) {
-  return fmt::format("fix {} '{}'", style_of(mesh), mesh.id);
-}
-
-/// A line each. LIGGGHTS itself keeps the contact histories of a mesh, by its id.
+/// A line each.
 std::string names_of_restorable_fixes(const LAMMPS_NS::Modify& modify) {
   std::string names;
-  for (const auto* fix : fixes_of<const FurrowFix>(modify))
-    if (fix->must_be_restored()) names += fix->name() + '\n';
-  for (const auto* mesh : fixes_of<const FixMeshBody>(modify)) names += name_of(*mesh) + '\n';
+  for (const auto* fix : fixes_of<const KeepsState>(modify))
+    if (fix->must_be_restored()) names += name_of(as_fix(*fix)) + '\n';
   return names;
 }
 
@@ -141,15 +137,15 @@ void FixCoupledSystem::check_restored_fixes() {
   std::set<std::string> kept;
   std::istringstream lines(checkpointed_fixes_);
   for (std::string name; std::getline(lines, name);) kept.insert(name);
-  for (const auto* fix : fixes_of<const FurrowFix>(*modify)) {
+  for (const auto* fix : fixes_of<const KeepsState>(*modify)) {
     if (!fix->must_be_restored()) continue;
+    const std::string name = name_of(as_fix(*fix));
     if (fix->restored())
-      kept.erase(fix->name());
+      kept.erase(name);
     else
-      warn(*lmp, fmt::format("{} has no state in the checkpoint: it begins as its line says",
-                             fix->name()));
+      warn(*lmp,
+           fmt::format("{} has no state in the checkpoint: it begins as its line says", name));
   }
-  for (const auto* mesh : fixes_of<const FixMeshBody>(*modify)) kept.erase(name_of(*mesh));
   if (!kept.empty())
     throw StateError(fmt::format(
         "the checkpoint has the state of {}, and the script that continues has no such line "
@@ -357,7 +353,7 @@ void FixCoupledSystem::restart(char* buffer) {
 /// @param in_run, contact_forces to be saved; what is read goes to the members
 void FixCoupledSystem::checkpoint(Checkpoint& state, bool in_run,
                                   std::vector<double> contact_forces) {
-  state.match("the parameters of the bed", variable(*lmp, bed_variable).value_or("none"));
+  state.match("the parameters of the bed", bed_values(*lmp));
   state.value("time", time_);
   state.value("in_run", in_run);
   if (state.saving()) next_sort_ = atom->nextsort;

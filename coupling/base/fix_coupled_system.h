@@ -37,9 +37,6 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   static Schema schema() { return Schema("fix furrow/system"); }
   static OutputTable outputs() { return {}; }
 
-  /// Variable of the script that holds the parameters of its bed: a run is continued on the same.
-  static constexpr char bed_variable[] = "furrow_bed_parameters";
-
   /// The system of a LIGGGHTS instance; made on first use.
   static FixCoupledSystem& of(LAMMPS_NS::LAMMPS& lammps);
   /// The same, or null.

@@ -24,8 +24,6 @@ const Outputs<FurrowFix>& FurrowFix::outputs() {
   return none;
 }
 
-std::string FurrowFix::name() const { return fmt::format("fix {} '{}'", style, id); }
-
 bool FurrowFix::uses(const LAMMPS_NS::Fix& other) const {
   if (needs_system() && dynamic_cast<const FixCoupledSystem*>(&other)) return true;
   return std::find(used_.begin(), used_.end(), &other) != used_.end();

@@ -23,6 +23,7 @@
 #include "core/outputs.h"
 #include "coupling/liggghts/find_fix.h"
 #include "coupling/liggghts/has_options.h"
+#include "coupling/base/keeps_state.h"
 #include "coupling/base/motion_controller.h"
 #include "coupling/base/uses_fix.h"
 #include "coupling/liggghts/errors.h"
@@ -30,7 +31,7 @@
 
 namespace furrow::coupling {
 
-class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix {
+class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix, public KeepsState {
  public:
   /// None, unless the derived class has its own.
   static const Outputs<FurrowFix>& outputs();
@@ -39,14 +40,12 @@ class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix {
   /// Those of use(), and furrow/system for a fix that contributes to it.
   bool uses(const LAMMPS_NS::Fix& other) const override;
   /// For errors and warnings: "fix wheel/rigid 'wheel'".
-  std::string name() const;
-  /// A checkpoint keeps a state of it that a continued run cannot do without.
-  bool must_be_restored() const { return restart_global && state_needs_options(); }
+  std::string name() const { return name_of(*this); }
+  bool must_be_restored() const override { return restart_global && state_needs_options(); }
   /// Keywords with their values, equal for equal numbers, but for those that may change when a run
   /// is continued.
   std::vector<std::pair<std::string, std::string>> settings() const;
-  /// It has the state of a checkpoint.
-  bool restored() const { return restored_; }
+  bool restored() const override { return restored_; }
 
   int setmask() override { return 0; }
   /// Contributions join the coupled system. Not in the constructor: LIGGGHTS cannot make one fix

@@ -5,8 +5,16 @@
 
 #include "core/error.h"
 #include "coupling/liggghts/fixes_of.h"
+#include "coupling/liggghts/has_options.h"
 
 namespace furrow::coupling {
+
+const LAMMPS_NS::Fix* find_user(const LAMMPS_NS::Modify& modify, const std::string& style,
+                                const LAMMPS_NS::Fix& used) {
+  for (const auto* user : fixes_of<const UsesFix>(modify))
+    if (user->uses(used) && style_of(as_fix(*user)) == style) return &as_fix(*user);
+  return nullptr;
+}
 
 void forbid_removal_while_used(const LAMMPS_NS::Modify& modify, const LAMMPS_NS::Fix& fix) {
   for (const auto* user : fixes_of<const UsesFix>(modify))

@@ -2,6 +2,8 @@
 #pragma once
 /// Fixes that hold on to other fixes.
 
+#include <string>
+
 #include "fix.h"
 #include "modify.h"
 
@@ -13,6 +15,10 @@ class UsesFix {
   virtual ~UsesFix() = default;
   virtual bool uses(const LAMMPS_NS::Fix& other) const = 0;
 };
+
+/// The first fix of a style that uses another one; null if there is none.
+const LAMMPS_NS::Fix* find_user(const LAMMPS_NS::Modify& modify, const std::string& style,
+                                const LAMMPS_NS::Fix& used);
 
 /// For pre_delete(true), that is for unfix and for a second fix of the same id.
 /// @throws StateError when another fix uses this one

@@ -3,7 +3,7 @@
 /// fix plate/rigid: a rigid plate that is pushed into the bed. See fix_plate_rigid.md.
 
 #include "bodies/rigid_plate.h"
-#include "coupling/bodies/fix_body.h"
+#include "coupling/base/fix_body.h"
 #include "rig/ramp.h"
 
 namespace furrow::coupling {

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "coupling/bodies/fix_mesh_body.h"
 #include "coupling/liggghts/script.h"
 #include "update.h"
 
@@ -109,17 +108,11 @@ void FixTyre::checkpoint(Checkpoint& state) {
   FixBody::checkpoint(state);
 }
 
-bool FixTyre::meets_grains() const {
-  const auto meshes = fixes_of<const FixMeshBody>(*modify);
-  return std::any_of(meshes.begin(), meshes.end(),
-                     [&](const FixMeshBody* mesh) { return mesh->uses(*this); });
-}
-
 /// Grain forces that come only once in many sub-steps may feed energy into a light tread:
 /// fix_tyre_darnell.md.
 void FixTyre::init() {
   const double stable = tyre().stable_time_step();
-  if (meets_grains() && update->dt > max_sub_steps * stable)
+  if (find_user(*modify, "mesh/body", *this) && update->dt > max_sub_steps * stable)
     warn(*lmp,
          fmt::format("{}: the time step {:.3g} s is more than {} of the tyre's own, {:.3g} s; "
                      "grain forces come once a step and may shake the tread: choose a step "

@@ -3,7 +3,7 @@
 /// The base of every fix that makes a tyre: keys, refusals, outputs and state that tyres share.
 
 #include "bodies/hub_parameters.h"
-#include "coupling/bodies/fix_wheel_hub.h"
+#include "coupling/base/fix_wheel_hub.h"
 #include "tyre/tyre.h"
 
 namespace furrow::coupling {
@@ -22,7 +22,6 @@ class FixTyre : public FixWheelHub {
   /// The tyre file with its effective values, a line for each.
   virtual std::string tyre_text() = 0;
   void checkpoint(Checkpoint& state) override;
-  bool meets_grains() const;  ///< a mesh/body has its triangles
 };
 
 // ---- for the schemas and constructors of such fixes

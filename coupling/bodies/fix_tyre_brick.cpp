@@ -55,7 +55,7 @@ void FixTyreBrick::init() {
   FixTyre::init();
   if (const std::string doubt = wrinkling(tyre().parameters()); !doubt.empty())
     warn(*lmp, fmt::format("{}: {}", name(), doubt));
-  if (meets_grains()) warn_of_bridging();
+  if (find_user(*modify, "mesh/body", *this)) warn_of_bridging();
 }
 
 /// Collective.

@@ -3,7 +3,7 @@
 /// fix wheel/rigid: a rigid wheel as a body. See fix_wheel_rigid.md.
 
 #include "bodies/rigid_wheel.h"
-#include "coupling/bodies/fix_wheel_hub.h"
+#include "coupling/base/fix_wheel_hub.h"
 
 namespace furrow::coupling {
 

@@ -7,7 +7,7 @@
 
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/bodies/fix_tyre_brick.h"
-#include "coupling/bodies/fix_wheel_hub.h"
+#include "coupling/base/fix_wheel_hub.h"
 #include "coupling/checks/scene_checks.h"
 #include "domain.h"
 
@@ -29,14 +29,14 @@ struct Span {
 /// What the check knows of a contact.
 struct Pair {
   const FixBody& body;
-  const FixTerrainContinuum& terrain;
+  const FixTerrain& terrain;
   Span body_x, body_y, terrain_x, terrain_y;
 };
 
 /// A half model stands for the whole.
 Pair describe(FixContactContinuum& contact) {
   const Body& body = contact.body_fix().body();
-  const FixTerrainContinuum& terrain = contact.terrain_fix();
+  const FixTerrain& terrain = contact.terrain_fix();
   const Grid& grid = contact.terrain_fix().terrain().grid();
   const auto [lower, upper] = body.surface().bounds();
   const Span y{grid.axis(1).lower(), grid.axis(1).upper()};
@@ -103,7 +103,7 @@ Found mesh_is_in_a_wall(const Scene& scene, const FixMeshBody& mesh) {
                   mesh.id, mesh.id));
 }
 
-Found something_presses_on_terrain(const Scene& scene, const FixTerrainContinuum& terrain) {
+Found something_presses_on_terrain(const Scene& scene, const FixTerrain& terrain) {
   if (has_contact(*scene.lammps.modify, terrain) || touches_grains(scene.lammps, terrain) ||
       terrain.options().flag("sheet"))
     return {};
@@ -111,7 +111,7 @@ Found something_presses_on_terrain(const Scene& scene, const FixTerrainContinuum
       fmt::format("nothing presses on {}: no contact/continuum names it", terrain.name()));
 }
 
-Found sheet_is_in_a_wall(const Scene& scene, const FixTerrainContinuum& terrain) {
+Found sheet_is_in_a_wall(const Scene& scene, const FixTerrain& terrain) {
   if (!terrain.options().flag("sheet") || touches_grains(scene.lammps, terrain)) return {};
   return warning(
       fmt::format("{} has a sheet that no wall/gran/body holds: grains fall through it; add "
@@ -119,7 +119,7 @@ Found sheet_is_in_a_wall(const Scene& scene, const FixTerrainContinuum& terrain)
                   terrain.name()));
 }
 
-Found half_terrain_has_half_the_grains(const Scene& scene, const FixTerrainContinuum& terrain) {
+Found half_terrain_has_half_the_grains(const Scene& scene, const FixTerrain& terrain) {
   if (!terrain.half_model() || !touches_grains(scene.lammps, terrain) ||
       scene.lammps.domain->boxlo[1] >= 0.0)
     return {};
@@ -130,7 +130,7 @@ Found half_terrain_has_half_the_grains(const Scene& scene, const FixTerrainConti
 }
 
 Found body_touches_something(const Scene& scene, FixBody& body) {
-  if (dynamic_cast<const FixTerrainContinuum*>(&body) || touches_grains(scene.lammps, body) ||
+  if (dynamic_cast<const FixTerrain*>(&body) || touches_grains(scene.lammps, body) ||
       has_contact(*scene.lammps.modify, body))
     return {};
   return warning(

@@ -14,7 +14,7 @@
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/base/grain_check.h"
 #include "coupling/bodies/fix_plate_rigid.h"
-#include "coupling/bodies/fix_wheel_hub.h"
+#include "coupling/base/fix_wheel_hub.h"
 #include "coupling/checks/scene_checks.h"
 #include "coupling/contact/grain_bed_check.h"
 #include "coupling/drive/fix_wheel_rig.h"

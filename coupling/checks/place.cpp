@@ -217,7 +217,7 @@ Found box_is_as_it_was(const Scene& scene) {
 }
 
 /// Before the first step of a scene.
-Found grains_are_above_terrain(const Scene& scene, FixTerrainContinuum& terrain) {
+Found grains_are_above_terrain(const Scene& scene, FixTerrain& terrain) {
   if (scene.time() > 0.0) return {};
   const LAMMPS_NS::Atom& atom = *scene.lammps.atom;
   double below = 0.0;
@@ -274,7 +274,7 @@ Found grains_stay_in_the_box(const Scene& scene) {
 
 Found bodies_are_apart(const Scene& scene, const FixBody& body) {
   const auto is_terrain = [](const FixBody& fix) {
-    return dynamic_cast<const FixTerrainContinuum*>(&fix) != nullptr;
+    return dynamic_cast<const FixTerrain*>(&fix) != nullptr;
   };
   if (is_terrain(body)) return {};
   const auto bodies = fixes_of<const FixBody>(*scene.lammps.modify);

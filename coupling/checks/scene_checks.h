@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "coupling/base/finding.h"
-#include "coupling/bodies/fix_body.h"
-#include "coupling/bodies/fix_mesh_body.h"
+#include "coupling/base/fix_body.h"
+#include "coupling/contact/fix_mesh_body.h"
 #include "coupling/contact/fix_contact_continuum.h"
 #include "coupling/contact/fix_contact_plane.h"
 #include "coupling/contact/fix_wall_gran_body.h"
-#include "coupling/terrain/fix_terrain_continuum.h"
+#include "coupling/base/fix_terrain.h"
 #include "fix_gravity.h"
 #include "fix_move_mesh.h"
 #include "lammps.h"
@@ -84,7 +84,7 @@ Box edges_of_box(const LAMMPS_NS::LAMMPS& lammps);
 double count_grains(const LAMMPS_NS::LAMMPS& lammps);
 /// `change_box` moves and stretches grains; bodies and terrain stay.
 Found box_is_as_it_was(const Scene& scene);
-Found grains_are_above_terrain(const Scene& scene, FixTerrainContinuum& terrain);
+Found grains_are_above_terrain(const Scene& scene, FixTerrain& terrain);
 /// In a step, when gravity is known: grains with no wall, mesh or standing grain below them.
 Found grains_have_a_floor(const Scene& scene);
 /// After a run: LIGGGHTS drops grains that leave the box without an error.
@@ -107,9 +107,9 @@ bool touches_grains(const LAMMPS_NS::LAMMPS& lammps, const FixBody& body);
 Found stock_wall_has_no_body(const Scene& scene, const LAMMPS_NS::FixWallGran& wall);
 // A wheel may be meant to be free, and a mesh to be drawn only: warnings.
 Found mesh_is_in_a_wall(const Scene& scene, const FixMeshBody& mesh);
-Found something_presses_on_terrain(const Scene& scene, const FixTerrainContinuum& terrain);
-Found sheet_is_in_a_wall(const Scene& scene, const FixTerrainContinuum& terrain);
-Found half_terrain_has_half_the_grains(const Scene& scene, const FixTerrainContinuum& terrain);
+Found something_presses_on_terrain(const Scene& scene, const FixTerrain& terrain);
+Found sheet_is_in_a_wall(const Scene& scene, const FixTerrain& terrain);
+Found half_terrain_has_half_the_grains(const Scene& scene, const FixTerrain& terrain);
 Found body_touches_something(const Scene& scene, FixBody& body);
 // Is continuum terrain large enough, and fine enough, for what presses on it?
 Found terrain_is_wide_enough(const Scene& scene, FixContactContinuum& contact);

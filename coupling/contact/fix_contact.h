@@ -5,12 +5,13 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "coupling/bodies/fix_body.h"
+#include "coupling/base/counts_losses.h"
+#include "coupling/base/fix_body.h"
 #include "coupling/liggghts/script.h"
 
 namespace furrow::coupling {
 
-class FixContact : public FurrowFix {
+class FixContact : public FurrowFix, public CountsLosses {
  public:
   FixBody& body_fix() const { return body_fix_; }
 

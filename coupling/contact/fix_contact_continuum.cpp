@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "coupling/base/refuse_double.h"
 #include "coupling/liggghts/style_registry.h"
-#include "coupling/terrain/fix_terrain_continuum.h"
+#include "coupling/base/fix_terrain.h"
 
 namespace furrow::coupling {
 
@@ -46,8 +46,8 @@ const Outputs<FixContactContinuum>& FixContactContinuum::outputs() {
 }
 
 /// A half body needs half the terrain with the same plane of symmetry, y = 0.
-FixTerrainContinuum& FixContactContinuum::find_terrain() {
-  auto& fix = use<FixTerrainContinuum>("terrain", {"terrain"});
+FixTerrain& FixContactContinuum::find_terrain() {
+  auto& fix = use<FixTerrain>("terrain", {"terrain"});
   refuse_double<FixContactContinuum>(
       *modify, options().subject(), fmt::format("presses '{}' on '{}'", body_fix().id, fix.id),
       "one contact for each pair", [&](FixContactContinuum& other) {
@@ -71,8 +71,18 @@ FixTerrainContinuum& FixContactContinuum::find_terrain() {
       "give the terrain 'symmetry yes' and its centre y = 0, or the body 'half no'");
 }
 
-double FixContactContinuum::terrain_work() const {
-  return (terrain_fix_.half_model() ? 2.0 : 1.0) * contact_.terrain_work();
+void FixContactContinuum::add_losses(const Body& wheel, GroundLosses& losses) const {
+  if (&wheel != &body()) return;
+  const double halves_of_terrain = terrain_fix_.halves();
+  const TerrainWork work = terrain_fix_.terrain().work();
+  losses.compaction += halves_of_terrain * work.compaction;
+  losses.bulldozing += halves_of_terrain * work.bulldozing;
+  losses.kinetic += halves_of_terrain * work.kinetic;
+  losses.numerical += halves_of_terrain * work.numerical_loss;
+  losses.radiated += halves_of_terrain * work.radiated;
+  losses.friction += friction_loss();
+  losses.contact_damping += damping_loss();
+  losses.continuum += halves_of_terrain * contact_.terrain_work();
 }
 
 /// A half body mirrors what it is given itself; a whole one on half the terrain needs the forces of

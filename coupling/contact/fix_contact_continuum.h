@@ -8,7 +8,7 @@
 
 namespace furrow::coupling {
 
-class FixTerrainContinuum;
+class FixTerrain;
 
 class FixContactContinuum : public FixContact {
  public:
@@ -17,18 +17,17 @@ class FixContactContinuum : public FixContact {
   static const Outputs<FixContactContinuum>& outputs();
 
   const TerrainContact& contact() const { return contact_; }
+  void add_losses(const Body& wheel, GroundLosses& losses) const override;
+  FixTerrain& terrain_fix() const { return terrain_fix_; }
+
+ private:
+  FixTerrain& find_terrain();
   // [J] since the start, of the whole body
   double friction_loss() const { return halves() * contact_.friction_loss(); }
   double damping_loss() const { return halves() * contact_.damping_loss(); }
-  /// On the whole terrain. Collective.
-  double terrain_work() const;
-  FixTerrainContinuum& terrain_fix() const { return terrain_fix_; }
-
- private:
-  FixTerrainContinuum& find_terrain();
   void checkpoint(Checkpoint& state) override { contact_.checkpoint(state); }
 
-  FixTerrainContinuum& terrain_fix_;
+  FixTerrain& terrain_fix_;
   TerrainContact contact_;
 };
 

@@ -13,9 +13,9 @@ class FixContactPlane : public FixContact {
   static Schema schema();
   static const Outputs<FixContactPlane>& outputs();
 
-  /// [J] taken by sliding since the start, of the whole body
-  double friction_loss() const { return halves() * contact_.plane.friction_loss(); }
-
+  void add_losses(const Body& wheel, GroundLosses& losses) const override {
+    if (&wheel == &body()) losses.friction += halves() * contact_.plane.friction_loss();
+  }
   void init() override {
     collectively([&] { check_tyre_stability(); });
   }

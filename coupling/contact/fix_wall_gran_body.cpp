@@ -14,7 +14,7 @@
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/liggghts/has_options.h"
 #include "coupling/base/settings_check.h"
-#include "coupling/bodies/fix_mesh_body.h"
+#include "coupling/contact/fix_mesh_body.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/errors.h"
 #include "coupling/liggghts/style_registry.h"

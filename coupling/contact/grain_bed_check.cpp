@@ -9,7 +9,7 @@
 
 #include "atom.h"
 #include "core/communicator.h"
-#include "coupling/grains/model_snow_bond.h"
+#include "coupling/base/snow_pairs.h"
 #include "coupling/liggghts/global_properties.h"
 #include "coupling/liggghts/script.h"
 #include "domain.h"
@@ -73,7 +73,7 @@ void GrainBedCheck::start(const Body& body, const Body* terrain) {
 }
 
 void GrainBedCheck::choose_overlap_limit() {
-  if (ModelSnowBond::is_pair_style(lammps_))
+  if (grains_are_snow(lammps_))
     overlap_limit_ = GrainBedLimits::snow_overlap;
   else if (property_of_types(lammps_, "youngsModulus"))
     overlap_limit_ = GrainBedLimits::overlap;
@@ -83,7 +83,7 @@ void GrainBedCheck::choose_overlap_limit() {
 
 /// Overlaps of Hertz contacts go with E^(-2/3) under one force.
 std::string GrainBedCheck::overlap_remedy(double deepest) const {
-  if (ModelSnowBond::is_pair_style(lammps_))
+  if (grains_are_snow(lammps_))
     return "the snow is crushed to ice: lower the load, or raise snowDenseStrength";
   return fmt::format(
       "the grains are too soft for this load: make the bed with a youngsModulus {:.2g} times as "

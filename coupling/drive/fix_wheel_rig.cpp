@@ -6,13 +6,10 @@
 #include "core/error.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/liggghts/fixes_of.h"
-#include "coupling/bodies/fix_wheel_hub.h"
-#include "coupling/contact/fix_contact_continuum.h"
 #include "coupling/drive/tilted_gravity.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"
-#include "coupling/terrain/fix_bed_window.h"
-#include "coupling/terrain/fix_terrain_continuum.h"
+#include "coupling/base/fix_terrain.h"
 #include "update.h"
 
 namespace furrow::coupling {
@@ -50,7 +47,7 @@ Schema FixWheelRig::schema() {
 }
 
 FixWheelRig::FixWheelRig(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FurrowFix(lammps, narg, arg, schema()),
+    : FixRig(lammps, narg, arg, schema()),
       wheel_fix_(find_free_wheel()),
       rig_(make_rig(options(), wheel_fix_)) {
   contribute(static_cast<MotionController&>(*this));
@@ -77,10 +74,11 @@ void FixWheelRig::check_passes() {
         "fixed ground, longer than pass_length",
         "leave out 'follow' or the window, and make terrain or bed longer");
   };
-  for (const auto* contact : fixes_of<FixContactContinuum>(*modify))
-    if (&contact->body_fix() == &wheel_fix_ && contact->terrain_fix().options().given("follow"))
-      refuse(contact->terrain_fix());
-  for (const auto* window : fixes_of<FixBedWindow>(*modify)) refuse(*window);
+  if (const auto* window = modify->find_fix_style("bed/window", 0)) refuse(*window);
+  for (const auto* contact : fixes_of<UsesFix>(*modify))
+    for (const auto* terrain : fixes_of<FixTerrain>(*modify))
+      if (terrain->moves() && contact->uses(wheel_fix_) && contact->uses(*terrain))
+        refuse(*terrain);
 }
 
 /// One ground has one slope. LIGGGHTS takes the gravity of clumps from fix gravity itself.

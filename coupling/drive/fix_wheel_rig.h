@@ -2,14 +2,12 @@
 #pragma once
 /// fix wheel/rig: drives a wheel. See fix_wheel_rig.md.
 
-#include "coupling/base/furrow_fix.h"
-#include "rig/wheel_rig.h"
+#include "coupling/base/fix_rig.h"
+#include "coupling/base/motion_controller.h"
 
 namespace furrow::coupling {
 
-class FixWheelHub;
-
-class FixWheelRig : public FurrowFix, public MotionController {
+class FixWheelRig : public FixRig, public MotionController {
  public:
   FixWheelRig(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
@@ -21,8 +19,8 @@ class FixWheelRig : public FurrowFix, public MotionController {
   /// Of grains on a slope.
   void post_force(int) override;
 
-  const WheelRig& rig() const { return rig_; }
-  FixWheelHub& wheel_fix() { return wheel_fix_; }
+  const WheelRig& rig() const override { return rig_; }
+  FixWheelHub& wheel_fix() const override { return wheel_fix_; }
 
  private:
   FixWheelHub& find_free_wheel();

@@ -3,7 +3,7 @@
 
 #include "atom.h"
 #include "coupling/liggghts/fixes_of.h"
-#include "coupling/terrain/fix_terrain_continuum.h"
+#include "coupling/base/fix_terrain.h"
 #include "fix_gravity.h"
 #include "lammps.h"
 
@@ -14,7 +14,7 @@ Vector3 tilted(const Vector3& gravity, double angle) {
 }
 
 void tilt_gravity_of_terrain(LAMMPS_NS::LAMMPS& lammps, double angle) {
-  for (auto* fix : fixes_of<FixTerrainContinuum>(*lammps.modify)) {
+  for (auto* fix : fixes_of<FixTerrain>(*lammps.modify)) {
     ContinuumTerrain& terrain = fix->terrain();
     terrain.set_gravity(tilted(terrain.parameters().gravity, angle));
   }

@@ -15,7 +15,7 @@
 #include "coupling/base/checkpoint_totals.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/base/refuse_double.h"
-#include "coupling/grains/model_snow_bond.h"
+#include "coupling/base/snow_pairs.h"
 #include "coupling/liggghts/global_properties.h"
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/liggghts/vector.h"
@@ -94,8 +94,7 @@ void FixGrainWork::init() {
             fmt::format("shares the contacts of grains with compute '{}', pair/gran/local",
                         modify->compute[c]->id),
             "one of the two in a run", "remove this fix, or that compute");
-    friction_ = ModelSnowBond::is_pair_style(*lmp) ? nullptr
-                                                   : property_of_pairs(*lmp, "coefficientFriction");
+    friction_ = grains_are_snow(*lmp) ? nullptr : property_of_pairs(*lmp, "coefficientFriction");
   });
 }
 
@@ -118,11 +117,11 @@ void FixGrainWork::end_of_step() {
   work_.walls += interval * (power_of_wheel() - between_grains - lifting - power_of_all_forces());
 }
 
-GrainWork FixGrainWork::work() const {
-  GrainWork of_all = work_;
-  of_all.kinetic = kinetic_energy();
-  for (double* number : of_all.numbers()) *number = over_ranks(*number);
-  return of_all;
+void FixGrainWork::add_losses(const Body& wheel, GroundLosses& losses) const {
+  if (&wheel != &body_) return;
+  losses.grains = work_;
+  losses.grains.kinetic = kinetic_energy();
+  for (double* number : losses.grains.numbers()) *number = over_ranks(*number);
 }
 
 FixGrainWork::Track FixGrainWork::track() const {

@@ -4,9 +4,9 @@
 /// fix_grain_work.md.
 
 #include "coupling/base/furrow_fix.h"
-#include "coupling/bodies/fix_body.h"
+#include "coupling/base/counts_losses.h"
+#include "coupling/base/fix_body.h"
 #include "coupling/liggghts/pair_contacts.h"
-#include "rig/ground_losses.h"
 
 namespace LAMMPS_NS {
 class FixPropertyGlobal;
@@ -14,7 +14,7 @@ class FixPropertyGlobal;
 
 namespace furrow::coupling {
 
-class FixGrainWork : public FurrowFix {
+class FixGrainWork : public FurrowFix, public CountsLosses {
  public:
   FixGrainWork(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   static Schema schema();
@@ -24,10 +24,7 @@ class FixGrainWork : public FurrowFix {
   void init() override;
   void end_of_step() override;
 
-  /// The wheel whose track divides the grains.
-  const Body& body() const { return body_; }
-  /// Of all ranks. Collective.
-  GrainWork work() const;
+  void add_losses(const Body& wheel, GroundLosses& losses) const override;
 
  protected:
   void checkpoint(Checkpoint& state) override;
@@ -57,7 +54,7 @@ class FixGrainWork : public FurrowFix {
   double kinetic_energy() const;
   double over_ranks(double value) const;
 
-  Body& body_;
+  Body& body_;    // whose track divides the grains
   double level_;  // [m]
   long every_;
   LAMMPS_NS::FixPropertyGlobal* friction_ = nullptr;  // of pairs of types

@@ -9,6 +9,7 @@
 
 #include "atom.h"
 #include "core/error.h"
+#include "coupling/base/snow_pairs.h"
 #include "coupling/base/time_step_check.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/grains/fix_snow_energy.h"
@@ -24,14 +25,12 @@
 #include "force.h"
 #include "grains/snow_bond.h"
 #include "neighbor.h"
-#include "pair_gran_proxy.h"
 #include "update.h"
 
 namespace furrow::coupling {
 
 namespace {
 
-constexpr int model_id = 20;  // LIGGGHTS's end at 12; below 64
 // LIGGGHTS tells a model that two grains have parted only within this share of their radii
 constexpr double parting_distance = 1.02;
 
@@ -62,14 +61,9 @@ const StyleRow snow_bond_style = model_style<ModelSnowBond>("grains/model_snow_b
 
 Schema ModelSnowBond::schema() { return SnowBondParameters::schema(); }
 
-bool ModelSnowBond::is_pair_style(const LAMMPS_NS::LAMMPS& lammps) {
-  auto* pair = dynamic_cast<LAMMPS_NS::PairGranProxy*>(lammps.force->pair);
-  return pair && pair->hashcode() == LIGGGHTS::ContactModels::GranStyle<model_id>::HASHCODE;
-}
-
 void ModelSnowBond::require(const LAMMPS_NS::LAMMPS& lammps, const std::string& where,
                             const std::string& lacking) {
-  if (!is_pair_style(lammps))
+  if (!grains_are_snow(lammps))
     throw InputError(where, "has no contacts " + lacking, "pair_style gran model snow/bond",
                      "write that pair style before the run");
 }
@@ -79,7 +73,7 @@ void ModelSnowBond::require(const LAMMPS_NS::LAMMPS& lammps, const std::string& 
 namespace LIGGGHTS::ContactModels {
 
 template <>
-class NormalModel<furrow::coupling::model_id> : public NormalModelBase {
+class NormalModel<furrow::coupling::snow_bond_id> : public NormalModelBase {
  public:
   NormalModel(LAMMPS* lammps, IContactHistorySetup* history, ContactModelBase* model);
 
@@ -157,7 +151,7 @@ class NormalModel<furrow::coupling::model_id> : public NormalModelBase {
   std::string warned_;  // of the time step
 };
 
-using SnowBondModel = NormalModel<furrow::coupling::model_id>;
+using SnowBondModel = NormalModel<furrow::coupling::snow_bond_id>;
 
 /// "1": changes its sign when i and j swap.
 SnowBondModel::NormalModel(LAMMPS* lammps, IContactHistorySetup* history, ContactModelBase* model)
@@ -355,7 +349,7 @@ namespace furrow::coupling {
 namespace exposed {
 
 using SnowModel =
-    LIGGGHTS::ContactModels::ContactModel<LIGGGHTS::ContactModels::GranStyle<model_id>>;
+    LIGGGHTS::ContactModels::ContactModel<LIGGGHTS::ContactModels::GranStyle<snow_bond_id>>;
 using SnowPairs = LIGGGHTS::PairStyles::Granular<SnowModel>;
 
 struct ModelOfSnowPairs {
@@ -366,6 +360,6 @@ template struct Expose<ModelOfSnowPairs, &SnowPairs::cmodel>;
 
 }  // namespace exposed
 
-void ModelSnowBond::add() { add_normal_model<model_id, exposed::ModelOfSnowPairs>(name); }
+void ModelSnowBond::add() { add_normal_model<snow_bond_id, exposed::ModelOfSnowPairs>(name); }
 
 }  // namespace furrow::coupling

@@ -14,8 +14,6 @@ struct ModelSnowBond {
   static Schema schema();
   /// Makes the model known to LIGGGHTS, for pairs of grains and for walls.
   static void add();
-  /// Are the contacts between the grains of this model?
-  static bool is_pair_style(const LAMMPS_NS::LAMMPS& lammps);
   /// For a fix of its contacts. @param lacking  "that it could sinter". @throws InputError
   static void require(const LAMMPS_NS::LAMMPS& lammps, const std::string& where,
                       const std::string& lacking);

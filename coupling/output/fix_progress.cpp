@@ -14,9 +14,10 @@
 #include "comm.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/liggghts/fixes_of.h"
-#include "coupling/bodies/fix_tyre.h"
+#include "coupling/base/fix_wheel_hub.h"
 #include "coupling/liggghts/style_registry.h"
-#include "coupling/terrain/fix_terrain_continuum.h"
+#include "coupling/base/fix_terrain.h"
+#include "tyre/tyre.h"
 #include "update.h"
 
 namespace furrow::coupling {
@@ -74,9 +75,10 @@ void FixProgress::add_work() {
   if (!system) return;
   const double sub_steps = system->sub_steps() - sub_steps_;
   sub_steps_ = system->sub_steps();
-  for (const FixTerrainContinuum* soil : fixes_of<FixTerrainContinuum>(*modify))
+  for (const FixTerrain* soil : fixes_of<FixTerrain>(*modify))
     work_.particle_updates += sub_steps * soil->terrain().particle_count();
-  work_.tyre_steps += sub_steps * static_cast<double>(fixes_of<FixTyre>(*modify).size());
+  for (const FixWheelHub* wheel : fixes_of<FixWheelHub>(*modify))
+    if (dynamic_cast<const Tyre*>(&wheel->body())) work_.tyre_steps += sub_steps;
 }
 
 double FixProgress::share_done() const {

@@ -3,8 +3,8 @@
 
 #include "comm.h"
 #include "coupling/liggghts/style_registry.h"
-#include "coupling/terrain/fix_terrain_continuum.h"
-#include "coupling/terrain/terrain_outputs.h"
+#include "coupling/base/fix_terrain.h"
+#include "mpm/terrain_outputs.h"
 #include "mpm/terrain_snapshot.h"
 
 namespace furrow::coupling {
@@ -37,7 +37,7 @@ OutputTable FixTerrainHistory::outputs() { return {"channel", channels()}; }
 
 FixTerrainHistory::FixTerrainHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixHistory(lammps, narg, arg, schema()),
-      terrain_fix_(use<FixTerrainContinuum>("terrain", {"terrain"})) {}
+      terrain_fix_(use<FixTerrain>("terrain", {"terrain"})) {}
 
 void FixTerrainHistory::open(std::optional<double> resume_time) {
   if (comm->me != 0) return;

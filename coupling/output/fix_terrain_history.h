@@ -7,7 +7,7 @@
 
 namespace furrow::coupling {
 
-class FixTerrainContinuum;
+class FixTerrain;
 
 class FixTerrainHistory : public FixHistory {
  public:
@@ -21,7 +21,7 @@ class FixTerrainHistory : public FixHistory {
   void write_frame() override;
   void close() override;
 
-  FixTerrainContinuum& terrain_fix_;
+  FixTerrain& terrain_fix_;
   std::optional<VtkSeries> frames_;  // rank 0 only
 };
 

@@ -9,10 +9,8 @@
 #include "comm.h"
 #include "core/error.h"
 #include "coupling/base/fix_coupled_system.h"
-#include "coupling/liggghts/fixes_of.h"
 #include "coupling/base/refuse_double.h"
-#include "coupling/bodies/fix_wheel_hub.h"
-#include "coupling/contact/fix_contact_plane.h"
+#include "coupling/base/fix_wheel_hub.h"
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/liggghts/vector.h"
 #include "coupling/output/results_folder.h"
@@ -73,11 +71,10 @@ FixWheelArc::~FixWheelArc() { wheel_fix_.hub().set_contact_record(nullptr); }
 
 void FixWheelArc::init() {
   collectively([&] {
-    for (const auto* plane : fixes_of<FixContactPlane>(*modify))
-      if (&plane->body_fix() == &wheel_fix_)
-        throw InputError(options().where("wheel"),
-                         fmt::format("is '{}', on the plane of '{}'", wheel_fix_.id, plane->id),
-                         "a wheel on grains or continuum terrain");
+    if (const auto* plane = find_user(*modify, "contact/plane", wheel_fix_))
+      throw InputError(options().where("wheel"),
+                       fmt::format("is '{}', on the plane of '{}'", wheel_fix_.id, plane->id),
+                       "a wheel on grains or continuum terrain");
   });
   on_this_rank([&] {
     if (comm->me == 0) make_results_folder(options());

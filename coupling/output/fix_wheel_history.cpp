@@ -5,17 +5,13 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "coupling/base/counts_losses.h"
 #include "coupling/base/fix_coupled_system.h"
+#include "coupling/base/fix_rig.h"
 #include "coupling/liggghts/fixes_of.h"
-#include "coupling/contact/fix_contact_continuum.h"
-#include "coupling/contact/fix_contact_plane.h"
-#include "coupling/drive/fix_wheel_rig.h"
-#include "coupling/bodies/fix_wheel_hub.h"
-#include "coupling/grains/fix_grain_work.h"
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/output/gather_grains.h"
 #include "coupling/output/grain_virial.h"
-#include "coupling/terrain/fix_terrain_continuum.h"
 #include "io/summary.h"
 #include "update.h"
 
@@ -33,7 +29,7 @@ Schema FixWheelHistory::schema() {
 }
 
 FixWheelHistory::FixWheelHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixHistory(lammps, narg, arg, schema()), rig_fix_(use<FixWheelRig>("rig", {"rig"})) {}
+    : FixHistory(lammps, narg, arg, schema()), rig_fix_(use<FixRig>("rig", {"rig"})) {}
 
 OutputTable FixWheelHistory::outputs() { return {"channel", WheelRig::channels()}; }
 
@@ -110,29 +106,13 @@ void FixWheelHistory::close() {
 GroundLosses FixWheelHistory::ground_losses() {
   FixWheelHub& wheel = rig_fix_.wheel_fix();
   GroundLosses losses;
-  for (auto* contact : fixes_of<FixContactContinuum>(*modify)) {
-    if (&contact->body_fix() != &wheel) continue;
-    FixTerrainContinuum& terrain = contact->terrain_fix();
-    const double halves = terrain.half_model() ? 2.0 : 1.0;
-    const TerrainWork work = terrain.terrain().work();
-    losses.compaction += halves * work.compaction;
-    losses.bulldozing += halves * work.bulldozing;
-    losses.kinetic += halves * work.kinetic;
-    losses.numerical += halves * work.numerical_loss;
-    losses.radiated += halves * work.radiated;
-    losses.friction += contact->friction_loss();
-    losses.contact_damping += contact->damping_loss();
-    losses.continuum += contact->terrain_work();
-  }
-  for (auto* contact : fixes_of<FixContactPlane>(*modify))
-    if (&contact->body_fix() == &wheel) losses.friction += contact->friction_loss();
+  for (const auto* part : fixes_of<const CountsLosses>(*modify))
+    part->add_losses(wheel.hub(), losses);
   const ContactWork& work = FixCoupledSystem::of(*lmp).contact_work(wheel.hub());
   losses.friction += work.friction;
   losses.contact_damping += work.contact;
   losses.press = work.press;
   losses.push = work.push;
-  for (const auto* counted : fixes_of<FixGrainWork>(*modify))
-    if (&counted->body() == &wheel.hub()) losses.grains = counted->work();
   // what is left of the wheel's work
   losses.contact_springs =
       -wheel.hub().energy_budget().contact_work -

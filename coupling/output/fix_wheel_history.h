@@ -12,7 +12,7 @@ class WheelHub;
 
 namespace furrow::coupling {
 
-class FixWheelRig;
+class FixRig;
 
 class FixWheelHistory : public FixHistory {
  public:
@@ -35,7 +35,7 @@ class FixWheelHistory : public FixHistory {
   /// Of everything that the wheel touches. Collective.
   GroundLosses ground_losses();
 
-  FixWheelRig& rig_fix_;
+  FixRig& rig_fix_;
 
   // Rank 0 only.
   std::optional<VtkSeries> wheel_frames_;

@@ -4,18 +4,18 @@
 #include <fstream>
 #include <sstream>
 
+#include "coupling/base/bed_line.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/liggghts/has_options.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"
-#include "coupling/terrain/command_bed.h"
 #include "group.h"
 
 namespace furrow::coupling {
 
 std::vector<StyleRecord> style_records(LAMMPS_NS::LAMMPS& lammps) {
   std::vector<StyleRecord> records;
-  const auto bed = bed_line(lammps);
+  const BedLine bed = bed_line(lammps);
   if (!bed.empty()) {
     StyleRecord record{"", "", "bed", find_style("bed")->kind, {}};
     for (const auto& [name, value] : bed) record.options.push_back({name, {typed_value(value)}});
@@ -33,7 +33,7 @@ std::vector<StyleRecord> style_records(LAMMPS_NS::LAMMPS& lammps) {
 std::string effective_input(LAMMPS_NS::LAMMPS& lammps) {
   std::ostringstream text;
   text << "# styles with their effective values\n";
-  const auto bed = bed_line(lammps);
+  const BedLine bed = bed_line(lammps);
   for (const auto& [name, value] : bed)
     text << (name == "script" ? "bed" : ' ' + name) << ' ' << value;
   if (!bed.empty()) text << '\n';

@@ -12,7 +12,7 @@
 
 #include "comm.h"
 #include "core/error.h"
-#include "coupling/base/fix_coupled_system.h"
+#include "coupling/base/bed_line.h"
 #include "coupling/liggghts/checkpoint_file.h"
 #include "coupling/liggghts/first_rank.h"
 #include "coupling/liggghts/script.h"
@@ -33,7 +33,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char line_variable[] = "furrow_bed";  // holds the words of the line, one on each line
 constexpr char no_checkpoint[] = "none";
 
 /// "command processors": 0 leaves the number of ranks along an axis to LIGGGHTS.
@@ -149,17 +148,16 @@ CommandBed::Request CommandBed::read_request(const std::vector<std::string>& wor
 /// Each becomes a variable with bed_ before its name; of a former name too, which a bed script may
 /// still read.
 void CommandBed::set_parameters(const Request& request) {
-  std::string line = "script\n" + request.script.path().string();
+  BedLine line = {{"script", request.script.path().string()}};
   for (const Parameter& p : request.parameters) {
     set_variable(*lmp, "bed_" + p.name, p.value);
-    line += "\n" + p.name + "\n" + p.value;
+    line.emplace_back(p.name, p.value);
     if (p.written == p.name) continue;
     set_variable(*lmp, "bed_" + p.written, p.value);
     warn(*lmp, fmt::format("command bed: parameter '{}' is now called '{}'; write '{} {}'",
                            p.written, p.name, p.name, p.value));
   }
-  set_variable(*lmp, line_variable, line);
-  set_variable(*lmp, FixCoupledSystem::bed_variable, request.values);
+  set_bed_line(*lmp, line, request.values);
 }
 
 /// A damaged one is made again.
@@ -234,14 +232,6 @@ void CommandBed::read(const Request& request, const KeptBed& bed) {
 /// Line by line, so that this command can go on when the section has ended.
 void CommandBed::run_section(const Request& request, const std::string& name) {
   for (const std::string& command : request.script.commands(name)) input->one(command.c_str());
-}
-
-std::vector<std::pair<std::string, std::string>> bed_line(LAMMPS_NS::LAMMPS& lammps) {
-  std::vector<std::pair<std::string, std::string>> words;
-  std::istringstream line(variable(lammps, line_variable).value_or(""));
-  std::string name, value;
-  while (std::getline(line, name) && std::getline(line, value)) words.emplace_back(name, value);
-  return words;
 }
 
 }  // namespace furrow::coupling

@@ -61,8 +61,4 @@ class CommandBed : protected LAMMPS_NS::Pointers {
   void run_section(const Request& request, const std::string& name);
 };
 
-/// The words of the last bed line: "script", its path, then name and value in turn; nothing without
-/// one.
-std::vector<std::pair<std::string, std::string>> bed_line(LAMMPS_NS::LAMMPS& lammps);
-
 }  // namespace furrow::coupling

@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/base/refuse_double.h"
-#include "coupling/bodies/fix_body.h"
+#include "coupling/base/fix_body.h"
 #include "coupling/liggghts/exchange_buffer.h"
 #include "coupling/liggghts/style_registry.h"
 #include "domain.h"

@@ -11,7 +11,7 @@
 #include "coupling/liggghts/find_fix.h"
 #include "coupling/base/read_options.h"
 #include "coupling/base/refuse_double.h"
-#include "coupling/bodies/fix_wheel_hub.h"
+#include "coupling/base/fix_wheel_hub.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"
 #include "domain.h"
@@ -89,8 +89,8 @@ Schema FixTerrainContinuum::schema(const std::optional<GroundSize>& size) {
 }
 
 FixTerrainContinuum::FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixBody(lammps, narg, arg, schema_of_line(*lammps, narg, arg),
-              [lammps](const Options& options) { return make_terrain(*lammps, options); }) {
+    : FixTerrain(lammps, narg, arg, schema_of_line(*lammps, narg, arg),
+                 [lammps](const Options& options) { return make_terrain(*lammps, options); }) {
   if (options().given("follow_last") && !options().given("follow"))
     throw InputError(options().where("follow_last"), "is given without 'follow'",
                      "the other end of a row that 'follow' names the first of",
@@ -151,23 +151,6 @@ void FixTerrainContinuum::refuse_overlap() {
 
 bool FixTerrainContinuum::follows(const Body& body) const {
   return std::find(followed_.begin(), followed_.end(), &body) != followed_.end();
-}
-
-std::pair<double, double> FixTerrainContinuum::extent(int direction) const {
-  const Axis& axis = terrain().grid().axis(direction);
-  return {axis.lower(), direction == 2 ? options().number("surface") : axis.upper()};
-}
-
-bool FixTerrainContinuum::contains(const Vector3& point) const {
-  for (int a = 0; a < 3; ++a) {
-    const auto [lower, upper] = extent(a);
-    if (!(point[a] > lower && point[a] < upper)) return false;
-  }
-  const std::optional<Trough>& trough = terrain().parameters().trough;
-  if (!trough) return true;
-  const auto [side, other_side] = extent(1);
-  return std::abs(point.y() - 0.5 * (side + other_side)) > 0.5 * trough->width ||
-         point.z() < extent(2).second - trough->depth;
 }
 
 int FixTerrainContinuum::setmask() { return LAMMPS_NS::FixConst::END_OF_STEP; }

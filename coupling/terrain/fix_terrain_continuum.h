@@ -3,31 +3,24 @@
 /// fix terrain/continuum: terrain by the material point method. See fix_terrain_continuum.md.
 
 #include <optional>
-#include <utility>
 #include <vector>
 
-#include "coupling/bodies/fix_body.h"
-#include "coupling/terrain/terrain_outputs.h"
-#include "mpm/continuum_terrain.h"
+#include "coupling/base/fix_terrain.h"
+#include "coupling/base/motion_controller.h"
 #include "mpm/ground_under_wheel.h"
+#include "mpm/terrain_outputs.h"
 
 namespace furrow::coupling {
 
-class FixTerrainContinuum : public FixBody, public MotionController {
+class FixTerrainContinuum : public FixTerrain, public MotionController {
  public:
   FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
   /// @param size  of a line that gives none
   static Schema schema(const std::optional<GroundSize>& size = {});
   static const Outputs<TerrainReading>& outputs() { return terrain_outputs(); }
 
-  ContinuumTerrain& terrain() const { return static_cast<ContinuumTerrain&>(body()); }
-  bool half_model() const { return options().flag("symmetry"); }
   /// Whether one of the bodies that it follows is this one.
   bool follows(const Body& body) const;
-  /// Of the undisturbed terrain along x, y or z [m].
-  std::pair<double, double> extent(int direction) const;
-  /// Whether a point lies in the undisturbed terrain; a trough does not belong to it.
-  bool contains(const Vector3& point) const;
 
   int setmask() override;
   void end_of_step() override;

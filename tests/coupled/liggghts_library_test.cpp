@@ -13,7 +13,7 @@
 
 #include "atom.h"
 #include "core/error.h"
-#include "coupling/bodies/fix_mesh_body.h"
+#include "coupling/contact/fix_mesh_body.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/box_motion.h"
 #include "coupling/liggghts/contact_history.h"

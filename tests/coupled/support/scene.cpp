@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "atom.h"
-#include "coupling/bodies/fix_body.h"
+#include "coupling/base/fix_body.h"
 #include "coupling/liggghts/access.h"
 #include "input.h"
 #include "modify.h"

@@ -8,6 +8,7 @@
 #include "bodies/body.h"
 #include "core/options.h"
 #include "coupling/base/fix_order.h"
+#include "coupling/base/keeps_state.h"
 #include "coupling/liggghts/has_options.h"
 #include "coupling/base/uses_fix.h"
 #include "coupling/liggghts/style_registry.h"
@@ -71,6 +72,7 @@ class BodyMesh : public LAMMPS_NS::TriMesh {
 class FixMeshBody : public LAMMPS_NS::FixMeshSurface,
                     public HasOptions,
                     public UsesFix,
+                    public KeepsState,
                     public FollowsSystem {
  public:
   FixMeshBody(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
@@ -82,6 +84,9 @@ class FixMeshBody : public LAMMPS_NS::FixMeshSurface,
   const Options& options() const override { return options_; }
 
   bool uses(const LAMMPS_NS::Fix& other) const override;
+  // LIGGGHTS keeps the contact histories of the mesh by its id.
+  bool must_be_restored() const override { return true; }
+  bool restored() const override { return true; }
   std::string reason_to_follow() const override {
     return "its triangles take the positions that the nodes of the body have come to";
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/bodies/fix_mesh_body.h"
+#include "coupling/contact/fix_mesh_body.h"
 
 #include <cmath>
 
@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "coupling/liggghts/find_fix.h"
 #include "coupling/base/read_options.h"
-#include "coupling/bodies/fix_body.h"
+#include "coupling/base/fix_body.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/errors.h"
 #include "domain.h"
@@ -30,7 +30,7 @@ constexpr double skin_share = 0.5;
 }  // namespace
 
 const StyleRow mesh_body_style =
-    fix_style<FixMeshBody>("mesh/body", "mesh", "bodies/fix_mesh_body.md");
+    fix_style<FixMeshBody>("mesh/body", "mesh", "contact/fix_mesh_body.md");
 
 BodyMesh::BodyMesh(LAMMPS_NS::LAMMPS* lammps, const char* id, const Surface& surface,
                    const Matrix3X& nodes_as_made)

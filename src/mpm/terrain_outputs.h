@@ -10,7 +10,7 @@
 #include "core/outputs.h"
 #include "mpm/continuum_terrain.h"
 
-namespace furrow::coupling {
+namespace furrow {
 
 /// A terrain whose sums over the ranks are made once, when an output asks for them.
 class TerrainReading {
@@ -42,4 +42,4 @@ class TerrainReading {
 /// The functions are collective. Energies since the start; of a half model, of the half.
 const Outputs<TerrainReading>& terrain_outputs();
 
-}  // namespace furrow::coupling
+}  // namespace furrow

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/drive/command_run_until_steady.h"
+#include "coupling/output/command_run_until_steady.h"
 
 #include <algorithm>
 #include <chrono>
@@ -19,7 +19,7 @@
 #include "coupling/liggghts/signals.h"
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/output/fix_wheel_history.h"
-#include "coupling/terrain/fix_terrain_continuum.h"
+#include "coupling/base/fix_terrain.h"
 #include "domain.h"
 #include "input.h"
 #include "io/summary.h"
@@ -54,7 +54,7 @@ std::vector<std::string> reasons(const Summary& summary, double target) {
 }  // namespace
 
 const StyleRow run_until_steady_style =
-    command_style<CommandRunUntilSteady>("run_until_steady", "drive/command_run_until_steady.md");
+    command_style<CommandRunUntilSteady>("run_until_steady", "output/command_run_until_steady.md");
 
 Schema CommandRunUntilSteady::schema() {
   Schema schema("command run_until_steady");
@@ -121,7 +121,7 @@ std::string CommandRunUntilSteady::unsteady(const std::vector<FixWheelHistory*>&
 double CommandRunUntilSteady::time_left(const std::vector<FixWheelHistory*>& histories) const {
   double end = unlimited;  // [m]
   if (atom->natoms > 0 && !domain->xperiodic) end = domain->boxhi[0];
-  for (const FixTerrainContinuum* soil : fixes_of<FixTerrainContinuum>(*modify))
+  for (const FixTerrain* soil : fixes_of<FixTerrain>(*modify))
     if (!soil->options().has("follow")) end = std::min(end, soil->extent(0).second);
   double left = unlimited;
   for (const FixWheelHistory* history : histories) {

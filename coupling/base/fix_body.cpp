@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/bodies/fix_body.h"
+#include "coupling/base/fix_body.h"
 
 namespace furrow::coupling {
 

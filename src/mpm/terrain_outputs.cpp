@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/terrain/terrain_outputs.h"
+#include "mpm/terrain_outputs.h"
 
-namespace furrow::coupling {
+namespace furrow {
 
 const Outputs<TerrainReading>& terrain_outputs() {
   using R = TerrainReading;
@@ -37,4 +37,4 @@ const Outputs<TerrainReading>& terrain_outputs() {
   return list;
 }
 
-}  // namespace furrow::coupling
+}  // namespace furrow

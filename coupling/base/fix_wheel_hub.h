@@ -4,7 +4,7 @@
 /// wheel/history records. Its keys are those of bodies/hub_parameters.h beside its own.
 
 #include "bodies/wheel_hub.h"
-#include "coupling/bodies/fix_body.h"
+#include "coupling/base/fix_body.h"
 
 namespace furrow::coupling {
 

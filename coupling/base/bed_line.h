@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The last line `bed` of a script. The command keeps it in variables of the script; results files
+/// and checkpoints read it from there.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lammps.h"
+
+namespace furrow::coupling {
+
+/// Keywords and values of the line: "script" and its path first, then the others.
+using BedLine = std::vector<std::pair<std::string, std::string>>;
+
+/// @param values of all parameters, equal for equal beds
+void set_bed_line(LAMMPS_NS::LAMMPS& lammps, const BedLine& line, const std::string& values);
+/// Empty without a line `bed`.
+BedLine bed_line(LAMMPS_NS::LAMMPS& lammps);
+/// A run is continued on the same bed. "none" without one.
+std::string bed_values(LAMMPS_NS::LAMMPS& lammps);
+
+}  // namespace furrow::coupling

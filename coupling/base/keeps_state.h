@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Fixes whose state a checkpoint keeps.
+
+namespace furrow::coupling {
+
+class KeepsState {
+ public:
+  virtual ~KeepsState() = default;
+  /// Whether a continued run needs the state that a checkpoint keeps of this fix.
+  virtual bool must_be_restored() const = 0;
+  /// Whether the fix has its state from a checkpoint.
+  virtual bool restored() const = 0;
+};
+
+}  // namespace furrow::coupling
