@@ -39,7 +39,8 @@ const Outputs<FixContactContinuum>& FixContactContinuum::outputs() {
        [](Fix& fix) { return fix.contact_.deepest_penetration(); }},
       {"friction_loss", "J", "lost to friction since the start",
        [](Fix& fix) { return fix.friction_loss(); }},
-      {"damping_loss", "J", "lost to contact damping since the start",
+      {"damping_loss", "J",
+       "lost to damping and to changes of the springs' stiffness since the start",
        [](Fix& fix) { return fix.damping_loss(); }},
   };
   return list;

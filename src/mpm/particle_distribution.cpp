@@ -26,6 +26,7 @@ bool ParticleDistribution::sorting_due() const {
 void ParticleDistribution::sort() {
   drift_ = 0.0;
   ++generation_;
+  for (ParticleGroup& group : discretisation_.groups) group.particles.remove_released_columns();
   migrate();
   for (ParticleGroup& group : discretisation_.groups) sort_by_cell(group);
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,65 +11,75 @@
 
 namespace furrow {
 
+Particles::AddedValues::AddedValues(std::shared_ptr<AddedColumn> column)
+    : column_(std::move(column)) {
+  column_->owner = AddedColumn::Owner::present;
+}
+
+Particles::AddedValues::~AddedValues() {
+  if (column_) column_->owner = AddedColumn::Owner::gone;
+}
+
 Particles::Particles(const Material& material) : state_fields_(material.state_fields().size()) {
-  for (std::size_t c = 0; c < column::state + state_fields_; ++c)
-    append_column("", c == column::velocity ? 4 : c == column::affine ? 12 : 1, true);
+  for (std::size_t c = 0; c < column::state + state_fields_; ++c) {
+    const int components = c == column::velocity ? 4 : c == column::affine ? 12 : 1;
+    columns_.push_back({components, zeros(components)});
+  }
 }
 
-std::size_t Particles::append_column(const std::string& owner, int components, bool claimed) {
-  columns_.push_back({components,
-                      std::vector<double>(size_ * static_cast<std::size_t>(components), 0.0), owner,
-                      claimed});
-  return columns_.size() - 1;
-}
-
-std::size_t Particles::add_column(const std::string& owner, int components) {
-  const auto found = std::find_if(columns_.begin(), columns_.end(),
-                                  [&](const Column& column) { return column.owner == owner; });
-  if (found == columns_.end()) return append_column(owner, components, true);
-  if (found->claimed)
+Particles::AddedValues Particles::add_column(const std::string& owner, int components) {
+  remove_released_columns();
+  const auto found = std::find_if(added_.begin(), added_.end(),
+                                  [&](const auto& column) { return column->name == owner; });
+  if (found == added_.end()) {
+    added_.push_back(std::make_shared<AddedColumn>(
+        AddedColumn{{components, zeros(components)}, owner, AddedColumn::Owner::present}));
+    return AddedValues(added_.back());
+  }
+  const AddedColumn& column = **found;
+  if (column.owner == AddedColumn::Owner::present)
     throw Error(fmt::format("{} keeps values with these particles already", owner));
-  if (found->components != components)
+  if (column.components != components)
     throw Error(fmt::format("{} keeps {} values with a particle, the checkpoint has {}", owner,
-                            components, found->components));
-  found->claimed = true;
-  return static_cast<std::size_t>(found - columns_.begin());
+                            components, column.components));
+  return AddedValues(*found);
+}
+
+void Particles::remove_released_columns() {
+  added_.erase(
+      std::remove_if(added_.begin(), added_.end(),
+                     [](const auto& column) { return column->owner == AddedColumn::Owner::gone; }),
+      added_.end());
 }
 
 /// Columns that are there already must be the first of the checkpoint's, in its order.
 void Particles::checkpoint_columns(Checkpoint& state) {
-  const std::size_t own = column::state + state_fields_;
-  auto added = static_cast<std::int64_t>(columns_.size() - own);
-  const std::int64_t present = added;
-  state.value("added_columns", added);
-  if (present > added)
+  remove_released_columns();
+  auto count = static_cast<std::int64_t>(added_.size());
+  const std::int64_t present = count;
+  state.value("added_columns", count);
+  if (present > count)
     throw Error(fmt::format("{}: the checkpoint has no values that {} keeps with the particles",
-                            state.owner(), columns_[own + static_cast<std::size_t>(added)].owner));
-  for (std::size_t n = 0; n < static_cast<std::size_t>(added); ++n) {
-    const bool exists = own + n < columns_.size();
-    std::string owner = exists ? columns_[own + n].owner : "";
-    int components = exists ? columns_[own + n].components : 0;
+                            state.owner(), added_[static_cast<std::size_t>(count)]->name));
+  for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
+    const bool exists = n < added_.size();
+    std::string owner = exists ? added_[n]->name : "";
+    int components = exists ? added_[n]->components : 0;
     state.value("values_kept_by", owner);
     state.value("their_number", components);
     if (!exists)
-      append_column(owner, components, false);
-    else if (owner != columns_[own + n].owner || components != columns_[own + n].components)
+      added_.push_back(std::make_shared<AddedColumn>(
+          AddedColumn{{components, zeros(components)}, owner, AddedColumn::Owner::absent}));
+    else if (owner != added_[n]->name || components != added_[n]->components)
       throw Error(fmt::format(
           "{}: {} keeps values with its particles, {} did when the checkpoint was written",
-          state.owner(), columns_[own + n].owner, owner));
+          state.owner(), added_[n]->name, owner));
   }
-}
-
-std::vector<std::string> Particles::unclaimed_columns() const {
-  std::vector<std::string> owners;
-  for (const Column& column : columns_)
-    if (!column.claimed) owners.push_back(column.owner);
-  return owners;
 }
 
 std::size_t Particles::record_length() const {
   std::size_t length = 0;
-  for (const Column& c : columns_) length += static_cast<std::size_t>(c.components);
+  for_each_column([&](const Column& c) { length += static_cast<std::size_t>(c.components); });
   return length;
 }
 
@@ -79,7 +90,8 @@ Matrix3 Particles::affine(std::size_t i) const {
 std::size_t Particles::append(std::size_t count) {
   const std::size_t first = size_;
   size_ += count;
-  for (Column& c : columns_) c.values.resize(size_ * static_cast<std::size_t>(c.components), 0.0);
+  for_each_column(
+      [&](Column& c) { c.values.resize(size_ * static_cast<std::size_t>(c.components), 0.0); });
   return first;
 }
 
@@ -96,29 +108,29 @@ VectorX Particles::state(std::size_t i) const {
 }
 
 void Particles::reorder(const std::vector<std::size_t>& order) {
-  for (Column& c : columns_) {
+  for_each_column([&](Column& c) {
     const auto n = static_cast<std::size_t>(c.components);
     scratch_.resize(order.size() * n);
     for (std::size_t i = 0; i < order.size(); ++i)
       std::copy_n(c.values.data() + n * order[i], n, scratch_.data() + n * i);
     c.values.swap(scratch_);
-  }
+  });
   size_ = order.size();
 }
 
 void Particles::pack(std::size_t i, std::vector<double>& buffer) const {
-  for (const Column& c : columns_) {
+  for_each_column([&](const Column& c) {
     const auto n = static_cast<std::size_t>(c.components);
     buffer.insert(buffer.end(), c.values.data() + n * i, c.values.data() + n * (i + 1));
-  }
+  });
 }
 
 void Particles::unpack(const double* record) {
   ++size_;
-  for (Column& c : columns_) {
+  for_each_column([&](Column& c) {
     c.values.insert(c.values.end(), record, record + c.components);
     record += c.components;
-  }
+  });
 }
 
 ParticleView Particles::view(std::size_t first, std::size_t count) {

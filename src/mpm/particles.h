@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,9 @@
 
 namespace furrow {
 
-/// Columns of every particle; those of the material's state follow, then those that contacts keep
-/// with the particles (Particles::add_column). Unscoped: columns are indices, and those of the
-/// state are sums (column::state + field::stress). One number for each particle unless said
-/// otherwise.
+/// Columns of every particle; those of the material's state follow. Unscoped: columns are indices,
+/// and those of the state are sums (column::state + field::stress). One number for each particle
+/// unless said otherwise. Contacts add columns (ParticleColumn).
 namespace column {
 enum : std::size_t {
   x,
@@ -41,20 +41,48 @@ enum : std::size_t {
 }
 
 class Particles {
- public:
-  explicit Particles(const Material& material);
+  struct Column {
+    int components;  // numbers of one particle
+    std::vector<double> values;
+  };
+  struct AddedColumn : Column {
+    enum class Owner { absent, present, gone };  // absent: a checkpoint brought the values
+    std::string name;                            // of the owner
+    Owner owner;
+  };
 
-  /// Keeps a number of values with every particle; they follow it through sorting, migration and
-  /// checkpoints. They are zero at first, or those that a checkpoint has brought under this name.
-  /// @param owner whose they are: "fix contact/continuum 'touch'"; each has one column
-  /// @return the column
+ public:
+  /// Handle of a column that a contact adds to the particles; the column lives as long as the
+  /// handle. The handle may outlive the particles.
+  class AddedValues {
+   public:
+    AddedValues(AddedValues&&) = default;
+    AddedValues& operator=(AddedValues&&) = delete;
+    ~AddedValues();
+    double* data() const { return column_->values.data(); }
+
+   private:
+    friend class Particles;
+    explicit AddedValues(std::shared_ptr<AddedColumn> column);
+    std::shared_ptr<AddedColumn> column_;  // empty after a move
+  };
+
+  explicit Particles(const Material& material);
+  Particles(Particles&&) = default;
+  Particles& operator=(Particles&&) = default;
+
+  /// Adds a column: values that follow each particle through sorting, migration and checkpoints.
+  /// The values are zero, or those that a checkpoint has for this owner.
+  /// @param owner  names who adds the column: "fix contact/continuum 'touch'"
+  /// @param components  values of one particle
   /// @throws Error when the owner has a column already, or the checkpoint's has another length
-  std::size_t add_column(const std::string& owner, int components);
-  /// Saves whose columns there are. When a terrain is restored, those who kept values with its
-  /// particles do not exist yet: their columns are made, and wait for add_column().
+  AddedValues add_column(const std::string& owner, int components);
+  /// Removes the columns whose handles are gone; on every rank at the same time, because ranks
+  /// exchange records of record_length().
+  void remove_released_columns();
+  /// Saves the owners and lengths of the added columns. A terrain is restored before the contacts
+  /// that press on it: the columns then wait for add_column().
   void checkpoint_columns(Checkpoint& state);
-  /// Whose columns a checkpoint has brought, that nobody has added since.
-  std::vector<std::string> unclaimed_columns() const;
 
   std::size_t size() const { return size_; }
   std::size_t record_length() const;  ///< numbers of one particle
@@ -89,22 +117,32 @@ class Particles {
   void state_pointers(std::size_t first, std::vector<double*>& pointers);
 
  private:
-  struct Column {
-    int components;  // numbers of one particle
-    std::vector<double> values;
-    std::string owner = {};  // empty: the particles themselves
-    bool claimed = true;     // false: brought by a checkpoint, and not added yet
-  };
-  std::size_t append_column(const std::string& owner, int components, bool claimed);
+  std::vector<double> zeros(int components) const {
+    return std::vector<double>(size_ * static_cast<std::size_t>(components), 0.0);
+  }
+  template <class Visit>
+  void for_each_column(Visit&& visit) {
+    for (Column& column : columns_) visit(column);
+    for (const std::shared_ptr<AddedColumn>& column : added_) visit(*column);
+  }
+  template <class Visit>
+  void for_each_column(Visit&& visit) const {
+    for (const Column& column : columns_) visit(column);
+    for (const std::shared_ptr<AddedColumn>& column : added_)
+      visit(static_cast<const Column&>(*column));
+  }
   /// Of three columns that follow one another.
   Vector3 vector(std::size_t first_column, std::size_t i) const {
     return {data(first_column)[i], data(first_column + 1)[i], data(first_column + 2)[i]};
   }
 
   std::vector<Column> columns_;
+  std::vector<std::shared_ptr<AddedColumn>> added_;  // each shared with its handle, if there is one
   std::vector<double> scratch_;
   std::size_t size_ = 0;
   std::size_t state_fields_;
 };
+
+using ParticleColumn = Particles::AddedValues;
 
 }  // namespace furrow

@@ -7,10 +7,11 @@
 ///   explicit Law(const ContactParameters&);
 ///   // @throws InputError when the law cannot work on this terrain; `where` names the contact
 ///   void check(const TerrainParameters&, const std::string& where) const;
-///   // for every particle near the surface, after each search
-///   void update_history(const ParticleGroup&, std::size_t particle, ContactHistory&) const;
-///   // for every touching particle in each step: force of the surface on the ground [N]; what it
-///   // takes is added to the losses
+///   // for every touching particle in each step: the stiffness of its springs
+///   void update_stiffness(const ParticleGroup&, std::size_t particle, ContactHistory&,
+///                         ContactLosses&) const;
+///   // for every touching particle in each step of dt: force of the surface on the ground [N]; the
+///   // energy that the contact takes is added to the losses
 ///   Vector3 force(const ContactMotion&, double dt, ContactHistory&, ContactLosses&) const;
 /// A new law is one file and one row here. The law is chosen once a step: calls for a particle are
 /// direct.

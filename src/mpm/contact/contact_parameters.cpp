@@ -35,6 +35,10 @@ ContactParameters ContactParameters::from(const Options& options) {
   if (surface != "frictional" && options.given("friction"))
     throw InputError(options.where("friction"), fmt::format("is given with a {} surface", surface),
                      "friction with surface frictional only");
+  if (surface == "rough" && options.number("slip_length") > 0.0)
+    throw InputError(options.where("slip_length"),
+                     "is given with a rough surface, which does not slip",
+                     "slip_length with surface frictional only", "remove 'slip_length'");
   ContactParameters p;
   p.enforcement = options.text("enforcement");
   p.friction = surface == "rough"    ? std::numeric_limits<double>::infinity()

@@ -34,9 +34,7 @@ ContactSearch::ContactSearch(const Body& body, ContinuumTerrain& terrain)
 
 bool ContactSearch::is_outdated() {
   const Matrix3X& nodes = body_.surface().x;
-  if (!has_searched_ || generation_ != terrain_.generation() ||
-      searched_nodes_.cols() != nodes.cols())
-    return true;
+  if (generation_ != terrain_.generation()) return true;
   surface_travel_ = std::sqrt((nodes - searched_nodes_).colwise().squaredNorm().maxCoeff());
   return surface_travel_ + terrain_travel_ > skin_;
 }
@@ -47,7 +45,6 @@ void ContactSearch::search() {
   generation_ = terrain_.generation();
   surface_travel_ = 0.0;
   terrain_travel_ = 0.0;
-  has_searched_ = true;
 }
 
 /// The largest distance from a particle near the surface to the end of the ground that it stands
@@ -101,21 +98,6 @@ void ContactSearch::add_candidate(const TriangleSearch& triangles, const Particl
   std::sort(near_triangles_.begin() + static_cast<std::ptrdiff_t>(begin), near_triangles_.end(),
             [](const NearTriangle& a, const NearTriangle& b) { return a.distance < b.distance; });
   candidates_.push_back({particle, position, begin, near_triangles_.size()});
-}
-
-void ContactSearch::checkpoint(Checkpoint& state) {
-  const Matrix3X& x = body_.surface().x;
-  const bool searched = searched_nodes_.cols() == x.cols();
-  bool up_to_date = searched && generation_ == terrain_.generation();
-  Matrix3X nodes = searched ? searched_nodes_ : x;
-  state.value("terrain_travel", terrain_travel_);
-  state.value("searched_since_sorting", up_to_date);
-  state.values("searched_nodes", nodes);
-  if (state.saving()) return;
-  find_candidates();
-  generation_ = terrain_.generation() - (up_to_date ? 0 : 1);
-  searched_nodes_ = nodes;
-  has_searched_ = true;
 }
 
 }  // namespace furrow

@@ -2,10 +2,10 @@
 #pragma once
 /// Which particles may touch a surface, and which of its triangles: the broad phase of a contact.
 
+#include <optional>
 #include <vector>
 
 #include "bodies/body.h"
-#include "core/checkpoint.h"
 #include "mpm/continuum_terrain.h"
 
 namespace furrow {
@@ -17,7 +17,8 @@ constexpr double max_penetration_cells = 0.5;
 
 /// A neighbour list with a skin: what a search finds stays valid until surface and ground have
 /// moved towards each other by the skin (L. Verlet, Phys. Rev. 159, 1967), or particles have
-/// changed their order. Lists this rank's particles; no call is collective unless said otherwise.
+/// changed their order. The contacts that are found do not depend on when the search is repeated:
+/// a search is no part of a checkpoint. Lists this rank's particles; no call is collective.
 class ContactSearch {
  public:
   /// A triangle near a particle when it was searched.
@@ -40,7 +41,6 @@ class ContactSearch {
   bool is_outdated();
   /// Finds the candidates at the present positions.
   void search();
-  bool has_searched() const { return has_searched_; }
   /// Particles may travel so much further before the next call of is_outdated() [m].
   void add_terrain_travel(double distance) { terrain_travel_ += distance; }
 
@@ -54,11 +54,6 @@ class ContactSearch {
            staleness_;
   }
 
-  /// On restoring, candidates are found again at the present positions, and the next search comes
-  /// when it would have come: a restarted run continues bit for bit. Body and terrain must have
-  /// been restored.
-  void checkpoint(Checkpoint& state);
-
  private:
   double largest_particle_reach() const;
   void find_candidates();
@@ -69,13 +64,14 @@ class ContactSearch {
   ContinuumTerrain& terrain_;
   std::vector<Candidate> candidates_;
   std::vector<NearTriangle> near_triangles_;
-  Matrix3X searched_nodes_;       // of the surface at the last search [m]
-  unsigned long generation_ = 0;  // of the terrain at the last search
-  double skin_ = 0.0;             // [m]
-  double staleness_ = 0.0;        // of the positions at the last search [m]
-  double surface_travel_ = 0.0;   // since the last search [m]
-  double terrain_travel_ = 0.0;   // bound, since the last search [m]
-  bool has_searched_ = false;
+  // Of the last search.
+  std::optional<unsigned long> generation_;  // of the terrain; none: there was no search yet
+  Matrix3X searched_nodes_;                  // of the surface [m]
+  double skin_ = 0.0;                        // [m]
+  double staleness_ = 0.0;                   // of the positions [m]
+  // Since then.
+  double surface_travel_ = 0.0;  // [m]
+  double terrain_travel_ = 0.0;  // bound [m]
 };
 
 }  // namespace furrow

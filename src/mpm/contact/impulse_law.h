@@ -23,7 +23,7 @@ class ImpulseLaw {
       : friction_{parameters.friction, parameters.slip_length} {}
 
   void check(const TerrainParameters&, const std::string&) const {}
-  void update_history(const ParticleGroup&, std::size_t, ContactHistory&) const {}
+  void update_stiffness(const ParticleGroup&, std::size_t, ContactHistory&, ContactLosses&) const {}
   Vector3 force(const ContactMotion& contact, double dt, ContactHistory& history,
                 ContactLosses& losses) const;
 
@@ -42,7 +42,7 @@ inline Vector3 ImpulseLaw::force(const ContactMotion& contact, double dt, Contac
   const double normal_force =
       std::max(0.0, contact.mass * (approach - correction * contact.point.gap / dt) / dt);
   const Vector3 sliding = contact.velocity + approach * n;
-  history.slip += dt * sliding.norm();
+  history.slip += contact.last_dt * sliding.norm();
   const double limit = friction_.limit(normal_force, history.slip);
   const double stopping = contact.mass * sliding.norm() / dt;
   const double size = std::min(limit, stopping);

@@ -3,6 +3,7 @@
 /// One particle in contact with a surface: where it touches, how it moves, what it remembers.
 
 #include <cstddef>
+#include <type_traits>
 
 #include "core/types.h"
 
@@ -25,47 +26,42 @@ struct ContactMotion {
   const ContactPoint& point;
   Vector3 velocity;  ///< of the ground relative to the surface, at the point [m/s]
   double mass;       ///< of the particle [kg]
+  double last_dt;    ///< length of the step that ended with this velocity [s]
 };
 
 /// Energy that a contact takes [J].
 struct ContactLosses {
   double friction = 0.0;
-  double damping = 0.0;
+  double damping = 0.0;  ///< of the dampers, and of changes in the springs' stiffness
 };
 
-/// What a particle remembers of a contact: a view of its numbers in the column that the contact
-/// added to the particles, so that they follow it through sorting, migration and checkpoints.
+/// History of a contact: what a particle keeps from one step to the next. The contact adds a
+/// column of histories to the particles (ParticleColumn); a record is a row of doubles.
 struct ContactHistory {
-  static constexpr int size = 14;  ///< numbers of a particle
-
-  explicit ContactHistory(double* numbers)
-      : spring(numbers),
-        slip(numbers[3]),
-        stiffness(numbers[4]),
-        gap(numbers[5]),
-        reach_excess(numbers[6]),
-        normal(numbers + 7),
-        triangle(numbers[10]),
-        barycentric(numbers + 11) {}
-
-  /// Whether it touched in the last step.
+  /// Whether the particle touched in the last step.
   bool touches() const { return gap < 0.0; }
-  /// The particle touches no more.
+  /// The particle no longer touches.
   void end_contact() {
     spring.setZero();
     slip = 0.0;
     gap = 0.0;
   }
 
-  Eigen::Map<Vector3> spring;  ///< stretch of the tangential spring [m]
-  double& slip;                ///< path along the surface since the contact began [m]
-  double& stiffness;           ///< of the springs, as of the last search [N/m]
-  double& gap;                 ///< in the last step [m]; 0: it did not touch
-  double& reach_excess;        ///< of the particle: e of NarrowPhase
-  // Of the last step, if it touched: the normal, and the point of the surface
-  Eigen::Map<Vector3> normal;
-  double& triangle;
-  Eigen::Map<Vector3> barycentric;
+  Vector3 spring = Vector3::Zero();  ///< stretch of the tangential spring [m]
+  double slip = 0.0;                 ///< path along the surface since the contact began [m]
+  double stiffness = 0.0;            ///< of the springs in the last step [N/m]
+  double gap = 0.0;                  ///< in the last step [m]; 0: the particle did not touch
+  double reach_excess = 0.0;         ///< e of NarrowPhase
+  // Of the last step, if the particle touched: the normal, and the point of the surface.
+  Vector3 normal = Vector3::Zero();
+  double triangle = 0.0;
+  Vector3 barycentric = Vector3::Zero();
 };
+
+/// Numbers of a history in a record of the particles.
+constexpr int contact_history_numbers = 14;
+static_assert(sizeof(ContactHistory) == contact_history_numbers * sizeof(double) &&
+                  std::is_standard_layout_v<ContactHistory>,
+              "a history is a row of doubles");
 
 }  // namespace furrow

@@ -25,8 +25,8 @@ class PenaltyLaw {
         damping_(parameters.damping) {}
 
   void check(const TerrainParameters& terrain, const std::string& where) const;
-  void update_history(const ParticleGroup& group, std::size_t particle,
-                      ContactHistory& history) const;
+  void update_stiffness(const ParticleGroup& group, std::size_t particle, ContactHistory& history,
+                        ContactLosses& losses) const;
   Vector3 force(const ContactMotion& contact, double dt, ContactHistory& history,
                 ContactLosses& losses) const;
 
@@ -36,12 +36,17 @@ class PenaltyLaw {
   double damping_;    // of critical
 };
 
-/// The stiffness follows the modulus of the ground from search to search.
-inline void PenaltyLaw::update_history(const ParticleGroup& group, std::size_t particle,
-                                       ContactHistory& history) const {
+/// The stiffness follows the modulus of the ground. A loaded spring then gains the energy
+/// (k - k_old) (gap^2 + stretch^2)/2, which the losses count with a negative sign.
+inline void PenaltyLaw::update_stiffness(const ParticleGroup& group, std::size_t particle,
+                                         ContactHistory& history, ContactLosses& losses) const {
   const double modulus = group.material->moduli(group.particles.state(particle)).wave();
   const double volume = group.particles.data(column::volume)[particle];
-  history.stiffness = stiffness_ * modulus * std::cbrt(volume);
+  const double stiffness = stiffness_ * modulus * std::cbrt(volume);
+  if (history.touches())
+    losses.damping -= 0.5 * (stiffness - history.stiffness) *
+                      (history.gap * history.gap + history.spring.squaredNorm());
+  history.stiffness = stiffness;
 }
 
 inline Vector3 PenaltyLaw::force(const ContactMotion& contact, double dt, ContactHistory& history,
@@ -55,12 +60,12 @@ inline Vector3 PenaltyLaw::force(const ContactMotion& contact, double dt, Contac
   losses.damping += (normal_force - spring_force) * approach * dt;
 
   const Vector3 sliding = contact.velocity + approach * n;
-  history.spring += dt * sliding;
+  history.spring += contact.last_dt * sliding;
   history.spring -= history.spring.dot(n) * n;
   Vector3 tangential_force = -stiffness * history.spring - damping * sliding;
   // Where friction grows with the slip, every relative motion along the surface counts as slip;
   // with Coulomb's law, only what goes beyond the spring.
-  if (friction_.mobilised_by_slip()) history.slip += dt * sliding.norm();
+  if (friction_.mobilised_by_slip()) history.slip += contact.last_dt * sliding.norm();
   const double limit = friction_.limit(normal_force, history.slip);
   const double size = tangential_force.norm();
   if (size > limit) {

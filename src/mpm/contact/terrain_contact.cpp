@@ -22,7 +22,7 @@ TerrainContact::TerrainContact(Body& body, ContinuumTerrain& terrain,
   std::visit([&](const auto& law) { law.check(terrain.parameters(), where); }, law_);
   if (half_model) mirror_.emplace(body.surface(), terrain.grid().axis(1).lower(), where);
   for (ParticleGroup& group : terrain_.unsynchronised_groups())
-    history_columns_.push_back(group.particles.add_column(where, ContactHistory::size));
+    history_columns_.push_back(group.particles.add_column(where, contact_history_numbers));
 }
 
 void TerrainContact::apply(double dt) {
@@ -37,27 +37,19 @@ void TerrainContact::apply(double dt) {
   if (mirror_) add_other_half();
   record_step();
   body_.surface().f += nodal_forces_;
+  last_dt_ = dt;
 }
 
-ContactHistory TerrainContact::history_of(const ParticleIndex& particle) {
-  Particles& particles = terrain_.unsynchronised_groups()[particle.group].particles;
-  return ContactHistory(particles.data(history_columns_[particle.group]) +
-                        ContactHistory::size * particle.particle);
+ContactHistory& TerrainContact::history_of(const ParticleIndex& particle) {
+  return reinterpret_cast<ContactHistory*>(
+      history_columns_[particle.group].data())[particle.particle];
 }
 
 void TerrainContact::search() {
   check_within_terrain(body_.surface(), terrain_.grid());
-  const bool first = !search_.has_searched();
   search_.search();
-  std::visit(
-      [&](const auto& law) {
-        for (const ContactSearch::Candidate& candidate : search_.candidates()) {
-          ContactHistory history = history_of(candidate.particle);
-          law.update_history(group_of(candidate.particle), candidate.particle.particle, history);
-        }
-      },
-      law_);
-  if (first) check_no_overlap(body_.surface(), terrain_.unsynchronised_groups());
+  if (!begun_) check_no_overlap(body_.surface(), terrain_.unsynchronised_groups());
+  begun_ = true;
 }
 
 /// Leaves out the candidates that cannot have come near enough since the search.
@@ -67,7 +59,7 @@ void TerrainContact::select_active() {
   const std::vector<ContactSearch::Candidate>& candidates = search_.candidates();
   for (std::size_t n = 0; n < candidates.size(); ++n) {
     const ParticleIndex& particle = candidates[n].particle;
-    ContactHistory history = history_of(particle);
+    ContactHistory& history = history_of(particle);
     // one that touches may be inside, farther than its reach
     if (!history.touches() &&
         search_.lower_bound(candidates[n]) >
@@ -88,7 +80,7 @@ void TerrainContact::add_forces(const Law& law, double dt) {
   for (std::size_t n = 0; n < active_.size(); ++n) {
     const ParticleIndex& particle = active_particles_[n];
     const ParticleGroup& group = group_of(particle);
-    ContactHistory history = history_of(particle);
+    ContactHistory& history = history_of(particle);
     ContactPoint contact = narrow_phase_.find(search_, search_.candidates()[active_[n]],
                                               group.particles, motions_[n].position, history);
     const Vector3i& nodes = surface.triangles[contact.triangle];
@@ -100,18 +92,19 @@ void TerrainContact::add_forces(const Law& law, double dt) {
       if (contact.leaps)
         velocity_there = motions_[n].velocity_at(narrow_phase_.point_of(surface.x, history)) -
                          narrow_phase_.point_of(surface.v, history);
-      NarrowPhase::follow(velocity, velocity_there, dt, group.particles, p, history, contact);
+      NarrowPhase::follow(velocity, velocity_there, last_dt_, group.particles, p, history, contact);
     }
     if (contact.gap >= 0.0) {
       history.end_contact();
       continue;
     }
+    law.update_stiffness(group, particle.particle, history, step_.losses);
     history.gap = contact.gap;
     history.normal = contact.normal;
     history.triangle = static_cast<double>(contact.triangle);
     history.barycentric = contact.barycentric;
-    const Vector3 force =
-        law.force({contact, velocity, group.mass(particle.particle)}, dt, history, step_.losses);
+    const Vector3 force = law.force({contact, velocity, group.mass(particle.particle), last_dt_},
+                                    dt, history, step_.losses);
     terrain_.add_point_force(particle, force, contact.position, &terrain_work_);
     for (int c = 0; c < 3; ++c) nodal_forces_.col(nodes[c]) -= contact.barycentric[c] * force;
     if (record) record->add(contact.position, -halves * force, -velocity, dt);
@@ -168,7 +161,8 @@ void TerrainContact::checkpoint(Checkpoint& state) {
   double work = state.saving() ? terrain_work() : 0.0;
   state.value("terrain_work", work);
   terrain_work_ = terrain_.ranks().rank() == 0 ? work : 0.0;
-  search_.checkpoint(state);
+  state.value("begun", begun_);
+  state.value("last_dt", last_dt_);
 }
 
 }  // namespace furrow

@@ -52,8 +52,8 @@ class TerrainContact : public Contact {
   /// Of this contact on the terrain as it is modelled, a half model's half [J]. Collective.
   double terrain_work() const { return terrain_.ranks().sum(terrain_work_); }
 
-  /// Sums since the start, and when the candidates were found; what particles remember is part of
-  /// the terrain's checkpoint. Restored after body and terrain. Collective.
+  /// Sums since the start and the last step's length; the histories are part of the terrain's
+  /// checkpoint. Restored after body and terrain. Collective.
   void checkpoint(Checkpoint& state);
 
  private:
@@ -67,7 +67,7 @@ class TerrainContact : public Contact {
   const ParticleGroup& group_of(const ParticleIndex& particle) const {
     return terrain_.unsynchronised_groups()[particle.group];
   }
-  ContactHistory history_of(const ParticleIndex& particle);
+  ContactHistory& history_of(const ParticleIndex& particle);
   void search();
   void select_active();
   template <class Law>
@@ -82,7 +82,7 @@ class TerrainContact : public Contact {
   ContactSearch search_;
   NarrowPhase narrow_phase_;
   std::optional<SymmetryMirror> mirror_;
-  std::vector<std::size_t> history_columns_;  // of each particle group
+  std::vector<ParticleColumn> history_columns_;  // of each particle group
 
   // Candidates that may touch now, and their motions.
   std::vector<std::size_t> active_;
@@ -95,6 +95,8 @@ class TerrainContact : public Contact {
   ContactLosses losses_;       // since the start
   double terrain_work_ = 0.0;  // since the start, this rank's share [J]
   double deepest_penetration_ = 0.0;
+  double last_dt_ = 0.0;  // length of the last step [s]
+  bool begun_ = false;    // surface and ground were apart at the start
 };
 
 }  // namespace furrow

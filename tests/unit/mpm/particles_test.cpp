@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mpm/particles.h"
 
+#include <memory>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "terrain_scene.h"
@@ -53,17 +56,17 @@ TEST(Particles, ReorderMovesAllColumnsAndDropsTheRest) {
   const auto material = material_of(elastic(1e6, 0.3, 1000));
   Particles particles(*material);
   particles.append(4);
-  const std::size_t memory = particles.add_column("one", 2);
+  const ParticleColumn memory = particles.add_column("one", 2);
   number(particles);
-  for (std::size_t p = 0; p < 4; ++p) particles.data(memory)[2 * p + 1] = double(p);
+  for (std::size_t p = 0; p < 4; ++p) memory.data()[2 * p + 1] = double(p);
   particles.reorder({3, 0, 2});
   ASSERT_EQ(particles.size(), 3u);
   EXPECT_EQ(particles.position(0).x(), 300.0);
   EXPECT_EQ(particles.position(1).x(), 0.0);
   EXPECT_EQ(particles.data(column::initial_z)[2], 201.0);
   EXPECT_EQ(particles.affine(0)(0, 0), 310.0);
-  EXPECT_EQ(particles.data(memory)[1], 3.0);
-  EXPECT_EQ(particles.data(memory)[5], 2.0);
+  EXPECT_EQ(memory.data()[1], 3.0);
+  EXPECT_EQ(memory.data()[5], 2.0);
   particles.reorder({});
   EXPECT_EQ(particles.size(), 0u);
 }
@@ -72,20 +75,52 @@ TEST(Particles, AColumnAddedLateIsZeroAndTravelsWithTheParticle) {
   const auto material = material_of(elastic(1e6, 0.3, 1000));
   Particles particles(*material);
   particles.append(3);
-  const std::size_t before = particles.record_length(), memory = particles.add_column("one", 4);
+  const std::size_t before = particles.record_length();
+  const ParticleColumn memory = particles.add_column("one", 4);
   EXPECT_EQ(particles.record_length(), before + 4);
-  for (std::size_t n = 0; n < 12; ++n) EXPECT_EQ(particles.data(memory)[n], 0.0);
-  particles.data(memory)[9] = 7.0;
+  for (std::size_t n = 0; n < 12; ++n) EXPECT_EQ(memory.data()[n], 0.0);
+  memory.data()[9] = 7.0;
   particles.append(1);
-  EXPECT_EQ(particles.data(memory)[9], 7.0);
-  EXPECT_EQ(particles.data(memory)[15], 0.0);
+  EXPECT_EQ(memory.data()[9], 7.0);
+  EXPECT_EQ(memory.data()[15], 0.0);
 }
 
 TEST(Particles, EveryOwnerHasOneColumn) {
   Particles particles(*material_of(elastic(1e6, 0.3, 1000)));
-  const std::size_t first = particles.add_column("one", 4);
-  EXPECT_NE(particles.add_column("two", 4), first);
+  const ParticleColumn first = particles.add_column("one", 4),
+                       second = particles.add_column("two", 4);
   EXPECT_THROW(particles.add_column("one", 4), Error);
+}
+
+/// The owner may return, as a contact that a script removes and defines once more; a record of the
+/// particles then has the new values alone.
+TEST(Particles, ColumnIsReleasedWithItsHandle) {
+  Particles particles(*material_of(elastic(1e6, 0.3, 1000)));
+  particles.append(2);
+  const std::size_t before = particles.record_length();
+  {
+    ParticleColumn first = particles.add_column("one", 4);
+    first.data()[7] = 5.0;
+    const ParticleColumn moved = std::move(first);
+    EXPECT_EQ(moved.data()[7], 5.0);
+    EXPECT_THROW(particles.add_column("one", 4), Error);
+  }
+  const ParticleColumn again = particles.add_column("one", 3);
+  EXPECT_EQ(particles.record_length(), before + 3);
+  for (std::size_t n = 0; n < 6; ++n) EXPECT_EQ(again.data()[n], 0.0);
+  { const ParticleColumn other = particles.add_column("two", 1); }
+  particles.remove_released_columns();
+  EXPECT_EQ(particles.record_length(), before + 3);
+}
+
+/// LIGGGHTS removes the fixes in the order of their lines: the terrain before its contacts.
+TEST(Particles, HandleOutlivesTheParticles) {
+  auto particles = std::make_unique<Particles>(*material_of(elastic(1e6, 0.3, 1000)));
+  particles->append(1);
+  const ParticleColumn column = particles->add_column("one", 1);
+  column.data()[0] = 3.0;
+  particles.reset();
+  EXPECT_EQ(column.data()[0], 3.0);
 }
 
 TEST(Particles, PackAndUnpackAreInverse) {

@@ -19,11 +19,15 @@ struct Fixture {
       : material(material_of(elastic(1e6, 0.25, 1000))),
         discretisation{Grid(Axis(even(0, 1, cell), "x"), Axis(even(0, 1, cell), "y"),
                             Axis(even(0, 1, cell), "z")),
-                       {{material, Particles(*material)}},
-                       Partition(Communicator(), {1, 1}, discretisation.grid)},
+                       groups_of(material), Partition(Communicator(), {1, 1}, discretisation.grid)},
         remap(discretisation, max_steps) {
     particles().append(1);
     particles().set_state(0, material->initial_state());
+  }
+  static std::vector<ParticleGroup> groups_of(const std::shared_ptr<const Material>& material) {
+    std::vector<ParticleGroup> groups;
+    groups.push_back({material, Particles(*material)});
+    return groups;
   }
   Particles& particles() { return discretisation.groups[0].particles; }
   void set_speed(double speed) { particles().data(column::velocity)[2] = speed; }

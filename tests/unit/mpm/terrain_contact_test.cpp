@@ -36,6 +36,11 @@ TEST(TerrainContact, ReadsItsKeys) {
                 read({"surface", "rough", "friction", "0.5"});
               }),
               HasSubstr("keyword 'friction' is given with a rough surface"));
+  EXPECT_THAT(error_of([&] {
+                read({"surface", "rough", "slip_length", "0.01"});
+              }),
+              HasSubstr("keyword 'slip_length' is given with a rough surface, which does not slip; "
+                        "allowed: slip_length with surface frictional only"));
   EXPECT_THAT(error_of([&] { read({"friction", "-1"}); }), HasSubstr("keyword 'friction' is -1"));
   EXPECT_THAT(error_of([&] { read({"damping", "2"}); }), HasSubstr("keyword 'damping' is 2"));
 }
@@ -58,6 +63,41 @@ TEST(TerrainContact, RefusesASpringTooStiffForTheStep) {
   stiff.stiffness = 1.01 * std::pow(2.0 / (2.0 * ground.parameters().cfl), 2);
   EXPECT_THAT(error_of([&] { TerrainContact(plate, ground, stiff, false, "foot"); }),
               HasSubstr("sqrt(stiffness) x cfl x particles below 2"));
+}
+
+/// A plate at 1 m/s; the steps since the last contact are 1, 2 and 0.5 times 1e-5 s long. The force
+/// of a step belongs to the gap that the last step left: minus the path.
+TEST(TerrainContact, GapFollowsTheMotionWhenTheStepChanges) {
+  TerrainParameters parameters =
+      box(material_of(elastic(1e6, 0.2, 500)), {-0.1, -0.1, -0.1}, {0.1, 0.1, 0.0}, 0.025);
+  parameters.z = even(-0.1, 0.1, 0.025);
+  parameters.gravity = Vector3::Zero();
+  ContinuumTerrain ground(parameters, Communicator());
+  RigidPlate plate({PlateShape::square, 0.1, 0.05, 4}, {0, 0, -1e-6});
+  TerrainContact contact(plate, ground, ContactParameters{}, false, "foot");
+  double path = 1e-6;
+  for (const double dt : {1e-5, 2e-5, 0.5e-5, 1e-5}) {
+    contact.apply(dt);
+    EXPECT_NEAR(contact.penetration(), path, 1e-12);
+    plate.surface().v.row(2).setConstant(-1.0);
+    plate.surface().x.row(2).array() -= dt;
+    path += dt;
+  }
+}
+
+/// A script may remove a contact and define it once more, with another friction.
+TEST(TerrainContact, CanBeDefinedOnceMore) {
+  ContinuumTerrain ground = block();
+  RigidPlate plate({PlateShape::square, 0.1, 0.05, 4}, {0, 0, -1e-4});
+  double first = 0.0;
+  for (int n = 0; n < 2; ++n) {
+    TerrainContact contact(plate, ground, ContactParameters{}, false, "foot");
+    if (n > 0) ground.advance(1e-7);
+    contact.apply(1e-5);
+    if (n == 0) first = contact.force().z();
+    EXPECT_GT(first, 0.0);
+    EXPECT_NEAR(contact.force().z(), first, 1e-3 * first);
+  }
 }
 
 /// gap = height of the plate above the particles' faces: spring force k gap of every particle under
