@@ -24,8 +24,6 @@ constexpr double clearance_of_depth = 1.0;
 constexpr double min_cells_in_depth = 2.0;
 constexpr double round_off = 1e-6;  // of a length
 constexpr double most_blocks = 1e6;
-// The law whose stress has jumps, as terrain/continuum's page says of `remap_interval`.
-constexpr char jumping_law[] = "crushable_foam";
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -68,11 +66,11 @@ TerrainLayer load(const Options& options, const std::filesystem::path& path, dou
   std::unique_ptr<Material> material = file.make();
   check_plausible(*material);  // with the modulus as scaled
   const long interval = options.integer("remap_interval");
-  if (material->name() == jumping_law && interval > 1)
+  if (material->stress_has_jumps() && interval > 1)
     file.warnings.push_back(fmt::format(
         "{} is {}, and the law {} answers waves with jumps, which only the smoothing of a remap in "
         "every step damps; write 'remap_interval 1'",
-        options.where("remap_interval"), interval, jumping_law));
+        options.where("remap_interval"), interval, material->name()));
   return {std::move(material), thickness, describe(file), file.warnings};
 }
 

@@ -88,6 +88,9 @@ class Material {
   const std::vector<std::size_t>& tensor_fields() const { return tensors_; }
   /// The stress after a step depends on its duration: such a law needs PointBlock::time_step.
   virtual bool rate_dependent() const { return false; }
+  /// The stress can fall at once when a point yields: only the smoothing of a grid reset in every
+  /// step damps the waves that follow (terrain/continuum, remap_interval).
+  virtual bool stress_has_jumps() const { return false; }
 
   /// One step of every point of a block. Not all-or-nothing: after a throw the states of the block
   /// are unspecified.

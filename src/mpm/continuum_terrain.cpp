@@ -56,7 +56,7 @@ ContinuumTerrain::ContinuumTerrain(const TerrainParameters& parameters, const Co
       slide_(parameters.slide),
       step_(discretisation_, boundary_, distribution_, remap_, loads_, energy_, parameters.gravity,
             slide_ ? &*slide_ : nullptr),
-      window_(parameters, discretisation_, boundary_, fill_, energy_, where) {
+      window_(parameters, discretisation_, distribution_, boundary_, fill_, energy_, where) {
   fill(where);
   step_.capture_initial_tractions();
 }
@@ -70,7 +70,7 @@ void ContinuumTerrain::fill(const std::string& where) {
     free_surface_ = FreeSurfaceMesh(fill_, grid, parameters_.sheet_every,
                                     std::max<std::size_t>(1, parameters_.slabs));
   sort_particles();
-  if (free_surface_.exists()) free_surface_.update(discretisation_.groups, ranks());
+  if (free_surface_.exists()) free_surface_.update(discretisation_.groups, loads_, ranks());
 }
 
 void ContinuumTerrain::place_sheet() {
@@ -114,7 +114,7 @@ void ContinuumTerrain::advance(double dt) {
   }
   if (!multirate_.begun()) multirate_.begin(sheet, dt, stable_step_now());
   if (!multirate_.add(sheet, dt)) return;
-  step(multirate_.interval(), multirate_.mean_force());
+  step(multirate_.elapsed(), multirate_.mean_force());
   multirate_.begin(sheet, dt, stable_step_now());
 }
 
@@ -129,7 +129,7 @@ void ContinuumTerrain::step(double dt, const Matrix3X& sheet_forces) {
   }
   if (free_surface_.exists()) {
     step_.grid_to_particles();
-    free_surface_.update(discretisation_.groups, ranks());
+    free_surface_.update(discretisation_.groups, loads_, ranks());
   }
 }
 
@@ -220,7 +220,7 @@ void ContinuumTerrain::resume() {
   if (!free_surface_.exists()) return;
   place_sheet();
   free_surface_.attach(discretisation_.groups);
-  free_surface_.update(discretisation_.groups, ranks());
+  free_surface_.update(discretisation_.groups, loads_, ranks());
   multirate_.resume(free_surface_.surface());
 }
 

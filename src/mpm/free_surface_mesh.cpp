@@ -122,14 +122,16 @@ Vector3 FreeSurfaceMesh::offset(const std::vector<ParticleGroup>& groups,
   return half.cwiseProduct(nodes_[attachment.of].offset);
 }
 
-void FreeSurfaceMesh::update(const std::vector<ParticleGroup>& groups, const Communicator& ranks) {
+void FreeSurfaceMesh::update(const std::vector<ParticleGroup>& groups, PointLoads& loads,
+                             const Communicator& ranks) {
+  particles_.clear();
+  for (const NodeAttachment& attachment : attachments_) particles_.push_back(attachment.particle);
+  loads.interpolate_motion(particles_, particle_motions_);
   std::fill(motion_.begin(), motion_.end(), 0.0);
-  for (const NodeAttachment& attachment : attachments_) {
-    const Particles& particles = groups[attachment.particle.group].particles;
-    const std::size_t p = attachment.particle.particle;
-    const Vector3 from_particle = offset(groups, attachment);
-    const Vector3 x = particles.position(p) + from_particle;
-    const Vector3 v = particles.velocity(p) + particles.affine(p) * from_particle;
+  for (std::size_t n = 0; n < attachments_.size(); ++n) {
+    const NodeAttachment& attachment = attachments_[n];
+    const Vector3 x = particle_motions_[n].position + offset(groups, attachment);
+    const Vector3 v = particle_motions_[n].velocity_at(x);
     const NodeOfParticle& of_node = nodes_[attachment.of];
     double* node = motion_.data() + 6 * of_node.node;
     Eigen::Map<Vector3>(node) += of_node.share * x;

@@ -42,8 +42,10 @@ class FreeSurfaceMesh {
   /// Finds the particles of the nodes among this rank's; needed after particles changed their
   /// order.
   void attach(const std::vector<ParticleGroup>& groups);
-  /// Positions and velocities of the nodes from the particles. Collective.
-  void update(const std::vector<ParticleGroup>& groups, const Communicator& ranks);
+  /// Positions and velocities of the nodes from the motion of the ground at the particles, as a
+  /// force on a node sees it. Collective.
+  void update(const std::vector<ParticleGroup>& groups, PointLoads& loads,
+              const Communicator& ranks);
   /// Forces on the nodes, of this rank's particles, become loads of the next step.
   void add_forces_to(PointLoads& loads, const std::vector<ParticleGroup>& groups,
                      const Matrix3X& forces) const;
@@ -80,6 +82,9 @@ class FreeSurfaceMesh {
   std::vector<NodeOfParticle> nodes_;        // ascending ids
   std::vector<NodeAttachment> attachments_;  // of this rank's particles
   std::vector<double> motion_;               // position and velocity of each node: 6 numbers
+  // Particles of the attachments and their motions.
+  std::vector<ParticleIndex> particles_;
+  std::vector<ParticleMotion> particle_motions_;
   Surface surface_;
 };
 

@@ -11,12 +11,13 @@
 namespace furrow {
 
 MovingWindow::MovingWindow(const TerrainParameters& parameters, Discretisation& discretisation,
-                           Boundary& boundary, TerrainFill& fill, TerrainEnergy& energy,
-                           const std::string& where)
+                           const ParticleDistribution& distribution, Boundary& boundary,
+                           TerrainFill& fill, TerrainEnergy& energy, const std::string& where)
     : enabled_(parameters.window),
       per_cell_(static_cast<std::size_t>(parameters.particles_per_cell[0])),
       sheet_(parameters.surface_mesh),
       discretisation_(discretisation),
+      distribution_(distribution),
       boundary_(boundary),
       fill_(fill),
       energy_(energy),
@@ -103,7 +104,9 @@ void MovingWindow::remove_first_cells() {
         kept.push_back(p);
         continue;
       }
-      const auto row = static_cast<std::size_t>(y.cell_of(particles.data(column::y)[p]));
+      const int cell = y.cell_of(particles.data(column::y)[p]);
+      if (cell < 0) distribution_.report_outside(group);
+      const auto row = static_cast<std::size_t>(cell);
       const double ratio = particles.volume_ratio(p);
       top[row] = std::max(top[row],
                           particles.data(column::z)[p] + particles.data(column::half_z)[p] * ratio);

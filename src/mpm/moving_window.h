@@ -9,6 +9,7 @@
 #include "core/checkpoint.h"
 #include "mpm/boundary.h"
 #include "mpm/discretisation.h"
+#include "mpm/particle_distribution.h"
 #include "mpm/rut_record.h"
 #include "mpm/terrain_energy.h"
 #include "mpm/terrain_fill.h"
@@ -22,13 +23,14 @@ class MovingWindow {
   /// @throws InputError for a window with a graded x axis, with a surface mesh and no slabs, or
   /// with slabs of no whole number of cells
   MovingWindow(const TerrainParameters& parameters, Discretisation& discretisation,
-               Boundary& boundary, TerrainFill& fill, TerrainEnergy& energy,
-               const std::string& where);
+               const ParticleDistribution& distribution, Boundary& boundary, TerrainFill& fill,
+               TerrainEnergy& energy, const std::string& where);
 
   /// The middle of the window is to follow this x [m].
   void follow(double x) { followed_x_ = x; }
   /// Moves until the middle is within a cell (a slab) of what it follows. Particles must be up to
   /// date with the grid. Collective. @return whether it moved: particles must then be sorted
+  /// @throws StateError when a particle to be removed is outside of the grid
   bool move();
 
   double travelled() const;           ///< of the grid since the start [m]
@@ -51,6 +53,7 @@ class MovingWindow {
   std::size_t per_cell_;  // columns of particles
   bool sheet_;            // whose nodes are attached to particles
   Discretisation& discretisation_;
+  const ParticleDistribution& distribution_;
   Boundary& boundary_;
   TerrainFill& fill_;
   TerrainEnergy& energy_;

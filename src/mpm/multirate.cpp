@@ -6,10 +6,17 @@
 
 namespace furrow {
 
+namespace {
+
+constexpr double rounding = 1e-9;  // of an interval: sum of its steps against their number times dt
+
+}  // namespace
+
+/// The last step of an interval is the one after which another of the same length would exceed T.
 bool Multirate::add(Surface& sheet, double dt) {
   impulse_ += dt * sheet.f;
   elapsed_ += dt;
-  if (elapsed_ + 0.5 * dt > interval_) return true;
+  if (elapsed_ + dt > (1.0 + rounding) * interval_) return true;
   offset_ += dt;
   place(sheet);
   return false;

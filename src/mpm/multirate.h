@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// One step of a terrain for several of the grains that lie on its sheet.
+/// Multiple time stepping: the terrain takes one step while the grains on its surface mesh take N.
 
 #include "core/checkpoint.h"
 #include "geometry/surface.h"
 
 namespace furrow {
 
-/// Grains take steps of dt, the terrain one of T = N dt, as many as its stable step holds. Around
-/// the time t_n of the terrain the nodes of the sheet go on with the velocity that they have,
+/// The grains step with dt and the terrain with T = N dt, where N is the largest integer for which
+/// T does not exceed the terrain's stable step. If dt changes within an interval, T is the sum of
+/// the steps: terrain and grains keep the same time. Around the time t_n of the terrain the nodes
+/// of the surface mesh go on with the velocity that they have,
 ///   x(t) = x(t_n) + (t - t_n) v   from t_n - (T - dt)/2 to t_n + (T - dt)/2,
 /// and the forces on them are summed. Their mean belongs to t_n, and is the force of the terrain's
 /// leapfrog step to t_n + T: of second order, with the impulse of the grains to rounding. With
@@ -16,10 +18,10 @@ namespace furrow {
 class Multirate {
  public:
   /// A step of the grains under the forces on the sheet. @return whether it was the last one: the
-  /// terrain then takes its step of interval() under mean_force(), and calls begin()
+  /// terrain then takes its step of elapsed() under mean_force(), and calls begin()
   bool add(Surface& sheet, double dt);
-  double interval() const { return interval_; }
-  Matrix3X mean_force() const { return impulse_ / interval_; }
+  double elapsed() const { return elapsed_; }  ///< of the grains since begin() [s]
+  Matrix3X mean_force() const { return impulse_ / elapsed_; }
 
   /// @param sheet   after a step of the terrain, or at the start
   /// @param stable  step of the terrain [s]
@@ -37,8 +39,8 @@ class Multirate {
 
   Matrix3X x_;             // of the nodes at t_n [m]
   Matrix3X impulse_;       // of the forces since the interval began [N s]
-  double interval_ = 0.0;  // T [s]
-  double elapsed_ = 0.0;   // of T [s]
+  double interval_ = 0.0;  // T with the first step of the grains [s]
+  double elapsed_ = 0.0;   // [s]
   double offset_ = 0.0;    // t - t_n [s]
   double stable_ = 0.0;    // [s]
 };

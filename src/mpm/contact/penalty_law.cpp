@@ -1,24 +1,62 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mpm/contact/penalty_law.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "material/material.h"
 
 namespace furrow {
 
-/// A particle of mass rho d^3 on its spring s M d, d the spacing of the particles: omega dt =
-/// sqrt(s) c dt/d, and a leapfrog needs less than 2.
+namespace {
+
+/// An explicit step of dt needs 4 m - 2 dt c - dt^2 k > 0 in every mode, with dampers that act on
+/// the velocity of the step before. A particle with the weights N_i adds to the masses m N_i, so
+/// that its modes are the value u of a velocity field at the particle and the gradient times
+/// sqrt(D), D = h^2/4, with unit mass (Jensen and Bessel). With dt = cfl h/c, c^2 = M/rho, and n
+/// particles along a cell, dt^2 k and 2 dt c are
+///   a = 12 cfl^2 K/M                       of the ground, for the gradient
+///   b = n^2 cfl^2 s + 4 zeta n cfl sqrt(s)  of spring and damper, for the value at the point of
+///                                          contact: u + (gradient times sqrt(D))/n
+/// and the larger eigenvalue of [b, b/n; b/n, a + b/n^2] is below 4.
+bool is_stable(double a, double b, double n) {
+  return a < 4.0 && b < 4.0 && (4.0 - a) * (4.0 - b) > 4.0 * b / (n * n);
+}
+
+}  // namespace
+
 void PenaltyLaw::check(const TerrainParameters& terrain, const std::string& where) const {
   const auto& per_cell = terrain.particles_per_cell;
-  const int particles = *std::max_element(per_cell.begin(), per_cell.end());
-  if (std::sqrt(stiffness_) * terrain.cfl * particles >= 2.0)
-    throw InputError(
-        where,
-        fmt::format(
-            "has a stiffness of {}, too stiff for steps of cfl {} with {} particles along a cell",
-            stiffness_, terrain.cfl, particles),
-        "sqrt(stiffness) x cfl x particles below 2", "lower the stiffness, or the ground's cfl");
+  const double most = *std::max_element(per_cell.begin(), per_cell.end());
+  const double least = *std::min_element(per_cell.begin(), per_cell.end());
+  const auto stable = [&](const Material& material, double stiffness) {
+    const ElasticModuli moduli = material.moduli(material.initial_state());
+    const double eigenvalue = std::max(3.0 * moduli.bulk, 2.0 * moduli.shear) / moduli.wave();
+    const double spring = most * terrain.cfl * std::sqrt(stiffness);
+    return is_stable(4.0 * terrain.cfl * terrain.cfl * eigenvalue,
+                     spring * (spring + 4.0 * damping_), least);
+  };
+  for (const TerrainLayer& layer : terrain.layers) {
+    if (stable(*layer.material, stiffness_)) continue;
+    if (!stable(*layer.material, 0.0))
+      throw InputError(where, fmt::format("presses on ground with steps of cfl {}", terrain.cfl),
+                       "cfl below sqrt(M/3K), with the wave modulus M and the bulk modulus K",
+                       "lower the ground's cfl");
+    double allowed = 0.0, refused = stiffness_;
+    while (refused - allowed > 1e-4 * refused) {
+      const double middle = 0.5 * (allowed + refused);
+      (stable(*layer.material, middle) ? allowed : refused) = middle;
+    }
+    throw InputError(where,
+                     fmt::format("has a stiffness of {}, too stiff for steps of cfl {} with {} "
+                                 "particles along a cell and damping {}",
+                                 stiffness_, terrain.cfl, most, damping_),
+                     fmt::format("stiffness below {:.3g}", allowed),
+                     "lower the stiffness, the damping, or the ground's cfl");
+  }
 }
 
 }  // namespace furrow

@@ -36,16 +36,20 @@ class PenaltyLaw {
   double damping_;    // of critical
 };
 
-/// The stiffness follows the modulus of the ground. A loaded spring then gains the energy
-/// (k - k_old) (gap^2 + stretch^2)/2, which the losses count with a negative sign.
+/// The stiffness follows the modulus of the ground upwards while the particle touches; a spring
+/// that followed a falling modulus as well would vibrate with ground whose modulus grows with
+/// pressure. A loaded spring gains the energy (k - k_old) (gap^2 + stretch^2)/2, which the losses
+/// count with a negative sign.
 inline void PenaltyLaw::update_stiffness(const ParticleGroup& group, std::size_t particle,
                                          ContactHistory& history, ContactLosses& losses) const {
   const double modulus = group.material->moduli(group.particles.state(particle)).wave();
   const double volume = group.particles.data(column::volume)[particle];
-  const double stiffness = stiffness_ * modulus * std::cbrt(volume);
-  if (history.touches())
+  double stiffness = stiffness_ * modulus * std::cbrt(volume);
+  if (history.touches()) {
+    stiffness = std::max(stiffness, history.stiffness);
     losses.damping -= 0.5 * (stiffness - history.stiffness) *
                       (history.gap * history.gap + history.spring.squaredNorm());
+  }
   history.stiffness = stiffness;
 }
 

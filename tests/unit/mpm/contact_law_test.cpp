@@ -125,6 +125,10 @@ TEST(PenaltyLaw, StiffnessFollowsTheModulusAndItsEnergyIsCounted) {
   law.update_stiffness(group, 0, history, losses);
   EXPECT_NEAR(losses.damping, -0.5 * 0.75 * soft * 5e-6, 1e-12 * soft);
   EXPECT_NEAR(history.stiffness, soft, 1e-9 * soft);
+  history.stiffness = 4.0 * soft;  // the ground has become softer: the spring stays
+  law.update_stiffness(group, 0, history, losses);
+  EXPECT_EQ(history.stiffness, 4.0 * soft);
+  EXPECT_NEAR(losses.damping, -0.5 * 0.75 * soft * 5e-6, 1e-12 * soft);
 }
 
 /// m (approach + a fifth of the penetration each step)/dt; friction stops the sliding at most.

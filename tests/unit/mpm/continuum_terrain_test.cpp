@@ -153,6 +153,26 @@ TEST(MovingTerrain, DropsBehindAndAddsAhead) {
   EXPECT_NEAR(budget.stored_energy + budget.dissipated_energy, 0.0, 1e-6);
 }
 
+/// The side faces are free, and the window drops the layer of a particle that has left through one.
+TEST(MovingTerrain, ParticleOutsideInYStopsTheRun) {
+  TerrainParameters parameters = snow_bed();
+  set_boundary(parameters, {"smooth", "smooth", "free", "free", "rough", "free"});
+  parameters.window = true;
+  ContinuumTerrain ground(parameters, Communicator());
+  for (int step = 0; step < parameters.remap_interval - 1; ++step) ground.advance(1e-7);
+  ground.advance(1e-7);
+  ground.follow(0.3);
+  Particles& particles = ground.groups()[0].particles;
+  Eigen::Map<Vector3>(particles.data(column::velocity)).y() = -1e4;  // in the first layer
+  particles.data(column::y)[0] = ground.grid().axis(1).lower() + 1e-6;
+  try {
+    for (int step = 0; step < 2 * parameters.remap_interval; ++step) ground.advance(1e-7);
+    FAIL() << "the particle is still inside";
+  } catch (const StateError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("outside of the grid"));
+  }
+}
+
 TEST(MovingTerrain, RefusesAGradedAxisAlongItsWay) {
   TerrainParameters parameters = snow_bed();
   parameters.window = true;

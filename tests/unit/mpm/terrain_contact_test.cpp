@@ -60,9 +60,64 @@ TEST(TerrainContact, RefusesASpringTooStiffForTheStep) {
   ContinuumTerrain ground = block();
   RigidPlate plate({PlateShape::circle, 0.11, 0.05, 4}, {0.0, 0.0, 0.01});
   ContactParameters stiff;
-  stiff.stiffness = 1.01 * std::pow(2.0 / (2.0 * ground.parameters().cfl), 2);
+  stiff.stiffness = 3.9;
+  stiff.damping = 0.1;
   EXPECT_THAT(error_of([&] { TerrainContact(plate, ground, stiff, false, "foot"); }),
-              HasSubstr("sqrt(stiffness) x cfl x particles below 2"));
+              HasSubstr("has a stiffness of 3.9, too stiff for steps of cfl 0.4 with 2 particles "
+                        "along a cell and damping 0.1; allowed: stiffness below "));
+}
+
+/// nu = 0, one particle on a plate that stands still, in a remap interval: the bound is the limit
+/// of stability. With a = 4 cfl^2 and two particles along a cell, (4 - a)(4 - b) = b.
+/// @return the largest speed over that at the start
+double growth_on_a_plate(double damping, double of_bound) {
+  constexpr double h = 0.1, modulus = 1e6, density = 200.0, cfl = 0.2;
+  const double a = 4.0 * cfl * cfl, b = 4.0 * (4.0 - a) / (5.0 - a);
+  const double root = std::sqrt(4.0 * damping * damping + b) - 2.0 * damping;  // n cfl sqrt(s)
+  ContactParameters spring;
+  spring.damping = damping;
+  spring.friction = 0.0;
+  spring.stiffness = of_bound * std::pow(root / (2.0 * cfl), 2);
+  TerrainParameters parameters =
+      box(material_of(elastic(modulus, 0.0, density)), {0, 0, 0}, {0.6, 0.6, 0.6}, h);
+  parameters.cfl = 0.01;  // what the contact checks is not what this test steps with
+  parameters.remap_interval = 64;
+  ContinuumTerrain ground(parameters, Communicator());
+  bool found = false;
+  carve(ground, [&](const Vector3& x) {
+    const bool keep = !found && (x - Vector3(0.33, 0.33, 0.33)).norm() < 0.05;
+    found |= keep;
+    return keep;
+  });
+  const Vector3 x = ground.groups()[0].particles.position(0);
+  RigidPlate plate({PlateShape::square, 0.3, 0.05, 4}, {x.x(), x.y(), x.z() + 0.025 - 1e-4});
+  TerrainContact contact(plate, ground, spring, false, "foot");
+  const double dt = cfl * h / std::sqrt(modulus / density);
+  // The spring's force of the start is held by an equal one: vibration about equilibrium.
+  std::vector<ParticleMotion> motion;
+  double bias = 0.0, first = 0.0, largest = 0.0;
+  for (int step = 0; step < 60; ++step) {
+    contact.apply(dt);
+    ground.interpolate_motion({{0, 0}}, motion);
+    if (step == 0) bias = contact.force().z();
+    ground.add_point_force({0, 0}, {0, 0, bias * (step == 0 ? 1.01 : 1.0)},
+                           {x.x(), x.y(), x.z() + 0.025 - 1e-4});
+    ground.advance(dt);
+    ground.interpolate_motion({{0, 0}}, motion);
+    const double speed = motion[0].velocity.norm();
+    if (step == 0) first = speed;
+    largest = std::max(largest, speed);
+  }
+  return largest / first;
+}
+
+TEST(TerrainContact, LoneParticleIsStableUpToTheBoundOfTheStiffness) {
+  for (const double damping : {0.0, 0.1, 0.5}) {
+    // a leapfrog at 0.99 of its frequency grows to 1/sqrt(1 - 0.98) = 7.1
+    EXPECT_LT(growth_on_a_plate(damping, 0.98), 7.1) << damping;
+    // from 1 % of the contact's force until the particle lets go of the plate
+    EXPECT_GT(growth_on_a_plate(damping, 1.06), 30.0) << damping;
+  }
 }
 
 /// A plate at 1 m/s; the steps since the last contact are 1, 2 and 0.5 times 1e-5 s long. The force

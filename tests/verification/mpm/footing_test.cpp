@@ -86,7 +86,7 @@ double bearing_factor(int cells_per_half_width) {
   p.z = even(-2.4 * b, 2 * cell, cell);
   set_boundary(p, {"smooth", "smooth", "smooth", "smooth", "rough", "free"});
   p.particles_per_cell = {2, 1, 2};
-  p.cfl = 0.8;
+  p.cfl = 0.6;
   ContinuumTerrain ground(p, Communicator());
   RigidPlate plate({PlateShape::square, 2 * b, 0.3, 4}, {0, 0.5 * cell, 1e-6});
   ContactParameters rough;

@@ -253,7 +253,7 @@ void expect_sound_at_90_percent(double stiffness) {
   });
 }
 
-TEST(HardCase, CompactionBy90Percent) { expect_sound_at_90_percent(4.0); }
+TEST(HardCase, CompactionBy90Percent) { expect_sound_at_90_percent(3.6); }
 
 /// The contact's springs are made for the snow's elasticity; ice at tens of megapascals presses
 /// through them.

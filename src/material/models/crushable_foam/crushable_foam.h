@@ -28,6 +28,7 @@ class CrushableFoam : public Material {
   /// @param density  rho0 [kg/m^3]
   CrushableFoam(double density, const CrushableFoamParameters& parameters);
 
+  bool stress_has_jumps() const override { return true; }
   UpdateReport update_block(const PointBlock& block) const override;
   ElasticModuli moduli(const VectorX& state) const override;
   double largest_wave_speed(const PointBlock& block) const override;
