@@ -31,6 +31,12 @@ Repeats repeats_of(const Brick8::Hexahedron& nodes) {
   return first;
 }
 
+}  // namespace
+
+// Members of Brick8::Alike have external linkage, as it has.
+namespace brick8 {
+
+/// Shape and repeated nodes of an element. Elements that agree in both share their coefficients.
 struct Likeness {
   Matrix38 shape;
   Repeats repeats;
@@ -41,7 +47,7 @@ struct Likeness {
   }
 };
 
-/// Of an element, its nodes that are repeated taken as one, which stands at its first place.
+/// Stiffness and mass of an element whose repeated nodes are merged into the first of them.
 struct Merged {
   Matrix24 deviatoric = Matrix24::Zero(), volumetric = Matrix24::Zero();  // stiffness [N/m]
   std::array<double, 8> mass = {};                                        // [kg] its own
@@ -64,6 +70,13 @@ struct Merged {
     return (deviatoric + volumetric).diagonal().segment<3>(at).sum();
   }
 };
+
+}  // namespace brick8
+
+namespace {
+
+using brick8::Likeness;
+using brick8::Merged;
 
 /// Largest omega^2 of K u = omega^2 M u [1/s^2] with 1/M of each node.
 double highest_rate(Matrix24 K, const double (&inverse_mass)[8]) {
