@@ -249,12 +249,6 @@ def rolling_table(runner: Runner) -> list[Row]:
     return found
 
 
-def largest_stress() -> float:
-    """[kPa] measured, Fig 52."""
-    rows = read_rows(cases.HERE / "reference.csv")
-    return next(float(row["value"]) for row in rows if row["quantity"] == "stress_largest")
-
-
 def choice_lines(rows: Sequence[Row]) -> list[str]:
     """The table of a choice, without the options."""
     columns = [name for name in rows[0] if name != "options"]
@@ -266,7 +260,7 @@ def choices(
 ) -> list[str]:
     """Writes the tables that --error chooses from; lines of the page."""
     lines: list[str] = []
-    peaks = choice.stress(stress, largest_stress())
+    peaks = choice.stress(stress)
     for scene, title, rows, comments in (
         ("tyre_on_plane", "Table 6", choice.table6(mine), choice.TABLE6_COMMENTS),
         ("brick_tyre_on_plane", "contact stress", peaks, choice.STRESS_COMMENTS),

@@ -14,6 +14,8 @@ from .cost_table import Components
 from .entry import MEASURED, Entry
 from .verdict import QUANTITIES
 
+ROUNDING = 1e-9  # of a ratio of two decimal numbers
+
 
 class Measured(NamedTuple):
     """Mean and scatter of measurements near a run's conditions."""
@@ -41,11 +43,8 @@ def read_measured(
         near = [
             row
             for row in read_numbers(path)
-            if depth_range[0] <= row["depth_m"] / depth <= depth_range[1]
-            and (
-                density is None
-                or density_range[0] <= row["density_kgm3"] / density <= density_range[1]
-            )
+            if _within(row["depth_m"] / depth, depth_range)
+            and (density is None or _within(row["density_kgm3"] / density, density_range))
         ]
         sinkage = np.array([row["sinkage_m"] for row in near])
         coefficient = np.array([row["resistance"] for row in near])
@@ -67,6 +66,11 @@ def read_measured(
         float(coefficient.std(ddof=1)),
         len(near),
     )
+
+
+def _within(ratio: float, limits: tuple[float, float]) -> bool:
+    """Limits included: 0.18/0.2 is 0.9, whatever its last binary digit."""
+    return limits[0] - ROUNDING <= ratio <= limits[1] + ROUNDING
 
 
 def measured_entries(path: Path, run: WheelRun) -> list[Entry]:

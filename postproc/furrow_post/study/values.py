@@ -48,9 +48,13 @@ def verdict_of(value: float, error: float, reference: float, reference_error: fl
 
 
 def limit_verdict(value: float, error: float, reference: float, upper: bool) -> str:
-    """Of a value that should not be above (upper) or below its reference."""
+    """Of a value that should not be above (upper) or below its reference.
+
+    A limit that is met says nothing where the error allows more than 25 % of it.
+    """
     inside = reference - value if upper else value - reference
-    if abs(inside) < COVERAGE * error:
+    vague = reference != 0.0 and COVERAGE * error > NEAR * abs(reference)
+    if abs(inside) < COVERAGE * error or (inside >= 0.0 and vague):
         return INCONCLUSIVE
     return MET if inside >= 0.0 else MISSED
 
@@ -104,7 +108,9 @@ class Value:
     what: str = ""
     quantity: str = ""
     reference: float | Stored | None = None
-    reference_error: float = 0.0
+    reference_error: float = 0.0  # standard error; of a mean of tests it follows from their scatter
+    reference_scatter: float = 0.0  # standard deviation of one test
+    reference_tests: int = 1  # whose mean the reference is
     reference_of: str = ""
     limit: str = ""
     label: str = "known"
@@ -133,6 +139,11 @@ class Value:
     def expected(self) -> float | None:
         return self.reference.read() if isinstance(self.reference, Stored) else self.reference
 
+    def expected_error(self) -> float:
+        """Standard error of the reference."""
+        of_tests = self.reference_scatter / math.sqrt(self.reference_tests)
+        return math.hypot(self.reference_error, of_tests)
+
     def verdict(self, folder: Path | None = None) -> str:
         value, expected = self.computed(folder), self.expected()
         if value is None:
@@ -142,7 +153,7 @@ class Value:
         error = self.uncertainty() or 0.0
         if self.limit:
             return limit_verdict(value, error, expected, self.limit == "upper")
-        return verdict_of(value, error, expected, self.reference_error)
+        return verdict_of(value, error, expected, self.expected_error())
 
     def row(self) -> dict[str, str]:
         """Of experiments.csv."""
@@ -158,7 +169,8 @@ class Value:
             "computed": number(self.computed(), 4),
             "error": number(self.uncertainty(), 2),
             "reference": number(self.expected(), 4),
-            "reference_error": number(self.reference_error or None, 2),
+            "reference_error": number(self.expected_error() or None, 2),
+            "reference_scatter": number(self.reference_scatter or None, 2),
             "reference_of": self.reference_of,
             "limit": self.limit,
             "label": self.label if self.stored and self.reference is not None else "",

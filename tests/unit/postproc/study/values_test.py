@@ -5,6 +5,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from furrow_post.analyse.measured import read_measured
 from furrow_post.cli.study import write_pages
 from furrow_post.errors import ResultsError
 from furrow_post.study.pages import shown, stale_pages, with_values
@@ -50,6 +51,8 @@ class VerdictTest(unittest.TestCase):
             ("missed", 9.0, 0.4, False),
             ("inconclusive", 9.5, 0.4, True),
             ("inconclusive", 10.5, 0.4, True),
+            ("inconclusive", -0.2, 5.0, True),  # an error that allows the whole limit
+            ("missed", 25.0, 5.0, True),
         ):
             with self.subTest(value=value, upper=upper):
                 self.assertEqual(limit_verdict(value, error, 10.0, upper), expected)
@@ -89,6 +92,13 @@ class EntryTest(unittest.TestCase):
         value = self.value(", next: {row: {run: b}}, reference: 12, reference_of: measured")
         self.assertAlmostEqual(value.uncertainty() or 0, 0.66)
         self.assertEqual(value.verdict(), "agrees")
+
+    def test_the_scatter_of_tests_enters_by_the_error_of_their_mean(self) -> None:
+        more = ", reference: 11, reference_scatter: 1.2, reference_tests: {}, reference_of: measured"
+        for tests, verdict in ((1, "agrees"), (4, "near")):
+            value = self.value(more.format(tests))
+            self.assertAlmostEqual(value.expected_error(), 1.2 / tests**0.5)
+            self.assertEqual(value.verdict(), verdict)
 
     def test_a_reference_may_be_stored_too(self) -> None:
         value = self.value(", reference: {row: {run: b}}, limit: upper, reference_of: formula")
@@ -163,6 +173,44 @@ class StoredTest(unittest.TestCase):
             if value.verdict() in NEED_REASON:
                 with self.subTest(value.id):
                     self.assertTrue(value.reason)
+
+    def test_the_field_tests_are_those_of_their_table(self) -> None:
+        """The twelve tests in 0.18 to 0.22 m of 220 kg/m3, on which values of c and z rest."""
+        table = SOURCE / "inputs" / "validation" / "snow_wheel" / "reference.csv"
+        measured = read_measured(table, 0.2, 220.0, density_range=(1.0, 1.0))
+        self.assertEqual(measured.tests, 12)
+        registry = Registry.of(SOURCE)
+        for name, mean, scatter, scale in (
+            ("resistance", measured.coefficient, measured.coefficient_scatter, 1.0),
+            ("sinkage_m", measured.sinkage, measured.sinkage_scatter, 100.0),
+        ):
+            for run in ("snow_wheel.row_220_20cm", "report_wheel.slip_free"):
+                value = registry[f"{run}.{name}"]
+                self.assertAlmostEqual(value.expected() or 0.0, scale * mean, delta=5e-3 * scale * mean)
+                self.assertAlmostEqual(value.reference_scatter, scale * scatter, delta=0.01 * scale)
+                self.assertEqual(value.reference_tests, measured.tests)
+
+    def test_nothing_of_the_studies_is_blind_and_calibrations_are_fitted(self) -> None:
+        registry = Registry.of(SOURCE)
+        self.assertFalse([value.id for value in registry if value.label == "blind"])
+        for name in (  # the numbers that the parameters of these runs were chosen by
+            "snow_oedometer.fresh_snow.density_100kPa",
+            "snow_oedometer.fresh_snow_shoop.density_100kPa",
+            "tyre_table6.rolling.100.deflection_mm",
+            "snow_wheel.row_220_20cm.density_under",
+            "snow_wheel.flowing_220_20cm.density_under",
+            "snow_wheel.m_1.1_220_20cm.density_under",
+        ):
+            self.assertEqual(registry[name].label, "fitted", name)
+
+    def test_a_computed_number_is_no_measurement(self) -> None:
+        for value in Registry.of(SOURCE):
+            if value.quantity == "K0":  # 1 - sin(phi), from shear tests
+                self.assertEqual(value.reference_of, "formula")
+            if value.place == "Fig 52" and value.quantity == "largest":  # end of a colour scale
+                self.assertIsNone(value.reference)
+            if value.reference == 1867.0:  # of a plate on snow of 180 kg/m3
+                self.assertEqual(value.study, "plate_variants")
 
     def test_every_table_has_its_origin(self) -> None:
         for folder in study_folders(SOURCE):
