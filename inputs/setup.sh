@@ -15,6 +15,8 @@ furrow_test_packages="libgtest-dev libgmock-dev libbenchmark-dev mypy chromium-h
 # To build with sanitizers: gcc takes half an hour for the kernels then, and has no libFuzzer.
 furrow_sanitizer_packages="clang libclang-rt-dev"
 furrow_format_packages="clang-format"
+# To build the site of all pages.
+furrow_site_packages="python3-sphinx python3-myst-parser furo python3-sphinxcontrib.bibtex doxygen python3-breathe"
 
 # install_packages <package>...: those that are missing, from Debian, once
 install_packages() {

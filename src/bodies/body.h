@@ -44,8 +44,8 @@ class Body {
   /// One step under surface().f (held constant) and the body's own loads. @throws StateError
   virtual void advance(double dt) = 0;
   /// Called around the steps that make up an interval of the system: what a body reports of "the
-  /// last step" is then the mean over the interval.
-  /// @param touched contacts look at surface() in every step; else it need not follow until the end
+  /// last step" is then the mean over the interval. Where it is touched, contacts read surface() in
+  /// every step; else the surface need not follow until the end.
   virtual void begin_interval(bool /*touched*/) {}
   virtual void end_interval() {}
   virtual Surface& surface() = 0;
