@@ -23,11 +23,9 @@ class CoupledSystem {
   void remove(const Contact& contact);
 
   /// Advances every body by an interval [s] in equal sub-steps no longer than the smallest stable
-  /// step of any body now. Surface forces act as one impulse, force times interval, in the first
-  /// sub-step: their kick is centred on the time they belong to (r-RESPA: M. Tuckerman, B. J.
-  /// Berne, G. J. Martyna, J. Chem. Phys. 97, 1990 (1992)). Held over n sub-steps they would lag,
-  /// and a spring k on a mass m gain energy at the rate k interval/(2 m) (1 - 1/n). Contacts are
-  /// evaluated in every sub-step.
+  /// step of any body now (theory: step, eqs. 3 to 5). Surface forces act as one impulse, force
+  /// times interval, in the first sub-step: the kick is then centred on the time of the forces
+  /// [Tuckerman1992]. Contacts are evaluated in every sub-step.
   /// @returns the number of sub-steps
   /// @throws StateError naming the body when its stable step vanishes, its state is not finite or
   /// its own advance() refuses

@@ -37,18 +37,11 @@ struct Wrench {
 /// Attitude: R = Rz(yaw) Rx(camber) Ry(spin); the axle is a = R y. Coordinates q: x, y, z of the
 /// axle centre, spin, yaw, camber.
 ///
-/// Rotation is integrated in the quasi-velocities w = (w_x, w_a, w_n) along the carrier's axes: e_x
-/// level and across the axle, a the axle, e_n = e_x x a (the carrier yaws and cambers with the axle
-/// but does not spin). In them the kinetic energy of a body of revolution has constant
-/// coefficients, T = (A w_x^2 + C w_a^2 + A w_n^2)/2, and
-///   w_x = d(camber)/dt,  w_a = d(spin)/dt + d(yaw)/dt sin(camber),  w_n = d(yaw)/dt cos(camber).
-///
-/// One step is a leapfrog, as LIGGGHTS's velocity Verlet sees it: forces belong to t_n, velocities
-/// to t_n -+ dt/2:
-///   v_n+1/2 = v_n-1/2 + dt F_n/m,  q_n+1 = q_n + dt (dq/dt)_n+1/2,
-///   (A, C, A) dw/dt + gyroscopic terms = moments of forces and constraints.
-/// All works are forces times the mean of the velocities before and after, which makes the energy
-/// balance exact to round-off.
+/// One step is a leapfrog (theory: step, eqs. 1 and 2). Rotation is integrated in the angular
+/// velocities w = (w_x, w_a, w_n) about the carrier's axes: e_x level and normal to the axle, a the
+/// axle, e_n = e_x x a (theory: step, eq. 9). The carrier yaws and cambers with the axle but does
+/// not spin. Works are forces times the mean of the velocities before and after, so the energy
+/// balance is exact to rounding.
 ///
 /// Every coordinate is held until release() or prescribe() says otherwise. Holding a moving
 /// coordinate stops it within a step.
@@ -68,8 +61,8 @@ class WheelHub : public Body {
   /// Torque of a motor or brake between carrier and wheel, > 0 drives forward [N m]; has no effect
   /// while the spin is held or prescribed.
   void set_axle_torque(double torque) { axle_torque_ = torque; }
-  /// What is dragged along x by a wheel that is free along x, beside its own mass [kg]: a vehicle's
-  /// share. Its inertia acts as the constraint of x, its kinetic energy is work of the drive.
+  /// Additional mass coupled to the hub's x motion [kg]: the vehicle's share. Its inertial force is
+  /// reported as the constraint of x, its kinetic energy as work of the drive.
   /// @throws Error for a negative mass
   void set_dragged_mass(double mass);
   /// Viscous resistance to vertical motion, taken implicitly [N s/m]; its loss is part of the

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Contact of two clusters of sintered snow that crush in place.
+/// Contact of two clusters of sintered snow that crush in place (theory: grains, eqs. 5 to 12).
 ///
-/// A cluster is a lump of snow as light as the snow around it allows (its packing is dense and
-/// random), so snow is compacted by crushing contacts, not by rearranging clusters. Of a contact:
+/// A cluster is a lump of snow as light as the surrounding snow allows: its packing is dense and
+/// random, so snow compacts by crushing contacts, not by rearranging clusters. Of a contact:
 /// d = Ri + Rj, overlap u, unit normal n from j to i; stiffness k = E d along and across n.
 ///
 ///   state      u_p plastic overlap; X = (u_p - u_0)/d crushing, u_0 its value when sintered;

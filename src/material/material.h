@@ -3,14 +3,9 @@
 /// The interface of a constitutive law: parameters, the state of a point, and one update. No mesh,
 /// no MPI, no files.
 ///
-/// Finite strain is treated once, for every law (material/kinematics.h). With the displacement
-/// gradient H of a step, measured from the configuration at its start (H = dt grad v), Delta F = I
-/// + H = R U: the law sees the logarithmic strain increment ln U in the frame of the start of the
-/// step, and its stress is then rotated by R:
-///   sigma_{n+1} = R sigma(sigma_n, ln U) R^T.
-/// A rigid rotation rotates the stress exactly; for steps -> 0 this is the Jaumann (corotational)
-/// rate of the Cauchy stress, with a global error of second order in the step. A hyperelastic law
-/// (neo-Hookean) updates its own deformation instead.
+/// Finite strain is treated once, for every law (kinematics.h): the law receives the logarithmic
+/// strain increment of the step in the frame of its start, and the stress is rotated afterwards
+/// (theory: laws, eq. 2). A hyperelastic law (neo-Hookean) updates its own deformation instead.
 ///
 /// Signs and invariants: core/types.h. Energies are per unit of reference volume: d(energy) = J
 /// (energy per current volume).

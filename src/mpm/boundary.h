@@ -28,14 +28,14 @@ struct WaveSpeeds {
 
 /// What holds the ground at the faces of its grid.
 ///
-/// Absorbing faces stand for the far field (J. Lysmer, R. L. Kuhlemeyer, J. Eng. Mech. 95, 1969;
-/// [Shoop2001] has the infinite elements of ABAQUS there): traction
+/// Absorbing faces stand for the far field [Lysmer1969], as infinite elements do in [Shoop2001]
+/// (theory: continuum, eq. 8): traction
 ///   t = t_0 - rho c v - (rho c^2/L) u
 /// with c = c_p across the face and c_s along it, t_0 the traction that held the ground at the
-/// start, u the displacement since then, and L the distance over which the far field gives way. The
-/// dashpot is quiet for plane waves, the spring holds statically. With a node's mass m and the
-/// extent l of its B-spline across the face, rho A = m/l. Integrated implicitly. Of ground with two
-/// velocity fields, each has a far field of its own.
+/// start, u the displacement since then, and L the distance over which the far field yields: from
+/// the middle of the ground, or a plane of symmetry, to the face. With a node's mass m and the
+/// extent l of its B-spline across the face, rho A = m/l. The dashpot is implicit; the spring uses
+/// the u of the start of the step. Each velocity field has a separate far field.
 ///
 /// When the grid moves along x by a cell, values of the far field stay with the ground, and faces
 /// across x come to ground that they have not held yet:

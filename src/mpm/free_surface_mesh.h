@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The free surface of a terrain as triangles: what grains lie on in a hybrid.
+/// The free surface of a terrain as triangles: what grains lie on in a hybrid (theory: hybrid, eqs.
+/// 1 to 4).
 
 #include <vector>
 

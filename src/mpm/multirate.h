@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Multiple time stepping: the terrain takes one step while the grains on its surface mesh take N.
+/// Multiple time stepping: the terrain takes one step while the grains on its surface mesh take N
+/// (theory: step, eqs. 6 and 7).
 
 #include "core/checkpoint.h"
 #include "geometry/surface.h"

@@ -21,13 +21,8 @@ double sum_energy(const std::vector<ParticleGroup>& groups, std::size_t field);
 double internal_energy(const std::vector<ParticleGroup>& groups);
 Vector3 momentum_of(const std::vector<ParticleGroup>& groups);  ///< this rank's share [N s]
 
-/// Where the work of contacts on a terrain went since the start [J].
-///
-/// The work of the stress, what deforms the ground, is split by directions:
-///   compaction  = int sigma_zz D_zz dV dt, all of it where ground is confined sideways
-///   bulldozing  = int (sigma : D - sigma_zz D_zz) dV dt + slide loss - work of gravity: shear
-///                 (that of slide surfaces too), ground pushed ahead and aside, weight lifted
-/// contact = compaction + bulldozing + kinetic + numerical_loss + radiated.
+/// Where the work of contacts on a terrain went since the start [J] (theory: resistance, eqs. 2 to
+/// 4): contact = compaction + bulldozing + kinetic + numerical_loss + radiated.
 struct TerrainWork {
   double contact = 0.0;         ///< of contacts on the terrain
   double compaction = 0.0;      ///< by pressing down
@@ -41,7 +36,8 @@ struct TerrainWork {
 class TerrainEnergy {
  public:
   // Works of a step [J].
-  /// Half of what the stress at one end of the step would do in it.
+  /// Adds one half of the trapezoidal stress work: 0.5 x (stress at one end of the step) : (strain
+  /// increment).
   void add_half(const StressWork& work) {
     stress_work_ += 0.5 * work.total;
     vertical_stress_work_ += 0.5 * work.vertical;

@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// One step of a terrain by the material point method.
+/// One step of a terrain: explicit material point method on quadratic B-splines, with affine
+/// transfers (APIC), stress updated last, and a grid reset every few steps. Why the grid is kept,
+/// and the equations: theory: continuum, eqs. 1 to 6.
 ///
-/// The method: explicit updated-Lagrangian MPM on quadratic B-splines, with affine transfers
-/// (APIC), stress updated last (USL), and a remap every few steps instead of every step.
-///
-/// Particles carry mass, stress and the state of the material; a grid carries the motion. The
-/// original method (D. Sulsky, Z. Chen, H. L. Schreyer, Comput. Methods Appl. Mech. Eng. 118, 1994)
-/// takes a fresh grid in every step. Each of these remaps smooths the velocity and takes kinetic
-/// energy (EnergyBudget::numerical_loss): with one in every step, 15 % of the work of a wheel on
-/// snow in cells of 4 cm. Here the grid stays attached to the ground and deforms with it for a
-/// remap interval of m steps, as it does for a whole run in total-Lagrangian MPM (A. de Vaucorbeil,
-/// V. P. Nguyen, C. R. Hutchinson, Comput. Methods Appl. Mech. Eng. 360, 2020); then particles take
-/// position and motion from it and a fresh grid begins, as in the Lagrange-plus-remap schemes of
-/// hydrocodes. With m = 16, a third of that energy is lost.
-///
-/// One remap interval from t_n, transfers as in transfer.h:
+/// One remap interval from t_n (between two grid resets), transfers as in transfer.h:
 ///   begin      m from the speed of the particles (remap_control.h)
-///              shape positions x_s = x_p + (m - 1)/2 dt v_p
+///              quadrature positions x_s = x_p + (m - 1)/2 dt v_p
 ///              particles_to_grid: m_i, v_i from m, v_p, C_p; u_i = 0; f_i of the stress
 ///   each step  f_i += contact forces
 ///              v_i += dt (f_i/m_i + g), slide surface, boundary conditions on v_i
@@ -26,12 +15,10 @@
 ///   end        grid_to_particles: x_p += sum N_i u_i, and v_p, C_p from v_i
 /// Velocities are those of half steps (leapfrog, as in LIGGGHTS); all is in double precision.
 ///
-/// All N_i and G_i of an interval are taken at the shape position x_s of the particle. With a fresh
-/// grid in every step, step k = 0 ... m - 1 would take them at x_p + k dt v_p; x_s is the mean of
-/// these. Strain is then measured in the configuration of the middle of the interval, with an error
-/// of second order in the motion during it; with weights taken at x_p it would be of first order.
-/// Because the weights stay, they are computed once a step: the force of the new stress uses those
-/// of the strain. With m = 1, x_s = x_p and this is the usual method.
+/// All N_i and G_i of an interval are those at the quadrature position x_s, the mean of the
+/// positions x_p + k dt v_p of its steps k = 0 ... m - 1. The strain then has an error of second
+/// order in the motion during the interval. Because the weights stay, they are computed once a
+/// step: the force of the new stress uses those of the strain. With m = 1, x_s = x_p.
 ///
 /// Momentum is conserved exactly; angular momentum exactly for m = 1, else to second order in the
 /// rotation during an interval.

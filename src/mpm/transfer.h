@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Particles to grid and back: the affine particle-in-cell transfer (APIC), the force of the stress
-/// and the strain. Plain data only: this header is compiled with every instruction set
-/// (simd/lanes.h says why that matters); the kernels are in transfer/.
+/// and the strain (theory: continuum, eqs. 2 to 4). Plain data only: this header is compiled with
+/// every instruction set (simd/lanes.h explains why that matters); the kernels are in transfer/.
 ///
 /// With N_i the quadratic B-splines of a particle's 27 nodes, d_i = x_i - x_p and
 /// D = sum N_i d_i d_i^T (diagonal for a product grid):
@@ -10,16 +10,15 @@
 ///   gather_motion      v = sum N_i v_i,     C = (sum N_i v_i d_i^T) D^-1
 ///   scatter_force      f_i = -sum_p V sigma G_i
 ///   gather_strain      H = dt sum v_i G_i^T
-/// Linear momentum is kept because sum N_i = 1, angular momentum because C carries it (C. Jiang, C.
-/// Schroeder, J. Teran, J. Comput. Phys. 338, 2017). Force and strain have the same G_i, so that
-/// the work of the stress is what the grid loses. G_i = N_i D^-1 d_i (Y. Hu et al., ACM Trans.
-/// Graph. 37, 2018): among cells of one length it sums to the integral of grad N_i over a cell, so
-/// that a uniform stress leaves the inner nodes at rest. In irregular cells, those that end the
-/// axis or have neighbours of another length, it does not, by up to 40 % of the stress: there, in
+/// Linear momentum is conserved because sum N_i = 1, angular momentum because C carries it
+/// [Jiang2017]. Force and strain have the same G_i, so the work of the stress is what the grid
+/// loses. G_i = N_i D^-1 d_i [Hu2018] sums to the integral of grad N_i over a cell if all cells
+/// have one length, so a uniform stress leaves the inner nodes at rest. In cells at the end of an
+/// axis or next to cells of another length the error would reach 40 % of the stress; there, in
 /// those directions, G_i = grad N_i.
 ///
-/// All weights are taken at a particle's shape position, which stays while the grid moves with the
-/// ground (terrain_step.h).
+/// All weights are those at a particle's quadrature position, which stays while the grid moves with
+/// the ground (terrain_step.h).
 
 #include <cstddef>
 

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Where the work of a wheel on its ground went.
+/// Where the work of a wheel on its ground went (theory: resistance, eqs. 4 to 6).
 
 #include <array>
 
 namespace furrow {
 
-/// Where a wheel's work on grains went, of all grains, since the start [J]: zero where nothing
-/// counts it.
+/// Where a wheel's work on grains went, of all grains, since the start [J]; zero unless fix
+/// grain/work counts it.
 ///
 /// press + push of GroundLosses = slide + roll + square + walls + lifted + change of kinetic, and
 /// slide + roll + square = below + ahead + aside.
 struct GrainWork {
   double slide = 0.0;    ///< taken between grains by tangential forces
   double roll = 0.0;     ///< by rolling friction
-  double square = 0.0;   ///< by forces square to the contacts
+  double square = 0.0;   ///< by normal forces of the contacts
   double below = 0.0;    ///< of these three, below the track
   double ahead = 0.0;    ///< ahead of it, within its width
-  double aside = 0.0;    ///< beside it
+  double aside = 0.0;    ///< next to it
   double walls = 0.0;    ///< by contacts with anything but grains and the wheel
   double lifted = 0.0;   ///< against gravity
   double kinetic = 0.0;  ///< energy of their motion
@@ -43,8 +43,8 @@ struct GroundLosses {
   double press = 0.0;       ///< of this wheel on grains, by vertical forces
   double push = 0.0;        ///< of this wheel on grains, by horizontal forces and torques
   double friction = 0.0;    ///< of this wheel with its ground
-  /// of its contact with a continuum; with grains, what springs and damping square to the wheel and
-  /// rolling friction take
+  /// of its contact with a continuum; with grains, what normal springs, dampers and rolling
+  /// friction take
   double contact_damping = 0.0;
   /// what the springs of its contact with continuum or plane hold or have lost: those of contacts
   /// that end are let go; with grains, the error of the works in time

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The definitions of slip. Driving is positive in all of them. v_rim: spin rate times radius; v:
-/// speed of the axle in the wheel plane.
+/// The definitions of slip (theory: symbols, eq. 5). Driving is positive in all of them. v_rim:
+/// spin rate times radius; v: speed of the axle in the wheel plane.
 
 #include <string>
 #include <vector>

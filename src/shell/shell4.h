@@ -26,12 +26,10 @@ enum class Shell4Turning {
 /// row), which keeps the matrices in the fastest memory; elements are computed several at once
 /// (shell4_kernel.h has the equations).
 ///
-/// Rotary inertia: the real J = m h^2/12 would make rotation of the nodes by far the fastest motion
-/// of a thin shell. An element's J is raised until no rotation at fixed positions is faster than
-/// the fastest displacement without rotation:
-///   J = max(m h^2/12, m lambda_max(K_rotation)/lambda_max(K_displacement)),
-/// of the order of m times a quarter of the element's area. It delays bending waves not much longer
-/// than an element.
+/// Rotary inertia: with the real J = m h^2/12 the rotation of the nodes would be the fastest motion
+/// of a thin shell and limit the step. An element's J is raised until no rotation at fixed
+/// positions is faster than the fastest displacement without rotation (theory: tyres, eq. 2).
+/// Bending waves not much longer than an element are slower therefore.
 ///
 /// Tension and shear: strains are those of the stretch U in the turned axes, linear in its law. In
 /// a simple shear gamma of fibres along 1 that slide past each other, polar axes have U_11 - 1 =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A mesh of eight-node bricks of nearly incompressible rubber: any displacement, rotation and
-/// strain.
+/// strain (theory: tyres, eq. 6).
 
 #include <array>
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The steady part of a history: where it begins, the mean with its standard error, and whether it
-/// is steady at all.
+/// is steady at all (theory: errors, eqs. 1 to 5).
 
 #include <optional>
 #include <string>
@@ -36,12 +36,10 @@ struct Window {
 /// Where the cruise begins; 0 for a history without stages. @throws Error when it ends before
 std::size_t first_row_of_cruise(const History& history);
 
-/// MSER-5, K. P. White, Simulation 69 (1997) 323: with means of five values, the truncation d <=
-/// n/2 that minimises sum_{i >= d} (x_i - mean)^2 / (n - d)^2, the squared standard error that
-/// uncorrelated values would have; of several minima that scatter explains, the earliest, so that a
-/// calm end does not pass all that was before it for a transient.
-/// @return how many values to leave out; the values of the first half of the series when nothing
-/// less will do
+/// MSER-5 [White1997]: the truncation that minimises theory: errors, eq. 1, with means of five
+/// values. Of several minima that scatter explains the earliest counts; otherwise a calm end would
+/// turn everything before it into a transient.
+/// @return how many values to leave out, at most the first half of the series
 std::size_t mser_truncation(const std::vector<double>& values);
 
 /// The rows that count. Automatic: from the start of the cruise (channel `stage`, rig_stage.h; the
@@ -84,14 +82,11 @@ struct SteadyValue {
 
 /// Mean, error and verdict of equally spaced values.
 ///
-/// Standard error: from the means of blocks that are lengthened until they are as good as
-/// uncorrelated (H. Flyvbjerg, H. G. Petersen, J. Chem. Phys. 91 (1989) 461), that is until
-/// length^3 > 2 n (error/error of single values)^4, which balances the bias of short blocks against
-/// the scatter of few (R. M. Lee et al., Phys. Rev. E 83 (2011) 066706). The bias left is about
-/// -tau/(2 length). Steady: neither the straight line nor the two halves differ from a constant, at
-/// 99 % by Student's t with errors from the blocks of the detrended values, by more than the
-/// negligible drift; and there are enough blocks to tell, or the mean is well known with few, or
-/// all values are nearly the same.
+/// Standard error: theory: errors, eqs. 2 and 3. The remaining bias is about -tau/(2 length).
+/// Steady: neither the straight line nor the two halves differ from a constant by more than the
+/// negligible drift, at 99 % by Student's t with errors from the blocks of the detrended values
+/// (eq. 5). In addition there are enough blocks, or the mean is well known with few, or all values
+/// are nearly the same.
 /// @param spacing of the rows [s]
 /// @param reference scale of a negligible drift; the larger of it, |mean| and the deviation counts
 /// @throws Error for fewer than two values, StateError for values that are not finite

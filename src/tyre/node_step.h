@@ -10,9 +10,8 @@
 
 namespace furrow {
 
-/// Central differences, as ShellNodes::kick() and drift(). The damping is f = -c m (v - v_rim), m =
-/// -c J (w - w_rim) at every node, proportional to its mass m and rotary inertia J, where v_rim is
-/// the velocity that the point would have if it moved with the rim as a rigid body. It resists
+/// Central differences, as ShellNodes::kick() and drift(). The damping is proportional to mass and
+/// rotary inertia and acts on the motion relative to the rim (theory: tyres, eq. 7). It resists
 /// neither rolling of an undeformed tyre nor falling. The rim takes the opposite of its sum.
 class NodeStep {
  public:

@@ -11,12 +11,10 @@
 /// at the rim. Neglected: tension and shear along the circumference, the variation of bending
 /// stiffness with the strip's width, the sidewall's mass.
 ///
-/// Pressure is a follower load with live normals. Let W = min over the chain's angles of (bending
-/// energy - p S), S the area between chain and chord, weighted by omega. On the tread act minus W's
-/// gradient and the tread's share of the pressure on the chord:
-///   F = -dW/d(a, r) + p (bead_width/2 + taper r/3) (r, -a),   M = -dW/dphi.
-/// So dF_a/dr - dF_r/da = p omega(r): the force alone is no gradient, but W is one potential that
-/// can be tabulated, and the rest is exact.
+/// Pressure is a follower load. On the tread act minus the gradient of the potential W and the
+/// tread's share of the pressure on the chord (theory: tyres, eq. 4). The force alone has no
+/// potential, because dF_a/dr - dF_r/da = p omega(r). W does and can be tabulated; the rest is
+/// exact.
 
 #include <cstddef>
 

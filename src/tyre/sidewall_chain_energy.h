@@ -14,9 +14,7 @@ struct SegmentDirections {
 };
 
 /// Functions of the angles theta of the N segments [rad], which need not be in equilibrium:
-///   Phi = E(theta, phi) - p G(theta)
-///   E = 1/2 sum EI/L (theta_(i+1) - theta_i - kappa_0 L)^2 + 1/2 k_rim (theta_1 - theta_rim)^2
-///       + 1/2 k_tread (theta_N - theta_tread - phi)^2
+///   Phi = E(theta, phi) - p G(theta),  E the bending energy     (theory: tyres, eq. 3)
 ///   G = integral of omega(r) a dr along the chain
 /// The pressure's nodal forces are the gradient of p G at the inner nodes: for an even strip p/2
 /// times the live normals of the two segments. The chord's own part of G is

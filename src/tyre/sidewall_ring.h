@@ -26,11 +26,10 @@ struct RimPose {
 /// The strip's plane tilts when the tread is wound up against the rim, and its tension resists
 /// that.
 ///
-/// Its potential is w W(a, r, phi) (tyre/sidewall.h). The pressure on the chord, which Sidewall
-/// states for a strip of even width, is taken on the true surface instead: quadrilaterals between
-/// bead points, ends of links and tread nodes. With the tread they enclose the tyre's air, whose
-/// potential is -p V, so that the forces as a whole have a potential and act on rim and tread in
-/// balance.
+/// Its potential is w W(a, r, phi) (sidewall.h). The pressure on the chord acts on the true
+/// surface: quadrilaterals between bead points, ends of links and tread nodes. With the tread they
+/// enclose the tyre's air, whose potential is -p V, so all forces together have a potential and
+/// balance between rim and tread (theory: tyres, eq. 5).
 class SidewallRing {
  public:
   /// @param side +1 or -1: where its A points along the rim's y

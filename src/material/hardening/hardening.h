@@ -3,19 +3,16 @@
 /// Hardening of a yield surface by compressive volumetric plastic strain eps = eps_vol_pl: declared
 /// options and queries.
 ///
-///   table:        the strength p_b(eps) through given points, straight in p or in ln p (choose: it
-///                 matters where data are far apart)
+///   table:        the strength through given points, straight in p or in ln p
 ///   by_density:   the same with densities rho instead of strains, eps = ln(rho/density), density
-///                 that of the law: one curve serves every initial density
-///   exponential:  p_c + offset = (p_c0 + offset) exp( (1 + e0)(1 - J_pl)/(lambda - kappa J_pl) ),
-///                 J_pl = exp(-eps)      [Shoop2001]
+///                 that of the law: one curve for every initial density
+///   exponential:  theory: laws, eq. 18
 ///
-/// The strength is positive and increasing for every eps. Below the data (shear or tension has
-/// undone the compaction) it decays as
+/// The strength is positive and increasing for every eps. Below the data it decays as
 ///   p(eps) = p(first) exp( (eps - first) p'(first)/p(first) ),
 /// which continues value and slope and never reaches zero; the exponential law does the same below
-/// eps = 0, where the formula would lead to negative strength. Beyond the last row the chosen rule
-/// holds: extrapolate its last segment, or stop the run.
+/// eps = 0. Beyond the last row the chosen rule applies: extrapolate the last segment, or stop the
+/// run.
 
 #include "material/hardening/hardening_parameters.h"
 #include "material/material_model.h"

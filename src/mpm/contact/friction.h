@@ -6,8 +6,7 @@
 
 namespace furrow {
 
-/// Coulomb's law, mobilised with the slip j as [Shoop2001] eq. 26 has it:
-/// tau = mu sigma (1 - exp(-j/k)).
+/// Coulomb's law, mobilised with the slip j (theory: contact, eq. 5; [Shoop2001] eq 26).
 struct Friction {
   double coefficient;  ///< mu
   double slip_length;  ///< k [m]; 0: fully mobilised

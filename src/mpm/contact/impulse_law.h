@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Contact law: approach and penetration are taken away within the step, as far as the particle's
-/// own mass does it.
+/// Contact law: an impulse stops the approach of the particle's mass and removes a part of the
+/// penetration within the step (theory: contact, eq. 6).
 
 #include <algorithm>
 #include <string>
@@ -28,8 +28,7 @@ class ImpulseLaw {
                 ContactLosses& losses) const;
 
  private:
-  /// of the penetration that is taken away in one step (J. Baumgarte, Comput. Methods Appl. Mech.
-  /// Eng. 1, 1972)
+  /// share of the penetration that one step removes [Baumgarte1972]
   static constexpr double correction = 0.2;
 
   Friction friction_;

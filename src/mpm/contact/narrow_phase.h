@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Whether a particle touches a surface, where, and by how much: the narrow phase of a contact.
+/// Narrow phase of a contact: whether a particle touches a surface, where, and by how much.
 
 #include "bodies/body.h"
 #include "geometry/triangle_search.h"
@@ -10,22 +10,22 @@
 
 namespace furrow {
 
-/// A particle stands for ground that reaches half a spacing beyond it:
+/// A particle represents ground that reaches half a spacing beyond it (theory: contact, eqs. 1
+/// and 2):
 ///   gap = distance to the surface - reach,   reach = (1 + e) J |(n_1 h_1, n_2 h_2, n_3 h_3)|,
-/// with n the normal, h_a the half spacings and J the volume ratio of the particle. e is 0 until it
-/// first touches. While it touches, the gap follows the motion of ground and surface at the point
-/// of contact,
-///   d(gap)/dt = n . (v_ground - v_surface),
-/// over a step with the mean of n before and after: between two walls of a void the closest one
-/// changes, n leaps, and with the n of either alone each leap would press the particle in by the
-/// step. A particle leaps only for what is closer by a tenth of half its spacing: between the
-/// equally near edges of two ribs it would go to and fro with every step. Before a leap the force
-/// acted on the wall that was left, so that half of the change is measured there: with the motion
-/// of the other, two walls that the particle presses apart would get work without end. e is what
-/// agrees with that: the spring of a contact then gives back the work that it takes, which it does
-/// not when the reach changes with n or J while it is loaded. The error of the gap is a fraction of
-/// the spacing and vanishes with it. A gap is never larger than the distance, e >= -1: ground that
-/// is pressed through a surface, its middle inside, is not let go.
+/// with n the normal, h_a the half spacings and J the volume ratio of the particle. e is 0 until
+/// the particle first touches. While it touches, the gap follows the relative motion of ground and
+/// surface at the point of contact, over a step with the mean of n before and after, and e adapts.
+/// The spring of a contact then returns the work that it takes, also when n or J changes under
+/// load.
+///
+/// Hysteresis: the contact switches to another part of the surface only if that is closer by a
+/// tenth of half the spacing; otherwise it would alternate between the equally near edges of two
+/// ribs. At a switch half of the change is measured with the motion of the part that was left, on
+/// which the force acted: two walls that a particle presses apart gain no energy.
+///
+/// The error of the gap is a fraction of the spacing. A gap never exceeds the distance, e >= -1:
+/// ground whose middle is inside a surface stays in contact.
 class NarrowPhase {
  public:
   /// The body must outlive the narrow phase.

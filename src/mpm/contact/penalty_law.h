@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Contact law: springs normal and tangential to the surface, with damping.
+/// Contact law: springs normal and tangential to the surface, with damping (theory: contact, eqs. 3
+/// and 4; limit of stability: theory: contact, eq. 8).
 
 #include <algorithm>
 #include <cmath>

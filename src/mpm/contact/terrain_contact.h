@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A surface that presses on a continuum terrain: wheel, tyre or plate against the particles.
+/// A surface that presses on a continuum terrain: wheel, tyre or plate against the particles
+/// (theory: contact).
 
 #include <cstddef>
 #include <optional>

@@ -1,32 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Cohesive Cam clay, the law of crushing snow of J. Gaume, T. Gast, J. Teran, A. van Herwijnen and
-/// C. Jiang, Nature Communications 9 (2018) 3047, after K. H. Roscoe and J. B. Burland (modified
-/// Cam clay, 1968). Compression positive, core/types.h.
+/// Cohesive Cam clay, the law of compressible snow of [Gaume2018], after modified Cam clay
+/// [Roscoe1968]. Equations: theory: laws, eq. 16; K0 of confined compression: eq. 17.
 ///
-///   yield:  y = q^2 (1 + 2 beta) + M^2 (p + beta p0)(p - p0) = 0,   0 <= beta <= 1
-/// an ellipse from -beta p0 to p0, with centre c, half-width a and half-height B a:
-///   c = (1 - beta) p0/2,   a = (1 + beta) p0/2,   B = M/sqrt(1 + 2 beta)
-///   f = sqrt( (p - c)^2 + (q/B)^2 ) - a
-///   flow:   associated, d(eps_pl) = Lambda dy/d(sigma), so that
-///   d(eps_q)/d(eps_v) = q/(B^2 (p - c))
-///   p0(eps_vol_pl): hardening.h; cohesion and tensile strength grow with it
-/// Flow at p > c compacts and hardens, at p < c it loosens and softens; p = c is the critical
-/// state. Where the material is torn, p0 decays with eps_vol_pl below the hardening data, never to
-/// zero.
+/// beta is the key tension_ratio. The ellipse runs from -beta p0 to p0, with
+///   centre c = (1 - beta) p0/2,  half-width a = (1 + beta) p0/2,  half-height B a,
+///   B = M/sqrt(1 + 2 beta),      yield function f = sqrt( (p - c)^2 + (q/B)^2 ) - a.
+/// Flow is associated: d(eps_q)/d(eps_v) = q/(B^2 (p - c)). At p > c it compacts and hardens, at p
+/// < c it dilates and softens; p = c is the critical state. The hardening gives p0(eps_vol_pl). In
+/// torn material p0 decays below the hardening data without reaching zero. The M of a wanted K0,
+/// with eta = 3 (1 - K0)/(1 + 2 K0) and k = (1 - beta)/(1 + beta), is
+///   M = sqrt( (1 + 2 beta)(S^2 - 9) )/2,   S = eta k + sqrt( (eta k)^2 + 6 eta + 9 ).
 ///
-/// Confined compression, elastic strain neglected: d(eps_q)/d(eps_v) = 2/3, and with
-/// S = sqrt(9 + 4 B^2) and sigma_1 = p + 2 q/3
-///   p = c + 3 a/S,   q = 2 B^2 a/S
-///   K0 = ( (1 - beta) S + (1 + beta)(3 - 2 B^2/3) )/( (1 - beta) S + (1 + beta)(3 + 4 B^2/3) )
-/// and the M of a wanted K0, with eta = q/p = 3 (1 - K0)/(1 + 2 K0) and k = (1 - beta)/(1 + beta),
-///   S = eta k + sqrt( (eta k)^2 + 6 eta + 9 ),   M = sqrt( (1 + 2 beta)(S^2 - 9) )/2
-///
-/// Thermodynamics: compaction stores the frozen energy psi = integral of c d(eps_vol_pl) (Collins,
-/// Geotechnique 55 (2005) 373); the rest of the plastic work is
-///   sigma : d(eps_pl) - c d(eps_vol_pl) = Lambda' (f + a) >= 0.
-/// beta <= 1, or compaction would move the centre into tension. src/material/snow.md shows what the
-/// law does with snow, and why flow is associated.
+/// Frozen energy (theory: laws, eq. 19): back stress c; the dissipation is Lambda' (f + a) >= 0.
+/// beta <= 1 keeps c >= 0. src/material/snow.md shows what the law does with snow.
 
 #include "material/material_model.h"
 #include "material/models/cohesive_cam_clay/cohesive_cam_clay_parameters.h"

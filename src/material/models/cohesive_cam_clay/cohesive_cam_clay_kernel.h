@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Kernel of the cohesive Cam clay: implicit (backward Euler) return mapping, Simo and Hughes,
-/// Computational Inelasticity (1998), chapter 3. Equations: cohesive_cam_clay.h.
+/// Kernel of the cohesive Cam clay: backward Euler return mapping [Simo1998]. Equations:
+/// cohesive_cam_clay.h.
 ///
-/// The trial's side of the centre decides whether flow compacts (p >= c) or loosens. Unknown is the
-/// size y of the volumetric plastic strain of the step, De = +-y. With the distance from the centre
-/// D = |p - c| and r = q/B associated flow gives
+/// If the trial has p >= c, flow compacts; otherwise it dilates. Unknown is the size y of the
+/// volumetric plastic strain of the step, De = +-y. With the distance from the centre D = |p - c|
+/// and r = q/B, associated flow gives
 ///   r = r_tr D/(D + (3 G/B^2) y),   p = p_el(dv - De),   c and a of eps_n + De
 ///   f(y) = sqrt(D^2 + r^2) - a = 0
-/// D and r fall as y grows, and at the y that brings the pressure to the c of the start of the step
-/// D and r are 0: f < 0 there, so the root is bracketed. Compaction has one root; loosening may
-/// have several where p0 softens more steeply than the point is stiff, and the search ends at one
-/// of them.
+/// D and r fall as y grows. At the y that brings the pressure to the c of the start of the step
+/// both are 0 and f < 0, so the root is bracketed. Compaction has one root. Dilation may have
+/// several where p0 softens more steeply than the point is stiff; the search then ends at one of
+/// them.
 
 #include "material/block_update.h"
 #include "material/elasticity/elasticity_kernel.h"

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Crushable foam, as [Shoop2001] (eq 17, 18) takes it from ABAQUS 5.8. Compression positive; t as
-/// in drucker_prager_cap.h.
+/// Crushable foam of snow and foams, after ABAQUS 5.8 and [Shoop2001] (eq 17, 18). Equations:
+/// theory: laws, eqs. 14 and 15. Yield measure t: section/section.h; pressure is positive in
+/// compression.
 ///
-///   yield (17):  f = sqrt( ((pt - pc)/2 + p)^2 + (t/M)^2 ) - (pc + pt)/2 = 0
-///                M = sigma0 / sqrt( pt pc0 + sigma0 (pc0 - pt)/3 - sigma0^2/9 )
-///   flow (18):   g = sqrt( (9/2) p^2 + q^2 ), not associated: compaction under p > 0 without
-///                lateral strain in uniaxial stress
-/// pt is constant; pc(eps_vol_pl) hardens by compaction: exponential (hardening.h, offset pt) or a
-/// table. pc0 = pc(0). sigma0 is the initial strength in uniaxial compression; it must stay below
-/// 3 pc0, where M becomes infinite.
+/// The tensile strength pt is constant. The compressive strength pc(eps_vol_pl) hardens by
+/// compaction, exponentially (hardening.h, offset pt) or by a table; pc0 = pc(0). sigma0 is the
+/// initial strength in uniaxial compression and must stay below 3 pc0, where M becomes infinite.
 ///
-/// Table 1 of [Shoop2001] can be read as pc0 or as pc0 + pt: the key pc0_reading says what pc0 of
-/// the hardening is. All plastic work is dissipated: sigma : d(eps_pl) = Lambda g^2 >= 0.
+/// Table 1 of [Shoop2001] can be read as pc0 or as pc0 + pt: the key pc0_reading chooses. All
+/// plastic work is dissipated.
 
 #include "material/material_model.h"
 #include "material/models/crushable_foam/crushable_foam_parameters.h"

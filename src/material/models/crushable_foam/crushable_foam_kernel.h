@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Kernel of the crushable foam law: implicit (backward Euler) return mapping. Equations (17),
-/// (18): crushable_foam.h.
+/// Kernel of the crushable foam law: backward Euler return mapping. Equations: crushable_foam.h.
 ///
-/// Flow (18) is along (9/2 p, q): De = 4.5 Lambda p, deviatoric plastic strain = Lambda q. So the
+/// Flow is along (9/2 p, q): De = 4.5 Lambda p, deviatoric plastic strain = Lambda q. So the
 /// deviator shrinks radially,
 ///   q = q_tr/(1 + 3 G Lambda) = q_tr |p|/(|p| + (2/3) G |De|),
-/// p keeps the sign of the trial, and the unknown |De| runs from 0 to the value that brings p to 0,
-/// where q vanishes too: that point is inside the ellipse because pt > 0 and pc > 0, so the root is
-/// bracketed.
+/// and p keeps the sign of the trial. The unknown |De| runs from 0 to the value at which p and q
+/// are 0. That point is inside the ellipse because pt > 0 and pc > 0, so the root is bracketed.
 
 #include "material/block_update.h"
 #include "material/deviatoric_return.h"

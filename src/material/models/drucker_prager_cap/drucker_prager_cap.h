@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Modified Drucker-Prager cap, as [Shoop2001] (eq 12-16) takes it from ABAQUS. Stresses p, t:
-/// compression positive, core/types.h.
+/// Modified Drucker-Prager cap law of soils and snow, after ABAQUS and [Shoop2001] (eq 12-16).
+/// Equations: theory: laws, eqs. 6 to 10; K0: eq. 13; frozen energy: eq. 19.
 ///
-///   t = (q/2) [1 + 1/K - (1 - 1/K)(r/q)^3], or the section of smooth cones (section/section.h)
-///   shear (12):       t - p tan(beta) - d = 0
-///   cap (13):         sqrt( (p - pa)^2 + (R t/(1 + alpha - alpha/cos(beta)))^2 )
-///                       - R (d + pa tan(beta)) = 0
-///   (14):             pa = (pb - R d)/(1 + R tan(beta)), with the tip of the cap pb(eps_vol_pl)
-///                     from the hardening
-///   transition (15):  sqrt( (p - pa)^2 + (t - (1 - alpha/cos(beta))(d + pa tan(beta)))^2 )
-///                       - alpha (d + pa tan(beta)) = 0
-///   flow:             associated on the cap; on shear and transition by the potential
-///   (16):             G = sqrt( ((pa - p) tan(beta))^2 + (t/(1 + alpha - alpha/cos(beta)))^2 )
-///   tension cut-off:  p >= -cutoff, purely volumetric flow; without it the apex p = -d/tan(beta)
-///                     ends the shear line
-///
-/// Flow at p < pa loosens and so softens the cap (pa falls) until p = pa, the critical state.
-/// Thermodynamics: (16) loosens faster than friction does where p < pa/2 (at d = 0), so the plastic
-/// work there is negative: flow releases energy that compaction has frozen in (frozen elastic
-/// energy: I. F. Collins, Geotechnique 55 (2005) 373). With the frozen energy
-/// psi(eps_vol_pl) = integral of pa d(eps_vol_pl) the rest, sigma : d(eps_pl) - pa d(eps_vol_pl),
-/// is never negative, because both potentials grow away from (pa, 0).
+/// Yield measure t: section/section.h. Pressure is positive in compression (core/types.h). Tension
+/// ends at p = -cutoff with purely volumetric flow; the default is the apex p = -d/tan(beta). Shear
+/// flow at p < pa dilates and lowers pa until p = pa, the critical state. The plastic work less the
+/// frozen energy pa d(eps_vol_pl) is never negative, because both potentials grow away from (pa, 0)
+/// [Collins2005].
 
 #include "material/material_model.h"
 #include "material/models/drucker_prager_cap/drucker_prager_cap_parameters.h"

@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Return mapping of the Drucker-Prager cap law in p and t: implicit (backward Euler), J. C. Simo
-/// and T. J. R. Hughes, Computational Inelasticity (1998), chapter 3; for cap models G. Hofstetter,
-/// J. C. Simo and R. L. Taylor, Comput. Struct. 46 (1993) 203. Equations (12)-(16):
-/// drucker_prager_cap.h.
+/// Return mapping of the Drucker-Prager cap law in p and t: backward Euler [Simo1998], for cap
+/// models [Hofstetter1993]. Equations of the law: drucker_prager_cap.h.
 ///
 /// Unknown is the volumetric plastic strain of the step, De, compression positive. At the end
 ///   p = p_el(dv - De)                elasticity
-///   t (1 + m) = t_tr,  m = 3 G Lambda  deviatoric return, with its own G (deviatoric_return.h)
-///   f(p, t, eps_n + De) = 0          the surface that the trial violates, known beforehand
-///   Lambda(De)                       flow rule of that surface
+///   t (1 + m) = t_tr,  m = 3 G Lambda  deviatoric return, with its shear modulus
+///   (deviatoric_return.h) f(p, t, eps_n + De) = 0          the surface that the trial violates,
+///   known in advance Lambda(De)                       flow rule of that surface
 /// all hold with the stress and the hardening of the end of the step. The stress is then placed on
-/// the surface that belongs to the final eps, so the yield function is zero to rounding.
+/// the surface of the final eps, so that the yield function is zero to rounding.
 
 #include "material/models/drucker_prager_cap/return_to_cap.h"
 
 namespace furrow {
 inline namespace FURROW_ISA {
 
-/// Shear line and transition: x = -De >= 0, D = pa - p. Flow (16): m = 3 G x/(A^2 tan^2(beta) D),
-/// and with the strength t_y(p) of the surface the equation is
+/// Shear line and transition: x = -De >= 0, D = pa - p. Flow (theory: laws, eq. 10): m = 3 G x/(A^2
+/// tan^2(beta) D), and with the strength t_y(p) of the surface the equation is
 ///   t_tr D - t_y(p) (D + m D) = 0    decreasing in x; a quadratic on a straight piece of the
 ///                                    hardening table
 inline void return_to_shear(const DruckerPragerCapParameters& parameters, const Mask& active,

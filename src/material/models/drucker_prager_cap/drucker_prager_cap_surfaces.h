@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The yield surfaces of the Drucker-Prager cap law at a given volumetric plastic strain. Equations
-/// (12)-(15): drucker_prager_cap.h.
+/// Yield surfaces of the Drucker-Prager cap law at a given volumetric plastic strain (theory: laws,
+/// eqs. 6 to 9). The law: drucker_prager_cap.h.
 
 #include "material/hardening/hardening_kernel.h"
 #include "material/models/drucker_prager_cap/drucker_prager_cap_parameters.h"

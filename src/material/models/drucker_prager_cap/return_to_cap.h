@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Return to the cap (13): closest-point projection, as flow is associated there.
+/// Return of the Drucker-Prager cap law to the cap (theory: laws, eq. 7): closest-point projection,
+/// because flow is associated there.
 ///
 /// The point of the cap is p = pa + R Q cos(phi), t = A Q sin(phi). Unknown are the volumetric
 /// plastic strain of the step, De, and u = tan(phi); pa and Q are those of eps_n + De. Associated
-/// flow ties the deviatoric return to De,
+/// flow gives
 ///   m = 3 G Lambda = 3 G R De/(A^2 Q) sqrt(1 + u^2),
 /// G being the shear modulus of the return of t, and leaves two equations:
 ///   f = p_el(dv - De) - pa - R Q cos(phi) = 0     elastic pressure
 ///   g = A Q sin(phi) (1 + m) - t_tr = 0           deviatoric return
-/// Both are solved together by Newton's method where elasticity is linear. Points where that has
-/// not converged after a few iterations, and those of porous elasticity, are solved one equation
-/// inside the other, each within a bracket, which converges always.
+/// Newton's method solves both together if elasticity is linear. Points that have not converged
+/// after a few iterations, and those of porous elasticity, are solved with one equation inside the
+/// other, each within a bracket, which always converges.
 
 #include "material/models/drucker_prager_cap/drucker_prager_cap_trial.h"
 

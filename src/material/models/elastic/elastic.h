@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Elastic ground: linear or porous elasticity (elasticity.h has the equations) and nothing else.
-/// Rate form (hypoelastic) under finite strain.
+/// Elastic ground: linear or porous elasticity (elasticity.h) without yielding. Rate form
+/// (hypoelastic) under finite strain.
 
 #include "material/material_model.h"
 #include "material/models/elastic/elastic_parameters.h"

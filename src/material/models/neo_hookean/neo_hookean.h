@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Rubber: compressible neo-Hookean, J. C. Simo and T. J. R. Hughes, Computational Inelasticity
-/// (1998), section 9.2.
-///
-///   energy per reference volume  W = (mu/2)(J^(-2/3) tr b - 3) + (K/4)(J^2 - 1 - 2 ln J)
-///   Cauchy stress                sigma = (mu/J) J^(-2/3) dev b + (K/2)(J - 1/J) I
-/// The state is the left Cauchy-Green tensor b; the stress follows from it, so setting the stress
+/// Rubber: compressible neo-Hookean solid, [Simo1998] section 9.2. Stress: theory: laws, eq. 5.
+/// Energy per reference volume:
+///   W = (mu/2)(J^(-2/3) tr b - 3) + (K/4)(J^2 - 1 - 2 ln J)
+/// The state is the left Cauchy-Green tensor b. The stress follows from it, so setting the stress
 /// alone has no effect.
 
 #include "material/material_model.h"
