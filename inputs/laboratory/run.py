@@ -15,7 +15,14 @@ HERE = Path(__file__).resolve().parent
 PROJECT = HERE.parents[1]
 sys.path.insert(0, str(PROJECT / "postproc"))
 
-from checks import SERIES, grounds, require_ground, require_series, require_variables
+from checks import (
+    SERIES,
+    grounds,
+    require_ground,
+    require_law,
+    require_series,
+    require_variables,
+)
 
 from furrow_post.arguments import path, shield_negative_numbers, words
 from furrow_post.errors import ResultsError
@@ -103,11 +110,12 @@ def check(parsed: argparse.Namespace, series: list[str]) -> None:
     test: str = parsed.test
     require_ground(parsed.ground)
     require_variables(test, parsed.ground, parsed.variables)
-    require_series(test, series, dict(parsed.variables))
+    require_series(test, series, parsed.ground, dict(parsed.variables))
     for material in parsed.continuum:
         if not material.is_file():
             raise ResultsError(f"--continuum {material}: no such file; name a material (YAML)")
         law_case("", test, material, CONFINEMENT)  # has this test a path of a point?
+        require_law(material)
     if parsed.reference:
         read_oedometer_reference(parsed.reference)
         if test != "oedometer":
