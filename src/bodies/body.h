@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What every solver offers to the coupled system: rigid wheel, tyre, continuum terrain.
+/// Interface of every solver in the coupled system: rigid wheel, tyre, continuum terrain.
 
 #include <string>
 
@@ -21,7 +21,7 @@ struct EnergyBudget {
   double load_work = 0.0;              ///< [J] done on the body by loads and gravity
   /// [J] done on the body by whatever prescribes its motion or torque
   double drive_work = 0.0;
-  /// [J] kinetic energy that the discretisation takes; < 0: it makes some
+  /// [J] kinetic energy that the discretisation removes; < 0: it adds energy
   double numerical_loss = 0.0;
 
   /// Zero for an exact integrator, up to the energy the body started with.
@@ -32,9 +32,9 @@ struct EnergyBudget {
 };
 
 /// A body advances under the forces on its surface and its own loads. Wheels and tyres are
-/// replicated: all ranks hold the whole body and compute the same. A body that is distributed over
-/// the ranks, the continuum terrain, communicates inside its functions: for it they are collective.
-/// The surface is replicated in either case.
+/// replicated: every rank holds the whole body and computes the same values. The continuum terrain
+/// is distributed over the ranks, and its functions are collective. The surface is always
+/// replicated.
 class Body {
  public:
   virtual ~Body() = default;
@@ -55,12 +55,12 @@ class Body {
   /// loads and energy budget are those of the whole.
   virtual bool half_model() const { return false; }
 
-  /// Who is told of each contact of this body; not owned, null for nobody.
+  /// Record that receives each contact of this body; not owned, may be null.
   void set_contact_record(ContactRecord* record) { contact_record_ = record; }
   ContactRecord* contact_record() const { return contact_record_; }
 
-  /// Saves everything needed to continue exactly, or brings it back. Collective for a body that is
-  /// spread over the ranks. @throws Error when the saved state belongs to another body
+  /// Saves or restores everything needed to continue exactly. Collective for a distributed body.
+  /// @throws Error when the saved state belongs to another body
   virtual void checkpoint(Checkpoint& state) = 0;
 
  private:

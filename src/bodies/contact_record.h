@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a contact tells, beside the nodal forces, to whoever asks a body for it.
+/// Interface for objects that receive each force of a contact in addition to the nodal forces.
 
 #include "core/types.h"
 

@@ -12,7 +12,7 @@ namespace furrow {
 
 class CoupledSystem {
  public:
-  /// More in one interval mean that a body collapses, or that the interval is far too long.
+  /// A larger number in one interval means that a body collapses or that the interval is too long.
   static constexpr double max_sub_steps = 1e4;
 
   /// Neither bodies nor contacts are owned: each must outlive the system or be removed.
@@ -39,11 +39,11 @@ class CoupledSystem {
   StepLimit step_limit() const;
 
   void clear_forces();  ///< of all surfaces
-  /// Adds the contacts' forces, their mean over the last interval, to the surfaces for whoever
-  /// reads them; the next advance() takes them away again.
+  /// Adds the mean contact forces over the last interval to the surfaces, for output. The next
+  /// advance() removes them.
   void publish_contact_forces();
-  /// Those mean forces [N], body by body and node by node, three numbers for each node; empty
-  /// unless they are published now. For checkpoints.
+  /// Published mean forces [N], three numbers for each node of each body; empty if none are
+  /// published. For checkpoints.
   std::vector<double> published_contact_forces() const;
   /// @throws Error when their number does not fit
   void restore_published_contact_forces(const std::vector<double>& forces);

@@ -9,8 +9,8 @@
 
 namespace furrow {
 
-/// What the floor is like. Pressure grows with penetration: p = stiffness d + damping (-v_z), never
-/// below 0.
+/// Parameters of the floor. Pressure grows with penetration d: p = stiffness d + damping (-v_z),
+/// never below 0.
 struct RigidPlaneParameters {
   double height = 0.0;                ///< z of the floor [m]
   double stiffness = 2e9;             ///< [Pa/m]
@@ -19,10 +19,10 @@ struct RigidPlaneParameters {
   double tangential_stiffness = 1e9;  ///< [Pa/m] of sticking
 };
 
-/// Contact at the nodes of a surface, each with its share of the area of the triangles around it in
-/// the shape at construction. Sticking is a tangential spring from the point of first touch,
-/// dragged along when its force exceeds mu times the normal one. The surface is not owned, nor
-/// kept.
+/// Contact at the nodes of a surface. Each node has its share of the area of the triangles around
+/// it at construction. Sticking is a tangential spring from the point of first touch; the anchor
+/// slides when the force exceeds mu times the normal force. The plane keeps no reference to the
+/// surface.
 class RigidPlane {
  public:
   /// @throws InputError for values out of range
@@ -33,7 +33,7 @@ class RigidPlane {
 
   const VectorX& area() const { return area_; }          ///< [m^2] of every node
   const VectorX& pressure() const { return pressure_; }  ///< [Pa] normal, of the last press_on
-  /// [J] taken by sliding friction since the start
+  /// [J] dissipated by sliding friction since the start
   double friction_loss() const { return friction_loss_; }
   /// [N] on the surface, of the last press_on
   Vector3 total_force() const { return total_; }

@@ -10,9 +10,8 @@
 
 namespace furrow {
 
-/// Moves up and down only, at a prescribed speed; everything else is held. It has no mass:
-/// whatever drives it takes all forces, and the work of the driver is minus the work of the contact
-/// forces.
+/// The plate moves along z only, at a prescribed speed. It has no mass: the drive carries all
+/// forces, and its work is minus the work of the contact forces.
 class RigidPlate : public Body {
  public:
   /// The keys of a plate. @param subject names the owner in errors

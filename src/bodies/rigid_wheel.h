@@ -8,19 +8,19 @@
 
 namespace furrow {
 
-/// Everything that makes a wheel.
+/// Parameters of a rigid wheel.
 struct RigidWheelParameters {
   WheelGeometry geometry;
   HubParameters hub;
 };
 
-/// A hub (wheel_hub.h) that carries a rigid surface: nodes are placed from the reference mesh by
-/// the attitude, never accumulated; their velocity is that of n+1/2.
+/// A hub (wheel_hub.h) with a rigid surface. Its attitude places the nodes from the reference mesh,
+/// so errors do not accumulate; their velocity is that of n+1/2.
 class RigidWheel : public WheelHub {
  public:
   /// The keys of a wheel. @param subject names the owner in errors
   static Schema schema(const std::string& subject = "rigid wheel");
-  /// @throws InputError for values that are each allowed and together impossible
+  /// @throws InputError for values that are allowed separately and impossible together
   explicit RigidWheel(const Options& options);
   /// @param where names the wheel in errors
   explicit RigidWheel(const RigidWheelParameters& parameters,

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The axle of a wheel: a rigid body of revolution with six coordinates, each free, held or
-/// prescribed. Rigid wheels are one; tyres have one for a rim. A rig drives either through this
-/// class.
+/// prescribed. Rigid wheels and the rims of tyres derive from it, and a rig drives both through it.
 
 #include <array>
 #include <string>
@@ -56,7 +55,7 @@ class WheelHub : public Body {
   void prescribe(Coordinate coordinate, double velocity);
   Motion motion(Coordinate coordinate) const { return motion_[coordinate]; }
 
-  /// Force at the axle centre, weight included: a hub knows no gravity of its own [N].
+  /// Force at the axle centre [N], weight included: the hub itself has no gravity.
   void set_load(const Vector3& force) { load_ = force; }
   /// Torque of a motor or brake between carrier and wheel, > 0 drives forward [N m]; has no effect
   /// while the spin is held or prescribed.
@@ -70,11 +69,11 @@ class WheelHub : public Body {
   /// @throws Error for a negative coefficient
   void set_vertical_damping(double coefficient);
 
-  /// Sets the wheel down without motion [m, rad, rad]; spin 0. Meant for the start of a run: no
-  /// work is counted.
+  /// Places the wheel without motion [m, rad, rad]; spin 0. For the start of a run: no work is
+  /// counted.
   void place(const Vector3& axle_centre, double yaw, double camber);
-  /// Sets the velocities, of the whole wheel, as of a rigid body; work counted as drive work [m/s;
-  /// spin, yaw, camber rates rad/s].
+  /// Sets the velocities of the whole wheel as of a rigid body [m/s; spin, yaw, camber rates
+  /// rad/s]. The change of kinetic energy counts as drive work.
   void set_velocity(const Vector3& velocity, const Vector3& rates);
 
   const Vector3& centre() const { return centre_; }      ///< [m] of the axle
@@ -91,25 +90,24 @@ class WheelHub : public Body {
   Vector3 velocity_at(const Vector3& point) const {
     return velocity_ + omega_.cross(point - centre_);
   }
-  /// Force [N] or torque [N m] with which whatever holds or prescribes a coordinate acts on the
-  /// wheel, mean of the last step or interval; for the spin of a free wheel this is the axle
-  /// torque, for the x of a free wheel the inertia of what it drags. Zero for other free
-  /// coordinates.
+  /// Constraint force [N] or torque [N m] on the wheel of a held or prescribed coordinate, mean of
+  /// the last step or interval. For a free spin it is the axle torque, for a free x the inertial
+  /// force of the dragged mass, for other free coordinates zero.
   double constraint(Coordinate coordinate) const { return constraint_[coordinate]; }
-  /// [J] taken out by the vertical damping since the start
+  /// [J] dissipated by the vertical damping since the start
   double damping_loss() const { return dissipated_; }
   void begin_interval(bool touched) override;
   void end_interval() override;
 
-  /// [m] without load, grousers or ground: the rim speed's radius
+  /// [m] of the unloaded wheel without grousers; defines the rim speed
   virtual double nominal_radius() const = 0;
-  /// [m] across what rolls on the ground, likewise: of a tyre its tread or carcass
+  /// [m] of the part that rolls on the ground, unloaded: of a tyre its tread or carcass
   virtual double nominal_width() const = 0;
-  /// [m] z of the unloaded shape, without grousers: what the hub drop is counted to
+  /// [m] z of the lowest point of the unloaded shape without grousers; defines the hub drop
   virtual double lowest_point() const = 0;
   /// [m] by which the loaded surface lies above lowest_point(); 0 for a rigid wheel
   virtual double deflection() const { return 0.0; }
-  /// Of all that touches the wheel now; a half model's is that of the whole.
+  /// Sum over all contacts of the wheel now; of a half model, for the whole.
   virtual Wrench ground_wrench() const {
     return {surface().total_force(), surface().total_moment(centre_)};
   }
@@ -121,16 +119,17 @@ class WheelHub : public Body {
   WheelHub(const HubParameters& parameters, const std::string& name);
 
   /// One step of the hub under a force and its moment about the axle centre [N, N m].
-  /// @throws StateError for what is not finite or a wheel that fell over
+  /// @throws StateError for values that are not finite and for a wheel that fell over
   void advance_hub(double dt, const Vector3& force, const Vector3& moment);
   double hub_energy() const;  ///< kinetic [J]
   /// [J] of the forces and moments passed to advance_hub
   double given_work() const { return given_work_; }
   EnergyBudget hub_budget() const;  ///< without contact_work
-  /// The hub has been put elsewhere: what moves with it follows as a rigid body, without velocity.
+  /// Called when the hub was placed elsewhere: all that moves with it follows as a rigid body,
+  /// without velocity.
   virtual void follow_placement(const Vector3& old_centre, const Matrix3& old_attitude) = 0;
-  virtual void follow_velocity() = 0;   ///< it has been given another motion
-  void rest_at(const Vector3& centre);  ///< for a relaxation: the hub alone, without velocity
+  virtual void follow_velocity() = 0;   ///< called when set_velocity() changed the motion
+  void rest_at(const Vector3& centre);  ///< moves the hub alone, without velocity
   virtual double kinetic_energy() const { return hub_energy(); }
   void checkpoint_hub(Checkpoint& state);
 

@@ -12,7 +12,7 @@ namespace furrow {
 /// press + push of GroundLosses = slide + roll + square + walls + lifted + change of kinetic, and
 /// slide + roll + square = below + ahead + aside.
 struct GrainWork {
-  double slide = 0.0;    ///< taken between grains by tangential forces
+  double slide = 0.0;    ///< dissipated between grains by tangential forces
   double roll = 0.0;     ///< by rolling friction
   double square = 0.0;   ///< by normal forces of the contacts
   double below = 0.0;    ///< of these three, below the track
@@ -29,15 +29,15 @@ struct GrainWork {
 
 /// Since the start, of all that the wheel touches, both halves of a half model [J].
 ///
-/// The wheel's work on its ground = continuum + press + push + friction +
-/// contact_damping + contact_springs. On a continuum that nothing else presses on, continuum =
-/// compaction + bulldozing + kinetic + numerical + radiated; else these are of all that press on
+/// The wheel's work on its ground = continuum + press + push + friction + contact_damping +
+/// contact_springs. If only this wheel presses on the continuum, continuum = compaction +
+/// bulldozing + kinetic + numerical + radiated; otherwise these include the work of all bodies on
 /// it.
 struct GroundLosses {
   double compaction = 0.0;  ///< of a continuum, by pressing down (mpm/terrain_energy.h)
   double bulldozing = 0.0;  ///< of a continuum, by all other deformation and by lifting
   double kinetic = 0.0;     ///< energy of the continuum's motion
-  double numerical = 0.0;   ///< what the continuum's grid takes
+  double numerical = 0.0;   ///< removed by the continuum's grid
   double radiated = 0.0;    ///< by waves through absorbing faces
   double continuum = 0.0;   ///< of this wheel on a continuum
   double press = 0.0;       ///< of this wheel on grains, by vertical forces
@@ -46,8 +46,8 @@ struct GroundLosses {
   /// of its contact with a continuum; with grains, what normal springs, dampers and rolling
   /// friction take
   double contact_damping = 0.0;
-  /// what the springs of its contact with continuum or plane hold or have lost: those of contacts
-  /// that end are let go; with grains, the error of the works in time
+  /// energy that the springs of its contact with continuum or plane hold, or held when their
+  /// contacts ended; with grains, the error of the works in time
   double contact_springs = 0.0;
   GrainWork grains;
 };

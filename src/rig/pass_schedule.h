@@ -9,8 +9,8 @@
 
 namespace furrow {
 
-/// Every pass has the clock of the first: a pass is the stages settle, accelerate and cruise, then
-/// the way back. The last one stays in its cruise.
+/// A pass consists of the stages settle, accelerate and cruise, then the way back. Each pass uses
+/// the clock of the first. The last pass stays in its cruise.
 class PassSchedule {
  public:
   PassSchedule() = default;
@@ -26,9 +26,9 @@ class PassSchedule {
     const double number = std::floor((time - first_start_) / (rolling_ + back_));
     return static_cast<int>(std::clamp(number, 0.0, passes_ - 1.0));
   }
-  /// What the clock of the first pass is behind at a time [s].
+  /// Delay of the pass at a time against the clock of the first pass [s].
   double delay(double time) const { return index(time) * (rolling_ + back_); }
-  /// Is the wheel on its way back, or its lowering into the rut? @param time on the first's clock
+  /// True while the wheel returns or is lowered into the rut. @param time on the first's clock
   bool goes_back(double time, int index) const {
     return index + 1 < passes_ && time >= rolling_end();
   }
@@ -43,14 +43,15 @@ class PassSchedule {
   double first_start_ = 0.0, rolling_ = 0.0, back_ = 0.0;  // [s]
 };
 
-/// What is left of a velocity after the step [time, time + dt] of a ramp in which it fades to 0.
+/// Share of a velocity that remains after the step [time, time + dt] of a ramp in which it fades to
+/// 0.
 inline double fading(const Ramp& ramp, double time, double dt) {
   const double left = 1.0 - ramp.value(time);
   return left > 0.0 ? (1.0 - ramp.value(time + dt)) / left : 0.0;
 }
 
-/// Velocity that brings a position to a target as the ramp rises, from wherever it is at time, over
-/// the step [time, time + dt] within the ramp: nothing but the position is remembered.
+/// Velocity over the step [time, time + dt] that brings a position to a target as the ramp rises.
+/// It depends on the present position only, so a restart needs no other state.
 inline double approach(const Ramp& ramp, double position, double target, double time, double dt) {
   const double left = 1.0 - ramp.value(time);
   if (!(left > 0.0)) return 0.0;

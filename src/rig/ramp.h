@@ -33,9 +33,8 @@ struct Ramp {
     return duration * u * u * u * u * (2.5 - u * (3.0 - u)) + std::max(0.0, time - end());
   }
 
-  /// Mean of the value over [from, to], to > from, to round-off however short the interval is:
-  /// three-point Gauss quadrature is exact for this polynomial, where the difference of two
-  /// integrals would lose digits.
+  /// Mean of the value over [from, to], to > from. Three-point Gauss quadrature is exact for this
+  /// polynomial, also over intervals so short that a difference of integrals would lose digits.
   double mean(double from, double to) const {
     const double finish = std::clamp(end(), from, to);
     return (integrate(&Ramp::value, from, to) + (to - finish)) / (to - from);

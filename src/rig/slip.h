@@ -9,13 +9,11 @@
 namespace furrow {
 
 enum class SlipDefinition {
-  /// (v_rim - v)/max(|v_rim|, |v|): -1 locked, +1 spinning on the spot (CMU sand data; Furrow's
-  /// own)
+  /// (v_rim - v)/max(|v_rim|, |v|): -1 locked, +1 spinning on the spot (Furrow, [Pavlov2024])
   larger_speed,
-  rim_speed,      ///< (v_rim - v)/v_rim: the same for a driven wheel; -infinity locked (Wong)
-  vehicle_speed,  ///< (v_rim - v)/v: the same for a braked wheel; +infinity on the spot
-                  ///< ([Shoop2001],
-                  ///< eq. 28)
+  rim_speed,  ///< (v_rim - v)/v_rim: equal for a driven wheel; -infinity locked [Wong2008]
+  /// (v_rim - v)/v: equal for a braked wheel; +infinity on the spot ([Shoop2001] eq 28)
+  vehicle_speed,
 };
 
 /// larger_speed, rim_speed, vehicle_speed

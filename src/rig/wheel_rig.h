@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The test rig: lowers a wheel onto the ground, accelerates it and keeps it going.
+/// The test rig: lowers a wheel onto the ground, accelerates it and holds its travel constant.
 
 #include <string>
 #include <vector>
@@ -24,25 +24,24 @@ namespace furrow {
 ///               slip times the same ramp, so that the slip has its value from the first step
 ///               (slip), or is driven by torque x ramp (torque);
 ///   cruise      everything constant.
-/// With travel free, x is released when the acceleration begins, and speed and slip are answers:
-/// spin or torque grow with the ramp, and so does the drawbar load. What the axle drags has its
-/// inertia.
+/// With travel free, x is released when the acceleration begins. Spin or torque and the drawbar
+/// load grow with the ramp; speed and slip result. The mass that the axle drags has inertia.
 ///
-/// On a slope the axes stay with the ground, x uphill along it and z off it, and weights are
-/// turned: that of the load here, those of grains and continuum by tilt().
+/// On a slope the axes stay with the ground: x points uphill along it and z is normal to it. The
+/// rig turns the load; tilt() turns the weights of grains and continuum.
 ///
-/// With several passes the wheel goes back after the cruise of each but the last: it is stopped and
-/// lifted, brought back to where it began, and lowered until the ground bears a small part of the
-/// load; then it settles again, and rolls in its rut.
+/// With several passes the wheel returns after the cruise of each pass but the last. The rig stops
+/// and lifts it, brings it back to its start, and lowers it until the ground bears a small part of
+/// the load. Then it settles again and rolls in its rut.
 ///
-/// y, yaw and camber are held throughout. Before `start` the wheel is held where it is. Travel is
+/// y, yaw and camber are held throughout. Before `start` the wheel is held in place. Travel is
 /// along +x.
 ///
-/// The load is the whole force on level ground at rest, weight of the wheel included:
-/// whatever the wheel's own mass times gravity lacks or exceeds is a constant force that the rig
-/// adds at the axle, without inertia.
+/// The load is the whole force on level ground at rest, weight of the wheel included. The rig adds
+/// the difference to the wheel's mass times gravity as a constant force at the axle, without
+/// inertia.
 ///
-/// All stages are functions of time alone: a rig restarts by being made again from the same input.
+/// All stages are functions of time alone, so a rig needs no checkpoint.
 class WheelRig {
  public:
   enum class Mode { towed, slip, torque, spin };
@@ -50,18 +49,17 @@ class WheelRig {
   /// The keys of the rig. @param subject names the owner in errors
   static Schema schema(const std::string& subject = "wheel rig");
 
-  /// Takes hold of the wheel, which must outlive the rig, and turns it to its slip angle and
-  /// camber.
+  /// Turns the wheel to its slip angle and camber. The wheel must outlive the rig.
   /// @throws InputError for keys that contradict each other
   WheelRig(const Options& options, WheelHub& wheel);
 
   /// Sets loads and motions of the wheel for the step [time, time + dt]; call it before every step.
   void apply(double time, double dt);
 
-  /// What measure() returns, in its order; the first is the time.
+  /// Channels of measure(), in its order; the first is the time.
   static std::vector<Channel> channels();
-  /// One row: state of the wheel and the forces now on its surface; call it when the forces of the
-  /// step are known.
+  /// One row: state of the wheel and the present forces on its surface. Call it when the forces of
+  /// the step are known.
   std::vector<double> measure(double time, const GroundLosses& losses = {}) const;
 
   RigStage stage(double time) const;
