@@ -5,7 +5,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from furrow_post.analyse.cost_table import Components
-from furrow_post.analyse.entry import FORMULA, LIMIT, MEASURED, RUN, Entry
+from furrow_post.analyse.entry import FORMULA, BEST, MEASURED, RUN, Entry
 from furrow_post.analyse.judgement import judge
 from furrow_post.analyse.plates import pressure_at
 from furrow_post.analyse.verdict import COVERAGE, QUANTITIES, Agreement, Quantity
@@ -24,7 +24,7 @@ PRESSURE = "pressure_"
 ANSWERS = {
     Agreement.AGREE: "yes",
     Agreement.DIFFER: "no",
-    Agreement.UNDECIDED: "cannot be told",
+    Agreement.UNDECIDED: "inconclusive",
     Agreement.UNKNOWN: "error not known",
 }
 SERIES_HEAD = (
@@ -83,7 +83,7 @@ def quantity_of(key: str) -> Quantity:
 
 def is_value(line: Mapping[str, str]) -> bool:
     """Whether the line has a place in the table."""
-    return line["kind"] in (RUN, LIMIT, FORMULA, MEASURED) and not is_point(line)
+    return line["kind"] in (RUN, BEST, FORMULA, MEASURED) and not is_point(line)
 
 
 def is_point(line: Mapping[str, str]) -> bool:
@@ -98,10 +98,10 @@ def series_value(line: Mapping[str, str], name: str) -> float | None:
 
 
 def series_table(lines: Iterable[Mapping[str, str]]) -> list[str]:
-    """A row for each point of the series, at size zero."""
+    """A row for each point of the series: its best estimates."""
     points: dict[tuple[str, str], list[Mapping[str, str]]] = {}
     for line in lines:
-        if is_point(line) and line["kind"] == LIMIT:
+        if is_point(line) and line["kind"] == BEST:
             points.setdefault((line["case"], line["place"]), []).append(line)
     rows = []
     for (case, place), group in points.items():
@@ -116,7 +116,7 @@ def series_table(lines: Iterable[Mapping[str, str]]) -> list[str]:
 
 
 def table(lines: Iterable[Mapping[str, str]]) -> list[str]:
-    """Two rows for each quantity of a case: at the runs' sizes, and at size zero."""
+    """Two rows for each quantity of a case: at the runs' sizes, and the best estimate."""
     groups: dict[tuple[str, str, str], list[Mapping[str, str]]] = {}
     for line in lines:
         if is_value(line):
@@ -125,7 +125,7 @@ def table(lines: Iterable[Mapping[str, str]]) -> list[str]:
     rows = []
     for (case, place, _), group in groups.items():
         name = case.replace("_", " ") + ("" if place == "base" else f", {place}")
-        rows += [row for kind in (RUN, LIMIT) for row in table_row(name, group, kind)]
+        rows += [row for kind in (RUN, BEST) for row in table_row(name, group, kind)]
     return markdown(TABLE_HEAD, rows)
 
 
@@ -144,8 +144,8 @@ def table_row(name: str, group: Sequence[Mapping[str, str]], kind: str) -> list[
 
 
 def place_text(group: Sequence[Mapping[str, str]], kind: str) -> str:
-    """Sizes of cells and grains, or "size zero"."""
-    if kind == LIMIT:
+    """Sizes of cells and grains, or "best estimate"."""
+    if kind == BEST:
         return kind
     sizes = [number(line["element"]) for line in group if line["kind"] == RUN]
     return ", ".join(f"{1e3 * size:.0f}" for size in sizes) + " mm"

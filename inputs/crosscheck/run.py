@@ -23,7 +23,7 @@ from furrow_post.study.output import Output
 from furrow_post.study.runner import Runner
 from furrow_post.study.study import Study, run_study
 
-SERIES_TEXT = "Series, the base with one condition changed, at size zero:"
+SERIES_TEXT = "Series, the base with one condition changed, best estimates:"
 
 
 def evaluate(runner: Runner, output: Output) -> Sequence[str]:

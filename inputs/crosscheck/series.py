@@ -2,7 +2,7 @@
 """Series: the base of a case with one condition changed, on both grounds.
 
 Points are run at one coarse size. What the size does to the base it is taken to do to them: the
-sinkage at size zero is that of the base times the point's over the base's of the same size, the
+best estimate of the sinkage is that of the base times the point's over the base's of the same size, the
 resistance coefficient, which changes its sign with slip, that of the base plus their difference.
 """
 
@@ -17,8 +17,8 @@ from cases import BASE, SERIES, Made, Planned
 from lines import OutputRow, entry_of, line_of, series_value
 
 from furrow_post.analyse.cost_table import Components, Row, row_of
-from furrow_post.analyse.entry import LIMIT, RUN, Entry
-from furrow_post.analyse.size_line import same_size
+from furrow_post.analyse.entry import BEST, RUN, Entry
+from furrow_post.analyse.grid_convergence import same_size
 from furrow_post.analyse.verdict import COVERAGE, HUB_DROP, QUANTITIES
 from furrow_post.figures.style import RUN_COLOURS, annotate_panel, panel_letters, save, use_style
 from furrow_post.read.wheel_run import read_wheel_run
@@ -33,7 +33,7 @@ BASES = {  # conditions of the bases, SI; that on snow is towed, and finds its s
 def lines_of_series(
     made: Made, table: Sequence[Row], bases: Sequence[Mapping[str, str]]
 ) -> Iterator[OutputRow]:
-    """At the points' size and at size zero, where the base is known.
+    """At the points' size, and the best estimates where that of the base is known.
 
     table: runs of the base; bases: its lines
     """
@@ -43,12 +43,12 @@ def lines_of_series(
         if line["place"] == BASE
     }
     for planned in made.plans:
-        if not planned.is_point or (LIMIT, planned.ground, HUB_DROP.key) not in own:
+        if not planned.is_point or (BEST, planned.ground, HUB_DROP.key) not in own:
             continue
         row = row_of(read_wheel_run(made.folder(planned), planned.ground))
         twin = twin_of(row, table)
         for quantity in QUANTITIES:
-            limit, run = (own[kind, planned.ground, quantity.key] for kind in (LIMIT, RUN))
+            limit, run = (own[kind, planned.ground, quantity.key] for kind in (BEST, RUN))
             value, error = row.value(quantity.key)
             parts = Components(time=error)
             point = Entry(quantity, planned.ground, value, parts, RUN, cpu_time=row.cpu_time)
@@ -74,7 +74,7 @@ def twin_of(row: Row, table: Sequence[Row]) -> Row:
 
 
 def moved(base: Entry, row: Row, twin: Row, packing: float) -> Entry:
-    """The base at size zero, moved to the conditions of a point.
+    """The best estimate of the base, moved to the conditions of a point.
 
     Its error has those of both time averages, and of one packing: points and base share it, but
     not what it does to them.
@@ -110,7 +110,7 @@ def draw_series(case: str, lines: Sequence[Mapping[str, str]], target: Path) -> 
         for axes, name in zip(row, names):
             unit, scale = UNITS[name]
             for k, ground in enumerate(("continuum", "grains")):
-                curve = curve_of(lines, (ground, LIMIT, quantity.key), name, BASES[case].get(name))
+                curve = curve_of(lines, (ground, BEST, quantity.key), name, BASES[case].get(name))
                 x, entries = zip(*sorted(curve.items()))
                 axes.errorbar(
                     scale * np.array(x),

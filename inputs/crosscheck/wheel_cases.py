@@ -12,7 +12,7 @@ from lines import OutputRow, line_of, number_line
 from furrow_post.analyse import cost_table, empirical
 from furrow_post.analyse.comparison import Comparison, compare
 from furrow_post.analyse.empirical import Prediction
-from furrow_post.analyse.entry import LIMIT, RUN, Entry, formula_entries
+from furrow_post.analyse.entry import BEST, RUN, Entry, formula_entries
 from furrow_post.analyse.flow import compare_flows
 from furrow_post.analyse.verdict import QUANTITIES
 from furrow_post.csv_table import read_rows
@@ -104,9 +104,9 @@ class WheelCase:
             result = self.compared(role)
             own = {"continuum": role, "grains": BASE, HYBRID: BASE}
             for entry in result.entries:
-                if entry.kind == LIMIT and role != BASE:
+                if entry.kind == BEST and role != BASE:
                     continue  # the slope in the size is that of the base's law
-                if entry.kind in (RUN, LIMIT):
+                if entry.kind in (RUN, BEST):
                     key = entry.source, own[entry.source]
                     program = self.made.program(self.plans[key])
                     yield line_of(self.case, place, entry, self.runs[key].size, program)
@@ -149,9 +149,9 @@ def cited_lines() -> Iterator[OutputRow]:
             parts = family.components(quantity.key, row.size, error)
             entry = Entry(quantity, row.ground, value, parts, RUN, cpu_time=row.cpu_time)
             yield line_of(line["case"], BASE, entry, row.size)
-            limit = family.at_size_zero(quantity.key, row.size, value, error)
+            limit = family.best_estimate(quantity.key, row.size, value, error)
             if limit:
-                yield line_of(line["case"], BASE, Entry(quantity, row.ground, *limit, LIMIT))
+                yield line_of(line["case"], BASE, Entry(quantity, row.ground, *limit, BEST))
     for case in dict.fromkeys(line["case"] for line in cited):
         first = next(line for line in cited if line["case"] == case)
         test = Test(*(float(first[name]) for name in Test._fields))

@@ -127,9 +127,9 @@ RULES: tuple[tuple[str, Callable[[Tree, str], None]], ...] = (
     (r"bash inputs/run|furrow -in ", scene),
     (r"(\w+=\S+ |mpirun -n \d+ )?build/tests/benchmarks/", benchmark),
     (r"tests/benchmarks/\w+\.py$", run),
-    (r"(postproc/)?furrow-post (film|flow|plan|laboratory|cost|sweep) ", options),
-    (r"inputs/(\S+\.py|validation/run) --list$", run),
-    (r"inputs/(costs|crosscheck|laboratory|validation)/(\S+\.py|run)", options),
+    (r"(postproc/)?furrow-post (film|flow|plan|laboratory|cost|sweep|study) ", options),
+    (r"inputs/\S+\.py --list$", run),
+    (r"inputs/(costs|crosscheck|laboratory|validation)/\S+\.py", options),
     (r"furrow-resistance --together ", options),  # OWN_RUN has one wheel
     (r"(\w+=\S+ )?(build/bin/)?furrow-(point|sidewall|tyre|resistance) ", run),
     (r"postproc/furrow-post |postproc/examples/", run),

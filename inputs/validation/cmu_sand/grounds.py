@@ -3,7 +3,7 @@
 """The smooth wheel of CMU's tests on finer grains, on grains of other laws, at a slip angle, and on
 the continuum. See README.md.
 
-Makes the runs that are missing and writes grounds.csv, size_zero.csv, accuracy.csv and
+Makes the runs that are missing and writes grounds.csv, best_estimates.csv, accuracy.csv and
 grounds.png. Stages: sizes laws side continuum.
 """
 

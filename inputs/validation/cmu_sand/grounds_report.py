@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is made of the runs of grounds.py: grounds.csv, size_zero.csv, accuracy.csv, grounds.png."""
+"""What is made of the runs of grounds.py: grounds.csv, best_estimates.csv, accuracy.csv, grounds.png."""
 
 import csv
 import math
 import subprocess
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
 from typing import Any
@@ -15,6 +14,7 @@ import numpy as np
 
 import cases
 
+from furrow_post.analyse.grid_convergence import grid_convergence
 from furrow_post.analyse.statistics import rms
 from furrow_post.csv_table import read_rows
 from furrow_post.figures.style import save
@@ -29,7 +29,9 @@ WINDOW = (0.1, 0.002)
 RADIUS = 58.0  # [mm]
 QUANTITIES = {"fx_over_fz": "fx_over_fz_error", "sinkage_mm": "sinkage_error_mm"}
 LIMIT_COLUMNS = tuple(
-    column for key, error in QUANTITIES.items() for column in ("measured_" + key, key, error)
+    column
+    for key, error in QUANTITIES.items()
+    for column in ("measured_" + key, key, error, f"{key}_order")
 )
 Row = dict[str, Any]  # of a table
 
@@ -114,26 +116,6 @@ def row_of(runner: Runner, case: Case, record: Record) -> Row:
     }
 
 
-@dataclass(frozen=True)
-class Limit:
-    """At size zero, along a straight line through the sizes."""
-
-    value: float
-    error: float  # standard error
-
-
-def at_size_zero(sizes: Sequence[float], values: Sequence[float], scatter: float) -> Limit:
-    """scatter: standard deviation of one value; that about the line if it is larger."""
-    design = np.stack([np.ones(len(sizes)), np.asarray(sizes)], axis=1)
-    fit, *_ = np.linalg.lstsq(design, np.asarray(values), rcond=None)
-    freedom = len(sizes) - 2
-    residual = np.asarray(values) - design @ fit
-    if freedom > 0:
-        scatter = max(scatter, math.sqrt(float(residual @ residual) / freedom))
-    covariance = np.linalg.inv(design.T @ design)
-    return Limit(float(fit[0]), scatter * math.sqrt(float(covariance[0, 0])))
-
-
 def straight(rows: Sequence[Row]) -> list[Row]:
     """Those with nothing changed but size, slip, law and pour."""
     return [row for row in rows if row["changed"] in ("", "another pour")]
@@ -152,7 +134,7 @@ def scatter_of_pours(rows: Sequence[Row], key: str) -> float:
 def limit_of(
     rows: Sequence[Row], pours: Mapping[str, float], errors: Mapping[str, str] = QUANTITIES
 ) -> Row:
-    """Of one ground at one slip, at size zero, along a straight line through all its runs.
+    """Of one ground at one slip: the best estimate of all its sizes.
 
     pours: standard deviation of a run on grains from one pour to the next, by quantity; a continuum
     has none, and its error in time counts. errors: columns of the quantities' errors.
@@ -162,8 +144,9 @@ def limit_of(
     found: Row = {}
     for key, error in errors.items():
         scatter = pours[key] if poured else rms([row[error] for row in rows])
-        limit = at_size_zero(sizes, [row[key] for row in rows], scatter)
-        found.update({key: round(limit.value, 4), error: round(limit.error, 4)})
+        series = grid_convergence(sizes, [row[key] for row in rows], [scatter] * len(rows))
+        found.update({key: round(series.value, 4), error: round(series.error, 4)})
+        found[f"{key}_order"] = round(series.used_order, 2) if series.extrapolated else ""
     return found
 
 
@@ -219,7 +202,7 @@ def report(
     rows = [row_of(runner, case, record) for case in runs if (record := runner.record(case))]
     output.table("grounds.csv", rows)
     limits = limit_table(rows)
-    output.table("size_zero.csv", limits)
+    output.table("best_estimates.csv", limits)
     reached = accuracy_table(straight(rows), limits)
     output.table("accuracy.csv", reached)
     if limits:
@@ -252,6 +235,6 @@ def draw(path: Path, rows: Sequence[Row], limits: Sequence[Row]) -> None:
     for panel, slip in zip(axes[0], slips):
         panel.set_title(f"slip {slip:g}")
     for panel in axes[1]:
-        panel.set_xlabel("grains or cells [mm]; 0: the limit")
+        panel.set_xlabel("grains or cells [mm]; 0: best estimate")
     axes[0][0].legend(fontsize=7)
     save(figure, path, dpi=75)

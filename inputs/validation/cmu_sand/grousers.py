@@ -3,7 +3,7 @@
 """The wheel with grousers of CMU's tests on finer grains, by the law that was found with the smooth
 one, and what its forces depend on that was not measured. See README.md.
 
-Makes the runs that are missing and writes grousers.csv, grousers_size_zero.csv,
+Makes the runs that are missing and writes grousers.csv, grousers_best_estimates.csv,
 grousers_accuracy.csv, grousers_assumed.csv and grousers.png. Loads and slips are those measured;
 nothing was fitted to this wheel. Stages: sizes assumed.
 """
@@ -41,9 +41,9 @@ from furrow_post.study.study import Study, run_study
 
 KIND = "grouser"
 SLIPS = (-0.001, 0.21, -0.203, 0.5, -0.5, 0.75)  # breadth first
-BLIND: Changes = {"rolling": BETWEEN}
+NOT_FITTED: Changes = {"rolling": BETWEEN}
 SIZES = (6, 8, 10)  # [mm]
-SIZE_RUNS = [grains_case("sizes", size, slip, 1, BLIND, KIND) for size in SIZES for slip in SLIPS]
+SIZE_RUNS = [grains_case("sizes", size, slip, 1, NOT_FITTED, KIND) for size in SIZES for slip in SLIPS]
 # What is not measured, changed one by one with the coarsest grains, at the slips of the largest
 # misses
 MISSED = (-0.5, 0.75)
@@ -57,7 +57,7 @@ ASSUMPTIONS: dict[str, Changes] = {
 
 def assumed_case(what: str, slip: float) -> Case:
     point = cases.nearest_point(KIND, slip)
-    values: dict[str, Value] = {"diameter": 0.010, "young": SOFT, **BLIND, **ASSUMPTIONS[what]}
+    values: dict[str, Value] = {"diameter": 0.010, "young": SOFT, **NOT_FITTED, **ASSUMPTIONS[what]}
     name = f"assumed_{what.replace(' ', '_').replace(',', '')}_slip_{slip:g}"
     return cases.wheel_case(name, "assumed", point, what, cases.CHOSEN, FASTEST, **values)
 
@@ -105,7 +105,7 @@ def scatter_of_smooth(key: str) -> float:
 
 
 def limits_of(rows: Sequence[Row]) -> list[Row]:
-    """At size zero: a row for each slip that has all sizes."""
+    """Best estimates: a row for each slip that has all sizes."""
     pours = {key: scatter_of_smooth(key) for key in QUANTITIES}
     found = []
     for slip in sorted({row["slip"] for row in rows}):
@@ -132,7 +132,7 @@ def draw(path: Path, rows: Sequence[Row]) -> None:
                 [row[key] for row in mine],
                 [row[QUANTITIES[key]] for row in mine],
                 fmt="o--" if size else "D", ms=4, capsize=3,
-                label=f"{mine[0]['ground']}, {f'{size:g} mm' if size else 'size zero'}",
+                label=f"{mine[0]['ground']}, {f'{size:g} mm' if size else 'best estimate'}",
             )  # fmt: skip
         panel.set(xlabel="slip", ylabel=label)
         panel.grid(alpha=0.3)
@@ -152,7 +152,7 @@ def evaluate(runner: Runner, output: Output) -> list[str]:
     output.table("grousers.csv", rows)
     limits = limits_of(rows)
     columns = ("ground", "slip", *LIMIT_COLUMNS)
-    output.table("grousers_size_zero.csv", [{k: row[k] for k in columns} for row in limits])
+    output.table("grousers_best_estimates.csv", [{k: row[k] for k in columns} for row in limits])
     reached = accuracy_rows([*rows, *limits])
     output.table("grousers_accuracy.csv", reached)
     draw(output.path("grousers.png"), [*rows, *limits])

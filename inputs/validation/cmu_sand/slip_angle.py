@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The smooth wheel of CMU's tests at a slip angle: up to 16 grains in its width. See README.md.
 
-Makes the runs that are missing and writes slip_angle.csv, slip_angle_limit.csv and slip_angle.png.
+Makes the runs that are missing and writes slip_angle.csv, slip_angle_best_estimates.csv and slip_angle.png.
 The laws of the grains are the one that was found at slip angle 0 and a stronger one.
 """
 
@@ -68,10 +68,10 @@ RUNS = [
 def draw(path: Path, rows: Sequence[Row], limits: Sequence[Row]) -> None:
     """Lateral and longitudinal force and sinkage over the size of the grains."""
     figure, panels = plt.subplots(1, len(LABELS), figsize=(11, 3.6), layout="constrained")
-    at_zero = [{**limit, "size_mm": 0.0} for limit in limits]
+    best = [{**limit, "size_mm": 0.0} for limit in limits]
     for panel, (key, label) in zip(panels, LABELS.items()):
         for ground, colour in COLOURS.items():
-            for found, marker, name in ((rows, "o", ground), (at_zero, "D", None)):
+            for found, marker, name in ((rows, "o", ground), (best, "D", None)):
                 mine = [row for row in found if row["ground"] == ground]
                 panel.errorbar(
                     [row["size_mm"] for row in mine],
@@ -79,7 +79,7 @@ def draw(path: Path, rows: Sequence[Row], limits: Sequence[Row]) -> None:
                     [row[ERRORS[key]] for row in mine],
                     fmt=marker, color=colour, ms=5, capsize=3, label=name,
                 )  # fmt: skip
-        panel.set(xlabel="grains [mm]; 0: the limit", ylabel=label)
+        panel.set(xlabel="grains [mm]; 0: best estimate", ylabel=label)
         panel.grid(alpha=0.3)
     panels[1].legend(fontsize=7)
     save(figure, path, dpi=75)
@@ -103,7 +103,7 @@ def evaluate(runner: Runner, output: Output) -> list[str]:
         }
         for mine, last in zip(known, finest)
     ]
-    output.table("slip_angle_limit.csv", limits)
+    output.table("slip_angle_best_estimates.csv", limits)
     draw(output.path("slip_angle.png"), rows, limits)
     return [
         f"{row['ground']}, {row['size_mm']:g} mm: Fy/Fz is {row['fy_over_fz']}, not {low} to {high}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is made of the runs: tables, the peak in cells of size zero, the figure of layers."""
+"""What is made of the runs: tables, best estimates of the peak, the figure of layers."""
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -10,7 +10,8 @@ import numpy as np
 
 import cases
 
-from furrow_post.analyse.statistics import at_size_zero, rms
+from furrow_post.analyse.grid_convergence import grid_convergence
+from furrow_post.analyse.statistics import rms
 from furrow_post.arrays import Floats
 from furrow_post.csv_table import read_numbers
 from furrow_post.errors import ResultsError, content_of
@@ -113,9 +114,9 @@ def laboratory_numbers(folder: Path) -> Row:
     }
 
 
-def size_zero(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, object]]:
-    """The peak in cells of size zero, from the two finest sizes, of the variants that were run in
-    three sizes or more; and from the two sizes before, as a check, which the error reaches."""
+def best_estimates(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, object]]:
+    """The peak of the variants that were run in three sizes or more, extrapolated to zero cell size
+    where the sizes allow it."""
     peaks = {row["case"]: float(row["peak_N"]) for row in rows if row.get("peak_N")}
     measured = reference()["peak_load_N"]
     found: list[dict[str, object]] = []
@@ -127,15 +128,15 @@ def size_zero(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, object]]:
         ]
         if len(known) < 3:
             continue
-        value, error = at_size_zero(*known[-2:])
-        check, _ = at_size_zero(*known[-3:-1])
+        series = grid_convergence(*zip(*known))
         found.append(
             {
                 "case": name,
-                "size_zero_N": round(value),
-                "error_N": round(max(error, abs(value - check))),
-                "size_zero_coarser_N": round(check),
-                "over_measured": round(value / measured, 3),
+                "best_estimate_N": round(series.value),
+                "error_N": round(series.error),
+                "order": round(series.order, 2),
+                "extrapolated": "yes" if series.extrapolated else "no",
+                "over_measured": round(series.value / measured, 3),
             }
         )
     return found
@@ -164,7 +165,7 @@ def draw(runner: Runner, target: Path) -> None:
 def evaluate(runner: Runner, output: Output) -> Sequence[str]:
     rows = table_of(cases.CASES, runner, laboratory_numbers)
     output.table("results.csv", rows)
-    output.table("size_zero.csv", size_zero(rows))
+    output.table("best_estimates.csv", best_estimates(rows))
     output.table("field.csv", table_of(cases.FIELD_CASES, runner, field_numbers))
     if rows:
         draw(runner, output.path("layers.png"))

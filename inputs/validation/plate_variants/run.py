@@ -3,7 +3,7 @@
 """Plate in the laboratory's snow, 180 kg/m3: cap law, cap law with a slide surface under the
 plate's edge, foam law with it; load, and density below the plate layer by layer. See README.md.
 
-Makes the runs that are missing and writes results.csv, size_zero.csv, field.csv and
+Makes the runs that are missing and writes results.csv, best_estimates.csv, field.csv and
 layers.png.
 """
 

@@ -79,7 +79,7 @@ def readings() -> list[Case]:
     stage = "reading"
     strengths = [
         case(f"d_{d}", stage, f"d {d} kPa, R 1.1e-4", text=changed(1e3 * d))
-        for d in (5, 10, 20, 30, 40, 72)
+        for d in (5, 6, 10, 20, 30, 40, 72)
     ]
     return [
         case("base", stage, "d 5 kPa, R 2.2e-2"),
@@ -112,6 +112,11 @@ def artefacts() -> list[Case]:
             for d in (10, 20, 30, 40)
         ),
         case("d_30_cell_4", stage, "d 30 kPa, cells of 4 cm", text=changed(30e3), cell=0.04),
+        case("d_6_cell_4", stage, "d 6 kPa, cells of 4 cm", text=changed(6e3), cell=0.04),
+        case(
+            "slip_free_d6_cell_4", stage, "d 6 kPa, cells of 4 cm, free",
+            text=changed(6e3), cell=0.04, mode=FREE,
+        ),
         case("half_load", stage, "half of the load", load_mass=318),
     ]
 
@@ -135,7 +140,7 @@ def domains() -> list[Case]:
 
 def depths() -> list[Case]:
     """As the report ran it, with its largest d."""
-    runs = [(depth, "zero") for depth in DEPTHS] + [(0.20, "free")]
+    runs = [(depth, name) for name in MODES for depth in DEPTHS]
     return [
         case(
             f"depth_{100 * depth:.0f}_{name}_d30",
@@ -165,6 +170,7 @@ FRICTIONS = {  # name -> words of the contact
 # d [kPa] -> suffix of the run's name, which slips and frictions: all for the ends of Table 1
 STRENGTHS: Mapping[int, tuple[str, Sequence[str], Sequence[str]]] = {
     5: ("_d5", (*SLIPS, "free"), ("0.1", "0.8", "rough")),
+    6: ("_d6", ("free",), ()),
     10: ("_d10", (*SLIPS, "free"), ("0.1", "0.8")),
     20: ("_d20", (*SLIPS, "free"), ("0.1", "0.8")),
     30: ("", (*SLIPS, "free"), tuple(FRICTIONS)),

@@ -1,39 +1,22 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Error against cost: changes of one choice, and the limit of size zero."""
+"""Error against cost: changes of one choice, and the best estimate of all sizes of cells."""
 
-import math
 from collections.abc import Sequence
 from pathlib import Path
 
 import matplotlib.pyplot as plt
-import numpy as np
 
 import cases
 from one_run import Found, Row
 
-from furrow_post.arrays import Floats
+from furrow_post.analyse.grid_convergence import Convergence, grid_convergence
 from furrow_post.figures.style import save
 
-Limits = dict[str, tuple[float, float]]  # quantity -> value at size zero, its uncertainty
-
-
-def extrapolated(sizes: Sequence[float], values: Floats) -> tuple[float, float]:
-    """Value at size zero, mean of the straight lines in h and in h^2, and its uncertainty.
-
-    Half their difference plus the scatter about both.
-    """
-    guesses, scatter = [], 0.0
-    for order in (1, 2):
-        powers = np.array(sizes) ** order
-        fit = np.polyfit(powers, values, 1)
-        guesses.append(float(fit[1]))
-        left = values - np.polyval(fit, powers)
-        scatter = max(scatter, math.sqrt((left**2).sum() / max(len(sizes) - 2, 1)))
-    return float(np.mean(guesses)), 0.5 * abs(guesses[1] - guesses[0]) + scatter
+Limits = dict[str, Convergence]  # of a quantity
 
 
 def error_table(found: Found) -> tuple[list[Row], Limits]:
-    """Each change of one choice beside the base; and size zero."""
+    """Each change of one choice beside the base; and what the sizes of cells come to."""
     base = found(cases.ERROR_BASE)
     if not base or base["error"]:
         return [], {}
@@ -48,8 +31,8 @@ def error_table(found: Found) -> tuple[list[Row], Limits]:
     limits = {}
     if len(grids) >= 3:
         for what in ("sinkage_m", "resistance"):
-            sizes, values = [r["cell_m"] for r in grids], np.array([r[what] for r in grids])
-            limits[what] = extrapolated(sizes, values)
+            sizes, values = [r["cell_m"] for r in grids], [r[what] for r in grids]
+            limits[what] = grid_convergence(sizes, values)
     return table, limits
 
 
@@ -60,14 +43,14 @@ def grid_series(table: Sequence[Row]) -> list[Row]:
 
 
 def draw_errors(table: Sequence[Row], limits: Limits, path: Path) -> None:
-    """Distance from size zero over cost, one point per size of cell."""
+    """Distance from the best estimate over cost, one point per size of cell."""
     grids = sorted(grid_series(table), key=lambda r: -float(r["cell_m"]))
     figure, panels = plt.subplots(1, 2, figsize=(10, 4.2), constrained_layout=True)
     for axes, what, label in (
         (panels[0], "sinkage_m", "sinkage"),
         (panels[1], "resistance", "resistance coefficient"),
     ):
-        limit, uncertain = limits[what]
+        limit, uncertain = limits[what].value, limits[what].error
         places = [(r["user_s"], abs(r[what] - limit) / limit) for r in grids]
         cost, error = zip(*places)
         axes.errorbar(cost, error, uncertain / limit, fmt="o-", capsize=3)
@@ -78,7 +61,7 @@ def draw_errors(table: Sequence[Row], limits: Limits, path: Path) -> None:
             xscale="log",
             xlabel="cost [core seconds]",
             ylabel=f"error of {label}, relative",
-            title=f"{label}: {limit:.3f} ± {uncertain:.3f} at size zero",
+            title=f"{label}: {limit:.3f} ± {uncertain:.3f}, best estimate",
             ylim=(0, None),
         )
         axes.grid(alpha=0.3, which="both")

@@ -314,8 +314,9 @@ def report(runner: Runner, output: Output) -> list[str]:
     print(f"measured h - z: {start:.4f} m + mass/({density:.0f} kg/m3), rms {off:.4f} m")
     changes, limits = error_study.error_table(found)
     output.table("error.csv", changes)
-    for what, (value, uncertain) in limits.items():
-        print(f"size zero: {what} {value:.4f} +- {uncertain:.4f}")
+    for what, series in limits.items():
+        way = series.reason or f"extrapolated, order {series.order:.2f}"
+        print(f"{what}: best estimate {series.value:.4f} ± {series.error:.4f} ({way})")
     if limits:
         error_study.draw_errors(changes, limits, output.path("error.png"))
     output.table("design.csv", design_table(found))

@@ -47,7 +47,7 @@ def reasons_of_pair(pair: Pair, run: Assessed, within: bool, error: float) -> li
 def pair_held(pair: Pair, error: float, coarse: WheelRun, fine: WheelRun) -> list[str]:
     """What two runs come to at size zero, and whether that and the cost are as expected."""
     one, other = _means(coarse), _means(fine)
-    values = {key: pair.at_size_zero(one[key], other[key]) for key in one}
+    values = {key: pair.at_size_zero(key, one[key], other[key]) for key in one}
     return _judged(pair, error, values, coarse.cpu_time + fine.cpu_time, " at size zero")
 
 
@@ -113,7 +113,7 @@ def _other_grounds(choice: Assessed, assessed: Sequence[Assessed], error: float)
 def held(choice: Assessed, error: float, run: WheelRun) -> list[str]:
     """Whether the run's values and its cost are what the table let expect, as sentences.
 
-    The values must lie within the wanted relative error of the table's value at size zero.
+    The values must lie within the wanted relative error of the table's best estimate.
     """
     return _judged(choice, error, _means(run), run.cpu_time)
 
@@ -141,7 +141,7 @@ def _judged(
         good &= ok
         lines.append(
             f"  {NAME_IN_RUN[key].replace('_', ' ')}{where}: {with_error(value, u)}, "
-            f"{100 * off:+.1f} % from the value at size zero ({reference:.4g}), "
+            f"{100 * off:+.1f} % from the best estimate ({reference:.4g}), "
             f"allowed {100 * allowed:.0f} %: {'held' if ok else 'NOT HELD'}"
         )
     if math.isfinite(spent) and choice.cpu_time > 0:

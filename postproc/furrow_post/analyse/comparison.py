@@ -17,7 +17,7 @@ from ..read.wheel_run import WheelRun
 from . import cost_table
 from .conditions import Difference, incomparable
 from .density import track_density
-from .entry import LIMIT, MEASURED, RUN, Entry, entries_of_run, formula_entries, limits_of_run
+from .entry import BEST, MEASURED, RUN, Entry, best_estimates, entries_of_run, formula_entries
 from .judgement import judge, summed_up
 from .measured import measured_entries
 from .prediction import Prediction
@@ -34,7 +34,7 @@ class Comparison:
     entries: list[Entry] = field(default_factory=list)
     differences: list[Difference] = field(default_factory=list)
     verdicts: list[Verdict] = field(default_factory=list)
-    at_size_zero: list[Verdict] = field(default_factory=list)  # on the runs' limits
+    best_estimates: list[Verdict] = field(default_factory=list)  # on those of the runs
     tracks: dict[str, tuple[float, float]] = field(default_factory=dict)  # density, error [kg/m3]
     remarks: list[str] = field(default_factory=list)  # what differs apart from the two quantities
 
@@ -82,7 +82,7 @@ def compare(
         if run.ground != "none":
             result.tracks[run.label] = track_density(run)
         result.entries += entries_of_run(run, known)
-        result.entries += limits_of_run(run, known)
+        result.entries += best_estimates(run, known)
     for prediction in formulas:
         result.entries += formula_entries(prediction)
     if measured:
@@ -90,8 +90,8 @@ def compare(
     for quantity in QUANTITIES:
         first, *others = result.of(quantity, RUN)
         result.verdicts += [judge(first, other) for other in others]
-        limits = result.of(quantity, LIMIT)
-        result.at_size_zero += [judge(limits[0], other) for other in limits[1:]]
+        estimates = result.of(quantity, BEST)
+        result.best_estimates += [judge(estimates[0], other) for other in estimates[1:]]
         for reference in result.of(quantity, MEASURED):
             result.verdicts += [judge(reference, run) for run in (first, *others)]
     result.remarks = remarks(result)
@@ -140,7 +140,7 @@ def overall(result: Comparison) -> str:
     return verdict
 
 
-def overall_at_size_zero(result: Comparison) -> str:
-    """The same of the runs' limits; empty where fewer than two are known."""
-    among = result.at_size_zero
-    return f"At {LIMIT}: {summed_up(among, 'runs')}" if among else ""
+def overall_of_best_estimates(result: Comparison) -> str:
+    """The same of the runs' best estimates; empty where fewer than two are known."""
+    among = result.best_estimates
+    return f"{BEST.capitalize()}: {summed_up(among, 'runs')}" if among else ""

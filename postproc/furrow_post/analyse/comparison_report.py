@@ -10,7 +10,7 @@ import h5py
 import numpy as np
 
 from ..formatting import duration, in_unit, with_error
-from .comparison import Comparison, overall, overall_at_size_zero
+from .comparison import Comparison, overall, overall_of_best_estimates
 from .cost_table import Components
 from .density import sections
 from .entry import RUN, Entry
@@ -107,15 +107,15 @@ def comparison_report(result: Comparison) -> str:
         lines += ["", "COMPARED ALTHOUGH CONDITIONS DIFFER"]
         lines += [f"  {d.condition}: {d.text}" for d in result.differences]
     lines += ["", "Verdict", "  " + overall(result)]
-    if result.at_size_zero:
-        lines.append("  " + overall_at_size_zero(result))
+    if result.best_estimates:
+        lines.append("  " + overall_of_best_estimates(result))
     lines += [f"  - {sentence}" for sentence in findings(result)]
     return "\n".join(lines)
 
 
 def findings(result: Comparison) -> list[str]:
     """The sentences of all verdicts, then the remarks."""
-    sentences = [v.sentence for v in (*result.verdicts, *result.at_size_zero)]
+    sentences = [v.sentence for v in (*result.verdicts, *result.best_estimates)]
     return sentences + [f"also: {text}" for text in result.remarks]
 
 

@@ -41,8 +41,9 @@ class Assessed(HasErrors):
     row: Row
     errors: ByQuantity  # relative, NaN: not known
     parts: dict[str, Components]  # in the quantity's unit
-    references: ByQuantity  # values at size zero of the wanted wheel
+    references: ByQuantity  # best estimates of the wanted wheel
     reference_errors: ByQuantity  # their standard errors, of standing in too
+    orders: ByQuantity  # of the family's extrapolation to zero size; NaN where there is none
     models: ByQuantity  # relative error of standing in for the wanted wheel; 0: it is that
     pareto: bool = False  # nothing is cheaper and better
 
@@ -62,10 +63,10 @@ def elements_name(ground: str) -> str:
 
 
 def assess(rows: Sequence[Row], wheel: str = "") -> list[Assessed]:
-    """Every base run of every family with its error against size zero of its own family.
+    """Every base run of every family with its error against the best estimate of its own family.
 
     wheel: the one that is wanted. A run of another wheel errs by the difference of the two
-    families' values at size zero on its ground too.
+    families' best estimates on its ground too.
     """
     families = cost_table.families(rows)
     found = []
@@ -89,21 +90,24 @@ def assess(rows: Sequence[Row], wheel: str = "") -> list[Assessed]:
 
 def _assess_run(row: Row, family: cost_table.Family, target: cost_table.Family | None) -> Assessed:
     """target: the family of the wanted wheel, None where the table has none."""
-    result = Assessed(row, {}, {}, {}, {}, {})
+    result = Assessed(row, {}, {}, {}, {}, {}, {})
     for key in QUANTITY_KEYS:
         component = family.components(key, row.size, row.value(key)[1])
         own, own_error = family.reference(key)
         reference, reference_error = target.reference(key) if target else (own, math.nan)
+        series = family.convergence(key)
+        result.orders[key] = series.used_order if series else math.nan
         result.models[key] = abs(own - reference) / abs(reference)
         if target is not family:
             reference_error = math.hypot(reference_error, own_error)
         result.parts[key], result.references[key] = component, reference
         result.reference_errors[key] = reference_error
-        # A value at size zero that noise leaves open by more than half of it says nothing of errors
+        # A best estimate that is open by more than half of it says nothing of errors
         resolved = math.isfinite(component.size) and reference_error < 0.5 * abs(reference)
         total = math.nan
         if resolved:
-            total = math.hypot(component.total, reference_error, own - reference)
+            other_wheel = reference_error if target is not family else 0.0  # own: in the component
+            total = math.hypot(component.total, other_wheel, own - reference)
         result.errors[key] = total / abs(reference)
     return result
 
@@ -225,12 +229,11 @@ def cost_report(assessed: Sequence[Assessed], error: float) -> str:
         [
             *lines,
             "",
-            "Errors are numerical: time average, size (against the value at size zero of the same "
-            "ground, first order), domain and packing",
+            "Errors are numerical: time average, size (against the best estimate of the same ground, "
+            "grid convergence index), domain and packing",
             "where the table has runs for them. They do not hold what the law or the grains' "
             "contact lack. * nothing is cheaper and better,",
-            "? the value at size zero is lost in the noise of the time averages, or there is one "
-            "size only.",
+            "? the best estimate is open by more than half of it, or there is one size only.",
             "",
             *advice(assessed, error),
         ]

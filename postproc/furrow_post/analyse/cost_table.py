@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Runs of one scene in a table: what each gave, its discretisation and cost; and their errors.
 
-A family is one ground, whole or half model, one kind of wheel. Within a family the value at size h
-is taken as f0 + C h (first order in the size of cells or grains), fitted by least squares to the
-runs that differ in size and packing: f0 is the value at size zero, |f - f0| the error of the size.
-Runs in another domain or with another packing (seed) give those two components beside runs of the
-same size: of a domain the mean difference, of packings the standard deviation of one run.
+A family is one ground, whole or half model, one kind of wheel. Its runs that differ in size and
+packing give the best estimate of each quantity and the error of each size (grid_convergence.py):
+extrapolated to zero size where the series allows it, else the value of the finest size. Runs in
+another domain or with another packing (seed) give those two components beside runs of the same size:
+of a domain the mean difference, of packings the standard deviation of one run.
 """
 
 import csv
@@ -19,7 +19,14 @@ from typing import Any, ClassVar, NamedTuple
 from ..csv_table import read_comments, read_rows
 from ..errors import ResultsError, content_of
 from ..read.wheel_run import WheelRun
-from .size_line import Fit, fit_line, mean_shift, noise_of, pooled_scatter, same_size
+from .grid_convergence import (
+    Convergence,
+    grid_convergence,
+    mean_shift,
+    noise_of,
+    pooled_scatter,
+    same_size,
+)
 from .statistics import commonest
 from .verdict import QUANTITIES
 
@@ -180,31 +187,36 @@ class Family:
         self.seed = commonest([r.seed for r in rows])
         bases = [r for r in rows if r.domain == self.domain and r.seed == self.seed]
         self.bases = sorted(bases, key=lambda r: -r.size)  # the finest last
+        self._series: dict[str, Convergence | None] = {}
 
     @property
     def key(self) -> FamilyKey:
         return self.rows[0].family
 
     @property
-    def rows_of_line(self) -> list[Row]:
+    def rows_of_series(self) -> list[Row]:
         """Of all sizes and packings in the common domain."""
         return [row for row in self.rows if row.domain == self.domain]
 
-    def fit(self, key: str) -> Fit | None:
-        """None with fewer than two sizes. Two sizes: the error is that of times and packings."""
-        if len({row.size for row in self.bases}) < 2:
-            return None
-        rows = self.rows_of_line
+    def convergence(self, key: str) -> Convergence | None:
+        """None with fewer than two sizes."""
+        if key not in self._series:
+            several = len({row.size for row in self.bases}) > 1
+            self._series[key] = self._converged(key) if several else None
+        return self._series[key]
+
+    def _converged(self, key: str) -> Convergence:
+        rows = self.rows_of_series
         packing = self.packing(key)
         values, errors = zip(*(row.value(key) for row in rows))
         noise = [noise_of(f, u, packing) for f, u in zip(values, errors)]
-        return fit_line([row.size for row in rows], values, noise)
+        return grid_convergence([row.size for row in rows], values, noise)
 
     def reference(self, key: str) -> tuple[float, float]:
-        """Value at size zero with its error; of one size the finest run, whose error is NaN."""
-        fit = self.fit(key)
-        if fit:
-            return fit.at_zero, fit.at_zero_error
+        """The best estimate with its error; of one size the finest run, whose error is NaN."""
+        series = self.convergence(key)
+        if series:
+            return series.value, series.error
         return self.bases[-1].value(key)[0], math.nan
 
     def packing(self, key: str) -> float:
@@ -232,21 +244,23 @@ class Family:
     def components(self, key: str, size: float, time_error: float = math.nan) -> Components:
         """Parts of the error of a run of this size [m].
 
-        That of the size is the line's, |C| h, or more where the table has a run of this size that
-        lies further from the value at size zero than by its noise: no line goes through all runs.
+        That of the size is its distance from the best estimate and the error of that, or more
+        where the table has a run of this size that lies further off than by its noise.
         """
-        fit = self.fit(key)
-        of_size = max(abs(fit.slope) * size, self._beyond_noise(key, size, fit)) if fit else math.nan
+        series = self.convergence(key)
+        of_size = math.nan
+        if series:
+            of_size = max(series.size_error(size), self._beyond_noise(key, size, series.value))
         return Components(time_error, of_size, self.domain_error(key), self.packing(key))
 
-    def _beyond_noise(self, key: str, size: float, fit: Fit) -> float:
-        """How far the base of this size is from the value at size zero, less what noise explains."""
+    def _beyond_noise(self, key: str, size: float, best: float) -> float:
+        """How far the base of this size is from the best estimate, less what noise explains."""
         packing = self.packing(key)
         scatter = packing if math.isfinite(packing) else 0.0
         beyond = [0.0]
         for value, time_error in (row.value(key) for row in self._bases_of(size)):
             noise = math.hypot(time_error, scatter)
-            beyond.append((value - fit.at_zero) ** 2 - noise**2)
+            beyond.append((value - best) ** 2 - noise**2)
         return math.sqrt(max(beyond))
 
     def _bases_of(self, size: float) -> list[Row]:
@@ -254,26 +268,24 @@ class Family:
 
     def _values_of(self, key: str, size: float) -> list[float]:
         """Of all packings of this size in the common domain."""
-        return [row.value(key)[0] for row in self.rows_of_line if same_size(row.size, size)]
+        return [row.value(key)[0] for row in self.rows_of_series if same_size(row.size, size)]
 
-    def at_size_zero(
+    def best_estimate(
         self, key: str, size: float, value: float, time_error: float
     ) -> tuple[float, Components] | None:
         """What a run of this size [m] and value comes to, with the parts of its error.
 
-        A run of the table comes to the family's value at size zero, whose error is that of the line
-        through all runs, times and packings included. Another, which may have another load or
-        speed, goes along the family's slope, f - C h: the error of the size is the slope's standard
-        error times h. None with fewer than two sizes.
+        A run of the table comes to the family's best estimate, whose error has those of times and
+        packings in it. Another, which may have another load or speed, moves by as much as the
+        family does from this size. None with fewer than two sizes.
         """
-        fit = self.fit(key)
-        if fit is None:
+        series = self.convergence(key)
+        if series is None:
             return None
         if any(math.isclose(row.value(key)[0], value, rel_tol=1e-5) for row in self._bases_of(size)):
-            parts = Components(0.0, fit.at_zero_error, self.domain_error(key), 0.0)
-            return fit.at_zero, parts
+            return series.value, Components(0.0, series.error, self.domain_error(key), 0.0)
         parts = self.components(key, size, time_error)
-        return value - fit.slope * size, replace(parts, size=fit.slope_error * size)
+        return value - (series.at(size) - series.value), replace(parts, size=series.error)
 
 
 def families(rows: Iterable[Row]) -> dict[FamilyKey, Family]:

@@ -21,7 +21,7 @@ from ..errors import ResultsError, content_of
 from ..formatting import percent
 from ..read.laboratory import LaboratoryTest, PointRun, cell_curve
 from .cost_table import Components
-from .entry import LIMIT, RUN, Entry
+from .entry import BEST, RUN, Entry
 from .statistics import commonest, rms
 from .verdict import Quantity
 

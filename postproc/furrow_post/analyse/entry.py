@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Values that are compared: of runs, of runs at size zero, of formulas; each with its uncertainty.
+"""Values that are compared: of runs, best estimates, of formulas; each with its uncertainty.
 
 Uncertainties are standard deviations: of the time average from the run itself; of the size of
 elements or grains, of the domain and of the packing from a table of runs of the scene
-(cost_table.py), which also gives what each run comes to at size zero.
+(cost_table.py), which also gives the best estimate that each run comes to.
 """
 
 import math
@@ -16,8 +16,8 @@ from .cost_table import Components, Family, FamilyKey
 from .prediction import Prediction
 from .verdict import QUANTITIES, Quantity
 
-# Kinds of entries; LIMIT: what a run comes to at size zero
-RUN, LIMIT, FORMULA, MEASURED = "run", "size zero", "formula", "measured"
+# Kinds of entries; BEST: what a run comes to by the sizes of its family (grid_convergence.py)
+RUN, BEST, FORMULA, MEASURED = "run", "best estimate", "formula", "measured"
 NAME_IN_RUN = {"sinkage": "hub_drop", "coefficient": "resistance_coefficient"}
 
 
@@ -29,19 +29,19 @@ class Entry:
     source: str  # label of a run, name of a formula, "measured"
     value: float
     parts: Components
-    kind: str  # RUN, LIMIT, FORMULA, MEASURED
+    kind: str  # RUN, BEST, FORMULA, MEASURED
     note: str = ""
     cpu_time: float = math.nan
 
     @property
     def label(self) -> str:
-        """The source, "grains at size zero" for a limit."""
-        return f"{self.source} at {LIMIT}" if self.kind == LIMIT else self.source
+        """The source, "grains, best estimate" of one."""
+        return f"{self.source}, {BEST}" if self.kind == BEST else self.source
 
     @property
     def of_run(self) -> bool:
         """Whether its uncertainty has the parts of a run's."""
-        return self.kind in (RUN, LIMIT)
+        return self.kind in (RUN, BEST)
 
     @property
     def uncertainty(self) -> float:
@@ -75,18 +75,18 @@ def entries_of_run(run: WheelRun, families: Mapping[FamilyKey, Family]) -> list[
     return entries
 
 
-def limits_of_run(run: WheelRun, families: Mapping[FamilyKey, Family]) -> list[Entry]:
-    """Each quantity at size zero, as far as a table's families have more than one size."""
+def best_estimates(run: WheelRun, families: Mapping[FamilyKey, Family]) -> list[Entry]:
+    """Of each quantity, as far as a table's families have more than one size."""
     entries = []
     family = families.get(FamilyKey(run.ground, run.model, run.wheel))
     for quantity in QUANTITIES:
         steady = run.values[NAME_IN_RUN[quantity.key]]
-        limit = family and family.at_size_zero(
+        best = family and family.best_estimate(
             quantity.key, run.size, steady.mean, steady.standard_error
         )
-        if limit:
-            value, parts = limit
-            entries.append(Entry(quantity, run.label, value, parts, LIMIT))
+        if best:
+            value, parts = best
+            entries.append(Entry(quantity, run.label, value, parts, BEST))
     return entries
 
 

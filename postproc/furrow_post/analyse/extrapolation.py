@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Two runs of one family, extrapolated to size zero: often cheaper than one fine run.
 
-First order, as cost_table.py: with sizes h1 > h2,
+With the order p of their family, which at least three sizes have shown (grid_convergence.py), and
+sizes h1 > h2,
 
-    f0 = (h1 f2 - h2 f1)/(h1 - h2),
+    f0 = (h1^p f2 - h2^p f1)/(h1^p - h2^p),
 
-so that independent errors u of the two runs count as hypot(h1 u2, h2 u1)/(h1 - h2): more than one
-run's. The error of f0 is its distance from the value at size zero of the whole family, with the
+so that independent errors u of the two runs count as hypot(h1^p u2, h2^p u1)/(h1^p - h2^p): more
+than one run's. The error of f0 is its distance from the best estimate of the whole family, with the
 error of that, of time averages and packings so enlarged, and of the domain, which both share.
 """
 
@@ -38,7 +39,7 @@ class Pair(HasErrors):
 
     @property
     def references(self) -> ByQuantity:
-        """Values at size zero of the family."""
+        """Best estimates of the family."""
         return self.fine.references
 
     def describe(self) -> str:
@@ -49,20 +50,23 @@ class Pair(HasErrors):
         )
 
     def at_size_zero(
-        self, coarse: tuple[float, float], fine: tuple[float, float]
+        self, key: str, coarse: tuple[float, float], fine: tuple[float, float]
     ) -> tuple[float, float]:
         """Value and standard error at size zero; coarse, fine: value and standard error of each."""
-        h1, h2 = self.coarse.row.size, self.fine.row.size
+        order = self.fine.orders[key]
+        h1, h2 = self.coarse.row.size**order, self.fine.row.size**order
         (f1, u1), (f2, u2) = coarse, fine
         return (h1 * f2 - h2 * f1) / (h1 - h2), math.hypot(h1 * u2, h2 * u1) / (h1 - h2)
 
 
 def pairs(assessed: Sequence[Assessed]) -> Iterator[Pair]:
-    """Of runs of one family that is the wanted wheel's, with different sizes."""
+    """Of runs of one family that is the wanted wheel's, with different sizes and known orders."""
     for one, other in itertools.combinations(assessed, 2):
         fine, coarse = sorted((one, other), key=lambda a: a.row.size)
         stands_in = any(model > 0 for model in fine.models.values())
-        if one.row.family != other.row.family or coarse.row.size <= fine.row.size or stands_in:
+        same = one.row.family == other.row.family and coarse.row.size > fine.row.size
+        known = all(math.isfinite(order) for order in fine.orders.values())
+        if not same or stands_in or not known:
             continue
         yield _assessed_pair(coarse, fine)
 
@@ -71,8 +75,8 @@ def _assessed_pair(coarse: Assessed, fine: Assessed) -> Pair:
     pair = Pair(coarse, fine, {})
     for key in QUANTITY_KEYS:
         reference, parts = fine.references[key], fine.parts[key]
-        value, time_error = pair.at_size_zero(coarse.row.value(key), fine.row.value(key))
-        _, packing_error = pair.at_size_zero((0.0, parts.packing), (0.0, parts.packing))
+        value, time_error = pair.at_size_zero(key, coarse.row.value(key), fine.row.value(key))
+        _, packing_error = pair.at_size_zero(key, (0.0, parts.packing), (0.0, parts.packing))
         # what is not known counts as in Components.total
         known = [e for e in (packing_error, parts.domain) if math.isfinite(e)]
         total = math.hypot(value - reference, fine.reference_errors[key], time_error, *known)

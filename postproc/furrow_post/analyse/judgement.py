@@ -8,16 +8,16 @@ their uncertainties; what is not known of these is named, not taken as zero.
 import math
 from collections.abc import Sequence
 
-from .entry import LIMIT, MEASURED, Entry
+from .entry import BEST, MEASURED, Entry
 from .verdict import COVERAGE, Agreement, Verdict, joined, quantities_with
 
-VAGUE = 0.3  # beyond this part of the value, agreement says nothing
+VAGUE = 0.25  # beyond this part of the value, agreement says nothing
 
 
 def judge(a: Entry, b: Entry) -> Verdict:
     """The verdict on two entries of a quantity."""
     quantity = a.quantity
-    name = f"{quantity.name} at {LIMIT}" if a.kind == LIMIT else quantity.name
+    name = f"{quantity.name}, {BEST}" if a.kind == BEST else quantity.name
     measured = MEASURED in (a.kind, b.kind)
     difference = b.value - a.value
     relative = f"{100 * difference / a.value:+.0f} %" if a.value else ""

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Which runs bring the error of a scene's value at size zero down to a goal most cheaply.
+"""Which runs bring the error of a scene's value at zero size down to a goal most cheaply.
 
-The value at size zero is that of the line f0 + C h through a family's runs (cost_table.py). What
-its error will be when runs are added follows from their sizes and scatters alone, before they are
-made:
+That value is f0 of the curve f0 + a h^p through a family's runs (grid_convergence.py), which must
+have shown their order p. What its error will be when runs are added follows from their sizes and
+scatters alone, before they are made:
 
-    var f0 = s [(X^T W X)^-1]_00,  W = diag(1/(u_time^2 + u_packing^2)),  X = (1, h)
+    var f0 = s [(X^T W X)^-1]_00 + (g a h_min^p)^2,  W = diag(1/(u_time^2 + u_packing^2)),
+    X = (1, h^p, a h^p ln h)
 
-with s, not below 1, the scatter of the present runs about the line over what their errors allow.
-The error of the domain is added in squares; no run of the plan lowers it. Runs are chosen one after
+with s, not below 1, the scatter of the present runs about the curve over what their errors allow,
+and g half of the safety factor of the grid convergence index. The error of the domain is added in
+squares; no run of the plan lowers it. Runs are chosen one after
 the other, each that which lowers the sum over both quantities of ln(error/goal), where that is
 above 0, most for its time.
 """
@@ -24,7 +26,7 @@ from ..errors import ResultsError
 from ..formatting import duration
 from .cost import ByQuantity, elements_name
 from .cost_table import QUANTITY_KEYS, Family, Row
-from .size_line import Fit, line_covariance, noise_of
+from .grid_convergence import COVERAGE, SAFE, Convergence, noise_of, zero_variance
 from .verdict import QUANTITIES, Quantity
 
 LONGER = 4.0  # times the length: half of the time average's error
@@ -34,7 +36,7 @@ MOST_STEPS = 20
 
 @dataclass(frozen=True)
 class Point:
-    """A run on the line, made or planned: its size [m], time averages' errors, cost [s]."""
+    """A run on the curve, made or planned: its size [m], time averages' errors, cost [s]."""
 
     name: str
     size: float
@@ -44,7 +46,7 @@ class Point:
 
 
 class Step(NamedTuple):
-    """A run to make, and what the errors at size zero will then be."""
+    """A run to make, and what the errors at zero size will then be."""
 
     action: str
     cpu_time: float  # [s] of one core
@@ -56,7 +58,7 @@ class Plan:
     """Of one family: errors now, steps in their order, what must be learnt before all of them."""
 
     family: Family
-    values: ByQuantity  # at size zero
+    values: ByQuantity  # at zero size
     goals: ByQuantity  # in the quantity's unit
     present: ByQuantity
     unknown: list[str]
@@ -77,8 +79,8 @@ class Plan:
         return sum(step.cpu_time for step in self.steps)
 
 
-class _Line:
-    """What is known of a family's line: its fit, scatter of packings, domain."""
+class _Series:
+    """What is known of a family's sizes: the curve, scatter of packings, domain."""
 
     def __init__(self, family: Family) -> None:
         self.points = [
@@ -88,60 +90,66 @@ class _Line:
                 tuple(row.value(key)[1] for key in QUANTITY_KEYS),
                 row.cpu_time,
             )
-            for row in family.rows_of_line
+            for row in family.rows_of_series
         ]
-        fits = {key: family.fit(key) for key in QUANTITY_KEYS}
-        self._fits: dict[str, Fit] = {key: fit for key, fit in fits.items() if fit}
+        self._curves = {key: _known(family, key) for key in QUANTITY_KEYS}
         self._packing = {key: family.packing(key) for key in QUANTITY_KEYS}
         domains = {key: family.domain_error(key) for key in QUANTITY_KEYS}
         self._domain = {key: u if math.isfinite(u) else 0.0 for key, u in domains.items()}
 
     def value(self, key: str) -> float:
-        return self._fits[key].at_zero
+        return self._curves[key].value
 
     def errors(self, points: Sequence[Point]) -> ByQuantity:
-        """At size zero, of these runs."""
+        """At zero size, of these runs."""
         sizes = [p.size for p in points]
         found = {}
         for index, key in enumerate(QUANTITY_KEYS):
-            fit, packing = self._fits[key], self._packing[key]
-            noise = [noise_of(fit.at(p.size), p.errors[index], packing) for p in points]
-            variance = fit.spread * line_covariance(sizes, noise)[0, 0]
-            found[key] = math.hypot(math.sqrt(variance), self._domain[key])
+            curve, packing = self._curves[key], self._packing[key]
+            noise = [noise_of(curve.at(p.size), p.errors[index], packing) for p in points]
+            variance = curve.spread * zero_variance(sizes, noise, curve.used_order, curve.slope)
+            of_size = SAFE / COVERAGE * abs(curve.at(min(sizes)) - curve.value)
+            found[key] = math.hypot(math.sqrt(variance), of_size, self._domain[key])
         return found
+
+
+def _known(family: Family, key: str) -> Convergence:
+    """@raises ResultsError where the sizes do not extrapolate"""
+    series = family.convergence(key)
+    reason = series.reason if series else "only one size"
+    if series is None or reason:
+        raise ResultsError(
+            f"{' '.join(family.key)}, {key}: {reason}, so that no value at zero size is known; add a "
+            f"run with finer {elements_name(family.key.ground)}, or longer runs"
+        )
+    return series
 
 
 def plan(family: Family, relative: ByQuantity, absolute: ByQuantity) -> Plan:
     """The cheapest way to the goals, run by run.
 
-    relative: goals over the value at size zero; absolute: in the quantity's unit; of either the
-    larger. @raises ResultsError where the family has one size only
+    relative: goals over the value at zero size; absolute: in the quantity's unit; of either the
+    larger. @raises ResultsError where the family's sizes do not extrapolate
     """
-    if len({row.size for row in family.bases}) < 2:
-        ground = family.key.ground
-        raise ResultsError(
-            f"{' '.join(family.key)}: has one size of {elements_name(ground)} only, so that no "
-            "error at size zero is known; add a run of another size"
-        )
-    line = _Line(family)
+    series = _Series(family)
     goals = {
-        key: max(absolute.get(key, 0.0), relative.get(key, 0.0) * abs(line.value(key)))
+        key: max(absolute.get(key, 0.0), relative.get(key, 0.0) * abs(series.value(key)))
         for key in QUANTITY_KEYS
     }
-    points = list(line.points)
+    points = list(series.points)
     steps: list[Step] = []
-    errors = present = line.errors(points)
+    errors = present = series.errors(points)
     while _missing(errors, goals) > 0 and len(steps) < MOST_STEPS:
         action, cpu_time, more = max(
             _candidates(family, points),
-            key=lambda c: (_missing(errors, goals) - _missing(line.errors(c[2]), goals)) / c[1],
+            key=lambda c: (_missing(errors, goals) - _missing(series.errors(c[2]), goals)) / c[1],
         )
-        after = line.errors(more)
+        after = series.errors(more)
         if _missing(after, goals) >= _missing(errors, goals) * (1 - 1e-9):
             break
         steps.append(Step(action, cpu_time, after))
         errors, points = after, more
-    values = {key: line.value(key) for key in QUANTITY_KEYS}
+    values = {key: series.value(key) for key in QUANTITY_KEYS}
     return Plan(family, values, goals, present, _unknown(family), steps, points)
 
 
@@ -221,7 +229,7 @@ def plan_report(made: Plan) -> str:
     values = ", ".join(_with_unit(q, made.values[q.key], ".4g", q.key) for q in QUANTITIES)
     heads = "  ".join(f"{'± ' + q.key:>13}" for q in QUANTITIES)
     lines = [
-        f"{' '.join(made.family.key)}, at size zero: {values}",
+        f"{' '.join(made.family.key)}, at zero size: {values}",
         f"  {'':{wide}} {'runs':>5} {'cost':>9}  {heads}",
         _line_of("as it stands", wide, made.present),
     ]

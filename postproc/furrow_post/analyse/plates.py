@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Pressure under a plate at one sinkage, with its error from runs of other sizes, packings, boxes.
 
-As of wheels (cost_table.py), on the logarithm: ln p = ln p0 + C h.
+As of wheels (cost_table.py), on the logarithm of the pressure.
 """
 
 import math
@@ -11,8 +11,8 @@ import numpy as np
 
 from .cost_table import Components
 from .curves import Curve
-from .entry import LIMIT, RUN, Entry
-from .size_line import fit_line, mean_shift, noise_of, pooled_scatter, same_size
+from .entry import BEST, RUN, Entry
+from .grid_convergence import grid_convergence, mean_shift, noise_of, pooled_scatter, same_size
 from .verdict import Quantity
 
 
@@ -57,8 +57,8 @@ class PlateFamily:
         return mean_shift((log, self.of_size(curve.size)) for curve, log in wider)
 
     def entries(self, quantity: Quantity) -> list[Entry]:
-        """Of the base, and at size zero where there are runs of two sizes: there the error of the
-        line through all runs has that of noise and packings in it. Empty where the base has none.
+        """Of the base, and the best estimate where there are runs of two sizes: its error has that
+        of noise and packings in it. Empty where the base has no value.
         """
         log = next((log for curve, log in self.logs if curve is self.base), math.nan)
         if not math.isfinite(log):
@@ -67,22 +67,22 @@ class PlateFamily:
         runs = self.in_box()
         sizes = [curve.size for curve, _ in runs]
         size = math.nan
-        limits = []
+        best = []
         if not all(same_size(size, self.base.size) for size in sizes):
             # errors of ln p are relative: those of a value of 1
             noise = [noise_of(1.0, self.noise[id(curve)], packing) for curve, _ in runs]
-            fit = fit_line(sizes, [log for _, log in runs], noise)
-            size = abs(fit.slope) * self.base.size
-            zero = math.exp(fit.at_zero)
-            parts = Components(0.0, zero * fit.at_zero_error, zero * domain, 0.0)
-            limits = [Entry(quantity, self.base.label, zero, parts, LIMIT)]
+            series = grid_convergence(sizes, [log for _, log in runs], noise)
+            size = series.size_error(self.base.size)
+            estimate = math.exp(series.value)
+            parts = Components(0.0, estimate * series.error, estimate * domain, 0.0)
+            best = [Entry(quantity, self.base.label, estimate, parts, BEST)]
         relative = (self.noise[id(self.base)], size, domain, packing)
         parts = Components(*(value * error for error in relative))
-        return [Entry(quantity, self.base.label, value, parts, RUN), *limits]
+        return [Entry(quantity, self.base.label, value, parts, RUN), *best]
 
 
 def plate_entries(base: Curve, checks: Sequence[Curve], sinkage: float) -> list[Entry]:
-    """A plate's pressure at this sinkage [m], and at size zero where checks have other sizes.
+    """A plate's pressure at this sinkage [m], and the best estimate where checks have other sizes.
 
     checks are curves of the same test with another size (facts cell or diameter), packing or box.
     """

@@ -46,15 +46,6 @@ def line_fit(x: Floats, y: Floats) -> tuple[float, float, Floats]:
     return slope, intercept, variance * np.linalg.inv(design.T @ design)
 
 
-def at_size_zero(fine: tuple[float, float], finer: tuple[float, float]) -> tuple[float, float]:
-    """Value at size zero from two (size, value): that of an error of second order, and how far that
-    of an error of first order lies from it."""
-    (h1, f1), (h2, f2) = fine, finer
-    second = f2 + (f2 - f1) * h2**2 / (h1**2 - h2**2)
-    first = f2 + (f2 - f1) * h2 / (h1 - h2)
-    return second, abs(first - second)
-
-
 def moving_mean(values: Floats, window: int) -> Floats:
     """Means over a window of entries, which is cut off at both ends."""
     ones = np.ones(window)

@@ -15,7 +15,7 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     "flow": ("results/a results/b",),
     "cost": ("coarse=results/a fine=results/b", "inputs/costs/wheel_on_snow.csv"),
     "plan": ("inputs/costs/wheel_on_snow.csv --sinkage 3% --coefficient 0.01",),
-    "study": ("--pages", "--pages --check"),
+    "study": ("", "snow_oedometer", "snow_plate fresh_fine --results results/plate", "--pages --check"),
     "choose": ("inputs/costs/wheel_on_snow.csv --error 10%",),
     "variables": ("inputs/scenes/wheel_on_snow.lig",),
     "sweep": ("results/sweep", "continuum=results/a grains=results/b -o results/both"),

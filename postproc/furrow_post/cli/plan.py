@@ -6,6 +6,7 @@ import argparse
 from ..analyse.cost_table import families, read_table
 from ..analyse.plan import family_of, plan, plan_report
 from ..arguments import fraction, path, positive
+from ..errors import ResultsError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -14,7 +15,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--sinkage",
         type=fraction,
         default=0.03,
-        help="goal: uncertainty over the value at size zero (default 3%%)",
+        help="goal: uncertainty over the value at zero size (default 3%%)",
     )
     parser.add_argument(
         "--coefficient",
@@ -31,7 +32,15 @@ def run(arguments: argparse.Namespace) -> None:
     rows, _ = read_table(arguments.table)
     chosen = family_of(list(families(rows).values()), arguments.ground)
     relative, absolute = {"sinkage": arguments.sinkage}, {"coefficient": arguments.coefficient}
-    print("\n\n".join(plan_report(plan(family, relative, absolute)) for family in chosen))
+    reports, refused = [], []
+    for family in chosen:
+        try:
+            reports.append(plan_report(plan(family, relative, absolute)))
+        except ResultsError as error:
+            refused.append(str(error))
+    if not reports:
+        raise ResultsError("\n".join(refused))
+    print("\n\n".join([*reports, *refused]))
     print(
         "\nUncertainties are numerical, one standard deviation. A packing's scatter and the order "
         "of the size are taken from the table:\nmake the first runs, write them into the table "

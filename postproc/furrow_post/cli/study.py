@@ -1,30 +1,112 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""furrow-post study: experiments.csv, and the values of studies in pages."""
+"""furrow-post study: makes studies, repeats them, writes experiments.csv and the values in pages."""
 
 import argparse
+import subprocess
+import sys
+from collections.abc import Sequence
 from pathlib import Path
 
+from ..arguments import at_least, path, words
 from ..errors import ResultsError
+from ..formatting import duration
 from ..study import pages
-from ..study.experiments import experiments_text, path_of
+from ..study.definition import load_study
+from ..study.experiments import counts, experiments_text, path_of
 from ..study.launch import project_root
-from ..study.values import Registry
+from ..study.repeat import known_cost, missed
+from ..study.study import add_study_arguments, carry_out
+from ..study.values import DEFINITION, Registry, load_yaml, values_of
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "--pages",
-        action="store_true",
-        help="write inputs/validation/experiments.csv and the values that pages name",
+        "study", nargs="?", type=words, help="folder of a study.yaml, or its name; default: list them"
+    )
+    add_study_arguments(parser)
+    parser.add_argument(
+        "--whole", action="store_true", help="with --check: all runs, not those of seconds alone"
     )
     parser.add_argument(
-        "--check", action="store_true", help="with --pages: write nothing, fail where a value is another"
+        "--pages",
+        action="store_true",
+        help="write inputs/validation/experiments.csv and the values that pages name; with --check "
+        "write nothing, fail where a value is another",
     )
 
 
 def run(arguments: argparse.Namespace) -> None:
+    root = project_root(Path.cwd() / "inputs")
     if arguments.pages:
-        write_pages(project_root(Path.cwd() / "inputs"), arguments.check)
+        write_pages(root, arguments.check)
+    elif arguments.study is None:
+        list_studies(root)
+    else:
+        folder = folder_of(root, arguments.study)
+        status = make(folder, arguments)
+        if arguments.check:
+            status += repeated(folder, arguments)
+        if status:
+            raise SystemExit(1)
+
+
+def study_folders(root: Path) -> list[Path]:
+    """Of all studies that have runs."""
+    inputs = root / "inputs"
+    found = {file.parent for file in inputs.rglob(DEFINITION) if "runs" in load_yaml(file)}
+    return sorted(found | {file.parent for file in inputs.glob("validation/*/run.py")})
+
+
+def folder_of(root: Path, name: str) -> Path:
+    """@raises ResultsError where there is no such study"""
+    given = Path(name).resolve()
+    known = study_folders(root)
+    for folder in known:
+        if folder.name == name or folder == given:
+            return folder
+    raise ResultsError(
+        f"there is no study '{name}'; there are {', '.join(folder.name for folder in known)}"
+    )
+
+
+def make(folder: Path, arguments: argparse.Namespace) -> int:
+    """Makes the runs that are missing and evaluates them; the exit status."""
+    if arguments.check and arguments.whole:
+        arguments.names = ["*"]
+    driver = folder / "run.py"
+    if driver.is_file():
+        return subprocess.run([sys.executable, driver, *_options(arguments)]).returncode
+    return carry_out(load_study(folder), arguments)
+
+
+def _options(arguments: argparse.Namespace) -> list[str]:
+    """Of a driver."""
+    flags = [f"--{name}" for name in ("list", "evaluate", "again", "check") if getattr(arguments, name)]
+    values = [
+        word
+        for name in ("jobs", "results", "build")
+        if (value := getattr(arguments, name)) is not None
+        for word in (f"--{name}", str(value))
+    ]
+    return [*arguments.names, *flags, *values]
+
+
+def repeated(folder: Path, arguments: argparse.Namespace) -> int:
+    """The number of values that the runs in the results folder have otherwise than stored."""
+    if not arguments.results:
+        raise ResultsError("--check needs --results, the folder of its runs and tables")
+    values = values_of(folder) if (folder / DEFINITION).is_file() else []
+    sentences = list(missed(values, arguments.results, arguments.whole))
+    for sentence in sentences:
+        print(f"MISSED: {sentence}", file=sys.stderr)
+    return len(sentences)
+
+
+def list_studies(root: Path) -> None:
+    for folder in study_folders(root):
+        cost = known_cost(folder)
+        about = f"about {duration(cost)} of one core in all" if cost else "cost not stored"
+        print(f"{folder.name:22} {about}")
 
 
 def write_pages(root: Path, check: bool) -> None:
@@ -35,8 +117,9 @@ def write_pages(root: Path, check: bool) -> None:
     if not table.is_file() or table.read_text(encoding="utf-8") != text:
         stale[table] = text
     if check and stale:
-        names = ", ".join(str(path.relative_to(root)) for path in stale)
+        names = ", ".join(str(file.relative_to(root)) for file in stale)
         raise ResultsError(f"{names}: values are not those of the studies; run furrow-post study --pages")
-    for path, made in stale.items():
-        path.write_text(made, encoding="utf-8")
-        print(f"{path.relative_to(root)}: written")
+    for file, made in stale.items():
+        file.write_text(made, encoding="utf-8")
+        print(f"{file.relative_to(root)}: written")
+    print(counts(registry))

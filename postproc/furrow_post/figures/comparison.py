@@ -15,7 +15,7 @@ from matplotlib.image import AxesImage
 
 from ..analyse.comparison import Comparison, overall
 from ..analyse.density import Section, sections
-from ..analyse.entry import FORMULA, LIMIT, MEASURED, RUN
+from ..analyse.entry import FORMULA, BEST, MEASURED, RUN
 from ..analyse.verdict import COEFFICIENT, COVERAGE, QUANTITIES, HUB_DROP, Quantity
 from ..analyse.wheel_histories import cruise_history, settling_curve
 from ..read.wheel_run import WheelRun
@@ -82,7 +82,7 @@ def _draw_values(
             capsize=4,
             lw=1.6,
             fmt="s" if e.kind == MEASURED else "o",
-            mfc="white" if e.kind in (FORMULA, LIMIT) else colour,
+            mfc="white" if e.kind in (FORMULA, BEST) else colour,
         )
         axes.annotate(
             e.text(),

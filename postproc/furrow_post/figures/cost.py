@@ -17,7 +17,7 @@ from .style import MILLIMETRE, RUN_COLOURS, annotate_panel, save, use_style
 
 
 def draw_cost(assessed: Sequence[Assessed], error: float, target: Path) -> None:
-    """Errors against cost with the wanted relative error, and both quantities to size zero."""
+    """Errors against cost with the wanted relative error, and both quantities over the size."""
     use_style()
     families = sorted({a.row.family for a in assessed})
     colours = {key: RUN_COLOURS[k % len(RUN_COLOURS)] for k, key in enumerate(families)}
@@ -26,7 +26,7 @@ def draw_cost(assessed: Sequence[Assessed], error: float, target: Path) -> None:
     annotate_panel(panels[0], "a", "error against cost")
     for axes, quantity, letter in zip(panels[1:], QUANTITIES, "bc"):
         _draw_convergence(axes, assessed, quantity, colours)
-        annotate_panel(axes, letter, f"{quantity.name} to size zero")
+        annotate_panel(axes, letter, f"{quantity.name} over the size")
     panels[1].legend(fontsize=8)
     save(figure, target)
 
@@ -61,7 +61,7 @@ def _draw_errors(
 def _draw_convergence(
     axes: Axes, assessed: Sequence[Assessed], quantity: Quantity, colours: Mapping[FamilyKey, str]
 ) -> None:
-    """Values against size with the line to size zero, family by family."""
+    """Values against size, with the curve to zero size where there is one, family by family."""
     scale = quantity.scale
     for key, family in cost_table.families([a.row for a in assessed]).items():
         sizes = np.array([row.size for row in family.bases])
@@ -76,11 +76,13 @@ def _draw_convergence(
             label=", ".join(key),
             **marks,
         )
-        fit = family.fit(quantity.key)
-        if fit:
-            line = np.array([0, sizes.max()])
-            on_line = scale * (fit.at_zero + fit.slope * line)
-            axes.plot(MILLIMETRE * line, on_line, color=colours[key], lw=1, ls="--")
-            error = COVERAGE * scale * fit.at_zero_error
-            axes.errorbar(0, scale * fit.at_zero, yerr=error, fmt="D", mfc="white", **marks)
+        series = family.convergence(quantity.key)
+        if series:
+            shown = 0.0 if series.extrapolated else series.sizes[0]
+            curve = np.linspace(shown, sizes.max(), 50)
+            values_on_it = scale * np.array([series.at(size) for size in curve])
+            axes.plot(MILLIMETRE * curve, values_on_it, color=colours[key], lw=1, ls="--")
+            error = COVERAGE * scale * series.error
+            place = MILLIMETRE * shown, scale * series.value
+            axes.errorbar(*place, yerr=error, fmt="D", mfc="white", **marks)
     axes.set(xlabel="size of cells or grains [mm]", ylabel=quantity.label)

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from .provenance import read_origins
-from .values import VERDICTS, Registry, Value
+from .values import AGREE, VERDICTS, Registry, Value
 
 HEAD = (
     "# Every value of the studies. error: standard error, empty where it is not known. reference_of:",
@@ -44,7 +44,16 @@ def experiments_text(registry: Registry) -> str:
 
 
 def counts(values: Iterable[Value]) -> str:
-    """How many values have which verdict."""
-    found = [value.verdict() for value in values]
+    """How many values have which verdict, and how many of those that agree are a test."""
+    rows = [(value, value.verdict()) for value in values]
+    found = [verdict for _, verdict in rows]
     parts = [f"{found.count(name)} {name}" for name in VERDICTS if name in found]
-    return f"{len(found)} values: {', '.join(parts)}."
+    tests = [
+        value
+        for value, verdict in rows
+        if verdict == AGREE and value.label != "fitted" and value.reference_of == "measured"
+    ]
+    return (
+        f"{len(found)} values: {', '.join(parts)}. Of those that agree {len(tests)} were not fitted and "
+        "are compared with a measurement."
+    )

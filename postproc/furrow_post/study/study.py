@@ -64,7 +64,7 @@ def run_study(study: Study, arguments: Sequence[str] | None = None) -> int:
     """The command line of a study; the result is the exit status."""
     return run_program(
         f"{study.folder.name}/{study.file.name}",
-        lambda: _run(study, _parser(study).parse_args(arguments)),
+        lambda: carry_out(study, _parser(study).parse_args(arguments)),
     )
 
 
@@ -72,6 +72,12 @@ def _parser(study: Study) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         description=study.description, formatter_class=argparse.RawDescriptionHelpFormatter
     )
+    add_study_arguments(parser)
+    return parser
+
+
+def add_study_arguments(parser: argparse.ArgumentParser) -> None:
+    """What every command on the runs of a study takes."""
     parser.add_argument(
         "names",
         nargs="*",
@@ -99,10 +105,10 @@ def _parser(study: Study) -> argparse.ArgumentParser:
         type=path,
         help="build folder with the programs (default: $FURROW_BUILD, or build in the source tree)",
     )
-    return parser
 
 
-def _run(study: Study, parsed: argparse.Namespace) -> int:
+def carry_out(study: Study, parsed: argparse.Namespace) -> int:
+    """Makes the runs that are missing and evaluates them, or lists them; the exit status."""
     tools = Tools.of(study.file, parsed.build)
     results = parsed.results or tools.root / "results" / study.folder.name
     runner = Runner(results, tools, parsed.jobs, same_program=parsed.check, again=parsed.again)

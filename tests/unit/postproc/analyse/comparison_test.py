@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from furrow_post.analyse import comparison, comparison_report, conditions, empirical
-from furrow_post.analyse.comparison import Comparison, overall, overall_at_size_zero
+from furrow_post.analyse.comparison import Comparison, overall, overall_of_best_estimates
 from furrow_post.analyse.cost_table import Components, families
 from furrow_post.analyse.density import height_left
-from furrow_post.analyse.entry import FORMULA, LIMIT, MEASURED, RUN, Entry, limits_of_run
+from furrow_post.analyse.entry import FORMULA, BEST, MEASURED, RUN, Entry, best_estimates
 from furrow_post.analyse.judgement import judge
 from furrow_post.analyse.verdict import COEFFICIENT, HUB_DROP, Agreement, Quantity
 from furrow_post.errors import ResultsError
@@ -154,7 +154,7 @@ class CompareTest(unittest.TestCase):
         with self.assertRaisesRegex(ResultsError, message):
             comparison.compare([run], measured=reference)
 
-    def test_runs_are_judged_at_size_zero_too(self) -> None:
+    def test_best_estimates_of_runs_are_judged_too(self) -> None:
         # 60 mm with cells of 40 mm, on a line that falls to 52 mm
         run, other = self.read("a", "a", sinkage=0.06), self.read("b", "b", sinkage=0.06)
         run.ground, run.half, run.size = CONTINUUM.ground, True, 0.04
@@ -163,23 +163,23 @@ class CompareTest(unittest.TestCase):
             for h in (0.02, 0.03, 0.04)
         ]
         known = families(table)
-        limit, _ = limits_of_run(run, known)
-        self.assertAlmostEqual(limit.value, 0.06 - 0.2 * 0.04, places=9)
-        self.assertEqual((limit.label, limit.source), ("a at size zero", "a"))
-        self.assertEqual(limits_of_run(other, known), [])  # of no family
+        limit, _ = best_estimates(run, known)
+        self.assertAlmostEqual(limit.value, 0.06 - 0.2 * 0.04, places=5)
+        self.assertEqual((limit.label, limit.source), ("a, best estimate", "a"))
+        self.assertEqual(best_estimates(other, known), [])  # of no family
 
-        same = entry("b", 0.0521, 1e-3, kind=LIMIT)
+        same = entry("b", 0.0521, 1e-3, kind=BEST)
         verdict = judge(limit, same)
-        self.assertIn("hub drop at size zero: a and b agree", verdict.sentence)
-        result = Comparison([run, other], [limit, same], at_size_zero=[verdict])
+        self.assertIn("hub drop, best estimate: a and b agree", verdict.sentence)
+        result = Comparison([run, other], [limit, same], best_estimates=[verdict])
         self.assertEqual(
-            overall_at_size_zero(result),
-            "At size zero: The runs agree within their uncertainty in hub drop and resistance.",
+            overall_of_best_estimates(result),
+            "Best estimate: The runs agree within their uncertainty in hub drop and resistance.",
         )
         self.assertIn(verdict.sentence, comparison_report.findings(result))
         kinds = [line["kind"] for line in comparison_report.table_rows(result)]
-        self.assertEqual(kinds, [LIMIT] * 2)
-        self.assertEqual(overall_at_size_zero(Comparison([run])), "")
+        self.assertEqual(kinds, [BEST] * 2)
+        self.assertEqual(overall_of_best_estimates(Comparison([run])), "")
 
     def test_formula_has_its_place_and_no_verdict(self) -> None:
         prediction = empirical.Prediction("made", "nowhere", 0.04, 100.0, 1000.0)

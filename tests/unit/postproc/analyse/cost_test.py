@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Tables of runs with exact lines to size zero: errors, costs, recommendations."""
+"""Tables of runs with exact lines to zero size: errors, costs, recommendations."""
 
 import dataclasses
 import math
 import tempfile
 import unittest
 from pathlib import Path
-
-import numpy as np
 
 from furrow_post.analyse import cost, cost_table, extrapolation
 from furrow_post.analyse.cost_table import FamilyKey
@@ -16,21 +14,23 @@ from support.tables import CONTINUUM, GRAINS, made_runs, row
 
 
 class TableTest(unittest.TestCase):
-    def test_extrapolation_and_components_are_those_of_the_lines(self) -> None:
+    def test_components_are_those_of_the_series(self) -> None:
         families = cost_table.families(made_runs())
-        fit = families[CONTINUUM].fit("sinkage")
-        assert fit
-        self.assertAlmostEqual(fit.at_zero, 0.1, places=9)
-        self.assertAlmostEqual(fit.slope, 0.2, places=7)
-        parts = families[GRAINS].components("sinkage", 0.03, 1e-4)
-        # the second packing lifts the mean at 40 mm by 1 mm
-        slope = 0.12 * 3 + 0.001 / 0.02
-        self.assertAlmostEqual(parts.size, slope * 0.03, places=5)
+        series = families[CONTINUUM].convergence("sinkage")
+        assert series
+        self.assertAlmostEqual(series.value, 0.1, places=5)
+        self.assertAlmostEqual(series.slope, 0.2, places=4)
+        family = families[GRAINS]
+        best = family.convergence("sinkage") or self.fail()
+        parts = family.components("sinkage", 0.03, 1e-4)
+        # the distance from the best estimate, and the error of that
+        expected = math.hypot(best.at(0.03) - best.value, best.error)
+        self.assertAlmostEqual(parts.size, expected, places=9)
         self.assertAlmostEqual(parts.packing, 0.002 / math.sqrt(2), places=9)
         # the wider one is 5 mm below one packing and 7 mm below the other
         self.assertAlmostEqual(parts.domain, 0.006, places=9)
-        squares = 1e-8 + (slope * 0.03) ** 2 + 0.002**2 / 2 + 0.006**2
-        self.assertAlmostEqual(parts.total, math.sqrt(squares), places=5)
+        squares = 1e-8 + expected**2 + 0.002**2 / 2 + 0.006**2
+        self.assertAlmostEqual(parts.total, math.sqrt(squares), places=9)
 
     def test_the_domain_s_error_is_the_mean_difference_from_all_packings_of_the_size(self) -> None:
         mean = 0.12 * 1.12 + 0.001  # of the two packings of 40 mm
@@ -50,50 +50,35 @@ class TableTest(unittest.TestCase):
 
     def test_a_run_of_the_table_comes_to_the_value_of_all_its_runs(self) -> None:
         family = cost_table.families(made_runs())[GRAINS]
-        value, parts = family.at_size_zero("sinkage", 0.04, 0.12 * 1.12, 1e-4) or self.fail()
+        value, parts = family.best_estimate("sinkage", 0.04, 0.12 * 1.12, 1e-4) or self.fail()
         zero, error = family.reference("sinkage")
         self.assertEqual((value, parts.parts()), (zero, [0.0, error, family.domain_error("sinkage"), 0.0]))
 
-    def test_a_run_of_another_load_comes_to_size_zero_along_the_slope(self) -> None:
+    def test_a_run_of_another_load_moves_as_its_family_does(self) -> None:
         family = cost_table.families(made_runs())[CONTINUUM]
-        value, parts = family.at_size_zero("sinkage", 0.03, 0.5, 1e-4) or self.fail()
-        self.assertAlmostEqual(value, 0.5 - 0.2 * 0.03, places=9)
-        fit = family.fit("sinkage")
-        assert fit
-        self.assertEqual((parts.time, parts.size), (1e-4, 0.03 * fit.slope_error))
+        value, parts = family.best_estimate("sinkage", 0.03, 0.5, 1e-4) or self.fail()
+        self.assertAlmostEqual(value, 0.5 - 0.2 * 0.03, places=5)
+        series = family.convergence("sinkage") or self.fail()
+        self.assertEqual((parts.time, parts.size), (1e-4, series.error))
 
-    def test_the_slope_s_error_is_that_of_scattered_values(self) -> None:
-        random, sizes, scatter = np.random.default_rng(1), (0.01, 0.02, 0.03, 0.04, 0.05), 2e-3
-        fits = []
-        for _ in range(400):
-            values = 0.1 + 0.2 * np.array(sizes) + random.normal(0, scatter, len(sizes))
-            rows = [
-                row(f"{h}", "continuum", h, value, 0.2, 1.0, seed="", error=scatter)
-                for h, value in zip(sizes, values)
-            ]
-            fits.append(cost_table.families(rows)[CONTINUUM].fit("sinkage"))
-        found = np.array([(fit.slope, fit.slope_error) for fit in fits if fit])
-        # the scatter about the line counts where it is larger than the errors: 1.1 times on average
-        self.assertAlmostEqual(found[:, 1].mean() / found[:, 0].std(), 1.1, delta=0.12)
-
-    def test_a_run_errs_by_no_less_than_its_distance_from_size_zero(self) -> None:
-        values = {0.05: 0.190, 0.04: 0.184, 0.03: 0.184, 0.02: 0.183}  # no line
+    def test_a_series_without_order_errs_by_its_range(self) -> None:
+        values = {0.05: 0.190, 0.04: 0.184, 0.03: 0.184, 0.02: 0.183}  # no curve
         rows = [
             row(f"{h}", "continuum", h, 0.1, c, 1.0, seed="", error=1e-3) for h, c in values.items()
         ]
         family = cost_table.families(rows)[CONTINUUM]
-        at_zero, slope, *_ = family.fit("coefficient") or self.fail()
+        best, error = family.reference("coefficient")
+        self.assertEqual(best, 0.183)
+        self.assertAlmostEqual(error, math.hypot(1.5 * 0.007, 1e-3), places=9)
         of_size = {h: family.components("coefficient", h).size for h in (*values, 0.045)}
-        distance = math.sqrt((0.190 - at_zero) ** 2 - 1e-6)
-        self.assertGreater(distance, 1.1 * slope * 0.05)
-        self.assertAlmostEqual(of_size[0.05], distance, places=9)
-        self.assertAlmostEqual(of_size[0.04], slope * 0.04, places=9)  # it is below the line
-        self.assertAlmostEqual(of_size[0.045], slope * 0.045, places=9)  # no run of this size
+        self.assertAlmostEqual(of_size[0.02], error, places=9)
+        for h, off in ((0.05, 0.007), (0.04, 0.001), (0.045, 0.004)):  # the last between two
+            self.assertAlmostEqual(of_size[h], math.hypot(off, error), places=9)
 
     def test_one_size_gives_no_error(self) -> None:
         rows = [row("a", "grains", 0.04, 0.1, 0.2, 1.0)]
         family = cost_table.families(rows)[GRAINS]
-        self.assertIsNone(family.fit("sinkage"))
+        self.assertIsNone(family.convergence("sinkage"))
         self.assertEqual(family.components("sinkage", 0.04).known, [])
         with self.assertRaisesRegex(ResultsError, "add a run of another size, or longer runs"):
             cost.recommend(cost.assess(rows), 0.1)
@@ -103,53 +88,69 @@ class TableTest(unittest.TestCase):
         slow = row("slow", "continuum", 0.02, 0.1 * 1.04, 0.2 * 0.9, 2e3, seed="", error=1e-9)
         assessed = cost.assess(made_runs() + [slow])
         errors = {a.row.run: a.error for a in assessed}
-        self.assertAlmostEqual(errors["c0.04"], 0.2, places=4)  # the coefficient's 5 h is the worse
-        self.assertAlmostEqual(errors["c0.02"], 0.1, places=4)
-        # size, packing and domain of the sinkage; the second packing lifts the mean at 40 mm by
-        # 1 mm, and so lowers the value at size zero
-        zero = 0.12 - 0.001
-        size = (0.12 * 3 + 0.001 / 0.02) * 0.02 / zero
-        packing = 0.002 / math.sqrt(2) / zero
-        left = math.sqrt(4.5) * packing  # open at size zero: [(X^T X)^-1]_00 of 20, 40, 40 mm
-        squares = size**2 + packing**2 + (0.006 / zero) ** 2 + left**2
-        self.assertAlmostEqual(errors["g0.02"], math.sqrt(squares), places=4)
-        self.assertEqual({a.row.run for a in assessed if not a.pareto}, {"slow"})
-        for wanted, name, reached in (
-            (0.101, "c0.02", True),
-            (0.09, "g0.02", True),
-            (0.001, "c0.01", False),
-        ):
+        # the coefficient's 5 h is the worse, with half of the index: 1.25 times the finest's
+        index = 0.5 * 1.25 * 5 * 0.01
+        self.assertAlmostEqual(errors["c0.04"], math.hypot(0.2, index), places=3)
+        self.assertAlmostEqual(errors["c0.02"], math.hypot(0.1, index), places=3)
+        # size, packing and domain of the sinkage
+        family = cost_table.families(made_runs())[GRAINS]
+        zero, _ = family.reference("sinkage")
+        total = family.components("sinkage", 0.02, 1e-9).total / zero
+        self.assertAlmostEqual(errors["g0.02"], total, places=6)
+        self.assertEqual({a.row.run for a in assessed if not a.pareto}, {"slow", "g0.01"})
+        for wanted, name, reached in ((0.11, "c0.02", True), (0.001, "c0.01", False)):
             choice, within = cost.recommend(assessed, wanted)
-            self.assertEqual((choice.row.run, within), (name, reached))
+            self.assertEqual(within, reached)
+            if reached:
+                self.assertEqual(choice.row.run, name)
+            self.assertEqual(choice.error, min(a.error for a in assessed) if not reached else choice.error)
+        grains, within = cost.recommend(assessed, total + 1e-6, {"grains"})
+        self.assertEqual((grains.row.run, within), ("g0.02", True))
 
     def test_two_runs_extrapolated_where_they_are_cheaper(self) -> None:
         assessed = cost.assess([r for r in made_runs() if r.ground == "continuum"])
-        # on exact lines a pair has no error but that of the line: 40 and 20 mm are the cheapest
-        run, within = cost.recommend(assessed, 0.03)
-        pair = extrapolation.better_pair(assessed, 0.03, run, within) or self.fail()
+        # on exact lines a pair has no error but that of the series: 40 and 20 mm are the cheapest
+        run, within = cost.recommend(assessed, 0.04)
+        pair = extrapolation.better_pair(assessed, 0.04, run, within) or self.fail()
         self.assertEqual([run.row.run for run in pair.runs], ["c0.04", "c0.02"])
         self.assertAlmostEqual(pair.cpu_time, 1e-4 / 0.04**4 + 1e-4 / 0.02**4)
         worst = assessed[0].reference_errors[pair.worst] / assessed[0].references[pair.worst]
-        self.assertAlmostEqual(pair.error, worst, places=7)
+        self.assertAlmostEqual(pair.error, worst, places=4)
         run, within = cost.recommend(assessed, 0.11)
-        self.assertIsNone(extrapolation.better_pair(assessed, 0.11, run, within))
+        self.assertIsNone(extrapolation.better_pair(assessed, 0.21, run, within))
         run, within = cost.recommend(assessed, 1e-6)  # that nothing reaches
         best = extrapolation.better_pair(assessed, 1e-6, run, within) or self.fail()
         self.assertLess(best.error, run.error)
-        value, u = pair.at_size_zero((0.108, 1e-3), (0.104, 2e-3))
-        self.assertAlmostEqual(value, 0.1)
-        self.assertAlmostEqual(u, math.hypot(0.04 * 2e-3, 0.02 * 1e-3) / 0.02)
+        value, u = pair.at_size_zero("sinkage", (0.108, 1e-3), (0.104, 2e-3))
+        self.assertAlmostEqual(value, 0.1, places=4)
+        self.assertAlmostEqual(u, math.hypot(0.04 * 2e-3, 0.02 * 1e-3) / 0.02, places=5)
+
+    def test_a_pair_has_the_order_of_its_family(self) -> None:
+        rows = [
+            row(f"{h}", "continuum", h, 0.1 + 20 * h**2, 0.2 - 30 * h**2, 1 / h, seed="", error=1e-9)
+            for h in (0.04, 0.02, 0.01)
+        ]
+        assessed = cost.assess(rows)
+        pair = next(p for p in extrapolation.pairs(assessed) if p.coarse.row.size == 0.04)
+        value, _ = pair.at_size_zero("sinkage", (0.1 + 20 * 0.04**2, 0.0), (0.1 + 20 * 0.02**2, 0.0))
+        self.assertAlmostEqual(value, 0.1, places=4)
+        rows[1].sinkage = 0.2  # no longer monotonic: no order, no pair
+        self.assertEqual(list(extrapolation.pairs(cost.assess(rows))), [])
 
     def test_a_pair_s_noise_and_packings_are_enlarged(self) -> None:
-        assessed = cost.assess([r for r in made_runs() if r.ground == "grains"])
-        (pair,) = extrapolation.pairs(assessed)
-        packing = pair.fine.parts["sinkage"].packing
-        domain = pair.fine.parts["sinkage"].domain
-        # f0 of the base's packing is 0.12; the family's is another by what the second packing adds
-        zero = pair.fine.references["sinkage"]
-        enlarged = math.hypot(0.04, 0.02) / 0.02 * packing
-        left = pair.fine.reference_errors["sinkage"]
-        expected = math.hypot(0.12 - zero, enlarged, domain, left) / zero
+        runs = [r for r in made_runs() if r.ground == "grains"]
+        for one in runs:
+            one.coefficient = 0.25 * (1 + 4 * one.size)
+        assessed = cost.assess(runs)
+        pair = next(p for p in extrapolation.pairs(assessed) if p.coarse.row.size == 0.04)
+        zero, left = pair.references["sinkage"], pair.fine.reference_errors["sinkage"]
+        parts, order = pair.fine.parts["sinkage"], pair.fine.orders["sinkage"]
+        h1, h2 = (run.row.size**order for run in pair.runs)
+        value, _ = pair.at_size_zero(
+            "sinkage", pair.coarse.row.value("sinkage"), pair.fine.row.value("sinkage")
+        )
+        enlarged = math.hypot(h1, h2) / (h1 - h2) * parts.packing
+        expected = math.hypot(value - zero, enlarged, parts.domain, left) / zero
         self.assertAlmostEqual(pair.errors["sinkage"], expected, places=6)
 
     def test_another_wheel_errs_by_the_difference_of_values_at_size_zero(self) -> None:
@@ -167,24 +168,27 @@ class TableTest(unittest.TestCase):
         ]
         assessed = {a.row.run: a for a in cost.assess(made_runs() + tyres, "tyre")}
         stand_in, tyre = assessed["c0.01"], assessed["tc0.01"]
-        self.assertAlmostEqual(tyre.error, 0.05, places=4)  # its own size, as before
+        index = 0.5 * 1.25 * 0.05
+        self.assertAlmostEqual(tyre.error, math.hypot(0.05, index), places=3)  # its own size, as before
         self.assertEqual(tyre.models["sinkage"], 0.0)
-        self.assertAlmostEqual(stand_in.models["sinkage"], 0.2, places=6)  # 0.1 m for 0.125 m
-        expected = math.hypot(0.2, 0.2 * 0.01 / 0.125)
-        self.assertAlmostEqual(stand_in.errors["sinkage"], expected, places=4)
-        self.assertAlmostEqual(stand_in.references["sinkage"], 0.125, places=6)
+        self.assertAlmostEqual(stand_in.models["sinkage"], 0.2, places=4)  # 0.1 m for 0.125 m
+        own = math.hypot(0.2 * 0.01 / 0.125, 0.5 * 1.25 * 0.2 * 0.01 / 0.125)
+        expected = math.hypot(0.2, own, stand_in.reference_errors["sinkage"] / 0.125)
+        self.assertAlmostEqual(stand_in.errors["sinkage"], expected, places=3)
+        self.assertAlmostEqual(stand_in.references["sinkage"], 0.125, places=4)
         self.assertTrue(math.isnan(assessed["g0.02"].error))  # no tyre on grains to be judged by
-        choice, _ = cost.recommend(list(assessed.values()), 0.101)
+        choice, _ = cost.recommend(list(assessed.values()), 0.11)
         self.assertEqual(choice.row.run, "tc0.02")
         self.assertEqual(cost_table.wanted_wheel(["# made", "# wheel: tyre"]), "tyre")
 
     def test_size_and_cost_beyond_the_table(self) -> None:
-        # coefficient error 5 h = 1 % at h = 2 mm, cost 1e-4/h^4
+        # coefficient error 5 h and half of the index, in proportion to h: 1 % at h; cost 1e-4/h^4
+        size = 0.01 * 0.01 / math.hypot(0.05, 0.5 * 1.25 * 0.05)
         continuum = [r for r in made_runs() if r.ground == "continuum"]
         needed, *_ = cost.needed(cost.assess(continuum), 0.01)
         self.assertEqual(needed.family, FamilyKey("continuum", "half", "rigid wheel"))
-        self.assertAlmostEqual(needed.size, 0.002, delta=2e-5)
-        self.assertAlmostEqual(needed.cpu_time / (1e-4 / 0.002**4), 1, delta=0.05)
+        self.assertAlmostEqual(needed.size, size, delta=2e-5)
+        self.assertAlmostEqual(needed.cpu_time / (1e-4 / size**4), 1, delta=0.05)
 
     def test_written_table_comes_back(self) -> None:
         with tempfile.TemporaryDirectory() as folder:

@@ -7,7 +7,7 @@ import unittest
 from dataclasses import replace
 
 from furrow_post.analyse.cost_table import Components
-from furrow_post.analyse.entry import FORMULA, LIMIT, RUN, Entry
+from furrow_post.analyse.entry import BEST, FORMULA, RUN, Entry
 from furrow_post.analyse.plates import pressure_at
 from furrow_post.analyse.verdict import COEFFICIENT, HUB_DROP
 from furrow_post.csv_table import read_comments, read_rows
@@ -33,7 +33,7 @@ class AnswersTest(unittest.TestCase):
         for value, u, expected in (
             (0.102, 0.01, "yes, +2 %, 20 % allowed"),
             (0.15, 0.01, "no, +50 %, 20 % allowed"),
-            (0.13, 0.02, "cannot be told, +30 %, 40 % allowed"),
+            (0.13, 0.02, "inconclusive, +30 %, 40 % allowed"),
             (0.13, math.nan, "error not known, +30 %"),
         ):
             with self.subTest(value=value, u=u):
@@ -59,21 +59,21 @@ class LinesTest(unittest.TestCase):
     def test_a_line_is_the_entry_again(self) -> None:
         parts = Components(1e-3, 2e-3, math.nan, 0.0)
         for quantity in (HUB_DROP, COEFFICIENT, pressure_at(0.015)):
-            for kind in (RUN, LIMIT):
+            for kind in (RUN, BEST):
                 written = Entry(quantity, "grains", 0.25, parts, kind, cpu_time=12.0)
                 read = lines.entry_of(lines.line_of("case", "base", written, 0.03, "abc"))
                 self.assertEqual((read.quantity, read.kind), (quantity, kind))
                 self.assertEqual((read.value, read.text()), (0.25, written.text()))
                 self.assertEqual(read.unknown, ["domain"])
 
-    def test_the_table_has_a_row_at_the_sizes_and_one_at_size_zero(self) -> None:
+    def test_the_table_has_a_row_at_the_sizes_and_one_of_best_estimates(self) -> None:
         made = [
             lines.line_of("wheel_on_sand", "base", one, size)
             for one, size in (
                 (entry("continuum", 0.1, 0.002), 0.04),
-                (entry("continuum", 0.11, 0.002, LIMIT), math.nan),
+                (entry("continuum", 0.11, 0.002, BEST), math.nan),
                 (entry("grains", 0.12, 0.002), 0.03),
-                (entry("grains", 0.111, 0.002, LIMIT), math.nan),
+                (entry("grains", 0.111, 0.002, BEST), math.nan),
                 (Entry(HUB_DROP, "made", 0.09, Components(), FORMULA), math.nan),
             )
         ]
@@ -83,14 +83,14 @@ class LinesTest(unittest.TestCase):
             [
                 "| wheel on sand | hub drop [mm] | 40, 30 mm | 100 ± 2 | 120 ± 2 |  | made 90 |  "
                 "| no, +20 %, 6 % allowed |",
-                "| wheel on sand | hub drop [mm] | size zero | 110 ± 2 | 111 ± 2 |  |  |  "
+                "| wheel on sand | hub drop [mm] | best estimate | 110 ± 2 | 111 ± 2 |  |  |  "
                 "| yes, +1 %, 5 % allowed |",
             ],
         )
 
 
 class SeriesTest(unittest.TestCase):
-    """A point of a series is moved to size zero as its twin among the base's runs is."""
+    """A point of a series moves from its twin among the base's runs."""
 
     parts = Components(0.0, 0.002, 0.001, 0.0)
     twin = row("base", "grains", 0.04, 0.08, 0.20, 10.0, error=0.001)
@@ -98,7 +98,7 @@ class SeriesTest(unittest.TestCase):
 
     def test_sinkages_go_by_the_ratio(self) -> None:
         zero = series.moved(
-            Entry(HUB_DROP, "grains", 0.1, self.parts, LIMIT), self.point, self.twin, 0.004
+            Entry(HUB_DROP, "grains", 0.1, self.parts, BEST), self.point, self.twin, 0.004
         )
         self.assertAlmostEqual(zero.value, 0.1 * 1.5)
         time = 0.15 * math.hypot(0.003 / 0.12, 0.001 / 0.08)
@@ -107,7 +107,7 @@ class SeriesTest(unittest.TestCase):
 
     def test_coefficients_go_by_the_difference(self) -> None:
         zero = series.moved(
-            Entry(COEFFICIENT, "grains", 0.15, self.parts, LIMIT), self.point, self.twin, 0.004
+            Entry(COEFFICIENT, "grains", 0.15, self.parts, BEST), self.point, self.twin, 0.004
         )
         self.assertAlmostEqual(zero.value, 0.15 + 0.06)
         time = math.hypot(0.003, 0.001)
@@ -126,7 +126,7 @@ class SeriesTest(unittest.TestCase):
     def test_the_table_has_a_row_for_each_point(self) -> None:
         made = [
             lines.line_of("wheel_on_sand", place, replace(entry(ground, z, 0.002), kind=kind), 0.04)
-            for place, kind in (("base", LIMIT), ("load=1560", RUN), ("load=1560", LIMIT))
+            for place, kind in (("base", BEST), ("load=1560", RUN), ("load=1560", BEST))
             for ground, z in (("continuum", 0.1), ("grains", 0.102))
         ]
         made += [

@@ -15,7 +15,6 @@ sys.path.insert(0, str(SOURCE / "inputs" / "validation" / "snow_wheel"))
 
 import cases
 import closed_form
-import error_study
 import mass_balance
 import report
 import slope
@@ -260,15 +259,6 @@ class AccuracyTest(unittest.TestCase):
         self.assertAlmostEqual(found["resistance_mean"], 0.05)
         self.assertAlmostEqual(found["rut_m_mean"], -0.03)
         self.assertTrue(math.isnan(report.accuracy(table, "calibration", "tyre")["sinkage_m_rms"]))
-
-    def test_size_zero_is_the_mean_of_both_orders(self) -> None:
-        sizes = [0.04, 0.02, 0.01]
-        value, uncertain = error_study.extrapolated(sizes, np.array([1.0, 1.0, 1.0]))
-        self.assertAlmostEqual(value, 1.0)
-        self.assertAlmostEqual(uncertain, 0.0)
-        value, uncertain = error_study.extrapolated(sizes, 1.0 + 5.0 * np.array(sizes, dtype=float))
-        self.assertLess(abs(value - 1.0), uncertain)
-
 
 if __name__ == "__main__":
     unittest.main()

@@ -18,7 +18,6 @@ TOOLS = (
     INPUTS / "validation" / "snow_wheel" / "identify.py",
     INPUTS / "validation" / "grains" / "plate_layers.py",
     INPUTS / "validation" / "grains" / "track_density.py",
-    INPUTS / "validation" / "run",
 )
 
 

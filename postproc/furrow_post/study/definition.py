@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""study.yaml: the runs of a study, and its evaluation, which the file evaluate.py beside it is.
+
+    title: what the study is about
+    checked: [run, ...]             # what --check makes; without it every run
+    defaults: {script: wheel.lig, variables: {depth: 0.2, ...}, time_limit: 3600, ...}
+    runs:
+      stage:
+        defaults: {...}             # of this stage, over those above
+        run name: {what: words, variables: {cell: 0.1}, ...}
+
+A run is a LIGGGHTS script (script, variables, log), a path of a material point (point: {title,
+material, path}), or a program with its arguments. Other keys are those of a Case. In texts {here} is
+the folder of the study, {inputs}, {materials}, {scenes}, {tyres} are those folders, {folder} that of
+the run, and every key of `with` stands for its value.
+"""
+
+import importlib.util
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from ..errors import ResultsError
+from .case import FOLDER, Case, Value
+from .furrow_cases import point_case, script_case
+from .launch import project_root
+from .study import Study
+from .values import DEFINITION, load_yaml
+
+EVALUATION = "evaluate.py"
+FOLDERS = ("materials", "scenes", "tyres")
+KEYS = {
+    "what", "program", "script", "arguments", "variables", "files", "point", "with", "time_limit",
+    "may_fail", "fallback", "log", "ranks", "shares", "reads",
+}  # fmt: skip
+MERGED = ("variables", "files", "with", "fallback")  # key by key; of others the last counts
+
+
+def load_study(folder: Path) -> Study:
+    """@raises ResultsError"""
+    folder = folder.resolve()
+    content = load_yaml(folder / DEFINITION)
+    module = evaluation_of(folder)
+    return Study(
+        folder / DEFINITION,
+        str(content.get("title", folder.name)),
+        cases_of(folder, content),
+        module.evaluate,
+        checked=_chosen(content.get("checked")),
+    )
+
+
+def _chosen(names: Sequence[str] | None) -> Any:
+    return lambda case: names is None or case.name in names
+
+
+def evaluation_of(folder: Path) -> ModuleType:
+    """The module of a study's own evaluation. @raises ResultsError"""
+    file = folder / EVALUATION
+    if not file.is_file():
+        raise ResultsError(f"{file}: there is none; it has a function evaluate(runner, output)")
+    name = f"evaluation_of_{folder.name}"
+    spec = importlib.util.spec_from_file_location(name, file)
+    assert spec and spec.loader
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def cases_of(folder: Path, content: Mapping[str, Any] | None = None) -> tuple[Case, ...]:
+    """The runs that the study.yaml of a folder lists. @raises ResultsError"""
+    content = content or load_yaml(folder / DEFINITION)
+    common = content.get("defaults") or {}
+    found = []
+    for stage, runs in (content.get("runs") or {}).items():
+        own = _merged(common, runs.get("defaults") or {})
+        for name, run in runs.items():
+            if name != "defaults":
+                found.append(_case(folder, str(stage), str(name), _merged(own, run or {})))
+    return tuple(found)
+
+
+def _merged(base: Mapping[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
+    merged = {**base, **over}
+    for key in MERGED:
+        if key in base or key in over:
+            both = {**(base.get(key) or {}), **(over.get(key) or {})}
+            merged[key] = {name: value for name, value in both.items() if value is not None}
+    return merged
+
+
+def _case(folder: Path, stage: str, name: str, run: Mapping[str, Any]) -> Case:
+    where = f"{folder / DEFINITION}: run '{name}'"
+    if unknown := set(run) - KEYS:
+        raise ResultsError(f"{where} has unknown keys {sorted(unknown)}; allowed are {sorted(KEYS)}")
+    if sum(key in run for key in ("script", "point", "program")) != 1:
+        raise ResultsError(f"{where}: give one of script, point, program")
+    inputs = project_root(folder / DEFINITION) / "inputs"
+    named = {"here": str(folder), "inputs": str(inputs)}
+    named |= {kind: str(inputs / kind) for kind in FOLDERS}
+    named |= {key: str(value) for key, value in (run.get("with") or {}).items()}
+
+    def filled(value: Any) -> Any:
+        if not isinstance(value, str):
+            return value
+        text = value
+        for key, replacement in named.items():
+            text = text.replace(f"{{{key}}}", replacement)
+        is_path = value.startswith("{") and text.startswith("/") and " " not in text
+        return Path(text) if is_path else text
+
+    more: dict[str, Any] = {
+        key: run[key] for key in ("what", "time_limit", "may_fail", "ranks", "shares") if key in run
+    }
+    more["stage"] = "" if stage == "all" else stage
+    more["fallback"] = {key: filled(value) for key, value in (run.get("fallback") or {}).items()}
+    more["reads"] = tuple(filled(value) for value in run.get("reads") or ())
+    more["files"] = {key: str(filled(text)) for key, text in (run.get("files") or {}).items()}
+    variables: dict[str, Value] = {k: filled(v) for k, v in (run.get("variables") or {}).items()}
+    if "script" in run:
+        script = filled(run["script"])
+        script = script if isinstance(script, Path) or FOLDER in str(script) else folder / script
+        return script_case(name, script, variables, log=bool(run.get("log")), **more)
+    if "point" in run:
+        point = {key: filled(value) for key, value in run["point"].items()}
+        more.pop("files")
+        title = str(point.get("title", name))
+        return point_case(name, title, Path(point["material"]), str(point["path"]), **more)
+    arguments = tuple(filled(word) for word in run.get("arguments") or ())
+    return Case(name, run["program"], arguments, variables, **more)

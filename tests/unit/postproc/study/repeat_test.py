@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""furrow-post study: which values its tests repeat, what a study costs, what the command says."""
+
+import re
+import tempfile
+import unittest
+from pathlib import Path
+
+from furrow_post.cli.study import study_folders
+from furrow_post.errors import ResultsError
+from furrow_post.study.repeat import difference, known_cost
+from furrow_post.study.values import Registry, Stored, Value, values_of
+from support.command import SOURCE, run_post
+
+VALIDATION = SOURCE / "inputs" / "validation"
+# Of each other: a coarse mesh and the fine one, one rig and the other
+OWN_CHECKS = {"free_travel", "tyre_brick"}
+
+
+class GuardTest(unittest.TestCase):
+    """Every value has a command that makes it and a test that repeats it."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(temporary.name)
+        self.addCleanup(temporary.cleanup)
+
+    def test_every_value_is_repeated(self) -> None:
+        """By a test of seconds in tests/run, or by one of hours under the label study."""
+        declared = (SOURCE / "tests" / "CMakeLists.txt").read_text(encoding="utf-8")
+        lists = re.findall(r"(?:set|list)\((?:APPEND )?cheap_studies ([\w ]+)\)", declared)
+        tested = {study for names in lists for study in names.split()}
+        cheap = {value.study for value in Registry.of(SOURCE) if value.cheap}
+        self.assertEqual(tested - OWN_CHECKS, cheap)
+        self.assertIn("file(GLOB studies CONFIGURE_DEPENDS RELATIVE", declared)
+        made = {folder.name for folder in study_folders(SOURCE)}
+        for value in Registry.of(SOURCE):
+            if value.stored:
+                self.assertIn(value.study, made)
+                self.assertTrue((value.stored.table.parent / "README.md").is_file())
+
+    def test_every_study_but_those_beyond_the_report_has_a_value(self) -> None:
+        named = {value.study for value in Registry.of(SOURCE) if value.stored}
+        made = {folder.name for folder in study_folders(SOURCE) if folder.parent == VALIDATION}
+        self.assertEqual(named | {"cmu_sand", "free_travel", "grains"}, made)
+
+    def test_cheap_values_cost_seconds(self) -> None:
+        for folder in study_folders(SOURCE):
+            if (folder / "study.yaml").is_file():
+                costs = [v.cost.read() for v in values_of(folder) if v.cheap and v.cost]
+                self.assertLessEqual(sum(costs), 30.0, folder.name)
+
+    def test_what_is_no_longer_stored_is_found(self) -> None:
+        stored, made = self.folder / "stored", self.folder / "made"
+        for folder, text in ((stored, "run,z,e\na,1.0,0.1\n"), (made, "run,z,e\na,{},0.1\n")):
+            folder.mkdir()
+            (folder / "results.csv").write_text(text, encoding="utf-8")
+        ours = Stored(stored / "results.csv", {"run": "a"}, "z")
+        value = Value("study.z", ours, reference=1.1)
+        limit = Value("study.z", ours, reference=1.1, limit="upper")
+        noisy = Value("study.z", ours, error=Stored(ours.table, ours.row, "e"), reference=1.1)
+        for number, (again, given, expected) in enumerate((
+            ("1.02", value, ""),
+            ("1.04", value, "1.04, not 1 ± 0.03"),
+            ("1.04", noisy, ""),
+            ("0.5", limit, ""),
+            ("1.2", limit, "1.2 is missed, not met"),
+        )):
+            folder = self.folder / str(number)
+            folder.mkdir()
+            text = f"run,z,e\na,{again},0.1\n"
+            (folder / "results.csv").write_text(text, encoding="utf-8")
+            with self.subTest(again=again):
+                self.assertEqual(difference(given, folder), expected)
+        (made / "results.csv").write_text("run,z\nb,1\n", encoding="utf-8")
+        with self.assertRaisesRegex(ResultsError, "0 rows have"):
+            difference(value, made)
+
+
+class CostTest(unittest.TestCase):
+    """Core seconds of a study, from its stored tables."""
+
+    def cost(self, tables: dict[str, str]) -> float:
+        with tempfile.TemporaryDirectory() as temporary:
+            for name, text in tables.items():
+                (Path(temporary) / name).write_text(text, encoding="utf-8")
+            return known_cost(Path(temporary))
+
+    def test_each_run_counts_once(self) -> None:
+        results = "run,user_s\na,10\nb,5\n"
+        for what, tables, expected in (
+            ("a run of two tables", {"results.csv": results, "error.csv": "run,cpu_s\na,10\n"}, 15),
+            ("rows of one run", {"stress.csv": "run,depth,user_s\na,1,7\na,2,7\n"}, 7),
+            ("names of two families", {"x.csv": "family,run,cpu_s\nf,a,1\ng,a,2\n"}, 3),
+            ("rows without a name", {"x.csv": "damping,user_s\n0,1\n100,2\n"}, 3),
+            ("a column for each run", {"x.csv": "quantity,a,b\nz,8,9\nuser_s,1,2\n"}, 3),
+            ("listed costs", {"costs.csv": results, "rolling.csv": "damping,user_s\n0,10\n"}, 15),
+            ("no costs", {"x.csv": "run,z\na,1\n"}, 0),
+        ):
+            with self.subTest(what):
+                self.assertEqual(self.cost(tables), expected)
+
+
+class CommandTest(unittest.TestCase):
+    def test_studies_are_listed_and_unknown_ones_refused(self) -> None:
+        done = run_post("study", folder=SOURCE)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"snow_plate +about [\d.]+ min of one core in all")
+        done = run_post("study", "snow_plates", folder=SOURCE)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("there is no study 'snow_plates'; there are", done.stderr)
+
+    def test_runs_of_a_study_are_listed(self) -> None:
+        with tempfile.TemporaryDirectory() as results:
+            done = run_post("study", "snow_oedometer", "--list", "--results", results, folder=SOURCE)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"missing +fresh_snow\b")
+
+
+if __name__ == "__main__":
+    unittest.main()
