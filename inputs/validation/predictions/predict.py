@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Blind predictions: runs the conditions of conditions.csv with frozen set-ups. See README.md.
 
-Every run keeps its folder below --results, so that a repeated command makes only what is missing.
-Values go to predictions.csv with the columns id, quantity, value, standard_error. The standard error
-combines, as a root of squares: the time average, the packing (two pours of grains), the coarser of two
-cell sizes, and the model's rms error on tests whose results were known (MODEL_ERROR).
+Every run keeps its folder below --results. A repeated command makes the missing runs only. Values go
+to predictions.csv with the columns id, quantity, value, standard_error.
+
+The standard error is the root of a sum of squares. Its parts are the time average, the packing (two
+pours of grains), the difference to a coarser cell size, and the model error. MODEL_ERROR lists the rms
+error of each model on tests whose results were known.
 """
 
 import argparse
