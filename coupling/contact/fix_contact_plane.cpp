@@ -15,7 +15,8 @@ namespace furrow::coupling {
 
 namespace {
 
-// Of the body's height: beyond it a floor is none.
+// Largest penetration, as a fraction of the body's height: a deeper one means that the floor is too
+// soft, or that the body starts inside it.
 constexpr double max_depth = 0.05, max_depth_at_start = 0.01;
 
 RigidPlaneParameters plane_parameters(const Options& options) {
@@ -80,9 +81,9 @@ void FixContactPlane::PlaneContact::apply(double) {
   const double depth = plane.parameters().height - surface.x.row(2).minCoeff();
   if (depth > 0.0) {
     const auto [lower, upper] = surface.bounds();
-    if (depth > (pressed ? max_depth : max_depth_at_start) * (upper[2] - lower[2]))
+    if (depth > (begun ? max_depth : max_depth_at_start) * (upper[2] - lower[2]))
       throw StateError(
-          pressed
+          begun
               ? fmt::format("the body is {:.3g} m inside the floor, more than {:g} of its height: "
                             "raise 'stiffness', {:g} Pa/m, or lower load or speed",
                             depth, max_depth, plane.parameters().stiffness)
@@ -90,7 +91,7 @@ void FixContactPlane::PlaneContact::apply(double) {
                             "above",
                             depth, plane.parameters().height));
   }
-  pressed = true;
+  begun = true;
   plane.press_on(body.surface());
 }
 

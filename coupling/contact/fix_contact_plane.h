@@ -28,11 +28,13 @@ class FixContactPlane : public FixContact {
 
     Body& body;
     RigidPlane plane;
-    bool pressed = false;  ///< since the start
+    bool begun = false;  ///< the body did not start inside the floor
   };
   void check_tyre_stability();
-  /// Where nodes stick.
-  void checkpoint(Checkpoint& state) override { contact_.plane.checkpoint(state); }
+  void checkpoint(Checkpoint& state) override {
+    contact_.plane.checkpoint(state);
+    state.value("begun", contact_.begun);
+  }
 
   PlaneContact contact_;
 };
