@@ -14,8 +14,9 @@ class FixTerrain : public FixBody {
  public:
   ContinuumTerrain& terrain() const { return static_cast<ContinuumTerrain&>(body()); }
   bool half_model() const { return options().flag("symmetry"); }
-  /// Values of the whole over those of the terrain that is computed.
-  double halves() const { return half_model() ? 2.0 : 1.0; }
+  /// Outputs of a half model are those of the whole terrain: a sum over the computed half times
+  /// this.
+  double symmetry_factor() const { return half_model() ? 2.0 : 1.0; }
   /// Whether it follows a body, and drops what lies behind it.
   bool moves() const { return options().given("follow"); }
   /// Of the undisturbed terrain along x, y or z [m].

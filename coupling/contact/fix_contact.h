@@ -36,8 +36,12 @@ class FixContact : public FurrowFix, public CountsLosses {
   }
 
   Body& body() const { return body_fix_.body(); }
-  /// A half body's values are those of the whole.
-  double halves() const { return body().half_model() ? 2.0 : 1.0; }
+  /// Outputs of a half model are those of the whole body: a sum over the computed half times this.
+  double symmetry_factor() const { return body().half_model() ? 2.0 : 1.0; }
+  /// A force on the whole body, from that on the part that is computed.
+  Vector3 of_whole(const Vector3& force) const {
+    return body().half_model() ? Vector3(2.0 * force.x(), 0.0, 2.0 * force.z()) : force;
+  }
 
  private:
   static constexpr double high_friction = 1.5;

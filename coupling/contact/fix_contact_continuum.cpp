@@ -25,15 +25,15 @@ const Outputs<FixContactContinuum>& FixContactContinuum::outputs() {
   using Fix = FixContactContinuum;
   static const Outputs<Fix> list = {
       {"force_x", "N", "force on the body in the last sub-step",
-       [](Fix& fix) { return fix.halves() * fix.contact_.force().x(); }},
+       [](Fix& fix) { return fix.of_whole(fix.contact_.force()).x(); }},
       {"force_y", "N", "force on the body in the last sub-step",
-       [](Fix& fix) { return fix.body().half_model() ? 0.0 : fix.contact_.force().y(); }},
+       [](Fix& fix) { return fix.of_whole(fix.contact_.force()).y(); }},
       {"force_z", "N", "force on the body in the last sub-step",
-       [](Fix& fix) { return fix.halves() * fix.contact_.force().z(); }},
+       [](Fix& fix) { return fix.of_whole(fix.contact_.force()).z(); }},
       {"contacts", "", "particles in contact",
-       [](Fix& fix) { return fix.halves() * fix.contact_.contacts(); }},
+       [](Fix& fix) { return fix.symmetry_factor() * fix.contact_.contacts(); }},
       {"area", "m^2", "area of these particles",
-       [](Fix& fix) { return fix.halves() * fix.contact_.area(); }},
+       [](Fix& fix) { return fix.symmetry_factor() * fix.contact_.area(); }},
       {"penetration", "m", "the deepest now", [](Fix& fix) { return fix.contact_.penetration(); }},
       {"deepest_penetration", "m", "the deepest since the start",
        [](Fix& fix) { return fix.contact_.deepest_penetration(); }},
@@ -74,16 +74,16 @@ FixTerrain& FixContactContinuum::find_terrain() {
 
 void FixContactContinuum::add_losses(const Body& wheel, GroundLosses& losses) const {
   if (&wheel != &body()) return;
-  const double halves_of_terrain = terrain_fix_.halves();
+  const double terrain_factor = terrain_fix_.symmetry_factor();
   const TerrainWork work = terrain_fix_.terrain().work();
-  losses.compaction += halves_of_terrain * work.compaction;
-  losses.bulldozing += halves_of_terrain * work.bulldozing;
-  losses.kinetic += halves_of_terrain * work.kinetic;
-  losses.numerical += halves_of_terrain * work.numerical_loss;
-  losses.radiated += halves_of_terrain * work.radiated;
+  losses.compaction += terrain_factor * work.compaction;
+  losses.bulldozing += terrain_factor * work.bulldozing;
+  losses.kinetic += terrain_factor * work.kinetic;
+  losses.numerical += terrain_factor * work.numerical_loss;
+  losses.radiated += terrain_factor * work.radiated;
   losses.friction += friction_loss();
   losses.contact_damping += damping_loss();
-  losses.continuum += halves_of_terrain * contact_.terrain_work();
+  losses.continuum += terrain_factor * contact_.terrain_work();
 }
 
 /// A half body mirrors what it is given itself; a whole one on half the terrain needs the forces of

@@ -23,8 +23,8 @@ class FixContactContinuum : public FixContact {
  private:
   FixTerrain& find_terrain();
   // [J] since the start, of the whole body
-  double friction_loss() const { return halves() * contact_.friction_loss(); }
-  double damping_loss() const { return halves() * contact_.damping_loss(); }
+  double friction_loss() const { return symmetry_factor() * contact_.friction_loss(); }
+  double damping_loss() const { return symmetry_factor() * contact_.damping_loss(); }
   void checkpoint(Checkpoint& state) override { contact_.checkpoint(state); }
 
   FixTerrain& terrain_fix_;

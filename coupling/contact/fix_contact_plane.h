@@ -14,7 +14,7 @@ class FixContactPlane : public FixContact {
   static const Outputs<FixContactPlane>& outputs();
 
   void add_losses(const Body& wheel, GroundLosses& losses) const override {
-    if (&wheel == &body()) losses.friction += halves() * contact_.plane.friction_loss();
+    if (&wheel == &body()) losses.friction += symmetry_factor() * contact_.plane.friction_loss();
   }
   void init() override {
     collectively([&] { check_tyre_stability(); });

@@ -108,5 +108,34 @@ TEST(HalfTyre, OnHalfAGroundIsTheWholeOnTheWhole) {
   expect_alike(half, whole, 0.02);
 }
 
+struct FloorOutputs {
+  double force_x, force_y, force_z, pressure, area;
+};
+
+/// A tyre rolls on a floor so soft that its nodes stand 1 cm deep in it.
+FloorOutputs roll_on_road(bool half) {
+  Scene scene;
+  make_tyre(scene, half);
+  scene.command(
+      "fix road all contact/plane body tyre level 0.15 friction 0.8 stiffness 4e6 "
+      "tangential_stiffness 4e6");
+  scene.command("run 4500");
+  LAMMPS_NS::Fix* road = scene.lammps().modify->find_fix_id("road");
+  return {road->compute_vector(0), road->compute_vector(1), road->compute_vector(2),
+          road->compute_vector(3), road->compute_vector(4)};
+}
+
+/// Half a tyre on a rigid floor is the whole one to rounding, which grows in the transient.
+TEST(HalfTyre, OutputsOfTheFloorAreThoseOfTheWholeTyre) {
+  const FloorOutputs half = roll_on_road(true), whole = roll_on_road(false);
+  EXPECT_GT(whole.force_z, 1000.0);
+  EXPECT_GT(whole.area, 1e-3);
+  EXPECT_NEAR(half.force_z, whole.force_z, 1e-6 * whole.force_z);
+  EXPECT_NEAR(half.force_x, whole.force_x, 1e-6 * whole.force_z);
+  EXPECT_EQ(half.force_y, 0.0);
+  EXPECT_NEAR(half.pressure, whole.pressure, 1e-6 * whole.pressure);
+  EXPECT_NEAR(half.area, whole.area, 1e-9 * whole.area);
+}
+
 }  // namespace
 }  // namespace furrow::test
