@@ -65,6 +65,8 @@ void RigidPlane::checkpoint(Checkpoint& state) {
                  [](double number) { return static_cast<unsigned char>(number != 0.0); });
   state.values("area", area_);
   state.value("friction_loss", friction_loss_);
+  state.values("pressure", pressure_);
+  state.values("force", total_);
 }
 
 }  // namespace furrow

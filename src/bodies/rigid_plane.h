@@ -38,7 +38,8 @@ class RigidPlane {
   /// [N] on the surface, of the last press_on
   Vector3 total_force() const { return total_; }
   const RigidPlaneParameters& parameters() const { return parameters_; }
-  void checkpoint(Checkpoint& state);  ///< where nodes stick, and their areas
+  /// Where nodes stick, their areas, and what the last press_on() found.
+  void checkpoint(Checkpoint& state);
 
  private:
   RigidPlaneParameters parameters_;

@@ -162,6 +162,10 @@ void TerrainContact::checkpoint(Checkpoint& state) {
   state.value("terrain_work", work);
   terrain_work_ = terrain_.ranks().rank() == 0 ? work : 0.0;
   state.value("begun", begun_);
+  state.values("force", force_);
+  state.value("contacts", step_.contacts);
+  state.value("area", step_.area);
+  state.value("penetration", step_.penetration);
   state.value("last_dt", last_dt_);
 }
 

@@ -53,8 +53,8 @@ class TerrainContact : public Contact {
   /// Of this contact on the terrain as it is modelled, a half model's half [J]. Collective.
   double terrain_work() const { return terrain_.ranks().sum(terrain_work_); }
 
-  /// Sums since the start and the last step's length; the histories are part of the terrain's
-  /// checkpoint. Restored after body and terrain. Collective.
+  /// Sums since the start, length and outputs of the last step. The histories are part of the
+  /// terrain's checkpoint. Restored after body and terrain. Collective.
   void checkpoint(Checkpoint& state);
 
  private:

@@ -97,6 +97,9 @@ TEST(RigidPlane, ContinuesFromItsState) {
   moved.x.row(2) = surface.x.row(2);
   RigidPlane other(parameters, moved);
   test::hand_over(plane, other);
+  EXPECT_GT(plane.total_force().z(), 0.0);
+  EXPECT_EQ(plane.total_force(), other.total_force());  // the first output of the continued run
+  EXPECT_EQ(plane.pressure(), other.pressure());
   plane.press_on(surface);
   other.press_on(surface);
   EXPECT_EQ(plane.total_force(), other.total_force());

@@ -68,6 +68,12 @@ void expect_exact_restart(const TerrainParameters& parameters) {
   again.touch();
   test::hand_over(*through.contact, *again.contact);
   expect_same_state(through.ground, again.ground);
+  // the first output of the continued run
+  EXPECT_GT(through.contact->force().z(), 0.0);
+  EXPECT_EQ(through.contact->force(), again.contact->force());
+  EXPECT_EQ(through.contact->contacts(), again.contact->contacts());
+  EXPECT_EQ(through.contact->area(), again.contact->area());
+  EXPECT_EQ(through.contact->penetration(), again.contact->penetration());
   through.run(50);
   again.run(50);
   EXPECT_GT(through.contact->contacts(), 10.0);
