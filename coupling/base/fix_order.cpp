@@ -20,4 +20,14 @@ void check_fix_order(const LAMMPS_NS::Modify& modify, const LAMMPS_NS::Fix& syst
   }
 }
 
+void check_last_of_forces(const LAMMPS_NS::Modify& modify, const LAMMPS_NS::Fix& fix,
+                          const std::string& reason) {
+  for (int i = modify.nfix - 1; i >= 0 && modify.fix[i] != &fix; --i)
+    if (modify.fmask[i] & LAMMPS_NS::FixConst::POST_FORCE)
+      throw StateError(
+          fmt::format("{} comes after {} in a step, and must come before it: {}; write the line of "
+                      "fix {} after all fixes that put forces on grains",
+                      name_of(*modify.fix[i]), name_of(fix), reason, fix.id));
+}
+
 }  // namespace furrow::coupling

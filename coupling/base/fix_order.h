@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// In each phase of a step LIGGGHTS calls the fixes in the order of its list, which is that of
-/// their lines. Some of Furrow's rely on it.
+/// Order of the fixes in a phase of a step. LIGGGHTS calls them in the order of its list, which is
+/// the order of their lines; some of Furrow's fixes rely on it.
 
 #include <string>
 
@@ -21,5 +21,11 @@ class FollowsSystem {
 
 /// @throws StateError when a fix that follows the system stands before it
 void check_fix_order(const LAMMPS_NS::Modify& modify, const LAMMPS_NS::Fix& system);
+
+/// For a fix that must see all forces on grains.
+/// @param reason  why: "forces that are added later would move the frozen slab"
+/// @throws StateError when a fix that acts in post_force() stands after it
+void check_last_of_forces(const LAMMPS_NS::Modify& modify, const LAMMPS_NS::Fix& fix,
+                          const std::string& reason);
 
 }  // namespace furrow::coupling

@@ -156,6 +156,12 @@ int FixBedWindow::setmask() {
   return INITIAL_INTEGRATE | PRE_EXCHANGE | PRE_NEIGHBOR | POST_FORCE;
 }
 
+void FixBedWindow::init() {
+  collectively([&] {
+    check_last_of_forces(*modify, *this, "its forces would move the slab that is held in place");
+  });
+}
+
 /// Grains have just been exchanged and carry their histories; forces and lists come later.
 void FixBedWindow::setup_pre_neighbor() {
   collectively([&] {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// fix bed/window: the bed behind a body is renewed, so that a periodic bed of few wheel lengths
-/// serves a roll of any length. See fix_bed_window.md.
+/// fix bed/window: renews the bed behind a body, so that a short periodic bed allows arbitrarily
+/// long travel at constant cost. See fix_bed_window.md.
 
 #include <cstdint>
 #include <optional>
@@ -24,6 +24,7 @@ class FixBedWindow : public FurrowFix, public FollowsSystem {
     return "slabs are renewed by where the body has come to";
   }
   int setmask() override;
+  void init() override;
   void setup_pre_neighbor() override;
   void initial_integrate(int vflag) override;
   void pre_exchange() override;
