@@ -7,7 +7,8 @@ namespace furrow::coupling {
 class FlushesOnError {
  public:
   virtual ~FlushesOnError() = default;
-  /// Called on rank 0, once, while the run is being stopped. May throw.
+  /// Called on rank 0 while the run is being stopped, perhaps by another thread than the main one
+  /// (rescue.h). May throw.
   virtual void flush_results() = 0;
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/liggghts/rescue.h"
 
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <mutex>
 #include <thread>
 
 #include <mpi.h>
@@ -19,8 +19,11 @@ namespace {
 
 constexpr int rescue_signal = SIGUSR2;
 constexpr std::chrono::seconds until_rank_0_waits(1), until_results_are_saved(2);
+constexpr std::chrono::milliseconds until_results_are_unused(500);
 
 pid_t process_of_rank_0 = 0;  // 0: there is none here
+// recursive: an error inside HDF5 ends the run on the same thread, which saves what it can
+std::recursive_timed_mutex results;
 
 sigset_t signals() {
   sigset_t set;
@@ -31,13 +34,24 @@ sigset_t signals() {
 
 }  // namespace
 
+ResultsInUse::ResultsInUse() { results.lock(); }
+
+ResultsInUse::~ResultsInUse() { results.unlock(); }
+
 void flush_results(const LAMMPS_NS::LAMMPS& lammps) {
   if (!lammps.modify) return;
+  const ResultsInUse in_use;
   for (FlushesOnError* fix : fixes_of<FlushesOnError>(*lammps.modify)) try {
       fix->flush_results();
     } catch (const std::exception& loss) {
       std::fprintf(stderr, "Results of fix %s are lost: %s\n", as_fix(*fix).id, loss.what());
     }
+}
+
+bool flush_unused_results(const LAMMPS_NS::LAMMPS& lammps, std::chrono::milliseconds time_limit) {
+  const std::unique_lock lock(results, time_limit);
+  if (lock) flush_results(lammps);
+  return lock.owns_lock();
 }
 
 void prepare_rescue() {
@@ -62,7 +76,8 @@ void start_rescue(const LAMMPS_NS::LAMMPS& lammps) {
     int signal = 0;
     if (sigwait(&set, &signal) != 0) return;
     std::this_thread::sleep_for(until_rank_0_waits);
-    flush_results(lammps);
+    if (!flush_unused_results(lammps, until_results_are_unused))
+      std::fprintf(stderr, "Results since the last flush are lost: rank 0 was writing them.\n");
   }).detach();
 }
 

@@ -10,6 +10,7 @@
 #include "coupling/base/refuse_double.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/liggghts/fixes_of.h"
+#include "coupling/liggghts/rescue.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/output/results_folder.h"
 #include "coupling/output/style_records.h"
@@ -119,7 +120,9 @@ void FixHistory::post_run() {
 }
 
 void FixHistory::flush_results() {
-  if (file_) file_->flush();
+  if (!file_) return;
+  const ResultsInUse in_use;
+  file_->flush();
 }
 
 void FixHistory::checkpoint(Checkpoint& state) {

@@ -2,6 +2,7 @@
 #include "coupling/output/fix_terrain_history.h"
 
 #include "comm.h"
+#include "coupling/liggghts/rescue.h"
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/base/fix_terrain.h"
 #include "mpm/terrain_outputs.h"
@@ -41,6 +42,7 @@ FixTerrainHistory::FixTerrainHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char**
 
 void FixTerrainHistory::open(std::optional<double> resume_time) {
   if (comm->me != 0) return;
+  const ResultsInUse in_use;
   const std::string path = in_folder(terrain_file);
   const std::string frames = in_folder("vtk");
   if (resume_time) {
@@ -56,7 +58,9 @@ void FixTerrainHistory::record() {
   TerrainReading reading(terrain_fix_.terrain());
   std::vector<double> row = {time()};
   for (const double value : terrain_outputs().values(reading)) row.push_back(value);
-  if (file_) file_->append(row);
+  if (!file_) return;
+  const ResultsInUse in_use;
+  file_->append(row);
 }
 
 void FixTerrainHistory::write_frame() {
@@ -80,6 +84,7 @@ void FixTerrainHistory::close() {
                          budget.residual());
   end.cost.wall_time = wall_time();
   end.cost.ranks = comm->nprocs;
+  const ResultsInUse in_use;
   file_->write_terrain(snapshot, rut);
   file_->write_closing(end);
   file_->flush();

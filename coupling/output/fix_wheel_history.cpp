@@ -9,6 +9,7 @@
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/base/fix_rig.h"
 #include "coupling/liggghts/fixes_of.h"
+#include "coupling/liggghts/rescue.h"
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/output/gather_grains.h"
 #include "coupling/output/grain_virial.h"
@@ -52,6 +53,7 @@ void FixWheelHistory::open(std::optional<double> resume_time) {
   const double ground_level = rig_fix_.options().number("ground_level");
   Grains now = gather_grains(*lmp, ground_level);
   if (comm->me != 0) return;
+  const ResultsInUse in_use;
   const std::string path = in_folder("history.h5");
   const std::string frames = in_folder("vtk");
   if (resume_time) {
@@ -77,7 +79,9 @@ void FixWheelHistory::open(std::optional<double> resume_time) {
 
 void FixWheelHistory::record() {
   const GroundLosses losses = ground_losses();
-  if (file_) file_->append(rig_fix_.rig().measure(time(), losses));
+  if (!file_) return;
+  const ResultsInUse in_use;
+  file_->append(rig_fix_.rig().measure(time(), losses));
 }
 
 void FixWheelHistory::write_frame() {
@@ -94,6 +98,7 @@ void FixWheelHistory::close() {
   const RunClosing end = closing();
   const Grains grains = gather_grains(*lmp, reference_.bed_level, grain_virial(*lmp));
   if (comm->me != 0) return;
+  const ResultsInUse in_use;
   file_->write_final(grains, rig_fix_.wheel_fix().hub().surface());
   file_->write_closing(end);
   file_->flush();
