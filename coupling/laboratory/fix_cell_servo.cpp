@@ -114,7 +114,18 @@ FixCellServo::FixCellServo(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
                               [](FixCellServo&) { return true; });
   box_change_size = 1;
   nevery = 1;
+  keep_state();
   provide(outputs());
+}
+
+/// LIGGGHTS keeps the box.
+void FixCellServo::checkpoint(Checkpoint& state) {
+  state.value("elapsed", elapsed_);
+  state.values("stress", stress_);
+  for (std::size_t k = 0; k < 3; ++k) {
+    state.value(fmt::format("rate_{}", axis_names[k]), axes_[k].rate);
+    state.value(fmt::format("integral_{}", axis_names[k]), axes_[k].integral);
+  }
 }
 
 int FixCellServo::setmask() {

@@ -33,6 +33,7 @@ class FixCellServo : public FurrowFix {
     double rate = 0.0;      // of the last step [1/s]
   };
 
+  void checkpoint(Checkpoint& state) override;
   std::array<double, 3> rates() const;
   double density() const;          // [kg/m^3]
   double inertial_number() const;  // of the cell now

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -55,6 +56,7 @@ FixLayerShear::FixLayerShear(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
       speed_(options().number("speed")),
       ramp_{0.0, options().number("accelerate_time")} {
   time_integrate = 1;
+  keep_state();
   provide(outputs());
 }
 
@@ -62,9 +64,23 @@ int FixLayerShear::setmask() {
   return LAMMPS_NS::FixConst::INITIAL_INTEGRATE | LAMMPS_NS::FixConst::FINAL_INTEGRATE;
 }
 
+void FixLayerShear::checkpoint(Checkpoint& state) {
+  state.value("elapsed", elapsed_);
+  state.value("displacement", displacement_);
+  state.value("height", height_);
+  state.values("force", force_);
+  height_restored_ = !state.saving();
+}
+
 /// The layer is rigid: it follows the cell along z with the velocity that the cell has at its
 /// middle.
 void FixLayerShear::init() {
+  const double middle = middle_of_layer();
+  if (!std::exchange(height_restored_, false)) height_ = middle;
+  collectively([&] { check_speed(); });
+}
+
+double FixLayerShear::middle_of_layer() const {
   const Communicator ranks(&world);
   double sums[] = {0.0, 0.0};
   for (int i = 0; i < atom->nlocal; ++i)
@@ -78,8 +94,7 @@ void FixLayerShear::init() {
       throw InputError(name(), "has no grains in its group", "a group with grains",
                        "define the group by a region that holds a layer of grains");
   });
-  height_ = sums[0] / sums[1];
-  collectively([&] { check_speed(); });
+  return sums[0] / sums[1];
 }
 
 /// In a step the layer shall not pass a grain.

@@ -24,6 +24,8 @@ class FixLayerShear : public FurrowFix {
  private:
   /// For the rules of the scene (coupling/checks).
   bool needs_system() const override { return true; }
+  void checkpoint(Checkpoint& state) override;
+  double middle_of_layer() const;  // z [m]
   void check_speed() const;
 
   double speed_;  // [m/s] along x
@@ -31,6 +33,7 @@ class FixLayerShear : public FurrowFix {
   double elapsed_ = 0.0;           // [s]
   double displacement_ = 0.0;      // [m] along x
   double height_ = 0.0;            // [m] z of the middle of the layer
+  bool height_restored_ = false;   // from a checkpoint, until the first run has begun
   std::array<double, 3> force_{};  // [N] of the other grains on the layer
 };
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A run that is stopped and continued, against the same run without a break: every bit of the
-outputs of fixes must agree, from the first row on, and of the history where there is one.
+"""Continues a run from a checkpoint and compares it with the run without a break. Every bit of the
+outputs of fixes must agree, from the first row on. So must the history, where there is one.
 
     outputs.py <furrow> tyre <stiffness of the plane, Pa/m> <least penetration, m>
     outputs.py <furrow> cell <speed of the layer, m/s>
@@ -69,7 +69,7 @@ def tyre(furrow, stiffness, least_penetration):
 
 
 def cell(furrow, speed):
-    """A periodic cell of grains that is compressed and sheared, stopped before its ramps have ended."""
+    """A periodic cell of grains, stopped before its ramps have ended."""
 
     def check(rows, _):
         assert float(rows[2000][1]) > 1.5 * float(rows[CHECKPOINT][1]) > 0.0, "the layer does not accelerate"
