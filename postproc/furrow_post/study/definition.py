@@ -3,6 +3,7 @@
 
     title: what the study is about
     checked: [run, ...]             # what --check makes; without it every run
+    texts: {snow: "law: ..."}       # of files, which name them
     defaults: {script: wheel.lig, variables: {depth: 0.2, ...}, time_limit: 3600, ...}
     runs:
       stage:
@@ -12,7 +13,7 @@
 A run is a LIGGGHTS script (script, variables, log), a path of a material point (point: {title,
 material, path}), or a program with its arguments. Other keys are those of a Case. In texts {here} is
 the folder of the study, {inputs}, {materials}, {scenes}, {tyres} are those folders, {folder} that of
-the run, and every key of `with` stands for its value.
+the run, {run} its name, {what} its words, and every key of `with` stands for its value.
 """
 
 import importlib.util
@@ -26,6 +27,7 @@ from ..errors import ResultsError
 from .case import FOLDER, Case, Value
 from .furrow_cases import point_case, script_case
 from .launch import project_root
+from .runs import Runs
 from .study import Study
 from .values import DEFINITION, load_yaml
 
@@ -35,19 +37,19 @@ KEYS = {
     "what", "program", "script", "arguments", "variables", "files", "point", "with", "time_limit",
     "may_fail", "fallback", "log", "ranks", "shares", "reads",
 }  # fmt: skip
-MERGED = ("variables", "files", "with", "fallback")  # key by key; of others the last counts
+MERGED = ("variables", "files", "point", "with", "fallback")  # key by key; of others the last counts
 
 
 def load_study(folder: Path) -> Study:
     """@raises ResultsError"""
     folder = folder.resolve()
     content = load_yaml(folder / DEFINITION)
-    module = evaluation_of(folder)
+    module, cases = evaluation_of(folder), cases_of(folder, content)
     return Study(
         folder / DEFINITION,
         str(content.get("title", folder.name)),
-        cases_of(folder, content),
-        module.evaluate,
+        cases,
+        lambda runner, output: module.evaluate(Runs(cases, runner), output),
         checked=_chosen(content.get("checked")),
     )
 
@@ -60,7 +62,7 @@ def evaluation_of(folder: Path) -> ModuleType:
     """The module of a study's own evaluation. @raises ResultsError"""
     file = folder / EVALUATION
     if not file.is_file():
-        raise ResultsError(f"{file}: there is none; it has a function evaluate(runner, output)")
+        raise ResultsError(f"{file}: there is none; it has a function evaluate(runs, output)")
     name = f"evaluation_of_{folder.name}"
     spec = importlib.util.spec_from_file_location(name, file)
     assert spec and spec.loader
@@ -74,12 +76,13 @@ def cases_of(folder: Path, content: Mapping[str, Any] | None = None) -> tuple[Ca
     """The runs that the study.yaml of a folder lists. @raises ResultsError"""
     content = content or load_yaml(folder / DEFINITION)
     common = content.get("defaults") or {}
+    texts = content.get("texts") or {}
     found = []
     for stage, runs in (content.get("runs") or {}).items():
         own = _merged(common, runs.get("defaults") or {})
         for name, run in runs.items():
             if name != "defaults":
-                found.append(_case(folder, str(stage), str(name), _merged(own, run or {})))
+                found.append(_case(folder, str(stage), str(name), _merged(own, run or {}), texts))
     return tuple(found)
 
 
@@ -92,14 +95,17 @@ def _merged(base: Mapping[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
     return merged
 
 
-def _case(folder: Path, stage: str, name: str, run: Mapping[str, Any]) -> Case:
+def _case(
+    folder: Path, stage: str, name: str, run: Mapping[str, Any], texts: Mapping[str, str]
+) -> Case:
     where = f"{folder / DEFINITION}: run '{name}'"
     if unknown := set(run) - KEYS:
         raise ResultsError(f"{where} has unknown keys {sorted(unknown)}; allowed are {sorted(KEYS)}")
-    if sum(key in run for key in ("script", "point", "program")) != 1:
+    if sum(run.get(key) is not None for key in ("script", "point", "program")) != 1:
         raise ResultsError(f"{where}: give one of script, point, program")
     inputs = project_root(folder / DEFINITION) / "inputs"
-    named = {"here": str(folder), "inputs": str(inputs)}
+    named = {"run": name, "what": str(run.get("what", ""))}
+    named |= {"here": str(folder), "inputs": str(inputs)}
     named |= {kind: str(inputs / kind) for kind in FOLDERS}
     named |= {key: str(value) for key, value in (run.get("with") or {}).items()}
 
@@ -118,13 +124,14 @@ def _case(folder: Path, stage: str, name: str, run: Mapping[str, Any]) -> Case:
     more["stage"] = "" if stage == "all" else stage
     more["fallback"] = {key: filled(value) for key, value in (run.get("fallback") or {}).items()}
     more["reads"] = tuple(filled(value) for value in run.get("reads") or ())
-    more["files"] = {key: str(filled(text)) for key, text in (run.get("files") or {}).items()}
+    files = {key: texts.get(text, text) for key, text in (run.get("files") or {}).items()}
+    more["files"] = {key: str(filled(text)) for key, text in files.items()}
     variables: dict[str, Value] = {k: filled(v) for k, v in (run.get("variables") or {}).items()}
-    if "script" in run:
+    if run.get("script") is not None:
         script = filled(run["script"])
         script = script if isinstance(script, Path) or FOLDER in str(script) else folder / script
         return script_case(name, script, variables, log=bool(run.get("log")), **more)
-    if "point" in run:
+    if run.get("point") is not None:
         point = {key: filled(value) for key, value in run["point"].items()}
         more.pop("files")
         title = str(point.get("title", name))

@@ -2,7 +2,6 @@
 """inputs/validation/report_wheel: the closed form, and the snow that differs from the report's."""
 
 import math
-import sys
 import unittest
 from unittest.mock import patch
 
@@ -10,13 +9,9 @@ import numpy as np
 
 from furrow_post.analyse.statistics import place_of_greatest
 from furrow_post.arrays import Floats
-from support.command import SOURCE
+from support.evaluation import cases, evaluation
 
-sys.path.insert(0, str(SOURCE / "inputs" / "validation" / "report_wheel"))
-
-import cases
-import closed_form
-import fields
+closed_form = evaluation("report_wheel")
 
 
 def linear(strain: Floats, d: float) -> Floats:
@@ -49,20 +44,15 @@ class ClosedFormTest(unittest.TestCase):
 
 
 class CasesTest(unittest.TestCase):
-    def test_changed_snow_starts_from_the_report_s(self) -> None:
-        text = cases.changed(20e3)
-        self.assertIn("base: ", text)
-        self.assertIn(f"{cases.REPORT_SNOW}.yaml", text)
-        self.assertIn("law: {d: 20000, beta: 22.53, R: 0.00011}", text)
-
     def test_depths_follow_the_report_s_schedule(self) -> None:
-        depths = [case for case in cases.all_cases() if case.stage == "depth"]
+        depths = [case for case in cases("report_wheel").values() if case.stage == "depth"]
         self.assertTrue(depths)
         for case in depths:
-            values = {name: float(str(case.variables[name])) for name in cases.REPORT}
+            names = ("settle", "accelerate", "distance", "depth", "cell")
+            values = {name: float(str(case.variables[name])) for name in names}
             end = values["settle"] + 0.5 * values["accelerate"] + values["distance"] / 2.235
             self.assertAlmostEqual(end, 5.0, places=1)  # [s]
-            cells = float(str(case.variables["depth"])) / float(str(case.variables["cell"]))
+            cells = values["depth"] / values["cell"]
             self.assertAlmostEqual(cells, round(cells), places=3)
 
 
@@ -72,7 +62,7 @@ class FieldsTest(unittest.TestCase):
         field = np.exp(-(((x - 0.05) / 0.1) ** 2))
         layer = np.abs(x) < 0.2
         for chosen, place in ((layer, 5.0), (x < 0.0, -0.5)):  # [cm]
-            found = 100 * place_of_greatest(x[chosen], field[chosen], fields.GREATEST)
+            found = 100 * place_of_greatest(x[chosen], field[chosen], closed_form.GREATEST)
             self.assertAlmostEqual(found, place, delta=0.1)
 
 

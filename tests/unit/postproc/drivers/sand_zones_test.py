@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """inputs/validation/sand_zones: places of greatest stress and zones of flow of made-up ground."""
 
-import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -9,12 +8,10 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from support.command import SOURCE
+from support.evaluation import evaluation
 from support.rut import wheel
 
-sys.path.insert(0, str(SOURCE / "inputs" / "validation" / "sand_zones"))
-
-import zones
+zones = evaluation("sand_zones")
 
 SPACING, DEPTH, AXLE, AHEAD = 0.0125, 0.25, 0.5, 0.05  # [m]
 

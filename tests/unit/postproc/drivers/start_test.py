@@ -6,11 +6,12 @@ import sys
 import tempfile
 import unittest
 
-from support.command import SOURCE
+from support.command import FURROW_POST, SOURCE
 
 INPUTS = SOURCE / "inputs"
 OTHERS = (INPUTS / "crosscheck" / "run.py", INPUTS / "costs" / "run.py")
-STUDIES = sorted((*INPUTS.glob("validation/*/run.py"), *OTHERS))
+DRIVERS = sorted((*INPUTS.glob("validation/*/run.py"), *OTHERS))
+DEFINED = sorted(file.parent for file in INPUTS.glob("*/*/evaluate.py"))
 TOOLS = (
     INPUTS / "laboratory" / "run.py",
     INPUTS / "laboratory" / "calibrate.py",
@@ -23,16 +24,16 @@ TOOLS = (
 
 def start(*words: object) -> "subprocess.CompletedProcess[str]":
     return subprocess.run(
-        [sys.executable, *map(str, words)], capture_output=True, text=True, timeout=120
+        [sys.executable, *map(str, words)], capture_output=True, text=True, timeout=120, cwd=SOURCE
     )
 
 
 class DriversTest(unittest.TestCase):
     def test_there_are_all_studies(self) -> None:
-        self.assertEqual(len(STUDIES), 18)
+        self.assertEqual(len(DRIVERS) + len(DEFINED), 18)
 
     def test_help(self) -> None:
-        for driver in (*STUDIES, *TOOLS):
+        for driver in (*DRIVERS, *TOOLS):
             with self.subTest(driver=driver):
                 done = start(driver, "--help")
                 self.assertEqual(done.returncode, 0, done.stderr)
@@ -40,12 +41,14 @@ class DriversTest(unittest.TestCase):
 
     def test_list_names_every_run_once(self) -> None:
         with tempfile.TemporaryDirectory() as results:
-            for driver in STUDIES:
-                with self.subTest(driver=driver):
-                    done = start(driver, "--list", "--results", results)
+            commands = [[driver] for driver in DRIVERS]
+            commands += [[FURROW_POST, "study", folder] for folder in DEFINED]
+            for command in commands:
+                with self.subTest(command=command):
+                    done = start(*command, "--list", "--results", results)
                     self.assertEqual(done.returncode, 0, done.stderr)
                     names = [line.split()[1] for line in done.stdout.splitlines()]
-                    self.assertGreater(len(names), 3)
+                    self.assertGreaterEqual(len(names), 4)
                     self.assertEqual(len(names), len(set(names)))
                     self.assertEqual(
                         {line.split()[0] for line in done.stdout.splitlines()}, {"missing"}

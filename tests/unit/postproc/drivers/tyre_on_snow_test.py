@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """inputs/validation/tyre_on_snow: where a tread lifts, and how its pressure alternates."""
 
-import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -10,11 +9,9 @@ import h5py
 import numpy as np
 
 from furrow_post.errors import ResultsError
-from support.command import SOURCE
+from support.evaluation import evaluation
 
-sys.path.insert(0, str(SOURCE / "inputs" / "validation" / "tyre_on_snow"))
-
-import run
+run = evaluation("tyre_on_snow")
 
 
 class UnevennessTest(unittest.TestCase):

@@ -2,7 +2,6 @@
 """inputs/validation/tyre_shift: the motion of a tread as a whole, told from that of its nodes."""
 
 import math
-import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -10,11 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from furrow_post.errors import ResultsError
-from support.command import SOURCE
+from support.evaluation import evaluation
 
-sys.path.insert(0, str(SOURCE / "inputs" / "validation" / "tyre_shift"))
-
-import run
+run = evaluation("tyre_shift")
 
 
 class ShiftTest(unittest.TestCase):

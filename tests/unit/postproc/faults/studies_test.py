@@ -12,6 +12,7 @@ from pathlib import Path
 from unittest import mock
 
 from furrow_post.study import study as module
+from furrow_post.study.definition import load_study
 from furrow_post.study.launch import ERRORS, SCREEN, Tools
 from furrow_post.study.record import Record
 from furrow_post.study.study import Study, run_study
@@ -21,6 +22,7 @@ from support.faults import FaultsTest, outcome
 INPUTS = SOURCE / "inputs"
 OTHERS = (INPUTS / "crosscheck" / "run.py", INPUTS / "costs" / "run.py")
 DRIVERS = (*sorted(INPUTS.glob("validation/*/run.py")), *OTHERS)
+STUDIES = (*DRIVERS, *(file.parent for file in sorted(INPUTS.glob("*/*/evaluate.py"))))
 FILES = ("history.h5", "terrain.h5", "curve.txt", "facts.txt", "summary.json", "point.csv")
 
 # (words, what is said)
@@ -39,7 +41,10 @@ NEEDS_NO_RUNS = {"tyre_table6"}  # its results are on the screen of a run: a run
 
 @contextmanager
 def study_of(driver: Path) -> Iterator[Study]:
-    """The study of a driver, with the modules of its folder."""
+    """The study of a folder with a study.yaml, or of a driver, with the modules of its folder."""
+    if driver.is_dir():
+        yield load_study(driver)
+        return
     known = set(sys.modules)
     found: list[Study] = []
 
@@ -75,12 +80,12 @@ def forge(study: Study, results: Path, content: str | None) -> None:
 
 class StudiesFaultsTest(FaultsTest):
     def test_words(self) -> None:
-        with study_of(DRIVERS[0]) as study:
+        with study_of(OTHERS[0]) as study:
             for word, message in WORDS:
                 self.expect(word, outcome(lambda: run_study(study, [word])), message)
 
     def test_results_that_are_no_results(self) -> None:
-        for driver in DRIVERS:
+        for driver in STUDIES:
             with study_of(driver) as study:
                 if study.folder.name in NEEDS_NO_RUNS:
                     continue
@@ -90,7 +95,7 @@ class StudiesFaultsTest(FaultsTest):
                         words = ["--evaluate", "--results", results]
                         found = outcome(lambda: run_study(study, words))
                         self.expect(f"{study.folder.name}: {content}", found, results)
-        self.assertEqual(len(DRIVERS), 18)
+        self.assertEqual(len(STUDIES), 18)
         self.assertNotIn("FURROW_TRACEBACK", os.environ)
 
 

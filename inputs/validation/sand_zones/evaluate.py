@@ -4,6 +4,7 @@
 x is counted from the axle, positive ahead; depth from the undisturbed surface.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import numpy as np
 
 from furrow_post.analyse.statistics import place_of_greatest
 from furrow_post.arrays import Booleans, Floats
+from furrow_post.figures.terrain_stress import draw_stress
 from furrow_post.read.results import MIRROR
 from furrow_post.read.terrain import (
     Outline,
@@ -19,6 +21,8 @@ from furrow_post.read.terrain import (
     is_half,
     read_terrain_fields,
 )
+from furrow_post.study.output import Output
+from furrow_post.study.runs import Runs
 
 NEAR = 0.3  # [m] to both sides of the axle that are looked at
 DEPTHS = (0.019, 0.044, 0.069, 0.094, 0.144, 0.19)  # [m] of the layers of the table
@@ -112,3 +116,17 @@ def flow(folder: Path, speed: float) -> Row:
             row[f"{name}_at_mm"] = round(1e3 * float(mean[0]))
             row[f"{name}_depth_mm"] = round(-1e3 * float(mean[2]))
     return row
+
+
+def evaluate(runs: Runs, output: Output) -> Sequence[str]:
+    stress, zones = [], []
+    for run in runs.done("tyre", "wheel"):
+        row: Row = {"run": run.name, "what": run.what, "user_s": run.seconds}
+        if run.case.stage == "tyre":
+            stress += [{**row, **layer} for layer in stresses(run.folder)]
+            draw_stress(run.folder, run.what, output.path(f"{run.name}.png"), dpi=80)
+        else:
+            zones.append({**row, **flow(run.folder, run.number("speed"))})
+    output.table("stress.csv", stress)
+    output.table("flow.csv", zones)
+    return []

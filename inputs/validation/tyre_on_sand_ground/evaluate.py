@@ -1,20 +1,8 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The tyre of [Shoop2001] pressed into and rolling over sand, elastic and with a cap: where the
-stress in the ground is. See README.md.
+"""Where the stress in the ground under the tyre is, its forces, and the figure of both."""
 
-Makes the runs that are missing and writes results.csv and stress.png.
-"""
-
-import sys
 from collections.abc import Sequence
 from pathlib import Path
-
-HERE = Path(__file__).resolve().parent
-PROJECT = HERE.parents[2]
-sys.path.insert(0, str(PROJECT / "postproc"))
-
-import furrow_post  # first: says which of the next ones are missing
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -24,15 +12,10 @@ from furrow_post.arrays import Booleans, Floats
 from furrow_post.figures.style import save
 from furrow_post.read.results import Results
 from furrow_post.read.terrain import read_terrain_fields
-from furrow_post.study.case import Case, Value
-from furrow_post.study.furrow_cases import script_case
 from furrow_post.study.output import Output
-from furrow_post.study.runner import Runner
-from furrow_post.study.study import Study, run_study
+from furrow_post.study.runs import Runs
 from furrow_post.study.tables import transposed
 
-SCENE = PROJECT / "inputs/scenes/tyre_on_continuum.lig"
-MATERIALS = PROJECT / "inputs/materials"
 LAYERS = (0.0, 0.025, 0.05, 0.1, 0.15, 0.2)  # [m] depths of the sections of the table
 BOUSSINESQ_DEPTHS = (0.1, 0.2)  # [m]
 CRUISE = 0.3  # [m] of travel before the end, over which forces are averaged
@@ -40,21 +23,7 @@ AT_REST = 0.03  # [s] before the end, the same for a tyre that does not roll
 NEAR = 0.2  # [m] to both sides of the axle that are counted: beyond lies the load's past
 
 
-def case(name: str, what: str, material: str, **variables: Value) -> Case:
-    given: dict[str, Value] = {"material": MATERIALS / f"{material}.yaml", **variables}
-    return script_case(name, SCENE, given, what=what)
-
-
-ELASTIC, CAP = "mccormick_sand_elastic", "mccormick_sand"
-CASES = (
-    case("elastic_pressed", "elastic, pressed", ELASTIC, roll=0, start=0),
-    case("elastic_rolled", "elastic, rolling", ELASTIC),
-    case("cap_pressed", "cap law, pressed", CAP, roll=0, start=0),
-    case("cap_rolled", "cap law, rolling", CAP),
-)
-
-
-class Run:
+class Ground:
     """The half of the ground that was computed, at the end.
 
     x: counted from the axle [m]; stress: vertical, compression positive [Pa]; depth: before [m]
@@ -170,11 +139,11 @@ class Run:
         return found
 
 
-def row_of(name: str, run: Run, cpu_time: float) -> dict[str, object]:
+def row_of(name: str, run: Ground, seconds: float) -> dict[str, object]:
     f = run.forces()
     row: dict[str, object] = {
         "case": name,
-        "user_s": round(cpu_time, 1),
+        "user_s": seconds,
         "load_N": round(f["load"]),
         "load_fluctuation": round(f["fluctuation"], 3),
         "coefficient": round(f["coefficient"], 5),
@@ -203,14 +172,13 @@ def row_of(name: str, run: Run, cpu_time: float) -> dict[str, object]:
     return row
 
 
-def draw_stress(runs: dict[str, Run], target: Path) -> None:
-    """Vertical and Mises stress in the middle plane, a row per run."""
-    what = {case.name: case.what for case in CASES}
+def draw_stress(runs: dict[str, Ground], target: Path) -> None:
+    """Vertical and Mises stress in the middle plane, a row per run; runs: by what they are."""
     size = (10, 2.5 * len(runs))
     figure, panels = plt.subplots(
         len(runs), 2, figsize=size, constrained_layout=True, squeeze=False
     )
-    for line, (name, run) in zip(panels, runs.items()):
+    for line, (what, run) in zip(panels, runs.items()):
         middle = run.y < np.unique(np.round(run.y, 6))[1] + 1e-4
         slab = middle & (np.abs(run.x) < 0.32) & (run.depth < 0.25)
         for axes, field, label, levels in (
@@ -220,25 +188,17 @@ def draw_stress(runs: dict[str, Run], target: Path) -> None:
             place, values = (run.x[slab], -run.depth[slab]), field[slab] / 1e3
             shown = axes.tricontourf(*place, values, levels=levels, cmap="viridis", extend="both")
             axes.axvline(0, color="w", lw=0.8, ls="--")
-            axes.set(aspect="equal", title=f"{what[name]}: {label}", ylabel="z [m]")
+            axes.set(aspect="equal", title=f"{what}: {label}", ylabel="z [m]")
             figure.colorbar(shown, ax=axes, label="kPa", shrink=0.9)
     for axes in panels[-1]:
         axes.set_xlabel("x from the axle [m], travel to the right")
     save(figure, target, dpi=80)
 
 
-def evaluate(runner: Runner, output: Output) -> Sequence[str]:
-    runs, rows = {}, []
-    for case in CASES:
-        record = runner.record(case)
-        if record:
-            runs[case.name] = Run(runner.folder(case))
-            rows.append(row_of(case.name, runs[case.name], record.cpu_time))
-    if runs:
+def evaluate(runs: Runs, output: Output) -> Sequence[str]:
+    found = [(run, Ground(run.folder)) for run in runs.done("*")]
+    rows = [row_of(run.name, ground, run.seconds) for run, ground in found]
+    if rows:
         output.table("results.csv", transposed(rows, "case"))
-        draw_stress(runs, output.path("stress.png"))
+        draw_stress({run.what: ground for run, ground in found}, output.path("stress.png"))
     return []
-
-
-if __name__ == "__main__":
-    sys.exit(run_study(Study(Path(__file__), __doc__ or "", CASES, evaluate)))

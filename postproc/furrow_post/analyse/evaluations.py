@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What studies take from the folder of one run: ends of paths, tyre states, curves, steady means."""
+
+import csv
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from ..arrays import Floats
+from ..csv_table import read_matrix, read_numbers
+from ..errors import ResultsError, content_of
+from ..study.launch import SCREEN
+
+AGAIN = "make the run again: remove its folder"
+
+
+def path_states(folder: Path, steps: int, count: int = 1) -> list[dict[str, float]]:
+    """Of a path of furrow-point the states at the ends of its parts, of so many steps each.
+
+    @raises ResultsError where it did not come to its end
+    """
+    file = folder / "point.csv"
+    points = read_numbers(file)
+    if len(points) <= steps * count:
+        raise ResultsError(f"{file}: has {len(points)} rows, not all steps; repeat the run")
+    return [points[steps * part] for part in range(1, count + 1)]
+
+
+def tyre_states(folder: Path, least: int = 0) -> list[dict[str, float]]:
+    """Lines that furrow-tyre printed, also before it refused a state; the first has no load.
+
+    @raises ResultsError where there are fewer than least
+    """
+    path = folder / SCREEN
+    with content_of(path, AGAIN), open(path, encoding="utf-8") as file:
+        found = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+    if len(found) < least:
+        raise ResultsError(f"{path}: has {len(found)} states of the tyre, not {least}; {AGAIN}")
+    return found
+
+
+def plate_curve(folder: Path) -> Floats:
+    """(n, 4) step, sinkage [m], load [N], pressure [Pa]; no rows where there is none."""
+    file = folder / "curve.txt"
+    with content_of(file, AGAIN):
+        curve: Floats = np.loadtxt(file, ndmin=2) if file.exists() else np.empty((0, 4))
+    return curve if curve.size else np.empty((0, 4))
+
+
+def wheel_means(wheel: Mapping[str, Floats], low: float, high: float) -> Floats:
+    """(3) Hub drop [m], resistance coefficient, slip over a part of the travel, x [m] from its start."""
+    x = wheel["x"] - wheel["x"][0]
+    part = (x >= low) & (x <= high)
+    resistance = -wheel["force_x"][part].sum() / wheel["force_z"][part].sum()
+    return np.array([wheel["hub_drop"][part].mean(), resistance, wheel["slip"][part].mean()])
+
+
+def steady_columns(wheel: Mapping[str, Floats], window: float) -> dict[str, float]:
+    """Means over the last part of the travel [m], with half the difference between its halves."""
+    end = float(wheel["x"][-1] - wheel["x"][0])
+    value = wheel_means(wheel, end - window, end)
+    first = wheel_means(wheel, end - window, end - window / 2)
+    change = 0.5 * np.abs(wheel_means(wheel, end - window / 2, end) - first)
+    return {
+        "sinkage_m": round(float(value[0]), 4),
+        "sinkage_change_m": round(float(change[0]), 4),
+        "resistance": round(float(value[1]), 4),
+        "resistance_change": round(float(change[1]), 4),
+        "slip": round(float(value[2]), 3),
+    }
+
+
+def watched_mean(folder: Path, column: int, columns: int, since: float, step: float) -> float:
+    """Mean of a column of watch.txt from a time [s] on; step: of the run [s]."""
+    watch = read_matrix(folder / "watch.txt", columns)
+    return float(watch[watch[:, 0] * step > since, column].mean())

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""study.yaml: defaults, texts and placeholders of runs; what is refused."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+from furrow_post.errors import ResultsError
+from furrow_post.study.case import Case
+from furrow_post.study.definition import cases_of, load_study
+from support.command import SOURCE
+
+TEXT = """
+title: A wheel
+checked: [soft]
+texts:
+  snow: |
+    title: {what}
+    law: {d: {d}}
+defaults:
+  script: wheel.lig
+  variables: {depth: 0.2, material: '{folder}/material.yaml'}
+  files: {material.yaml: snow}
+  time_limit: 60
+runs:
+  all:
+    soft: {what: soft snow, with: {d: 5000}}
+    fine: {what: the same, with: {d: 5000}, variables: {cell: 0.02}, ranks: 2}
+  law:
+    defaults: {variables: {depth: 0.4}}
+    hard: {variables: {material: '{materials}/ice.yaml'}, files: {material.yaml: null}, may_fail: true}
+    path: {script: null}
+"""
+
+
+class DefinitionTest(unittest.TestCase):
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.root = Path(temporary.name).resolve()
+        self.folder = self.root / "inputs" / "wheel"
+        self.folder.mkdir(parents=True)
+        (self.root / "CMakeLists.txt").touch()
+
+    def cases(self, text: str) -> dict[str, Case]:
+        (self.folder / "study.yaml").write_text(text, encoding="utf-8")
+        return {case.name: case for case in cases_of(self.folder)}
+
+    def test_runs_have_the_defaults_of_the_study_and_of_their_stage(self) -> None:
+        made = self.cases(TEXT.replace("    path: {script: null}\n", ""))
+        soft, fine, hard = made["soft"], made["fine"], made["hard"]
+        self.assertEqual(soft.arguments[1], self.folder / "wheel.lig")
+        self.assertEqual(soft.variables["depth"], 0.2)
+        self.assertEqual(soft.files["material.yaml"], "title: soft snow\nlaw: {d: 5000}\n")
+        self.assertEqual((soft.time_limit, soft.stage, soft.may_fail), (60, "", False))
+        self.assertEqual((fine.variables["cell"], fine.ranks), (0.02, 2))
+        self.assertEqual((hard.variables["depth"], hard.stage, hard.may_fail), (0.4, "law", True))
+        self.assertEqual(hard.variables["material"], self.root / "inputs" / "materials" / "ice.yaml")
+        self.assertEqual(hard.files, {})
+
+    def test_programs_and_paths(self) -> None:
+        made = self.cases(
+            "runs:\n  all:\n"
+            "    snow: {point: {title: '{run}', material: '{materials}/{run}.yaml', path: '{type: a}'}}\n"
+            "    tyre: {program: furrow-tyre, arguments: ['{tyres}/t.yaml', --load, 6227]}\n"
+        )
+        self.assertIn(f'material: "{self.root}/inputs/materials/snow.yaml"', made["snow"].files["path.yaml"])
+        self.assertEqual(made["tyre"].arguments[1:], ("--load", 6227))
+        self.assertEqual(made["tyre"].arguments[0], self.root / "inputs" / "tyres" / "t.yaml")
+
+    def test_mistakes_are_refused(self) -> None:
+        for text, message in (
+            ("runs: {all: {a: {skript: x}}}", "run 'a' has unknown keys \\['skript'\\]; allowed are"),
+            ("runs: {all: {a: {what: x}}}", "run 'a': give one of script, point, program"),
+            ("runs: {all: {a: {script: x, program: y}}}", "give one of script, point, program"),
+            ("- a\n", "is no mapping"),
+        ):
+            with self.subTest(text), self.assertRaisesRegex(ResultsError, message):
+                self.cases(text)
+        self.cases("runs: {all: {a: {script: x}}}")
+        with self.assertRaisesRegex(ResultsError, "evaluate.py: there is none"):
+            load_study(self.folder)
+
+
+class StoredTest(unittest.TestCase):
+    def test_files_of_all_runs_are_there(self) -> None:
+        for file in sorted((SOURCE / "inputs").glob("*/*/evaluate.py")):
+            study = load_study(file.parent)
+            with self.subTest(study=file.parent.name):
+                self.assertTrue(any(study.checked(case) for case in study.cases))
+                for case in study.cases:
+                    named = [v for v in (*case.arguments, *case.variables.values()) if isinstance(v, Path)]
+                    self.assertTrue(all(path.exists() for path in named), case.name)
+                    self.assertNotIn("{", "".join(str(word) for word in case.variables.values()).replace("{folder}", ""))
+
+
+if __name__ == "__main__":
+    unittest.main()
