@@ -68,29 +68,34 @@ def paragraphs_of_cpp(text: str) -> Iterator[str]:
     """Comments on successive lines are one paragraph. A command of Doxygen begins another, and so
     does a comment behind code. An indented line is a formula or a table."""
     lines: list[str] = []
+    was_behind = False
     for line in text.splitlines():
         comment = re.search(r"(?:^|\s)//[/!]?(<?)\s?(.*)$", line)
         body = comment[2] if comment and "SPDX" not in line else ""
-        behind_code = comment is not None and line[: comment.start()].strip() != ""
-        if not body.strip() or behind_code or re.match(r"@\w+", body):
+        behind = comment is not None and line[: comment.start()].strip() != ""
+        goes_on = was_behind and comment is not None and bool(comment[1]) and not behind
+        if not body.strip() or re.match(r"@\w+", body) or behind or (was_behind and not goes_on):
             yield " ".join(lines)
             lines = []
         if body.strip() and not body.startswith("  "):
             lines.append(re.sub(r"@\w+", "", body))
+        was_behind = behind or goes_on
     yield " ".join(lines)
 
 
 def paragraphs_of_python(text: str) -> Iterator[str]:
+    """The same for Python, and the paragraphs of docstrings."""
     lines: list[str] = []
     last = 0
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
         if token.type != tokenize.COMMENT or token.string.startswith(("#!", "# SPDX", "# fmt")):
             continue
-        if token.start[0] != last + 1:
+        behind_code = token.line[: token.start[1]].strip() != ""
+        if token.start[0] != last + 1 or behind_code:
             yield " ".join(lines)
             lines = []
         lines.append(token.string.lstrip("# "))
-        last = token.start[0]
+        last = 0 if behind_code else token.start[0]
     yield " ".join(lines)
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)):
