@@ -144,7 +144,7 @@ LINK = re.compile(r"(\]\()([^)\s#]+)(#[^)\s]*)?(\))")
 
 
 def table_of_contents(pages: set[str]) -> str:
-    """Toctrees for the end of the first page, from CONTENTS; each page stands in one of them."""
+    """Toctrees for the end of the first page, from CONTENTS; each page is in one of them."""
     left, parts = set(pages) - {root_doc}, []
     for caption, patterns in CONTENTS:
         taken: list[str] = []

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Every command in a code block of a page works: commands.py <source> <build> <scratch>.
 
+The guide and the first page are tested by guide.py.
+
 What takes seconds is run, in a scratch folder that looks like the source tree. Of what takes
 minutes, what can be seen without running is checked: RULES says how, for each kind of command. A
 command that no rule knows fails.
@@ -20,7 +22,8 @@ PROGRAM = re.compile(
     r"(bash |cd |mpirun |furrow(-\w+)? |build/|postproc/|inputs/|tests/|paraview |pvpython )"
 )
 PLACEHOLDER = re.compile(r"\[|\.\.\.|<|FILE|FOLDER|LABEL")  # of a line that shows the syntax
-OWN_RUN = "inputs/own_script/results/own_script"  # stands for any results/SCENE of a page
+OWN_SCRIPT = "inputs/guide/tutorials/wheel_in_my_script"
+OWN_RUN = f"{OWN_SCRIPT}/results/own_script"  # stands for any results/SCENE of a page
 SECONDS = 300  # of one command
 
 
@@ -44,12 +47,9 @@ class Tree:
             (scratch / name).symlink_to(source / name)
         (scratch / "build").symlink_to(build)
         for entry in (source / "inputs").iterdir():
-            if entry.name != "own_script":
+            if entry.name != "guide":
                 (scratch / "inputs" / entry.name).symlink_to(entry)
-        own = scratch / "inputs" / "own_script"
-        own.mkdir()
-        for script in (source / "inputs" / "own_script").glob("*.lig"):
-            shutil.copy(script, own)
+        shutil.copytree(source / OWN_SCRIPT, scratch / OWN_SCRIPT)
 
     def run(self, command: str) -> str:
         """What it says; the test ends where its status is not 0."""
@@ -121,7 +121,6 @@ def tests_run(tree: Tree, command: str) -> None:
 
 
 RULES: tuple[tuple[str, Callable[[Tree, str], None]], ...] = (
-    (r"cd inputs/own_script && ", run),
     (r"(\w+=\S+ )?paraview |pvpython ", compiled),
     (r"bash tests/run", tests_run),
     (r"bash inputs/run|furrow -in ", scene),
@@ -147,12 +146,12 @@ def check_help(tree: Tree, found: list[str]) -> None:
 
 
 def main(source: Path, build: Path, scratch: Path) -> None:
-    pages = [source / "README.md", source / "CONTRIBUTING.md"]
-    pages += sorted(page for part in PAGES_OF for page in (source / part).rglob("*.md"))
+    found_in = [page for part in PAGES_OF for page in (source / part).rglob("*.md")]
+    pages = [source / "CONTRIBUTING.md"]
+    pages += sorted(page for page in found_in if source / "inputs" / "guide" not in page.parents)
     found = list(dict.fromkeys(command for page in pages for command in commands(page)))
-    # first the run whose results others look at
-    found.sort(key=lambda command: not command.startswith("cd inputs/own_script"))
     tree = Tree(source, build, scratch)
+    tree.run(f"cd {OWN_SCRIPT} && furrow -in wheel.lig")  # whose results others look at
     check_help(tree, found)
     for command in found:
         rule = next((rule for start, rule in RULES if re.match(start, command)), None)
