@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Depths, forces, torque and slip against time."""
 
+import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -87,7 +88,7 @@ def draw_histories(results: Results, target: Path) -> None:
         axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
         axes.margins(x=0)
     all_axes[-1].set_xlabel("time [s]")
-    line = summary.line()
+    line = "\n".join(textwrap.wrap(summary.line(), 100))
     figure.suptitle(f"{results.title}\n{line}" if line else results.title, fontsize=10)
     save(figure, target)
 

@@ -5,6 +5,7 @@ Sections as in [Shoop2001] Figs 65-67: across the track and along it, coloured b
 displacement of tracers that stood in straight lines before the wheel passed.
 """
 
+import textwrap
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -85,7 +86,7 @@ def draw_terrain(
         rut, "e", f"across, {distance:.0f} cm behind: shoulder {densities.shoulder:.0f} kg/m³"
     )
     size = f"{len(terrain.x)} particles (mirrored), {terrain.undisturbed:.0f} kg/m³ before"
-    figure.suptitle("\n".join(line for line in (title, size, numbers) if line))
+    figure.suptitle("\n".join(line for line in (title, size, *textwrap.wrap(numbers, 100)) if line))
     save(figure, target, dpi)
     return densities
 
