@@ -9,7 +9,7 @@ the yield surfaces with those of furrow-point.
 """
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import matplotlib
@@ -807,12 +807,12 @@ CHAPTERS: dict[str, Callable[[], None]] = {
 }
 
 
-def main() -> None:
+def draw(names: Iterable[str] = tuple(CHAPTERS)) -> None:
     plt.rcParams.update(STYLE)
     FOLDER.mkdir(exist_ok=True)
-    for name in sys.argv[1:] or CHAPTERS:
+    for name in names:
         CHAPTERS[name]()
 
 
 if __name__ == "__main__":
-    main()
+    draw(sys.argv[1:] or tuple(CHAPTERS))
