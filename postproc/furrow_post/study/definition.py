@@ -27,6 +27,8 @@ from ..errors import ResultsError
 from .case import FOLDER, Case, Value
 from .furrow_cases import point_case, script_case
 from .launch import project_root
+from .output import Output
+from .runner import Runner
 from .runs import Runs
 from .study import Study
 from .values import DEFINITION, load_yaml
@@ -45,11 +47,16 @@ def load_study(folder: Path) -> Study:
     folder = folder.resolve()
     content = load_yaml(folder / DEFINITION)
     module, cases = evaluation_of(folder), cases_of(folder, content)
+
+    def evaluate(runner: Runner, output: Output) -> Sequence[str]:
+        missed: Sequence[str] = module.evaluate(Runs(cases, runner), output)
+        return missed
+
     return Study(
         folder / DEFINITION,
         str(content.get("title", folder.name)),
         cases,
-        lambda runner, output: module.evaluate(Runs(cases, runner), output),
+        evaluate,
         checked=_chosen(content.get("checked")),
     )
 

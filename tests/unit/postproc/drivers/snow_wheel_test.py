@@ -1,24 +1,22 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """inputs/validation/snow_wheel: the field snow, accuracy, size zero."""
 
+import contextlib
+import importlib.util
+import io
 import math
 import re
-import sys
 import unittest
 
 import numpy as np
 
 from furrow_post.arrays import Floats
+from furrow_post.study.case import Case
 from support.command import SOURCE
+from support.evaluation import VALIDATION, cases, evaluation
 
-sys.path.insert(0, str(SOURCE / "inputs" / "validation" / "snow_wheel"))
-
-import cases
-import closed_form
-import mass_balance
-import report
-import slope
-import snow
+study = evaluation("snow_wheel")
+SLOPES = (study.SOFTEST, study.FLOWING, study.CRUSHED)
 
 
 def number(text: str, key: str) -> float:
@@ -37,7 +35,7 @@ def column(text: str, key: str) -> list[float]:
 class FieldSnowTest(unittest.TestCase):
     def test_strength_is_one_function_of_density(self) -> None:
         """Whatever the initial density; from 525 kg/m3 on the final densities under wheels."""
-        first, second = snow.field_snow(110.0), snow.field_snow(220.0)
+        first, second = study.field_snow(110.0), study.field_snow(220.0)
         self.assertEqual((number(first, "density"), number(second, "density")), (110, 220))
         rho, p = column(first, "rho"), column(first, "p")
         self.assertEqual((rho, p), (column(second, "rho"), column(second, "p")))
@@ -46,39 +44,42 @@ class FieldSnowTest(unittest.TestCase):
 
     def test_the_preset_is_what_was_identified(self) -> None:
         preset = (SOURCE / "inputs/materials/field_snow.yaml").read_text()
-        found = snow.field_snow(220.0)
+        found = study.field_snow(220.0)
         for key in ("rho", "p"):
             np.testing.assert_allclose(column(preset, key), column(found, key), rtol=1e-3)
         for key in ("M", "tension_ratio", "E", "nu"):
             self.assertEqual(number(preset, key), number(found, key), key)
 
-    def test_case_keeps_its_material_and_its_fallback(self) -> None:
-        case = cases.on_field_snow("x", "rows", 220, 0.20)
-        self.assertIn("type: cohesive_cam_clay", case.files["material.yaml"])
-        self.assertIn("tyre/darnell", str(case.variables["body"]))
-        self.assertEqual(case.fallback, {"remap_interval": 8})
-        every_step = cases.on_field_snow("y", "rows", 220, 0.20, remap_interval=1)
-        self.assertEqual(every_step.fallback, {})
-
+    def test_runs_have_the_field_snow_of_their_density_and_slope(self) -> None:
+        """Their texts in study.yaml are those that field_snow() writes."""
+        for name, case in cases("snow_wheel").items():
+            text = case.files.get("material.yaml", "")
+            if "cohesive_cam_clay" not in text:
+                continue
+            density, m = number(text, "density"), number(text, "M")
+            beginning = study.TWO_STRESSES if case.stage == "spreading" else study.FIELD_SNOW
+            title = f"field snow of {density:g} kg/m3"
+            self.assertEqual(text, study.field_snow(density, beginning, title, m), name)
+            self.assertEqual(case.fallback, {} if name == "passes" else {"remap_interval": 8})
 
 class SlopeTest(unittest.TestCase):
     def test_k0_and_strength_are_those_of_confined_compression(self) -> None:
         """K0 as src/material/snow.md has it; p and q under an axial stress of 1 on the ellipse."""
-        beta = snow.TENSION_RATIO
-        for slope, k0 in ((snow.CRUSHED, 0.12), (snow.FLOWING, 0.41), (1.5, 0.57)):
-            found, p0 = snow.confined(slope)
+        beta = study.TENSION_RATIO
+        for slope, k0 in ((study.CRUSHED, 0.12), (study.FLOWING, 0.41), (1.5, 0.57)):
+            found, p0 = study.confined(slope)
             self.assertAlmostEqual(found, k0, delta=0.005)
             p, q = (1 + 2 * found) / 3, 1 - found
             on_ellipse = q * q * (1 + 2 * beta) / slope**2
             self.assertAlmostEqual((p + beta * p0) * (p0 - p), on_ellipse, delta=1e-3)
 
     def test_flowing_snow_differs_in_that_alone(self) -> None:
-        first, second = (snow.field_snow(220.0, slope=m) for m in (snow.CRUSHED, snow.FLOWING))
+        first, second = (study.field_snow(220.0, slope=m) for m in (study.CRUSHED, study.FLOWING))
         self.assertEqual(number(second, "M"), 2.0)
         self.assertEqual(column(first, "rho"), column(second, "rho"))
         axial = [
-            np.array(column(text, "p")[1:]) / snow.confined(slope)[1]
-            for text, slope in ((first, snow.CRUSHED), (second, snow.FLOWING))
+            np.array(column(text, "p")[1:]) / study.confined(slope)[1]
+            for text, slope in ((first, study.CRUSHED), (second, study.FLOWING))
         ]
         np.testing.assert_allclose(axial[0], axial[1], rtol=1e-5)
 
@@ -92,17 +93,17 @@ class IdentifiedSlopeTest(unittest.TestCase):
     def sinkage(m: float, depth: float) -> float:
         return 0.7 * depth + 0.1 * m**-2 + 0.02 * m**-4
 
-    def computed(self) -> slope.Computed:
-        z = np.array([[self.sinkage(m, h) for h in self.depths] for m in cases.SLOPES])
+    def computed(self) -> study.Computed:
+        z = np.array([[self.sinkage(m, h) for h in self.depths] for m in SLOPES])
         values = {"sinkage_m": z, "resistance": 0.1 + z, "density_under": 510.0 + 0 * z}
-        return slope.Computed(cases.SLOPES, self.depths, values)
+        return study.Computed(SLOPES, self.depths, values)
 
-    def readings(self) -> list[slope.Reading]:
-        models = {snow.FLOWING: "flowing", snow.CRUSHED: "tyre"}
+    def readings(self) -> list[study.Reading]:
+        models = {study.FLOWING: "flowing", study.CRUSHED: "tyre"}
         shallow = self.computed()._replace(depths=(0.18, 0.20, 0.22))
         return [
-            slope.Reading("hub", self.computed(), models, "sinkage_m"),
-            slope.Reading("rut", shallow, {snow.FLOWING: "flowing"}, "rut_depth_m"),
+            study.Reading("hub", self.computed(), models, "sinkage_m"),
+            study.Reading("rut", shallow, {study.FLOWING: "flowing"}, "rut_depth_m"),
         ]
 
     def rows(self, m: float, scatter: float = 0.0) -> list[dict[str, float]]:
@@ -114,7 +115,7 @@ class IdentifiedSlopeTest(unittest.TestCase):
         ]
 
     def test_the_slope_of_the_tests_is_found(self) -> None:
-        found = slope.identify(self.rows(2.4), self.computed())
+        found = study.identify(self.rows(2.4), self.computed())
         self.assertAlmostEqual(found.slope, 2.4, delta=0.001)
         self.assertAlmostEqual(found.left["sinkage_m"], 0.0, places=4)
 
@@ -122,15 +123,15 @@ class IdentifiedSlopeTest(unittest.TestCase):
         """Of z alone: its error over dz/dM, from N = 6 tests; here z and c say the same, and the
         density is a thirteenth term, without scatter."""
         for scatter in (0.002, 0.003):
-            found = slope.identify(self.rows(2.4, scatter), self.computed())
+            found = study.identify(self.rows(2.4, scatter), self.computed())
             expected = scatter / math.sqrt(12) / (0.2 * 2.4**-3 + 0.08 * 2.4**-5)
             self.assertAlmostEqual(found.slope, 2.4, delta=0.01)
             self.assertAlmostEqual((found.high - found.low) / (2 * expected), 1.0, delta=0.05)
 
     def test_a_slope_beyond_the_runs_is_a_bound(self) -> None:
-        found = slope.identify(self.rows(4.0), self.computed())
-        self.assertEqual((found.slope, found.high), (snow.CRUSHED, snow.CRUSHED))
-        self.assertLess(found.low, snow.CRUSHED)
+        found = study.identify(self.rows(4.0), self.computed())
+        self.assertEqual((found.slope, found.high), (study.CRUSHED, study.CRUSHED))
+        self.assertLess(found.low, study.CRUSHED)
 
     def test_both_choices_of_rows_predict_the_others(self) -> None:
         """Shallow tests say M = 2.6, deep ones 2.2: the choice with both lies between."""
@@ -142,7 +143,7 @@ class IdentifiedSlopeTest(unittest.TestCase):
                 "resistance": 0.1 + self.sinkage(m, depth),
                 **{
                     f"{model}_{what}": self.sinkage(s, depth) + plus
-                    for model, s in (("flowing", snow.FLOWING), ("tyre", snow.CRUSHED))
+                    for model, s in (("flowing", study.FLOWING), ("tyre", study.CRUSHED))
                     for what, plus in (("sinkage_m", 0.0), ("rut_depth_m", 0.0), ("resistance", 0.1))
                 },
             }
@@ -153,15 +154,15 @@ class IdentifiedSlopeTest(unittest.TestCase):
                 (0.2, 110, 2.2),
             )
         ]
-        lines = slope.table(measured, self.readings())
+        lines = study.slope_lines(measured, self.readings())
         self.assertEqual(len(lines), 5)  # the ruts' runs do not reach 0.38 m
         (_, shallow, both), rut = lines[:3], lines[4]
         self.assertEqual((shallow["reading"], rut["reading"]), ("hub", "rut"))
-        self.assertEqual(rut["others_slope"], snow.FLOWING)
+        self.assertEqual(rut["others_slope"], study.FLOWING)
         self.assertEqual(shallow["slope"], 2.6)
         self.assertTrue(2.2 < both["slope"] < 2.6)
         self.assertLess(both["others_sinkage_m_rms"], shallow["others_sinkage_m_rms"])
-        self.assertEqual(shallow["k0"], round(snow.confined(2.6)[0], 2))
+        self.assertEqual(shallow["k0"], round(study.confined(2.6)[0], 2))
 
 
 class MassBalanceTest(unittest.TestCase):
@@ -178,19 +179,19 @@ class MassBalanceTest(unittest.TestCase):
 
     def test_rows_that_keep_mass_leave_no_error(self) -> None:
         rows = self.rows(510.0, 0.03)
-        np.testing.assert_allclose(mass_balance.least_error(rows, 510.0, 1.0), 0.0, atol=1e-12)
-        start, density, off = mass_balance.trend(rows)
+        np.testing.assert_allclose(study.least_error(rows, 510.0, 1.0), 0.0, atol=1e-12)
+        start, density, off = study.trend(rows)
         self.assertAlmostEqual(start, -0.03)
         self.assertAlmostEqual(density, 510.0)
         self.assertAlmostEqual(off, 0.0)
 
     def test_other_rows_leave_what_no_deflection_takes_away(self) -> None:
         rows = self.rows(510.0, 0.065)  # 2 cm more than the largest deflection
-        single, own = mass_balance.least_error(rows, 510.0, 1.0)
+        single, own = study.least_error(rows, 510.0, 1.0)
         self.assertAlmostEqual(own, 0.02)
         self.assertAlmostEqual(single, 0.02)
         rows = self.rows(1020.0, 0.03)  # twice as dense as it is said to be
-        single, own = mass_balance.least_error(rows, 510.0, 1.0)
+        single, own = study.least_error(rows, 510.0, 1.0)
         self.assertGreater(single, own)
         self.assertGreater(own, 0.01)
 
@@ -208,20 +209,47 @@ class RigidWheelTest(unittest.TestCase):
             z = depth * (1 - density / rho)
             return np.asarray(greatest * np.exp((z - sinkage) / length))
 
-        found = closed_form.rigid(2 * radius, width, depth, density, load, stress)
+        found = study.compacted(2 * radius, width, depth, density, load, stress)
         self.assertAlmostEqual(found.sinkage, sinkage, delta=1e-5)
         expected = math.sqrt(2 * length / (math.pi * radius))
         self.assertAlmostEqual(found.resistance / expected, 1.0, delta=0.01)
 
     def test_pressure_is_the_material_s_in_confined_compression(self) -> None:
-        text = snow.field_snow(220.0)
+        text = study.field_snow(220.0)
         rho, p = column(text, "rho"), column(text, "p")
-        stress = closed_form.axial_stress(np.array(rho[1:]))
-        _, share = snow.confined(snow.CRUSHED)
+        stress = study.axial_stress(np.array(rho[1:]))
+        _, share = study.confined(study.CRUSHED)
         np.testing.assert_allclose(stress, np.array(p[1:]) / share, rtol=1e-5)
 
-    def test_the_report_s_wheel_is_the_one_of_the_other_stages(self) -> None:
-        self.assertEqual(cases.rigid(cases.DIAMETER, cases.WIDE), cases.RIGID)
+
+class IdentifyTest(unittest.TestCase):
+    def test_the_stresses_of_made_up_runs_are_found(self) -> None:
+        """Sinkage, resistance and density are straight in the logarithms of the three stresses."""
+        file = VALIDATION / "snow_wheel" / "identify.py"
+        spec = importlib.util.spec_from_file_location("identify_field_snow", file)
+        assert spec and spec.loader
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        _, share = study.confined(study.CRUSHED)
+        wanted = np.log([5e3, 20e3, 90e3])
+
+        def make(case: Case) -> dict[str, object]:
+            p = np.array(column(case.files["material.yaml"], "p")[1:4]) / share
+            off = np.log(p) - wanted
+            depth = float(str(case.variables["depth"]))
+            sinkage = 0.1583 + 0.8 * (depth - 0.2) + 0.02 * off[0] + 0.01 * off[1]
+            return {
+                "error": "",
+                "run": case.name,
+                "sinkage_m": sinkage,
+                "resistance": 0.0717 + 0.03 * off[1] - 0.02 * off[0],
+                "density_under": 510.0 + 60.0 * off[2],
+            }
+
+        with contextlib.redirect_stdout(io.StringIO()):
+            best = module.Search(module.START, make).run(8)
+        for name, stress in zip(module.SEARCHED, (5e3, 20e3, 90e3)):
+            self.assertAlmostEqual(best[name] / stress, 1.0, delta=0.15, msg=name)
 
 
 class AccuracyTest(unittest.TestCase):
@@ -252,13 +280,13 @@ class AccuracyTest(unittest.TestCase):
                 "tyre_resistance": "",
             },
         ]
-        found = report.accuracy(table, "prediction", "tyre")
+        found = study.accuracy(table, "prediction", "tyre")
         self.assertEqual(found["rows"], "prediction: 2")
         self.assertAlmostEqual(found["sinkage_m_rms"], math.sqrt((9 + 16) / 2) / 100, places=4)
         self.assertAlmostEqual(found["sinkage_m_mean"], -0.005)
         self.assertAlmostEqual(found["resistance_mean"], 0.05)
         self.assertAlmostEqual(found["rut_m_mean"], -0.03)
-        self.assertTrue(math.isnan(report.accuracy(table, "calibration", "tyre")["sinkage_m_rms"]))
+        self.assertTrue(math.isnan(study.accuracy(table, "calibration", "tyre")["sinkage_m_rms"]))
 
 if __name__ == "__main__":
     unittest.main()

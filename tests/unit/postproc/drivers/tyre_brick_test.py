@@ -1,22 +1,91 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""inputs/validation/tyre_brick: the mould's outline, the tyre files made of it, errors and goals."""
+"""inputs/validation/tyre_brick: the outlines of the tyre files, errors and goals, the choices.
+
+The outline of a carcass as the mould leaves it: four arcs that meet without a corner. The radius of
+the crown is fitted; where the arcs end is assumed. Everything else is measured: [Shoop2001] Table 8
+has the radii of belts and bead, Table 6 the widths of tread and section.
+"""
 
 import math
 import re
-import sys
 import unittest
+from dataclasses import dataclass
+from math import asin, cos, pi, radians, sin
 
 from furrow_post.analyse import measured_choice
 from furrow_post.csv_table import read_comments, read_rows
 from support.command import SOURCE
+from support.evaluation import VALIDATION, evaluation
 
-sys.path.insert(0, str(SOURCE / "inputs" / "validation" / "tyre_brick"))
+report = evaluation("tyre_brick")
+HERE = VALIDATION / "tyre_brick"
 
-import cases
-import choice
-import mould
-import report
-import shapes
+BELT_RADIUS = 0.3475  # [m] Table 8: diameter of the belts 69.5 cm
+BEAD = (0.0825, 0.2080)  # [m] axial: half of the 6.5 inch rim; radius: Table 8
+SHOULDER_END = 60.0  # [degrees] of the outline against the axle, assumed
+POINTS = (4, 4, 2, 3)  # of each arc
+UPPER_END = 0.108  # [m] along the outline, where the upper sidewall ends
+BEAD_ZONES = (0.046, 0.030, 0.0)  # [m] before the bead, where the last zones end
+
+
+@dataclass(frozen=True)
+class Mould:
+    """What an outline is made of, beside what is measured."""
+
+    crown: float = 1.5  # [m] radius, identified
+    crown_end: float = 0.066  # [m] axial, assumed
+    shoulder: float = 0.045  # [m] radius, assumed
+    widest: float = 0.1115  # [m] Table 6: section 22.9 cm without air, less walls of 3 mm
+    # [m] along the outline: belts, and the tread's full thickness, end where its outside is 7.85 cm
+    # from the mid-plane (Table 6: 15.7 cm wide); the tread ends
+    belt_end: float = 0.0735
+    tread_end: float = 0.084
+
+
+@dataclass(frozen=True)
+class Outline:
+    axial: list[float]  # [m]
+    radius: list[float]  # [m]
+    length: float  # [m]
+
+
+def outline(mould: Mould) -> Outline:
+    """Points of the four arcs: crown, shoulder, upper sidewall to the widest place, the lower one
+    to the bead. The angle is that of the outline against the axle."""
+    axial, radius, length = [0.0], [BELT_RADIUS], 0.0
+
+    def add(start: float, end: float, of_arc: float, points: int) -> None:
+        nonlocal length
+        a, r = axial[-1], radius[-1]
+        for k in range(1, points + 1):
+            angle = start + (end - start) * k / points
+            axial.append(a + of_arc * (sin(angle) - sin(start)))
+            radius.append(r - of_arc * (cos(start) - cos(angle)))
+        length += of_arc * (end - start)
+
+    crown, shoulder = asin(mould.crown_end / mould.crown), radians(SHOULDER_END)
+    add(0.0, crown, mould.crown, POINTS[0])
+    add(crown, shoulder, mould.shoulder, POINTS[1])
+    add(shoulder, pi / 2, (mould.widest - axial[-1]) / (1.0 - sin(shoulder)), POINTS[2])
+    across, down = mould.widest - BEAD[0], radius[-1] - BEAD[1]
+    lower = (across**2 + down**2) / (2.0 * across)
+    add(pi / 2, pi / 2 + asin(down / lower), lower, POINTS[3])
+    return Outline([round(a, 5) for a in axial], [round(r, 5) for r in radius], length)
+
+
+def zone_ends(mould: Mould) -> list[float]:
+    """[m] of belts, shoulder, upper sidewall, sidewall, lower sidewall, bead."""
+    length = outline(mould).length
+    last = (round(length - before, 4) for before in BEAD_ZONES)
+    return [mould.belt_end, mould.tread_end, UPPER_END, *last]
+
+
+def listed(text: str, key: str) -> list[float]:
+    """The values of a key in the text of a tyre file. @raises ValueError"""
+    found = re.findall(rf"(?m)^ +{key}: *\[([^]]*)\]", text)
+    if len(found) != 1:
+        raise ValueError(f"{len(found)} lines of the tyre file have {key}")
+    return [float(value) for value in found[0].split(",")]
 
 
 def state(pressure: float, factor: float) -> dict[str, float]:
@@ -33,10 +102,10 @@ def state(pressure: float, factor: float) -> dict[str, float]:
 
 class MouldTest(unittest.TestCase):
     def test_four_arcs_meet_without_a_corner(self) -> None:
-        shape = mould.outline(mould.Mould(crown=1.0))
-        self.assertEqual((shape.axial[0], shape.radius[0]), (0.0, mould.BELT_RADIUS))
-        self.assertEqual((shape.axial[-1], shape.radius[-1]), mould.BEAD)
-        self.assertEqual(max(shape.axial), mould.Mould().widest)
+        shape = outline(Mould(crown=1.0))
+        self.assertEqual((shape.axial[0], shape.radius[0]), (0.0, BELT_RADIUS))
+        self.assertEqual((shape.axial[-1], shape.radius[-1]), BEAD)
+        self.assertEqual(max(shape.axial), Mould().widest)
         chords = list(zip(shape.axial, shape.radius))
         angles = [math.atan2(a[1] - b[1], b[0] - a[0]) for a, b in zip(chords, chords[1:])]
         self.assertEqual(angles, sorted(angles))  # bent to the bead everywhere
@@ -46,38 +115,32 @@ class MouldTest(unittest.TestCase):
         self.assertAlmostEqual(total, shape.length, delta=2e-3)
 
     def test_a_flat_crown_has_its_sagitta(self) -> None:
-        of = mould.Mould(crown=1.0)
-        shape = mould.outline(of)
+        of = Mould(crown=1.0)
+        shape = outline(of)
         edge = shape.axial.index(of.crown_end)
         drop = 1.0 - math.sqrt(1.0 - of.crown_end**2)
-        self.assertAlmostEqual(shape.radius[edge], mould.BELT_RADIUS - drop, delta=1e-5)
+        self.assertAlmostEqual(shape.radius[edge], BELT_RADIUS - drop, delta=1e-5)
 
     def test_the_tyre_files_have_what_was_chosen(self) -> None:
-        for tread, of in (
-            *((tread, cases.OF_SMOOTH) for tread in ("smooth", "ribbed", "lugged")),
-            ("equivalent", cases.OF_EQUIVALENT),
+        edge = Mould(crown_end=0.0775, shoulder=0.030, widest=0.109, belt_end=0.0775, tread_end=0.088)
+        for tread, of, rubber in (
+            ("smooth", Mould(), 1.109596e6),
+            ("ribbed", Mould(), 2.408340e6),
+            ("lugged", Mould(), None),
+            ("equivalent", edge, 2e5),
         ):
-            shape = mould.outline(of.mould)
-            text = (cases.TYRES / f"p235_75r15_{tread}.yaml").read_text(encoding="utf-8")
-            self.assertEqual(mould.listed(text, "axial"), shape.axial)
-            self.assertEqual(mould.listed(text, "radius"), shape.radius)
-            self.assertEqual(mould.listed(text, "zone_end"), mould.zone_ends(of.mould))
-            ends = [0, of.mould.belt_end, of.mould.tread_end]
-            self.assertEqual(mould.listed(text, "at"), ends)
-            self.assertEqual(mould.listed(text, "stretch_along")[0], of.belt)
-            self.assertEqual(mould.listed(text, "shear")[2:5], [of.shear] * 3)
-        for file, of in ((cases.SMOOTH, cases.OF_SMOOTH), (cases.EQUIVALENT, cases.OF_EQUIVALENT)):
-            (rubber,) = re.findall(r"C10: (\S+)", file.read_text(encoding="utf-8"))
-            self.assertEqual(float(rubber), of.rubber)
-
-    def test_a_trial_is_a_tyre_file_with_other_values(self) -> None:
-        text = mould.tyre_text(cases.SMOOTH, mould.Mould(crown=0.5), 4e6, 5e3, 3e5)
-        self.assertEqual(mould.listed(text, "stretch_along")[0], 4e6)
-        self.assertEqual(mould.listed(text, "radius"), mould.outline(mould.Mould(crown=0.5)).radius)
-        self.assertIn("C10: 300000", text)
-        self.assertNotIn("#", text)
-        with self.assertRaises(ValueError):
-            mould.replaced(text, "no_such_key", [1.0])
+            shape = outline(of)
+            file = SOURCE / "inputs" / "tyres" / f"p235_75r15_{tread}.yaml"
+            text = file.read_text(encoding="utf-8")
+            self.assertEqual(listed(text, "axial"), shape.axial)
+            self.assertEqual(listed(text, "radius"), shape.radius)
+            self.assertEqual(listed(text, "zone_end"), zone_ends(of))
+            self.assertEqual(listed(text, "at"), [0, of.belt_end, of.tread_end])
+            self.assertEqual(listed(text, "stretch_along")[0], 5e6)
+            self.assertEqual(listed(text, "shear")[2:5], [2e3] * 3)
+            if rubber:
+                (found,) = re.findall(r"C10: (\S+)", text)
+                self.assertEqual(float(found), rubber)
 
 
 class GoalsTest(unittest.TestCase):
@@ -91,7 +154,7 @@ class GoalsTest(unittest.TestCase):
     def test_the_stored_table_is_within_the_goals_and_has_the_stored_errors(self) -> None:
         table = report.stored("table6.csv")
         self.assertEqual(list(report.missed_goals(table)), [])
-        for row, measured in zip(table, report.read_rows(report.MEASURED), strict=True):
+        for row, measured in zip(table, read_rows(report.MEASURED), strict=True):
             for what in ("deflection_cm", "area_cm2", "section_width_cm"):
                 error = row[what] / float(measured[what]) - 1
                 name = what.removesuffix("_cm2").removesuffix("_cm") + "_error"
@@ -120,18 +183,18 @@ class ChoiceTest(unittest.TestCase):
     """The tables that --error chooses from, against those of both studies."""
 
     def test_the_tables_are_those_of_both_studies(self) -> None:
-        seconds = {r["run"]: float(r["user_s"]) for r in read_rows(cases.HERE / "costs.csv")}
-        table6 = choice.table6(
+        seconds = {r["run"]: float(r["user_s"]) for r in read_rows(HERE / "costs.csv")}
+        table6 = report.choice_of_table6(
             {
-                cases.COARSE: (report.stored("meshes.csv"), seconds["meshes/60"]),
-                cases.SECTIONS: (report.stored("table6.csv"), seconds["table6"]),
+                report.COARSE: (report.stored("meshes.csv"), seconds["meshes/60"]),
+                report.SECTIONS: (report.stored("table6.csv"), seconds["table6"]),
             }
         )
-        stress = choice.stress(read_rows(cases.HERE / "contact_stress.csv"))
+        stress = report.choice_of_stress(read_rows(HERE / "contact_stress.csv"))
         for scene, rows in (("tyre_on_plane", table6), ("brick_tyre_on_plane", stress)):
             with self.subTest(scene=scene):
                 written = [{key: str(value) for key, value in row.items()} for row in rows]
-                self.assertEqual(read_rows(cases.HERE / f"errors_{scene}.csv"), written)
+                self.assertEqual(read_rows(HERE / f"errors_{scene}.csv"), written)
 
     def test_each_tyre_is_worth_it_somewhere(self) -> None:
         for scene, error, tyre, scene_of_it in (
@@ -143,7 +206,7 @@ class ChoiceTest(unittest.TestCase):
             ("brick_tyre_on_plane", 0.1, "tyre/brick", "brick_tyre_on_plane"),
         ):
             with self.subTest(scene=scene, error=error):
-                table = cases.HERE / f"errors_{scene}.csv"
+                table = HERE / f"errors_{scene}.csv"
                 self.assertTrue(measured_choice.measurement(read_comments(table)))
                 chosen = measured_choice.recommend(measured_choice.read_compared(table), error)
                 self.assertLessEqual(chosen.error, error)
@@ -151,7 +214,7 @@ class ChoiceTest(unittest.TestCase):
 
     def test_a_peak_that_changes_with_the_mesh_is_no_small_error(self) -> None:
         rows = [{"largest_kPa": value} for value in (765.0, 612.0)]
-        first, finest = choice.mesh_errors(rows)
+        first, finest = report.mesh_errors(rows)
         self.assertEqual((first, finest), ({"mesh_error": 0.2}, {"mesh_error": 0.25}))
 
 
@@ -162,12 +225,12 @@ class ShapesTest(unittest.TestCase):
 
     def test_the_sidewall_begins_beside_the_tread(self) -> None:
         points = [(0.0, -0.37), (0.075, -0.368), (0.1, -0.3), (0.09, -0.31), (0.082, -0.2)]
-        profile = shapes.sidewall(points)
+        profile = report.sidewall(points)
         self.assertEqual([y for y, _ in profile], [0.1, 0.09, 0.082])
         self.assertAlmostEqual(profile[0][1], 0.07)
 
     def test_a_wall_leans_by_the_way_of_its_top(self) -> None:
-        inner, outer = shapes.walls(self.UNLOADED)
+        inner, outer = report.walls(self.UNLOADED)
         self.assertEqual((inner.top, inner.foot, outer.foot, outer.top), (1, 2, 3, 4))
         self.assertAlmostEqual(inner.lean(self.UNLOADED), -math.degrees(math.atan2(2, 50)))
         leaning = list(self.UNLOADED)

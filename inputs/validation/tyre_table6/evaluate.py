@@ -1,27 +1,24 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is made of the runs: errors against Table 6, its goals, and a table of each further part."""
+"""Errors against Table 6, its goals, and a table of each further part."""
 
-import csv
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import cases
-
+from furrow_post.analyse.evaluations import tyre_states
 from furrow_post.analyse.statistics import block_mean, rms
 from furrow_post.csv_table import read_numbers, read_rows
 from furrow_post.read.results import Results
-from furrow_post.study.case import Case
-from furrow_post.study.launch import SCREEN
 from furrow_post.study.output import Output
-from furrow_post.study.runner import Runner
+from furrow_post.study.runs import Run, Runs
 
 HERE = Path(__file__).resolve().parent
 AREA_GOAL = 0.10
 DEFLECTION_GOAL = {"identification": 0.10, "prediction": 0.15}
 HALF_TREAD = 0.0785  # [m] width of half the tread
 BELT_RADIUS = 0.3475  # [m] as made
+IDENTIFIED_AT = 2  # pressures
 MIDDLE_OF_PRINT = 0.05  # [m] to both sides of its middle along the travel
 
 
@@ -47,14 +44,6 @@ def reference() -> list[Measured]:
         )
         for row in read_rows(HERE / "reference.csv")
     ]
-
-
-def states(runner: Runner, case: Case) -> list[dict[str, float]]:
-    """Lines that furrow-tyre printed, also before it refused a state; the first has no load."""
-    if not runner.ended(case):
-        return []
-    with open(runner.folder(case) / SCREEN, encoding="utf-8") as file:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
 
 
 def errors(rows: Sequence[dict[str, float]]) -> list[dict[str, float | str]]:
@@ -95,33 +84,36 @@ def missed_goals(table: Sequence[dict[str, float | str]]) -> Iterator[str]:
                 yield f"{pressure}: {what} {100 * error:+.1f} %, goal {100 * goal:.0f} %"
 
 
-def mesh_table(runner: Runner) -> list[dict[str, object]]:
-    return [
-        {"mesh": cases.mesh_name(mesh), "half": int(half), **row}
-        for case, (mesh, half) in zip(cases.MESH_CASES, cases.MESHES)
-        for row in errors(states(runner, case))
-    ]
+def mesh_table(runs: Runs) -> list[dict[str, object]]:
+    found: list[dict[str, object]] = []
+    for run in runs.ended("meshes"):
+        mesh, _, half = run.name.rpartition("/")[2].partition("_")
+        found += [
+            {"mesh": mesh, "half": int(half == "half"), **row} for row in errors(tyre_states(run.folder))
+        ]
+    return found
 
 
-def stress_table(runner: Runner) -> list[dict[str, object]]:
+def stress_table(runs: Runs) -> list[dict[str, object]]:
     """Pressures of the tread's lines from the middle to the edge, over the middle of the print."""
     found: list[dict[str, object]] = []
-    for case, (spring, mesh) in zip(cases.STRESS_CASES, cases.TREAD_SPRINGS):
-        rows = states(runner, case)
+    for run in runs.ended("contact_stress"):
+        rows = tyre_states(run.folder)
+        mesh, spring = run.name.rpartition("/")[2].split("_")
         if len(rows) < 2:
             continue
-        count = mesh[0] // 2  # lines from the middle to the edge
+        count = int(mesh.partition("x")[0]) // 2  # lines from the middle to the edge
         lines: list[list[float]] = [[] for _ in range(count + 1)]
-        for node in read_numbers(runner.folder(case) / "207kPa_6627N_pressure.csv"):
+        for node in read_numbers(run.folder / "207kPa_6627N_pressure.csv"):
             if abs(node["x_m"]) < MIDDLE_OF_PRINT:
-                line = min(count, round(node["y_m"] / HALF_TREAD * mesh[0] / 2))
+                line = min(count, round(node["y_m"] / HALF_TREAD * count))
                 lines[line].append(node["pressure_Pa"] / 1e3)
         means = [sum(line) / len(line) if line else 0.0 for line in lines]
         least = means.index(min(means))
         found.append(
             {
-                "mesh": cases.mesh_name(mesh),
-                "tread_stiffness": spring,
+                "mesh": mesh,
+                "tread_stiffness": int(spring),
                 "mean_kPa": rows[1]["mean_pressure_kPa"],
                 "largest_kPa": rows[1]["largest_pressure_kPa"],
                 "middle_kPa": round(means[0], 1),
@@ -133,10 +125,10 @@ def stress_table(runner: Runner) -> list[dict[str, object]]:
     return found
 
 
-def inflated_table(runner: Runner) -> list[dict[str, object]]:
+def inflated_table(states: Sequence[dict[str, float]]) -> list[dict[str, object]]:
     """Size of the tyre without load, of cords and belts, without the rubber outside of them;
     growth from the lowest pressure on."""
-    unloaded = [row for row in states(runner, cases.TABLE6) if row["load_N"] == 0]
+    unloaded = [row for row in states if row["load_N"] == 0]
     return [
         {
             "pressure_kPa": row["pressure_kPa"],
@@ -148,70 +140,54 @@ def inflated_table(runner: Runner) -> list[dict[str, object]]:
     ]
 
 
-def rolling_table(runner: Runner) -> list[dict[str, object]]:
+def rolling_row(run: Run) -> dict[str, object]:
     """Resistance of rolling, mean over the last turn, with the error of eight blocks."""
-    found: list[dict[str, object]] = []
-    for case, damping in zip(cases.ROLLING, cases.DAMPINGS):
-        if record := runner.record(case):
-            wheel = Results(runner.folder(case)).columns
-            turn = wheel["x"] > wheel["x"][-1] - 2 * math.pi * BELT_RADIUS
-            mean, error = block_mean(-wheel["force_x"][turn])
-            found.append(
-                {
-                    "damping": damping,
-                    "resistance_N": round(mean, 2),
-                    "resistance_error_N": round(error, 2),
-                    "deflection_mm": round(1e3 * float(wheel["hub_drop"][turn].mean()), 2),
-                    "user_s": round(record.cpu_time, 1),
-                }
-            )
-    return found
+    wheel = Results(run.folder).columns
+    turn = wheel["x"] > wheel["x"][-1] - 2 * math.pi * BELT_RADIUS
+    mean, error = block_mean(-wheel["force_x"][turn])
+    return {
+        "damping": round(run.number("damping")),
+        "resistance_N": round(mean, 2),
+        "resistance_error_N": round(error, 2),
+        "deflection_mm": round(1e3 * float(wheel["hub_drop"][turn].mean()), 2),
+        "user_s": run.seconds,
+    }
 
 
-def cost_table(runner: Runner) -> list[dict[str, object]]:
-    """Of every run, failed ones too."""
-    known = ((case, runner.ended(case)) for case in cases.CASES)
-    return [{"run": c.name, "user_s": round(r.cpu_time, 1)} for c, r in known if r]
-
-
-def hard_table(runner: Runner) -> list[dict[str, object]]:
-    """States of the hard cases; a refused one has the unloaded state alone."""
-    return [
-        {"case": name, **row}
-        for case, (name, *_) in zip(cases.HARD, cases.HARD_CASES)
-        for row in states(runner, case)
-    ]
-
-
-def identification_table(runner: Runner) -> list[dict[str, object]]:
+def identification_row(run: Run) -> dict[str, object]:
     """End springs and link against deflection and area at the two pressures."""
-    found: list[dict[str, object]] = []
-    for case, (rim, tread, axial) in zip(cases.IDENTIFICATION, cases.SPRINGS_AND_LINKS):
-        if not runner.ended(case):
-            continue
-        table = errors(states(runner, case))
-        parts = [number(row, key) for row in table for key in ("deflection_error", "area_error")]
-        misfit = rms(parts) if len(table) == len(cases.IDENTIFIED_AT) else float("nan")
-        found.append(
-            {
-                "rim_stiffness": rim,
-                "tread_stiffness": tread,
-                "link_axial_m": axial,
-                "rms_error": round(misfit, 4),
-            }
-        )
-    return found
+    words = [str(word) for word in run.case.arguments]
+    rim, tread, link = (
+        float(words[words.index(key) + 1]) for key in ("--rim-stiffness", "--tread-stiffness", "--link")
+    )
+    table = errors(tyre_states(run.folder))
+    parts = [number(row, key) for row in table for key in ("deflection_error", "area_error")]
+    misfit = rms(parts) if len(table) == IDENTIFIED_AT else math.nan
+    return {
+        "rim_stiffness": round(rim),
+        "tread_stiffness": round(tread),
+        "link_axial_m": link,
+        "rms_error": round(misfit, 4),
+    }
 
 
-def evaluate(runner: Runner, output: Output) -> Sequence[str]:
-    table = errors(states(runner, cases.TABLE6))
+def evaluate(runs: Runs, output: Output) -> Sequence[str]:
+    of_table6 = [state for run in runs.ended("table6") for state in tyre_states(run.folder)]
+    table = errors(of_table6)
     output.table("table6.csv", table)
-    output.table("meshes.csv", mesh_table(runner))
-    output.table("load_deflection.csv", states(runner, cases.LOAD_DEFLECTION))
-    output.table("contact_stress.csv", stress_table(runner))
-    output.table("hard_cases.csv", hard_table(runner))
-    output.table("identification.csv", identification_table(runner))
-    output.table("inflated.csv", inflated_table(runner))
-    output.table("rolling.csv", rolling_table(runner))
-    output.table("costs.csv", cost_table(runner))
+    output.table("meshes.csv", mesh_table(runs))
+    states = [state for run in runs.ended("load_deflection") for state in tyre_states(run.folder)]
+    output.table("load_deflection.csv", states)
+    output.table("contact_stress.csv", stress_table(runs))
+    # a refused state has the unloaded one alone
+    hard = [
+        {"case": run.what, **state}
+        for run in runs.ended("hard_cases")
+        for state in tyre_states(run.folder)
+    ]
+    output.table("hard_cases.csv", hard)
+    output.table("identification.csv", [identification_row(run) for run in runs.ended("identification")])
+    output.table("inflated.csv", inflated_table(of_table6))
+    output.table("rolling.csv", [rolling_row(run) for run in runs.done("rolling")])
+    output.table("costs.csv", [{"run": run.name, "user_s": run.seconds} for run in runs.ended("*")])
     return list(missed_goals(table))

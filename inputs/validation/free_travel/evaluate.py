@@ -1,76 +1,22 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Pull-slip and slope-slip curves by both kinds of rig: slip prescribed, or the axle free along x
-under a drawbar load or on a slope. See README.md.
-
-Makes the runs that are missing and writes results.csv, agreement.csv and curves.png. --check makes
-four runs of some seconds: those around the slip that 150 N and their slope ask for.
-"""
+"""Pull, torque and hub drop over slip of each rig, and how far the free rigs are from the other."""
 
 import math
-import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[2] / "postproc"))
-
 from furrow_post.analyse.statistics import rms
 from furrow_post.errors import ResultsError
-from furrow_post.study.case import Case
-from furrow_post.study.furrow_cases import script_case
 from furrow_post.study.output import Output
-from furrow_post.study.runner import Runner
-from furrow_post.study.study import Study, run_study
+from furrow_post.study.runs import Runs
 from furrow_post.sweep.curves import CONDITIONS, HUB_DROP, PULL, SLIP, TORQUE, Axis, Curve, Figure, Line
 from furrow_post.sweep.drawing import draw_sweep
 from furrow_post.sweep.series import read_series
 
-LOAD = 3000.0  # W, of wheel.lig [N]
-RADIUS = 0.37  # [m]
-SPIN = 5.4  # of all wheels [rad/s]
-SLIPS = (-0.12, -0.09, -0.06, -0.03, -0.015, 0.0, 0.02, 0.05, 0.1, 0.2)
-PULLS = (-300.0, -150.0, 0.0, 150.0, 200.0, 250.0)  # [N]
-SLOPES = (-6.0, -4.0, -2.0, 1.0, 3.0, 4.5)  # [degrees]; W sin(3 degrees) = 157 N
-
 PRESCRIBED, DRAWBAR, SLOPE = "prescribed slip", "drawbar load", "slope"
-CHECKED = {PRESCRIBED: (-0.03, 0.0), DRAWBAR: (150.0,), SLOPE: (3.0,)}  # with --check
-FREE = f"travel free mode spin spin_rate {SPIN} dragged_mass 60"
-
-
-def speed_of(slip: float) -> float:
-    """Of the axle [m/s]: the rim is as fast as that of the free wheels."""
-    rim = SPIN * RADIUS
-    return rim * (1.0 - slip) if slip > 0.0 else rim / (1.0 + slip)
-
-
-RIGS: dict[str, tuple[Sequence[float], Callable[[float], str]]] = {
-    PRESCRIBED: (SLIPS, lambda slip: f"speed {speed_of(slip):.6g} mode slip slip {slip:g}"),
-    DRAWBAR: (PULLS, lambda pull: f"{FREE} drawbar_load {pull:g}"),
-    SLOPE: (SLOPES, lambda slope: f"{FREE} slope {slope:g}"),
-}
-
-
-def folder_of(rig: str) -> str:
-    return rig.replace(" ", "_")
-
-
-def case_of(rig: str, value: float) -> Case:
-    drive = RIGS[rig][1](value)
-    folder = folder_of(rig)
-    return script_case(
-        f"{folder}/{value:g}", HERE / "wheel.lig", {"drive": drive}, stage=folder, what=drive
-    )
-
-
-CASES = [case_of(rig, value) for rig, (values, _) in RIGS.items() for value in values]
-IN_CHECK = {case_of(rig, value).name for rig, values in CHECKED.items() for value in values}
-
-
-def in_check(case: Case) -> bool:
-    return case.name in IN_CHECK
+RIGS = {rig: rig.replace(" ", "_") for rig in (PRESCRIBED, DRAWBAR, SLOPE)}  # -> stage
 
 
 @dataclass(frozen=True)
@@ -172,11 +118,11 @@ def agreement(figure: Figure) -> list[dict[str, Any]]:
     return rows
 
 
-def evaluate(runner: Runner, output: Output) -> list[str]:
-    stages = {case.stage for case in CASES if runner.record(case)}
-    if len(stages) < len(RIGS):
+def evaluate(runs: Runs, output: Output) -> Sequence[str]:
+    if not all(runs.done(stage) for stage in RIGS.values()):
         return ["not every rig has a run"]
-    figure = figure_of({rig: runner.results / folder_of(rig) for rig in RIGS})
+    folders = {rig: runs.done(stage)[0].folder.parent for rig, stage in RIGS.items()}
+    figure = figure_of(folders)
     output.table("results.csv", results(figure))
     rows = agreement(figure)
     output.table("agreement.csv", rows)
@@ -188,8 +134,3 @@ def evaluate(runner: Runner, output: Output) -> list[str]:
         for row in rows
         if not row["points"] or row["rms_difference"] > limits[row["quantity"]]
     ]
-
-
-if __name__ == "__main__":
-    study = Study(Path(__file__), __doc__ or "", CASES, evaluate, checked=in_check)
-    sys.exit(run_study(study))
