@@ -1,24 +1,38 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Named arrays of a file."""
+"""What a file has, by name: arrays, units."""
 
+import difflib
 from collections.abc import Mapping
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
-from .arrays import Floats
+from .arrays import Floats, read_only
 from .errors import ResultsError
 
+Value = TypeVar("Value")
 
-class Fields(dict[str, Floats]):
-    """Name -> array of a file; asking for one that the file has not is an error that names both."""
 
-    def __init__(self, file: Path, arrays: Mapping[str, Floats], remedy: str) -> None:
-        super().__init__(arrays)
+class Named(dict[str, Value]):
+    """Name -> value of a file; asking for a name that the file has not is an error that lists all."""
+
+    def __init__(self, file: Path, values: Mapping[str, Value], remedy: str) -> None:
+        super().__init__(values)
         self.file, self.remedy = file, remedy
 
-    def __missing__(self, name: str) -> Floats:
-        raise ResultsError(f"{self.file}: has no '{name}'; {self.remedy}")
+    def __missing__(self, name: str) -> Value:
+        near = difflib.get_close_matches(str(name), self, n=3)
+        remedy = f"did you mean {' or '.join(near)}?" if near else self.remedy
+        there = f"; it has {', '.join(self)}" if self else ""
+        raise ResultsError(f"{self.file}: has no '{name}'{there}; {remedy}")
+
+
+class Fields(Named[Floats]):
+    """Arrays, which cannot be written to: they are what the file has."""
+
+    def __init__(self, file: Path, arrays: Mapping[str, Floats], remedy: str) -> None:
+        super().__init__(file, {name: read_only(values) for name, values in arrays.items()}, remedy)
 
     def require_rows(self) -> int:
         """Their common number of rows. @raises ResultsError where they differ"""

@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..arrays import Floats, Integers
+from ..arrays import Floats, Integers, read_only
 from ..errors import ResultsError
-from ..fields import Fields
+from ..fields import Fields, Named
 from .hdf5 import opened
 from .styles import Styles
 
@@ -143,8 +143,8 @@ class Results:
     def _read(self, content: Any) -> None:
         self.run = {name: decoded(value) for name, value in content["run"].attrs.items()}
         columns: dict[str, Floats] = {}
-        self.units: dict[str, str] = {}
-        self.meanings: dict[str, str] = {}
+        self.units: Named[str] = Named(self.file, {}, REPEAT)
+        self.meanings: Named[str] = Named(self.file, {}, REPEAT)
         for stored, data in content["history"].items():
             name = FORMER_CHANNELS.get(stored, stored)
             columns[name] = data[()]
@@ -173,7 +173,7 @@ class Results:
                 "the same in arrays of numpy"
             ) from None
         frame = pandas.DataFrame(dict(self.columns))
-        frame.attrs.update(units=self.units, meanings=self.meanings)
+        frame.attrs.update(units=dict(self.units), meanings=dict(self.meanings))
         return frame
 
     @property
@@ -245,7 +245,8 @@ def read_surface(file: Path) -> Surface | None:
         group = content.get("surface")
         if group is None:
             return None
-        return _require_surface(Surface(group["triangles"][()], group["x"][()]), file)
+        triangles, x = read_only(group["triangles"][()]), read_only(group["x"][()])
+        return _require_surface(Surface(triangles, x), file)
 
 
 def _require_history(columns: Fields, file: Path) -> None:

@@ -30,6 +30,21 @@ class LoadTest(unittest.TestCase):
             self.assertTrue((channels[name].to_numpy() == values).all(), name)
         self.assertEqual(channels.attrs["units"], run.units)
 
+    def test_unknown_channel_is_refused_with_the_names_that_there_are(self) -> None:
+        run = furrow_post.load(self.folder)
+        for values in (run.columns, run.units, run.meanings):
+            with self.assertRaisesRegex(ResultsError, "history.h5: has no 'hub_dorp'; it has .*hub_drop"):
+                values["hub_dorp"]
+            with self.assertRaisesRegex(ResultsError, r"did you mean hub_drop\?"):
+                values["hub_dorp"]
+
+    def test_loaded_arrays_cannot_be_changed(self) -> None:
+        run = furrow_post.load(self.folder)
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            run.columns["hub_drop"][:] = 0
+        run.channels["hub_drop"] = 0.0  # a data frame is a copy
+        self.assertGreater(run.columns["hub_drop"].max(), 0)
+
     def test_without_pandas_it_says_what_to_do(self) -> None:
         run = furrow_post.load(self.folder / "history.h5")
         with mock.patch.dict(sys.modules, {"pandas": None}):
