@@ -3,7 +3,7 @@
 
 Folders, each of which imports only from those to its left: read (files), analyse (numbers),
 laboratory (tests on samples), figures, study (runs and their tables), sweep (curves over a
-variable), cli (the command furrow-post). Steady values and their standard errors come from the
+variable), scene (the command inputs/run), cli (the command furrow-post). Steady values and their standard errors come from the
 program furrow-resistance, never from here.
 """
 
@@ -17,11 +17,10 @@ if TYPE_CHECKING:
 
 __version__ = "0.2.0"  # of the whole project: pyproject.toml and CMakeLists.txt read this line
 
-# Said here, before any module imports them, and imported first by programs that need them
-# themselves: a program then ends with one line.
+# Checked before any module imports them; programs that need them import this package first.
 _absent = [name for name in ("numpy", "h5py", "matplotlib", "scipy", "yaml") if not find_spec(name)]
 if _absent:
-    sys.exit(
+    raise ImportError(
         f"furrow_post: {sys.executable} has no {', '.join(_absent)}; write 'apt install "
         f"{' '.join('python3-' + name for name in _absent)}' and use Debian's /usr/bin/python3, "
         "or 'pip install ./postproc'"
