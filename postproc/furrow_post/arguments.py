@@ -3,6 +3,7 @@
 
 import argparse
 import math
+import unicodedata
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -95,3 +96,8 @@ def words(text: str) -> str:
 def path(text: str) -> Path:
     """A path that is not empty."""
     return Path(words(text))
+
+
+def has_control_characters(text: str) -> bool:
+    """Line breaks included: no name of a file or value needs them."""
+    return any(unicodedata.category(letter) in ("Cc", "Zl", "Zp") for letter in text)

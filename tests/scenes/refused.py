@@ -1,12 +1,19 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What inputs/run must refuse, before anything runs, and what it must say."""
+"""What inputs/run refuses before anything runs, with the message."""
 
 import os
 
 SCENE = "wheel_on_snow"
-# (words of inputs/run, what is said)
+# (arguments of inputs/run, message)
 REFUSED = (
     (["no_such_scene"], "no scene 'no_such_scene'"),
+    (["wheel_on_snwo"], "no scene 'wheel_on_snwo'. Did you mean wheel_on_snow"),
+    (["scenes/tyre_on_sno.lig"], "Did you mean tyre_on_snow"),
+    (["tyre_on_snow\n"], "'tyre_on_snow\\n' has a line break or another control character"),
+    ([SCENE, "-o", "a\ntouch pwned #"], "'a\\ntouch pwned #' has a line break"),
+    ([SCENE, "-o", "a\x1b[2J"], "has a line break or another control character"),
+    ([SCENE, "-v", "material", "a\rb"], "'a\\rb' has a line break"),
+    ([SCENE, "-v", "sp\u2028eed", "1"], "has a line break"),
     (["--fast"], "does not know '--fast'"),
     ([""], "an argument is empty"),
     ([SCENE, "wheel_on_sand"], "are two scenes; name one"),
@@ -25,9 +32,9 @@ REFUSED = (
     (["-v", "speed", "1"], "name one"),
     (["-n", "1"], "name one"),
     ([SCENE, "-v"], "-v needs a name and a value"),
-    ([SCENE, "-v", "cell"], "-v cell needs a value"),
+    ([SCENE, "-v", "cell"], "-v needs a name and a value"),
     ([SCENE, "-v", "cell", ""], "-v cell has an empty value"),
-    ([SCENE, "-v", "", "1"], "-v needs a name and a value"),
+    ([SCENE, "-v", "", "1"], "-v has an empty name; it takes a name and a value"),
     ([SCENE, "-v", "widht", "3"], "no line reads 'widht'; did you mean width?"),
     ([SCENE, "--quick", "-v", "sell", "3"], "no line reads 'sell'; did you mean cell?"),
     ([SCENE, "-v", "steps", "3"], "computes 'steps' itself"),
@@ -43,7 +50,8 @@ REFUSED = (
     # 10 % against Table 6 is the other tyre's scene, which has sections and no mesh
     (["tyre_on_plane", "--error", "10%", "-v", "mesh", "4 36"], "no line reads 'mesh'"),
     ([SCENE, "--sweep"], "--sweep needs a variable and its values"),
-    (["--sweep", "slip=0,1"], "--sweep and --until-steady belong to a scene"),
+    (["--sweep", "slip=0,1"], "--sweep belongs to a scene; name one"),
+    (["--until-steady", "3%"], "--until-steady belongs to a scene; name one"),
     ([SCENE, "--sweep", "slip"], "'slip' has no ="),
     ([SCENE, "--sweep", "slip=0:1:0.1"], "not the step"),
     ([SCENE, "--sweep", "sell=0.1,0.2"], "no line reads 'sell'; did you mean cell?"),

@@ -21,6 +21,8 @@ the continuum's history; those of a laboratory test are in laboratory.json. Ever
 its energies and momenta.
 """
 
+import contextlib
+import io
 import json
 import os
 import re
@@ -39,6 +41,9 @@ from quantities import continuum_quantities, plate_quantities, wheel_quantities
 from refused import REFUSED
 
 PROJECT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(PROJECT / "postproc"))
+from furrow_post.scene import command
+
 SCENES = PROJECT / "inputs" / "scenes"
 LABORATORY = PROJECT / "inputs" / "laboratory"
 BLANKS = "Lauf mit Größe"  # name of a results folder: LIGGGHTS splits lines at blanks
@@ -208,16 +213,26 @@ def error(results):
             sys.exit(f"it does not say '{text}':\n{said}")
 
 
+def refused(words):
+    """(status, what is said) of the program that inputs/run becomes."""
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+        status = command.main(words)
+    return status, said.getvalue()
+
+
 def usage():
-    listed = " ".join(inputs_run("--help").split())
+    listed = inputs_run("--help")
+    words = " ".join(listed.split())
     for script in SCENES.glob("*.lig"):
         name, title = Head(script).title.split(": ", 1)
-        if name != script.stem or f"{name} {title}" not in listed:
+        if name != script.stem or f"{name} {title}" not in words:
             sys.exit(f"{script.name} is not in the list of scenes under its name and title")
+    inputs_run("no_such_scene", status=2)
     for words, message in REFUSED:
-        refused = inputs_run(*words, status=2)
-        if message not in refused or "Traceback" in refused:
-            sys.exit(f"{words} is refused without '{message}':\n{refused}")
+        status, said = refused(words)
+        if status != 2 or message not in said or len(said.splitlines()) > 2:
+            sys.exit(f"{words} is refused with status {status}, not 2, or without '{message}':\n{said}")
 
 
 if __name__ == "__main__":

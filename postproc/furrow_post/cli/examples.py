@@ -2,6 +2,7 @@
 """Examples of every subcommand, for its --help."""
 
 EXAMPLES: dict[str, tuple[str, ...]] = {
+    "run": ("wheel_on_snow --quick", "tyre_on_plane --sweep slip=0:0.2:3 -o results/pull"),
     "resistance": ("results/a", "--csv results/a results/b", "--distance 0.5 1.2 results/a"),
     "plot": ("results/a", "results/a -o forces.svg"),
     "picture": ("results/a",),

@@ -30,11 +30,15 @@ class Module(Protocol):
     def add_arguments(self, parser: argparse.ArgumentParser) -> None:
         ...
 
-    def run(self, arguments: argparse.Namespace) -> None:
-        """@raises ResultsError, OSError"""
+    def run(self, arguments: argparse.Namespace) -> int | None:
+        """The exit status; None is 0. @raises ResultsError, OSError"""
 
+
+# Their options go to another parser, which begins after "--"
+PASSED_ON = ("run", "resistance")
 
 SUBCOMMANDS = (
+    Subcommand("run", "runs a scene and shows its results: what 'bash inputs/run' does after the build"),
     Subcommand(
         "resistance",
         "steady hub drop, resistance and torque with standard errors (furrow-resistance)",
@@ -128,10 +132,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Runs a subcommand; the result is the exit status."""
     given = list(sys.argv[1:] if arguments is None else arguments)
 
-    def run() -> None:
-        if given[:1] == ["resistance"]:
-            given.insert(1, "--")  # its options are those of another program
+    def run() -> int | None:
+        if given and given[0] in PASSED_ON:
+            given.insert(1, "--")
         parsed = parser(given[0] if given else "").parse_args(given)
-        parsed.run(parsed)
+        status: int | None = parsed.run(parsed)
+        return status
 
     return run_program("furrow-post", run)

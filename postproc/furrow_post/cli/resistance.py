@@ -3,13 +3,8 @@
 
 import argparse
 import os
-import shutil
-import sys
-from pathlib import Path
 
-from ..errors import ResultsError
-
-PROGRAM = "furrow-resistance"
+from ..programs import find_program
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -18,23 +13,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     """Does not return. @raises ResultsError where there is no such program"""
-    program = find_program()
+    program = str(find_program("furrow-resistance"))
     given: list[str] = arguments.arguments
     os.execv(program, [program, *(given[1:] if given[:1] == ["--"] else given)])
-
-
-def find_program() -> str:
-    """Beside furrow-post, in the build folder of the source tree, or on the PATH."""
-    command = Path(sys.argv[0])
-    tree = command.resolve().parent.parent
-    build = Path(os.environ.get("FURROW_BUILD", tree / "build"))
-    for folder in (command.absolute().parent, command.resolve().parent, build / "bin"):
-        if (folder / PROGRAM).is_file():
-            return str(folder / PROGRAM)
-    found = shutil.which(PROGRAM)
-    if not found:
-        raise ResultsError(
-            f"{PROGRAM} is not built or not installed; run 'bash inputs/run' once, or put it on "
-            "the PATH"
-        )
-    return found

@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from ..arguments import has_control_characters
 from ..errors import Interrupted, ResultsError
 from ..study.case import Case
 from ..study.progress import Progress
@@ -61,7 +62,14 @@ def batch_text(
     ranks: int,
     at_a_time: int | None,
 ) -> str:
-    """The script for sbatch; command: makes the point whose name comes behind --point."""
+    """The script for sbatch; command: makes the point whose name comes behind --point.
+
+    @raises ResultsError for a folder whose name would be a line of the script
+    """
+    if has_control_characters(str(results)):
+        raise ResultsError(
+            f"{str(results)!r}: has a line break or another control character; name another folder"
+        )
     # Slurm takes % in the name of an output for a number of its own
     output = str(results / FOLDER).replace("%", "%%") + "/%a.txt"
     exports = (f"export {name}={shlex.quote(value)}" for name, value in environment.items())

@@ -10,7 +10,7 @@ from support.command import SOURCE
 
 PACKAGE = SOURCE / "postproc" / "furrow_post"
 # A room imports from those before it and from itself
-ROOMS = ("", "read", "analyse", "laboratory", "figures", "study", "sweep", "cli")
+ROOMS = ("", "read", "analyse", "laboratory", "figures", "study", "sweep", "scene", "cli")
 FORBIDDEN = {("study", "figures")}
 
 

@@ -104,6 +104,11 @@ class SlurmTest(unittest.TestCase):
         alone = slurm.batch_text(self.results, ["a"], ["run"], {}, 1, None)
         self.assertIn("#SBATCH --array=0-0\n", alone)
 
+    def test_name_of_a_folder_cannot_become_a_command(self) -> None:
+        for name in ("a\ntouch pwned #", "a\rb", "a\u2028b"):
+            with self.assertRaisesRegex(ResultsError, "has a line break or another control"):
+                slurm.batch_text(self.folder / name, ["a"], ["run"], {}, 1, None)
+
     def test_refusals(self) -> None:
         with mock.patch.dict(os.environ, {**self.path, "REFUSES": "Invalid account"}):
             with self.assertRaisesRegex(ResultsError, "sbatch refuses .*Invalid account"):

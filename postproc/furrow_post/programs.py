@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Where Furrow's programs and inputs are: in the source tree, or installed."""
+
+import os
+import shutil
+import sys
+from pathlib import Path
+
+from .errors import ResultsError
+
+PACKAGE = Path(__file__).resolve().parent
+TREE = PACKAGE.parents[1]  # of the sources, if the package lies in one
+
+
+def source_tree() -> Path | None:
+    """The source tree that the package lies in, or None where it is installed."""
+    return TREE if (TREE / "CMakeLists.txt").is_file() and (TREE / "inputs").is_dir() else None
+
+
+def inputs_folder() -> Path | None:
+    """The folder with scenes, materials and tyres; None where only the package is installed."""
+    for folder in (TREE / "inputs", PACKAGE.parent / "inputs"):
+        if (folder / "scenes").is_dir():
+            return folder
+    return None
+
+
+def find_program(name: str) -> Path:
+    """In the build folder of the source tree, beside furrow-post, or on the PATH.
+
+    @raises ResultsError where there is none
+    """
+    command = Path(sys.argv[0])
+    folders = [command.absolute().parent, command.resolve().parent]
+    if source_tree() or "FURROW_BUILD" in os.environ:
+        folders.insert(0, Path(os.environ.get("FURROW_BUILD", TREE / "build")).resolve() / "bin")
+    for folder in folders:
+        if (folder / name).is_file():
+            return folder / name
+    found = shutil.which(name)
+    if not found:
+        raise ResultsError(
+            f"there is no program {name}; run 'bash inputs/run' once, which builds it, or put it on "
+            "the PATH"
+        )
+    return Path(found)

@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What 'furrow-post run' does: checks all that is asked for, runs it, and shows what came out."""
+
+import argparse
+import importlib
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ..errors import ResultsError
+from ..programs import find_program, source_tree
+from ..read.script import RESERVED, check_variables
+from ..sweep.cases import continued_script
+from ..sweep.plan import Plan
+from .catalogue import Variables, head_lines, quick_variables, script_of
+from .choice import Chosen, choose, outcome, table_of
+from .one import SceneRun, require_folder, run_scene, show, words_of
+from .options import called, parse
+from .process import CHECKPOINT, Failed, Runs, Stopped, require_executable
+from .restart import Former, continuation, read_former
+from .two_grounds import run_two_grounds
+
+
+@dataclass
+class Request:
+    """What the command line asks for, checked."""
+
+    options: argparse.Namespace
+    folder: Path  # of the results
+    script: Path | None = None  # None: the runs without a scene
+    preset: Variables = field(default_factory=list)  # of --quick
+    table: Path | None = None  # of --error
+    chosen: Chosen | None = None  # by --error
+    plan: Plan | None = None  # of --sweep
+    former: Former | None = None  # of --continue
+
+
+def main(given: Sequence[str]) -> int:
+    """The exit status: 2 for what is refused before anything runs."""
+    try:
+        options = parse(given)
+        if options.point:
+            return int(_sweeps().make_point(options.folder, options.point))
+        request = checked(options)
+        if options.prepare or options.check:
+            return 0
+        require_executable(find_program("furrow"))
+        if not options.sweep:
+            require_folder(request.folder)
+    except (ResultsError, OSError) as error:
+        print(f"{called()}: {error}", file=sys.stderr)
+        return 2
+    try:
+        return _run(request)
+    except (Failed, Stopped) as end:
+        if isinstance(end, Stopped):
+            print(f"{called()}: {end}{_how_to_continue(request)}", file=sys.stderr)
+        return end.status
+
+
+def _how_to_continue(request: Request) -> str:
+    """ "; ..." where there is a checkpoint in the results."""
+    if not (request.folder / CHECKPOINT).is_file():
+        return ""
+    return f"; to continue it from {request.folder / CHECKPOINT}, give --continue"
+
+
+def checked(options: argparse.Namespace) -> Request:
+    """@raises ResultsError, OSError"""
+    scene: str = options.scene
+    request = Request(options, options.folder or _default_folder(options))
+    if not scene:
+        return request
+    request.script = script_of(scene)
+    if options.quick:
+        request.preset = quick_variables(request.script)
+    if options.error:
+        request.table = table_of(scene)
+        request.chosen = choose(request.table, options.error)
+        request.script = script_of(request.chosen.runs[0][0])
+    if options.sweep:
+        request.plan = _sweeps().planned(options, request.script, request.preset)
+    else:
+        if options.until_steady:
+            continued_script(request.script.resolve(), options.until_steady, options.time_limit or 0.0)
+        if options.continues:
+            request.former = read_former(request.folder, request.script)
+            continuation(request.script, CHECKPOINT)
+        for warning in check_variables(request.script, options.given, RESERVED):
+            print(f"WARNING: {warning}", file=sys.stderr)
+    if options.folder:
+        require_folder(options.folder)
+    return request
+
+
+def _sweeps() -> Any:
+    """The module of sweeps, which draws: other runs do not wait for matplotlib."""
+    return importlib.import_module(".sweeps", __package__)
+
+
+def _default_folder(options: argparse.Namespace) -> Path:
+    name = Path(options.scene).stem if options.scene else "two_grounds"
+    ending = ("_sweep" if options.sweep else "") + ("_quick" if options.quick else "")
+    return (source_tree() or Path.cwd()) / "results" / (name + ending)
+
+
+def _run(request: Request) -> int:
+    """@raises ResultsError, Failed, Interrupted"""
+    options, folder, script = request.options, request.folder, request.script
+    if script is None:
+        with Runs() as runs:
+            run_two_grounds(folder, options.quick, runs)
+        return 0
+    if request.plan:
+        return int(_sweeps().make_sweep(options, script, request.plan, folder))
+    print("\n".join(head_lines(script)), flush=True)
+    if request.chosen and request.table:
+        return _run_chosen(request, request.chosen, request.table)
+    with Runs() as runs:
+        former = request.former.variables if request.former else []
+        variables = [*options.given, *former, *request.preset]
+        variables = list({name: (name, value) for name, value in reversed(variables)}.values())[::-1]
+        _run_and_show(_scene_run(request, script, folder, options.scene, variables), runs)
+    return 0
+
+
+def _scene_run(request: Request, script: Path, folder: Path, scene: str, variables: Variables) -> SceneRun:
+    options, former = request.options, request.former
+    return SceneRun(
+        script,
+        folder,
+        variables,
+        former.ranks if former else options.ranks,
+        options.until_steady or 0.0,
+        options.time_limit or 0.0,
+        options.checkpoint or 0.0,
+        former.checkpoint if former else None,
+        words_of(scene, variables),
+    )
+
+
+def _run_chosen(request: Request, chosen: Chosen, table: Path) -> int:
+    """Options of the command line stand before those of the choice, and so count."""
+    print("\n".join(chosen.reasons), file=sys.stderr)
+    names = ("coarse", "fine") if len(chosen.runs) == 2 else ("",)
+    folders = [request.folder / name for name in names]
+    with Runs() as runs:
+        for words, folder in zip(chosen.runs, folders):
+            variables = [*request.options.given, *zip(words[2::3], words[3::3])]
+            print(f"{called()} {words_of(words[0], variables)}")
+            _run_and_show(_scene_run(request, script_of(words[0]), folder, words[0], variables), runs)
+    print("\n".join(outcome(table, request.options.error, folders)))
+    return 0
+
+
+def _run_and_show(run: SceneRun, runs: Runs) -> None:
+    print(f"Running on {run.ranks} rank(s); results in {run.folder}", flush=True)
+    run_scene(run, runs)
+    if (run.folder / "history.h5").is_file():
+        show(run.folder)
+        print((run.folder / "summary.txt").read_text(encoding="utf-8"), end="")

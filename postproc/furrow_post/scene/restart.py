@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Continuing a run from the last checkpoint in its results folder."""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import ResultsError, content_of
+from ..read.script import script_variables
+from .catalogue import Variables
+from .process import FORCED
+
+COMMAND = "command.json"  # what the run was asked to do
+FROM, BEGIN = "from", "begin"  # variables of scripts: a checkpoint for a bed; what makes the box
+REMEDY = "start without --continue"
+
+
+@dataclass(frozen=True)
+class Former:
+    """A run that was stopped."""
+
+    variables: Variables
+    ranks: int
+    checkpoint: Path
+
+
+def write_command(folder: Path, script: Path, variables: Variables, ranks: int) -> None:
+    """Of a run that begins; removes checkpoints of another run, unless it continues from one."""
+    if not any(str(folder) in value for name, value in variables if name in (FROM, BEGIN)):
+        for file in _checkpoints(folder):
+            file.unlink()
+    content = {"script": str(script), "variables": variables, "ranks": ranks}
+    (folder / COMMAND).write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+
+
+def read_former(folder: Path, script: Path) -> Former:
+    """@raises ResultsError where there is nothing to continue"""
+    path = folder / COMMAND
+    if not path.is_file():
+        raise ResultsError(f"{folder}: has no run to continue ({COMMAND}); {REMEDY}")
+    with content_of(path, REMEDY):
+        content = json.loads(path.read_text(encoding="utf-8"))
+        ranks, variables = int(content["ranks"]), [(str(n), str(v)) for n, v in content["variables"]]
+        of = str(content["script"])
+    if Path(of) != script.resolve():
+        raise ResultsError(f"{folder}: has the results of {of}, not of {script}; name its folder with -o")
+    found = _checkpoints(folder)
+    if not found:
+        raise ResultsError(
+            f"{folder}: has no checkpoint; {REMEDY}, and with --checkpoint TIME, which writes some"
+        )
+    return Former(variables, ranks, max(found, key=lambda file: file.stat().st_mtime_ns))
+
+
+def _checkpoints(folder: Path) -> list[Path]:
+    """Those of the script, of --checkpoint, and of a run whose command was killed."""
+    found = [*folder.glob("checkpoint*"), *folder.glob(FORCED)]
+    return [file for file in found if file.suffix != ".part" and file.is_file()]
+
+
+def continuation(script: Path, checkpoint: str) -> tuple[str, str]:
+    """The variable of a script, and its value, with which it continues. @raises ResultsError"""
+    settable = script_variables(script, {}).settable
+    if FROM in settable:
+        return FROM, checkpoint
+    if BEGIN in settable:
+        return BEGIN, f"read_restart {checkpoint}"
+    raise ResultsError(
+        f"{script}: has no variable '{FROM}' for its bed or '{BEGIN}' for its box, so it cannot continue; "
+        f"""write 'variable {BEGIN} index "create_box 1 box"', and a line '${{{BEGIN}}}' for create_box"""
+    )

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Sweeps of a scene: makes the points that are missing, here or by Slurm, and draws their curves."""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..errors import ResultsError
+from ..programs import PACKAGE, find_program, inputs_folder
+from ..study.case import Case
+from ..study.launch import Tools
+from ..study.runner import Runner, State
+from ..sweep import slurm
+from ..sweep.cases import Request, case_of, plan_of
+from ..sweep.output import Named, Wanted, evaluate, report_lines, write_sweep
+from ..sweep.plan import Plan, read_plan
+from .catalogue import Variables
+from .options import called
+
+
+def tools() -> Tools:
+    """The programs, and the folder above the inputs."""
+    inputs = inputs_folder()
+    return Tools(find_program("furrow").parent.parent, inputs.parent if inputs else Path.cwd())
+
+
+def wanted_of(options: argparse.Namespace, script: Path) -> Wanted:
+    """What lies beside the curves."""
+    inputs = inputs_folder()
+    table = inputs / "costs" / f"{script.stem}.csv" if inputs else None
+    return Wanted(
+        errors=table if table and table.is_file() else None,
+        formulas=options.formula,
+        measured=[Named(file) for file in options.measured],
+    )
+
+
+def planned(options: argparse.Namespace, script: Path, preset: Variables) -> Plan:
+    """The points that are asked for; prints warnings. @raises ResultsError"""
+    request = Request(
+        script,
+        options.sweep,
+        options.given,
+        preset,
+        options.packings or 1,
+        options.ranks,
+        options.until_steady or 0.0,
+        options.time_limit or 0.0,
+    )
+    plan, warnings = plan_of(request)
+    wanted_of(options, script).check()
+    for warning in warnings:
+        print(f"WARNING: {warning}", file=sys.stderr)
+    return plan
+
+
+def make_sweep(options: argparse.Namespace, script: Path, plan: Plan, folder: Path) -> int:
+    """The exit status. @raises ResultsError, Interrupted"""
+    folder = folder.resolve()
+    former = read_plan(folder)
+    whole = plan.joined(former) if former else plan
+    whole.write(folder)
+    runner = Runner(folder, tools(), options.jobs or 1, again=options.again, same_inputs=True)
+    cases = [case_of(plan, point) for point in plan.points]
+    states = [runner.state(case) for case in cases]
+    print(
+        f"{len(cases)} points, {states.count(State.DONE)} of them are there; "
+        f"{plan.ranks} rank(s) each; results in {folder}",
+        flush=True,
+    )
+    remarks = []
+    if options.submit:
+        remarks = _by_slurm(runner, cases, plan, options.jobs)
+    else:
+        runner.run(cases)
+    return _ended(runner, cases, remarks, folder, wanted_of(options, script))
+
+
+def make_point(folder: Path, name: str) -> int:
+    """The task of an array job."""
+    plan = read_plan(folder)
+    found = [point for point in plan.points if point.folder == name] if plan else []
+    if not plan or not found:
+        raise ResultsError(f"{folder}: is no sweep with a point {name}")
+    case = case_of(plan, found[0])
+    runner = Runner(folder, tools(), same_inputs=True, again=True)
+    runner.run([case])
+    return 0 if runner.state(case) is State.DONE else 1
+
+
+def _by_slurm(runner: Runner, cases: Sequence[Case], plan: Plan, at_a_time: int | None) -> list[str]:
+    """Makes the points by an array job, after one that is still in the queue."""
+    folder = runner.results / slurm.FOLDER
+    job = slurm.read_job(folder)
+    if job and slurm.is_queued(job):
+        print(f"Job {job.number} of this sweep is in the queue; gathering its points", flush=True)
+        slurm.gather(job, runner, cases)
+    missing = [case.name for case in runner.missing(cases)]
+    if not missing:
+        return []
+    command = [*_this_program(), "run", "-o", str(runner.results)]
+    surroundings = {**slurm.environment(), "FURROW_BUILD": str(runner.tools.build)}
+    text = slurm.batch_text(runner.results, missing, command, surroundings, plan.ranks, at_a_time)
+    if runner.again:
+        runner.forget(cases)
+    job = slurm.submit(folder, text, missing)
+    print(f"Submitted job {job.number}: {len(missing)} tasks; {folder / slurm.SCRIPT}", flush=True)
+    slurm.gather(job, runner, cases)
+    return slurm.lost(job, runner, cases)
+
+
+def _this_program() -> list[str]:
+    """furrow-post: beside the package in the source tree, in bin where it is installed."""
+    beside = PACKAGE.parent / "furrow-post"
+    return [sys.executable, str(beside if beside.is_file() else find_program("furrow-post"))]
+
+
+def _ended(
+    runner: Runner, cases: Sequence[Case], remarks: Sequence[str], folder: Path, wanted: Wanted
+) -> int:
+    """Draws what there is, then reports what failed; the exit status."""
+    records = {case.name: runner.failure(case) for case in cases}
+    failures = [f"{name}: {failure.error}" for name, failure in records.items() if failure]
+    done = sum(runner.state(case) is State.DONE for case in cases)
+    trouble = ""
+    if done:
+        try:
+            result = evaluate([Named(folder)], wanted)
+            files = write_sweep(result, folder)
+            print("\n" + "\n".join(report_lines(result)))
+            print(f"\n{folder}: {', '.join(files)}")
+        except ResultsError as error:
+            trouble = str(error)
+    for text in (*failures, *remarks):
+        print(f"FAILED: {text}", file=sys.stderr)
+    if trouble:
+        print(f"{called()}: {trouble}", file=sys.stderr)
+    return 1 if failures or remarks or trouble or done < len(cases) else 0

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""furrow-post run with a program that stands for furrow: folders, records, signals, messages."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from support.command import FURROW_POST
+
+# Says how it was started; waits for a file "go", and ends with a checkpoint when it gets a signal
+PROGRAM = """#!{python}
+import os, pathlib, signal, sys, time
+words = sys.argv[1:]
+print("started with", words, "in", os.getcwd(), flush=True)
+print("[run] begins", os.getpid(), flush=True)
+v = dict(zip(*[iter(w for i, w in enumerate(words) if "-var" in words[max(i - 2, 0):i])] * 2))
+def stop(number, frame):
+    pathlib.Path("restart_forced_liggghts_7.data").write_text("checkpoint")
+    sys.exit(128 + number)
+for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    signal.signal(number, stop)
+if v.get("wait"):
+    while True:
+        time.sleep(0.05)
+if v.get("fail"):
+    print("ERROR: " + v["fail"])
+    sys.exit(1)
+"""
+SCRIPT = """# mine: a script
+# Quick:    -v speed 3
+variable results index results/mine
+variable speed index 1
+variable wait index ""
+variable fail index ""
+print "${results} ${speed} ${wait} ${fail}"
+"""
+
+
+class CommandTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.folder = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+        program = self.folder / "build" / "bin" / "furrow"
+        program.parent.mkdir(parents=True)
+        program.write_text(PROGRAM.format(python=sys.executable))
+        program.chmod(0o755)
+        self.environment = {**os.environ, "FURROW_BUILD": str(self.folder / "build")}
+        self.script("mine.lig", SCRIPT)
+
+    def script(self, name: str, text: str) -> None:
+        (self.folder / name).write_text(text)
+
+    def command(self, *words: str) -> list[str]:
+        return [sys.executable, str(FURROW_POST), "run", *words]
+
+    def run_it(self, *words: str) -> "subprocess.CompletedProcess[str]":
+        return subprocess.run(
+            self.command(*words), cwd=self.folder, env=self.environment, capture_output=True, text=True
+        )
+
+    def started(self, results: str = "out") -> str:
+        return (self.folder / results / "screen.txt").read_text().splitlines()[0]
+
+    def test_run_is_recorded_with_its_cost(self) -> None:
+        done = self.run_it("mine.lig", "-o", "out", "-v", "speed", "2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        record = json.loads((self.folder / "out" / "run.json").read_text())
+        self.assertEqual((record["ranks"], record["words"]), (1, "mine.lig -v speed 2"))
+        self.assertGreater(record["wall_time"], 0)
+        self.assertIn("'speed', '2'", self.started())
+        self.assertIn(f"in {self.folder.resolve()}", self.started())
+        self.assertIn("[run] begins", done.stdout)
+        self.assertNotIn("started with", done.stdout)
+
+    def test_backslash_in_the_name_of_a_script(self) -> None:
+        self.script("a\\b.lig", SCRIPT)
+        done = self.run_it("a\\b.lig", "-o", "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        record = json.loads((self.folder / "out" / "run.json").read_text())
+        self.assertEqual(record["words"], "'a\\b.lig'")
+
+    def test_folder_with_blanks_is_the_place_of_the_run(self) -> None:
+        done = self.run_it("mine.lig", "-o", "a folder")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("'results', '.'", self.started("a folder"))
+
+    def test_value_of_the_command_line_comes_before_that_of_quick(self) -> None:
+        self.run_it("mine.lig", "--quick", "-o", "out")
+        self.assertIn("'speed', '3'", self.started())
+        self.run_it("mine.lig", "--quick", "-o", "out", "-v", "speed", "5")
+        self.assertIn("'speed', '5'", self.started())
+        self.assertNotIn("'speed', '3'", self.started())
+
+    def test_lines_quick_with_missing_words(self) -> None:
+        for line in ("-v speed", "-v", "speed 3", "-v speed 3 -v", "-v speed 3 4", "-x speed 3", ""):
+            with self.subTest(line=line):
+                self.script("bad.lig", SCRIPT.replace("-v speed 3", line))
+                done = self.run_it("bad.lig", "--quick", "-o", "out")
+                self.assertEqual(done.returncode, 2)
+                self.assertIn("write '# Quick: -v NAME VALUE", done.stderr)
+
+    def test_failed_run_shows_its_error_and_status(self) -> None:
+        done = self.run_it("mine.lig", "-o", "out", "-v", "fail", "broken")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("ERROR: broken", done.stderr)
+        self.assertFalse((self.folder / "out" / "run.json").exists())
+
+    def test_signals_end_the_run_with_a_checkpoint_and_a_status(self) -> None:
+        for number, status in ((signal.SIGTERM, 143), (signal.SIGINT, 130), (signal.SIGHUP, 129)):
+            with self.subTest(signal=number):
+                begun, furrow = self.begin()
+                begun.send_signal(number)
+                said, errors = begun.communicate(timeout=20)
+                self.assertEqual(begun.returncode, status, errors)
+                self.assertIn(f"{number.name} stopped the run", errors)
+                self.assertFalse(is_alive(furrow))
+                self.assertTrue((self.folder / "restart_forced_liggghts_7.data").exists())
+
+    def test_killed_command_leaves_no_program_behind(self) -> None:
+        begun, furrow = self.begin()
+        begun.kill()
+        begun.communicate(timeout=20)
+        until = time.monotonic() + 20
+        while is_alive(furrow) and time.monotonic() < until:
+            time.sleep(0.05)
+        self.assertFalse(is_alive(furrow))
+        self.assertTrue((self.folder / "restart_forced_liggghts_7.data").exists())
+
+    def begin(self) -> "tuple[subprocess.Popen[str], int]":
+        """A run that waits, and the process of the program."""
+        begun = subprocess.Popen(
+            self.command("mine.lig", "-o", "out", "-v", "wait", "yes"),
+            cwd=self.folder,
+            env=self.environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        assert begun.stdout
+        for line in begun.stdout:
+            if "begins" in line:
+                return begun, int(line.split()[-1])
+        self.fail("the run did not begin")
+
+
+def is_alive(process: int) -> bool:
+    try:
+        state = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
+    except OSError:
+        return False
+    return state != "Z"
+
+
+if __name__ == "__main__":
+    unittest.main()
