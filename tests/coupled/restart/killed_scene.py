@@ -5,8 +5,7 @@
                     [<name> <value>]...
 
 The scene is changed as coupling/restart/command_read_restart.md says: `restart` before the run; to
-continue, `read_restart` in the place of the box and of whatever was done before, or `from` in the
-line of the bed, and `upto`. Every number of history.h5 and terrain.h5 must be the same, bit for bit,
+continue, `read_restart` in the variable `begin`, or the checkpoint in `from` of a bed. Every number of history.h5 and terrain.h5 must be the same, bit for bit,
 but for the two files' own facts (cost, audit of a part of a run, script). A curve that LIGGGHTS
 writes begins again with the continued run: its rows must be among those of the run in one, but for
 the first, the mean of an interval that the kill has cut.
@@ -61,11 +60,7 @@ def continued_script(checkpoint: Path) -> str:
     text = whole_script()
     if has_bed:
         return re.sub(r"^(variable +from index) .*$", rf"\1 {checkpoint}", text, flags=re.M)
-    text = re.sub(r"^region +box .*\ncreate_box .*$", f"read_restart {checkpoint}", text, flags=re.M)
-    # Grains that were poured are in the checkpoint.
-    text = re.sub(r"^# Grains: poured.*?^(fix +move .*?$).*?(^unfix +progress$)", r"\1", text,
-                  flags=re.M | re.S)
-    return re.sub(r"^(run +\$\{\w+\})( upto)?$", r"\1 upto", text, flags=re.M)
+    return re.sub(r"^(variable +begin index) .*$", rf'\1 "read_restart {checkpoint}"', text, flags=re.M)
 
 
 def start(folder: Path, script: str) -> subprocess.Popen:
