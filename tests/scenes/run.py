@@ -43,6 +43,7 @@ from refused import REFUSED
 PROJECT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(PROJECT / "postproc"))
 from furrow_post.scene import command
+from furrow_post.scene.catalogue import GROUPS, head_entry
 
 SCENES = PROJECT / "inputs" / "scenes"
 LABORATORY = PROJECT / "inputs" / "laboratory"
@@ -228,6 +229,8 @@ def usage():
         name, title = Head(script).title.split(": ", 1)
         if name != script.stem or f"{name} {title}" not in words:
             sys.exit(f"{script.name} is not in the list of scenes under its name and title")
+        if head_entry(script, "Group") not in GROUPS:
+            sys.exit(f"{script}: the group in its head is none of {', '.join(GROUPS)}")
     inputs_run("no_such_scene", status=2)
     for words, message in REFUSED:
         status, said = refused(words)

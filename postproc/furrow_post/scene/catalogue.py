@@ -18,7 +18,7 @@ GROUPS = (
     "Plates",
 )
 QUICK_FORM = "write '# Quick: -v NAME VALUE -v NAME VALUE ...'"
-INDENT = 26  # of the titles in the list of scenes
+INDENT = 24  # of the titles in the list of scenes
 
 Variables = list[tuple[str, str]]  # name and value, as -v has them
 
@@ -91,7 +91,7 @@ def listing() -> str:
         assert folder
         script = folder / f"{name}.lig"
         title = head_lines(script)[0].partition(":")[2].strip()
-        line = f"    {name} ".ljust(INDENT) + title
+        line = f"    {name:{INDENT}}{title}"
         grouped.setdefault(head_entry(script, "Group") or "Others", []).append(line)
     return "\n".join(_group(name, lines) for name, lines in grouped.items() if lines)
 

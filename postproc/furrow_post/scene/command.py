@@ -21,6 +21,7 @@ from .options import called, parse
 from .process import CHECKPOINT, Failed, Runs, Stopped, require_executable
 from .restart import Former, continuation, read_former
 from .two_grounds import run_two_grounds
+from .verdict import summary_text
 
 
 @dataclass
@@ -122,7 +123,7 @@ def _run(request: Request) -> int:
         former = request.former.variables if request.former else []
         variables = [*options.given, *former, *request.preset]
         variables = list({name: (name, value) for name, value in reversed(variables)}.values())[::-1]
-        _run_and_show(_scene_run(request, script, folder, options.scene, variables), runs)
+        _run_and_show(_scene_run(request, script, folder, options.scene, variables), runs, options.quick)
     return 0
 
 
@@ -155,9 +156,9 @@ def _run_chosen(request: Request, chosen: Chosen, table: Path) -> int:
     return 0
 
 
-def _run_and_show(run: SceneRun, runs: Runs) -> None:
+def _run_and_show(run: SceneRun, runs: Runs, quick: bool = False) -> None:
     print(f"Running on {run.ranks} rank(s); results in {run.folder}", flush=True)
     run_scene(run, runs)
     if (run.folder / "history.h5").is_file():
         show(run.folder)
-        print((run.folder / "summary.txt").read_text(encoding="utf-8"), end="")
+        print(summary_text(run.folder, quick), end="")
