@@ -2,8 +2,10 @@
 """What inputs/run refuses before anything runs, with the message."""
 
 import os
+from pathlib import Path
 
 SCENE = "wheel_on_snow"
+NOT_MEASURED = str(Path(__file__).resolve().parents[2] / "inputs" / "costs" / "runs.csv")
 # (arguments of inputs/run, message)
 REFUSED = (
     (["no_such_scene"], "no scene 'no_such_scene'"),
@@ -50,10 +52,23 @@ REFUSED = (
     # 10 % against Table 6 is the other tyre's scene, which has sections and no mesh
     (["tyre_on_plane", "--error", "10%", "-v", "mesh", "4 36"], "no line reads 'mesh'"),
     ([SCENE, "--sweep"], "--sweep needs a variable and its values"),
+    ([SCENE, "--continue", "-o", "/proc/x"], "/proc/x: has no run to continue"),
+    ([SCENE, "--continue", "-n", "1"], "leave out --error and -n"),
+    ([SCENE, "--sweep", "cell=0.1,0.2", "--continue"], "the same command resumes it"),
+    ([SCENE, "--checkpoint", "0"], "--checkpoint: 0 is not above 0"),
+    ([SCENE, "--checkpoint", "soon"], "--checkpoint: 'soon' is not a number"),
+    (["--checkpoint", "1h"], "--checkpoint belongs to a scene"),
     (["--sweep", "slip=0,1"], "--sweep belongs to a scene; name one"),
     (["--until-steady", "3%"], "--until-steady belongs to a scene; name one"),
     ([SCENE, "--sweep", "slip"], "'slip' has no ="),
     ([SCENE, "--sweep", "slip=0:1:0.1"], "not the step"),
+    ([SCENE, "--sweep", "slip=a:b:3"], "'a:b:3' is no range FIRST:LAST:COUNT"),
+    ([SCENE, "--sweep", "slip=nan"], "nan is no finite number"),
+    ([SCENE, "--sweep", "slip=0,-inf"], "-inf is no finite number"),
+    ([SCENE, "--sweep", "material=../materials/fresh_snow.yaml,x.yaml"], "material: there is no file x.yaml"),
+    ([SCENE, "-v", "material", "../materials/snwo.yaml"], "-v material: there is no file ../materials/snwo.yaml"),
+    ([SCENE, "--sweep", "cell=0.1,0.2", "--measured", __file__], "refused.py: "),
+    ([SCENE, "--sweep", "cell=0.1,0.2", "--measured", NOT_MEASURED], "is no table of measured points"),
     ([SCENE, "--sweep", "sell=0.1,0.2"], "no line reads 'sell'; did you mean cell?"),
     ([SCENE, "--sweep", "results=a,b"], "--sweep results: use -o"),
     ([SCENE, "--sweep", "cell=0.1,0.2", "-v", "cell", "0.1"], "given both by -v and by --sweep"),

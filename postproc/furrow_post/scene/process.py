@@ -157,11 +157,14 @@ def checkpoints(
     begin, end = threading.Event(), threading.Event()
 
     def ask() -> None:
+        """A run that pours grains takes no notice, so it is asked again."""
         begin.wait()
-        while not end.wait(every):
-            send(process, signal.SIGUSR1)
-            while not end.wait(LOOK_EVERY) and not keep():
-                pass
+        asked = time.monotonic()
+        while not end.wait(min(every, LOOK_EVERY)):
+            keep()
+            if time.monotonic() - asked >= every:
+                send(process, signal.SIGUSR1)
+                asked = time.monotonic()
 
     asking = threading.Thread(target=ask)
     if every:

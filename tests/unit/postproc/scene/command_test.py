@@ -121,7 +121,34 @@ class CommandTest(unittest.TestCase):
                 self.assertEqual(begun.returncode, status, errors)
                 self.assertIn(f"{number.name} stopped the run", errors)
                 self.assertFalse(is_alive(furrow))
-                self.assertTrue((self.folder / "restart_forced_liggghts_7.data").exists())
+                checkpoint = self.folder / "out" / "checkpoint.data"
+                self.assertEqual(checkpoint.read_text(), "checkpoint")
+                self.assertIn("give --continue", errors)
+                checkpoint.unlink()
+
+    def test_run_continues_with_its_variables(self) -> None:
+        self.script("mine.lig", SCRIPT + 'variable begin index "create_box 1 box"\n${begin}\n')
+        begun, _ = self.begin()
+        begun.terminate()
+        begun.communicate(timeout=20)
+        done = self.run_it("mine.lig", "-o", "out", "--continue", "-v", "wait", "")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        place = self.folder.resolve() / "out" / "checkpoint.data"
+        self.assertIn(f"'begin', 'read_restart {place}'", self.started())
+        self.assertIn("'speed', '4'", self.started())
+        self.assertTrue(json.loads((self.folder / "out" / "run.json").read_text())["continued"])
+
+    def test_what_cannot_be_continued(self) -> None:
+        self.script("other.lig", SCRIPT)
+        for name, message in (("mine.lig", "has no variable 'from'"), ("other.lig", "has the results of")):
+            begun, _ = self.begin()
+            begun.terminate()
+            begun.communicate(timeout=20)
+            done = self.run_it(name, "-o", "out", "--continue")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(message, done.stderr)
+        (self.folder / "out" / "checkpoint.data").unlink()
+        self.assertIn("has no checkpoint", self.run_it("mine.lig", "-o", "out", "--continue").stderr)
 
     def test_killed_command_leaves_no_program_behind(self) -> None:
         begun, furrow = self.begin()
@@ -136,7 +163,7 @@ class CommandTest(unittest.TestCase):
     def begin(self) -> "tuple[subprocess.Popen[str], int]":
         """A run that waits, and the process of the program."""
         begun = subprocess.Popen(
-            self.command("mine.lig", "-o", "out", "-v", "wait", "yes"),
+            self.command("mine.lig", "-o", "out", "-v", "wait", "yes", "-v", "speed", "4"),
             cwd=self.folder,
             env=self.environment,
             stdout=subprocess.PIPE,
