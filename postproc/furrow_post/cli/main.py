@@ -43,6 +43,7 @@ SUBCOMMANDS = (
         "resistance",
         "steady hub drop, resistance and torque with standard errors (furrow-resistance)",
     ),
+    Subcommand("export", "histories as CSV with units in the head, all channels or some -> history.csv"),
     Subcommand("plot", "forces, depths, torque and slip against time -> histories.png"),
     Subcommand(
         "picture",

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""furrow-post export: histories of runs as CSV, for spreadsheets and MATLAB."""
+
+import argparse
+import csv
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..arguments import path, words
+from ..errors import ResultsError
+from ..formatting import in_unit
+from ..read.results import Results, require_different
+from .comparison import Labelled, labelled
+
+TIME, RUN = "time", "run"  # the channel and the column that come first
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "results", nargs="+", type=labelled, help="results folder or history.h5, or LABEL=FOLDER"
+    )
+    parser.add_argument(
+        "--channels",
+        type=words,
+        metavar="NAME,NAME,...",
+        help="of the history, e.g. hub_drop,force_x (default: all); time always comes first",
+    )
+    parser.add_argument(
+        "-o", "--output", type=path, help="file to write (default: history.csv in the first folder)"
+    )
+
+
+def run(arguments: argparse.Namespace) -> None:
+    given: list[Labelled] = arguments.results
+    require_different([folder for folder, _ in given])
+    runs = [Results(folder) for folder, _ in given]
+    target: Path = arguments.output or runs[0].folder / "history.csv"
+    if target.suffix != ".csv" or target.is_dir() or not target.parent.is_dir():
+        raise ResultsError(f"-o {target}: name a file that ends in .csv, in a folder that is there")
+    labels = [label or one.folder.resolve().name for (_, label), one in zip(given, runs)]
+    twice = [label for label in labels if labels.count(label) > 1]
+    if twice:
+        raise ResultsError(f"two runs are called '{twice[0]}'; write LABEL=FOLDER")
+    names = _names(runs, arguments.channels)
+    units = {name: one.units[name] for one in reversed(runs) for name in one.units}
+    with open(target, "w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        several = len(runs) > 1
+        writer.writerow([*([RUN] if several else []), *(n + in_unit(units[n].strip()) for n in names)])
+        for label, one in zip(labels, runs):
+            absent = [""] * len(one.columns[TIME])
+            columns = [one.columns[name].tolist() if name in one.columns else absent for name in names]
+            writer.writerows(([label] if several else []) + list(row) for row in zip(*columns))
+    rows = sum(len(one.columns[TIME]) for one in runs)
+    print(f"{target} ({rows} rows, {len(names)} channels)")
+
+
+def _names(runs: Sequence[Results], asked: str | None) -> list[str]:
+    """Of the channels to write. @raises ResultsError for one that no run has"""
+    if asked is None:
+        found = [name for one in runs for name in one.columns]
+    else:
+        found = [name.strip() for name in asked.split(",")]
+        for name in found:
+            if not any(name in one.columns for one in runs):
+                runs[0].columns[name]  # raises, with the names that are there
+    return list(dict.fromkeys([TIME, *found]))
