@@ -41,6 +41,7 @@ from furrow_post.analyse.statistics import rms
 from furrow_post.arguments import at_least, fraction, path
 from furrow_post.arrays import Floats
 from furrow_post.errors import ResultsError, content_of
+from furrow_post.json_text import parse_json
 from furrow_post.laboratory.evaluation import values_of
 from furrow_post.laboratory.together import together
 from furrow_post.program import run_program
@@ -83,7 +84,7 @@ class Runs:
         lines = text.splitlines() if text.endswith("\n") else text.splitlines()[:-1]
         for number, line in enumerate(lines, 1):
             with content_of(f"{self.log}, line {number}", "remove the line: its run is made again"):
-                entry = json.loads(line)
+                entry = parse_json(line)
                 if entry["task"] == self.identity():
                     residuals = [float(value) for value in entry["residuals"]]
                     self.known[self.key(entry["values"], int(entry["seed"]))] = residuals

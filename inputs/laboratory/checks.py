@@ -5,6 +5,8 @@ import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+import furrow_post  # first: says which of the next ones are missing
+
 import yaml
 
 from furrow_post.errors import ResultsError

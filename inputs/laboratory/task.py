@@ -3,7 +3,6 @@
 
 import argparse
 import difflib
-import json
 import math
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,7 @@ from checks import HERE, SERIES, require_ground, require_value, require_variable
 
 from furrow_post.arguments import fraction
 from furrow_post.errors import ResultsError
+from furrow_post.json_text import parse_json
 from furrow_post.read.laboratory import read_oedometer_reference
 
 Task = dict[str, Any]
@@ -34,7 +34,7 @@ def read_task(path: Path) -> Task:
     @raises ResultsError; OSError without the file
     """
     try:
-        task = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=_without_repetition)
+        task = parse_json(path.read_text(encoding="utf-8"), object_pairs_hook=_without_repetition)
     except (ValueError, ResultsError) as error:
         raise ResultsError(f"{path}: is no JSON ({error}); {FORM}") from error
     try:

@@ -14,6 +14,7 @@ from .errors import ResultsError, content_of
 
 import numpy as np
 
+ENCODING = "utf-8-sig"  # spreadsheets mark UTF-8 by a first character
 TABLE = "a table is CSV: a head with the names of its columns, then rows of as many cells"
 
 
@@ -22,7 +23,7 @@ def read_rows(path: Path) -> list[dict[str, str]]:
 
     @raises OSError; ResultsError where a row has other cells than the head
     """
-    with content_of(path, TABLE), open(path, encoding="utf-8") as file:
+    with content_of(path, TABLE), open(path, encoding=ENCODING) as file:
         try:
             reader = csv.DictReader(line for line in file if not line.startswith("#"))
             rows = list(reader)
@@ -42,7 +43,7 @@ def read_rows(path: Path) -> list[dict[str, str]]:
 
 def read_comments(path: Path) -> list[str]:
     """The comment lines of a table, with their "#". @raises OSError, ResultsError"""
-    with content_of(path, TABLE), open(path, encoding="utf-8") as file:
+    with content_of(path, TABLE), open(path, encoding=ENCODING) as file:
         return [line.rstrip("\n") for line in file if line.startswith("#")]
 
 

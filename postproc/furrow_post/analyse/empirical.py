@@ -14,6 +14,7 @@ from .snow_formula import (
     nrmm_final_density,
     nrmm_resistance,
     nrmm_sinkage,
+    require_pressure,
 )
 from .terrain_values import terrain
 
@@ -27,6 +28,7 @@ __all__ = [
     "nrmm_final_density",
     "nrmm_resistance",
     "nrmm_sinkage",
+    "require_pressure",
     "terrain",
     "wong_reece",
 ]

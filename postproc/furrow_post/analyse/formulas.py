@@ -34,12 +34,14 @@ def require_formulas(names: Iterable[str]) -> None:
 
 def _nrmm_pressure(name: str) -> float:
     try:
-        return float(name.partition(":")[2])
+        pressure = float(name.partition(":")[2])
     except ValueError:
         raise ResultsError(
             f"formula '{name}': write nrmm:PRESSURE with the largest contact pressure in Pa, "
             "e.g. nrmm:179e3"
         ) from None
+    empirical.require_pressure(pressure)
+    return pressure
 
 
 def _prediction(run: WheelRun, name: str, extrapolate: bool) -> Prediction:

@@ -17,6 +17,7 @@ NRMM_TESTS = "tests of Shoop (2001), Table 11"
 NRMM_DENSITY = (105.0, 225.0)  # [kg/m3] rows of 110 to 220, which are rounded to 10
 NRMM_DEPTH = (0.13, 0.38)  # [m]
 NRMM_RADIUS = (0.342, 0.418)  # [m]
+NRMM_PRESSURE = (5e3, 2e6)  # [Pa] of wheels on the ground
 DENSEST = 0.917  # ice: largest final density [Mg/m3]
 # rms of the formula against the rows of Table 11 in inputs/validation/snow_wheel/reference.csv:
 # coefficient from the measured sinkage, sinkage [m] at 179 kPa; empirical_test.py holds it
@@ -49,6 +50,16 @@ def nrmm_resistance(density: float, width: float, radius: float, sinkage: float)
     return float(resistance)
 
 
+def require_pressure(pressure: float) -> None:
+    """@raises ResultsError for a contact pressure that no wheel has, such as one in kPa"""
+    low, high = NRMM_PRESSURE
+    if not low <= pressure <= high:
+        raise ResultsError(
+            f"NRMM: a contact pressure of {pressure:g} Pa; allowed: {low:g} to {high:g} Pa. Give it in "
+            "Pa, e.g. 179e3"
+        )
+
+
 def nrmm(
     load: float,
     radius: float,
@@ -66,6 +77,7 @@ def nrmm(
     """
     sizes = {"load": load, "radius": radius, "width": width, "depth": depth}
     require_positive("NRMM", **sizes, density=density, pressure=pressure)
+    require_pressure(pressure)
     if sinkage is not None and not 0.0 <= sinkage < depth:
         raise ResultsError(
             f"NRMM: a sinkage of {sinkage:g} m in snow {depth:g} m deep; allowed: from 0 to below "

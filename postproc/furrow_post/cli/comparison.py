@@ -2,6 +2,7 @@
 """Arguments of the subcommands that compare runs, and the comparison that they ask for."""
 
 import argparse
+from pathlib import Path
 from typing import NamedTuple
 
 from ..analyse import cost_table
@@ -20,7 +21,9 @@ class Labelled(NamedTuple):
 
 
 def labelled(text: str) -> Labelled:
-    """Of FOLDER or LABEL=FOLDER."""
+    """Of FOLDER or LABEL=FOLDER; a folder that is there may have "=" in its name."""
+    if "=" in text and Path(text).exists():
+        return Labelled(text, None)
     head, equals, tail = text.partition("=")
     if equals and not (head.strip() and tail.strip()):
         missing = "folder" if head.strip() else "label"

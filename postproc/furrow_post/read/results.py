@@ -17,6 +17,7 @@ from .styles import Styles
 
 # channel in files of earlier versions -> its name
 FORMER_CHANNELS = {"sinkage": "hub_drop"}
+HISTORY = "history.h5"
 REPEAT = "repeat the run, into a folder of its own"
 
 
@@ -38,6 +39,17 @@ def require_layout(content: Any, file: Path) -> None:
             f"{file}: was written by an older Furrow, version {version}, on {started}: it has no "
             "/run/styles. Read it with the furrow-post of the source tree that made the run, or "
             "repeat the run"
+        )
+
+
+def require_same_run(file: Path, history: Path) -> None:
+    """@raises ResultsError where a terrain.h5 is not of the run whose history lies beside it"""
+    if not history.is_file():
+        return
+    mine, theirs = read_effective_input(file), read_effective_input(history)
+    if mine and theirs and mine != theirs:
+        raise ResultsError(
+            f"{file}: is of another run than {history.name} beside it: their inputs differ; {REPEAT}"
         )
 
 
@@ -129,7 +141,7 @@ class Results:
     def __init__(self, where: Path | str) -> None:
         """@raises ResultsError where there is no such file, or an older Furrow wrote it"""
         path = Path(where)
-        self.file = path / "history.h5" if path.is_dir() else path
+        self.file = path / HISTORY if path.is_dir() else path
         self.folder = self.file.parent
         if not self.file.is_file():
             raise ResultsError(

@@ -7,7 +7,7 @@ script includes (include, jump) and the script of its bed are read too.
 
 import difflib
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -85,11 +85,28 @@ def check_variables(
             near = difflib.get_close_matches(name, settable, n=3)
             hint = f"did you mean {' or '.join(near)}? It takes" if near else "it takes"
             raise ResultsError(f"{script}: no line reads '{name}'; {hint} {_listed(settable)}")
+    require_files(script, known.defaults, given, option)
     return [
         f"{script}: includes {file}, which was not found: whether all variables are read is not "
         "known"
         for file in known.not_found
     ]
+
+
+def require_files(
+    script: Path, defaults: Mapping[str, str], given: Iterable[tuple[str, str]], option: str
+) -> None:
+    """@raises ResultsError where the default of a variable is a file, and a value is none"""
+    for name, value in given:
+        usual, place = _unquoted(defaults.get(name, "")), script.parent / _unquoted(value)
+        # a path with blanks may be relative to where the run is started
+        if "$" in value or place.is_file() or (len(value.split()) > 1 and Path(value).is_file()):
+            continue
+        if (script.parent / usual).is_file():
+            raise ResultsError(
+                f"{option} {name}: there is no file {value}; a path is relative to {script.parent}, "
+                f"like {usual}"
+            )
 
 
 def _listed(names: Sequence[str]) -> str:

@@ -6,12 +6,12 @@ The dataset is JSON, an array in the order of the script: {"id", "group", "style
 numbers, booleans or texts, with defaults filled in.
 """
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from ..errors import ResultsError
+from ..json_text import parse_json
 
 Option = float | int | bool | str
 
@@ -74,7 +74,7 @@ class Styles:
     @classmethod
     def from_json(cls, text: str) -> "Styles":
         """@raises ValueError, KeyError, TypeError where the text is not such an array"""
-        return cls([_style_of(entry) for entry in json.loads(text)])
+        return cls([_style_of(entry) for entry in parse_json(text)])
 
     def of_kind(self, kind: str) -> Style | None:
         """The first of a kind, or None."""

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The steady values of a run as summary.json has them; furrow-resistance computes them."""
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,6 +8,7 @@ from typing import Any
 
 from ..errors import ResultsError, content_of
 from ..formatting import with_error
+from ..json_text import parse_json
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Summary:
         )
         content: Any = {}
         try:
-            content = json.loads(path.read_text(encoding="utf-8"))
+            content = parse_json(path.read_text(encoding="utf-8"))
         except FileNotFoundError:
             pass
         except (OSError, ValueError) as error:

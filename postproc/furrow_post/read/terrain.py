@@ -10,7 +10,7 @@ from ..arrays import Booleans, Floats, Integers
 from ..errors import ResultsError
 from ..fields import Fields
 from .hdf5 import opened
-from .results import MIRROR, Surface, read_surface, require_layout
+from .results import HISTORY, MIRROR, Surface, read_surface, require_layout, require_same_run
 
 FILE = "terrain.h5"
 OLD_FILE = "ground.h5"  # its name in an older Furrow
@@ -54,6 +54,7 @@ def _group(folder: Path, name: str, lacking: str) -> Fields:
     remedy = "give the folder of a run with fix terrain/history that came to its end"
     if not path.is_file():
         raise ResultsError(f"{path}: {lacking} (no such file); {remedy}")
+    require_same_run(path, folder / HISTORY)
     with opened(path) as content:
         require_layout(content, path)
         if name not in content:

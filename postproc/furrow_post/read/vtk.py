@@ -55,6 +55,9 @@ def read_series(collection: Path) -> Series | None:
         entries = list(ET.parse(collection).getroot().iter("DataSet"))
         times = np.array([float(entry.attrib["timestep"]) for entry in entries])
         files = tuple(collection.parent / entry.attrib["file"] for entry in entries)
+    outside = [file for file in files if not file.resolve().is_relative_to(collection.parent.resolve())]
+    if outside:
+        raise ResultsError(f"{collection}: names {outside[0]}, outside of its folder; {REMEDY}")
     return Series(times, files) if files else None
 
 

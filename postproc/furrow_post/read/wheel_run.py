@@ -7,7 +7,6 @@ The datum of the hub drop is the top of the undisturbed ground (of grains: of a 
 same mass). The resistance coefficient is -force_x/force_z.
 """
 
-import json
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -15,6 +14,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import ResultsError
+from ..json_text import parse_json
 from .results import Grains, Results
 from .styles import Style
 from .summary import SteadyValue, Summary
@@ -28,6 +28,9 @@ STEADY_QUANTITIES = (
     "drive_torque",
     "slip",
 )
+# Those that are means of a channel of the history
+FROM_CHANNELS = ("hub_drop", "force_z", "drawbar_pull", "drive_torque")
+SAME_MEAN = 0.02  # relative difference of means over one window: rows at its ends
 
 
 @dataclass(frozen=True)
@@ -259,6 +262,8 @@ def _read_values(run: WheelRun, reference: Grains | None) -> None:
             f"{run.folder}: the window of summary.json, {begin:g} to {end:g} s, lies outside of "
             f"the history; write it again with 'furrow-post resistance --write {run.folder}'"
         )
+    for name in FROM_CHANNELS:
+        _require_mean(run, name, float(columns[name][inside].mean()))
     v = columns["velocity_x"][inside].mean()
     rim = run.radius * columns["spin_rate"][inside].mean()
     if run.text("travel") == "free":  # an answer of the ground
@@ -274,11 +279,21 @@ def _read_values(run: WheelRun, reference: Grains | None) -> None:
         run.conditions["datum_shift"] = Condition(shift, "m")
 
 
+def _require_mean(run: WheelRun, name: str, mean: float) -> None:
+    """@raises ResultsError where summary.json has another mean than the history"""
+    value = run.values[name]
+    if not abs(value.mean - mean) <= max(SAME_MEAN * abs(mean), value.standard_error):
+        raise ResultsError(
+            f"{run.folder}: summary.json has a {name.replace('_', ' ')} of {value.mean:.4g} {value.unit}, "
+            f"its history {mean:.4g}; write it again with 'furrow-post resistance --write {run.folder}'"
+        )
+
+
 def _read_cost(run: WheelRun) -> None:
     cost = run.results.cost
     run.wall_time = cost.get("wall_time", float("nan"))
     run.cpu_time = run.wall_time * cost.get("ranks", 1.0)
     try:  # the runner's own measurement does not count what other programs took
-        run.cpu_time = float(json.loads((run.folder / "run.json").read_text())["cpu_time"])
+        run.cpu_time = float(parse_json((run.folder / "run.json").read_text())["cpu_time"])
     except (OSError, ValueError, KeyError, TypeError):
         pass

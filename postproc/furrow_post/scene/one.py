@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ResultsError
+from ..json_text import parse_json
 from ..programs import PACKAGE, find_program
 from ..read.script import script_variables
 from ..study.launch import is_busy
@@ -130,7 +131,7 @@ def show(folder: Path, shown: bool = True) -> None:
         return
     post("plot", folder, shown=shown)
     # On a rigid plane there is no ground to draw: no grains, and no terrain.h5 beside history.h5
-    cost = json.loads((folder / "summary.json").read_text()).get("cost", {})
+    cost = parse_json((folder / "summary.json").read_text()).get("cost", {})
     if cost.get("grains") or len(list(folder.glob("*.h5"))) > 1:
         post("picture", folder, shown=shown)
 

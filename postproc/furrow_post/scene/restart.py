@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ResultsError, content_of
+from ..json_text import parse_json
 from ..read.script import script_variables
 from .catalogue import Variables
 from .process import FORCED
@@ -39,7 +40,7 @@ def read_former(folder: Path, script: Path) -> Former:
     if not path.is_file():
         raise ResultsError(f"{folder}: has no run to continue ({COMMAND}); {REMEDY}")
     with content_of(path, REMEDY):
-        content = json.loads(path.read_text(encoding="utf-8"))
+        content = parse_json(path.read_text(encoding="utf-8"))
         ranks, variables = int(content["ranks"]), [(str(n), str(v)) for n, v in content["variables"]]
         of = str(content["script"])
     if Path(of) != script.resolve():

@@ -7,7 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ResultsError
-from ..read.script import RESERVED, ScriptVariables, check_variables, script_variables
+from ..read.script import (
+    RESERVED,
+    ScriptVariables,
+    check_variables,
+    require_files,
+    script_variables,
+)
 from ..study.case import FOLDER, Case
 from ..study.furrow_cases import script_case
 from .plan import Plan, Point, points_of
@@ -49,6 +55,9 @@ def plan_of(request: Request) -> tuple[Plan, list[str]]:
     if len(swept) < len(words):
         raise ResultsError(f"--sweep {' and '.join(names)} set the same variable of the script")
     check_variables(request.script, words, RESERVED, given, "--sweep")
+    defaults = script_variables(request.script, given).defaults
+    values = [(v.name, value) for v in variables for value in v.values]
+    require_files(request.script, defaults, values, "--sweep")
     fixed = {**dict(request.preset), **given}
     fixed = {name: value for name, value in fixed.items() if name not in swept}
     known = script_variables(request.script, fixed)

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ..csv_table import read_rows
 from ..errors import ResultsError
-from .curves import Axis, Figure
+from .curves import EFFICIENCY, HUB_DROP, PULL, RESISTANCE, SIDEWAYS, TORQUE, Axis, Figure
 
 UNITS = {
     "": 1.0,
@@ -50,6 +50,17 @@ class MeasuredPoints:
         """x, value and standard deviation (NaN: not known)."""
         pairs = self.columns.get(y.key, ())
         return [(x, *pair) for x, pair in zip(self.x, pairs) if math.isfinite(pair[0])]
+
+
+def require_measured(path: Path) -> None:
+    """@raises ResultsError where a file is no table with a column of a quantity that curves show"""
+    rows = read_rows(path)
+    names = [axis.key for axis in (HUB_DROP, RESISTANCE, PULL, TORQUE, EFFICIENCY, *SIDEWAYS)]
+    if not rows or not any(_column(rows[0], name) for name in names):
+        raise ResultsError(
+            f"{path}: is no table of measured points; it needs rows, and a column of {', '.join(names)}; "
+            f"a unit may stand behind the name, e.g. hub_drop_mm"
+        )
 
 
 def read_measured_points(path: Path, label: str | None, figure: Figure) -> list[MeasuredPoints]:

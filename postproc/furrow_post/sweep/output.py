@@ -23,7 +23,7 @@ from ..study.tables import in_columns
 from .curves import Figure, arrange
 from .drawing import CAPTION, draw_parts_of_sweep, draw_sweep
 from .formulas import FormulaLine, formula_lines
-from .measured import MeasuredPoints, read_measured_points
+from .measured import MeasuredPoints, read_measured_points, require_measured
 from .series import Series, read_series, uniquely_labelled
 from .table import shown_rows, write_table
 
@@ -55,6 +55,8 @@ class Wanted:
         for file in (*self.measured, *([Named(self.errors)] if self.errors else [])):
             if not file.path.is_file():
                 raise ResultsError(f"{file.path}: no such file")
+        for file in self.measured:
+            require_measured(file.path)
 
 
 @dataclass(frozen=True)

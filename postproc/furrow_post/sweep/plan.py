@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
 from ..errors import ResultsError, content_of
+from ..json_text import parse_json
 from .values import Variable, folder_name, product
 
 FILE = "sweep.json"
@@ -59,7 +60,7 @@ def read_plan(folder: Path) -> Plan | None:
     if not path.is_file():
         return None
     with content_of(path, "start the sweep again, which writes it"):
-        content = json.loads(path.read_text(encoding="utf-8"))
+        content = parse_json(path.read_text(encoding="utf-8"))
         points = tuple(Point(**point) for point in content.pop("points"))
         variables = tuple(content.pop("variables"))
         return Plan(variables=variables, points=points, **content)

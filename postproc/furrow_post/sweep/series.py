@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The points of a folder: of a sweep, or of runs that were made one by one."""
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ..errors import ResultsError
+from ..json_text import parse_json
 from ..read.summary import ResistanceParts, Summary
 from ..read.wheel_run import WheelRun, read_wheel_run
 from ..study.launch import SCREEN
@@ -151,7 +151,7 @@ def _not_reached(folder: Path) -> list[str]:
 
 def _error_of(path: Path) -> str:
     try:
-        return str(json.loads(path.read_text(encoding="utf-8"))["error"])
+        return str(parse_json(path.read_text(encoding="utf-8"))["error"])
     except (OSError, ValueError, KeyError, TypeError):
         return f"{path}: cannot be read"
 

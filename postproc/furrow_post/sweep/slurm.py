@@ -12,6 +12,7 @@ from pathlib import Path
 
 from ..arguments import has_control_characters
 from ..errors import Interrupted, ResultsError
+from ..json_text import parse_json
 from ..study.case import Case
 from ..study.progress import Progress
 from ..study.runner import Runner, State
@@ -48,7 +49,7 @@ class Job:
 def read_job(folder: Path) -> Job | None:
     """The last one of a sweep, or None."""
     try:
-        content = json.loads((folder / JOB).read_text(encoding="utf-8"))
+        content = parse_json((folder / JOB).read_text(encoding="utf-8"))
         return Job(content["number"], tuple(content["points"]))
     except (OSError, ValueError, KeyError, TypeError):
         return None

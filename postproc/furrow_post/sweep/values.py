@@ -31,11 +31,15 @@ def parse_variable(text: str) -> Variable:
     if not values:
         raise ResultsError(f"--sweep {name} has no values; {HOW}")
     fields = values.split(":")
-    if len(fields) > 1 and "," not in values and _number(fields[0]) is not None:
+    is_range = _number(fields[0]) is not None or re.fullmatch(r"[^/:]+:[^/:]+:\s*\d+\s*", values)
+    if len(fields) > 1 and "," not in values and is_range:
         return Variable(name, tuple(_range(name, values, fields)))
     listed = [value.strip() for value in values.split(",")]
     if not all(listed):
         raise ResultsError(f"--sweep {name}: '{values}' has an empty value; {HOW}")
+    for value in listed:
+        if value.lower().lstrip("+-") in ("nan", "inf", "infinity"):
+            raise ResultsError(f"--sweep {name}: {value} is no finite number; {HOW}")
     twice = [value for value in listed if listed.count(value) > 1]
     if twice:
         raise ResultsError(f"--sweep {name} has {twice[0]} twice; give each value once")

@@ -30,6 +30,13 @@ WONG = "wong_reece --load 6000 --diameter 1.2 --width 0.3 --terrain"
 
 # (words of empirical, terrain or None, what is said)
 EMPIRICAL = (
+    *(
+        (f"nrmm --load 6e3 --diameter 0.74 --width 0.272 --depth 0.2 --density 200 {pressure}", None, said)
+        for pressure, said in (
+            ("--pressure 179", "a contact pressure of 179 Pa; allowed: 5000 to 2e+06 Pa. Give it in Pa"),
+            ("--pressure 179e6 --extrapolate", "a contact pressure of 1.79e+08 Pa; allowed"),
+        )
+    ),
     (BEKKER, "no such sand", "there is no terrain 'no such sand'; there are"),
     (BEKKER, "", "there is no terrain ''"),
     ("bekker", None, "needs --load, --diameter, --width, --terrain"),
@@ -44,6 +51,7 @@ EMPIRICAL = (
 # (words after two runs "a b", what is said)
 COMPARE = (
     (["--formula", "nrmm:179e3"], "a: the density of its ground is not known"),
+    (["--formula", "nrmm:179"], "a contact pressure of 179 Pa; allowed: 5000 to 2e+06 Pa"),
     (["--formula", "nrmm:"], "write nrmm:PRESSURE with the largest contact pressure"),
     (["--formula", "bekker:no sand"], "there is no terrain 'no sand'"),
     (["--formula", "guess:1"], "there is no formula 'guess'"),
@@ -75,6 +83,13 @@ OTHERS: tuple[tuple[list[str], str], ...] = (
     (["plot", "a", "-o", "x.svg", "--format", "pdf"], "-o x.svg: is no pdf"),
     (["report", "a", "-o", "x.pdf"], "x.pdf: a report's name ends in .html"),
     (["report", "a", "-o", "/proc/x.html"], "/proc/x.html: no such file or directory"),
+    (["export", "none"], "none: no such file; name the results folder of a run"),
+    (["export", "a", "a"], "a: is given twice"),
+    (["export", "a", "x=b", "x=a/history.h5"], "two runs are called 'x'; write LABEL=FOLDER"),
+    (["export", "a", "-o", "a"], "-o a: name a file that ends in .csv"),
+    (["export", "a", "-o", "none/x.csv"], "-o none/x.csv: name a file that ends in .csv"),
+    (["export", "a", "--channels", "hub_dorp"], "did you mean hub_drop?"),
+    (["export", "a", "--channels", ","], "a/history.h5: has no ''; it has time, stage"),
     (["view", "a"], "a: has nothing to look at; repeat the run with 'vtk N'"),
     (["view", "a", "a"], "a: is given twice"),
     (["view", "a", "b", "one"], "3 results folders are given; a view shows one or two"),
@@ -150,6 +165,21 @@ class ArgumentsFaultsTest(FaultsTest):
         for words, message in OTHERS:
             self.post(words, message)
 
+    def test_folder_with_an_equals_sign_in_its_name(self) -> None:
+        name = "slip=0.1"
+        shutil.copytree("a", name)
+        for words in (["report", name, "-o", "=.html"], ["compare", name, "b", "-o", "out="]):
+            with self.subTest(words=words):
+                self.assertEqual(outcome(lambda: main(words)), (0, ""))
+        self.assertIn(f"  {name} ", Path("out=", "compare.txt").read_text())
+
+    def test_table_with_the_mark_of_a_spreadsheet(self) -> None:
+        for encoding in ("utf-8", "utf-8-sig"):
+            Path("marked.csv").write_text(Path("table.csv").read_text(), encoding=encoding)
+            words = ["cost", "marked.csv", "-o", "cost.png"]
+            with self.subTest(encoding=encoding):
+                self.assertEqual(outcome(lambda: main(words)), (0, ""))
+
     def test_relative_errors(self) -> None:
         for text in ERRORS:
             for words in (["cost", "a", "b"], ["choose", "table.csv"]):
@@ -203,7 +233,8 @@ class ArgumentsFaultsTest(FaultsTest):
         programs = [
             file
             for file in SOURCE.glob("inputs/**/*.py")
-            if '__name__ == "__main__"' in file.read_text(encoding="utf-8")
+            if '__name__ == "__main__"' in (text := file.read_text(encoding="utf-8"))
+            and "furrow_post" in text
         ]
         self.assertGreater(len(programs), 10)
         for program in (*programs, FURROW_POST):

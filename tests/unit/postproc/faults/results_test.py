@@ -128,6 +128,8 @@ SUMMARIES = (
     ("no mean", SUMMARY % (1, 2, "{}"), "plot", "summary.json: has no 'mean'"),
     ("a number", SUMMARY % (1, 2, "3"), "compare", "summary.json: cannot be used"),
     ("window of words", SUMMARY % ('"a"', 2, "null"), "plot", "summary.json: cannot be used"),
+    ("a mean that is no number", SUMMARY % (1, 2, '{"mean": NaN}'), "report", "NaN is no number of JSON"),
+    ("endless brackets", 100000 * "[", "compare", "brackets are nested too deeply"),
     ("no steady values", SUMMARY % (1, 2, "null"), "cost", "or run longer"),
 )
 
@@ -138,6 +140,19 @@ GRAINS: tuple[tuple[str, Change, str], ...] = (
     ("no level", without_attribute("grains/final", "bed_level"), "has no 'bed_level'"),
     ("nodes that are not there", nodes_beyond, "triangles without nodes"),
 )
+
+
+# (quantity, mean in summary.json, what is said): numbers that a hand wrote
+CHANGED = (
+    ("hub_drop", -5.0, "has a hub drop of -5 m, its history 0.05"),
+    ("hub_drop", 9.9, "has a hub drop of 9.9 m, its history 0.05"),
+    ("hub_drop", 0.0525, "has a hub drop of 0.0525 m"),
+    ("force_z", 100.0, "has a force z of 100 N, its history 1000"),
+    ("drawbar_pull", 200.0, "has a drawbar pull of 200 N, its history -200"),
+    ("drive_torque", 50.0, "has a drive torque of 50 N m, its history 0"),
+)
+FRAMES = """<VTKFile type="Collection"><Collection>
+<DataSet timestep="0" file="%s"/></Collection></VTKFile>"""
 
 
 def damaged(intact: bytes) -> Iterator[tuple[str, bytes]]:
@@ -219,6 +234,32 @@ class ResultsFaultsTest(FaultsTest):
         self.post("window of another run", "compare", folder, "lies outside of the history")
         (folder / "summary.json").write_bytes(b'{"title": "\xe9"}')
         self.post("no UTF-8", "plot", folder, "summary.json: ")
+
+    def test_summaries_with_other_values_than_the_history(self) -> None:
+        for name, mean, message in CHANGED:
+            folder = self.copy()
+            content = json.loads((folder / "summary.json").read_text())
+            content["quantities"][name]["mean"] = mean
+            (folder / "summary.json").write_text(json.dumps(content))
+            for subcommand in ("compare", "report", "cost"):
+                self.post(f"{name} {mean}", subcommand, folder, message)
+
+    def test_terrain_of_another_run_beside_the_history(self) -> None:
+        folder = self.copy()
+        with h5py.File(folder / "terrain.h5", "w") as content:
+            content.create_group("run")["styles"] = np.bytes_(b"[]")
+            content["run/effective_input"] = np.bytes_(b"fix soil all terrain/continuum")
+            content.create_group("terrain")
+        self.post("another input", "terrain", folder, "terrain.h5: is of another run than history.h5")
+
+    def test_frames_outside_of_the_results(self) -> None:
+        folder = self.copy()
+        (folder / "vtk").mkdir()
+        for name in ("../../secret.vtp", "/etc/passwd", "x/../../../a.vtp"):
+            (folder / "vtk" / "wheel.pvd").write_text(FRAMES % name)
+            words = ["view", str(folder), "-o", str(folder.parent / "o.html")]
+            said = outcome(lambda: main(words))
+            self.expect(name, said, "outside of its folder")
 
     def test_grains(self) -> None:
         for fault, change, message in GRAINS:

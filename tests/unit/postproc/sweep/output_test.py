@@ -261,6 +261,7 @@ class OutputTest(unittest.TestCase):
         write_run(self.folder / "same" / "x")
         write_run(self.folder / "same" / "y")
         (self.folder / "bad.csv").write_text("a,b\n1,2\n")
+        (self.folder / "no_slip.csv").write_text("hub_drop_mm,b\n1,2\n")
         (self.folder / "word.csv").write_text("slip,sinkage\n0.1,deep\n")
         a = [Named(self.folder / "a")]
         for folders, wanted, message in (
@@ -271,7 +272,8 @@ class OutputTest(unittest.TestCase):
             (a, Wanted(formulas=["foo"]), "there is no formula 'foo'"),
             (a, Wanted(formulas=["bekker:moon"]), "there is no terrain 'moon'"),
             (a, Wanted(measured=[Named(self.folder / "none.csv")]), "no such file"),
-            (a, Wanted(measured=[Named(self.folder / "bad.csv")]), "needs a column slip and one"),
+            (a, Wanted(measured=[Named(self.folder / "bad.csv")]), "is no table of measured points"),
+            (a, Wanted(measured=[Named(self.folder / "no_slip.csv")]), "needs a column slip and one"),
             (a, Wanted(measured=[Named(self.folder / "word.csv")]), "could not convert"),
         ):
             with self.subTest(message), self.assertRaises(ResultsError) as refused:
