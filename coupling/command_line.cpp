@@ -73,7 +73,7 @@ const Option* find_option(const std::string& word) {
 }
 
 [[noreturn]] void refuse_word(const std::string& word) {
-  if (word.empty()) refuse("is started with an empty word", "options of LIGGGHTS, see --help");
+  if (word.empty()) refuse("is started with an empty argument", "options of LIGGGHTS, see --help");
   if (word[0] != '-')
     refuse(fmt::format("is started with '{}', which is no option", word),
            "options that begin with '-'", fmt::format("for a script write '-in {}'", word));
@@ -174,7 +174,7 @@ CommandLine read_command_line(const std::vector<std::string>& words) {
     if (option->words != up_to_next_option && values.size() < wanted)
       refuse(fmt::format("has an option {} without its {}", name,
                          wanted == 1 ? "value" : fmt::format("{} values", wanted)),
-             wanted == 1 ? "one word after it" : fmt::format("{} words after it", wanted));
+             wanted == 1 ? "one argument after it" : fmt::format("{} arguments after it", wanted));
     if (!option->choices.empty() &&
         !std::count(option->choices.begin(), option->choices.end(), values[0]))
       refuse(fmt::format("has an option {} with '{}'", name, values[0]),
@@ -185,7 +185,7 @@ CommandLine read_command_line(const std::vector<std::string>& words) {
     if (meaning == "--version") line.version = true;
     if (meaning == "-in" && !line.script.empty()) refuse("has two scripts", "one -in");
     if (meaning == "-in") line.script = values[0];
-    if (meaning == "-in" && values[0].empty()) refuse("has an empty word after -in", "a path");
+    if (meaning == "-in" && values[0].empty()) refuse("has an empty argument after -in", "a path");
     if (meaning == "-var") line.variables.push_back(as_variable(name, values));
     if ((meaning == "-log" || meaning == "-screen") && values[0] != "none")
       line.written_files.push_back(values[0]);

@@ -107,7 +107,7 @@ FixCoupledSystem::Member& FixCoupledSystem::member(const Body& body) {
   const auto found = std::find_if(members_.begin(), members_.end(),
                                   [&](const Member& m) { return m.body == &body; });
   if (found == members_.end())
-    with_local_errors(*error, [] { throw Error("a body is asked for that is in no system"); });
+    with_local_errors(*error, [] { throw Error("a requested body is in no system"); });
   return *found;
 }
 
@@ -144,7 +144,7 @@ void FixCoupledSystem::check_restored_fixes() {
       kept.erase(name);
     else
       warn(*lmp,
-           fmt::format("{} has no state in the checkpoint: it begins as its line says", name));
+           fmt::format("{} has no state in the checkpoint: it starts as its line states", name));
   }
   if (!kept.empty())
     throw StateError(fmt::format(
@@ -163,7 +163,7 @@ void FixCoupledSystem::warn_of_changed_properties() {
   for (std::string property, values; lines >> property && std::getline(lines >> std::ws, values);)
     if (const auto found = now.find(property); found != now.end() && found->second != values)
       warn(*lmp, fmt::format("fix property/global '{}' is {}, and was {} when the checkpoint was "
-                             "written: the run goes on with other grains",
+                             "written: the run continues with these other values",
                              property, found->second, values));
 }
 
@@ -195,12 +195,12 @@ void FixCoupledSystem::warn_of_changed_controllers() {
       missing.insert(fix);
     else if (now[fix][key] != value)
       warn(*lmp, fmt::format("{}, keyword '{}' is {}, and was {} when the checkpoint was written: "
-                             "the run goes on as this line says",
+                             "the run continues as this line states",
                              fix, key, now[fix][key], value));
   }
   if (!missing.empty())
     warn(*lmp, fmt::format("the run of the checkpoint had {}, and the script that continues has no "
-                           "such line: the run goes on without",
+                           "such line: the run continues without",
                            fmt::join(missing, ", ")));
 }
 

@@ -18,11 +18,11 @@ namespace furrow::coupling {
 inline void check_settings(const LAMMPS_NS::LAMMPS& lammps, const std::string& where) {
   const std::string units = lammps.update->unit_style;
   if (units != "si")
-    throw InputError(where, fmt::format("stands in a scene with units {}", units), "units si",
+    throw InputError(where, fmt::format("is used in a scene with units {}", units), "units si",
                      "write 'units si' before the box is made; LIGGGHTS's default is lj");
   const int dimension = lammps.domain->dimension;
   if (dimension != 3)
-    throw InputError(where, fmt::format("stands in a scene with dimension {}", dimension),
+    throw InputError(where, fmt::format("is used in a scene with dimension {}", dimension),
                      "dimension 3", "remove the line 'dimension'; for a slice, make a narrow box");
 }
 

@@ -11,23 +11,23 @@ const StyleRow plate_rigid_style =
 Schema FixPlateRigid::schema() {
   Schema schema = RigidPlate::schema("fix plate/rigid");
   schema.number("speed", "m/s", Range::closed(0.0, 1000.0), "downward speed");
-  schema.number("start", "s", Range::non_negative(), "time at which the plate sets off")
+  schema.number("start", "s", Range::non_negative(), "time at which the plate starts to move")
       .by_default(0.0);
   schema.number("accelerate_time", "s", Range::non_negative(),
-                "time in which it gains its speed, smoothly");
+                "time in which the plate reaches its speed, smoothly");
   schema.number("ground_level", "m", Range::any(),
-                "z of the undisturbed ground: datum of the sinkage");
+                "z of the undisturbed ground, the datum of the sinkage");
   return schema;
 }
 
 const Outputs<FixPlateRigid>& FixPlateRigid::outputs() {
   using Fix = FixPlateRigid;
   static const Outputs<Fix> list = {
-      {"sinkage", "m", "ground level minus lower face",
+      {"sinkage", "m", "ground level minus the lower face of the plate",
        [](Fix& fix) { return fix.ground_level_ - fix.plate().centre().z(); }},
       {"force", "N", "upward force of the ground on the plate",
        [](Fix& fix) { return fix.plate().surface().total_force().z(); }},
-      {"pressure", "Pa", "that force over the area of the plate",
+      {"pressure", "Pa", "force over the area of the plate",
        [](Fix& fix) { return fix.plate().mean_pressure(); }},
   };
   return list;

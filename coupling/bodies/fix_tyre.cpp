@@ -23,18 +23,18 @@ constexpr int max_sub_steps = 4;  // in a step on grains, shown to be quiet: fix
 }  // namespace
 
 void declare_file_and_pressure(Schema& schema) {
-  schema.text("file", "tyre file, relative to the folder of the script")
+  schema.text("file", "tyre file, relative to the script")
       .may_change();  // of place and name: checkpoints compare what is in it
   schema
       .number("pressure", "Pa", Range::non_negative(),
-              "inflation pressure; by default that of the tyre file")
+              "inflation pressure, 1e3 to 1e7; by default that of the tyre file")
       .optional();
 }
 
 void declare_damping(Schema& schema) {
   schema
       .number("damping", "1/s", Range::non_negative(),
-              "rate at which the tread's motion relative to the rim is damped")
+              "damping rate of the tyre's motion relative to the rim")
       .by_default(100.0);
 }
 
@@ -81,14 +81,15 @@ void check_damping(const Options& options, double stable_step) {
 const Outputs<FixTyre>& FixTyre::outputs() {
   using Fix = FixTyre;
   static const Outputs<Fix> list = {
-      {"deflection", "m", "of the tread's lowest node, against the unloaded tread",
+      {"deflection", "m", "rise of the tread's lowest node above the unloaded tread",
        [](Fix& fix) { return fix.tyre().deflection(); }},
-      {"pressure", "Pa", "of the inflation now", [](Fix& fix) { return fix.tyre().pressure(); }},
-      {"section_width", "m", "largest width of the sidewalls' profiles",
+      {"pressure", "Pa", "present inflation pressure",
+       [](Fix& fix) { return fix.tyre().pressure(); }},
+      {"section_width", "m", "largest width of the section",
        [](Fix& fix) { return fix.tyre().section_width(); }},
-      {"tread_energy", "J", "elastic energy of the tread; of a half model, of both halves",
+      {"tread_energy", "J", "elastic energy of the tread; both halves of a half model",
        [](Fix& fix) { return fix.tyre().tread_energy(); }},
-      {"sidewall_chord", "", "longest sidewall chord over the sidewall's length",
+      {"sidewall_chord", "", "longest sidewall chord over the sidewall length",
        [](Fix& fix) { return fix.tyre().largest_sidewall_chord(); }},
   };
   return list;

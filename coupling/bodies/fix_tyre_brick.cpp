@@ -39,9 +39,11 @@ Schema FixTyreBrick::schema() {
   declare_file_and_pressure(schema);
   schema
       .integer("sections", Range::closed(12, 1000),
-               "elements round the tyre; those across are shorter by 0.45")
+               "elements around the tyre; those across are 0.45 as long or shorter")
       .by_default("120");
-  schema.flag("half", "only the half y >= 0, mirrored");
+  schema.flag(
+      "half",
+      "`yes`: only the half y >= 0 is computed, mirrored, for straight travel on symmetric ground");
   declare_hub(schema);
   declare_damping(schema);
   return schema;

@@ -58,14 +58,16 @@ Schema FixTyreDarnell::schema() {
   declare_file_and_pressure(schema);
   schema.numbers("mesh", 2, "", Range::closed(2, 2000), "elements across the tread and around it")
       .by_default(std::vector<double>{6, 72});
-  schema.flag("half", "only the half y >= 0, mirrored");
+  schema.flag(
+      "half",
+      "`yes`: only the half y >= 0 is computed, mirrored, for straight travel on symmetric ground");
   schema
       .choice("sidewall", {"table", "direct"},
-              "sidewall forces looked up, or solved at every station and step")
+              "`table`: sidewall forces interpolated; `direct`: solved at every station and step")
       .by_default("table");
   schema
       .integer("sidewall_rows", Range::closed(0, 50),
-               "rows of nodes on each sidewall, for contact; 0: only the tread can touch")
+               "rows of contact nodes on each sidewall; 0: only the tread can touch")
       .by_default("4");
   declare_hub(schema);
   declare_damping(schema);

@@ -105,16 +105,16 @@ Found mesh_is_in_a_wall(const Scene& scene, const FixMeshBody& mesh) {
 
 Found something_presses_on_terrain(const Scene& scene, const FixTerrain& terrain) {
   if (has_contact(*scene.lammps.modify, terrain) || touches_grains(scene.lammps, terrain) ||
-      terrain.options().flag("sheet"))
+      terrain.options().flag("surface_mesh"))
     return {};
   return warning(
       fmt::format("nothing presses on {}: no contact/continuum names it", terrain.name()));
 }
 
 Found sheet_is_in_a_wall(const Scene& scene, const FixTerrain& terrain) {
-  if (!terrain.options().flag("sheet") || touches_grains(scene.lammps, terrain)) return {};
+  if (!terrain.options().flag("surface_mesh") || touches_grains(scene.lammps, terrain)) return {};
   return warning(
-      fmt::format("{} has a sheet that no wall/gran/body holds: grains fall through it; add "
+      fmt::format("{} has a surface mesh that no wall/gran/body lists: grains fall through it; add "
                   "a mesh/body of it",
                   terrain.name()));
 }
@@ -161,7 +161,7 @@ Found terrain_is_long_enough(const Scene&, FixContactContinuum& contact) {
   if ((is_wheel(pair.body) ? 0.5 * body : body) > ground)
     return refusal(where, problem, "ground longer than the body", "make it longer");
   return warning(
-      fmt::format("{} {}; its ends will hold the ground: make it longer", where, problem));
+      fmt::format("{} {}; its ends restrain the ground: make it longer", where, problem));
 }
 
 Found cells_show_the_body(const Scene&, FixContactContinuum& contact) {
@@ -196,7 +196,7 @@ Found body_is_over_terrain(const Scene&, FixContactContinuum& contact) {
       (is_wheel(pair.body) || !over(pair.body_x, pair.terrain_x)))
     return {};
   return warning(
-      fmt::format("'{}' stands over the edge of terrain '{}': it spans x = {:.4g} to {:.4g} m, "
+      fmt::format("'{}' extends beyond terrain '{}': it spans x = {:.4g} to {:.4g} m, "
                   "y = {:.4g} to {:.4g} m, the terrain {:.4g} to {:.4g} m, {:.4g} to {:.4g} m",
                   pair.body.id, pair.terrain.id, pair.body_x.lower, pair.body_x.upper,
                   pair.body_y.lower, pair.body_y.upper, pair.terrain_x.lower, pair.terrain_x.upper,

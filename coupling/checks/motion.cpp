@@ -61,7 +61,7 @@ Found moved_mesh_has_no_body(const Scene&, LAMMPS_NS::FixMoveMesh& motion) {
   const auto* mesh = dynamic_cast<const FixMeshBody*>(motion.fixMesh());
   if (!mesh) return {};
   return refusal(fmt::format("fix {} '{}'", motion.style, motion.id),
-                 fmt::format("moves the mesh/body '{}', which goes where its body is", mesh->id),
+                 fmt::format("moves the mesh/body '{}', which follows its body", mesh->id),
                  "a mesh that no body has", "drive the body: by a wheel/rig, or as a plate/rigid");
 }
 

@@ -227,12 +227,12 @@ Found grains_are_above_terrain(const Scene& scene, FixTerrain& terrain) {
   if (below == 0.0) return {};
   const std::string count = fmt::format("{:.0f} of {:.0f} grains", below, scene.grains);
   if (touches_grains(scene.lammps, terrain))
-    return refusal(
-        terrain.name(), fmt::format("has {} inside, below the sheet that carries them", count),
-        "grains above the surface of the terrain", "put the grains higher, or lower 'surface'");
+    return refusal(terrain.name(), fmt::format("has {} inside, below its surface mesh", count),
+                   "grains above the surface of the terrain",
+                   "put the grains higher, or lower 'surface'");
   return warning(
-      fmt::format("{} are inside {}, and neither feels the other: two grounds in one place; move "
-                  "one of them, or give the terrain 'sheet yes' and a mesh/body, and put the "
+      fmt::format("{} are inside {} and do not interact with it; move one of the two, or give the "
+                  "terrain 'surface_mesh yes' and a mesh/body, and put the "
                   "grains above it",
                   count, terrain.name()));
 }
@@ -287,8 +287,7 @@ Found bodies_are_apart(const Scene& scene, const FixBody& body) {
     const double smaller = std::min((upper - lower).prod(), (other_upper - other_lower).prod());
     if (common.minCoeff() > 0.0 && common.prod() > large_overlap * smaller)
       return warning(
-          fmt::format("{} and {} are in one place, and do not feel one another; move one of "
-                      "them or remove its lines",
+          fmt::format("{} and {} overlap and do not interact; move one of them or remove its lines",
                       body.name(), (*other)->name()));
   }
   return {};
@@ -315,15 +314,14 @@ Found body_starts_at_the_ground(const Scene& scene, const DrivenBody& driven) {
     const double start = driven.options.number("start") + 0.5 * scene.step();
     const bool sets_off = scene.time() <= start && scene.end() > start;
     if (sets_off && touches_grains(scene.lammps, driven.body) && scene.grains > 0.0)
-      return warning(
-          fmt::format("'{}' does not stand over the grains: none lies between its ends and sides",
-                      driven.body.id));
+      return warning(fmt::format("'{}' is not above the grains: none is between its ends and sides",
+                                 driven.body.id));
     return {};
   }
   const double gap = lower[2] - level->z;
   if (upper[2] < level->z)
     return warning(
-        fmt::format("'{}' lies below the ground and cannot press on it: it reaches up to z = "
+        fmt::format("'{}' starts below the ground: it reaches up to z = "
                     "{:.4g} m, and {} is at z = {:.4g} m; let it start above",
                     driven.body.id, upper[2], level->what, level->z));
   if (gap > size_of(driven.body))
@@ -341,7 +339,7 @@ Found ground_level_is_the_ground(const Scene& scene, const DrivenBody& driven) {
   const std::string problem =
       fmt::format("is {:.6g} m, and {} is at z = {:.6g} m", given, level->what, level->z);
   const std::string remedy =
-      fmt::format("sinkages count from it; write 'ground_level {:.6g}'", level->z);
+      fmt::format("it is the datum of the sinkage; write 'ground_level {:.6g}'", level->z);
   const std::string where = driven.options.where("ground_level");
   if (excess(*level, given) > size)
     return refusal(where, problem,
@@ -364,11 +362,11 @@ Found body_stays_off_the_sheet(const Scene&, const FixWallGranBody& wall) {
       const Surface& sheet = terrain->surface();
       const Eigen::Index node = node_inside(body->surface(), sheet);
       if (node < 0) continue;
-      Finding found = warning(fmt::format(
-          "fix wall/gran/body '{}': a body has come through the grains to the sheet of the terrain "
-          "that carries them, at {:.4g} {:.4g} {:.4g} m, and does not feel it: it may touch grains "
-          "only; make their layer deeper, and a trough wider than what it may sink and turn aside",
-          wall.id, sheet.x(0, node), sheet.x(1, node), sheet.x(2, node)));
+      Finding found = warning(
+          fmt::format("fix wall/gran/body '{}': a body has come through the grains to the surface "
+                      "mesh of the terrain, at {:.4g} {:.4g} {:.4g} m, and does not interact with "
+                      "it; make the layer of grains deeper, or the trough wider",
+                      wall.id, sheet.x(0, node), sheet.x(1, node), sheet.x(2, node)));
       found.stops = true;
       return found;
     }

@@ -44,8 +44,8 @@ const StyleRow contact_plane_style =
 Schema FixContactPlane::schema() {
   Schema schema("fix contact/plane");
   declare_body(schema);
-  schema.number("level", "m", Range::any(), "z of the floor");
-  schema.number("friction", "", Range::non_negative(), "Coulomb's mu");
+  schema.number("level", "m", Range::any(), "z of the plane");
+  schema.number("friction", "", Range::non_negative(), "friction coefficient mu");
   schema.number("stiffness", "Pa/m", Range::positive(), "pressure per penetration").by_default(2e9);
   schema
       .number("tangential_stiffness", "Pa/m", Range::positive(),

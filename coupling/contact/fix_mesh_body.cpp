@@ -177,9 +177,11 @@ bool BodyMesh::decideRebuild() {
 
 Schema FixMeshBody::schema() {
   Schema schema("fix mesh/body");
-  schema.text("body", "id of the fix that makes the body");
+  schema.text(
+      "body",
+      "id of the fix of the body: a wheel, tyre or plate, or a terrain with a surface mesh");
   schema.integer("type", Range::at_least(1),
-                 "atom type of the surface: picks the contact properties");
+                 "atom type of the surface; selects the contact properties");
   return schema;
 }
 

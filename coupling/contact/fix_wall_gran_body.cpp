@@ -64,7 +64,7 @@ int FixWallGranBody::checked(const LAMMPS_NS::LAMMPS& lammps, int narg, char** a
   if (first < narg && last > narg)
     throw InputError(where + ", keyword 'n_meshes'",
                      fmt::format("is {}, and {} id(s) follow", count, narg - first - 1),
-                     "as many ids as it says", "write 'mesh n_meshes N meshes id1 ... idN'");
+                     "as many ids as n_meshes", "write 'mesh n_meshes N meshes id1 ... idN'");
   for (int i = first + 1; i < last; ++i) {
     LAMMPS_NS::Fix* fix = lammps.modify->find_fix_id(arg[i]);
     if (!dynamic_cast<LAMMPS_NS::FixMeshSurface*>(fix)) {

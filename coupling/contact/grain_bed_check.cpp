@@ -68,7 +68,7 @@ void GrainBedCheck::start(const Body& body, const Body* terrain) {
                            width / mean_diameter_, GrainBedLimits::grains_per_width));
   if (bed < GrainBedLimits::bed_widths * width)
     warn(once_more, fmt::format("the bed is {:.3g} bodies wide (recommended: at least {:g}); its "
-                                "walls hold the ground together",
+                                "walls confine the ground",
                                 bed / width, GrainBedLimits::bed_widths));
 }
 

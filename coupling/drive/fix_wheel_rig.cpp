@@ -42,7 +42,7 @@ const StyleRow wheel_rig_style =
 
 Schema FixWheelRig::schema() {
   Schema schema = WheelRig::schema("fix wheel/rig");
-  schema.text("wheel", "id of the fix of the wheel that it drives");
+  schema.text("wheel", "id of the fix of the wheel or tyre to drive; one rig per wheel");
   return schema;
 }
 

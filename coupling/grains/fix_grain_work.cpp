@@ -33,11 +33,11 @@ const StyleRow grain_work_style =
 
 Schema FixGrainWork::schema() {
   Schema schema("fix grain/work");
-  schema.text("body", "id of the fix that makes the wheel whose track divides the grains");
+  schema.text("body", "id of the fix of the wheel whose track divides the grains");
   schema.number("level", "m", Range::any(), "z of the undisturbed ground");
   schema
       .integer("every", Range::at_least(1),
-               "steps from one look at the contacts to the next; each costs about a step")
+               "steps between two samples of the contacts; each costs about one step")
       .by_default(10);
   return schema;
 }
@@ -46,23 +46,23 @@ const Outputs<FixGrainWork>& FixGrainWork::outputs() {
   using Fix = FixGrainWork;
   static const Outputs<Fix> list = {
       {"slide", "J",
-       "work of tangential forces between grains: friction, and what their springs hold",
+       "work of tangential forces between grains: friction, and energy in their springs",
        [](Fix& fix) { return fix.over_ranks(fix.work_.slide); }},
       {"roll", "J", "work of rolling friction between grains",
        [](Fix& fix) { return fix.over_ranks(fix.work_.roll); }},
-      {"press", "J", "work of forces square to the contacts: damping, and what their springs hold",
+      {"normal", "J", "work of normal forces between grains: damping, and energy in their springs",
        [](Fix& fix) { return fix.over_ranks(fix.work_.square); }},
-      {"below", "J", "of these three, at contacts below the track",
+      {"below", "J", "part of these three at contacts below the track",
        [](Fix& fix) { return fix.over_ranks(fix.work_.below); }},
-      {"ahead", "J", "of these three, at contacts ahead of it, within its width",
+      {"ahead", "J", "part of these three at contacts ahead of the track, within its width",
        [](Fix& fix) { return fix.over_ranks(fix.work_.ahead); }},
-      {"aside", "J", "of these three, at contacts beside it",
+      {"aside", "J", "part of these three at contacts at the sides of the track",
        [](Fix& fix) { return fix.over_ranks(fix.work_.aside); }},
-      {"walls", "J", "taken by contacts of grains with anything but grains and the wheel",
+      {"walls", "J", "work of grains on everything except grains and the wheel",
        [](Fix& fix) { return fix.over_ranks(fix.work_.walls); }},
       {"lifted", "J", "work of all grains against gravity",
        [](Fix& fix) { return fix.over_ranks(fix.work_.lifted); }},
-      {"kinetic", "J", "energy of all grains, rotation included, now",
+      {"kinetic", "J", "present kinetic energy of all grains, rotation included",
        [](Fix& fix) { return fix.over_ranks(fix.kinetic_energy()); }},
   };
   return list;

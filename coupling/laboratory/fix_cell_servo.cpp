@@ -48,9 +48,7 @@ Schema FixCellServo::schema() {
                 "normal stress along this axis, compression positive")
         .optional();
   }
-  schema
-      .number("rate_limit", "1/s", Range::positive(),
-              "largest strain rate that the stress control may use")
+  schema.number("rate_limit", "1/s", Range::positive(), "largest strain rate of the stress control")
       .by_default(0.5);
   schema
       .number("stiffness", "Pa", Range{0.0, 1e12, true, false},
@@ -58,7 +56,7 @@ Schema FixCellServo::schema() {
       .by_default(1e7);
   schema
       .number("response_time", "s", Range{0.0, 10.0, true, false},
-              "time in which an error of stress is removed")
+              "time in which a stress error is removed; at least 5 steps")
       .by_default(2e-3);
   schema
       .number("ramp_time", "s", Range::non_negative(),
@@ -99,14 +97,14 @@ FixCellServo::FixCellServo(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     const std::string rate = fmt::format("rate_{}", axis_names[k]),
                       stress = fmt::format("stress_{}", axis_names[k]);
     if (options().given(rate) && options().given(stress))
-      throw InputError(options().where(stress), "is given beside " + rate,
+      throw InputError(options().where(stress), "is given with " + rate,
                        "one of them for each axis",
                        "leave one out; without both, the edge keeps its length");
     if (options().given(rate)) axes_[k] = {Axis::Control::rate, options().number(rate)};
     if (options().given(stress)) axes_[k] = {Axis::Control::stress, options().number(stress)};
   }
   if (!domain->xperiodic || !domain->yperiodic || !domain->zperiodic || domain->triclinic)
-    throw InputError("fix cell/servo", "stands in a box that is not periodic along x, y and z",
+    throw InputError("fix cell/servo", "is used in a box that is not periodic along x, y and z",
                      "boundary p p p, no tilt",
                      "a cell has no walls; use plate/rigid for ground in a box");
   refuse_double<FixCellServo>(*modify, options().subject(), "deforms the box",
@@ -208,7 +206,7 @@ void FixCellServo::check_other_box_changes() const {
     if (std::string(fix->style).rfind("deform", 0) == 0)
       throw InputError(
           name(),
-          fmt::format("stands beside fix {} '{}', which deforms the box too", fix->style, fix->id),
+          fmt::format("is used with fix {} '{}', which deforms the box too", fix->style, fix->id),
           "one of them", fmt::format("write 'unfix {}' before", fix->id));
 }
 

@@ -32,7 +32,7 @@ Schema FixLayerShear::schema() {
   schema.number("speed", "m/s", Range::any(), "velocity along x");
   schema
       .number("accelerate_time", "s", Range::non_negative(),
-              "time in which it gains its speed, smoothly")
+              "time in which the layer reaches its speed, smoothly")
       .by_default(0.0);
   return schema;
 }
@@ -40,7 +40,8 @@ Schema FixLayerShear::schema() {
 const Outputs<FixLayerShear>& FixLayerShear::outputs() {
   using Fix = FixLayerShear;
   static const Outputs<Fix> list = {
-      {"displacement", "m", "of the layer along x", [](Fix& fix) { return fix.displacement_; }},
+      {"displacement", "m", "displacement of the layer along x",
+       [](Fix& fix) { return fix.displacement_; }},
       {"force_x", "N", "force of the other grains on the layer",
        [](Fix& fix) { return fix.force_[0]; }},
       {"force_y", "N", "force of the other grains on the layer",

@@ -97,7 +97,7 @@ std::string latest(const std::string& pattern) {
        entry.increment(failed))
     if (const auto step = step_in(entry->path().filename().string(), before, after))
       last = std::max(last.value_or(*step), *step);
-  if (failed) refuse(pattern, "cannot be looked for: " + failed.message(), remedy_of_path);
+  if (failed) refuse(pattern, "cannot be searched: " + failed.message(), remedy_of_path);
   if (!last) refuse(pattern, "matches no file", remedy_of_path);
   return fmt::format("{}{}{}", pattern.substr(0, star), *last, after);
 }
@@ -107,8 +107,9 @@ std::string latest(const std::string& pattern) {
 void write_checkpoint(LAMMPS_NS::LAMMPS& lammps, const std::string& path,
                       const std::function<void(char* name)>& write) {
   if (path.find('%') != std::string::npos)
-    throw InputError(fmt::format("restart file '{}'", path), "asks for a file for each rank (%)",
-                     "a name without %", "one file holds the grains of all ranks");
+    throw InputError(fmt::format("restart file '{}'", path),
+                     "has '%', which means one file per rank", "a name without %",
+                     "one file holds the grains of all ranks");
   std::optional<SealedFile> file;  // both on rank 0
   std::optional<MemoryFile> memory;
   on_first_rank(lammps.world, [&] {

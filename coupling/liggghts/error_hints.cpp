@@ -15,8 +15,8 @@ struct Hint {
 
 constexpr std::array hints = {
     Hint{"Could not find fix group ID",
-         "the word behind the id of a fix is a group of grains: write 'all', or define the group "
-         "before"},
+         "the argument after the id of a fix is a group of grains: write 'all', or define the "
+         "group before"},
     Hint{"Replacing a fix, but new style != old style",
          "another fix has this id already: choose another id, or write 'unfix <id>' before"},
     Hint{"Could not find thermo custom fix ID",
@@ -64,8 +64,8 @@ constexpr std::array hints = {
     Hint{"Unable to calculate region volume",
          "nothing fits into the region: it is empty, or outside of the box"},
     Hint{"Expected floating point parameter",
-         "a word of this line stands where a number is wanted; units are not written"},
-    Hint{"Expected integer parameter", "a word of this line stands where a whole number is wanted"},
+         "an argument of this line must be a number, without a unit"},
+    Hint{"Expected integer parameter", "an argument of this line must be a whole number"},
     Hint{"Substitution for illegal variable",
          "a ${name} of this line has no value: write 'variable <name> index <value>' before, or "
          "give it with -var"},
@@ -79,7 +79,8 @@ constexpr std::array hints = {
          "write 'atom_style granular' before the box is made: Furrow's grains are spheres, and a "
          "scene without any needs no masses then"},
     Hint{"Extruded triangle count is zero",
-         "the body that mesh/body names has no surface: for a terrain write 'sheet yes' in its "
+         "the body that mesh/body names has no surface: for a terrain write 'surface_mesh yes' in "
+         "its "
          "line"},
     Hint{"Too many atom sorting bins",
          "the box is very large for its grains: check their number and size, or write 'atom_modify "
@@ -88,7 +89,7 @@ constexpr std::array hints = {
          "LIGGGHTS has no command of that name: check its spelling, and that this file is an input "
          "script"},
     Hint{"Unknown normal model",
-         "snow/bond stands alone: write 'model snow/bond' without tangential, cohesion, "
+         "snow/bond takes no further models: write 'model snow/bond' without tangential, cohesion, "
          "rolling_friction and surface"},
     Hint{"Invalid fix style", "check its spelling; coupling/README.md lists Furrow's"},
 };

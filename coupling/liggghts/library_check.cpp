@@ -19,7 +19,7 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& difference) {
   throw Error(fmt::format(
-      "the LIGGGHTS library at hand is not the one that furrow was built for: {}; furrow uses "
+      "the installed LIGGGHTS library is not the one that furrow was built for: {}; furrow uses "
       "the class layout of {}: install libliggghts3 {} of Debian 12",
       difference, liggghts_version, liggghts_version));
 }

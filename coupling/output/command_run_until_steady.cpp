@@ -59,11 +59,11 @@ const StyleRow run_until_steady_style =
 Schema CommandRunUntilSteady::schema() {
   Schema schema("command run_until_steady");
   schema.number("error", "", Range::open(0.0, 1.0),
-                "largest standard error of hub drop and resistance coefficient, over the value; of "
-                "a coefficient below 0.1 over 0.1");
+                "largest relative standard error of hub drop and resistance coefficient; for a "
+                "coefficient below 0.1, its error over 0.1");
   schema
       .number("wall_time", "s", Range::positive(),
-              "time after which no further stretch begins, from this line on; without it none")
+              "wall time from this line after which no further stretch begins; by default no limit")
       .optional();
   return schema;
 }

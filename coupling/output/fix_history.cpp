@@ -20,7 +20,7 @@ namespace furrow::coupling {
 
 void FixHistory::add_keys(Schema& schema, const char* frames) {
   schema.text("folder",
-              "folder for the results; made if it is missing, earlier results in it are replaced");
+              "folder of the results; created if missing; earlier results in it are replaced");
   schema.integer("every", Range::at_least(1), "steps between rows of the history");
   schema
       .integer("vtk", Range::at_least(0),

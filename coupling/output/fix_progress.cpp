@@ -46,9 +46,8 @@ const StyleRow progress_style =
 
 Schema FixProgress::schema() {
   Schema schema("fix progress");
-  schema.number("every", "s", Range::positive(), "seconds of wall time between lines")
-      .by_default(5.0);
-  schema.text("label", "what is going on, first word of the line").by_default("run");
+  schema.number("every", "s", Range::positive(), "wall time between lines").by_default(5.0);
+  schema.text("label", "first word of the line").by_default("run");
   return schema;
 }
 

@@ -28,7 +28,7 @@ const StyleRow terrain_history_style =
 
 Schema FixTerrainHistory::schema() {
   Schema schema("fix terrain/history");
-  schema.text("terrain", "id of the fix of the terrain that is recorded");
+  schema.text("terrain", "id of the fix of the terrain");
   add_keys(schema, "the terrain");
   schema.alias("ground", "terrain");
   return schema;

@@ -27,9 +27,9 @@ constexpr double degree = pi / 180.0;
 const std::vector<Channel>& arc_channels() {
   static const std::vector<Channel> list = {
       {"time", "s", "end of the interval"},
-      {"angle", "degrees", "about the axle, 0 at the lowest point, > 0 ahead"},
-      {"normal_stress", "Pa", "mean over the interval and the wheel's width, > 0 presses"},
-      {"shear_stress", "Pa", "the same, along the rim, > 0 drives the wheel forward"},
+      {"angle", "degrees", "angle about the axle; 0 at the lowest point, positive ahead"},
+      {"normal_stress", "Pa", "mean over the interval and the wheel's width; positive presses"},
+      {"shear_stress", "Pa", "mean along the rim; positive drives the wheel forward"},
       {"slip_velocity", "m/s",
        "of the rim over the ground, mean by the normal force, > 0 backwards; 0 where nothing "
        "presses"}};
@@ -44,9 +44,10 @@ const StyleRow wheel_arc_style =
 Schema FixWheelArc::schema() {
   Schema schema("fix wheel/arc");
   schema.text("wheel", "id of the fix of the wheel or tyre");
-  schema.text("folder", "folder for arc.csv; made if it is missing, an earlier file is replaced");
+  schema.text("folder", "folder of arc.csv; created if missing; an earlier file is replaced");
   schema.integer("every", Range::at_least(1), "steps in the interval of a profile");
-  schema.integer("sectors", Range::closed(6, 3600), "of 180 degrees").by_default(60);
+  schema.integer("sectors", Range::closed(6, 3600), "number of sectors in 180 degrees")
+      .by_default(60);
   return schema;
 }
 

@@ -25,7 +25,7 @@ Schema FixWheelHistory::schema() {
   Schema schema("fix wheel/history");
   schema.text("rig", "id of the fix of the rig whose wheel is recorded");
   add_keys(schema, "wheel and grains");
-  schema.text("title", "what the scene is, for summaries and pictures").by_default("wheel");
+  schema.text("title", "name of the scene in summaries and pictures; one word").by_default("wheel");
   return schema;
 }
 

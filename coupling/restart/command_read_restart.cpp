@@ -22,11 +22,11 @@ const StyleRow read_restart_style =
 Schema CommandReadRestart::schema() {
   Schema schema("command read_restart");
   schema.text("file",
-              "the first word, without the keyword: path of the checkpoint; '*' stands for a step "
+              "first argument, without the keyword: path of the checkpoint; `*` stands for a step "
               "and means the latest");
   schema
       .choice("check", {"checked", "unchecked"},
-              "the second word, without the keyword: `unchecked` reads a file that stock LIGGGHTS "
+              "second argument, without the keyword: `unchecked` reads a file that stock LIGGGHTS "
               "wrote")
       .by_default("checked");
   return schema;
@@ -34,7 +34,7 @@ Schema CommandReadRestart::schema() {
 
 void CommandReadRestart::command(int narg, char** arg) {
   if (narg < 1 || narg > 2)
-    throw InputError("command read_restart", fmt::format("has {} words", narg),
+    throw InputError("command read_restart", fmt::format("has {} arguments", narg),
                      "read_restart <file> [unchecked]");
   std::vector<Entry> entries = {{"file", {arg[0]}}};
   if (narg == 2) entries.push_back({"check", {arg[1]}});
@@ -54,7 +54,7 @@ void CommandReadRestart::command(int narg, char** arg) {
     if (options.text("check") == "checked") FixExpectedStates::add_if_needed(*lmp);
   } catch (const std::bad_alloc&) {  // a length of 1e18 grains
     throw StateError(
-        fmt::format("checkpoint '{}' is damaged: it asks for more memory than there is", path));
+        fmt::format("checkpoint '{}' is damaged: it needs more memory than the machine has", path));
   }
 }
 

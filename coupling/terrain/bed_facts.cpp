@@ -52,15 +52,15 @@ const Outputs<const BedFacts>& bed_outputs() {
   using F = const BedFacts;
   static const Outputs<F> list = {
       {"bed_grains", "", "number of grains", [](F& facts) { return facts.grains; }},
-      {"bed_solid_fraction", "", "volume of solid over volume, between 0.2 and 0.8 of the depth",
+      {"bed_solid_fraction", "", "solid volume over total volume, from 0.2 to 0.8 of the depth",
        [](F& facts) { return facts.solid_fraction; }},
-      {"bed_bulk_density", "kg/m^3", "mass over volume, there",
+      {"bed_bulk_density", "kg/m^3", "mass over total volume in the same range",
        [](F& facts) { return facts.bulk_density; }},
-      {"bed_level", "m", "z of the surface: top of a uniform bed of this density and the same mass",
+      {"bed_level", "m", "z of the surface of a uniform bed with this density and the same mass",
        [](F& facts) { return facts.level; }},
-      {"bed_kinetic_energy", "J", "what is left of motion",
+      {"bed_kinetic_energy", "J", "remaining kinetic energy",
        [](F& facts) { return facts.kinetic_energy; }},
-      {"bed_settle_steps", "", "steps that the settling took: where the step counter stands",
+      {"bed_settle_steps", "", "steps of the settling; the step counter starts from it",
        [](F& facts) { return facts.settle_steps; }},
   };
   return list;

@@ -80,9 +80,12 @@ const StyleRow bed_style = command_style<CommandBed>("bed", "terrain/command_bed
 
 Schema CommandBed::schema() {
   Schema schema("command bed");
-  schema.text("script", "path of the script that makes the bed, relative to the main script");
-  schema.number("depth", "m", Range::positive(), "the bed is levelled at this height");
-  schema.text("from", "restart file of a run on this bed, to continue that run; `none`: begin")
+  schema.text(
+      "script",
+      "first argument, without the keyword: path of the bed script, relative to the main script");
+  schema.number("depth", "m", Range::positive(),
+                "height above the floor at which the bed is levelled");
+  schema.text("from", "checkpoint of a run on this bed, to continue that run; `none`: start")
       .by_default(no_checkpoint);
   return schema;
 }
@@ -122,7 +125,7 @@ void CommandBed::command(int narg, char** arg) {
 
 CommandBed::Request CommandBed::read_request(const std::vector<std::string>& words) {
   if (words.size() % 2 == 0)
-    throw InputError("command bed", fmt::format("has {} words", words.size()),
+    throw InputError("command bed", fmt::format("has {} arguments", words.size()),
                      "bed <script> <name> <value> <name> <value> ...",
                      "every parameter of the bed needs a value");
   BedWords line;

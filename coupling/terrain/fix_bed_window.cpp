@@ -36,11 +36,12 @@ const StyleRow bed_window_style =
 
 Schema FixBedWindow::schema() {
   Schema schema("fix bed/window");
-  schema.text("body", "id of the fix that makes the wheel");
-  schema.integer("slabs", Range::at_least(4), "number of slabs that the bed is cut into along x");
+  schema.text("body", "id of the fix of the wheel");
+  schema.integer("slabs", Range::at_least(4), "number of slabs that divide the bed along x");
   schema.number("behind", "m", Range::positive(),
-                "distance behind the middle of the body at which slabs are renewed");
-  schema.text("terrain", "id of the fix of the terrain that carries the bed and moves on with it")
+                "distance behind the middle of the wheel at which slabs are renewed; more than "
+                "half the wheel");
+  schema.text("terrain", "id of the fix of the terrain that carries the bed and moves with it")
       .optional();
   return schema;
 }
@@ -52,7 +53,7 @@ const Outputs<FixBedWindow>& FixBedWindow::outputs() {
        [](Fix& fix) { return static_cast<double>(fix.renewed_); }},
       {"grains", "", "grains in the box",
        [](Fix& fix) { return static_cast<double>(fix.atom->natoms); }},
-      {"inserted_minus_removed", "", "grains put in less grains taken out since the start",
+      {"inserted_minus_removed", "", "grains inserted minus grains removed since the start",
        [](Fix& fix) {
          return Communicator(&fix.world).sum(static_cast<double>(fix.inserted_minus_removed_));
        }},
@@ -67,7 +68,7 @@ FixBedWindow::FixBedWindow(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
       slabs_(options().integer("slabs")),
       slab_length_(domain->prd[0] / static_cast<double>(slabs_)) {
   if (!domain->xperiodic)
-    throw InputError("fix bed/window", "stands in a box that is not periodic along x",
+    throw InputError("fix bed/window", "is used in a box that is not periodic along x",
                      "boundary p ? ?",
                      "use a bed that closes on itself: inputs/beds/sand_window.lig");
   const auto [lower, upper] = body_.surface().bounds();
@@ -94,7 +95,7 @@ void FixBedWindow::check_terrain() const {
   const std::string where = options().where("terrain");
   if (!terrain_) {
     for (const auto* each : fixes_of<const FixTerrainContinuum>(*modify))
-      if (each->options().flag("sheet"))
+      if (each->options().flag("surface_mesh"))
         throw InputError(where, fmt::format("is missing, and {} carries grains", each->name()),
                          fmt::format("'terrain {}'", each->id),
                          "grains that are put in again would lie on a rut");
@@ -103,7 +104,7 @@ void FixBedWindow::check_terrain() const {
   if (!terrain_->options().given("slabs"))
     throw InputError(
         where, fmt::format("is '{}', which does not move on", terrain_->id),
-        "a fix terrain/continuum with 'sheet yes', 'follow' and 'slabs'",
+        "a fix terrain/continuum with 'surface_mesh yes', 'follow' and 'slabs'",
         fmt::format("write 'follow {} slabs {}' in its line", options().text("body"), slabs_));
   if (const long slabs = terrain_->options().integer("slabs"); slabs != slabs_)
     throw InputError(options().where("slabs"),

@@ -40,7 +40,7 @@ std::optional<GroundSize> size_by_wheel(LAMMPS_NS::LAMMPS& lammps, const Options
   const double cell = options.number("cell");
   GroundSize size =
       ground_under_wheel(wheel->nominal_radius(), wheel->nominal_width(), options.number("depth"));
-  if (options.given("width") || options.flag("sheet"))
+  if (options.given("width") || options.flag("surface_mesh"))
     size.fine_width = 0.0;  // all is fine
   else                      // whole cells on either side, as long as they were asked for
     size.fine_width = 2.0 * cell * std::ceil(0.5 * size.fine_width / cell * (1.0 - same_length));
@@ -69,20 +69,18 @@ const StyleRow terrain_continuum_style = fix_style<FixTerrainContinuum>(
 
 Schema FixTerrainContinuum::schema(const std::optional<GroundSize>& size) {
   Schema schema = terrain_schema("fix terrain/continuum", size);
-  schema.text("follow", "id of the fix of the body that the terrain moves along with").optional();
+  schema.text("follow", "id of the fix of the body that the terrain follows").optional();
   schema
       .text("follow_last",
-            "of several bodies in a row the other end: the middle between it and that of `follow` "
-            "is followed")
+            "last body of a convoy; the terrain follows the midpoint between it and `follow`")
       .optional();
   schema
       .integer("slabs", Range::at_least(4),
-               "with `follow` and a sheet: parts of the length, of which one at a time is dropped "
-               "and added")
+               "slabs by which a terrain with a surface mesh moves, with `follow`")
       .optional();
   schema
       .number("energy_tolerance", "", Range::positive(),
-              "energy that may be missing or made, over the largest work")
+              "allowed error of the energy balance, relative to the largest work")
       .by_default(0.05)
       .may_change();
   return schema;
@@ -109,8 +107,9 @@ FixTerrainContinuum::FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, ch
 void FixTerrainContinuum::check_slabs() const {
   const std::string where = options().where("slabs");
   const bool follows = options().given("follow");
-  if (!follows || !options().flag("sheet"))
-    throw InputError(where, fmt::format("is given without '{}'", follows ? "sheet yes" : "follow"),
+  if (!follows || !options().flag("surface_mesh"))
+    throw InputError(where,
+                     fmt::format("is given without '{}'", follows ? "surface_mesh yes" : "follow"),
                      "slabs of ground that follows a body and carries grains",
                      "other ground that follows a body moves on cell by cell");
   if (options().given("follow_last"))
@@ -194,7 +193,7 @@ void FixTerrainContinuum::warn_of_extremes() {
                            good_cells_in_depth));
   if (options().text("base") == "free" && options().number("gravity") > 0.0)
     warn(*lmp,
-         fmt::format("{} is free: nothing holds the terrain up, and it falls out of its grid; "
+         fmt::format("{} is free: nothing supports the terrain, and it falls out of its grid; "
                      "write 'base rough' or 'smooth', or 'gravity 0'",
                      options().where("base")));
   if (above > most_empty_cells * below)
@@ -219,10 +218,10 @@ void FixTerrainContinuum::refuse_to_be_left(double middle) const {
   const Axis& x = terrain().grid().axis(0);
   const double slab = (x.upper() - x.lower()) / static_cast<double>(options().integer("slabs"));
   if (middle <= x.upper() - slab) return;
-  throw StateError(fmt::format(
-      "the body that the terrain follows is at {:.4g} m, and the terrain, which ends at "
-      "{:.4g} m, has not moved on with it: write a line bed/window with 'terrain {}'",
-      middle, x.upper(), id));
+  throw StateError(
+      fmt::format("the body that the terrain follows is at {:.4g} m, and the terrain, which ends "
+                  "at {:.4g} m, does not follow it: write a line bed/window with 'terrain {}'",
+                  middle, x.upper(), id));
 }
 
 void FixTerrainContinuum::end_of_step() {
@@ -243,9 +242,9 @@ void FixTerrainContinuum::check_energy() {
   const double residual = budget.residual();
   if (!(std::abs(residual) <= limit) || !(budget.numerical_loss >= -limit))
     throw StateError(fmt::format(
-        "{}: the energy of the terrain does not balance at step {}: {:.4g} J are missing between "
-        "work and state, the discretisation has taken {:.4g} J (< 0: made); allowed is {:.4g} J; "
-        "the step is unstable or the load too sudden: lower cfl, or the LIGGGHTS step",
+        "{}: the energy of the terrain does not balance at step {}: the error is {:.4g} J, the "
+        "discretisation dissipated {:.4g} J (negative: created); allowed is {:.4g} J; "
+        "the step is unstable or the load too sudden: lower 'cfl' or the LIGGGHTS step",
         name(), update->ntimestep, residual, budget.numerical_loss, limit));
 }
 

@@ -12,14 +12,17 @@ namespace furrow {
 
 void declare_hub(Schema& schema) {
   schema.number("mass", "kg", Range::positive(),
-                "of what moves rigidly with the axle: a whole rigid wheel, or the rim of a tyre");
-  schema.number("inertia", "kg m^2", Range::positive(), "its moment of inertia about the axle");
+                "mass of the rigid wheel, or of a tyre's rim and all that moves with it");
+  schema.number("inertia", "kg m^2", Range::positive(),
+                "moment of inertia of that mass about the axle");
   schema
       .number("inertia_diametral", "kg m^2", Range::positive(),
-              "the same across the axle; by default inertia/2 + mass w^2/12 with w the width "
-              "between the sides, or the beads")
+              "moment of inertia across the axle; by default `inertia`/2 + `mass` w^2/12, w the "
+              "width or the bead spacing")
       .optional();
-  schema.numbers("axle", 3, "m", Range::any(), "axle centre at the start: x y z")
+  schema
+      .numbers("axle", 3, "m", Range::any(),
+               "x y z of the axle centre at the start; y = 0 for a half model")
       .by_default(std::vector<double>{0, 0, 0});
 }
 

@@ -32,10 +32,12 @@ Schema RigidPlate::schema(const std::string& subject) {
   Schema schema(subject);
   schema.choice("shape", {"circle", "square"}, "outline of the plate").by_default("circle");
   schema.number("size", "m", Range::positive(), "diameter of a circle, side of a square");
-  schema.number("thickness", "m", Range::positive(), "height of the plate's edge");
+  schema.number("thickness", "m", Range::positive(),
+                "height of the edge; more than the sinkage, unless sand may cover the plate");
   schema.integer("elements", Range::closed(2, 400), "triangles across the plate; even for a circle")
       .by_default("20");
-  schema.numbers("centre", 3, "m", Range::any(), "centre of the lower face at the start: x y z");
+  schema.numbers("centre", 3, "m", Range::any(),
+                 "x y z of the centre of the lower face at the start");
   return schema;
 }
 

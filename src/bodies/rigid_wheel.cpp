@@ -73,7 +73,7 @@ Schema RigidWheel::schema(const std::string& subject) {
   schema.number("width", "m", Range::positive(), "width from side to side");
   schema
       .number("shoulder", "m", Range::non_negative(),
-              "radius of the shoulders between tread and sides")
+              "radius of the shoulders, at most half the width; 0: a sharp edge")
       .by_default(0.0);
   declare_hub(schema);
   schema.integer("segments", Range::closed(12, 5000), "facets around the tread").by_default("64");
@@ -86,11 +86,11 @@ Schema RigidWheel::schema(const std::string& subject) {
   schema.number("grouser_height", "m", Range::positive(), "height of the bars above the tread")
       .optional();
   schema
-      .number("grouser_thickness", "m", Range::positive(), "thickness of the bars, square to them")
+      .number("grouser_thickness", "m", Range::positive(), "thickness of the bars, normal to them")
       .optional();
   schema
       .number("grouser_angle", "degrees", Range::closed(-60, 60),
-              "skew of the bars against the axle; > 0: the end at +y runs ahead")
+              "skew of the bars from the axle; positive: the end at +y leads")
       .by_default(0.0);
   return schema;
 }

@@ -147,7 +147,7 @@ void WheelHub::advance_hub(double dt, const Vector3& force, const Vector3& momen
   }
   if (!(std::abs(angles_[2]) < largest_camber))
     throw StateError(fmt::format(
-        "{}: fell over, its camber is {:.4g} degrees; hold the camber or guide the wheel", name_,
+        "{}: fell over, its camber is {:.4g} degrees; fix the camber or guide the wheel", name_,
         degrees(angles_[2])));
 }
 

@@ -175,7 +175,7 @@ Checkpoint Checkpoint::reread() const {
 }
 
 void Checkpoint::finish() const {
-  if (next_ != data_.size()) refuse("holds more than this program reads");
+  if (next_ != data_.size()) refuse("contains more than this program reads");
 }
 
 }  // namespace furrow

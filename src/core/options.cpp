@@ -37,7 +37,7 @@ std::string no_number(const std::string& text) {
   const bool too_large =
       std::from_chars(begin, text.data() + text.size(), value).ec == std::errc::result_out_of_range;
   return fmt::format("is '{}', which is {}", text,
-                     too_large ? "beyond what a number can hold" : "not a number");
+                     too_large ? "too large for a number" : "not a number");
 }
 
 // Integers up to it are exact as a double.

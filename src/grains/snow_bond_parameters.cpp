@@ -12,26 +12,27 @@ constexpr double largest_exponent = 60.0;
 
 Schema SnowBondParameters::schema() {
   Schema schema("model snow/bond");
-  schema.number("snowModulus", "Pa", Range::positive(), "E: stiffness over the diameter");
+  schema.number("snowModulus", "Pa", Range::positive(),
+                "E: contact stiffness over the diameter, normal and tangential");
   schema.number("snowCrushStrength", "Pa", Range::positive(),
-                "Y0: force that crushes a fresh bond, over the squared diameter");
+                "Y0: crush force of a fresh bond over the diameter squared");
   schema.number("snowCrushHardening", "", Range::closed(0.0, largest_exponent),
-                "p: its growth with the crushing");
+                "p: exponent of the growth of Y0 with crushing");
   schema.number("snowDenseStrength", "Pa", Range::non_negative(),
-                "Y1: crush strength of dense snow, likewise");
+                "Y1: crush force of dense snow over the diameter squared");
   schema.number("snowDenseHardening", "", Range::closed(0.0, largest_exponent),
-                "q: its growth with the crushing");
+                "q: exponent of the growth of Y1 with crushing");
   schema.number("snowBondHardening", "", Range::closed(0.0, largest_exponent),
-                "pc: growth of the strength of a bond with the crushing");
+                "pc: exponent of the growth of the bond strength with crushing");
   schema.number("snowShearStrength", "", Range::closed(0.0, 10.0),
                 "chi: shear strength of a bond over its crush strength");
   schema.number("snowTensileStrength", "", Range::closed(0.0, 10.0),
                 "zeta: tensile strength of a bond over its crush strength");
   schema.number("snowSintering", "", Range::closed(0.0, 10.0),
-                "w: share of the crushed area that becomes bond; 0: contacts do not sinter");
+                "w: share of the crushed area that bonds; 0: contacts do not sinter");
   schema.number("snowDamping", "", Range::closed(0.0, 1.0),
-                "damping of elastic motion along the normal, of critical");
-  schema.number("coefficientFriction", "", Range::closed(0.0, 10.0), "mu: of Coulomb's law");
+                "damping ratio of the elastic normal motion; 1: critical");
+  schema.number("coefficientFriction", "", Range::closed(0.0, 10.0), "mu: friction coefficient");
   return schema;
 }
 

@@ -24,7 +24,7 @@ constexpr double usual_bulk_ratio = 50.0;          // K/mu of a Poisson's ratio 
 Schema tyre_schema() {
   Schema schema("tyre");
   schema.number("pressure", "Pa", Range::closed(0.0, largest_inflation),
-                "inflation above the atmosphere");
+                "inflation pressure above atmospheric pressure");
   return schema;
 }
 
@@ -39,16 +39,16 @@ Schema carcass_schema() {
       "where each zone ends, along the outline from the mid-plane; the last at the bead");
   schema.numbers("stretch_along", 0, "N/m", stiffness,
                  "stiffness of each zone against stretching along the circumference, per width");
-  schema.numbers("stretch_across", 0, "N/m", stiffness, "the same across, along the outline");
-  schema.numbers("shear", 0, "N/m", stiffness, "against shear, per width");
+  schema.numbers("stretch_across", 0, "N/m", stiffness,
+                 "stiffness of each zone against stretching along the outline, per width");
+  schema.numbers("shear", 0, "N/m", stiffness, "stiffness of each zone against shear, per width");
   schema.numbers("bending_along", 0, "N m", bending,
                  "EI per width against bending along the circumference");
-  schema.numbers("bending_across", 0, "N m", bending, "the same across");
+  schema.numbers("bending_across", 0, "N m", bending, "EI per width against bending across");
   schema.numbers("areal_mass", 0, "kg/m2", Range::closed(0.01, 1e4), "mass per area");
-  schema.flag(
-      "cords",
-      "the meridian is one of cords: shear is their sliding past each other, in which their "
-      "tension does no work");
+  schema.flag("cords",
+              "`yes`: shells turn with the cords, whose tension does no work when they slide past "
+              "each other");
   return schema;
 }
 
@@ -56,27 +56,31 @@ Schema cap_schema() {
   Schema schema("cap");
   schema.numbers("at", 0, "m", length,
                  "places along the carcass's outline, from 0 to where the tread ends");
-  schema.numbers("thickness", 0, "m", length,
-                 "of the tread's rubber there, above the carcass's mid-surface; 0 at the end");
-  schema.integer("layers", Range::closed(1, 10), "of bricks below the voids").by_default("1");
-  schema.integer("rib_layers", Range::closed(1, 10), "of bricks beside the voids").by_default("1");
-  schema.number("C10", "Pa", modulus, "of the neo-Hookean rubber: half its shear modulus");
+  schema.numbers(
+      "thickness", 0, "m", length,
+      "thickness of the rubber there, above the mid-surface of the carcass; 0 at the end");
+  schema.integer("layers", Range::closed(1, 10), "layers of bricks below the voids")
+      .by_default("1");
+  schema.integer("rib_layers", Range::closed(1, 10), "layers of bricks next to the voids")
+      .by_default("1");
+  schema.number("C10", "Pa", modulus, "C10 of the neo-Hookean rubber: half its shear modulus");
   schema
       .number("bulk", "Pa", Range::closed(1e4, 1e11), "bulk modulus; 50 shear moduli if not given")
       .optional();
-  schema.number("density", "kg/m3", Range::closed(1.0, 1e4), "of the rubber");
+  schema.number("density", "kg/m3", Range::closed(1.0, 1e4), "density of the rubber");
   return schema;
 }
 
 Schema voids_schema() {
   Schema schema("voids");
-  schema.numbers("from", 0, "m", length, "where each begins, along the carcass's outline");
-  schema.numbers("to", 0, "m", length, "and ends");
-  schema.numbers("depth", 0, "m", length, "from the tread's outside");
+  schema.numbers("from", 0, "m", length,
+                 "place along the outline of the carcass where each void begins");
+  schema.numbers("to", 0, "m", length, "place along the outline where each void ends");
+  schema.numbers("depth", 0, "m", length, "depth below the outside of the tread");
   schema.numbers("pitches", 0, "", Range::closed(0, 1000),
-                 "gaps between bars round the tyre; 0: a groove all round");
+                 "gaps between bars around the tyre; 0: a groove around the tyre");
   schema.optional();
-  schema.numbers("share", 0, "", Range::closed(0.0, 1.0), "of a pitch that is cut away");
+  schema.numbers("share", 0, "", Range::closed(0.0, 1.0), "share of a pitch that is a gap");
   schema.optional();
   return schema;
 }

@@ -19,7 +19,7 @@ void check_time(const std::string& path, const std::vector<double>& time) {
       throw Error(
           fmt::format("{}: time does not run forwards: row {} of the history is at {} s, after {} "
                       "s; two runs wrote into one folder, or the file is damaged: repeat the run, "
-                      "into a folder of its own",
+                      "into a separate folder",
                       path, i + 1, time[i], time[i - 1]));
 }
 

@@ -49,8 +49,8 @@ void write_modes(const std::string& name, const Tyre& tyre, const NaturalModes& 
   }
   write_text_file(
       name + "_modes.csv",
-      csv_text({fmt::format("{}, {:g} Pa, {:g} N; natural modes, the rim held", title,
-                            tyre.pressure(), load),
+      csv_text({fmt::format("{}, {:g} Pa, {:g} N; natural modes, rim fixed", title, tyre.pressure(),
+                            load),
                 "radial, circumferential, axial: shares of the tread's motion"},
                {"mode", "frequency_Hz", "waves", "radial", "circumferential", "axial"}, columns));
 

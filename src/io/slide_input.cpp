@@ -52,18 +52,19 @@ SlideBox read_box(const Options& options) {
 void declare_slide_surface(Schema& schema) {
   schema
       .numbers("slide_plane", 6, "m", Range::any(),
-               "the ground slides on this plane: x y z of a point, and its normal")
+               "slide surface: x y z of a point of a plane, and its normal")
       .optional();
   schema
       .numbers("slide_cylinder", 3, "m", Range::any(),
-               "... on this upright cylinder: x y of its axis, radius")
+               "slide surface: x y of the axis, and radius of a vertical cylinder")
       .optional();
   schema
       .numbers("slide_box", 4, "m", Range::any(),
-               "... on these upright walls: x y of their middle, length, width")
+               "slide surface: x y of the middle, length and width of a vertical box")
       .optional();
   schema
-      .number("slide_friction", "", Range::non_negative(), "coefficient of friction on the surface")
+      .number("slide_friction", "", Range::non_negative(),
+              "friction coefficient on the slide surface")
       .by_default(0.0);
 }
 
@@ -73,7 +74,7 @@ std::optional<SlideSurface> read_slide_surface(const Options& options) {
   for (const char* key : shapes) {
     if (!options.given(key)) continue;
     if (slide)
-      throw InputError(options.where(key), fmt::format("stands beside '{}'", first),
+      throw InputError(options.where(key), fmt::format("is given with '{}'", first),
                        "one slide surface", "leave one of the two out");
     first = key;
     slide.emplace();
@@ -81,8 +82,8 @@ std::optional<SlideSurface> read_slide_surface(const Options& options) {
   if (!slide) {
     if (options.given("slide_friction"))
       throw InputError(options.where("slide_friction"), "is given without a surface",
-                       "'slide_plane', 'slide_cylinder' or 'slide_box' beside it",
-                       "say where the ground slides, or leave the friction out");
+                       "'slide_friction' with 'slide_plane', 'slide_cylinder' or 'slide_box'",
+                       "give a slide surface, or remove 'slide_friction'");
     return slide;
   }
   slide->friction = options.number("slide_friction");

@@ -65,12 +65,12 @@ TerrainLayer load(const Options& options, const std::filesystem::path& path, dou
   if (factor != 1.0) scale_modulus(file, factor, options.where("modulus_scale"));
   std::unique_ptr<Material> material = file.make();
   check_plausible(*material);  // with the modulus as scaled
-  const long interval = options.integer("remap_interval");
+  const long interval = options.integer("transfer_interval");
   if (material->stress_has_jumps() && interval > 1)
-    file.warnings.push_back(fmt::format(
-        "{} is {}, and the law {} answers waves with jumps, which only the smoothing of a remap in "
-        "every step damps; write 'remap_interval 1'",
-        options.where("remap_interval"), interval, material->name()));
+    file.warnings.push_back(
+        fmt::format("{} is {}, and the stress of the law {} jumps in waves, which only a transfer "
+                    "in every step damps; write 'transfer_interval 1'",
+                    options.where("transfer_interval"), interval, material->name()));
   return {std::move(material), thickness, describe(file), file.warnings};
 }
 
@@ -161,10 +161,10 @@ std::optional<BlockLayout> read_blocks(const Options& options) {
 std::optional<Trough> read_trough(const Options& options) {
   if (!options.given("trough")) return {};
   const std::string where = options.where("trough");
-  if (!options.flag("sheet"))
-    throw InputError(where, "is given without 'sheet yes'",
-                     "a trough in ground that carries grains",
-                     "without a sheet nothing would hold the ground's faces there");
+  if (!options.flag("surface_mesh"))
+    throw InputError(where, "is given without 'surface_mesh yes'",
+                     "a trough in a terrain that carries grains",
+                     "without a surface mesh nothing supports the faces of the trough");
   if (options.flag("symmetry"))
     throw InputError(where, "is given with 'symmetry yes'", "whole ground",
                      "grains have no plane of symmetry");
@@ -200,69 +200,84 @@ Schema terrain_schema(const std::string& subject, const std::optional<GroundSize
   Schema schema(subject);
   schema
       .text("material",
-            "material file, or layers from the top down: file:thickness,file:thickness,file")
+            "material file, or layers from the top down, `file:thickness,...,file`; paths relative "
+            "to the script")
       .may_change();  // of place and name: checkpoints compare what is in it
-  schema.number("length", "m", Range::positive(), "along x").optional();
+  schema
+      .number("length", "m", Range::positive(),
+              "length along x; by default from the wheel's radius and the depth, with `follow`")
+      .optional();
   if (size) schema.by_default(size->length);
-  schema.number("width", "m", Range::positive(), "along y; of a half model, both halves")
+  schema
+      .number("width", "m", Range::positive(),
+              "width along y, of both halves of a half model; by default from the wheel's width "
+              "and the depth, with `follow`")
       .optional();
   if (size) schema.by_default(size->width);
-  schema.number("depth", "m", Range::positive(), "of the ground");
-  schema.number("cell", "m", Range::positive(), "edge of the cells, in the fine part");
+  schema.number("depth", "m", Range::positive(), "depth of the terrain");
+  schema.number("cell", "m", Range::positive(), "edge of the cells in the fine part");
   schema.numbers("centre", 2, "m", Range::any(), "x y of the middle")
       .by_default(std::vector<double>{0.0, 0.0});
-  schema.number("surface", "m", Range::any(), "z of the undisturbed ground").by_default(0.0);
+  schema.number("surface", "m", Range::any(), "z of the undisturbed surface").by_default(0.0);
   schema
       .number("clearance_above", "m", Range::positive(),
-              "height of the grid above the surface, for what is pushed up")
+              "height of the grid above the surface; by default six cells or the depth, whichever "
+              "is larger")
       .optional();
   schema
       .number("fine_length", "m", Range::positive(),
-              "along x around the middle with cells of size `cell`")
+              "length along x, around the middle, with cells of size `cell`; by default all")
       .optional();
   schema
       .number("fine_width", "m", Range::positive(),
-              "along y around the middle with cells of size `cell`")
+              "width along y, around the middle, with cells of size `cell`; by default all, or "
+              "from the wheel's width and the depth if `width` is")
       .optional();
   if (size && size->fine_width > 0.0) schema.by_default(size->fine_width);
-  schema.number("fine_depth", "m", Range::positive(), "below the surface with cells of size `cell`")
+  schema
+      .number("fine_depth", "m", Range::positive(),
+              "depth below the surface with cells of size `cell`; by default all")
       .optional();
   schema
       .number("growth", "", Range::closed(1.0, 1.5),
-              "of neighbouring cells outside of the fine part")
+              "size ratio of neighbouring cells outside the fine part")
       .by_default(1.15);
-  schema.integer("particles", Range::closed(1, 8), "in a cell, in each direction").by_default("2");
-  schema.flag("symmetry", "model the half y > centre only, mirrored at its plane");
-  schema.choice("ends", boundary_kind_names(), "what holds the ground at both ends across x")
+  schema.integer("particles", Range::closed(1, 8), "particles per cell in each direction")
+      .by_default("2");
+  schema.flag("symmetry", "`yes`: only the half y > centre is computed, mirrored at its plane");
+  schema.choice("ends", boundary_kind_names(), "boundary condition at both ends, across x")
       .by_default("smooth");
-  schema.choice("sides", boundary_kind_names(), "what holds it at the sides across y")
+  schema.choice("sides", boundary_kind_names(), "boundary condition at both sides, across y")
       .by_default("smooth");
-  schema.choice("base", boundary_kind_names(), "what it lies on").by_default("rough");
-  schema.number("gravity", "m/s^2", Range::closed(0.0, 2000.0), "downwards")
+  schema.choice("base", boundary_kind_names(), "boundary condition at the base")
+      .by_default("rough");
+  schema
+      .number("gravity", "m/s^2", Range::closed(0.0, 2000.0), "acceleration of gravity, downwards")
       .by_default(standard_gravity);
-  schema.flag("initial_stress", "start with the stress of the terrain's own weight")
-      .by_default("yes");
+  schema.flag("initial_stress", "start with the stress of the terrain's weight").by_default("yes");
   schema
       .number("surcharge", "Pa", Range::at_least(0.0),
-              "weight on the surface, or the bottom of the trough, that is in the initial stress: "
-              "that of grains on a sheet")
+              "weight of the grains on the surface, or in the trough, in the initial stress")
       .by_default(0.0);
   declare_slide_surface(schema);
-  schema.flag("sheet", "carry triangles on the upper face, for grains that lie on the ground");
+  schema.flag("surface_mesh", "`yes`: the upper face carries a mesh, on which grains can lie");
   schema
-      .integer("sheet_every", Range::at_least(1), "particles from node to node of these triangles")
+      .integer("surface_mesh_every", Range::at_least(1),
+               "particles per node of the surface mesh, along x and y")
       .by_default("1");
   schema
       .numbers("trough", 2, "m", Range::positive(),
-               "width along y and depth of a channel along x, that grains on the sheet fill")
+               "width along y and depth of a channel along x for the grains")
       .optional();
-  schema.flag("multirate", "one step for as many of these grains as the stable step holds");
-  schema.number("cfl", "", Range::closed(0.01, 1.0), "step over shortest cell and wave speed")
+  schema.flag("multirate", "one terrain step for as many grain steps as its stable step allows");
+  schema
+      .number("cfl", "", Range::closed(0.01, 1.0),
+              "time step over the time in which a wave crosses the shortest cell")
       .by_default(0.4)
       .may_change();
   schema
-      .integer("remap_interval", Range::closed(1, 64),
-               "most steps between two mappings of particles to the grid")
+      .integer("transfer_interval", Range::closed(1, 64),
+               "largest number of steps between two transfers of the motion from grid to particles")
       .by_default("16");
   schema
       .number("modulus_scale", "", Range::closed(0.01, 1.0),
@@ -270,12 +285,15 @@ Schema terrain_schema(const std::string& subject, const std::optional<GroundSize
       .by_default(1.0);
   schema
       .numbers("blocks", 2, "", Range::closed(1.0, most_blocks),
-               "how the ranks share the ground: so many blocks along x and along y")
+               "blocks along x and along y that the ranks share; by default chosen by Furrow")
       .optional()
       .may_change();
   schema.alias("headroom", "clearance_above");
   schema.alias("weightless_start", "initial_stress", inverted_flag);
-  schema.alias("cycle", "remap_interval");
+  schema.alias("cycle", "transfer_interval");
+  schema.alias("remap_interval", "transfer_interval");
+  schema.alias("sheet", "surface_mesh");
+  schema.alias("sheet_every", "surface_mesh_every");
   schema.alias("soften", "modulus_scale");
   return schema;
 }
@@ -312,16 +330,16 @@ TerrainParameters read_terrain(const Options& options, const std::string& folder
     throw InputError(options.where("surcharge"), "is given with 'initial_stress no'",
                      "a surcharge of ground that starts with the stress of what it carries",
                      "remove one of the two");
-  ground.surface_mesh = options.flag("sheet");
-  ground.sheet_every = static_cast<std::size_t>(options.integer("sheet_every"));
+  ground.surface_mesh = options.flag("surface_mesh");
+  ground.sheet_every = static_cast<std::size_t>(options.integer("surface_mesh_every"));
   ground.trough = read_trough(options);
   ground.multirate = options.flag("multirate");
   if (ground.multirate && !ground.surface_mesh)
-    throw InputError(options.where("multirate"), "is given without 'sheet yes'",
+    throw InputError(options.where("multirate"), "is given without 'surface_mesh yes'",
                      "'multirate yes' for ground that carries grains",
                      "ground without grains takes its own step anyway");
   ground.cfl = options.number("cfl");
-  ground.remap_interval = static_cast<int>(options.integer("remap_interval"));
+  ground.remap_interval = static_cast<int>(options.integer("transfer_interval"));
   ground.blocks = read_blocks(options);
   return ground;
 }

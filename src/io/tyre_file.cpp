@@ -25,7 +25,7 @@ const Range spring = Range::closed(0.0, 1e7);           // [N m/rad/m]
 Schema tyre_schema() {
   Schema schema("tyre");
   schema.number("pressure", "Pa", Range::closed(0.0, largest_inflation),
-                "inflation above the atmosphere");
+                "inflation pressure above atmospheric pressure");
   schema.number("bead_radius", "m", length, "radius at which the sidewalls begin");
   schema.number("bead_spacing", "m", length, "distance of the two beads along the axle");
   schema
@@ -40,10 +40,11 @@ Schema tread_schema() {
   Schema schema("tread");
   schema.number("radius", "m", length, "radius of the belts, without pressure");
   schema.number("half_width", "m", length, "half the width of the tread");
-  schema.number("crown", "m", Range::non_negative(), "the radius at the edge is smaller by this")
+  schema
+      .number("crown", "m", Range::non_negative(), "radius at the middle minus radius at the edge")
       .by_default(0.0);
   schema.number("thickness", "m", shell_thickness,
-                "of the equivalent shell, EI = E h^3/12 per unit width");
+                "thickness of the equivalent shell: EI = E h^3/12 per unit width");
   schema.number("E1", "Pa", modulus, "modulus along the circumference");
   schema.number("E2", "Pa", modulus, "modulus across");
   schema.number("nu12", "", Range::open(-1.0, 1.0),
@@ -56,7 +57,7 @@ Schema tread_schema() {
 
 Schema sidewall_schema() {
   Schema schema("sidewall");
-  schema.number("length", "m", length, "of the whole chain of equal segments");
+  schema.number("length", "m", length, "length of the whole chain of equal segments");
   schema.numbers(
       "bending", 0, "N m", Range::closed(0.0, 1e6),
       "stiffness EI per width of each hinge, from bead to tread: one fewer than segments");
@@ -66,14 +67,13 @@ Schema sidewall_schema() {
   schema.number("tread_angle", "degree", Range::closed(-180.0, 180.0),
                 "of the last segment, where the tread's spring is free");
   schema.number("rim_stiffness", "N m/rad/m", spring,
-                "of the spring between rim and sidewall; 0: a pin");
+                "rotational spring between rim and sidewall; 0: a pin");
   schema.number("tread_stiffness", "N m/rad/m", spring,
-                "of the spring between sidewall and tread; 0: a pin");
+                "rotational spring between sidewall and tread; 0: a pin");
   schema
-      .choice(
-          "strip", {"sector", "even"},
-          "what the pressure acts on: a strip between two meridians, narrower at the rim, or of "
-          "the tread's width")
+      .choice("strip", {"sector", "even"},
+              "width of the strip under pressure: `sector`: narrower towards the rim, between two "
+              "meridians; `even`: that of the tread")
       .by_default("sector");
   return schema;
 }

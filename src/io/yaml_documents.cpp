@@ -61,7 +61,7 @@ void require_one_document(const std::string& path, const std::string& text) {
                        "key: value", "look for a comma, a colon or a bracket too many");
     if (last_position >= 0 && start.has_content())
       throw InputError(place(path, start.content().line), "begins a second document (after ---)",
-                       "one document in a file", "make it a file of its own");
+                       "one document in a file", "put it into a separate file");
     last_position = start.mark().pos;
   }
 }

@@ -35,11 +35,10 @@ BlockLayout choose_layout(int ranks, const Grid& grid) {
 
 void check_layout(const BlockLayout& layout, int ranks, const std::string& where) {
   if (layout.x * layout.y == ranks) return;
-  throw InputError(
-      where, fmt::format("asks for {} x {} blocks on {} rank(s)", layout.x, layout.y, ranks),
-      "as many blocks as ranks",
-      "change the numbers behind 'blocks' or start as many ranks; without 'blocks' the "
-      "program chooses");
+  throw InputError(where,
+                   fmt::format("has {} x {} blocks on {} rank(s)", layout.x, layout.y, ranks),
+                   "as many blocks as ranks",
+                   "change 'blocks' or the number of ranks; without 'blocks' Furrow chooses");
 }
 
 }  // namespace furrow

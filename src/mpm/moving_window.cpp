@@ -36,9 +36,10 @@ void MovingWindow::check(const TerrainParameters& parameters, const std::string&
                      "a uniform x axis for ground that moves");
   const int slabs = static_cast<int>(parameters.slabs);
   if (sheet_ && slabs == 0)
-    throw InputError(where, "moves along x and carries a sheet", "ground that moves on by slabs",
-                     "write 'slabs' and how many, and name the ground as 'terrain' in the line of "
-                     "the bed/window that renews the grains on it");
+    throw InputError(where, "follows a body and has a surface mesh",
+                     "a terrain that moves by slabs",
+                     "write 'slabs <number>', and name this terrain in the line of the bed/window "
+                     "with 'terrain'");
   if (slabs > 0 && x.cells() % slabs != 0)
     throw InputError(where, fmt::format("has {} cells along x in {} slabs", x.cells(), slabs),
                      "slabs of a whole number of cells",

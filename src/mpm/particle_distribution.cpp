@@ -125,9 +125,9 @@ void ParticleDistribution::report_outside(const ParticleGroup& group) const {
       if (grid.axis(a).cell_of(x[a]) < 0)
         throw StateError(fmt::format(
             "a particle is at {:.4g} {:.4g} {:.4g} m, outside of the grid (x {:.4g} to {:.4g}, y "
-            "{:.4g} to {:.4g}, z {:.4g} to {:.4g} m): give the ground more clearance above it or "
-            "size, or look for an unstable contact, a load that is put on too fast, or a face "
-            "that holds nothing",
+            "{:.4g} to {:.4g}, z {:.4g} to {:.4g} m): enlarge the grid ('clearance_above', "
+            "'length', 'width'), or check for an unstable contact, a suddenly applied load, or a "
+            "'free' face",
             x[0], x[1], x[2], grid.axis(0).lower(), grid.axis(0).upper(), grid.axis(1).lower(),
             grid.axis(1).upper(), grid.axis(2).lower(), grid.axis(2).upper()));
   }

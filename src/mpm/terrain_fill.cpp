@@ -52,10 +52,10 @@ void check_layers(const TerrainParameters& parameters, const std::vector<Particl
     const double spacing = levels.empty() ? 0.0 : 2.0 * levels.front().half;
     throw InputError(
         where,
-        fmt::format("has a layer, number {} from the top, {:.4g} m thick, that not one particle "
-                    "lies in: they are {:.4g} m apart",
+        fmt::format("has no particles in layer {} from the top, {:.4g} m thick: particles are "
+                    "{:.4g} m apart",
                     n + 1, parameters.layers[n].thickness, spacing),
-        "layers that particles fit into",
+        "layers thicker than the spacing of the particles",
         fmt::format("make the layer at least {:.4g} m thick within the depth, or the cells "
                     "smaller",
                     spacing));

@@ -112,7 +112,7 @@ int main(int argc, char** argv) {
   CLI::App* paths_command = app.add_subcommand("paths", "list the paths and the keys of a fit");
   CLI11_PARSE(app, argc, argv);
   if (app.get_subcommands().empty()) {
-    std::cerr << "furrow-point: needs one of the words run, fit, laws or paths; see --help\n";
+    std::cerr << "furrow-point: needs one of the commands run, fit, laws or paths; see --help\n";
     return 1;
   }
 

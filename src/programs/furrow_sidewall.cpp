@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
       app.add_subcommand("keys", "list the keys of a tyre file with units, ranges and meanings");
   CLI11_PARSE(app, argc, argv);
   if (app.get_subcommands().empty()) {
-    std::cerr << "furrow-sidewall: needs one of the words run or keys; see --help\n";
+    std::cerr << "furrow-sidewall: needs one of the commands run or keys; see --help\n";
     return 1;
   }
 

@@ -37,88 +37,90 @@ void expect_key(const Options& options, const std::string& key, bool needed,
 
 Schema WheelRig::schema(const std::string& subject) {
   Schema schema(subject);
+  schema.number("load_mass", "kg", Range::positive(), "load as a mass, wheel included").optional();
   schema
-      .number("load_mass", "kg", Range::positive(),
-              "load as a mass: level ground carries load_mass x gravity, wheel included")
-      .optional();
-  schema
-      .number("load_force", "N", Range::positive(),
-              "load as a force: what level ground carries at rest, weight of the wheel included")
+      .number("load_force", "N", Range::positive(), "load as a force, the wheel's weight included")
       .optional();
   schema
       .number("sinkage", "m", Range::any(),
-              "instead of a load: the wheel is lowered to this sinkage and held there")
+              "hub drop to which the wheel is lowered, instead of a load")
       .optional();
   schema
       .choice("travel", {"prescribed", "free"},
-              "along x: at a speed, or free under drawbar_load, slope and inertia")
+              "`prescribed`: the axle moves at `speed`; `free`: forces move it")
       .by_default("prescribed");
   schema
       .number("speed", "m/s", Range::closed(0.0, 1000.0),
-              "speed of the axle along x in cruise, with travel prescribed")
+              "speed of the axle along x in cruise, with `travel prescribed`")
       .optional();
   schema.choice("mode", {"towed", "slip", "torque", "spin"},
-                "free spin, prescribed slip, prescribed axle torque, or prescribed spin");
-  schema.number("slip", "", Range::any(), "slip in mode slip, driving positive").optional();
+                "`towed`: free spin; `slip`: prescribed slip; `torque`: prescribed axle torque; "
+                "`spin`: prescribed spin rate");
+  schema.number("slip", "", Range::any(), "slip in `mode slip`; positive when driving").optional();
   schema
-      .choice(
-          "slip_definition", slip_definition_words(),
-          "slip by the larger of rim and vehicle speed, by rim speed, or by vehicle speed (speed "
-          "in the wheel plane)")
+      .choice("slip_definition", slip_definition_words(),
+              "`larger_speed`: (v_rim - v)/max(|v_rim|, |v|); `rim_speed`: (v_rim - v)/v_rim; "
+              "`vehicle_speed`: (v_rim - v)/v")
       .by_default("larger_speed");
-  schema.number("torque", "N m", Range::any(), "axle torque in mode torque; < 0 brakes").optional();
-  schema.number("spin_rate", "rad/s", Range::any(), "in mode spin; > 0 rolls forward").optional();
+  schema.number("torque", "N m", Range::any(), "axle torque in `mode torque`; negative brakes")
+      .optional();
+  schema
+      .number("spin_rate", "rad/s", Range::any(),
+              "spin rate in `mode spin`; positive rolls forward")
+      .optional();
   schema
       .number("drawbar_load", "N", Range::any(),
-              "with travel free: what holds the axle back along x; < 0 pushes it")
+              "force that holds the axle back along x, with `travel free`; negative pushes")
       .by_default(0.0);
   schema
       .number("dragged_mass", "kg", Range::positive(),
-              "with travel free: all that moves along x with the axle, wheel included; by default "
-              "that of the load")
+              "mass that moves along x with the axle, wheel included, with `travel free`; by "
+              "default that of the load")
       .optional();
   schema
-      .number(
-          "slope", "degrees", Range::closed(-45, 45),
-          "rise of the ground along the travel; turns the weight of wheel, grains and continuum")
+      .number("slope", "degrees", Range::closed(-45, 45),
+              "slope of the ground along x; positive uphill")
       .by_default(0.0);
-  schema.integer("passes", Range::closed(1, 1000), "times that the wheel rolls in the same rut")
+  schema.integer("passes", Range::closed(1, 1000), "number of passes in the same rut")
       .by_default("1");
   schema
       .number("pass_length", "m", Range::positive(),
-              "travel of each pass but the last, which goes on; with passes > 1")
+              "travel of each pass before the last, with `passes` > 1")
       .optional();
   schema
       .number("return_time", "s", Range::positive(),
-              "a third each to lift the wheel, bring it back and lower it; with passes > 1")
+              "time to lift, return and lower the wheel, a third each, with `passes` > 1")
       .optional();
   schema
-      .number("lift", "m", Range::non_negative(),
-              "height above its start at which it goes back; by default a tenth of its diameter")
+      .number(
+          "lift", "m", Range::non_negative(),
+          "height above its start at which the wheel returns; by default a tenth of its diameter")
       .optional();
   schema
       .number("slip_angle", "degrees", Range::open(-90, 90),
-              "angle from the travel to the wheel plane about z")
+              "angle from the travel to the wheel plane, about z")
       .by_default(0.0);
-  schema.number("camber", "degrees", Range::closed(-45, 45), "roll of the wheel about its heading")
+  schema
+      .number("camber", "degrees", Range::closed(-45, 45),
+              "roll angle of the wheel about its heading")
       .by_default(0.0);
   schema
       .number("start", "s", Range::non_negative(),
-              "time at which the settling begins; the wheel is held until then")
+              "time at which settling begins; the wheel stands still until then")
       .by_default(0.0);
-  schema.number("settle_time", "s", Range::positive(), "duration of the settling at standstill");
+  schema.number("settle_time", "s", Range::positive(), "duration of settling at standstill");
   schema
       .number("load_ramp_time", "s", Range::non_negative(),
-              "the load grows in this time; by default half of settle_time")
+              "time in which the load grows, at most `settle_time`; by default half of it")
       .optional();
   schema.number("accelerate_time", "s", Range::positive(), "duration of the acceleration");
   schema.number("ground_level", "m", Range::any(),
-                "z of the undisturbed ground: datum of the sinkage");
-  schema.number("gravity", "m/s^2", Range::positive(), "acceleration of gravity")
+                "z of the undisturbed ground, the datum of hub drop and rut depth");
+  schema.number("gravity", "m/s^2", Range::positive(), "acceleration of gravity, for `load_mass`")
       .by_default(standard_gravity);
   schema
       .number("damping", "N s/m", Range::non_negative(),
-              "viscous resistance to the wheel's vertical motion, throughout; its loss is recorded")
+              "viscous damping of the wheel's vertical motion")
       .by_default(0.0);
   return schema;
 }
@@ -162,8 +164,9 @@ void WheelRig::read_vertical(const Options& options) {
   if (count != 1)
     throw InputError(options.subject(), count == 0 ? "has no load" : fmt::format("has {}", given),
                      "exactly one of load_mass [kg], load_force [N], sinkage [m]",
-                     count == 0 ? "say what the ground carries, weight of the wheel included"
-                                : "keep the one that is meant");
+                     count == 0
+                         ? "give the load that the ground carries, weight of the wheel included"
+                         : "keep the one that is meant");
   sinkage_prescribed_ = options.given("sinkage");
   if (options.given("load_mass")) load_ = options.number("load_mass") * options.number("gravity");
   if (options.given("load_force")) load_ = options.number("load_force");
@@ -201,7 +204,7 @@ void WheelRig::check_load(const Options& options) const {
                                  "a settle_time of {:g} s",
                                  damping, load_, travel, settle_time),
                      fmt::format("at most {:.3g} N s/m", load_ * settle_time / least),
-                     "it is there to calm the wheel, not to hold it");
+                     "damping is meant to calm the wheel, not to stop it");
 }
 
 void WheelRig::read_travel(const Options& options) {
@@ -219,7 +222,7 @@ void WheelRig::read_travel(const Options& options) {
   if (sinkage_prescribed_)
     throw InputError(options.where("travel"), "is free with a prescribed sinkage",
                      "travel free with load_mass or load_force",
-                     "say what the wheel carries: its weight drives it on a slope");
+                     "give a load: its weight drives the wheel on a slope");
   drawbar_load_ = options.number("drawbar_load");
   const double most = largest_drawbar_load * load_;
   if (std::abs(drawbar_load_) > most)
@@ -227,7 +230,7 @@ void WheelRig::read_travel(const Options& options) {
         options.where("drawbar_load"),
         fmt::format("is {:g} N under a load of {:.4g} N", drawbar_load_, load_),
         fmt::format("{:.3g} to {:.3g} N, {:g} times the load", -most, most, largest_drawbar_load),
-        "the ground holds a pull of about the load");
+        "the ground resists about the load at most");
   const double own = wheel_.total_mass();
   const double dragged = options.has("dragged_mass")
                              ? options.number("dragged_mass")
@@ -261,7 +264,7 @@ void WheelRig::read_drive(const Options& options) {
         options.where("torque"),
         fmt::format("is {:g} N m under a load of {:.4g} N", torque_, load_),
         fmt::format("{:.3g} to {:.3g} N m, {:g} times load x radius", -most, most, largest_torque),
-        "the ground holds a torque of about load x radius");
+        "the ground resists about load x radius at most");
   if (mode_ != Mode::slip) return;
   if (travel_free_)
     throw InputError(options.where("mode"), "is slip with travel free",

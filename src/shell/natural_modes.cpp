@@ -66,7 +66,7 @@ std::pair<VectorX, Eigen::MatrixXd> lowest(ShiftedInverse& inverse, int count) {
   solver.compute(Spectra::SortRule::LargestMagn, max_restarts, precision,
                  Spectra::SortRule::SmallestAlge);
   if (solver.info() != Spectra::CompInfo::Successful)
-    throw StateError(fmt::format("natural modes: {} modes did not converge; ask for fewer", count));
+    throw StateError(fmt::format("natural modes: {} modes did not converge; request fewer", count));
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
@@ -86,7 +86,7 @@ NaturalModes natural_modes(RelaxingStructure& structure, const NodeNeighbours& n
   const auto [eigenvalue, vector] = lowest(inverse, count);
   inverse.set_shift(eigenvalue[count - 1] * (1.0 - separation));
   if (const Eigen::Index below = inverse.count_below(); below >= count)
-    throw StateError(fmt::format("natural modes: {} of the lowest {} were missed; ask for more",
+    throw StateError(fmt::format("natural modes: {} of the lowest {} were missed; request more",
                                  below - count + 1, below));
 
   NaturalModes modes;

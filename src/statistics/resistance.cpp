@@ -106,10 +106,10 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
 
   const std::vector<double> force_z = part("force_z"), drawbar_pull = part("drawbar_pull");
   if (!any_not_zero(force_z))
-    throw StateError(fmt::format(
-        "the wheel bears no load in the window ({}): it has not touched the ground; take "
-        "a later window, such as the cruise, which is the default",
-        window.how));
+    throw StateError(
+        fmt::format("the wheel carries no load in the window ({}): it has not touched the ground; "
+                    "choose a later window, such as the cruise, which is the default",
+                    window.how));
   std::vector<double> resistance = part("force_x");
   for (double& force : resistance) force = -force;
 

@@ -242,7 +242,7 @@ Window select_window(const History& history, const WindowRequest& request,
           fmt::format("the transient of {} fills nearly half of the cruise: run longer", longest);
   }
   if (window.rows() < 2)
-    throw Error(fmt::format("the window ({}) holds {} row(s): widen it or record more often",
+    throw Error(fmt::format("the window ({}) has {} row(s): widen it or record more often",
                             window.how, window.rows()));
   if (!window.automatic) window.warning = doubt_of_begin(history, window);
   window.begin = time[window.first];
@@ -314,7 +314,7 @@ SteadyValue analyse_steady(const std::string& name, const std::string& unit,
   if (residual.blocks < criteria.min_blocks && departure > 0.5 * known &&
       student_t95(residual.blocks) * result.standard_error > known)
     add(
-        fmt::format("the window is too short: its fluctuations last so long that it holds only {} "
+        fmt::format("the window is too short: its fluctuations last so long that it has only {} "
                     "independent stretches, {} are needed",
                     residual.blocks, criteria.min_blocks));
   result.steady = reason.empty();

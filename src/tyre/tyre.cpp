@@ -14,7 +14,7 @@ Relaxation Tyre::settle(RigidPlane* plane, const SettleOptions& options) {
   if (!result.converged)
     throw StateError(
         fmt::format("tyre: not at rest after {} steps of relaxation; the largest unbalanced force "
-                    "is {:.3g} of the pressure's force on a node, asked for {:.3g}",
+                    "is {:.3g} of the pressure's force on a node, allowed {:.3g}",
                     options.max_steps, result.residual, options.tolerance));
   return result;
 }

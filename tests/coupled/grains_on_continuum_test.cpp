@@ -30,7 +30,7 @@ double upward_momentum(Scene& scene) {
 /// Further keywords of the ground.
 class GrainsOnContinuum : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Sheets, GrainsOnContinuum,
-                         ::testing::Values("", " multirate yes sheet_every 2 surcharge 200",
+                         ::testing::Values("", " multirate yes surface_mesh_every 2 surcharge 200",
                                            " trough 0.04 0.01"));
 
 TEST_P(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
@@ -44,7 +44,7 @@ TEST_P(GrainsOnContinuum, WeightGoesThroughTheGroundToItsBase) {
       fmt::format("fix soil all terrain/continuum material {}/inputs/materials/rubber.yaml length "
                   "{} width {} depth 0.03 "
                   "surface 0.03 cell 0.01 "
-                  "gravity {} sheet yes{}",
+                  "gravity {} surface_mesh yes{}",
                   FURROW_SOURCE_DIR, side, side, gravity, GetParam()));
   scene.command("fix skin all mesh/body body soil type 2");
   scene.command(fmt::format("fix top all wall/gran/body {} mesh n_meshes 1 meshes skin", hertz));

@@ -39,7 +39,7 @@ void make_terrain(Scene& scene, bool half) {
   scene.command(
       fmt::format("fix soil all terrain/continuum material {}/inputs/materials/fresh_snow.yaml "
                   "length 0.8 width 0.48 "
-                  "depth 0.12 surface 0.15 cell 0.04 remap_interval 1 symmetry {}",
+                  "depth 0.12 surface 0.15 cell 0.04 transfer_interval 1 symmetry {}",
                   FURROW_SOURCE_DIR, half ? "yes" : "no"));
 }
 

@@ -70,7 +70,7 @@ TEST_P(MovingHybrid, RenewedGroundAndGrainsFitWithoutAJolt) {
       fmt::format("fix soil all terrain/continuum material "
                   "{}/inputs/materials/rubber.yaml length {} centre 0.06 0 cell 0.01 {} "
                   "surcharge {} "
-                  "gravity {} sheet yes follow kite slabs 8",
+                  "gravity {} surface_mesh yes follow kite slabs 8",
                   FURROW_SOURCE_DIR, length, GetParam().place, weight / (length * 0.06), gravity));
   scene.command("fix base all mesh/body body soil type 1");
   scene.command("fix skin all mesh/body body kite type 2");

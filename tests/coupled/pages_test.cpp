@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The page of every style says what the code declares: each keyword has its row, with unit and
-// default; each output has its row, with name, unit and meaning; no row describes what is gone.
+// The page of every style matches its declaration in the code: the tables of keywords and of
+// outputs have the declared rows, and the sections are those that every page has. Links lead to
+// files.
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -11,6 +13,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "coupling/liggghts/style_registry.h"
@@ -76,28 +79,39 @@ std::vector<Row> table(const std::string& page, const Row& head) {
   return rows;
 }
 
+/// What a value may be: "> 0", "integer >= 1", "2 numbers", "`yes`, `no`".
+std::string range_of(const Key& key) {
+  if (!key.choices.empty()) return fmt::format("`{}`", fmt::join(key.choices, "`, `"));
+  if (key.kind == Key::Kind::text) return "";
+  const bool any = key.range.text() == Range::any().text();
+  const std::string limits = any ? "" : key.range.text();
+  if (key.kind == Key::Kind::integer) return any ? "integer" : "integer " + limits;
+  if (key.kind == Key::Kind::number) return limits;
+  return fmt::format("{} numbers{}{}", key.count, any ? "" : ", each ", limits);
+}
+
+Row row_of(const Key& key) {
+  std::string value = key.required ? "required" : "optional";
+  if (!key.default_values.empty()) value = fmt::format("`{}`", fmt::join(key.default_values, " "));
+  return {'`' + key.name + '`', key.unit, range_of(key), value, key.meaning};
+}
+
+std::string text_of(const Row& head, const std::vector<Row>& rows) {
+  std::string text = line(head) + line(Row(head.size(), "---"));
+  for (const Row& row : rows) text += line(row);
+  return text;
+}
+
+/// In any order: a page may begin with the keyword that matters most.
 void expect_keywords(const Style& style) {
-  std::map<std::string, Row> rows;
-  for (const Row& row : table(style.page, {"keyword", "unit", "default", "meaning"})) {
-    ASSERT_EQ(row.size(), 4u) << style.page << ": " << fmt::format("{}", fmt::join(row, " | "));
-    rows[trimmed(row[0], "`")] = row;
-  }
+  const Row head = {"keyword", "unit", "range", "default", "meaning"};
   const Schema schema = style.schema();
-  for (const Key& key : schema.keys()) {
-    EXPECT_TRUE(rows.count(key.name)) << style.page << " has no row for " << key.name;
-    if (!rows.count(key.name)) continue;
-    const Row& row = rows[key.name];
-    EXPECT_EQ(row[1], key.unit) << style.page << ", " << key.name;
-    EXPECT_EQ(trimmed(row[2], "`"), fmt::format("{}", fmt::join(key.default_values, " ")))
-        << style.page << ", " << key.name;
-    EXPECT_FALSE(row[3].empty()) << style.page << ", " << key.name;
-    for (const std::string& word : key.choices)
-      EXPECT_NE(row[3].find('`' + word + '`'), std::string::npos) << style.page << ", " << word;
-    rows.erase(key.name);
-  }
-  for (const auto& [name, row] : rows)
-    ADD_FAILURE() << style.page << " describes " << name << ", which " << schema.subject()
-                  << " does not have";
+  std::vector<Row> declared;
+  for (const Key& key : schema.keys()) declared.push_back(row_of(key));
+  std::vector<Row> sorted = declared, rows = table(style.page, head);
+  std::sort(sorted.begin(), sorted.end());
+  std::sort(rows.begin(), rows.end());
+  EXPECT_EQ(rows, sorted) << style.page << ": the table must be\n" << text_of(head, declared);
 }
 
 /// Entries of a vector have a number beside their name; channels and variables their name alone.
@@ -111,26 +125,48 @@ void expect_outputs(const Style& style) {
   }
   const std::map<std::string, Row> heads = {{"entry", {"entry", "name", "unit", "meaning"}},
                                             {"channel", {"channel", "unit", "meaning"}},
+                                            {"column", {"column", "unit", "meaning"}},
                                             {"variable", {"variable", "unit", "meaning"}}};
   for (const auto& [what, head] : heads) {
     std::vector<Row> expected;
     if (what == outputs.what) expected = declared;
-    std::string text = line(head) + line(Row(head.size(), "---"));
-    for (const Row& row : expected) text += line(row);
-    EXPECT_EQ(table(style.page, head), expected) << style.page << ": the table must be\n" << text;
+    EXPECT_EQ(table(style.page, head), expected) << style.page << ": the table must be\n"
+                                                 << text_of(head, expected);
   }
 }
 
-TEST(Pages, EveryStyleHasAPageThatSaysWhatTheCodeDeclares) {
+/// A page has these sections, in this order, and a description that can be read in some minutes.
+void expect_sections(const Style& style) {
+  constexpr int longest_description = 600;  // words, without code and tables
+  std::ifstream file(folder() + style.page);
+  std::vector<std::string> sections;
+  int words = 0;
+  bool code = false;
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("```", 0) == 0) code = !code;
+    if (code) continue;
+    if (line.rfind("## ", 0) == 0) sections.push_back(line.substr(3));
+    if (sections.empty() || sections.back() != "Description" || line.rfind("|", 0) == 0) continue;
+    std::istringstream text(line);
+    for (std::string word; text >> word;) ++words;
+  }
+  EXPECT_THAT(sections, testing::ElementsAre("Syntax", "Examples", "Description", "Output",
+                                             "Restart", "Restrictions", "Related", "Default"))
+      << style.page;
+  EXPECT_LE(words, longest_description) << style.page << ": words of its description";
+}
+
+TEST(Pages, EveryStyleHasAPageThatMatchesItsDeclaration) {
   for (const Style& style : styles()) {
     if (style.kind == "internal") continue;
     ASSERT_FALSE(style.page.empty()) << style.name << " has no page";
+    expect_sections(style);
     expect_keywords(style);
     expect_outputs(style);
   }
 }
 
-TEST(Pages, EveryPageIsThatOfAStyleAndIsListed) {
+TEST(Pages, EveryPageBelongsToAStyleAndIsListed) {
   std::set<std::string> pages;
   const std::string list = text_of(folder() + "README.md");
   for (const Style& style : styles()) {

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The script that each page of a style begins with runs: snippets.py <source> <build> <scratch>.
+"""The first example of each style's page runs: snippets.py <source> <build> <scratch>.
 
-It stands in the first code block, before the syntax, and is run as a user would who saves it beside
-the scenes.
+It is the first code block of the section Examples, saved next to the scenes and run from there.
 """
 
 import os
@@ -17,10 +16,10 @@ SECONDS = 120  # of one script
 
 def snippet(page: Path) -> str:
     text = page.read_text(encoding="utf-8")
-    before, found, _ = text.partition("\n## Syntax\n")
-    block = re.search(r"^```\n(.*?)^```", before, re.M | re.S)
+    _, found, examples = text.partition("\n## Examples\n")
+    block = re.search(r"^```\n(.*?)^```", examples, re.M | re.S)
     if not found or block is None:
-        sys.exit(f"{page}: begins with no script before its syntax")
+        sys.exit(f"{page}: has no script in its section Examples")
     return block[1]
 
 
@@ -30,7 +29,7 @@ def main(source: Path, build: Path, scratch: Path) -> None:
     scenes.mkdir(parents=True)
     for name in ("beds", "materials", "tyres"):
         (scratch / "inputs" / name).symlink_to(source / "inputs" / name)
-    pages = sorted((source / "coupling").glob("*/*.md"))
+    pages = sorted(p for p in (source / "coupling").glob("*/*.md") if p.name != "README.md")
     if len(pages) < 20:
         sys.exit(f"only {len(pages)} pages were found")
     for page in pages:

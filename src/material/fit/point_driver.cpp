@@ -281,7 +281,7 @@ PointHistory drive_point(const Material& material, const PointPath& path) {
       } catch (const StateError& error) {
         const Invariants now = invariants(stress_of(point.state()));
         throw StateError(
-            fmt::format("path {}, segment {}, step {} of {}: {}; the point stands at p = {:.6g} "
+            fmt::format("path {}, segment {}, step {} of {}: {}; the point is at p = {:.6g} "
                         "Pa, q = {:.6g} Pa, density {:.6g} kg/m3",
                         path.type, s + 1, step, segment.steps, error.what(), now.p, now.q,
                         material.current_density(point.state())));

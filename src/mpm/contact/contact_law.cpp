@@ -34,8 +34,8 @@ std::vector<std::string> contact_law_names() {
 
 std::string contact_law_meanings() {
   std::vector<std::string> meanings;
-  for (const Row& row : rows()) meanings.push_back(row.meaning);
-  return fmt::format("{}", fmt::join(meanings, ", or "));
+  for (const Row& row : rows()) meanings.push_back(fmt::format("`{}`: {}", row.name, row.meaning));
+  return fmt::format("{}", fmt::join(meanings, "; "));
 }
 
 ContactLaw make_contact_law(const ContactParameters& parameters, const std::string& where) {

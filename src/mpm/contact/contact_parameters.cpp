@@ -13,19 +13,25 @@ namespace furrow {
 Schema ContactParameters::schema(const std::string& subject) {
   Schema schema(subject);
   schema.choice("enforcement", contact_law_names(), contact_law_meanings()).by_default("penalty");
-  schema.choice("surface", {"frictional", "rough", "smooth"}, "rough: no slip; smooth: no friction")
+  schema
+      .choice("surface", {"frictional", "rough", "smooth"},
+              "`frictional`: Coulomb; `rough`: no slip; `smooth`: no friction")
       .by_default("frictional");
-  schema.number("friction", "", Range::non_negative(), "coefficient mu of a frictional surface")
+  schema
+      .number("friction", "", Range::non_negative(),
+              "friction coefficient mu of a frictional surface")
       .by_default(0.3);
   schema
       .number("slip_length", "m", Range::closed(0.0, 1.0),
-              "k of tau = mu sigma (1 - exp(-j/k)) with the slip j; 0: tau = mu sigma")
+              "k of tau = mu sigma (1 - exp(-j/k)), j the slip distance; 0: tau = mu sigma")
       .by_default(0.0);
   schema
       .number("stiffness", "", Range::closed(0.01, 100.0),
-              "spring of a particle over wave modulus x cube root of its volume")
+              "spring stiffness of a particle over wave modulus times cube root of its volume")
       .by_default(0.4);
-  schema.number("damping", "", Range::closed(0.0, 1.0), "of spring and particle, of critical")
+  schema
+      .number("damping", "", Range::closed(0.0, 1.0),
+              "damping ratio of the contact spring with the particle's mass; 1: critical")
       .by_default(0.1);
   return schema;
 }

@@ -17,7 +17,7 @@ namespace furrow {
 class ImpulseLaw {
  public:
   static constexpr const char* name = "impulse";
-  static constexpr const char* meaning = "the impulse that stops the approach";
+  static constexpr const char* meaning = "an impulse stops the approach within the step";
 
   explicit ImpulseLaw(const ContactParameters& parameters)
       : friction_{parameters.friction, parameters.slip_length} {}

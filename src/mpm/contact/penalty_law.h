@@ -18,7 +18,7 @@ namespace furrow {
 class PenaltyLaw {
  public:
   static constexpr const char* name = "penalty";
-  static constexpr const char* meaning = "springs";
+  static constexpr const char* meaning = "springs resist penetration";
 
   explicit PenaltyLaw(const ContactParameters& parameters)
       : friction_{parameters.friction, parameters.slip_length},

@@ -145,9 +145,9 @@ void TerrainContact::record_step() {
   if (step_.penetration > max_penetration_cells * terrain_.grid().shortest_cell())
     throw StateError(fmt::format(
         "the surface is {:.3g} m inside the ground, more than half a cell, under {:.3g} "
-        "N and at {:.3g} m/s; likely causes: a load or speed that this ground cannot "
-        "take, a wheel much lighter than its load, a modulus_scale or a timestep that "
-        "goes too far, ground that ends under the contact; otherwise raise 'stiffness'",
+        "N and at {:.3g} m/s; likely causes: a load or speed too large for this ground, a wheel "
+        "much lighter than its load, 'modulus_scale' too low, a time step too large, or a contact "
+        "at the edge of the terrain; otherwise raise 'stiffness'",
         step_.penetration, nodal_forces_.rowwise().sum().norm(),
         body_.surface().v.colwise().norm().maxCoeff()));
   force_ = nodal_forces_.rowwise().sum();

@@ -124,7 +124,8 @@ TEST(Checkpoint, RefusesAnotherLayoutByName) {
               HasSubstr("part: its part of the checkpoint has 'width' where 'length' is expected"));
   Checkpoint read("part", bytes.data(), bytes.size());
   read.value("mass", mass);
-  EXPECT_THAT(refusal_of([&] { read.finish(); }), HasSubstr("holds more than this program reads"));
+  EXPECT_THAT(refusal_of([&] { read.finish(); }),
+              HasSubstr("contains more than this program reads"));
   Checkpoint again("part", bytes.data(), bytes.size());
   Vector3 three;
   EXPECT_THAT(refusal_of([&] { again.values("mass", three); }),

@@ -185,7 +185,7 @@ TEST_F(MaterialFileTest, BadFilesAreRefusedWithTheirPlace) {
       {with(sand, "  d: 1.194e6\n", "  cohesion: {value: 1.194e6}\n"),
        "sand.yaml, line 5: law drucker_prager_cap has no keyword 'cohesion'; allowed: density, d"},
       {with(sand, "d: 1.194e6", "d: 1e400"),
-       "keyword 'd' is '1e400', which is beyond what a number can hold"},
+       "keyword 'd' is '1e400', which is too large for a number"},
       {with(sand, "d: 1.194e6", "d: 1.194 MPa"),
        "keyword 'd' is '1.194 MPa', which is not a number; allowed: a number >= 0 [Pa]"},
       {with(sand, "d: 1.194e6", "d: 1,194"), "keyword 'd' is '1,194', which is not a number"},

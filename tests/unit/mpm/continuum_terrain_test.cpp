@@ -213,8 +213,9 @@ TEST(Terrain, StopsWhenParticlesLeaveTheGrid) {
     for (int n = 0; n < 1000; ++n) ground.advance(1e-4);
     FAIL();
   } catch (const StateError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("outside of the grid (x 0 to 0.2, y 0 to 0.2, z 0 to 0.2 "
-                                        "m): give the ground more clearance above it or size"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("outside of the grid (x 0 to 0.2, y 0 to 0.2, z 0 to 0.2 "
+                          "m): enlarge the grid ('clearance_above', 'length', 'width')"));
   }
 }
 

@@ -209,8 +209,7 @@ TEST(MovingSheet, SlabsAreWholeCells) {
                  "cells; make 'length' 0.75 or 1 m");
   parameters.slabs = 0;
   expect_refusal(parameters,
-                 "moves along x and carries a sheet; allowed: ground that moves on by "
-                 "slabs");
+                 "follows a body and has a surface mesh; allowed: a terrain that moves by slabs");
 }
 
 }  // namespace

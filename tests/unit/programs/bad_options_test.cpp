@@ -108,7 +108,7 @@ TEST(BadOptions, OfFurrowSidewall) {
   write_text_file(scratch.path("taken"), "");
   const std::string run = "run --no-plot " + inputs + "tyres/p235_75r15.yaml ";
   const Case cases[] = {
-      {"", "needs one of the words run or keys"},
+      {"", "needs one of the commands run or keys"},
       {"run", "file is required"},
       {"bend", "not expected: bend"},
       {run + "-p nan", "--pressure: is 'nan'; allowed: a number in [0, 2000000] [Pa]"},

@@ -363,7 +363,7 @@ TEST(Resistance, AWheelThatBearsNoLoadIsNamed) {
   SyntheticRun lifted;
   lifted.load = 0.0;
   EXPECT_THAT(error_of([&] { measure_resistance(lifted.history()); }),
-              HasSubstr("the wheel bears no load in the window (cruise from 2 s"));
+              HasSubstr("the wheel carries no load in the window (cruise from 2 s"));
 }
 
 TEST(Resistance, ARatioNeedsADenominator) {

@@ -168,10 +168,9 @@ TEST(SteadyState, AWindowOfAFewCorrelationTimesIsTooShort) {
   EXPECT_GE(refused, 0.9 * seeds);  // two correlation times
   const SteadyValue few = analyse_steady("x", "", {1.0, 2.0, 1.5, 1.2}, 0.1);
   EXPECT_FALSE(few.steady);
-  EXPECT_THAT(
-      few.verdict,
-      HasSubstr("the window is too short: its fluctuations last so long that it holds only 2 "
-                "independent stretches, 6 are needed"));
+  EXPECT_THAT(few.verdict,
+              HasSubstr("the window is too short: its fluctuations last so long that it has only 2 "
+                        "independent stretches, 6 are needed"));
 }
 
 TEST(SteadyState, FewStretchesDoWhenTheyAreNearlyTheSame) {

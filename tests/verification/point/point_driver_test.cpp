@@ -209,9 +209,9 @@ TEST(PointDriver, AnUnreachableStressIsAnErrorWithItsCause) {
   } catch (const StateError& error) {
     message = error.what();
   }
-  EXPECT_THAT(message, AllOf(HasSubstr("path cyclic, segment 2, step "),
-                             HasSubstr("cannot reach stress_xx = 0 Pa"),
-                             HasSubstr("the point stands at p = ")));
+  EXPECT_THAT(message,
+              AllOf(HasSubstr("path cyclic, segment 2, step "),
+                    HasSubstr("cannot reach stress_xx = 0 Pa"), HasSubstr("the point is at p = ")));
   const PointPath tension = path("hydrostatic", {{"pressure", {"-1e6"}}});
   EXPECT_THROW(drive_point(*snow, tension), StateError);
 }
