@@ -11,7 +11,8 @@
         run name: {what: words, variables: {cell: 0.1}, ...}
 
 A run is a LIGGGHTS script (script, variables, log), a path of a material point (point: {title,
-material, path}), or a program with its arguments. Other keys are those of a Case. In texts {here} is
+material, path}), or a program with its arguments. Other keys are those of a Case; shares lists the
+variables that make equal what runs with the same script share. In texts {here} is
 the folder of the study, {inputs}, {materials}, {scenes}, {tyres} are those folders, {folder} that of
 the run, {run} its name, {what} its words, and every key of `with` stands for its value.
 """
@@ -126,7 +127,7 @@ def _case(
         return Path(text) if is_path else text
 
     more: dict[str, Any] = {
-        key: run[key] for key in ("what", "time_limit", "may_fail", "ranks", "shares") if key in run
+        key: run[key] for key in ("what", "time_limit", "may_fail", "ranks") if key in run
     }
     more["stage"] = "" if stage == "all" else stage
     more["fallback"] = {key: filled(value) for key, value in (run.get("fallback") or {}).items()}
@@ -134,6 +135,9 @@ def _case(
     files = {key: texts.get(text, text) for key, text in (run.get("files") or {}).items()}
     more["files"] = {key: str(filled(text)) for key, text in files.items()}
     variables: dict[str, Value] = {k: filled(v) for k, v in (run.get("variables") or {}).items()}
+    if names := run.get("shares"):
+        own = run.get("variables") or {}
+        more["shares"] = (run.get("script"), *(str(own.get(key, "")) for key in names))
     if run.get("script") is not None:
         script = filled(run["script"])
         script = script if isinstance(script, Path) or FOLDER in str(script) else folder / script
