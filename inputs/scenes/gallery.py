@@ -25,18 +25,22 @@ from furrow_post.errors import ResultsError
 from furrow_post.figures.moving import MovingPictures
 from furrow_post.program import run_program
 from furrow_post.read.motion import read_motion
+from furrow_post.scene.catalogue import GROUPS
 
 PAGE = HERE / "README.md"
 PICTURES = HERE / "pictures"
 SIZE = (480, 270)  # [pixel]
 LARGEST = 60_000  # [byte] of a picture
-ENTRIES = ("Shows", "Run time", "Expect", "Limits")  # of a head, in the order of the page
+ENTRIES = ("Run time", "Expect", "Limits")  # of a head, in the order of the page
 HEAD = """# Scenes
 
-Made by `inputs/scenes/gallery.py` from the heads of the scenes; a test compares. The pictures are
-of the quick versions (`--quick`), at their end, but for that of the plate on sand: its curve. A
-scene's results, its own picture and its numbers go to `results/SCENE`; `furrow-post view` shows
-them in 3D.
+Use this page to choose a scene. Each is a LIGGGHTS input script that you can run, change and copy.
+`--quick` runs a small, coarse version within a minute, and `-v NAME VALUE` changes a variable. Results go
+to `results/SCENE`. New users start with [tyre_on_snow](#tyre_on_snow) and the
+[first tutorial](../guide/tutorials/1_first_run.md).
+
+Expected values are those of the full version on one core. The pictures show the quick versions.
+`inputs/scenes/gallery.py` writes this page from the heads of the scenes, and a test compares both.
 """
 
 
@@ -55,7 +59,7 @@ def head_of(script: Path) -> tuple[str, dict[str, str]]:
             entries[last] = rest.strip()
         elif last and text:
             entries[last] += f" {text}"
-    for name in ("Shows", "Run time", "Expect"):
+    for name in ("Group", "Shows", "Run time", "Expect"):
         if name not in entries:
             raise ResultsError(f"{script}: its head has no '{name}:'")
     return title, entries
@@ -63,18 +67,32 @@ def head_of(script: Path) -> tuple[str, dict[str, str]]:
 
 def page() -> str:
     """The page of all scenes that are there."""
-    parts = [HEAD]
+    groups: dict[str, list[str]] = {group: [] for group in GROUPS}
     for script in sorted(HERE.glob("*.lig")):
         title, entries = head_of(script)
-        name = script.stem
-        picture = PICTURES / f"{name}.png"
-        parts.append(f"## [{name}]({script.name})\n{_wrapped(_sentence(title))}\n")
-        if picture.is_file():
-            parts.append(f"![{name}](pictures/{picture.name})\n")
-        parts.append(f"```\nbash inputs/run {name}\n```\n")
-        rows = [f"- {entry}: {entries[entry]}" for entry in ENTRIES if entry in entries]
-        parts.append("\n".join(_wrapped(row, "  ") for row in rows) + "\n")
+        if entries["Group"] not in groups:
+            raise ResultsError(f"{script}: its group is none of {', '.join(GROUPS)}")
+        groups[entries["Group"]].append(_entry(script, title, entries))
+    parts = [HEAD, *(f"- [{group}](#{_anchor(group)})" for group in GROUPS), ""]
+    for group, scenes in groups.items():
+        parts += [f"## {group}\n", *scenes]
     return "\n".join(parts)
+
+
+def _anchor(heading: str) -> str:
+    return heading.lower().replace(" ", "-")
+
+
+def _entry(script: Path, title: str, entries: dict[str, str]) -> str:
+    """A scene on the page."""
+    name = script.stem
+    lines = [f"### [{name}]({script.name})", _wrapped(f"{_sentence(title)} {_sentence(entries['Shows'])}"), ""]
+    if (PICTURES / f"{name}.png").is_file():
+        lines += [f"![{title}](pictures/{name}.png)", ""]
+    lines += ["```", f"bash inputs/run {name}", "```"]
+    cells = [_wrapped(entries.get(entry, "")).replace("\n", " ") for entry in ENTRIES]
+    lines += ["", "| run time | expected values | limits |", "|---|---|---|", f"| {' | '.join(cells)} |"]
+    return "\n".join(lines) + "\n"
 
 
 def _sentence(text: str) -> str:

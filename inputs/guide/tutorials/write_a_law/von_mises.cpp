@@ -59,4 +59,12 @@ double VonMises::stress_scale(const VectorX& state) const {
       {largest_q_, std::abs(invariants(stress_of(state)).p), 1e-8 * moduli(state).wave()});
 }
 
+std::vector<Vector2> VonMises::yield_surface(const VectorX&, std::size_t points) const {
+  std::vector<Vector2> line;
+  for (std::size_t i = 0; i < points; ++i)
+    line.emplace_back(6.0 * largest_q_ * static_cast<double>(i) / static_cast<double>(points),
+                      largest_q_);
+  return line;
+}
+
 }  // namespace furrow

@@ -3,9 +3,9 @@
 /// Saturated clay under quick loads: the strength does not depend on the pressure.
 ///
 ///   q <= 2 c_u,  q = sqrt(3/2 s : s),  s = dev(sigma)
-///   trial: s = s_n + 2 G dev(d_eps), p = p_n - K tr(d_eps);  return: s scaled to q = 2 c_u
 ///
-/// c_u is the undrained shear strength [Pa]: half the deviator stress in triaxial compression.
+/// The trial stress is elastic. The radial return scales its deviator s to the strength. c_u is the
+/// undrained shear strength [Pa]: half the deviator stress in triaxial compression.
 
 #include "material/material_model.h"
 #include "material/pointwise_material.h"
@@ -20,6 +20,7 @@ class VonMises : public PointwiseMaterial {
   ElasticModuli moduli(const VectorX&) const override { return moduli_; }
   double yield_function(const VectorX& state) const override;
   double stress_scale(const VectorX& state) const override;
+  std::vector<Vector2> yield_surface(const VectorX& state, std::size_t points) const override;
 
  private:
   void step(PointStep& point) const override;

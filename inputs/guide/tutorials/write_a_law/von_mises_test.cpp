@@ -27,7 +27,7 @@ TEST(VonMisesTest, SimpleShearEndsAtTheClosedForm) {
     Matrix3 gradient = Matrix3::Zero();
     gradient(0, 2) = step;
     law->update_point(gradient, state);
-    EXPECT_NEAR(stress_of(state)[4], std::min(G * n * step, limit), 2e-3 * limit);
+    EXPECT_NEAR(stress_of(state)[5], std::min(G * n * step, limit), 2e-3 * limit);
   }
 }
 
