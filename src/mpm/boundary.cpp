@@ -88,8 +88,10 @@ Boundary::FarFields Boundary::far_fields(const Grid& grid,
     const double cell = axis.length(plane.plane == 0 ? 0 : axis.cells() - 1);
     far.inverse_extent = 1.0 / (cell * (1.0 / 3.0 - 1.0 / (12.0 * n * n)));
     // For a load in the middle of the top, the far field begins half a width away sideways and a
-    // depth away downwards.
-    far.inverse_length = (plane.axis == 2 ? 1.0 : 2.0) / (axis.upper() - axis.lower());
+    // depth away downwards. Ground that a smooth face ends, a plane of symmetry, is half of the
+    // width.
+    const bool whole = plane.axis == 2 || kinds_[opposite(face)] == BoundaryKind::smooth;
+    far.inverse_length = (whole ? 1.0 : 2.0) / (axis.upper() - axis.lower());
     far.decay = std::exp(-cell * far.inverse_length);
     far.initial_force.assign(static_cast<std::size_t>(3 * far.nodes[0] * far.nodes[1]), 0.0);
     far.displacement = far.initial_force;

@@ -16,6 +16,7 @@ constexpr std::array<Face, face_count> all_faces = {Face::x_lower, Face::x_upper
 /// The axis that a face lies across: 0 x, 1 y, 2 z.
 constexpr int axis_of(Face face) { return static_cast<int>(face) / 2; }
 constexpr bool is_upper(Face face) { return static_cast<int>(face) % 2 == 1; }
+constexpr Face opposite(Face face) { return static_cast<Face>(static_cast<int>(face) ^ 1); }
 
 /// One value for each face, in the order of Face.
 template <class T>

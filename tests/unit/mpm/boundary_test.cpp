@@ -114,6 +114,26 @@ TEST(Boundary, AbsorbingIsDashpotAndSpring) {
   EXPECT_NEAR(boundary.work(), work, 1e-12 * std::abs(work));
 }
 
+/// The far field of a half model (theory: continuum, eq. 8) is that of the whole: L is the distance
+/// from the plane of symmetry.
+TEST(Boundary, HalfModelHasTheFarFieldOfTheWhole) {
+  const auto velocity_after = [](double lower, BoundaryKind middle) {
+    Grid grid(Axis(even(0, 4, 1), "x"), Axis(even(lower, 3, 1), "y"), Axis(even(0, 2, 1), "z"));
+    FaceArray<BoundaryKind> kinds = only(Face::y_upper, BoundaryKind::absorbing);
+    kinds[Face::y_lower] = middle;
+    Boundary boundary(grid, kinds, {2, 2, 2}, speeds(grid));
+    boundary.capture_initial_tractions(grid, grid.all_nodes(), weightless);
+    for (int step = 0; step < 3; ++step) {
+      give_velocity(grid, Vector3(1.0, 2.0, 3.0));
+      boundary.apply(grid, grid.all_nodes(), grid.all_nodes(), dt);
+    }
+    return Vector3(Eigen::Map<const Vector3>(grid.motion(2, grid.nodes(1) - 1, 1).velocity));
+  };
+  const Vector3 whole = velocity_after(-3, BoundaryKind::absorbing);
+  const Vector3 half = velocity_after(0, BoundaryKind::smooth);
+  EXPECT_LT((half - whole).norm(), 1e-14);
+}
+
 /// What held the ground at the start is held on: a node on several faces is held once.
 TEST(Boundary, ForcesOfTheStartAreHeld) {
   for (const int count : {1, 2, 3}) {

@@ -66,7 +66,7 @@ TEST(Punch, PressesIntoTheHalfSpace) {
                  fmt::format("ground of 8 a {:.4f}, of 4 a {:.4f}, in a rough box of 4 a {:.4f}",
                              wide.force, narrow.force, boxed.force));
   RecordProperty("penetration", fmt::format("{:.3f}", wide.penetration));
-  EXPECT_NEAR(wide.force, 1.0, 0.1);
+  EXPECT_NEAR(wide.force, 1.0, 0.03);
   EXPECT_LT(std::abs(wide.force - 1.0), std::abs(narrow.force - 1.0));
   EXPECT_LT(std::abs(narrow.force - 1.0), 0.6 * std::abs(boxed.force - 1.0));
 }
