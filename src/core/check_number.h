@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Refusals of what no Schema has read, such as the members of a parameter struct; of numbers in
-/// the words in which a Schema refuses them.
+/// Checks of values that no Schema has read, such as the members of a parameter struct. Errors have
+/// the words of a Schema.
 
 #include <string>
 

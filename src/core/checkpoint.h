@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The state of a part of a run as named, sized values: what a checkpoint file holds.
+/// State of a part of a run as named, sized values, as a checkpoint file stores it.
 ///
-/// A class says once, in one function, what it must keep; the same function saves and restores:
+/// One function of a class declares its state; it both saves and restores:
 ///   void RigidWheel::checkpoint(Checkpoint& state) {
 ///     state.match("mass", parameters_.mass);     // must be the same when the run continues
 ///     state.values("centre", centre_);           // is brought back
 ///   }
-/// Names, kinds and lengths are written beside the values and checked when they are read, so that a
-/// checkpoint of another program version or of another scene is refused by name. Lengths are 64-bit
-/// integers, values are stored as the processor has them (a checkpoint is not for another machine).
+/// Names, kinds and lengths are stored with the values and checked when they are read. A checkpoint
+/// of another program version or scene is an error that names the value. Lengths are 64-bit
+/// integers; values have the byte order of the processor.
 
 #include <array>
 #include <cstdint>
@@ -23,13 +23,13 @@ namespace furrow {
 
 class Checkpoint {
  public:
-  /// To be filled. @param owner names the part in errors: "fix wheel"
+  /// For saving. @param owner names the part in errors: "fix wheel"
   explicit Checkpoint(std::string owner) : owner_(std::move(owner)) {}
-  /// To be read. @param bytes what bytes() gave; copied
+  /// For restoring. @param bytes result of bytes(); copied
   /// @throws Error for bytes that no Checkpoint wrote, that are cut short or were altered
   Checkpoint(std::string owner, const char* bytes, std::size_t size);
 
-  /// How many bytes the header says there are, header included.
+  /// Number of bytes by the header, header included.
   /// @throws Error for bytes that no Checkpoint wrote
   static std::size_t size(const std::string& owner, const char* bytes);
 
@@ -84,7 +84,7 @@ class Checkpoint {
   std::vector<char> bytes() const;
   /// The same, to be read.
   Checkpoint reread() const;
-  /// At the end of reading. @throws Error when something was not read
+  /// Call it at the end of reading. @throws Error when something was not read
   void finish() const;
 
  private:

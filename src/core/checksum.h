@@ -7,9 +7,8 @@
 
 namespace furrow {
 
-/// FNV-1a, 64 bits (G. Fowler, L. C. Noll, K.-P. Vo), of bytes that come piece by piece. Each byte
-/// changes the sum one to one, so that a change within a single byte never goes unnoticed, and
-/// other damage with a chance of 2^-64.
+/// FNV-1a, 64 bits (G. Fowler, L. C. Noll, K.-P. Vo), of bytes in pieces. It detects every change
+/// within a single byte, and misses other damage with a probability of 2^-64.
 class Checksum {
  public:
   void add(const void* bytes, std::size_t count) {

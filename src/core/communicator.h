@@ -29,16 +29,16 @@ class Communicator {
   void max(double* values, std::size_t count) const;  ///< of each in place
   bool any(bool value) const;
 
-  /// Numbers for another rank, and those that it gives for them.
+  /// Numbers for another rank, and those received from it.
   struct Message {
     int other = 0;
     std::vector<double> sent = {};
     std::vector<double> received = {};
   };
-  /// Exchanges all messages at once, one at most with each rank; both sides call it, and `received`
-  /// has the length that the other sends. What is empty is not sent.
+  /// Exchanges all messages, at most one with each rank. Both sides call it, and `received` has the
+  /// length that the other sends. Empty messages are not sent.
   void exchange(std::vector<Message>& messages) const;
-  /// Gives each `received` the length that the other sends.
+  /// Sets the length of each `received` to that of the message.
   void exchange_lengths(std::vector<Message>& messages) const;
 
   /// The numbers of all ranks, in rank order, on every rank.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Options are declared once: key, unit, range, meaning, default. Scripts, files, pages and errors
-/// all use that one declaration.
+/// use this declaration.
 
 #include <limits>
 #include <map>
@@ -68,7 +68,7 @@ std::string inverted_flag(const std::string& value);
 struct Entry {
   std::string key;
   std::vector<std::string> values;
-  /// where it was written, "sand.yaml, line 12", for errors; empty when the reader says it
+  /// where it was written, "sand.yaml, line 12", for errors; empty if the reader adds it
   std::string origin = {};
 };
 
@@ -101,8 +101,8 @@ class Schema {
   /// ... may have another value when a run is continued from a checkpoint
   Schema& may_change();
 
-  /// A former name of a key that is declared already. Whoever reads options with aliases shows
-  /// Options::warnings() to the user.
+  /// Another name of a key that is declared already. Readers of options with aliases print
+  /// Options::warnings().
   Schema& alias(const std::string& former, const std::string& key,
                 Alias::Translation translation = nullptr);
 

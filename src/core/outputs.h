@@ -9,7 +9,7 @@
 
 namespace furrow {
 
-/// What is known of a reported number.
+/// Description of a reported number.
 struct Channel {
   std::string name;     ///< "sinkage": a name in a file, unique in its list
   std::string unit;     ///< "m"; "" for pure numbers

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The change from 0 to 1 that loads and speeds make.
+/// Smooth change from 0 to 1 for loads and speeds.
 
 #include <algorithm>
 

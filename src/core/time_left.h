@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// How long a job will still take, from how far it was when.
+/// Estimate of the remaining time of a job from its progress.
 
 #include <deque>
 
 namespace furrow {
 
-/// Assumes that the rest goes on as the last third of the time so far: what a step costs changes
-/// when the wheel touches the ground, and the mean since the start would not forget that.
+/// The estimate uses the rate of the last third of the elapsed time, because the cost of a step
+/// changes when the wheel touches the ground.
 class TimeLeft {
  public:
   /// @param done share of the job, 0 ... 1, not less than before; @param elapsed [s] since its

@@ -2,12 +2,11 @@
 #pragma once
 /// Vector types and the conventions that hold everywhere in Furrow.
 ///
-/// Units: SI (m, kg, s, N, Pa); angles in radians inside, degrees in scripts and files.
-/// Axes: x along the travel, y lateral, z up; a wheel that rolls forward (+x) spins with omega_y >
-/// 0. Stress: tension positive; p = -tr(sigma)/3, s = sigma + p I, J2 = s:s/2, q = sqrt(3 J2), r^3
-/// = (27/2) det s. Strain: logarithmic; compressive volumetric plastic strain is positive in
-/// hardening tables. Slip: i = (v_rim - v_vehicle)/max(|v_rim|, |v_vehicle|), driving positive
-/// (rig/slip.h has the other definitions).
+/// Units: SI (m, kg, s, N, Pa); angles in radians inside, degrees in scripts and files. Axes: x
+/// along the travel, y lateral, z up; a wheel that rolls forward (+x) spins with omega_y > 0.
+/// Stress: tension positive; p = -tr(sigma)/3, s = sigma + p I, J2 = s:s/2, q = sqrt(3 J2), r^3 =
+/// (27/2) det s. Strain: logarithmic; compressive volumetric plastic strain is positive in
+/// hardening tables. Slip: driving positive, rig/slip.h. Drawing: theory: symbols.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Is a surface the skin of a solid?
+/// Check that a surface is closed and oriented, as the boundary of a solid.
 
 #include <string>
 
@@ -8,9 +8,9 @@
 
 namespace furrow {
 
-/// Empty when every edge belongs to two triangles that run through it in opposite directions; else
-/// names an edge that does not: "the edge of nodes 3 and 7 belongs to one triangle: the surface is
-/// open there".
+/// Empty when every edge belongs to two triangles that run through it in opposite directions.
+/// Otherwise it names an edge that does not: "the edge of nodes 3 and 7 belongs to one triangle:
+/// the surface is open there".
 std::string closedness_problem(const Surface& surface);
 
 /// For bodies whose volume or inside has a meaning. @throws StateError with the problem, if there

@@ -30,7 +30,7 @@ struct ClosestPoint {
 ClosestPoint closest_point_on_triangle(const Vector3& p, const Vector3& a, const Vector3& b,
                                        const Vector3& c);
 
-/// One triangle within reach of a sphere, before it is known whether it is a contact of its own.
+/// One triangle within reach of a sphere: a candidate for a contact.
 struct ContactCandidate {
   ClosestPoint point;
   int triangle;        ///< global triangle number
@@ -40,14 +40,14 @@ struct ContactCandidate {
 };
 
 /// Decides which candidates of one sphere are contacts:
-///  1. an edge or corner is no contact if a triangle that contains it has a closer point (the
-///  surface comes nearer there),
-///     and is counted once when several triangles report it at equal distance;
+///  1. an edge or corner is no contact if a triangle that contains it has a closer point; if
+///  several
+///     triangles report it at equal distance, it counts once;
 ///  2. of two contacts on triangles that share a node and whose normals differ by less than the
-///  merge angle, only the deeper
-///     one is kept: the facets stand for one smooth surface. A sharper valley keeps its two
-///     contacts.
-/// Nothing depends on which edges were convex or flat at the start, so the surface may bend freely.
+///  merge
+///     angle, only the deeper one remains: the facets represent one smooth surface. A sharper
+///     valley keeps both contacts.
+/// The decision uses the present shape only, so the surface may bend freely.
 class ContactSelection {
  public:
   explicit ContactSelection(double merge_angle = radians(20.0))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The triangles of a body: all that crosses between solvers.
+/// The triangles of a body: the only data that solvers exchange.
 
 #include <string>
 #include <utility>
@@ -11,13 +11,13 @@
 namespace furrow {
 
 /// A triangulated surface with nodal position, velocity and force; SI units; replicated on every
-/// rank. Whoever finds a force at a point of a triangle adds it to f with the barycentric weights
-/// of that point, which keep force and moment.
+/// rank. A force at a point of a triangle is added to f with the barycentric weights of the point,
+/// which conserves force and moment (theory: grains, eq. 4).
 struct Surface {
   std::vector<Vector3i> triangles;  ///< node indices, outward by the right-hand rule
   Matrix3X x;                       ///< [m]   3 x nodes
   Matrix3X v;                       ///< [m/s] 3 x nodes
-  /// [N]   3 x nodes, what others do to this body since the last clear_forces()
+  /// [N]   3 x nodes, forces of others on this body since the last clear_forces()
   Matrix3X f;
 
   std::size_t node_count() const { return static_cast<std::size_t>(x.cols()); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Which triangles of a surface are near a point: bins over space, made again when the surface has
-/// moved far enough.
+/// Triangles of a surface near a point, by bins over space; rebuilt when the surface has moved far
+/// enough.
 
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace furrow {
 
 class TriangleSearch {
  public:
-  /// Files every triangle under all bins within `reach` [m] of it. Bins cover the part of the
+  /// Assigns every triangle to all bins within `reach` [m] of it. Bins cover the part of the
   /// surface inside [lower, upper].
   TriangleSearch(const Surface& surface, double reach, const Vector3& lower, const Vector3& upper);
 

@@ -19,9 +19,8 @@ double axis_distance(double a, double b, double period) {
 
 std::vector<int> weld_nodes(const Matrix3X& x, const Vector3& period, double tolerance) {
   const auto count = static_cast<std::size_t>(x.cols());
-  // Sort along one axis that is not periodic if there is one, so that only a few neighbours need a
-  // look; in a fully periodic box every pair is compared, which surfaces of thousands of nodes can
-  // afford once.
+  // Sorts along an axis that is not periodic, so that only a few neighbours are compared. In a
+  // fully periodic box every pair is compared, which is affordable once for thousands of nodes.
   int axis = 0;
   while (axis < 2 && period[axis] > 0.0) ++axis;
   const bool sorted = !(period[axis] > 0.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Which nodes of a surface are the same point of the body although they have different numbers.
+/// Nodes of a surface with different numbers that are the same point of the body.
 
 #include <array>
 #include <vector>

@@ -32,7 +32,7 @@ WheelCircumference plain_circumference(const WheelGeometry& wheel);
 /// @param size [m] longest segment
 WheelCircumference grouser_circumference(const WheelGeometry& wheel, double size);
 
-/// In how many equal parts a length is cut that none is longer than size [m].
+/// Smallest number of equal parts of a length that are no longer than size [m].
 int parts(double length, double size);
 
 }  // namespace furrow

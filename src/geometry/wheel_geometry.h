@@ -12,7 +12,7 @@ namespace furrow {
 struct Grousers {
   int number = 0;          ///< equally spaced around
   double height = 0.0;     ///< [m] above the tread
-  double thickness = 0.0;  ///< [m] square to the bar, the same from root to tip
+  double thickness = 0.0;  ///< [m] normal to the bar, the same from root to tip
   /// [rad] skew against the axle in the tread plane; > 0: the end at +y runs ahead
   double angle = 0.0;
 };

@@ -11,11 +11,9 @@ namespace furrow {
 
 /// Triangulates a wheel: closed, outward, every edge shared by two triangles, no sliver.
 ///
-/// Nodes lie slightly outside of the true circle, by the one factor that makes the area of the
-/// polygon equal to that of the circle: nodes (2 pi / segments)^2/12 of the radius outside, facet
-/// middles half as much inside. The wheel so displaces the volume of the true one, and its mean
-/// radius is right; nodes on the circle would make every wheel smaller. In the meridian plane the
-/// nodes lie on the shoulder's arc.
+/// The polygon of nodes has the area of the true circle, so the wheel displaces the true volume.
+/// Nodes lie outside of the circle by (2 pi / segments)^2/12 of the radius, facet middles inside by
+/// half of that. In the meridian plane the nodes lie on the arc of the shoulder.
 ///
 /// Grousers stand on the tread grid, whose lines are laid along the edges of the bars (sheared by
 /// the skew angle); the tread below a bar is left out. No element is longer than four times the

@@ -20,23 +20,23 @@
 ///   sintering  A grows to w pi (d/4) (u_p - u_b) where clusters are pressed into one another; u_b
 ///              is u_p when the last bond broke
 ///
-/// Where the trial is beyond the crush surface, Fn and Ft shrink in one ratio: force follows
-/// displacement, which keeps lateral stress low (uniform strain, kt/kn = s: K0 = (1 - s)/(3 + 2
-/// s)). Beyond the shear surface Ft shrinks by a share r and Fn by r C/(C + mu Fn): a bond yields
-/// along the force, a dry contact slides at constant normal force. Both are implicit: the force
-/// lies on the surface of the state after the step. Plastic displacement has the direction of the
-/// force taken away, so plastic work is never negative.
+/// If the trial is beyond the crush surface, Fn and Ft shrink in one ratio: the force follows the
+/// displacement, which keeps lateral stress low (theory: grains, eq. 9). Beyond the shear surface
+/// Ft shrinks by a share r and Fn by r C/(C + mu Fn): a bond yields along the force, a dry contact
+/// slides at constant normal force. Both returns are implicit: the force lies on the surface of the
+/// state after the step. Plastic displacement has the direction of the removed force, so plastic
+/// work is never negative.
 ///
 /// Dampers act on the change of the elastic force, Fd = c/k dF/dt, c = 2 damping sqrt(m k) along
-/// and half of that across the normal: in elastic motion that is -c v, and steady crushing and
-/// sliding are independent of the rate.
+/// and half of that across the normal. In elastic motion this is -c v, and steady crushing and
+/// sliding do not depend on the rate.
 ///
 /// Forces, moments and history are exactly opposite when i and j swap. Shear force and bending
-/// moment are carried with the contact: turned with the normal, and about it by the mean spin.
+/// moment turn with the normal, and about it by the mean spin.
 ///
 /// Bonds with bending and torsion [Potyondy2004]; pressure sintering [Luding2008]; new bonds that
-/// carry the hardening of compressed snow [Kry1975]. The law as a whole, and its values, are
-/// Furrow's own.
+/// carry the hardening of compressed snow [Kry1975]. The law as a whole and its values were
+/// developed for Furrow.
 
 #include <algorithm>
 #include <utility>

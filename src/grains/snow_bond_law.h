@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Strengths and stiffness of a contact of snow_bond.h, and what may be done with it.
+/// Strengths, stiffness and operations of a contact of snow_bond.h.
 
 #include <algorithm>
 
@@ -16,7 +16,7 @@ struct SnowStrength {
 
 struct SnowBondTrial;
 
-/// The law. An energy that is asked for is set.
+/// The law. Functions set the energy if its pointer is not null.
 class SnowBond {
  public:
   static constexpr double bond_radius = 0.2;    ///< of a sintered bond, of d
@@ -41,8 +41,8 @@ class SnowBond {
   /// One step.
   static SnowBondResponse advance(const SnowBondParameters& law, const SnowContact& contact,
                                   SnowBondState& state, SnowBondEnergy* energy = nullptr);
-  /// Its two parts, for programs whose time it takes, from the trial of the state: an elastic step,
-  /// which most are ... @return false: it is not elastic, and nothing is changed
+  /// The two parts of advance(), from the trial of the state. Most steps are elastic ... @return
+  /// false: the step is not elastic, and nothing is changed
   static bool advance_elastic(const SnowBondParameters& law, const SnowContact& contact,
                               const SnowBondTrial& trial, SnowBondState& state,
                               SnowBondResponse& response, SnowBondEnergy* energy);
@@ -53,7 +53,7 @@ class SnowBond {
   /// Forces of a state as it is, without dampers.
   static SnowBondResponse hold(const SnowBondParameters& law, const SnowContact& contact,
                                const SnowBondState& state, SnowBondEnergy* energy = nullptr);
-  /// A whole bond without stress; where there can be none, a touch without stress.
+  /// Makes a whole bond without stress or, if the contact cannot sinter, a touch without stress.
   static SnowBondResponse sinter(const SnowBondParameters& law, const SnowContact& contact,
                                  SnowBondState& state, SnowBondEnergy* energy = nullptr);
   /// In the springs [J]. @param normal  [N]
@@ -64,7 +64,7 @@ class SnowBond {
                                const SnowBondState& state) {
     return law.w * 0.25 * pi * d * (state.plastic - state.at_break);
   }
-  /// The clusters have parted: the state begins anew. @return its energy, which is lost [J]
+  /// Resets the state after the clusters have parted. @return its energy, which is lost [J]
   static double part(const SnowBondParameters& law, double d, SnowBondState& state);
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a contact of snow_bond.h is given, remembers and answers.
+/// Input, state and response of a contact of snow_bond.h.
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@
 
 namespace furrow {
 
-/// How two clusters lie and move in a step of leapfrog: positions of its end, velocities of its
-/// middle. A plane wall is half of a contact of two like clusters: twice its overlap and relative
-/// velocities, d = 2 R, half of the mass; energies are then twice those of the wall.
+/// Positions of two clusters at the end of a leapfrog step and velocities at its middle. A plane
+/// wall is half of a contact of two equal clusters: 2 times its overlap and relative velocities, d
+/// = 2 R, half of the mass. Energies are then 2 times those of the wall.
 struct SnowContact {
   double d;                     ///< [m] sum of the radii
   double mass;                  ///< [kg] effective
@@ -27,16 +27,16 @@ struct SnowContact {
   bool sinters = true;          ///< false: what it touches is not snow
 };
 
-/// How far strengths have grown with the crushing: exp(p X) - 1, exp(q X) - 1, exp(pc X) - 1.
+/// Growth of the strengths with the crushing: exp(p X) - 1, exp(q X) - 1, exp(pc X) - 1.
 struct SnowHardening {
   double soft = 0.0, dense = 0.0, bond = 0.0;
 
   static SnowHardening at(const SnowBondParameters& law, double X);
-  /// Is it that of X, but for the rounding of the steps that it grew in?
+  /// True if it is the hardening at X, up to rounding in the steps of its growth.
   bool is_at(const SnowBondParameters& law, double X) const;
 };
 
-/// A hardening, and what it becomes when X grows: for small growth without an exponential.
+/// Growth of a hardening with X; small growth needs no exponential.
 class SnowGrowth {
   using Four [[gnu::vector_size(32)]] = double;  // soft, dense, bond, bond again
 
@@ -54,7 +54,7 @@ class SnowGrowth {
   double largest_;
 };
 
-/// What a contact remembers; all zero before the first touch.
+/// State of a contact; all zero before the first touch.
 struct SnowBondState {
   static constexpr int size = 15;  ///< values of load() and store()
 
@@ -74,17 +74,17 @@ struct SnowBondState {
   void store_elastic(double* values) const;
 };
 
-/// What a step of a contact does with energy [J].
+/// Energies of a step of a contact [J].
 struct SnowBondEnergy {
   double stored = 0.0;    ///< in the springs after the step
   double crushed = 0.0;   ///< plastic work: crushing, slip, yielding of bonds
-  double damped = 0.0;    ///< taken by dampers
-  double released = 0.0;  ///< lost with springs that were let go: bonds that broke or were sintered
+  double damped = 0.0;    ///< dissipated by dampers
+  double released = 0.0;  ///< lost with the springs of bonds that broke or were sintered
 };
 
 struct SnowBondResponse {
   Vector3 force = Vector3::Zero();  ///< [N] on i; j has the opposite
-  /// [N m] on i beside that of the force; j has the opposite
+  /// [N m] on i in addition to that of the force; j has the opposite
   Vector3 moment = Vector3::Zero();
   bool broken = false;  ///< in this step
   bool made = false;    ///< in this step

@@ -97,8 +97,8 @@ inline void SnowBondStep::break_bond(SnowBondResponse& response) {
   state_.across = {};
 }
 
-/// Newton's method for the root of a growing concave function, from above: the first step lands
-/// below it, and no other passes it. @param there  the excess at the start
+/// Newton's method for the root of an increasing concave function, from above. The first iterate
+/// lies below the root, and no later one exceeds it. @param there the excess at the start
 template <class Function>
 inline double SnowBondStep::solve(double start, Excess there, Function&& excess) {
   constexpr int most_iterations = 60;
@@ -189,7 +189,8 @@ inline void SnowBondStep::bend() {
   state_.torsion = torsion_left_ * trial_.torsion;
 }
 
-/// Force after the return times plastic displacement, and what a bond that grows holds less.
+/// Force after the return times plastic displacement, plus the elastic energy that a growing bond
+/// loses.
 inline double SnowBondStep::plastic_work() const {
   const auto lost = [](double left) { return left > 0.0 ? 1.0 / left - 1.0 : 0.0; };
   const double bending = state_.across.second().squaredNorm() / trial_.bending_stiffness(),

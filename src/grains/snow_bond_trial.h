@@ -40,8 +40,8 @@ struct SnowBondTrial {
   }
 };
 
-/// What the state holds is turned about the normal, then into the plane across it: to second order
-/// of the angle the length stays; it never grows by more than the fourth.
+/// Turns the stored vectors about the normal, then into the plane normal to it. Their length is
+/// constant to second order in the angle and never grows by more than the fourth.
 inline SnowBondTrial::SnowBondTrial(const SnowBondParameters& law, const SnowContact& contact,
                                     const SnowBondState& state)
     : k(SnowBond::stiffness(law, contact.d)),

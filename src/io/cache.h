@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Where things are kept that can be made again, under names that follow from what they are made
-/// of.
+/// Folder for results that can be computed again, under names that follow from their input of.
 
 #include <filesystem>
 #include <string>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What the end of a run adds to its results file: /audit, /cost and /warnings of history_file.h.
+/// Groups that the end of a run adds to its results file: /audit, /cost and /warnings of
+/// history_file.h.
 
 #include "io/run_report.h"
 

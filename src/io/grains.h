@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Grains as the files keep them: what a picture, a table or a displacement needs of a bed of
-/// spheres.
+/// Grains as files store them: the data for pictures, tables and displacements of a bed of spheres.
 
 #include <cstdint>
 #include <limits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The kinds of YAML files that Furrow reads, told apart by their sections.
+/// The kinds of YAML files that Furrow reads, distinguished by their sections.
 
 #include "io/yaml_tree.h"
 

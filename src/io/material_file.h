@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Material files (inputs/materials/*.yaml): a law and its values, read through the law's own
-/// declaration of keys.
+/// Material files (inputs/materials/*.yaml): a law and its values, read by the keys that the law
+/// declares.
 ///
 ///   title: McCormick Ranch sand           # optional
 ///   law:
@@ -10,8 +10,8 @@
 ///   elasticity: { type: linear, ... }     # the law's other sections, each with its `type` where
 ///   hardening: { type: table, ... }       # it has several
 ///
-/// A variant names another file and gives what differs: `base: fresh_snow.yaml` (beside this file).
-/// A section that is of another type than the base's replaces it whole.
+/// A variant names another file and gives what differs: `base: fresh_snow.yaml` (in the same
+/// folder). A section that is of another type than the base's replaces it whole.
 
 #include <memory>
 #include <string>
@@ -23,7 +23,7 @@
 
 namespace furrow {
 
-/// What a material file says. All values have passed the law's schemas and the law's own checks.
+/// Content of a material file. All values have passed the schemas and checks of the law.
 struct MaterialFile {
   std::string path;
   std::string title;  ///< the file's, or its name without folder and ending

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What furrow-point leaves in a results folder.
+/// Results folder of furrow-point.
 ///
 /// A run:  point.csv     every channel of every step
 ///         point.h5      /point/<channel> with attributes unit, meaning; /point has title, law,
@@ -25,7 +25,7 @@ void write_point_run(const std::string& folder, const PointRun& run, const Mater
 /// @throws Error naming the file
 void write_point_fit(const std::string& folder, const PointFit& fit, const FitResult& result);
 
-/// What a run reached: density, p, q, branches, limits met, cost and the error of the steps.
+/// Report of a run: density, p, q, branches, limits met, cost and the error of the steps.
 /// @param error  null when the path with halved steps could not be followed
 std::string run_report(const PointRun& run, const Material& material, const PointHistory& history,
                        const StepError* error);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Files that are complete at every instant: written beside, then renamed.
+/// Files that are complete at every instant: written under another name, then renamed.
 
 #include <functional>
 #include <string>
 
 namespace furrow {
 
-/// Calls write(part) for a file beside, "a.part.vtp" for "a.vtp", and then gives that file the name
-/// path in one step, so that whoever reads path, at any moment and after any kill, finds the old
-/// content or the new one. (Not against a power failure: nothing is forced to the disk.)
+/// Calls write(part) for a file in the same folder, "a.part.vtp" for "a.vtp", and then renames it
+/// to path in one step. A reader of path finds the old or the new content at any moment, also after
+/// a kill. (Not against a power failure: nothing is forced to the disk.)
 /// @throws Error when the rename fails; what write throws passes through, with the half-written
 /// file removed
 void replace_file(const std::string& path,

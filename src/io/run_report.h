@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a run says about itself: identity, audit and cost. The history file keeps it, the summary
-/// prints it.
+/// Report of a run: identity, audit and cost. The history file keeps it, the summary prints it.
 
 #include <string>
 #include <vector>
@@ -65,14 +64,14 @@ struct Cost {
   }
 };
 
-/// What the end of a run adds to its start.
+/// Part of the report that the end of a run adds.
 struct RunClosing {
   Audit audit;
   Cost cost;
   std::vector<std::string> warnings;  ///< whole sentences; the summary repeats them
 };
 
-/// Peak resident memory of this process [byte]; 0 where the system does not tell. Sum it over the
+/// Peak resident memory of this process [byte]; 0 if the system does not report it. Sum it over the
 /// ranks for Cost::memory.
 double peak_memory();
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What furrow-sidewall leaves in a results folder.
+/// Results folder of furrow-sidewall.
 ///
 ///   deflection.csv, lateral.csv, rotation.csv
 ///                 forces and stiffness, solved and looked up, along each motion of the tread edge

@@ -12,7 +12,7 @@
 
 namespace furrow {
 
-/// Everything a summary says. The closing is missing when the run did not come to its end.
+/// Content of a summary. The closing is missing if the run did not reach its end.
 struct Summary {
   RunInfo info;
   Resistance resistance;  ///< of the first pass where there are several
@@ -25,7 +25,7 @@ struct Summary {
 };
 
 /// Reads history.h5 of a results folder and evaluates it. A history that is too short is no error:
-/// the summary says so.
+/// the summary reports it.
 /// @throws Error when the file is missing or cannot be read
 Summary summarise(const std::string& folder, const ResistanceOptions& options = {});
 

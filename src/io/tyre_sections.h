@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What the files of all kinds of tyres share: a title, and sections of keys.
+/// Common parts of the files of all tyres: a title, and sections of keys.
 
 #include <map>
 #include <string>

@@ -31,9 +31,8 @@ void write_vtp(const std::string& path, const Grains& grains, const Grains* refe
 /// the start. @throws Error
 void write_vtp(const std::string& path, const TerrainSnapshot& terrain);
 
-/// A series of frames: <folder>/<name>_000000.vtp, ... and <folder>/<name>.pvd, which lists only
-/// complete frames and is itself replaced in one step, so that a run that is killed leaves a valid
-/// series.
+/// A series of frames: <folder>/<name>_000000.vtp, ... and <folder>/<name>.pvd. The latter lists
+/// complete frames only and is replaced in one step, so that a killed run leaves a valid series.
 class VtkSeries {
  public:
   /// Starts a series; the folder is made if it is missing, an older series of that name is

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The loop over a block: loads a few points, lets a law's kernel update them, rotates the stress,
-/// stores, counts.
+/// The loop over a block: it loads a few points, calls the kernel of the law, rotates the stress,
+/// stores and counts.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,15 +12,15 @@
 namespace furrow {
 inline namespace FURROW_ISA {
 
-/// What a kernel sees of lane_count points: the state at the start of the step, to be replaced by
-/// that at its end.
+/// State of lane_count points in a kernel: at the start of the step, to be replaced by that at its
+/// end.
 template <int internal_variables>
 struct Points {
   Symmetric stress;    ///< in the frame of the start of the step [Pa]
   Lanes stored = 0.0;  ///< energies of this step per current volume [J/m^3]
   Lanes frozen = 0.0;
   Lanes dissipated = 0.0;
-  Lanes internal[internal_variables > 0 ? internal_variables : 1];  ///< the law's own variables
+  Lanes internal[internal_variables > 0 ? internal_variables : 1];  ///< internal variables
   double time_step = 0.0;                                           ///< [s]
   Lanes branch = 0.0;                                               ///< a Branch
   Lanes iterations = 0.0;
@@ -191,11 +191,11 @@ BlockResult update_points(const Kernel& kernel, double density, const PointBlock
   return result;
 }
 
-/// The same for kernels whose return mapping is expensive. Trial states first: a group of points
-/// that are all elastic, or all on one surface, is finished at once. Of a few groups at a time that
-/// are mixed, the points that yield alike are gathered and corrected, so that no lane waits for a
-/// neighbour on another surface; then these groups are finished. Between the passes a point is a
-/// few numbers. A kernel has
+/// The same for kernels with an expensive return mapping. The first pass computes trial states and
+/// finishes groups whose points are all elastic or all on one surface. The second pass gathers the
+/// points of a few mixed groups by surface and corrects them, so that no lane waits for a neighbour
+/// on another surface. The third pass finishes these groups. Between the passes a point is a few
+/// numbers. A kernel has
 ///   Prediction    the numbers of the trial, and the surface that each point still violates, if any
 ///   Numbers       the numbers of the end of the step
 /// and, with `trial` and `end` for the numbers of these,

@@ -9,13 +9,13 @@
 /// Round section, g = 1: t = t_tr/(1 + m), and the direction stays.
 ///
 /// Other sections are linearised at the trial, which is exact to the order of the step and needs no
-/// angles and no iteration over them:
+/// iteration over angles:
 ///   t = t_tr/(1 + m (g^2 + g'^2))       a round section with another shear modulus: `stiffness`
 ///   tan(theta - theta_tr) = - m g g'/(1 + m (g^2 + g'^2 + g g''))     one step of Newton's method
 /// t is that of the yield surface exactly; q follows from it at the new theta. The denominator is
-/// positive for a convex section. Steps so long that theta would pass triaxial compression are
-/// bounded: psi = pi - 3 theta_tr is left to it, and sin(psi/3) >= (2/3) sin(psi/2). As q never
-/// exceeds q_tr cos(theta - theta_tr), no step gives energy back.
+/// positive for a convex section. Long steps are bounded so that theta does not pass triaxial
+/// compression: psi = pi - 3 theta_tr remains, and sin(psi/3) >= (2/3) sin(psi/2). Because q never
+/// exceeds q_tr cos(theta - theta_tr), no step releases energy.
 
 #include "material/section/section_kernel.h"
 #include "simd/tensors.h"

@@ -8,13 +8,12 @@
 ///   ln U   = (1/2) ln C  = Z (I + Y/3 + Y^2/5 + ...)                                [atanh]
 ///   U^-1   = C^(-1/2)    = (I - Z)(I - Y)^(-1/2) = (I - Z)(I + Y/2 + 3 Y^2/8 + ...)
 ///   R      = Delta F U^-1
-/// For |X| <= 0.1 (Frobenius) |Z| <= 0.053 and seven terms leave a relative error below 1e-16; for
-/// |X| <= 0.004, which the steps of an explicit computation hardly ever exceed, three do. For
-/// |X| <= 1e-4, ground that hardly moves, the series in X itself leave as little and need no
-/// division:
+/// For |X| <= 0.1 (Frobenius norm) seven terms have a relative error below 1e-16, for |X| <= 0.004
+/// three terms. Steps of an explicit computation rarely exceed the latter. For |X| <= 1e-4 the
+/// series in X itself have the same error and need no division:
 ///   ln U = X/2 - X^2/4 + X^3/6 - X^4/8,   U^-1 = I - X/2 + 3 X^2/8 - 5 X^3/16
-/// Larger stretches (a strain of more than 5 % in one step) take the eigenvalues of C instead,
-/// point by point.
+/// Larger stretches (a strain of more than 5 % in one step) use the eigenvalues of C, point by
+/// point.
 
 #include "material/large_stretch.h"
 #include "simd/tensors.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Logarithm and inverse of a stretch of any size, by eigenvalues: what kinematics.h does with the
-/// rare large steps. Plain data only: kernels of every instruction set include this header.
+/// Logarithm and inverse of a stretch of any size, by eigenvalues, for the rare large steps of
+/// kinematics.h. Plain data only: kernels of every instruction set include this header.
 
 namespace furrow {
 

@@ -28,7 +28,7 @@ inline constexpr std::array<const char*, 6> component_names{"xx", "yy", "zz", "x
 
 std::string to_string(Branch branch);
 
-/// What a law keeps for a point: a number, or a symmetric tensor that rotates with the material.
+/// State variable of a point: a number, or a symmetric tensor that rotates with the material.
 struct StateVariable {
   enum class Kind { scalar, symmetric_tensor };
 
@@ -74,12 +74,13 @@ class Material {
 
   const std::string& name() const { return name_; }
   double density() const { return density_; }  ///< in the reference configuration, rho0 [kg/m^3]
-  /// Every number of a point's state, in order: those of namespace field, then the law's own.
+  /// Every number of a point's state, in order: those of namespace field, then the internal
+  /// variables.
   const std::vector<StateField>& state_fields() const { return fields_; }
   /// Index of a field by its name; none when the law does not keep it.
   std::optional<std::size_t> find_field(const std::string& name) const;
   /// The first of the six fields (xx, yy, zz, xy, yz, xz) of each symmetric tensor of the state: of
-  /// the stress, then of the law's own.
+  /// the stress, then of internal variables.
   const std::vector<std::size_t>& tensor_fields() const { return tensors_; }
   /// The stress after a step depends on its duration: such a law needs PointBlock::time_step.
   virtual bool rate_dependent() const { return false; }
@@ -108,8 +109,8 @@ class Material {
     return density_ / state[field::volume_ratio];
   }
   /// Speed of the fastest elastic wave [m/s]. Associated flow is slower. Flow that is not
-  /// associated can be stiffer than elasticity in one direction (found: modulus 0.5 % for the cap
-  /// law, factor 2 for the foam of [Shoop2001] Table 1): leave the explicit step a margin.
+  /// associated can be stiffer than elasticity in one direction: by 0.5 % for the cap law and by a
+  /// factor of 2 for the foam of [Shoop2001]. The explicit step needs a margin.
   double wave_speed(const VectorX& state) const;
   /// The largest of a block's wave speeds [m/s].
   virtual double largest_wave_speed(const PointBlock& block) const;

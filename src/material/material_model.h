@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a law declares of itself: name, meaning, keys by section, creation, examples.
+/// Declaration of a law: name, meaning, keys by section, creation, examples.
 
 #include <functional>
 #include <map>
@@ -37,21 +37,21 @@ struct SectionOptions {
 };
 using MaterialOptions = std::map<std::string, SectionOptions>;  ///< by section name
 
-/// What a file gives: entries by section; `type` is an entry among the others.
+/// Entries of a file by section; `type` is one of the entries.
 using MaterialSections = std::map<std::string, std::vector<Entry>>;
 
-/// A law that can be asked for by name. Its first section is "law" with the density and the keys of
-/// the law alone; further sections are shared parts (elasticity_section(), hardening_section()).
+/// A law that files select by name. Its first section is "law" with the density and the keys of the
+/// law alone; further sections are shared parts (elasticity_section(), hardening_section()).
 struct MaterialModel {
   std::string name;     ///< "drucker_prager_cap"
   std::string meaning;  ///< one line
   std::vector<SectionSchema> sections;
   std::function<std::unique_ptr<Material>(const MaterialOptions&)> create;
-  /// What hardly fits together though a law can be made of it, a sentence each; may be empty.
+  /// Warnings about values that are allowed but unusual together, a sentence each; may be empty.
   std::function<std::vector<std::string>(const MaterialOptions&)> doubts;
-  /// Parameters that the conformance suite is run with (src/testing/material_conformance.h), each
-  /// a flat list of keys: "density 1600 elasticity linear E 5e6 nu 0.2". One for each branch of the
-  /// law's code that the parameters choose.
+  /// Parameters that the conformance suite is run with (src/testing/material_conformance.h), each a
+  /// flat list of keys: "density 1600 elasticity linear E 5e6 nu 0.2". One for each branch of the
+  /// code that the parameters select.
   std::vector<std::string> examples;
 };
 

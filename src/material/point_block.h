@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A block of material points as plain data: what a law's update works on (material.h), shared with
-/// the kernels of every instruction set (simd/lanes.h says why it must be plain).
+/// A block of material points as plain data for the update of a law (material.h), shared with the
+/// kernels of every instruction set (simd/lanes.h explains why it must be plain).
 
 #include <array>
 #include <cstddef>
@@ -12,12 +12,12 @@ namespace furrow {
 /// [kg/m^3] limit of a snow's density, reported when met, never enforced
 constexpr double ice_density = 917.0;
 
-/// What a point did in its last step.
+/// Branch of the law that a point followed in its last step.
 enum class Branch : std::uint8_t { elastic, shear, transition, cap, tension };
 constexpr std::size_t branch_count = 5;
 
-/// Indices of the fields that every law keeps first, in this order; the law's own variables follow
-/// from `internal` on.
+/// Indices of the fields that every law keeps first, in this order; internal variables follow from
+/// `internal` on.
 namespace field {
 enum : std::size_t {
   stress = 0,         ///< six Cauchy stresses xx, yy, zz, xy, yz, xz [Pa]
@@ -41,7 +41,7 @@ struct PointBlock {
   double time_step = 0.0;
 };
 
-/// What happened in an update of many points.
+/// Counts of an update of many points.
 struct UpdateReport {
   std::array<std::size_t, branch_count> points{};  ///< by Branch
   std::size_t iterations = 0;                      ///< of the return mapping, summed over points

@@ -11,7 +11,7 @@ inline namespace FURROW_ISA {
 
 using PointwisePoints = Points<max_pointwise_variables>;
 
-/// The law's step of one point, taken out of its lane and put back.
+/// Step of the law for one point, copied out of its lane and back.
 inline void step_lane(const PointwiseParameters& parameters, const Group& group, int lane,
                       const Symmetric& strain, PointwisePoints& points) {
   const Lanes* const strains[6] = {&strain.xx, &strain.yy, &strain.zz,

@@ -2,10 +2,10 @@
 #pragma once
 /// Base of laws that are written for one point, in plain doubles: the first version of a law.
 ///
-/// Finite strain, rotation, energies, checks and the report are those of every law, so that the
-/// results are those that kernels of the same equations give, to rounding. What it costs is one
-/// virtual call a point and the loss of SIMD: tests/benchmarks/material_update has the price. A law
-/// that is to carry a scene moves to kernels (README.md); until then nothing else changes.
+/// Finite strain, rotation, energies, checks and the report are those of every law, so results
+/// agree with kernels of the same equations to rounding. The cost is one virtual call per point and
+/// the loss of SIMD (tests/benchmarks/material_update). Laws of large scenes move to kernels
+/// (README.md).
 
 #include <cstddef>
 #include <string>
@@ -23,8 +23,8 @@ struct PointStep {
 
   // ---- at the start of the step, to be replaced by what holds at its end
   Matrix3 stress;  ///< Cauchy stress, tension positive [Pa]
-  /// The law's own variables in the order of their declaration; a tensor is six numbers xx, yy, zz,
-  /// xy, yz, xz, which are rotated like the stress after the step.
+  /// Internal variables in the order of their declaration. A tensor is six numbers xx, yy, zz, xy,
+  /// yz, xz, which are rotated like the stress after the step.
   Eigen::Map<VectorX> internal;
 
   // ---- of the step, to be set; energies per current volume [J/m^3]
@@ -32,7 +32,7 @@ struct PointStep {
   double frozen = 0.0;      ///< plastic work that compaction stores
   double dissipated = 0.0;  ///< turned into heat, >= 0
   Branch branch = Branch::elastic;
-  std::size_t iterations = 0;  ///< of the law's own solver, for the report
+  std::size_t iterations = 0;  ///< of the solver of the law, for the report
   bool below_data = false;     ///< the hardening was extrapolated, for the report
   bool beyond_data = false;
 };

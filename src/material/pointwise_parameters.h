@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What the kernel of pointwise laws works on (pointwise_material.h), as plain data.
+/// Data of the kernel of pointwise laws (pointwise_material.h), as plain data.
 
 #include <cstddef>
 
@@ -23,7 +23,7 @@ struct PointwiseNumbers {
   double dissipated;
   double branch;  ///< a Branch
   double iterations;
-  bool below_data;  ///< outside the data of the law's hardening
+  bool below_data;  ///< outside the data of the hardening
   bool beyond_data;
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The laws that a program knows, and the creation of a material from its keys.
+/// The laws of a program, and the creation of a material from its keys.
 ///
-/// A law of this library is one row of models/CMakeLists.txt. A program that has laws of its own
-/// passes its own list, which usually begins with material_models().
+/// A law of this library is one row of models/CMakeLists.txt. A program with further laws passes a
+/// list, which usually begins with material_models().
 
 #include <memory>
 #include <string>

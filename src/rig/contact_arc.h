@@ -17,7 +17,7 @@ namespace furrow {
 ///   shear stress   tau   =   int F . e_t dt/(T A), > 0 drives the wheel forward,
 ///   slip velocity  v_s   = - int (F . e_r)(v . e_t) dt/int F . e_r dt, > 0 where the rim moves
 ///                            backwards over the ground,
-/// A its share of the cylinder of the wheel's nominal width and radius.
+/// where A is its share of the cylinder of the wheel's nominal width and radius.
 class ContactArc : public ContactRecord {
  public:
   struct Profile {

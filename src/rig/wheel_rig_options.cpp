@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-// What a rig is told: its keys, and which of them contradict each other.
+// SPDX-License-Identifier: GPL-2.0-or-later The keys of a rig, and which of them contradict each
+// other.
 
 #include <algorithm>
 #include <cmath>

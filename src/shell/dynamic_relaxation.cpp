@@ -11,7 +11,7 @@ namespace furrow {
 
 namespace {
 
-// of the unbalanced force on the support, beside those on single nodes
+// of the unbalanced force on the support, relative to those on single nodes
 constexpr double support_share = 0.1;
 
 }  // namespace

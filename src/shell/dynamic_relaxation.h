@@ -5,11 +5,10 @@
 /// Dynamic relaxation follows a fictitious motion that ends in equilibrium. Here it has two phases:
 ///   loading     The load on the support, or its travel, is applied gradually (core/smooth_step.h)
 ///               while the nodes are damped viscously relative to the support, near the critical
-///               rate of the structure's edges, so that nothing swings far beyond its rest.
-///   relaxation  Kinetic damping (P. A. Cundall 1976; M. R. Barnes, Int. J. Space Struct. 14, 89
-///               (1999)), with a little viscous damping for what snaps: whenever the kinetic energy
-///               has passed a peak, near which the potential energy is lowest, all motion is
-///               stopped.
+///               rate of the structure's edges, so that nothing overshoots far.
+///   relaxation  Kinetic damping [Barnes1999]: whenever the kinetic energy has passed a peak, near
+///               which the potential energy is lowest, all motion is stopped. A little viscous
+///               damping slows parts that snap through.
 /// It ends when the largest unbalanced force is below the tolerance.
 
 #include <cstddef>
@@ -36,18 +35,17 @@ class KineticDamping {
   std::size_t stops_ = 0;
 };
 
-/// What is brought to rest: nodes of a shell and, where it has one, a rigid support such as a rim,
-/// which moves up and down (z) only.
+/// The structure to bring to rest: nodes of a shell and optionally a rigid support such as a rim,
+/// which moves along z only.
 class RelaxingStructure {
  public:
   virtual ~RelaxingStructure() = default;
 
   virtual ShellNodes& nodes() = 0;
   /// Sets force and moment of the nodes for the present positions. @throws StateError
-  /// @returns what is unbalanced of the vertical force on the support [N]; of no influence unless
-  /// the support is free
+  /// @returns unbalanced vertical force on the support [N]; used only if the support is free
   virtual double compute_forces() = 0;
-  /// The nodes have moved; the support and all that hangs on it are to follow.
+  /// Called after the nodes have moved: the support and all parts attached to it follow.
   /// @param support_height z of the support [m]
   virtual void follow(double support_height) = 0;
   /// A further condition of rest, for a sum over all nodes.
@@ -73,13 +71,13 @@ struct RelaxationSettings {
   long max_steps = 400000;          ///< of both phases
   double loading_time = 0.0;        ///< [s]
   double loading_damping = 0.0;     ///< [1/s] of the nodes relative to the support
-  double relaxation_damping = 0.0;  ///< [1/s] of the nodes, beside the kinetic damping
-  /// [m/s] largest component of random velocities at the start, the same in every run, so that no
-  /// unstable symmetric shape is taken for rest; 0: none
+  double relaxation_damping = 0.0;  ///< [1/s] of the nodes, in addition to the kinetic damping
+  /// [m/s] largest component of random velocities at the start, the same in every run; they prevent
+  /// rest in an unstable symmetric shape. 0: none
   double disturbance = 0.0;
 };
 
-/// What a relaxation came to.
+/// Result of a relaxation.
 struct Relaxation {
   long steps = 0;
   std::size_t stops = 0;  ///< by kinetic damping

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Natural frequencies and modes of a shell structure at rest, small and undamped, about whatever
-/// state its loads have brought it to: K u = omega^2 M u.
+/// Natural frequencies and modes of a shell structure: small undamped vibrations about its loaded
+/// equilibrium, K u = omega^2 M u.
 
 #include <vector>
 

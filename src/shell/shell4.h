@@ -14,29 +14,29 @@ namespace furrow {
 
 struct Shell4Kind;
 
-/// What turns an element's axes in its plane.
+/// Rule that turns an element's axes in its plane.
 enum class Shell4Turning {
   polar,  ///< the rotation of the polar decomposition: no direction is preferred
-  /// the first median: stretch along it is that of its own fibres. Shear then is their sliding past
-  /// each other, and their tension does no work in it (see Shell4).
+  /// the first median: the stretch along it is that of its fibres. In shear the fibres slide past
+  /// each other, and their tension does no work (see Shell4).
   first_median
 };
 
-/// Elements whose stress-free shapes agree share one stiffness matrix (a tyre has one for each
-/// row), which keeps the matrices in the fastest memory; elements are computed several at once
-/// (shell4_kernel.h has the equations).
+/// Elements of equal stress-free shape share one stiffness matrix (a tyre has one for each row),
+/// which keeps the matrices in the fastest memory. Several elements are computed at once
+/// (shell4_kernel.h).
 ///
 /// Rotary inertia: with the real J = m h^2/12 the rotation of the nodes would be the fastest motion
 /// of a thin shell and limit the step. An element's J is raised until no rotation at fixed
 /// positions is faster than the fastest displacement without rotation (theory: tyres, eq. 2).
 /// Bending waves not much longer than an element are slower therefore.
 ///
-/// Tension and shear: strains are those of the stretch U in the turned axes, linear in its law. In
-/// a simple shear gamma of fibres along 1 that slide past each other, polar axes have U_11 - 1 =
-/// -gamma^2/8 and U_22 - 1 = 3 gamma^2/8, so under a tension N_1 the stiffness against shear is
-/// G - N_1/4 + 3 N_2/4, negative when N_1 > 4 G + 3 N_2; axes that follow the fibres have U_11 = 1
-/// and the stiffness G. In a wall of cords whose tension exceeds its shear stiffness, such as an
-/// inflated sidewall, take Shell4Turning::first_median, with the quads' first median along them.
+/// Tension and shear: strains are those of the stretch U in the turned axes. Fibres along 1 that
+/// slide past each other make a simple shear gamma. Polar axes then have U_11 - 1 = -gamma^2/8 and
+/// U_22 - 1 = 3 gamma^2/8, so the stiffness against shear is G - N_1/4 + 3 N_2/4 under the tensions
+/// N_1 and N_2. It is negative when N_1 > 4 G + 3 N_2. Axes that follow the fibres have U_11 = 1
+/// and the stiffness G. For a wall of cords whose tension exceeds its shear stiffness, such as an
+/// inflated sidewall, use Shell4Turning::first_median with the quads' first median along the cords.
 class Shell4 {
  public:
   using Quad = std::array<int, 4>;  ///< nodes counter-clockwise seen from outside
@@ -60,8 +60,8 @@ class Shell4 {
   void add_forces(ShellNodes& nodes, double pressure);
 
   double energy() const { return energy_; }  ///< [J] elastic, at the last add_forces
-  /// [m^3] a third of the integral of x . n dA, at the last add_forces: what a closed shell
-  /// encloses
+  /// [m^3] a third of the integral of x . n dA, at the last add_forces: the volume inside a closed
+  /// shell
   double volume() const { return volume_; }
   const std::vector<Quad>& quads() const { return quads_; }
   /// [kg] a quarter of each element at its nodes

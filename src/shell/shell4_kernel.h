@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The co-rotational shell, several elements at once. Included by kernel units only (simd/lanes.h
-/// says why).
+/// explains why).
 ///
-/// The element-independent co-rotational formulation (C. C. Rankin, F. A. Brogan, J. Press. Vessel
-/// Technol. 108, 165 (1986); B. Nour-Omid, C. C. Rankin, Comput. Methods Appl. Mech. Eng. 93, 353
-/// (1991)) around the linear element of shell4_stiffness.h, in the steps of shell4_forces():
+/// The element-independent co-rotational formulation [Rankin1986, NourOmid1991] (theory: tyres, eq.
+/// 1) around the linear element of shell4_stiffness.h, in the steps of shell4_forces():
 ///
 ///   frame        the element's axes e follow its nodes: e_3 is normal to both medians, and the
 ///                rotation about e_3 is that of the polar decomposition of the medians'
 ///                deformation, so the axes do not depend on where the numbering starts; or it is
 ///                that of the first median (Shell4Turning)
-///   deformation  small in these axes, whatever the shell does:
+///   deformation  small in these axes for any motion of the shell:
 ///                  u_a     = e^T (x_a - c) - X_a
 ///                  theta_a = 2 sin(angle/2) axis  of  T_a = e^T Q_a E
 ///                (c: mean of the nodes, X_a: stress-free nodes, E: stress-free axes, Q_a: rotation
@@ -86,7 +85,8 @@ struct Frame {
   FURROW_INLINE Triple space(const Triple& v) const { return v.x * e1 + v.y * e2 + v.z * e3; }
 };
 
-/// What is small in the element's axes, with what leads back from its gradient.
+/// Deformation in the element's axes, which is small, and the values that transform its gradient
+/// back.
 struct Deformation {
   Lanes u[24];           // u then theta, node by node [m], [rad]
   Triple arm[4];         // e^T (x_a - c) [m]
@@ -148,8 +148,8 @@ FURROW_INLINE void multiply(const double (&matrix)[size][size], const Lanes (&u)
   }
 }
 
-/// g = K u: of an element that is its own mirror image by sums and differences of images, which
-/// takes half the products.
+/// g = K u. A mirror-symmetric element uses sums and differences of mirrored nodes, which halves
+/// the number of products.
 FURROW_INLINE void multiply_stiffness(const Shell4Kind& kind, const Lanes (&u)[24],
                                       Lanes (&g)[24]) {
   if (!kind.mirrored) {
@@ -242,7 +242,7 @@ FURROW_INLINE void scatter(const Shell4Places& places, std::size_t first, int co
   }
 }
 
-/// Remembers the element whose node is rotated most against it, or is not a number.
+/// Records the element with the largest rotation of a node, or with one that is not a number.
 FURROW_INLINE void note_most_rotated(const Lanes& four_cos2, std::size_t first,
                                      Shell4Result& result) {
   if (!any(!(four_cos2 >= Lanes(result.least_four_cos2)))) return;

@@ -12,9 +12,9 @@ namespace furrow {
 
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
-/// Stress-free shape in the element's own axes: origin at the mean of the nodes, axis 1 along the
-/// first median (from edge 4-1 to edge 2-3), axis 3 normal to both medians, outwards when the nodes
-/// run counter-clockwise seen from outside.
+/// Stress-free shape in the element's axes. The origin is the mean of the nodes, axis 1 is along
+/// the first median (from edge 4-1 to edge 2-3), and axis 3 is normal to both medians. Axis 3
+/// points outwards when the nodes run counter-clockwise seen from outside.
 struct Shell4Shape {
   Matrix34 x;         ///< [m]
   Matrix34 director;  ///< unit normals of the shell at the nodes

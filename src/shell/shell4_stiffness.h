@@ -12,15 +12,15 @@ using Matrix24 = Eigen::Matrix<double, 24, 24>;
 /// Strain energy 1/2 u^T K u of displacements and rotations u = (u_x, u_y, u_z, theta_x, theta_y,
 /// theta_z) node by node:
 ///   membrane  bilinear, with four enhanced modes condensed: no locking in in-plane bending
-///             (J. C. Simo, M. S. Rifai, Int. J. Numer. Methods Eng. 29, 1595 (1990))
+///             [Simo1990]
 ///   bending   curvature of the directors, also of a curved reference
 ///   shear     MITC4: covariant shears sampled at mid-sides, no locking of thin shells
-///             (E. N. Dvorkin, K.-J. Bathe, Eng. Comput. 1, 77 (1984))
+///             [Dvorkin1984]
 ///   drilling  at each node a spring drilling_share (D11 + D22)/2 between its rotation about axis 3
 ///             and the element's
-/// 2 x 2 Gauss points throughout, so that nothing but the six rigid motions is free of energy:
-/// there are no hourglass modes. The drilling spring is as weak as bending, because it acts wrongly
-/// between the facets of a curved shell.
+/// All parts use 2 x 2 Gauss points. Only the six rigid motions have no energy, so there are no
+/// hourglass modes. The drilling spring is as weak as bending, because its action between the
+/// facets of a curved shell is wrong.
 /// @throws StateError for an element that is folded
 Matrix24 shell4_stiffness(const Shell4Shape& shape, const ShellSection& section);
 

@@ -10,8 +10,8 @@
 namespace furrow {
 
 /// Leapfrog: velocities belong to half steps. Rotary inertia is the same about all axes, so a
-/// node's spin obeys J dw/dt = m. Works of forces held over a step are forces times the mean of the
-/// velocities before and after: exact for the kinetic energy.
+/// node's spin obeys J dw/dt = m. The work of a force held over a step is the force times the mean
+/// of the velocities before and after, which is exact for the kinetic energy.
 struct ShellNodes {
   explicit ShellNodes(const Matrix3X& start);
 

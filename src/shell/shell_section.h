@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The stiffness of a shell per unit of its width: what an element integrates instead of a
-/// thickness.
+/// Stiffness of a shell per unit of its width. An element integrates it over its area instead of a
+/// material over the thickness.
 
 #include "core/types.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The stiffness of a shell structure about its present state, whatever its forces come from.
+/// Tangent stiffness of a shell structure about its present state, by differences of its forces.
 
 #include <set>
 #include <vector>
@@ -55,15 +55,15 @@ NodeNeighbours neighbours_of(const std::vector<Shell4::Quad>& quads, Eigen::Inde
 /// K = -df/du [N/m, N, N m] about the present state.
 struct TangentStiffness {
   Eigen::SparseMatrix<double> matrix;  ///< symmetric: the mean of K and its transpose
-  /// largest entry of K - K^T over the largest of K. Where forces have a potential it is that of
-  /// the moments that are left unbalanced, and of the differences.
+  /// largest entry of K - K^T over the largest of K. If the forces have a potential, it measures
+  /// the unbalanced moments and the error of the differences.
   double asymmetry = 0.0;
 };
 
-/// By central differences: nodes that have no neighbour in common are moved together (A. R. Curtis,
-/// M. J. D. Powell, J. K. Reid, J. Inst. Maths Applics 13, 117 (1974)), so the cost does not grow
-/// with the mesh beyond that of its forces. A motion of all nodes at once checks the neighbours.
-/// The nodes are left as they were.
+/// By central differences. Nodes without a common neighbour move together (A. R. Curtis, M. J. D.
+/// Powell, J. K. Reid, J. Inst. Maths Applics 13, 117), so the number of force evaluations does not
+/// depend on the mesh. A motion of all nodes at once checks the neighbours. The nodes return to
+/// their places.
 /// @throws StateError when forces depend on nodes that are not neighbours, and as compute_forces()
 TangentStiffness tangent_stiffness(RelaxingStructure& structure, const FreeComponents& free,
                                    const NodeNeighbours& neighbours);

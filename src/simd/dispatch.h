@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Which instruction set the kernels of a run use: chosen once, when the first kernel is asked for.
+/// Selects the instruction set of the kernels of a run, once, at the first use of a kernel.
 
 #include <vector>
 

@@ -80,9 +80,9 @@ FURROW_INLINE Lanes exponential_minus_one(const Lanes& a) {
   return select(a == a, result, a);
 }
 
-/// log(a) to about one unit in the last place: a = m 2^n with sqrt(1/2) <= m < sqrt(2) and log(m) =
-/// 2 artanh((m - 1)/(m + 1)), whose series to the power 23 leaves less than 1e-18. What is not a
-/// normal positive number goes through the library's logarithm.
+/// log(a) to about one unit in the last place. With a = m 2^n and sqrt(1/2) <= m < sqrt(2), log(m)
+/// = 2 artanh((m - 1)/(m + 1)), whose series to the power 23 has an error below 1e-18. Values that
+/// are not normal positive numbers use the logarithm of the library.
 FURROW_INLINE Lanes logarithm(const Lanes& a) {
   if (!all(a >= Lanes(2.3e-308) && a <= Lanes(1.7e308)))
     return per_lane(a, [](double x) { return __builtin_log(x); });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Instruction sets that kernels are compiled for, as plain data: this header is compiled with
-/// every one of them (simd/lanes.h says why that matters).
+/// every one of them (simd/lanes.h explains why that matters).
 
 namespace furrow {
 

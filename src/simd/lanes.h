@@ -3,11 +3,11 @@
 /// Numbers for several points at once: one Lanes holds a value of each of lane_count neighbouring
 /// points.
 ///
-/// Everything that a kernel is made of lives in the inline namespace FURROW_ISA, one for each
-/// instruction set that the kernel units compile (simd/kernel_unit.cpp.in), so that the linker
-/// never mixes code of two instruction sets. Headers of kernels are included by kernel units only,
-/// and use no other header that holds code (no <vector>, no <string>, no Eigen): an inline function
-/// compiled for AVX-512 could be the copy that the linker keeps for everybody.
+/// All code of a kernel is in the inline namespace FURROW_ISA. Each instruction set of the kernel
+/// units (simd/kernel_unit.cpp.in) has a separate one, so that the linker never mixes code of two
+/// instruction sets. Only kernel units include headers of kernels, and these use no other header
+/// with code (no <vector>, no <string>, no Eigen). Otherwise an inline function compiled for
+/// AVX-512 could become the copy that the linker keeps for all callers.
 
 #include <experimental/simd>
 
@@ -18,7 +18,8 @@
     "clang and libstdc++'s simd choose wrongly among lanes of AVX-512: build with gcc, or for AVX2"
 #endif
 
-/// Lanes travel in registers only when a call is inlined, which gcc 12 does too seldom on its own.
+/// Lanes stay in registers only if a call is inlined, which gcc 12 does too rarely without the
+/// attribute.
 #define FURROW_INLINE [[gnu::always_inline]] inline
 
 namespace furrow {

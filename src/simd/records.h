@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Four numbers of each of several points that lie in memory point by point, into lanes number by
-/// number and back: a load and two shuffles a point and number less than gathering one by one.
+/// Transposes four numbers of each of several points, stored point by point, into lanes and back.
+/// This needs fewer loads and shuffles than gathering single numbers.
 
 #include "simd/lanes.h"
 

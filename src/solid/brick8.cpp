@@ -181,10 +181,10 @@ Brick8::Brick8(const Matrix3X& reference, std::vector<Hexahedron> bricks, const 
   for (const Alike& kind : kinds) add_kind(kind, stiffness, rubber);
 }
 
-/// No motion of the mesh is faster than that of its fastest element, however the mass of a node is
-/// divided among its elements: u.K u = sum u.K_e u <= sum omega_e^2 u.M_e u <= max omega_e^2 u.M u.
-/// It is divided as the stiffness is, so that a thin wedge leans on the mass of the bricks beside
-/// it.
+/// No motion of the mesh is faster than that of its fastest element, for any division of the mass
+/// of a node among its elements: u.K u = sum u.K_e u <= sum omega_e^2 u.M_e u <= max omega_e^2 u.M
+/// u. It is divided in proportion to the stiffness, so that the mass of neighbouring bricks
+/// stabilises a thin wedge.
 void Brick8::add_kind(const Alike& alike, const VectorX& stiffness, const Rubber& rubber) {
   std::array<double, 8> mass;
   mass.fill(std::numeric_limits<double>::infinity());

@@ -21,13 +21,13 @@ struct Rubber {
   double density = 0.0;  ///< [kg/m^3]
 };
 
-/// Elements whose stress-free shapes agree share their gradients (a tyre has one for each brick of
-/// a section), which keeps them in the fastest memory; elements are computed several at once
-/// (brick8_kernel.h has the equations).
+/// Elements of equal stress-free shape share their gradients (a tyre has one set for each brick of
+/// a section), which keeps these in the fastest memory. Several elements are computed at once
+/// (brick8_kernel.h).
 class Brick8 {
  public:
-  /// Nodes 0 to 3 run round one face, counter-clockwise seen from the opposite face, of which 4 to
-  /// 7 are the same corners. Nodes may be repeated: 0 1 2 3 0 1 6 7 is a wedge with the edge 0-1.
+  /// Nodes 0 to 3 run round one face, counter-clockwise seen from the opposite face. Nodes 4 to 7
+  /// are the corresponding corners of that face. Nodes may be repeated to form a wedge.
   using Hexahedron = std::array<int, 8>;
 
   /// @param reference stress-free nodes [m]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a kernel of the brick works on, as plain data: this header is compiled with every
-/// instruction set (simd/lanes.h says why).
+/// Data of a kernel of the brick works on, as plain data: this header is compiled with every
+/// instruction set (simd/lanes.h explains why).
 
 #include <cstddef>
 
@@ -12,9 +12,9 @@ namespace furrow {
 constexpr std::size_t brick8_padding =
     8;  // elements of one shape come in multiples of it: the widest registers hold 8 numbers
 
-/// Elements of one stress-free shape and rubber. Gradients are those of the nodes' shape functions,
-/// in the element's own axes: the energy of an isotropic material does not depend on the axes, so
-/// where the element points is nowhere needed.
+/// Elements of one stress-free shape and rubber. Gradients are those of the nodes' shape functions
+/// in the element's axes. The energy of an isotropic material does not depend on the axes, so the
+/// orientation of the element is not needed.
 struct Brick8Kind {
   double gradient[8][8][3];        ///< [1/m] at a Gauss point, of a node
   double mean_gradient[8][3];      ///< [1/m] mean over the volume

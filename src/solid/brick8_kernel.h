@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The brick of nearly incompressible rubber, several elements at once. Included by kernel units
-/// only (simd/lanes.h says why).
+/// only (simd/lanes.h explains why).
 ///
 /// Mean dilatation (J. C. Nagtegaal, D. M. Parks, J. R. Rice, Comput. Methods Appl. Mech. Eng. 4,
-/// 153 (1974); J. C. Simo, R. L. Taylor, K. S. Pister, ibid. 51, 177 (1985)) of the neo-Hookean law
-/// of the material library (material/models/neo_hookean/neo_hookean.h):
-///   W = sum_q w_q (mu/2)(J_q^(-2/3) |F_q|^2 - 3) + V0 (K/4)(J^2 - 1 - 2 ln J),  J = V/V0,
-/// q the 2 x 2 x 2 Gauss points, V the volume now. The shape is resisted point by point and the
-/// volume as a whole: it does not lock, and nothing but a rigid motion is free of energy, so there
-/// are no hourglass modes to control. An element that is turned inside out at a point would have to
-/// pass J_q = 0, where W is infinite.
+/// 153; J. C. Simo, R. L. Taylor, K. S. Pister, ibid. 51, 177) of the neo-Hookean law (theory:
+/// tyres, eq. 6). The shape is resisted at each Gauss point and the volume as a whole, so the
+/// element does not lock. Only rigid motions have no energy, so there are no hourglass modes. An
+/// element that turned inside out would pass J_q = 0, where W is infinite.
 ///
 /// Forces are the exact gradient -dW/dx, so momentum, moment of momentum and energy are kept.
 
@@ -56,9 +53,9 @@ FURROW_INLINE Rows deformation_gradient(const Triple (&node)[8], const double (&
   return F;
 }
 
-/// How much faster an element's fastest motion is than stress-free, as a square. The volume's part
-/// is that of its stiffness K(J) dV/dx (x) dV/dx, of rank one. That of the shape is taken to grow
-/// with the distortion (|F|^2 |F^-1|^2/9)^(3/2), which is 1 without any.
+/// Square of an element's highest frequency over the stress-free one. The volume contributes its
+/// stiffness K(J) dV/dx (x) dV/dx, of rank one. The contribution of the shape is estimated to grow
+/// with the distortion (|F|^2 |F^-1|^2/9)^(3/2), which is 1 without distortion.
 FURROW_INLINE Lanes rate_now(const Triple (&node)[8], const Brick8Kind& kind, const Lanes& J,
                              const Lanes& distortion) {
   const Rows cofactor = cofactors(deformation_gradient(node, kind.mean_gradient));
@@ -119,7 +116,7 @@ struct BrickBlock {
   }
 };
 
-/// Adds -dW/dx to the nodes of the elements that are no padding, and notes what stands out.
+/// Adds -dW/dx to the nodes of the active elements and records extremes.
 FURROW_INLINE void hand_over(const BrickBlock& block, const Brick8Places& places, std::size_t first,
                              double* force, Brick8Result& result) {
   for (int lane = 0; lane < lane_count; ++lane) {

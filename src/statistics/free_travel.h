@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Whether a wheel that is free along x gets anywhere: what must not be averaged.
+/// Judges whether a wheel that is free along x makes progress; without progress nothing is
+/// averaged.
 
 #include <string>
 
@@ -11,14 +12,13 @@ namespace furrow {
 /// How the axle moves in the second half of the cruise, v its speed, u that of the rim:
 ///   prescribed     the rig gives it its speed
 ///   travels        none of the following
-///   runs_away      |v| or |u| grows for certain (99 %), by more than a tenth, and in the last
-///                  quarter of the cruise at least half as much as in the third: it does not level
-///                  off
-///   digs_in        |v| is below half of |u|, and the sinkage grows for certain by more than a
+///   runs_away      |v| or |u| grows significantly (99 %), by more than a tenth, and does not level
+///                  off: in the last quarter of the cruise at least half as much as in the third
+///   digs_in        |v| is below half of |u|, and the hub drop grows significantly, by more than a
 ///                  twentieth
 ///   stalled        |v| is below a twentieth of |u|, or both are below 1e-3 of the largest speed of
 ///                  the run
-///   rolls_back     the axle goes against its rim, or against x while the rim rests
+///   rolls_back     the axle moves against its rim, or against x while the rim rests
 enum class Travel { prescribed, travels, runs_away, digs_in, stalled, rolls_back };
 
 struct TravelVerdict {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A table of recorded quantities against time: what the rig measures and the files keep.
+/// A table of recorded quantities against time: rows of the rig, as files store them.
 
 #include <cstddef>
 #include <string>

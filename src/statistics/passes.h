@@ -13,7 +13,7 @@ int count_passes(const History& history);
 /// The rows of a pass, from 1, up to its way back.
 History rows_of_pass(const History& history, int number);
 
-/// Steady values of each pass that has a cruise, as measure_resistance() has them for a run of one.
+/// Steady values of each pass that has a cruise, by measure_resistance().
 std::vector<Resistance> measure_passes(const History& history, const ResistanceOptions& options);
 
 }  // namespace furrow

@@ -16,26 +16,26 @@ struct ResistancePart {
   double force = 0.0;  ///< [N] energy over travel
 };
 
-/// whole = sum of parts + unexplained. The whole is what axle and load put in: torque, pull, slope
-/// and sinking; of a towed wheel on level ground it is the force that tows it.
+/// whole = sum of parts + unexplained. The whole is the work of axle and load per travel: torque,
+/// pull, slope and sinking. For a towed wheel on level ground it is the towing force.
 struct ResistanceParts {
   double whole = 0.0;                 ///< [N]
   std::vector<ResistancePart> parts;  ///< those that the scene has
   double unexplained = 0.0;           ///< [N]
-  /// how the wheel gave the grains their parts, where those are told by place
+  /// how the wheel gave the grains their energy, if their parts are divided by place
   std::vector<ResistancePart> given_to_grains;
 
   bool known() const { return !parts.empty(); }
 };
 
-/// Of one wheel. What a continuum took is divided only where nothing else presses on it; else it is
-/// one part. What grains took is told by place (below the track, ahead and aside) where fix
-/// grain/work counted all of it, else by the way in which the wheel gave it.
+/// Parts of one wheel. The work on a continuum is divided only if nothing else presses on it;
+/// otherwise it is one part. The work on grains is divided by place (below the track, ahead and
+/// aside) if fix grain/work counted all of it, otherwise by vertical and horizontal forces.
 /// @return without parts for a history without the channels of rig/wheel_rig_outputs.cpp, or a
 /// window without travel
 ResistanceParts resistance_parts(const History& history, const Window& window);
 
-/// Of the wheels of one vehicle, over the travel of the first: a continuum that they share is
+/// Parts of the wheels of one vehicle, over the travel of the first. A continuum that they share is
 /// divided for all of them together.
 /// @param windows of the histories, of the same time
 ResistanceParts resistance_parts(const std::vector<History>& histories,

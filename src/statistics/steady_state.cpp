@@ -84,9 +84,9 @@ Blocking blocks_of(const std::vector<double>& values, std::size_t length) {
 }
 
 /// Lengthens the blocks until length^3 > 2 n (error/error of single values)^4; the longest, two
-/// blocks, when none is long enough. The error of every length is itself noisy and, for swings,
-/// goes up and down: the largest of all lengths so far counts, in the condition and as the result,
-/// so that a chance dip neither ends the search nor passes for certainty.
+/// blocks, when none is long enough. The error of every length is noisy and oscillates for
+/// oscillating values. The largest of all lengths so far counts, in the condition and as the
+/// result, so that a random minimum does not end the search.
 Blocking block_average(const std::vector<double>& values) {
   const Blocking single = blocks_of(values, 1);
   Blocking blocking = single;

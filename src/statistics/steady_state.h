@@ -11,8 +11,7 @@
 
 namespace furrow {
 
-/// What the user asks for. Nothing given: from the start of the cruise, less the transient that is
-/// found.
+/// Window that the user requests. The default is the cruise without its transient.
 struct WindowRequest {
   std::optional<double> from_time, to_time;          ///< [s]
   std::optional<double> from_distance, to_distance;  ///< [m] travelled along x since the first row
@@ -25,7 +24,7 @@ struct Window {
   std::size_t first = 0, last = 0;
   double begin = 0.0, end = 0.0;  ///< [s] of the first and the last row
   double distance = 0.0;          ///< [m] travelled along x in it
-  bool automatic = false;         ///< the begin was found, not given
+  bool automatic = false;         ///< the begin was determined, not given
   /// in words: "cruise from 2.1 s, transient of 0.31 s left out (MSER-5)"
   std::string how;
   std::string warning;  ///< empty, or why the begin is in doubt
@@ -42,8 +41,9 @@ std::size_t first_row_of_cruise(const History& history);
 /// @return how many values to leave out, at most the first half of the series
 std::size_t mser_truncation(const std::vector<double>& values);
 
-/// The rows that count. Automatic: from the start of the cruise (channel `stage`, rig_stage.h; the
-/// first row where there is no such channel), less the longest transient of the named channels.
+/// Selects the rows of the window. Automatic: from the start of the cruise (channel `stage`,
+/// rig_stage.h; the first row without such a channel), less the longest transient of the named
+/// channels.
 /// @throws InputError for a request outside of the history, or one given by both time and distance;
 /// Error when no rows remain
 Window select_window(const History& history, const WindowRequest& request,
@@ -51,12 +51,13 @@ Window select_window(const History& history, const WindowRequest& request,
 
 /// Limits of the verdict.
 struct SteadyCriteria {
-  /// change over the window, of the reference, that is steady even when it is certain
+  /// change over the window, as a share of the reference, that counts as steady even if it is
+  /// significant
   double negligible_drift = 0.02;
-  /// independent stretches below which no verdict is given: about 40 correlation times
+  /// least number of independent blocks for a verdict, about 40 correlation times
   std::size_t min_blocks = 6;
-  /// ... unless the mean is known to this, of the reference, at 95 % by Student's t with so few, or
-  /// no value departs from it by more than half of this
+  /// ... or the 95 % interval of the mean by Student's t is within this share of the reference, or
+  /// no value departs from the mean by more than half of it
   double known_mean = 0.02;
 };
 
@@ -84,9 +85,9 @@ struct SteadyValue {
 ///
 /// Standard error: theory: errors, eqs. 2 and 3. The remaining bias is about -tau/(2 length).
 /// Steady: neither the straight line nor the two halves differ from a constant by more than the
-/// negligible drift, at 99 % by Student's t with errors from the blocks of the detrended values
-/// (eq. 5). In addition there are enough blocks, or the mean is well known with few, or all values
-/// are nearly the same.
+/// negligible drift, at 99 % by Student's t. The errors are those of the detrended values (eq. 5).
+/// In addition there are enough blocks, or the mean is well known with few, or all values are
+/// nearly the same.
 /// @param spacing of the rows [s]
 /// @param reference scale of a negligible drift; the larger of it, |mean| and the deviation counts
 /// @throws Error for fewer than two values, StateError for values that are not finite

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What every constitutive law must do, whatever it models: a suite of tests (GoogleTest) for the
-/// laws of any program. Include it in one source file of a test
-/// program and run it with every example of every law:
+/// Conformance suite for every constitutive law of any program (GoogleTest). Include it in one
+/// source file of a test program and run it with every example of every law:
 ///
 ///   INSTANTIATE_TEST_SUITE_P(Laws, MaterialConformance,
 ///                            ::testing::ValuesIn(conformance_cases(my_models())),
@@ -69,7 +68,7 @@ class MaterialConformance : public ::testing::TestWithParam<ConformanceCase> {
     const Vector3 axis{normal_(engine_), normal_(engine_), normal_(engine_)};
     return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
   }
-  /// The strain at which this law's stress is about its strength, or 1e-3.
+  /// The strain at which the stress is about the strength, or 1e-3.
   double strain_scale(const VectorX& state) const {
     return std::min(1e-3, 2 * material_->stress_scale(state) / material_->moduli(state).wave());
   }
@@ -83,7 +82,7 @@ class MaterialConformance : public ::testing::TestWithParam<ConformanceCase> {
   UpdateReport update(const Matrix3& gradient, VectorX& state, double time_step) const {
     return material_->update_point(gradient, state, nullptr, time_step);
   }
-  /// The time [s] in which the stress of a sudden strain, held, has changed by half of all it will.
+  /// Time [s] in which the stress after a sudden, constant strain completes half of its change.
   double response_time() const {
     const auto after = [&](double time) {
       VectorX state = material_->initial_state();
@@ -99,9 +98,9 @@ class MaterialConformance : public ::testing::TestWithParam<ConformanceCase> {
     while (time < 1e9 && (after(time) - first).norm() < 0.5 * all) time *= 1.5;
     return time;
   }
-  /// Derivative of the new stress with respect to the strain of the step, consistent with the
-  /// algorithm: column j is the change of the six stresses for a change of symmetric H_j (both
-  /// entries for a shear). Central differences, relative error ~1e-8 where the law is smooth. [Pa]
+  /// Derivative of the new stress with respect to the strain of the step [Pa], consistent with the
+  /// algorithm. Column j is the change of the six stresses for a change of symmetric H_j (both
+  /// entries for a shear). Central differences, relative error about 1e-8 where the law is smooth.
   Eigen::Matrix<double, 6, 6> tangent(const Matrix3& gradient, const VectorX& state) const {
     // Step near the cube root of the precision, so that truncation and rounding of the central
     // difference are alike.
@@ -278,8 +277,8 @@ TEST_P(MaterialConformance, BlocksOfAnySizeAndAlignmentAgreeWithSinglePoints) {
   EXPECT_NEAR(material_->largest_wave_speed(block) / fastest, 1.0, 1e-12);
 }
 
-/// The work of the stress goes into the three energies, but for an error of second order in the
-/// step: in no time, and when the law depends on the rate, in its response time.
+/// The work of the stress equals the change of the three energies up to an error of second order in
+/// the step, for steps without duration and, if the law depends on the rate, in its response time.
 TEST_P(MaterialConformance, WorkIsAccountedFor) {
   std::vector<double> durations{0.0};
   if (material_->rate_dependent()) durations.push_back(time_step_ / 0.3);
@@ -401,8 +400,8 @@ TEST_P(MaterialConformance, TangentPredictsTheNextStress) {
 }
 
 /// The bound for the explicit time step: no direction of an elastic point is stiffer than the wave
-/// modulus, but for the stress that the waves ride on. Laws that yield are asked at rest (flow that
-/// is not associated need not keep the bound, see Material::wave_speed()).
+/// modulus, apart from the contribution of the stress. Laws that yield are checked at rest, because
+/// flow that is not associated may exceed the bound (Material::wave_speed()).
 TEST_P(MaterialConformance, WaveModulusBoundsTheElasticTangent) {
   const bool yields = std::isfinite(material_->yield_function(material_->initial_state()));
   for (int trial = 0; trial < 20; ++trial) {
@@ -454,7 +453,7 @@ TEST_P(MaterialConformance, AFoldedOrUndefinedStepStopsWithItsCause) {
   EXPECT_THROW(update(Matrix3::Zero(), short_state, 0.0), Error);
 }
 
-/// Every number that a law reads from the state, if it is not one, stops the run; one that it does
+/// Not-a-number in a value that the law reads from the state stops the run. A value that it does
 /// not read (the stress of a law that carries its deformation) is replaced.
 TEST_P(MaterialConformance, AStateThatIsNotFiniteStopsTheRun) {
   const VectorX start = some_state();

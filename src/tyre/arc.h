@@ -16,7 +16,7 @@ class Arc {
  public:
   /// @param from, to its ends [m]
   /// @param length [m] that of the chord at least, or the chord is taken
-  /// @param outwards where it bulges, as far as that is square to the chord
+  /// @param outwards direction of the bulge; its part normal to the chord counts
   Arc(const Vector3& from, const Vector3& to, double length, const Vector3& outwards);
 
   /// @param share of the length from the first end

@@ -21,9 +21,9 @@ struct BrickTyreSettings {
 /// @throws InputError for settings that cannot be
 void check(const BrickTyreSettings& settings, const std::string& where = "tyre");
 
-/// On the nodes act the shells (shell4.h), one for each zone of the carcass, the bricks (brick8.h)
-/// and the pressure inside the carcass. The beads are the rim's. What the pressure does to carcass
-/// and rim together is nothing, so the rim takes the opposite of all that acts on nodes.
+/// Shells (shell4.h), one for each zone of the carcass, bricks (brick8.h) and the pressure inside
+/// the carcass act on the nodes. The rim carries the beads. The pressure on carcass and rim
+/// together has no resultant, so the rim takes the opposite of all forces on the nodes.
 class BrickTyre : public NodalTyre {
  public:
   /// @param hub the rim and whatever else moves with it

@@ -190,7 +190,7 @@ class Builder {
   }
 
   /// Faces that only one brick has, but for those on the carcass and in the plane of symmetry, and
-  /// the carcass beside the tread.
+  /// the carcass next to the tread.
   void add_surface() {
     std::map<std::set<int>, int> uses;
     const auto corners = [](const Brick8::Hexahedron& brick, int face) {

@@ -25,15 +25,15 @@ struct BrickTyreMesh {
   int stations = 0;   ///< carcass nodes of a section
   int tread_end = 0;  ///< station at which the tread ends on the side of +y
 
-  /// The outside: its nodes, those of the tread's outermost lines first, in the grid's order.
+  /// Nodes of the outside; those of the tread come first, in the order of the grid.
   TreadGrid grid;
   std::vector<int> surface_nodes;
   std::vector<Vector3i> triangles;  ///< of surface nodes
   double tread_area = 0.0;          ///< [m^2] of the whole tyre, voids included
 };
 
-/// Sections are even round the tyre; across, elements are as long as brick_tyre_aspect times
-/// theirs round the crown, or shorter: zones and voids end at nodes.
+/// Sections have equal angles. Across the tyre, elements are at most brick_tyre_aspect times as
+/// long as round the crown; zones and voids end at nodes.
 /// @param sections round the tyre
 /// @throws InputError for voids whose pitch does not fit the sections
 BrickTyreMesh make_brick_tyre_mesh(const BrickTyreParameters& tyre, int sections, bool half,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a tyre of shells and bricks is made of. Its files (io/brick_tyre_file.h) are read into
-/// these.
+/// Parameters of a tyre of shells and bricks, as its files (io/brick_tyre_file.h) give them.
 ///
 /// Half of the section is given, the other half is its mirror image. A is the axial coordinate,
 /// outwards from the mid-plane, R the radius about the axle, and s the length along the carcass's
@@ -32,7 +31,7 @@ struct CarcassParameters {
   bool cords = false;
 };
 
-/// Where the tread is cut away: a groove all round, or the gaps between bars of one pitch.
+/// A void of the tread: a groove all round, or the gaps between bars of one pitch.
 struct TreadVoid {
   double from = 0.0, to = 0.0;  ///< s [m]
   double depth = 0.0;           ///< [m]
@@ -40,20 +39,20 @@ struct TreadVoid {
   double share = 1.0;           ///< of the pitch that is cut away
 };
 
-/// Rubber on the carcass, square to it.
+/// Rubber on the carcass, normal to it.
 struct TreadCapParameters {
   std::vector<double> at;         ///< s [m] from 0 to where the tread ends
   std::vector<double> thickness;  ///< [m] there, straight between; 0 at the end: a wedge
-  int layers = 1;                 ///< of bricks, below the voids
-  int rib_layers = 1;             ///< beside them
+  int layers = 1;                 ///< layers of bricks below the voids
+  int rib_layers = 1;             ///< next to the voids
   Rubber rubber;
   std::vector<TreadVoid> voids;
 
   double thickness_at(double s) const;  ///< [m]
   double depth_at(double s) const;      ///< [m] of the voids; straight between them
   double end() const { return at.back(); }
-  /// [m] across the narrowest void, or along the tyre where that is less: what is wider bridges it;
-  /// infinite without voids. @param radius of the tread [m]
+  /// [m] size of the narrowest void, across or along the tyre; a wider object bridges it. Infinite
+  /// without voids. @param radius of the tread [m]
   double narrowest_void(double radius) const;
   /// [m] across the narrowest rib between grooves, or along a bar; infinite without voids
   double narrowest_rib(double radius) const;
@@ -78,16 +77,16 @@ struct BrickTyreParameters {
 /// Values of s, from 0 to the bead, at which zones, voids and the tread's thickness change: nodes
 /// of every mesh. @param length [m] of the outline
 std::vector<double> places_of_change(const BrickTyreParameters& tyre, double length);
-/// [m] those that are as near are one
+/// [m] places closer than this count as one
 constexpr double same_place = 1e-4;
 
-/// What to say of shells with polar axes whose tension, where the outline is widest, takes more
-/// than their shear stiffness (Shell4); empty where there are none. There the circumference carries
-/// nothing, by the balance along the axle, and the meridian the pressure times its radius of
+/// A warning about shells with polar axes whose tension exceeds their shear stiffness (Shell4)
+/// where the outline is widest; empty without such shells. There, by the balance along the axle,
+/// the circumference carries no tension and the meridian the pressure times its radius of
 /// curvature.
 std::string wrinkling(const BrickTyreParameters& tyre);
 
-/// Refuses values that no tyre has, each one and together.
+/// Checks values separately and together.
 /// @param where names the tyre in errors
 /// @throws InputError
 void check(const BrickTyreParameters& tyre, const std::string& where = "tyre");

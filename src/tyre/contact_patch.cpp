@@ -89,7 +89,7 @@ std::optional<Line> touching_line(const Tyre& tyre, const Footprint& footprint, 
   return line;
 }
 
-/// What the outline encloses beside the outermost line.
+/// Area of the outline beyond the outermost line.
 struct Side {
   double area = 0.0;   ///< [m^2]
   double width = 0.0;  ///< [m]

@@ -31,12 +31,12 @@ struct DarnellTyreSettings {
 /// @throws InputError for settings that cannot be
 void check(const DarnellTyreSettings& settings, const std::string& where = "tyre");
 
-/// Makes the lookup table of a sidewall, or fetches one that was made before (io/sidewall_cache.h).
+/// Makes the lookup table of a sidewall or reads a stored one (io/sidewall_cache.h).
 using SidewallTableMaker = std::function<std::unique_ptr<Sidewall>(
     const SidewallParameters&, double pressure, const SidewallTableGrid&)>;
 
-/// Nodes are those of the tread (nodal_tyre.h). On them act the shell (shell4.h), the pressure and
-/// the sidewalls (sidewall_ring.h), of which W is the potential per width. Contact: tyre_surface.h.
+/// The nodes are those of the tread (nodal_tyre.h). The shell (shell4.h), the pressure and the
+/// sidewalls (sidewall_ring.h) act on them. Contact: tyre_surface.h.
 class DarnellTyre : public NodalTyre {
  public:
   /// @param hub the rim and whatever else moves with it: everything but the tread band

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a mode of a tyre is called by: its waves around the tread and where its motion goes.
+/// Classification of a mode of a tyre: number of waves around the tread and direction of motion.
 
 #include "tyre/tyre.h"
 

@@ -183,7 +183,7 @@ void NodalTyre::step(double dt) {
   if (!sums.finite) surface().check_finite("tyre");
 }
 
-/// The deformed shape moves along; the stored energy stays.
+/// The deformed shape follows; the stored energy stays.
 void NodalTyre::follow_placement(const Vector3& old_centre, const Matrix3& old_attitude) {
   const Matrix3 rotation = attitude() * old_attitude.transpose();
   const Quaternion q(rotation);

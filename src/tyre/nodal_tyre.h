@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A tyre whose deformable part is nodes around a rigid rim: how they move, rest, and keep account
-/// of energy, whatever joins them.
+/// Base of tyres that are nodes around a rigid rim: motion, equilibrium and energy balance,
+/// independent of the elements.
 
 #include <vector>
 
@@ -11,13 +11,13 @@
 
 namespace furrow {
 
-/// On the nodes act internal forces, of elements and pressure, and the damping (node_step.h).
-/// What these sum up to acts on the rim with the opposite sign, so momentum is kept to round-off.
-/// Without the damping they have the potential U - p V; the stored energy is counted from the state
-/// as made, so inflating the tyre is work of the pressure (load_work).
+/// Internal forces of elements and pressure, and the damping (node_step.h), act on the nodes. The
+/// rim takes the opposite of their sum, so momentum is conserved to rounding. Without damping they
+/// have the potential U - p V (theory: tyres, eq. 5). The stored energy counts from the state as
+/// made, so the inflation is work of the pressure (load_work).
 ///
-/// Beads are nodes that the rim carries along: forces on them act on the rim, and their mass is
-/// part of the rim's.
+/// Beads are nodes that move with the rim: forces on them act on the rim, and the rim's mass
+/// includes theirs.
 ///
 /// Weight: the load on the axle includes that of the tyre (rig/wheel_rig.h); nodes know no gravity.
 class NodalTyre : public Tyre {
@@ -52,30 +52,30 @@ class NodalTyre : public Tyre {
   /// @throws InputError for a rim too light for its tyre
   void start();
 
-  /// What elements and pressure have stored in the computed part.
+  /// Energy and volume of the computed part.
   struct Internal {
     double energy = 0.0;  ///< [J] elastic
     double volume = 0.0;  ///< [m^3] of the air, but for a constant
   };
   /// Adds the forces of elements and of pressure() to nodes_. @throws StateError
   virtual Internal add_internal_forces() = 0;
-  /// The pressure is another from now on.
+  /// Called when the pressure has changed.
   virtual void follow_pressure() {}
   /// Positions and velocities of the surface from those of nodes and rim.
   virtual void place_surface() = 0;
   /// Distributes surface().f over nodes and rim.
   /// @param on_nodes [N] out: one column for each node
-  /// @returns what goes to the rim, of the computed part
+  /// @returns force and moment on the rim, of the computed part
   virtual Wrench hand_over(Matrix3X& on_nodes) = 0;
 
   virtual double tread_area() const = 0;  ///< [m^2] of the whole tyre
   /// [m] of a line of the unloaded tread's nodes, about the axle centre
   virtual Vector3 unloaded_tread_point(int line) const = 0;
-  /// Which nodes' places the internal forces on each depend on.
+  /// For each node the nodes on whose positions its internal force depends.
   virtual NodeNeighbours neighbours() const = 0;
   /// Which of nodes() is a node of tread_grid().
   virtual Eigen::Index tread_node(int k) const = 0;
-  /// [s] a stable one through all that may happen while the tyre comes to rest
+  /// [s] stable during the whole relaxation
   virtual double relaxation_step() const { return stable_time_step(); }
 
   /// Direction of the circumference at a point about the axle centre, as made.

@@ -18,7 +18,7 @@ class NodeStep {
   /// @param damping_rate c [1/s], >= 0
   explicit NodeStep(double damping_rate) : rate_(damping_rate) {}
 
-  /// Takes masses and supports of the nodes as they are from now on.
+  /// Reads masses and supports of the nodes; call it again when they change.
   void take_supports(const ShellNodes& nodes);
 
   /// Wrenches are about the rim's centre before the step; powers are those of forces held over the

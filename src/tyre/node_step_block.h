@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a kernel of the nodes' step works on, as plain data: this header is compiled with every
-/// instruction set (simd/lanes.h says why).
+/// Data of a kernel of the nodes' step works on, as plain data: this header is compiled with every
+/// instruction set (simd/lanes.h explains why).
 
 #include <cstddef>
 
@@ -23,7 +23,7 @@ struct NodeStepNodes {
   const double* spin_mobility[3];  ///< 1/inertia, or 0
 };
 
-/// What they are damped against.
+/// The rigid motion that the damping refers to.
 struct NodeStepRim {
   double centre[3];    ///< [m]
   double velocity[3];  ///< [m/s]

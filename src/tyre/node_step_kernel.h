@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A step of a tyre's nodes, several at once: damping, kick and drift in one pass. Included by
-/// kernel units only (simd/lanes.h says why).
+/// kernel units only (simd/lanes.h explains why).
 
 #include "core/half_turn.h"
 #include "simd/records.h"

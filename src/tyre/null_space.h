@@ -6,12 +6,11 @@
 
 namespace furrow {
 
-/// The null-space method (J. Nocedal, S. J. Wright, Numerical Optimization, 2nd ed., Springer 2006,
-/// sec. 16.2): orthonormal axes of which the first two span the gradients of the constraints and
-/// the others are tangent to the manifold that the constraints leave. They are the columns of Q in
-/// J^T = Q [triangle; 0], by Householder's reflections: Q = P0 P1, P = I - 2 v v^T.
+/// The null-space method [Nocedal2006]. The first two of the orthonormal axes span the gradients of
+/// the constraints; the others are tangent to the manifold of the constraints. The axes are the
+/// columns of Q in J^T = Q [triangle; 0], by Householder reflections: Q = P0 P1, P = I - 2 v v^T.
 ///
-/// An object is its own working space: no function allocates.
+/// An object holds its working space: no function allocates.
 class NullSpace {
  public:
   explicit NullSpace(Eigen::Index n);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a kernel of the spline works on, as plain data: this header is compiled with every
-/// instruction set (simd/lanes.h says why).
+/// Data of a kernel of the spline works on, as plain data: this header is compiled with every
+/// instruction set (simd/lanes.h explains why).
 
 #include <cstddef>
 

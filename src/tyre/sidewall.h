@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a sidewall does to tread and rim: forces, stiffness and potential for a position of the
-/// tread edge, whichever way they are computed: SidewallDirect solves the chain, SidewallTable
-/// looks it up.
+/// Interface of a sidewall: forces, stiffness and potential for a position of the tread edge.
+/// SidewallDirect solves the chain, SidewallTable interpolates in a table.
 ///
-/// A sidewall is taken as a planar chain in the meridian plane [Shoop2001], as wide as its strip of
-/// the tread. All values are per unit circumference of the tread: a station that holds the width w
-/// of tread takes w times them. The pressure acts on the strip's own width omega = bead_width +
-/// taper r (tyre_parameters.h): even, as in a plane, or between two meridians, where it is narrower
-/// at the rim. Neglected: tension and shear along the circumference, the variation of bending
-/// stiffness with the strip's width, the sidewall's mass.
+/// A sidewall is a planar chain in the meridian plane [Shoop2001], as wide as its strip of the
+/// tread. All values are per unit circumference of the tread; a station of the width w multiplies
+/// them by w. The pressure acts on the strip's width omega = bead_width + taper r
+/// (tyre_parameters.h). An even strip has a constant width; a strip between two meridians is
+/// narrower at the rim. Neglected are tension and shear along the circumference, the variation of
+/// bending stiffness with the strip's width, and the mass of the sidewall.
 ///
 /// Pressure is a follower load. On the tread act minus the gradient of the potential W and the
 /// tread's share of the pressure on the chord (theory: tyres, eq. 4). The force alone has no
@@ -52,8 +51,8 @@ class Sidewall {
  public:
   virtual ~Sidewall() = default;
 
-  /// Responses of n stations. A direct solution of a station starts from its own last one, so
-  /// callers must keep their order.
+  /// Responses of n stations. The direct solution of a station starts from its previous one, so
+  /// callers must keep the order of stations.
   /// @param ends, responses n of each; owned by the caller
   /// @param with_stiffness false leaves out the stiffness
   /// @throws StateError for an end that is not finite or cannot be reached, naming the station
@@ -63,7 +62,7 @@ class Sidewall {
   virtual double pressure() const = 0;  ///< [Pa]
   /// From the next evaluation on; a table is made for it. @throws StateError
   virtual void set_pressure(double pressure) = 0;
-  /// By the chain, also where forces are looked up. @throws StateError
+  /// Shape by the chain, also if forces come from a table. @throws StateError
   virtual SidewallShape shape(const SidewallEnd& end) = 0;
 };
 

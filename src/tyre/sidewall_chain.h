@@ -13,12 +13,12 @@ namespace furrow {
 /// end at (a, r). W = Phi + p g, so S = G - g.
 ///
 /// Newton's method on the manifold of chains that end at (a, r): steps along its tangent plane
-/// (null_space.h), modified Cholesky of the reduced Hessian, line search on Phi, and a step limit,
-/// so that a search descends and never jumps over a ridge. What it ends at is a stable equilibrium:
-/// the reduced Hessian is positive definite there, or it is refused. The branch is the one to which
-/// the circular arc relaxes: the arc is the equilibrium without bending stiffness.
+/// (null_space.h), modified Cholesky of the reduced Hessian, line search on Phi, and a step limit.
+/// A search therefore descends and never crosses a ridge. The solution is a stable equilibrium: a
+/// reduced Hessian that is not positive definite is an error. The branch is that of the circular
+/// arc, the equilibrium without bending stiffness.
 ///
-/// An object is its own working space: use one per thread.
+/// An object holds its working space: use one per thread.
 class SidewallChain {
  public:
   /// @throws InputError for parameters that check() refuses
@@ -29,8 +29,9 @@ class SidewallChain {
 
   /// Equilibrium at an end.
   /// @param pressure >= 0 [Pa]
-  /// @param angles [rad] in: where to start from, such as the solution nearby, or empty for the
-  /// arc; out: the solution. Where a start does not lead to a chain like the arc, the arc is taken
+  /// @param angles [rad] in: the start, such as a solution nearby, or empty for the arc; out: the
+  /// solution. If the start does not lead to a chain like the arc, the search begins again from the
+  /// arc
   /// @throws StateError: an end that is not finite, beyond the length, or at the bead; no stable
   /// equilibrium found
   SidewallResponse solve(const SidewallEnd& end, double pressure, VectorX& angles,
@@ -39,7 +40,7 @@ class SidewallChain {
   /// The inscribed arc that bulges outwards. @throws StateError as solve
   void arc(const SidewallEnd& end, VectorX& angles);
 
-  /// All that the chain tells at an end. @throws StateError as solve
+  /// Equilibrium in detail at an end. @throws StateError as solve
   SidewallShape shape(const SidewallEnd& end, double pressure);
 
  private:

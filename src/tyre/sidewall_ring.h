@@ -23,8 +23,7 @@ struct RimPose {
 /// s = Q s_0 on the node (Q: the node's rotation). With d from B_i to the strip's end and the
 /// outward axial unit vector A of the rim:
 ///   a = d . A,  r e_r = d - a A,  phi = angle of the tread's axial line Q A from A towards e_r.
-/// The strip's plane tilts when the tread is wound up against the rim, and its tension resists
-/// that.
+/// The strip's plane tilts when the tread twists against the rim; its tension resists the twist.
 ///
 /// Its potential is w W(a, r, phi) (sidewall.h). The pressure on the chord acts on the true
 /// surface: quadrilaterals between bead points, ends of links and tread nodes. With the tread they
@@ -52,8 +51,8 @@ class SidewallRing {
   int side() const { return side_; }
   /// Points of the sidewall at a station by the chain, in space, from bead to tread.
   Matrix3X profile(std::size_t station, const ShellNodes& nodes, const RimPose& rim);
-  /// Points of the arc of the sidewall's length over its chord, the chain's shape without bending
-  /// stiffness: cheap enough for contact in every step.
+  /// Points of the circular arc over the chord, the shape of the chain without bending stiffness.
+  /// It is cheap enough for contact in every step.
   /// @param points of each station, evenly from the bead on; the tread's end is the one after them
   /// @param x [m] columns from `first` on are set, station by station
   void arcs(int points, const ShellNodes& nodes, const RimPose& rim, Matrix3X& x,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// How a sidewall answers when its tread edge moves, solved and looked up side by side: what
-/// furrow-sidewall shows.
+/// Response of a sidewall to motions of its tread edge, by the chain and by the table: output of
+/// furrow-sidewall.
 
 #include <string>
 #include <vector>

@@ -22,7 +22,7 @@ std::array<GridAxis, 3> SidewallTableGrid::axes() const {
 
 namespace {
 
-// rms of the force, of its own rms: a table beyond it is refused
+// largest rms error of the force over the rms of the force
 constexpr double largest_error = 5e-3;
 
 /// The end at u, chi, phi.

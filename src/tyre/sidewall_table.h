@@ -3,11 +3,11 @@
 /// A sidewall by lookup: its potential W at one pressure as a smooth table, and the forces as its
 /// exact gradient.
 ///
-/// W (tyre/sidewall.h) depends on the chord's length c and direction chi and on the tread's
-/// rotation phi. It is tabulated over (u, chi, phi) with u = sqrt(1 - c/l): W has a square root at
-/// the stretched chain, but is smooth in u. The spline is quintic, so forces are C3 and stiffness
-/// C2 in the interior, and around a closed path they do no work but the pressure's, p times the
-/// area that the tread end sweeps, whatever the size of the table.
+/// W (sidewall.h; theory: tyres, eq. 4) depends on the chord's length c and direction chi and on
+/// the tread's rotation phi. It is tabulated over (u, chi, phi) with u = sqrt(1 - c/l), because W
+/// has a square root at the stretched chain but is smooth in u. The spline is quintic: forces are
+/// C3 and stiffness C2 in the interior. Around a closed path the forces do only the work of the
+/// pressure, p times the area that the tread end sweeps, for any size of the table.
 
 #include <array>
 #include <vector>

@@ -4,7 +4,7 @@
 
 namespace furrow {
 
-/// Lines of nodes around the tyre, one beside the other. Node (i, j) is the i-th around from the
+/// Lines of nodes around the tyre, next to one another. Node (i, j) is the i-th around from the
 /// lowest point of the wheel as made towards +x, on the j-th line across towards +y; a half model
 /// has the lines of y >= 0.
 struct TreadGrid {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What fixes, rigs and programs know of a tyre, whatever it is made of.
+/// Interface of tyres for fixes, rigs and programs, independent of their construction.
 ///
-/// Another kind of tyre is a class that derives from Tyre, or from NodalTyre (nodal_tyre.h), a
-/// reader of its files (as io/tyre_file.h) and a fix style that derives from
+/// Another kind of tyre needs three parts: a class that derives from Tyre or NodalTyre
+/// (nodal_tyre.h), a reader of its files (as io/tyre_file.h), and a fix style that derives from
 /// coupling/bodies/fix_tyre.h. The parts in this folder that do not depend on the kind: sidewalls
 /// (sidewall_ring.h), surface and contact hand-over (tyre_surface.h), damping (node_step.h),
 /// footprint (contact_patch.h), and shell/dynamic_relaxation.h.
@@ -35,8 +35,8 @@ class Tyre : public WheelHub {
   /// load work. @throws StateError
   virtual void set_pressure(double pressure) = 0;
 
-  /// Brings the tyre to rest under its pressure and its load (if z is free) on a plane, which may
-  /// be null, by dynamic relaxation: the load, or the travel of the axle, is applied gradually.
+  /// Brings the tyre to rest by dynamic relaxation, under its pressure and its load (if z is free)
+  /// on a plane, which may be null. The load, or the travel of the axle, is applied gradually.
   /// Time, works and dissipation are not counted; surface().f is as before.
   /// @throws StateError when max_steps do not suffice, and as advance()
   Relaxation settle(RigidPlane* plane, const SettleOptions& options = {});

@@ -14,9 +14,9 @@ namespace furrow {
 /// (SidewallRing::arcs()). Nodes: those of the tread in its own order, then the sidewalls' ring by
 /// ring, station by station, from the bead on.
 ///
-/// A node of a sidewall is no degree of freedom. At the share s of the way from bead to tread, its
-/// force goes with s to the tread's node of that station and with 1 - s to the rim, and the rim
-/// takes the moment that is left, so force and moment are kept. Its velocity
+/// A node of a sidewall is no degree of freedom. At the share s of the way from bead to tread, the
+/// tread's node of that station takes the share s of its force. The rim takes 1 - s and the
+/// remaining moment, so force and moment are conserved. Its velocity
 ///   v = s v_tread + (1 - s) V + Omega x (x - C - s (x_tread - C))
 /// is the one that makes the force's power the power of what it is handed to (V, Omega, C:
 /// velocity, angular velocity and centre of the rim).

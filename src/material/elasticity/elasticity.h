@@ -16,7 +16,7 @@ namespace furrow {
 
 /// The section "elasticity" of a material file.
 SectionSchema elasticity_section();
-/// @throws InputError for a combination that cannot be
+/// @throws InputError for values that exclude each other
 ElasticityParameters make_elasticity(const SectionOptions& section);
 /// The pressure at which a run starts: 0, or p0 of porous elasticity [Pa].
 double initial_pressure(const ElasticityParameters& parameters);

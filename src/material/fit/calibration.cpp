@@ -17,8 +17,8 @@ namespace furrow {
 
 namespace {
 
-/// A direction with a singular value below this part of the largest cannot be told from the noise
-/// of the differences.
+/// A direction with a singular value below this part of the largest is within the noise of the
+/// differences.
 constexpr double min_singular_ratio = 1e-5;
 /// A parameter known no better than this (of ln, or of its scale) is not determined: a factor of e
 /// either way.

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Adjusts parameters of a law to measured curves by least squares (Levenberg–Marquardt of MINPACK,
-/// as Eigen has it), and says how well the data determine each of them.
+/// Fits parameters of a law to measured curves by least squares (Levenberg–Marquardt of MINPACK, in
+/// Eigen) and reports how well the data determine each of them.
 ///
 /// Residuals: r = (model - measured)/deviation, or ln(model/measured)/deviation for relative data.
 /// Positive parameters are fitted in their logarithm; bounds are kept by a smooth map.
 /// Uncertainties come from the Jacobian J of the residuals with respect to the scaled parameters z
-/// at the solution: covariance = s^2 (J^T J)^-1, with s^2 = sum r^2/(data - parameters) where the
-/// deviation of the data is not known, else s = 1. It is linear: true near the solution, for small
-/// errors.
+/// at the solution: covariance = s^2 (J^T J)^-1. If the deviation of the data is unknown, s^2 = sum
+/// r^2/(data - parameters), else s = 1. The covariance is linear: it is valid near the solution,
+/// for small errors.
 
 #include <limits>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// One parameter of a fit: where it stands among a material's values, and the variables that the
-/// method and its judgement use.
+/// One parameter of a fit: its place among the values of a material, and the variables of the
+/// method.
 ///
 ///   value  <->  z, scaled: ln(value) where only positive values are allowed, else value/scale
 ///   z      <->  t, unbounded: z = low + (high - low)(1 + tanh t)/2 between two bounds, else z = t

@@ -91,7 +91,8 @@ class Stepper {
     Branch branch = Branch::elastic;
   };
 
-  /// The state after a step to `variable`; false with the law's message when the law refuses it.
+  /// The state after a step to `variable`; false with the message of the law when the law refuses
+  /// it.
   bool update(const Vector6& variable, double time_step, Trial& trial, std::string& refusal) const {
     trial.variable = variable;
     trial.state = state_;

@@ -28,7 +28,7 @@ struct PointRecord {
   Branch branch = Branch::elastic;     ///< of the last update
 };
 
-/// How hard the path was.
+/// Effort of the solver along the path.
 struct PointCost {
   long steps = 0;  ///< of the path
   long cuts = 0;   ///< halvings of a step
@@ -62,11 +62,11 @@ PointChannel find_point_channel(const Material& material, const std::string& nam
 ///         stress and the cause
 PointHistory drive_point(const Material& material, const PointPath& path);
 
-/// Strains that no ground comes to, in a sentence; empty without.
+/// A warning about strains that no ground reaches; empty without.
 std::string doubt_of_strains(const PointHistory& history);
 
-/// What the size of the steps costs: the same path with every step halved, compared at the ends of
-/// the segments.
+/// Error of the step size: comparison with the same path with every step halved, at the ends of the
+/// segments.
 struct StepError {
   double p = 0.0;        ///< largest change of p, relative to the largest p or q of the run
   double q = 0.0;        ///< the same of q

@@ -12,7 +12,8 @@
 
 namespace furrow {
 
-/// How the six deformation variables e = (xx, yy, zz, xy, yz, xz) make the deformation gradient F.
+/// Mapping of the six deformation variables e = (xx, yy, zz, xy, yz, xz) to the deformation
+/// gradient F.
 enum class Motion {
   stretch,  ///< F = exp(E), E symmetric with the components e: logarithmic strain, no rotation
   /// F = diag(exp(e_xx), exp(e_yy), exp(e_zz)) with F_xy = e_xy, F_yz = e_yz, F_xz = e_xz: level

@@ -12,7 +12,7 @@ namespace furrow {
 
 namespace {
 
-/// The keys of a table beside its column of strains or densities.
+/// The keys of a table in addition to its column of strains or densities.
 void declare_strengths(Schema& schema) {
   schema.numbers("p", 0, "Pa", Range::positive(), "hydrostatic yield strengths p_b, increasing");
   schema.choice("interpolation", {"linear", "log"},

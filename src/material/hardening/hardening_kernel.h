@@ -24,7 +24,7 @@ class Hardening {
                           ? by_formula(max(eps, h_.first))
                           : by_table(max(eps, h_.first));
     const Mask below = eps < Lanes(h_.first);
-    if (any(below)) {  // exp(-80) is a strength that vanishes in rounding beside the stiffness
+    if (any(below)) {  // exp(-80) is a strength below the rounding of the stiffness
       const Lanes exponent = Lanes(h_.decay) * (eps - Lanes(h_.first));
       const Lanes value = Lanes(h_.first_value) * exponential(max(exponent, -80.0));
       result.value = select(below, value, result.value);

@@ -22,7 +22,7 @@ namespace furrow {
 
 class CohesiveCamClay : public Material {
  public:
-  /// Indices of the law's own variables in the state.
+  /// Indices of the internal variables in the state.
   enum : std::size_t { eps_vol_pl = field::internal, eps_dev_pl };
 
   static MaterialModel model();

@@ -59,9 +59,8 @@ struct ViolatedSurface {
   Mask tension;
 };
 
-/// Which surface the return ends on is known beforehand: flow on the cap compacts and ends at p >=
-/// pa, flow on the shear line and the transition loosens and ends at p <= pa, so the side of the
-/// trial pressure decides.
+/// The trial pressure decides on which surface the return ends. Flow on the cap compacts and ends
+/// at p >= pa; flow on the shear line and the transition dilates and ends at p <= pa.
 FURROW_INLINE ViolatedSurface violated_surface(const DruckerPragerCapParameters& parameters,
                                                const CapTrial& trial) {
   // The slack is rounding: a point at rest on its surface is elastic.
