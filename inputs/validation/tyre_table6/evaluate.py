@@ -180,7 +180,7 @@ def evaluate(runs: Runs, output: Output) -> Sequence[str]:
     output.table("load_deflection.csv", states)
     output.table("contact_stress.csv", stress_table(runs))
     # a refused state has the unloaded one alone
-    hard = [
+    hard: list[dict[str, object]] = [
         {"case": run.what, **state}
         for run in runs.ended("hard_cases")
         for state in tyre_states(run.folder)

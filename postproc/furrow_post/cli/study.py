@@ -2,9 +2,7 @@
 """furrow-post study: makes studies, repeats them, writes experiments.csv and the values in pages."""
 
 import argparse
-import subprocess
 import sys
-from collections.abc import Sequence
 from pathlib import Path
 
 from ..arguments import at_least, path, words
@@ -52,9 +50,8 @@ def run(arguments: argparse.Namespace) -> None:
 
 def study_folders(root: Path) -> list[Path]:
     """Of all studies that have runs."""
-    inputs = root / "inputs"
-    found = {file.parent for file in inputs.rglob(DEFINITION) if "runs" in load_yaml(file)}
-    return sorted(found | {file.parent for file in inputs.glob("validation/*/run.py")})
+    files = (root / "inputs").rglob(DEFINITION)
+    return sorted(file.parent for file in files if "runs" in load_yaml(file))
 
 
 def folder_of(root: Path, name: str) -> Path:
@@ -73,30 +70,14 @@ def make(folder: Path, arguments: argparse.Namespace) -> int:
     """Makes the runs that are missing and evaluates them; the exit status."""
     if arguments.check and arguments.whole:
         arguments.names = ["*"]
-    driver = folder / "run.py"
-    if driver.is_file():
-        return subprocess.run([sys.executable, driver, *_options(arguments)]).returncode
     return carry_out(load_study(folder), arguments)
-
-
-def _options(arguments: argparse.Namespace) -> list[str]:
-    """Of a driver."""
-    flags = [f"--{name}" for name in ("list", "evaluate", "again", "check") if getattr(arguments, name)]
-    values = [
-        word
-        for name in ("jobs", "results", "build")
-        if (value := getattr(arguments, name)) is not None
-        for word in (f"--{name}", str(value))
-    ]
-    return [*arguments.names, *flags, *values]
 
 
 def repeated(folder: Path, arguments: argparse.Namespace) -> int:
     """The number of values that the runs in the results folder have otherwise than stored."""
     if not arguments.results:
         raise ResultsError("--check needs --results, the folder of its runs and tables")
-    values = values_of(folder) if (folder / DEFINITION).is_file() else []
-    sentences = list(missed(values, arguments.results, arguments.whole))
+    sentences = list(missed(values_of(folder), arguments.results, arguments.whole))
     for sentence in sentences:
         print(f"MISSED: {sentence}", file=sys.stderr)
     return len(sentences)

@@ -11,30 +11,28 @@ from unittest.mock import patch
 
 import numpy as np
 
+from furrow_post.csv_table import read_rows
 from support.command import SOURCE
+from support.evaluation import VALIDATION, evaluation
 
 sys.path.insert(0, str(SOURCE / "inputs" / "validation" / "grains"))
 
-import run as grains
 import track_density
 
 from furrow_post.analyse.density import GroundPoints
 from furrow_post.arrays import Floats
 from furrow_post.errors import ResultsError
 
-FAMILY = grains.FAMILIES[0]  # sand_triaxial: two angles
+grains = evaluation("grains")
+FAMILY = "sand_triaxial"  # two angles
 
 
-def outcomes(**values: list[float]) -> list[grains.Outcome]:
-    """Runs of changes with these angles, one packing each."""
+def outcomes(**values: list[float]) -> list[dict[str, object]]:
+    """Rows of changes with these angles, one packing each."""
     return [
-        grains.Outcome(
-            grains.Planned(grains.CASES[0], change.replace("_", " "), seed),
-            np.array([angle, angle - 1]),
-            10.0,
-        )
+        {"change": change.replace("_", " "), "value_1": angle, "value_2": angle - 1}
         for change, angles in values.items()
-        for seed, angle in enumerate(angles)
+        for angle in angles
     ]
 
 
@@ -48,11 +46,10 @@ class PackingsTest(unittest.TestCase):
         self.assertTrue(np.isnan(half.scatter).all())
 
     def test_error_of_a_difference_is_that_of_the_packings(self) -> None:
-        lines = grains.family_section(FAMILY, self.found)
+        base, _, half, _ = grains.change_rows(FAMILY, self.found)
+        self.assertEqual((base["mean"], base["scatter"], base["difference"]), ("29", "1.41", ""))
         error = math.sqrt(2) * math.sqrt(1 + 1 / 2)
-        expected = f"| half the step | 1 | 30.0 | +1.0 ± {error:.1f} |"
-        self.assertTrue(any(line.startswith(expected) for line in lines), lines)
-        self.assertTrue(any("| base | 2 | 29.0, scatter 1.4 |  |" in line for line in lines))
+        self.assertEqual((half["difference"], half["difference_error"]), ("1", f"{error:.3g}"))
 
     def test_limits(self) -> None:
         self.assertEqual(list(grains.missed_limits(FAMILY, self.found)), [])
@@ -63,6 +60,14 @@ class PackingsTest(unittest.TestCase):
         )
         (alone,) = grains.missed_limits(FAMILY, {})
         self.assertIn("fewer than two packings of the base", alone)
+
+    def test_the_stored_changes_are_those_of_the_stored_runs(self) -> None:
+        rows = read_rows(VALIDATION / "grains" / "results.csv")
+        made = []
+        for family in grains.FAMILIES:
+            found = grains.by_change([row for row in rows if row["family"] == family])
+            made += [{k: str(v) for k, v in row.items()} for row in grains.change_rows(family, found)]
+        self.assertEqual(read_rows(VALIDATION / "grains" / "changes.csv"), made)
 
 
 SIZE, DEPTH, BULK, SIDE = 0.02, 0.20, 200.0, 0.12  # a lattice of clusters; half a wheel's width

@@ -10,7 +10,7 @@ from support.command import FURROW_POST, SOURCE
 
 INPUTS = SOURCE / "inputs"
 OTHERS = (INPUTS / "crosscheck" / "run.py", INPUTS / "costs" / "run.py")
-DRIVERS = sorted((*INPUTS.glob("validation/*/run.py"), *OTHERS))
+DRIVERS = OTHERS
 DEFINED = sorted(file.parent for file in INPUTS.glob("*/*/evaluate.py"))
 TOOLS = (
     INPUTS / "laboratory" / "run.py",

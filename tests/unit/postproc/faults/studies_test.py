@@ -21,8 +21,7 @@ from support.faults import FaultsTest, outcome
 
 INPUTS = SOURCE / "inputs"
 OTHERS = (INPUTS / "crosscheck" / "run.py", INPUTS / "costs" / "run.py")
-DRIVERS = (*sorted(INPUTS.glob("validation/*/run.py")), *OTHERS)
-STUDIES = (*DRIVERS, *(file.parent for file in sorted(INPUTS.glob("*/*/evaluate.py"))))
+STUDIES = (*OTHERS, *(file.parent for file in sorted(INPUTS.glob("*/*/evaluate.py"))))
 FILES = ("history.h5", "terrain.h5", "curve.txt", "facts.txt", "summary.json", "point.csv")
 
 # (words, what is said)
