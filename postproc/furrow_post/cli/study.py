@@ -5,7 +5,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from ..arguments import at_least, path, words
+from ..arguments import words
 from ..errors import ResultsError
 from ..formatting import duration
 from ..study import pages

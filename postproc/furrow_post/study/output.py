@@ -8,14 +8,15 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..csv_table import write_rows
-from .provenance import origin, update_origins
+from ..csv_table import read_rows, write_rows
+from .provenance import origin, read_origins, update_origins
 from .record import Record
 from .tables import aligned
 
 PAGE, SECTION = "README.md", "tables.md"
 BEGIN, END = "<!-- written by run.py -->", "<!-- end -->"
 COLUMNS = 100  # of a page
+OF_RUNS = ("run", "case", "law")  # first column of a table with a row for each run
 
 
 def _wrapped(line: str) -> str:
@@ -40,16 +41,38 @@ def with_section(page: str, lines: Sequence[str], begin: str = BEGIN, end: str =
     return f"{before}{found or begin}\n\n{text}\n\n{end}{after}"
 
 
+def by_run(path: Path) -> bool:
+    """Whether a stored table has a row for each run."""
+    rows = read_rows(path) if path.suffix == ".csv" else []
+    return bool(rows) and next(iter(rows[0])) in OF_RUNS
+
+
+def merged(path: Path, rows: Sequence[Mapping[str, Any]]) -> Sequence[Mapping[str, Any]]:
+    """The stored rows with these in the place of those of the same run; new ones come last."""
+    if not path.is_file() or not by_run(path):
+        return rows
+    stored = read_rows(path)
+    key = next(iter(stored[0]))
+    fresh: dict[str, list[Mapping[str, Any]]] = {}
+    for row in rows:
+        fresh.setdefault(str(row[key]), []).append(row)
+    found: list[Mapping[str, Any]] = []
+    for old in stored:
+        found += fresh.pop(old[key], []) if old[key] in fresh else [old]
+    return [*found, *(row for group in fresh.values() for row in group)]
+
+
 class Output:
     """Files of a study for one folder, where publish() puts them together: an evaluation that
     breaks off replaces nothing. To be used in a with statement.
 
     page: README.md is there and gets the section between its marks; else the section is a file of
-    its own.
+    its own. merge: only tables with a row for each run are written; rows of these runs replace
+    those that are stored, and the others stay.
     """
 
-    def __init__(self, folder: Path, page: bool) -> None:
-        self.folder, self.page = folder, page
+    def __init__(self, folder: Path, page: bool, merge: bool = False) -> None:
+        self.folder, self.page, self.merge = folder, page, merge
         self.files: list[str] = []
         self._written = tempfile.TemporaryDirectory()
         folder.mkdir(parents=True, exist_ok=True)
@@ -72,6 +95,8 @@ class Output:
         """Prints a table and writes it; nothing for no rows."""
         if rows:
             print(aligned(rows), end="\n\n")
+            if self.merge:
+                rows = merged(self.folder / name, rows)
             write_rows(self.path(name), rows, comments)
 
     def section(self, lines: Sequence[str]) -> None:
@@ -86,6 +111,9 @@ class Output:
     def publish(self, records: Sequence[Record], root: Path) -> None:
         """Puts all files into the folder, with their provenance: they were made of these runs;
         root: of the project."""
-        for file in self.files:
+        known = read_origins(self.folder) if self.merge else {}
+        files = [file for file in self.files if not self.merge or file in known and by_run(self.folder / file)]
+        for file in files:
             shutil.move(Path(self._written.name) / file, self.folder / file)
-        update_origins(self.folder, [origin(file, records, root) for file in self.files])
+        made = [origin(file, records, root) for file in files]
+        update_origins(self.folder, [one.joined(known.get(one.file)) for one in made])

@@ -4,7 +4,7 @@
 import shlex
 import sys
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from datetime import date
 from pathlib import Path
 
@@ -30,6 +30,21 @@ class Origin:
     written: str = ""  # day
     command: str = ""  # that wrote it
     note: str = ""
+
+    def joined(self, former: "Origin | None") -> "Origin":
+        """Of a file that keeps rows of former runs."""
+        if former is None:
+            return self
+        programs = sorted({*former.program.split("; "), *self.program.split("; ")} - {""})
+        commits = sorted({*former.commit.split(), *self.commit.split()})
+        days = sorted({*former.runs.split(" to "), *self.runs.split(" to ")} - {""})
+        return replace(
+            self,
+            program="; ".join(programs),
+            commit=" ".join(commits),
+            runs=" to ".join(dict.fromkeys((days[0], days[-1]))) if days else "",
+            note=former.note,
+        )
 
 
 def origin(file: str, records: Iterable[Record], root: Path) -> Origin:

@@ -87,6 +87,11 @@ def add_study_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--list", action="store_true", help="say what is there and what is not")
     parser.add_argument("--evaluate", action="store_true", help="make no runs, only the tables")
+    parser.add_argument(
+        "--merge",
+        action="store_true",
+        help="put the rows of the runs that are there into the stored tables and leave the others",
+    )
     parser.add_argument("--again", action="store_true", help="make failed runs again")
     parser.add_argument("--jobs", type=at_least(1), default=1, help="runs at a time (default: 1)")
     parser.add_argument(
@@ -121,18 +126,21 @@ def carry_out(study: Study, parsed: argparse.Namespace) -> int:
         return 0
     if not parsed.evaluate:
         runner.run(chosen)
-    return _evaluate(study, runner, chosen, parsed.check)
+    return _evaluate(study, runner, chosen, parsed.check, parsed.merge)
 
 
-def _evaluate(study: Study, runner: Runner, chosen: Sequence[Case], check: bool) -> int:
+def _evaluate(
+    study: Study, runner: Runner, chosen: Sequence[Case], check: bool, merge: bool
+) -> int:
     """Tables go beside the driver when they are complete, else into the results folder."""
     states = [runner.state(case) for case in study.cases]
     complete = State.DONE in states and all(
         state is State.DONE or (state is State.FAILED and case.may_fail)
         for case, state in zip(study.cases, states)
     )
-    beside = complete and not check
-    with Output(study.folder if beside else runner.results, page=beside) as output:
+    merge = merge and not complete and not check
+    beside = (complete or merge) and not check
+    with Output(study.folder if beside else runner.results, page=beside, merge=merge) as output:
         missed = list(study.evaluate(runner, output))
         records = [record for case in study.cases if (record := runner.record(case))]
         output.publish(records, runner.tools.root)

@@ -138,6 +138,25 @@ class StudyTest(unittest.TestCase):
         self.assertIn("photo.png,camera,,,2020-01-01,,by hand", text)
         self.assertTrue(text.startswith("# ours\n"))
 
+    def test_rows_of_some_runs_replace_the_stored_ones(self) -> None:
+        stored = self.tree.study / "results.csv"
+        stored.write_text("run,value,note\na1,7,old\nb1,8,old\n")
+        head = "file,program,commit,runs,written,command,note"
+        provenance = self.tree.study / "provenance.csv"
+        provenance.write_text(f"{head}\nresults.csv,furrow 1,abc,2020-01-01,2020-01-01,,\n")
+        page = self.page.read_text()
+        self.run_study("a1", "--merge", a1=1, b1=2, c1=3)
+        self.assertEqual(
+            [(row["run"], float(row["value"]), row["note"]) for row in read_rows(stored)],
+            [("a1", 1.0, ""), ("b1", 8.0, "old")],
+        )
+        (origin,) = read_rows(provenance)
+        self.assertTrue(origin["program"].startswith("furrow 1; furrow "))
+        self.assertTrue(origin["runs"].startswith("2020-01-01 to "))
+        self.assertEqual(self.page.read_text(), page)
+        self.run_study("c1", "--merge", a1=1, b1=2, c1=3)  # a run that had no row
+        self.assertEqual([row["run"] for row in read_rows(stored)], ["a1", "b1", "c1"])
+
     def test_missed_limit_counts_in_a_check_only(self) -> None:
         status, printed = self.run_study(low=0.5)
         self.assertEqual(status, 0)
