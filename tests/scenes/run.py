@@ -43,7 +43,9 @@ from refused import REFUSED
 PROJECT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(PROJECT / "postproc"))
 from furrow_post.scene import command
+from furrow_post.read.script import script_variables
 from furrow_post.scene.catalogue import GROUPS, head_entry
+from furrow_post.scene.restart import continuation
 
 SCENES = PROJECT / "inputs" / "scenes"
 LABORATORY = PROJECT / "inputs" / "laboratory"
@@ -222,6 +224,23 @@ def refused(words):
     return status, said.getvalue()
 
 
+# Variables that a scene has -> what in its script asks for them
+COMMON = {"tyre": " tyre/", "material": "terrain/continuum", "gravity": "terrain/continuum"}
+
+
+def check_common_variables(script):
+    """Tyre, material and gravity are variables; a checkpoint can take the place of the box."""
+    defaults, text = script_variables(script, {}).defaults, script.read_text()
+    for name, style in COMMON.items():
+        if style not in text:
+            continue
+        if name not in defaults or f"{name} ${{{name}}}" not in text.replace("file ${tyre}", "tyre ${tyre}"):
+            sys.exit(f"{script}: '{name}' is no variable that its lines read")
+        if name != "gravity" and not (script.parent / defaults[name]).is_file():
+            sys.exit(f"{script}: the default of '{name}', {defaults[name]}, is no file")
+    continuation(script, "checkpoint")
+
+
 def usage():
     listed = inputs_run("--help")
     words = " ".join(listed.split())
@@ -229,6 +248,7 @@ def usage():
         name, title = Head(script).title.split(": ", 1)
         if name != script.stem or f"{name} {title}" not in words:
             sys.exit(f"{script.name} is not in the list of scenes under its name and title")
+        check_common_variables(script)
         if head_entry(script, "Group") not in GROUPS:
             sys.exit(f"{script}: the group in its head is none of {', '.join(GROUPS)}")
     inputs_run("no_such_scene", status=2)

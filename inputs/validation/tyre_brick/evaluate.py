@@ -340,7 +340,7 @@ def darnell_row(mesh: str, run: str, errors: Row, state: str = "") -> Row:
 
 
 def brick_row(tread: str, sections: int, seconds: float, errors: Row, state: str = "") -> Row:
-    tyre = f"-v tyre p235_75r15_{tread} -v sections {sections}"
+    tyre = f"-v tyre ../tyres/p235_75r15_{tread}.yaml -v sections {sections}"
     return {
         "run": f"{tread}, {sections} sections",
         "wheel": "tyre/brick",

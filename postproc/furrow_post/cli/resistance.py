@@ -3,8 +3,10 @@
 
 import argparse
 import os
+from pathlib import Path
 
 from ..programs import find_program
+from ..read.results import require_different
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -12,7 +14,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    """Does not return. @raises ResultsError where there is no such program"""
-    program = str(find_program("furrow-resistance"))
+    """Does not return. @raises ResultsError without the program, or for a folder that is given twice"""
     given: list[str] = arguments.arguments
-    os.execv(program, [program, *(given[1:] if given[:1] == ["--"] else given)])
+    words = given[1:] if given[:1] == ["--"] else given
+    require_different([word for word in words if Path(word).is_dir()])
+    program = str(find_program("furrow-resistance"))
+    os.execv(program, [program, *words])

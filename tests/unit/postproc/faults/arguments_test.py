@@ -83,6 +83,8 @@ OTHERS: tuple[tuple[list[str], str], ...] = (
     (["plot", "a", "-o", "x.svg", "--format", "pdf"], "-o x.svg: is no pdf"),
     (["report", "a", "-o", "x.pdf"], "x.pdf: a report's name ends in .html"),
     (["report", "a", "-o", "/proc/x.html"], "/proc/x.html: no such file or directory"),
+    (["resistance", "a", "a", "--together"], "a: is given twice; name each results folder once"),
+    (["resistance", "a", "--csv", "b", "a/."], "a: is given twice"),
     (["export", "none"], "none: no such file; name the results folder of a run"),
     (["export", "a", "a"], "a: is given twice"),
     (["export", "a", "x=b", "x=a/history.h5"], "two runs are called 'x'; write LABEL=FOLDER"),
