@@ -9,13 +9,14 @@
 
 #include "core/error.h"
 #include "coupling/liggghts/script.h"
+#include "tyre/tyre_parameters.h"
 #include "update.h"
 
 namespace furrow::coupling {
 
 namespace {
 
-constexpr double min_pressure = 1e3, max_pressure = 1e7;  // [Pa] of any tyre, with room
+constexpr double min_pressure = 1e3;  // [Pa] of any tyre, with room
 // Radius of gyration of a rim, and what turns with it, over the radius of its beads.
 constexpr double min_gyration = 0.05, max_gyration = 30.0;
 constexpr int max_sub_steps = 4;  // in a step on grains, shown to be quiet: fix_tyre_darnell.md
@@ -27,7 +28,7 @@ void declare_file_and_pressure(Schema& schema) {
       .may_change();  // of place and name: checkpoints compare what is in it
   schema
       .number("pressure", "Pa", Range::non_negative(),
-              "inflation pressure, 1e3 to 1e7; by default that of the tyre file")
+              "inflation pressure, 1e3 to 2e6; by default that of the tyre file")
       .optional();
 }
 
@@ -45,12 +46,24 @@ std::string tyre_path(LAMMPS_NS::LAMMPS& lammps, const Options& options) {
 /// Psi, bar and kPa are told from Pa by their size.
 double read_pressure(const Options& options, double of_file) {
   const double pressure = options.has("pressure") ? options.number("pressure") : of_file;
-  if (pressure < min_pressure || pressure > max_pressure)
+  if (pressure < min_pressure || pressure > largest_inflation)
     throw InputError(options.where("pressure"), fmt::format("is {:g} Pa", pressure),
-                     fmt::format("{:g} to {:g} Pa", min_pressure, max_pressure),
+                     fmt::format("{:g} to {:g} Pa", min_pressure, largest_inflation),
                      "35 psi, 2.41 bar and 241 kPa are 241e3 Pa; a tyre without pressure is not "
                      "modelled");
   return pressure;
+}
+
+void inflate(const Options& options, Tyre& tyre) {
+  try {
+    tyre.settle(nullptr);
+  } catch (const StateError& problem) {
+    throw InputError(options.where("pressure"),
+                     fmt::format("is {:g} Pa, at which the tyre does not come to rest: {}",
+                                 tyre.pressure(), problem.what()),
+                     "a pressure that its carcass holds",
+                     "lower it, or check the stiffnesses of the tyre file");
+  }
 }
 
 /// Tread and sidewalls turn the rim to and fro in the steps of the tread.

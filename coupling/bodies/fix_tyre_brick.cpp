@@ -25,7 +25,7 @@ std::unique_ptr<WheelHub> make_brick_tyre(LAMMPS_NS::LAMMPS& lammps, const Optio
   check_rim(options, hub, parameters.bead_radius());
   auto tyre = std::make_unique<BrickTyre>(parameters, settings, hub, options.subject());
   check_damping(options, tyre->stable_time_step());
-  tyre->settle(nullptr);
+  inflate(options, *tyre);
   return tyre;
 }
 

@@ -44,7 +44,7 @@ std::unique_ptr<WheelHub> make_darnell_tyre(LAMMPS_NS::LAMMPS& lammps, const Opt
   auto tyre = std::make_unique<DarnellTyre>(parameters, settings, hub, options.subject(),
                                             open_sidewall_table);
   check_damping(options, tyre->stable_time_step());
-  tyre->settle(nullptr);
+  inflate(options, *tyre);
   return tyre;
 }
 

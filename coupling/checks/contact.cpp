@@ -2,14 +2,18 @@
 // Rules for what touches what: bodies and grains, bodies and a continuum.
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
+#include "atom.h"
+#include "core/communicator.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/bodies/fix_tyre_brick.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/checks/scene_checks.h"
 #include "domain.h"
+#include "primitive_wall.h"
 
 namespace furrow::coupling {
 
@@ -20,6 +24,11 @@ constexpr double round_off = 1e-6;  // of a length
 constexpr double min_cells = 2.0, good_cells = 4.0;
 // A polygon is a little narrower than its circle.
 constexpr double nearly = 0.98;
+// A plane in the place of a surface mesh: cosine between both normals, share of the mesh's area,
+// and distance behind the mesh in radii of a grain.
+constexpr double aligned = 0.7, covered_share = 0.05, behind = 0.5;
+// Of surcharge and weight, either over the other.
+constexpr double surcharge_ratio = 2.0;
 
 struct Span {
   double lower, upper;  // [m]
@@ -73,6 +82,33 @@ bool has_contact(const LAMMPS_NS::Modify& modify, const FixBody& fix) {
                      [&](const FixContact* contact) { return contact->uses(fix); });
 }
 
+struct Radii {
+  double smallest, largest;  // [m] of all ranks; no grains: infinity and 0
+};
+
+Radii radii_of_grains(const LAMMPS_NS::LAMMPS& lammps) {
+  const LAMMPS_NS::Atom& atom = *lammps.atom;
+  Radii radii{std::numeric_limits<double>::infinity(), 0.0};
+  for (int i = 0; i < atom.nlocal; ++i) {
+    radii.smallest = std::min(radii.smallest, atom.radius[i]);
+    radii.largest = std::max(radii.largest, atom.radius[i]);
+  }
+  const Communicator ranks(&lammps.world);
+  return {-ranks.max(-radii.smallest), ranks.max(radii.largest)};
+}
+
+/// Whether a wall lies where a grain on the triangle would rest, or so close above that none fits
+/// between.
+bool replaces(LAMMPS_NS::PrimitiveWall& wall, const Vector3& centre, const Vector3& normal,
+              const Radii& radii) {
+  Vector3 point = centre, to_wall = Vector3::Zero();
+  const double off = behind * radii.smallest;
+  point -= off * normal;  // a plane in the mesh itself would have no direction
+  wall.resolveContact(point.data(), 0.0, to_wall.data());
+  const double along = to_wall.dot(normal);
+  return along >= aligned * to_wall.norm() && along > 0.0 && along - off <= 2.0 * radii.largest;
+}
+
 }  // namespace
 
 bool touches_grains(const LAMMPS_NS::LAMMPS& lammps, const FixBody& body) {
@@ -92,6 +128,18 @@ Found stock_wall_has_no_body(const Scene&, const LAMMPS_NS::FixWallGran& wall) {
                                  mesh->id),
                      "a mesh/body in a wall/gran/body",
                      "write 'wall/gran/body' in place of 'wall/gran' in that line");
+  return {};
+}
+
+/// LIGGGHTS runs one mesh wall; its own error says no more.
+Found one_wall_has_all_meshes(const Scene& scene, const FixWallGranBody& wall) {
+  for (const auto* other : fixes_of<LAMMPS_NS::FixWallGran>(*scene.lammps.modify))
+    if (other != &wall && other->is_mesh_wall())
+      return refusal(
+          fmt::format("fix {} '{}'", other->style, other->id),
+          fmt::format("is a wall of meshes next to fix wall/gran/body '{}'", wall.id),
+          "one wall for all meshes of a scene",
+          fmt::format("list its meshes in 'meshes' of '{}' and remove its line", wall.id));
   return {};
 }
 
@@ -117,6 +165,62 @@ Found sheet_is_in_a_wall(const Scene& scene, const FixTerrain& terrain) {
       fmt::format("{} has a surface mesh that no wall/gran/body lists: grains fall through it; add "
                   "a mesh/body of it",
                   terrain.name()));
+}
+
+Found no_wall_replaces_the_sheet(const Scene& scene, const FixTerrain& terrain) {
+  if (!touches_grains(scene.lammps, terrain)) return {};
+  const Surface& sheet = terrain.body().surface();
+  const Radii radii = radii_of_grains(scene.lammps);
+  if (radii.largest == 0.0) return {};
+  for (auto* wall : fixes_of<LAMMPS_NS::FixWallGran>(*scene.lammps.modify)) {
+    if (wall->is_mesh_wall() || !wall->primitiveWall()) continue;
+    double area = 0.0, replaced = 0.0;
+    for (const Vector3i& nodes : sheet.triangles) {
+      const Vector3 a = sheet.x.col(nodes[0]), b = sheet.x.col(nodes[1]), c = sheet.x.col(nodes[2]);
+      const Vector3 twice = (b - a).cross(c - a);
+      area += twice.norm();
+      if (replaces(*wall->primitiveWall(), (a + b + c) / 3.0, twice.normalized(), radii))
+        replaced += twice.norm();
+    }
+    if (replaced <= covered_share * area) continue;
+    return refusal(fmt::format("fix {} '{}'", wall->style, wall->id),
+                   fmt::format("lies in {:.2g} of the surface mesh of terrain '{}': grains would "
+                               "rest on the wall and not on the terrain",
+                               replaced / area, terrain.id),
+                   "walls away from that mesh",
+                   fmt::format("write 'unfix {}' before the first run", wall->id));
+  }
+  return {};
+}
+
+/// A continuum that starts with another load than its grains settles, or springs back.
+Found surcharge_is_the_grains_weight(const Scene& scene, const FixTerrain& terrain) {
+  const double surcharge = terrain.options().number("surcharge");
+  if (surcharge == 0.0 || scene.time() > 0.0 || !touches_grains(scene.lammps, terrain)) return {};
+  const TerrainParameters& parameters = terrain.terrain().parameters();
+  const auto [x_lower, x_upper] = terrain.extent(0);
+  auto [y_lower, y_upper] = terrain.extent(1);
+  if (parameters.trough) {
+    const double middle = 0.5 * (y_lower + y_upper), half = 0.5 * parameters.trough->width;
+    y_lower = middle - half;
+    y_upper = middle + half;
+  }
+  const LAMMPS_NS::Atom& atom = *scene.lammps.atom;
+  double mass = 0.0;
+  for (int i = 0; i < atom.nlocal; ++i) {
+    const double* x = atom.x[i];
+    if (x[0] > x_lower && x[0] < x_upper && x[1] > y_lower && x[1] < y_upper) mass += atom.rmass[i];
+  }
+  mass = Communicator(&scene.lammps.world).sum(mass);
+  const double weight =
+      mass * parameters.gravity.norm() / ((x_upper - x_lower) * (y_upper - y_lower));
+  if (weight == 0.0 ||
+      (surcharge <= surcharge_ratio * weight && weight <= surcharge_ratio * surcharge))
+    return {};
+  return warning(
+      fmt::format("{} is {:.4g} Pa, and the grains above weigh {:.4g} Pa: the terrain does not "
+                  "start in equilibrium; write 'surcharge {:.4g}' [Pa]",
+                  terrain.options().where("surcharge"), surcharge, weight, weight));
 }
 
 Found half_terrain_has_half_the_grains(const Scene& scene, const FixTerrain& terrain) {

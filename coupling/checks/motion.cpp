@@ -2,6 +2,8 @@
 // Rules for what moves: does one fix, and only one, move each grain; do wheels and plates move at
 // speeds that the ground and the step can follow?
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -27,22 +29,76 @@ namespace {
 constexpr char move_all[] = "write 'fix move all nve/sphere'";
 // Of gravity: a slope of 60 degrees, steeper than any ground stands.
 constexpr double least_downward_share = 0.5;
+constexpr double straight = 1.0;         // [degrees] of gravity from straight down
+constexpr double largest_gravity = 2e3;  // [m/s^2] of a large centrifuge; 9806 would be mm/s^2
+// Between two values of one gravity, over the larger.
+constexpr double same_gravity = 2e-3, similar_gravity = 0.05;
+constexpr double same_pace = 1e-9;  // of speeds and times of two rigs
 // over the wave speed
 constexpr double mach_warning = 0.3, mach_limit = 1.0;
 // travel in a step over the radius of the smallest grain
 constexpr double travel_warning = 0.1, travel_limit = 1.0;
 
+struct GivenSpeed {
+  const Options& options;
+  std::string key, unit;
+  double value() const { return options.number(key); }
+};
+
 /// Refuses a share of a limit, or warns of it.
-Found judge(double share, double warned, double limit, const Options& speed,
+Found judge(double share, double warned, double limit, const GivenSpeed& speed,
             const std::string& finding, const std::string& remedy) {
-  const std::string problem = fmt::format("is {:.4g} m/s, {}", speed.number("speed"), finding);
+  const std::string where = speed.options.where(speed.key);
+  const std::string problem = fmt::format("is {:.4g} {}, {}", speed.value(), speed.unit, finding);
   if (share > limit)
-    return refusal(speed.where("speed"), problem,
-                   fmt::format("at most {:.3g} m/s here", limit / share * speed.number("speed")),
-                   remedy);
-  if (share > warned)
-    return warning(fmt::format("{} {}; {}", speed.where("speed"), problem, remedy));
+    return refusal(
+        where, problem,
+        fmt::format("at most {:.3g} {} here", limit / share * std::abs(speed.value()), speed.unit),
+        remedy);
+  if (share > warned) return warning(fmt::format("{} {}; {}", where, problem, remedy));
   return {};
+}
+
+double wave_speed(const ContinuumTerrain& terrain) {
+  return terrain.parameters().cfl * terrain.grid().shortest_cell() / terrain.stable_time_step();
+}
+
+/// Gravity as one line of the script gives it.
+struct GivenGravity {
+  std::string where;
+  Vector3 vector;  // [m/s^2]
+};
+
+/// Of a rig only where it makes a force of a mass, or a mass of a force.
+std::vector<GivenGravity> gravities(const Scene& scene) {
+  const LAMMPS_NS::Modify& modify = *scene.lammps.modify;
+  std::vector<GivenGravity> given;
+  for (const auto* terrain : fixes_of<const FixTerrain>(modify))
+    given.push_back({terrain->options().where("gravity"), terrain->terrain().parameters().gravity});
+  if (scene.grains > 0.0)
+    for (auto* fix : fixes_of<LAMMPS_NS::FixGravity>(modify)) {
+      given.push_back({fmt::format("fix gravity '{}'", fix->id), Vector3::Zero()});
+      fix->get_gravity(given.back().vector.data());
+    }
+  for (const auto* rig : fixes_of<const FixWheelRig>(modify)) {
+    const Options& options = rig->options();
+    if (options.given("load_mass") || options.text("travel") == "free")
+      given.push_back({options.where("gravity"), {0.0, 0.0, -options.number("gravity")}});
+  }
+  return given;
+}
+
+/// [degrees] 0 for none
+double angle_from_down(const Vector3& gravity) {
+  return gravity.norm() > 0.0 ? degrees(std::acos(-gravity.z() / gravity.norm())) : 0.0;
+}
+
+bool rolls_on(const Scene& scene, const FixWheelRig& rig, const FixTerrain& terrain) {
+  if (terrain.uses(rig.wheel_fix())) return true;
+  const auto contacts = fixes_of<const FixContactContinuum>(*scene.lammps.modify);
+  return std::any_of(contacts.begin(), contacts.end(), [&](const FixContactContinuum* contact) {
+    return contact->uses(rig.wheel_fix()) && contact->uses(terrain);
+  });
 }
 
 }  // namespace
@@ -146,6 +202,81 @@ Found weight_pulls_down(const Scene& scene, LAMMPS_NS::FixGravity& gravity) {
                   gravity.id, weight.x(), weight.y(), weight.z()));
 }
 
+Found scene_has_one_gravity(const Scene& scene) {
+  const std::vector<GivenGravity> given = gravities(scene);
+  for (const GivenGravity& each : given)
+    if (each.vector.norm() > largest_gravity)
+      return refusal(each.where, fmt::format("is {:.4g} m/s^2", each.vector.norm()),
+                     fmt::format("at most {:g} m/s^2", largest_gravity), "on Earth it is 9.80665");
+  for (std::size_t n = 1; n < given.size(); ++n) {
+    const double one = given[n].vector.norm(), other = given[0].vector.norm();
+    const double difference = std::abs(one - other) / std::max(one, other);
+    if (!(difference > same_gravity)) continue;
+    Finding found =
+        warning(fmt::format("{} is {:.4g} m/s^2, and {} is {:.4g} m/s^2; write one gravity for "
+                            "terrain, grains and rigs",
+                            given[n].where, one, given[0].where, other));
+    found.stops = difference > similar_gravity && one > 0.0 && other > 0.0;
+    return found;
+  }
+  return {};
+}
+
+/// A rig's slope turns the gravity of terrain and grains, which a tilted vector would turn again.
+Found slope_is_given_once(const Scene& scene) {
+  if (scene.grains == 0.0) return {};
+  const LAMMPS_NS::Modify& modify = *scene.lammps.modify;
+  for (auto* fix : fixes_of<LAMMPS_NS::FixGravity>(modify)) {
+    Vector3 gravity;
+    fix->get_gravity(gravity.data());
+    const double angle = angle_from_down(gravity);
+    if (angle <= straight) continue;
+    const std::string problem =
+        fmt::format("pulls along {:.4g} {:.4g} {:.4g} m/s^2, {:.3g} degrees from straight down",
+                    gravity.x(), gravity.y(), gravity.z(), angle);
+    const std::string where = fmt::format("fix gravity '{}'", fix->id);
+    for (const auto* rig : fixes_of<const FixWheelRig>(modify))
+      if (rig->options().number("slope") != 0.0)
+        return refusal(where,
+                       fmt::format("{}, and {} is {:g}", problem, rig->options().where("slope"),
+                                   rig->options().number("slope")),
+                       "one of the two", "write 'vector 0 0 -1' and keep the slope");
+    for (const auto* terrain : fixes_of<const FixTerrain>(modify))
+      if (terrain->options().number("gravity") > 0.0)
+        return refusal(where,
+                       fmt::format("{}, and that of {} straight down", problem, terrain->name()),
+                       "one direction for grains and terrain",
+                       "write 'vector 0 0 -1', and for a slope 'slope' in the line of the rig");
+    const double across = degrees(std::asin(std::abs(gravity.y()) / gravity.norm()));
+    if (across > straight && -gravity.z() >= least_downward_share * gravity.norm())
+      return warning(fmt::format(
+          "{} {}: the ground slopes across the travel; if that is not meant, write 'vector 0 0 -1'",
+          where, problem));
+  }
+  return {};
+}
+
+/// Terrain that follows a row of wheels is where their middle is.
+Found wheels_on_moving_terrain_keep_pace(const Scene& scene, const FixTerrain& terrain) {
+  if (!terrain.moves()) return {};
+  const FixWheelRig* first = nullptr;
+  for (const auto* rig : fixes_of<const FixWheelRig>(*scene.lammps.modify)) {
+    if (rig->options().text("travel") == "free" || !rolls_on(scene, *rig, terrain)) continue;
+    if (!first) first = rig;
+    for (const char* key : {"speed", "start", "settle_time", "accelerate_time"}) {
+      const double one = rig->options().number(key), other = first->options().number(key);
+      if (std::abs(one - other) <= same_pace * std::max(one, other)) continue;
+      return refusal(rig->options().where(key),
+                     fmt::format("is {:g}, and that of '{}' is {:g}: both roll on terrain '{}', "
+                                 "which follows them",
+                                 one, first->id, other, terrain.id),
+                     "wheels that keep their distance",
+                     fmt::format("write '{} {:g}', or terrain without 'follow'", key, other));
+    }
+  }
+  return {};
+}
+
 Found body_sets_off(const Scene& scene, const DrivenBody& driven) {
   const double start = driven.options.number("start");
   if (start < scene.end()) return {};
@@ -170,15 +301,20 @@ Found body_comes_to_its_speed(const Scene& scene, const DrivenBody& driven) {
 Found waves_outrun_body(const Scene& scene, FixContactContinuum& contact) {
   for (const DrivenBody& driven : driven_bodies(*scene.lammps.modify)) {
     // free travel has no speed: it is an answer
-    if (&contact.body_fix() != &driven.body || !driven.options.has("speed")) continue;
-    const ContinuumTerrain& terrain = contact.terrain_fix().terrain();
-    const double wave =
-        terrain.parameters().cfl * terrain.grid().shortest_cell() / terrain.stable_time_step();
-    const double share = driven.options.number("speed") / wave;
-    return judge(share, mach_warning, mach_limit, driven.options,
-                 fmt::format("{:.2g} of the speed of waves in the terrain '{}', {:.4g} m/s", share,
-                             contact.terrain_fix().id, wave),
-                 "choose a lower speed, or a modulus_scale nearer to 1");
+    if (&contact.body_fix() != &driven.body) continue;
+    const double wave = wave_speed(contact.terrain_fix().terrain());
+    const auto judged = [&](const GivenSpeed& speed, double radius) {
+      const double share = std::abs(speed.value()) * radius / wave;
+      return judge(share, mach_warning, mach_limit, speed,
+                   fmt::format("{:.2g} of the speed of waves in the terrain '{}', {:.4g} m/s",
+                               share, contact.terrain_fix().id, wave),
+                   "choose a lower speed, or a modulus_scale nearer to 1");
+    };
+    if (driven.options.has("speed"))
+      if (const Found found = judged({driven.options, "speed", "m/s"}, 1.0)) return found;
+    const auto* wheel = dynamic_cast<const WheelHub*>(&driven.body.body());
+    if (wheel && driven.options.has("spin_rate"))
+      return judged({driven.options, "spin_rate", "rad/s"}, wheel->nominal_radius());
   }
   return {};
 }
@@ -191,7 +327,7 @@ Found body_passes_no_grain_in_a_step(const Scene& scene, const DrivenBody& drive
   smallest = -Communicator(&scene.lammps.world).max(-smallest);
   const double share = driven.options.number("speed") * scene.step() / smallest;
   return judge(
-      share, travel_warning, travel_limit, driven.options,
+      share, travel_warning, travel_limit, {driven.options, "speed", "m/s"},
       fmt::format("so that the body moves by {:.2g} radii of the smallest grain in a step", share),
       "choose a lower speed or a shorter timestep");
 }

@@ -32,6 +32,7 @@ constexpr double level_tolerance = 1e-3;  // of the body's size, on a continuum 
 // Of the largest diameter, on grains: a bed's level may be that of its middles, of its highest
 // grains or a mean, and a few grains may stick out.
 constexpr double grain_tolerance = 3.0;
+constexpr double near_base = 0.1;  // of the depth of a terrain
 
 bool changes_on_purpose(const LAMMPS_NS::LAMMPS& lammps) {
   const auto fixes = fixes_of<const LAMMPS_NS::Fix>(*lammps.modify);
@@ -181,16 +182,33 @@ double excess(const Level& level, double given) {
   return std::abs(given - level.z) - level.tolerance;
 }
 
-/// Of those under a body that sets off in this run, the one nearest to its ground_level.
-std::optional<Level> level_at_start(const Scene& scene, const DrivenBody& driven) {
+/// Of those under a body that sets off in this run, the one nearest to a given one.
+std::optional<Level> level_at_start(const Scene& scene, const DrivenBody& driven, double given) {
   const double start = driven.options.number("start") + 0.5 * scene.step();
   if (scene.time() > start || scene.end() <= start) return std::nullopt;
-  const double given = driven.options.number("ground_level");
   const auto levels = levels_under(scene.lammps, driven.body, size_of(driven.body));
   const auto nearest = std::min_element(
       levels.begin(), levels.end(),
       [&](const Level& a, const Level& b) { return excess(a, given) < excess(b, given); });
   return nearest == levels.end() ? std::nullopt : std::optional(*nearest);
+}
+
+/// A keyword that gives the level of the ground under a body that sets off.
+Found judge_level(const Scene& scene, const DrivenBody& driven, const Options& options,
+                  const std::string& key, const std::string& use) {
+  const double given = options.number(key), size = size_of(driven.body);
+  const auto level = level_at_start(scene, driven, given);
+  if (!level || excess(*level, given) <= 0.0) return {};
+  const std::string problem =
+      fmt::format("is {:.6g} m, and {} is at z = {:.6g} m", given, level->what, level->z);
+  const std::string remedy = fmt::format("{}; write '{} {:.6g}'", use, key, level->z);
+  if (excess(*level, given) > size)
+    return refusal(options.where(key), problem,
+                   fmt::format("the level of the ground, at least within {:.3g} m, the size of "
+                               "the body",
+                               size),
+                   remedy);
+  return warning(fmt::format("{} {}; {}", options.where(key), problem, remedy));
 }
 
 }  // namespace
@@ -308,7 +326,7 @@ Found plane_is_below_terrain(const Scene& scene, FixContactContinuum& contact) {
 }
 
 Found body_starts_at_the_ground(const Scene& scene, const DrivenBody& driven) {
-  const auto level = level_at_start(scene, driven);
+  const auto level = level_at_start(scene, driven, driven.options.number("ground_level"));
   const auto [lower, upper] = driven.body.body().surface().bounds();
   if (!level) {
     const double start = driven.options.number("start") + 0.5 * scene.step();
@@ -333,21 +351,29 @@ Found body_starts_at_the_ground(const Scene& scene, const DrivenBody& driven) {
 }
 
 Found ground_level_is_the_ground(const Scene& scene, const DrivenBody& driven) {
-  const auto level = level_at_start(scene, driven);
-  const double given = driven.options.number("ground_level"), size = size_of(driven.body);
-  if (!level || excess(*level, given) <= 0.0) return {};
-  const std::string problem =
-      fmt::format("is {:.6g} m, and {} is at z = {:.6g} m", given, level->what, level->z);
-  const std::string remedy =
-      fmt::format("it is the datum of the sinkage; write 'ground_level {:.6g}'", level->z);
-  const std::string where = driven.options.where("ground_level");
-  if (excess(*level, given) > size)
-    return refusal(where, problem,
-                   fmt::format("the level of the ground, at least within {:.3g} m, the size of "
-                               "the body",
-                               size),
-                   remedy);
-  return warning(fmt::format("{} {}; {}", where, problem, remedy));
+  return judge_level(scene, driven, driven.options, "ground_level",
+                     "it is the datum of the sinkage");
+}
+
+Found track_is_at_the_ground(const Scene& scene, const FixGrainWork& work) {
+  for (const DrivenBody& driven : driven_bodies(*scene.lammps.modify))
+    if (work.uses(driven.body))
+      return judge_level(scene, driven, work.options(), "level", "the track begins there");
+  return {};
+}
+
+Found body_stays_off_the_base(const Scene&, FixContactContinuum& contact) {
+  const ContinuumTerrain& terrain = contact.terrain_fix().terrain();
+  const Options& options = contact.terrain_fix().options();
+  const std::string& kind = options.text("base");
+  if (kind != "rough" && kind != "smooth") return {};
+  const double base = terrain.grid().axis(2).lower(),
+               left = contact.body_fix().body().surface().bounds().first.z() - base;
+  if (std::abs(left) > near_base * options.number("depth")) return {};
+  return warning(fmt::format(
+      "'{}' stands within {:.2g} of the depth above the base of terrain '{}': the base "
+      "carries it, and not the ground; make the terrain deeper, or look at its strength",
+      contact.body_fix().id, near_base, contact.terrain_fix().id));
 }
 
 /// Surfaces are replicated, so all ranks agree.

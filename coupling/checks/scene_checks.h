@@ -19,6 +19,8 @@
 #include "coupling/contact/fix_contact_plane.h"
 #include "coupling/contact/fix_wall_gran_body.h"
 #include "coupling/base/fix_terrain.h"
+#include "coupling/grains/fix_grain_work.h"
+#include "coupling/output/fix_wheel_arc.h"
 #include "fix_gravity.h"
 #include "fix_move_mesh.h"
 #include "lammps.h"
@@ -59,6 +61,11 @@ Found sub_steps_are_few(const Scene& scene);
 Found step_suits_grains(const Scene& scene);
 /// Friction below zero would drive the grains, and cohesion push them apart.
 Found properties_are_not_negative(const Scene& scene);
+/// Degrees or percent for a coefficient; g/cm3 for kg/m3.
+Found friction_is_a_coefficient(const Scene& scene);
+Found grains_have_the_density_of_matter(const Scene& scene);
+Found grain_work_looks_in_the_run(const Scene& scene, const FixGrainWork& work);
+Found arc_is_written_in_the_run(const Scene& scene, const FixWheelArc& arc);
 
 // ---- what moves (motion.cpp)
 /// A mesh/body would return to its body in every step.
@@ -71,6 +78,10 @@ Found bed_has_one_weight(const Scene& scene);
 Found some_fix_moves_a_grain(const Scene& scene);
 /// In a step, when a gravity of variables has its value.
 Found weight_pulls_down(const Scene& scene, LAMMPS_NS::FixGravity& gravity);
+/// Of terrain, of grains, and of the load that a rig makes of a mass.
+Found scene_has_one_gravity(const Scene& scene);
+Found slope_is_given_once(const Scene& scene);
+Found wheels_on_moving_terrain_keep_pace(const Scene& scene, const FixTerrain& terrain);
 /// A run may be the first of several: warnings.
 Found body_sets_off(const Scene& scene, const DrivenBody& driven);
 Found body_comes_to_its_speed(const Scene& scene, const DrivenBody& driven);
@@ -97,6 +108,9 @@ Found plane_is_below_terrain(const Scene& scene, FixContactContinuum& contact);
 // level; of grains the highest under the body counts.
 Found body_starts_at_the_ground(const Scene& scene, const DrivenBody& driven);
 Found ground_level_is_the_ground(const Scene& scene, const DrivenBody& driven);
+Found track_is_at_the_ground(const Scene& scene, const FixGrainWork& work);
+/// During a run: does the base of a terrain carry a body?
+Found body_stays_off_the_base(const Scene& scene, FixContactContinuum& contact);
 /// During a run: has a body come through the grains to the sheet of the terrain that carries them?
 Found body_stays_off_the_sheet(const Scene& scene, const FixWallGranBody& wall);
 
@@ -105,10 +119,14 @@ Found body_stays_off_the_sheet(const Scene& scene, const FixWallGranBody& wall);
 bool touches_grains(const LAMMPS_NS::LAMMPS& lammps, const FixBody& body);
 /// A stock wall would move grains without moving the body.
 Found stock_wall_has_no_body(const Scene& scene, const LAMMPS_NS::FixWallGran& wall);
+Found one_wall_has_all_meshes(const Scene& scene, const FixWallGranBody& wall);
 // A wheel may be meant to be free, and a mesh to be drawn only: warnings.
 Found mesh_is_in_a_wall(const Scene& scene, const FixMeshBody& mesh);
 Found something_presses_on_terrain(const Scene& scene, const FixTerrain& terrain);
 Found sheet_is_in_a_wall(const Scene& scene, const FixTerrain& terrain);
+/// A wall of LIGGGHTS in the place of the surface mesh carries the grains.
+Found no_wall_replaces_the_sheet(const Scene& scene, const FixTerrain& terrain);
+Found surcharge_is_the_grains_weight(const Scene& scene, const FixTerrain& terrain);
 Found half_terrain_has_half_the_grains(const Scene& scene, const FixTerrain& terrain);
 Found body_touches_something(const Scene& scene, FixBody& body);
 // Is continuum terrain large enough, and fine enough, for what presses on it?

@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 
 #include <fmt/format.h>
 
 #include "atom.h"
+#include "core/communicator.h"
 #include "coupling/base/fix_coupled_system.h"
+#include "coupling/base/high_friction.h"
+#include "coupling/base/snow_pairs.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/base/time_step_check.h"
 #include "coupling/checks/scene_checks.h"
@@ -24,6 +28,8 @@ namespace {
 
 constexpr double sub_steps_to_aim_at = 10;  // for the remedy
 constexpr double shortest_step = 1e-9;      // [s] sound passes a micrometre of rock in it
+// [kg/m3] of single grains: light foam, steel, and ice
+constexpr double lightest_grain = 10, heaviest_grain = 8000, density_of_ice = 920;
 // Of pairs of types; LIGGGHTS looks at the elastic ones itself.
 constexpr const char* not_negative[] = {"coefficientFriction", "coefficientRollingFriction",
                                         "coefficientRollingViscousDamping",
@@ -33,6 +39,14 @@ bool is_whole_number(const std::string& word) {
   const std::string digits = word.substr(!word.empty() && (word[0] == '-' || word[0] == '+'));
   return !digits.empty() && std::all_of(digits.begin(), digits.end(),
                                         [](unsigned char letter) { return std::isdigit(letter); });
+}
+
+/// Of a fix that looks once in so many steps. A script of many short runs may mean it.
+Found interval_fits(const Scene& scene, const Options& options, const std::string& consequence) {
+  const long every = options.integer("every"), steps = scene.lammps.update->nsteps;
+  if (every <= steps) return {};
+  return warning(fmt::format("{} is {} steps, and this run has {}: {}; write a smaller number",
+                             options.where("every"), every, steps, consequence));
 }
 
 }  // namespace
@@ -94,6 +108,49 @@ Found step_suits_grains(const Scene& scene) {
   for (const auto* cell : fixes_of<const FixCellServo>(modify))
     return check_time_step(scene.lammps, cell->name());
   return {};
+}
+
+Found grain_work_looks_in_the_run(const Scene& scene, const FixGrainWork& work) {
+  return interval_fits(scene, work.options(), "it counts no work");
+}
+
+Found arc_is_written_in_the_run(const Scene& scene, const FixWheelArc& arc) {
+  return interval_fits(scene, arc.options(), "it writes no profile");
+}
+
+Found friction_is_a_coefficient(const Scene& scene) {
+  const int types = scene.lammps.atom->ntypes;
+  for (const char* name : {"coefficientFriction", "coefficientRollingFriction"}) {
+    auto* property = property_of_pairs(scene.lammps, name);
+    if (!property) continue;
+    const double* const* values = property->get_array();
+    for (int a = 0; a < types; ++a)
+      for (int b = 0; b < types; ++b)
+        if (is_high_friction(values[a][b]))
+          return warning(high_friction(
+              fmt::format("fix property/global '{}', {}", property->id, name), values[a][b]));
+  }
+  return {};
+}
+
+Found grains_have_the_density_of_matter(const Scene& scene) {
+  const LAMMPS_NS::Atom& atom = *scene.lammps.atom;
+  if (scene.grains == 0.0) return {};
+  double lightest = std::numeric_limits<double>::infinity(), heaviest = 0.0;
+  for (int i = 0; i < atom.nlocal; ++i) {
+    lightest = std::min(lightest, atom.density[i]);
+    heaviest = std::max(heaviest, atom.density[i]);
+  }
+  const Communicator ranks(&scene.lammps.world);
+  lightest = -ranks.max(-lightest);
+  heaviest = ranks.max(heaviest);
+  const bool snow = grains_are_snow(scene.lammps);
+  const double most = snow ? density_of_ice : heaviest_grain;
+  if (lightest >= lightest_grain && heaviest <= most) return {};
+  return warning(fmt::format(
+      "the grains have densities of {:.4g} to {:.4g} kg/m3, and {} has {:g} to {:g} kg/m3; give "
+      "kg/m3, not g/cm3 nor N/m3",
+      lightest, heaviest, snow ? "snow" : "solid matter", lightest_grain, most));
 }
 
 Found properties_are_not_negative(const Scene& scene) {

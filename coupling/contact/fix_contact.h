@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "coupling/base/counts_losses.h"
 #include "coupling/base/fix_body.h"
+#include "coupling/base/high_friction.h"
 #include "coupling/liggghts/script.h"
 
 namespace furrow::coupling {
@@ -23,10 +24,8 @@ class FixContact : public FurrowFix, public CountsLosses {
       throw InputError(options().where("body"),
                        fmt::format("is '{}', which has no surface", options().text("body")),
                        "a wheel, a tyre or a plate");
-    if (options().given("friction") && options().number("friction") > high_friction)
-      warn(*lmp, fmt::format("{} is {:g}, a coefficient, neither degrees nor percent; rubber on a "
-                             "dry road has about 1",
-                             options().where("friction"), options().number("friction")));
+    if (options().given("friction") && is_high_friction(options().number("friction")))
+      warn(*lmp, high_friction(options().where("friction"), options().number("friction")));
     keep_state();
   }
 
@@ -44,8 +43,6 @@ class FixContact : public FurrowFix, public CountsLosses {
   }
 
  private:
-  static constexpr double high_friction = 1.5;
-
   FixBody& body_fix_;
 };
 

@@ -12,6 +12,7 @@
 #include <sys/resource.h>
 
 #include "core/error.h"
+#include "coupling/base/high_friction.h"
 #include "coupling/base/time_step_check.h"
 
 namespace furrow::coupling {
@@ -24,7 +25,8 @@ constexpr double poured_share = 0.6;     // solid over volume, when nothing else
 constexpr double bytes_of_grain = 3000;  // with its contacts and neighbours, measured
 constexpr double linear_step_limit =
     0.3;  // of half a period; 2 / pi would be the limit of one spring
-constexpr double level_tolerance = 0.5;  // of the depth
+constexpr double level_tolerance = 0.5;                         // of the depth
+constexpr double many_grains = 3e5, density_of_steel = 8000.0;  // steel [kg/m3]
 
 /// Of this machine and this process [bytes].
 double available_memory() {
@@ -59,14 +61,18 @@ void check_sizes(const Options& options) {
                        "make the bed larger or the grains smaller");
 }
 
-void check_memory(const Options& options) {
-  if (!has(options, {"diameter", "length", "width", "depth"})) return;
+/// About how many grains a bed has; 0 when it is not known.
+double count_of_grains(const Options& options) {
+  if (!has(options, {"diameter", "length", "width", "depth"})) return 0.0;
   const double share = has(options, {"bulk", "density"})
                            ? options.number("bulk") / options.number("density")
                            : poured_share;
-  const double grains = share * options.number("length") * options.number("width") *
-                        options.number("depth") /
-                        (M_PI / 6.0 * mean_volume * std::pow(options.number("diameter"), 3));
+  return share * options.number("length") * options.number("width") * options.number("depth") /
+         (M_PI / 6.0 * mean_volume * std::pow(options.number("diameter"), 3));
+}
+
+void check_memory(const Options& options) {
+  const double grains = count_of_grains(options);
   const double needed = bytes_of_grain * grains, available = available_memory();
   if (needed > available || grains > std::numeric_limits<int>::max())
     throw InputError(
@@ -115,6 +121,29 @@ void check_bed_parameters(const Options& options) {
   check_sizes(options);
   check_memory(options);
   check_step(options);
+}
+
+std::vector<std::string> doubts_of_bed(const Options& options) {
+  std::vector<std::string> doubts;
+  for (const Key& key : options.keys()) {
+    const bool coefficient =
+        key.kind == Key::Kind::number &&
+        (key.name == "rolling" ||
+         (key.name.size() >= 8 && key.name.compare(key.name.size() - 8, 8, "friction") == 0));
+    if (coefficient && options.has(key.name) && is_high_friction(options.number(key.name)))
+      doubts.push_back(high_friction(options.where(key.name), options.number(key.name)));
+  }
+  if (has(options, {"density"}) && options.number("density") > density_of_steel)
+    doubts.push_back(
+        fmt::format("{} is {:g} kg/m3, and steel has {:g}; give the density of one "
+                    "grain in kg/m3",
+                    options.where("density"), options.number("density"), density_of_steel));
+  if (const double grains = count_of_grains(options); grains > many_grains)
+    doubts.push_back(
+        fmt::format("command bed makes about {:.2g} grains, which takes hours; look at "
+                    "length, width, depth and diameter, or go on",
+                    grains));
+  return doubts;
 }
 
 void check_bed(const BedFacts& facts, double depth) {

@@ -2,6 +2,9 @@
 #pragma once
 /// Can there be such a bed, and has it become one? Before the minutes that it takes, and after.
 
+#include <string>
+#include <vector>
+
 #include "core/options.h"
 #include "coupling/terrain/bed_facts.h"
 
@@ -16,6 +19,10 @@ inline constexpr double smallest_grain = 0.85;
 /// poisson, or stiffness and unloading, or modulus.
 /// @throws InputError
 void check_bed_parameters(const Options& options);
+
+/// What may be meant but hardly is, a sentence each: coefficients of friction, densities, a bed
+/// that takes hours.
+std::vector<std::string> doubts_of_bed(const Options& options);
 
 /// @param depth that the bed was levelled at [m]
 /// @throws StateError for grains that flew apart, or have sunk far below

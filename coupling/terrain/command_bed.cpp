@@ -144,6 +144,7 @@ CommandBed::Request CommandBed::read_request(const std::vector<std::string>& wor
   script.declare_parameters(keys);
   const Options options = keys.read(entries);
   check_bed_parameters(options);
+  for (const std::string& doubt : doubts_of_bed(options)) warn(*lmp, doubt);
   return {std::move(script), options.number("depth"), options.text("from"), std::move(parameters),
           values_of(options)};
 }

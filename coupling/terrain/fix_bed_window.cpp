@@ -80,6 +80,7 @@ FixBedWindow::FixBedWindow(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
         fmt::format("{:.4g} (half the body) to {:.4g} m (box less half the body less two slabs)",
                     half, longest),
         "make the bed longer, or cut it into more slabs");
+  check_slab();
   if (options().given("terrain")) terrain_ = &use<FixTerrainContinuum>("terrain", {"terrain"});
   check_terrain();
   refuse_double<FixBedWindow>(*modify, options().subject(), "renews the bed of the box",
@@ -88,6 +89,19 @@ FixBedWindow::FixBedWindow(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
   next_reneighbor = -1;
   provide(outputs());
   keep_state();
+}
+
+/// A thinner slab may hold no grain.
+void FixBedWindow::check_slab() const {
+  double largest = 0.0;
+  for (int i = 0; i < atom->nlocal; ++i) largest = std::max(largest, 2.0 * atom->radius[i]);
+  largest = Communicator(&world).max(largest);
+  if (slab_length_ >= largest) return;
+  throw InputError(
+      options().where("slabs"),
+      fmt::format("is {}: slabs of {:.3g} m for grains of {:.3g} m", slabs_, slab_length_, largest),
+      fmt::format("slabs no shorter than a grain: at most {:.0f}",
+                  std::floor(domain->prd[0] / largest)));
 }
 
 /// Terrain that carries the bed is renewed with it, slab by slab.

@@ -33,6 +33,7 @@ class FixBedWindow : public FurrowFix, public FollowsSystem {
   void post_force(int vflag) override;
 
  private:
+  void check_slab() const;
   void check_terrain() const;
   void check_place_of_terrain() const;
   void checkpoint(Checkpoint& state) override;

@@ -12,10 +12,12 @@
 #include "coupling/base/read_options.h"
 #include "coupling/base/refuse_double.h"
 #include "coupling/base/fix_wheel_hub.h"
+#include "coupling/base/high_friction.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"
 #include "domain.h"
 #include "io/terrain_input.h"
+#include "mpm/terrain_size.h"
 #include "update.h"
 
 namespace furrow::coupling {
@@ -24,7 +26,9 @@ namespace {
 
 constexpr int good_cells_in_depth = 4;
 constexpr int most_empty_cells = 20;  // above the surface, over those below
-constexpr long check_every = 100;     // steps between looks at the energy
+constexpr double many_particles = 1e6;
+constexpr double seconds_of_particle = 5e-8;  // of one core for a step, measured
+constexpr long check_every = 100;             // steps between looks at the energy
 // [J/kg] of the terrain, its weight lifted by 0.1 mm: below it an imbalance does not matter
 constexpr double energy_floor = 1e-3;
 constexpr double same_length = 1e-6;  // of a cell: ground and period of the box
@@ -56,6 +60,12 @@ std::unique_ptr<Body> make_terrain(LAMMPS_NS::LAMMPS& lammps, const Options& opt
   TerrainParameters parameters = read_terrain(options, script_folder(lammps));
   for (const TerrainLayer& layer : parameters.layers)
     for (const std::string& warning : layer.warnings) warn(lammps, warning);
+  if (const double particles = size_of(parameters).particles; particles > many_particles)
+    warn(lammps,
+         fmt::format("{} has about {:.2g} particles: a step takes about {:.1g} s on one core; if "
+                     "length {:.4g} m, width {:.4g} m or depth {:.4g} m is in another unit, give m",
+                     options.subject(), particles, seconds_of_particle * particles,
+                     options.number("length"), options.number("width"), options.number("depth")));
   parameters.window = options.given("follow");
   if (options.given("slabs")) parameters.slabs = static_cast<std::size_t>(options.integer("slabs"));
   return std::make_unique<ContinuumTerrain>(parameters, Communicator(&lammps.world),
@@ -79,7 +89,7 @@ Schema FixTerrainContinuum::schema(const std::optional<GroundSize>& size) {
                "slabs by which a terrain with a surface mesh moves, with `follow`")
       .optional();
   schema
-      .number("energy_tolerance", "", Range::positive(),
+      .number("energy_tolerance", "", Range{0.0, 1.0, true, false},
               "allowed error of the energy balance, relative to the largest work")
       .by_default(0.05)
       .may_change();
@@ -96,6 +106,12 @@ FixTerrainContinuum::FixTerrainContinuum(LAMMPS_NS::LAMMPS* lammps, int narg, ch
   for (const char* key : {"follow", "follow_last"})
     if (options().given(key)) followed_.push_back(&use<FixBody>(key, followable).body());
   if (options().given("slabs")) check_slabs();
+  if (options().given("follow_last") && options().text("follow_last") == options().text("follow"))
+    throw InputError(
+        options().where("follow_last"),
+        fmt::format("is '{}', which 'follow' names already", options().text("follow_last")),
+        "the last body of a row whose first one 'follow' names",
+        "name the other body, or remove 'follow_last'");
   refuse_overlap();
   contribute(static_cast<MotionController&>(*this));
   provide(outputs(), [this] { return TerrainReading(terrain()); });
@@ -181,6 +197,9 @@ void FixTerrainContinuum::report() {
 }
 
 void FixTerrainContinuum::warn_of_extremes() {
+  if (options().given("slide_friction") && is_high_friction(options().number("slide_friction")))
+    warn(*lmp,
+         high_friction(options().where("slide_friction"), options().number("slide_friction")));
   const Axis& z = terrain().grid().axis(2);
   const double surface = options().number("surface");
   int below = 0;

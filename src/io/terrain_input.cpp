@@ -24,6 +24,7 @@ constexpr double clearance_of_depth = 1.0;
 constexpr double min_cells_in_depth = 2.0;
 constexpr double round_off = 1e-6;  // of a length
 constexpr double most_blocks = 1e6;
+constexpr double least_triangles_across = 4.0;  // of a surface mesh that shows a rut
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -169,6 +170,27 @@ std::optional<Trough> read_trough(const Options& options) {
     throw InputError(where, "is given with 'symmetry yes'", "whole ground",
                      "grains have no plane of symmetry");
   return Trough{options.numbers("trough")[0], options.numbers("trough")[1]};
+}
+
+/// Particles from node to node of the surface mesh. @throws InputError for a mesh of a few
+/// triangles
+std::size_t read_surface_mesh_every(const Options& options, const TerrainParameters& ground) {
+  const auto every = static_cast<double>(options.integer("surface_mesh_every"));
+  const std::string where = options.where("surface_mesh_every");
+  if (options.given("surface_mesh_every") && !ground.surface_mesh)
+    throw InputError(where, "is given without 'surface_mesh yes'",
+                     "nodes of triangles that carry grains",
+                     "remove it, or write 'surface_mesh yes'");
+  const double across = std::min(Axis::cell_count(ground.x) * ground.particles_per_cell[0],
+                                 Axis::cell_count(ground.y) * ground.particles_per_cell[1]);
+  const double most = std::max(1.0, std::floor(across / least_triangles_across));
+  if (ground.surface_mesh && every > most)
+    throw InputError(
+        where,
+        fmt::format("is {:g}, and the terrain has {:.4g} particles from edge to edge", every,
+                    across),
+        fmt::format("1 to {:g}: at least {:g} triangles across", most, least_triangles_across));
+  return static_cast<std::size_t>(every);
 }
 
 AxisLayout layout(const Options& options, double lower, double upper, double middle,
@@ -331,7 +353,7 @@ TerrainParameters read_terrain(const Options& options, const std::string& folder
                      "a surcharge of ground that starts with the stress of what it carries",
                      "remove one of the two");
   ground.surface_mesh = options.flag("surface_mesh");
-  ground.sheet_every = static_cast<std::size_t>(options.integer("surface_mesh_every"));
+  ground.sheet_every = read_surface_mesh_every(options, ground);
   ground.trough = read_trough(options);
   ground.multirate = options.flag("multirate");
   if (ground.multirate && !ground.surface_mesh)

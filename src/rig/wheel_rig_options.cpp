@@ -21,6 +21,10 @@ constexpr double least_travel = 1e-3;
 constexpr double largest_torque = 100.0;
 // Of the load.
 constexpr double largest_drawbar_load = 100.0;
+constexpr double largest_speed = 1000.0;    // [m/s] of axle and rim
+constexpr double largest_gravity = 2000.0;  // [m/s^2] of a large centrifuge
+// [m/s] while the wheel is brought back for another pass
+constexpr double largest_return_speed = 100.0, largest_lowering_speed = 10.0;
 
 /// @throws InputError when key is missing (needed) or given (not needed)
 void expect_key(const Options& options, const std::string& key, bool needed,
@@ -50,7 +54,7 @@ Schema WheelRig::schema(const std::string& subject) {
               "`prescribed`: the axle moves at `speed`; `free`: forces move it")
       .by_default("prescribed");
   schema
-      .number("speed", "m/s", Range::closed(0.0, 1000.0),
+      .number("speed", "m/s", Range::closed(0.0, largest_speed),
               "speed of the axle along x in cruise, with `travel prescribed`")
       .optional();
   schema.choice("mode", {"towed", "slip", "torque", "spin"},
@@ -116,7 +120,9 @@ Schema WheelRig::schema(const std::string& subject) {
   schema.number("accelerate_time", "s", Range::positive(), "duration of the acceleration");
   schema.number("ground_level", "m", Range::any(),
                 "z of the undisturbed ground, the datum of hub drop and rut depth");
-  schema.number("gravity", "m/s^2", Range::positive(), "acceleration of gravity, for `load_mass`")
+  schema
+      .number("gravity", "m/s^2", Range{0.0, largest_gravity, true, false},
+              "acceleration of gravity, for `load_mass`")
       .by_default(standard_gravity);
   schema
       .number("damping", "N s/m", Range::non_negative(),
@@ -258,6 +264,12 @@ void WheelRig::read_drive(const Options& options) {
              "a spin_rate in mode spin, and only there");
   if (mode_ == Mode::torque) torque_ = options.number("torque");
   if (mode_ == Mode::spin) rim_speed_ = options.number("spin_rate") * wheel_.nominal_radius();
+  if (const double most = largest_speed / wheel_.nominal_radius();
+      std::abs(rim_speed_) > largest_speed)
+    throw InputError(options.where("spin_rate"),
+                     fmt::format("is {:g} rad/s: a rim speed of {:.3g} m/s",
+                                 options.number("spin_rate"), rim_speed_),
+                     fmt::format("{:.3g} to {:.3g} rad/s", -most, most));
   const double most = largest_torque * load_ * wheel_.nominal_radius();
   if (!sinkage_prescribed_ && std::abs(torque_) > most)
     throw InputError(
@@ -318,6 +330,17 @@ void WheelRig::read_passes(const Options& options) {
   lifted_z_ = wheel_.centre().z() + lift;
   // to half a diameter below the start in most of the time for it
   lowering_speed_ = (lift + 0.5 * diameter) / (0.9 * passes_.lowering().duration);
+  const double least_time =
+      back * std::max(lowering_speed_ / largest_lowering_speed,
+                      length / passes_.returning().duration / largest_return_speed);
+  if (back < least_time)
+    throw InputError(
+        options.where("return_time"),
+        fmt::format("is {:g} s: the wheel goes back by {:.4g} m at {:.3g} m/s and down from a lift "
+                    "of {:.3g} m at {:.3g} m/s",
+                    back, length, length / passes_.returning().duration, lift, lowering_speed_),
+        fmt::format("at least {:.3g} s: {:g} m/s back and {:g} m/s down", least_time,
+                    largest_return_speed, largest_lowering_speed));
 }
 
 }  // namespace furrow

@@ -41,10 +41,14 @@ ContactParameters ContactParameters::from(const Options& options) {
   if (surface != "frictional" && options.given("friction"))
     throw InputError(options.where("friction"), fmt::format("is given with a {} surface", surface),
                      "friction with surface frictional only");
-  if (surface == "rough" && options.number("slip_length") > 0.0)
+  if (surface != "frictional" && options.number("slip_length") > 0.0)
     throw InputError(options.where("slip_length"),
-                     "is given with a rough surface, which does not slip",
+                     fmt::format("is given with a {} surface", surface),
                      "slip_length with surface frictional only", "remove 'slip_length'");
+  for (const char* key : {"stiffness", "damping"})
+    if (options.text("enforcement") == "impulse" && options.given(key))
+      throw InputError(options.where(key), "is given with enforcement impulse",
+                       "with enforcement penalty only", fmt::format("remove '{}'", key));
   ContactParameters p;
   p.enforcement = options.text("enforcement");
   p.friction = surface == "rough"    ? std::numeric_limits<double>::infinity()
