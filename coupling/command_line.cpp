@@ -15,6 +15,7 @@
 
 #include "core/error.h"
 #include "core/nearest_word.h"
+#include "coupling/liggghts/script.h"
 #include "coupling/script_variables.h"
 
 namespace furrow::coupling {
@@ -123,11 +124,18 @@ void check_script(const std::string& script) {
   if (access(script.c_str(), R_OK) != 0)
     throw InputError(where, fmt::format("cannot be read: {}", std::strerror(errno)), allowed,
                      remedy);
-  if (fs::is_regular_file(status) && fs::file_size(script, failed) == 0)
-    throw InputError(where, "is empty", allowed, remedy);
+  if (!fs::is_regular_file(status)) return;
+  if (fs::file_size(script, failed) == 0) throw InputError(where, "is empty", allowed, remedy);
+  if (const std::string problem = script_text_problem(script); !problem.empty())
+    throw InputError(where, problem, "a text in UTF-8 whose lines end with LF or CR LF",
+                     "save it so in an editor");
 }
 
-void check_writable(const std::string& path) {
+void check_writable(const std::string& path, const std::string& script) {
+  std::error_code absent;
+  if (fs::equivalent(path, script, absent))
+    throw InputError(fmt::format("file '{}' of -log or -screen", path), "is the script",
+                     "another file, or none");
   const int handle = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
   if (handle < 0)
     throw InputError(fmt::format("file '{}' of -log or -screen", path),
@@ -197,7 +205,7 @@ void check_command_line(const CommandLine& line) {
   if (line.script.empty() && isatty(STDIN_FILENO))
     refuse("is started without a script", "-in <script>", "see --help");
   if (!line.script.empty()) check_script(line.script);
-  for (const std::string& path : line.written_files) check_writable(path);
+  for (const std::string& path : line.written_files) check_writable(path, line.script);
   // A pipe can be read only once.
   if (!line.script.empty() && fs::is_regular_file(line.script)) check_variables(line);
 }

@@ -11,11 +11,13 @@
 
 #include <mpi.h>
 
+#include "coupling/base/fix_coupled_system.h"
 #include "coupling/command_line.h"
 #include "coupling/liggghts/error_policy.h"
 #include "coupling/liggghts/first_rank.h"
 #include "coupling/liggghts/library_check.h"
 #include "coupling/liggghts/rescue.h"
+#include "coupling/liggghts/script.h"
 #include "coupling/liggghts/signals.h"
 #include "input.h"
 #include "io/version.h"
@@ -54,6 +56,12 @@ void run_script(LAMMPS_NS::LAMMPS& lammps) {
   }
 }
 
+void warn_without_run(LAMMPS_NS::LAMMPS& lammps) {
+  const FixCoupledSystem* system = FixCoupledSystem::find(lammps);
+  if (system && !system->has_run())
+    warn(lammps, "no 'run' follows the lines of the bodies: nothing was computed");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -71,7 +79,10 @@ int main(int argc, char** argv) {
     auto* lammps = new LAMMPS_NS::LAMMPS(argc, pointers.data(), MPI_COMM_WORLD);
     start_rescue(*lammps);
     run_script(*lammps);
-    if (agreed_signal()) report_stop(*lammps);
+    if (agreed_signal())
+      report_stop(*lammps);
+    else
+      warn_without_run(*lammps);
     delete lammps;
     status = agreed_signal() ? failure_status() : 0;
   }

@@ -13,6 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// std::regex calls itself for every character: of a longer line it exhausts the stack.
+constexpr std::size_t longest_line = 10000;
+
 class Reader {
  public:
   Reader(fs::path script, std::map<std::string, std::string> values)
@@ -80,6 +83,10 @@ void Reader::read_line(const std::string& line) {
   static const std::regex next(R"((?:^|["'])\s*next\s+([^"']+))"), word(R"(\w+)");
   static const std::regex include(R"((?:^|["'])\s*(?:include|jump)\s+([^\s"']+))");
   static const std::regex bed(R"(^\s*bed\s+([^\s"']+))");
+  if (line.size() > longest_line) {
+    found_.complete = false;
+    return;
+  }
   for_each_match(line, mention, [&](const std::smatch& match) {
     for (std::size_t i = 1; i < match.size(); ++i)
       if (match[i].matched) found_.mentioned.insert(match[i]);

@@ -211,6 +211,7 @@ void FixCoupledSystem::setup_pre_exchange() {
 }
 
 void FixCoupledSystem::setup_pre_force(int) {
+  has_run_ = true;
   const bool restored = forces_ == ForceState::restored;
   if (restored) {
     atom->sortfreq = sort_interval_;

@@ -62,6 +62,7 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   const ContactWork& contact_work(const Body& body) { return member(body).work; }
 
   double time() const { return time_; }            ///< of the scene [s], also after a restart
+  bool has_run() const { return has_run_; }        ///< also no steps, in this process
   bool restored() const { return restored_; }      ///< from a checkpoint
   double sub_steps() const { return sub_steps_; }  ///< of the bodies, in this process
   /// Of the body whose stable step is the smallest now. Collective.
@@ -144,6 +145,7 @@ class FixCoupledSystem : public LAMMPS_NS::Fix {
   GrainForces grain_forces_;
   SavedHistories saved_histories_;
   std::unique_ptr<SceneWatch> scene_watch_;
+  bool has_run_ = false;
   double time_ = 0.0, sub_steps_ = 0.0;
   bool restored_ = false;
   ForceState forces_ = ForceState::partial;

@@ -38,6 +38,12 @@ struct InputLine {
 };
 template struct Expose<InputLine, &LAMMPS_NS::Input::line>;
 
+struct InputScripts {
+  using type = int LAMMPS_NS::Input::*;
+  friend type member(InputScripts);
+};
+template struct Expose<InputScripts, &LAMMPS_NS::Input::nfile>;
+
 struct InputCommand {
   using type = char* LAMMPS_NS::Input::*;
   friend type member(InputCommand);
@@ -86,6 +92,10 @@ bool has_fix_style(const LAMMPS_NS::LAMMPS& lammps, const std::string& style) {
 }
 bool has_command(const LAMMPS_NS::LAMMPS& lammps, const std::string& name) {
   return commands(lammps).count(name) > 0;
+}
+
+int open_scripts(const LAMMPS_NS::LAMMPS& lammps) {
+  return lammps.input->*member(exposed::InputScripts());
 }
 
 const char* current_line(const LAMMPS_NS::LAMMPS& lammps) {

@@ -113,6 +113,12 @@ void write_checkpoint(LAMMPS_NS::LAMMPS& lammps, const std::string& path,
   std::optional<SealedFile> file;  // both on rank 0
   std::optional<MemoryFile> memory;
   on_first_rank(lammps.world, [&] {
+    std::error_code absent;
+    if (fs::is_regular_file(path, absent) && fs::file_size(path, absent) > 0 &&
+        !begins_as_restart_file(path))
+      throw InputError(fmt::format("restart file '{}'", path),
+                       "would replace a file of another kind",
+                       "a name that is free, or that of a checkpoint", "choose another name");
     file.emplace(path);  // before the work
     memory.emplace();
   });

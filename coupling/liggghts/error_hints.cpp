@@ -83,8 +83,15 @@ constexpr std::array hints = {
          "its "
          "line"},
     Hint{"Too many atom sorting bins",
-         "the box is very large for its grains: check their number and size, or write 'atom_modify "
-         "sort 0 0'"},
+         "the box of region and create_box is very large for its grains: look for a length in "
+         "mm, or write 'atom_modify sort 0 0'"},
+    Hint{"Random number generation",
+         "the number behind 'seed' in the line below is a prime above 10000: write one of those"},
+    Hint{"Illegal restart command",
+         "write 'restart <steps> <file>' with steps above 0, or 'restart 0' alone for none"},
+    Hint{"Cannot open input script",
+         "no file of that name can be read: paths of include and jump count from the folder in "
+         "which furrow is started"},
     Hint{"Unknown command",
          "LIGGGHTS has no command of that name: check its spelling, and that this file is an input "
          "script"},

@@ -20,6 +20,10 @@ inline constexpr char nread_double[] = "_ZN9LAMMPS_NS11ReadRestart12nread_double
 inline constexpr char restart_requested[] = "_ZN9LAMMPS_NS6Output17restart_requestedEl";
 inline constexpr char write_output[] = "_ZN9LAMMPS_NS6Output5writeEl";
 inline constexpr char open_dump[] = "_ZN9LAMMPS_NS4Dump8openfileEv";
+inline constexpr char evaluate[] = "_ZN9LAMMPS_NS8Variable8evaluateEPcPPNS0_4TreeE";
+inline constexpr char evaluate_boolean[] = "_ZN9LAMMPS_NS8Variable16evaluate_booleanEPc";
+inline constexpr char execute_command[] = "_ZN9LAMMPS_NS5Input15execute_commandEv";
+inline constexpr char include[] = "_ZN9LAMMPS_NS5Input7includeEv";
 inline constexpr char decide[] = "_ZN9LAMMPS_NS8Neighbor6decideEv";
 }  // namespace symbol
 

@@ -2,27 +2,34 @@
 // Functions of libliggghts that this executable stands in front of: the dynamic linker finds ours
 // first. They need default visibility, everything else in coupling/ is hidden.
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
+#include <fmt/format.h>
 #include <mpi.h>
+
+#include "core/error.h"
 
 #include "coupling/liggghts/checked_stream.h"
 #include "coupling/liggghts/checkpoint_file.h"
 #include "coupling/liggghts/error_policy.h"
 #include "coupling/liggghts/errors.h"
 #include "coupling/liggghts/library_check.h"
+#include "coupling/liggghts/script.h"
 #include "coupling/liggghts/signals.h"
 #include "coupling/liggghts/stream_check.h"
 #include "coupling/liggghts/style_registry.h"
 #include "dump.h"
 #include "error.h"
 #include "fix.h"
+#include "input.h"
 #include "lammps.h"
 #include "neighbor.h"
 #include "output.h"
 #include "read_restart.h"
 #include "update.h"
+#include "variable.h"
 #include "write_restart.h"
 
 namespace {
@@ -39,6 +46,37 @@ std::string fix_text(const LAMMPS_NS::Fix& fix, const char* style, const char* t
 }
 
 constexpr char cut_short[] = "The restart file ends too early: it is cut short";
+
+constexpr int deepest = 200;  // brackets and variables within a formula
+int formulas = 0;             // that are being evaluated
+
+int depth_of_brackets(const char* text) {
+  int depth = 0, largest = 0;
+  for (; *text; ++text) {
+    depth += *text == '(' ? 1 : *text == ')' ? -1 : 0;
+    largest = std::max(largest, depth);
+  }
+  return largest;
+}
+
+/// A formula, while LIGGGHTS evaluates it: it calls itself for each bracket and each variable, and
+/// would exhaust the stack.
+class Formula {
+ public:
+  Formula(LAMMPS_NS::Error& error, const char* text) {
+    if (++formulas <= deepest && depth_of_brackets(text) <= deepest) return;
+    const std::string start = std::string(text).substr(0, 60);
+    with_collective_errors(error, [&] {
+      throw furrow::InputError(fmt::format("formula '{}'", start),
+                               fmt::format("is more than {} brackets or variables deep", deepest),
+                               "variables that are not made of themselves",
+                               "look at the variables (v_name) of the formulas that it is made of");
+    });
+  }
+  ~Formula() { --formulas; }
+  Formula(const Formula&) = delete;
+  Formula& operator=(const Formula&) = delete;
+};
 
 }  // namespace
 
@@ -79,6 +117,29 @@ FURROW_EXPORTED void ReadRestart::nread_double(double* numbers, int count, FILE*
   next_function<void(ReadRestart*, double*, int, FILE*)>(symbol::nread_double)(this, numbers, count,
                                                                                file);
   if (std::feof(file)) error->one(FLERR, cut_short);
+}
+
+FURROW_EXPORTED double Variable::evaluate(char* text, Tree** tree) {
+  static const auto original = next_function<double(Variable*, char*, Tree**)>(symbol::evaluate);
+  const Formula formula(*error, text);
+  return original(this, text, tree);
+}
+
+FURROW_EXPORTED double Variable::evaluate_boolean(char* text) {
+  static const auto original = next_function<double(Variable*, char*)>(symbol::evaluate_boolean);
+  const Formula formula(*error, text);
+  return original(this, text);
+}
+
+/// @return 0, or 1 for a command that LIGGGHTS does not have
+FURROW_EXPORTED int Input::execute_command() {
+  if (furrow::coupling::stop_between_commands(*lmp)) return 0;
+  return next_function<int(Input*)>(symbol::execute_command)(this);
+}
+
+FURROW_EXPORTED void Input::include() {
+  with_collective_errors(*error, [&] { furrow::coupling::check_include(*lmp); });
+  next_function<void(Input*)>(symbol::include)(this);
 }
 
 /// Whether neighbour lists are made in this step.

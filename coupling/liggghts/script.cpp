@@ -2,6 +2,7 @@
 #include "coupling/liggghts/script.h"
 
 #include <filesystem>
+#include <fstream>
 
 #include <mpi.h>
 #include <unistd.h>
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "comm.h"
+#include "core/error.h"
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/first_rank.h"
 #include "input.h"
@@ -68,6 +70,35 @@ std::string script_folder(const LAMMPS_NS::LAMMPS& lammps) {
   return broadcast(
       rank == 0 ? std::filesystem::path(script_name(lammps)).parent_path().string() : "",
       lammps.world);
+}
+
+std::string script_text_problem(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text(1 << 16, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  const std::string start = text.substr(0, 2);
+  if (start == "\xFF\xFE" || start == "\xFE\xFF") return "is written in UTF-16";
+  if (text.find('\0') != std::string::npos) return "has bytes of value 0: it is no text";
+  if (text.find('\r') != std::string::npos && text.find('\n') == std::string::npos)
+    return "has lines that end with CR alone: all of it is one line";
+  return "";
+}
+
+void check_include(const LAMMPS_NS::LAMMPS& lammps) {
+  constexpr int deepest = 50;
+  const std::vector<std::string> words = current_command(lammps);
+  if (words.size() != 2) return;  // LIGGGHTS refuses that
+  on_first_rank(lammps.world, [&] {
+    const std::string where = fmt::format("command include, file '{}'", words[1]);
+    if (open_scripts(lammps) > deepest)
+      throw InputError(where, fmt::format("stands within {} files that include another", deepest),
+                       "files that do not include themselves",
+                       "remove the line, or end the loop by an 'if' with 'jump'");
+    if (const std::string problem = script_text_problem(words[1]); !problem.empty())
+      throw InputError(where, problem, "a text in UTF-8 whose lines end with LF or CR LF",
+                       "save it so in an editor");
+  });
 }
 
 LAMMPS_NS::Fix& add_fix(LAMMPS_NS::LAMMPS& lammps, std::vector<std::string> words) {

@@ -20,6 +20,14 @@ std::string script_name(const LAMMPS_NS::LAMMPS& lammps);
 /// folder. Collective.
 std::string script_folder(const LAMMPS_NS::LAMMPS& lammps);
 
+/// Why a file is no text that LIGGGHTS reads line by line; empty for one that is, or cannot be
+/// read.
+std::string script_text_problem(const std::string& path);
+
+/// Before the command include reads a file. @throws InputError for a file that is no text, and for
+/// files that include themselves. Collective.
+void check_include(const LAMMPS_NS::LAMMPS& lammps);
+
 /// As the line "fix <words>". Not from the constructor of another fix: LIGGGHTS is then in the
 /// middle of its list.
 LAMMPS_NS::Fix& add_fix(LAMMPS_NS::LAMMPS& lammps, std::vector<std::string> words);

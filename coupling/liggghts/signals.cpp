@@ -35,6 +35,7 @@ using Clock = std::chrono::steady_clock;
 // [ms] For a step that makes neighbour lists. mpirun that passes a signal on to all its ranks kills
 // them a second later.
 constexpr int patience = 5000, patience_under_mpirun = 500;
+constexpr int patience_between_commands = 800;
 
 int agreed = 0;
 bool stop_with_checkpoint = false, lists_for_checkpoint = false;
@@ -112,6 +113,16 @@ bool follow_signals(const LAMMPS& lammps, bool lists) {
   SignalHandler::request_quit = stops != 0;
   SignalHandler::request_write_restart = may_write;
   return lammps.output->restart_requested(lammps.update->ntimestep);
+}
+
+bool stop_between_commands(const LAMMPS& lammps) {
+  if (agreed) return false;
+  int state[2] = {stop_wanted, stop_wanted ? time_waited() : 0};
+  MPI_Allreduce(MPI_IN_PLACE, state, 2, MPI_INT, MPI_MAX, lammps.world);
+  if (state[1] < patience_between_commands) return false;
+  agreed = state[0];
+  SignalHandler::request_quit = 1;
+  return true;
 }
 
 int agreed_signal() { return agreed; }

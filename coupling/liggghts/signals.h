@@ -21,6 +21,11 @@ void confirm_signals(bool confirm);
 /// @return whether a checkpoint is written in this step, which takes new lists
 bool follow_signals(const LAMMPS_NS::LAMMPS& lammps, bool lists);
 
+/// Before each command: a script that loops without a run ends a second after its signal. A script
+/// that comes to its next run in that time ends there, with a checkpoint. Collective.
+/// @return whether the command is left out
+bool stop_between_commands(const LAMMPS_NS::LAMMPS& lammps);
+
 /// The signal that all ranks have agreed to end on; 0: none.
 int agreed_signal();
 /// Of a run that did not come to its end: 128 and the signal, as shells have it, or 1 for an error.

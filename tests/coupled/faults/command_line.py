@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Wrong command lines of furrow: one line that says what is allowed, status 2.
+"""Wrong command lines of furrow: one line that says what is allowed, status 2. And scripts that
+crash the parser of LIGGGHTS.
 
     command_line.py <furrow> [<mpirun -n>]
 """
 
 import sys
 
-from faults import Table, run
+from faults import Table, run, run_script
 
 SCRIPT = """variable length index 1
 variable speed index 2
@@ -38,6 +39,10 @@ CASES = [
     ("-in script.lig -log nowhere/log", 2, ["'nowhere/log' of -log or -screen cannot be written: No such file"]),
     ("-in script.lig -log .", 2, ["Is a directory"]),
     ("-in script.lig -screen nowhere/screen", 2, ["'nowhere/screen'"]),
+    ("-in script.lig -log script.lig", 2, ["file 'script.lig' of -log or -screen is the script"]),
+    ("-in utf16.lig", 2, ["script 'utf16.lig' is written in UTF-16; allowed: a text in UTF-8"]),
+    ("-in zeros.lig", 2, ["script 'zeros.lig' has bytes of value 0: it is no text"]),
+    ("-in cr.lig", 2, ["script 'cr.lig' has lines that end with CR alone"]),
     ("-in script.lig -echo loudly", 2, ["-echo with 'loudly'", "none, screen, log, both"]),
     ("--version", 0, ["furrow", "LIGGGHTS 3.8.0"]),
     ("--help", 0, ["Usage: furrow -in <script>", "--version"]),
@@ -49,6 +54,27 @@ CASES = [
     ("-in computed.lig -log none -var other 1", 0, ["part 5"]),
 ]
 
+BOX = "units si\natom_style granular\natom_modify sort 0 0\nregion box block -1 1 -1 1 -1 1 units box\ncreate_box 1 box\n"
+DEEP = "is more than 200 brackets or variables deep; allowed: variables that are not made of themselves"
+# name, script, status, text of the message
+SCRIPTS = [
+    ("variables of each other", 'variable a equal v_b\nvariable b equal v_a\nprint "${a}"\n', 1, [DEEP, "line 3: "]),
+    ("brackets of a formula", f"variable f equal {'(' * 20000}1{')' * 20000}\nprint \"${{f}}\"\n", 1, [DEEP]),
+    ("brackets of a condition", f"if \"{'(' * 20000}1{')' * 20000}\" then \"print x\"\n", 1, [DEEP]),
+    ("fifty brackets", f"variable f equal {'(' * 50}1{')' * 50}\nprint \"value ${{f}}\"\n", 0, ["value 1"]),
+    ("a long string", f"variable s string {'a' * 100000}\nprint after\n", 0, ["after"]),
+    ("a script that includes itself", "include script.lig\n", 1,
+     ["command include, file 'script.lig' stands within 50 files that include another"]),
+    ("an included text in UTF-16", "include utf16.lig\n", 1, ["command include, file 'utf16.lig' is written in UTF-16"]),
+    ("a missing file", "include nofile.lig\n", 1, ["Cannot open input script nofile.lig", "paths of include and jump"]),
+    ("a checkpoint onto the script", BOX + "write_restart script.lig\n", 1,
+     ["restart file 'script.lig' would replace a file of another kind"]),
+    ("a checkpoint onto a checkpoint", BOX + "write_restart ck\nwrite_restart ck\n", 0, []),
+    ("a seed", BOX + "fix p all particletemplate/sphere 10002 atom_type 1 density constant 2600 radius constant 0.01\n", 1,
+     ["> 10000 and a prime number", "the number behind 'seed' in the line below", "particletemplate"]),
+    ("restart without steps", BOX + "restart 0 ck\n", 1, ["write 'restart <steps> <file>' with steps above 0"]),
+]
+
 
 def main(furrow, *mpirun):
     table = Table()
@@ -57,11 +83,17 @@ def main(furrow, *mpirun):
                              'variable part getenv HOME\nif "1 > 2" then "include ${part}"\ninclude part.lig\n'}
     for name, text in files.items():
         (table.folder / name).write_text(text)
+    (table.folder / "utf16.lig").write_bytes(SCRIPT.encode("utf-16"))
+    (table.folder / "zeros.lig").write_bytes(SCRIPT.encode("utf-16-le"))
+    (table.folder / "cr.lig").write_bytes(SCRIPT.replace("\n", "\r").encode())
     for words, status, texts in CASES:
         said = run([furrow, *("" if word == "EMPTY" else word for word in words.split())], table.folder)
         table.check(words, said, status, *texts)
         if status == 2:
             table.expect(f"{words}: one line", len(said.text.splitlines()) == 1, said.text)
+    for name, script, status, texts in SCRIPTS:
+        table.check(name, run_script(furrow, table.folder, script), status, *texts)
+    (table.folder / "script.lig").write_text(SCRIPT)
     for words in ("-in nofile.lig", "-in script.lig -var lenght 3"):
         table.check(f"{words}, two ranks", run([*mpirun, 2, furrow, *words.split()], table.folder), 2)
     table.end()

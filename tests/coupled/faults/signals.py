@@ -101,7 +101,12 @@ def main(furrow, *mpirun):
     table.expect("without checkpoint: no file", not list(table.folder.glob("restart_forced*")), "there is one")
     said = interrupted(furrow, table, going(GRAINS, 500) , [signal.SIGPIPE])
     table.check("SIGPIPE is ignored", said, 0)
-    endless = "label again\nshell touch going\njump SELF again\n"
+    endless = "shell touch going\nlabel again\nvariable x equal 1\njump SELF again\n"
+    for number, status in ((signal.SIGTERM, 143), (signal.SIGINT, 130)):
+        said = interrupted(furrow, table, endless, [number])
+        table.check(f"signal {number} in a loop without a run", said, status, "without a checkpoint")
+        said = interrupted(furrow, table, endless, [number], [*mpirun, "2"])
+        table.check(f"signal {number} in a loop, of one rank of two", said, status, "without a checkpoint")
     table.check("second signal", interrupted(furrow, table, endless, [signal.SIGTERM, signal.SIGTERM]), 143, "ends at once")
     table.end()
 
