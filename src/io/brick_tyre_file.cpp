@@ -18,8 +18,9 @@ namespace {
 const Range length = Range::closed(0.0, 10.0);     // [m]
 const Range stiffness = Range::closed(1.0, 1e10);  // [N/m]
 const Range bending = Range::closed(1e-6, 1e5);    // [N m]
-const Range modulus = Range::closed(1e3, 1e9);     // [Pa]
-constexpr double usual_bulk_ratio = 50.0;          // K/mu of a Poisson's ratio of 0.49
+// [Pa] from the softest gel to rubber as stiff as plastic: kPa and MPa lie below
+const Range modulus = Range::closed(2e4, 1e9);
+constexpr double usual_bulk_ratio = 50.0;  // K/mu of a Poisson's ratio of 0.49
 
 Schema tyre_schema() {
   Schema schema("tyre");

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/nearest_word.h"
 #include "io/input_kind.h"
+#include "material/hardening/hardening.h"
 #include "material/plausibility.h"
 
 namespace furrow {
@@ -181,6 +182,8 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
     result.warnings.push_back(fmt::format("{}: {}", path, doubt));
   const MaterialOptions options = read_sections(model, result.sections);
   for (const std::string& doubt : doubts_of_compression_line(options))
+    result.warnings.push_back(fmt::format("{}: {}", path, doubt));
+  for (const std::string& doubt : doubts_of_hardening(options))
     result.warnings.push_back(fmt::format("{}: {}", path, doubt));
   if (model.doubts)
     for (const std::string& doubt : model.doubts(options))

@@ -12,6 +12,13 @@ namespace furrow {
 
 namespace {
 
+// ln of the compaction, which no ground exceeds
+const Range possible_strain = Range::closed(-5.0, 5.0);
+const Range possible_row_density = {0.0, 5000.0, true, false};  // [kg/m3] up to ore
+// Strength at the end of a table: of any ground, and of one that is already dense.
+constexpr double usual_last_strength = 5e3, usual_dense_strength = 1e4;  // [Pa]
+constexpr double dense_ground = 500.0;                                   // [kg/m3]
+
 /// The keys of a table in addition to its column of strains or densities.
 void declare_strengths(Schema& schema) {
   schema.numbers("p", 0, "Pa", Range::positive(), "hydrostatic yield strengths p_b, increasing");
@@ -28,11 +35,11 @@ void declare_strengths(Schema& schema) {
 
 SectionSchema hardening_section() {
   Schema table("hardening table");
-  table.numbers("eps_vol_pl", 0, "", Range::any(),
+  table.numbers("eps_vol_pl", 0, "", possible_strain,
                 "volumetric plastic strains of the strengths, compression positive, increasing");
   declare_strengths(table);
   Schema by_density("hardening by_density");
-  by_density.numbers("rho", 0, "kg/m3", Range::positive(),
+  by_density.numbers("rho", 0, "kg/m3", possible_row_density,
                      "densities of the strengths, without load, increasing: one curve for every "
                      "initial density in them");
   declare_strengths(by_density);
@@ -134,6 +141,23 @@ HardeningParameters make_hardening(const SectionOptions& section, double density
   if (section.type == "table") return make_table(o, "eps_vol_pl", o.numbers("eps_vol_pl"));
   if (section.type == "by_density") return make_by_density(o, density);
   return make_exponential(o, offset, includes_offset);
+}
+
+std::vector<std::string> doubts_of_hardening(const MaterialOptions& sections) {
+  const auto section = sections.find("hardening");
+  if (section == sections.end() || section->second.type == "exponential") return {};
+  const Options& o = section->second.options;
+  const double density =
+      section->second.type == "by_density"
+          ? o.numbers("rho").back()
+          : sections.at("law").options.number("density") * std::exp(o.numbers("eps_vol_pl").back());
+  const double last = o.numbers("p").back();
+  const double usual = density < dense_ground ? usual_last_strength : usual_dense_strength;
+  if (last >= usual) return {};
+  return {
+      fmt::format("the hardening ends with p = {:g} Pa at {:.4g} kg/m3; ground of that density "
+                  "has a strength of at least {:g} Pa; give Pa, not kPa",
+                  last, density, usual)};
 }
 
 double strength_at(const HardeningParameters& h, double eps) {

@@ -115,13 +115,23 @@ TEST_F(MaterialFileTest, BadFilesAreRefusedWithTheirPlace) {
       {with(sand, "  type: drucker_prager_cap\n", ""),
        "sand.yaml, line 2: keyword 'type' is missing"},
       {with(sand, "  d: 1.194e6\n", ""),
-       "sand.yaml, line 2: law drucker_prager_cap, keyword 'd' is missing; allowed: a number >= 0 "
-       "[Pa]; it is: cohesion"},
+       "sand.yaml, line 2: law drucker_prager_cap, keyword 'd' is missing; allowed: a number in "
+       "[0, 100000000] [Pa]; it is: cohesion"},
       {with(sand, "K: 1", "K: 0.77"),
        "sand.yaml, line 8: law drucker_prager_cap, keyword 'K' is 0.77: the section would not be "
        "convex; allowed: a number in [0.778, 1] for section abaqus"},
       {with(sand, "d: 1.194e6", "d: -1"),
-       "sand.yaml, line 5: law drucker_prager_cap, keyword 'd' is -1; allowed: a number >= 0 [Pa]"},
+       "sand.yaml, line 5: law drucker_prager_cap, keyword 'd' is -1; allowed: a number in [0, "
+       "100000000] [Pa]"},
+      {with(sand, "d: 1.194e6", "d: 1.194e12"),
+       "keyword 'd' is 1.194e12; allowed: a number in [0, "},
+      {with(sand, "[0, 0.005, 0.01]", "[0.138e6, 0.172e6, 0.434e6]"),
+       "hardening table, keyword 'eps_vol_pl' is 0.138e6; allowed: a list of numbers, each in [-5, "
+       "5]"},
+      {with(with(sand, "type: table", "type: by_density"), "eps_vol_pl: [0, 0.005, 0.01]",
+            "rho: [113.76, 20.65e3, 1156.4e3]"),
+       "hardening by_density, keyword 'rho' is 20.65e3; allowed: a list of numbers, each in (0, "
+       "5000]"},
       {with(sand, "d: 1.194e6", "d: soft"),
        "sand.yaml, line 5: law drucker_prager_cap, keyword 'd' is 'soft', which is not a number"},
       {with(sand, "d: 1.194e6", "d: nan"),
@@ -221,6 +231,27 @@ TEST_F(MaterialFileTest, WhatIsUnusualIsReadWithAWarning) {
   EXPECT_THAT(read_material_file(file(with(sand, "density: 1800", "density: 5000"))).warnings,
               ::testing::ElementsAre(HasSubstr("sand.yaml: the density is 5000 kg/m3; ground and "
                                                "rubber have one in [10, 3000]")));
+}
+
+TEST_F(MaterialFileTest, CapOfAnotherUnitIsReadWithAWarning) {
+  const std::string snow = read_text_file(FURROW_SOURCE_DIR "/inputs/materials/fresh_snow.yaml");
+  EXPECT_THAT(read_material_file(file(snow)).warnings, ::testing::IsEmpty());
+  const auto warned = [&](const std::string& text, const std::string& warning) {
+    EXPECT_THAT(read_material_file(file(text)).warnings, ::testing::Contains(HasSubstr(warning)));
+  };
+  warned(with(snow, "beta: 65 ", "beta: 1.134 "),
+         "beta is 1.134 degrees; 1.134 radians are 65 degrees; give degrees");
+  warned(with(snow, "R: 1e-2", "R: 1e6"), "R is 1e+06; caps of soils and snow have 0.0001 to 5");
+  warned(with(snow, "d: 5e3", "d: 5e7"), "d is 5e+07 Pa; ice and weak rock have up to 5e+06 Pa");
+  const std::string kilopascal =
+      with(snow, "[113.76, 20.65e3, 41.3e3, 82.6e3, 206.5e3, 413e3,  826e3,  1156.4e3]",
+           "[0.11376, 20.65, 41.3, 82.6, 206.5, 413, 826, 1156.4]");
+  warned(kilopascal,
+         "the hardening ends with p = 1156.4 Pa at 813.8 kg/m3; ground of that density has a "
+         "strength of at least 10000 Pa; give Pa, not kPa");
+  // field snow, whose law is another
+  const std::string field = read_text_file(FURROW_SOURCE_DIR "/inputs/materials/field_snow.yaml");
+  EXPECT_THAT(read_material_file(file(field)).warnings, ::testing::IsEmpty());
 }
 
 TEST_F(MaterialFileTest, TwoSectionsOfOneCompressionLineHaveOneKappa) {

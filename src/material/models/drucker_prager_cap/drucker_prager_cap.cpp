@@ -55,12 +55,33 @@ std::unique_ptr<Material> create_drucker_prager_cap(const MaterialOptions& secti
                                             o.number("eps_vol_pl_0"));
 }
 
+constexpr double usual_R = 5.0;
+constexpr double usual_cohesion = 5e6;  // [Pa] of ice and weak rock
+
+/// Other units, and sections that belong to two grounds.
+std::vector<std::string> doubts_of_cap(const MaterialOptions& sections) {
+  const Options& law = sections.at("law").options;
+  const double beta = law.number("beta"), d = law.number("d"), R = law.number("R");
+  std::vector<std::string> sentences;
+  if (beta <= 0.5 * pi)
+    sentences.push_back(
+        fmt::format("beta is {:g} degrees; {:g} radians are {:.3g} degrees; give degrees", beta,
+                    beta, degrees(beta)));
+  if (R > usual_R)
+    sentences.push_back(
+        fmt::format("R is {:g}; caps of soils and snow have 0.0001 to {:g}", R, usual_R));
+  if (d > usual_cohesion)
+    sentences.push_back(
+        fmt::format("d is {:g} Pa; ice and weak rock have up to {:g} Pa", d, usual_cohesion));
+  return sentences;
+}
+
 }  // namespace
 
 MaterialModel DruckerPragerCap::model() {
   Schema schema("law drucker_prager_cap");
   schema.number("density", "kg/m3", Range::positive(), "mass density at the start");
-  schema.number("d", "Pa", Range::non_negative(), "cohesion: t at p = 0 on the shear line");
+  schema.number("d", "Pa", Range::closed(0.0, 1e8), "cohesion: t at p = 0 on the shear line");
   schema.number("beta", "degree", Range{0.0, 80.0, true, false},
                 "slope of the shear line in the p-t plane");
   schema.number("R", "", Range::positive(),
@@ -84,6 +105,7 @@ MaterialModel DruckerPragerCap::model() {
       "soils and snow: shear line, transition, hardening cap (ABAQUS, [Shoop2001] eq 12-16)";
   model.sections = {law_section(schema), elasticity_section(), hardening_section()};
   model.create = create_drucker_prager_cap;
+  model.doubts = doubts_of_cap;
   const std::string snow =
       " hardening table p 113.76 5e4 1e6 6e7 eps_vol_pl 0 0.593 1.083 1.514 beyond extrapolate";
   model.examples = {
