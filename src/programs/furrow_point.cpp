@@ -18,6 +18,7 @@
 #include "io/point_results.h"
 #include "io/version.h"
 #include "material/registry.h"
+#include "parse_options.h"
 
 namespace {
 
@@ -110,7 +111,7 @@ int main(int argc, char** argv) {
       app.add_subcommand("laws", "list the laws with their keys, units, ranges and meanings");
   laws_command->add_option("name", law, "only this law");
   CLI::App* paths_command = app.add_subcommand("paths", "list the paths and the keys of a fit");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto status = furrow::parse_options(app, argc, argv)) return *status;
   if (app.get_subcommands().empty()) {
     std::cerr << "furrow-point: needs one of the commands run, fit, laws or paths; see --help\n";
     return 1;

@@ -15,6 +15,7 @@
 #include "io/summary.h"
 #include "io/version.h"
 #include "number_option.h"
+#include "parse_options.h"
 
 namespace {
 
@@ -129,7 +130,7 @@ int main(int argc, char** argv) {
       "furrow-resistance");
   Request request;
   declare(app, request);
-  CLI11_PARSE(app, argc, argv);
+  if (const auto status = furrow::parse_options(app, argc, argv)) return *status;
 
   int status = 0;
   if (request.csv) print_csv_header();

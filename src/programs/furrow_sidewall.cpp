@@ -18,6 +18,7 @@
 #include "io/tyre_file.h"
 #include "io/version.h"
 #include "number_option.h"
+#include "parse_options.h"
 
 namespace {
 
@@ -87,7 +88,7 @@ int main(int argc, char** argv) {
   run_command->add_flag("--no-plot", request.no_plot, "no figure");
   CLI::App* keys_command =
       app.add_subcommand("keys", "list the keys of a tyre file with units, ranges and meanings");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto status = furrow::parse_options(app, argc, argv)) return *status;
   if (app.get_subcommands().empty()) {
     std::cerr << "furrow-sidewall: needs one of the commands run or keys; see --help\n";
     return 1;

@@ -22,6 +22,7 @@
 #include "io/version.h"
 #include "io/vtk_file.h"
 #include "number_option.h"
+#include "parse_options.h"
 #include "tyre/brick_tyre.h"
 #include "tyre/contact_patch.h"
 #include "tyre/darnell_tyre.h"
@@ -79,7 +80,7 @@ void declare(CLI::App& app, Request& request) {
   app.add_flag("--direct", request.direct,
                "solve the sidewall's chain instead of looking it up in a table");
   app.add_option("--friction", request.friction, "coefficient of the plane")
-      ->check(within(Range::closed(0.0, 100.0)))
+      ->check(within(Range::closed(0.0, 5.0)))
       ->capture_default_str();
   app.add_option("--tolerance", request.tolerance,
                  "largest unbalanced force over the pressure's force on a node")
@@ -184,10 +185,22 @@ Relaxation settle_under(double load, Tyre& tyre, RigidPlane& plane, const Settle
   }
 }
 
+/// @throws StateError that names the pressure
+Relaxation inflate(Tyre& tyre, const SettleOptions& options) {
+  try {
+    return tyre.settle(nullptr, options);
+  } catch (const StateError& error) {
+    throw StateError(fmt::format(
+        "--pressure {:.6g}: the tyre does not come to rest: {}; lower the pressure, or check the "
+        "stiffnesses of the tyre file",
+        1e-3 * tyre.pressure(), error.what()));
+  }
+}
+
 /// Inflates a tyre and presses it down under one load after the other.
 void press(Tyre& tyre, const Request& request) {
   const SettleOptions options{request.tolerance};
-  report(tyre, 0.0, tyre.settle(nullptr, options), nullptr, request);
+  report(tyre, 0.0, inflate(tyre, options), nullptr, request);
   RigidPlaneParameters floor;
   floor.height = tyre.lowest_tread_height();
   floor.friction = request.friction;
@@ -275,7 +288,7 @@ int main(int argc, char** argv) {
       "furrow-tyre");
   Request request;
   declare(app, request);
-  CLI11_PARSE(app, argc, argv);
+  if (const auto status = parse_options(app, argc, argv)) return *status;
   try {
     run(app, request);
     end_output();

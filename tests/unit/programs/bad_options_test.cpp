@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Wrong options of the command-line programs: each is refused in a message that names the option
-// and what is allowed, with a status of its own, before anything is computed.
+// Wrong options of the command-line programs: each is refused with status 1 in one line that names
+// the option and what is allowed, before anything is computed.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "../io/scratch.h"
@@ -44,7 +45,10 @@ void expect_refusals(const std::string& program, const Cases& cases) {
   for (const Case& bad : cases) {
     const Outcome outcome = run(program + " " + bad.arguments);
     EXPECT_TRUE(outcome.ended) << bad.arguments << "\n" << outcome.text;
-    EXPECT_NE(outcome.status, 0) << bad.arguments;
+    EXPECT_EQ(outcome.status, 1) << bad.arguments;
+    EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1)
+        << bad.arguments << "\n"
+        << outcome.text;
     EXPECT_THAT(outcome.text, AllOf(HasSubstr(bad.message), Not(HasSubstr("terminate called"))))
         << bad.arguments;
   }
@@ -75,7 +79,9 @@ TEST(BadOptions, OfFurrowTyre) {
       {tyre + "--pressure inf", "--pressure: is 'inf'"},
       {tyre + "--tolerance 0", "--tolerance: is '0'; allowed: a number in [1e-09, 0.1]"},
       {tyre + "--tolerance nan", "--tolerance: is 'nan'"},
-      {tyre + "--friction -0.1", "--friction: is '-0.1'; allowed: a number in [0, 100]"},
+      {tyre + "--friction -0.1", "--friction: is '-0.1'; allowed: a number in [0, 5]"},
+      {tyre + "--friction 50", "--friction: is '50'; allowed: a number in [0, 5]"},
+      {tyre + "--unknown", "furrow-tyre: The following argument was not expected: --unknown; see"},
       {tyre + "--rim-stiffness -5", "--rim-stiffness: is '-5'; allowed: a number >= 0 [N m/rad/m]"},
       {tyre + "--tread-stiffness nan", "--tread-stiffness: is 'nan'"},
       {tyre + "--link 20 0", "--link: is '20'; allowed: a number in [-1, 1] [m]"},
