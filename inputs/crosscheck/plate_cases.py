@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Plates on several grounds, beside formulas and measurements."""
+"""Plates on several grounds, with formulas and measurements."""
 
 import math
 from collections.abc import Iterator

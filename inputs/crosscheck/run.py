@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Cross-checks: the same test on grains and on continuum, side by side. See README.md.
 
-Makes the runs of cases.csv that are missing, lays the grounds beside each other with furrow-post's
+Makes the runs of cases.csv that are missing, compares the grounds with furrow-post's
 own comparison, and writes results.csv, README.md's table and the figures of this folder. Stages are
 the cases; '*/continuum_*' are the runs of one ground.
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Wheels and tyres on both grounds, beside formulas and measurements."""
+"""Wheels and tyres on both grounds, with formulas and measurements."""
 
 from collections.abc import Iterator
 from dataclasses import replace

@@ -5,7 +5,7 @@
 Least squares (scipy.optimize.least_squares, trust region) in the logarithms of the parameters;
 differences of 20 % make the Jacobian, all runs of which have one packing. Every run is kept in
 FOLDER/log.jsonl: a calibration that was stopped continues where it was, and one that is done is
-only evaluated again. The result goes to CALIBRATION.result.json, beside the input; it says whether
+only evaluated again. The result goes to CALIBRATION.result.json, next to the input; it says whether
 the calibration has converged, and by what factor the next step would change each parameter.
 
 The input: "test", "ground", "variables" of all runs, "parameters": {name: [start, lower, upper]},

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Plates and the wheels of CMU's tests beside the measurements; finer grains, other laws and the
+"""Plates and the wheels of CMU's tests with the measurements; finer grains, other laws and the
 continuum; the wheel with grousers; the smooth wheel at a slip angle."""
 
 import csv
@@ -48,7 +48,7 @@ GOALS = {
     for quantity in ("Fx/Fz", "sinkage/r")
 }
 # What was reached, plus the scatter from one pour to the next (0.04 for the plates, 0.02 to 0.03
-# for a wheel's rms, README.md): the limits of the test. The goals stand beside them and are not all
+# for a wheel's rms, README.md): the limits of the test. The goals stand next to them and are not all
 # reached.
 REACHED = {
     "plates: rms of ln(force)": 0.32,
@@ -452,7 +452,7 @@ def wheel_of(run: Run) -> str:
 
 
 def what_of(run: Run) -> str:
-    """What is changed beside size and slip."""
+    """What is changed in addition to size and slip."""
     changed = [
         f"{words} {run.case.variables[key]}"
         for key, base, words in (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Load, densities below and beside the plate, best estimates of the peak, the figure of layers."""
+"""Load, densities below and next to the plate, best estimates of the peak, the figure of layers."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -25,7 +25,7 @@ COARSE = 0.0416667  # [m] cells
 SIZES = {"": COARSE, "_31": 0.03125, "_25": 0.025, "_20": 0.02}  # suffix of a run -> cells [m]
 LAYERS = 10
 UNDER = 0.8  # of the plate's radius: where densities below it are taken
-BESIDE = (0.02, 0.08)  # [m] from its edge: where those beside it are taken
+BESIDE = (0.02, 0.08)  # [m] from its edge: where those next to it are taken
 MEASURED = np.array([REFERENCE[f"density_{n}"] for n in range(1, LAYERS + 1)])
 
 Row = dict[str, Any]
@@ -67,7 +67,7 @@ def layers_of(snow: Terrain, plate: float) -> Floats:
 
 
 def laboratory_numbers(run: Run) -> Row:
-    """The peak, densities below and beside the plate, and what slide and grid took."""
+    """The peak, densities below and next to the plate, and what slide and grid took."""
     curve, snow = curve_of(run), Terrain.read(run.folder)
     layers = layers_of(snow, snow.level - float(curve[:, 1].max()))
     r, before = (np.hypot(x[:, 0], x[:, 1]) for x in (snow.x, snow.initial_position))

@@ -391,9 +391,9 @@ def compacted(
     return RigidWheel(float(sinkage), float(work / found))
 
 
-# ---- measured rows beside computed ones
+# ---- measured rows with computed ones
 
-# Of a run, beside each measured row
+# Of a run, for each measured row
 COMPARED = (
     "sinkage_m",
     "rut_depth_m",
@@ -417,7 +417,7 @@ COMPUTED = {  # model of rows.csv -> name, colour, mark
 }
 # Model -> of ROWS
 IDENTIFIED_ON = {"tyre": "calibration", "flowing": "220 kg/m3", "spreading": "calibration"}
-RUTS = ("spreading",)  # models whose rut is held against the measured sinkage
+RUTS = ("spreading",)  # models whose rut is compared with the measured sinkage
 SECTIONS = {  # runs that are drawn -> title
     ERROR_BASE: "tyre on field snow, 220 kg/m3",
     "rigid_towed": "rigid wheel on fresh_snow, towed",
@@ -522,7 +522,7 @@ def slope_table(found: Found, table: Sequence[Row]) -> list[Row]:
 
 
 def column_of(model: str, what: str) -> str:
-    """Of rows.csv, that is held against the measured quantity."""
+    """Of rows.csv, that is compared with the measured quantity."""
     return f"{model}_rut_depth_m" if what == "sinkage_m" and model in RUTS else f"{model}_{what}"
 
 
@@ -557,7 +557,7 @@ def draw_comparison(table: Sequence[Row], path: Path) -> None:
 
 
 def error_table(found: Found) -> tuple[list[Row], dict[str, Convergence]]:
-    """Each change of one choice beside the base; and what the sizes of cells come to."""
+    """Each change of one choice with the base; and what the sizes of cells come to."""
     base = found(ERROR_BASE)
     if not base or base["error"]:
         return [], {}
@@ -613,7 +613,7 @@ def draw_errors(table: Sequence[Row], limits: Mapping[str, Convergence], path: P
 
 
 def design_table(found: Found) -> Iterator[Row]:
-    """Rigid wheels of other sizes beside the closed form."""
+    """Rigid wheels of other sizes with the closed form."""
     for diameter, width in DESIGNS:
         if row := found(f"design_{100 * diameter:.0f}x{100 * width:.0f}cm"):
             expected = compacted(diameter, width, 0.20, 220.0, LOAD)
@@ -627,7 +627,7 @@ def design_table(found: Found) -> Iterator[Row]:
 
 
 def pressure_table(found: Found) -> Iterator[Row]:
-    """The tyre at other pressures on 0.20 m of 220 kg/m3, beside NRMM."""
+    """The tyre at other pressures on 0.20 m of 220 kg/m3, with NRMM."""
     for pressure, name in PRESSURES.items():
         row = found(name)
         if row and not row["error"]:

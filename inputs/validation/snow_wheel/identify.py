@@ -5,7 +5,7 @@ rows with the tyre, by SciPy's least squares over their logarithms. See README.m
 
 Seen are the twelve calibration rows only: sinkage and resistance, over the goals, and, weakly, the
 density under the wheel. Runs are made at three depths; rows between them are interpolated. Every run
-is kept and not made twice. Prints each trial and adds it to identified.csv beside this file.
+is kept and not made twice. Prints each trial and adds it to identified.csv next to this file.
 """
 
 import argparse

@@ -53,7 +53,7 @@ STRESS_COMMENTS = (
 )
 # ---- the shape below the axle
 BELOW = 1e-3  # [m] from the section below the axle: its nodes
-BESIDE = 0.08  # [m] from the mid-plane: beside the tread
+BESIDE = 0.08  # [m] from the mid-plane: next to the tread
 WALL_HEIGHT = (4e-3, 6.5e-3)  # [m] of a groove's wall
 WALL_LEAN = 2.5e-3  # [m] by which an unloaded wall is out of the vertical at most
 
@@ -113,7 +113,7 @@ def between_table(runs: Runs) -> list[Row]:
 
 
 def stored(name: str) -> list[Row]:
-    """A table of Table 6's columns beside this file."""
+    """A table of Table 6's columns next to this file."""
     return [
         {key: text if key == "used_for" else float(text) for key, text in row.items()}
         for row in read_rows(HERE / name)
