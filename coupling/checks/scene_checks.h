@@ -19,6 +19,7 @@
 #include "coupling/contact/fix_contact_plane.h"
 #include "coupling/contact/fix_wall_gran_body.h"
 #include "coupling/base/fix_terrain.h"
+#include "coupling/terrain/fix_bed_window.h"
 #include "fix_gravity.h"
 #include "fix_move_mesh.h"
 #include "lammps.h"
@@ -117,6 +118,13 @@ Found terrain_is_long_enough(const Scene& scene, FixContactContinuum& contact);
 Found cells_show_the_body(const Scene& scene, FixContactContinuum& contact);
 Found body_is_over_terrain(const Scene& scene, FixContactContinuum& contact);
 Found cells_enter_grooves(const Scene& scene, FixContactContinuum& contact);
+
+// ---- checkpoints of the lines 'restart' (checkpoints.cpp)
+/// On the disk, before the hours until the first one.
+Found checkpoints_have_room(const Scene& scene);
+/// LIGGGHTS reads the length of a record as an int: 2 GiB.
+Found terrain_fits_a_record(const Scene& scene, const FixTerrain& terrain);
+Found bed_fits_a_record(const Scene& scene, const FixBedWindow& window);
 
 inline constexpr double many_sub_steps = 100;  ///< beyond, a step of LIGGGHTS is a long pause
 

@@ -7,12 +7,15 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <random>
 #include <vector>
 
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "comm.h"
+#include "core/communicator.h"
 #include "core/error.h"
 #include "coupling/liggghts/first_rank.h"
 #include "io/sealed_file.h"
@@ -62,6 +65,53 @@ bool begins_as_restart_file(const std::string& path) {
   file.read(head.text, sizeof head.text);
   return file && head.flag == 0 && head.length > 7 && std::memcmp(head.text, "Version", 7) == 0;
 }
+
+std::string path_being_written, path_read, set_name;
+
+fs::path particle_folder(const std::string& checkpoint) { return checkpoint + ".particles"; }
+
+constexpr std::size_t digits_of_set = 16;
+
+std::string new_set() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}", random(), random());
+}
+
+bool is_of_a_set(const std::string& name) {
+  return name.size() > digits_of_set && name[digits_of_set] == '.' &&
+         name.find_first_not_of("0123456789abcdef") == digits_of_set;
+}
+
+/// Removes the files of one set, or those of all others: of former checkpoints of this name, and of
+/// one that a kill has cut short.
+void remove_sets(const std::string& checkpoint, const std::string& set, bool others) {
+  std::error_code ignored;
+  const fs::path folder = particle_folder(checkpoint);
+  std::vector<fs::path> unwanted;
+  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+       entry.increment(ignored)) {
+    const std::string name = entry->path().filename().string();
+    if (is_of_a_set(name) && (name.compare(0, digits_of_set, set) != 0) == others)
+      unwanted.push_back(entry->path());
+  }
+  for (const fs::path& file : unwanted) fs::remove(file, ignored);
+  if (!unwanted.empty()) fs::remove(folder, ignored);  // if nothing is left in it
+}
+
+/// While LIGGGHTS writes.
+class BeingWritten {
+ public:
+  BeingWritten(const std::string& path, const std::string& set) {
+    path_being_written = path;
+    set_name = set;
+  }
+  ~BeingWritten() {
+    path_being_written.clear();
+    set_name.clear();
+  }
+  BeingWritten(const BeingWritten&) = delete;
+  BeingWritten& operator=(const BeingWritten&) = delete;
+};
 
 [[noreturn]] void refuse(const std::string& path, const std::string& problem,
                          const std::string& remedy) {
@@ -117,12 +167,52 @@ void write_checkpoint(LAMMPS_NS::LAMMPS& lammps, const std::string& path,
     memory.emplace();
   });
   std::string name = memory ? memory->name() : "";
-  write(name.data());
+  const std::string set = broadcast(file ? new_set() : "", lammps.world);
+  {
+    const BeingWritten files(path, set);
+    write(name.data());
+  }
   on_first_rank(lammps.world, [&] {
-    memory->copy_to(*file);
-    file->close();
+    try {
+      memory->copy_to(*file);
+      file->close();
+    } catch (const Error&) {
+      remove_sets(path, set, false);
+      throw;
+    }
+    remove_sets(path, set, true);
   });
 }
+
+const std::string& set_being_written() { return set_name; }
+
+std::unique_ptr<RankFiles> rank_files(const LAMMPS_NS::LAMMPS& lammps, const std::string& set,
+                                      const std::string& fix) {
+  const std::string& checkpoint = path_being_written.empty() ? path_read : path_being_written;
+  return std::make_unique<RankFiles>(
+      (particle_folder(checkpoint) / fmt::format("{}.{}", set, fix)).string(), lammps.comm->me);
+}
+
+void close_rank_files(const LAMMPS_NS::LAMMPS& lammps, RankFiles& files) {
+  const std::string failure = files.close();
+  const Communicator ranks(&lammps.world);
+  const auto failed = static_cast<int>(ranks.max(failure.empty() ? -1.0 : ranks.rank()));
+  if (failed >= 0) throw Error(broadcast(failure, lammps.world, failed));
+}
+
+std::uintmax_t bytes_of_checkpoint(const std::string& path) {
+  std::error_code absent;
+  std::vector<fs::path> files = {path};
+  for (fs::directory_iterator entry(particle_folder(path), absent), end; !absent && entry != end;
+       entry.increment(absent))
+    files.push_back(entry->path());
+  std::uintmax_t bytes = 0;
+  for (const fs::path& file : files)
+    if (const std::uintmax_t size = fs::file_size(file, absent); !absent) bytes += size;
+  return bytes;
+}
+
+void note_checkpoint_read(const std::string& path) { path_read = path; }
 
 std::string find_checkpoint(LAMMPS_NS::LAMMPS& lammps, const std::string& path) {
   if (path.find('*') == std::string::npos) return path;

@@ -6,11 +6,96 @@
 
 import os
 import random
+import re
+import shutil
 import sys
+from pathlib import Path
 
 from faults import CONTINUED, GRAINS, WHEEL, Table, run_script
 
 WRITE = GRAINS + "run 10\nwrite_restart ck.10\n"
+# Snow that settles under its weight: 1024 particles, whose place at the end is printed.
+MATERIAL = Path(__file__).resolve().parents[3] / "inputs/materials/fresh_snow.yaml"
+SNOW_BOX = """units si
+atom_style granular
+atom_modify sort 0 0
+newton off
+communicate single vel yes
+{box}
+neighbor 0.05 bin
+timestep 2e-4
+"""
+NEW_BOX = "processors 2 1 1\nregion box block -1 1 -1 1 -0.1 1 units box\ncreate_box 1 box"
+SNOW = SNOW_BOX + (f"fix soil all terrain/continuum material {MATERIAL} length 0.4 width 0.2 depth 0.2 "
+                   "surface 0.2 cell 0.05 overburden no\n")
+END = 'variable left equal f_soil[1]\nvariable energy equal f_soil[3]\nprint "END ${left} ${energy}"\n'
+
+
+def snow(furrow, table, tail, *, read=None, launcher=(), size_limit=None):
+    """Runs the snow from its start, or on from a checkpoint. @param size_limit of its files [bytes]"""
+    box = f"read_restart {read}" if read else NEW_BOX
+    if not launcher:
+        box = box.replace("processors 2 1 1\n", "")
+    limit = ["sh", "-c", f"trap '' XFSZ; ulimit -f {size_limit // 512}; exec \"$@\"", "sh"] if size_limit else []
+    return run_script(furrow, table.folder, SNOW.format(box=box) + tail, launcher=[*limit, *launcher])
+
+
+def end_of(said):
+    return re.findall(r"^END .*$", said.text, flags=re.M)
+
+
+def particles(furrow, table, launcher=()):
+    """The particles of terrain are in files of the ranks next to the restart file, which belong to it."""
+    ranks = "two ranks" if launcher else "one rank"
+
+    def check(name, said, status, *texts):
+        table.check(f"particles, {ranks}: {name}", said, status, *texts)
+        return said
+
+    def continued(name, status, *texts, file="ck.snow"):
+        return check(name, snow(furrow, table, "run 200 upto\n" + END, read=file, launcher=launcher), status, *texts)
+
+    folder = table.folder / "ck.snow.particles"
+    write = "run 100\nwrite_restart ck.snow\n"
+    whole = end_of(check("without a break", snow(furrow, table, "run 200\n" + END, launcher=launcher), 0))
+    check("written", snow(furrow, table, write, launcher=launcher), 0)
+    first = sorted(folder.iterdir())
+    table.expect(f"particles, {ranks}: a file for each rank", len(first) == (2 if launcher else 1), str(first))
+    same = end_of(continued("continued", 0))
+    table.expect(f"particles, {ranks}: continued bitwise", same == whole and whole, f"{same} is not {whole}")
+
+    # A run that is killed before the restart file has its name leaves a part and files of another set.
+    stale = [folder / "0123456789abcdef.soil.0", folder / "0123456789abcdef.soil.1.part"]
+    for file in stale:
+        file.write_bytes(b"cut short")
+    same = end_of(continued("continued after a kill in the next checkpoint", 0))
+    table.expect(f"particles, {ranks}: the former checkpoint survives a kill", same == whole, f"{same} is not {whole}")
+    own = folder / "notes.txt"
+    own.write_text("of the user")
+    said = snow(furrow, table, write, launcher=launcher, size_limit=20 * 1024)
+    check("a file that cannot grow", said, 1, ".soil.", "is not written", "File too large")
+    table.expect(f"particles, {ranks}: the former checkpoint survives a failure",
+                 end_of(continued("continued after a failed checkpoint", 0)) == whole, "other numbers")
+    check("written again", snow(furrow, table, write, launcher=launcher), 0)
+    left = set(folder.iterdir())
+    table.expect(f"particles, {ranks}: files of other sets are removed",
+                 len(left) == len(first) + 1 and own in left and not left & {*stale, *first}, str(left))
+
+    files = sorted(left - {own})
+    for file in files:
+        bytes_of_file = file.read_bytes()
+        file.unlink()
+        continued(f"without file {file.name[-1]}", 1, "the checkpoint is incomplete", file.name, "No such file",
+                  "keep the folder 'ck.snow.particles' next to the restart file")
+        file.write_bytes(bytes_of_file[:5000] + bytes([bytes_of_file[5000] ^ 1]) + bytes_of_file[5001:])
+        continued(f"a bit of file {file.name[-1]}", 1, "the checkpoint is incomplete", file.name, "is damaged")
+        file.write_bytes(bytes_of_file)
+    shutil.copy(table.folder / "ck.snow", table.folder / "ck.copy")
+    continued("copied without its folder", 1, "the checkpoint is incomplete", "ck.copy.particles", file="ck.copy")
+    shutil.copytree(folder, table.folder / "ck.copy.particles")
+    continued("copied with its folder", 0, file="ck.copy")
+    shutil.rmtree(table.folder / "ck.copy.particles")
+    shutil.rmtree(folder)
 
 
 def continued(furrow, table, file, launcher=(), mode=""):
@@ -100,6 +185,8 @@ def main(furrow, liggghts, *mpirun):
                 "comes after the simulation box was made")
     damaged(furrow, table)
     belongs_together(furrow, table)
+    particles(furrow, table)
+    particles(furrow, table, [*mpirun, 2])
     if os.path.exists(liggghts):
         folder = table.folder
         stock = run_script(liggghts, folder, WRITE.replace("ck.10", "stock"))

@@ -149,7 +149,7 @@ def kill_at_any_moment(folder: Path, prepared: float, duration: float, number: i
     status = end(run)
     if number == signal.SIGTERM and status == 0:
         sys.exit("the status after SIGTERM is 0")
-    forced = [file for file in folder.glob("restart_forced*") if step_of(file) >= prepared_steps()]
+    forced = [file for file in folder.glob("restart_forced*.data") if step_of(file) >= prepared_steps()]
     return newest(forced or [folder / "ck.1", folder / "ck.2"])
 
 
