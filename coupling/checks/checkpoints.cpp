@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Rules for the checkpoints that the lines 'restart' ask for: is there room for them?
+// Rules for the checkpoints that the lines 'restart' ask for: their names and their size.
 
 #include <algorithm>
 #include <filesystem>
@@ -53,6 +53,17 @@ fs::path existing_folder(const std::string& name) {
 
 }  // namespace
 
+Found checkpoints_have_one_run(const Scene& scene) {
+  const Communicator ranks(&scene.lammps.world);
+  for (const std::string& name : checkpoint_names(scene.lammps))
+    if (ranks.any(ranks.rank() == 0 && belongs_to_another_run(name)))
+      return refusal("restart",
+                     fmt::format("names '{}', to which another run writes its checkpoints", name),
+                     "names of its own for each run in a folder",
+                     "name other files, or wait until that run has ended");
+  return {};
+}
+
 Found checkpoints_have_room(const Scene& scene) {
   const std::vector<std::string> names = checkpoint_names(scene.lammps);
   if (names.empty()) return {};
@@ -66,7 +77,7 @@ Found checkpoints_have_room(const Scene& scene) {
   if (ranks.rank() == 0) {
     std::error_code unknown;
     const fs::space_info space = fs::space(existing_folder(names[0]), unknown);
-    if (!unknown) free = static_cast<double>(space.available);
+    if (!unknown && space.capacity > 0) free = static_cast<double>(space.available);
     needed = bytes_needed(names, size);
   }
   free = ranks.max(free);

@@ -104,6 +104,7 @@ constexpr Rule rules[] = {
     rule<body_passes_no_grain_in_a_step>(When::before_run),
     rule<body_starts_at_the_ground>(When::before_run),
     rule<ground_level_is_the_ground>(When::before_run),
+    rule<checkpoints_have_one_run>(When::before_run),
     rule<checkpoints_have_room>(When::before_run),
     rule<terrain_fits_a_record>(When::before_run),
     rule<bed_fits_a_record>(When::before_run),

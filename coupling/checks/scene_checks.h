@@ -120,6 +120,8 @@ Found body_is_over_terrain(const Scene& scene, FixContactContinuum& contact);
 Found cells_enter_grooves(const Scene& scene, FixContactContinuum& contact);
 
 // ---- checkpoints of the lines 'restart' (checkpoints.cpp)
+/// Two runs with one name would replace each other's files.
+Found checkpoints_have_one_run(const Scene& scene);
 /// On the disk, before the hours until the first one.
 Found checkpoints_have_room(const Scene& scene);
 /// LIGGGHTS reads the length of a record as an int: 2 GiB.

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/liggghts/checkpoint_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -17,7 +20,9 @@
 #include "comm.h"
 #include "core/communicator.h"
 #include "core/error.h"
+#include "coupling/liggghts/access.h"
 #include "coupling/liggghts/first_rank.h"
+#include "io/file_lock.h"
 #include "io/sealed_file.h"
 
 namespace furrow::coupling {
@@ -69,6 +74,17 @@ bool begins_as_restart_file(const std::string& path) {
 std::string path_being_written, path_read, set_name;
 
 fs::path particle_folder(const std::string& checkpoint) { return checkpoint + ".particles"; }
+
+/// Of the restart files that this process replaces again and again.
+std::map<std::string, FileLock>& own_locks() {
+  static std::map<std::string, FileLock> locks;
+  return locks;
+}
+
+void keep_lock(const LAMMPS_NS::LAMMPS& lammps, const std::string& path, FileLock lock) {
+  const std::vector<std::string> names = checkpoint_names(lammps);
+  if (std::count(names.begin(), names.end(), path)) own_locks()[path] = std::move(lock);
+}
 
 constexpr std::size_t digits_of_set = 16;
 
@@ -160,22 +176,23 @@ void write_checkpoint(LAMMPS_NS::LAMMPS& lammps, const std::string& path,
     throw InputError(fmt::format("restart file '{}'", path),
                      "has '%', which means one file per rank", "a name without %",
                      "one file holds the grains of all ranks");
-  std::optional<SealedFile> file;  // both on rank 0
-  std::optional<MemoryFile> memory;
+  std::optional<MemoryFile> memory;  // on rank 0
   on_first_rank(lammps.world, [&] {
-    file.emplace(path);  // before the work
+    own_locks().erase(path);
+    const SealedFile can_be_written(path);  // before the work, in which an error may end the run
     memory.emplace();
   });
   std::string name = memory ? memory->name() : "";
-  const std::string set = broadcast(file ? new_set() : "", lammps.world);
+  const std::string set = broadcast(memory ? new_set() : "", lammps.world);
   {
     const BeingWritten files(path, set);
     write(name.data());
   }
   on_first_rank(lammps.world, [&] {
     try {
-      memory->copy_to(*file);
-      file->close();
+      SealedFile file(path);
+      memory->copy_to(file);
+      keep_lock(lammps, path, file.close());
     } catch (const Error&) {
       remove_sets(path, set, false);
       throw;
@@ -210,6 +227,10 @@ std::uintmax_t bytes_of_checkpoint(const std::string& path) {
   for (const fs::path& file : files)
     if (const std::uintmax_t size = fs::file_size(file, absent); !absent) bytes += size;
   return bytes;
+}
+
+bool belongs_to_another_run(const std::string& path) {
+  return own_locks().count(path) == 0 && is_locked(path);
 }
 
 void note_checkpoint_read(const std::string& path) { path_read = path; }

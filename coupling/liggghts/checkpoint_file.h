@@ -34,6 +34,8 @@ std::unique_ptr<RankFiles> rank_files(const LAMMPS_NS::LAMMPS& lammps, const std
 void close_rank_files(const LAMMPS_NS::LAMMPS& lammps, RankFiles& files);
 /// On the disk, of a checkpoint that may be there: restart file and particles.
 std::uintmax_t bytes_of_checkpoint(const std::string& path);
+/// Whether another run that goes on replaces this restart file in turn, with its line 'restart'.
+bool belongs_to_another_run(const std::string& path);
 /// The run continues from this checkpoint.
 void note_checkpoint_read(const std::string& path);
 

@@ -8,7 +8,9 @@ import os
 import random
 import re
 import shutil
+import subprocess
 import sys
+import time
 from pathlib import Path
 
 from faults import CONTINUED, GRAINS, WHEEL, Table, run_script
@@ -27,8 +29,13 @@ timestep 2e-4
 """
 NEW_BOX = "processors 2 1 1\nregion box block -1 1 -1 1 -0.1 1 units box\ncreate_box 1 box"
 SNOW = SNOW_BOX + (f"fix soil all terrain/continuum material {MATERIAL} length 0.4 width 0.2 depth 0.2 "
-                   "surface 0.2 cell 0.05 overburden no\n")
+                   "surface 0.2 cell 0.05 initial_stress no\n")
 END = 'variable left equal f_soil[1]\nvariable energy equal f_soil[3]\nprint "END ${left} ${energy}"\n'
+
+
+def limited(size):
+    """A launcher. @param size  of any file [bytes]; more gives "File too large", as a full disk does"""
+    return ["sh", "-c", f"trap '' XFSZ; exec prlimit --fsize={size} \"$@\"", "sh"]
 
 
 def snow(furrow, table, tail, *, read=None, launcher=(), size_limit=None):
@@ -36,7 +43,7 @@ def snow(furrow, table, tail, *, read=None, launcher=(), size_limit=None):
     box = f"read_restart {read}" if read else NEW_BOX
     if not launcher:
         box = box.replace("processors 2 1 1\n", "")
-    limit = ["sh", "-c", f"trap '' XFSZ; ulimit -f {size_limit // 512}; exec \"$@\"", "sh"] if size_limit else []
+    limit = limited(size_limit) if size_limit else []
     return run_script(furrow, table.folder, SNOW.format(box=box) + tail, launcher=[*limit, *launcher])
 
 
@@ -72,8 +79,16 @@ def particles(furrow, table, launcher=()):
     table.expect(f"particles, {ranks}: the former checkpoint survives a kill", same == whole, f"{same} is not {whole}")
     own = folder / "notes.txt"
     own.write_text("of the user")
-    said = snow(furrow, table, write, launcher=launcher, size_limit=20 * 1024)
-    check("a file that cannot grow", said, 1, ".soil.", "is not written", "File too large")
+    if launcher:  # MPI's own files are longer than the limit
+        blocked = table.folder / "ck.blocked.particles"
+        blocked.write_text("no folder")
+        said = snow(furrow, table, "run 5\nwrite_restart ck.blocked\n", launcher=launcher)
+        check("a file in the place of the folder", said, 1, ".soil.", "is not written", "ck.blocked.particles' cannot be made")
+        table.expect(f"particles, {ranks}: no restart file without its particles", not (table.folder / "ck.blocked").exists(), "there is one")
+        blocked.unlink()
+    else:
+        said = snow(furrow, table, write, size_limit=60 * 1024)
+        check("a file that cannot grow", said, 1, ".soil.", "is not written", "File too large")
     table.expect(f"particles, {ranks}: the former checkpoint survives a failure",
                  end_of(continued("continued after a failed checkpoint", 0)) == whole, "other numbers")
     check("written again", snow(furrow, table, write, launcher=launcher), 0)
@@ -168,6 +183,46 @@ def belongs_together(furrow, table):
     table.check("with a wheel: grains alone", run_script(furrow, folder, grains), 0)
 
 
+def full_disk(furrow, table, mpirun):
+    """A disk of 64 kB, where the system lets a user mount one; the grains' checkpoint has 200 kB."""
+    (table.folder / "small").mkdir()
+    disk = ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c",
+            'mount -t tmpfs -o size=64k none small && exec "$@"', "sh"]
+    if subprocess.run([*disk, "true"], cwd=table.folder, stderr=subprocess.DEVNULL, check=False).returncode != 0:
+        print("left out: no disk can be mounted here")
+        return
+    room = GRAINS + WHEEL + "restart 100 {0}/ck.1 {0}/ck.2\nrun 10\n"
+    for name, launcher in (("one rank", []), ("two ranks", [*mpirun, 2])):
+        said = run_script(furrow, table.folder, room.format("small"), launcher=[*disk, *launcher])
+        table.check(f"no room for checkpoints, {name}", said, 1, "restart: writes checkpoints of", "GB on the disk, and",
+                    "name files on another disk than that of 'small/ck.1'")
+    table.check("room for checkpoints", run_script(furrow, table.folder, room.format(".")), 0)
+    said = run_script(furrow, table.folder, GRAINS + "run 10\nwrite_restart small/ck\n", launcher=disk)
+    table.check("a full disk", said, 1, "'small/ck' is not written", "No space left on device")
+
+
+def one_run_for_a_name(furrow, table):
+    """A second run that would replace the checkpoints of one that goes on."""
+    script = GRAINS + WHEEL + "restart 50 {0}.1 {0}.2\nrun {1}\n"
+    (table.folder / "first.lig").write_text(script.format("same", 100000000))
+    first = subprocess.Popen([furrow, "-in", "first.lig", "-log", "none"], cwd=table.folder, stdin=subprocess.DEVNULL,
+                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        began = time.monotonic()
+        while not (table.folder / "same.2").exists() and first.poll() is None and time.monotonic() < began + 60:
+            time.sleep(0.02)
+        second = run_script(furrow, table.folder, script.format("same", 200))
+        table.check("a name of another run", second, 1, "restart: names 'same.1', to which another run writes its checkpoints",
+                    "name other files, or wait until that run has ended")
+        table.check("another name beside it", run_script(furrow, table.folder, script.format("other", 200)), 0)
+        check = continued(furrow, table, "same.1", mode="unchecked")
+        table.check("checkpoint of a run that goes on is read", check, 0)
+    finally:
+        first.kill()
+        first.wait()
+    table.check("the name of a run that was killed", run_script(furrow, table.folder, script.format("same", 200)), 0)
+
+
 def main(furrow, liggghts, *mpirun):
     table = Table()
     table.check("written", run_script(furrow, table.folder, WRITE), 0)
@@ -201,19 +256,25 @@ def main(furrow, liggghts, *mpirun):
         return run_script(furrow, table.folder, GRAINS + f"run 10\nwrite_restart {name}\n")
 
     good = (table.folder / "ck.10").read_bytes()
-    full = table.folder / "ck.10.part"
-    table.check("disk full", write("ck.10", lambda: full.symlink_to("/dev/full")), 1,
-                "'ck.10' is not written", "No space left on device", "write_restart ck.10")
+    part = table.folder / "ck.10.part"
+    part.write_bytes(b"left by a kill")
+    # LIGGGHTS's file fits into the limit, the seal behind it does not.
+    limit = limited(len(good) - 10)
+    said = run_script(furrow, table.folder, GRAINS + "run 10\nwrite_restart ck.10\n", launcher=limit)
+    table.check("disk full", said, 1, "'ck.10' is not written", "File too large", "write_restart ck.10")
     table.expect("disk full: the last good one stays", (table.folder / "ck.10").read_bytes() == good, "changed")
-    table.expect("disk full: no part stays", not os.path.lexists(full), "there is one")
+    table.expect("disk full: no part stays", not os.path.lexists(part), "there is one")
+    notes = table.folder / "notes"
+    notes.write_text("of the user")
+    table.check("a link in the place of the part", write("ck.10", lambda: part.symlink_to("notes")), 0)
+    table.expect("a link in the place of the part: not followed", notes.read_text() == "of the user", "it was")
     frame = table.folder / "frame.20"
     frame.symlink_to("/dev/full")
     table.check("disk full, a dump with a file for each step",
                 run_script(furrow, table.folder, GRAINS + "dump d all custom 20 frame.* id x\nrun 100\n"), 1,
                 "dump 'd', file frame.*: No space left on device")
-    full.symlink_to("/dev/full")
-    said = run_script(furrow, table.folder, GRAINS + "run 10\nwrite_restart ck.10\n", launcher=[*mpirun, 2])
-    table.check("disk full, two ranks", said, 1, "'ck.10' is not written", "No space left on device")
+    full_disk(furrow, table, mpirun)
+    one_run_for_a_name(furrow, table)
     table.check("folder in its place", write(".", lambda: None), 1, "Is a directory")
     table.check("folder cannot be made", write("/proc/no/ck"), 1, "its folder '/proc/no' cannot be made")
     table.check("file for each rank", write("ck.%"), 1, "a file for each rank")

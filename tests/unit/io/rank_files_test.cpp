@@ -2,18 +2,17 @@
 // Files of the ranks: whole, or refused by name.
 #include "io/rank_files.h"
 
-#include <csignal>
 #include <filesystem>
 #include <numeric>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include "core/error.h"
 #include "io/replace_file.h"
 #include "scratch.h"
+#include "size_limit.h"
 #include "tests/support/error_of.h"
 
 namespace furrow::test {
@@ -87,24 +86,6 @@ TEST(RankFiles, MissingOrDamagedFileIsRefusedWithRemedy) {
   fs::resize_file(stem + ".1", 200);
   EXPECT_THAT(error_of([&] { read(stem, 1, 0, 1); }), HasSubstr("set.soil.1' has no seal"));
 }
-
-/// Files of this process may grow to so many bytes.
-class SizeLimit {
- public:
-  explicit SizeLimit(rlim_t bytes) : signal_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit = {bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~SizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, signal_);
-  }
-
- private:
-  rlimit before_;
-  void (*signal_)(int);
-};
 
 TEST(RankFiles, FailedWriteIsReportedWhenClosedAndLeavesNothing) {
   const Scratch scratch;
