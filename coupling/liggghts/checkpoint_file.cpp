@@ -234,6 +234,7 @@ bool belongs_to_another_run(const std::string& path) {
 }
 
 void note_checkpoint_read(const std::string& path) { path_read = path; }
+const std::string& checkpoint_read() { return path_read; }
 
 std::string find_checkpoint(LAMMPS_NS::LAMMPS& lammps, const std::string& path) {
   if (path.find('*') == std::string::npos) return path;

@@ -38,6 +38,8 @@ std::uintmax_t bytes_of_checkpoint(const std::string& path);
 bool belongs_to_another_run(const std::string& path);
 /// The run continues from this checkpoint.
 void note_checkpoint_read(const std::string& path);
+/// Empty for a run from the start.
+const std::string& checkpoint_read();
 
 /// @param path of a checkpoint; a '*' stands for a step, and means the latest
 /// @return the path without '*'. Collective. @throws Error on all ranks
