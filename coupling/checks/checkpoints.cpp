@@ -59,7 +59,7 @@ Found checkpoints_have_one_run(const Scene& scene) {
     if (ranks.any(ranks.rank() == 0 && belongs_to_another_run(name)))
       return refusal("restart",
                      fmt::format("names '{}', to which another run writes its checkpoints", name),
-                     "names of its own for each run in a folder",
+                     "separate names for each run in a folder",
                      "name other files, or wait until that run has ended");
   return {};
 }

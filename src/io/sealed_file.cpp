@@ -56,8 +56,8 @@ SealedFile::SealedFile(std::string path) : path_(std::move(path)), part_(path_ +
   for (const std::string& file : {path_, part_})
     if (is_locked(file))
       throw Error(
-          fmt::format("'{}' is not written: another run writes it too; give each run names "
-                      "of its own, or wait until the other has ended",
+          fmt::format("'{}' is not written: another run writes it too; give each run "
+                      "separate names, or wait until the other has ended",
                       path_));
   unlink(part_.c_str());
   file_ = open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);

@@ -15,7 +15,7 @@ namespace furrow {
 namespace {
 
 constexpr double max_drift = 0.5;  // of the shortest cell between two sortings
-constexpr std::size_t chunk_length = std::size_t(1) << 17;  // numbers in memory beside particles
+constexpr std::size_t chunk_length = std::size_t(1) << 17;  // numbers in memory next to particles
 
 }  // namespace
 
