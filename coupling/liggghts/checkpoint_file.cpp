@@ -214,7 +214,9 @@ void close_rank_files(const LAMMPS_NS::LAMMPS& lammps, RankFiles& files) {
   const std::string failure = files.close();
   const Communicator ranks(&lammps.world);
   const auto failed = static_cast<int>(ranks.max(failure.empty() ? -1.0 : ranks.rank()));
-  if (failed >= 0) throw Error(broadcast(failure, lammps.world, failed));
+  if (failed < 0) return;
+  if (ranks.rank() == 0) remove_sets(path_being_written, set_name, false);
+  throw Error(broadcast(failure, lammps.world, failed));
 }
 
 std::uintmax_t bytes_of_checkpoint(const std::string& path) {
