@@ -280,7 +280,7 @@ def main(furrow, liggghts, *mpirun):
     one_run_for_a_name(furrow, table)
     table.check("folder in its place", write(".", lambda: None), 1, "Is a directory")
     table.check("folder cannot be made", write("/proc/no/ck"), 1, "its folder '/proc/no' cannot be made")
-    table.check("file for each rank", write("ck.%"), 1, "a file for each rank")
+    table.check("file for each rank", write("ck.%"), 1, "one file per rank")
     table.check("new folder", write("new/deep/ck"), 0)
     table.expect("new folder: the file is there", (table.folder / "new/deep/ck").exists(), "missing")
     table.end()
