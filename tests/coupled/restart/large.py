@@ -41,13 +41,13 @@ NEW_BOX = "processors 2 1 1\nregion box block -100 100 -100 100 -1 3 units box\n
 PRINT = "".join(f"variable e{n} equal f_soil[{n}]\n" for n in (1, 2, 3, 6)) + 'print "END ${e1} ${e2} ${e3} ${e6}"'
 
 
-def memory(session: int) -> dict[int, float]:
-    """Largest memory so far of each furrow of a session [MB]."""
+def memory(session: int, program: str) -> dict[int, float]:
+    """Largest memory so far of each process of a session that runs a program [MB]."""
     found = {}
     for folder in Path("/proc").glob("[0-9]*"):
         try:
             name, rest = (folder / "stat").read_text().rpartition(")")[0::2]
-            if name.endswith("(furrow") and int(rest.split()[3]) == session:
+            if name.endswith(f"({Path(program).name[:15]}") and int(rest.split()[3]) == session:
                 status = (folder / "status").read_text()
                 found[int(folder.name)] = int(re.search(r"VmHWM:\s+(\d+)", status).group(1)) / 1e3
         except (OSError, AttributeError):  # has ended
@@ -66,7 +66,7 @@ def run(command: list[str], folder: Path, script: str, begun: Path | None = None
         while process.poll() is None:
             if time.monotonic() - began > TIME_LIMIT:
                 process.kill()
-            now = memory(process.pid)
+            now = memory(process.pid, command[-1])
             after.update(now)
             if begun is None or not begun.exists():
                 before.update(now)
