@@ -2,9 +2,22 @@
 #include "coupling/base/fix_terrain.h"
 
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <string>
+
+#include "coupling/liggghts/checkpoint_file.h"
 
 namespace furrow::coupling {
+
+void FixTerrain::checkpoint(Checkpoint& state) {
+  std::string set = set_being_written();
+  state.value("files_of_ranks", set);
+  const std::unique_ptr<RankFiles> files = rank_files(*lmp, set, id);
+  terrain().keep_particles_in(*files);
+  FixBody::checkpoint(state);
+  close_rank_files(*lmp, *files);
+}
 
 std::pair<double, double> FixTerrain::extent(int direction) const {
   const Axis& axis = terrain().grid().axis(direction);

@@ -24,8 +24,13 @@ class FixTerrain : public FixBody {
   /// Whether a point lies in the undisturbed terrain; a trough does not belong to it.
   bool contains(const Vector3& point) const;
 
+  /// Without a copy of the terrain as its line makes it.
+  void restart(char* buffer) override { FurrowFix::restart(buffer); }
+
  protected:
   using FixBody::FixBody;
+  /// The particles of each rank go to its own file.
+  void checkpoint(Checkpoint& state) override;
 };
 
 }  // namespace furrow::coupling

@@ -21,6 +21,7 @@
 #include "coupling/base/fix_terrain.h"
 #include "coupling/grains/fix_grain_work.h"
 #include "coupling/output/fix_wheel_arc.h"
+#include "coupling/terrain/fix_bed_window.h"
 #include "fix_gravity.h"
 #include "fix_move_mesh.h"
 #include "lammps.h"
@@ -111,8 +112,9 @@ Found ground_level_is_the_ground(const Scene& scene, const DrivenBody& driven);
 Found track_is_at_the_ground(const Scene& scene, const FixGrainWork& work);
 /// During a run: does the base of a terrain carry a body?
 Found body_stays_off_the_base(const Scene& scene, FixContactContinuum& contact);
-/// During a run: has a body come through the grains to the sheet of the terrain that carries them?
-Found body_stays_off_the_sheet(const Scene& scene, const FixWallGranBody& wall);
+/// During a run: has a body come through the grains to the surface mesh of the terrain that carries
+/// them?
+Found body_stays_off_the_surface_mesh(const Scene& scene, const FixWallGranBody& wall);
 
 // ---- what touches what (contact.cpp)
 /// Is a mesh of this body in a wall/gran/body?
@@ -123,9 +125,9 @@ Found one_wall_has_all_meshes(const Scene& scene, const FixWallGranBody& wall);
 // A wheel may be meant to be free, and a mesh to be drawn only: warnings.
 Found mesh_is_in_a_wall(const Scene& scene, const FixMeshBody& mesh);
 Found something_presses_on_terrain(const Scene& scene, const FixTerrain& terrain);
-Found sheet_is_in_a_wall(const Scene& scene, const FixTerrain& terrain);
+Found surface_mesh_is_in_a_wall(const Scene& scene, const FixTerrain& terrain);
 /// A wall of LIGGGHTS in the place of the surface mesh carries the grains.
-Found no_wall_replaces_the_sheet(const Scene& scene, const FixTerrain& terrain);
+Found no_wall_replaces_the_surface_mesh(const Scene& scene, const FixTerrain& terrain);
 Found surcharge_is_the_grains_weight(const Scene& scene, const FixTerrain& terrain);
 Found half_terrain_has_half_the_grains(const Scene& scene, const FixTerrain& terrain);
 Found body_touches_something(const Scene& scene, FixBody& body);
@@ -135,6 +137,15 @@ Found terrain_is_long_enough(const Scene& scene, FixContactContinuum& contact);
 Found cells_show_the_body(const Scene& scene, FixContactContinuum& contact);
 Found body_is_over_terrain(const Scene& scene, FixContactContinuum& contact);
 Found cells_enter_grooves(const Scene& scene, FixContactContinuum& contact);
+
+// ---- checkpoints of the lines 'restart' (checkpoints.cpp)
+/// Two runs with one name would replace each other's files.
+Found checkpoints_have_one_run(const Scene& scene);
+/// On the disk, before the hours until the first one.
+Found checkpoints_have_room(const Scene& scene);
+/// LIGGGHTS reads the length of a record as an int: 2 GiB.
+Found terrain_fits_a_record(const Scene& scene, const FixTerrain& terrain);
+Found bed_fits_a_record(const Scene& scene, const FixBedWindow& window);
 
 inline constexpr double many_sub_steps = 100;  ///< beyond, a step of LIGGGHTS is a long pause
 

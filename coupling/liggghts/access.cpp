@@ -6,6 +6,7 @@
 #include "coupling/liggghts/expose.h"
 #include "input.h"
 #include "modify.h"
+#include "output.h"
 
 namespace furrow::coupling {
 
@@ -61,6 +62,36 @@ struct AveTimeFile {
   friend type member(AveTimeFile);
 };
 template struct Expose<AveTimeFile, &LAMMPS_NS::FixAveTime::fp>;
+
+struct OutputRestartsSingle {
+  using type = bool LAMMPS_NS::Output::*;
+  friend type member(OutputRestartsSingle);
+};
+template struct Expose<OutputRestartsSingle, &LAMMPS_NS::Output::restart_flag_single>;
+
+struct OutputRestartsDouble {
+  using type = bool LAMMPS_NS::Output::*;
+  friend type member(OutputRestartsDouble);
+};
+template struct Expose<OutputRestartsDouble, &LAMMPS_NS::Output::restart_flag_double>;
+
+struct OutputRestartName {
+  using type = char* LAMMPS_NS::Output::*;
+  friend type member(OutputRestartName);
+};
+template struct Expose<OutputRestartName, &LAMMPS_NS::Output::restart1>;
+
+struct OutputRestartNameA {
+  using type = char* LAMMPS_NS::Output::*;
+  friend type member(OutputRestartNameA);
+};
+template struct Expose<OutputRestartNameA, &LAMMPS_NS::Output::restart2a>;
+
+struct OutputRestartNameB {
+  using type = char* LAMMPS_NS::Output::*;
+  friend type member(OutputRestartNameB);
+};
+template struct Expose<OutputRestartNameB, &LAMMPS_NS::Output::restart2b>;
 
 struct HistoryKeep {
   using type = bool** LAMMPS_NS::FixContactHistoryMesh::*;
@@ -125,6 +156,18 @@ void replace_mesh(LAMMPS_NS::FixMesh& fix, LAMMPS_NS::AbstractMesh* mesh) {
 }
 
 FILE* file_of(const LAMMPS_NS::FixAveTime& fix) { return fix.*member(exposed::AveTimeFile{}); }
+
+std::vector<std::string> checkpoint_names(const LAMMPS_NS::LAMMPS& lammps) {
+  const LAMMPS_NS::Output& output = *lammps.output;
+  std::vector<std::string> names;
+  if (output.*member(exposed::OutputRestartsSingle{}))
+    names.emplace_back(output.*member(exposed::OutputRestartName{}));
+  if (output.*member(exposed::OutputRestartsDouble{})) {
+    names.emplace_back(output.*member(exposed::OutputRestartNameA{}));
+    names.emplace_back(output.*member(exposed::OutputRestartNameB{}));
+  }
+  return names;
+}
 
 bool contact_seen(LAMMPS_NS::FixContactHistoryMesh& history, int grain, int slot) {
   return (history.*member(exposed::HistoryKeep{}))[grain][slot];

@@ -45,6 +45,10 @@ void replace_mesh(LAMMPS_NS::FixMesh& fix, LAMMPS_NS::AbstractMesh* mesh);
 /// The file that a fix ave/time writes (FixAveTime::fp, private); null on other ranks.
 FILE* file_of(const LAMMPS_NS::FixAveTime& fix);
 
+/// Names of the files that the lines "restart" ask for (Output::restart1, restart2a and restart2b,
+/// private); a '*' stands for the step.
+std::vector<std::string> checkpoint_names(const LAMMPS_NS::LAMMPS& lammps);
+
 /// Whether the contact in this slot has been found again in the present step
 /// (FixContactHistoryMesh::keepflag_, protected).
 bool contact_seen(LAMMPS_NS::FixContactHistoryMesh& history, int grain, int slot);

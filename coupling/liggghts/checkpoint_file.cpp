@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/liggghts/checkpoint_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
+#include <random>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "comm.h"
+#include "core/communicator.h"
 #include "core/error.h"
+#include "coupling/liggghts/access.h"
 #include "coupling/liggghts/first_rank.h"
+#include "io/file_lock.h"
 #include "io/sealed_file.h"
 
 namespace furrow::coupling {
@@ -63,6 +71,64 @@ bool begins_as_restart_file(const std::string& path) {
   return file && head.flag == 0 && head.length > 7 && std::memcmp(head.text, "Version", 7) == 0;
 }
 
+std::string path_being_written, path_read, set_name;
+
+fs::path particle_folder(const std::string& checkpoint) { return checkpoint + ".particles"; }
+
+/// Of the restart files that this process replaces again and again.
+std::map<std::string, FileLock>& own_locks() {
+  static std::map<std::string, FileLock> locks;
+  return locks;
+}
+
+void keep_lock(const LAMMPS_NS::LAMMPS& lammps, const std::string& path, FileLock lock) {
+  const std::vector<std::string> names = checkpoint_names(lammps);
+  if (std::count(names.begin(), names.end(), path)) own_locks()[path] = std::move(lock);
+}
+
+constexpr std::size_t digits_of_set = 16;
+
+std::string new_set() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}", random(), random());
+}
+
+bool is_of_a_set(const std::string& name) {
+  return name.size() > digits_of_set && name[digits_of_set] == '.' &&
+         name.find_first_not_of("0123456789abcdef") == digits_of_set;
+}
+
+/// Removes the files of one set, or those of all others: of former checkpoints of this name, and of
+/// one that a kill has cut short.
+void remove_sets(const std::string& checkpoint, const std::string& set, bool others) {
+  std::error_code ignored;
+  const fs::path folder = particle_folder(checkpoint);
+  std::vector<fs::path> unwanted;
+  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+       entry.increment(ignored)) {
+    const std::string name = entry->path().filename().string();
+    if (is_of_a_set(name) && (name.compare(0, digits_of_set, set) != 0) == others)
+      unwanted.push_back(entry->path());
+  }
+  for (const fs::path& file : unwanted) fs::remove(file, ignored);
+  if (!unwanted.empty()) fs::remove(folder, ignored);  // if nothing is left in it
+}
+
+/// While LIGGGHTS writes.
+class BeingWritten {
+ public:
+  BeingWritten(const std::string& path, const std::string& set) {
+    path_being_written = path;
+    set_name = set;
+  }
+  ~BeingWritten() {
+    path_being_written.clear();
+    set_name.clear();
+  }
+  BeingWritten(const BeingWritten&) = delete;
+  BeingWritten& operator=(const BeingWritten&) = delete;
+};
+
 [[noreturn]] void refuse(const std::string& path, const std::string& problem,
                          const std::string& remedy) {
   throw InputError(fmt::format("checkpoint '{}'", path), problem,
@@ -110,8 +176,7 @@ void write_checkpoint(LAMMPS_NS::LAMMPS& lammps, const std::string& path,
     throw InputError(fmt::format("restart file '{}'", path),
                      "has '%', which means one file per rank", "a name without %",
                      "one file holds the grains of all ranks");
-  std::optional<SealedFile> file;  // both on rank 0
-  std::optional<MemoryFile> memory;
+  std::optional<MemoryFile> memory;  // on rank 0
   on_first_rank(lammps.world, [&] {
     std::error_code absent;
     if (fs::is_regular_file(path, absent) && fs::file_size(path, absent) > 0 &&
@@ -119,16 +184,65 @@ void write_checkpoint(LAMMPS_NS::LAMMPS& lammps, const std::string& path,
       throw InputError(fmt::format("restart file '{}'", path),
                        "would replace a file of another kind",
                        "a name that is free, or that of a checkpoint", "choose another name");
-    file.emplace(path);  // before the work
+    own_locks().erase(path);
+    const SealedFile can_be_written(path);  // before the work, in which an error may end the run
     memory.emplace();
   });
   std::string name = memory ? memory->name() : "";
-  write(name.data());
+  const std::string set = broadcast(memory ? new_set() : "", lammps.world);
+  {
+    const BeingWritten files(path, set);
+    write(name.data());
+  }
   on_first_rank(lammps.world, [&] {
-    memory->copy_to(*file);
-    file->close();
+    try {
+      SealedFile file(path);
+      memory->copy_to(file);
+      keep_lock(lammps, path, file.close());
+    } catch (const Error&) {
+      remove_sets(path, set, false);
+      throw;
+    }
+    remove_sets(path, set, true);
   });
 }
+
+const std::string& set_being_written() { return set_name; }
+
+std::unique_ptr<RankFiles> rank_files(const LAMMPS_NS::LAMMPS& lammps, const std::string& set,
+                                      const std::string& fix) {
+  const std::string& checkpoint = path_being_written.empty() ? path_read : path_being_written;
+  return std::make_unique<RankFiles>(
+      (particle_folder(checkpoint) / fmt::format("{}.{}", set, fix)).string(), lammps.comm->me);
+}
+
+void close_rank_files(const LAMMPS_NS::LAMMPS& lammps, RankFiles& files) {
+  const std::string failure = files.close();
+  const Communicator ranks(&lammps.world);
+  const auto failed = static_cast<int>(ranks.max(failure.empty() ? -1.0 : ranks.rank()));
+  if (failed < 0) return;
+  if (ranks.rank() == 0) remove_sets(path_being_written, set_name, false);
+  throw Error(broadcast(failure, lammps.world, failed));
+}
+
+std::uintmax_t bytes_of_checkpoint(const std::string& path) {
+  std::error_code absent;
+  std::vector<fs::path> files = {path};
+  for (fs::directory_iterator entry(particle_folder(path), absent), end; !absent && entry != end;
+       entry.increment(absent))
+    files.push_back(entry->path());
+  std::uintmax_t bytes = 0;
+  for (const fs::path& file : files)
+    if (const std::uintmax_t size = fs::file_size(file, absent); !absent) bytes += size;
+  return bytes;
+}
+
+bool belongs_to_another_run(const std::string& path) {
+  return own_locks().count(path) == 0 && is_locked(path);
+}
+
+void note_checkpoint_read(const std::string& path) { path_read = path; }
+const std::string& checkpoint_read() { return path_read; }
 
 std::string find_checkpoint(LAMMPS_NS::LAMMPS& lammps, const std::string& path) {
   if (path.find('*') == std::string::npos) return path;

@@ -11,12 +11,12 @@
 
 namespace furrow::coupling {
 
-/// A text of rank 0, on every rank. Collective.
-inline std::string broadcast(std::string text, MPI_Comm ranks) {
+/// A text of one rank, on every rank. Collective.
+inline std::string broadcast(std::string text, MPI_Comm ranks, int from = 0) {
   int size = static_cast<int>(text.size());
-  MPI_Bcast(&size, 1, MPI_INT, 0, ranks);
+  MPI_Bcast(&size, 1, MPI_INT, from, ranks);
   text.resize(static_cast<std::size_t>(size));
-  MPI_Bcast(text.data(), size, MPI_CHAR, 0, ranks);
+  MPI_Bcast(text.data(), size, MPI_CHAR, from, ranks);
   return text;
 }
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/output/gather_grains.h"
 
-#include <mpi.h>
-
 #include "atom.h"
-#include "comm.h"
+#include "core/communicator.h"
 #include "domain.h"
 
 namespace furrow::coupling {
@@ -21,15 +19,7 @@ Grains gather_grains(LAMMPS_NS::LAMMPS& lammps, double bed_level,
                              atom.radius[i]});
     for (int k = 0; k < 3; ++k) mine.push_back(virial ? (*virial)(k, i) : 0.0);
   }
-  const int ranks = lammps.comm->nprocs, count = static_cast<int>(mine.size());
-  std::vector<int> counts(static_cast<std::size_t>(ranks)),
-      starts(static_cast<std::size_t>(ranks), 0);
-  MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, lammps.world);
-  for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
-  std::vector<double> all(
-      lammps.comm->me == 0 ? static_cast<std::size_t>(starts.back() + counts.back()) : 0);
-  MPI_Gatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE,
-              0, lammps.world);
+  const std::vector<double> all = Communicator(&lammps.world).gather_to_first(mine);
 
   Grains grains;
   grains.resize(all.size() / width);

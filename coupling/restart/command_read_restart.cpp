@@ -48,6 +48,7 @@ void CommandReadRestart::command(int narg, char** arg) {
     check_checkpoint(*lmp, path);
   else
     check_restart_file(*lmp, path);
+  note_checkpoint_read(path);
   char* words[] = {path.data()};
   try {
     LAMMPS_NS::ReadRestart(lmp).command(1, words);

@@ -197,7 +197,7 @@ void CommandBed::make(const Request& request, const KeptBed& bed) {
   input->one(processors_line(grid).c_str());
 }
 
-/// Written beside; another run may be making the same bed.
+/// Written under another name: another run may be making the same bed.
 void CommandBed::keep(const Request& request, const KeptBed& bed) {
   const BedFacts facts = measure_bed(*lmp, request.depth);
   check_bed(facts, request.depth);

@@ -7,10 +7,9 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <mpi.h>
 
 #include "atom.h"
-#include "comm.h"
+#include "core/communicator.h"
 #include "core/error.h"
 #include "coupling/liggghts/contact_history.h"
 #include "coupling/liggghts/exchange_buffer.h"
@@ -18,19 +17,6 @@
 namespace furrow::coupling {
 
 namespace {
-
-/// The same numbers of all ranks, in rank order.
-std::vector<double> gather_all(const std::vector<double>& own, MPI_Comm ranks, int rank_count) {
-  int count = static_cast<int>(own.size());
-  std::vector<int> counts(static_cast<std::size_t>(rank_count));
-  std::vector<int> starts(counts.size() + 1, 0);
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, ranks);
-  for (std::size_t r = 0; r < counts.size(); ++r) starts[r + 1] = starts[r] + counts[r];
-  std::vector<double> all(static_cast<std::size_t>(starts.back()));
-  MPI_Allgatherv(own.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(),
-                 MPI_DOUBLE, ranks);
-  return all;
-}
 
 std::optional<std::size_t> place_of(const std::string& rider,
                                     const std::vector<std::string>& riders) {
@@ -61,7 +47,7 @@ void RememberedBed::gather(LAMMPS_NS::LAMMPS& lammps) {
     own.insert(own.end(), grain.parts_at.begin(), grain.parts_at.end());
     own.insert(own.end(), grain.numbers.begin(), grain.numbers.end());
   }
-  const std::vector<double> all = gather_all(own, lammps.world, lammps.comm->nprocs);
+  const std::vector<double> all = Communicator(&lammps.world).gather(own);
 
   std::vector<const double*> grains;  // each at its header
   for (std::size_t p = 0; p < all.size(); p += header + static_cast<std::size_t>(all[p]))

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/communicator.h"
 
+#include <algorithm>
+#include <numeric>
+
 #define OMPI_SKIP_MPICXX  // the C interface is all that is used
 #include <mpi.h>
 
@@ -9,11 +12,19 @@ namespace furrow {
 struct Communicator::Handle {
   MPI_Comm comm;
   int rank, size;
+  std::size_t longest_message;
+
+  /// Calls send(first, count) for each part of an array that fits into one message.
+  template <class Send>
+  void in_parts(std::size_t length, Send&& send) const {
+    for (std::size_t first = 0; first < length; first += longest_message)
+      send(first, static_cast<int>(std::min(longest_message, length - first)));
+  }
 };
 
-Communicator::Communicator() : handle_(new Handle{MPI_COMM_NULL, 0, 1}) {}
-Communicator::Communicator(const void* mpi_comm)
-    : handle_(new Handle{*static_cast<const MPI_Comm*>(mpi_comm), 0, 1}) {
+Communicator::Communicator() : handle_(new Handle{MPI_COMM_NULL, 0, 1, 1}) {}
+Communicator::Communicator(const void* mpi_comm, std::size_t longest_message)
+    : handle_(new Handle{*static_cast<const MPI_Comm*>(mpi_comm), 0, 1, longest_message}) {
   MPI_Comm_rank(handle_->comm, &handle_->rank);
   MPI_Comm_size(handle_->comm, &handle_->size);
 }
@@ -41,9 +52,11 @@ void Communicator::sum(double* values, std::size_t count) const {
   if (size() == 1) return;
   // Reduce and broadcast, not allreduce: replicated bodies must stay bitwise equal, and MPI does
   // not promise that for allreduce.
-  const int n = static_cast<int>(count);
-  MPI_Reduce(rank() == 0 ? MPI_IN_PLACE : values, values, n, MPI_DOUBLE, MPI_SUM, 0, handle_->comm);
-  MPI_Bcast(values, n, MPI_DOUBLE, 0, handle_->comm);
+  handle_->in_parts(count, [&](std::size_t first, int n) {
+    double* part = values + first;
+    MPI_Reduce(rank() == 0 ? MPI_IN_PLACE : part, part, n, MPI_DOUBLE, MPI_SUM, 0, handle_->comm);
+    MPI_Bcast(part, n, MPI_DOUBLE, 0, handle_->comm);
+  });
 }
 
 double Communicator::sum(double value) const {
@@ -57,21 +70,25 @@ double Communicator::max(double value) const {
 }
 
 void Communicator::max(double* values, std::size_t count) const {
-  if (size() > 1)
-    MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(count), MPI_DOUBLE, MPI_MAX,
-                  handle_->comm);
+  if (size() == 1) return;
+  handle_->in_parts(count, [&](std::size_t first, int n) {
+    MPI_Allreduce(MPI_IN_PLACE, values + first, n, MPI_DOUBLE, MPI_MAX, handle_->comm);
+  });
 }
 
+/// Messages between two ranks arrive in the order in which they are sent.
 void Communicator::exchange(std::vector<Message>& messages) const {
   std::vector<MPI_Request> requests;
   for (Message& message : messages)
-    if (!message.received.empty())
-      MPI_Irecv(message.received.data(), static_cast<int>(message.received.size()), MPI_DOUBLE,
-                message.other, 0, handle_->comm, &requests.emplace_back());
+    handle_->in_parts(message.received.size(), [&](std::size_t first, int n) {
+      MPI_Irecv(message.received.data() + first, n, MPI_DOUBLE, message.other, 0, handle_->comm,
+                &requests.emplace_back());
+    });
   for (const Message& message : messages)
-    if (!message.sent.empty())
-      MPI_Isend(message.sent.data(), static_cast<int>(message.sent.size()), MPI_DOUBLE,
-                message.other, 0, handle_->comm, &requests.emplace_back());
+    handle_->in_parts(message.sent.size(), [&](std::size_t first, int n) {
+      MPI_Isend(message.sent.data() + first, n, MPI_DOUBLE, message.other, 0, handle_->comm,
+                &requests.emplace_back());
+    });
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
 }
 
@@ -84,15 +101,42 @@ void Communicator::exchange_lengths(std::vector<Message>& messages) const {
     messages[n].received.resize(static_cast<std::size_t>(lengths[n].received[0]));
 }
 
-std::vector<double> Communicator::gather(const std::vector<double>& numbers) const {
+std::vector<std::uint64_t> Communicator::lengths_on_ranks(std::size_t mine) const {
+  const std::uint64_t length = mine;
+  std::vector<std::uint64_t> lengths(static_cast<std::size_t>(size()));
+  MPI_Allgather(&length, 1, MPI_UINT64_T, lengths.data(), 1, MPI_UINT64_T, handle_->comm);
+  return lengths;
+}
+
+std::vector<double> Communicator::gather_to_first(const std::vector<double>& numbers) const {
   if (size() == 1) return numbers;
-  const int mine = static_cast<int>(numbers.size());
-  std::vector<int> counts(static_cast<std::size_t>(size())), starts(counts.size(), 0);
-  MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, handle_->comm);
-  for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
-  std::vector<double> all(static_cast<std::size_t>(starts.back() + counts.back()));
-  MPI_Allgatherv(numbers.data(), mine, MPI_DOUBLE, all.data(), counts.data(), starts.data(),
-                 MPI_DOUBLE, handle_->comm);
+  const std::vector<std::uint64_t> lengths = lengths_on_ranks(numbers.size());
+  if (rank() > 0) {
+    handle_->in_parts(numbers.size(), [&](std::size_t first, int n) {
+      MPI_Send(numbers.data() + first, n, MPI_DOUBLE, 0, 0, handle_->comm);
+    });
+    return {};
+  }
+  std::vector<double> all(std::accumulate(lengths.begin(), lengths.end(), std::size_t(0)));
+  double* next = std::copy(numbers.begin(), numbers.end(), all.data());
+  for (int r = 1; r < size(); ++r) {
+    const std::size_t length = lengths[static_cast<std::size_t>(r)];
+    handle_->in_parts(length, [&](std::size_t first, int n) {
+      MPI_Recv(next + first, n, MPI_DOUBLE, r, 0, handle_->comm, MPI_STATUS_IGNORE);
+    });
+    next += length;
+  }
+  return all;
+}
+
+std::vector<double> Communicator::gather(const std::vector<double>& numbers) const {
+  std::vector<double> all = gather_to_first(numbers);
+  if (size() == 1) return all;
+  const std::vector<std::uint64_t> lengths = lengths_on_ranks(numbers.size());
+  all.resize(std::accumulate(lengths.begin(), lengths.end(), std::size_t(0)));
+  handle_->in_parts(all.size(), [&](std::size_t first, int n) {
+    MPI_Bcast(all.data() + first, n, MPI_DOUBLE, 0, handle_->comm);
+  });
   return all;
 }
 

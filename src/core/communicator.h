@@ -3,6 +3,7 @@
 /// The only user of MPI in src/: sums over the ranks of a run.
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -13,7 +14,9 @@ class Communicator {
  public:
   Communicator();
   /// @param mpi_comm points to a live MPI_Comm; it is copied, not duplicated
-  explicit Communicator(const void* mpi_comm);
+  /// @param longest_message numbers in one message of MPI, which counts them with an int; longer
+  /// arrays are sent in parts
+  explicit Communicator(const void* mpi_comm, std::size_t longest_message = std::size_t(1) << 26);
   ~Communicator();
   Communicator(const Communicator&);
   Communicator& operator=(const Communicator&);
@@ -43,8 +46,11 @@ class Communicator {
 
   /// The numbers of all ranks, in rank order, on every rank.
   std::vector<double> gather(const std::vector<double>& numbers) const;
+  /// The same on the first rank; nothing on the others.
+  std::vector<double> gather_to_first(const std::vector<double>& numbers) const;
 
  private:
+  std::vector<std::uint64_t> lengths_on_ranks(std::size_t mine) const;
   struct Handle;
   std::unique_ptr<Handle> handle_;
 };

@@ -116,11 +116,14 @@ HistoryFile HistoryFile::resume(const std::string& path, const std::vector<Chann
         path, "is not there, and the run is to be continued from a checkpoint",
         "the results of the first run, to which rows are added",
         "start where that run was started, bring its folder here, or name a new folder");
-  History history = read_rows(Hdf5File(path, Hdf5File::Mode::read));
+  const Hdf5File before(path, Hdf5File::Mode::read);
+  History history = read_rows(before);
   check_channels(path, history.channels(), channels);
   cut_at(path, history, time);
 
   HistoryFile file(path, std::move(history));
+  if (before.exists("/grains/final") && before.exists("/grains/final/virial"))
+    file.final_ = read_grains(before, "/grains/final");
   file.flushed_rows_ = file.history_.size();
   file.replace_with([&](Hdf5File& content) {
     for (const Channel& channel : channels)
@@ -190,8 +193,11 @@ void HistoryFile::write_reference(const Grains& grains) {
   replace_with([&](Hdf5File& file) { write_grains(file, "/grains/reference", grains, false); });
 }
 
-void HistoryFile::write_final(const Grains& grains, const Surface& surface) {
+void HistoryFile::write_final(Grains grains, const Surface& surface) {
   grains.check();
+  if (grains.virial.cols() == 0 && grains.id == final_.id && grains.x == final_.x &&
+      grains.v == final_.v)
+    grains.virial = final_.virial;
   replace_with([&](Hdf5File& file) {
     if (grains.size() > 0) write_grains(file, "/grains/final", grains, true);
     if (surface.triangle_count() > 0) {
@@ -201,6 +207,7 @@ void HistoryFile::write_final(const Grains& grains, const Surface& surface) {
       file.set_attribute("/surface/x", "unit", "m");
     }
   });
+  if (grains.virial.cols() > 0) final_ = std::move(grains);
 }
 
 void HistoryFile::write_terrain(const TerrainSnapshot& terrain, const std::vector<RutPoint>& rut) {

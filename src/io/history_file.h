@@ -66,7 +66,9 @@ class HistoryFile {
   void flush();
 
   void write_reference(const Grains& grains);
-  void write_final(const Grains& grains, const Surface& surface);  ///< either may be empty
+  /// Either may be empty. Grains without a virial, in the state that the file had at its end, keep
+  /// that of the file: a run that is continued by no step cannot compute it.
+  void write_final(Grains grains, const Surface& surface);
   /// The particles and, where the terrain moved, the rut it left: /terrain/<field>,
   /// /rut/{x,density}
   void write_terrain(const TerrainSnapshot& terrain, const std::vector<RutPoint>& rut);
@@ -83,6 +85,7 @@ class HistoryFile {
 
   std::string path_;
   History history_;
+  Grains final_;  // of the end before, with a virial; or none
   std::size_t flushed_rows_ = 0;
   double flush_duration_ = 0.0;  // [s] of the last one
   std::chrono::steady_clock::time_point last_flush_;

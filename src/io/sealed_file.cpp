@@ -53,14 +53,20 @@ SealedFile::SealedFile(std::string path) : path_(std::move(path)), part_(path_ +
   if (!folder.empty()) fs::create_directories(folder, failed);
   if (failed) fail(fmt::format("its folder '{}' cannot be made", folder.string()), failed.value());
   if (fs::is_directory(path_, failed)) fail("it cannot be replaced", EISDIR);
-  file_ = open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  for (const std::string& file : {path_, part_})
+    if (is_locked(file))
+      throw Error(
+          fmt::format("'{}' is not written: another run writes it too; give each run "
+                      "separate names, or wait until the other has ended",
+                      path_));
+  unlink(part_.c_str());
+  file_ = open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (file_ < 0) fail(fmt::format("'{}' cannot be opened", part_), errno);
+  lock_ = FileLock(file_);
 }
 
 SealedFile::~SealedFile() {
-  if (file_ < 0) return;
-  ::close(file_);
-  unlink(part_.c_str());
+  if (file_ >= 0) unlink(part_.c_str());
 }
 
 void SealedFile::fail(const std::string& what, int reason) const {
@@ -84,22 +90,15 @@ void SealedFile::write(const void* bytes, std::size_t count) {
   length_ += count;
 }
 
-void SealedFile::close() {
+FileLock SealedFile::close() {
   const std::string line = seal(length_, checksum_);
   write_all(line.data(), line.size());
   // Some file systems (NFS) report a full disk only now.
   if (fsync(file_) != 0 && errno != EINVAL && errno != EROFS) fail("the write failed", errno);
-  if (::close(std::exchange(file_, -1)) != 0) {
-    const int reason = errno;
-    unlink(part_.c_str());
-    fail("the write failed", reason);
-  }
-  if (std::rename(part_.c_str(), path_.c_str()) != 0) {
-    const int reason = errno;
-    unlink(part_.c_str());
-    fail("it cannot be replaced", reason);
-  }
+  if (std::rename(part_.c_str(), path_.c_str()) != 0) fail("it cannot be replaced", errno);
+  file_ = -1;
   synchronise_folder(fs::path(path_).parent_path());
+  return std::move(lock_);
 }
 
 SealCheck check_seal(const std::string& path) {

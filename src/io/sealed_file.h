@@ -8,13 +8,16 @@
 #include <string>
 
 #include "core/checksum.h"
+#include "io/file_lock.h"
 
 namespace furrow {
 
 class SealedFile {
  public:
-  /// Begins "<path>.part"; folders that are missing are made.
-  /// @throws Error naming path and the system's reason, as write() and close() do
+  /// Begins "<path>.part", in the place of one that a kill has left; no link is followed. Folders
+  /// that are missing are made.
+  /// @throws Error naming path and the system's reason, as write() and close() do; also when
+  /// someone else is writing this file, or keeps its lock
   explicit SealedFile(std::string path);
   /// Unless it was closed, nothing of it remains, and the former file of that name stays.
   ~SealedFile();
@@ -23,7 +26,8 @@ class SealedFile {
 
   void write(const void* bytes, std::size_t count);
   /// Adds the seal and gives the file its name; it is then safe against a power failure too.
-  void close();
+  /// @return the file's lock: whoever keeps it is the only one that may replace the file
+  FileLock close();
 
  private:
   void write_all(const void* bytes, std::size_t count);
@@ -31,6 +35,7 @@ class SealedFile {
 
   std::string path_, part_;
   int file_ = -1;
+  FileLock lock_;
   std::uint64_t length_ = 0;  // without the seal [bytes]
   Checksum checksum_;
 };

@@ -2,6 +2,7 @@
 #include "mpm/continuum_terrain.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -170,6 +171,7 @@ double ContinuumTerrain::particle_count() const {
 }
 
 void ContinuumTerrain::checkpoint(Checkpoint& state) {
+  if (!particle_numbers_) throw Error(state.owner() + ": a checkpoint has no place for particles");
   for (int a = 0; a < 3; ++a) {
     state.match("cells", grid().axis(a).cells());
     state.match("shortest_cell", grid().axis(a).shortest_at_start());
@@ -193,8 +195,16 @@ void ContinuumTerrain::checkpoint(Checkpoint& state) {
   checkpoint_boundary(state);
   discretisation_.exchange.checkpoint(state, ranks());
   distribution_.checkpoint_drift(state);
-  distribution_.checkpoint_particles(state);
+  distribution_.checkpoint_particles(state, *std::exchange(particle_numbers_, nullptr));
   if (!state.saving()) resume();
+}
+
+ContinuumTerrain::CheckpointSize ContinuumTerrain::checkpoint_size() const {
+  double numbers = 0.0;
+  for (const ParticleGroup& group : discretisation_.groups)
+    numbers += static_cast<double>(group.particles.size() * group.particles.record_length());
+  return {sizeof(double) * ranks().sum(numbers),
+          static_cast<double>(sizeof(double) * Grid::numbers_in_checkpoint * grid().node_count())};
 }
 
 void ContinuumTerrain::checkpoint_boundary(Checkpoint& state) {

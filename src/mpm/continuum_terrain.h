@@ -58,7 +58,16 @@ class ContinuumTerrain : public Body {
   EnergyBudget energy_budget() const override;
   /// Where the work of contacts went since the start.
   TerrainWork work() const { return energy_.work(boundary_.work(), ranks()); }
+  /// Of the particles only their number is in it: they go to keep_particles_in().
   void checkpoint(Checkpoint& state) override;
+  /// Before checkpoint(): where each rank keeps its particles; not owned.
+  void keep_particles_in(RankNumbers& numbers) { particle_numbers_ = &numbers; }
+  /// What a checkpoint takes [bytes].
+  struct CheckpointSize {
+    double particles;  ///< in the files of all ranks
+    double nodes;      ///< in the record of the terrain, which the first rank writes
+  };
+  CheckpointSize checkpoint_size() const;
 
   // Not collective.
   /// [m/s^2] from the next step on, in the place of that of the parameters.
@@ -129,6 +138,7 @@ class ContinuumTerrain : public Body {
   MovingWindow window_;
   FreeSurfaceMesh free_surface_;
   Multirate multirate_;
+  RankNumbers* particle_numbers_ = nullptr;
 };
 
 }  // namespace furrow

@@ -77,7 +77,7 @@ GridView Grid::view(int field) {
 }
 
 void Grid::checkpoint(Checkpoint& state, const Communicator& ranks, const NodeBlock& owned) {
-  constexpr std::size_t length = 8;  // of a node: velocity, mass, displacement
+  constexpr std::size_t length = numbers_in_checkpoint;
   std::vector<double> numbers(length * motions_.size(), 0.0);
   if (state.saving()) {
     for_nodes(owned, [&](std::size_t n) {

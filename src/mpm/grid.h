@@ -79,6 +79,10 @@ class Grid {
   /// Valid until the grid is shifted.
   GridView view(int field = 0);
 
+  /// Of all velocity fields.
+  std::size_t node_count() const { return motions_.size(); }
+  /// Of a node: velocity, mass and displacement.
+  static constexpr std::size_t numbers_in_checkpoint = 8;
   /// Motion and displacement of all nodes, as of the rank that owns them. Collective.
   void checkpoint(Checkpoint& state, const Communicator& ranks, const NodeBlock& owned);
 

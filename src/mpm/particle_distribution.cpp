@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mpm/particle_distribution.h"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/rank_numbers.h"
 
 namespace furrow {
 
 namespace {
 
 constexpr double max_drift = 0.5;  // of the shortest cell between two sortings
+constexpr std::size_t chunk_length = std::size_t(1) << 17;  // numbers in memory next to particles
 
 }  // namespace
 
@@ -137,39 +140,101 @@ void ParticleDistribution::report_outside(const ParticleGroup& group) const {
                   drift_));
 }
 
-/// The drift stays, so that the next sorting comes when it would have come.
-void ParticleDistribution::checkpoint_particles(Checkpoint& state) {
-  const Communicator& ranks = discretisation_.ranks();
+/// Collective calls come first: a rank whose disk is full fails alone.
+void ParticleDistribution::checkpoint_particles(Checkpoint& state, RankNumbers& numbers) {
   const bool same_layout = discretisation_.partition.checkpoint(state);
+  GroupLengths lengths;
   for (ParticleGroup& group : discretisation_.groups) {
-    const std::size_t length = group.particles.record_length();
-    std::vector<double> records, lengths;  // of all ranks; lengths of each rank's part
-    if (state.saving()) {
-      for (std::size_t p = 0; p < group.particles.size(); ++p) group.particles.pack(p, records);
-      lengths = ranks.gather({static_cast<double>(records.size())});
-      records = ranks.gather(records);
-    }
-    state.values("numbers_of_ranks", lengths);
-    state.values("particles", records);
-    if (state.saving()) continue;
-    group.particles.reorder({});
-    const Grid& grid = discretisation_.grid;
-    const double* next = records.data();
-    for (std::size_t r = 0; r < lengths.size(); ++r)
-      for (const double* end = next + static_cast<std::size_t>(lengths[r]); next != end;
-           next += length) {
-        const int owner = same_layout
-                              ? static_cast<int>(r)
-                              : discretisation_.partition.owner(grid.axis(0).cell_of(next[0]),
-                                                                grid.axis(1).cell_of(next[1]));
-        if (owner == ranks.rank()) group.particles.unpack(next);
-      }
+    const std::size_t mine = group.particles.size() * group.particles.record_length();
+    lengths.emplace_back();
+    if (state.saving()) lengths.back() = discretisation_.ranks().gather({double(mine)});
+    state.values("numbers_of_ranks", lengths.back());
   }
-  if (state.saving()) return;
+  if (state.saving())
+    save_particles(numbers);
+  else
+    restore_particles(numbers, lengths, same_layout);
+}
+
+void ParticleDistribution::save_particles(RankNumbers& numbers) const {
+  std::vector<double> chunk;
+  const auto write = [&] {
+    numbers.append(chunk.data(), chunk.size());
+    chunk.clear();
+  };
+  for (const ParticleGroup& group : discretisation_.groups)
+    for (std::size_t p = 0; p < group.particles.size(); ++p) {
+      group.particles.pack(p, chunk);
+      if (chunk.size() >= chunk_length) write();
+    }
+  write();
+}
+
+/// The drift stays, so that the next sorting comes when it would have come.
+void ParticleDistribution::restore_particles(RankNumbers& numbers, const GroupLengths& lengths,
+                                             bool same_layout) {
+  const Communicator& ranks = discretisation_.ranks();
+  check_numbers(numbers, lengths);
+  for (ParticleGroup& group : discretisation_.groups) group.particles.clear();
+  const std::size_t writers = lengths.front().size();
+  for (std::size_t r = 0; r < writers; ++r)
+    if (!same_layout || r == static_cast<std::size_t>(ranks.rank()))
+      read_rank(numbers, lengths, r, same_layout);
   const double drift = drift_;
   if (!same_layout && ranks.size() > 1) sort();
   drift_ = drift;
   ++generation_;
+}
+
+/// The ranks share the files out among them; all of them throw what is wrong with one.
+void ParticleDistribution::check_numbers(RankNumbers& numbers, const GroupLengths& lengths) const {
+  const Communicator& ranks = discretisation_.ranks();
+  const auto is_empty = [&](std::size_t r) {
+    return std::all_of(lengths.begin(), lengths.end(),
+                       [r](const std::vector<double>& group) { return group[r] == 0.0; });
+  };
+  double wrong = -1.0;
+  for (auto r = static_cast<std::size_t>(ranks.rank()); r < lengths.front().size();
+       r += static_cast<std::size_t>(ranks.size()))
+    if (!is_empty(r)) try {
+        numbers.check(static_cast<int>(r));
+      } catch (const Error&) {
+        wrong = static_cast<double>(r);
+      }
+  wrong = ranks.max(wrong);
+  if (wrong < 0.0) return;
+  numbers.check(static_cast<int>(wrong));
+  throw Error(
+      fmt::format("a rank cannot read the checkpoint's particles of rank {:.0f}; bring the "
+                  "checkpoint to a folder that all ranks share",
+                  wrong));
+}
+
+/// Takes the particles that belong to this rank.
+void ParticleDistribution::read_rank(RankNumbers& numbers, const GroupLengths& lengths,
+                                     std::size_t rank, bool all) {
+  const Grid& grid = discretisation_.grid;
+  const Partition& partition = discretisation_.partition;
+  std::uint64_t first = 0;
+  std::vector<double> chunk;
+  for (std::size_t g = 0; g < lengths.size(); ++g) {
+    Particles& particles = discretisation_.groups[g].particles;
+    const std::size_t length = particles.record_length();
+    const std::size_t most = length * (1 + chunk_length / length);
+    auto left = static_cast<std::uint64_t>(lengths[g][rank]);
+    if (all) particles.reserve(particles.size() + left / length);
+    while (left > 0) {
+      chunk.resize(std::min<std::uint64_t>(most, left));
+      numbers.read(static_cast<int>(rank), first, chunk.data(), chunk.size());
+      for (const double *next = chunk.data(), *end = next + chunk.size(); next != end;
+           next += length)
+        if (all || partition.owner(grid.axis(0).cell_of(next[0]), grid.axis(1).cell_of(next[1])) ==
+                       discretisation_.ranks().rank())
+          particles.unpack(next);
+      first += chunk.size();
+      left -= chunk.size();
+    }
+  }
 }
 
 }  // namespace furrow

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/checkpoint.h"
+#include "core/rank_numbers.h"
 #include "mpm/boundary.h"
 #include "mpm/discretisation.h"
 
@@ -31,12 +32,18 @@ class ParticleDistribution {
   [[noreturn]] void report_outside(const ParticleGroup& group) const;
 
   void checkpoint_drift(Checkpoint& state) { state.value("drift", drift_); }
-  /// Records of Particles::pack(), those of a rank together. Ranks in the same layout get them back
-  /// as they had them, in the same order; others by the owners of their cells, and then balanced.
-  /// Collective.
-  void checkpoint_particles(Checkpoint& state);
+  /// Each rank keeps its particles by itself, as records of Particles::pack(), group after group.
+  /// Ranks in the same layout get them back as they had them, in the same order;
+  /// others by the owners of their cells, and then balanced. Collective.
+  void checkpoint_particles(Checkpoint& state, RankNumbers& numbers);
 
  private:
+  /// Of each group: how many numbers each rank has.
+  using GroupLengths = std::vector<std::vector<double>>;
+  void save_particles(RankNumbers& numbers) const;
+  void restore_particles(RankNumbers& numbers, const GroupLengths& lengths, bool same_layout);
+  void check_numbers(RankNumbers& numbers, const GroupLengths& lengths) const;
+  void read_rank(RankNumbers& numbers, const GroupLengths& lengths, std::size_t rank, bool all);
   void migrate();
   void rebalance();
   void send_along(int axis, ParticleGroup& group);

@@ -133,6 +133,17 @@ void Particles::unpack(const double* record) {
   });
 }
 
+void Particles::reserve(std::size_t count) {
+  for_each_column(
+      [&](Column& c) { c.values.reserve(count * static_cast<std::size_t>(c.components)); });
+}
+
+void Particles::clear() {
+  for_each_column([](Column& c) { c.values = std::vector<double>(); });
+  scratch_ = std::vector<double>();
+  size_ = 0;
+}
+
 ParticleView Particles::view(std::size_t first, std::size_t count) {
   ParticleView view;
   view.size = count;

@@ -109,6 +109,8 @@ class Particles {
   /// position.
   void pack(std::size_t i, std::vector<double>& buffer) const;
   void unpack(const double* record);  ///< appends a particle
+  void reserve(std::size_t count);    ///< memory for as many particles
+  void clear();                       ///< removes all particles and frees their memory
 
   /// Valid until the number or the order of the particles changes.
   ParticleView view(std::size_t first, std::size_t count);

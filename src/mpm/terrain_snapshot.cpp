@@ -87,7 +87,7 @@ TerrainSnapshot take_snapshot(ContinuumTerrain& terrain) {
       records.insert(records.end(), r, r + length);
     }
   }
-  records = terrain.ranks().gather(records);
+  records = terrain.ranks().gather_to_first(records);
   const std::size_t count = records.size() / length;
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t(0));

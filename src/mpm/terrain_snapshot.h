@@ -29,7 +29,7 @@ struct TerrainSnapshot {
   std::size_t size() const { return id.size(); }
 };
 
-/// Collective; every rank gets all.
+/// Collective; the first rank gets all, the others nothing.
 TerrainSnapshot take_snapshot(ContinuumTerrain& terrain);
 /// What the moving window left behind, of all ranks. Collective.
 std::vector<RutPoint> collect_rut(const ContinuumTerrain& terrain);

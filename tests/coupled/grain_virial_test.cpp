@@ -54,5 +54,16 @@ TEST(GrainVirial, AColumnBearsWhatStandsOnIt) {
   }
 }
 
+/// The set-up computes damping with velocities of the full step.
+TEST(GrainVirial, RunWithoutStepsHasNone) {
+  Scene scene;
+  stand_a_column(scene);
+  scene.command("compute seen all stress/atom pair");
+  scene.command(
+      "dump seen all custom 10 /dev/null id c_seen[1]");  // its set-up computes the stress
+  scene.command("run 0");
+  EXPECT_FALSE(coupling::grain_virial(scene.lammps()));
+}
+
 }  // namespace
 }  // namespace furrow::test

@@ -2,25 +2,67 @@
 #pragma once
 /// States of parts of a run, for tests that compare them or hand them over.
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "core/checkpoint.h"
+#include "core/rank_numbers.h"
 
 namespace furrow::test {
 
-/// The state as a checkpoint file holds it; equal states have equal bytes.
+/// In memory, of each rank.
+class NumbersInMemory : public RankNumbers {
+ public:
+  explicit NumbersInMemory(int rank = 0) : of_rank(static_cast<std::size_t>(rank) + 1) {}
+  void append(const double* numbers, std::size_t count) override {
+    of_rank.back().insert(of_rank.back().end(), numbers, numbers + count);
+  }
+  void check(int) override {}
+  void read(int rank, std::uint64_t first, double* numbers, std::size_t count) override {
+    const auto begin = of_rank.at(static_cast<std::size_t>(rank)).begin();
+    std::copy_n(begin + static_cast<std::ptrdiff_t>(first), count, numbers);
+  }
+  std::vector<std::vector<double>> of_rank;
+};
+
+/// Parts that keep numbers of each rank outside of the checkpoint's bytes: terrain.
+template <class Part, class = void>
+struct KeepsParticles : std::false_type {};
 template <class Part>
-std::vector<char> state_of(Part& part) {
-  Checkpoint state("test");
+struct KeepsParticles<Part, std::void_t<decltype(&Part::keep_particles_in)>> : std::true_type {};
+
+template <class Part>
+void checkpoint_with(Part& part, Checkpoint& state, RankNumbers& numbers) {
+  if constexpr (KeepsParticles<Part>::value) part.keep_particles_in(numbers);
   part.checkpoint(state);
-  return state.bytes();
+}
+
+/// What a checkpoint holds; equal states are equal in every bit.
+struct SavedState {
+  std::vector<char> bytes;
+  NumbersInMemory numbers;
+  bool operator==(const SavedState& other) const {
+    return bytes == other.bytes && numbers.of_rank == other.numbers.of_rank;
+  }
+};
+
+template <class Part>
+SavedState state_of(Part& part, int rank = 0) {
+  SavedState saved{{}, NumbersInMemory(rank)};
+  Checkpoint state("test");
+  checkpoint_with(part, state, saved.numbers);
+  saved.bytes = state.bytes();
+  return saved;
 }
 
 /// @throws Error when the state belongs to another part
 template <class Part>
-void restore(Part& part, const std::vector<char>& bytes) {
-  Checkpoint state("test", bytes.data(), bytes.size());
-  part.checkpoint(state);
+void restore(Part& part, SavedState saved) {
+  Checkpoint state("test", saved.bytes.data(), saved.bytes.size());
+  checkpoint_with(part, state, saved.numbers);
   state.finish();
 }
 

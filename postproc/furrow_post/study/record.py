@@ -3,6 +3,7 @@
 
 import hashlib
 import json
+import shutil
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from functools import lru_cache
@@ -71,5 +72,7 @@ def forget(folder: Path) -> None:
     """Removes what an earlier run in the folder could be taken for finished by."""
     for name in (FINISHED, FAILED, "facts.txt", "laboratory.json"):
         (folder / name).unlink(missing_ok=True)
-    for checkpoint in folder.glob("restart_forced*"):
+    for checkpoint in folder.glob("restart_forced*.data"):
         checkpoint.unlink()
+    for particles in folder.glob("restart_forced*.particles"):
+        shutil.rmtree(particles)

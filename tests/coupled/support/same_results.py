@@ -21,12 +21,12 @@ def numbers(
     for rounding, that of all forces."""
     found: dict[str, np.ndarray] = {}
     units: dict[str, str] = {}
-    for path in sorted(folder.glob("*.h5")):
+    for path in sorted(folder.rglob("*.h5")):
         with h5py.File(path) as content:
             def collect(name: str, item: object) -> None:
                 if isinstance(item, h5py.Dataset) and name.split("/")[0] in groups:
-                    found[f"{path.name}/{name}"] = item[()]
-                    units[f"{path.name}/{name}"] = str(item.attrs.get("unit", name))
+                    found[f"{path.relative_to(folder)}/{name}"] = item[()]
+                    units[f"{path.relative_to(folder)}/{name}"] = str(item.attrs.get("unit", name))
             content.visititems(collect)
     scales = {name: max(largest(values) for other, values in found.items()
                         if units[other] == units[name]) for name in found}

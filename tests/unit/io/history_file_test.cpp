@@ -320,6 +320,31 @@ TEST(HistoryFile, GrainsSurfaceAuditAndCostComeBack) {
   EXPECT_THAT(read.warnings, ElementsAre("first warning.", "second warning."));
 }
 
+TEST(HistoryFile, FinalVirialStaysWhenTheRunIsContinuedByNoStep) {
+  const Scratch scratch;
+  const std::string path = scratch.path("history.h5");
+  Grains grains;
+  grains.resize(2);
+  grains.id = {8, 2};
+  grains.radius << 0.004, 0.005;
+  grains.virial = Matrix3X::Constant(3, 2, -0.5);
+  {
+    HistoryFile file = HistoryFile::create(path, channels, {});
+    append_rows(file, 0, 5);
+    file.write_final(grains, {});
+  }
+  Grains without = grains;
+  without.virial.resize(3, 0);
+  HistoryFile same = HistoryFile::resume(path, channels, 0.004);
+  EXPECT_THAT(error_of([&] { read_final_grains(path); }), HasSubstr("has no /grains/final"));
+  same.write_final(without, {});
+  EXPECT_EQ(read_final_grains(path).virial, grains.virial);
+  without.x(0, 0) = 1e-9;
+  HistoryFile moved = HistoryFile::resume(path, channels, 0.004);
+  moved.write_final(without, {});
+  EXPECT_EQ(read_final_grains(path).virial.cols(), 0);
+}
+
 TEST(HistoryFile, MissingAndForeignFilesAreNamed) {
   const Scratch scratch;
   const std::string path = scratch.path("history.h5");

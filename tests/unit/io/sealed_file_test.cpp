@@ -11,11 +11,14 @@
 #include "core/error.h"
 #include "io/replace_file.h"
 #include "scratch.h"
+#include "size_limit.h"
+#include "tests/support/error_of.h"
 
 namespace furrow::test {
 namespace {
 
 using State = SealCheck::State;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TEST(SealedFile, IsWholeAndBeginsWithWhatWasWritten) {
@@ -75,26 +78,51 @@ TEST(SealedFile, SaysWhyAFileCannotBeRead) {
   EXPECT_EQ(check_seal(scratch.path("empty")).problem, "is empty");
 }
 
-/// /dev/full gives "No space left on device" to every write.
+std::string error_of_writing(const std::string& path) {
+  return error_of([&] { write_sealed_text(path, "numbers"); });
+}
+
 TEST(SealedFile, FailuresNameTheFileAndTheReason) {
   const Scratch scratch;
-  const auto message = [](const std::string& path) -> std::string {
-    try {
-      write_sealed_text(path, "numbers");
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no error";
-  };
   const std::string full = scratch.path("full.restart");
-  std::filesystem::create_symlink("/dev/full", full + ".part");
-  EXPECT_THAT(message(full), HasSubstr("full.restart' is not written"));
-  std::filesystem::create_symlink("/dev/full", full + ".part");
-  EXPECT_THAT(message(full), HasSubstr("No space left on device"));
+  {
+    const SizeLimit limit(5);
+    EXPECT_THAT(error_of_writing(full),
+                AllOf(HasSubstr("full.restart' is not written"), HasSubstr("File too large")));
+  }
   EXPECT_FALSE(std::filesystem::exists(full));
-  EXPECT_THAT(message("/proc/nothing/a.restart"), HasSubstr("its folder '/proc/nothing'"));
+  EXPECT_FALSE(std::filesystem::exists(full + ".part"));
+  EXPECT_THAT(error_of_writing("/proc/nothing/a.restart"), HasSubstr("its folder '/proc/nothing'"));
   std::filesystem::create_directory(scratch.path("folder"));
-  EXPECT_THAT(message(scratch.path("folder")), HasSubstr("Is a directory"));
+  EXPECT_THAT(error_of_writing(scratch.path("folder")), HasSubstr("Is a directory"));
+}
+
+TEST(SealedFile, PartThatAKillHasLeftIsReplacedAndNoLinkIsFollowed) {
+  const Scratch scratch;
+  const std::string path = scratch.path("a.restart");
+  write_text_file(path + ".part", "cut short");
+  write_sealed_text(path, "first");
+  EXPECT_EQ(check_seal(path).state, State::whole);
+  write_text_file(scratch.path("notes"), "of the user");
+  std::filesystem::create_symlink(scratch.path("notes"), path + ".part");
+  write_sealed_text(path, "second");
+  EXPECT_EQ(read_text_file(scratch.path("notes")), "of the user");
+  EXPECT_EQ(read_text_file(path).substr(0, 6), "second");
+}
+
+TEST(SealedFile, OneWriterAtATimeAndNoneWhileTheLockIsKept) {
+  const Scratch scratch;
+  const std::string path = scratch.path("a.restart");
+  SealedFile first(path);
+  EXPECT_THAT(error_of_writing(path), HasSubstr("another run writes it too"));
+  {
+    const FileLock lock = first.close();
+    EXPECT_TRUE(is_locked(path));
+    EXPECT_THAT(error_of_writing(path), HasSubstr("another run writes it too"));
+    EXPECT_EQ(check_seal(path).state, State::whole);
+  }
+  EXPECT_FALSE(is_locked(path));
+  EXPECT_EQ(error_of_writing(path), "no error");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 
 #include "../../unit/mpm/terrain_scene.h"
 #include "bodies/rigid_plate.h"
@@ -95,22 +96,36 @@ std::unique_ptr<Scene> scene_of_one(const Variant& variant) {
   return is_first() ? std::make_unique<Scene>(Communicator(), variant) : nullptr;
 }
 
-/// All that a checkpoint of a scene holds. Collective for a scene of all ranks.
+/// Bytes or numbers of one rank, on all.
+template <class Value>
+void broadcast(std::vector<Value>& values, int from) {
+  auto size = static_cast<int>(values.size());
+  MPI_Bcast(&size, 1, MPI_INT, from, MPI_COMM_WORLD);
+  values.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(values.data(), size * static_cast<int>(sizeof(Value)), MPI_BYTE, from, MPI_COMM_WORLD);
+}
+
+/// All that a checkpoint of a scene holds, as the program has it: the bytes of the first rank, and
+/// the particles of each.
 struct State {
+  /// Collective for a scene of all ranks.
   explicit State(Scene& scene)
       : plate(test::state_of(scene.plate)),
-        ground(test::state_of(scene.ground)),
+        ground(test::state_of(scene.ground, scene.ground.ranks().rank())),
         contact(test::state_of(scene.contact)),
-        steps(scene.steps) {}
+        steps(scene.steps) {
+    if (scene.ground.ranks().size() > 1) share(scene.ground.ranks().size());
+  }
   /// That of the first rank, on all of them.
   explicit State(Scene* of_first) {
     if (of_first) *this = State(*of_first);
-    for (std::vector<char>* bytes : {&plate, &ground, &contact}) {
-      auto size = static_cast<int>(bytes->size());
-      MPI_Bcast(&size, 1, MPI_INT, 0, MPI_COMM_WORLD);
-      bytes->resize(static_cast<std::size_t>(size));
-      MPI_Bcast(bytes->data(), size, MPI_CHAR, 0, MPI_COMM_WORLD);
-    }
+    share(1);
+  }
+  void share(int writers) {
+    for (test::SavedState* state : {&plate, &ground, &contact}) broadcast(state->bytes, 0);
+    ground.numbers.of_rank.resize(static_cast<std::size_t>(writers));
+    for (int r = 0; r < writers; ++r)
+      broadcast(ground.numbers.of_rank[static_cast<std::size_t>(r)], r);
     MPI_Bcast(&steps, 1, MPI_INT, 0, MPI_COMM_WORLD);
   }
   void restore(Scene& scene) const {
@@ -122,7 +137,7 @@ struct State {
   bool operator==(const State& other) const {
     return plate == other.plate && ground == other.ground && contact == other.contact;
   }
-  std::vector<char> plate, ground, contact;
+  test::SavedState plate, ground, contact;
   int steps = 0;
 };
 
@@ -341,25 +356,44 @@ TEST(Blocks, SendWhatTheClosedFormSays) {
   }
 }
 
-TEST(Communicator, ExchangesAndGathersNumbersOfAnyCount) {
-  const Communicator ranks = world_ranks();
-  const std::vector<double> mine(static_cast<std::size_t>(ranks.rank()), ranks.rank() + 0.5);
+/// Messages of at most this many numbers: none, some and all arrays are sent in parts.
+class Messages : public ::testing::TestWithParam<std::size_t> {};
+INSTANTIATE_TEST_SUITE_P(OfLength, Messages, ::testing::Values(1, 2, 3, 1000));
+
+/// Rank r has 3 r numbers.
+TEST_P(Messages, ExchangeGatherSumAndMaximumOfAnyCount) {
+  const MPI_Comm world = MPI_COMM_WORLD;
+  const Communicator ranks(&world, GetParam());
+  const auto numbers_of = [](int rank) {
+    std::vector<double> numbers(3 * static_cast<std::size_t>(rank));
+    std::iota(numbers.begin(), numbers.end(), 100.0 * rank);
+    return numbers;
+  };
+  const std::vector<double> mine = numbers_of(ranks.rank());
   std::vector<Communicator::Message> messages;
   for (int other = 0; other < ranks.size(); ++other)
     if (other != ranks.rank()) messages.push_back({other, mine});
   ranks.exchange_lengths(messages);
   ranks.exchange(messages);
   for (const Communicator::Message& message : messages)
-    EXPECT_EQ(message.received,
-              std::vector<double>(static_cast<std::size_t>(message.other), message.other + 0.5));
+    EXPECT_EQ(message.received, numbers_of(message.other));
   std::vector<double> expected;
   for (int r = 0; r < ranks.size(); ++r)
-    expected.insert(expected.end(), static_cast<std::size_t>(r), r + 0.5);
+    for (const double number : numbers_of(r)) expected.push_back(number);
   EXPECT_EQ(ranks.gather(mine), expected);
-  double most[] = {1.0 * ranks.rank(), -1.0 * ranks.rank()};
-  ranks.max(most, 2);
-  EXPECT_EQ(most[0], ranks.size() - 1.0);
-  EXPECT_EQ(most[1], 0.0);
+  EXPECT_EQ(ranks.gather_to_first(mine), is_first() ? expected : std::vector<double>());
+
+  std::vector<double> most(7), total(7), all_most(7), all_total(7);
+  for (std::size_t n = 0; n < 7; ++n) {
+    most[n] = ranks.rank() * (n % 2 ? 1.0 : -1.0);
+    total[n] = ranks.rank() + 10.0 * static_cast<double>(n);
+    all_most[n] = n % 2 ? ranks.size() - 1.0 : 0.0;
+    all_total[n] = ranks.size() * (0.5 * (ranks.size() - 1) + 10.0 * static_cast<double>(n));
+  }
+  ranks.max(most.data(), most.size());
+  ranks.sum(total.data(), total.size());
+  EXPECT_EQ(most, all_most);
+  EXPECT_EQ(total, all_total);
 }
 
 }  // namespace
