@@ -88,7 +88,7 @@ constexpr Rule rules[] = {
     rule<grains_are_above_terrain>(When::before_run),
     rule<mesh_is_in_a_wall>(When::before_run),
     rule<something_presses_on_terrain>(When::before_run),
-    rule<sheet_is_in_a_wall>(When::before_run),
+    rule<surface_mesh_is_in_a_wall>(When::before_run),
     rule<half_terrain_has_half_the_grains>(When::before_run),
     rule<body_touches_something>(When::before_run),
     rule<bodies_are_apart>(When::before_run),
@@ -107,7 +107,7 @@ constexpr Rule rules[] = {
 
     rule<weight_pulls_down>(When::first_step),
     rule<grains_have_a_floor>(When::first_step),
-    rule<body_stays_off_the_sheet>(When::during_run),
+    rule<body_stays_off_the_surface_mesh>(When::during_run),
 
     rule<grains_stay_in_the_box>(When::after_run),
 };

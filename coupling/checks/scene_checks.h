@@ -97,8 +97,9 @@ Found plane_is_below_terrain(const Scene& scene, FixContactContinuum& contact);
 // level; of grains the highest under the body counts.
 Found body_starts_at_the_ground(const Scene& scene, const DrivenBody& driven);
 Found ground_level_is_the_ground(const Scene& scene, const DrivenBody& driven);
-/// During a run: has a body come through the grains to the sheet of the terrain that carries them?
-Found body_stays_off_the_sheet(const Scene& scene, const FixWallGranBody& wall);
+/// During a run: has a body come through the grains to the surface mesh of the terrain that carries
+/// them?
+Found body_stays_off_the_surface_mesh(const Scene& scene, const FixWallGranBody& wall);
 
 // ---- what touches what (contact.cpp)
 /// Is a mesh of this body in a wall/gran/body?
@@ -108,7 +109,7 @@ Found stock_wall_has_no_body(const Scene& scene, const LAMMPS_NS::FixWallGran& w
 // A wheel may be meant to be free, and a mesh to be drawn only: warnings.
 Found mesh_is_in_a_wall(const Scene& scene, const FixMeshBody& mesh);
 Found something_presses_on_terrain(const Scene& scene, const FixTerrain& terrain);
-Found sheet_is_in_a_wall(const Scene& scene, const FixTerrain& terrain);
+Found surface_mesh_is_in_a_wall(const Scene& scene, const FixTerrain& terrain);
 Found half_terrain_has_half_the_grains(const Scene& scene, const FixTerrain& terrain);
 Found body_touches_something(const Scene& scene, FixBody& body);
 // Is continuum terrain large enough, and fine enough, for what presses on it?
