@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Totals since the start of which every rank has a part, in a checkpoint.
+/// Saves totals since the start, of which every rank has a part, in a checkpoint.
 
 #include <cstddef>
 
@@ -9,8 +9,8 @@
 
 namespace furrow::coupling {
 
-/// Saves the sums over all ranks; brought back, the first rank goes on with them and the others
-/// begin at zero. Collective.
+/// Saves the sums over all ranks. After restoring, the first rank continues with them and the
+/// others begin at zero. Collective.
 template <std::size_t count>
 void checkpoint_totals(Checkpoint& state, const Communicator& ranks, double (&totals)[count]) {
   if (state.saving()) ranks.sum(totals, count);

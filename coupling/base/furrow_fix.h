@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The base of Furrow's fixes: what a fix has to do for LIGGGHTS beside its own job.
+/// Base class of Furrow's fixes: what a fix does for LIGGGHTS in addition to its task.
 ///
-/// A fix derives from it (or from FixBody, FixContact, FixHistory) and says
+/// A fix derives from it (or from FixBody, FixContact, FixHistory) and declares
 ///   - its keywords:        static Schema schema(), handed to the constructor
 ///   - its outputs f_ID[n]: static const Outputs<Class>& outputs(), and provide(outputs())
 ///   - the fixes it needs:  use<Class>(key, kinds) in the constructor; none of them can be removed
 ///                          before this one
-///   - what the coupled system shall call: contribute(body | contact | controller)
+///   - what the coupled system calls: contribute(body | contact | controller)
 ///   - its state:           checkpoint(), and keep_state()
 /// Its source file adds a row to the table of styles (style_registry.h); its page lies next to it.
 
@@ -98,11 +98,11 @@ class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix, publ
   // ---------------------------------------------------------
   /// A coupled system must be there, also without a part of this fix in it.
   virtual bool needs_system() const { return !parts_.empty(); }
-  /// Saves or brings back what the fix must keep in restart files. Called on all ranks; what rank 0
-  /// saves is written.
+  /// Saves or restores the state. Called on all ranks; the bytes of rank 0 are written, and all
+  /// ranks read them back.
   virtual void checkpoint(Checkpoint&) {}
-  /// Does the state belong to these options alone? Then a run is continued with the same ones, but
-  /// for those that may_change().
+  /// Whether the state belongs to these options alone. A run is then continued with the same ones,
+  /// except for those that may_change().
   virtual bool state_needs_options() const { return true; }
   /// Runs an action that all ranks run alike; what it throws becomes the error of all.
   template <class Action>

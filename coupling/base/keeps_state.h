@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Fixes whose state a checkpoint keeps.
+/// Role of a fix whose state checkpoints keep.
 
 namespace furrow::coupling {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Do forces on a body and on the grains it touches cancel? Checked in every step.
+/// Checks in every step that forces on a body and on the grains it touches cancel.
 
 #include <array>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What sets loads and prescribed motions before every step: a rig, a plate's drive, terrain that
-/// moves along.
+/// Sets loads and prescribed motions before every step: a rig, the drive of a plate, or terrain
+/// that follows a body.
 
 namespace furrow::coupling {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Looks at the scene as a whole. furrow/system calls it; coupling/checks, which includes all other
+/// Checks the scene as a whole. furrow/system calls it; coupling/checks, which includes all other
 /// folders, implements it.
 
 #include <memory>
@@ -18,7 +18,7 @@ class SceneWatch {
   /// @param sub_steps of the bodies in this step
   virtual void after_step(int sub_steps) = 0;
   virtual void after_run() = 0;
-  /// The end of an error message of this run: what may be behind it. May be empty.
+  /// The end of an error message of this run: its likely cause. May be empty.
   virtual std::string likely_cause() const = 0;
 };
 

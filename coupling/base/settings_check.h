@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Furrow computes in SI units and in three dimensions only.
+/// Refuses scenes in other units than SI, and flat ones.
 
 #include <string>
 

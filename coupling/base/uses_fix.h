@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Fixes that hold on to other fixes.
+/// Role of a fix that works with other fixes.
 
 #include <string>
 

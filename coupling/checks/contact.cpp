@@ -159,7 +159,7 @@ Found something_presses_on_terrain(const Scene& scene, const FixTerrain& terrain
       fmt::format("nothing presses on {}: no contact/continuum names it", terrain.name()));
 }
 
-Found sheet_is_in_a_wall(const Scene& scene, const FixTerrain& terrain) {
+Found surface_mesh_is_in_a_wall(const Scene& scene, const FixTerrain& terrain) {
   if (!terrain.options().flag("surface_mesh") || touches_grains(scene.lammps, terrain)) return {};
   return warning(
       fmt::format("{} has a surface mesh that no wall/gran/body lists: grains fall through it; add "

@@ -118,11 +118,11 @@ int moved_groups(const LAMMPS_NS::Modify& modify) {
   return groups;
 }
 
-/// The first node of the sheet inside of the surface; -1 for none.
-Eigen::Index node_inside(const Surface& surface, const Surface& sheet) {
+/// The first node of the surface mesh inside of the surface; -1 for none.
+Eigen::Index node_inside(const Surface& surface, const Surface& mesh) {
   const auto [lower, upper] = surface.bounds();
-  for (Eigen::Index n = 0; n < sheet.x.cols(); ++n) {
-    const Vector3 node = sheet.x.col(n);
+  for (Eigen::Index n = 0; n < mesh.x.cols(); ++n) {
+    const Vector3 node = mesh.x.col(n);
     if ((node.array() > lower.array()).all() && (node.array() < upper.array()).all() &&
         winding_number(surface, node) > inside)
       return n;
@@ -377,7 +377,7 @@ Found body_stays_off_the_base(const Scene&, FixContactContinuum& contact) {
 }
 
 /// Surfaces are replicated, so all ranks agree.
-Found body_stays_off_the_sheet(const Scene&, const FixWallGranBody& wall) {
+Found body_stays_off_the_surface_mesh(const Scene&, const FixWallGranBody& wall) {
   const std::vector<const Body*> bodies = wall.bodies();
   const auto is_terrain = [](const Body* body) {
     return dynamic_cast<const ContinuumTerrain*>(body) != nullptr;
@@ -385,14 +385,14 @@ Found body_stays_off_the_sheet(const Scene&, const FixWallGranBody& wall) {
   for (const Body* terrain : bodies)
     for (const Body* body : bodies) {
       if (!is_terrain(terrain) || is_terrain(body)) continue;
-      const Surface& sheet = terrain->surface();
-      const Eigen::Index node = node_inside(body->surface(), sheet);
+      const Surface& mesh = terrain->surface();
+      const Eigen::Index node = node_inside(body->surface(), mesh);
       if (node < 0) continue;
       Finding found = warning(
           fmt::format("fix wall/gran/body '{}': a body has come through the grains to the surface "
                       "mesh of the terrain, at {:.4g} {:.4g} {:.4g} m, and does not interact with "
                       "it; make the layer of grains deeper, or the trough wider",
-                      wall.id, sheet.x(0, node), sheet.x(1, node), sheet.x(2, node)));
+                      wall.id, mesh.x(0, node), mesh.x(1, node), mesh.x(2, node)));
       found.stops = true;
       return found;
     }

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "coupling/base/refuse_double.h"
+#include "coupling/base/require_unique.h"
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/base/fix_terrain.h"
 
@@ -50,7 +50,7 @@ const Outputs<FixContactContinuum>& FixContactContinuum::outputs() {
 /// A half body needs half the terrain with the same plane of symmetry, y = 0.
 FixTerrain& FixContactContinuum::find_terrain() {
   auto& fix = use<FixTerrain>("terrain", {"terrain"});
-  refuse_double<FixContactContinuum>(
+  require_unique<FixContactContinuum>(
       *modify, options().subject(), fmt::format("presses '{}' on '{}'", body_fix().id, fix.id),
       "one contact for each pair", [&](FixContactContinuum& other) {
         return &other.body_fix() == &body_fix() && &other.terrain_fix_ == &fix;

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "coupling/base/refuse_double.h"
+#include "coupling/base/require_unique.h"
 #include "coupling/liggghts/style_registry.h"
 #include "tyre/tyre.h"
 #include "update.h"
@@ -125,7 +125,7 @@ void FixContactPlane::check_tyre_stability() {
 
 FixContactPlane::FixContactPlane(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixContact(lammps, narg, arg, schema()), contact_(body(), options()) {
-  refuse_double<FixContactPlane>(
+  require_unique<FixContactPlane>(
       *modify, options().subject(), fmt::format("puts a floor under '{}'", body_fix().id),
       "one level floor for each body",
       [&](FixContactPlane& other) { return &other.body_fix() == &body_fix(); });

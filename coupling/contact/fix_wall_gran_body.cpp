@@ -161,7 +161,7 @@ std::vector<const Body*> FixWallGranBody::bodies() const {
   return found;
 }
 
-/// The first whose sheet is in this wall; null without one.
+/// The first whose surface mesh is in this wall; null without one.
 const Body* FixWallGranBody::carrying_terrain() const {
   for (const Body* body : bodies())
     if (dynamic_cast<const ContinuumTerrain*>(body)) return body;

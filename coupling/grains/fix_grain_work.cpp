@@ -14,7 +14,7 @@
 #include "core/error.h"
 #include "coupling/base/checkpoint_totals.h"
 #include "coupling/base/fix_coupled_system.h"
-#include "coupling/base/refuse_double.h"
+#include "coupling/base/require_unique.h"
 #include "coupling/base/snow_pairs.h"
 #include "coupling/liggghts/global_properties.h"
 #include "coupling/liggghts/style_registry.h"
@@ -73,8 +73,8 @@ FixGrainWork::FixGrainWork(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
       body_(use<FixBody>("body", {"wheel", "body"}).body()),
       level_(options().number("level")),
       every_(options().integer("every")) {
-  refuse_double<FixGrainWork>(*modify, options().subject(), "counts the work between grains",
-                              "one fix grain/work", [](FixGrainWork&) { return true; });
+  require_unique<FixGrainWork>(*modify, options().subject(), "counts the work between grains",
+                               "one fix grain/work", [](FixGrainWork&) { return true; });
   nevery = static_cast<int>(every_);
   provide(outputs());
   keep_state();

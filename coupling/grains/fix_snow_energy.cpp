@@ -3,7 +3,7 @@
 
 #include "core/communicator.h"
 #include "coupling/base/checkpoint_totals.h"
-#include "coupling/base/refuse_double.h"
+#include "coupling/base/require_unique.h"
 #include "coupling/grains/model_snow_bond.h"
 #include "coupling/liggghts/style_registry.h"
 
@@ -35,8 +35,8 @@ const Outputs<FixSnowEnergy>& FixSnowEnergy::outputs() {
 
 FixSnowEnergy::FixSnowEnergy(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FurrowFix(lammps, narg, arg, schema()) {
-  refuse_double<FixSnowEnergy>(*modify, options().subject(), "counts the energy of contacts",
-                               "one fix snow/energy", [](FixSnowEnergy&) { return true; });
+  require_unique<FixSnowEnergy>(*modify, options().subject(), "counts the energy of contacts",
+                                "one fix snow/energy", [](FixSnowEnergy&) { return true; });
   provide(outputs());
   keep_state();
 }

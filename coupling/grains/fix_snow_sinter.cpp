@@ -2,7 +2,7 @@
 #include "coupling/grains/fix_snow_sinter.h"
 
 #include "atom.h"
-#include "coupling/base/refuse_double.h"
+#include "coupling/base/require_unique.h"
 #include "coupling/grains/model_snow_bond.h"
 #include "coupling/liggghts/style_registry.h"
 
@@ -13,9 +13,9 @@ const StyleRow snow_sinter_style =
 
 FixSnowSinter::FixSnowSinter(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FurrowFix(lammps, narg, arg, schema()) {
-  refuse_double<FixSnowSinter>(*modify, options().subject(), "sinters clusters",
-                               "one fix snow/sinter at a time",
-                               [](FixSnowSinter&) { return true; });
+  require_unique<FixSnowSinter>(*modify, options().subject(), "sinters clusters",
+                                "one fix snow/sinter at a time",
+                                [](FixSnowSinter&) { return true; });
 }
 
 void FixSnowSinter::init() {

@@ -10,7 +10,7 @@
 #include "compute.h"
 #include "core/communicator.h"
 #include "core/error.h"
-#include "coupling/base/refuse_double.h"
+#include "coupling/base/require_unique.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"
 #include "domain.h"
@@ -107,9 +107,9 @@ FixCellServo::FixCellServo(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     throw InputError("fix cell/servo", "is used in a box that is not periodic along x, y and z",
                      "boundary p p p, no tilt",
                      "a cell has no walls; use plate/rigid for ground in a box");
-  refuse_double<FixCellServo>(*modify, options().subject(), "deforms the box",
-                              "one cell/servo, which controls all three axes",
-                              [](FixCellServo&) { return true; });
+  require_unique<FixCellServo>(*modify, options().subject(), "deforms the box",
+                               "one cell/servo, which controls all three axes",
+                               [](FixCellServo&) { return true; });
   box_change_size = 1;
   nevery = 1;
   keep_state();

@@ -7,7 +7,7 @@
 
 #include "comm.h"
 #include "core/error.h"
-#include "coupling/base/refuse_double.h"
+#include "coupling/base/require_unique.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/liggghts/rescue.h"
@@ -35,7 +35,7 @@ FixHistory::FixHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Sc
   const auto folder = [](const FixHistory& fix) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(fix.in_folder(".")));
   };
-  refuse_double<FixHistory>(
+  require_unique<FixHistory>(
       *modify, options().where("folder"),
       fmt::format("is '{}', which this fix writes its files to", options().text("folder")),
       "a folder for each wheel/history, and for each terrain/history", [&](FixHistory& other) {

@@ -9,7 +9,7 @@
 #include "comm.h"
 #include "core/error.h"
 #include "coupling/base/fix_coupled_system.h"
-#include "coupling/base/refuse_double.h"
+#include "coupling/base/require_unique.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/liggghts/vector.h"
@@ -59,10 +59,10 @@ FixWheelArc::FixWheelArc(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
       arc_(wheel_fix_.hub(), static_cast<std::size_t>(options().integer("sectors"))),
       every_(options().integer("every")),
       columns_(arc_channels().size()) {
-  refuse_double<FixWheelArc>(*modify, options().subject(),
-                             fmt::format("records the arc of '{}'", wheel_fix_.id),
-                             "one wheel/arc for each wheel",
-                             [&](FixWheelArc& other) { return &other.wheel_fix_ == &wheel_fix_; });
+  require_unique<FixWheelArc>(*modify, options().subject(),
+                              fmt::format("records the arc of '{}'", wheel_fix_.id),
+                              "one wheel/arc for each wheel",
+                              [&](FixWheelArc& other) { return &other.wheel_fix_ == &wheel_fix_; });
   nevery = 1;
   keep_state();
   wheel_fix_.hub().set_contact_record(&arc_);

@@ -11,7 +11,7 @@
 #include "core/communicator.h"
 #include "core/error.h"
 #include "coupling/liggghts/fixes_of.h"
-#include "coupling/base/refuse_double.h"
+#include "coupling/base/require_unique.h"
 #include "coupling/base/fix_body.h"
 #include "coupling/liggghts/exchange_buffer.h"
 #include "coupling/liggghts/style_registry.h"
@@ -83,8 +83,8 @@ FixBedWindow::FixBedWindow(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
   check_slab();
   if (options().given("terrain")) terrain_ = &use<FixTerrainContinuum>("terrain", {"terrain"});
   check_terrain();
-  refuse_double<FixBedWindow>(*modify, options().subject(), "renews the bed of the box",
-                              "one bed/window", [](FixBedWindow&) { return true; });
+  require_unique<FixBedWindow>(*modify, options().subject(), "renews the bed of the box",
+                               "one bed/window", [](FixBedWindow&) { return true; });
   force_reneighbor = 1;
   next_reneighbor = -1;
   provide(outputs());
@@ -264,7 +264,7 @@ void FixBedWindow::take_out(std::int64_t slab, const std::vector<std::size_t>& f
     const double x = atom->x[i][0];
     const bool at_seam_too = from_middle(x) < outer;
     if (slab_of(x) == slab || is_frozen(i) ||
-        (at_seam_too && (overlaps(i, at_seam) || overlaps_fresh_sheet(i)))) {
+        (at_seam_too && (overlaps(i, at_seam) || overlaps_new_surface(i)))) {
       remove_grain(*lmp, i);  // another one comes to this index
       --inserted_minus_removed_;
     } else {
@@ -285,21 +285,21 @@ bool FixBedWindow::overlaps(int i, const std::vector<std::size_t>& grains) const
   });
 }
 
-/// The terrain's newest slab has the patch of the sheet of the one that it dropped.
-bool FixBedWindow::overlaps_fresh_sheet(int i) const {
+/// The terrain's newest slab has the patch of the surface mesh of the one that it dropped.
+bool FixBedWindow::overlaps_new_surface(int i) const {
   if (!terrain_) return false;
-  const Surface& sheet = terrain_->terrain().surface();
+  const Surface& mesh = terrain_->terrain().surface();
   const std::size_t slabs = static_cast<std::size_t>(slabs_),
                     patch = (terrain_->terrain().dropped_slabs() - 1) % slabs,
-                    triangles = sheet.triangle_count() / slabs;
+                    triangles = mesh.triangle_count() / slabs;
   const Vector3 centre = Eigen::Map<const Vector3>(atom->x[i]);
   const double reach = (1.0 - seam_overlap) * atom->radius[i];
   for (std::size_t t = patch * triangles; t < (patch + 1) * triangles; ++t) {
-    const Vector3i& nodes = sheet.triangles[t];
+    const Vector3i& nodes = mesh.triangles[t];
     Vector3 p = centre;
-    p.x() = sheet.x(0, nodes[0]) + std::remainder(p.x() - sheet.x(0, nodes[0]), domain->prd[0]);
-    if (closest_point_on_triangle(p, sheet.x.col(nodes[0]), sheet.x.col(nodes[1]),
-                                  sheet.x.col(nodes[2]))
+    p.x() = mesh.x(0, nodes[0]) + std::remainder(p.x() - mesh.x(0, nodes[0]), domain->prd[0]);
+    if (closest_point_on_triangle(p, mesh.x.col(nodes[0]), mesh.x.col(nodes[1]),
+                                  mesh.x.col(nodes[2]))
             .distance < reach)
       return true;
   }

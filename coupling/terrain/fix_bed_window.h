@@ -46,7 +46,7 @@ class FixBedWindow : public FurrowFix, public FollowsSystem {
   void renew(std::int64_t slab);
   void take_out(std::int64_t slab, const std::vector<std::size_t>& fresh);
   bool overlaps(int local_grain, const std::vector<std::size_t>& grains) const;
-  bool overlaps_fresh_sheet(int local_grain) const;
+  bool overlaps_new_surface(int local_grain) const;
   void put_in(const std::vector<std::size_t>& grains, std::optional<std::int64_t> rut);
 
   const Body& body_;

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "coupling/liggghts/find_fix.h"
 #include "coupling/base/read_options.h"
-#include "coupling/base/refuse_double.h"
+#include "coupling/base/require_unique.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/base/high_friction.h"
 #include "coupling/liggghts/script.h"
@@ -158,10 +158,10 @@ void FixTerrainContinuum::refuse_overlap() {
     }
     return overlap;
   };
-  refuse_double<FixTerrainContinuum>(*modify, options().subject(), "fills space with terrain",
-                                     "terrains that do not overlap; layers of one terrain are in "
-                                     "its keyword 'material'",
-                                     overlaps);
+  require_unique<FixTerrainContinuum>(*modify, options().subject(), "fills space with terrain",
+                                      "terrains that do not overlap; layers of one terrain are in "
+                                      "its keyword 'material'",
+                                      overlaps);
 }
 
 bool FixTerrainContinuum::follows(const Body& body) const {

@@ -23,7 +23,7 @@ constexpr double min_clearance_cells = 6.0;
 constexpr double clearance_of_depth = 1.0;
 constexpr double min_cells_in_depth = 2.0;
 constexpr double round_off = 1e-6;  // of a length
-constexpr double most_blocks = 1e6;
+constexpr double max_blocks = 1e6;
 constexpr double least_triangles_across = 4.0;  // of a surface mesh that shows a rut
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -306,7 +306,7 @@ Schema terrain_schema(const std::string& subject, const std::optional<GroundSize
               "factor on Young's modulus, for longer steps")
       .by_default(1.0);
   schema
-      .numbers("blocks", 2, "", Range::closed(1.0, most_blocks),
+      .numbers("blocks", 2, "", Range::closed(1.0, max_blocks),
                "blocks along x and along y that the ranks share; by default chosen by Furrow")
       .optional()
       .may_change();
@@ -353,7 +353,7 @@ TerrainParameters read_terrain(const Options& options, const std::string& folder
                      "a surcharge of ground that starts with the stress of what it carries",
                      "remove one of the two");
   ground.surface_mesh = options.flag("surface_mesh");
-  ground.sheet_every = read_surface_mesh_every(options, ground);
+  ground.surface_mesh_every = read_surface_mesh_every(options, ground);
   ground.trough = read_trough(options);
   ground.multirate = options.flag("multirate");
   if (ground.multirate && !ground.surface_mesh)

@@ -68,13 +68,13 @@ void ContinuumTerrain::fill(const std::string& where) {
   if (slide_) check_both_sides(discretisation_, where);
   energy_.add_initial(internal_energy(discretisation_.groups));
   if (parameters_.surface_mesh)
-    free_surface_ = FreeSurfaceMesh(fill_, grid, parameters_.sheet_every,
+    free_surface_ = FreeSurfaceMesh(fill_, grid, parameters_.surface_mesh_every,
                                     std::max<std::size_t>(1, parameters_.slabs));
   sort_particles();
   if (free_surface_.exists()) free_surface_.update(discretisation_.groups, loads_, ranks());
 }
 
-void ContinuumTerrain::place_sheet() {
+void ContinuumTerrain::place_surface_mesh() {
   if (free_surface_.exists()) free_surface_.place(fill_, grid(), window_.dropped_slabs());
 }
 
@@ -108,24 +108,24 @@ double ContinuumTerrain::stable_time_step() const {
 }
 
 void ContinuumTerrain::advance(double dt) {
-  Surface& sheet = free_surface_.surface();
+  Surface& mesh = free_surface_.surface();
   if (!parameters_.multirate) {
-    step(dt, sheet.f);
+    step(dt, mesh.f);
     return;
   }
-  if (!multirate_.begun()) multirate_.begin(sheet, dt, stable_step_now());
-  if (!multirate_.add(sheet, dt)) return;
+  if (!multirate_.begun()) multirate_.begin(mesh, dt, stable_step_now());
+  if (!multirate_.add(mesh, dt)) return;
   step(multirate_.elapsed(), multirate_.mean_force());
-  multirate_.begin(sheet, dt, stable_step_now());
+  multirate_.begin(mesh, dt, stable_step_now());
 }
 
-void ContinuumTerrain::step(double dt, const Matrix3X& sheet_forces) {
+void ContinuumTerrain::step(double dt, const Matrix3X& surface_forces) {
   if (free_surface_.exists())
-    free_surface_.add_forces_to(loads_, discretisation_.groups, sheet_forces);
+    free_surface_.add_forces_to(loads_, discretisation_.groups, surface_forces);
   step_.advance(dt);
   if (!remap_.interval_running()) {
     const bool moved = window_.move();
-    if (moved) place_sheet();
+    if (moved) place_surface_mesh();
     if (moved || distribution_.sorting_due()) sort_particles();
   }
   if (free_surface_.exists()) {
@@ -228,7 +228,7 @@ void ContinuumTerrain::match_layer(const TerrainLayer& layer, Checkpoint& state)
 void ContinuumTerrain::resume() {
   step_.restore_stress_forces();
   if (!free_surface_.exists()) return;
-  place_sheet();
+  place_surface_mesh();
   free_surface_.attach(discretisation_.groups);
   free_surface_.update(discretisation_.groups, loads_, ranks());
   multirate_.resume(free_surface_.surface());

@@ -118,8 +118,8 @@ class ContinuumTerrain : public Body {
  private:
   void fill(const std::string& where);
   double stable_step_now() const;
-  void step(double dt, const Matrix3X& sheet_forces);
-  void place_sheet();
+  void step(double dt, const Matrix3X& surface_forces);
+  void place_surface_mesh();
   void sort_particles();
   void checkpoint_boundary(Checkpoint& state);
   static void match_layer(const TerrainLayer& layer, Checkpoint& state);

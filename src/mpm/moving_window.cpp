@@ -15,7 +15,7 @@ MovingWindow::MovingWindow(const TerrainParameters& parameters, Discretisation& 
                            TerrainFill& fill, TerrainEnergy& energy, const std::string& where)
     : enabled_(parameters.window),
       per_cell_(static_cast<std::size_t>(parameters.particles_per_cell[0])),
-      sheet_(parameters.surface_mesh),
+      has_surface_mesh_(parameters.surface_mesh),
       discretisation_(discretisation),
       distribution_(distribution),
       boundary_(boundary),
@@ -35,7 +35,7 @@ void MovingWindow::check(const TerrainParameters& parameters, const std::string&
     throw InputError(where, "moves along a graded x axis",
                      "a uniform x axis for ground that moves");
   const int slabs = static_cast<int>(parameters.slabs);
-  if (sheet_ && slabs == 0)
+  if (has_surface_mesh_ && slabs == 0)
     throw InputError(where, "follows a body and has a surface mesh",
                      "a terrain that moves by slabs",
                      "write 'slabs <number>', and name this terrain in the line of the bed/window "
@@ -78,9 +78,9 @@ void MovingWindow::move_by_cell() {
   energy_.add_initial(internal_energy(discretisation_.groups) - before);
 }
 
-/// Removes this rank's particles in the first layer of cells across x. Of those that carry a sheet,
-/// particles that came there from further ahead, against the travel, are kept: they go to the new
-/// end of the ground, where undisturbed ones would be. Collective.
+/// Removes this rank's particles in the first layer of cells across x. Of those that carry a
+/// surface mesh, particles that came there from further ahead, against the travel, are kept: they
+/// go to the new end of the ground, where undisturbed ones would be. Collective.
 void MovingWindow::remove_first_cells() {
   const Axis& y = discretisation_.grid.axis(1);
   const double edge = discretisation_.grid.axis(0).knot(1);
@@ -97,7 +97,7 @@ void MovingWindow::remove_first_cells() {
     kept.clear();
     for (std::size_t p = 0; p < particles.size(); ++p) {
       double& x = particles.data(column::x)[p];
-      const bool came_back = x < edge && sheet_ &&
+      const bool came_back = x < edge && has_surface_mesh_ &&
                              fill_.column_of(discretisation_.grid, particles.data(column::id)[p]) >=
                                  static_cast<std::size_t>(shifts_ + 1) * per_cell_;
       if (came_back) x = edge + particles.half_spacing(p).x();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Ground that moves along with a body: removed behind, added ahead, one layer of cells at a time;
-/// or one slab of some at a time, where it carries a sheet.
+/// or one slab of some at a time, where it carries a surface mesh.
 
 #include <string>
 #include <vector>
@@ -49,9 +49,9 @@ class MovingWindow {
                   const std::vector<double>& volume);
 
   bool enabled_;
-  int stride_ = 1;        // cells that it moves by at a time
-  std::size_t per_cell_;  // columns of particles
-  bool sheet_;            // whose nodes are attached to particles
+  int stride_ = 1;         // cells that it moves by at a time
+  std::size_t per_cell_;   // columns of particles
+  bool has_surface_mesh_;  // whose nodes are attached to particles
   Discretisation& discretisation_;
   const ParticleDistribution& distribution_;
   Boundary& boundary_;

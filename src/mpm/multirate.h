@@ -18,25 +18,25 @@ namespace furrow {
 /// N = 1 this is the usual step.
 class Multirate {
  public:
-  /// A step of the grains under the forces on the sheet. @return whether it was the last one: the
+  /// A step of the grains under the forces on the mesh. @return whether it was the last one: the
   /// terrain then takes its step of elapsed() under mean_force(), and calls begin()
-  bool add(Surface& sheet, double dt);
+  bool add(Surface& mesh, double dt);
   double elapsed() const { return elapsed_; }  ///< of the grains since begin() [s]
   Matrix3X mean_force() const { return impulse_ / elapsed_; }
 
-  /// @param sheet   after a step of the terrain, or at the start
+  /// @param mesh   after a step of the terrain, or at the start
   /// @param stable  step of the terrain [s]
-  void begin(Surface& sheet, double dt, double stable);
+  void begin(Surface& mesh, double dt, double stable);
   bool begun() const { return interval_ > 0.0; }
   /// Of the terrain when the interval began [s].
   double stable_step() const { return stable_; }
 
-  /// @param sheet  as the terrain's particles have it, which comes to where it was
-  void resume(Surface& sheet);
+  /// @param mesh  as the terrain's particles have it, which comes to where it was
+  void resume(Surface& mesh);
   void checkpoint(Checkpoint& state, Eigen::Index nodes);
 
  private:
-  void place(Surface& sheet) const { sheet.x = x_ + offset_ * sheet.v; }
+  void place(Surface& mesh) const { mesh.x = x_ + offset_ * mesh.v; }
 
   Matrix3X x_;             // of the nodes at t_n [m]
   Matrix3X impulse_;       // of the forces since the interval began [N s]

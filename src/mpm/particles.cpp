@@ -148,7 +148,7 @@ ParticleView Particles::view(std::size_t first, std::size_t count) {
   ParticleView view;
   view.size = count;
   for (std::size_t a = 0; a < 3; ++a) {
-    view.shape_position[a] = data(column::shape_x + a) + first;
+    view.quadrature_position[a] = data(column::quadrature_x + a) + first;
     view.position[a] = data(column::x + a) + first;
   }
   view.velocity = data(column::velocity) + 4 * first;

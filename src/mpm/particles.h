@@ -26,9 +26,9 @@ enum : std::size_t {
   velocity,  ///< four numbers, the last is unused [m/s]
   affine,    ///< C, three columns of four numbers [1/s]
   volume,    ///< in the reference configuration [m^3]
-  shape_x,
-  shape_y,
-  shape_z,  ///< where the weights are taken (terrain_step.h) [m]
+  quadrature_x,
+  quadrature_y,
+  quadrature_z,  ///< where the weights are taken (terrain_step.h) [m]
   initial_x,
   initial_y,
   initial_z,  ///< position at the start [m]
@@ -89,7 +89,7 @@ class Particles {
   double* data(std::size_t column) { return columns_[column].values.data(); }
   const double* data(std::size_t column) const { return columns_[column].values.data(); }
   Vector3 position(std::size_t i) const { return vector(column::x, i); }
-  Vector3 shape_position(std::size_t i) const { return vector(column::shape_x, i); }
+  Vector3 quadrature_position(std::size_t i) const { return vector(column::quadrature_x, i); }
   Vector3 half_spacing(std::size_t i) const { return vector(column::half_x, i); }
   Vector3 velocity(std::size_t i) const {
     return Eigen::Map<const Vector3>(data(column::velocity) + 4 * i);

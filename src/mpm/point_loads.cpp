@@ -18,7 +18,7 @@ void PointLoads::add(const ParticleIndex& near, const Vector3& force, const Vect
 void PointLoads::scatter_to_grid() {
   for (std::vector<PointForce>& forces : forces_) forces.clear();
   for (const PointLoad& load : loads_) {
-    const Vector3 shape = particles_of(load.near).shape_position(load.near.particle);
+    const Vector3 shape = particles_of(load.near).quadrature_position(load.near.particle);
     const Vector3 arm = load.point - shape;
     forces_[field_of(load.near)].push_back({{shape[0], shape[1], shape[2]},
                                             {load.force[0], load.force[1], load.force[2]},
@@ -52,16 +52,16 @@ void PointLoads::interpolate_motion(const std::vector<ParticleIndex>& particles,
       const Particles& group = particles_of(particles[n]);
       const std::size_t p = particles[n].particle;
       const Vector3 x = group.position(p);
-      motions[n] = {x, remap_.interval_running() ? group.shape_position(p) : x, group.velocity(p),
-                    group.affine(p)};
+      motions[n] = {x, remap_.interval_running() ? group.quadrature_position(p) : x,
+                    group.velocity(p), group.affine(p)};
     }
     return;
   }
   for (std::vector<PointMotion>& of_field : grid_motions_) of_field.clear();
   for (const ParticleIndex& particle : particles) {
     std::vector<PointMotion>& of_field = grid_motions_[field_of(particle)];
-    Eigen::Map<Vector3>(of_field.emplace_back().shape_position) =
-        particles_of(particle).shape_position(particle.particle);
+    Eigen::Map<Vector3>(of_field.emplace_back().quadrature_position) =
+        particles_of(particle).quadrature_position(particle.particle);
   }
   for (std::size_t field = 0; field < grid_motions_.size(); ++field)
     kernels_.interpolate_motion(discretisation_.local_view(static_cast<int>(field)),
@@ -70,7 +70,7 @@ void PointLoads::interpolate_motion(const std::vector<ParticleIndex>& particles,
   for (std::size_t n = 0; n < particles.size(); ++n) {
     const std::size_t field = field_of(particles[n]);
     const PointMotion& grid = grid_motions_[field][next[field]++];
-    motions[n].shape_position = Eigen::Map<const Vector3>(grid.shape_position);
+    motions[n].quadrature_position = Eigen::Map<const Vector3>(grid.quadrature_position);
     motions[n].position = particles_of(particles[n]).position(particles[n].particle) +
                           Eigen::Map<const Vector3>(grid.displacement);
     motions[n].velocity = Eigen::Map<const Vector3>(grid.velocity);

@@ -12,13 +12,15 @@
 
 namespace furrow {
 
-/// Motion of the ground around a particle: v(x) = velocity + affine (x - shape_position).
+/// Motion of the ground around a particle: v(x) = velocity + affine (x - quadrature_position).
 struct ParticleMotion {
-  Vector3 position;        ///< now [m]
-  Vector3 shape_position;  ///< where velocity holds [m]
-  Vector3 velocity;        ///< [m/s]
-  Matrix3 affine;          ///< C [1/s]
-  Vector3 velocity_at(const Vector3& x) const { return velocity + affine * (x - shape_position); }
+  Vector3 position;             ///< now [m]
+  Vector3 quadrature_position;  ///< where velocity holds [m]
+  Vector3 velocity;             ///< [m/s]
+  Matrix3 affine;               ///< C [1/s]
+  Vector3 velocity_at(const Vector3& x) const {
+    return velocity + affine * (x - quadrature_position);
+  }
 };
 
 /// Each rank adds and asks for its own particles; no call is collective.

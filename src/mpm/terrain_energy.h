@@ -38,7 +38,7 @@ class TerrainEnergy {
   // Works of a step [J].
   /// Adds one half of the trapezoidal stress work: 0.5 x (stress at one end of the step) : (strain
   /// increment).
-  void add_half(const StressWork& work) {
+  void add_half_stress_work(const StressWork& work) {
     stress_work_ += 0.5 * work.total;
     vertical_stress_work_ += 0.5 * work.vertical;
   }

@@ -56,10 +56,11 @@ struct TerrainParameters {
   int remap_interval = 16;
   std::optional<SlideSurface> slide = {};  ///< along which the ground slides on itself
   bool surface_mesh = false;               ///< carries triangles on its free surface, for grains
-  std::size_t sheet_every = 1;             ///< particles from node to node of these triangles
+  std::size_t surface_mesh_every = 1;      ///< particles from node to node of these triangles
   bool multirate = false;  ///< one step for as many of these grains as the stable step holds
   bool window = false;     ///< moves along x with what ContinuumTerrain::follow() names
-  /// that its length is cut into: with a sheet it moves on by one at a time; else 0, by cells
+  /// that its length is cut into: with a surface mesh it moves on by one at a time; else 0, by
+  /// cells
   std::size_t slabs = 0;
   /// how the ranks share the ground; without it choose_layout()
   std::optional<BlockLayout> blocks = {};

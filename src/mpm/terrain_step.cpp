@@ -34,40 +34,67 @@ TerrainStep::TerrainStep(Discretisation& discretisation, Boundary& boundary,
 }
 
 void TerrainStep::advance(double dt) {
-  Grid& grid = discretisation_.grid;
-  const Partition& partition = discretisation_.partition;
-  const NodeBlock local = partition.local_nodes();
-  const NodeBlock owned = partition.owned_nodes();
-
   if (!remap_.interval_running()) begin_remap_interval(dt);
+  sum_nodal_forces();
+  accelerate_nodes(dt);
+  move_nodes(dt);
+  update_particles(dt);
+  count_energies(dt);
+  end_step(dt);
+}
+
+void TerrainStep::begin_remap_interval(double dt) {
+  remap_.begin_interval(dt);
+  set_quadrature_positions(0.5 * (remap_.steps_left() - 1) * dt);
+  discretisation_.grid.clear_displacement(discretisation_.partition.local_nodes());
+  particles_to_grid();
+}
+
+/// Those of the stress are on the nodes already.
+void TerrainStep::sum_nodal_forces() {
   loads_.scatter_to_grid();
   discretisation_.add_shared_sums();
+}
+
+void TerrainStep::accelerate_nodes(double dt) {
+  Grid& grid = discretisation_.grid;
+  const NodeBlock local = discretisation_.partition.local_nodes();
+  const NodeBlock owned = discretisation_.partition.owned_nodes();
   boundary_.renew_tractions(grid, local, gravity_);
   grid.accelerate(local, dt, gravity_);
   if (slide_) energy_.add_slide_loss(slide_->apply(grid, boundary_, local, owned));
   boundary_.apply(grid, local, owned, dt);
-  const NodeTotals totals = grid.move(local, owned, dt);
-  remap_.grid_moved();
-  update_stress(dt);
+}
 
-  energy_.set_node_totals(totals);
-  energy_.add_gravity_work(dt * gravity_.dot(totals.momentum));
+void TerrainStep::move_nodes(double dt) {
+  const Partition& partition = discretisation_.partition;
+  node_totals_ = discretisation_.grid.move(partition.local_nodes(), partition.owned_nodes(), dt);
+  remap_.grid_moved();
+}
+
+void TerrainStep::update_particles(double dt) {
+  for (ParticleGroup& group : discretisation_.groups) {
+    const GridView view = discretisation_.local_view(group.field);
+    for (std::size_t first = 0; first < group.particles.size(); first += chunk)
+      update_particles(group, first, view, dt);
+  }
+}
+
+void TerrainStep::count_energies(double dt) {
+  energy_.set_node_totals(node_totals_);
+  energy_.add_gravity_work(dt * gravity_.dot(node_totals_.momentum));
   loads_.count_work(dt, energy_);
+}
+
+void TerrainStep::end_step(double dt) {
   discretisation_.exchange.count_step();
   distribution_.add_drift(remap_.count_step(dt));
   if (!remap_.interval_running()) grid_to_particles();
 }
 
-void TerrainStep::begin_remap_interval(double dt) {
-  remap_.begin_interval(dt);
-  set_shape_positions(0.5 * (remap_.steps_left() - 1) * dt);
-  discretisation_.grid.clear_displacement(discretisation_.partition.local_nodes());
-  particles_to_grid();
-}
-
 /// Where particles will be after a time [s]; a particle that would be beyond a face is stopped by
 /// it before: its weights are taken where it is.
-void TerrainStep::set_shape_positions(double time) {
+void TerrainStep::set_quadrature_positions(double time) {
   for (ParticleGroup& group : discretisation_.groups) {
     const double* v = group.particles.data(column::velocity);
     for (std::size_t a = 0; a < 3; ++a) {
@@ -75,7 +102,7 @@ void TerrainStep::set_shape_positions(double time) {
       const double lower = axis.lower();
       const double upper = axis.upper();
       const double* x = group.particles.data(column::x + a);
-      double* shape = group.particles.data(column::shape_x + a);
+      double* shape = group.particles.data(column::quadrature_x + a);
       for (std::size_t p = 0; p < group.particles.size(); ++p) {
         const double later = x[p] + time * v[4 * p + a];
         shape[p] = later >= lower && later <= upper ? later : x[p];
@@ -98,7 +125,7 @@ void TerrainStep::particles_to_grid() {
   scatter_stress_forces();
 }
 
-/// With weights of its own; within an interval, update_stress() does it with those of the strain.
+/// Finds the weights first; within an interval, update_particles() uses those of the strain.
 void TerrainStep::scatter_stress_forces() {
   for (ParticleGroup& group : discretisation_.groups) {
     const GridView view = discretisation_.local_view(group.field);
@@ -111,25 +138,24 @@ void TerrainStep::scatter_stress_forces() {
   }
 }
 
-void TerrainStep::update_stress(double dt) {
-  for (ParticleGroup& group : discretisation_.groups) {
-    const GridView view = discretisation_.local_view(group.field);
-    for (std::size_t first = 0; first < group.particles.size(); first += chunk)
-      update_stress(group, first, view, dt);
-  }
-}
-
 /// Strain, stress and, unless this step ends the interval, the force of the new stress for the next
 /// step; of the chunk of particles that begins at `first`.
-void TerrainStep::update_stress(ParticleGroup& group, std::size_t first, const GridView& grid,
-                                double dt) {
+void TerrainStep::update_particles(ParticleGroup& group, std::size_t first, const GridView& grid,
+                                   double dt) {
   const std::size_t count = std::min(chunk, group.particles.size() - first);
   const ParticleView particles = group.particles.view(first, count);
   kernels_.find_weights(grid, particles, weights_.data());
   kernels_.gather_strain(grid, particles, weights_.data(), dt, gradient_.data());
   // The work of the mean of the stresses before and after the step: with either alone, the audit of
   // a vibrating body drifts by O(dt).
-  energy_.add_half(kernels_.stress_work(particles, gradient_.data()));
+  energy_.add_half_stress_work(kernels_.stress_work(particles, gradient_.data()));
+  update_stress(group, first, count, dt);
+  energy_.add_half_stress_work(kernels_.stress_work(particles, gradient_.data()));
+  if (!remap_.last_step()) kernels_.scatter_force(grid, particles, weights_.data());
+}
+
+void TerrainStep::update_stress(ParticleGroup& group, std::size_t first, std::size_t count,
+                                double dt) {
   PointBlock block;
   block.size = count;
   std::copy(gradient_.begin(), gradient_.end(), block.gradient.begin());
@@ -143,8 +169,6 @@ void TerrainStep::update_stress(ParticleGroup& group, std::size_t first, const G
     throw StateError(
         fmt::format("the particle at {:.4g} {:.4g} {:.4g} m: {}", x[0], x[1], x[2], error.what()));
   }
-  energy_.add_half(kernels_.stress_work(particles, gradient_.data()));
-  if (!remap_.last_step()) kernels_.scatter_force(grid, particles, weights_.data());
 }
 
 void TerrainStep::grid_to_particles() {
@@ -157,7 +181,7 @@ void TerrainStep::grid_to_particles() {
 
 void TerrainStep::capture_initial_tractions() {
   if (boundary_.has_initial_tractions()) return;
-  set_shape_positions(0.0);
+  set_quadrature_positions(0.0);
   particles_to_grid();
   discretisation_.add_shared_sums();
   boundary_.capture_initial_tractions(discretisation_.grid, discretisation_.partition.local_nodes(),

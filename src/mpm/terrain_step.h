@@ -5,14 +5,15 @@
 /// and the equations: theory: continuum, eqs. 1 to 6.
 ///
 /// One remap interval from t_n (between two grid resets), transfers as in transfer.h:
-///   begin      m from the speed of the particles (remap_control.h)
-///              quadrature positions x_s = x_p + (m - 1)/2 dt v_p
-///              particles_to_grid: m_i, v_i from m, v_p, C_p; u_i = 0; f_i of the stress
-///   each step  f_i += contact forces
-///              v_i += dt (f_i/m_i + g), slide surface, boundary conditions on v_i
-///              u_i += dt v_i
-///              update_stress: H = dt sum v_i G_i^T, material with H, f_i of the new stress
-///   end        grid_to_particles: x_p += sum N_i u_i, and v_p, C_p from v_i
+///   begin_remap_interval  m from the speed of the particles (remap_control.h)
+///                         quadrature positions x_s = x_p + (m - 1)/2 dt v_p
+///                         particles_to_grid: m_i, v_i from m, v_p, C_p; u_i = 0; f_i of the stress
+///   each step
+///     sum_nodal_forces    f_i += contact forces; sums over the ranks
+///     accelerate_nodes    v_i += dt (f_i/m_i + g), slide surface, boundary conditions on v_i
+///     move_nodes          u_i += dt v_i
+///     update_particles    strain H = dt sum v_i G_i^T, material with H, f_i of the new stress
+///   end_step, the last    grid_to_particles: x_p += sum N_i u_i, and v_p, C_p from v_i
 /// Velocities are those of half steps (leapfrog, as in LIGGGHTS); all is in double precision.
 ///
 /// All N_i and G_i of an interval are those at the quadrature position x_s, the mean of the
@@ -62,12 +63,21 @@ class TerrainStep {
   void restore_stress_forces();
 
  private:
+  // ---- phases of advance(), in its order
   void begin_remap_interval(double dt);
-  void set_shape_positions(double time);
+  void sum_nodal_forces();
+  void accelerate_nodes(double dt);
+  void move_nodes(double dt);
+  void update_particles(double dt);
+  void count_energies(double dt);
+  void end_step(double dt);
+
+  // ---- parts of them
+  void set_quadrature_positions(double time);
   void particles_to_grid();
   void scatter_stress_forces();
-  void update_stress(double dt);
-  void update_stress(ParticleGroup& group, std::size_t first, const GridView& grid, double dt);
+  void update_particles(ParticleGroup& group, std::size_t first, const GridView& grid, double dt);
+  void update_stress(ParticleGroup& group, std::size_t first, std::size_t count, double dt);
 
   Discretisation& discretisation_;
   Boundary& boundary_;
@@ -78,6 +88,7 @@ class TerrainStep {
   Vector3 gravity_;  // [m/s^2]
   const SlideContact* slide_;
   const TransferKernels& kernels_;
+  NodeTotals node_totals_;  // of this rank's nodes after they have moved
 
   // Buffers of a chunk of particles.
   std::vector<double> gradient_storage_;

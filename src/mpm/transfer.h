@@ -53,8 +53,8 @@ struct GridView {
 /// Some neighbouring particles of one material.
 struct ParticleView {
   std::size_t size = 0;
-  const double* shape_position[3] = {};  ///< where the weights are taken [m]
-  double* position[3] = {};              ///< [m]
+  const double* quadrature_position[3] = {};  ///< where the weights are taken [m]
+  double* position[3] = {};                   ///< [m]
   double* velocity = nullptr;  ///< four numbers for each particle, the last is unused [m/s]
   /// C column by column: 3 x 4 numbers for each particle, the fourth of a column is zero [1/s]
   double* affine = nullptr;
@@ -65,17 +65,17 @@ struct ParticleView {
 
 /// A force at a point near a particle: goes to the particle's nodes with force and moment kept.
 struct PointForce {
-  double shape_position[3];  ///< of the particle [m]
-  double force[3];           ///< [N]
-  double arm[3];             ///< from there to the point where the force acts [m]
+  double quadrature_position[3];  ///< of the particle [m]
+  double force[3];                ///< [N]
+  double arm[3];                  ///< from there to the point where the force acts [m]
 };
 
 /// Motion of the grid at a particle.
 struct PointMotion {
-  double shape_position[3];  ///< of the particle, given by the caller [m]
-  double displacement[4];    ///< since particles were last moved [m]
-  double velocity[4];        ///< [m/s]
-  double affine[12];         ///< C, three columns of four numbers [1/s]
+  double quadrature_position[3];  ///< of the particle, given by the caller [m]
+  double displacement[4];         ///< since particles were last moved [m]
+  double velocity[4];             ///< [m/s]
+  double affine[12];              ///< C, three columns of four numbers [1/s]
 };
 
 /// Work of the stress in a displacement gradient H [J].

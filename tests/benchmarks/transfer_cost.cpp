@@ -34,7 +34,7 @@ class Scene {
             particles_.data(column::y)[p] = j + 0.25 + 0.5 * ((n >> 1) & 1) + shake(engine);
             particles_.data(column::z)[p] = k + 0.25 + 0.5 * ((n >> 2) & 1) + shake(engine);
             for (std::size_t a = 0; a < 3; ++a)
-              particles_.data(column::shape_x + a)[p] = particles_.data(column::x + a)[p];
+              particles_.data(column::quadrature_x + a)[p] = particles_.data(column::x + a)[p];
             particles_.data(column::volume)[p] = 0.125;
             particles_.set_state(p, material_->initial_state());
           }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Positions of a surface and a terrain that no contact can start from.
+/// Refuses positions of a surface and a terrain that no contact can start from.
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Which particles may touch a surface, and which of its triangles: the broad phase of a contact.
+/// Broad phase of a contact: finds which particles may touch which triangles of a surface.
 
 #include <optional>
 #include <vector>

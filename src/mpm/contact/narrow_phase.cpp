@@ -13,10 +13,10 @@ namespace {
 // of half the spacing: closer, the separation is rounding and has no direction
 constexpr double no_distance = 1e-9;
 
-// of half the spacing: a closest point that is farther from where the particle touched has not slid
-// there, and takes the place of what is nearer to it only when this share closer
-constexpr double leap_length = 0.25;
-constexpr double leap_gain = 0.1;
+// Fractions of half the spacing. A closest point that is farther than this from where the particle
+// touched lies on another facet; it must be closer by the gain.
+constexpr double switch_length = 0.25;
+constexpr double switch_gain = 0.1;
 
 /// The least distance so far. Of equally near triangles the one with the lowest number counts, in
 /// whatever order they come.
@@ -33,11 +33,11 @@ struct Nearest {
   }
 };
 
-/// Where a particle touched, and what a leap away from there is.
+/// Where a particle touched, and when it switches to another facet.
 struct LastTouch {
-  Vector3 point;  // of the surface now [m]
-  double leap;    // [m]
-  double gain;    // [m] for which it leaps
+  Vector3 point;         // of the surface now [m]
+  double switch_length;  // [m]
+  double switch_gain;    // [m]
 };
 
 /// The closest point of a candidate's triangles, or one near the last touch that is hardly farther.
@@ -48,7 +48,7 @@ Nearest closest_point(const Surface& surface, const ContactSearch& search,
   Nearest nearest, near_last;
   // A triangle that was farther by more than both have moved since is farther still.
   const double approach = search.surface_travel() + (position - candidate.position).norm() +
-                          (last != nullptr ? last->gain : 0.0);
+                          (last != nullptr ? last->switch_gain : 0.0);
   for (std::size_t n = candidate.first;
        n < candidate.last && search.near_triangle(n).distance - approach <= nearest.point.distance;
        ++n) {
@@ -57,11 +57,11 @@ Nearest closest_point(const Surface& surface, const ContactSearch& search,
     const ClosestPoint point = closest_point_on_triangle(
         position, surface.x.col(node[0]), surface.x.col(node[1]), surface.x.col(node[2]));
     nearest.consider(point, t);
-    if (last != nullptr && (position - point.separation - last->point).norm() < last->leap)
+    if (last != nullptr && (position - point.separation - last->point).norm() < last->switch_length)
       near_last.consider(point, t);
   }
   const bool stays =
-      last != nullptr && near_last.point.distance < nearest.point.distance + last->gain;
+      last != nullptr && near_last.point.distance < nearest.point.distance + last->switch_gain;
   return stays ? near_last : nearest;
 }
 
@@ -79,7 +79,7 @@ ContactPoint NarrowPhase::find(const ContactSearch& search,
   const double size = particles.half_spacing(p).minCoeff();
   LastTouch last;
   if (history.touches())
-    last = {point_of(surface.x, history), leap_length * size, leap_gain * size};
+    last = {point_of(surface.x, history), switch_length * size, switch_gain * size};
   const Nearest nearest =
       closest_point(surface, search, candidate, position, history.touches() ? &last : nullptr);
   const ClosestPoint& closest = nearest.point;
@@ -110,7 +110,8 @@ ContactPoint NarrowPhase::find(const ContactSearch& search,
                                 });
   contact.position = position - closest.separation;
   contact.barycentric = closest.barycentric;
-  contact.leaps = history.touches() && (contact.position - last.point).norm() > last.leap;
+  contact.switches_facet =
+      history.touches() && (contact.position - last.point).norm() > last.switch_length;
   return contact;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// One particle in contact with a surface: where it touches, how it moves, what it remembers.
+/// One particle in contact with a surface: the point of contact, the motion there, the history.
 
 #include <cstddef>
 #include <type_traits>
@@ -17,8 +17,8 @@ struct ContactPoint {
   Vector3 normal;        ///< out of the surface, of unit length
   double gap;            ///< < 0: penetration [m]
   double distance;       ///< of the particle from the surface, along the normal [m]
-  /// the particle has left for it the place where it touched in the last step (NarrowPhase)
-  bool leaps = false;
+  /// the particle touched another facet in the last step (NarrowPhase)
+  bool switches_facet = false;
 };
 
 /// What a contact law knows of a touching particle.

@@ -74,26 +74,12 @@ void TerrainContact::select_active() {
 
 template <class Law>
 void TerrainContact::add_forces(const Law& law, double dt) {
-  const Surface& surface = body_.surface();
-  ContactRecord* const record = body_.contact_record();
-  const double halves = mirror_ || body_.half_model() ? 2.0 : 1.0;
   for (std::size_t n = 0; n < active_.size(); ++n) {
     const ParticleIndex& particle = active_particles_[n];
     const ParticleGroup& group = group_of(particle);
     ContactHistory& history = history_of(particle);
-    ContactPoint contact = narrow_phase_.find(search_, search_.candidates()[active_[n]],
-                                              group.particles, motions_[n].position, history);
-    const Vector3i& nodes = surface.triangles[contact.triangle];
-    Vector3 velocity = motions_[n].velocity_at(contact.position);
-    for (int c = 0; c < 3; ++c) velocity -= contact.barycentric[c] * surface.v.col(nodes[c]);
-    if (history.touches()) {
-      const std::size_t p = particle.particle;
-      Vector3 velocity_there = velocity;
-      if (contact.leaps)
-        velocity_there = motions_[n].velocity_at(narrow_phase_.point_of(surface.x, history)) -
-                         narrow_phase_.point_of(surface.v, history);
-      NarrowPhase::follow(velocity, velocity_there, last_dt_, group.particles, p, history, contact);
-    }
+    Vector3 velocity;
+    const ContactPoint contact = find_contact(n, history, velocity);
     if (contact.gap >= 0.0) {
       history.end_contact();
       continue;
@@ -105,15 +91,47 @@ void TerrainContact::add_forces(const Law& law, double dt) {
     history.barycentric = contact.barycentric;
     const Vector3 force = law.force({contact, velocity, group.mass(particle.particle), last_dt_},
                                     dt, history, step_.losses);
-    terrain_.add_point_force(particle, force, contact.position, &terrain_work_);
-    for (int c = 0; c < 3; ++c) nodal_forces_.col(nodes[c]) -= contact.barycentric[c] * force;
-    if (record) record->add(contact.position, -halves * force, -velocity, dt);
-
-    const double length = std::cbrt(group.particles.data(column::volume)[particle.particle]);
-    step_.contacts += 1.0;
-    step_.area += length * length;
-    step_.penetration = std::max(step_.penetration, -contact.gap);
+    add_force(particle, contact, force, velocity, dt);
   }
+}
+
+/// Where an active particle touches or is nearest, with its gap now.
+/// @param velocity  of the ground relative to the surface there [m/s]
+ContactPoint TerrainContact::find_contact(std::size_t n, ContactHistory& history,
+                                          Vector3& velocity) {
+  const Surface& surface = body_.surface();
+  const ParticleIndex& particle = active_particles_[n];
+  const Particles& particles = group_of(particle).particles;
+  ContactPoint contact = narrow_phase_.find(search_, search_.candidates()[active_[n]], particles,
+                                            motions_[n].position, history);
+  const Vector3i& nodes = surface.triangles[contact.triangle];
+  velocity = motions_[n].velocity_at(contact.position);
+  for (int c = 0; c < 3; ++c) velocity -= contact.barycentric[c] * surface.v.col(nodes[c]);
+  if (!history.touches()) return contact;
+  Vector3 velocity_there = velocity;
+  if (contact.switches_facet)
+    velocity_there = motions_[n].velocity_at(narrow_phase_.point_of(surface.x, history)) -
+                     narrow_phase_.point_of(surface.v, history);
+  NarrowPhase::follow(velocity, velocity_there, last_dt_, particles, particle.particle, history,
+                      contact);
+  return contact;
+}
+
+/// Adds a force to the ground and its opposite to the surface.
+void TerrainContact::add_force(const ParticleIndex& particle, const ContactPoint& contact,
+                               const Vector3& force, const Vector3& velocity, double dt) {
+  const Vector3i& nodes = body_.surface().triangles[contact.triangle];
+  terrain_.add_point_force(particle, force, contact.position, &terrain_work_);
+  for (int c = 0; c < 3; ++c) nodal_forces_.col(nodes[c]) -= contact.barycentric[c] * force;
+  if (ContactRecord* const record = body_.contact_record()) {
+    const double symmetry_factor = mirror_ || body_.half_model() ? 2.0 : 1.0;
+    record->add(contact.position, -symmetry_factor * force, -velocity, dt);
+  }
+  const double length =
+      std::cbrt(group_of(particle).particles.data(column::volume)[particle.particle]);
+  step_.contacts += 1.0;
+  step_.area += length * length;
+  step_.penetration = std::max(step_.penetration, -contact.gap);
 }
 
 void TerrainContact::sum_over_ranks() {

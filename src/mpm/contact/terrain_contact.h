@@ -73,6 +73,9 @@ class TerrainContact : public Contact {
   void select_active();
   template <class Law>
   void add_forces(const Law& law, double dt);
+  ContactPoint find_contact(std::size_t n, ContactHistory& history, Vector3& velocity);
+  void add_force(const ParticleIndex& particle, const ContactPoint& contact, const Vector3& force,
+                 const Vector3& velocity, double dt);
   void sum_over_ranks();
   void add_other_half();
   void record_step();

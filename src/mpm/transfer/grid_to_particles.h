@@ -41,7 +41,7 @@ inline namespace FURROW_ISA {
 /// Asks memory for what the law and the next transfers need of the particles from p on: more arrays
 /// than a processor foresees.
 [[gnu::always_inline]] inline void prefetch(const ParticleView& particles, std::size_t p) {
-  for (const double* x : particles.shape_position) __builtin_prefetch(x + p);
+  for (const double* x : particles.quadrature_position) __builtin_prefetch(x + p);
   for (const double* s : particles.stress) __builtin_prefetch(s + p, 1);
   __builtin_prefetch(particles.volume + p);
   __builtin_prefetch(particles.volume_ratio + p, 1);
@@ -114,7 +114,7 @@ inline void gather_motion(const GridView& grid, const ParticleView& all) {
   const Strides stride(grid);
   for_batches(all, [&](const ParticleView& particles, std::size_t) {
     Weights weights;
-    find_batch_weights<Slope::moment>(grid, particles.shape_position, particles.size, weights);
+    find_batch_weights<Slope::moment>(grid, particles.quadrature_position, particles.size, weights);
     for (std::size_t p = 0; p < particles.size; ++p) {
       Vector4 velocity, affine[3];
       interpolate_affine(grid, stride, weights, p, velocity, affine);
@@ -133,8 +133,8 @@ inline void interpolate_motion(const GridView& grid, PointMotion* points, std::s
   Weights weights;
   for (std::size_t n = 0; n < count; ++n) {
     PointMotion& point = points[n];
-    const double* position[3] = {point.shape_position, point.shape_position + 1,
-                                 point.shape_position + 2};
+    const double* position[3] = {point.quadrature_position, point.quadrature_position + 1,
+                                 point.quadrature_position + 2};
     find_batch_weights<Slope::moment>(grid, position, 1, weights);
     Vector4 velocity, affine[3];
     interpolate_affine(grid, stride, weights, 0, velocity, affine);

@@ -11,12 +11,13 @@ inline namespace FURROW_ISA {
 inline std::size_t scatter_momentum(const GridView& grid, const ParticleView& all, double density) {
   std::size_t outside = 0;
   for_batches(all, [&](const ParticleView& particles, std::size_t) {
-    if (const std::size_t count = count_outside(grid, particles.shape_position, particles.size)) {
+    if (const std::size_t count =
+            count_outside(grid, particles.quadrature_position, particles.size)) {
       outside += count;
       return;
     }
     Weights weights;
-    find_batch_weights<Slope::moment>(grid, particles.shape_position, particles.size, weights);
+    find_batch_weights<Slope::moment>(grid, particles.quadrature_position, particles.size, weights);
     for_cells(
         grid, weights,
         particles.size, [&](auto& sum, std::size_t p) __attribute__((always_inline)) {
@@ -94,8 +95,8 @@ inline void scatter_point_forces(const GridView& grid, const PointForce* forces,
   Weights weights;
   for (std::size_t n = 0; n < count; ++n) {
     const PointForce& one = forces[n];
-    const double* position[3] = {one.shape_position, one.shape_position + 1,
-                                 one.shape_position + 2};
+    const double* position[3] = {one.quadrature_position, one.quadrature_position + 1,
+                                 one.quadrature_position + 2};
     find_batch_weights<Slope::moment>(grid, position, 1, weights);
     const Vector4 base = {one.force[0], one.force[1], one.force[2], 0.0};
     Vector4 slope[3];

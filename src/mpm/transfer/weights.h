@@ -133,7 +133,7 @@ inline ParticleView sub_view(const ParticleView& all, std::size_t first, std::si
   };
   ParticleView some = all;
   some.size = count;
-  for (const double*& x : some.shape_position) advance(x, 1);
+  for (const double*& x : some.quadrature_position) advance(x, 1);
   for (double*& x : some.position) advance(x, 1);
   advance(some.velocity, 4);
   advance(some.affine, 12);
@@ -154,7 +154,7 @@ void for_batches(const ParticleView& particles, Visit&& visit) {
 
 inline void find_weights(const GridView& grid, const ParticleView& all, Weights* weights) {
   for_batches(all, [&](const ParticleView& particles, std::size_t first) {
-    find_batch_weights<Slope::gradient>(grid, particles.shape_position, particles.size,
+    find_batch_weights<Slope::gradient>(grid, particles.quadrature_position, particles.size,
                                         weights[first / batch]);
   });
 }

@@ -25,7 +25,7 @@ constexpr std::size_t slabs = 4;
 TerrainParameters moving_ground() {
   TerrainParameters ground =
       ground_with_trough(elastic(1e7, 0.25, 1500.0), {length, 0.6, 0.3}, 0.45, {0.3, 0.1}, cell);
-  ground.sheet_every = 2;
+  ground.surface_mesh_every = 2;
   ground.window = true;
   ground.slabs = slabs;
   return ground;

@@ -51,7 +51,7 @@ struct Cloud {
     v.size = volume.size();
     moved.assign(position, position + 3);  // weights stay where the particles were
     for (std::size_t a = 0; a < 3; ++a) {
-      v.shape_position[a] = position[a].data();
+      v.quadrature_position[a] = position[a].data();
       v.position[a] = moved[a].data();
     }
     v.velocity = velocity.data();
@@ -168,9 +168,9 @@ TEST(Transfer, WeightsOfEqualCellsAndOfThoseAtTheEnds) {
       const double x = -0.5 + n / 64.0;
       ParticleView particle;
       particle.size = 1;
-      particle.shape_position[0] = &x;
-      particle.shape_position[1] = &y;
-      particle.shape_position[2] = &z;
+      particle.quadrature_position[0] = &x;
+      particle.quadrature_position[1] = &y;
+      particle.quadrature_position[2] = &z;
       Weights weights;
       kernels_for<TransferKernels>(set).find_weights(grid.view(), particle, &weights);
       const int cell = std::min(n / 8, 7);
@@ -225,7 +225,7 @@ TEST(Transfer, ManyParticlesOfACellAreLikeOneByOne) {
     for (std::size_t one = 0; one < all.size; ++one) {
       ParticleView single = all;
       single.size = 1;
-      for (const double*& x : single.shape_position) x += one;
+      for (const double*& x : single.quadrature_position) x += one;
       for (const double*& s : single.stress) s += one;
       single.volume += one;
       single.volume_ratio += one;

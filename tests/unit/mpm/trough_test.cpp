@@ -79,7 +79,7 @@ TEST(Trough, EveryLevelCarriesWhatLiesAboveIt) {
 TEST(Trough, TheSheetLiesOnAllFaces) {
   for (const std::size_t every : {1, 2, 3, 5}) {
     TerrainParameters parameters = ground_with_trough();
-    parameters.sheet_every = every;
+    parameters.surface_mesh_every = every;
     ContinuumTerrain ground(parameters, Communicator());
     const Surface& sheet = ground.surface();
     EXPECT_NEAR(sheet.total_area(), length * (width + 2.0 * trough.depth), 1e-12);

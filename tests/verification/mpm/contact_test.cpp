@@ -122,22 +122,54 @@ TEST_P(Enforcements, SlidesAsEquation26Says) {
   EXPECT_NEAR(incline.moved(), s, 0.03 * s);
 }
 
-TEST_P(Enforcements, RoughDoesNotSlideAndSmoothDoesNotHold) {
+/// A rough surface on a slope on which the block slides with a friction of 0.3. With penalty the
+/// block moves by its elastic deformation and that of the springs. With impulse a particle that
+/// touches is stopped by its mass in every step, F = m v/dt. N_c of N equal particles touch: the
+/// block creeps with g sin(slope) dt N/N_c.
+TEST_P(Enforcements, RoughSurfaceHoldsOrCreepsWithTheStep) {
   ContactParameters parameters;
   parameters.enforcement = GetParam();
-  const double slope = std::atan(1.5), duration = 0.1,
-               free = 0.5 * standard_gravity * std::sin(slope) * duration * duration;
   parameters.friction = std::numeric_limits<double>::infinity();
+  parameters.damping = 1.0;
+  const double slope = std::atan(0.6), half_duration = 0.1;
+  const double g = standard_gravity * std::sin(slope);
   Incline rough(slope, parameters);
-  rough.run(duration);
-  // shear of the block; creep
-  EXPECT_LT(rough.moved(), (GetParam() == "penalty" ? 0.1 : 0.2) * free);
+  rough.run(half_duration);
+  const double at_half = rough.moved(), time_at_half = rough.time;
+  rough.run(2.0 * half_duration);
+  const double creep = rough.moved() - at_half;
+  if (GetParam() == "penalty") {
+    // Mean displacement: shear and bending of a cantilever of height H and depth L under its
+    // weight along the slope, stretch and rotation of springs k per area under it.
+    constexpr double H = 0.1, L = 0.2, E = 1e6, nu = 0.2, rho = 1000.0, spacing = 0.0125;
+    const double G = E / (2.0 * (1.0 + nu)), M = E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    const double k = parameters.stiffness * M / spacing;
+    const double at_rest = rho * g * H *
+                           (1.2 * H / (3.0 * G) + 0.6 * std::pow(H, 3) / (E * L * L) + 1.0 / k +
+                            3.0 * H * H / (k * L * L));
+    RecordProperty("moved_over_elastic", fmt::format("{:.3f}", rough.moved() / at_rest));
+    EXPECT_GT(rough.moved(), at_rest);
+    EXPECT_LT(rough.moved(), 3.0 * at_rest);  // put down at once, the block hops before it holds
+    EXPECT_LT(std::abs(creep), 0.3 * at_rest);
+    EXPECT_EQ(rough.contact.friction_loss(), 0.0);
+  } else {
+    const double share = rough.ground.particle_count() / rough.contact.contacts();
+    const double expected =
+        g * rough.ground.stable_time_step() * share * (rough.time - time_at_half);
+    RecordProperty("creep_over_closed_form", fmt::format("{:.4f}", creep / expected));
+    EXPECT_NEAR(creep / expected, 1.0, 0.03);
+  }
+}
+
+TEST_P(Enforcements, SmoothSurfaceDoesNotHold) {
+  ContactParameters parameters;
+  parameters.enforcement = GetParam();
   parameters.friction = 0.0;
+  const double slope = std::atan(1.5);
   Incline smooth(slope, parameters);
-  smooth.run(duration);
-  EXPECT_NEAR(
-      smooth.moved() / (0.5 * standard_gravity * std::sin(slope) * smooth.time * smooth.time), 1.0,
-      0.01);
+  smooth.run(0.1);
+  const double free_fall = 0.5 * standard_gravity * std::sin(slope) * smooth.time * smooth.time;
+  EXPECT_NEAR(smooth.moved() / free_fall, 1.0, 0.01);
   EXPECT_EQ(smooth.contact.friction_loss(), 0.0);
 }
 
@@ -225,9 +257,9 @@ TEST_P(Enforcements, MomentumAndEnergyOfAPressedBedAreAccountedFor) {
   RecordProperty("peak_force", fmt::format("{:.1f}", pressed));
   EXPECT_LT(std::abs(b.residual()), 5e-3 * b.contact_work);
   EXPECT_GE(b.numerical_loss, 0.0);
-  // What the transfers take of the kinetic energy of the sharp edge of the plug, per step: with the
-  // speed it vanishes.
-  EXPECT_LT(b.numerical_loss, 0.2 * b.contact_work);
+  // Kinetic energy that grid resets take at the sharp edge of the plug: 3.8 % of the work here, and
+  // 2.0 % in cells of half the size (first order).
+  EXPECT_LT(b.numerical_loss, 0.045 * b.contact_work);
 }
 
 }  // namespace

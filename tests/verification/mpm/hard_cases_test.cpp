@@ -157,18 +157,23 @@ TEST(HardCase, NoFrictionAndMuchFriction) {
   }
 }
 
-TEST(HardCase, UnloadingAndASecondPassInTheSameRut) {
+/// A wheel that has come to rest rolls, is lifted, and rolls back in its rut. The snow that the
+/// first pass has compacted carries the load: the second adds 3 % to the sinkage.
+TEST(HardCase, SecondPassInTheSameRutAddsLittle) {
   Scene scene(Bed{});
-  scene.run(0.1);
-  scene.roll(2.2, 1.0, 0.1);
+  scene.roll(0.0, 0.0, 0.4);
+  scene.roll(2.2, 1.0, 0.15);
   const double first = scene.sinkage();
   scene.wheel.prescribe(Coordinate::z, 1.0);  // lifted
-  scene.roll(0.0, 0.0, 0.1);
+  scene.roll(0.0, 0.0, 0.14);
   EXPECT_EQ(scene.contact.contacts(), 0.0);
+  scene.wheel.prescribe(Coordinate::z, -0.9);
+  scene.roll(0.0, 0.0, 0.14);
   scene.wheel.release(Coordinate::z);
-  scene.roll(0.0, 0.0, 0.15);
-  scene.roll(-2.2, 1.0, 0.1);
-  EXPECT_LT(std::abs(scene.sinkage() - first), 0.5 * first);
+  scene.roll(0.0, 0.0, 0.3);
+  scene.roll(-2.2, 1.0, 0.15);
+  EXPECT_GT(scene.sinkage(), first);
+  EXPECT_LT(scene.sinkage(), 1.1 * first);
   scene.expect_sound("second_pass");
 }
 
