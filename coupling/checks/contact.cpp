@@ -167,16 +167,16 @@ Found surface_mesh_is_in_a_wall(const Scene& scene, const FixTerrain& terrain) {
                   terrain.name()));
 }
 
-Found no_wall_replaces_the_sheet(const Scene& scene, const FixTerrain& terrain) {
+Found no_wall_replaces_the_surface_mesh(const Scene& scene, const FixTerrain& terrain) {
   if (!touches_grains(scene.lammps, terrain)) return {};
-  const Surface& sheet = terrain.body().surface();
+  const Surface& mesh = terrain.body().surface();
   const Radii radii = radii_of_grains(scene.lammps);
   if (radii.largest == 0.0) return {};
   for (auto* wall : fixes_of<LAMMPS_NS::FixWallGran>(*scene.lammps.modify)) {
     if (wall->is_mesh_wall() || !wall->primitiveWall()) continue;
     double area = 0.0, replaced = 0.0;
-    for (const Vector3i& nodes : sheet.triangles) {
-      const Vector3 a = sheet.x.col(nodes[0]), b = sheet.x.col(nodes[1]), c = sheet.x.col(nodes[2]);
+    for (const Vector3i& nodes : mesh.triangles) {
+      const Vector3 a = mesh.x.col(nodes[0]), b = mesh.x.col(nodes[1]), c = mesh.x.col(nodes[2]);
       const Vector3 twice = (b - a).cross(c - a);
       area += twice.norm();
       if (replaces(*wall->primitiveWall(), (a + b + c) / 3.0, twice.normalized(), radii))
