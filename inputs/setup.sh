@@ -16,7 +16,8 @@ furrow_test_packages="libgtest-dev libgmock-dev libbenchmark-dev mypy chromium-h
 furrow_sanitizer_packages="clang libclang-rt-dev"
 furrow_format_packages="clang-format"
 # To build the site of all pages.
-furrow_site_packages="python3-sphinx python3-myst-parser furo python3-sphinxcontrib.bibtex doxygen python3-breathe"
+furrow_site_packages="python3-sphinx python3-myst-parser furo python3-sphinxcontrib.bibtex doxygen python3-breathe
+  libjs-mathjax"
 
 # install_packages <package>...: those that are missing, from Debian, once
 install_packages() {

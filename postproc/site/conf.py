@@ -7,6 +7,7 @@ redirected to highlighted copies, and keys of sources become citations.
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -44,6 +45,11 @@ root_doc = "README"
 exclude_patterns = ["build*", "results*", ".git", "**/__pycache__", "**/results"]
 suppress_warnings = ["myst.header"]  # a page may skip a level of headings
 highlight_language = "none"
+MATHJAX = Path("/usr/share/javascript/mathjax")  # Debian's libjs-mathjax
+MATHJAX_UNUSED = ("HTML-CSS", "CommonHTML", "PreviewHTML", "NativeMML", "STIX-Web", "Asana-Math",
+                  "Gyre-*", "Latin-Modern", "Neo-Euler")  # fmt: skip
+mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"  # in _static
+mathjax2_config = {"tex2jax": {"processClass": "tex2jax_process|mathjax_process|math"}}
 html_theme = "furo"
 html_title = f"Furrow {version}"
 html_copy_source = False
@@ -239,6 +245,20 @@ def sources(app: Sphinx) -> Any:
         yield f"sources/{name}", {"body": body, "title": name}, "page.html"
 
 
+def copy_mathjax(app: Sphinx, error: Exception | None) -> None:
+    """What equations need without a network, about 5 MB."""
+    target = Path(app.outdir) / "_static" / "mathjax"
+    if error is None and not target.exists():
+        for part in ("config/TeX-AMS_SVG.js", "jax", "extensions", "localization/en"):
+            if (MATHJAX / part).is_dir():
+                unused = shutil.ignore_patterns(*MATHJAX_UNUSED)
+                shutil.copytree(MATHJAX / part, target / part, ignore=unused)
+            else:
+                (target / part).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(MATHJAX / part, target / part)
+        shutil.copy(MATHJAX / "MathJax.js", target)
+
+
 def setup(app: Sphinx) -> None:
     def begin(app: Sphinx, env: Any, _: Any) -> None:
         env.furrow_sources = getattr(env, "furrow_sources", set())
@@ -247,3 +267,4 @@ def setup(app: Sphinx) -> None:
     app.connect("source-read", read_page)
     app.connect("doctree-resolved", finish_page)
     app.connect("html-collect-pages", sources)
+    app.connect("build-finished", copy_mathjax)

@@ -3,6 +3,7 @@
 
 import math
 import unittest
+from typing import Any
 
 from furrow_post.csv_table import read_rows
 from support.evaluation import VALIDATION, evaluation
@@ -15,7 +16,7 @@ study = evaluation("cmu_sand")
 
 class LimitTest(unittest.TestCase):
     def test_the_best_estimate_of_a_power_law_is_its_value_at_zero_size(self) -> None:
-        rows: list[dict[str, object]] = [
+        rows: list[dict[str, Any]] = [
             {"ground": "grains", "size_mm": h, "fx_over_fz": 1.0 + 0.1 * h, "fx_over_fz_error": 1e-4,
              "sinkage_mm": 5.0 + 0.02 * h**2, "sinkage_error_mm": 1e-3}
             for h in (10.0, 8.0, 6.0, 4.0)
@@ -28,7 +29,7 @@ class LimitTest(unittest.TestCase):
         self.assertEqual((rough["fx_over_fz"], rough["fx_over_fz_order"]), (1.4, ""))
 
     def test_scatter_of_pours_comes_from_pairs_of_one_point(self) -> None:
-        row: dict[str, object] = {
+        row: dict[str, Any] = {
             "ground": "grains", "size_mm": 8.0, "slip": 0.0, "fx_over_fz": -0.2
         }  # fmt: skip
         pair = [row, {**row, "fx_over_fz": -0.16}, {**row, "size_mm": 6.0, "fx_over_fz": 5.0}]

@@ -7,6 +7,7 @@ import io
 import math
 import re
 import unittest
+from typing import Any
 
 import numpy as np
 
@@ -93,12 +94,12 @@ class IdentifiedSlopeTest(unittest.TestCase):
     def sinkage(m: float, depth: float) -> float:
         return 0.7 * depth + 0.1 * m**-2 + 0.02 * m**-4
 
-    def computed(self) -> study.Computed:
+    def computed(self) -> Any:
         z = np.array([[self.sinkage(m, h) for h in self.depths] for m in SLOPES])
         values = {"sinkage_m": z, "resistance": 0.1 + z, "density_under": 510.0 + 0 * z}
         return study.Computed(SLOPES, self.depths, values)
 
-    def readings(self) -> list[study.Reading]:
+    def readings(self) -> list[Any]:
         models = {study.FLOWING: "flowing", study.CRUSHED: "tyre"}
         shallow = self.computed()._replace(depths=(0.18, 0.20, 0.22))
         return [

@@ -41,7 +41,7 @@ class DriversTest(unittest.TestCase):
 
     def test_list_names_every_run_once(self) -> None:
         with tempfile.TemporaryDirectory() as results:
-            commands = [[driver] for driver in DRIVERS]
+            commands: list[list[object]] = [[driver] for driver in DRIVERS]
             commands += [[FURROW_POST, "study", folder] for folder in DEFINED]
             for command in commands:
                 with self.subTest(command=command):

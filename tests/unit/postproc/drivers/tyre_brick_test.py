@@ -12,6 +12,8 @@ import unittest
 from dataclasses import dataclass
 from math import asin, cos, pi, radians, sin
 
+import numpy as np
+
 from furrow_post.analyse import measured_choice
 from furrow_post.csv_table import read_comments, read_rows
 from support.command import SOURCE
@@ -141,6 +143,19 @@ class MouldTest(unittest.TestCase):
             if rubber:
                 (found,) = re.findall(r"C10: (\S+)", text)
                 self.assertEqual(float(found), rubber)
+
+
+class GroovesTest(unittest.TestCase):
+    def test_the_ribbed_tread_has_the_report_s_share_of_voids(self) -> None:
+        """[Shoop2001] Table 9: 5.1 x 16.6 and 5.3 x 16.2 mm, headed "width x depth", and a share of
+        0.44. The share excludes the heading: grooves as wide as 5.1 and 5.3 mm make 0.13."""
+        text = (SOURCE / "inputs" / "tyres" / "p235_75r15_ribbed.yaml").read_text(encoding="utf-8")
+        widths = [b - a for a, b in zip(listed(text, "from"), listed(text, "to"))]
+        half_tread = 0.0785  # [m] Table 6: 15.7 cm
+        np.testing.assert_allclose(sorted(widths), [16.2e-3, 16.6e-3], atol=1e-6)
+        np.testing.assert_allclose(listed(text, "depth"), [5.1e-3, 5.3e-3])
+        self.assertAlmostEqual(sum(widths) / half_tread, 0.44, delta=0.03)
+        self.assertAlmostEqual(sum(listed(text, "depth")) / half_tread, 0.13, delta=0.005)
 
 
 class GoalsTest(unittest.TestCase):
