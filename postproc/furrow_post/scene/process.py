@@ -20,6 +20,7 @@ from ..errors import Interrupted, ResultsError
 
 CHECKPOINT = "checkpoint.data"  # the last one that a signal made
 FORCED = "restart_forced_liggghts_*.data"  # as LIGGGHTS names it, where the run was started
+PARTICLES = ".particles"  # ending of the folder next to a checkpoint, with the particles of terrain
 LOOK_EVERY = 0.2  # [s] for a checkpoint that was asked for
 SCREEN, ERRORS = "screen.txt", "errors.txt"  # stdout and stderr of the program
 # Of furrow's output, what goes to the screen
@@ -186,10 +187,34 @@ def keep_checkpoint(start: Path, folder: Path, since: int) -> bool:
     found = [(file.stat().st_mtime_ns, file) for file in start.glob(FORCED)]
     new = sorted(pair for pair in found if pair[0] >= since)
     for _, file in new:
+        particles = _move_particles(file, folder)
         part = folder / f"{CHECKPOINT}.part"
         shutil.move(file, part)  # perhaps to another disk
         part.replace(folder / CHECKPOINT)
+        _remove_particles_but(particles, folder)
     return bool(new)
+
+
+def _move_particles(file: Path, folder: Path) -> set[str]:
+    """The names of its particles, which move before the checkpoint: until then the former one is whole."""
+    source, target = Path(f"{file}{PARTICLES}"), folder / f"{CHECKPOINT}{PARTICLES}"
+    if not source.is_dir():
+        return set()
+    names = {particles.name for particles in source.iterdir()}
+    target.mkdir(exist_ok=True)
+    for name in names:
+        shutil.move(source / name, target / name)
+    source.rmdir()
+    return names
+
+
+def _remove_particles_but(names: set[str], folder: Path) -> None:
+    """Those of the former checkpoint."""
+    target = folder / f"{CHECKPOINT}{PARTICLES}"
+    if target.is_dir():
+        for particles in target.iterdir():
+            if particles.name not in names:
+                particles.unlink()
 
 
 def environment() -> Mapping[str, str]:

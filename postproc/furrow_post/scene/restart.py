@@ -2,6 +2,7 @@
 """Continuing a run from the last checkpoint in its results folder."""
 
 import json
+import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,7 +10,7 @@ from ..errors import ResultsError, content_of
 from ..json_text import parse_json
 from ..read.script import script_variables
 from .catalogue import Variables
-from .process import FORCED
+from .process import FORCED, PARTICLES
 
 COMMAND = "command.json"  # what the run was asked to do
 FROM, BEGIN = "from", "begin"  # variables of scripts: a checkpoint for a bed; what makes the box
@@ -30,6 +31,7 @@ def write_command(folder: Path, script: Path, variables: Variables, ranks: int) 
     if not any(str(folder) in value for name, value in variables if name in (FROM, BEGIN)):
         for file in _checkpoints(folder):
             file.unlink()
+            shutil.rmtree(f"{file}{PARTICLES}", ignore_errors=True)
     content = {"script": str(script), "variables": variables, "ranks": ranks}
     (folder / COMMAND).write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
 

@@ -22,6 +22,9 @@ print("started with", words, "in", os.getcwd(), flush=True)
 print("[run] begins", os.getpid(), flush=True)
 v = dict(zip(*[iter(w for i, w in enumerate(words) if "-var" in words[max(i - 2, 0):i])] * 2))
 def stop(number, frame):
+    particles = pathlib.Path("restart_forced_liggghts_7.data.particles")
+    particles.mkdir()
+    (particles / str(os.getpid())).write_text("particles")
     pathlib.Path("restart_forced_liggghts_7.data").write_text("checkpoint")
     sys.exit(128 + number)
 for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
@@ -138,6 +141,18 @@ class CommandTest(unittest.TestCase):
         self.assertIn("'speed', '4'", self.started())
         self.assertTrue(json.loads((self.folder / "out" / "run.json").read_text())["continued"])
 
+    def test_particles_stay_with_their_checkpoint(self) -> None:
+        self.script("mine.lig", SCRIPT + 'variable begin index "create_box 1 box"\n${begin}\n')
+        particles = self.folder / "out" / "checkpoint.data.particles"
+        for words in ([], ["--continue"]):
+            begun, furrow = self.begin(*words)
+            begun.terminate()
+            begun.communicate(timeout=20)
+            self.assertEqual([file.name for file in particles.iterdir()], [str(furrow)])
+        self.assertFalse(list(self.folder.glob("restart_forced*")))
+        self.run_it("mine.lig", "-o", "out")
+        self.assertFalse(particles.exists())
+
     def test_what_cannot_be_continued(self) -> None:
         self.script("other.lig", SCRIPT)
         for name, message in (("mine.lig", "has no variable 'from'"), ("other.lig", "has the results of")):
@@ -160,10 +175,10 @@ class CommandTest(unittest.TestCase):
         self.assertFalse(is_alive(furrow))
         self.assertTrue((self.folder / "restart_forced_liggghts_7.data").exists())
 
-    def begin(self) -> "tuple[subprocess.Popen[str], int]":
+    def begin(self, *words: str) -> "tuple[subprocess.Popen[str], int]":
         """A run that waits, and the process of the program."""
         begun = subprocess.Popen(
-            self.command("mine.lig", "-o", "out", "-v", "wait", "yes", "-v", "speed", "4"),
+            self.command("mine.lig", "-o", "out", "-v", "wait", "yes", "-v", "speed", "4", *words),
             cwd=self.folder,
             env=self.environment,
             stdout=subprocess.PIPE,
