@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Pictures, plots, tables and studies from the results of Furrow.
 
-Folders, each of which imports only from those to its left: read (files), analyse (numbers),
-laboratory (tests on samples), figures, study (runs and their tables), sweep (curves over a
-variable), scene (the command inputs/run), cli (the command furrow-post). Steady values and their standard errors come from the
-program furrow-resistance, never from here.
+Folders, each of which imports only from those to its left: read (files), study (runs and their
+tables), analyse (numbers), laboratory (tests on samples), figures, sweep (curves over a variable),
+scene (the command inputs/run), cli (the command furrow-post). Steady values and their standard
+errors come from the program furrow-resistance, never from here.
 """
 
 import sys
