@@ -46,7 +46,7 @@ TEST_F(TyreFileTest, EffectiveValuesReadBackAsTheSameTyre) {
     const std::string text = tyre_file_text(read_tyre_file(inputs + name));
     write_text_file(scratch_.path("back.yaml"), text);
     EXPECT_EQ(tyre_file_text(read_tyre_file(scratch_.path("back.yaml"))), text);
-    EXPECT_THAT(text, HasSubstr("[Pa] inflation above the atmosphere"));
+    EXPECT_THAT(text, HasSubstr("[Pa] inflation pressure above atmospheric pressure"));
   }
 }
 
