@@ -29,7 +29,7 @@ endfunction()
 
 set(programs ${PROJECT_SOURCE_DIR}/src/programs)
 grown_program(grown_point furrow-point ${programs}/furrow_point.cpp ${programs}/figure.cpp
-              ${programs}/number_option.cpp ${programs}/end_output.cpp)
+              ${programs}/parse_options.cpp ${programs}/number_option.cpp ${programs}/end_output.cpp)
 target_compile_definitions(grown_point PRIVATE FURROW_PYTHON="${FURROW_PYTHON}")
 target_link_libraries(grown_point PRIVATE CLI11::CLI11)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/postproc/furrow-post ${grown}/bin/furrow-post SYMBOLIC)
