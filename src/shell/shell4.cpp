@@ -166,7 +166,6 @@ void Shell4::add_kind(const std::vector<Shell4Element>& elements, const std::vec
   kind.last = places_->element.size();
   while (places_->element.size() % shell4_padding != 0)
     places_->add(elements[static_cast<std::size_t>(members.back())], members.back());
-  kind.end = places_->element.size();
   kinds_.push_back(kind);
 
   const double area = first_median(shape.x).cross(second_median(shape.x)).norm();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Data of a kernel of the shell works on, as plain data: this header is compiled with every
+/// Plain data that the kernels of the shell work on. This header is compiled with every
 /// instruction set (simd/lanes.h explains why).
 
 #include <cstddef>
@@ -25,7 +25,6 @@ struct Shell4Kind {
   /// where the axes turn with the first median alone
   double p1, p2, q2;
   std::size_t first = 0, last = 0;  ///< range of its elements' places
-  std::size_t end = 0;              ///< of the places that pad them, which have nodes of another
 };
 
 /// Mirror image in the plane of an element's axes 1 and 3: of node n, and the sign of each of its

@@ -263,7 +263,7 @@ inline Shell4Result shell4_forces(const Shell4Kind* kinds, std::size_t kind_coun
   const Lanes place([](auto lane) { return static_cast<double>(lane); });
   for (std::size_t k = 0; k < kind_count; ++k) {
     const Shell4Kind& kind = kinds[k];
-    for (std::size_t i = kind.first; i < kind.end; i += lane_count) {
+    for (std::size_t i = kind.first; i < kind.last; i += lane_count) {
       const int count = kind.last - i < lane_count ? static_cast<int>(kind.last - i) : lane_count;
       const Lanes weight = select(place < Lanes(count), Lanes(1.0), Lanes(0.0));
       const Quadrilateral quad(places, i, x);

@@ -39,7 +39,7 @@ TEST(TerrainContact, ReadsItsKeys) {
   EXPECT_THAT(error_of([&] {
                 read({"surface", "rough", "slip_length", "0.01"});
               }),
-              HasSubstr("keyword 'slip_length' is given with a rough surface, which does not slip; "
+              HasSubstr("keyword 'slip_length' is given with a rough surface; "
                         "allowed: slip_length with surface frictional only"));
   EXPECT_THAT(error_of([&] { read({"friction", "-1"}); }), HasSubstr("keyword 'friction' is -1"));
   EXPECT_THAT(error_of([&] { read({"damping", "2"}); }), HasSubstr("keyword 'damping' is 2"));

@@ -255,7 +255,7 @@ TEST(WheelRig, RefusesContradictionsWithKeywordAndRemedy) {
   EXPECT_THAT(refusal_of({"speed", "1", "mode", "towed"}),
               HasSubstr("fix wheel/rig has no load; allowed: exactly one of load_mass [kg], "
                         "load_force [N], sinkage [m]; "
-                        "say what the ground carries"));
+                        "give the load that the ground carries, weight of the wheel included"));
   EXPECT_THAT(refusal_of({"load_mass", "5", "load_force", "60", "speed", "1", "mode", "towed"}),
               HasSubstr("has load_mass and load_force; allowed: exactly one"));
   EXPECT_THAT(refusal_of({"load_mass", "5", "sinkage", "0.1", "speed", "1", "mode", "towed"}),

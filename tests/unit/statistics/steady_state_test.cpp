@@ -342,7 +342,7 @@ TEST(Window, RefusesWhatTheHistoryDoesNotHold) {
   narrow.from_time = 4.001;
   narrow.to_time = 4.002;
   EXPECT_THAT(error_of([&] { select_window(rolling(0.2), narrow, {}); }),
-              HasSubstr("holds 0 row(s): widen it"));
+              HasSubstr("has 0 row(s): widen it"));
   EXPECT_THAT(error_of([&] { select_window(rolling(0.2, 1.5), {}, {"force"}); }),
               HasSubstr("the history ends before the cruise begins"));
   EXPECT_THAT(error_of([&] {

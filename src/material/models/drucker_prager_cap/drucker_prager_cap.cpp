@@ -81,7 +81,7 @@ std::vector<std::string> doubts_of_cap(const MaterialOptions& sections) {
 MaterialModel DruckerPragerCap::model() {
   Schema schema("law drucker_prager_cap");
   schema.number("density", "kg/m3", Range::positive(), "mass density at the start");
-  schema.number("d", "Pa", Range::closed(0.0, 1e8), "cohesion: t at p = 0 on the shear line");
+  schema.number("d", "Pa", Range::closed(0.0, 1e9), "cohesion: t at p = 0 on the shear line");
   schema.number("beta", "degree", Range{0.0, 80.0, true, false},
                 "slope of the shear line in the p-t plane");
   schema.number("R", "", Range::positive(),
