@@ -3,6 +3,7 @@
 
 import argparse
 import difflib
+import json
 import math
 from pathlib import Path
 from typing import Any

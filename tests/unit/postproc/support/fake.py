@@ -19,7 +19,7 @@ with open(pathlib.Path(__file__).parents[1] / "starts.txt", "a") as file:
 print("reading", words[1], flush=True)
 time.sleep(float(v.get("sleep", 0)))
 if "checkpoint" in v:
-    (pathlib.Path(v["results"]) / "restart_forced").write_text("")
+    (pathlib.Path(v["results"]) / "restart_forced_liggghts_7.data").write_text("")
 if "signal" in v:
     os.kill(os.getpid(), int(v["signal"]))
 if "fail" in v:
