@@ -31,7 +31,7 @@ void ask_for_grain_virial(LAMMPS_NS::LAMMPS& lammps) {
 std::optional<Matrix3X> grain_virial(LAMMPS_NS::LAMMPS& lammps) {
   LAMMPS_NS::Compute& compute = virial_compute(lammps);
   const LAMMPS_NS::Update& update = *lammps.update;
-  if (update.ntimestep == update.firststep || !compute.matchstep(update.ntimestep))
+  if (update.nsteps == 0 || !compute.matchstep(update.ntimestep))
     return std::nullopt;
   compute.compute_peratom();
   Matrix3X virial(3, lammps.atom->nlocal);

@@ -8,6 +8,8 @@
 #include <csignal>
 #include <filesystem>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "io/hdf5_file.h"
 #include "mpm/terrain_snapshot.h"
