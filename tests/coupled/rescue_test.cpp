@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const std::string folder = "rescue_test";
+const std::string folder = "rescue_results";
 
 std::size_t rows_on_disk() { return read_history(folder + "/history.h5").size(); }
 
@@ -37,7 +37,7 @@ TEST(Rescue, SavesRowsUnlessTheMainThreadUsesThem) {
       "fix wheel all wheel/rigid diameter 0.2 width 0.08 mass 1 inertia 0.005 segments 24\n"
       "fix rig all wheel/rig wheel wheel load_force 20 speed 0.2 mode towed settle_time 0.1 "
       "accelerate_time 0.1 ground_level -0.2\n"
-      "fix out all wheel/history rig rig folder rescue_test every 1");
+      "fix out all wheel/history rig rig folder rescue_results every 1");
   int step = 0;
   scene.at_end_of_step([&] {
     if (++step != 10) return;
