@@ -36,6 +36,9 @@ def main(summary: Path, record: Path, update: bool) -> int:
         with record.open("w", newline="") as file:
             csv.writer(file, lineterminator="\n").writerows([("folder", "lines", "branches"), *rows])
         return 0
+    if not record.is_file():
+        print(f"there is no record {record}: write it with bash .ci/coverage --update")
+        return 1
     with record.open() as file:
         recorded = {row["folder"]: (float(row["lines"]), float(row["branches"])) for row in csv.DictReader(file)}
     status = 0
