@@ -7,7 +7,9 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 from unittest import mock
 
 import furrow_post
@@ -32,7 +34,8 @@ class LoadTest(unittest.TestCase):
 
     def test_unknown_channel_is_refused_with_the_names_that_there_are(self) -> None:
         run = furrow_post.load(self.folder)
-        for values in (run.columns, run.units, run.meanings):
+        tables: list[Mapping[str, Any]] = [run.columns, run.units, run.meanings]
+        for values in tables:
             with self.assertRaisesRegex(ResultsError, "history.h5: has no 'hub_dorp'; it has .*hub_drop"):
                 values["hub_dorp"]
             with self.assertRaisesRegex(ResultsError, r"did you mean hub_drop\?"):

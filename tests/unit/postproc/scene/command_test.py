@@ -144,7 +144,8 @@ class CommandTest(unittest.TestCase):
     def test_particles_stay_with_their_checkpoint(self) -> None:
         self.script("mine.lig", SCRIPT + 'variable begin index "create_box 1 box"\n${begin}\n')
         particles = self.folder / "out" / "checkpoint.data.particles"
-        for words in ([], ["--continue"]):
+        starts: list[list[str]] = [[], ["--continue"]]
+        for words in starts:
             begun, furrow = self.begin(*words)
             begun.terminate()
             begun.communicate(timeout=20)
