@@ -88,8 +88,9 @@ class Session:
         if words[:2] != ["bash", "inputs/run"] or "--help" in words:
             return command
         scene = words[2]
-        if "--quick" in words:
-            return f"{command} --no-build"
+        if "--quick" in words:  # into this tree, and not into that of the program
+            folder = "" if "-o" in words else f" -o results/{Path(scene).stem}_quick"
+            return f"{command} --no-build{folder}"
         if "--error" in words:  # the choice; the run takes minutes
             error = words[words.index("--error") + 1]
             return f"postproc/furrow-post choose inputs/costs/{scene}.csv --error {error}"
