@@ -219,8 +219,8 @@ def one_run_for_a_name(furrow, table):
         while not (table.folder / "same.2").exists() and first.poll() is None and time.monotonic() < began + 60:
             time.sleep(0.02)
         second = run_script(furrow, table.folder, script.format("same", 200))
-        table.check("a name of another run", second, 1, "to which another run writes its checkpoints",
-                    "name other files, or wait until that run has ended")
+        table.check("a name of another run", second, 1, "restart names 'same.",
+                    "', to which another run writes its checkpoints", "name other files, or wait until that run has ended")
         table.check("another name beside it", run_script(furrow, table.folder, script.format("other", 200)), 0)
         check = continued(furrow, table, "same.1", mode="unchecked")
         table.check("checkpoint of a run that goes on is read", check, 0)
