@@ -31,8 +31,7 @@ void ask_for_grain_virial(LAMMPS_NS::LAMMPS& lammps) {
 std::optional<Matrix3X> grain_virial(LAMMPS_NS::LAMMPS& lammps) {
   LAMMPS_NS::Compute& compute = virial_compute(lammps);
   const LAMMPS_NS::Update& update = *lammps.update;
-  if (update.nsteps == 0 || !compute.matchstep(update.ntimestep))
-    return std::nullopt;
+  if (update.nsteps == 0 || !compute.matchstep(update.ntimestep)) return std::nullopt;
   compute.compute_peratom();
   Matrix3X virial(3, lammps.atom->nlocal);
   for (int i = 0; i < lammps.atom->nlocal; ++i)
