@@ -18,8 +18,6 @@ from support.command import FURROW_POST
 PROGRAM = """#!{python}
 import os, pathlib, signal, sys, time
 words = sys.argv[1:]
-print("started with", words, "in", os.getcwd(), flush=True)
-print("[run] begins", os.getpid(), flush=True)
 v = dict(zip(*[iter(w for i, w in enumerate(words) if "-var" in words[max(i - 2, 0):i])] * 2))
 def stop(number, frame):
     particles = pathlib.Path("restart_forced_liggghts_7.data.particles")
@@ -29,6 +27,8 @@ def stop(number, frame):
     sys.exit(128 + number)
 for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
     signal.signal(number, stop)
+print("started with", words, "in", os.getcwd(), flush=True)
+print("[run] begins", os.getpid(), flush=True)
 if v.get("wait"):
     while True:
         time.sleep(0.05)
