@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/bodies/fix_plate_rigid.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "coupling/liggghts/style_registry.h"
 
 namespace furrow::coupling {
@@ -15,6 +18,12 @@ Schema FixPlateRigid::schema() {
       .by_default(0.0);
   schema.number("accelerate_time", "s", Range::non_negative(),
                 "time in which the plate reaches its speed, smoothly");
+  schema.number("load", "N", Range::positive(), "force that the drive holds; by default the speed")
+      .optional();
+  schema.number("spin", "rad/s", Range::closed(-100.0, 100.0), "rate of turning about the axis")
+      .by_default(0.0);
+  schema.number("spin_start", "s", Range::non_negative(), "time at which the plate starts to turn")
+      .by_default(0.0);
   schema.number("ground_level", "m", Range::any(),
                 "z of the undisturbed ground, the datum of the sinkage");
   return schema;
@@ -29,6 +38,10 @@ const Outputs<FixPlateRigid>& FixPlateRigid::outputs() {
        [](Fix& fix) { return fix.plate().surface().total_force().z(); }},
       {"pressure", "Pa", "force over the area of the plate",
        [](Fix& fix) { return fix.plate().mean_pressure(); }},
+      {"torque", "N m", "moment of the ground on the plate about its axis",
+       [](Fix& fix) { return fix.plate().torque(); }},
+      {"turned", "rad", "angle about the axis since the start",
+       [](Fix& fix) { return fix.plate().turned(); }},
   };
   return list;
 }
@@ -37,14 +50,20 @@ FixPlateRigid::FixPlateRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixBody(lammps, narg, arg, schema(),
               [](const Options& options) { return std::make_unique<RigidPlate>(options); }),
       ramp_{options().number("start"), options().number("accelerate_time")},
+      spin_ramp_{options().number("spin_start"), options().number("accelerate_time")},
       speed_(options().number("speed")),
+      load_(options().has("load") ? options().number("load")
+                                  : std::numeric_limits<double>::infinity()),
+      spin_(options().number("spin")),
       ground_level_(options().number("ground_level")) {
   contribute(static_cast<MotionController&>(*this));
   provide(outputs());
 }
 
 void FixPlateRigid::apply(double time, double dt) {
-  plate().prescribe(-speed_ * ramp_.mean(time, time + dt));
+  const double missing = std::max(1.0 - plate().surface().total_force().z() / load_, -1.0);
+  plate().prescribe(-speed_ * missing * ramp_.mean(time, time + dt),
+                    spin_ * spin_ramp_.mean(time, time + dt));
 }
 
 }  // namespace furrow::coupling

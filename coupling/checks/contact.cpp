@@ -9,6 +9,7 @@
 #include "atom.h"
 #include "core/communicator.h"
 #include "coupling/liggghts/fixes_of.h"
+#include "coupling/bodies/fix_plate_rigid.h"
 #include "coupling/bodies/fix_tyre_brick.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/checks/scene_checks.h"
@@ -327,6 +328,15 @@ Found cells_enter_grooves(const Scene&, FixContactContinuum& contact) {
       "smooth tread",
       pair.terrain.options().where("cell"), pair.terrain.options().number("cell"), spacing,
       pair.body.id, groove, rib, count * narrowest));
+}
+
+Found turning_plate_has_whole_terrain(const Scene&, FixContactContinuum& contact) {
+  const auto* plate = dynamic_cast<const FixPlateRigid*>(&contact.body_fix());
+  if (plate == nullptr || !plate->turns() || !contact.terrain_fix().half_model()) return {};
+  return refusal(plate->options().where("spin"),
+                 fmt::format("is {:g} rad/s, and half a terrain mirrors the torque away",
+                             plate->options().number("spin")),
+                 "0 on half a terrain", "write 'symmetry no' in the line of the terrain");
 }
 
 }  // namespace furrow::coupling

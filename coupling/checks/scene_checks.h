@@ -137,6 +137,7 @@ Found terrain_is_long_enough(const Scene& scene, FixContactContinuum& contact);
 Found cells_show_the_body(const Scene& scene, FixContactContinuum& contact);
 Found body_is_over_terrain(const Scene& scene, FixContactContinuum& contact);
 Found cells_enter_grooves(const Scene& scene, FixContactContinuum& contact);
+Found turning_plate_has_whole_terrain(const Scene& scene, FixContactContinuum& contact);
 
 // ---- checkpoints of the lines 'restart' (checkpoints.cpp)
 /// Two runs with one name would replace each other's files.

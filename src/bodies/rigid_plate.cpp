@@ -13,11 +13,17 @@ namespace furrow {
 namespace {
 
 PlateGeometry geometry_from(const Options& options) {
+  const std::string& shape = options.text("shape");
   PlateGeometry plate;
-  plate.shape = options.text("shape") == "circle" ? PlateShape::circle : PlateShape::square;
+  plate.shape = shape == "circle"    ? PlateShape::circle
+                : shape == "square"  ? PlateShape::square
+                : shape == "annulus" ? PlateShape::annulus
+                                     : PlateShape::cone;
   plate.size = options.number("size");
   plate.thickness = options.number("thickness");
   plate.elements = static_cast<int>(options.integer("elements"));
+  plate.inner_size = options.number("inner_size");
+  plate.angle = options.number("angle");
   return plate;
 }
 
@@ -30,14 +36,20 @@ Vector3 centre_from(const Options& options) {
 
 Schema RigidPlate::schema(const std::string& subject) {
   Schema schema(subject);
-  schema.choice("shape", {"circle", "square"}, "outline of the plate").by_default("circle");
-  schema.number("size", "m", Range::positive(), "diameter of a circle, side of a square");
+  schema.choice("shape", {"circle", "square", "annulus", "cone"}, "outline of the plate")
+      .by_default("circle");
+  schema.number("size", "m", Range::positive(), "outer diameter, or side of a square");
+  schema.number("inner_size", "m", Range::non_negative(), "inner diameter of an annulus")
+      .by_default(0.0);
+  schema.number("angle", "degree", Range::closed(20.0, 120.0), "apex angle of a cone")
+      .by_default(30.0);
   schema.number("thickness", "m", Range::positive(),
-                "height of the edge; more than the sinkage, unless sand may cover the plate");
+                "height of the edge, or length of a cone's shaft; more than the sinkage, unless "
+                "sand may cover the plate");
   schema.integer("elements", Range::closed(2, 400), "triangles across the plate; even for a circle")
       .by_default("20");
   schema.numbers("centre", 3, "m", Range::any(),
-                 "x y z of the centre of the lower face at the start");
+                 "x y z of the centre of the lower face, or of the apex, at the start");
   return schema;
 }
 
@@ -51,13 +63,17 @@ RigidPlate::RigidPlate(const PlateGeometry& geometry, const Vector3& centre,
   place_nodes();
 }
 
-void RigidPlate::prescribe(double velocity) {
-  if (!std::isfinite(velocity))
-    throw StateError(fmt::format("rigid plate: prescribed velocity is {}", velocity));
+void RigidPlate::prescribe(double velocity, double spin) {
+  if (!std::isfinite(velocity) || !std::isfinite(spin))
+    throw StateError(
+        fmt::format("rigid plate: prescribed velocity is {}, spin is {}", velocity, spin));
   velocity_ = velocity;
+  spin_ = spin;
 }
 
 double RigidPlate::mean_pressure() const { return surface_.total_force().z() / geometry_.area(); }
+
+double RigidPlate::torque() const { return surface_.total_moment(centre_).z(); }
 
 double RigidPlate::stable_time_step() const { return std::numeric_limits<double>::infinity(); }
 
@@ -65,14 +81,19 @@ void RigidPlate::advance(double dt) {
   const double force = surface_.total_force().z();
   if (!std::isfinite(force))
     throw StateError(fmt::format("rigid plate: the force on it is {} N", force));
-  contact_work_ += force * velocity_ * dt;
+  contact_work_ += (force * velocity_ + torque() * spin_) * dt;
   centre_.z() += velocity_ * dt;
+  angle_ += spin_ * dt;
   place_nodes();
 }
 
 void RigidPlate::place_nodes() {
-  surface_.x = reference_.colwise() + centre_;
-  surface_.v.colwise() = Vector3(0.0, 0.0, velocity_);
+  const Matrix3X turned =
+      Eigen::AngleAxisd(angle_, Vector3::UnitZ()).toRotationMatrix() * reference_;
+  surface_.x = turned.colwise() + centre_;
+  surface_.v.row(0) = -spin_ * turned.row(1);
+  surface_.v.row(1) = spin_ * turned.row(0);
+  surface_.v.row(2).setConstant(velocity_);
 }
 
 EnergyBudget RigidPlate::energy_budget() const {
@@ -87,8 +108,12 @@ void RigidPlate::checkpoint(Checkpoint& state) {
   state.match("size", geometry_.size);
   state.match("thickness", geometry_.thickness);
   state.match("elements", geometry_.elements);
+  state.match("inner_size", geometry_.inner_size);
+  state.match("angle", geometry_.angle);
   state.values("centre", centre_);
   state.value("velocity", velocity_);
+  state.value("spin", spin_);
+  state.value("turned", angle_);
   state.value("contact_work", contact_work_);
   state.values("nodal_force", surface_.f);
   if (!state.saving()) place_nodes();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A flat rigid plate that is pushed into the ground at a prescribed speed: the bevameter's plate.
+/// A rigid plate, annulus or cone that is pushed into the ground at a prescribed speed: the tools
+/// of bevameter and penetrometer.
 
 #include <string>
 
@@ -10,8 +11,8 @@
 
 namespace furrow {
 
-/// The plate moves along z only, at a prescribed speed. It has no mass: the drive carries all
-/// forces, and its work is minus the work of the contact forces.
+/// The plate moves along z and turns about its axis, both at prescribed speeds. It has no mass: the
+/// drive carries all forces, and its work is minus the work of the contact forces.
 class RigidPlate : public Body {
  public:
   /// The keys of a plate. @param subject names the owner in errors
@@ -21,13 +22,16 @@ class RigidPlate : public Body {
   RigidPlate(const PlateGeometry& geometry, const Vector3& centre,
              const std::string& where = "rigid plate");
 
-  /// @param velocity upwards [m/s], from the next step on @throws StateError when it is not finite
-  void prescribe(double velocity);
+  /// From the next step on. @param velocity upwards [m/s] @param spin about z [rad/s]
+  /// @throws StateError when one is not finite
+  void prescribe(double velocity, double spin = 0.0);
 
   const PlateGeometry& geometry() const { return geometry_; }
   const Vector3& centre() const { return centre_; }  ///< [m] of the lower face
   /// Mean pressure on the lower face: vertical force on the plate over its area [Pa].
   double mean_pressure() const;
+  double torque() const;                    ///< of the ground on the plate, about its axis [N m]
+  double turned() const { return angle_; }  ///< about z, since the start [rad]
 
   double stable_time_step() const override;  ///< infinity
   void advance(double dt) override;
@@ -44,6 +48,8 @@ class RigidPlate : public Body {
   Surface surface_;
   Vector3 centre_;
   double velocity_ = 0.0;      // [m/s] upwards
+  double spin_ = 0.0;          // [rad/s] about z
+  double angle_ = 0.0;         // [rad] about z
   double contact_work_ = 0.0;  // [J]
 };
 

@@ -2,6 +2,7 @@
 #include "geometry/plate_mesh.h"
 
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,15 @@ namespace furrow {
 namespace {
 
 constexpr double minimum_plate_angle = radians(5.0);
+constexpr int cone_sides = 12;
+// Of base and shaft: 20.27 and 15.88 mm in the standard ASAE S313.
+constexpr double shaft_ratio = 0.783;
+
+/// Radius of the corners of a regular polygon over that of a circle of its area.
+double corner_radius(int corners) {
+  const double turn = 2.0 * pi / corners;
+  return std::sqrt(turn / std::sin(turn));
+}
 
 /// A flat face: points of the plane, triangles counter-clockwise, and the nodes of its edge in that
 /// sense.
@@ -24,9 +34,7 @@ struct Face {
 
 /// Rings of 6 k nodes around one in the middle: all triangles are nearly equilateral.
 Face disc(double radius, int rings) {
-  // Regular n-gon of the circle's area: n/2 R'^2 sin(2 pi/n) = pi R^2.
-  const double n = 6.0 * rings;
-  const double outer = radius * std::sqrt(2.0 * pi / (n * std::sin(2.0 * pi / n)));
+  const double outer = radius * corner_radius(6 * rings);
   Face face;
   const auto first_of = [](int ring) { return ring == 0 ? 0 : 1 + 3 * ring * (ring - 1); };
   const auto node = [&](int ring, int i) {
@@ -80,6 +88,15 @@ void check(const PlateGeometry& plate, const std::string& where) {
     throw InputError(fmt::format("{}, keyword 'elements'", where),
                      fmt::format("is {}", plate.elements),
                      circle ? "an even number, at least 2" : "at least 2");
+  const bool annular = plate.shape == PlateShape::annulus;
+  if (annular ? !(plate.inner_size > 0.0 && plate.inner_size < plate.size)
+              : plate.inner_size != 0.0)
+    throw InputError(fmt::format("{}, keyword 'inner_size'", where),
+                     fmt::format("is {:g} m", plate.inner_size),
+                     annular ? fmt::format("a number in (0, {:g}) [m], for an annulus", plate.size)
+                             : "only for 'shape annulus'");
+  if (plate.shape == PlateShape::cone)
+    check_number(plate.angle, Range::closed(20.0, 120.0), where + ", keyword 'angle'", "degrees");
 }
 
 /// The face below, the same face above, and the sides between their edges.
@@ -103,17 +120,101 @@ Surface plate_between(const Face& face, double thickness) {
   return surface;
 }
 
+/// A point of the outline of a body of revolution.
+struct OutlinePoint {
+  double radius, z;  // [m]
+};
+
+/// The outline with its edges divided into pieces of a length at most.
+std::vector<OutlinePoint> divided(const std::vector<OutlinePoint>& outline, double length,
+                                  bool closed) {
+  std::vector<OutlinePoint> points;
+  const std::size_t edges = outline.size() - (closed ? 0 : 1);
+  for (std::size_t i = 0; i < edges; ++i) {
+    const OutlinePoint &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    const double pieces = std::ceil(std::hypot(b.radius - a.radius, b.z - a.z) / length - 1e-9);
+    for (int k = 0; k < static_cast<int>(pieces); ++k)
+      points.push_back(
+          {a.radius + k / pieces * (b.radius - a.radius), a.z + k / pieces * (b.z - a.z)});
+  }
+  if (!closed) points.push_back(outline.back());
+  return points;
+}
+
+/// Turns an outline, counter-clockwise in the plane of radius and z, about the axis. An outline
+/// that is not closed has its ends on the axis.
+Surface revolved(const std::vector<OutlinePoint>& outline, int sides, bool closed) {
+  Surface surface;
+  const int count = static_cast<int>(outline.size()), rings = closed ? count : count - 2;
+  surface.resize(static_cast<std::size_t>(rings * sides + (closed ? 0 : 2)));
+  const auto node = [&](int ring, int i) { return ring * sides + i % sides; };
+  const double scale = corner_radius(sides);
+  for (int ring = 0; ring < rings; ++ring) {
+    const OutlinePoint& point = outline[static_cast<std::size_t>(closed ? ring : ring + 1)];
+    for (int i = 0; i < sides; ++i) {
+      const double angle = 2.0 * pi * i / sides;
+      surface.x.col(node(ring, i)) << scale * point.radius * std::cos(angle),
+          scale * point.radius * std::sin(angle), point.z;
+    }
+  }
+  for (int ring = 0; ring < (closed ? rings : rings - 1); ++ring)
+    for (int i = 0; i < sides; ++i) {
+      const int next = (ring + 1) % rings;
+      surface.triangles.emplace_back(node(ring, i), node(ring, i + 1), node(next, i + 1));
+      surface.triangles.emplace_back(node(ring, i), node(next, i + 1), node(next, i));
+    }
+  if (!closed) {
+    const int first = rings * sides, last = first + 1;
+    surface.x.col(first) << 0.0, 0.0, outline.front().z;
+    surface.x.col(last) << 0.0, 0.0, outline.back().z;
+    for (int i = 0; i < sides; ++i) {
+      surface.triangles.emplace_back(first, node(0, i + 1), node(0, i));
+      surface.triangles.emplace_back(last, node(rings - 1, i), node(rings - 1, i + 1));
+    }
+  }
+  return surface;
+}
+
+Surface annulus(const PlateGeometry& plate) {
+  const double inner = 0.5 * plate.inner_size, outer = 0.5 * plate.size, h = plate.thickness;
+  const auto outline = divided({{inner, 0.0}, {outer, 0.0}, {outer, h}, {inner, h}},
+                               plate.size / plate.elements, true);
+  return revolved(outline, 3 * plate.elements, true);
+}
+
+Surface cone(const PlateGeometry& plate) {
+  const double base = 0.5 * plate.size, shaft = shaft_ratio * base;
+  const double height = base / std::tan(radians(0.5 * plate.angle)), top = height + plate.thickness;
+  const auto outline =
+      divided({{0.0, 0.0}, {base, height}, {shaft, height}, {shaft, top}, {0.0, top}},
+              plate.size / plate.elements, false);
+  return revolved(outline, cone_sides, false);
+}
+
+Surface mesh_of(const PlateGeometry& plate) {
+  switch (plate.shape) {
+    case PlateShape::circle:
+      return plate_between(disc(0.5 * plate.size, plate.elements / 2), plate.thickness);
+    case PlateShape::square:
+      return plate_between(square(plate.size, plate.elements), plate.thickness);
+    case PlateShape::annulus:
+      return annulus(plate);
+    case PlateShape::cone:
+      break;
+  }
+  return cone(plate);
+}
+
 }  // namespace
 
 double PlateGeometry::area() const {
-  return (shape == PlateShape::circle ? pi / 4.0 : 1.0) * size * size;
+  if (shape == PlateShape::square) return size * size;
+  return pi / 4.0 * (size * size - inner_size * inner_size);
 }
 
 Surface make_plate_mesh(const PlateGeometry& plate, const std::string& where) {
   check(plate, where);
-  const Face face = plate.shape == PlateShape::circle ? disc(0.5 * plate.size, plate.elements / 2)
-                                                      : square(plate.size, plate.elements);
-  Surface surface = plate_between(face, plate.thickness);
+  Surface surface = mesh_of(plate);
   if (surface.minimum_angle() < minimum_plate_angle)
     throw InputError(
         fmt::format("{}, keyword 'elements'", where),

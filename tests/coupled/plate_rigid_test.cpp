@@ -40,5 +40,27 @@ TEST(PlateRigid, GivesSinkageForceAndPressureOfAHeldGrain) {
               1e-6 * force / (size * size));
 }
 
+// The drive holds its load on the spring of a held grain: Hertz's overlap of that force.
+TEST(PlateRigid, HoldsItsLoadOnAHeldGrain) {
+  constexpr double young = 5e6, poisson = 0.3, radius = 0.004, load = 2.0;
+  Scene scene;
+  scene.granular_box(Vector3(-0.1, -0.1, 0.0), Vector3(0.1, 0.1, 0.2), 0.001);
+  scene.contact_properties(young, poisson, 1.0, 0.0);
+  scene.commands(
+      "create_atoms 1 single 0.011 0.007 0.05\n"
+      "set group all diameter 0.008 density 2500\n"
+      "pair_style gran model hertz tangential history\npair_coeff * *\ntimestep 1e-4\n"
+      "fix plate all plate/rigid size 0.06 thickness 0.01 elements 12 centre 0 0 0.0545 speed 0.01 "
+      "load 2 accelerate_time 0 ground_level 0.054\n"
+      "fix skin all mesh/body body plate type 1\n"
+      "fix face all wall/gran/body model hertz tangential history mesh n_meshes 1 meshes skin\n"
+      "run 8000");
+  LAMMPS_NS::Fix& plate = *scene.lammps().modify->find_fix_id("plate");
+  const double overlap = std::pow(
+      load / (4.0 / 3.0 * young / (2.0 * (1.0 - poisson * poisson)) * std::sqrt(radius)), 2.0 / 3);
+  EXPECT_NEAR(plate.compute_vector(1), load, 1e-6 * load);
+  EXPECT_NEAR(plate.compute_vector(0), overlap, 1e-6 * overlap);
+}
+
 }  // namespace
 }  // namespace furrow::test
