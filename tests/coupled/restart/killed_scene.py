@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A shipped scene is killed at a random moment and continued: the results are those of a run in one.
 
-    killed_scene.py [--kills n] [--mpirun <word>]... <furrow> <scene> <steps between checkpoints> <ranks>
+    killed_scene.py [--kills n] [--seed n] [--mpirun <word>]... <furrow> <scene> <steps between checkpoints> <ranks>
                     [<name> <value>]...
 
 The scene is changed as coupling/restart/command_read_restart.md says: `restart` before the run; to
@@ -12,7 +12,7 @@ audit of a part of a run, script). A curve that fix ave/time writes must be the 
 One kill comes some time after the second checkpoint. Of several, each comes at any moment of the
 last run, every other one as SIGTERM; then the checkpoint is that of the signal. After it several ranks
 of a continuum, whose sums it has added up at that step, agree to 1e-9 of the largest number of a
-unit.
+unit. The moments follow from the seed, which is printed: another one each time unless it is given.
 """
 
 import argparse
@@ -38,6 +38,7 @@ INPUTS = Path(__file__).resolve().parents[3] / "inputs"
 
 parser = argparse.ArgumentParser()
 parser.add_argument("--kills", type=int, default=1)
+parser.add_argument("--seed", type=int, default=int.from_bytes(os.urandom(4), "little"))
 parser.add_argument("--mpirun", action="append", default=[])
 for positional in ("furrow", "scene", "every", "ranks"):
     parser.add_argument(positional)
@@ -185,9 +186,8 @@ def compare_curves(whole: Path, killed: Path, tolerance: float) -> int:
     return len(curves)
 
 
-seed = int.from_bytes(os.urandom(4), "little")
-random.seed(seed)
-print("seed", seed)
+random.seed(words.seed)
+print("seed", words.seed, flush=True)
 with tempfile.TemporaryDirectory() as name:
     whole, killed = Path(name) / "whole", Path(name) / "killed"
     if has_bed:
