@@ -189,6 +189,7 @@ def keep_checkpoint(start: Path, folder: Path, since: int) -> bool:
     for _, file in new:
         particles = _move_particles(file, folder)
         part = folder / f"{CHECKPOINT}.part"
+        part.unlink(missing_ok=True)  # perhaps a link
         shutil.move(file, part)  # perhaps to another disk
         part.replace(folder / CHECKPOINT)
         _remove_particles_but(particles, folder)

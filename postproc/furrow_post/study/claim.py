@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from ..errors import Interrupted
+from ..errors import Interrupted, ResultsError
 
 CLAIM = "claim"  # empty file in the folder of a run, locked while a study makes that run
 LOOK_EVERY = 0.2  # [s] whether another study has left the folder
@@ -19,10 +19,15 @@ def claimed(folder: Path, stop: threading.Event) -> Iterator[None]:
     """Waits until no other study makes the run of this folder, and keeps others from it.
 
     The lock ends with the process, however that ends. On file systems that know no locks there is
-    none. stop: set by others to end the waiting. @raises Interrupted
+    none. stop: set by others to end the waiting. @raises Interrupted, and ResultsError for a link
     """
     folder.mkdir(parents=True, exist_ok=True)
-    handle = os.open(folder / CLAIM, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+    try:
+        flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC
+        handle = os.open(folder / CLAIM, flags, 0o666)
+    except OSError as error:
+        message = f"{folder / CLAIM}: cannot be opened ({error.strerror}); remove it"
+        raise ResultsError(message) from error
     try:
         while not lock(handle):
             if stop.wait(LOOK_EVERY):

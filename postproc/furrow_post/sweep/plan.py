@@ -50,7 +50,9 @@ class Plan:
         """In one step: a killed program leaves the former file."""
         folder.mkdir(parents=True, exist_ok=True)
         part = folder / f"{FILE}.part"
-        part.write_text(json.dumps(asdict(self), indent=1) + "\n", encoding="utf-8")
+        part.unlink(missing_ok=True)
+        with open(part, "x", encoding="utf-8") as file:  # follows no link
+            file.write(json.dumps(asdict(self), indent=1) + "\n")
         os.replace(part, folder / FILE)
 
 

@@ -14,7 +14,7 @@ from unittest import mock
 
 from furrow_post.errors import ResultsError
 from furrow_post.study.case import FOLDER
-from furrow_post.study.claim import claimed
+from furrow_post.study.claim import CLAIM, claimed
 from furrow_post.errors import Interrupted
 from furrow_post.study import launch as module
 from furrow_post.study.launch import launch
@@ -96,6 +96,15 @@ class RunnerTest(unittest.TestCase):
                     self.fail("was claimed twice")
         with claimed(folder, stop):  # free again
             pass
+
+    def test_a_link_in_the_place_of_the_claim_is_not_followed(self) -> None:
+        folder, elsewhere = self.results / "a", self.results / "elsewhere"
+        folder.mkdir(parents=True)
+        (folder / CLAIM).symlink_to(elsewhere)
+        with self.assertRaisesRegex(ResultsError, "a/claim: cannot be opened .*; remove it"):
+            with claimed(folder, threading.Event()):
+                self.fail("was claimed through a link")
+        self.assertFalse(elsewhere.exists())
 
     def test_a_moved_tree_keeps_its_runs(self) -> None:
         """Paths below the project count relative to it."""

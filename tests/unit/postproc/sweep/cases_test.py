@@ -54,6 +54,16 @@ class CasesTest(unittest.TestCase):
     def runner(self) -> Runner:
         return Runner(self.results, self.tree.tools, same_inputs=True)
 
+    def test_link_in_the_place_of_the_part_of_a_plan_is_not_followed(self) -> None:
+        notes = self.results / "notes"
+        self.results.mkdir()
+        notes.write_text("of the user")
+        (self.results / "sweep.json.part").symlink_to(notes)
+        plan = self.plan("value=1,2")
+        plan.write(self.results)
+        self.assertEqual(notes.read_text(), "of the user")
+        self.assertEqual(read_plan(self.results), plan)
+
     def test_refusals(self) -> None:
         for words, message in REFUSED:
             with self.subTest(words), self.assertRaises(ResultsError) as refused:
