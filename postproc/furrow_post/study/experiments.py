@@ -10,12 +10,13 @@ from .provenance import read_origins
 from .values import AGREE, VERDICTS, Registry, Value
 
 HEAD = (
-    "# Every value of the studies. error: standard error, empty where it is not known. reference_of:",
-    "# measured, report (computed by the source), formula, ours. label: fitted (the value was used in a",
-    "# fit), known (measured value known before the model was fixed), blind. verdict: agrees, within",
-    "# 10 % or twice the error of the reference; near, within 25 %; differs; met or missed, of a limit;",
-    "# inconclusive, where twice the errors decide, or allow more than 25 %. program: commit of the",
-    "# source tree that made the runs, + with uncommitted changes. Written by furrow-post study --pages.",
+    "# Every value of the studies. error: standard error, or that it is not estimated; error_of: its",
+    "# parts, or the table of the study that has it. reference_of: measured, report (computed by the",
+    "# source), formula, ours, program (another one). label: fitted (the value was used in a fit), known",
+    "# (measured value known before the model was fixed), blind. verdict: agrees, within 10 % or twice",
+    "# the error of the reference; near, within 25 %; differs; met or missed, of a limit; inconclusive,",
+    "# where twice the errors decide, or allow more than 25 %. program: commit of the source tree that",
+    "# made the runs, + with uncommitted changes. Written by furrow-post study --pages.",
 )
 
 

@@ -30,8 +30,7 @@ def difference(value: Value, made: Path) -> str:
     if value.limit:
         verdicts = value.verdict(), value.verdict(made)
         return "" if len(set(verdicts)) == 1 else f"{again:g} is {verdicts[1]}, not {verdicts[0]}"
-    own = (value.uncertainty() or 0.0) if value.error is not None else 0.0
-    allowed = max(TOLERANCE * abs(stored), own)
+    allowed = max(TOLERANCE * abs(stored), value.time_error())
     return "" if abs(again - stored) <= allowed else f"{again:g}, not {stored:g} ± {allowed:.2g}"
 
 

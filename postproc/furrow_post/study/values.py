@@ -20,7 +20,9 @@ from ..errors import ResultsError, content_of
 DEFINITION = "study.yaml"
 RESULTS = "results.csv"  # table of a value that names none
 LABELS = ("fitted", "known", "blind")
-REFERENCES = ("measured", "report", "formula", "ours")  # who gives the reference
+REFERENCES = ("measured", "report", "formula", "ours", "program")  # who gives the reference
+SOURCES = ("time average", "cells", "domain", "packings", "parameters", "contact", "tests", "none")  # of errors
+NOT_ESTIMATED = "not estimated"
 AGREES, NEAR = 0.10, 0.25  # relative differences
 COVERAGE = 2.0  # standard errors within which values may differ
 
@@ -91,6 +93,26 @@ class Stored:
 
 
 @dataclass(frozen=True)
+class Part:
+    """One part of a standard error: a number, a stored one, or the distance between two stored ones.
+
+    of: one of SOURCES; tests: their number where the value is an rms over tests, whose error is
+    the rms over the root of twice the number.
+    """
+
+    of: str
+    number: float | Stored = 0.0
+    other: Stored | None = None
+    tests: int = 0
+
+    def size(self, value: float) -> float:
+        if self.tests:
+            return abs(value) / math.sqrt(2 * self.tests)
+        number = self.number.read() if isinstance(self.number, Stored) else self.number
+        return abs(number - self.other.read()) if self.other else abs(number)
+
+
+@dataclass(frozen=True)
 class Value:
     """A number of a study, and what it is compared with.
 
@@ -100,7 +122,7 @@ class Value:
 
     id: str
     stored: Stored | None = None
-    error: float | Stored | None = None  # standard error
+    error: float | Stored | tuple[Part, ...] | None = None  # standard error, of parts their root sum square
     next: Stored | None = None  # the same with the next size of cells: its distance is the error
     unit: str = ""
     place: str = ""  # page, table or figure of the source
@@ -130,11 +152,31 @@ class Value:
 
     def uncertainty(self) -> float | None:
         """Standard error of the computed value; None where it is not known."""
+        if isinstance(self.error, tuple):
+            return self._sum(self.error)
         if isinstance(self.error, Stored):
             return abs(self.error.read())
         if self.error is not None or self.next is None or self.stored is None:
             return self.error
         return abs(self.next.read() - self.stored.read())
+
+    def _sum(self, parts: Sequence[Part]) -> float:
+        value = self.computed() or 0.0
+        return math.hypot(*(part.size(value) for part in parts))
+
+    def time_error(self) -> float:
+        """The part of the error that a repeated run may show."""
+        if isinstance(self.error, tuple):
+            return self._sum([part for part in self.error if part.of == "time average"])
+        return (self.uncertainty() or 0.0) if self.error is not None else 0.0
+
+    def sources(self) -> str:
+        """Where the error comes from."""
+        if isinstance(self.error, tuple):
+            return "; ".join(part.of for part in self.error)
+        if self.error is not None:
+            return "table of the study"
+        return "cells" if self.next else ""
 
     def expected(self) -> float | None:
         return self.reference.read() if isinstance(self.reference, Stored) else self.reference
@@ -167,7 +209,8 @@ class Value:
             "quantity": self.quantity,
             "unit": self.unit,
             "computed": number(self.computed(), 4),
-            "error": number(self.uncertainty(), 2),
+            "error": self._error_text(),
+            "error_of": self.sources() if self.stored else "",
             "reference": number(self.expected(), 4),
             "reference_error": number(self.expected_error() or None, 2),
             "reference_scatter": number(self.reference_scatter or None, 2),
@@ -181,6 +224,12 @@ class Value:
             "remark": self.remark,
             "reason": self.reason if verdict in NEED_REASON else "",
         }
+
+
+    def _error_text(self) -> str:
+        if self.stored and self.uncertainty() is None:
+            return NOT_ESTIMATED
+        return number(self.uncertainty(), 2)
 
 
 def number(value: float | None, digits: int = 3) -> str:
@@ -232,6 +281,20 @@ class _Reader:
             float(entry.get("scale", like.scale if like else 1.0)),
         )
 
+    def part(self, entry: Mapping[str, Any], like: Stored | None, where: str) -> Part:
+        """entry: `of` with value, or between (two stored numbers), or tests, or a stored number."""
+        of, rest = entry.get("of", ""), {k: v for k, v in entry.items() if k != "of"}
+        if of not in SOURCES:
+            raise ResultsError(f"{where}: of, of a part of its error, is one of {', '.join(SOURCES)}")
+        if set(rest) == {"tests"}:
+            return Part(of, tests=int(rest["tests"]))
+        if set(rest) == {"value"} or not rest:
+            return Part(of, float(rest.get("value", 0.0)))
+        if set(rest) == {"between"} and len(rest["between"]) == 2:
+            first, second = (self.stored(one, like, f"{where}: error") for one in rest["between"])
+            return Part(of, first, second)
+        return Part(of, self.stored(rest, like, f"{where}: error"))
+
     def value(self, entry: Mapping[str, Any]) -> Value:
         known = {item.name for item in fields(Value)} | {"table", "row", "column", "scale"}
         where = f"{self.folder / DEFINITION}: value '{entry.get('id', '')}'"
@@ -245,8 +308,10 @@ class _Reader:
             {k: entry[k] for k in ("table", "row", "column", "scale") if k in entry}, None, where
         ) if "column" in entry else None
         given["stored"] = stored
+        if isinstance(given.get("error"), Sequence) and not isinstance(given["error"], str):
+            given["error"] = tuple(self.part(entry, stored, where) for entry in given["error"])
         for key in ("error", "next", "reference", "cost"):
-            if key in given and not isinstance(given[key], (int, float)):
+            if key in given and not isinstance(given[key], tuple) and not isinstance(given[key], (int, float)):
                 one = self.stored(given[key], stored, f"{where}: {key}")
                 if key == "cost" and isinstance(given[key], str):  # in seconds, whatever the value
                     one = Stored(one.table, one.row, one.column)

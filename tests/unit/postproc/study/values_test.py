@@ -93,6 +93,21 @@ class EntryTest(unittest.TestCase):
         self.assertAlmostEqual(value.uncertainty() or 0, 0.66)
         self.assertEqual(value.verdict(), "agrees")
 
+    def test_parts_of_an_error_add_as_their_squares(self) -> None:
+        parts = "{of: time average, column: e}, {of: cells, between: [{row: {run: a}}, {row: {run: b}}]}"
+        value = self.value(f", error: [{parts}]")
+        self.assertAlmostEqual(value.uncertainty() or 0, (0.31**2 + 0.66**2) ** 0.5)
+        self.assertAlmostEqual(value.time_error(), 0.31)
+        self.assertEqual(value.row()["error_of"], "time average; cells")
+
+    def test_an_rms_has_the_error_of_its_number_of_tests(self) -> None:
+        value = self.value(", error: [{of: tests, tests: 8}]")
+        self.assertAlmostEqual(value.uncertainty() or 0, 12.34 / 4)
+
+    def test_an_error_that_nobody_estimated_is_marked(self) -> None:
+        self.assertEqual(self.value().row()["error"], "not estimated")
+        self.assertEqual(self.value(", error: [{of: none}]").row()["error"], "0")
+
     def test_the_scatter_of_tests_enters_by_the_error_of_their_mean(self) -> None:
         more = ", reference: 11, reference_scatter: 1.2, reference_tests: {}, reference_of: measured"
         for tests, verdict in ((1, "agrees"), (4, "near")):
@@ -114,6 +129,8 @@ class EntryTest(unittest.TestCase):
             (", label: guessed", "a", "label is one of fitted, known, blind"),
             (", limit: above", "a", "limit is one of upper, lower"),
             (", next: {rows: 1}", "a", "unknown keys"),
+            (", error: [{of: luck, value: 1}]", "a", "of, of a part of its error, is one of time average"),
+            (", error: [{of: cells, betwixt: 1}]", "a", "unknown keys"),
         ):
             with self.subTest(more=more, run=run), self.assertRaisesRegex(ResultsError, message):
                 value = self.value(more, run)
