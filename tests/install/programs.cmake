@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Runs the programs installed in PREFIX, and a scene as installed, in its quick version.
-foreach(program furrow-point furrow-post furrow-resistance furrow-sidewall furrow-tyre)
+foreach(program furrow-point furrow-post furrow-resistance furrow-sidewall furrow-soil furrow-tyre)
   execute_process(COMMAND ${PREFIX}/bin/${program} --help OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
 set(results ${PREFIX}/results)

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Published pressure-sinkage and shear values of terrains: terrains.csv. SI units."""
+"""Pressure-sinkage and shear values of terrains: terrains.csv and soil cards. SI units."""
 
 import math
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import yaml
 
 from ..arrays import Floats
 from ..csv_table import read_rows
-from ..errors import ResultsError
+from ..errors import ResultsError, content_of
 
 
 @dataclass(frozen=True)
@@ -54,9 +55,34 @@ def terrains() -> dict[str, TerrainValues]:
     }
 
 
+def terrain_of_card(path: Path) -> TerrainValues:
+    """Of a soil card; a card has no c1 and c2. @raises OSError, ResultsError"""
+    with content_of(path, "name a soil card of furrow-soil card"):
+        try:
+            content = yaml.safe_load(path.read_text(encoding="utf-8"))
+        except yaml.YAMLError as error:
+            raise ValueError("is no YAML") from error
+        plate, shear = content["pressure_sinkage"], content["shear"]
+        return TerrainValues(
+            str(content["title"]),
+            "card",
+            "bekker",
+            float(plate["k_c"]["value"]),
+            float(plate["k_phi"]["value"]),
+            float(plate["n"]["value"]),
+            float(shear["c"]["value"]),
+            float(shear["phi"]["value"]),
+            float(shear["K"]["value"]),
+            math.nan,
+            math.nan,
+        )
+
+
 def terrain(name: str) -> TerrainValues:
-    """@raises ResultsError for an unknown name"""
+    """A row of terrains.csv, or a soil card by its file. @raises ResultsError for an unknown name"""
+    if name.endswith(".yaml"):
+        return terrain_of_card(Path(name))
     known = terrains()
     if name not in known:
-        raise ResultsError(f"there is no terrain '{name}'; there are: {', '.join(known)}")
+        raise ResultsError(f"there is no terrain '{name}'; name a soil card, or one of {', '.join(known)}")
     return known[name]

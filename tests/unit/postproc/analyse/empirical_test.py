@@ -97,7 +97,7 @@ class SandTest(unittest.TestCase):
             empirical.wong_reece(5000, 1.2, 0.3, 0.1, lete)
         with self.assertRaisesRegex(OutOfRange, "driven wheels, slip from 0 to 1, not -0.1"):
             empirical.wong_reece(5000, 1.2, 0.3, -0.1, compact, extrapolate=True)
-        with self.assertRaisesRegex(ResultsError, "no terrain 'moon'; there are: LLL dry sand"):
+        with self.assertRaisesRegex(ResultsError, "no terrain 'moon'; name a soil card, or one of LLL dry sand"):
             terrain("moon")
 
 

@@ -1,0 +1,258 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Traction and resistance of a tyre, and the vehicle cone index, from the cone index of the soil.
+
+All take the cone index CI [Pa] as mean of the first 15 cm. b: width, d: diameter, h: section
+height, delta: deflection of the tyre on hard ground, W: load.
+"""
+
+import math
+from dataclasses import dataclass
+
+from ..errors import ResultsError
+from .prediction import Limit, require_positive, require_range
+
+POUND_FORCE = 4.4482216152605  # [N]
+INCH = 0.0254  # [m]
+PSI = POUND_FORCE / INCH**2  # [Pa]
+HORSEPOWER = 745.69987  # [W]
+SHORT_TON = 2000.0  # [lb]
+
+
+@dataclass(frozen=True)
+class Traction:
+    """What a formula gives at a slip; coefficients are forces over the load."""
+
+    method: str
+    source: str
+    numeric: float  # mobility number
+    slip: float
+    load: float  # [N]
+    gross: float  # torque over rolling radius and load
+    resistance: float  # motion resistance over load
+    outside: tuple[str, ...] = ()
+
+    @property
+    def net(self) -> float:
+        """Drawbar pull over load."""
+        return self.gross - self.resistance
+
+    def report(self) -> str:
+        rows = (
+            ("mobility number", f"{self.numeric:.3f}"),
+            ("slip", f"{self.slip:.3f}"),
+            ("gross traction coefficient", f"{self.gross:.4f}"),
+            ("resistance coefficient", f"{self.resistance:.4f}"),
+            ("net traction coefficient", f"{self.net:.4f}"),
+            ("drawbar pull", f"{self.net * self.load:.4g} N"),
+            ("motion resistance", f"{self.resistance * self.load:.4g} N"),
+        )
+        lines = [f"{self.method}  ({self.source})", *(f"  {name:27} {value}" for name, value in rows)]
+        return "\n".join([*lines, *(f"  EXTRAPOLATED: {limit}" for limit in self.outside)])
+
+
+@dataclass(frozen=True)
+class Tyre:
+    """Load [N]; diameter, width, section height and deflection [m]."""
+
+    load: float
+    diameter: float
+    width: float
+    section_height: float = math.nan
+    deflection: float = math.nan
+
+    @property
+    def deflection_ratio(self) -> float:
+        return self.deflection / self.section_height
+
+    def clay_number(self, cone_index: float) -> float:
+        """CI b d/W"""
+        return cone_index * self.width * self.diameter / self.load
+
+    def require(self, method: str, deflected: bool) -> None:
+        """@raises ResultsError"""
+        require_positive(method, load=self.load, diameter=self.diameter, width=self.width)
+        if deflected:
+            require_positive(
+                method, section_height=self.section_height, deflection=self.deflection
+            )
+            if self.deflection >= self.section_height:
+                raise ResultsError(
+                    f"{method}: deflection is {self.deflection:g} m, and the section height "
+                    f"{self.section_height:g} m; give a smaller deflection"
+                )
+
+
+def _slip_limit(slip: float) -> Limit:
+    return Limit("slip", slip, 0.0, 1.0, "", "driving")
+
+
+WISMER_LUTH_SOURCE = "R. D. Wismer and H. J. Luth, Trans. ASAE 17(1), 8-10 (1974)"
+
+
+def wismer_luth(cone_index: float, tyre: Tyre, slip: float, extrapolate: bool = False) -> Traction:
+    """GT/W = 0.75 (1 - exp(-0.3 C_n s)), R/W = 1.2/C_n + 0.04. @raises OutOfRange"""
+    method = "Wismer-Luth"
+    tyre.require(method, deflected=False)
+    require_positive(method, cone_index=cone_index)
+    number = tyre.clay_number(cone_index)
+    ratio = tyre.width / tyre.diameter
+    outside = require_range(
+        method,
+        [_slip_limit(slip), Limit("width over diameter", ratio, 0.2, 0.4, "", "tyres of about 0.3")],
+        extrapolate,
+    )
+    gross = 0.75 * (1 - math.exp(-0.3 * number * slip))
+    resistance = 1.2 / number + 0.04
+    return Traction(method, WISMER_LUTH_SOURCE, number, slip, tyre.load, gross, resistance, outside)
+
+
+BRIXIUS_SOURCE = "W. W. Brixius, ASAE paper 87-1622 (1987); ASAE D497"
+
+
+def brixius(
+    cone_index: float, tyre: Tyre, slip: float, radial: bool = False, extrapolate: bool = False
+) -> Traction:
+    """B_n = C_n (1 + 5 delta/h)/(1 + 3 b/d); GT/W = 0.88 (1 - exp(-0.1 B_n))(1 - exp(-7.5 s)) + 0.04,
+    R/W = 1/B_n + 0.04 + 0.5 s/sqrt(B_n). A radial tyre has 9.5, 0.0325 and 0.9/B_n. @raises
+    OutOfRange"""
+    method = "Brixius"
+    tyre.require(method, deflected=True)
+    require_positive(method, cone_index=cone_index)
+    ratio = tyre.width / tyre.diameter
+    number = tyre.clay_number(cone_index) * (1 + 5 * tyre.deflection_ratio) / (1 + 3 * ratio)
+    pressure = tyre.load / (tyre.width * tyre.diameter)
+    why = "ASAE D497"
+    outside = require_range(
+        method,
+        [
+            _slip_limit(slip),
+            Limit("width over diameter", ratio, 0.1, 0.7, "", why),
+            Limit("deflection over section height", tyre.deflection_ratio, 0.1, 0.3, "", why),
+            Limit("load over width and diameter", pressure, 15e3, 55e3, "Pa", why),
+        ],
+        extrapolate,
+    )
+    rate, rolling, sinking = (9.5, 0.0325, 0.9) if radial else (7.5, 0.04, 1.0)
+    gross = 0.88 * (1 - math.exp(-0.1 * number)) * (1 - math.exp(-rate * slip)) + rolling
+    resistance = sinking / number + rolling + 0.5 * slip / math.sqrt(number)
+    return Traction(method, BRIXIUS_SOURCE, number, slip, tyre.load, gross, resistance, outside)
+
+
+GEE_CLOUGH_SOURCE = "D. Gee-Clough et al., J. Terramechanics 15(2), 81-94 (1978)"
+
+
+def gee_clough(cone_index: float, tyre: Tyre, slip: float, extrapolate: bool = False) -> Traction:
+    """M = C_n sqrt(delta/h)/(1 + b/(2 d)); net NT/W = C (1 - exp(-k s)), C = 0.796 - 0.92/M, k C =
+    4.838 + 0.061 M, R/W = 0.049 + 0.287/M. Field tyres on farm land. @raises OutOfRange"""
+    method = "Gee-Clough"
+    tyre.require(method, deflected=True)
+    require_positive(method, cone_index=cone_index)
+    ratio = tyre.width / tyre.diameter
+    number = tyre.clay_number(cone_index) * math.sqrt(tyre.deflection_ratio) / (1 + 0.5 * ratio)
+    largest = 0.796 - 0.92 / number
+    if largest <= 0:
+        raise ResultsError(
+            f"{method}: the mobility number is {number:.3g}, for which the tyre has no traction; "
+            "allowed: above 1.16"
+        )
+    outside = require_range(method, [_slip_limit(slip)], extrapolate)
+    rate = (4.838 + 0.061 * number) / largest
+    resistance = 0.049 + 0.287 / number
+    gross = largest * (1 - math.exp(-rate * slip)) + resistance
+    return Traction(method, GEE_CLOUGH_SOURCE, number, slip, tyre.load, gross, resistance, outside)
+
+
+VTI_SOURCE = "Vehicle-Terrain Interface of ERDC, in MAVS (2024), vehicles/vti/fine_grained.cpp"
+
+
+def vti_clay(rating: float, tyre: Tyre, slip: float, extrapolate: bool = False) -> Traction:
+    """Fine-grained soil by its rating cone index RCI [Pa]: N_c = RCI b d/(W (1 - delta/h)^1.5 (1 +
+    b/d)^0.75), self-propelled slip s_0 = 21/N_c^2.5 + 0.005, GT/W = 0.5 log10(s/s_0) (1 + b/d)^0.25 +
+    12/N_c^2 + 0.007, R/W = 5.07/N_c^1.71 + 0.011. @raises OutOfRange"""
+    method = "VTI, clay"
+    tyre.require(method, deflected=True)
+    require_positive(method, cone_index=rating)
+    shape = 1 + tyre.width / tyre.diameter
+    softness = (1 - tyre.deflection_ratio) ** 1.5
+    number = tyre.clay_number(rating) / (softness * shape**0.75)
+    free = 21 / number**2.5 + 0.005
+    why = "below it the tyre does not propel itself"
+    outside = require_range(method, [Limit("slip", slip, free, 1.0, "", why)], extrapolate)
+    require_positive(method, slip=slip)
+    gross = 0.5 * math.log10(slip / free) * shape**0.25 + 12 / number**2 + 0.007
+    resistance = 5.07 / number**1.71 + 0.011
+    return Traction(method, VTI_SOURCE, number, slip, tyre.load, gross, resistance, outside)
+
+
+VCI_SOURCE = "J. D. Priddy and W. E. Willoughby, J. Terramechanics 43(2), 165-179 (2006)"
+# Weight of an axle up to [lb], slope per kip, intercept of the weight factor
+WEIGHT_FACTORS = (
+    (2000.0, 0.553, 0.0),
+    (13500.0, 0.033, 1.05),
+    (20000.0, 0.142, -0.42),
+    (math.inf, 0.278, -3.115),
+)
+
+
+@dataclass(frozen=True)
+class WheeledVehicle:
+    """Weight [N], clearance [m], power [W]; every axle is driven."""
+
+    weight: float
+    axles: int
+    tyres: int
+    tyre: Tyre  # its load is not used
+    clearance: float
+    power: float
+    manual: bool = False  # transmission
+    chains: bool = False
+
+
+@dataclass(frozen=True)
+class VehicleConeIndex:
+    """Rating cone index [Pa] that a vehicle needs for one pass."""
+
+    mobility_index: float
+    one_pass: float
+
+    def report(self) -> str:
+        return (
+            f"Vehicle cone index, fine-grained soil  ({VCI_SOURCE})\n"
+            f"  mobility index              {self.mobility_index:.2f}\n"
+            f"  VCI of one pass             {self.one_pass / PSI:.2f} psi, {1e-3 * self.one_pass:.4g} kPa"
+        )
+
+
+def weight_factor(kips: float) -> float:
+    """Of the weight of an axle [1000 lb]."""
+    slope, intercept = next(row[1:] for row in WEIGHT_FACTORS if 1000 * kips <= row[0])
+    return slope * kips + intercept
+
+
+def vehicle_cone_index(vehicle: WheeledVehicle) -> VehicleConeIndex:
+    """MI = (CPF WF/(TF GF) + WLF - CF) EF TF', in pounds and inches; VCI_1 = 11.48 + 0.2 MI - 39.2/(MI
+    + 3.74) up to MI = 115, 4.1 MI^0.446 above; times (0.15/(delta/h))^0.25 where the deflection is
+    known. @raises ResultsError"""
+    method, tyre = "vehicle cone index", vehicle.tyre
+    numbers = {"weight": vehicle.weight, "axles": vehicle.axles, "tyres": vehicle.tyres}
+    require_positive(method, **numbers, clearance=vehicle.clearance, power=vehicle.power)
+    require_positive(method, width=tyre.width, diameter=tyre.diameter)
+    pounds, width = vehicle.weight / POUND_FORCE, tyre.width / INCH
+    radius, kips = 0.5 * tyre.diameter / INCH, pounds / 1000
+    contact = pounds / (width * radius * vehicle.tyres)
+    tyre_factor = (10 + width) / 100
+    grip = 1.05 if vehicle.chains else 1.0
+    load = kips / (2 * vehicle.axles)
+    clearance = vehicle.clearance / INCH / 10
+    engine = 1.0 if vehicle.power / HORSEPOWER / (pounds / SHORT_TON) >= 10 else 1.05
+    transmission = 1.05 if vehicle.manual else 1.0
+    weight = weight_factor(kips / vehicle.axles)
+    index = (contact * weight / (tyre_factor * grip) + load - clearance) * engine * transmission
+    if index <= 0:
+        raise ResultsError(
+            f"{method}: the mobility index is {index:.3g}, below 0; check weight, tyres and clearance"
+        )
+    psi = 11.48 + 0.2 * index - 39.2 / (index + 3.74) if index <= 115 else 4.1 * index**0.446
+    if math.isfinite(tyre.deflection_ratio):
+        psi *= (0.15 / tyre.deflection_ratio) ** 0.25
+    return VehicleConeIndex(index, psi * PSI)

@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A soil card: parameters of vehicle codes with standard errors and the range where they hold."""
+
+import math
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from ..errors import ResultsError, content_of
+from .fits import Cone, Fitted, PressureSinkage, Range, Shear
+
+UNITS = {  # of the parameters; lists of two numbers have the unit of the last column of the page
+    "k_c": "N/m^(n+1)",
+    "k_phi": "N/m^(n+2)",
+    "n": "",
+    "c": "Pa",
+    "phi": "degree",
+    "K": "m",
+    "index": "Pa",
+    "gradient": "Pa/m",
+}
+REMEDY = "write it with furrow-soil card"
+
+
+@dataclass(frozen=True)
+class SoilCard:
+    """What a card holds. density [kg/m3]; stiffness: elastic, under a rigid plate [Pa/m]."""
+
+    title: str
+    ground: str
+    density: float
+    stiffness: float
+    pressure_sinkage: PressureSinkage
+    shear: Shear
+    cone: Cone
+    notes: tuple[str, ...] = ()
+
+    def parameters(self) -> dict[str, Fitted]:
+        """Name -> value and standard error."""
+        found = {}
+        for part in (self.pressure_sinkage, self.shear, self.cone):
+            for field in fields(part):
+                value = getattr(part, field.name)
+                if isinstance(value, Fitted):
+                    found[field.name] = value
+        return found
+
+    def ranges(self) -> list[tuple[str, Range, str]]:
+        """Meaning, range, unit."""
+        plate, shear = self.pressure_sinkage, self.shear
+        return [
+            ("sinkage of the plates", plate.sinkage, "m"),
+            ("pressure under the plates", plate.pressure, "Pa"),
+            ("radius of the plates", plate.radii, "m"),
+            ("normal stress under the ring", shear.normal, "Pa"),
+            ("shear displacement", shear.displacement, "m"),
+            ("depth of the cone", self.cone.depth, "m"),
+        ]
+
+    def report(self) -> str:
+        """Lines for a person."""
+        lines = [self.title]
+        for name, value in self.parameters().items():
+            lines.append(f"  {name:9} {shown(value):>22} {UNITS[name]}")
+        for meaning, span, unit in self.ranges():
+            lines.append(f"  {meaning:28} {span.low:.3g} to {span.high:.3g} {unit}")
+        return "\n".join([*lines, *(f"  note: {note}" for note in self.notes)])
+
+
+def shown(fitted: Fitted) -> str:
+    """Value and error, both to two digits of the error."""
+    if not (fitted.error > 0 and math.isfinite(fitted.error)):
+        return f"{fitted.value:.3g}"
+    digits = 1 - math.floor(math.log10(fitted.error))
+    return f"{round(fitted.value, digits):.7g} ± {round(fitted.error, digits):.7g}"
+
+
+def _as_yaml(part: Any) -> dict[str, Any]:
+    content: dict[str, Any] = {}
+    for field in fields(part):
+        value = getattr(part, field.name)
+        if isinstance(value, Fitted):
+            content[field.name] = {"value": value.value, "error": value.error}
+            if UNITS[field.name]:
+                content[field.name]["unit"] = UNITS[field.name]
+        elif isinstance(value, Range):
+            content[field.name] = [value.low, value.high]
+        else:
+            content[field.name] = value
+    return content
+
+
+def write_card(card: SoilCard, path: Path) -> None:
+    content = {
+        "title": card.title,
+        "ground": card.ground,
+        "density": card.density,
+        "stiffness": card.stiffness,
+        "pressure_sinkage": _as_yaml(card.pressure_sinkage),
+        "shear": _as_yaml(card.shear),
+        "cone": _as_yaml(card.cone),
+        "notes": list(card.notes),
+    }
+    head = (
+        "# Soil card, SI units and degrees, written by furrow-soil card. value and error: fit and\n"
+        "# standard error. Lists of two numbers: range of the tests. inputs/guide/soil_files.md\n"
+        "# explains every key.\n"
+    )
+    text = yaml.safe_dump(content, sort_keys=False, default_flow_style=None, width=100)
+    path.write_text(head + text, encoding="utf-8")
+
+
+def read_card(path: Path | str) -> SoilCard:
+    """@raises OSError; ResultsError where the file is no card"""
+    path = Path(path)
+    with content_of(path, REMEDY):
+        try:
+            content = yaml.safe_load(path.read_text(encoding="utf-8"))
+        except yaml.YAMLError as error:
+            raise ResultsError(f"{path}: is no YAML; {REMEDY}") from error
+        if not isinstance(content, dict):
+            raise ResultsError(f"{path}: has no keys; {REMEDY}")
+        parts = {
+            name: _read_part(path, kind, name, content[name])
+            for name, kind in (
+                ("pressure_sinkage", PressureSinkage),
+                ("shear", Shear),
+                ("cone", Cone),
+            )
+        }
+        return SoilCard(
+            str(content["title"]),
+            str(content["ground"]),
+            float(content["density"]),
+            float(content["stiffness"]),
+            **parts,
+            notes=tuple(str(note) for note in content.get("notes", ())),
+        )
+
+
+def _read_part(path: Path, kind: Any, section: str, content: dict[str, Any]) -> Any:
+    values: dict[str, Any] = {}
+    for field in fields(kind):
+        given = content[field.name]
+        where = f"{path}: {section}.{field.name}"
+        if field.type is Fitted:
+            unit = given.get("unit", "")
+            if unit != UNITS[field.name]:
+                raise ResultsError(
+                    f"{where} has the unit '{unit}'; allowed: '{UNITS[field.name]}'; {REMEDY}"
+                )
+            values[field.name] = Fitted(_finite(where, given["value"]), float(given["error"]))
+        elif field.type is Range:
+            low, high = (_finite(where, number) for number in given)
+            values[field.name] = Range(low, high)
+        else:
+            values[field.name] = _finite(where, given)
+    return kind(**values)
+
+
+def _finite(where: str, value: object) -> float:
+    number = float(str(value))
+    if not math.isfinite(number):
+        raise ResultsError(f"{where} is {value}, a finite number is needed; {REMEDY}")
+    return number

@@ -1,0 +1,253 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Fits of bevameter and cone tests: Bekker's k_c, k_phi, n, the c, phi, K of Janosi, cone index.
+
+Neighbouring points of a curve deviate from a fit together. So the standard errors count one point
+in as many as the residuals are correlated over.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from ..arrays import Floats
+from ..errors import ResultsError
+
+FIRST = 0.05  # of the greatest sinkage or displacement: where a fit begins, behind first touch
+INDEX_DEPTH = 0.15  # [m] over which a cone index is a mean, ASABE EP542
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A parameter with its standard error."""
+
+    value: float
+    error: float
+
+
+@dataclass(frozen=True)
+class Range:
+    """Where the tests were made."""
+
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class PlateCurve:
+    """Pressure [Pa] under a round plate of a radius [m] over its sinkage [m]."""
+
+    radius: float
+    sinkage: Floats
+    pressure: Floats
+
+    def used(self) -> "PlateCurve":
+        """Without first touch and what lies beyond the greatest sinkage."""
+        use = (self.sinkage > FIRST * self.sinkage.max()) & (self.pressure > 0)
+        return PlateCurve(self.radius, self.sinkage[use], self.pressure[use])
+
+
+@dataclass(frozen=True)
+class ShearCurve:
+    """Normal and shear stress [Pa] over the shear displacement [m] of one load."""
+
+    displacement: Floats
+    normal: Floats
+    shear: Floats
+
+
+@dataclass(frozen=True)
+class ConeCurve:
+    """Pressure on the base [Pa] over the depth of the base [m]."""
+
+    depth: Floats
+    pressure: Floats
+
+
+@dataclass(frozen=True)
+class PressureSinkage:
+    """p = (k_c/b + k_phi) z^n of M. G. Bekker (1969); b is the radius of a round plate."""
+
+    k_c: Fitted  # [N/m^(n+1)]
+    k_phi: Fitted  # [N/m^(n+2)]
+    n: Fitted
+    sinkage: Range  # [m]
+    pressure: Range  # [Pa]
+    radii: Range  # [m]
+    residual: float  # rms, over the greatest pressure of each plate
+
+    def at(self, sinkage: Floats, radius: float) -> Floats:
+        modulus = self.k_c.value / radius + self.k_phi.value
+        pressure: Floats = modulus * np.asarray(sinkage) ** self.n.value
+        return pressure
+
+
+@dataclass(frozen=True)
+class Shear:
+    """tau = (c + sigma tan phi)(1 - exp(-j/K)) of Z. Janosi and B. Hanamoto (1961)."""
+
+    c: Fitted  # [Pa]
+    phi: Fitted  # [degrees]
+    K: Fitted  # [m]
+    normal: Range  # [Pa]
+    displacement: Range  # [m]
+    residual: float  # rms, over the greatest shear stress
+
+    def at(self, displacement: Floats, normal: Floats) -> Floats:
+        strength = self.c.value + normal * math.tan(math.radians(self.phi.value))
+        stress: Floats = strength * (1 - np.exp(-displacement / self.K.value))
+        return stress
+
+
+@dataclass(frozen=True)
+class Cone:
+    """Cone index: mean pressure on the base of a cone."""
+
+    index: Fitted  # [Pa] mean over `depth`
+    gradient: Fitted  # [Pa/m] of the pressure over depth
+    depth: Range  # [m]
+
+
+def fit_plates(curves: Sequence[PlateCurve]) -> PressureSinkage:
+    """Least squares in p over the greatest pressure of each plate, which J. Y. Wong (1980) prefers
+    to least squares in ln p: there the first millimetres rule.
+
+    @raises ResultsError for fewer than two sizes or curves that carry nothing
+    """
+    _require(len({round(curve.radius, 6) for curve in curves}) > 1, "plates of two sizes or more")
+    for curve in curves:
+        _require(curve.pressure.size > 0 and curve.pressure.max() > 0, "a plate that carries load")
+    used = [curve.used() for curve in curves]
+    tops = [float(curve.pressure.max()) for curve in used]
+    deepest = max(float(curve.sinkage.max()) for curve in used)
+    scale = float(np.mean(tops))  # of p at the deepest sinkage
+    length = float(np.mean([curve.radius for curve in used]))
+
+    def residuals(x: Floats) -> list[Floats]:
+        """x: k_c/(length scale), k_phi/scale at the deepest sinkage, n."""
+        return [
+            scale * (x[0] * length / curve.radius + x[1]) * (curve.sinkage / deepest) ** x[2] / top
+            - curve.pressure / top
+            for curve, top in zip(used, tops)
+        ]
+
+    x, covariance, rms = _fit(residuals, (0.1, 1.0, 0.8), ((-50, -50, 0.0), (50, 50, 3.0)))
+    # To k_c and k_phi in the units of n, with the error of n in both
+    unit = scale * deepest ** -x[2]
+    jacobian = np.diag((unit * length, unit, 1.0))
+    jacobian[0, 2] = -x[0] * length * unit * math.log(deepest)
+    jacobian[1, 2] = -x[1] * unit * math.log(deepest)
+    errors = np.sqrt(np.diag(jacobian @ covariance @ jacobian.T))
+    return PressureSinkage(
+        Fitted(float(x[0] * length * unit), float(errors[0])),
+        Fitted(float(x[1] * unit), float(errors[1])),
+        Fitted(float(x[2]), float(errors[2])),
+        Range(min(float(c.sinkage.min()) for c in used), deepest),
+        Range(min(float(c.pressure.min()) for c in used), max(tops)),
+        Range(min(c.radius for c in used), max(c.radius for c in used)),
+        rms,
+    )
+
+
+def fit_shear(curves: Sequence[ShearCurve]) -> Shear:
+    """All loads at once, with the normal stress that each point has.
+
+    @raises ResultsError for fewer than two loads or no shear stress
+    """
+    means = [float(np.mean(curve.normal)) for curve in curves]
+    _require(len(curves) > 1 and max(means) > 1.2 * min(means), "shear tests of two loads or more")
+    used = []
+    for curve in curves:
+        use = curve.displacement > FIRST * curve.displacement.max()
+        used.append(ShearCurve(curve.displacement[use], curve.normal[use], curve.shear[use]))
+    top = max(float(curve.shear.max()) for curve in used)
+    _require(top > 0, "a shear stress above 0")
+    longest = max(float(curve.displacement.max()) for curve in used)
+
+    def residuals(x: Floats) -> list[Floats]:
+        """x: c/top, tan phi, K/longest."""
+        return [
+            (x[0] + curve.normal / top * x[1]) * (1 - np.exp(-curve.displacement / (longest * x[2])))
+            - curve.shear / top
+            for curve in used
+        ]
+
+    x, covariance, rms = _fit(residuals, (0.1, 0.5, 0.2), ((0.0, 0.0, 1e-4), (2.0, 3.0, 10.0)))
+    errors = np.sqrt(np.diag(covariance))
+    return Shear(
+        Fitted(float(x[0] * top), float(errors[0] * top)),
+        Fitted(
+            math.degrees(math.atan(x[1])), float(math.degrees(errors[1] / (1 + x[1] ** 2)))
+        ),
+        Fitted(float(x[2] * longest), float(errors[2] * longest)),
+        Range(min(means), max(means)),
+        Range(0.0, longest),
+        rms,
+    )
+
+
+def cone_index(curve: ConeCurve) -> Cone:
+    """Mean pressure from the surface to 15 cm, or to the end of a shorter test, and its slope.
+
+    @raises ResultsError for a cone whose base has not come into the ground
+    """
+    use = (curve.depth >= 0) & (curve.depth <= INDEX_DEPTH)
+    _require(int(use.sum()) > 9, "a cone whose base is below the surface")
+    depth, pressure = curve.depth[use], curve.pressure[use]
+    design = np.column_stack((np.ones_like(depth), depth - depth.mean()))
+    solution, *_ = np.linalg.lstsq(design, pressure, rcond=None)
+    residual = pressure - design @ solution
+    freedom = max(depth.size / _correlation(residual) - 2, 1.0)
+    covariance = np.sum(residual**2) / depth.size / freedom * np.linalg.inv(
+        design.T @ design / depth.size
+    )
+    errors = np.sqrt(np.diag(covariance))
+    return Cone(
+        Fitted(float(solution[0]), float(errors[0])),
+        Fitted(float(solution[1]), float(errors[1])),
+        Range(float(depth.min()), float(depth.max())),
+    )
+
+
+def _require(met: bool, needed: str) -> None:
+    if not met:
+        raise ResultsError(f"the fit of a soil card needs {needed}; run the tests again")
+
+
+def _fit(
+    residuals: Callable[[Floats], list[Floats]],
+    start: Sequence[float],
+    bounds: tuple[Sequence[float], Sequence[float]],
+) -> tuple[Floats, Floats, float]:
+    """Parameters, their covariance and the rms of the residuals, which come curve by curve.
+
+    The covariance is J^-1 (sum over curves of the autocovariance) J^-T, where the residuals of a
+    curve are correlated and those of two curves are not.
+    """
+    fit = least_squares(lambda x: np.concatenate(residuals(x)), start, bounds=bounds)
+    parts = residuals(fit.x)
+    inverse = np.linalg.inv(fit.jac.T @ fit.jac)
+    count, middle, first = sum(part.size for part in parts), np.zeros_like(inverse), 0
+    for part in parts:
+        jacobian = fit.jac[first : first + part.size]
+        first += part.size
+        middle += jacobian.T @ jacobian * float(np.mean(part**2)) * _correlation(part)
+    freedom = count / max(count - len(start), 1)
+    rms = float(np.sqrt(2 * fit.cost / count))
+    return fit.x, inverse @ middle @ inverse * freedom, rms
+
+
+def _correlation(residual: Floats) -> float:
+    """Points that share a deviation: 1 + 2 sum of the autocorrelation, up to its first zero."""
+    variance = float(np.mean(residual**2))
+    if variance == 0:
+        return 1.0
+    total = 1.0
+    for lag in range(1, residual.size // 2):
+        share = float(np.mean(residual[lag:] * residual[:-lag])) / variance
+        if share <= 0:
+            break
+        total += 2 * share
+    return total

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Virtual plates, shear ring and cone on a continuum, and their curves."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..arrays import Floats
+from ..csv_table import read_matrix
+from ..errors import ResultsError
+from ..programs import find_program, inputs_folder
+from ..scene.process import Runs
+from .fits import ConeCurve, PlateCurve, ShearCurve
+from .material import Material, read_material
+
+# Of the wave speed: slow enough that a faster test gives the same curve within its noise
+PLATE_PACE, PRESS_PACE, RING_PACE, CONE_PACE = 1 / 300, 1 / 400, 1 / 400, 1 / 60
+FASTEST = 1.0  # [m/s] 100 Pa of dynamic pressure on snow, 800 Pa on sand
+RING = (0.2, 0.12)  # [m] outer and inner diameter
+PRESS = 0.015  # [m] that the drive would move in the time of pressing
+CONE_BASE = 0.02027  # [m] 323 mm2, ASABE S313.3
+CONE_ANGLE = 30.0  # [degrees]
+
+
+@dataclass(frozen=True)
+class Bench:
+    """The ground and where its tests go."""
+
+    path: Path  # of the material
+    material: Material
+    folder: Path
+    gravity: float
+
+    @classmethod
+    def of(cls, path: Path, folder: Path, gravity: float) -> "Bench":
+        return cls(path, read_material(path), folder, gravity)
+
+    def speed(self, pace: float) -> float:
+        """[m/s]"""
+        return min(pace * self.material.wave_speed, FASTEST)
+
+    def run(self, instrument: str, name: str, variables: Mapping[str, float], runs: Runs) -> Path:
+        """Runs a script of inputs/soils/instruments unless its results are there.
+
+        @return folder of the results @raises ResultsError, Stopped, Failed
+        """
+        inputs = inputs_folder()
+        if inputs is None:
+            raise ResultsError("furrow-soil needs Furrow's inputs; run it from the tree or installed")
+        script = inputs / "soils" / "instruments" / f"{instrument}.lig"
+        folder = (self.folder / name).resolve()
+        values = {"gravity": self.gravity, **variables}
+        lines = [str(self.path), self.path.read_text(encoding="utf-8")]
+        record = "\n".join([*lines, *(f"{key} {value!r}" for key, value in values.items())])
+        done = folder / "done.txt"
+        if done.is_file() and done.read_text(encoding="utf-8") == record:
+            return folder
+        folder.mkdir(parents=True, exist_ok=True)
+        done.unlink(missing_ok=True)
+        command: list[object] = [find_program("furrow"), "-in", script, "-log", folder / "log.liggghts"]
+        command += ["-var", "results", folder, "-var", "material", self.path]
+        for key, value in values.items():
+            command += ["-var", key, repr(float(value)) if isinstance(value, float) else value]
+        print(f"{name} ...", flush=True)
+        runs.run(command, folder, folder, f"{name}: ")
+        done.write_text(record, encoding="utf-8")
+        return folder
+
+
+def plate_test(bench: Bench, size: float, sinkage: float, cells: int, runs: Runs) -> PlateCurve:
+    """A round plate of a diameter, to a sinkage [m]."""
+    variables = {
+        "size": size,
+        "sinkage": sinkage,
+        "cells": cells,
+        "speed": bench.speed(PLATE_PACE),
+    }
+    folder = bench.run("plate", f"plate_{1e3 * size:.0f}mm", variables, runs)
+    rows = _rows(folder)
+    return PlateCurve(0.5 * size, rows[:, 1], rows[:, 3])
+
+
+def ring_test(bench: Bench, pressure: float, turn: float, cells: int, runs: Runs) -> ShearCurve:
+    """The ring under a mean pressure [Pa], whose middle turns by so many metres; stresses from its
+    force and torque."""
+    outer, inner = 0.5 * RING[0], 0.5 * RING[1]
+    middle = 2 / 3 * (outer**3 - inner**3) / (outer**2 - inner**2)
+    speed, press_speed = bench.speed(RING_PACE), bench.speed(PRESS_PACE)
+    variables = {
+        "size": RING[0],
+        "inner_size": RING[1],
+        "load": pressure * math.pi * (outer**2 - inner**2),
+        "cells": cells,
+        "press_speed": press_speed,
+        "press_time": PRESS / press_speed,
+        "spin": speed / middle,
+        "angle": turn / middle,
+    }
+    rows = _rows(bench.run("shear", f"ring_{1e-3 * pressure:.3g}kPa", variables, runs))
+    turning = rows[rows[:, 5] > 0]
+    # tau = T / (2 pi integral r^2 dr), which is uniform stress
+    tau = -turning[:, 4] / (2 / 3 * math.pi * (outer**3 - inner**3))
+    return ShearCurve(turning[:, 5] * middle, turning[:, 3], tau)
+
+
+def cone_test(bench: Bench, depth: float, cells: int, runs: Runs) -> ConeCurve:
+    """The cone of 30 degrees and 323 mm2, until its base is at a depth [m]."""
+    variables = {
+        "size": CONE_BASE,
+        "angle": CONE_ANGLE,
+        "depth_of_base": depth,
+        "cells": cells,
+        "speed": bench.speed(CONE_PACE),
+    }
+    rows = _rows(bench.run("cone", "cone", variables, runs))
+    height = 0.5 * CONE_BASE / math.tan(math.radians(0.5 * CONE_ANGLE))
+    return ConeCurve(rows[:, 1] - height, rows[:, 3])
+
+
+def _rows(folder: Path) -> Floats:
+    rows = read_matrix(folder / "curve.txt", 4)
+    if len(rows) < 20 or not np.isfinite(rows).all():
+        raise ResultsError(f"{folder}/curve.txt: has too few rows; remove the folder and run again")
+    return rows[1:]
+
+
+def carried_pressure(plates: Sequence[PlateCurve]) -> float:
+    """What the smallest plate carries at a fifth of its radius [Pa]: a ring as wide sinks little
+    under less."""
+    small = min(plates, key=lambda curve: curve.radius)
+    return float(np.interp(0.2 * small.radius, small.sinkage, small.pressure))

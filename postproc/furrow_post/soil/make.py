@@ -1,0 +1,379 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A material file from what a user knows of a soil, by three routes.
+
+All three give the cap law with the section of Matsuoka and Nakai. Its strength is that of
+Mohr-Coulomb in triaxial compression and extension (inputs/guide/soil_files.md).
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy.optimize import brentq
+
+from ..arrays import Floats
+from ..csv_table import read_rows
+from ..errors import ResultsError
+from .material import NewMaterial, Parameter
+from .units import require_plausible
+
+POISSON = Parameter(0.25, "0.2 to 0.35 for soil", guessed=True)
+# Of elastic over oedometric modulus: unloading modulus 3 times the secant modulus E_50, T. Schanz,
+# P. A. Vermeer and P. G. Bonnier, Beyond 2000 in Computational Geotechnics (1999), 281-296
+UNLOADING = 3.0
+REFERENCE = 1e5  # [Pa] of the oedometric modulus
+EXPONENT = 0.5  # M = M_ref (sigma/REFERENCE)^EXPONENT, N. Janbu, ECSMFE (1963), sand
+STRESSES = (5e2, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5, 2e5, 5e5)  # [Pa] of a table
+SMALLEST_COHESION = 100.0  # [Pa] d that keeps a free surface together
+CAP = Parameter(0.02, "a steep cap: compression at the shear strength", guessed=True)  # R
+
+
+@dataclass(frozen=True)
+class Strength:
+    """Cohesion [Pa] and friction angle [degrees] of Mohr-Coulomb."""
+
+    c: float
+    phi: float
+
+    @property
+    def sine(self) -> float:
+        return math.sin(math.radians(self.phi))
+
+    @property
+    def tangent(self) -> float:
+        """tan(beta) of the cap law in triaxial compression."""
+        return 6 * self.sine / (3 - self.sine)
+
+    @property
+    def d(self) -> float:
+        cosine = math.cos(math.radians(self.phi))
+        return max(6 * self.c * cosine / (3 - self.sine), SMALLEST_COHESION)
+
+    @property
+    def K(self) -> float:
+        return (3 - self.sine) / (3 + self.sine)
+
+    def mean_stress(self, axial: Floats) -> Floats:
+        """Of confined compression at the corner of shear line and cap: q = d + p tan(beta)."""
+        p: Floats = (np.asarray(axial) - 2 / 3 * self.d) / (1 + 2 / 3 * self.tangent)
+        return p
+
+    def yield_strength(self, mean: Floats) -> Floats:
+        """Hydrostatic, of the cap whose corner is at this mean stress."""
+        p: Floats = mean + float(CAP.value) * (self.d + mean * self.tangent)
+        return p
+
+
+@dataclass(frozen=True)
+class Confined:
+    """Confined compression: axial stress [Pa] over strain, both increasing."""
+
+    stress: tuple[float, ...]
+    strain: tuple[float, ...]
+    origin: str
+    guessed: bool = False
+
+
+def read_oedometer(path: Path) -> Confined:
+    """A table with the columns stress_Pa and strain. @raises OSError, ResultsError"""
+    rows = read_rows(path)
+    for column in ("stress_Pa", "strain"):
+        if not rows or column not in rows[0]:
+            raise ResultsError(
+                f"{path}: has no column '{column}'; an oedometer is a table with the columns "
+                "stress_Pa [Pa] and strain (a ratio)"
+            )
+    points = []
+    for number, row in enumerate(rows, 1):
+        try:
+            point = float(row["stress_Pa"]), float(row["strain"])
+            require_plausible("stress", point[0])
+            require_plausible("strain", point[1])
+        except (ValueError, ResultsError) as error:
+            raise ResultsError(f"{path}, row {number}: {error}") from error
+        points.append(point)
+    if len(points) < 3 or any(a[0] >= b[0] or a[1] >= b[1] for a, b in zip(points, points[1:])):
+        raise ResultsError(
+            f"{path}: needs three rows or more with increasing stress and increasing strain; "
+            "leave out unloading"
+        )
+    stress, strain = zip(*points)
+    return Confined(stress, strain, f"oedometer {path.name}")
+
+
+def confined_of_modulus(modulus: float, reference: float = REFERENCE) -> Confined:
+    """Of an oedometric modulus [Pa] at a reference stress [Pa]; it grows with the root of stress."""
+    stress = np.array(STRESSES)
+    strain = reference / modulus / (1 - EXPONENT) * (stress / reference) ** (1 - EXPONENT)
+    return Confined(
+        STRESSES,
+        tuple(strain),
+        f"Janbu (1963) with an oedometric modulus of {modulus:.3g} Pa at {reference:.3g} Pa",
+        guessed=True,
+    )
+
+
+def confined_of_plate(k_c: float, k_phi: float, n: float, radius: float) -> Confined:
+    """Of Bekker's curve of a plate. A rigid plate on an elastic half-space sinks as if a layer as
+    thick as 0.96 diameters were confined below it (Timoshenko and Goodier, eq 217, nu 0.3)."""
+    modulus = k_c / radius + k_phi
+    if modulus <= 0:
+        raise ResultsError(
+            f"k_c/b + k_phi is {modulus:g} for a plate of radius {radius:g} m; it must be above 0"
+        )
+    thickness = 0.96 * 2 * radius
+    strain = np.geomspace(2e-3, 0.6, 12)
+    stress = modulus * (strain * thickness) ** n
+    return Confined(
+        tuple(stress),
+        tuple(strain),
+        f"k_c, k_phi and n at a plate of {2e3 * radius:g} mm, over a layer 0.96 times as thick",
+        guessed=True,
+    )
+
+
+def material_of(
+    title: str,
+    strength: Strength,
+    density: Parameter,
+    confined: Confined,
+    young: Parameter,
+    strength_origin: str,
+    guessed_strength: bool = False,
+    head: Sequence[str] = (),
+) -> NewMaterial:
+    """The law whose confined compression is this curve."""
+    nu = float(POISSON.value)
+    elastic = float(young.value)
+    bulk = elastic / (3 * (1 - 2 * nu))
+    stress, strain = np.array(confined.stress), np.array(confined.strain)
+    above = strength.mean_stress(stress) > 0
+    if above.sum() < 2:
+        raise ResultsError(
+            f"all of the {confined.origin} lies below the cohesion of {strength.c:g} Pa; give "
+            "higher stresses or a smaller cohesion"
+        )
+    p = strength.mean_stress(stress[above])
+    plastic = -np.log1p(-strain[above]) - p / bulk
+    rising = np.flatnonzero(plastic > 0)
+    if rising.size < 2 or np.any(np.diff(plastic[rising]) <= 0):
+        raise ResultsError(
+            f"E = {elastic:g} Pa is softer than the {confined.origin}; give the modulus of unloading"
+        )
+    first = 0.2 * p[rising[0]]
+    pressures = strength.yield_strength(np.array([first, *p[rising]]))
+    strains = [0.0, *plastic[rising]]
+
+    def computed(value: float) -> Parameter:
+        return Parameter(value, strength_origin, guessed_strength)
+
+    law = {
+        "density": density,
+        "d": computed(strength.d)
+        if strength.d > SMALLEST_COHESION
+        else Parameter(SMALLEST_COHESION, "keeps a free surface together", True),
+        "beta": computed(math.degrees(math.atan(strength.tangent))),
+        "R": CAP,
+        "K": computed(strength.K),
+        "section": Parameter("matsuoka_nakai", "Mohr-Coulomb in compression and extension"),
+    }
+    return NewMaterial(
+        title,
+        tuple(head),
+        law,
+        {"E": young, "nu": POISSON},
+        tuple(float(value) for value in pressures),
+        tuple(float(value) for value in strains),
+        Parameter("table", confined.origin, confined.guessed),
+    )
+
+
+def stiffer_than(confined: Confined) -> Parameter:
+    """An E for a curve without unloading."""
+    stress, strain = np.array(confined.stress), np.array(confined.strain)
+    steepest = float(np.max(np.diff(stress) / np.diff(strain)))
+    return Parameter(UNLOADING * steepest, f"{UNLOADING:g} times the steepest modulus", True)
+
+
+def compression(oedometer: Confined | None, young: float | None) -> Confined:
+    """@raises ResultsError where neither is given"""
+    if oedometer:
+        return oedometer
+    if young is None:
+        raise ResultsError("furrow-soil make needs --oedometer FILE or --E for the compression")
+    return confined_of_modulus(young / UNLOADING)
+
+
+def from_strength(
+    title: str, c: float, phi: float, density: float, oedometer: Confined | None, young: float | None
+) -> NewMaterial:
+    """c [Pa], phi [degrees], density [kg/m3], and an oedometer, E [Pa] or both."""
+    require_plausible("c", c)
+    require_plausible("phi", phi)
+    require_plausible("density", density)
+    if young is not None:
+        require_plausible("E", young)
+    confined = compression(oedometer, young)
+    elastic = Parameter(young, "given") if young is not None else stiffer_than(confined)
+    strength = Strength(c, phi)
+    return material_of(
+        title,
+        strength,
+        Parameter(density, "given"),
+        confined,
+        elastic,
+        f"c {c:g} Pa, phi {phi:g} degrees",
+    )
+
+
+def from_bekker(
+    title: str,
+    k_c: float,
+    k_phi: float,
+    n: float,
+    c: float,
+    phi: float,
+    K: float,
+    radius: float,
+    density: float | None,
+) -> NewMaterial:
+    """k_c [N/m^(n+1)], k_phi [N/m^(n+2)], c [Pa], phi [degrees], K [m]; radius [m] of the plate at
+    which the material shall have the curve."""
+    for name, value in (("k_c", k_c), ("k_phi", k_phi), ("n", n), ("c", c), ("phi", phi), ("K", K)):
+        require_plausible(name, value)
+    if density is not None:
+        require_plausible("density", density)
+    confined = confined_of_plate(k_c, k_phi, n, radius)
+    known = (
+        Parameter(density, "given")
+        if density is not None
+        else Parameter(1600.0, "loose dry sand, K. Terzaghi and R. B. Peck (1967), Table 6.3", True)
+    )
+    head = (f"K = {K:g} m is not used: the law has no length. The displacement follows from E.",)
+    return material_of(
+        title,
+        Strength(c, phi),
+        known,
+        confined,
+        stiffer_than(confined),
+        f"c {c:g} Pa, phi {phi:g} degrees",
+        head=head,
+    )
+
+
+@dataclass(frozen=True)
+class SoilClass:
+    """Typical values of compacted soil: NAVFAC DM-7.02 (1986), Table 1, its middles.
+
+    density [kg/m3] dry, c [Pa] saturated, phi [degrees] effective.
+    """
+
+    density: float
+    c: float
+    phi: float
+
+    @property
+    def coarse(self) -> bool:
+        """Without cohesion: the cone index measures the friction angle."""
+        return self.c == 0
+
+
+POUND = 47.880258  # [Pa] per square foot
+PCF = 16.018463  # [kg/m3] per pound per cubic foot
+CLASSES = {
+    "GW": SoilClass(130 * PCF, 0, 38),
+    "GP": SoilClass(120 * PCF, 0, 37),
+    "GM": SoilClass(127.5 * PCF, 0, 34),
+    "GC": SoilClass(122.5 * PCF, 0, 31),
+    "SW": SoilClass(120 * PCF, 0, 38),
+    "SP": SoilClass(110 * PCF, 0, 37),
+    "SM": SoilClass(117.5 * PCF, 420 * POUND, 34),
+    "SC": SoilClass(115 * PCF, 230 * POUND, 31),
+    "ML": SoilClass(107.5 * PCF, 190 * POUND, 32),
+    "CL": SoilClass(107.5 * PCF, 270 * POUND, 28),
+    "MH": SoilClass(82.5 * PCF, 420 * POUND, 25),
+    "CH": SoilClass(90 * PCF, 230 * POUND, 19),
+}
+INDEX_DEPTH = 0.15  # [m]
+# Young's modulus over cone resistance of sand: J. H. Schmertmann, J. Soil Mech. Found. Div. ASCE 96
+# (1970), 1011-1043
+MODULUS_RATIO = 2.0
+
+
+def cone_resistance(strength: Strength, density: float, shear_modulus: float, depth: float) -> float:
+    """Pressure on a cone at a depth [m], by the spherical cavity of A. S. Vesic (1977): q = c N_c +
+    s N_s with the mean stress s of the weight [Pa]."""
+    weight = density * 9.80665 * depth
+    sine = strength.sine
+    at_rest = 1 - sine  # K0 of J. Jaky (1944)
+    mean = (1 + 2 * at_rest) / 3 * weight
+    tangent = math.tan(math.radians(strength.phi))
+    rigidity = max(shear_modulus / (strength.c + mean * tangent), 3.0)
+    if strength.phi < 0.1:
+        return strength.c * (4 / 3 * (math.log(rigidity) + 1) + math.pi / 2 + 1) + mean
+    angle = math.radians(strength.phi)
+    factor = (
+        3
+        / (3 - sine)
+        * math.exp((math.pi / 2 - angle) * tangent)
+        * math.tan(math.pi / 4 + angle / 2) ** 2
+        * rigidity ** (4 * sine / (3 * (1 + sine)))
+    )
+    return float(strength.c * (factor - 1) / tangent + mean * factor)
+
+
+def from_cone(title: str, cone_index: float, soil_class: str, density: float | None) -> NewMaterial:
+    """cone_index [Pa] mean of the first 15 cm; soil_class: of CLASSES.
+
+    Of a coarse soil the cone gives the friction angle, of a fine one the cohesion.
+    """
+    require_plausible("cone_index", cone_index)
+    if soil_class not in CLASSES:
+        raise ResultsError(
+            f"there is no soil class '{soil_class}'; allowed: {', '.join(CLASSES)} of the USCS"
+        )
+    typical = CLASSES[soil_class]
+    source = f"typical of {soil_class}, NAVFAC DM-7.02 (1986), Table 1"
+    if density is not None:
+        require_plausible("density", density)
+        known = Parameter(density, "given")
+    else:
+        known = Parameter(typical.density, source, True)
+    weight = float(known.value)
+    young = MODULUS_RATIO * cone_index
+    shear_modulus = young / (2 * (1 + float(POISSON.value)))
+
+    def excess(strength: Strength) -> float:
+        q = cone_resistance(strength, weight, shear_modulus, 0.5 * INDEX_DEPTH)
+        return math.log(q / cone_index)
+
+    low, high = (5.0, 48.0) if typical.coarse else (20.0, 1e6)
+
+    def strength_of(x: float) -> Strength:
+        return Strength(SMALLEST_COHESION / 2, x) if typical.coarse else Strength(x, typical.phi)
+
+    if excess(strength_of(low)) > 0 or excess(strength_of(high)) < 0:
+        what = "friction angle" if typical.coarse else "cohesion"
+        raise ResultsError(
+            f"no {what} of {low:g} to {high:g} gives a cone index of {cone_index:g} Pa in "
+            f"{soil_class}; check the class, and the unit: {cone_index:g} Pa"
+        )
+    strength = strength_of(float(brentq(lambda x: excess(strength_of(x)), low, high)))
+    reference = strength.c + weight * 9.80665 * 0.5 * INDEX_DEPTH
+    confined = confined_of_modulus(young, reference)
+    head = (
+        f"cone index {cone_index:g} Pa in {soil_class}: c {strength.c:.4g} Pa, phi "
+        f"{strength.phi:.4g} degrees, by the cavity of Vesic (1977)",
+    )
+    return material_of(
+        title,
+        strength,
+        known,
+        confined,
+        stiffer_than(confined),
+        f"cone index {cone_index:g} Pa and {source}",
+        guessed_strength=True,
+        head=head,
+    )

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Material files of a continuum: what the virtual tests need of one, and writing one."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from ..errors import ResultsError, content_of
+from ..programs import inputs_folder
+
+MOST_BASES = 8
+SECTIONS = ("law", "elasticity", "hardening")
+
+
+@dataclass(frozen=True)
+class Material:
+    """density [kg/m3], elastic constants at the start [Pa]."""
+
+    title: str
+    density: float
+    young: float
+    poisson: float
+
+    @property
+    def wave_speed(self) -> float:
+        """Of pressure waves [m/s]."""
+        nu = self.poisson
+        modulus = self.young * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
+        return math.sqrt(modulus / self.density)
+
+    def punch_stiffness(self, radius: float) -> float:
+        """Elastic pressure over sinkage under a rigid round plate: F = 2 E a w/(1 - nu^2), S. P.
+        Timoshenko and J. N. Goodier, Theory of Elasticity (1970), eq 217 [Pa/m]."""
+        return 2 * self.young / (math.pi * radius * (1 - self.poisson**2))
+
+
+def find_material(name: str) -> Path:
+    """A file, or one of inputs/materials by its name. @raises ResultsError"""
+    if Path(name).is_file():
+        return Path(name).resolve()
+    inputs = inputs_folder()
+    folder = inputs / "materials" if inputs else None
+    if folder and (folder / f"{Path(name).stem}.yaml").is_file():
+        return folder / f"{Path(name).stem}.yaml"
+    known = ", ".join(sorted(f.stem for f in folder.glob("*.yaml"))) if folder else "none"
+    raise ResultsError(f"there is no material '{name}'; name a file, or one of {known}")
+
+
+def read_material(path: Path) -> Material:
+    """Follows `base`, as furrow does; whether the file is right, furrow says. @raises ResultsError"""
+    content = _with_base(path, 0)
+    with content_of(path, "furrow-soil needs density, and E and nu or kappa, e0 and nu"):
+        law, elasticity = content["law"], content["elasticity"]
+        if elasticity["type"] == "linear":
+            young, poisson = float(elasticity["E"]), float(elasticity["nu"])
+        else:  # porous: at a pressure of 10 kPa
+            poisson = float(elasticity.get("nu", 0.25))
+            bulk = (1 + float(elasticity["e0"])) * 1e4 / float(elasticity["kappa"])
+            young = 3 * bulk * (1 - 2 * poisson)
+        title = str(content.get("title", path.stem))
+        return Material(title, float(law["density"]), young, poisson)
+
+
+def _with_base(path: Path, count: int) -> dict[str, Any]:
+    if count > MOST_BASES:
+        raise ResultsError(f"{path}: is the base of {MOST_BASES} files; is one its own base?")
+    with content_of(path, "a material file is YAML, inputs/guide/soil_files.md"):
+        try:
+            content = yaml.safe_load(path.read_text(encoding="utf-8"))
+        except yaml.YAMLError as error:
+            raise ValueError(" ".join(str(error).split())) from error
+        if not isinstance(content, dict):
+            raise ValueError("has no keys")
+        if "base" not in content:
+            return content
+        whole = _with_base(path.parent / str(content["base"]), count + 1)
+        for name in SECTIONS:
+            section = content.get(name, {})
+            same = section.get("type", whole.get(name, {}).get("type")) == whole.get(name, {}).get("type")
+            whole[name] = {**(whole.get(name, {}) if same else {}), **section}
+        whole["title"] = content.get("title", whole.get("title"))
+        return whole
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number of a material file and where it comes from; guessed: not from the user's data."""
+
+    value: float | str
+    origin: str
+    guessed: bool = False
+
+    def comment(self) -> str:
+        return f"GUESSED: {self.origin}" if self.guessed else self.origin
+
+
+@dataclass(frozen=True)
+class NewMaterial:
+    """A cap law with linear elasticity and a table of hardening."""
+
+    title: str
+    head: tuple[str, ...]
+    law: Mapping[str, Parameter]
+    elasticity: Mapping[str, Parameter]
+    pressure: tuple[float, ...]  # [Pa]
+    strain: tuple[float, ...]  # plastic volume strain
+    hardening: Parameter  # origin of the table
+
+    def text(self) -> str:
+        """The material file."""
+        lines = [f"title: {_quoted(self.title)}", *(f"# {line}" for line in self.head)]
+        lines += ["law:", "  type: drucker_prager_cap"]
+        lines += [_line(name, parameter) for name, parameter in self.law.items()]
+        lines += ["elasticity:", "  type: linear"]
+        lines += [_line(name, parameter) for name, parameter in self.elasticity.items()]
+        lines += [
+            "hardening:",
+            "  type: table",
+            f"  # {self.hardening.comment()}",
+            f"  p: [{', '.join(f'{p:.6g}' for p in self.pressure)}]",
+            f"  eps_vol_pl: [{', '.join(f'{e:.6g}' for e in self.strain)}]",
+            "  interpolation: linear",
+            "  beyond: extrapolate",
+        ]
+        return "\n".join(lines) + "\n"
+
+    def guesses(self) -> list[str]:
+        """ "name: origin" of each guessed parameter."""
+        every = {**self.law, **self.elasticity, "hardening": self.hardening}
+        return [f"{name}: {p.origin}" for name, p in every.items() if p.guessed]
+
+
+def _quoted(text: str) -> str:
+    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+def _line(name: str, parameter: Parameter) -> str:
+    value = parameter.value
+    shown = value if isinstance(value, str) else f"{value:.6g}"
+    return f"  {name}: {shown}".ljust(24) + f"  # {parameter.comment()}"

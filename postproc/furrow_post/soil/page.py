@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The page of a soil card: curves with their fits, values, ranges."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from ..figures.page import escaped, html_table, inline_picture, paragraph, STYLE
+from ..figures.style import KILOPASCAL, MILLIMETRE, RUN_COLOURS, annotate_panel, save, use_style
+from .card import UNITS, SoilCard, shown
+from .fits import INDEX_DEPTH, ConeCurve, PlateCurve, ShearCurve
+
+FITTED = {"color": "0.25", "lw": 1.0, "ls": "--"}
+
+
+def draw_card(
+    card: SoilCard,
+    plates: Sequence[PlateCurve],
+    rings: Sequence[ShearCurve],
+    cone: ConeCurve,
+    target: Path,
+) -> None:
+    """Three panels: plates, ring, cone; dashed: the card."""
+    use_style()
+    figure, axes = plt.subplots(1, 3, figsize=(10.5, 3.6), layout="constrained")
+    for curve, colour in zip(plates, RUN_COLOURS):
+        z = np.linspace(0, curve.sinkage.max(), 100)
+        label = f"diameter {2 * MILLIMETRE * curve.radius:.0f} mm"
+        axes[0].plot(MILLIMETRE * curve.sinkage, KILOPASCAL * curve.pressure, color=colour, label=label)
+        axes[0].plot(MILLIMETRE * z, KILOPASCAL * card.pressure_sinkage.at(z, curve.radius), **FITTED)
+    axes[0].set(xlabel="sinkage [mm]", ylabel="mean pressure [kPa]", xlim=(0, None), ylim=(0, None))
+    annotate_panel(axes[0], "a", "plates")
+    for ring, colour in zip(rings, RUN_COLOURS):
+        label = f"normal stress {KILOPASCAL * ring.normal.mean():.3g} kPa"
+        j = MILLIMETRE * ring.displacement
+        axes[1].plot(j, KILOPASCAL * ring.shear, color=colour, label=label)
+        axes[1].plot(j, KILOPASCAL * card.shear.at(ring.displacement, ring.normal), **FITTED)
+    axes[1].set(xlabel="shear displacement [mm]", ylabel="shear stress [kPa]", xlim=(0, None), ylim=(0, None))
+    annotate_panel(axes[1], "b", "shear ring")
+    axes[2].plot(KILOPASCAL * cone.pressure, MILLIMETRE * cone.depth, color=RUN_COLOURS[0], label="cone")
+    index = KILOPASCAL * card.cone.index.value
+    axes[2].plot((index, index), (0, MILLIMETRE * card.cone.depth.high), label="cone index", **FITTED)
+    axes[2].set(
+        xlabel="pressure on the base [kPa]",
+        ylabel="depth of the base [mm]",
+        ylim=(MILLIMETRE * min(cone.depth.max(), INDEX_DEPTH), 0),
+        xlim=(0, None),
+    )
+    annotate_panel(axes[2], "c", "cone")
+    for panel in axes:
+        panel.legend(fontsize=7)
+    save(figure, target)
+
+
+def write_page(card: SoilCard, picture: Path, target: Path) -> None:
+    rows = [
+        (name, shown(fitted), UNITS[name]) for name, fitted in card.parameters().items()
+    ]
+    spans = [(meaning, f"{r.low:.3g}", f"{r.high:.3g}", unit) for meaning, r, unit in card.ranges()]
+    parts = [
+        f"<h1>{escaped(card.title)}</h1>",
+        paragraph(f"Ground: {card.ground}"),
+        inline_picture(picture, "Curves of the virtual tests; dashed: the card"),
+        "<h2>Parameters</h2>",
+        html_table(("parameter", "value ± standard error", "unit"), rows),
+        "<h2>Range of the tests</h2>",
+        html_table(("quantity", "from", "to", "unit"), spans, (1, 2)),
+        *(paragraph(note) for note in card.notes),
+    ]
+    body = "\n".join(parts)
+    target.write_text(
+        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"/>'
+        f"<title>{escaped(card.title)}</title><style>{STYLE}</style></head>\n<body>\n{body}\n</body></html>\n",
+        encoding="utf-8",
+    )

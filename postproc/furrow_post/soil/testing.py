@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""All tests of a card on one ground, and the checks of a new material."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..analyse.statistics import rms
+from ..scene.process import Runs
+from .card import SoilCard, write_card
+from .exports import EXPORTS
+from .fits import cone_index, fit_plates, fit_shear
+from .instruments import Bench, carried_pressure, cone_test, plate_test, ring_test
+from .page import draw_card, write_page
+
+SINKAGE = 0.3  # of the diameter
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How much a card costs. cells: across a plate, across ring and cone."""
+
+    plate_cells: int
+    other_cells: int
+    loads: tuple[float, ...]  # of the ring, over what the smallest plate carries
+    turn: float  # [m] of the middle of the ring
+    cone_depth: float  # [m] of the base
+
+
+FULL = Effort(6, 3, (0.15, 0.3, 0.6), 0.03, 0.15)
+QUICK = Effort(4, 2, (0.2, 0.6), 0.03, 0.04)
+
+
+def make_card(
+    bench: Bench, sizes: Sequence[float], effort: Effort, formats: Sequence[str], runs: Runs
+) -> SoilCard:
+    """Runs plates of these diameters [m], ring and cone, and writes card.yaml, card.html, card.png
+    and the exports into the folder. @raises ResultsError, Stopped, Failed"""
+    cells = effort.plate_cells
+    plates = [plate_test(bench, size, SINKAGE * size, cells, runs) for size in sizes]
+    rings = [
+        ring_test(bench, load * carried_pressure(plates), effort.turn, effort.other_cells, runs)
+        for load in effort.loads
+    ]
+    cone = cone_test(bench, effort.cone_depth, effort.other_cells, runs)
+    material = bench.material
+    card = SoilCard(
+        f"Soil card of {material.title}",
+        bench.path.name,
+        material.density,
+        material.punch_stiffness(0.5 * float(np.mean(sizes))),
+        fit_plates(plates),
+        fit_shear(rings),
+        cone_index(cone),
+        (
+            f"plates {cells} cells across, ring and cone {effort.other_cells}: errors of the cells "
+            "are not in the standard errors",
+            f"gravity {bench.gravity:g} m/s2",
+        ),
+    )
+    write_card(card, bench.folder / "card.yaml")
+    draw_card(card, plates, rings, cone, bench.folder / "card.png")
+    write_page(card, bench.folder / "card.png", bench.folder / "card.html")
+    for name in formats:
+        file, write = EXPORTS[name]
+        write(card, bench.folder / file)
+    return card
+
+
+def plate_misfit(bench: Bench, pressure: Callable[[float], float], radius: float, runs: Runs) -> float:
+    """rms of ln p of a virtual plate over the pressure [Pa] that it should have at a sinkage [m]."""
+    curve = plate_test(bench, 2 * radius, SINKAGE * 2 * radius, FULL.plate_cells, runs).used()
+    wanted = np.array([pressure(z) for z in curve.sinkage])
+    return rms(np.log(curve.pressure / wanted))
+
+
+def cone_misfit(bench: Bench, cone_index_wanted: float, runs: Runs) -> float:
+    """Virtual over wanted cone index, less 1."""
+    found = cone_index(cone_test(bench, FULL.cone_depth, FULL.other_cells, runs))
+    return found.index.value / cone_index_wanted - 1
+
+
+def default_folder(path: Path) -> Path:
+    return Path("results") / f"soil_{path.stem}"

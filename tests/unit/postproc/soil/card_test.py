@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Soil cards: the file and its exports hold the same values, and wrong cards are refused."""
+
+import json
+import math
+import re
+import tempfile
+import unittest
+from pathlib import Path
+
+from furrow_post.analyse import empirical
+from furrow_post.csv_table import read_rows
+from furrow_post.errors import ResultsError
+from furrow_post.soil.card import UNITS, SoilCard, read_card, write_card
+from furrow_post.soil.exports import write_altair, write_chrono, write_table
+from furrow_post.soil.fits import Cone, Fitted, PressureSinkage, Range, Shear
+
+CARD = SoilCard(
+    "Soil card of loose sand",
+    "sand.yaml",
+    1505.0,
+    7.5e7,
+    PressureSinkage(
+        Fitted(-1234.5678901234, 321.0),
+        Fitted(1.23456789e6, 2.5e4),
+        Fitted(0.87654321, 0.02),
+        Range(1e-3, 0.06),
+        Range(1e3, 6e4),
+        Range(0.05, 0.1),
+        0.03,
+    ),
+    Shear(
+        Fitted(150.0, 60.0),
+        Fitted(29.25, 0.5),
+        Fitted(0.0123, 0.0004),
+        Range(3e3, 1.2e4),
+        Range(0.0, 0.04),
+        0.02,
+    ),
+    Cone(Fitted(7.1e4, 900.0), Fitted(8e5, 2e4), Range(0.0, 0.15)),
+    ("cells: not in the errors",),
+)
+
+
+class SoilCardTest(unittest.TestCase):
+    def setUp(self) -> None:
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+        self.path = self.folder / "card.yaml"
+        write_card(CARD, self.path)
+
+    def test_a_card_is_read_as_it_was_written(self) -> None:
+        self.assertEqual(read_card(self.path), CARD)
+        self.assertEqual(set(CARD.parameters()), set(UNITS))
+
+    def test_chrono_has_the_card_in_its_own_keys(self) -> None:
+        target = self.folder / "scm.json"
+        write_chrono(CARD, target)
+        soil = json.loads(target.read_text())["Soil parameters"]
+        self.assertEqual(soil["Bekker Kphi"], CARD.pressure_sinkage.k_phi.value)
+        self.assertEqual(soil["Bekker Kc"], CARD.pressure_sinkage.k_c.value)
+        self.assertEqual(soil["Bekker n exponent"], CARD.pressure_sinkage.n.value)
+        self.assertEqual(soil["Mohr cohesive limit"], CARD.shear.c.value)
+        self.assertEqual(soil["Mohr friction limit"], CARD.shear.phi.value)
+        self.assertEqual(soil["Janosi shear coefficient"], CARD.shear.K.value)
+        self.assertGreater(soil["Elastic stiffness"], soil["Bekker Kphi"])
+
+    def test_altair_has_the_card_with_the_angle_in_radians(self) -> None:
+        target = self.folder / "road.rdf"
+        write_altair(CARD, target)
+        text = target.read_text()
+        self.assertIn("ANGLE = 'radians'", text)
+        found = {name: float(value) for name, value in re.findall(r"^(\w+) = ([-+.\de]+) \$", text, re.M)}
+        plate, shear = CARD.pressure_sinkage, CARD.shear
+        for key, value in (
+            ("KC", plate.k_c.value),
+            ("KPHI", plate.k_phi.value),
+            ("SINKAGE_EXPONENT", plate.n.value),
+            ("C", shear.c.value),
+            ("PHI", math.radians(shear.phi.value)),
+            ("KX1", shear.K.value),
+            ("SOIL_DENSITY", CARD.density),
+        ):
+            self.assertEqual(found[key], value, key)
+
+    def test_the_table_has_every_parameter_with_error_and_unit(self) -> None:
+        target = self.folder / "card.csv"
+        write_table(CARD, target)
+        rows = {row["name"]: row for row in read_rows(target)}
+        for name, fitted in CARD.parameters().items():
+            self.assertEqual(float(rows[name]["value"]), fitted.value)
+            self.assertEqual(float(rows[name]["error"]), fitted.error)
+            self.assertEqual(rows[name]["unit"], UNITS[name])
+
+    def test_bekkers_formula_takes_a_card_as_terrain(self) -> None:
+        ground = empirical.terrain(str(self.path))
+        plate, shear = CARD.pressure_sinkage, CARD.shear
+        found = (ground.k_1, ground.k_2, ground.n, ground.c, ground.phi, ground.K)
+        card = (plate.k_c, plate.k_phi, plate.n, shear.c, shear.phi, shear.K)
+        self.assertEqual(found, tuple(fitted.value for fitted in card))
+        # Bekker: W = b k sqrt(D) z^(n + 1/2) (3 - n)/3
+        z = empirical.bekker(1000, 0.6, 0.2, ground).sinkage
+        k, n = plate.k_c.value / 0.2 + plate.k_phi.value, plate.n.value
+        self.assertAlmostEqual(0.2 * k * math.sqrt(0.6) * z ** (n + 0.5) * (3 - n) / 3000, 1, places=9)
+
+    def test_wrong_cards_are_refused_with_the_key(self) -> None:
+        text = self.path.read_text()
+        for change, message in (
+            (("unit: degree", "unit: rad"), "shear.phi has the unit 'rad'; allowed: 'degree'"),
+            (("value: 150.0", "value: .nan"), "shear.c is nan, a finite number is needed"),
+            (("cone:", "kone:"), "has no 'cone'"),
+            (("title:", "- title:"), "is no YAML"),
+        ):
+            self.assertIn(change[0], text)
+            self.path.write_text(text.replace(*change), encoding="utf-8")
+            with self.assertRaisesRegex(ResultsError, re.escape(message)):
+                read_card(self.path)
+
+
+if __name__ == "__main__":
+    unittest.main()

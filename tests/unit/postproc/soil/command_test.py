@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""furrow-soil card with a stand-in for furrow whose ground has known parameters."""
+
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from furrow_post.soil.card import read_card
+from support.command import SOURCE
+
+TRUTH = {"k_c": -4e3, "k_phi": 5e5, "n": 0.6, "c": 400.0, "phi": 30.0, "K": 0.006}
+CONE = (2e4, 8e5)  # [Pa] at the surface, [Pa/m]
+STAND_IN = """#!/usr/bin/python3
+import math, sys
+words = sys.argv
+values = {words[k + 1]: words[k + 2] for k, word in enumerate(words) if word == "-var"}
+name = words[words.index("-in") + 1].rpartition("/")[2].removesuffix(".lig")
+results = values.pop("results")
+material = values.pop("material")
+v = {key: float(value) for key, value in values.items()}
+t = TRUTH
+rows = []
+for k in range(301):
+    s = k / 300
+    if name == "plate":
+        z = s * v["sinkage"]
+        p = (t["k_c"] / (0.5 * v["size"]) + t["k_phi"]) * z ** t["n"]
+        rows.append((k, z, 0, p))
+    elif name == "shear":
+        outer, inner = 0.5 * v["size"], 0.5 * v["inner_size"]
+        area, moment = math.pi * (outer**2 - inner**2), 2 / 3 * math.pi * (outer**3 - inner**3)
+        turned = max(0, 2 * s - 1) * v["angle"]  # pressed first
+        normal = v["load"] / area
+        strength = t["c"] + normal * math.tan(math.radians(t["phi"]))
+        tau = strength * (1 - math.exp(-turned * moment / area / t["K"]))
+        rows.append((k, 0.001, v["load"], normal, -tau * moment, turned))
+    else:
+        height = 0.5 * v["size"] / math.tan(math.radians(0.5 * v["angle"]))
+        z = s * (v["depth_of_base"] + height)
+        rows.append((k, z, 0, max(0, CONE[0] + CONE[1] * (z - height))))
+with open(f"{results}/curve.txt", "w") as file:
+    file.write("# LIGGGHTS\\n# columns\\n")
+    file.writelines(" ".join(map(str, row)) + "\\n" for row in rows)
+with open("LOG", "a") as log:
+    log.write(name + "\\n")
+sys.exit(STATUS)
+"""
+
+
+class CardCommandTest(unittest.TestCase):
+    def setUp(self) -> None:
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+        (self.folder / "bin").mkdir()
+        self.furrow(0)
+
+    def furrow(self, status: int) -> None:
+        program = self.folder / "bin" / "furrow"
+        text = STAND_IN.replace("TRUTH", repr(TRUTH)).replace("CONE", repr(CONE))
+        text = text.replace("LOG", str(self.folder / "log.txt")).replace("STATUS", str(status))
+        program.write_text(text, encoding="utf-8")
+        program.chmod(0o755)
+
+    def soil(self, *words: object) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [sys.executable, str(SOURCE / "postproc" / "furrow-soil"), *map(str, words)],
+            capture_output=True,
+            text=True,
+            timeout=240,
+            cwd=self.folder,
+            env={**os.environ, "FURROW_BUILD": str(self.folder)},
+        )
+
+    def runs(self) -> list[str]:
+        return (self.folder / "log.txt").read_text().split()
+
+    def test_the_card_has_the_parameters_of_the_ground(self) -> None:
+        done = self.soil("card", "dry_sand_smooth", "-o", "card")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        card = read_card(self.folder / "card" / "card.yaml")
+        for name, truth in TRUTH.items():
+            found = card.parameters()[name].value
+            self.assertAlmostEqual(found / truth, 1, delta=1e-3, msg=name)
+        self.assertAlmostEqual(card.cone.index.value / (CONE[0] + 0.075 * CONE[1]), 1, delta=0.01)
+        self.assertAlmostEqual(card.cone.gradient.value / CONE[1], 1, delta=1e-3)
+        self.assertEqual(card.density, 1505)
+        # rigid punch: 2 E/(pi a (1 - nu^2))
+        stiffness = 2 * 4.78e6 / (math.pi * 0.075 * (1 - 0.11**2))
+        self.assertAlmostEqual(card.stiffness / stiffness, 1, places=9)
+        self.assertAlmostEqual(card.pressure_sinkage.sinkage.high, 0.06, places=9)
+        for file in ("card.html", "card.png", "chrono_scm.json", "altair.rdf", "card.csv"):
+            self.assertTrue((self.folder / "card" / file).is_file(), file)
+        self.assertIn("Bekker", (self.folder / "card" / "chrono_scm.json").read_text())
+        self.assertEqual(self.runs(), 3 * ["plate"] + 3 * ["shear"] + ["cone"])
+
+    def test_runs_are_kept_and_repeated_when_the_ground_changes(self) -> None:
+        ground = self.folder / "ground.yaml"
+        ground.write_text((SOURCE / "inputs/materials/dry_sand_smooth.yaml").read_text(), encoding="utf-8")
+        words = ("card", ground, "--quick", "--sizes", 0.1, 0.2, "-o", "card")
+        self.soil(*words)
+        first = self.runs()
+        self.assertEqual(first, 2 * ["plate"] + 2 * ["shear"] + ["cone"])
+        self.soil(*words)
+        self.assertEqual(self.runs(), first)
+        ground.write_text(ground.read_text().replace("1505", "1506"), encoding="utf-8")
+        self.soil(*words)
+        self.assertEqual(self.runs(), 2 * first)
+
+    def test_a_run_that_fails_leaves_no_card(self) -> None:
+        self.furrow(1)
+        done = self.soil("card", "dry_sand_smooth", "-o", "card")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertFalse((self.folder / "card" / "card.yaml").exists())
+
+    def test_wrong_grounds_and_sizes_are_refused(self) -> None:
+        done = self.soil("card", "moon")
+        self.assertRegex(done.stderr, "^furrow-soil: there is no material 'moon'; name a file, or one of .*dry_sand")
+        done = self.soil("card", "dry_sand", "--sizes", 0.1)
+        self.assertIn("k_c and k_phi need plates of two diameters or more", done.stderr)
+        (self.folder / "ground.yaml").write_text("law: {density: 1500}\n", encoding="utf-8")
+        done = self.soil("card", "ground.yaml")
+        self.assertIn("ground.yaml: has no 'elasticity'; furrow-soil needs density, and E and nu", done.stderr)
+        done = self.soil("export", "ground.yaml", "chrono")
+        self.assertIn("ground.yaml: has no 'pressure_sinkage'; write it with furrow-soil card", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

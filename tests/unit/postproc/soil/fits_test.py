@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Fits of a soil card: known parameters from synthetic curves with noise, and errors that hold."""
+
+import math
+import unittest
+
+import numpy as np
+
+from furrow_post.arrays import Floats
+from furrow_post.errors import ResultsError
+from furrow_post.soil.fits import (
+    ConeCurve,
+    PlateCurve,
+    PressureSinkage,
+    Shear,
+    ShearCurve,
+    cone_index,
+    fit_plates,
+    fit_shear,
+)
+
+K_C, K_PHI, N = 2.0e4, 1.5e6, 0.8
+C, PHI, K = 900.0, 31.0, 0.012
+G, START = 1.2e6, 2.0e4  # of a cone
+
+
+def noise(random: np.random.Generator, size: int, scale: float, memory: float) -> Floats:
+    """Neighbours are correlated by `memory`, as in curves of a run."""
+    steps = random.normal(0, scale * math.sqrt(1 - memory**2), size)
+    values = np.empty(size)
+    values[0] = random.normal(0, scale)
+    for k in range(1, size):
+        values[k] = memory * values[k - 1] + steps[k]
+    return values
+
+
+def plates(random: np.random.Generator, memory: float = 0.8) -> PressureSinkage:
+    curves = []
+    for radius in (0.05, 0.075, 0.1):
+        z = np.linspace(1e-3, 0.6 * radius, 150)
+        p = (K_C / radius + K_PHI) * z**N
+        curves.append(PlateCurve(radius, z, p + noise(random, z.size, 0.02 * p.max(), memory)))
+    return fit_plates(curves)
+
+
+def shear(random: np.random.Generator, memory: float = 0.8) -> Shear:
+    curves = []
+    for normal in (5e3, 1e4, 2e4):
+        j = np.linspace(0, 0.05, 150)
+        sigma = normal * (1 + 0.1 * np.sin(60 * j))  # a load that is not quite held
+        tau = (C + sigma * math.tan(math.radians(PHI))) * (1 - np.exp(-j / K))
+        curves.append(ShearCurve(j, sigma, tau + noise(random, j.size, 0.02 * tau.max(), memory)))
+    return fit_shear(curves)
+
+
+class ExactCurvesTest(unittest.TestCase):
+    def test_parameters_come_back(self) -> None:
+        plate = plates(np.random.default_rng(1), memory=0.0)
+        z = np.linspace(1e-3, 0.03, 50)
+        exact = fit_plates([PlateCurve(b, z, (K_C / b + K_PHI) * z**N) for b in (0.05, 0.1)])
+        for found, truth in ((exact.k_c, K_C), (exact.k_phi, K_PHI), (exact.n, N)):
+            self.assertAlmostEqual(found.value / truth, 1, delta=1e-5)
+        self.assertLess(exact.residual, 1e-6)
+        self.assertAlmostEqual(plate.residual, 0.02, delta=0.004)
+        self.assertEqual((exact.radii.low, exact.radii.high), (0.05, 0.1))
+        np.testing.assert_allclose(exact.at(z, 0.05), (K_C / 0.05 + K_PHI) * z**N, rtol=1e-5)
+
+    def test_shear_with_a_load_that_varies(self) -> None:
+        j = np.linspace(0, 0.05, 80)
+        curves = []
+        for normal in (5e3, 2e4):
+            sigma = normal * (1 - 0.3 * j / j.max())
+            tau = (C + sigma * math.tan(math.radians(PHI))) * (1 - np.exp(-j / K))
+            curves.append(ShearCurve(j, sigma, tau))
+        found = fit_shear(curves)
+        for value, truth in ((found.c, C), (found.phi, PHI), (found.K, K)):
+            self.assertAlmostEqual(value.value / truth, 1, delta=1e-5)
+
+    def test_cone_index_is_the_mean_over_15_cm(self) -> None:
+        z = np.linspace(-0.04, 0.2, 241)
+        found = cone_index(ConeCurve(z, START + G * z))
+        self.assertAlmostEqual(found.index.value, START + G * 0.075, delta=1.0)
+        self.assertAlmostEqual(found.gradient.value / G, 1, delta=1e-9)
+        self.assertAlmostEqual(found.depth.high, 0.15, delta=1e-9)
+
+
+class CoverageTest(unittest.TestCase):
+    """The error covers the truth as often as a standard error does, within the scatter of the draws."""
+
+    DRAWS = 150
+
+    def test_errors_cover_the_truth(self) -> None:
+        random = np.random.default_rng(7)
+        deviations: dict[str, list[float]] = {}
+        for _ in range(self.DRAWS):
+            plate, ring = plates(random), shear(random)
+            z = np.linspace(0, 0.15, 150)
+            cone = cone_index(ConeCurve(z, START + G * z + noise(random, z.size, 5e3, 0.8)))
+            for name, found, truth in (
+                ("k_c", plate.k_c, K_C),
+                ("k_phi", plate.k_phi, K_PHI),
+                ("n", plate.n, N),
+                ("c", ring.c, C),
+                ("phi", ring.phi, PHI),
+                ("K", ring.K, K),
+                ("index", cone.index, START + G * 0.075),
+                ("gradient", cone.gradient, G),
+            ):
+                deviations.setdefault(name, []).append((found.value - truth) / found.error)
+        for name, values in deviations.items():
+            within = np.abs(np.array(values))
+            self.assertGreater(np.mean(within < 2), 0.85, name)
+            self.assertTrue(0.5 < np.mean(within < 1) < 0.85, f"{name}: {np.mean(within < 1)}")
+
+
+class RefusalTest(unittest.TestCase):
+    def test_curves_that_do_not_determine_the_parameters(self) -> None:
+        z = np.linspace(1e-3, 0.03, 30)
+        one = PlateCurve(0.05, z, 1e6 * z)
+        with self.assertRaisesRegex(ResultsError, "plates of two sizes or more"):
+            fit_plates([one, one])
+        with self.assertRaisesRegex(ResultsError, "a plate that carries load"):
+            fit_plates([one, PlateCurve(0.1, z, 0 * z)])
+        ring = ShearCurve(z, np.full(30, 1e4), 1e3 * z)
+        with self.assertRaisesRegex(ResultsError, "shear tests of two loads or more"):
+            fit_shear([ring, ring])
+        with self.assertRaisesRegex(ResultsError, "a cone whose base is below the surface"):
+            cone_index(ConeCurve(-z, z))
+
+
+if __name__ == "__main__":
+    unittest.main()

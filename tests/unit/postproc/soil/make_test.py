@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Material files of furrow-soil make: closed forms, virtual tests of the laws, and refusals."""
+
+import math
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+import yaml
+
+from furrow_post.errors import ResultsError
+from furrow_post.soil.make import (
+    CLASSES,
+    Strength,
+    compression,
+    cone_resistance,
+    from_bekker,
+    from_cone,
+    from_strength,
+    read_oedometer,
+)
+from furrow_post.soil.material import read_material
+from furrow_post.soil.point import confined_strain, oedometer_misfit
+from support.command import SOURCE
+
+OEDOMETER = "# mine\nstress_Pa,strain\n1e4,0.02\n2e4,0.03\n5e4,0.045\n1e5,0.06\n3e5,0.09\n"
+
+
+def run_soil(*arguments: object, folder: Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, str(SOURCE / "postproc" / "furrow-soil"), *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        timeout=240,
+        cwd=folder,
+    )
+
+
+class MakeTest(unittest.TestCase):
+    def setUp(self) -> None:
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+        self.table = self.folder / "oedometer.csv"
+        self.table.write_text(OEDOMETER, encoding="utf-8")
+        self.file = self.folder / "mine.yaml"
+
+    def test_the_law_has_the_strength_of_mohr_coulomb(self) -> None:
+        # triaxial compression at s3: s1 = s3 N + 2 c sqrt(N); extension with s1 on two sides
+        c, phi, s3 = 2e3, 30.0, 1e4
+        strength = Strength(c, phi)
+        n = math.tan(math.radians(45 + phi / 2)) ** 2
+        s1 = s3 * n + 2 * c * math.sqrt(n)
+        p, q = (s1 + 2 * s3) / 3, s1 - s3
+        self.assertAlmostEqual(q / (strength.d + p * strength.tangent), 1, places=12)
+        p = (2 * s1 + s3) / 3
+        self.assertAlmostEqual(q / (strength.K * (strength.d + p * strength.tangent)), 1, places=12)
+
+    def test_an_oedometer_comes_back_from_the_law(self) -> None:
+        oedometer = read_oedometer(self.table)
+        made = from_strength("mine", 500.0, 33.0, 1600.0, oedometer, None)
+        self.file.write_text(made.text(), encoding="utf-8")
+        self.assertLess(oedometer_misfit(self.file, oedometer), 2e-3)
+        between = confined_strain(self.file, (3e4,))[0]
+        self.assertTrue(0.03 < between < 0.045)
+        self.assertEqual(read_material(self.file).density, 1600)
+
+    def test_a_modulus_gives_janbus_curve(self) -> None:
+        made = from_strength("mine", 0.0, 33.0, 1600.0, None, 1.2e7)
+        self.file.write_text(made.text(), encoding="utf-8")
+        low, high = confined_strain(self.file, (9.9e4, 1.01e5))
+        self.assertAlmostEqual(2e3 / (high - low) / 4e6, 1, delta=0.15)  # E/3, piecewise linear
+        self.assertIn("GUESSED: Janbu", self.file.read_text())
+
+    def test_bekkers_plate_is_a_confined_layer(self) -> None:
+        made = from_bekker("mine", 5270.0, 1515040.0, 0.7, 1720.0, 29.0, 0.025, 0.075, None)
+        self.file.write_text(made.text(), encoding="utf-8")
+        strain = confined_strain(self.file, (2e4, 4e4))
+        z = ((2e4 / (5270 / 0.075 + 1515040)) ** (1 / 0.7), (4e4 / (5270 / 0.075 + 1515040)) ** (1 / 0.7))
+        np.testing.assert_allclose(strain, np.array(z) / (0.96 * 0.15), rtol=0.08)
+        self.assertIn("K = 0.025 m is not used", self.file.read_text())
+
+    def test_a_cone_index_gives_strength_by_vesic(self) -> None:
+        # without friction, with the rigidity index G/c
+        c, shear, depth = 2e4, 2e6, 0.1
+        weight = 1800 * 9.80665 * depth
+        expected = c * (4 / 3 * (math.log(shear / c) + 1) + math.pi / 2 + 1) + weight
+        found = cone_resistance(Strength(c, 0.0), 1800, shear, depth)
+        self.assertAlmostEqual(found / expected, 1, places=12)
+        # continuous in phi
+        self.assertAlmostEqual(cone_resistance(Strength(c, 0.2), 1800, shear, depth) / expected, 1, delta=0.02)
+        for soil_class, index in (("SP", 3e5), ("CL", 4e5), ("CH", 2e5)):
+            made = from_cone("mine", index, soil_class, None)
+            self.file.write_text(made.text(), encoding="utf-8")
+            law = yaml.safe_load(self.file.read_text())["law"]
+            self.assertEqual(law["density"], float(f"{CLASSES[soil_class].density:.6g}"))
+            self.assertGreaterEqual(len(made.guesses()), 6)
+
+    def test_a_firmer_cone_gives_a_stronger_soil(self) -> None:
+        betas = [float(from_cone("s", q, "SP", None).law["beta"].value) for q in (1e5, 2e5, 4e5)]
+        cohesions = [float(from_cone("c", q, "CL", None).law["d"].value) for q in (1e5, 2e5, 4e5)]
+        self.assertEqual(betas, sorted(betas))
+        self.assertEqual(cohesions, sorted(cohesions))
+
+    def test_every_guess_is_marked_in_the_file(self) -> None:
+        done = run_soil("make", self.file, "--c", 500, "--phi", 33, "--density", 1600,
+                        "--oedometer", self.table, folder=self.folder)  # fmt: skip
+        self.assertEqual(done.returncode, 0, done.stderr)
+        marked = [line.split(":")[0].strip() for line in self.file.read_text().splitlines() if "GUESSED" in line]
+        self.assertEqual(marked, ["R", "E", "nu"])
+        for name in marked:
+            self.assertIn(f"guessed       {name}: ", done.stdout)
+        self.assertRegex(done.stdout, r"check +virtual oedometer: rms 0\.\d% of the greatest measured strain")
+
+    def test_wrong_units_and_tables_are_refused(self) -> None:
+        good: dict[str, object] = {"--c": 500, "--phi": 33, "--density": 1600, "--E": 1e7}
+        changes: tuple[tuple[dict[str, object], str], ...] = (
+            ({"--c": 0.5}, r"c is 0.5 Pa; soils and snow have 20 to 5e\+06 Pa or 0. Give SI units: kPa times 1000"),
+            ({"--phi": 0.58}, "phi is 0.58 degree; .*radians times 57.3"),
+            ({"--density": 1.6}, "density is 1.6 kg/m3; .*g/cm3 times 1000"),
+            ({"--E": 10}, "E is 10 Pa; .*MPa times 1e6"),
+            ({"--E": None}, "needs --oedometer FILE or --E"),
+            ({"--phi": None}, "--c needs --phi as well"),
+            ({"--n": 0.7}, "--c does not use --n; leave it out"),
+            ({"--c": None, "--phi": None, "--density": None, "--E": None}, "needs --c, --k_phi or --cone_index"),
+            ({"--oedometer": "none.csv"}, "none.csv: no such file"),
+        )
+        for change, message in changes:
+            words = [w for k, v in {**good, **change}.items() if v is not None for w in (k, v)]
+            done = run_soil("make", self.file, "--no-check", *words, folder=self.folder)
+            self.assertEqual(done.returncode, 1, message)
+            self.assertRegex(done.stderr, f"^furrow-soil: .*{message}")
+        self.assertFalse(self.file.exists())
+        for text, message in (
+            ("stress,strain\n1e4,0.1\n", "has no column 'stress_Pa'"),
+            ("stress_Pa,strain\n10,0.02\n20,0.03\n50,0.04\n", "row 1: stress is 10 Pa"),
+            ("stress_Pa,strain\n1e4,2\n2e4,3\n5e4,4\n", "row 1: strain is 2"),
+            ("stress_Pa,strain\n1e4,0.02\n5e4,0.04\n2e4,0.05\n", "increasing stress and increasing strain"),
+            ("stress_Pa,strain\n1e4,soft\n", "row 1: could not convert"),
+        ):
+            self.table.write_text(text, encoding="utf-8")
+            with self.assertRaisesRegex(ResultsError, message):
+                read_oedometer(self.table)
+
+    def test_strengths_that_no_soil_of_the_class_has(self) -> None:
+        with self.assertRaisesRegex(ResultsError, "no friction angle of 5 to 48 gives a cone index"):
+            from_cone("mine", 1.5e7, "SP", None)
+        with self.assertRaisesRegex(ResultsError, "there is no soil class 'XX'; allowed: GW, "):
+            from_cone("mine", 3e5, "XX", None)
+        with self.assertRaisesRegex(ResultsError, "softer than the oedometer"):
+            from_strength("mine", 500.0, 33.0, 1600.0, read_oedometer(self.table), 1e5)
+        with self.assertRaisesRegex(ResultsError, "--oedometer FILE or --E"):
+            compression(None, None)
+
+
+if __name__ == "__main__":
+    unittest.main()
