@@ -23,6 +23,10 @@ class Subcommand:
     help: str
     aliases: tuple[str, ...] = ()
 
+    @property
+    def module(self) -> str:
+        return self.name.replace("-", "_")
+
 
 class Module(Protocol):
     """What the module of a subcommand has."""
@@ -63,6 +67,7 @@ SUBCOMMANDS = (
     Subcommand("point", "the figure of furrow-point -> point.png or fit.png"),
     Subcommand("sidewall", "the figure of furrow-sidewall -> sidewall.png"),
     Subcommand("modes", "the natural modes of furrow-tyre --modes -> <state>_modes.png"),
+    Subcommand("fit-tyre", "a tyre file from size, catalogue and load-deflection points"),
     Subcommand(
         "empirical", "what an empirical formula says: NRMM for snow, Bekker and Wong-Reece for sand"
     ),
@@ -123,7 +128,7 @@ def parser(chosen: str) -> argparse.ArgumentParser:
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
         if chosen in (entry.name, *entry.aliases):
-            module = cast(Module, importlib.import_module(f".{entry.name}", __package__))
+            module = cast(Module, importlib.import_module(f".{entry.module}", __package__))
             module.add_arguments(command)
             command.set_defaults(run=module.run)
     return whole

@@ -41,7 +41,7 @@ endforeach()
 foreach(pair costs=costs crosscheck=crosscheck grains=validation/grains laboratory_cone=laboratory
              laboratory_identify=laboratory laboratory_snow=laboratory
              report_wheel=validation/report_wheel snow_wheel=validation/snow_wheel
-             study_pages=validation tyre_on_snow=validation/tyre_on_snow tyre_table6=validation/tyre_table6 start=)
+             study_pages=validation tyre_on_snow=validation/tyre_on_snow tyre_table6=validation/tyre_table6 tyre_files= start=)
   string(REPLACE "=" ";" pair ${pair})
   list(GET pair 0 name)
   list(LENGTH pair length)
