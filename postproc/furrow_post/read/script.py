@@ -96,17 +96,23 @@ def check_variables(
 def require_files(
     script: Path, defaults: Mapping[str, str], given: Iterable[tuple[str, str]], option: str
 ) -> None:
-    """@raises ResultsError where the default of a variable is a file, and a value is none"""
+    """@raises ResultsError where the default of a variable is a file, and a value is none
+
+    A value may list the files of layers of ground, 'file:thickness,...,file'.
+    """
     for name, value in given:
-        usual, place = _unquoted(defaults.get(name, "")), script.parent / _unquoted(value)
-        # a path with blanks may be relative to where the run is started
-        if "$" in value or place.is_file() or (len(value.split()) > 1 and Path(value).is_file()):
+        usual = _unquoted(defaults.get(name, ""))
+        if "$" in value or not (script.parent / usual).is_file():
             continue
-        if (script.parent / usual).is_file():
-            raise ResultsError(
-                f"{option} {name}: there is no file {value}; a path is relative to {script.parent}, "
-                f"like {usual}"
-            )
+        files = [layer.split(":")[0] for layer in _unquoted(value).split(",")]
+        missing = [file for file in files if not (script.parent / file).is_file()]
+        # a path with blanks may be relative to where the run is started
+        if not missing or (len(value.split()) > 1 and Path(value).is_file()):
+            continue
+        raise ResultsError(
+            f"{option} {name}: there is no file {missing[0]}; a path is relative to {script.parent}, "
+            f"like {usual}"
+        )
 
 
 def _listed(names: Sequence[str]) -> str:

@@ -85,6 +85,15 @@ class ScriptTest(unittest.TestCase):
         given = [("size", "1"), ("stiffness", "2"), ("dt", "1e-3"), ("q", "x"), ("empty", "")]
         self.assertEqual(check_variables(self.script, given, {}, self.here), [])
 
+    def test_every_layer_of_a_ground_is_a_file(self) -> None:
+        (self.folder / "snow.yaml").write_text("")
+        (self.folder / "sand.yaml").write_text("")
+        self.script.write_text('variable material index snow.yaml\nprint "${material}"\n')
+        check_variables(self.script, [("material", "snow.yaml:0.1,sand.yaml")], "-v")
+        for value in ("ice.yaml", "snow.yaml:0.1,ice.yaml", "ice.yaml:0.1,sand.yaml"):
+            with self.subTest(value), self.assertRaisesRegex(ResultsError, "there is no file ice.yaml; a path"):
+                check_variables(self.script, [("material", value)], "-v")
+
     def test_a_file_that_is_not_there_is_a_warning(self) -> None:
         (self.folder / "parts" / "soft.part").unlink()
         warnings = check_variables(self.script, [("unknown", "1")], {}, self.here)
