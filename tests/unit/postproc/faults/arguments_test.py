@@ -37,7 +37,7 @@ EMPIRICAL = (
             ("--pressure 179e6 --extrapolate", "a contact pressure of 1.79e+08 Pa; allowed"),
         )
     ),
-    (BEKKER, "no such sand", "there is no terrain 'no such sand'; there are"),
+    (BEKKER, "no such sand", "there is no terrain 'no such sand'; name a soil card, or one of LLL"),
     (BEKKER, "", "there is no terrain ''"),
     ("bekker", None, "needs --load, --diameter, --width, --terrain"),
     (f"--slip 0.2 {BEKKER}", "LETE sand", "does not read --slip; leave it out"),
