@@ -102,6 +102,43 @@ def terrain(ax: Axes) -> None:
     ax.set_ylim(-0.95, 0.6)
 
 
+@figure("terrain/fix_terrain_scm", 7.2, 2.6)
+def scm(ax: Axes) -> None:
+    """Side view: cells of the height field under a wheel; section: rut and soil at its sides."""
+    cell, radius, axle, depth = 0.1, 0.5, 0.3, 0.2
+    for k in range(-9, 8):
+        left = k * cell
+        x = left + 0.5 * cell
+        below = axle - math.sqrt(max(0.0, radius**2 - x * x)) if abs(x) < radius else 1.0
+        top = -depth + 0.02 if x < 0 else min(0.0, below)
+        ax.add_patch(Rectangle((left, -0.6), cell, 0.6 + top, fc=SOIL, ec="white", lw=0.7))
+        if 0 < x < 0.42:
+            arrow(ax, (x, top - 0.24 * top / -depth - 0.04), (x, top), BLUE)
+    ax.plot([-0.9, 0.8], [0.0, 0.0], color=GREY, lw=0.8, ls="--")
+    ax.add_patch(Circle((0.0, axle), radius, fill=False, ec=INK, lw=1.8))
+    arrow(ax, (0.0, axle), (0.75, axle))
+    note(ax, 0.8, axle, "v", ha="left")
+    note(ax, 0.17, -0.5, "pressure k z$^n$", BLUE)
+    arrow(ax, (0.42, -0.03), (0.2, -0.16), RED)
+    note(ax, 0.5, -0.12, "shear", RED, ha="left")
+    note(ax, -0.62, -0.3, "rut")
+    dimension(ax, (-0.8, -depth), (-0.8, 0.0))
+    note(ax, -0.85, -0.1, "z", ha="right")
+    middle = 1.9
+    heights = [0.0, 0.03, 0.08, 0.12, -0.18, -0.18, -0.18, -0.18, 0.12, 0.08, 0.03, 0.0]
+    for k, top in enumerate(heights):
+        left = middle + (k - 6) * cell
+        ax.add_patch(Rectangle((left, -0.6), cell, 0.6 + top, fc=SOIL, ec="white", lw=0.7))
+    ax.plot([middle - 0.6, middle + 0.6], [0.0, 0.0], color=GREY, lw=0.8, ls="--")
+    note(ax, middle, 0.35, "section: flow puts soil on the sides")
+    arrow(ax, (middle - 0.1, -0.1), (middle - 0.32, 0.2), RED)
+    arrow(ax, (middle + 0.1, -0.1), (middle + 0.32, 0.2), RED)
+    dimension(ax, (middle - 0.2, -0.66), (middle - 0.1, -0.66))
+    note(ax, middle - 0.15, -0.73, "cell", va="top")
+    ax.set_xlim(-1.0, 2.6)
+    ax.set_ylim(-0.85, 0.85)
+
+
 @figure("drive/fix_wheel_rig", 7.2, 3.0)
 def rig(ax: Axes) -> None:
     """Forces on the wheel, and the three stages over time."""

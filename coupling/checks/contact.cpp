@@ -239,8 +239,8 @@ Found body_touches_something(const Scene& scene, FixBody& body) {
       has_contact(*scene.lammps.modify, body))
     return {};
   return warning(
-      fmt::format("{} touches nothing: there is no contact/continuum or contact/plane of it, "
-                  "and no mesh/body of it in a wall/gran/body; it will feel no force",
+      fmt::format("{} touches nothing: there is no contact/continuum, contact/scm or contact/plane "
+                  "of it, and no mesh/body of it in a wall/gran/body; it will feel no force",
                   body.name()));
 }
 

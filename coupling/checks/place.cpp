@@ -15,7 +15,9 @@
 #include "core/communicator.h"
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/base/grain_check.h"
+#include "coupling/base/fix_scm.h"
 #include "coupling/checks/scene_checks.h"
+#include "coupling/contact/fix_contact_scm.h"
 #include "coupling/terrain/fix_bed_window.h"
 #include "domain.h"
 #include "geometry/winding_number.h"
@@ -167,6 +169,10 @@ std::vector<Level> levels_under(const LAMMPS_NS::LAMMPS& lammps, const FixBody& 
     if (&contact->body_fix() == &fix)
       levels.push_back({contact->options().number("level"), level_tolerance * size,
                         fmt::format("the level of fix contact/plane '{}'", contact->id)});
+  for (auto* contact : fixes_of<FixContactScm>(*lammps.modify))
+    if (&contact->body_fix() == &fix)
+      levels.push_back({contact->terrain_fix().field().parameters().level, level_tolerance * size,
+                        fmt::format("the surface of terrain '{}'", contact->terrain_fix().id)});
   if (touches_grains(lammps, fix))
     if (const auto grains = level_of_grains(lammps, fix.body())) levels.push_back(*grains);
   return levels;

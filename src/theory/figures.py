@@ -793,6 +793,57 @@ def hybrid() -> None:
     save("hybrid")
 
 
+# ---- soil contact model: equations of scm.md ----------------------------------------------------
+
+
+def plate_curve(depths, modulus, n, stiffness):
+    """Pressures [Pa] of a cell at successive depths of a plate [m] (equation 1)."""
+    surface, pressures = 0.0, []
+    for depth in depths:
+        pressure = max(0.0, stiffness * (depth - surface))
+        limit = modulus * depth**n
+        if pressure > limit:
+            pressure, surface = limit, depth - limit / stiffness
+        pressures.append(pressure)
+    return np.array(pressures)
+
+
+def mobilised(slides, K):
+    """m after successive slides [m] in one direction or the other (equation 4)."""
+    m, values = 0.0, [0.0]
+    for slide in slides:
+        limit = np.sign(slide)
+        m = limit + (m - limit) * np.exp(-abs(slide) / K)
+        values.append(m)
+    return np.array(values)
+
+
+def scm() -> None:
+    figure, panels = plt.subplots(1, 3, figsize=(9.2, 2.9))
+    depths = np.concatenate(
+        [np.linspace(0, 0.03, 120), np.linspace(0.03, 0.024, 60), np.linspace(0.024, 0.05, 150)]
+    )
+    pressures = plate_curve(depths, 1.2e6, 0.8, 1.5e7)
+    panels[0].plot(1e3 * depths, 1e-3 * pressures, color=BLUE)
+    panels[0].plot(1e3 * depths, 1.2e3 * depths**0.8, color=GREY, lw=0.8, ls="--")
+    panels[0].set(xlabel="sinkage z [mm]", ylabel="pressure p [kPa]", title="a  a plate")
+    K = 0.01
+    slides = np.concatenate([np.full(80, 5e-4), np.full(100, -5e-4)])
+    places = np.concatenate([[0.0], np.cumsum(slides)])
+    panels[1].plot(1e3 * places, mobilised(slides, K), color=ORANGE)
+    panels[1].set(xlabel="place [mm]", ylabel="mobilised share m", title="b  sliding, K = 10 mm")
+    radius, entry = 0.25, np.arccos(1 - 0.03 / 0.25)
+    angle = np.linspace(0, entry, 100)
+    for slip, colour in ((0.1, BLUE), (0.4, GREEN)):
+        j = radius * (entry - angle - (1 - slip) * (np.sin(entry) - np.sin(angle)))
+        panels[2].plot(np.degrees(angle), 1 - np.exp(-j / K), color=colour, label=f"slip {slip:g}")
+    panels[2].legend()
+    panels[2].set(xlabel="angle from the lowest point [°]", ylabel="mobilised share m",
+                  title="c  along a driven wheel")  # fmt: skip
+    figure.tight_layout()
+    save("scm")
+
+
 CHAPTERS: dict[str, Callable[[], None]] = {
     "symbols": symbols,
     "step": step,
@@ -804,6 +855,7 @@ CHAPTERS: dict[str, Callable[[], None]] = {
     "resistance": resistance,
     "errors": errors,
     "hybrid": hybrid,
+    "scm": scm,
 }
 
 

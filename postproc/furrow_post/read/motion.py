@@ -75,7 +75,7 @@ class Motion:
     title: str
     times: Floats  # of the frames [s]
     clouds: tuple[Cloud, ...]
-    bodies: tuple[Body, ...]  # the wheels, that of the folder first
+    bodies: tuple[Body, ...]  # the wheels, that of the folder first, then a height field
     bodies_mirrored: bool
 
     @property
@@ -96,7 +96,8 @@ def read_motion(folder: Path) -> Motion:
         raise ResultsError(f"{folder}: has no results; name the results folder of a run")
     styles = results.styles() if results else Styles([])
     soil, wheel = styles.of_kind("terrain"), styles.of_kind("wheel")
-    bodies, clouds = [Body(one) for one in rolling], []
+    field = read_series(folder / "vtk" / "scm.pvd")
+    bodies, clouds = [Body(one) for one in (*rolling, *([field] if field else []))], []
     if not rolling and grains is None and terrain is None:
         if results:
             bodies = [Body(None, one) for one in _bodies_at_the_end(results, wheels)]

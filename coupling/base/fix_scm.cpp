@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/base/fix_scm.h"
+
+namespace furrow::coupling {
+
+const Outputs<FixScm>& FixScm::outputs() {
+  static const Outputs<FixScm> list = {
+      {"deepest", "m", "largest permanent sinkage",
+       [](FixScm& fix) { return fix.field().deepest(); }},
+      {"volume_below", "m^3", "volume of ruts below the undisturbed level",
+       [](FixScm& fix) { return fix.field().volume_below(); }},
+      {"volume_above", "m^3", "volume of soil above the undisturbed level",
+       [](FixScm& fix) { return fix.field().volume_above(); }},
+  };
+  return list;
+}
+
+FixScm::FixScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema)
+    : FurrowFix(lammps, narg, arg, schema),
+      soil_(soil_from(options())),
+      field_(height_field_from(options()), options().subject()) {
+  keep_state();
+  provide(outputs());
+}
+
+}  // namespace furrow::coupling

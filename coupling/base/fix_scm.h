@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Base of the fix whose ground is a height field, as the other jobs see it: contacts press on it,
+/// scm/history records it.
+
+#include "coupling/base/furrow_fix.h"
+#include "scm/height_field.h"
+#include "scm/soil.h"
+
+namespace furrow::coupling {
+
+class FixScm : public FurrowFix {
+ public:
+  static const Outputs<FixScm>& outputs();
+  HeightField& field() { return field_; }
+  const HeightField& field() const { return field_; }
+  const Soil& soil() const { return soil_; }
+
+ protected:
+  FixScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema);
+  void checkpoint(Checkpoint& state) override { field_.checkpoint(state); }
+
+ private:
+  Soil soil_;
+  HeightField field_;
+};
+
+}  // namespace furrow::coupling

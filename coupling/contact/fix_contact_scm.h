@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// fix contact/scm: contact between a body and a height field by the soil contact model. See
+/// fix_contact_scm.md.
+
+#include "coupling/contact/fix_contact.h"
+#include "scm/scm_contact.h"
+
+namespace furrow::coupling {
+
+class FixScm;
+
+class FixContactScm : public FixContact {
+ public:
+  FixContactScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
+  static Schema schema();
+  static const Outputs<FixContactScm>& outputs();
+
+  const FixScm& terrain_fix() const { return terrain_fix_; }
+  void add_losses(const Body& wheel, GroundLosses& losses) const override;
+  void init() override {
+    collectively([&] { check_stability(); });
+  }
+
+ private:
+  FixScm& find_terrain();
+  void check_stability();
+  void checkpoint(Checkpoint& state) override { contact_.checkpoint(state); }
+
+  FixScm& terrain_fix_;
+  ScmContact contact_;
+};
+
+}  // namespace furrow::coupling

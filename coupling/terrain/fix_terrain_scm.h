@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// fix terrain/scm: ground as a height field by the soil contact model. See fix_terrain_scm.md.
+
+#include "coupling/base/fix_scm.h"
+
+namespace furrow::coupling {
+
+class FixTerrainScm : public FixScm {
+ public:
+  FixTerrainScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg);
+  static Schema schema();
+};
+
+}  // namespace furrow::coupling

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Cost of a rigid wheel on a height field, and how many times faster than real time it rolls:
+//   build/tests/benchmarks/scm_step
+// A loaded wheel is driven in steps of 0.5 ms.
+
+#include <benchmark/benchmark.h>
+
+#include "bodies/coupled_system.h"
+#include "bodies/rigid_wheel.h"
+#include "scm/scm_contact.h"
+
+namespace furrow {
+namespace {
+
+constexpr double radius = 0.25, speed = 0.5, slip = 0.2, step = 5e-4;  // [m], [m/s], [s]
+
+Soil sand() {
+  Soil soil;
+  soil.kc = 1370.0;
+  soil.kphi = 814e3;
+  soil.cohesion = 800.0;
+  soil.friction_angle = radians(37.2);
+  soil.shear_length = 0.015;
+  soil.flow = 0.5;
+  return soil;
+}
+
+/// Cells per metre are the benchmark's argument.
+void BM_roll(benchmark::State& timer) {
+  RigidWheelParameters shape;
+  shape.geometry.diameter = 2.0 * radius;
+  shape.geometry.width = 0.16;
+  shape.geometry.shoulder = 0.01;
+  shape.hub.inertia = {25.0, 0.8, 0.5};
+  shape.hub.centre = Vector3(0.0, 0.0, radius);
+  RigidWheel wheel(shape);
+  constexpr double length = 40.0;
+  HeightField field({length, 0.6, Vector2(0.5 * length - 1.0, 0.0), 0.0,
+                     1.0 / static_cast<double>(timer.range(0))});
+  const Soil soil = sand();
+  ScmContact contact(wheel, field, soil, {});
+  CoupledSystem system;
+  system.add(wheel, "wheel");
+  system.add(contact, "contact");
+  wheel.release(Coordinate::z);
+  wheel.set_vertical_damping(2000.0);
+  wheel.set_load(Vector3(0.0, 0.0, -600.0));
+  for (int n = 0; n < 2000; ++n) system.advance(step);
+  wheel.prescribe(Coordinate::x, speed);
+  wheel.prescribe(Coordinate::spin, speed / (radius * (1.0 - slip)));
+  for (int n = 0; n < 2000; ++n) system.advance(step);
+  double simulated = 0.0;
+  for (auto _ : timer) {
+    if (wheel.centre().x() > length - 3.0) wheel.place(Vector3(0.0, 0.0, radius), 0.0, 0.0);
+    system.advance(step);
+    simulated += step;
+  }
+  timer.counters["times_real_time"] = benchmark::Counter(simulated, benchmark::Counter::kIsRate);
+  timer.counters["hub_drop_mm"] = 1e3 * (radius - wheel.centre().z());
+}
+
+BENCHMARK(BM_roll)->Arg(50)->Arg(100)->Arg(200)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace furrow
+
+BENCHMARK_MAIN();
