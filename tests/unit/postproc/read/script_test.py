@@ -89,10 +89,10 @@ class ScriptTest(unittest.TestCase):
         (self.folder / "snow.yaml").write_text("")
         (self.folder / "sand.yaml").write_text("")
         self.script.write_text('variable material index snow.yaml\nprint "${material}"\n')
-        check_variables(self.script, [("material", "snow.yaml:0.1,sand.yaml")], "-v")
+        check_variables(self.script, [("material", "snow.yaml:0.1,sand.yaml")], {})
         for value in ("ice.yaml", "snow.yaml:0.1,ice.yaml", "ice.yaml:0.1,sand.yaml"):
             with self.subTest(value), self.assertRaisesRegex(ResultsError, "there is no file ice.yaml; a path"):
-                check_variables(self.script, [("material", value)], "-v")
+                check_variables(self.script, [("material", value)], {})
 
     def test_a_file_that_is_not_there_is_a_warning(self) -> None:
         (self.folder / "parts" / "soft.part").unlink()
