@@ -20,10 +20,18 @@ void declare_hub(Schema& schema) {
               "moment of inertia across the axle; by default `inertia`/2 + `mass` w^2/12, w the "
               "width or the bead spacing")
       .optional();
+  declare_axle(schema);
+}
+
+void declare_axle(Schema& schema) {
   schema
       .numbers("axle", 3, "m", Range::any(),
                "x y z of the axle centre at the start; y = 0 for a half model")
       .by_default(std::vector<double>{0, 0, 0});
+}
+
+Vector3 read_axle(const Options& options) {
+  return Eigen::Map<const Vector3>(options.numbers("axle").data());
 }
 
 HubParameters read_hub(const Options& options, double width) {
@@ -34,8 +42,7 @@ HubParameters read_hub(const Options& options, double width) {
   inertia.diametral = options.has("inertia_diametral")
                           ? options.number("inertia_diametral")
                           : 0.5 * inertia.axial + inertia.mass * std::pow(width, 2) / 12.0;
-  const std::vector<double>& axle = options.numbers("axle");
-  hub.centre = {axle[0], axle[1], axle[2]};
+  hub.centre = read_axle(options);
   return hub;
 }
 

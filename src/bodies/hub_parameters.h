@@ -24,6 +24,10 @@ struct HubParameters {
 
 /// Adds the keys mass, inertia, inertia_diametral and axle.
 void declare_hub(Schema& schema);
+/// Adds the key axle alone.
+void declare_axle(Schema& schema);
+/// Reads the key axle [m].
+Vector3 read_axle(const Options& options);
 
 /// Reads these keys. Where inertia_diametral is not given it is C/2 + m width^2/12, exact for any
 /// distribution of mass that is the same in every plane across the axle.

@@ -99,9 +99,14 @@ RigidWheel::RigidWheel(const Options& options)
     : RigidWheel(parameters_from(options), options.subject()) {}
 
 RigidWheel::RigidWheel(const RigidWheelParameters& parameters, const std::string& where)
-    : WheelHub(parameters.hub, "rigid wheel"), parameters_(parameters) {
+    : RigidWheel(parameters, make_wheel_mesh(parameters.geometry, where), where) {}
+
+RigidWheel::RigidWheel(const RigidWheelParameters& parameters, Surface surface,
+                       const std::string& where)
+    : WheelHub(parameters.hub, "rigid wheel"),
+      parameters_(parameters),
+      surface_(std::move(surface)) {
   check(parameters, where);
-  surface_ = make_wheel_mesh(parameters.geometry, where);
   check_closed(surface_, where);
   reference_ = surface_.x;
   place_nodes();

@@ -25,6 +25,10 @@ class RigidWheel : public WheelHub {
   /// @param where names the wheel in errors
   explicit RigidWheel(const RigidWheelParameters& parameters,
                       const std::string& where = "rigid wheel");
+  /// A wheel of another shape. parameters.geometry gives its nominal radius and width, and in
+  /// grousers.height the part of the largest radius beyond the nominal one.
+  /// @param surface about the axle centre [m]
+  RigidWheel(const RigidWheelParameters& parameters, Surface surface, const std::string& where);
 
   const RigidWheelParameters& parameters() const { return parameters_; }
   double nominal_radius() const override { return parameters_.geometry.radius(); }

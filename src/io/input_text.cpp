@@ -86,16 +86,22 @@ bool has_control_character(const std::string& text) {
   return std::any_of(text.begin(), text.end(), is_control);
 }
 
-std::string read_input_text(const std::string& path, const std::string& kind,
-                            std::uintmax_t largest) {
+std::string read_input_bytes(const std::string& path, const std::string& kind,
+                             std::uintmax_t largest) {
   check_file(path, kind, largest);
   std::ifstream file(path, std::ios::binary);
   if (!file)
     throw InputError(path,
                      fmt::format("cannot be opened ({})", std::generic_category().message(errno)),
                      kind, "check its permissions");
-  std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
   if (file.bad()) throw InputError(path, "cannot be read to its end", kind, "check the disk");
+  return bytes;
+}
+
+std::string read_input_text(const std::string& path, const std::string& kind,
+                            std::uintmax_t largest) {
+  std::string text = read_input_bytes(path, kind, largest);
   if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
   check_text(path, text, kind);
   return text;

@@ -15,6 +15,12 @@ namespace furrow {
 std::string read_input_text(const std::string& path, const std::string& kind,
                             std::uintmax_t largest);
 
+/// The bytes of such a file, which may be no text.
+/// @throws InputError when the file does not exist, is a folder or a device, may not be read, or is
+/// larger than that
+std::string read_input_bytes(const std::string& path, const std::string& kind,
+                             std::uintmax_t largest);
+
 /// Whether a text has a control character other than tabulators and line ends.
 bool has_control_character(const std::string& text);
 

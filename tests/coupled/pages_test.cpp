@@ -233,8 +233,9 @@ TEST(Styles, NamesAreUnambiguousAndDeclarationsComplete) {
 
 TEST(Styles, ErrorsNameTheStylesOfAKind) {
   EXPECT_EQ(style_names({"rig"}), "wheel/rig");
-  EXPECT_EQ(style_names({"wheel"}), "tyre/brick, tyre/darnell or wheel/rigid");
-  EXPECT_EQ(style_names({"wheel", "body"}), "tyre/brick, tyre/darnell, wheel/rigid or plate/rigid");
+  EXPECT_EQ(style_names({"wheel"}), "tyre/brick, tyre/darnell, wheel/mesh or wheel/rigid");
+  EXPECT_EQ(style_names({"wheel", "body"}),
+            "tyre/brick, tyre/darnell, wheel/mesh, wheel/rigid or plate/rigid");
   EXPECT_EQ(find_style("contact/bodies"), find_style("contact/continuum"));
   EXPECT_EQ(find_style("nve/sphere"), nullptr);
 }

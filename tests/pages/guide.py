@@ -49,7 +49,7 @@ class Session:
         (scratch / "inputs").mkdir()
         for entry in (source / "inputs").iterdir():
             place = scratch / "inputs" / entry.name
-            if entry.name in ("scenes", "tyres", "materials", "points", "guide", "beds"):
+            if entry.name in ("scenes", "tyres", "materials", "meshes", "points", "guide", "beds"):
                 shutil.copytree(entry, place, ignore=shutil.ignore_patterns("*.png", "results"))
             else:
                 place.symlink_to(entry)

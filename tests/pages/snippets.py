@@ -27,7 +27,7 @@ def main(source: Path, build: Path, scratch: Path) -> None:
     shutil.rmtree(scratch, ignore_errors=True)
     scenes = scratch / "inputs" / "scenes"
     scenes.mkdir(parents=True)
-    for name in ("beds", "materials", "tyres"):
+    for name in ("beds", "materials", "meshes", "tyres"):
         (scratch / "inputs" / name).symlink_to(source / "inputs" / name)
     pages = sorted(p for p in (source / "coupling").glob("*/*.md") if p.name != "README.md")
     if len(pages) < 20:

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "bodies/mesh_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace furrow {
+
+namespace {
+
+constexpr double smallest_mesh = 1e-3, largest_mesh = 5.0;  // [m], of wheels and tools
+// Of a wheel: distance of the centre of mass from the axle over the radius, and difference of the
+// moments of inertia across the axle over that about it.
+constexpr double largest_offset = 0.02, largest_difference = 0.1;
+constexpr double noise = 1e-6;  // of coordinates and directions in messages
+
+/// @param axis the key's meaning and default
+void declare_mesh(Schema& schema, const std::string& origin, const std::string& axis,
+                  const std::vector<double>& default_axis) {
+  schema.text("file", "mesh of a solid, STL or OBJ, relative to the script").may_change();
+  schema
+      .number("scale", "m", Range::positive(),
+              "length of a unit of the file: 0.001 for a mesh in millimetres")
+      .by_default(1.0);
+  schema.numbers("origin", 3, "", Range::any(), origin).by_default(std::vector<double>{0, 0, 0});
+  schema.numbers("axis", 3, "", Range::any(), axis).by_default(default_axis);
+}
+
+Vector3 vector_from(const Options& options, const char* key) {
+  return Eigen::Map<const Vector3>(options.numbers(key).data());
+}
+
+/// @throws InputError for a direction without length
+Vector3 direction_from(const Options& options, const char* key) {
+  const Vector3 direction = vector_from(options, key);
+  if (!(direction.norm() > 0.0)) throw InputError(options.where(key), "is 0 0 0", "a direction");
+  return direction.normalized();
+}
+
+/// As a keyword has them. @param least what is below it is zero
+std::string numbers(Vector3 vector, double least) {
+  vector = (vector.array().abs() < least).select(0.0, vector);
+  return fmt::format("{:.6g} {:.6g} {:.6g}", vector.x(), vector.y(), vector.z());
+}
+
+/// @returns the rotation from the axes of the file, with 'axis' along `target`
+Matrix3 attitude_of(const Options& options, const Vector3& target) {
+  return Quaternion::FromTwoVectors(direction_from(options, "axis"), target).toRotationMatrix();
+}
+
+/// A mesh that is probably in millimetres or inches.
+void check_size(const Options& options, const SolidMesh& mesh) {
+  const auto [lower, upper] = mesh.surface.bounds();
+  const double scale = options.number("scale"), size = scale * (upper - lower).maxCoeff();
+  if (size >= smallest_mesh && size <= largest_mesh) return;
+  throw InputError(options.where("scale"),
+                   fmt::format("is {:g} m, and {} spans {:.4g} m with it", scale, mesh.file, size),
+                   fmt::format("a size of {:g} to {:g} m", smallest_mesh, largest_mesh),
+                   "write 'scale 0.001' for a mesh in millimetres, 'scale 0.0254' for inches");
+}
+
+/// Checks the mesh, and brings it into metres about the origin of the body.
+void place(const Options& options, const Vector3& target, SolidMesh& mesh) {
+  check_size(options, mesh);
+  check_solid(mesh);
+  Matrix3X& x = mesh.surface.x;
+  x = options.number("scale") *
+      (attitude_of(options, target) * (x.colwise() - vector_from(options, "origin")));
+}
+
+/// With the axle along y through the origin.
+class MeshWheel {
+ public:
+  MeshWheel(const Options& options, const Surface& surface)
+      : options_(options), of_unit_density_(mass_properties(surface)) {
+    double reach = 0.0;
+    for (const auto& node : surface.x.colwise())
+      reach = std::max(reach, std::hypot(node.x(), node.z()));
+    const auto [lower, upper] = surface.bounds();
+    const double radius = options.has("radius") ? options.number("radius") : reach;
+    if (radius > reach * (1.0 + solid_mesh_tolerance))
+      throw InputError(options.where("radius"), fmt::format("is {:g} m", radius),
+                       fmt::format("at most {:.6g} m, the largest distance from the axle", reach),
+                       "check scale, origin and axis");
+    reach_ = reach;
+    wheel_.geometry.diameter = 2.0 * radius;
+    wheel_.geometry.grousers.height = std::max(0.0, reach - radius);
+    wheel_.geometry.width = upper.y() - lower.y();
+    wheel_.hub.centre = read_axle(options);
+    set_inertia();
+  }
+
+  const RigidWheelParameters& parameters() const { return wheel_; }
+
+ private:
+  void set_inertia() {
+    const double volume = of_unit_density_.volume;
+    const bool has_mass = options_.has("mass");
+    if (has_mass == options_.has("density"))
+      throw InputError(options_.where("mass"), has_mass ? "is given with a density" : "is missing",
+                       "either mass or density",
+                       fmt::format("the volume of the mesh is {:.6g} m^3", volume));
+    HubInertia& inertia = wheel_.hub.inertia;
+    inertia.mass = has_mass ? options_.number("mass") : options_.number("density") * volume;
+    if (!has_mass || !options_.has("inertia")) check_balance();
+    const double density = inertia.mass / volume;
+    const Matrix3& of_mesh = of_unit_density_.inertia;
+    inertia.axial = options_.has("inertia") ? options_.number("inertia") : density * of_mesh(1, 1);
+    inertia.diametral = options_.has("inertia_diametral")
+                            ? options_.number("inertia_diametral")
+                            : 0.5 * inertia.axial * (of_mesh(0, 0) + of_mesh(2, 2)) / of_mesh(1, 1);
+  }
+
+  /// A hub is a body of revolution with its centre of mass on the axle.
+  void check_balance() const {
+    const std::string remedy = ", or give mass and inertia";
+    const Matrix3 to_file = attitude_of(options_, Vector3::UnitY()).transpose();
+    const Vector3& centre = of_unit_density_.centre;
+    if (const double offset = std::hypot(centre.x(), centre.z()); offset > largest_offset * reach_)
+      throw InputError(options_.where("origin"),
+                       fmt::format("puts the axle {:.4g} m from the centre of mass", offset),
+                       fmt::format("at most {:.4g} m, {:g} of the largest radius",
+                                   largest_offset * reach_, largest_offset),
+                       fmt::format("write 'origin {}'{}",
+                                   numbers(vector_from(options_, "origin") +
+                                               to_file * centre / options_.number("scale"),
+                                           noise * reach_ / options_.number("scale")),
+                                   remedy));
+    const Matrix3& inertia = of_unit_density_.inertia;
+    if (std::abs(inertia(0, 0) - inertia(2, 2)) <= largest_difference * inertia(1, 1)) return;
+    throw InputError(
+        options_.where("axis"), "is no axis of revolution of the mesh",
+        fmt::format("moments of inertia across the axle that differ by at most {:g} of that about "
+                    "it",
+                    largest_difference),
+        fmt::format("write 'axis {}'{}", numbers(to_file * axis_of_revolution(), noise), remedy));
+  }
+
+  /// The principal axis whose two others have the most equal moments.
+  Vector3 axis_of_revolution() const {
+    const Vector3& centre = of_unit_density_.centre;
+    const Matrix3 about_centre =
+        of_unit_density_.inertia -
+        of_unit_density_.volume *
+            (centre.squaredNorm() * Matrix3::Identity() - centre * centre.transpose());
+    const Eigen::SelfAdjointEigenSolver<Matrix3> principal(about_centre);
+    const Vector3& moments = principal.eigenvalues();  // increasing
+    Vector3 axis =
+        principal.eigenvectors().col(moments[1] - moments[0] < moments[2] - moments[1] ? 2 : 0);
+    return axis.sum() < 0.0 ? -axis : axis;
+  }
+
+  const Options& options_;
+  MassProperties of_unit_density_;
+  double reach_ = 0.0;  // [m] largest distance from the axle
+  RigidWheelParameters wheel_;
+};
+
+}  // namespace
+
+Schema mesh_wheel_schema(const std::string& subject) {
+  Schema schema(subject);
+  declare_mesh(schema, "axle centre, in the coordinates of the file",
+               "direction of the axle in the file; it becomes y", {0, 1, 0});
+  schema
+      .number("radius", "m", Range::positive(),
+              "nominal radius, for rim speed, slip and hub drop; by default the largest distance "
+              "from the axle")
+      .optional();
+  schema
+      .number("density", "kg/m^3", Range::positive(), "gives the mass of the solid, without `mass`")
+      .optional();
+  schema.number("mass", "kg", Range::positive(), "mass of the wheel, without `density`").optional();
+  schema
+      .number("inertia", "kg m^2", Range::positive(),
+              "moment of inertia about the axle; by default that of a uniform solid")
+      .optional();
+  schema
+      .number("inertia_diametral", "kg m^2", Range::positive(),
+              "moment of inertia across the axle; by default in proportion to `inertia`")
+      .optional();
+  declare_axle(schema);
+  return schema;
+}
+
+std::unique_ptr<RigidWheel> make_mesh_wheel(const Options& options, SolidMesh mesh) {
+  place(options, Vector3::UnitY(), mesh);
+  const RigidWheelParameters parameters = MeshWheel(options, mesh.surface).parameters();
+  return std::make_unique<RigidWheel>(parameters, std::move(mesh.surface), options.subject());
+}
+
+}  // namespace furrow
