@@ -1,7 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/base/fix_scm.h"
 
+#include <filesystem>
+
+#include "coupling/liggghts/script.h"
+#include "io/soil_card_file.h"
+
 namespace furrow::coupling {
+
+namespace {
+
+std::map<std::string, double> card_of(const Options& options, const std::string& folder) {
+  if (!options.given("card")) return {};
+  return read_soil_card((std::filesystem::path(folder) / options.text("card")).string());
+}
+
+}  // namespace
 
 const Outputs<FixScm>& FixScm::outputs() {
   static const Outputs<FixScm> list = {
@@ -17,7 +31,7 @@ const Outputs<FixScm>& FixScm::outputs() {
 
 FixScm::FixScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema)
     : FurrowFix(lammps, narg, arg, schema),
-      soil_(soil_from(options())),
+      soil_(soil_from(options(), card_of(options(), script_folder(*lammps)))),
       field_(height_field_from(options()), options().subject()) {
   keep_state();
   provide(outputs());

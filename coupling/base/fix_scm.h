@@ -18,7 +18,10 @@ class FixScm : public FurrowFix {
 
  protected:
   FixScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema);
-  void checkpoint(Checkpoint& state) override { field_.checkpoint(state); }
+  void checkpoint(Checkpoint& state) override {
+    soil_.match(state);
+    field_.checkpoint(state);
+  }
 
  private:
   Soil soil_;

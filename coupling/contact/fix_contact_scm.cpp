@@ -35,7 +35,7 @@ Schema FixContactScm::schema() {
   schema.text("terrain", "id of the fix of the height field");
   schema
       .number("contact_width", "m", Range::positive(),
-              "width b in kc/b; by default that of the present contact patch")
+              "width b in k_c/b; by default that of the present contact patch")
       .optional();
   return schema;
 }
@@ -51,7 +51,7 @@ const Outputs<FixContactScm>& FixContactScm::outputs() {
        [](Fix& fix) { return fix.of_whole(fix.contact_.step().force).z(); }},
       {"area", "m^2", "contact area, seen from above",
        [](Fix& fix) { return fix.symmetry_factor() * fix.contact_.step().area; }},
-      {"width", "m", "width b in kc/b; 0 without contact or kc",
+      {"width", "m", "width b in k_c/b; 0 without contact or k_c",
        [](Fix& fix) { return fix.contact_.step().width; }},
       {"pressure", "Pa", "largest pressure", [](Fix& fix) { return fix.contact_.step().pressure; }},
       {"sinkage", "m", "largest sinkage of a cell",

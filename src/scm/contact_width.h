@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The width b of a contact patch in Bekker's kc/b (theory: scm, eq. 2).
+/// The width b of a contact patch in Bekker's k_c/b (theory: scm, eq. 2).
 
 #include <vector>
 

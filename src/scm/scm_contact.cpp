@@ -64,7 +64,7 @@ void ScmContact::press(double dt) {
   pressure_.assign(cells.size(), 0.0);
   pressed_.assign(cells.size(), 0.0);
   if (step_.area == 0.0) return;
-  if (soil_.kc != 0.0) step_.width = settings_.width ? *settings_.width : patch_width();
+  if (soil_.k_c != 0.0) step_.width = settings_.width ? *settings_.width : patch_width();
   const double modulus = soil_.modulus(step_.width), stiffness = soil_.stiffness;
   for (std::size_t s = 0; s < cells.size(); ++s) {
     if (!touches_[s]) continue;

@@ -18,14 +18,14 @@ namespace furrow {
 class ScmContact : public Contact {
  public:
   struct Settings {
-    std::optional<double> width;  ///< b in kc/b [m]; none: of the present contact patch
+    std::optional<double> width;  ///< b in k_c/b [m]; none: of the present contact patch
     bool records = true;          ///< this rank hands forces to the body's contact record
   };
   /// Of the last apply(); of a half model, of the half.
   struct Step {
     Vector3 force = Vector3::Zero();  ///< on the body [N]
     double area = 0.0;                ///< in contact, seen from above [m^2]
-    double width = 0.0;               ///< b in kc/b [m]; 0 without contact or kc
+    double width = 0.0;               ///< b in k_c/b [m]; 0 without contact or k_c
     double pressure = 0.0;            ///< largest [Pa]
     double sinkage = 0.0;             ///< largest [m]
     double stored = 0.0;              ///< elastic energy of the soil below the body [J]

@@ -16,23 +16,39 @@ constexpr double largest_angle = 60.0;  // degrees
 }  // namespace
 
 double Soil::modulus(double width) const {
-  const double modulus = (kc == 0.0 ? 0.0 : kc / width) + kphi;
+  const double modulus = (k_c == 0.0 ? 0.0 : k_c / width) + k_phi;
   if (!(modulus > 0.0))
     throw StateError(
-        fmt::format("kc/b + kphi is {:.3g} Pa/m^n under a contact of b = {:.3g} m: the soil does "
-                    "not resist; check 'kc' and 'kphi', or give 'contact_width'",
+        fmt::format("k_c/b + k_phi is {:.3g} Pa/m^n under a contact of b = {:.3g} m: the soil does "
+                    "not resist; check 'k_c' and 'k_phi', or give 'contact_width'",
                     modulus, width));
   return modulus;
 }
 
+void Soil::match(Checkpoint& state) const {
+  state.match("k_c", k_c);
+  state.match("k_phi", k_phi);
+  state.match("n", n);
+  state.match("c", cohesion);
+  state.match("phi", friction_angle);
+  state.match("K", shear_length);
+  state.match("stiffness", stiffness);
+  state.match("damping", damping);
+  state.match("flow", flow);
+}
+
 void declare_soil(Schema& schema) {
-  schema.number("kc", "N/m^(n+1)", Range::any(), "Bekker's cohesive modulus").by_default(0.0);
-  schema.number("kphi", "N/m^(n+2)", Range::any(), "Bekker's frictional modulus");
-  schema.number("n", "", Range{0.0, 3.0, true, false}, "Bekker's exponent of the sinkage");
-  schema.number("cohesion", "Pa", Range::non_negative(), "shear strength without pressure");
-  schema.number("friction_angle", "degrees", Range::closed(0.0, largest_angle),
-                "angle of internal friction, and of repose of the soil at the sides");
-  schema.number("K", "m", Range::positive(), "shear displacement of Janosi and Hanamoto");
+  schema.number("k_c", "N/m^(n+1)", Range::any(), "Bekker's cohesive modulus").by_default(0.0);
+  schema.number("k_phi", "N/m^(n+2)", Range::any(), "Bekker's frictional modulus").optional();
+  schema.number("n", "", Range{0.0, 3.0, true, false}, "Bekker's exponent of the sinkage")
+      .optional();
+  schema.number("c", "Pa", Range::non_negative(), "cohesion").optional();
+  schema
+      .number("phi", "degrees", Range::closed(0.0, largest_angle),
+              "angle of internal friction, and of repose of the soil at the sides")
+      .optional();
+  schema.number("K", "m", Range::positive(), "shear displacement of Janosi and Hanamoto")
+      .optional();
   schema
       .number("stiffness", "Pa/m", Range::positive(),
               "pressure per elastic sinkage, of unloading and reloading")
@@ -45,17 +61,24 @@ void declare_soil(Schema& schema) {
       .by_default(0.0);
 }
 
-Soil soil_from(const Options& options) {
+Soil soil_from(const Options& options, const std::map<std::string, double>& card) {
+  const auto value = [&](const char* key) {
+    const auto of_card = card.find(key);
+    if (of_card != card.end() && !options.given(key)) return of_card->second;
+    need(options.has(key), options.where(key), "is missing", "a number",
+         "give it, or a soil card with 'card'");
+    return options.number(key);
+  };
   Soil soil;
-  soil.kc = options.number("kc");
-  soil.kphi = options.number("kphi");
-  soil.n = options.number("n");
-  soil.cohesion = options.number("cohesion");
-  soil.friction_angle = radians(options.number("friction_angle"));
-  soil.shear_length = options.number("K");
-  soil.stiffness = options.number("stiffness");
-  soil.damping = options.number("damping");
-  soil.flow = options.number("flow");
+  soil.k_c = value("k_c");
+  soil.k_phi = value("k_phi");
+  soil.n = value("n");
+  soil.cohesion = value("c");
+  soil.friction_angle = radians(value("phi"));
+  soil.shear_length = value("K");
+  soil.stiffness = value("stiffness");
+  soil.damping = value("damping");
+  soil.flow = value("flow");
   check(soil, options.subject());
   return soil;
 }
@@ -71,8 +94,8 @@ void check(const Soil& soil, const std::string& where) {
   in(soil.stiffness, Range::positive(), "stiffness", "Pa/m");
   in(soil.damping, Range::non_negative(), "damping", "Pa s/m");
   in(soil.flow, Range::closed(0.0, 1.0), "flow", "");
-  need(soil.kc > 0.0 || soil.kphi > 0.0, where, "has neither 'kc' nor 'kphi' above 0",
-       "a soil that resists", "give 'kphi'");
+  need(soil.k_c > 0.0 || soil.k_phi > 0.0, where, "has neither 'k_c' nor 'k_phi' above 0",
+       "a soil that resists", "give 'k_phi'");
 }
 
 }  // namespace furrow

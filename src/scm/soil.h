@@ -2,14 +2,18 @@
 #pragma once
 /// Bekker's and Janosi's parameters of a soil (theory: scm, eqs. 1 and 4).
 
+#include <map>
+#include <string>
+
+#include "core/checkpoint.h"
 #include "core/options.h"
 
 namespace furrow {
 
-/// Pressure p = (kc/b + kphi) z^n; shear stress (cohesion + p tan(friction_angle)) (1 - exp(-j/K)).
+/// Pressure p = (k_c/b + k_phi) z^n; shear stress (c + p tan(phi)) (1 - exp(-j/K)).
 struct Soil {
-  double kc = 0.0;              ///< [N/m^(n+1)]
-  double kphi = 0.0;            ///< [N/m^(n+2)]
+  double k_c = 0.0;             ///< [N/m^(n+1)]
+  double k_phi = 0.0;           ///< [N/m^(n+2)]
   double n = 1.0;               ///< exponent of the sinkage
   double cohesion = 0.0;        ///< [Pa]
   double friction_angle = 0.0;  ///< [rad]
@@ -20,11 +24,15 @@ struct Soil {
 
   /// [Pa/m^n] under a contact of this width [m]. @throws StateError unless it is positive
   double modulus(double width) const;
+  /// Compares all parameters with the saved ones. @throws Error
+  void match(Checkpoint& state) const;
 };
 
 /// The keys of a soil; angles in degrees.
 void declare_soil(Schema& schema);
-Soil soil_from(const Options& options);
+/// @param card  values by the same keys, for those that are not given
+/// @throws InputError for a key that neither has
+Soil soil_from(const Options& options, const std::map<std::string, double>& card = {});
 /// @throws InputError for values out of range @param where names the soil
 void check(const Soil& soil, const std::string& where);
 

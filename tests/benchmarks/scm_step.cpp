@@ -16,8 +16,8 @@ constexpr double radius = 0.25, speed = 0.5, slip = 0.2, step = 5e-4;  // [m], [
 
 Soil sand() {
   Soil soil;
-  soil.kc = 1370.0;
-  soil.kphi = 814e3;
+  soil.k_c = 1370.0;
+  soil.k_phi = 814e3;
   soil.cohesion = 800.0;
   soil.friction_angle = radians(37.2);
   soil.shear_length = 0.015;

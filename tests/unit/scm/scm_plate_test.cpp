@@ -19,8 +19,8 @@ constexpr double side = 0.2;
 
 Soil loam() {
   Soil soil;
-  soil.kc = 2e4;
-  soil.kphi = 8e5;
+  soil.k_c = 2e4;
+  soil.k_phi = 8e5;
   soil.n = 0.7;
   soil.cohesion = 2e3;
   soil.friction_angle = radians(30.0);
@@ -46,7 +46,7 @@ struct Pressing {
     return plate.surface().total_force().z();
   }
   double bekker(double sinkage) const {
-    return (soil.kc / (0.5 * side) + soil.kphi) * std::pow(sinkage, soil.n) * side * side;
+    return (soil.k_c / (0.5 * side) + soil.k_phi) * std::pow(sinkage, soil.n) * side * side;
   }
 
   Soil soil;
@@ -187,11 +187,23 @@ TEST(ScmPlate, BodyBeyondTheFieldIsRefused) {
   EXPECT_THROW(contact.apply(1.0), StateError);
 }
 
+TEST(ScmPlate, LineOfASoilHasPriorityOverItsCard) {
+  Schema schema("soil");
+  declare_soil(schema);
+  const std::vector<std::string> words = {"k_phi", "1e6", "phi", "30", "K", "0.01"};
+  const Soil soil = soil_from(schema.read(words), {{"k_phi", 2e6}, {"n", 1.1}, {"c", 500.0}});
+  EXPECT_EQ(soil.k_phi, 1e6);
+  EXPECT_EQ(soil.n, 1.1);
+  EXPECT_EQ(soil.cohesion, 500.0);
+  EXPECT_EQ(soil.stiffness, 1e8);
+  EXPECT_THROW(soil_from(schema.read(words), {{"n", 1.1}}), InputError);
+}
+
 TEST(ScmPlate, FieldsThatCannotBeAreRefused) {
   EXPECT_THROW(HeightField({0.6, -0.6, Vector2::Zero(), 0.0, 0.02}), InputError);
   EXPECT_THROW(HeightField({6e3, 6e3, Vector2::Zero(), 0.0, 0.02}), InputError);
   Soil soil = loam();
-  soil.kc = -1e6;
+  soil.k_c = -1e6;
   EXPECT_THROW(soil.modulus(0.1), StateError);
 }
 

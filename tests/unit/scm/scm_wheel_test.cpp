@@ -18,8 +18,8 @@ constexpr double radius = 0.25, width = 0.1, sinkage = 0.03, speed = 1.0;
 
 Soil sand() {
   Soil soil;
-  soil.kc = 1.0e4;
-  soil.kphi = 1.2e6;
+  soil.k_c = 1.0e4;
+  soil.k_phi = 1.2e6;
   soil.n = 0.9;
   soil.cohesion = 1e3;
   soil.friction_angle = radians(31.0);
@@ -91,7 +91,7 @@ struct Rolling {
 
 /// Wong and Reece's integrals with the largest stress below the axle, by Simpson's rule.
 Load wong_reece(const Soil& soil, double slip) {
-  const double entry = std::acos(1.0 - sinkage / radius), k = soil.kc / width + soil.kphi;
+  const double entry = std::acos(1.0 - sinkage / radius), k = soil.k_c / width + soil.k_phi;
   constexpr int intervals = 20000;
   Load load;
   for (int n = 0; n <= intervals; ++n) {
@@ -121,7 +121,7 @@ constexpr double longer_contact = 0.002;  // of the forces
 TEST(ScmWheel, TowedWheelConvergesToBekkersResistanceWithOrderTwo) {
   const Soil soil = without_shear();
   const double resistance =
-      (soil.kc + width * soil.kphi) * std::pow(sinkage, soil.n + 1.0) / (soil.n + 1.0);
+      (soil.k_c + width * soil.k_phi) * std::pow(sinkage, soil.n + 1.0) / (soil.n + 1.0);
   const double load = wong_reece(soil, 0.0).force_z;
   std::array<double, 3> errors{}, loads{};
   for (std::size_t n = 0; n < 3; ++n) {

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/soil_card_file.h"
+
+#include "io/yaml_tree.h"
+
+namespace furrow {
+
+namespace {
+
+constexpr char what_a_card_is[] = "of a soil card, which furrow-soil card writes";
+
+/// A schema of one value; its ranges are those of any soil.
+double value_of(const YamlTree& entry, const std::string& name, const Range& range) {
+  Schema schema("soil card, " + name);
+  schema.number("value", "", range, name);
+  return read_map(schema, entry, {"error", "unit"}).number("value");
+}
+
+}  // namespace
+
+std::map<std::string, double> read_soil_card(const std::string& path) {
+  const YamlTree card = read_yaml(path);
+  const YamlTree& plate = card.map("pressure_sinkage", what_a_card_is);
+  const YamlTree& shear = card.map("shear", what_a_card_is);
+  std::map<std::string, double> values;
+  for (const char* name : {"k_c", "k_phi"})
+    values[name] = value_of(plate.map(name, what_a_card_is), name, Range::any());
+  values["n"] = value_of(plate.map("n", what_a_card_is), "n", Range::positive());
+  for (const char* name : {"c", "phi"})
+    values[name] = value_of(shear.map(name, what_a_card_is), name, Range::non_negative());
+  values["K"] = value_of(shear.map("K", what_a_card_is), "K", Range::positive());
+  if (const YamlTree* stiffness = card.find("stiffness")) {
+    Schema schema("soil card");
+    schema.number("stiffness", "Pa/m", Range::positive(), "elastic stiffness");
+    const std::vector<Entry> entry = {{"stiffness", {stiffness->text}, stiffness->origin}};
+    values["stiffness"] = schema.read(entry).number("stiffness");
+  }
+  return values;
+}
+
+}  // namespace furrow

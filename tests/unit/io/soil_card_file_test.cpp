@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A soil card as furrow-soil writes it, and cards with missing or impossible values.
+
+#include "io/soil_card_file.h"
+
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "io/replace_file.h"
+#include "scratch.h"
+#include "tests/support/error_of.h"
+
+namespace furrow {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr char card[] = R"(title: Soil card of my_sand
+ground: my_sand.yaml
+density: 1600.0
+stiffness: 1.8e8
+pressure_sinkage:
+  k_c: {value: -5628.0, error: 183.0, unit: N/m^(n+1)}
+  k_phi: {value: 1950915.0, error: 700.0, unit: N/m^(n+2)}
+  n: {value: 1.23, error: 0.066}
+  sinkage: [0.0016, 0.06]
+shear:
+  c: {value: 3695.0, error: 134.0, unit: Pa}
+  phi: {value: 29.7, error: 0.6, unit: degree}
+  K: {value: 0.0064, error: 0.0002, unit: m}
+notes: []
+)";
+
+class SoilCardFile : public ::testing::Test {
+ protected:
+  std::string written(const std::string& old = "", const std::string& now = "") {
+    std::string text = card;
+    if (!old.empty()) text.replace(text.find(old), old.size(), now);
+    write_text_file(scratch_.path("card.yaml"), text);
+    return scratch_.path("card.yaml");
+  }
+  std::string refusal(const std::string& old, const std::string& now) {
+    return test::error_of([&] { read_soil_card(written(old, now)); });
+  }
+  Scratch scratch_;
+};
+
+TEST_F(SoilCardFile, GivesTheParametersOfTheSoil) {
+  const auto values = read_soil_card(written());
+  EXPECT_EQ(values.at("k_c"), -5628.0);
+  EXPECT_EQ(values.at("k_phi"), 1950915.0);
+  EXPECT_EQ(values.at("n"), 1.23);
+  EXPECT_EQ(values.at("c"), 3695.0);
+  EXPECT_EQ(values.at("phi"), 29.7);
+  EXPECT_EQ(values.at("K"), 0.0064);
+  EXPECT_EQ(values.at("stiffness"), 1.8e8);
+}
+
+TEST_F(SoilCardFile, RefusalsNameFileLineAndKey) {
+  EXPECT_THAT(refusal("shear:", "sheer:"), HasSubstr("shear"));
+  EXPECT_THAT(refusal("{value: 29.7, error: 0.6, unit: degree}", "29.7"), HasSubstr("phi"));
+  EXPECT_THAT(refusal("value: 1.23", "value: -1"), HasSubstr("card.yaml, line 8"));
+  EXPECT_THAT(refusal("stiffness: 1.8e8", "stiffness: soft"), HasSubstr("stiffness"));
+}
+
+}  // namespace
+}  // namespace furrow
