@@ -13,7 +13,12 @@ const StyleRow plate_rigid_style =
 
 Schema FixPlateRigid::schema() {
   Schema schema = RigidPlate::schema("fix plate/rigid");
-  schema.number("speed", "m/s", Range::closed(0.0, 1000.0), "downward speed");
+  declare_motion(schema, "downward speed");
+  return schema;
+}
+
+void FixPlateRigid::declare_motion(Schema& schema, const std::string& speed) {
+  schema.number("speed", "m/s", Range::closed(0.0, 1000.0), speed);
   schema.number("start", "s", Range::non_negative(), "time at which the plate starts to move")
       .by_default(0.0);
   schema.number("accelerate_time", "s", Range::non_negative(),
@@ -26,16 +31,15 @@ Schema FixPlateRigid::schema() {
       .by_default(0.0);
   schema.number("ground_level", "m", Range::any(),
                 "z of the undisturbed ground, the datum of the sinkage");
-  return schema;
 }
 
 const Outputs<FixPlateRigid>& FixPlateRigid::outputs() {
   using Fix = FixPlateRigid;
   static const Outputs<Fix> list = {
       {"sinkage", "m", "ground level minus the lower face of the plate",
-       [](Fix& fix) { return fix.ground_level_ - fix.plate().centre().z(); }},
+       [](Fix& fix) { return fix.sinkage(); }},
       {"force", "N", "upward force of the ground on the plate",
-       [](Fix& fix) { return fix.plate().surface().total_force().z(); }},
+       [](Fix& fix) { return fix.force().z(); }},
       {"pressure", "Pa", "force over the area of the plate",
        [](Fix& fix) { return fix.plate().mean_pressure(); }},
       {"torque", "N m", "moment of the ground on the plate about its axis",
@@ -47,22 +51,30 @@ const Outputs<FixPlateRigid>& FixPlateRigid::outputs() {
 }
 
 FixPlateRigid::FixPlateRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
-    : FixBody(lammps, narg, arg, schema(),
-              [](const Options& options) { return std::make_unique<RigidPlate>(options); }),
+    : FixPlateRigid(
+          lammps, narg, arg, schema(),
+          [](const Options& options) { return std::make_unique<RigidPlate>(options); },
+          [](const Options&) { return Vector3(0.0, 0.0, -1.0); }) {
+  provide(outputs());
+}
+
+FixPlateRigid::FixPlateRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema,
+                             const MakeBody& make_plate, const Direction& direction)
+    : FixBody(lammps, narg, arg, schema, make_plate),
       ramp_{options().number("start"), options().number("accelerate_time")},
       spin_ramp_{options().number("spin_start"), options().number("accelerate_time")},
       speed_(options().number("speed")),
+      direction_(direction(options())),
       load_(options().has("load") ? options().number("load")
                                   : std::numeric_limits<double>::infinity()),
       spin_(options().number("spin")),
       ground_level_(options().number("ground_level")) {
   contribute(static_cast<MotionController&>(*this));
-  provide(outputs());
 }
 
 void FixPlateRigid::apply(double time, double dt) {
-  const double missing = std::max(1.0 - plate().surface().total_force().z() / load_, -1.0);
-  plate().prescribe(-speed_ * missing * ramp_.mean(time, time + dt),
+  const double missing = std::max(1.0 + force().dot(direction_) / load_, -1.0);
+  plate().prescribe(speed_ * missing * ramp_.mean(time, time + dt) * direction_,
                     spin_ * spin_ramp_.mean(time, time + dt));
 }
 

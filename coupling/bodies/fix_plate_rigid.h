@@ -19,11 +19,22 @@ class FixPlateRigid : public FixBody, public MotionController {
   double full_speed() const { return ramp_.end(); }  ///< time from which it has its speed [s]
   bool turns() const { return spin_ != 0.0; }
 
- private:
-  RigidPlate& plate() { return static_cast<RigidPlate&>(body()); }
+ protected:
+  // For plates of other shapes.
+  using Direction = std::function<Vector3(const Options&)>;
+  /// @param direction of the motion, of unit length
+  FixPlateRigid(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema,
+                const MakeBody& make_plate, const Direction& direction);
+  static void declare_motion(Schema& schema, const std::string& speed);
 
+  RigidPlate& plate() { return static_cast<RigidPlate&>(body()); }
+  Vector3 force() { return plate().surface().total_force(); }
+  double sinkage() { return ground_level_ - plate().surface().bounds().first.z(); }
+
+ private:
   Ramp ramp_, spin_ramp_;
-  double speed_;         // [m/s] downwards
+  double speed_;  // [m/s]
+  Vector3 direction_;
   double load_;          // [N] infinity: the speed does not depend on the force
   double spin_;          // [rad/s] about z
   double ground_level_;  // [m]

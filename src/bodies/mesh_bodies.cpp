@@ -161,6 +161,14 @@ class MeshWheel {
   RigidWheelParameters wheel_;
 };
 
+/// [m^2] horizontal projection of the facets that face down
+double area_from_below(const Surface& surface) {
+  double area = 0.0;
+  for (std::size_t t = 0; t < surface.triangle_count(); ++t)
+    area -= std::min(0.0, surface.area_vector(t).z());
+  return area;
+}
+
 }  // namespace
 
 Schema mesh_wheel_schema(const std::string& subject) {
@@ -188,10 +196,33 @@ Schema mesh_wheel_schema(const std::string& subject) {
   return schema;
 }
 
+Schema mesh_plate_schema(const std::string& subject) {
+  Schema schema(subject);
+  declare_mesh(schema, "reference point of the plate, in the coordinates of the file",
+               "direction in the file that points up", {0, 0, 1});
+  schema.numbers("centre", 3, "m", Range::any(), "x y z of the reference point at the start");
+  schema
+      .number("area", "m^2", Range::positive(),
+              "area of `pressure`; by default the horizontal projection of all facets that face "
+              "down")
+      .optional();
+  return schema;
+}
+
 std::unique_ptr<RigidWheel> make_mesh_wheel(const Options& options, SolidMesh mesh) {
   place(options, Vector3::UnitY(), mesh);
   const RigidWheelParameters parameters = MeshWheel(options, mesh.surface).parameters();
   return std::make_unique<RigidWheel>(parameters, std::move(mesh.surface), options.subject());
+}
+
+std::unique_ptr<RigidPlate> make_mesh_plate(const Options& options, SolidMesh mesh) {
+  place(options, Vector3::UnitZ(), mesh);
+  PlateGeometry geometry;
+  geometry.shape = PlateShape::square;
+  geometry.size =
+      std::sqrt(options.has("area") ? options.number("area") : area_from_below(mesh.surface));
+  return std::make_unique<RigidPlate>(geometry, std::move(mesh.surface),
+                                      vector_from(options, "centre"));
 }
 
 }  // namespace furrow

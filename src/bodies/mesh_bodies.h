@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Rigid wheels from mesh files: the keys, and the bodies that they describe.
+/// Rigid wheels and tools from mesh files: the keys, and the bodies that they describe.
 
 #include <memory>
 #include <string>
 
+#include "bodies/rigid_plate.h"
 #include "bodies/rigid_wheel.h"
 #include "core/options.h"
 #include "geometry/solid_mesh.h"
@@ -13,6 +14,8 @@ namespace furrow {
 
 /// The keys of a wheel. @param subject names the owner in errors
 Schema mesh_wheel_schema(const std::string& subject);
+/// The keys of a plate, but for its motion.
+Schema mesh_plate_schema(const std::string& subject);
 
 /// Scales, places and checks the mesh (check_solid). Mass and inertia are those of the keys, or of
 /// a solid of uniform density.
@@ -20,5 +23,7 @@ Schema mesh_wheel_schema(const std::string& subject);
 /// @throws InputError for a mesh that is no solid or not in metres, for one that is no balanced
 /// wheel without explicit mass and inertia, and for keys that do not go together
 std::unique_ptr<RigidWheel> make_mesh_wheel(const Options& options, SolidMesh mesh);
+/// @throws InputError for a mesh that is no solid or not in metres
+std::unique_ptr<RigidPlate> make_mesh_plate(const Options& options, SolidMesh mesh);
 
 }  // namespace furrow

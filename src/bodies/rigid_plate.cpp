@@ -58,15 +58,17 @@ RigidPlate::RigidPlate(const Options& options)
 
 RigidPlate::RigidPlate(const PlateGeometry& geometry, const Vector3& centre,
                        const std::string& where)
-    : geometry_(geometry), surface_(make_plate_mesh(geometry, where)), centre_(centre) {
-  reference_ = surface_.x;
+    : RigidPlate(geometry, make_plate_mesh(geometry, where), centre) {}
+
+RigidPlate::RigidPlate(const PlateGeometry& geometry, Surface surface, const Vector3& centre)
+    : geometry_(geometry), surface_(std::move(surface)), reference_(surface_.x), centre_(centre) {
   place_nodes();
 }
 
-void RigidPlate::prescribe(double velocity, double spin) {
-  if (!std::isfinite(velocity) || !std::isfinite(spin))
+void RigidPlate::prescribe(const Vector3& velocity, double spin) {
+  if (!velocity.allFinite() || !std::isfinite(spin))
     throw StateError(
-        fmt::format("rigid plate: prescribed velocity is {}, spin is {}", velocity, spin));
+        fmt::format("rigid plate: prescribed velocity is {}, spin is {}", velocity.sum(), spin));
   velocity_ = velocity;
   spin_ = spin;
 }
@@ -78,11 +80,11 @@ double RigidPlate::torque() const { return surface_.total_moment(centre_).z(); }
 double RigidPlate::stable_time_step() const { return std::numeric_limits<double>::infinity(); }
 
 void RigidPlate::advance(double dt) {
-  const double force = surface_.total_force().z();
-  if (!std::isfinite(force))
-    throw StateError(fmt::format("rigid plate: the force on it is {} N", force));
-  contact_work_ += (force * velocity_ + torque() * spin_) * dt;
-  centre_.z() += velocity_ * dt;
+  const Vector3 force = surface_.total_force();
+  if (!force.allFinite())
+    throw StateError(fmt::format("rigid plate: the force on it is {} N", force.norm()));
+  contact_work_ += (force.dot(velocity_) + torque() * spin_) * dt;
+  centre_ += velocity_ * dt;
   angle_ += spin_ * dt;
   place_nodes();
 }
@@ -93,7 +95,8 @@ void RigidPlate::place_nodes() {
   surface_.x = turned.colwise() + centre_;
   surface_.v.row(0) = -spin_ * turned.row(1);
   surface_.v.row(1) = spin_ * turned.row(0);
-  surface_.v.row(2).setConstant(velocity_);
+  surface_.v.row(2).setZero();
+  surface_.v.colwise() += velocity_;
 }
 
 EnergyBudget RigidPlate::energy_budget() const {
@@ -111,7 +114,7 @@ void RigidPlate::checkpoint(Checkpoint& state) {
   state.match("inner_size", geometry_.inner_size);
   state.match("angle", geometry_.angle);
   state.values("centre", centre_);
-  state.value("velocity", velocity_);
+  state.values("velocity", velocity_);
   state.value("spin", spin_);
   state.value("turned", angle_);
   state.value("contact_work", contact_work_);

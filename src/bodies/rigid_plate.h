@@ -11,8 +11,8 @@
 
 namespace furrow {
 
-/// The plate moves along z and turns about its axis, both at prescribed speeds. It has no mass: the
-/// drive carries all forces, and its work is minus the work of the contact forces.
+/// The plate moves and turns about its vertical axis, both at prescribed velocities. It has no
+/// mass: the drive carries all forces, and its work is minus the work of the contact forces.
 class RigidPlate : public Body {
  public:
   /// The keys of a plate. @param subject names the owner in errors
@@ -21,10 +21,17 @@ class RigidPlate : public Body {
   /// @param centre of the lower face at the start [m] @param where names the plate in errors
   RigidPlate(const PlateGeometry& geometry, const Vector3& centre,
              const std::string& where = "rigid plate");
+  /// A tool of another shape. @param geometry a plate of the area on which mean_pressure() acts
+  /// @param surface about the point that starts at centre [m]
+  RigidPlate(const PlateGeometry& geometry, Surface surface, const Vector3& centre);
 
-  /// From the next step on. @param velocity upwards [m/s] @param spin about z [rad/s]
+  /// From the next step on. @param velocity [m/s] @param spin about z [rad/s]
   /// @throws StateError when one is not finite
-  void prescribe(double velocity, double spin = 0.0);
+  void prescribe(const Vector3& velocity, double spin = 0.0);
+  /// @param velocity upwards [m/s]
+  void prescribe(double velocity, double spin = 0.0) {
+    prescribe(Vector3(0.0, 0.0, velocity), spin);
+  }
 
   const PlateGeometry& geometry() const { return geometry_; }
   const Vector3& centre() const { return centre_; }  ///< [m] of the lower face
@@ -44,13 +51,13 @@ class RigidPlate : public Body {
   void place_nodes();
 
   PlateGeometry geometry_;
-  Matrix3X reference_;  // nodes about the centre of the lower face
   Surface surface_;
+  Matrix3X reference_;  // nodes about the centre of the lower face
   Vector3 centre_;
-  double velocity_ = 0.0;      // [m/s] upwards
-  double spin_ = 0.0;          // [rad/s] about z
-  double angle_ = 0.0;         // [rad] about z
-  double contact_work_ = 0.0;  // [J]
+  Vector3 velocity_ = Vector3::Zero();  // [m/s]
+  double spin_ = 0.0;                   // [rad/s] about z
+  double angle_ = 0.0;                  // [rad] about z
+  double contact_work_ = 0.0;           // [J]
 };
 
 }  // namespace furrow

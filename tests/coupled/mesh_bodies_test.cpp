@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Wheels from mesh files: forces and motion are those of the built-in wheel of the same shape.
+// Bodies from mesh files: forces and motion are those of the built-in body of the same shape,
+// whatever the triangles.
 
 #include <cmath>
 
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/wheel_mesh.h"
+#include "modify.h"
 #include "tests/coupled/support/scene.h"
 #include "tests/support/meshes.h"
 
@@ -21,6 +23,10 @@ std::string stl_of(Scene& scene, const Surface& surface) {
   if (scene.rank() == 0) write_stl(path, surface);
   scene.sum(0.0);  // a barrier
   return path;
+}
+
+double output(Scene& scene, const char* fix, int entry) {
+  return scene.lammps().modify->find_fix_id(fix)->compute_vector(entry - 1);
 }
 
 struct Outcome {
@@ -96,6 +102,57 @@ TEST_P(WheelMesh, OnAContinuumHasTheForcesOfTheBuiltInWheel) {
 INSTANTIATE_TEST_SUITE_P(Grousers, WheelMesh, ::testing::Values(0, 16), [](const auto& grousers) {
   return grousers.param == 0 ? "smooth" : "grousers";
 });
+
+Outcome press(Scene& scene, const std::string& plate, bool on_grains) {
+  scene.granular_box(Vector3(-0.5, -0.5, 0.0), Vector3(0.5, 0.5, 0.5), 0.002);
+  scene.contact_properties(5e6, 0.3, 0.5, 0.4);
+  scene.commands("timestep 1e-4\nthermo 100000");
+  if (!on_grains) scene.command("atom_modify sort 0 0");
+  if (on_grains) {
+    scene.commands(
+        "pair_style gran model hertz tangential history\npair_coeff * *\n"
+        "lattice sc 0.0081\nregion layer block -0.06 0.06 -0.06 0.06 0.105 0.12 units box\n"
+        "create_atoms 1 region layer\nset group all diameter 0.008 density 2500\n"
+        "fix floor all wall/gran model hertz tangential history primitive type 1 zplane 0.1\n"
+        "fix move all nve/sphere");
+  }
+  scene.command(plate + " speed 0.2 accelerate_time 0 ground_level 0.12");
+  if (on_grains)
+    scene.commands(
+        "fix skin all mesh/body body plate type 1\n"
+        "fix face all wall/gran/body model hertz tangential history mesh n_meshes 1 meshes skin");
+  else
+    add_snow(scene, "plate", "");
+  scene.command("run 300");
+  return run(scene, 100, "plate");
+}
+
+/// The lower face of 128 triangles, and of two.
+void expect_the_plate_of_twelve_facets(bool on_grains) {
+  Scene built_in, from_file;
+  const Outcome expected = press(built_in,
+                                 "fix plate all plate/rigid shape square size 0.08 thickness 0.05 "
+                                 "elements 8 centre 0 0 0.1225",
+                                 on_grains);
+  const std::string file = stl_of(from_file, box(Vector3(-40, -40, 0), Vector3(40, 40, 50)));
+  const Outcome found =
+      press(from_file,
+            fmt::format("fix plate all plate/mesh file {} scale 0.001 centre 0 0 0.1225", file),
+            on_grains);
+  EXPECT_NEAR(output(from_file, "plate", 1), output(built_in, "plate", 1), 1e-12);
+  for (const int entry : {2, 3})
+    EXPECT_NEAR(output(from_file, "plate", entry), output(built_in, "plate", entry),
+                1e-6 * output(built_in, "plate", entry));
+  expect_equal(expected, found, 1e-6);
+}
+
+TEST(PlateMesh, OfTwelveFacetsHasTheForcesOfThePlateOnAContinuum) {
+  expect_the_plate_of_twelve_facets(false);
+}
+
+TEST(PlateMesh, OfTwelveFacetsHasTheForcesOfThePlateOnGrains) {
+  expect_the_plate_of_twelve_facets(true);
+}
 
 }  // namespace
 }  // namespace furrow::test

@@ -235,7 +235,7 @@ TEST(Styles, ErrorsNameTheStylesOfAKind) {
   EXPECT_EQ(style_names({"rig"}), "wheel/rig");
   EXPECT_EQ(style_names({"wheel"}), "tyre/brick, tyre/darnell, wheel/mesh or wheel/rigid");
   EXPECT_EQ(style_names({"wheel", "body"}),
-            "tyre/brick, tyre/darnell, wheel/mesh, wheel/rigid or plate/rigid");
+            "tyre/brick, tyre/darnell, wheel/mesh, wheel/rigid, plate/mesh or plate/rigid");
   EXPECT_EQ(find_style("contact/bodies"), find_style("contact/continuum"));
   EXPECT_EQ(find_style("nve/sphere"), nullptr);
 }

@@ -148,5 +148,57 @@ TEST(MeshWheel, BadMeshesAndKeysAreRefusedWithTheRemedy) {
   EXPECT_EQ(refusal(shifted, {"mass", "5", "inertia", "0.06"}), "no error");
 }
 
+/// Tip at the origin, pointing down; a ring of n nodes at the base.
+Surface cone(double angle, double diameter, int n) {
+  Surface surface;
+  surface.resize(static_cast<std::size_t>(n) + 2);
+  const double height = 0.5 * diameter / std::tan(0.5 * angle);
+  surface.x.col(1) = Vector3(0, 0, height);
+  for (int i = 0; i < n; ++i) {
+    const double turn = 2 * pi * i / n;
+    surface.x.col(i + 2) =
+        Vector3(0.5 * diameter * std::cos(turn), 0.5 * diameter * std::sin(turn), height);
+    surface.triangles.push_back({0, 2 + (i + 1) % n, 2 + i});
+    surface.triangles.push_back({1, 2 + i, 2 + (i + 1) % n});
+  }
+  return surface;
+}
+
+std::unique_ptr<RigidPlate> plate_of(const Surface& surface, const Words& words) {
+  const Options options =
+      mesh_plate_schema("fix plate/mesh").read(Words{"file", "cone.stl"} + words);
+  return make_mesh_plate(options, solid(surface, "cone.stl"));
+}
+
+// A cone of 30 degrees: its base is the area of the pressure.
+TEST(MeshPlate, MovesAlongItsVelocityWithThePressureOnItsBase) {
+  const int n = 48;
+  const auto body = plate_of(cone(radians(30), 0.02, n), {"centre", "0.1", "0.2", "0.3"});
+  const double base = 0.5 * n * 1e-4 * std::sin(2 * pi / n);
+  body->prescribe(Vector3(0.3, 0, -0.1));
+  body->surface().clear_forces();
+  body->surface().f.col(0) = Vector3(-2, 0, 5);
+  body->advance(0.01);
+  EXPECT_NEAR(body->mean_pressure(), 5.0 / base, 1e-9 * 5.0 / base);
+  EXPECT_LT((body->surface().bounds().first - Vector3(0.093, 0.19, 0.299)).norm(), 1e-12);
+  EXPECT_NEAR(body->energy_budget().contact_work, 0.01 * (-0.6 - 0.5), 1e-15);
+  EXPECT_NEAR(body->energy_budget().residual(), 0.0, 1e-18);
+}
+
+TEST(MeshPlate, AreaAndDirectionOfUpAreThoseOfTheKeys) {
+  Surface upside_down = cone(radians(60), 0.02, 12);
+  upside_down.x.bottomRows(2) *= -1.0;
+  const auto body =
+      plate_of(upside_down, {"centre", "0", "0", "0", "axis", "0", "0", "-1", "area", "0.01"});
+  EXPECT_NEAR(body->surface().bounds().first.z(), 0.0, 1e-15);
+  EXPECT_NEAR(body->surface().bounds().second.z(), 0.01 / std::tan(radians(30)), 1e-15);
+  body->surface().f(2, 0) = 3.0;
+  EXPECT_NEAR(body->mean_pressure(), 300.0, 1e-10);
+  EXPECT_THAT(error_of<InputError>([&] {
+                plate_of(upside_down, {"centre", "0", "0", "0", "scale", "1000"});
+              }),
+              HasSubstr("fix plate/mesh, keyword 'scale' is 1000 m, and cone.stl spans 20 m"));
+}
+
 }  // namespace
 }  // namespace furrow
