@@ -12,7 +12,7 @@ namespace furrow {
 /// A piece is the part of a triangle within a cell, seen from above. The pieces of a body have the
 /// area of its outline, whatever the size of the cells. A cell carries no more than its area: where
 /// the body lies above itself, the lowest pieces count. A piece higher than the lowest one of its
-/// cell by more than the size of the cell does not count. All arrays keep their memory between
+/// cell by more than three cells does not count. All arrays keep their memory between
 /// steps.
 class Footprint {
  public:
