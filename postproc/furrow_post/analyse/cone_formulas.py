@@ -184,7 +184,7 @@ def vti_clay(rating: float, tyre: Tyre, slip: float, extrapolate: bool = False) 
     return Traction(method, VTI_SOURCE, number, slip, tyre.load, gross, resistance, outside)
 
 
-VCI_SOURCE = "J. D. Priddy and W. E. Willoughby, J. Terramechanics 43(2), 165-179 (2006)"
+VCI_SOURCE = "J. D. Priddy and W. E. Willoughby, J. Terramechanics (2006), doi 10.1016/j.jterra.2004.10.001"
 # Weight of an axle up to [lb], slope per kip, intercept of the weight factor
 WEIGHT_FACTORS = (
     (2000.0, 0.553, 0.0),

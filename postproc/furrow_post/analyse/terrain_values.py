@@ -55,8 +55,12 @@ def terrains() -> dict[str, TerrainValues]:
     }
 
 
+LOOSE_SAND = "Wong-Reece loose sand"
+
+
 def terrain_of_card(path: Path) -> TerrainValues:
-    """Of a soil card; a card has no c1 and c2. @raises OSError, ResultsError"""
+    """Of a soil card. No plate gives c1 and c2: those of loose sand. @raises OSError, ResultsError"""
+    sand = terrains()[LOOSE_SAND]
     with content_of(path, "name a soil card of furrow-soil card"):
         try:
             content = yaml.safe_load(path.read_text(encoding="utf-8"))
@@ -73,8 +77,8 @@ def terrain_of_card(path: Path) -> TerrainValues:
             float(shear["c"]["value"]),
             float(shear["phi"]["value"]),
             float(shear["K"]["value"]),
-            math.nan,
-            math.nan,
+            sand.c1,
+            sand.c2,
         )
 
 

@@ -12,7 +12,7 @@ from ..arguments import number, path, positive, shield_negative_numbers, words
 from ..errors import ResultsError
 from ..program import run_program
 from ..scene.process import Runs
-from ..soil.card import read_card
+from ..soil.card import markdown, read_card
 from ..soil.exports import EXPORTS
 from ..soil.instruments import Bench
 from ..soil.make import CLASSES, compression, from_bekker, from_cone, from_strength, read_oedometer
@@ -79,6 +79,9 @@ def parser() -> argparse.ArgumentParser:
     export.add_argument("card", type=path)
     export.add_argument("formats", nargs="+", choices=EXPORTS)
     export.set_defaults(run=run_export)
+    table = commands.add_parser("table", help="prints cards as a table in Markdown")
+    table.add_argument("cards", type=path, nargs="+")
+    table.set_defaults(run=run_table)
     return whole
 
 
@@ -103,6 +106,10 @@ def run_export(given: argparse.Namespace) -> None:
         target = given.card.with_name(file)
         write(card, target)
         print(f"  {name:13} {target}")
+
+
+def run_table(given: argparse.Namespace) -> None:
+    print(markdown([read_card(card) for card in given.cards]))
 
 
 def run_make(given: argparse.Namespace) -> None:

@@ -2,6 +2,7 @@
 """A soil card: parameters of vehicle codes with standard errors and the range where they hold."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
@@ -75,6 +76,21 @@ def shown(fitted: Fitted) -> str:
         return f"{fitted.value:.3g}"
     digits = 1 - math.floor(math.log10(fitted.error))
     return f"{round(fitted.value, digits):.7g} ± {round(fitted.error, digits):.7g}"
+
+
+def markdown(cards: Sequence[SoilCard]) -> str:
+    """A table of cards: value and error of each parameter, cards as rows."""
+    names = [name for name in UNITS if name != "gradient"]
+    units = [f" [{UNITS[name]}]" if UNITS[name] else "" for name in names]
+    lines = [
+        "| ground | " + " | ".join(f"`{n}`{unit}" for n, unit in zip(names, units)) + " |",
+        "|---" * (len(names) + 1) + "|",
+    ]
+    for card in cards:
+        parameters = card.parameters()
+        cells = [Path(card.ground).stem, *(shown(parameters[name]) for name in names)]
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines)
 
 
 def _as_yaml(part: Any) -> dict[str, Any]:

@@ -12,6 +12,7 @@ import math
 from collections.abc import Callable
 from pathlib import Path
 
+from ..analyse.terrain_values import LOOSE_SAND, terrain
 from .card import UNITS, SoilCard
 
 # Of Chrono's sample files [Pa s/m]: a card has no damping
@@ -42,9 +43,9 @@ def write_chrono(card: SoilCard, path: Path) -> None:
 
 
 def write_altair(card: SoilCard, path: Path) -> None:
-    """C1 and C2, the place of the greatest stress under a wheel, are those of Wong and Reece (1967)
-    for loose sand; plates do not give them."""
-    plate, shear = card.pressure_sinkage, card.shear
+    """C1 and C2, the place of the greatest stress under a wheel, are those of loose sand; plates do
+    not give them."""
+    plate, shear, sand = card.pressure_sinkage, card.shear, terrain(LOOSE_SAND)
     soil = {
         "PHI": (math.radians(shear.phi.value), "angle of internal shearing resistance"),
         "C": (shear.c.value, "apparent cohesion"),
@@ -58,8 +59,8 @@ def write_altair(card: SoilCard, path: Path) -> None:
         "KY0": (0.0, "the same"),
         "KX1": (shear.K.value, "shear deformation modulus"),
         "KY1": (shear.K.value, "the same"),
-        "C1": (0.18, "not of a test: Wong and Reece (1967), loose sand"),
-        "C2": (0.32, "not of a test: the same"),
+        "C1": (sand.c1, "not of a test: Wong and Reece (1967), loose sand"),
+        "C2": (sand.c2, "not of a test: the same"),
     }
     lines = [
         f"$ {' '.join(card.title.split())}",

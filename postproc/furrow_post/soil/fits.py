@@ -15,7 +15,8 @@ from scipy.optimize import least_squares
 from ..arrays import Floats
 from ..errors import ResultsError
 
-FIRST = 0.05  # of the greatest sinkage or displacement: where a fit begins, behind first touch
+FIRST = 0.05  # of the greatest sinkage: where a fit begins, behind first touch
+LARGEST_CONDITION = 1e14  # of the normal equations
 INDEX_DEPTH = 0.15  # [m] over which a cone index is a mean, ASABE EP542
 
 
@@ -158,23 +159,19 @@ def fit_shear(curves: Sequence[ShearCurve]) -> Shear:
     """
     means = [float(np.mean(curve.normal)) for curve in curves]
     _require(len(curves) > 1 and max(means) > 1.2 * min(means), "shear tests of two loads or more")
-    used = []
-    for curve in curves:
-        use = curve.displacement > FIRST * curve.displacement.max()
-        used.append(ShearCurve(curve.displacement[use], curve.normal[use], curve.shear[use]))
-    top = max(float(curve.shear.max()) for curve in used)
+    top = max(float(curve.shear.max()) for curve in curves)
     _require(top > 0, "a shear stress above 0")
-    longest = max(float(curve.displacement.max()) for curve in used)
+    longest = max(float(curve.displacement.max()) for curve in curves)
 
     def residuals(x: Floats) -> list[Floats]:
         """x: c/top, tan phi, K/longest."""
         return [
             (x[0] + curve.normal / top * x[1]) * (1 - np.exp(-curve.displacement / (longest * x[2])))
             - curve.shear / top
-            for curve in used
+            for curve in curves
         ]
 
-    x, covariance, rms = _fit(residuals, (0.1, 0.5, 0.2), ((0.0, 0.0, 1e-4), (2.0, 3.0, 10.0)))
+    x, covariance, rms = _fit(residuals, (0.1, 0.5, 0.05), ((0.0, 0.0, 1e-5), (2.0, 3.0, 10.0)))
     errors = np.sqrt(np.diag(covariance))
     return Shear(
         Fitted(float(x[0] * top), float(errors[0] * top)),
@@ -228,7 +225,9 @@ def _fit(
     """
     fit = least_squares(lambda x: np.concatenate(residuals(x)), start, bounds=bounds)
     parts = residuals(fit.x)
-    inverse = np.linalg.inv(fit.jac.T @ fit.jac)
+    normal = fit.jac.T @ fit.jac
+    _require(np.linalg.cond(normal) < LARGEST_CONDITION, "curves that determine every parameter")
+    inverse = np.linalg.inv(normal)
     count, middle, first = sum(part.size for part in parts), np.zeros_like(inverse), 0
     for part in parts:
         jacobian = fit.jac[first : first + part.size]

@@ -128,7 +128,5 @@ def _rows(folder: Path) -> Floats:
 
 
 def carried_pressure(plates: Sequence[PlateCurve]) -> float:
-    """What the smallest plate carries at a fifth of its radius [Pa]: a ring as wide sinks little
-    under less."""
-    small = min(plates, key=lambda curve: curve.radius)
-    return float(np.interp(0.2 * small.radius, small.sinkage, small.pressure))
+    """Greatest pressure of the smallest plate [Pa]: a ring as wide sinks little under a small share."""
+    return float(min(plates, key=lambda curve: curve.radius).pressure.max())

@@ -99,6 +99,7 @@ class SoilCardTest(unittest.TestCase):
         found = (ground.k_1, ground.k_2, ground.n, ground.c, ground.phi, ground.K)
         card = (plate.k_c, plate.k_phi, plate.n, shear.c, shear.phi, shear.K)
         self.assertEqual(found, tuple(fitted.value for fitted in card))
+        self.assertEqual((ground.c1, ground.c2), (0.18, 0.32))  # of loose sand
         # Bekker: W = b k sqrt(D) z^(n + 1/2) (3 - n)/3
         z = empirical.bekker(1000, 0.6, 0.2, ground).sinkage
         k, n = plate.k_c.value / 0.2 + plate.k_phi.value, plate.n.value
