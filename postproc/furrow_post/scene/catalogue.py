@@ -90,7 +90,7 @@ def listing() -> str:
     for name in scene_names() if folder else ():
         assert folder
         script = folder / f"{name}.lig"
-        title = head_lines(script)[0].partition(":")[2].strip()
+        title = "".join(head_lines(script)[:1]).partition(":")[2].strip()
         line = f"    {name:{INDENT}}{title}"
         grouped.setdefault(head_entry(script, "Group") or "Others", []).append(line)
     return "\n".join(_group(name, lines) for name, lines in grouped.items() if lines)
