@@ -106,10 +106,10 @@ def comparison_report(result: Comparison) -> str:
     if result.differences:
         lines += ["", "COMPARED ALTHOUGH CONDITIONS DIFFER"]
         lines += [f"  {d.condition}: {d.text}" for d in result.differences]
-    lines += ["", "Verdict", "  " + overall(result)]
-    if result.best_estimates:
-        lines.append("  " + overall_of_best_estimates(result))
-    lines += [f"  - {sentence}" for sentence in findings(result)]
+    verdicts = [overall(result), overall_of_best_estimates(result)]
+    said = [f"  {verdict}" for verdict in verdicts if verdict]
+    said += [f"  - {sentence}" for sentence in findings(result)]
+    lines += ["", "Verdict", *(said or ["  none: there is nothing to compare the run with"])]
     return "\n".join(lines)
 
 

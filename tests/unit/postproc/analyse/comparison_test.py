@@ -187,6 +187,8 @@ class CompareTest(unittest.TestCase):
         (found,) = result.of(HUB_DROP, FORMULA)
         self.assertEqual((found.source, found.value), ("made", 0.04))
         self.assertEqual(result.verdicts, [])
+        said = comparison_report.comparison_report(result).split("Verdict\n")[1]
+        self.assertEqual(said, "  none: there is nothing to compare the run with")
 
 
 class TyreResults(Results):
