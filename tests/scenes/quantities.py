@@ -36,7 +36,7 @@ def wheel_quantities(folder):
         sys.exit(f"{folder} did not come to its end")
     check_audit(summary["audit"], "wheel", ENERGY_LIMIT)
     pictures = ["histories.png"]
-    if summary["cost"]["grains"] > 0 or len(list(folder.glob("*.h5"))) > 1:
+    if summary["cost"]["grains"] > 0 or (folder / "terrain.h5").exists():
         pictures.append("rut.png")
     for picture in pictures:
         if not (folder / picture).read_bytes().startswith(b"\x89PNG"):

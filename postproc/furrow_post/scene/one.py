@@ -130,9 +130,9 @@ def show(folder: Path, shown: bool = True) -> None:
     if not (folder / "history.h5").is_file():
         return
     post("plot", folder, shown=shown)
-    # On a rigid plane there is no ground to draw: no grains, and no terrain.h5 beside history.h5
+    # Neither a rigid plane nor a height field has grains or particles to draw
     cost = parse_json((folder / "summary.json").read_text()).get("cost", {})
-    if cost.get("grains") or len(list(folder.glob("*.h5"))) > 1:
+    if cost.get("grains") or (folder / "terrain.h5").is_file():
         post("picture", folder, shown=shown)
 
 
