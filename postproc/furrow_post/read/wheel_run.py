@@ -137,7 +137,7 @@ def read_wheel_run(folder: Path | str, label: str | None = None) -> WheelRun:
         results,
         label or results.folder.resolve().name,
         _ground_of(soil, reference),
-        deformable=not wheel.has("diameter"),
+        deformable=not wheel.style.startswith("wheel/"),
     )
     run.conditions.update(_rig_conditions(rig))
     run.conditions.update(_wheel_conditions(wheel, results))

@@ -62,6 +62,17 @@ class WheelRunTest(unittest.TestCase):
         self.assertEqual((run.wheel, run.deformable), ("rigid wheel", False))
         self.assertEqual(run.radius, RADIUS)
 
+    def test_a_wheel_of_a_mesh_is_rigid_and_has_the_sizes_of_its_surface(self) -> None:
+        wheel = style("wheel", "wheel/mesh", "wheel", file="wheel.stl", radius=0.3)
+        write_run(self.folder, styles=[wheel, rig()])
+        with h5py.File(self.folder / "history.h5", "a") as content:
+            content["surface/triangles"] = np.array([[0, 1, 2]])
+            content["surface/x"] = np.array([[0.0, -0.1, 0], [0.7, 0.1, 0.1], [0.3, 0, 0.7]])
+        run = read_wheel_run(self.folder)
+        self.assertEqual((run.wheel, run.deformable), ("mesh wheel", False))
+        self.assertAlmostEqual(run.number("wheel_diameter"), 0.7)
+        self.assertAlmostEqual(run.number("wheel_width"), 0.2)
+
     def test_without_a_wheel_it_is_no_wheel_run(self) -> None:
         write_run(self.folder, styles=[rig()])
         with self.assertRaisesRegex(ResultsError, "is not the run of a wheel on a rig"):
