@@ -276,6 +276,8 @@ def add_grains(table: Table, runs: Runs) -> dict[str, list[tuple[Floats, Floats,
         ("oedometer", True, (("axial stress at 0.5 % strain", "kPa", "axial", 0.0045, 0.0055),
                              ("axial stress at 1.9 % strain", "kPa", "axial", 0.0185, 0.0195),
                              ("lateral over axial stress at 1.9 %", "-", "ratio", 0.0185, 0.0195))),
+        ("undamped", True, (("axial stress at 1.9 % strain", "kPa", "axial", 0.0185, 0.0195),
+                            ("lateral over axial stress at 1.9 %", "-", "ratio", 0.0185, 0.0195))),
     ):  # fmt: skip
         found = cells(runs, test, fixed)
         for quantity, unit, key, low, high in rows:
@@ -283,7 +285,8 @@ def add_grains(table: Table, runs: Runs) -> dict[str, list[tuple[Floats, Floats,
                 (mean_between(a, ours[key], low, high), mean_between(b, other[key], low, high))
                 for a, ours, b, other in found
             ]
-            add_packings(table, f"grains, {test}", quantity, unit, pairs)
+            name = "undamped oedometer" if test == "undamped" else test
+            add_packings(table, f"grains, {name}", quantity, unit, pairs)
         drawn[test] = [(a, ours["axial"], b, other["axial"]) for a, ours, b, other in found]
     drawn["plate"] = []
     for run in runs.done("plate_*"):
@@ -326,6 +329,9 @@ def draw(
             label = ("Furrow", "Yade") if number == 0 else (None, None)
             axes.plot(scale * a, ours, f"C{number}", lw=1.4, label=label[0])
             axes.plot(scale * b, other, f"C{number}--", lw=0.9, label=label[1])
+        for number, (a, ours, _, _) in enumerate(grains["undamped"] if test == "oedometer" else ()):
+            words = "Furrow, no tangential damping" if number == 0 else None
+            axes.plot(scale * a, ours, f"C{number}:", lw=1.4, label=words)
         axes.set(title=f"{title}, three packings", xlabel=x_label, ylabel=y_label)
     for axes in panels.flat:
         axes.legend(frameon=False, fontsize=8)
