@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <hdf5.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <limits>
@@ -179,8 +180,9 @@ Hdf5File::Hdf5File(const std::string& path, Mode mode) : path_(path), file_(-1) 
   if (mode == Mode::create) {
     const Handle properties(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-    file_ = require(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties, access), path,
-                    "create the file");
+    unlink(path.c_str());  // H5F_ACC_EXCL opens with O_EXCL, which follows no link
+    file_ =
+        require(H5Fcreate(path.c_str(), H5F_ACC_EXCL, properties, access), path, "create the file");
   } else {
     file_ =
         require(H5Fopen(path.c_str(), mode == Mode::edit ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access),

@@ -14,7 +14,7 @@ namespace furrow {
 
 class Hdf5File {
  public:
-  enum class Mode { create, edit, read };  ///< create replaces a file that is there
+  enum class Mode { create, edit, read };  ///< create replaces a file or link that is there
 
   /// @throws Error when the file is missing, is not HDF5, or may not be read or written
   Hdf5File(const std::string& path, Mode mode);

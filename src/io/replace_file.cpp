@@ -3,9 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include "core/error.h"
 
@@ -13,11 +18,24 @@ namespace furrow {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Empty, in the place of what has this name.
+void make_part(const std::string& part, const std::string& path) {
+  unlink(part.c_str());
+  const int file = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (file < 0) throw Error(fmt::format("{}: cannot be written ({})", path, std::strerror(errno)));
+  close(file);
+}
+
+}  // namespace
+
 void replace_file(const std::string& path, const std::function<void(const std::string&)>& write) {
   const fs::path target(path);
   const fs::path part =
       target.parent_path() / (target.stem().string() + ".part" + target.extension().string());
   std::error_code ignored, failed;
+  make_part(part.string(), path);
   try {
     write(part.string());
   } catch (...) {

@@ -7,9 +7,9 @@
 
 namespace furrow {
 
-/// Calls write(part) for a file in the same folder, "a.part.vtp" for "a.vtp", and then renames it
-/// to path in one step. A reader of path finds the old or the new content at any moment, also after
-/// a kill. (Not against a power failure: nothing is forced to the disk.)
+/// Calls write(part) for a new file next to it, "a.part.vtp" for "a.vtp", in the place of a file or
+/// link of that name, and then renames it to path in one step. A reader of path finds the old or
+/// the new content, also after a kill. (Not after a power failure: nothing is forced to the disk.)
 /// @throws Error when the rename fails; what write throws passes through, with the half-written
 /// file removed
 void replace_file(const std::string& path,

@@ -65,8 +65,7 @@ void write_poly_data(const std::string& path, vtkPolyData* data) {
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
     writer->SetCompressorTypeToZLib();
-    std::error_code missing;
-    if (!writer->Write() || !fs::exists(part, missing))
+    if (!writer->Write() || fs::is_empty(part))
       throw Error(fmt::format("{}: cannot be written", path));
   });
 }

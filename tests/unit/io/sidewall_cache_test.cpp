@@ -74,6 +74,21 @@ TEST_F(SidewallCacheTest, ADamagedFileIsReplaced) {
   EXPECT_EQ(files().size(), 1u);
 }
 
+TEST_F(SidewallCacheTest, ALinkInThePlaceOfThePartIsNotFollowed) {
+  open_sidewall_table(sidewall_, 103e3);
+  const std::string path = files().front();
+  std::filesystem::remove(path);
+  write_text_file(scratch_.path("notes"), "of the user");
+  char host[256] = "";
+  gethostname(host, sizeof host - 1);
+  std::filesystem::create_symlink(scratch_.path("notes"),
+                                  path + "." + host + "." + std::to_string(getpid()) + ".part");
+  open_sidewall_table(sidewall_, 103e3);
+  EXPECT_EQ(read_text_file(scratch_.path("notes")), "of the user");
+  EXPECT_EQ(files(), std::vector<std::string>{path});
+  EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(path)));
+}
+
 TEST_F(SidewallCacheTest, WithoutAFolderNothingIsKept) {
   write_text_file(scratch_.path("file"), "no folder");
   setenv("FURROW_CACHE", scratch_.path("file/below").c_str(), 1);
