@@ -110,6 +110,16 @@ void require_history(const std::string& folder) {
         "has no history.h5; name the results folder of a run with fix wheel/history");
 }
 
+/// A wheel would be summed twice, or have two rows.
+void require_different(const std::vector<std::string>& folders) {
+  std::error_code absent;
+  for (std::size_t n = 1; n < folders.size(); ++n)
+    for (std::size_t m = 0; m < n; ++m)
+      if (std::filesystem::equivalent(folders[m], folders[n], absent))
+        throw furrow::Error(fmt::format("'{}' and '{}' are one folder; give each folder once",
+                                        folders[m], folders[n]));
+}
+
 void evaluate(const std::string& folder, const Request& request) {
   require_history(folder);
   const furrow::Summary summary = furrow::summarise(folder, options_of(request));
@@ -132,6 +142,12 @@ int main(int argc, char** argv) {
   declare(app, request);
   if (const auto status = furrow::parse_options(app, argc, argv)) return *status;
 
+  try {
+    require_different(request.folders);
+  } catch (const furrow::Error& error) {
+    fmt::print(stderr, "furrow-resistance: {}\n", error.what());
+    return 1;
+  }
   int status = 0;
   if (request.csv) print_csv_header();
   const auto attempt = [&](const std::string& what, const auto& action) {

@@ -210,19 +210,22 @@ void press(Tyre& tyre, const Request& request) {
     report(tyre, load, settle_under(load, tyre, plane, options), &plane, request);
 }
 
-/// Refuses a load that would not be carried if the whole tread, seen from above, lay on the plane.
+constexpr double least_share = 1e-3;  // of the largest load: below, the tyre hardly comes to rest
+
+/// Refuses a load that would not be carried if the whole tread, seen from above, lay on the plane,
+/// and one that is nothing beside it, in kN perhaps.
 /// @param width, diameter of the tread [m]
 /// @param pressure [Pa]
 void check_loads(double width, double diameter, double pressure, const Request& request) {
   const double largest = (pressure + own_stiffness) * width * diameter;
   for (const double load : request.loads)
-    if (load > largest)
-      throw InputError(fmt::format("--load, at {:.6g} kPa,", 1e-3 * pressure),
-                       fmt::format("is {:.6g} N", load),
-                       fmt::format("a number in (0, {:.6g}] [N]: width times diameter of the tread "
-                                   "times the pressure and {:.6g} kPa for the tyre's own stiffness",
-                                   largest, 1e-3 * own_stiffness),
-                       "lower the load, or raise --pressure");
+    if (load > largest || load < least_share * largest)
+      throw InputError(
+          fmt::format("--load, at {:.6g} kPa,", 1e-3 * pressure), fmt::format("is {:.6g} N", load),
+          fmt::format("a number in [{:.6g}, {:.6g}] [N], up to width times diameter of the tread "
+                      "times the pressure and {:.6g} kPa for the tyre's own stiffness",
+                      least_share * largest, largest, 1e-3 * own_stiffness),
+          "give N, not kN or kg; a large load needs a higher --pressure");
 }
 
 /// @param make makes the tyre of the present pressure

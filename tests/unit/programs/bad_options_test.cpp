@@ -77,8 +77,10 @@ TEST(BadOptions, OfFurrowTyre) {
       {tyre + "--load 0", "--load: is '0'; allowed: a number > 0 [N]"},
       {tyre + "--load 4kN", "--load: is '4kN'; allowed: a number > 0 [N]"},
       {tyre + "--load 1e12",
-       "--load, at 241 kPa, is 1e+12 N; allowed: a number in (0, 37208.2] [N]: width times "
-       "diameter"},
+       "--load, at 241 kPa, is 1e+12 N; allowed: a number in [37.2082, 37208.2] [N], up to width "
+       "times diameter"},
+      {tyre + "--load 6.2",
+       "--load, at 241 kPa, is 6.2 N; allowed: a number in [37.2082, 37208.2]"},
       {tyre + "--load 3000 --load 1e400", "--load: is '1e400'"},
       {tyre + "--pressure 241000", "--pressure: is '241000'; allowed: a number in [0, 2000] [kPa]"},
       {tyre + "--pressure -1", "--pressure: is '-1'; allowed: a number in [0, 2000] [kPa]"},
@@ -168,6 +170,8 @@ TEST(BadOptions, OfFurrowResistance) {
       {"", "results is required"},
       {"absent", "absent: has no history.h5; name the results folder of a run"},
       {scratch.path("text"), "history.h5: cannot open as an HDF5 file"},
+      {folder + " " + folder + "/.", "are one folder; give each folder once"},
+      {"--together " + folder + " " + folder, "are one folder; give each folder once"},
       {folder + " --window nan 1", "--window: is 'nan'; allowed: any finite number [s]"},
       {folder + " --window 1", "--window"},
       {folder + " --window 0 1 --distance 0 1", "--window"},
