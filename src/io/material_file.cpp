@@ -10,7 +10,6 @@
 #include "core/error.h"
 #include "core/nearest_word.h"
 #include "io/input_kind.h"
-#include "material/hardening/hardening.h"
 #include "material/plausibility.h"
 
 namespace furrow {
@@ -100,25 +99,6 @@ YamlTree read_with_base(const std::vector<std::string>& files) {
   return merged;
 }
 
-/// Porous elasticity and exponential hardening are one compression line, with its unloading.
-std::vector<std::string> doubts_of_compression_line(const MaterialOptions& options) {
-  const auto elasticity = options.find("elasticity"), hardening = options.find("hardening");
-  std::vector<std::string> sentences;
-  if (elasticity == options.end() || hardening == options.end() ||
-      elasticity->second.type != "porous" || hardening->second.type != "exponential")
-    return sentences;
-  for (const char* key : {"kappa", "e0"}) {
-    const double elastic = elasticity->second.options.number(key),
-                 plastic = hardening->second.options.number(key);
-    if (elastic != plastic)
-      sentences.push_back(
-          fmt::format("{} is {:g} in elasticity and {:g} in hardening: one "
-                      "compression line has one; write the same",
-                      key, elastic, plastic));
-  }
-  return sentences;
-}
-
 }  // namespace
 
 MaterialFile read_material_file(const std::string& path, const MaterialModels& models) {
@@ -181,9 +161,7 @@ MaterialFile read_material_file(const std::string& path, const MaterialModels& m
   for (const std::string& doubt : doubts(*material))
     result.warnings.push_back(fmt::format("{}: {}", path, doubt));
   const MaterialOptions options = read_sections(model, result.sections);
-  for (const std::string& doubt : doubts_of_compression_line(options))
-    result.warnings.push_back(fmt::format("{}: {}", path, doubt));
-  for (const std::string& doubt : doubts_of_hardening(options))
+  for (const std::string& doubt : doubts(options))
     result.warnings.push_back(fmt::format("{}: {}", path, doubt));
   if (model.doubts)
     for (const std::string& doubt : model.doubts(options))

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "material/plausibility.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/options.h"
+#include "material/elasticity/elasticity.h"
+#include "material/hardening/hardening.h"
 
 namespace furrow {
 
@@ -13,15 +16,34 @@ namespace {
 
 // What can be (air; osmium), and what ground and rubber are (the lightest fresh snow; ore) [kg/m3]
 const Range possible_density = Range::closed(1e-3, 23e3), usual_density = Range::closed(10, 3000);
-// Compression waves at rest (diamond: 18 km/s) [m/s]; loose ground is slow where it bears nothing
-const Range possible_speed = Range::closed(1e-3, 3e4), usual_speed = Range::closed(1, 8000);
+// Compression waves at rest [m/s]; diamond has 18 km/s
+const Range possible_speed = Range::closed(1e-3, 3e4);
+// ... and in ground that bears a wheel [m/s]: peat and very soft clay of 0.2 MPa have 14, snow 100
+// to 1000, ice and frozen soil 4000, rock 6000 [Mellor1977, Bowles1996 Tables 2-7 and 2-8]
+constexpr double usual_pressure = 1e4;  // [Pa]
+const Range usual_speed = Range::closed(10, 4500), usual_rock_speed = Range::closed(10, 8000);
+constexpr double rock_density = 2000;  // [kg/m3]
 // Bulk over shear modulus; round-off of the pressure grows with it
 const Range possible_ratio = Range::closed(1e-3, 1e4);
 
+// Hydrostatic yield strengths [Pa]. Snow of 200 kg/m3 has 100 Pa to 10 kPa, of 500 kg/m3 some
+// 100 kPa, ice 10 MPa, rock up to 500 MPa [Mellor1977, Abele1975, Shoop2001]: the upper bound grows
+// tenfold every 200 kg/m3.
+constexpr double usual_last_strength = 5e3, usual_dense_strength = 1e4;
+constexpr double dense_ground = 500.0;  // [kg/m3]
+double largest_strength(double density) {
+  return std::min(1e5 * std::pow(10.0, (density - 200.0) / 200.0), 1e9);
+}
+// Strength over bulk modulus: ground yields after an elastic compaction of 1e-5 to 1e-2. Constant
+// moduli that were measured on loose ground are too low at the end of a table, by up to this.
+constexpr double largest_first_ratio = 0.1, largest_last_ratio = 10.0, smallest_last_ratio = 1e-4;
+
 constexpr char units[] = "units are SI: kg/m3 and Pa";
 
-double wave_speed(const Material& material) {
-  return std::sqrt(material.moduli(material.initial_state()).wave() / material.density());
+double wave_speed(const Material& material, double pressure = 0.0) {
+  VectorX state = material.initial_state();
+  state.segment<3>(field::stress).array() -= pressure;
+  return std::sqrt(material.moduli(state).wave() / material.density());
 }
 
 double poisson(double ratio) { return (3.0 * ratio - 2.0) / (2.0 * (3.0 * ratio + 1.0)); }
@@ -63,13 +85,143 @@ std::vector<std::string> doubts(const Material& material) {
         fmt::format("the density is {:.6g} kg/m3; ground and rubber have one {} (fresh snow 10 to "
                     "200, sand 1500, solid rock 2700); {}",
                     material.density(), usual_density.text(), units));
-  const double speed = wave_speed(material);
-  if (!usual_speed.contains(speed))
+  const double speed = wave_speed(material, usual_pressure);
+  const Range& usual = material.density() < rock_density ? usual_speed : usual_rock_speed;
+  if (!usual.contains(speed))
     sentences.push_back(fmt::format(
-        "compression waves have {:.3g} m/s at rest (modulus {:.3g} Pa, density {:.6g} kg/m3); "
-        "ground and rubber have a speed {} (fresh snow 100 to 300, sand 200, rock 5000); {}",
-        speed, material.moduli(material.initial_state()).wave(), material.density(),
-        usual_speed.text(), units));
+        "compression waves have {:.3g} m/s at a pressure of 10 kPa (density {:.6g} kg/m3); ground "
+        "and rubber have a speed {} (fresh snow 100 to 300, sand 200, rock 5000); {}",
+        speed, material.density(), usual.text(), units));
+  return sentences;
+}
+
+namespace {
+
+/// A strength of the hardening [Pa], and the density that has it [kg/m3].
+struct Strength {
+  double density, p;
+};
+
+double compaction_at_start(const Options& law) {
+  return law.has("eps_vol_pl_0") ? law.number("eps_vol_pl_0") : 0.0;
+}
+
+/// Rows of a table, or the start of the exponential law.
+std::vector<Strength> given_strengths(const Options& law, const SectionOptions& hardening) {
+  const double density = law.number("density");
+  const Options& o = hardening.options;
+  if (hardening.type == "exponential") return {{density, o.number("pc0")}};
+  const bool by_density = hardening.type == "by_density";
+  const std::vector<double>& column = o.numbers(by_density ? "rho" : "eps_vol_pl");
+  std::vector<Strength> rows;
+  for (std::size_t n = 0; n < column.size(); ++n)
+    rows.push_back(
+        {by_density ? column[n] : density * std::exp(column[n] - compaction_at_start(law)),
+         o.numbers("p")[n]});
+  return rows;
+}
+
+/// Of a table its last row; of the exponential law where no void is left.
+Strength densest(const Options& law, const SectionOptions& hardening,
+                 const HardeningParameters& curve) {
+  if (hardening.type != "exponential") return given_strengths(law, hardening).back();
+  const double solid_over_density = 1.0 + hardening.options.number("e0");
+  return {law.number("density") * solid_over_density,
+          strength_at(curve, std::log(solid_over_density))};
+}
+
+/// Percent for a void ratio or for strains.
+void doubt_densities(const MaterialOptions& sections, std::vector<std::string>& sentences) {
+  const double density = sections.at("law").options.number("density");
+  if (!usual_density.contains(density)) return;  // which is the fault
+  for (const char* name : {"elasticity", "hardening"}) {
+    const auto section = sections.find(name);
+    if (section == sections.end() || !section->second.options.has("e0")) continue;
+    const double e0 = section->second.options.number("e0"), solid = density * (1.0 + e0);
+    if (solid > usual_density.upper)
+      sentences.push_back(fmt::format(
+          "e0 is {:g} in {}: without voids the ground would have {:.4g} kg/m3, minerals "
+          "have up to {:g}; give e0 as a ratio, not in percent",
+          e0, name, solid, usual_density.upper));
+  }
+  const auto hardening = sections.find("hardening");
+  if (hardening == sections.end() || hardening->second.type != "table") return;
+  const double last = given_strengths(sections.at("law").options, hardening->second).back().density;
+  if (last > usual_density.upper)
+    sentences.push_back(fmt::format(
+        "the hardening ends at eps_vol_pl = {:g}, a density of {:.4g} kg/m3; minerals "
+        "have up to {:g}; give strains as fractions, not in percent",
+        hardening->second.options.numbers("eps_vol_pl").back(), last, usual_density.upper));
+}
+
+/// kPa or mPa for Pa.
+void doubt_strengths(const MaterialOptions& sections, std::vector<std::string>& sentences) {
+  const auto found = sections.find("hardening");
+  if (found == sections.end()) return;
+  const SectionOptions& hardening = found->second;
+  const Options& law = sections.at("law").options;
+  const bool table = hardening.type != "exponential";
+  const HardeningParameters curve = make_hardening(hardening, law.number("density"));
+  const Strength last = densest(law, hardening, curve);
+  const double usual = last.density < dense_ground ? usual_last_strength : usual_dense_strength;
+  if (last.p < usual)
+    sentences.push_back(
+        fmt::format("the hardening ends with p = {:g} Pa at {:.4g} kg/m3; ground of that density "
+                    "has a strength of at least {:g} Pa; give Pa, not kPa",
+                    last.p, last.density, usual));
+  for (const Strength& row : given_strengths(law, hardening)) {
+    const double largest = largest_strength(row.density);
+    if (row.p <= largest) continue;
+    sentences.push_back(
+        fmt::format("the hardening has {} = {:g} Pa at {:.4g} kg/m3; ground of that density has a "
+                    "strength of at most {:.2g} Pa; give Pa, not mPa",
+                    table ? "p" : "pc0", row.p, row.density, largest));
+    break;
+  }
+  const auto elasticity = sections.find("elasticity");
+  if (elasticity == sections.end() || elasticity->second.type != "linear") return;
+  const double bulk = make_elasticity(elasticity->second).bulk;
+  const double first = strength_at(curve, compaction_at_start(law)) / bulk;
+  const double end = last.p / bulk;
+  if (first > largest_first_ratio || (table && end > largest_last_ratio))
+    sentences.push_back(fmt::format(
+        "the hardening {} with {:.3g} times the bulk modulus of the elasticity, {:.3g} "
+        "Pa; ground has at most {:g} times; give E and the strengths in Pa, not E in "
+        "kPa or strengths in mPa",
+        first > largest_first_ratio ? "begins" : "ends", first > largest_first_ratio ? first : end,
+        bulk, first > largest_first_ratio ? largest_first_ratio : largest_last_ratio));
+  if (table && end < smallest_last_ratio && last.p >= usual)
+    sentences.push_back(fmt::format(
+        "the hardening ends with p = {:g} Pa, and the bulk modulus of the elasticity is "
+        "{:.3g} times that; ground has at most {:g} times; give E and the strengths in "
+        "Pa, not E in mPa or strengths in kPa",
+        last.p, 1.0 / end, 1.0 / smallest_last_ratio));
+}
+
+/// Porous elasticity and exponential hardening are one compression line, with its unloading.
+void doubt_compression_line(const MaterialOptions& sections, std::vector<std::string>& sentences) {
+  const auto elasticity = sections.find("elasticity"), hardening = sections.find("hardening");
+  if (elasticity == sections.end() || hardening == sections.end() ||
+      elasticity->second.type != "porous" || hardening->second.type != "exponential")
+    return;
+  for (const char* key : {"kappa", "e0"}) {
+    const double elastic = elasticity->second.options.number(key),
+                 plastic = hardening->second.options.number(key);
+    if (elastic != plastic)
+      sentences.push_back(
+          fmt::format("{} is {:g} in elasticity and {:g} in hardening: one "
+                      "compression line has one; write the same",
+                      key, elastic, plastic));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> doubts(const MaterialOptions& sections) {
+  std::vector<std::string> sentences;
+  doubt_compression_line(sections, sentences);
+  doubt_densities(sections, sentences);
+  doubt_strengths(sections, sentences);
   return sentences;
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Checks density and stiffness of a material against values in nature, which finds most wrong
-/// units.
+/// Checks the values of a material against values in nature, which finds most wrong units. The
+/// bounds leave a margin around all ground from fresh snow to rock; plausibility.cpp has them with
+/// their sources.
 
 #include <string>
 #include <vector>
 
 #include "material/material.h"
+#include "material/material_model.h"
 
 namespace furrow {
 
@@ -14,7 +16,10 @@ namespace furrow {
 /// moduli at which rounding dominates the stress
 void check_plausible(const Material& material);
 
-/// Warnings about values that are unusual for ground or tyre, a sentence each.
+/// Warnings about density and stiffness that are unusual for ground or tyre, a sentence each.
 std::vector<std::string> doubts(const Material& material);
+
+/// The same about the values of the sections "elasticity" and "hardening" of a material file.
+std::vector<std::string> doubts(const MaterialOptions& sections);
 
 }  // namespace furrow

@@ -15,9 +15,6 @@ namespace {
 // ln of the compaction, which no ground exceeds
 const Range possible_strain = Range::closed(-5.0, 5.0);
 const Range possible_row_density = {0.0, 5000.0, true, false};  // [kg/m3] up to ore
-// Strength at the end of a table: of any ground, and of one that is already dense.
-constexpr double usual_last_strength = 5e3, usual_dense_strength = 1e4;  // [Pa]
-constexpr double dense_ground = 500.0;                                   // [kg/m3]
 
 /// The keys of a table in addition to its column of strains or densities.
 void declare_strengths(Schema& schema) {
@@ -141,23 +138,6 @@ HardeningParameters make_hardening(const SectionOptions& section, double density
   if (section.type == "table") return make_table(o, "eps_vol_pl", o.numbers("eps_vol_pl"));
   if (section.type == "by_density") return make_by_density(o, density);
   return make_exponential(o, offset, includes_offset);
-}
-
-std::vector<std::string> doubts_of_hardening(const MaterialOptions& sections) {
-  const auto section = sections.find("hardening");
-  if (section == sections.end() || section->second.type == "exponential") return {};
-  const Options& o = section->second.options;
-  const double density =
-      section->second.type == "by_density"
-          ? o.numbers("rho").back()
-          : sections.at("law").options.number("density") * std::exp(o.numbers("eps_vol_pl").back());
-  const double last = o.numbers("p").back();
-  const double usual = density < dense_ground ? usual_last_strength : usual_dense_strength;
-  if (last >= usual) return {};
-  return {
-      fmt::format("the hardening ends with p = {:g} Pa at {:.4g} kg/m3; ground of that density "
-                  "has a strength of at least {:g} Pa; give Pa, not kPa",
-                  last, density, usual)};
 }
 
 double strength_at(const HardeningParameters& h, double eps) {

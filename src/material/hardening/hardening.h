@@ -29,8 +29,6 @@ SectionSchema hardening_section();
 ///         include the initial one, lambda <= kappa
 HardeningParameters make_hardening(const SectionOptions& section, double density,
                                    double offset = 0.0, bool includes_offset = false);
-/// A table that probably has another unit, a sentence each.
-std::vector<std::string> doubts_of_hardening(const MaterialOptions& sections);
 /// Strength at eps_vol_pl [Pa].
 double strength_at(const HardeningParameters& hardening, double eps_vol_pl);
 /// @param key  of the options: the initial eps_vol_pl

@@ -116,13 +116,13 @@ TEST_F(MaterialFileTest, BadFilesAreRefusedWithTheirPlace) {
        "sand.yaml, line 2: keyword 'type' is missing"},
       {with(sand, "  d: 1.194e6\n", ""),
        "sand.yaml, line 2: law drucker_prager_cap, keyword 'd' is missing; allowed: a number in "
-       "[0, 100000000] [Pa]; it is: cohesion"},
+       "[0, 1000000000] [Pa]; it is: cohesion"},
       {with(sand, "K: 1", "K: 0.77"),
        "sand.yaml, line 8: law drucker_prager_cap, keyword 'K' is 0.77: the section would not be "
        "convex; allowed: a number in [0.778, 1] for section abaqus"},
       {with(sand, "d: 1.194e6", "d: -1"),
        "sand.yaml, line 5: law drucker_prager_cap, keyword 'd' is -1; allowed: a number in [0, "
-       "100000000] [Pa]"},
+       "1000000000] [Pa]"},
       {with(sand, "d: 1.194e6", "d: 1.194e12"),
        "keyword 'd' is 1.194e12; allowed: a number in [0, "},
       {with(sand, "[0, 0.005, 0.01]", "[0.138e6, 0.172e6, 0.434e6]"),
@@ -198,7 +198,7 @@ TEST_F(MaterialFileTest, BadFilesAreRefusedWithTheirPlace) {
        "keyword 'd' is '1e400', which is too large for a number"},
       {with(sand, "d: 1.194e6", "d: 1.194 MPa"),
        "keyword 'd' is '1.194 MPa', which is not a number; allowed: a number in [0, "
-       "100000000] [Pa]"},
+       "1000000000] [Pa]"},
       {with(sand, "d: 1.194e6", "d: 1,194"), "keyword 'd' is '1,194', which is not a number"},
       {with(sand, "density: 1800", "density: 1e30"),
        "sand.yaml: law drucker_prager_cap has a density of 1e+30 kg/m3; allowed: a number in"},
@@ -255,6 +255,117 @@ TEST_F(MaterialFileTest, CapOfAnotherUnitIsReadWithAWarning) {
   EXPECT_THAT(read_material_file(file(field)).warnings, ::testing::IsEmpty());
 }
 
+/// All shipped materials, from fresh snow to dense sand and rubber.
+TEST_F(MaterialFileTest, ShippedMaterialsAreReadWithoutAWarning) {
+  int count = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(FURROW_SOURCE_DIR "/inputs/materials")) {
+    if (entry.path().extension() != ".yaml") continue;
+    ++count;
+    EXPECT_THAT(read_material_file(entry.path().string()).warnings, ::testing::IsEmpty())
+        << entry.path();
+  }
+  EXPECT_GT(count, 20);
+}
+
+/// Grounds at the ends of what is found in nature.
+TEST_F(MaterialFileTest, UnusualGroundIsReadWithoutAWarning) {
+  const std::string laws[] = {
+      // light fresh snow
+      "law: {type: drucker_prager_cap, density: 60, d: 50, beta: 40, R: 0.02}\n"
+      "elasticity: {E: 2e5, nu: 0.1}\n"
+      "hardening: {type: by_density, rho: [60, 100, 200, 400], p: [5, 20, 500, 5e4], "
+      "interpolation: log, beyond: extrapolate}\n",
+      // ice
+      "law: {type: drucker_prager_cap, density: 917, d: 2e6, beta: 30, R: 0.5}\n"
+      "elasticity: {E: 9e9, nu: 0.3}\n"
+      "hardening: {type: table, eps_vol_pl: [0, 0.02], p: [1e7, 5e7], interpolation: linear, "
+      "beyond: extrapolate}\n",
+      // peat
+      "law: {type: cohesive_cam_clay, density: 150, M: 1.6, tension_ratio: 0.1}\n"
+      "elasticity: {type: porous, kappa: 0.3, e0: 10, p0: 1e3, pt_el: 2e3, nu: 0.2}\n"
+      "hardening: {type: exponential, pc0: 5e3, lambda: 2, kappa: 0.3, e0: 10}\n",
+      // soft clay
+      "law: {type: cohesive_cam_clay, density: 1500, M: 0.9, tension_ratio: 0}\n"
+      "elasticity: {E: 3e5, nu: 0.35}\n"
+      "hardening: {type: table, eps_vol_pl: [0, 0.1, 0.2], p: [1e4, 3e4, 1e5], interpolation: log, "
+      "beyond: extrapolate}\n",
+      // sandstone
+      "law: {type: drucker_prager_cap, density: 2300, d: 5e6, beta: 50, R: 0.5}\n"
+      "elasticity: {E: 2e10, nu: 0.2}\n"
+      "hardening: {type: table, eps_vol_pl: [0, 0.05, 0.15], p: [1e8, 3e8, 6e8], interpolation: "
+      "linear, beyond: extrapolate}\n"};
+  for (const std::string& law : laws)
+    EXPECT_THAT(read_material_file(file(law)).warnings, ::testing::IsEmpty()) << law;
+}
+
+/// A shipped material with a section in another unit.
+TEST_F(MaterialFileTest, OtherUnitsAreReadWithAWarning) {
+  struct Case {
+    std::string material, change, warning;  ///< the change is a section over that of the material
+  };
+  const Case cases[] = {
+      // E in kPa
+      {"fresh_snow", "elasticity: {E: 13.79e3}", "compression waves have 9.63 m/s"},
+      {"field_snow", "elasticity: {E: 13.79e3}", "compression waves have 9.19 m/s"},
+      {"dry_sand", "elasticity: {E: 4.78e3}", "compression waves have 1.8"},
+      {"mccormick_sand", "elasticity: {E: 689e3}",
+       "the hardening ends with 29.3 times the bulk modulus of the elasticity, 4.59e+05 Pa"},
+      {"compacted_sand_elastic", "elasticity: {E: 50e3}", "compression waves have 6.11 m/s"},
+      {"rubber", "law: {G: 1e3, bulk: 49.667e3}", "G is 1000 Pa; rubber has one in [20000, 1"},
+      // E in mPa
+      {"fresh_snow", "elasticity: {E: 13.79e9}", "compression waves have 9.63e+03 m/s"},
+      {"dry_sand", "elasticity: {E: 4.78e9}",
+       "the bulk modulus of the elasticity is 1.03e+04 times"},
+      {"compacted_sand_elastic", "elasticity: {E: 50e9}", "compression waves have 6.11e+03 m/s"},
+      {"rubber", "law: {G: 1e9, bulk: 49.667e9}", "G is 1e+09 Pa; rubber has one"},
+      // strengths in kPa
+      {"mccormick_sand", "hardening: {p: [138, 172, 434, 896, 1655, 2758, 4137, 6895, 13447]}",
+       "the bulk modulus of the elasticity is 3.42e+04 times that"},
+      {"fresh_snow_exponential", "hardening: {pc0: 0.11376}", "the hardening ends with p = "},
+      {"fresh_snow_foam", "hardening: {pc0: 0.11376}\nlaw: {pt: 0.011376, sigma0: 0.27579}",
+       "give Pa, not kPa"},
+      {"fresh_snow", "law: {d: 5}", "d is 5 Pa at 200 kg/m3; snow has at least 20 Pa"},
+      // strengths in mPa
+      {"fresh_snow_shoop",
+       "hardening: {p: [113.76e3, 5e7, 1e8, 2e8, 5e8, 1e9, 2e9, 2.8e9, 3.25e9]}",
+       "the hardening has p = 113760 Pa at 199.8 kg/m3; ground of that density has a strength of "
+       "at most 1e+05 Pa; give Pa, not mPa"},
+      {"field_snow",
+       "hardening: {p: [15e3, 2376e3, 14850e3, 594e5, 12474e4, 2079e5, 4158e5, 8316e5]}",
+       "the hardening has p = 2.376e+06 Pa at 380 kg/m3"},
+      {"dry_sand", "hardening: {p: [3e3, 1.2e6, 3e6, 6e6, 1.3e7, 3.3e7, 6.6e7, 1.3e8, 1.978e8]}",
+       "the hardening ends with 96.8 times the bulk modulus"},
+      {"fresh_snow_exponential", "hardening: {pc0: 113760}", "the hardening has pc0 = 113760 Pa"},
+      {"mccormick_sand_exponential", "hardening: {pc0: 2e8}",
+       "the hardening begins with 0.435 times the bulk modulus"},
+      {"fresh_snow", "law: {d: 5e6}",
+       "d is 5e+06 Pa and E 1.379e+07 Pa; ground has a d of at most"},
+      // percent
+      {"dry_sand",
+       "hardening: {eps_vol_pl: [0, 0.8865, 1.215, 1.547, 1.952, 2.429, 2.529, 2.629, 2.729]}",
+       "the hardening ends at eps_vol_pl = 2.729, a density of 2.305e+04 kg/m3"},
+      {"mccormick_sand_exponential", "hardening: {e0: 47.2}",
+       "e0 is 47.2 in hardening: without voids the ground would have 8.676e+04 kg/m3"},
+      {"fresh_snow_foam", "elasticity: {e0: 350}\nhardening: {e0: 350}", "e0 is 350 in elasticity"},
+      // tan(beta) for beta, and a large ratio
+      {"fresh_snow", "law: {beta: 2.14}", "beta is 2.14 degrees; ground with friction has 4 to 75"},
+      {"fresh_snow_cam_clay", "law: {M: 7}", "M is 7; "},
+  };
+  for (const Case& unit : cases) {
+    const std::string text =
+        "base: " FURROW_SOURCE_DIR "/inputs/materials/" + unit.material + ".yaml\n" + unit.change;
+    EXPECT_THAT(read_material_file(file(text)).warnings,
+                ::testing::Contains(HasSubstr(unit.warning)))
+        << text;
+  }
+  EXPECT_THAT(refusal("base: " FURROW_SOURCE_DIR
+                      "/inputs/materials/fresh_snow_cam_clay.yaml\nlaw: {M: 33}\n"),
+              HasSubstr("law cohesive_cam_clay, keyword 'M' is 33; allowed: a number in (0, 20]: a "
+                        "ratio q/p, no angle; of a friction angle phi, M = 6 sin(phi)/(3 - "
+                        "sin(phi))"));
+}
+
 TEST_F(MaterialFileTest, TwoSectionsOfOneCompressionLineHaveOneKappa) {
   const std::string path = FURROW_SOURCE_DIR "/inputs/materials/fresh_snow_foam.yaml";
   EXPECT_THAT(read_material_file(path).warnings, ::testing::IsEmpty());
@@ -268,8 +379,8 @@ TEST_F(MaterialFileTest, SectionsOfAFoamThatHardlyBelongTogetherAreReadWithAWarn
   const std::string foam =
       read_text_file(FURROW_SOURCE_DIR "/inputs/materials/fresh_snow_foam.yaml");
   EXPECT_THAT(read_material_file(file(with(foam, "pc0: 113.76 ", "pc0: 113.76e3"))).warnings,
-              ::testing::ElementsAre(HasSubstr("sigma0/pc0 is 0.00242, usual is a number in [0.3, "
-                                               "2.8]; the sections hardly belong to one")));
+              ::testing::Contains(HasSubstr("sigma0/pc0 is 0.00242, usual is a number in [0.3, "
+                                            "2.8]; the sections hardly belong to one")));
   EXPECT_THAT(read_material_file(file(with(foam, "sigma0: 275.79", "sigma0: 335"))).warnings,
               ::testing::ElementsAre(HasSubstr("sigma0/pc0 is 2.94")));
   const std::string tensile = with(foam, "pt_el: 22.752", "pt_el: 300");

@@ -59,7 +59,7 @@ TEST(Plausibility, WhatIsUnusualIsDoubted) {
   EXPECT_THAT(doubts_of("elastic density 1.6 elasticity linear E 5e6 nu 0.2"),
               ElementsAre(HasSubstr("the density is 1.6 kg/m3")));
   EXPECT_THAT(doubts_of("elastic density 200 elasticity linear E 13.79 nu 0.3"),
-              ElementsAre(HasSubstr("compression waves have 0.305 m/s at rest")));
+              ElementsAre(HasSubstr("compression waves have 0.305 m/s at a pressure of 10 kPa")));
 }
 
 }  // namespace

@@ -56,7 +56,11 @@ std::unique_ptr<Material> create_drucker_prager_cap(const MaterialOptions& secti
 }
 
 constexpr double usual_R = 5.0;
-constexpr double usual_cohesion = 5e6;  // [Pa] of ice and weak rock
+constexpr double usual_beta = 4.0;             // [degrees] of a friction angle of 2
+constexpr double usual_cohesion = 5e6;         // [Pa] of ice and weak rock
+constexpr double usual_stiffness_ratio = 0.1;  // d/E; clay has up to 0.02 [Bowles1996]
+// Fresh snow of 50 kg/m3 has a shear strength of 90 Pa [Jamieson2001]
+constexpr double usual_cohesion_of_snow = 20.0, snow_density = 600.0;  // [Pa], [kg/m3]
 
 /// Other units, and sections that belong to two grounds.
 std::vector<std::string> doubts_of_cap(const MaterialOptions& sections) {
@@ -67,12 +71,27 @@ std::vector<std::string> doubts_of_cap(const MaterialOptions& sections) {
     sentences.push_back(
         fmt::format("beta is {:g} degrees; {:g} radians are {:.3g} degrees; give degrees", beta,
                     beta, degrees(beta)));
+  else if (beta < usual_beta)
+    sentences.push_back(
+        fmt::format("beta is {:g} degrees; ground with friction has {:g} to 75; give degrees, not "
+                    "tan(beta), which would be of {:.3g} degrees",
+                    beta, usual_beta, degrees(std::atan(beta))));
   if (R > usual_R)
     sentences.push_back(
         fmt::format("R is {:g}; caps of soils and snow have 0.0001 to {:g}", R, usual_R));
   if (d > usual_cohesion)
     sentences.push_back(
         fmt::format("d is {:g} Pa; ice and weak rock have up to {:g} Pa", d, usual_cohesion));
+  const SectionOptions& elasticity = sections.at("elasticity");
+  if (elasticity.type == "linear" && d > usual_stiffness_ratio * elasticity.options.number("E"))
+    sentences.push_back(fmt::format(
+        "d is {:g} Pa and E {:g} Pa; ground has a d of at most {:g} E; give both in Pa, not d in "
+        "mPa or E in kPa",
+        d, elasticity.options.number("E"), usual_stiffness_ratio));
+  if (d > 0.0 && d < usual_cohesion_of_snow && law.number("density") < snow_density)
+    sentences.push_back(
+        fmt::format("d is {:g} Pa at {:g} kg/m3; snow has at least {:g} Pa; give Pa, not kPa", d,
+                    law.number("density"), usual_cohesion_of_snow));
   return sentences;
 }
 
