@@ -31,6 +31,11 @@ constexpr char move_all[] = "write 'fix move all nve/sphere'";
 constexpr double least_downward_share = 0.5;
 constexpr double straight = 1.0;         // [degrees] of gravity from straight down
 constexpr double largest_gravity = 2e3;  // [m/s^2] of a large centrifuge; 9806 would be mm/s^2
+// Of planets and moons that a vehicle may roll on, by a wide margin.
+const Range usual_gravity = Range::closed(0.05, 30.0);
+// Load over width and length of the body [Pa]; tyres of lorries have 2e5, steel wheels on rails
+// 1e6.
+constexpr double usual_pressure = 2e6;
 // Between two values of one gravity, over the larger.
 constexpr double same_gravity = 2e-3, similar_gravity = 0.05;
 constexpr double same_pace = 1e-9;  // of speeds and times of two rigs
@@ -195,6 +200,11 @@ Found weight_pulls_down(const Scene& scene, LAMMPS_NS::FixGravity& gravity) {
   if (scene.lammps.atom->natoms == 0) return {};
   Vector3 weight;
   gravity.get_gravity(weight.data());
+  if (weight.norm() == 0.0)
+    return warning(
+        fmt::format("fix gravity '{}' is 0: grains have no weight and bear nothing; write 9.80665, "
+                    "or remove the line if that is meant",
+                    gravity.id));
   if (-weight.z() >= least_downward_share * weight.norm()) return {};
   return warning(
       fmt::format("fix gravity '{}' is {:.4g} {:.4g} {:.4g} m/s^2, which does not pull grains "
@@ -208,6 +218,11 @@ Found scene_has_one_gravity(const Scene& scene) {
     if (each.vector.norm() > largest_gravity)
       return refusal(each.where, fmt::format("is {:.4g} m/s^2", each.vector.norm()),
                      fmt::format("at most {:g} m/s^2", largest_gravity), "on Earth it is 9.80665");
+  for (const GivenGravity& each : given)
+    if (each.vector.norm() > 0.0 && !usual_gravity.contains(each.vector.norm()))
+      return warning(fmt::format(
+          "{} is {:.4g} m/s^2; planets and moons have one {}, Earth 9.80665; give m/s^2",
+          each.where, each.vector.norm(), usual_gravity.text()));
   for (std::size_t n = 1; n < given.size(); ++n) {
     const double one = given[n].vector.norm(), other = given[0].vector.norm();
     const double difference = std::abs(one - other) / std::max(one, other);
@@ -317,6 +332,23 @@ Found waves_outrun_body(const Scene& scene, FixContactContinuum& contact) {
       return judged({driven.options, "spin_rate", "rad/s"}, wheel->nominal_radius());
   }
   return {};
+}
+
+Found load_suits_the_body(const Scene&, const DrivenBody& driven) {
+  const Options& options = driven.options;
+  const bool mass = options.has("load_mass");
+  if (!mass && !options.has("load_force")) return {};
+  const std::string key = mass ? "load_mass" : "load_force";
+  const double load = options.number(key) * (mass ? options.number("gravity") : 1.0);
+  const Body& body = driven.body.body();
+  const auto [lower, upper] = body.surface().bounds();
+  const Vector3 size = upper - lower;
+  const double pressure = load / (size.x() * size.y() * (body.half_model() ? 2.0 : 1.0));
+  if (pressure <= usual_pressure) return {};
+  return warning(fmt::format(
+      "{} makes {:.4g} N, {:.3g} Pa over length and width of '{}'; wheels and tyres have at most "
+      "{:g} Pa; give kg or N, and its size in m",
+      options.where(key), load, pressure, driven.body.id, usual_pressure));
 }
 
 Found body_passes_no_grain_in_a_step(const Scene& scene, const DrivenBody& driven) {

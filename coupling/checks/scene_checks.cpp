@@ -110,6 +110,7 @@ constexpr Rule rules[] = {
     rule<cells_enter_grooves>(When::before_run),
     rule<turning_plate_has_whole_terrain>(When::before_run),
     rule<waves_outrun_body>(When::before_run),
+    rule<load_suits_the_body>(When::before_run),
     rule<body_passes_no_grain_in_a_step>(When::before_run),
     rule<body_starts_at_the_ground>(When::before_run),
     rule<ground_level_is_the_ground>(When::before_run),

@@ -88,6 +88,8 @@ Found body_sets_off(const Scene& scene, const DrivenBody& driven);
 Found body_comes_to_its_speed(const Scene& scene, const DrivenBody& driven);
 /// Beyond the waves' speed the ground ahead answers as to an impact, not to a roll.
 Found waves_outrun_body(const Scene& scene, FixContactContinuum& contact);
+/// Grams for kilograms, millimetres for metres.
+Found load_suits_the_body(const Scene& scene, const DrivenBody& driven);
 Found body_passes_no_grain_in_a_step(const Scene& scene, const DrivenBody& driven);
 
 // ---- where things are (place.cpp)

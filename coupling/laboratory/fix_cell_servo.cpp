@@ -29,6 +29,7 @@ constexpr char axis_names[] = "xyz";
 constexpr double integral_times = 4.0;
 constexpr double largest_strain_of_step = 1e-3;
 constexpr double largest_stress = 10.0;  // of the stiffness
+constexpr double usual_stress = 1.0;     // [Pa] at least: a layer of grains of 0.1 mm
 constexpr double min_steps_of_response = 5.0;
 
 }  // namespace
@@ -102,6 +103,11 @@ FixCellServo::FixCellServo(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
                        "leave one out; without both, the edge keeps its length");
     if (options().given(rate)) axes_[k] = {Axis::Control::rate, options().number(rate)};
     if (options().given(stress)) axes_[k] = {Axis::Control::stress, options().number(stress)};
+    if (axes_[k].control == Axis::Control::stress && axes_[k].target > 0.0 &&
+        axes_[k].target < usual_stress)
+      warn(*lammps, fmt::format("{} is {:g} Pa, less than a layer of grains weighs; give Pa, not "
+                                "kPa or MPa",
+                                options().where(stress), axes_[k].target));
   }
   if (!domain->xperiodic || !domain->yperiodic || !domain->zperiodic || domain->triclinic)
     throw InputError("fix cell/servo", "is used in a box that is not periodic along x, y and z",

@@ -87,6 +87,10 @@ constexpr std::array hints = {
     Hint{"Too many atom sorting bins",
          "the box of region and create_box is very large for its grains: look for a length in "
          "mm, or write 'atom_modify sort 0 0'"},
+    Hint{"Gravity direction vector = 0",
+         "the vector of fix gravity points nowhere: write 'vector 0 0 -1'"},
+    Hint{"Atom types must start from 1",
+         "there are no grains: create some before the run, or remove the lines that need them"},
     Hint{"Random number generation",
          "the number behind 'seed' in the line below is a prime above 10000: write one of those"},
     Hint{"Illegal restart command",

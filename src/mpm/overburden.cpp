@@ -44,7 +44,8 @@ VectorX loaded(const Material& material, const VectorX& state, double stress) {
       throw InputError(fmt::format("law {}", material.name()),
                        fmt::format("cannot carry {:.4g} Pa of weight", stress),
                        "a law that stiffens in confined compression",
-                       "give the ground no gravity and no surcharge, or another law");
+                       "check that E and the strengths are in Pa; else give the ground no gravity "
+                       "and no surcharge, or another law");
   }
   for (int i = 0; i < bisections; ++i) {
     const double middle = 0.5 * (low + high);

@@ -465,10 +465,10 @@ TEST(SnowBond, PartingLosesWhatTheSpringsHeld) {
 
 TEST(SnowBond, ParametersAreDeclaredOnce) {
   std::vector<Entry> entries;
-  double value = 0.01;
+  double value = 0.13;
   const Schema schema = SnowBondParameters::schema();
   for (const Key& key : schema.keys())
-    entries.push_back({key.name, {std::to_string(value += 0.01)}});
+    entries.push_back({key.name, {std::to_string(value -= 0.01)}});
   const SnowBondParameters read = SnowBondParameters::from(schema.read(entries));
   double sum = 0.0;
   for (const double each : {read.E, read.Y0, read.p, read.Y1, read.q, read.pc, read.chi, read.zeta,
