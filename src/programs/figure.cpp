@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,11 +14,31 @@
 
 namespace furrow {
 
-void draw_figure(const std::string& subcommand, const std::string& folder) {
+namespace {
+
+/// @param otherwise what the user can do without furrow-post
+/// @throws Error where it is missing
+std::string furrow_post(const std::string& otherwise) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe");
-  const std::string post = (program.parent_path() / "furrow-post").string();
+  std::string post = (program.parent_path() / "furrow-post").string();
   if (!std::filesystem::is_regular_file(post))
-    throw Error(post + " is missing; reinstall Furrow, or use --no-plot");
+    throw Error(post + " is missing; reinstall Furrow" + otherwise);
+  return post;
+}
+
+}  // namespace
+
+void become_furrow_post(const std::string& subcommand, int argc, char** argv) {
+  const std::string post = furrow_post("");
+  std::vector<const char*> arguments{FURROW_PYTHON, "-B", post.c_str(), subcommand.c_str()};
+  arguments.insert(arguments.end(), argv, argv + argc);
+  arguments.push_back(nullptr);
+  execv(FURROW_PYTHON, const_cast<char**>(arguments.data()));
+  throw Error("cannot start " FURROW_PYTHON "; install Python 3");
+}
+
+void draw_figure(const std::string& subcommand, const std::string& folder) {
+  const std::string post = furrow_post(", or use --no-plot");
   std::cout << std::flush;
   const pid_t child = fork();
   if (child < 0)

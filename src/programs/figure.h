@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Figures of results folders, drawn by furrow-post with the Python that CMake found.
+/// Figures of results folders and other work that furrow-post does, with the Python that CMake
+/// found.
 
 #include <string>
 
@@ -10,5 +11,9 @@ namespace furrow {
 /// @param subcommand "point", "sidewall" or "modes"
 /// @throws Error when furrow-post is missing or fails; the results stay
 void draw_figure(const std::string& subcommand, const std::string& folder);
+
+/// Replaces this program by a subcommand of furrow-post with these arguments. Returns never.
+/// @throws Error when furrow-post or Python is missing
+[[noreturn]] void become_furrow_post(const std::string& subcommand, int argc, char** argv);
 
 }  // namespace furrow

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // furrow-tyre: a tyre at rest, inflated and pressed on a rigid plane: deflection, footprint,
-// section, forces, natural modes.
+// section, forces, natural modes. furrow-tyre fit: a tyre file from a catalogue, by furrow-post.
 
 #include <array>
 #include <cstdio>
@@ -61,7 +61,8 @@ void declare(CLI::App& app, Request& request) {
       "Examples:\n"
       "  furrow-tyre inputs/tyres/p235_75r15.yaml --mesh 4 36 --half --load 6227\n"
       "  furrow-tyre inputs/tyres/p235_75r15.yaml --mesh 4 36 --pressure 20 --folder results/modes "
-      "--modes 10");
+      "--modes 10\n"
+      "  furrow-tyre fit --help      writes a tyre file from a catalogue and tests");
   app.add_option("file", request.file, "tyre file (inputs/tyres/*.yaml)")->required();
   app.add_option("--pressure", request.pressures,
                  "inflation pressures [kPa]; by default that of the tyre file")
@@ -291,8 +292,11 @@ int main(int argc, char** argv) {
       "furrow-tyre");
   Request request;
   declare(app, request);
-  if (const auto status = parse_options(app, argc, argv)) return *status;
+  const bool fit = argc > 1 && std::string(argv[1]) == "fit";
+  if (!fit)
+    if (const auto status = parse_options(app, argc, argv)) return *status;
   try {
+    if (fit) become_furrow_post("fit-tyre", argc - 2, argv + 2);
     run(app, request);
     end_output();
   } catch (const std::exception& error) {

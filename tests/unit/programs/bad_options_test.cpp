@@ -69,6 +69,7 @@ TEST(BadOptions, OfFurrowTyre) {
   const std::string bricks = inputs + "tyres/p235_75r15_smooth.yaml ";
   const Case cases[] = {
       {"", "file is required"},
+      {"fit 15 --pressure 241 -o " + scratch.path("new.yaml"), "'15' is no size designation"},
       {"absent.yaml", "absent.yaml does not exist; allowed: a YAML file"},
       {inputs, "is a folder; allowed: a YAML file"},
       {inputs + "materials/fresh_snow.yaml", "it looks like a material file"},
