@@ -14,6 +14,7 @@
 #include "core/communicator.h"
 #include "core/types.h"
 #include "coupling/liggghts/fixes_of.h"
+#include "coupling/base/bed_line.h"
 #include "coupling/base/grain_check.h"
 #include "coupling/bodies/fix_plate_rigid.h"
 #include "coupling/base/fix_wheel_hub.h"
@@ -80,6 +81,9 @@ std::vector<GivenGravity> gravities(const Scene& scene) {
   std::vector<GivenGravity> given;
   for (const auto* terrain : fixes_of<const FixTerrain>(modify))
     given.push_back({terrain->options().where("gravity"), terrain->terrain().parameters().gravity});
+  for (const auto& [name, value] : bed_line(scene.lammps))
+    if (name == "gravity")
+      given.push_back({"command bed, keyword 'gravity'", {0.0, 0.0, -std::stod(value)}});
   if (scene.grains > 0.0)
     for (auto* fix : fixes_of<LAMMPS_NS::FixGravity>(modify)) {
       given.push_back({fmt::format("fix gravity '{}'", fix->id), Vector3::Zero()});

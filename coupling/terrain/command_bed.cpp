@@ -12,6 +12,7 @@
 
 #include "comm.h"
 #include "core/error.h"
+#include "core/types.h"
 #include "coupling/base/bed_line.h"
 #include "coupling/liggghts/checkpoint_file.h"
 #include "coupling/liggghts/first_rank.h"
@@ -34,6 +35,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char no_checkpoint[] = "none";
+constexpr double largest_gravity = 2000.0;  // [m/s^2] of a large centrifuge
 
 /// "command processors": 0 leaves the number of ranks along an axis to LIGGGHTS.
 std::string processors_line(const int (&grid)[3]) {
@@ -85,6 +87,10 @@ Schema CommandBed::schema() {
       "first argument, without the keyword: path of the bed script, relative to the main script");
   schema.number("depth", "m", Range::positive(),
                 "height above the floor at which the bed is levelled");
+  schema
+      .number("gravity", "m/s^2", Range{0.0, largest_gravity, true, false},
+              "in which the bed settles, downwards")
+      .by_default(standard_gravity);
   schema.text("from", "checkpoint of a run on this bed, to continue that run; `none`: start")
       .by_default(no_checkpoint);
   return schema;
@@ -108,6 +114,15 @@ std::string CommandBed::KeptBed::problem() const {
   return "";
 }
 
+void CommandBed::KeptBed::require_trusted() const {
+  for (const fs::path& path : {folder.parent_path(), folder, restart(), facts()})
+    if (const std::string reason = distrust(path); !reason.empty())
+      throw InputError(
+          fmt::format("command bed: '{}'", path.string()), reason,
+          "a cache folder, and beds in it, that you own and others cannot write",
+          "remove it, or name another folder in the environment variable FURROW_CACHE");
+}
+
 void CommandBed::command(int narg, char** arg) {
   // The words live in the buffer of the line being parsed, which other commands overwrite.
   const std::vector<std::string> words(arg, arg + narg);
@@ -119,6 +134,7 @@ void CommandBed::command(int narg, char** arg) {
   if (request.from != no_checkpoint) check_checkpoint(*lmp, find_checkpoint(*lmp, request.from));
   set_parameters(request);
   const KeptBed bed(cache_folder() / ("bed-" + content_hash(request.identity())));
+  on_first_rank(world, [&] { bed.require_trusted(); });
   if (!is_kept(bed)) make(request, bed);
   read(request, bed);
 }
@@ -143,6 +159,8 @@ CommandBed::Request CommandBed::read_request(const std::vector<std::string>& wor
   Schema keys = schema();
   script.declare_parameters(keys);
   const Options options = keys.read(entries);
+  if (!options.given("gravity"))  // a parameter of every bed, of its identity too
+    parameters.push_back({"gravity", fmt::format("{}", options.number("gravity")), "gravity"});
   check_bed_parameters(options);
   for (const std::string& doubt : doubts_of_bed(options)) warn(*lmp, doubt);
   return {std::move(script), options.number("depth"), options.text("from"), std::move(parameters),

@@ -50,6 +50,8 @@ class CommandBed : protected LAMMPS_NS::Pointers {
     std::filesystem::path facts() const { return folder / "facts.txt"; }
     /// What is damaged; nothing when all is whole.
     std::string problem() const;
+    /// @throws InputError for a folder or file that another user may have changed
+    void require_trusted() const;
   };
 
   Request read_request(const std::vector<std::string>& words);

@@ -38,7 +38,7 @@ std::string identity_of(const SidewallParameters& sidewall, double pressure,
 
 /// The coefficients kept under a name, or none.
 std::vector<double> kept(const fs::path& path, const std::string& identity) {
-  if (!fs::is_regular_file(path)) return {};
+  if (!fs::is_regular_file(path) || !distrust(path).empty()) return {};
   try {
     const Hdf5File file(path.string(), Hdf5File::Mode::read);
     if (file.read_text("/identity") == identity) return file.read_numbers(dataset);

@@ -4,6 +4,7 @@
     beds.py <furrow> <inputs/beds> [<mpirun -n>]
 """
 
+import os
 import re
 import sys
 
@@ -125,8 +126,64 @@ def kept(furrow, table, beds):
     table.check("continued on another bed", wheel({"from": "ck", "friction": "0.5"}), 1, "the parameters of the bed", "friction 0.6")
 
 
+def gravity(furrow, table, beds):
+    """Another gravity is another bed. Bed, fix gravity and rig have the same one."""
+    moon = "unfix weight\nfix weight all gravity 1.62 vector 0 0 -1\n"
+    towed = (WHEEL + "fix rig all wheel/rig wheel wheel load_mass 1 gravity 1.62 speed 0.1 mode towed settle_time 0.1 "
+             "accelerate_time 0.1 ground_level 0.03\n")
+
+    def start(words, lines=""):
+        after = AFTER.replace("run 0", lines + "fix move all nve/sphere\nrun 1")
+        return run_script(furrow, table.folder, line(beds + "/sand.lig", SAND) + words + "\n" + after, FURROW_CACHE="planets")
+
+    making, both = "Making the bed", "{} is 1.62 m/s^2, and command bed, keyword 'gravity' is 9.807 m/s^2"
+    table.check("Earth", start(""), 0, making)
+    table.check("Earth, written", start(" gravity 9.80665"), 0, absent=[making])
+    table.check("Moon", start(" gravity 1.62"), 0, making)
+    table.check("Moon, kept, with its weight", start(" gravity 1.62", moon), 0, absent=[making])
+    table.check("Moon, with a rig", start(" gravity 1.62", towed), 0)
+    table.check("weight of the Moon on a bed of the Earth", start("", moon), 1, both.format("fix gravity 'weight'"))
+    table.check("rig of the Moon on a bed of the Earth", start("", towed), 1, both.format("fix wheel/rig, keyword 'gravity'"))
+    for value in ("0", "-9.8", "nan", "9806"):
+        table.check(f"gravity {value}", start(f" gravity {value}"), 1, f"keyword 'gravity' is {value}; allowed: a number in (0, 2000]")
+
+
+def foreign(furrow, table, beds):
+    """A kept bed that another user may have changed is refused."""
+    script = line(beds + "/sand.lig", SAND) + "\n" + AFTER
+
+    def start():
+        return run_script(furrow, table.folder, script, FURROW_CACHE="foreign")
+
+    def refused(name, reason, path):
+        table.check(name, start(), 1, f"command bed: '{path.relative_to(table.folder)}' {reason}", "FURROW_CACHE")
+
+    table.check("own", start(), 0)
+    cache = table.folder / "foreign"
+    folder, = cache.glob("bed-*")
+    for path in (cache, folder, folder / "bed.restart", folder / "facts.txt"):
+        mode = path.stat().st_mode
+        path.chmod(mode | 0o002)
+        refused(f"{path.name}, written by all", "may be written by all users", path)
+        path.chmod(mode)
+        if os.geteuid() == 0:
+            os.chown(path, 12345, -1)
+            refused(f"{path.name}, of another user", "belongs to the user with number 12345", path)
+            os.chown(path, 0, -1)
+    for path in (folder, folder / "bed.restart"):
+        moved = table.folder / "moved"
+        path.rename(moved)
+        path.symlink_to(moved)
+        refused(f"{path.name}, a link", "is a link", path)
+        path.unlink()
+        moved.rename(path)
+    table.check("own again", start(), 0, absent=["Making the bed"])
+
+
 def main(furrow, beds, *mpirun):
     table = Table()
+    gravity(furrow, table, beds)
+    foreign(furrow, table, beds)
     refused(furrow, table, beds)
     own_scripts(furrow, table, beds)
     kept(furrow, table, beds)

@@ -89,6 +89,23 @@ TEST_F(SidewallCacheTest, ALinkInThePlaceOfThePartIsNotFollowed) {
   EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(path)));
 }
 
+TEST_F(SidewallCacheTest, FilesThatOthersMayHaveChangedAreReplaced) {
+  namespace fs = std::filesystem;
+  const auto made = open_sidewall_table(sidewall_, 103e3);
+  const std::string path = files().front(), elsewhere = scratch_.path("elsewhere.h5");
+  fs::rename(path, elsewhere);
+  fs::create_symlink(elsewhere, path);
+  EXPECT_EQ(distrust(path), "is a link");
+  EXPECT_EQ(open_sidewall_table(sidewall_, 103e3)->coefficients(), made->coefficients());
+  EXPECT_FALSE(fs::is_symlink(path));
+  EXPECT_EQ(distrust(path), "");
+  fs::permissions(path, fs::perms::others_write, fs::perm_options::add);
+  EXPECT_EQ(distrust(path), "may be written by all users");
+  open_sidewall_table(sidewall_, 103e3);
+  EXPECT_EQ(distrust(path), "");
+  EXPECT_EQ(distrust(scratch_.path("absent")), "");
+}
+
 TEST_F(SidewallCacheTest, WithoutAFolderNothingIsKept) {
   write_text_file(scratch_.path("file"), "no folder");
   setenv("FURROW_CACHE", scratch_.path("file/below").c_str(), 1);
