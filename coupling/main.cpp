@@ -4,22 +4,18 @@
 
 #include <cstdio>
 #include <exception>
-#include <new>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <mpi.h>
 
-#include "coupling/base/fix_coupled_system.h"
 #include "coupling/command_line.h"
-#include "coupling/liggghts/error_policy.h"
 #include "coupling/liggghts/first_rank.h"
 #include "coupling/liggghts/library_check.h"
 #include "coupling/liggghts/rescue.h"
-#include "coupling/liggghts/script.h"
 #include "coupling/liggghts/signals.h"
-#include "input.h"
+#include "coupling/run_script.h"
 #include "io/version.h"
 #include "lammps.h"
 
@@ -43,23 +39,6 @@ std::optional<int> read_words(int argc, char** argv, bool tells) {
     return wrong_command_line;
   }
   return std::nullopt;
-}
-
-/// Exceptions that come through LIGGGHTS's own functions.
-void run_script(LAMMPS_NS::LAMMPS& lammps) {
-  try {
-    lammps.input->file();
-  } catch (const std::bad_alloc&) {
-    stop_alone(lammps, "there is not enough memory for this script", {"furrow", 0});
-  } catch (const std::exception& problem) {
-    stop_alone(lammps, problem.what(), {"furrow", 0});
-  }
-}
-
-void warn_without_run(LAMMPS_NS::LAMMPS& lammps) {
-  const FixCoupledSystem* system = FixCoupledSystem::find(lammps);
-  if (system && !system->has_run())
-    warn(lammps, "no 'run' follows the lines of the bodies: nothing was computed");
 }
 
 }  // namespace

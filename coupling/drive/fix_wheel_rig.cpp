@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/drive/fix_wheel_rig.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.h"
 #include "coupling/base/fix_coupled_system.h"
@@ -99,6 +102,25 @@ void FixWheelRig::check_slope() {
 void FixWheelRig::apply(double time, double dt) {
   rig_.apply(time, dt);
   if (on_slope()) tilt_gravity_of_terrain(*lmp, rig_.tilt(time + dt));
+}
+
+void FixWheelRig::change_targets(const std::vector<Entry>& targets) {
+  const std::vector<std::string>& known = WheelRig::targets();
+  for (const Entry& target : targets)
+    if (std::find(known.begin(), known.end(), target.key) == known.end())
+      throw InputError(options().where(target.key), "cannot change during a run",
+                       fmt::format("{}", fmt::join(known, ", ")), "set it in the line of the rig");
+  std::vector<Entry> entries;
+  const auto is_new = [&](const std::string& key) {
+    return std::any_of(targets.begin(), targets.end(),
+                       [&](const Entry& target) { return target.key == key; });
+  };
+  for (const Entry& entry : options().effective())
+    if (options().given(entry.key) && !is_new(entry.key)) entries.push_back(entry);
+  entries.insert(entries.end(), targets.begin(), targets.end());
+  const Options changed = schema().read(entries);
+  rig_.retarget(changed);
+  change_options(changed);
 }
 
 void FixWheelRig::setup(int vflag) { post_force(vflag); }

@@ -19,6 +19,10 @@ class FixWheelRig : public FixRig, public MotionController {
   /// Of grains on a slope.
   void post_force(int) override;
 
+  /// Other targets from the next step on, each a key and its value as a script writes them.
+  /// @throws InputError, and nothing has changed
+  void change_targets(const std::vector<Entry>& targets);
+
   const WheelRig& rig() const override { return rig_; }
   FixWheelHub& wheel_fix() const override { return wheel_fix_; }
 

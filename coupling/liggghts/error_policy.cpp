@@ -6,10 +6,12 @@
 #include <cstdlib>
 #include <thread>
 
+#include <fmt/format.h>
 #include <mpi.h>
 
 #include "coupling/liggghts/access.h"
 #include "coupling/liggghts/error_hints.h"
+#include "coupling/liggghts/first_rank.h"
 #include "coupling/liggghts/rescue.h"
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/signals.h"
@@ -23,18 +25,29 @@ namespace {
 // for ranks that come to the same error a little later
 constexpr std::chrono::seconds wait_for_others(5);
 
+bool throws = false;
+
 /// One error, one message: what is wrong, where in the script, and where in the source it was
 /// noticed. (The library's own version may add a line from a string that no longer exists.)
-void print_error(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace place) {
+std::string whole_text(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace place) {
   const std::string position = script_position(lammps), hint = hint_for(text);
+  std::string whole = text;
+  if (!hint.empty()) whole += "\n  " + hint;
+  if (!position.empty()) whole += "\n  at " + position;
+  if (place.line > 0) whole += fmt::format("\n  (LIGGGHTS, {}:{})", place.file, place.line);
+  return whole;
+}
+
+/// On rank 0, which also saves its results. @return the whole text
+std::string report_error(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace place) {
+  const std::string whole = whole_text(lammps, text, place);
   for (FILE* stream : {lammps.screen, lammps.logfile}) {
     if (!stream) continue;
-    std::fprintf(stream, "\nERROR: %s\n", text.c_str());
-    if (!hint.empty()) std::fprintf(stream, "  %s\n", hint.c_str());
-    if (!position.empty()) std::fprintf(stream, "  at %s\n", position.c_str());
-    if (place.line > 0) std::fprintf(stream, "  (LIGGGHTS, %s:%d)\n", place.file, place.line);
+    std::fprintf(stream, "\nERROR: %s\n", whole.c_str());
     std::fflush(stream);
   }
+  flush_results(lammps);
+  return whole;
 }
 
 /// Whether all ranks come here; false when one of them waits for this one elsewhere.
@@ -55,14 +68,21 @@ int rank_in(MPI_Comm ranks) {
   return rank;
 }
 
+int number_of(MPI_Comm ranks) {
+  int size = 1;
+  MPI_Comm_size(ranks, &size);
+  return size;
+}
+
 }  // namespace
+
+void throw_errors() { throws = true; }
 
 void stop_together(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace place) {
   if (!all_arrive(lammps.world)) stop_alone(lammps, text, place);
-  if (rank_in(lammps.world) == 0) {
-    print_error(lammps, text, place);
-    flush_results(lammps);
-  }
+  std::string whole;
+  if (rank_in(lammps.world) == 0) whole = report_error(lammps, text, place);
+  if (throws) throw RunError{broadcast(whole, lammps.world)};
   delete lammps.output;
   if (lammps.logfile) std::fclose(lammps.logfile);
   if (lammps.universe->nworlds > 1) MPI_Abort(lammps.universe->uworld, failure_status());
@@ -73,8 +93,8 @@ void stop_together(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePla
 void stop_alone(LAMMPS_NS::LAMMPS& lammps, const std::string& text, SourcePlace place) {
   const int rank = rank_in(lammps.world);
   if (rank == 0) {
-    print_error(lammps, text, place);
-    flush_results(lammps);
+    const std::string whole = report_error(lammps, text, place);
+    if (throws && number_of(lammps.world) == 1) throw RunError{whole};
   } else {
     std::fprintf(stderr, "\nERROR on rank %d: %s\n", rank, text.c_str());
     const char* line = lammps.input ? current_line(lammps) : nullptr;

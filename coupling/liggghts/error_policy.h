@@ -10,6 +10,16 @@
 
 namespace furrow::coupling {
 
+/// An error that leaves the process alive, with the text that is printed. It is no std::exception,
+/// which the fixes would turn into a second error on its way.
+struct RunError {
+  std::string text;
+};
+
+/// From now on an error throws RunError where it would end the process. An error of one rank of
+/// several still aborts all of them.
+void throw_errors();
+
 /// Where in LIGGGHTS an error was noticed; line 0: in Furrow.
 struct SourcePlace {
   const char* file;

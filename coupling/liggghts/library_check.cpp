@@ -42,7 +42,8 @@ void check_library(const LAMMPS_NS::LAMMPS& lammps) {
   for (const char* name :
        {symbol::create, symbol::write_restart, symbol::read_int, symbol::nread_double,
         symbol::restart_requested, symbol::decide, symbol::write_output, symbol::open_dump,
-        symbol::evaluate, symbol::evaluate_boolean, symbol::execute_command, symbol::include})
+        symbol::evaluate, symbol::evaluate_boolean, symbol::execute_command, symbol::include,
+        symbol::begin_step})
     if (!next_definition(name)) refuse(fmt::format("it has no symbol {}", name));
   check_room(lammps.modify, "Modify");
   check_room(lammps.input, "Input");

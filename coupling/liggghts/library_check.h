@@ -24,6 +24,7 @@ inline constexpr char evaluate[] = "_ZN9LAMMPS_NS8Variable8evaluateEPcPPNS0_4Tre
 inline constexpr char evaluate_boolean[] = "_ZN9LAMMPS_NS8Variable16evaluate_booleanEPc";
 inline constexpr char execute_command[] = "_ZN9LAMMPS_NS5Input15execute_commandEv";
 inline constexpr char include[] = "_ZN9LAMMPS_NS5Input7includeEv";
+inline constexpr char begin_step[] = "_ZN9LAMMPS_NS9Integrate6ev_setEl";
 inline constexpr char decide[] = "_ZN9LAMMPS_NS8Neighbor6decideEv";
 }  // namespace symbol
 

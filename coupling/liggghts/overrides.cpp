@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Functions of libliggghts that this executable stands in front of: the dynamic linker finds ours
-// first. They need default visibility, everything else in coupling/ is hidden.
+// Functions of libliggghts that this executable, or the Python module, stands in front of: the
+// dynamic linker finds ours first. They need default visibility, everything else in coupling/ is
+// hidden.
 
 #include <algorithm>
 #include <cstdio>
@@ -13,6 +14,7 @@
 
 #include "coupling/liggghts/checked_stream.h"
 #include "coupling/liggghts/checkpoint_file.h"
+#include "coupling/liggghts/driver.h"
 #include "coupling/liggghts/error_policy.h"
 #include "coupling/liggghts/errors.h"
 #include "coupling/liggghts/library_check.h"
@@ -24,6 +26,7 @@
 #include "error.h"
 #include "fix.h"
 #include "input.h"
+#include "integrate.h"
 #include "lammps.h"
 #include "neighbor.h"
 #include "output.h"
@@ -134,12 +137,22 @@ FURROW_EXPORTED double Variable::evaluate_boolean(char* text) {
 /// @return 0, or 1 for a command that LIGGGHTS does not have
 FURROW_EXPORTED int Input::execute_command() {
   if (furrow::coupling::stop_between_commands(*lmp)) return 0;
+  if (furrow::coupling::Driver* driver = furrow::coupling::driver())
+    if (driver->before_command(*lmp)) return 0;
   return next_function<int(Input*)>(symbol::execute_command)(this);
 }
 
 FURROW_EXPORTED void Input::include() {
   with_collective_errors(*error, [&] { furrow::coupling::check_include(*lmp); });
   next_function<void(Input*)>(symbol::include)(this);
+}
+
+/// The first function that a step calls.
+FURROW_EXPORTED void Integrate::ev_set(bigint step) {
+  static const auto original = next_function<void(Integrate*, bigint)>(symbol::begin_step);
+  furrow::coupling::Driver* driver = furrow::coupling::driver();
+  if (driver && !update->setupflag) driver->before_step(*lmp);
+  original(this, step);
 }
 
 /// Whether neighbour lists are made in this step.

@@ -128,6 +128,8 @@ bool stop_between_commands(const LAMMPS& lammps) {
 int agreed_signal() { return agreed; }
 int failure_status() { return agreed ? 128 + agreed : EXIT_FAILURE; }
 
+bool run_can_be_continued() { return SignalHandler::enable_restart_writing; }
+
 NoCheckpointOnSignal::NoCheckpointOnSignal() : before_(SignalHandler::enable_restart_writing) {
   SignalHandler::enable_restart_writing = false;
 }

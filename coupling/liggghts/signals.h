@@ -31,6 +31,9 @@ int agreed_signal();
 /// Of a run that did not come to its end: 128 and the signal, as shells have it, or 1 for an error.
 int failure_status();
 
+/// Whether a run is one of the scene. False while a bed is prepared.
+bool run_can_be_continued();
+
 /// While it lives, a signal that ends the run leaves no checkpoint: there is nothing to continue.
 class NoCheckpointOnSignal {
  public:

@@ -53,6 +53,13 @@ class WheelRig {
   /// @throws InputError for keys that contradict each other
   WheelRig(const Options& options, WheelHub& wheel);
 
+  /// Other values of the load, the speed, the slip, the torque, the spin rate or the drawbar load,
+  /// from the next step on; all other keys as they were. @throws InputError, and nothing has
+  /// changed
+  void retarget(const Options& options);
+  /// The keys that retarget() takes.
+  static const std::vector<std::string>& targets();
+
   /// Sets loads and motions of the wheel for the step [time, time + dt]; call it before every step.
   void apply(double time, double dt);
 
@@ -78,6 +85,7 @@ class WheelRig {
   struct Reading;
   static const Outputs<const Reading>& outputs();
   void check_load(const Options& options) const;
+  void read_load(const Options& options);
   void read_vertical(const Options& options);
   void read_travel(const Options& options);
   void read_drive(const Options& options);

@@ -162,7 +162,28 @@ WheelRig::WheelRig(const Options& options, WheelHub& wheel) : wheel_(wheel) {
     wheel_.hold(coordinate);
 }
 
-void WheelRig::read_vertical(const Options& options) {
+const std::vector<std::string>& WheelRig::targets() {
+  static const std::vector<std::string> keys = {"load_mass", "load_force", "speed",       "slip",
+                                                "torque",    "spin_rate",  "drawbar_load"};
+  return keys;
+}
+
+void WheelRig::retarget(const Options& options) {
+  if (passes_.passes() > 1)
+    throw InputError(options.where("passes"),
+                     fmt::format("is {}, and targets change during the run", passes_.passes()),
+                     "one pass", "the passes are planned before the first");
+  const auto read = [&](WheelRig& rig) {
+    rig.read_load(options);
+    rig.read_travel(options);
+    rig.read_drive(options);
+  };
+  WheelRig trial(*this);
+  read(trial);
+  read(*this);
+}
+
+void WheelRig::read_load(const Options& options) {
   std::string given;
   int count = 0;
   for (const char* key : {"load_mass", "load_force", "sinkage"})
@@ -177,6 +198,10 @@ void WheelRig::read_vertical(const Options& options) {
   if (options.given("load_mass")) load_ = options.number("load_mass") * options.number("gravity");
   if (options.given("load_force")) load_ = options.number("load_force");
   check_load(options);
+}
+
+void WheelRig::read_vertical(const Options& options) {
+  read_load(options);
   if (sinkage_prescribed_ && load_ramp_.duration == 0.0)
     throw InputError(options.where("load_ramp_time"), "is 0 s with a prescribed sinkage",
                      "a number > 0 [s]", "the wheel needs time to go down");

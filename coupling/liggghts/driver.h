@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Where a program gets its turn that runs LIGGGHTS in its own process, such as Python.
+
+#include "lammps.h"
+
+namespace furrow::coupling {
+
+class Driver {
+ public:
+  virtual ~Driver() = default;
+  /// Before each step of a run, when the step before is complete with its output. LIGGGHTS has
+  /// counted the step already.
+  virtual void before_step(LAMMPS_NS::LAMMPS& lammps) = 0;
+  /// Before each command of a script. @return whether the command is left out
+  virtual bool before_command(LAMMPS_NS::LAMMPS& lammps) = 0;
+};
+
+/// The driver of the LIGGGHTS instance that runs now; null for the executable. Not owned.
+Driver* driver();
+void set_driver(Driver* driver);
+
+}  // namespace furrow::coupling

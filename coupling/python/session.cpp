@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/python/session.h"
+
+#include <cstdio>
+#include <iostream>
+#include <utility>
+
+#include <unistd.h>
+
+#include "core/error.h"
+#include "coupling/base/fix_coupled_system.h"
+#include "coupling/command_line.h"
+#include "coupling/liggghts/access.h"
+#include "coupling/liggghts/error_policy.h"
+#include "coupling/liggghts/first_rank.h"
+#include "coupling/liggghts/signals.h"
+#include "coupling/run_script.h"
+#include "signal_handling.h"
+#include "update.h"
+
+namespace furrow::coupling {
+
+namespace {
+
+constexpr double time_between_questions = 0.1;  // [s]
+
+/// Each instance of LIGGGHTS adds its styles to tables of the process, and complains on std::cerr
+/// of each that is there already.
+class QuietErrors {
+ public:
+  QuietErrors() { std::cerr.setstate(std::ios::failbit); }
+  ~QuietErrors() { std::cerr.clear(); }
+  QuietErrors(const QuietErrors&) = delete;
+  QuietErrors& operator=(const QuietErrors&) = delete;
+};
+
+/// Without MPI nothing can be freed: the process is at its end.
+void free_all(LAMMPS_NS::LAMMPS* lammps) {
+  int finalized = 0;
+  MPI_Finalized(&finalized);
+  if (!finalized) delete lammps;
+}
+
+}  // namespace
+
+Session::Session(std::vector<std::string> arguments, std::string temporary, MPI_Comm ranks,
+                 Interrupted interrupted)
+    : arguments_(std::move(arguments)),
+      temporary_(std::move(temporary)),
+      ranks_(ranks),
+      interrupted_(std::move(interrupted)),
+      script_([this] { run_whole_script(); }) {
+  try {
+    const CommandLine line = read_command_line(arguments_);
+    on_first_rank(ranks_, [&] { check_command_line(line); });
+    arguments_.insert(arguments_.begin(), "furrow");
+    arguments_ = words_for_liggghts(arguments_);
+    resume();
+  } catch (...) {
+    remove_temporary();
+    throw;
+  }
+}
+
+Session::~Session() {
+  int finalized = 0;
+  MPI_Finalized(&finalized);
+  if (finalized) return;
+  try {
+    close();
+  } catch (const RunError&) {  // has been printed
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "ERROR: %s\n", problem.what());
+  }
+}
+
+// ---- from outside
+// --------------------------------------------------------------------------------
+
+long Session::step(long count) {
+  left_ = count;
+  done_ = 0;
+  interrupted_now_ = false;
+  if (!ended() && count > 0) resume();
+  return done_;
+}
+
+void Session::end() {
+  ending_ = true;
+  if (ended()) return;
+  LAMMPS_NS::SignalHandler::request_quit = true;
+  struct Reset {
+    ~Reset() { LAMMPS_NS::SignalHandler::request_quit = false; }
+  } reset;
+  resume();
+}
+
+void Session::close() {
+  end();
+  remove_temporary();
+  liggghts_.reset();
+}
+
+std::shared_ptr<LAMMPS_NS::LAMMPS> Session::liggghts() const {
+  if (!liggghts_) throw Error("the simulation is closed");
+  return liggghts_;
+}
+
+long Session::step_number() const { return liggghts()->update->ntimestep; }
+
+double Session::time() const {
+  const std::shared_ptr<LAMMPS_NS::LAMMPS> lammps = liggghts();
+  if (const FixCoupledSystem* system = FixCoupledSystem::find(*lammps)) return system->time();
+  return static_cast<double>(lammps->update->ntimestep) * lammps->update->dt;
+}
+
+void Session::resume() {
+  set_driver(this);
+  struct Reset {
+    ~Reset() { set_driver(nullptr); }
+  } reset;
+  script_.resume();
+  if (ended()) remove_temporary();
+}
+
+void Session::remove_temporary() {
+  if (!temporary_.empty()) unlink(temporary_.c_str());
+  temporary_.clear();
+}
+
+// ---- from inside
+// ---------------------------------------------------------------------------------
+
+void Session::run_whole_script() {
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments_) pointers.push_back(argument.data());
+  const auto make = [&] {
+    const QuietErrors quiet;
+    return new LAMMPS_NS::LAMMPS(static_cast<int>(pointers.size()), pointers.data(), ranks_);
+  };
+  liggghts_.reset(make(), free_all);
+  run_script(*liggghts_);
+  if (!ending_) warn_without_run(*liggghts_);
+}
+
+void Session::pause() { script_.pause(); }
+
+bool Session::asks_to_stop() {
+  const double now = MPI_Wtime();
+  if (now - last_asked_ < time_between_questions) return false;
+  last_asked_ = now;
+  return interrupted_();
+}
+
+/// Ranks would stop at different steps: several are not interrupted.
+void Session::before_step(LAMMPS_NS::LAMMPS& lammps) {
+  if (ending_ || !run_can_be_continued()) return;
+  int size = 1;
+  MPI_Comm_size(ranks_, &size);
+  interrupted_now_ = size == 1 && asks_to_stop();
+  if (left_ == 0 || interrupted_now_) {
+    --lammps.update->ntimestep;  // which has not begun for those outside
+    pause();
+    ++lammps.update->ntimestep;
+    if (ending_) return;
+  }
+  --left_;
+  ++done_;
+}
+
+bool Session::before_command(LAMMPS_NS::LAMMPS& lammps) {
+  if (!run_can_be_continued()) return false;
+  const std::vector<std::string> words = current_command(lammps);
+  const bool runs = !words.empty() && (words[0] == "run" || words[0] == "run_until_steady");
+  if (runs && left_ == 0 && !ending_) pause();
+  return ending_;
+}
+
+}  // namespace furrow::coupling

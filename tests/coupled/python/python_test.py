@@ -1,0 +1,322 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The Python module drives scripts as the executable runs them: python_test.py <furrow> <mpirun>..."""
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "support"))
+
+import furrow
+import numpy as np
+from same_results import compare_arrays
+
+SCENE = HERE / "wheel.lig"
+SCENES = HERE.parents[2] / "inputs" / "scenes"
+PROGRAM = ""
+LAUNCH: list[str] = []
+
+
+def executable(script: Path, fails: bool = False, launch: tuple[str, ...] = (), **variables: object) -> str:
+    """@return what it printed"""
+    given = [word for name, value in variables.items() for word in ("-var", name, str(value))]
+    done = subprocess.run([*launch, PROGRAM, "-in", str(script), "-log", "none", *given], text=True,
+                          capture_output=True, check=False)
+    if bool(done.returncode) != fails:
+        sys.exit(f"status {done.returncode}:\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def opened(script: Path = SCENE, **variables: object) -> furrow.Simulation:
+    given = {"here": HERE, **variables} if script == SCENE else variables
+    return furrow.Simulation(script, variables=given)
+
+
+class Case(unittest.TestCase):
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        before = os.getcwd()
+        self.addCleanup(os.chdir, before)
+        os.chdir(self.folder)
+
+    def assert_same(self, one: str, other: str) -> None:
+        """Every number of the results files, bit for bit."""
+        self.assertGreater(compare_arrays(self.folder / one, self.folder / other, 0.0), 20)
+
+
+class Stepping(Case):
+    def test_results_are_those_of_the_executable(self) -> None:
+        executable(SCENE, here=HERE, results="alone")
+        with opened(results="driven") as run:
+            self.assertEqual((run.step_number, run.time), (0, 0.0))
+            self.assertEqual(run.step(), 1)
+            self.assertEqual(run.step(99), 99)
+            self.assertEqual(run.step_number, 100)
+            self.assertAlmostEqual(run.time, 0.02)
+            while run.step(7):
+                run.rigs["rig"].measure()
+                run.terrains["soil"].particles()
+            self.assertTrue(run.ended)
+            self.assertEqual((run.step_number, run.step(), run.run()), (500, 0, 0))
+            self.assertGreater(run.summary()["quantities"]["hub_drop"]["mean"], 0.02)
+            self.assertEqual(run.summary("out"), run.summary())
+        self.assert_same("alone", "driven")
+
+    def test_results_on_grains_are_those_of_the_executable(self) -> None:
+        os.environ["FURROW_CACHE"] = str(self.folder / "cache")
+        scene = SCENES / "wheel_on_sand.lig"
+        small = {"diameter": 0.035, "duration": 0.15, "vtk": 0}
+        executable(scene, results=self.folder / "alone", **small)
+        with opened(scene, results=self.folder / "driven", **small) as run:
+            while run.step(100):
+                grains = run.grains
+                self.assertEqual(grains["position"].shape, (len(grains["id"]), 3))
+        self.assert_same("alone", "driven")
+
+    def test_simulations_advance_alternately(self) -> None:
+        executable(SCENE, here=HERE, results="alone", slip=0.3)
+        one, other = opened(results="one", slip=0.1), opened(results="other", slip=0.3)
+        while one.step(50) + other.step(30):
+            pass
+        one.close()
+        other.close()
+        self.assert_same("alone", "other")
+
+    def test_lines_are_a_script(self) -> None:
+        executable(SCENE, here=HERE, results="alone")
+        lines = SCENE.read_text(encoding="utf-8").splitlines()
+        with furrow.Simulation(lines, variables={"here": HERE, "results": "driven"}) as run:
+            run.run()
+        self.assert_same("alone", "driven")
+        self.assertEqual(list(self.folder.glob("*.lig")), [])
+
+    def test_a_run_that_is_ended_has_results(self) -> None:
+        with opened(results="driven") as run:
+            run.step(400)
+            run.end()
+            self.assertTrue(run.ended)
+            self.assertLessEqual(run.step_number, 401)
+            self.assertTrue(run.summary()["complete"])
+
+    def test_an_interrupt_leaves_the_run_as_it_is(self) -> None:
+        executable(SCENE, here=HERE, results="alone")
+
+        def interrupt(*_: object) -> None:
+            raise KeyboardInterrupt
+
+        before = signal.signal(signal.SIGALRM, interrupt)
+        self.addCleanup(signal.signal, signal.SIGALRM, before)
+        with opened(results="driven") as run:
+            run.step(1)
+            signal.setitimer(signal.ITIMER_REAL, 0.05)
+            with self.assertRaises(KeyboardInterrupt):
+                run.run()
+            self.assertLess(run.step_number, 500)
+            run.run()
+        self.assert_same("alone", "driven")
+
+
+class Targets(Case):
+    def test_slip_set_in_a_run_is_that_of_a_continued_script(self) -> None:
+        executable(SCENE, here=HERE, results="alone", slip=0.1)
+        executable(SCENE, here=HERE, results="alone", slip=0.4, begin="read_restart alone/checkpoint.300")
+        with opened(results="driven") as run:
+            run.step(300)
+            self.assertEqual(run.rigs["rig"].targets["slip"], 0.1)
+            run.rigs["rig"].set(slip=0.4)
+            self.assertEqual(run.rigs["rig"].targets["slip"], 0.4)
+            run.run()
+        self.assert_same("alone", "driven")
+
+    def test_targets_take_effect(self) -> None:
+        with opened(results="driven") as run:
+            rig = run.rigs["rig"]
+            run.step(300)
+            rig.set(speed=0.25, load_force=120)
+            run.step(1)
+            row = rig.measure()
+            self.assertAlmostEqual(row["velocity_x"], 0.25)
+            self.assertAlmostEqual(row["load"], 120.0)
+            self.assertAlmostEqual(row["slip"], 0.1)
+
+    def test_refusals_change_nothing(self) -> None:
+        with opened(results="driven") as run:
+            rig = run.rigs["rig"]
+            for wrong, text in (({"slip": 3}, "keyword 'slip' is 3"), ({"torque": 1}, "keyword 'torque' is given in mode slip"),
+                                ({"damping": 1}, "keyword 'damping' cannot change during a run; allowed: load_mass"),
+                                ({"speed": -1, "slip": 0.2}, "keyword 'speed'")):
+                with self.assertRaisesRegex(furrow.Error, text):
+                    rig.set(**wrong)
+                self.assertEqual(rig.targets, {"load_force": 100.0, "speed": 0.5, "slip": 0.1, "drawbar_load": 0.0})
+
+    def test_several_passes_keep_their_targets(self) -> None:
+        text = SCENE.read_text(encoding="utf-8").replace(" follow wheel", "")
+        text = text.replace("mode slip", "passes 2 pass_length 0.02 return_time 0.06 mode slip")
+        with furrow.Simulation(text.splitlines(), variables={"here": HERE, "results": "driven"}) as run:
+            with self.assertRaisesRegex(furrow.Error, "keyword 'passes' is 2, and targets change"):
+                run.rigs["rig"].set(slip=0.2)
+
+    def test_python_moves_a_wheel_without_a_rig(self) -> None:
+        lines = [line for line in SCENE.read_text(encoding="utf-8").replace("&\n", "").splitlines()
+                 if not line.startswith(("fix             rig", "fix             out", "variable        slip"))]
+        with furrow.Simulation(lines, variables={"here": HERE, "results": "driven"}) as run:
+            wheel = run.wheels["wheel"]
+            wheel.prescribe("z", -0.5)
+            wheel.prescribe("x", 0.2)
+            run.step(200)
+            np.testing.assert_allclose(wheel.position[:3], [0.008, 0.0, 0.28 - 0.02], rtol=1e-12, atol=1e-15)
+            np.testing.assert_allclose(wheel.velocity[:3], [0.2, 0.0, -0.5])
+            self.assertGreater(wheel.force[2], 10.0)
+            self.assertAlmostEqual(wheel.constraint[2], -wheel.force[2], delta=0.2 * wheel.force[2])
+            wheel.release("z")
+            wheel.load = (0.0, 0.0, -80.0)
+            self.assertEqual(wheel.load, [0.0, 0.0, -80.0])
+            run.step(1)
+            self.assertEqual(wheel.constraint[2], 0.0)
+            with self.assertRaisesRegex(furrow.Error, "coordinate is 'up'; allowed: x, y, z, spin"):
+                wheel.hold("up")
+        with opened(results="rigged") as run:
+            with self.assertRaisesRegex(furrow.Error, "wheel 'wheel': fix rig sets z in every step"):
+                run.wheels["wheel"].prescribe("z", 0.0)
+
+
+class Arrays(Case):
+    def test_arrays_are_read_only_views(self) -> None:
+        with opened(results="driven") as run:
+            wheel, soil = run.wheels["wheel"], run.terrains["soil"]
+            nodes, forces = wheel.nodes, wheel.forces
+            self.assertEqual(nodes.__array_interface__["data"], wheel.nodes.__array_interface__["data"])
+            self.assertEqual(run.bodies["wheel"].nodes.ctypes.data, nodes.ctypes.data)
+            before = nodes.copy()
+            run.step(300)
+            self.assertGreater(np.abs(nodes - before).max(), 1e-3)  # the array of before the steps
+            np.testing.assert_allclose(forces[:, 2].sum(), wheel.force[2], rtol=1e-9)
+            self.assertLess(wheel.triangles.max(), len(nodes))
+            with self.assertRaises(ValueError):
+                nodes[0, 0] = 1.0
+            (snow,) = soil.particles()
+            self.assertEqual(snow["velocity"].base is None, False)
+            self.assertEqual(snow["z"].ctypes.data, soil.particles()[0]["z"].ctypes.data)
+            self.assertEqual(snow["velocity"].shape, (len(snow["x"]), 3))
+            self.assertLess(snow["z"].max(), 0.13)
+            self.assertLess(snow["stress_zz"].min(), 0.0)
+            kept = nodes
+        self.assertTrue(np.isfinite(kept).all())  # as long as an array lives, its memory does
+        with self.assertRaisesRegex(furrow.Error, "the simulation is closed"):
+            wheel.position
+
+    def test_hub_is_that_of_the_history(self) -> None:
+        with opened(results="driven") as run:
+            run.step(300)
+            wheel, row = run.wheels["wheel"], run.rigs["rig"].measure()
+            channels = ("x", "y", "z", "spin_angle")
+            self.assertEqual(wheel.position[:4], [row[name] for name in channels])
+            channels = tuple(f"{kind}_{axis}" for kind in ("force", "moment") for axis in "xyz")
+            self.assertEqual(wheel.force, [row[name] for name in channels])
+            self.assertEqual((wheel.radius, wheel.mass), (0.15, 5.0))
+            self.assertEqual(run.variable("slip"), "0.1")
+            self.assertIsNone(run.variable("absent"))
+            self.assertEqual(run.folders, {"out": "driven"})
+            soil = run.outputs("soil")
+            self.assertEqual(soil["particles"], len(run.terrains["soil"].particles()[0]["x"]))
+            self.assertGreater(soil["kinetic_energy"], 0.0)
+
+
+class Checkpoints(Case):
+    def test_a_run_continues_from_a_checkpoint(self) -> None:
+        executable(SCENE, here=HERE, results="alone")
+        with opened(results="driven") as run:
+            run.step(350)
+        with opened(results="driven", begin="read_restart driven/checkpoint.300") as run:
+            run.step(1)
+            self.assertEqual(run.step_number, 301)
+            run.run()
+        self.assert_same("alone", "driven")
+
+
+class Errors(Case):
+    def test_error_is_that_of_the_executable_and_python_goes_on(self) -> None:
+        for old, new in (("load_force 100", "lode_force 100"), ("fix             touch", "fixx            touch"),
+                         ("${last} upto", "20\nunfix absent")):
+            script = self.folder / "wrong.lig"
+            script.write_text(SCENE.read_text(encoding="utf-8").replace(old, new), encoding="utf-8")
+            variables = {"here": HERE, "results": "alone"}
+            printed = executable(script, fails=True, **variables)
+            with self.assertRaises(furrow.Error) as caught:
+                with furrow.Simulation(script, variables={**variables, "results": "driven"}) as run:
+                    run.run()
+            text = str(caught.exception).replace("driven", "alone")
+            self.assertIn(f"ERROR: {text}", printed)
+            self.assertIn("wrong.lig, line", text)
+        executable(SCENE, here=HERE, results="whole")
+        with opened(results="driven") as run:  # also in the folder of runs that failed
+            run.run()
+        self.assert_same("whole", "driven")
+
+    def test_wrong_arguments(self) -> None:
+        with self.assertRaisesRegex(furrow.Error, "script 'absent.lig' cannot be read"):
+            furrow.Simulation("absent.lig")
+        with self.assertRaisesRegex(furrow.Error, "has a variable 'slipp' that no line"):
+            opened(slipp=0.1)
+        with opened(results="driven") as run:
+            with self.assertRaisesRegex(furrow.Error, "no fix of Furrow has the id 'absent'"):
+                run.outputs("absent")
+            with self.assertRaisesRegex(furrow.Error, "steps is negative"):
+                run.step(-1)
+
+    def test_error_in_a_step_ends_the_simulation(self) -> None:
+        with opened(results="driven") as run:
+            run.step(300)
+            run.rigs["rig"].set(load_force=1e6)
+            with self.assertRaises(furrow.Error):
+                run.run()
+            self.assertTrue(run.ended)
+            self.assertEqual(run.step(), 0)
+        self.assertTrue((self.folder / "driven" / "history.h5").exists())
+
+
+RANKS = """
+from mpi4py import MPI
+import furrow, sys
+with furrow.Simulation(sys.argv[1], variables={"here": sys.argv[2], "results": "driven"}) as run:
+    assert MPI.COMM_WORLD.size == 2
+    run.step(300)
+    run.rigs["rig"].set(slip=0.1)
+    mine = sum(len(material["x"]) for material in run.terrains["soil"].particles())
+    both = MPI.COMM_WORLD.allgather(mine)
+    assert min(both) > 0, both
+    forces = MPI.COMM_WORLD.allgather(run.wheels["wheel"].force)
+    assert forces[0] == forces[1], forces
+    run.run()
+try:
+    furrow.Simulation(["nonsense line"])
+except furrow.Error as error:
+    assert "Unknown command" in str(error) and "line 1: nonsense line" in str(error), str(error)
+else:
+    raise SystemExit("no error")
+print("rank", MPI.COMM_WORLD.rank, "of", MPI.COMM_WORLD.size)
+"""
+
+
+class Ranks(Case):
+    def test_two_ranks_with_mpi4py(self) -> None:
+        two = (*LAUNCH, "2")
+        executable(SCENE, launch=two, here=HERE, results="alone")
+        (self.folder / "driver.py").write_text(RANKS, encoding="utf-8")
+        done = subprocess.run([*two, sys.executable, "driver.py", str(SCENE), str(HERE)], text=True,
+                              capture_output=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("rank 1 of 2", done.stdout)
+        self.assert_same("alone", "driven")
+
+
+if __name__ == "__main__":
+    PROGRAM, LAUNCH = sys.argv[1], sys.argv[2:4]
+    unittest.main(argv=[sys.argv[0], *sys.argv[4:]], verbosity=2)
