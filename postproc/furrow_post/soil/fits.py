@@ -17,6 +17,7 @@ from ..errors import ResultsError
 
 FIRST = 0.05  # of the greatest sinkage: where a fit begins, behind first touch
 LARGEST_CONDITION = 1e14  # of the normal equations
+DISTINCT_LOADS = 1.5  # greatest over smallest normal stress, as the ground carried them
 INDEX_DEPTH = 0.15  # [m] over which a cone index is a mean, ASABE EP542
 
 
@@ -158,7 +159,8 @@ def fit_shear(curves: Sequence[ShearCurve]) -> Shear:
     @raises ResultsError for fewer than two loads or no shear stress
     """
     means = [float(np.mean(curve.normal)) for curve in curves]
-    _require(len(curves) > 1 and max(means) > 1.2 * min(means), "shear tests of two loads or more")
+    distinct = len(curves) > 1 and max(means) > DISTINCT_LOADS * min(means)
+    _require(distinct, f"a ring under loads that differ by a factor of {DISTINCT_LOADS:g}")
     top = max(float(curve.shear.max()) for curve in curves)
     _require(top > 0, "a shear stress above 0")
     longest = max(float(curve.displacement.max()) for curve in curves)
