@@ -55,6 +55,8 @@ EFFECTS = {
     "stiff": "base",
     "absorbing_5": "d_5",
     "absorbing_30": "d_30",
+    "impulse_cell_10": "cell_10",
+    "d_30_impulse_cell_10": "d_30_cell_10",
     **{f"friction_{name}_d5": "d_5" for name in ("0.1", "0.8", "rough")},
     **{f"friction_{name}": "d_30" for name in ("0.1", "0.8", "rough")},
 }
