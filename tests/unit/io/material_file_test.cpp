@@ -309,8 +309,9 @@ TEST_F(MaterialFileTest, OtherUnitsAreReadWithAWarning) {
       {"fresh_snow", "elasticity: {E: 13.79e3}", "compression waves have 9.63 m/s"},
       {"field_snow", "elasticity: {E: 13.79e3}", "compression waves have 9.19 m/s"},
       {"dry_sand", "elasticity: {E: 4.78e3}", "compression waves have 1.8"},
+      // 144.8 kPa at the initial compaction of 0.001, over E/1.5
       {"mccormick_sand", "elasticity: {E: 689e3}",
-       "the hardening ends with 29.3 times the bulk modulus of the elasticity, 4.59e+05 Pa"},
+       "the hardening begins with 0.315 times the bulk modulus of the elasticity, 4.59e+05 Pa"},
       {"compacted_sand_elastic", "elasticity: {E: 50e3}", "compression waves have 6.11 m/s"},
       {"rubber", "law: {G: 1e3, bulk: 49.667e3}", "G is 1000 Pa; rubber has one in [20000, 1"},
       // E in mPa
@@ -337,8 +338,9 @@ TEST_F(MaterialFileTest, OtherUnitsAreReadWithAWarning) {
       {"dry_sand", "hardening: {p: [3e3, 1.2e6, 3e6, 6e6, 1.3e7, 3.3e7, 6.6e7, 1.3e8, 1.978e8]}",
        "the hardening ends with 96.8 times the bulk modulus"},
       {"fresh_snow_exponential", "hardening: {pc0: 113760}", "the hardening has pc0 = 113760 Pa"},
+      // 210 MPa at the initial compaction of 0.001, over E/1.5
       {"mccormick_sand_exponential", "hardening: {pc0: 2e8}",
-       "the hardening begins with 0.435 times the bulk modulus"},
+       "the hardening begins with 0.457 times the bulk modulus"},
       {"fresh_snow", "law: {d: 5e6}",
        "d is 5e+06 Pa and E 1.379e+07 Pa; ground has a d of at most"},
       // percent
