@@ -105,7 +105,8 @@ class ScriptTest(unittest.TestCase):
             # a user's own script names files from where it is run, and no results folder
             if script.parent.name in ("beds", "parts", "grounds", "wheel_in_my_script"):
                 continue
-            given = {"here": str(script.parent), "ground": "sand_dry"}
+            here = script_variables(script, {}).defaults.get("here", ".")
+            given = {"here": str(script.parent / here), "ground": "sand_dry"}
             with self.subTest(script=script.name):
                 found = script_variables(script, given)
                 self.assertEqual(found.not_found, [])
