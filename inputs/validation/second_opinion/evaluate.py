@@ -184,9 +184,9 @@ def add_point(table: Table, runs: Runs, folder: Path) -> None:
     run = runs.one("mises_oedometer")
     if not run:
         return
-    forces = calculix(folder, "oedometer", oedometer_deck())
-    ends = forces[19::20]  # twenty increments of a step
-    for name, state, force in zip(("1 %", "4 %", "2 %, unloaded"), path_states(run.folder, 100, 3), ends):
+    states = path_states(run.folder, 100, 3)
+    ends = calculix(folder, "oedometer", oedometer_deck())[19::20]  # twenty increments of a step
+    for name, state, force in zip(("1 %", "4 %", "2 %, unloaded"), states, ends):
         ours = state["stress_zz"] / -1e3
         table.add("oedometer", f"axial stress at {name}", "kPa", "CalculiX", (ours, 0.0), (force / 1e3, 0.0))
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """inputs/validation: what the tables of a study's page say is in its stored tables."""
 
+import math
 import re
 import unittest
 from bisect import bisect_left
@@ -45,8 +46,13 @@ def stored_numbers(folder: Path) -> list[float]:
 
 
 def is_stored(text: str, numbers: list[float]) -> bool:
-    """Whether one of the numbers, rounded as the text is, in its unit or another, is the text."""
+    """Whether one of the numbers, rounded as the text is, in its unit or another, is the text.
+
+    Pages show a value without an error with three digits.
+    """
     value, digits = abs(float(text)), len(text.partition(".")[2])
+    if value >= 1000 and not digits and value % 10 == 0:
+        digits = 2 - math.floor(math.log10(value))
     half = 0.500001 * 10.0**-digits
     for scale in SCALES:
         place = bisect_left(numbers, (value - half) / scale)
