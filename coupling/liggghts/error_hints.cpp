@@ -82,8 +82,6 @@ constexpr std::array hints = {
          "the body that mesh/body names has no surface: for a terrain write 'surface_mesh yes' in "
          "its "
          "line"},
-    Hint{"More than one wall of type 'mesh'",
-         "list all meshes of the script and of Furrow in one line of wall/gran/body"},
     Hint{"Too many atom sorting bins",
          "the box of region and create_box is very large for its grains: look for a length in "
          "mm, or write 'atom_modify sort 0 0'"},
