@@ -7,7 +7,8 @@
 
 namespace furrow {
 
-/// Runs a subcommand of furrow-post, which lies beside this program, for a results folder.
+/// Runs a subcommand of furrow-post, which lies in the folder of this program, for a results
+/// folder.
 /// @param subcommand "point", "sidewall" or "modes"
 /// @throws Error when furrow-post is missing or fails; the results stay
 void draw_figure(const std::string& subcommand, const std::string& folder);

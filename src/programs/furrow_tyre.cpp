@@ -62,7 +62,7 @@ void declare(CLI::App& app, Request& request) {
       "  furrow-tyre inputs/tyres/p235_75r15.yaml --mesh 4 36 --half --load 6227\n"
       "  furrow-tyre inputs/tyres/p235_75r15.yaml --mesh 4 36 --pressure 20 --folder results/modes "
       "--modes 10\n"
-      "  furrow-tyre fit --help      writes a tyre file from a catalogue and tests");
+      "  furrow-tyre fit --help");
   app.add_option("file", request.file, "tyre file (inputs/tyres/*.yaml)")->required();
   app.add_option("--pressure", request.pressures,
                  "inflation pressures [kPa]; by default that of the tyre file")
@@ -213,8 +213,9 @@ void press(Tyre& tyre, const Request& request) {
 
 constexpr double least_share = 1e-3;  // of the largest load: below, the tyre hardly comes to rest
 
-/// Refuses a load that would not be carried if the whole tread, seen from above, lay on the plane,
-/// and one that is nothing beside it, in kN perhaps.
+/// Refuses a load that the pressure and the tyre's own stiffness cannot carry on the area of the
+/// tread seen from above.
+/// Refuses a load that is tiny compared with it, perhaps in kN.
 /// @param width, diameter of the tread [m]
 /// @param pressure [Pa]
 void check_loads(double width, double diameter, double pressure, const Request& request) {
