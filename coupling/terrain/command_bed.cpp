@@ -115,6 +115,8 @@ std::string CommandBed::KeptBed::problem() const {
 }
 
 void CommandBed::KeptBed::require_trusted() const {
+  std::error_code absent;
+  if (!fs::is_directory(folder.parent_path(), absent)) return;
   for (const fs::path& path : {folder.parent_path(), folder, restart(), facts()})
     if (const std::string reason = distrust(path); !reason.empty())
       throw InputError(

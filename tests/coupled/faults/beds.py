@@ -142,7 +142,7 @@ def gravity(furrow, table, beds):
     table.check("Moon", start(" gravity 1.62"), 0, making)
     table.check("Moon, kept, with its weight", start(" gravity 1.62", moon), 0, absent=[making])
     table.check("Moon, with a rig", start(" gravity 1.62", towed), 0)
-    table.check("weight of the Moon on a bed of the Earth", start("", moon), 1, both.format("fix gravity 'weight'"))
+    table.check("weight of the Moon on a bed of the Earth", start("", WHEEL + moon), 1, both.format("fix gravity 'weight'"))
     table.check("rig of the Moon on a bed of the Earth", start("", towed), 1, both.format("fix wheel/rig, keyword 'gravity'"))
     for value in ("0", "-9.8", "nan", "9806"):
         table.check(f"gravity {value}", start(f" gravity {value}"), 1, f"keyword 'gravity' is {value}; allowed: a number in (0, 2000]")
