@@ -10,6 +10,7 @@ from typing import Any
 import yaml
 
 from ..errors import ResultsError, content_of
+from ..formatting import yaml_text
 from ..programs import inputs_folder
 
 MOST_BASES = 8
@@ -112,7 +113,7 @@ class NewMaterial:
 
     def text(self) -> str:
         """The material file."""
-        lines = [f"title: {_quoted(self.title)}", *(f"# {line}" for line in self.head)]
+        lines = [f"title: {yaml_text(self.title)}", *(f"# {line}" for line in self.head)]
         lines += ["law:", "  type: drucker_prager_cap"]
         lines += [_line(name, parameter) for name, parameter in self.law.items()]
         lines += ["elasticity:", "  type: linear"]
@@ -132,10 +133,6 @@ class NewMaterial:
         """ "name: origin" of each guessed parameter."""
         every = {**self.law, **self.elasticity, "hardening": self.hardening}
         return [f"{name}: {p.origin}" for name, p in every.items() if p.guessed]
-
-
-def _quoted(text: str) -> str:
-    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 
 def _line(name: str, parameter: Parameter) -> str:

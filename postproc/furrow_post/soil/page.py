@@ -7,7 +7,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from ..figures.page import escaped, html_table, inline_picture, paragraph, STYLE
+from ..figures.page import document, html_table, inline_picture, paragraph
 from ..figures.style import KILOPASCAL, MILLIMETRE, RUN_COLOURS, annotate_panel, save, use_style
 from .card import UNITS, SoilCard, shown
 from .fits import INDEX_DEPTH, ConeCurve, PlateCurve, ShearCurve
@@ -60,8 +60,6 @@ def write_page(card: SoilCard, picture: Path, target: Path) -> None:
     ]
     spans = [(meaning, f"{r.low:.3g}", f"{r.high:.3g}", unit) for meaning, r, unit in card.ranges()]
     parts = [
-        f"<h1>{escaped(card.title)}</h1>",
-        paragraph(f"Ground: {card.ground}"),
         inline_picture(picture, "Curves of the virtual tests; dashed: the card"),
         "<h2>Parameters</h2>",
         html_table(("parameter", "value ± standard error", "unit"), rows),
@@ -69,9 +67,4 @@ def write_page(card: SoilCard, picture: Path, target: Path) -> None:
         html_table(("quantity", "from", "to", "unit"), spans, (1, 2)),
         *(paragraph(note) for note in card.notes),
     ]
-    body = "\n".join(parts)
-    target.write_text(
-        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"/>'
-        f"<title>{escaped(card.title)}</title><style>{STYLE}</style></head>\n<body>\n{body}\n</body></html>\n",
-        encoding="utf-8",
-    )
+    target.write_text(document(card.title, f"Ground: {card.ground}", parts), encoding="utf-8")
