@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import least_squares
 
+from ..analyse.statistics import line_fit
 from ..arrays import Floats
 from ..errors import ResultsError
 
@@ -195,17 +196,14 @@ def cone_index(curve: ConeCurve) -> Cone:
     use = (curve.depth >= 0) & (curve.depth <= INDEX_DEPTH)
     _require(int(use.sum()) > 9, "a cone whose base is below the surface")
     depth, pressure = curve.depth[use], curve.pressure[use]
-    design = np.column_stack((np.ones_like(depth), depth - depth.mean()))
-    solution, *_ = np.linalg.lstsq(design, pressure, rcond=None)
-    residual = pressure - design @ solution
+    below = depth - depth.mean()
+    gradient, index, covariance = line_fit(below, pressure)
+    residual = pressure - index - gradient * below
     freedom = max(depth.size / _correlation(residual) - 2, 1.0)
-    covariance = np.sum(residual**2) / depth.size / freedom * np.linalg.inv(
-        design.T @ design / depth.size
-    )
-    errors = np.sqrt(np.diag(covariance))
+    errors = np.sqrt(np.diag(covariance) * (depth.size - 2) / freedom)
     return Cone(
-        Fitted(float(solution[0]), float(errors[0])),
-        Fitted(float(solution[1]), float(errors[1])),
+        Fitted(index, float(errors[1])),
+        Fitted(gradient, float(errors[0])),
         Range(float(depth.min()), float(depth.max())),
     )
 
