@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 from ..errors import ResultsError
 from .prediction import Limit, require_positive, require_range
+from .tyre_size import INCH
 
 POUND_FORCE = 4.4482216152605  # [N]
-INCH = 0.0254  # [m]
 PSI = POUND_FORCE / INCH**2  # [Pa]
 HORSEPOWER = 745.69987  # [W]
 SHORT_TON = 2000.0  # [lb]

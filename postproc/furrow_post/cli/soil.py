@@ -19,8 +19,8 @@ from ..soil.make import CLASSES, compression, from_bekker, from_cone, from_stren
 from ..soil.material import NewMaterial, find_material
 from ..soil.point import oedometer_misfit
 from ..soil.testing import FULL, QUICK, cone_misfit, default_folder, make_card, plate_misfit
+from ..soil.units import EARTH
 
-EARTH = 9.80665
 SIZES = (0.1, 0.15, 0.2)  # [m]
 ROUTES = {  # option that chooses the route -> what it needs and may have besides
     "cone_index": (("soil_class",), ("density",)),

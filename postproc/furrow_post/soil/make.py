@@ -16,8 +16,9 @@ from scipy.optimize import brentq
 from ..arrays import Floats
 from ..csv_table import read_rows
 from ..errors import ResultsError
+from .fits import INDEX_DEPTH
 from .material import NewMaterial, Parameter
-from .units import require_plausible
+from .units import EARTH, require_plausible
 
 POISSON = Parameter(0.25, "0.2 to 0.35 for soil", guessed=True)
 # Of elastic over oedometric modulus: unloading modulus 3 times the secant modulus E_50, T. Schanz,
@@ -296,7 +297,6 @@ CLASSES = {
     "MH": SoilClass(82.5 * PCF, 420 * POUND, 25),
     "CH": SoilClass(90 * PCF, 230 * POUND, 19),
 }
-INDEX_DEPTH = 0.15  # [m]
 # Young's modulus over cone resistance of sand: J. H. Schmertmann, J. Soil Mech. Found. Div. ASCE 96
 # (1970), 1011-1043
 MODULUS_RATIO = 2.0
@@ -305,7 +305,7 @@ MODULUS_RATIO = 2.0
 def cone_resistance(strength: Strength, density: float, shear_modulus: float, depth: float) -> float:
     """Pressure on a cone at a depth [m], by the spherical cavity of A. S. Vesic (1977): q = c N_c +
     s N_s with the mean stress s of the weight [Pa]."""
-    weight = density * 9.80665 * depth
+    weight = density * EARTH * depth
     sine = strength.sine
     at_rest = 1 - sine  # K0 of J. Jaky (1944)
     mean = (1 + 2 * at_rest) / 3 * weight
@@ -361,7 +361,7 @@ def from_cone(title: str, cone_index: float, soil_class: str, density: float | N
             f"{soil_class}; check the class, and the unit: {cone_index:g} Pa"
         )
     strength = strength_of(float(brentq(lambda x: excess(strength_of(x)), low, high)))
-    reference = strength.c + weight * 9.80665 * 0.5 * INDEX_DEPTH
+    reference = strength.c + weight * EARTH * 0.5 * INDEX_DEPTH
     confined = confined_of_modulus(young, reference)
     head = (
         f"cone index {cone_index:g} Pa in {soil_class}: c {strength.c:.4g} Pa, phi "

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 from ..errors import ResultsError
 
+EARTH = 9.80665  # [m/s2] standard gravity
+
 
 @dataclass(frozen=True)
 class Plausible:
