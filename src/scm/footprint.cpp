@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -181,20 +182,21 @@ void Footprint::drop_high(double allowed) {
 }
 
 void Footprint::drop_covered(double cell_area) {
-  for (std::size_t s = 0; s < cells_.size(); ++s) {
-    if (cells_.area[s] <= overfull * cell_area) continue;
-    order_.clear();
-    for (std::size_t p = 0; p < pieces_.size(); ++p)
-      if (pieces_.slot[p] == static_cast<int>(s)) order_.push_back(p);
-    std::sort(order_.begin(), order_.end(), [&](std::size_t p, std::size_t q) {
-      return pieces_.height[p] != pieces_.height[q] ? pieces_.height[p] < pieces_.height[q] : p < q;
-    });
-    double room = cell_area;
-    for (const std::size_t p : order_) {
-      pieces_.area[p] = std::min(pieces_.area[p], room);
-      room -= pieces_.area[p];
-    }
-    cells_.area[s] = cell_area;
+  const auto cell_of = [&](std::size_t p) { return static_cast<std::size_t>(pieces_.slot[p]); };
+  order_.clear();
+  for (std::size_t p = 0; p < pieces_.size(); ++p)
+    if (cells_.area[cell_of(p)] > overfull * cell_area) order_.push_back(p);
+  const auto key = [&](std::size_t p) {
+    return std::make_tuple(pieces_.slot[p], pieces_.height[p], p);
+  };
+  std::sort(order_.begin(), order_.end(),
+            [&](std::size_t p, std::size_t q) { return key(p) < key(q); });
+  double room = 0.0;
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    const std::size_t p = order_[k], s = cell_of(p);
+    if (k == 0 || s != cell_of(order_[k - 1])) room = cells_.area[s] = cell_area;
+    pieces_.area[p] = std::min(pieces_.area[p], room);
+    room -= pieces_.area[p];
   }
 }
 
