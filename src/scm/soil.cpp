@@ -12,6 +12,7 @@ namespace furrow {
 namespace {
 
 constexpr double largest_angle = 60.0;  // degrees
+const Range exponents{0.0, 3.0, true, false};
 
 }  // namespace
 
@@ -40,8 +41,7 @@ void Soil::match(Checkpoint& state) const {
 void declare_soil(Schema& schema) {
   schema.number("k_c", "N/m^(n+1)", Range::any(), "Bekker's cohesive modulus").by_default(0.0);
   schema.number("k_phi", "N/m^(n+2)", Range::any(), "Bekker's frictional modulus").optional();
-  schema.number("n", "", Range{0.0, 3.0, true, false}, "Bekker's exponent of the sinkage")
-      .optional();
+  schema.number("n", "", exponents, "Bekker's exponent of the sinkage").optional();
   schema.number("c", "Pa", Range::non_negative(), "cohesion").optional();
   schema
       .number("phi", "degrees", Range::closed(0.0, largest_angle),
@@ -87,7 +87,7 @@ void check(const Soil& soil, const std::string& where) {
   const auto in = [&](double value, const Range& range, const char* name, const char* unit) {
     check_number(value, range, fmt::format("{}, {}", where, name), unit);
   };
-  in(soil.n, Range{0.0, 3.0, true, false}, "n", "");
+  in(soil.n, exponents, "n", "");
   in(soil.cohesion, Range::non_negative(), "cohesion", "Pa");
   in(soil.friction_angle, Range::closed(0.0, radians(largest_angle)), "friction angle", "rad");
   in(soil.shear_length, Range::positive(), "K", "m");
