@@ -2,7 +2,6 @@
 #include "coupling/bodies/fix_plate_mesh.h"
 
 #include "bodies/mesh_bodies.h"
-#include "core/error.h"
 #include "coupling/bodies/mesh_of_file.h"
 #include "coupling/liggghts/style_registry.h"
 
@@ -10,17 +9,6 @@ namespace furrow::coupling {
 
 const StyleRow plate_mesh_style =
     fix_style<FixPlateMesh>("plate/mesh", "body", "bodies/fix_plate_mesh.md");
-
-namespace {
-
-Vector3 direction_of(const Options& options) {
-  const Vector3 direction = Eigen::Map<const Vector3>(options.numbers("direction").data());
-  if (!(direction.norm() > 0.0))
-    throw InputError(options.where("direction"), "is 0 0 0", "a direction of motion");
-  return direction.normalized();
-}
-
-}  // namespace
 
 Schema FixPlateMesh::schema() {
   Schema schema = mesh_plate_schema("fix plate/mesh");
@@ -57,7 +45,7 @@ FixPlateMesh::FixPlateMesh(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
           [lammps](const Options& options) {
             return make_mesh_plate(options, mesh_of_file(*lammps, options));
           },
-          direction_of) {
+          [](const Options& options) { return direction_from(options, "direction"); }) {
   provide(outputs());
 }
 

@@ -31,15 +31,8 @@ void declare_mesh(Schema& schema, const std::string& origin, const std::string& 
   schema.numbers("axis", 3, "", Range::any(), axis).by_default(default_axis);
 }
 
-Vector3 vector_from(const Options& options, const char* key) {
+Vector3 vector_from(const Options& options, const std::string& key) {
   return Eigen::Map<const Vector3>(options.numbers(key).data());
-}
-
-/// @throws InputError for a direction without length
-Vector3 direction_from(const Options& options, const char* key) {
-  const Vector3 direction = vector_from(options, key);
-  if (!(direction.norm() > 0.0)) throw InputError(options.where(key), "is 0 0 0", "a direction");
-  return direction.normalized();
 }
 
 /// As a keyword has them. @param least what is below it is zero
@@ -170,6 +163,12 @@ double area_from_below(const Surface& surface) {
 }
 
 }  // namespace
+
+Vector3 direction_from(const Options& options, const std::string& key) {
+  const Vector3 direction = vector_from(options, key);
+  if (!(direction.norm() > 0.0)) throw InputError(options.where(key), "is 0 0 0", "a direction");
+  return direction.normalized();
+}
 
 Schema mesh_wheel_schema(const std::string& subject) {
   Schema schema(subject);

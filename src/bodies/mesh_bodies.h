@@ -12,6 +12,9 @@
 
 namespace furrow {
 
+/// Unit vector along the three numbers of a key. @throws InputError for three zeros
+Vector3 direction_from(const Options& options, const std::string& key);
+
 /// The keys of a wheel. @param subject names the owner in errors
 Schema mesh_wheel_schema(const std::string& subject);
 /// The keys of a plate, but for its motion.
