@@ -63,6 +63,21 @@ RunInfo FixHistory::run_info(const std::string& title) const {
   return info;
 }
 
+void FixHistory::open_rows(const std::string& name, const std::vector<Channel>& channels,
+                           const std::string& title, std::optional<double> resume_time) {
+  const std::string path = in_folder(name);
+  file_ = resume_time ? HistoryFile::resume(path, channels, *resume_time)
+                      : HistoryFile::create(path, channels, run_info(title));
+}
+
+std::optional<VtkSeries> FixHistory::open_frames(const std::string& series,
+                                                 std::optional<double> resume_time) const {
+  if (!draws()) return {};
+  const std::string folder = in_folder("vtk");
+  return resume_time ? VtkSeries::resume(folder, series, *resume_time)
+                     : VtkSeries::create(folder, series);
+}
+
 /// A script of many short runs may mean it.
 void FixHistory::warn_of_long_intervals() {
   const long steps = update->nsteps;

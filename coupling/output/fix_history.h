@@ -12,6 +12,7 @@
 #include "coupling/liggghts/flushes_on_error.h"
 #include "io/folder_lock.h"
 #include "io/history_file.h"
+#include "io/vtk_file.h"
 
 namespace furrow::coupling {
 
@@ -52,6 +53,13 @@ class FixHistory : public FurrowFix, public FollowsSystem, public FlushesOnError
   std::string in_folder(const std::string& name) const {
     return options().text("folder") + "/" + name;
   }
+
+  /// Opens file_ for rows of these channels. Rank 0 only.
+  void open_rows(const std::string& name, const std::vector<Channel>& channels,
+                 const std::string& title, std::optional<double> resume_time);
+  /// None where the line asks for no frames. Rank 0 only.
+  std::optional<VtkSeries> open_frames(const std::string& series,
+                                       std::optional<double> resume_time) const;
 
   std::optional<HistoryFile> file_;  ///< rank 0 only
 

@@ -10,9 +10,6 @@ namespace furrow::coupling {
 
 namespace {
 
-constexpr char scm_file[] = "scm.h5";
-constexpr char scm_series[] = "scm";
-
 std::vector<Channel> scm_channels() {
   std::vector<Channel> list = {{"time", "s", "time since the start of the run"}};
   for (const Channel& channel : FixScm::outputs().channels()) list.push_back(channel);
@@ -39,14 +36,8 @@ FixScmHistory::FixScmHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
 void FixScmHistory::open(std::optional<double> resume_time) {
   if (comm->me != 0) return;
   const ResultsInUse in_use;
-  const std::string path = in_folder(scm_file), frames = in_folder("vtk");
-  if (resume_time) {
-    file_ = HistoryFile::resume(path, scm_channels(), *resume_time);
-    if (draws()) frames_ = VtkSeries::resume(frames, scm_series, *resume_time);
-    return;
-  }
-  file_ = HistoryFile::create(path, scm_channels(), run_info("height field"));
-  if (draws()) frames_ = VtkSeries::create(frames, scm_series);
+  open_rows("scm.h5", scm_channels(), "height field", resume_time);
+  frames_ = open_frames("scm", resume_time);
 }
 
 void FixScmHistory::record() {

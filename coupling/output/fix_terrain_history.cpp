@@ -12,9 +12,6 @@ namespace furrow::coupling {
 
 namespace {
 
-constexpr char terrain_file[] = "terrain.h5";
-constexpr char terrain_series[] = "terrain";
-
 std::vector<Channel> channels() {
   std::vector<Channel> list = {{"time", "s", "time since the start of the run"}};
   for (const Channel& channel : terrain_outputs().channels()) list.push_back(channel);
@@ -43,15 +40,8 @@ FixTerrainHistory::FixTerrainHistory(LAMMPS_NS::LAMMPS* lammps, int narg, char**
 void FixTerrainHistory::open(std::optional<double> resume_time) {
   if (comm->me != 0) return;
   const ResultsInUse in_use;
-  const std::string path = in_folder(terrain_file);
-  const std::string frames = in_folder("vtk");
-  if (resume_time) {
-    file_ = HistoryFile::resume(path, channels(), *resume_time);
-    if (draws()) frames_ = VtkSeries::resume(frames, terrain_series, *resume_time);
-    return;
-  }
-  file_ = HistoryFile::create(path, channels(), run_info("terrain"));
-  if (draws()) frames_ = VtkSeries::create(frames, terrain_series);
+  open_rows("terrain.h5", channels(), "terrain", resume_time);
+  frames_ = open_frames("terrain", resume_time);
 }
 
 void FixTerrainHistory::record() {

@@ -54,27 +54,14 @@ void FixWheelHistory::open(std::optional<double> resume_time) {
   Grains now = gather_grains(*lmp, ground_level);
   if (comm->me != 0) return;
   const ResultsInUse in_use;
-  const std::string path = in_folder("history.h5");
-  const std::string frames = in_folder("vtk");
-  if (resume_time) {
-    file_ = HistoryFile::resume(path, WheelRig::channels(), *resume_time);
-    if (now.size() > 0)
-      reference_ = read_reference_grains(path);
-    else
-      reference_ = std::move(now);
-    if (draws()) {
-      wheel_frames_ = VtkSeries::resume(frames, "wheel", *resume_time);
-      grain_frames_ = VtkSeries::resume(frames, "grains", *resume_time);
-    }
-    return;
-  }
-  file_ = HistoryFile::create(path, WheelRig::channels(), run_info(options().text("title")));
-  reference_ = std::move(now);
-  if (reference_.size() > 0) file_->write_reference(reference_);
-  if (draws()) {
-    wheel_frames_ = VtkSeries::create(frames, "wheel");
-    grain_frames_ = VtkSeries::create(frames, "grains");
-  }
+  open_rows("history.h5", WheelRig::channels(), options().text("title"), resume_time);
+  if (resume_time && now.size() > 0)
+    reference_ = read_reference_grains(in_folder("history.h5"));
+  else
+    reference_ = std::move(now);
+  if (!resume_time && reference_.size() > 0) file_->write_reference(reference_);
+  wheel_frames_ = open_frames("wheel", resume_time);
+  grain_frames_ = open_frames("grains", resume_time);
 }
 
 void FixWheelHistory::record() {
