@@ -51,6 +51,15 @@ fs::path existing_folder(const std::string& name) {
   return folder;
 }
 
+/// @param what is kept, in so many bytes @param remedy makes it smaller
+Found fits_a_record(const std::string& name, const char* what, double bytes, const char* remedy) {
+  if (bytes <= longest_record) return {};
+  return refusal(name, fmt::format("keeps {} in {:.3g} GB of a checkpoint", what, bytes / gigabyte),
+                 fmt::format("at most {:.3g} GB, the longest record of a LIGGGHTS restart file",
+                             longest_record / gigabyte),
+                 fmt::format("{}, or remove the line 'restart'", remedy));
+}
+
 }  // namespace
 
 Found checkpoints_have_one_run(const Scene& scene) {
@@ -97,23 +106,13 @@ Found checkpoints_have_room(const Scene& scene) {
 Found terrain_fits_a_record(const Scene& scene, const FixTerrain& terrain) {
   if (checkpoint_names(scene.lammps).empty()) return {};
   const double nodes = terrain.terrain().checkpoint_size().nodes;
-  if (nodes <= longest_record) return {};
-  return refusal(terrain.name(),
-                 fmt::format("keeps its nodes in {:.3g} GB of a checkpoint", nodes / gigabyte),
-                 fmt::format("at most {:.3g} GB, the longest record of a LIGGGHTS restart file",
-                             longest_record / gigabyte),
-                 "choose larger cells, or remove the line 'restart'");
+  return fits_a_record(terrain.name(), "its nodes", nodes, "choose larger cells");
 }
 
 Found bed_fits_a_record(const Scene& scene, const FixBedWindow& window) {
   if (checkpoint_names(scene.lammps).empty()) return {};
   const double grains = bytes_of_grains(scene.lammps);
-  if (grains <= longest_record) return {};
-  return refusal(window.name(),
-                 fmt::format("keeps the bed in {:.3g} GB of a checkpoint", grains / gigabyte),
-                 fmt::format("at most {:.3g} GB, the longest record of a LIGGGHTS restart file",
-                             longest_record / gigabyte),
-                 "choose a smaller bed, or remove the line 'restart'");
+  return fits_a_record(window.name(), "the bed", grains, "choose a smaller bed");
 }
 
 }  // namespace furrow::coupling
