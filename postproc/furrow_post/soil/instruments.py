@@ -14,7 +14,7 @@ from ..errors import ResultsError
 from ..programs import find_program, inputs_folder
 from ..scene.process import Runs
 from .fits import ConeCurve, PlateCurve, ShearCurve
-from .material import Material, read_material
+from .material import Material, content_with_bases, read_material
 
 # Of the wave speed: slow enough that a faster test gives the same curve within its noise
 PLATE_PACE, PRESS_PACE, RING_PACE, CONE_PACE = 1 / 300, 1 / 400, 1 / 400, 1 / 60
@@ -53,7 +53,7 @@ class Bench:
         script = inputs / "soils" / "instruments" / f"{instrument}.lig"
         folder = (self.folder / name).resolve()
         values = {"gravity": self.gravity, **variables}
-        lines = [str(self.path), self.path.read_text(encoding="utf-8")]
+        lines = [str(self.path), content_with_bases(self.path)]
         record = "\n".join([*lines, *(f"{key} {value!r}" for key, value in values.items())])
         done = folder / "done.txt"
         if done.is_file() and done.read_text(encoding="utf-8") == record:

@@ -111,6 +111,17 @@ class CardCommandTest(unittest.TestCase):
         self.soil(*words)
         self.assertEqual(self.runs(), 2 * first)
 
+    def test_runs_are_repeated_when_the_base_of_the_ground_changes(self) -> None:
+        base, ground = self.folder / "base.yaml", self.folder / "ground.yaml"
+        base.write_text((SOURCE / "inputs/materials/dry_sand_smooth.yaml").read_text(), encoding="utf-8")
+        ground.write_text("base: base.yaml\n", encoding="utf-8")
+        words = ("card", ground, "--quick", "--sizes", 0.1, 0.2, "-o", "card")
+        self.soil(*words)
+        first = self.runs()
+        base.write_text(base.read_text().replace("beta: 47.1", "beta: 47.2"), encoding="utf-8")
+        self.soil(*words)
+        self.assertEqual(self.runs(), 2 * first)
+
     def test_a_run_that_fails_leaves_no_card(self) -> None:
         self.furrow(1)
         done = self.soil("card", "dry_sand_smooth", "-o", "card")
