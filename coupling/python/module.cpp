@@ -160,7 +160,6 @@ py::object summary_of(const Session& session, const std::optional<std::string>& 
 }
 
 // ---- documentation
-// -------------------------------------------------------------------------------
 
 constexpr char simulation_text[] =
     R"(A script of LIGGGHTS and Furrow, open up to its first run.

@@ -75,7 +75,6 @@ Session::~Session() {
 }
 
 // ---- from outside
-// --------------------------------------------------------------------------------
 
 long Session::step(long count) {
   left_ = count;
@@ -129,7 +128,6 @@ void Session::remove_temporary() {
 }
 
 // ---- from inside
-// ---------------------------------------------------------------------------------
 
 void Session::run_whole_script() {
   std::vector<char*> pointers;
