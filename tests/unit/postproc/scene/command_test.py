@@ -3,6 +3,7 @@
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -12,7 +13,7 @@ import time
 import unittest
 from pathlib import Path
 
-from support.command import FURROW_POST
+from support.command import FURROW_POST, SOURCE
 
 # Says how it was started; waits for a file "go", and ends with a checkpoint when it gets a signal
 PROGRAM = """#!{python}
@@ -114,6 +115,14 @@ class CommandTest(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("ERROR: broken", done.stderr)
         self.assertFalse((self.folder / "out" / "run.json").exists())
+
+    def test_programs_of_the_project_are_built(self) -> None:
+        listed = (SOURCE / "src" / "programs" / "CMakeLists.txt").read_text(encoding="utf-8")
+        targets = re.findall(r"^furrow_program\((\w+) ", listed, re.MULTILINE)
+        self.assertGreater(len(targets), 3)
+        built = re.search(r"build_furrow OFF (.*)", (SOURCE / "inputs" / "run").read_text(encoding="utf-8"))
+        assert built
+        self.assertEqual(set(built[1].split()), {"furrow_executable", *targets})
 
     def test_signals_end_the_run_with_a_checkpoint_and_a_status(self) -> None:
         for number, status in ((signal.SIGTERM, 143), (signal.SIGINT, 130), (signal.SIGHUP, 129)):
