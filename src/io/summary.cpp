@@ -76,9 +76,8 @@ std::string steady_table(const Resistance& r) {
                      : fmt::format("steady, {:.0f} independent samples", v.independent_samples));
   text +=
       "\n  ± is one standard error of the mean over time (block averages). It does not hold the "
-      "influence of grain size, "
-      "box or\n"
-      "  packing: compare runs for that.\n";
+      "influence of cell or\n"
+      "  grain size, box or packing: compare runs for that.\n";
   return text;
 }
 
