@@ -467,7 +467,20 @@ def what_of(run: Run) -> str:
     return ", ".join(changed)
 
 
+def along_heading(along_travel: float, lateral: float, slip_angle: float) -> float:
+    """F_T from F_x and F_S, by equation 3 of src/theory/symbols.md; the angle in degrees."""
+    angle = math.radians(slip_angle)
+    return (along_travel + lateral * math.sin(angle)) / math.cos(angle)
+
+
+def error_along_heading(along_travel: float, lateral: float, slip_angle: float) -> float:
+    """Standard error of F_T from those of F_x and F_S, taken as independent."""
+    angle = math.radians(slip_angle)
+    return math.hypot(along_travel, lateral * math.sin(angle)) / math.cos(angle)
+
+
 def row_of(runs: Runs, run: Run) -> Row:
+    """Both forces are in the wheel's frame, as those of [Pavlov2024]."""
     travel = run.number("travel")
     values = steady_values(runs, run, [travel - end for end in GROUND_WINDOW])
     ground = ground_of(run)
@@ -476,6 +489,12 @@ def row_of(runs: Runs, run: Run) -> Row:
     point = nearest_point(wheel_of(run), run.number("slip"))
     sideways = "slip_angle" in run.case.variables
     fz = values["force_z"]
+    lateral, lateral_error = 0.0, 0.0
+    if sideways:
+        lateral, lateral_error = values["lateral_force"] / fz, values["lateral_force_error"] / fz
+    angle = run.number("slip_angle")
+    traction = along_heading(-values["resistance_coefficient"], lateral, angle)
+    traction_error = error_along_heading(values["resistance_coefficient_error"], lateral_error, angle)
     return {
         "run": run.name,
         "ground": ground,
@@ -483,13 +502,13 @@ def row_of(runs: Runs, run: Run) -> Row:
         "changed": what_of(run),
         "slip": point["slip"],
         "measured_fx_over_fz": "" if sideways else round(point["force_N"] / point["load_N"], 4),
-        "fx_over_fz": round(-values["resistance_coefficient"], 4),
-        "fx_over_fz_error": round(values["resistance_coefficient_error"], 4),
+        "fx_over_fz": round(traction, 4),
+        "fx_over_fz_error": round(traction_error, 4),
         "measured_sinkage_mm": "" if sideways else point["sinkage_mm"],
         "sinkage_mm": round(1000 * values["hub_drop"] + surface, 2),
         "sinkage_error_mm": round(1000 * values["sinkage_error"], 2),
-        "fy_over_fz": round(values["lateral_force"] / fz, 4) if sideways else "",
-        "fy_over_fz_error": round(values["lateral_force_error"] / fz, 4) if sideways else "",
+        "fy_over_fz": round(lateral, 4) if sideways else "",
+        "fy_over_fz_error": round(lateral_error, 4) if sideways else "",
         "torque_over_fz_r": round(1000 * values["drive_torque"] / fz / RADIUS, 4),
         "cpu_s": cpu_time(run),
     }

@@ -37,6 +37,18 @@ class LimitTest(unittest.TestCase):
         self.assertAlmostEqual(scatter, 0.04 / math.sqrt(2))
 
 
+class FrameTest(unittest.TestCase):
+    def test_traction_along_the_heading_is_that_of_the_rotated_force(self) -> None:
+        angle, force = math.radians(20.0), (-0.27, 0.25)  # along and across the travel
+        lateral = -force[0] * math.sin(angle) + force[1] * math.cos(angle)
+        traction = force[0] * math.cos(angle) + force[1] * math.sin(angle)
+        self.assertAlmostEqual(study.along_heading(force[0], lateral, 20.0), traction)
+
+    def test_error_along_the_heading_grows_by_that_of_the_lateral_force(self) -> None:
+        self.assertAlmostEqual(study.error_along_heading(0.03, 0.0, 60.0), 0.06)
+        self.assertAlmostEqual(study.error_along_heading(0.0, 0.02, 45.0), 0.02)
+
+
 class PageTest(unittest.TestCase):
     def setUp(self) -> None:
         accuracy = read_rows(FOLDER / "accuracy.csv")
