@@ -184,6 +184,48 @@ def clay_panel(axes: Axes) -> None:
     axes.set(title="c  Cohesive Cam clay", xlim=(-0.25, 1.2), ylim=(-0.2, 1.95))
 
 
+def snow_surface(p, p_c, d, beta, A):
+    """q of equation 1 of the chapter snow."""
+    cap = A * np.sqrt(np.clip(p_c**2 - np.maximum(p, 0) ** 2, 0, None))
+    return np.minimum(cap, d + p * np.tan(np.radians(beta)))
+
+
+def snow_confined(p_c, d, beta, A, nu_p):
+    """p and q in confined compression: equations 5 and 6 of the chapter snow, for p_c."""
+    slope, tan = 3 * (1 - 2 * nu_p) / (1 + nu_p), np.tan(np.radians(beta))
+    p = p_c / np.sqrt(1 + (slope / A) ** 2)
+    if slope * p > d + p * tan:  # p^2 + ((d + p tan)/A)^2 = p_c^2
+        a, b, c = A**2 + tan**2, d * tan, d**2 - (A * p_c) ** 2
+        p = (-b + np.sqrt(b**2 - a * c)) / a
+        return p, d + p * tan
+    return p, slope * p
+
+
+def snow() -> None:
+    nu_p, beta, r, m = 0.1, 31.5, 0.2, 5  # inputs/materials/snow.yaml
+    A = np.sqrt(4.5 * (1 - 2 * nu_p) / (1 + nu_p))
+    figure, panels = plt.subplots(1, 2, figsize=(8.4, 3.6))
+    states = ((32.2, 379.3), (130.0, 466.2)), ((130.0, 466.2), (665.0, 591.0))
+    for axes, pair in zip(panels, states):
+        for (p_c, rho), colour in zip(pair, (BLUE, GREEN)):
+            d = 1.5 * (rho / 200) ** m
+            p = np.linspace(-r * d, p_c, 2001)
+            axes.plot(p, snow_surface(p, p_c, d, beta, A), color=colour, label=f"{rho:.0f} kg/m³")
+            axes.plot([-r * d, -r * d], [0, snow_surface(-r * d, p_c, d, beta, A)], color=colour)
+        path = [(0.0, 0.0)]
+        for p_c in np.geomspace(1.0, pair[1][0], 60):
+            rho = np.interp(np.log(p_c), np.log([0.829, 31.9, 64.2, 128.6, 328.7, 664.6]),
+                            [200, 379.3, 408.4, 466.2, 527.7, 591.0])  # fmt: skip
+            path.append(snow_confined(p_c, 1.5 * (rho / 200) ** m, beta, A, nu_p))
+        axes.plot(*zip(*path), ":", color=ORANGE, label="confined")
+        axes.axhline(0, color="black", lw=0.8)
+        axes.axvline(0, color="black", lw=0.8)
+        axes.set(xlabel="pressure p, kPa", ylabel="Mises stress q, kPa")
+        axes.legend(frameon=False)
+    figure.tight_layout()
+    save("snow")
+
+
 def section_panel(axes: Axes) -> None:
     sine = 0.5  # friction angle 30 degrees
     K = (3 - sine) / (3 + sine)
@@ -849,6 +891,7 @@ CHAPTERS: dict[str, Callable[[], None]] = {
     "step": step,
     "continuum": continuum,
     "laws": laws,
+    "snow": snow,
     "contact": contact,
     "grains": grains,
     "tyres": tyres,

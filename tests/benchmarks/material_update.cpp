@@ -143,6 +143,25 @@ std::unique_ptr<Material> cam_clay(const std::string& interpolation) {
                  {"beyond", {"extrapolate"}}}}});
 }
 
+/// The same snow with independent lateral stress and shear strength.
+std::unique_ptr<Material> cohesive_cap(const std::string& interpolation) {
+  return make("cohesive_cap", {{"law",
+                                {{"density", {"200"}},
+                                 {"nu_p", {"0.1"}},
+                                 {"d", {"2e3"}},
+                                 {"d_density", {"200"}},
+                                 {"d_exponent", {"3"}},
+                                 {"beta", {"30"}},
+                                 {"tension_ratio", {"0.2"}}}},
+                               {"elasticity", {{"E", {"13.79e6"}}, {"nu", {"0.3"}}}},
+                               {"hardening",
+                                {{"type", {"table"}},
+                                 {"p", {"113.76", "2.065e4", "8.26e4", "4.13e5", "1.342e6"}},
+                                 {"eps_vol_pl", {"0", "0.6419", "0.8544", "1.1314", "1.5228"}},
+                                 {"interpolation", {interpolation}},
+                                 {"beyond", {"extrapolate"}}}}});
+}
+
 void measure(benchmark::State& timer, const Material& material, double strain, double loosening,
              std::size_t run = 1) {
   Points points(material, strain, loosening, run, 1);
@@ -201,6 +220,18 @@ void BM_cap_mixed_smooth_cone(benchmark::State& timer) {
   measure(timer, *snow("0.7", "0", "linear", "matsuoka_nakai"), 1e-4, 0.0);
 }
 void BM_foam_mixed(benchmark::State& timer) { measure(timer, *foam(), 1e-4, 0.0); }
+void BM_cohesive_cap_mixed(benchmark::State& timer) {
+  measure(timer, *cohesive_cap("linear"), 1e-4, 0.0);
+}
+void BM_cohesive_cap_mixed_log_table(benchmark::State& timer) {
+  measure(timer, *cohesive_cap("log"), 1e-4, 0.0);
+}
+void BM_cohesive_cap_all_compacting(benchmark::State& timer) {
+  measure(timer, *cohesive_cap("linear"), 1e-4, -1.0);
+}
+void BM_cohesive_cap_mixed_large_steps(benchmark::State& timer) {
+  measure(timer, *cohesive_cap("linear"), 1e-2, 0.0);
+}
 void BM_cam_clay_mixed(benchmark::State& timer) { measure(timer, *cam_clay("linear"), 1e-4, 0.0); }
 void BM_cam_clay_mixed_neighbours_alike(benchmark::State& timer) {
   measure(timer, *cam_clay("linear"), 1e-4, 0.0, 64);
@@ -226,6 +257,10 @@ BENCHMARK(BM_cap_mixed_large_steps)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_cap_mixed_lode)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_cap_mixed_smooth_cone)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_foam_mixed)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_cohesive_cap_mixed)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_cohesive_cap_mixed_log_table)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_cohesive_cap_all_compacting)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_cohesive_cap_mixed_large_steps)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_cam_clay_mixed)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_cam_clay_mixed_neighbours_alike)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_cam_clay_mixed_log_table)->Unit(benchmark::kMillisecond);

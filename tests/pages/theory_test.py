@@ -83,11 +83,13 @@ def check_citations(source: Path, manual: dict[str, str]) -> list[str]:
 CAP = {"d": 5e3, "beta": 22.53, "R": 0.3, "alpha": 0.05}
 FOAM_TENSION, FOAM_UNIAXIAL = 2e3, 1.5e4
 CLAY = {"M": 3.3, "tension_ratio": 0.1}
+SNOW = {"d": 2e3, "beta": 31.5, "nu_p": 0.1}
 STRENGTH = 1e4  # [Pa] at the start
 LAWS = {
     "drucker_prager_cap": CAP,
     "crushable_foam": {"pt": FOAM_TENSION, "sigma0": FOAM_UNIAXIAL},
     "cohesive_cam_clay": CLAY,
+    "cohesive_cap": {**SNOW, "d_density": 200, "d_exponent": 0, "tension_ratio": 0.2},
 }
 MATERIAL = """title: {law}
 law: {{type: {law}, density: 200, {keys}}}
@@ -142,14 +144,18 @@ def check_figures(figures: ModuleType, manual: dict[str, str], scratch: Path) ->
 def check_surfaces(figures: ModuleType, build: Path, scratch: Path) -> list[str]:
     slope = figures.foam_slope(FOAM_TENSION, STRENGTH, FOAM_UNIAXIAL)
     M, b = CLAY["M"], CLAY["tension_ratio"]
+    d, beta, nu_p = SNOW.values()
+    A = (4.5 * (1 - 2 * nu_p) / (1 + nu_p)) ** 0.5
     surface = {
         "drucker_prager_cap": lambda p, tip: figures.cap_surface(p, tip, **CAP),
         "crushable_foam": lambda p, tip: figures.foam_surface(p, FOAM_TENSION, tip, slope),
         "cohesive_cam_clay": lambda p, tip: figures.clay_surface(p, tip, M, b),
+        "cohesive_cap": lambda p, tip: np.append(0, figures.snow_surface(p[1:], tip, d, beta, A)),
     }
     confined = {
         "drucker_prager_cap": lambda tip: figures.cap_confined(tip, **CAP),
         "cohesive_cam_clay": lambda tip: figures.clay_confined(tip, M, b),
+        "cohesive_cap": lambda tip: figures.snow_confined(tip, d, beta, A, nu_p),
     }
     errors = []
     for law, equation in surface.items():
@@ -161,7 +167,7 @@ def check_surfaces(figures: ModuleType, build: Path, scratch: Path) -> list[str]
         for p, q in shapes:
             off = np.abs(np.nan_to_num(equation(p, p[-1])) - q).max() / q.max()
             if off > 1e-6:
-                errors.append(f"{law}: the equations of laws.md are off by {off:.1e} of the largest q")
+                errors.append(f"{law}: the equations of the manual are off by {off:.1e} of the largest q")
         if law in confined:
             expected = confined[law](shapes[-1][0][-1])
             off = max(abs(found / wanted - 1) for found, wanted in zip(end, expected))

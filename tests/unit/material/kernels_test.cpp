@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "material/models/cohesive_cam_clay/cohesive_cam_clay.h"
+#include "material/models/cohesive_cap/cohesive_cap.h"
 #include "material/models/crushable_foam/crushable_foam.h"
 #include "material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "material/models/neo_hookean/neo_hookean_parameters.h"
@@ -27,6 +28,7 @@ TEST(Kernels, EveryTableIsOfTheInstructionSetAskedFor) {
   for (const InstructionSet set : sets) {
     EXPECT_EQ(kernels_for<DruckerPragerCapKernels>(set).instruction_set, set);
     EXPECT_EQ(kernels_for<CohesiveCamClayKernels>(set).instruction_set, set);
+    EXPECT_EQ(kernels_for<CohesiveCapKernels>(set).instruction_set, set);
     EXPECT_EQ(kernels_for<NeoHookeanKernels>(set).instruction_set, set);
   }
   EXPECT_EQ(kernels<NeoHookeanKernels>().instruction_set, chosen_instruction_set());
@@ -83,6 +85,11 @@ TEST(Kernels, InstructionSetsAgree) {
     expect_instruction_sets_to_agree<DruckerPragerCap, DruckerPragerCapKernels>(cap + snow + more);
   for (const std::string more : {"linear", "log"})
     expect_instruction_sets_to_agree<CohesiveCamClay, CohesiveCamClayKernels>(clay + snow + more);
+  for (const std::string more : {"linear", "log"})
+    expect_instruction_sets_to_agree<CohesiveCap, CohesiveCapKernels>(
+        "cohesive_cap density 200 nu_p 0.1 d 2e3 d_density 200 d_exponent 3 beta 30 "
+        "tension_ratio 0.2 eps_vol_pl_0 0.3" +
+        snow + more);
   expect_instruction_sets_to_agree<CrushableFoam, CrushableFoamKernels>(
       "crushable_foam density 200 pt 11.376 sigma0 275.79 elasticity porous elasticity.kappa 0.005 "
       "elasticity.e0 3.5 pt_el 113.76 nu 0.3 hardening exponential pc0 113.76 lambda 0.35 "

@@ -104,6 +104,20 @@ std::string random_cam_clay(Dice& dice) {
   return material += random_hardening(dice, p0);
 }
 
+std::string random_cohesive_cap(Dice& dice) {
+  const double young = dice.decades(1e5, 1e9), pc = young * dice.decades(1e-5, 1e-2),
+               d = dice.chance(0.1) ? 0.0 : pc * dice.decades(1e-2, 1e2),
+               beta = dice.between(0, 65), growth = dice.between(0, 6),
+               nu_p = dice.between(0, 0.49), apex = std::min(1 / std::tan(radians(beta)), 2.0),
+               ratio = dice.chance(0.2) ? 0.0 : dice.between(0, 1) * apex;
+  std::string material = fmt::format(
+      "cohesive_cap density 300 nu_p {} d {} d_density 300 d_exponent {} beta {} tension_ratio {}",
+      nu_p, d, growth, beta, ratio);
+  if (dice.chance(0.3)) material += fmt::format(" aspect {}", dice.decades(0.2, 8));
+  material += random_elasticity(dice, young, ratio * d);
+  return material += random_hardening(dice, pc);
+}
+
 struct Family {
   std::string name;
   std::string (*random)(Dice&);
@@ -164,6 +178,10 @@ TEST(RandomPaths, TenThousandStayOnTheSurfaceAndDissipate) {
         Family{"foam", random_foam, 3000, {Branch::elastic, Branch::cap, Branch::tension}},
         Family{"cam_clay",
                random_cam_clay,
+               5000,
+               {Branch::elastic, Branch::shear, Branch::cap, Branch::tension}},
+        Family{"cohesive_cap",
+               random_cohesive_cap,
                5000,
                {Branch::elastic, Branch::shear, Branch::cap, Branch::tension}}}) {
     Tally tally;

@@ -22,6 +22,7 @@ const std::string table =
     " hardening table p 1e3 5e4 1e6 eps_vol_pl 0 0.5 1 interpolation linear beyond stop";
 const std::string yield = "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.02";
 const std::string clay = "cohesive_cam_clay density 200 M 3.3";
+const std::string cap = "cohesive_cap density 200 nu_p 0.1 d 1e3 d_density 200 d_exponent 3";
 
 std::string message_of(const std::string& text) {
   return error_of<InputError>([&] { material_of(text); });
@@ -44,7 +45,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Refusal{"mud density 1",
                 {"unknown law 'mud'",
-                 "drucker_prager_cap, crushable_foam, cohesive_cam_clay, elastic, neo_hookean"}},
+                 "drucker_prager_cap, crushable_foam, cohesive_cam_clay, cohesive_cap, elastic, "
+                 "neo_hookean"}},
         Refusal{"drucker_prager_cap density 200 beta 22.53 R 0.02" + elastic + table,
                 {"law drucker_prager_cap, keyword 'd' is missing", "cohesion"}},
         Refusal{yield + " K 0.7" + elastic + table,
@@ -133,6 +135,16 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{
             clay + " tension_ratio 0.1 elasticity porous kappa 0.01 e0 1 pt_el 50 nu 0.3" + table,
             {"keyword 'pt_el' is 50 Pa", "above the tensile strength at the start, 100 Pa"}},
+        Refusal{cap + " beta 30 tension_ratio 2" + elastic + table,
+                {"keyword 'tension_ratio' is 2", "at most 1.732", "apex of the shear line"}},
+        Refusal{cap + " beta 30 tension_ratio 0.1 aspect 0" + elastic + table,
+                {"keyword 'aspect' is 0", "(0, 20]"}},
+        Refusal{cap + " beta 30 tension_ratio 0.1 eps_vol_pl_0 2" + elastic + table,
+                {"keyword 'eps_vol_pl_0' is 2, outside the hardening data", "in [0, 1]"}},
+        Refusal{cap +
+                    " beta 30 tension_ratio 0.1 elasticity porous kappa 0.01 e0 1 pt_el 50 nu 0.3" +
+                    table,
+                {"keyword 'pt_el' is 50 Pa", "above the tensile strength at the start, 100 Pa"}},
         Refusal{"elastic density 0" + elastic,
                 {"law elastic, keyword 'density' is 0", "> 0 [kg/m3]"}},
         Refusal{"neo_hookean density 1100 G 1e6", {"keyword 'bulk' is missing"}}));

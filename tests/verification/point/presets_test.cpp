@@ -309,6 +309,36 @@ TEST(Presets, CamClayIsTheClosedFormAndMeetsTheOedometer) {
   EXPECT_LT(oedometer_error("fresh_snow_cam_clay"), 6e-3);
 }
 
+/// The strengths are the closed form of confined compression (theory: snow, eqs. 5 and 6). The
+/// shear line limits K0 from 100 kPa on. The law meets the oedometer.
+TEST(Presets, SnowIsTheClosedFormAndMeetsTheOedometer) {
+  const MaterialOptions snow = options_of("snow");
+  const Options& law = snow.at("law").options;
+  const double nu_p = law.number("nu_p"), d_200 = law.number("d"), m = law.number("d_exponent"),
+               tan_beta = std::tan(radians(law.number("beta")));
+  EXPECT_NEAR(tan_beta, std::sqrt(3.0) * std::sin(radians(20.7)), 1e-3);
+  const double b2 = 4.5 * (1.0 - 2.0 * nu_p) / (1.0 + nu_p), slope = 2.0 / 3.0 * b2,
+               K = 13.79e6 / 1.2;
+  const CsvTable data = reference("snow_oedometer");
+  const std::vector<double> sigma1 = data.numbers("sigma1_Pa"), rho = data.numbers("rho_kgm3"),
+                            pc = snow.at("hardening").options.numbers("p"),
+                            unloaded = snow.at("hardening").options.numbers("rho");
+  ASSERT_EQ(pc.size(), sigma1.size() + 1);
+  EXPECT_NEAR(pc[0], d_200 / std::sqrt(b2), 0.5);  // the cap just contains the cohesion
+  for (std::size_t i = 0; i < sigma1.size(); ++i) {
+    const double d = d_200 * std::pow(unloaded[i + 1] / 200.0, m);
+    double p = sigma1[i] / (1.0 + 2.0 / 3.0 * slope), q = slope * p;
+    EXPECT_EQ(q > d + p * tan_beta, i > 0);
+    if (q > d + p * tan_beta) {
+      p = (sigma1[i] - 2.0 / 3.0 * d) / (1.0 + 2.0 / 3.0 * tan_beta);
+      q = d + p * tan_beta;
+    }
+    EXPECT_NEAR(pc[i + 1] / std::sqrt(p * p + q * q / b2), 1.0, 1e-3);
+    EXPECT_NEAR(unloaded[i + 1], rho[i] * std::exp(-p / K), 0.06);
+  }
+  EXPECT_LT(oedometer_error("snow"), 6e-3);
+}
+
 TEST(Presets, ElasticSandAndRubber) {
   const auto sand = file_of("compacted_sand_elastic").make();
   const ElasticModuli moduli = sand->moduli(sand->initial_state());

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Cohesive cap law of compressible snow: lateral stress, shear strength and compaction curve are
+/// independent. Equations: theory: snow, eqs. 1 to 6.
+///
+/// Three surfaces, all functions of the volumetric plastic strain:
+///   cap      p^2 + (q/A)^2 = pc^2 at p > 0, q = A pc at p <= 0; pc by the hardening
+///   shear    q = d + p tan(beta), d = d_0 exp(m eps_vol_pl): a power of the density
+///   tension  p = -tension_ratio d
+/// Flow on the cap follows g = sqrt(q^2 + b^2 p^2) of metal foams [Deshpande2000], where
+/// b^2 = 9/2 (1 - 2 nu_p)/(1 + nu_p). The plastic Poisson's ratio nu_p sets K0 = nu_p/(1 - nu_p) in
+/// confined compression unless the shear line limits q; then K0 is larger (eq. 5). Flow on the
+/// shear line keeps the volume, tension opens the material without shear. [Haehnel2004] combines a
+/// shear line and a cap for snow; here the cap has its flow potential and cohesion grows with
+/// density. All plastic work is dissipated.
+
+#include "material/material_model.h"
+#include "material/models/cohesive_cap/cohesive_cap_parameters.h"
+
+namespace furrow {
+
+class CohesiveCap : public Material {
+ public:
+  /// Indices of the internal variables in the state.
+  enum : std::size_t { eps_vol_pl = field::internal, eps_dev_pl };
+
+  static MaterialModel model();
+  /// @param density       rho0 [kg/m^3]
+  /// @param eps_vol_pl_0  initial volumetric plastic strain
+  CohesiveCap(double density, const CohesiveCapParameters& parameters, double eps_vol_pl_0);
+
+  UpdateReport update_block(const PointBlock& block) const override;
+  ElasticModuli moduli(const VectorX& state) const override;
+  double largest_wave_speed(const PointBlock& block) const override;
+  double yield_function(const VectorX& state) const override;
+  double stress_scale(const VectorX& state) const override;
+  std::vector<Vector2> yield_surface(const VectorX& state, std::size_t points = 200) const override;
+
+  const CohesiveCapParameters& parameters() const { return parameters_; }
+  double pc(double eps) const;  ///< yield strength in hydrostatic compression [Pa]
+  double d(double eps) const;   ///< intercept of the shear line [Pa]
+
+ private:
+  /// Largest q at the pressure p between the tensile strength and pc [Pa]
+  double strength(double p, double eps) const;
+
+  CohesiveCapParameters parameters_;
+};
+
+}  // namespace furrow
