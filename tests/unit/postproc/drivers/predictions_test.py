@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""inputs/validation/predictions: slips, the conditions that are run, and their values."""
+
+import csv
+import importlib.util
+import math
+import unittest
+
+import yaml
+
+from furrow_post.csv_table import read_rows
+from support.command import SOURCE
+
+FOLDER = SOURCE / "inputs/validation/predictions"
+specification = importlib.util.spec_from_file_location("predict", FOLDER / "predict.py")
+assert specification and specification.loader
+study = importlib.util.module_from_spec(specification)
+specification.loader.exec_module(study)
+QUANTITIES = {
+    "T11": {"hub_drop", "rut_depth", "resistance_coefficient"},
+    "CMU": {"fx_over_fz", "fy_over_fz", "sinkage"},
+    "MGRU3": {"slip"},
+    "DEF": {"deflection", "width"},
+}
+
+
+class SetUpTest(unittest.TestCase):
+    def setUp(self) -> None:
+        with (FOLDER / "conditions.csv").open() as file:
+            self.conditions = [row for row in csv.DictReader(file) if study.is_predicted(row)]
+
+    def test_cmu_conditions_are_two_wheels_at_three_angles_and_four_slips(self) -> None:
+        chosen = [row for row in self.conditions if row["id"].startswith("CMU")]
+        places = {
+            (row["case"], row["slip_angle_deg"], round(float(row["slip"]), 1)) for row in chosen
+        }
+        self.assertEqual(len(places), 2 * 3 * 4)
+
+    def test_slip_by_total_speed_becomes_that_by_the_speed_in_the_wheel_plane(self) -> None:
+        for slip, angle in ((0.5, 30.0), (0.0, 45.0), (-0.5, 15.0)):
+            travel, converted = study.in_wheel_frame(slip, angle)
+            rim = travel / (1 - slip) if slip >= 0 else travel * (1 + slip)
+            forward = travel * math.cos(math.radians(angle))
+            self.assertAlmostEqual(converted, (rim - forward) / max(rim, forward))
+            self.assertAlmostEqual(max(rim, travel), 1.0)
+
+    def test_grc_1_is_the_matsuoka_nakai_cone_of_38_degrees_in_study_and_scene(self) -> None:
+        sine = math.sin(math.radians(38.0))
+        for folder in (FOLDER / "materials", SOURCE / "inputs/materials"):
+            law = yaml.safe_load((folder / "grc1.yaml").read_text())["law"]
+            tangent = math.tan(math.radians(law["beta"]))
+            self.assertAlmostEqual(tangent, 6 * sine / (3 - sine), delta=1e-3)
+            self.assertAlmostEqual(law["K"], (3 - sine) / (3 + sine), delta=1e-4)
+            self.assertEqual(law["density"], 1760)
+
+
+class ValuesTest(unittest.TestCase):
+    def test_every_predicted_condition_has_all_quantities_with_an_error(self) -> None:
+        found: dict[str, set[str]] = {}
+        for row in read_rows(FOLDER / "predictions.csv"):
+            self.assertTrue(math.isfinite(float(row["value"])))
+            self.assertGreater(float(row["standard_error"]), 0.0)
+            found.setdefault(row["id"], set()).add(row["quantity"])
+        for name, quantities in found.items():
+            self.assertEqual(quantities, QUANTITIES[name.split("-")[0]], name)
+
+
+if __name__ == "__main__":
+    unittest.main()
