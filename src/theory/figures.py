@@ -226,6 +226,72 @@ def snow() -> None:
     save("snow")
 
 
+def sand_ratio(D, M, N):
+    """P over the image pressure: equation 2 of the chapter sand."""
+    return (1 + N * D / M) ** ((1 - N) / N)
+
+
+def sand_drained(void, M=1.25, N=0.5, chi=4.0, gamma=0.82, slope=0.02, H=100.0, G_r=40e6, nu=0.2):
+    """Axial strain, stress ratio and volumetric strain of compression at 50 kPa, with steps of 1e-4
+    that solve equations 2 to 6 for the stress ratio of a surface that grows by equation 5."""
+    lateral, step = 5e4, 1e-4
+    chi_i = chi / (1 - (1 - N) * slope * chi / M)
+    P, q, image, volume = lateral, 0.0, 0.8 * lateral, 0.0
+    rows = [(0.0, 0.0, 0.0)]
+    for count in range(1, 2001):
+        G = G_r * np.sqrt(P / 1e5)
+        K = 2 * (1 + nu) / (3 * (1 - 2 * nu)) * G
+        limit = chi_i * (void - gamma + slope * np.log(image / 1e3))
+        image = min(image, P / sand_ratio(limit, M, N))
+        D = M / N * ((P / image) ** (N / (1 - N)) - 1)
+        dv, flow = step * 3 * G / (3 * K + G), 0.0  # elastic, at constant lateral stress
+        trial = q + 3 * G * (step - dv / 3)
+        if trial > (M - (1 - N) * D) * (lateral + trial / 3):
+            x = P / image
+            growth = H * (x**2 / sand_ratio(limit, M, N) - x) if D > limit else 0.0
+            # q = eta(P/image) P with P = lateral + q/3; d(eta) = -(1 - N) dD
+            slope_x = (1 - N) * M / N * N / (1 - N) * x ** (N / (1 - N))
+            dq_flow = slope_x * P * growth / (1 - (M - (1 - N) * D) / 3 + slope_x / 3)
+            # axial strain = dq/(3 G) + flow + volume/3 with volume = dq/(3 K) + D flow
+            flow = step / (dq_flow * (1 / (3 * G) + 1 / (9 * K)) + 1 + D / 3)
+            dq = dq_flow * flow
+            dv = dq / (3 * K) + D * flow
+            image *= 1 + growth * flow
+            P = P + dq / 3
+            D = M / N * ((P / image) ** (N / (1 - N)) - 1)
+            q = (M - (1 - N) * max(D, limit)) * P
+        else:
+            q, P = trial, lateral + trial / 3
+        P = lateral + q / 3
+        volume += dv
+        void -= (1 + void) * dv
+        rows.append((count * step, q / P, volume))
+    return np.array(rows).T
+
+
+def sand() -> None:
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(9.6, 3.2))
+    M = 1.25
+    for N, colour in zip((0.2, 0.5, 0.7), (BLUE, ORANGE, GREEN)):
+        D = np.linspace(-0.6, M / (1 - N), 400)
+        x = sand_ratio(D, M, N)
+        left.plot(x, (M - (1 - N) * D) * x, color=colour, label=f"N = {N}")
+    left.plot([0, 1.6], [0, 1.6 * M], ":", color=GREY)
+    left.set(title="a  Yield surface", xlabel="$P/P_i$", ylabel="$t/P_i$", xlim=(0, 2.8), ylim=(0, 1.9))
+    left.legend(frameon=False)
+    for void, colour in zip((0.60, 0.68, 0.78), (BLUE, ORANGE, GREEN)):
+        strain, ratio, volume = sand_drained(void)
+        middle.plot(100 * strain, ratio, color=colour, label=f"e = {void:.2f}")
+        right.plot(100 * strain, 100 * volume, color=colour)
+    middle.axhline(M, ls=":", color=GREY)
+    middle.set(title="b  Stress ratio q/p", xlabel="axial strain, %")
+    middle.legend(frameon=False)
+    right.axhline(0, color="black", lw=0.8)
+    right.set(title="c  Compaction, %", xlabel="axial strain, %")
+    figure.tight_layout()
+    save("sand")
+
+
 def section_panel(axes: Axes) -> None:
     sine = 0.5  # friction angle 30 degrees
     K = (3 - sine) / (3 + sine)
@@ -892,6 +958,7 @@ CHAPTERS: dict[str, Callable[[], None]] = {
     "continuum": continuum,
     "laws": laws,
     "snow": snow,
+    "sand": sand,
     "contact": contact,
     "grains": grains,
     "tyres": tyres,

@@ -162,6 +162,24 @@ std::unique_ptr<Material> cohesive_cap(const std::string& interpolation) {
                                  {"beyond", {"extrapolate"}}}}});
 }
 
+/// Dry sand.
+std::unique_ptr<Material> norsand(const std::string& N, const std::string& K) {
+  return make("norsand", {{"law",
+                           {{"density", {"1600"}},
+                            {"e0", {"0.66"}},
+                            {"M", {"1.2"}},
+                            {"N", {N}},
+                            {"gamma", {"0.8"}},
+                            {"lambda", {"0.02"}},
+                            {"chi", {"3.5"}},
+                            {"H", {"100"}},
+                            {"G", {"4e7"}},
+                            {"n", {"0.5"}},
+                            {"nu", {"0.2"}},
+                            {"K", {K}},
+                            {"section", {"matsuoka_nakai"}}}}});
+}
+
 void measure(benchmark::State& timer, const Material& material, double strain, double loosening,
              std::size_t run = 1) {
   Points points(material, strain, loosening, run, 1);
@@ -245,6 +263,13 @@ void BM_cam_clay_all_compacting(benchmark::State& timer) {
 void BM_cam_clay_mixed_large_steps(benchmark::State& timer) {
   measure(timer, *cam_clay("linear"), 1e-2, 0.0);
 }
+void BM_norsand_mixed(benchmark::State& timer) { measure(timer, *norsand("0.5", "1"), 1e-4, 0.0); }
+void BM_norsand_mixed_other_N(benchmark::State& timer) {
+  measure(timer, *norsand("0.35", "1"), 1e-4, 0.0);
+}
+void BM_norsand_mixed_smooth_cone(benchmark::State& timer) {
+  measure(timer, *norsand("0.5", "0.72"), 1e-4, 0.0);
+}
 
 BENCHMARK(BM_elastic)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_elastic_pointwise)->Unit(benchmark::kMillisecond);
@@ -266,6 +291,9 @@ BENCHMARK(BM_cam_clay_mixed_neighbours_alike)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_cam_clay_mixed_log_table)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_cam_clay_all_compacting)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_cam_clay_mixed_large_steps)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_norsand_mixed)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_norsand_mixed_other_N)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_norsand_mixed_smooth_cone)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace furrow

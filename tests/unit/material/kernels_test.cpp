@@ -13,6 +13,7 @@
 #include "material/models/crushable_foam/crushable_foam.h"
 #include "material/models/drucker_prager_cap/drucker_prager_cap.h"
 #include "material/models/neo_hookean/neo_hookean_parameters.h"
+#include "material/models/norsand/norsand.h"
 #include "paths.h"
 #include "simd/dispatch.h"
 
@@ -29,6 +30,7 @@ TEST(Kernels, EveryTableIsOfTheInstructionSetAskedFor) {
     EXPECT_EQ(kernels_for<DruckerPragerCapKernels>(set).instruction_set, set);
     EXPECT_EQ(kernels_for<CohesiveCamClayKernels>(set).instruction_set, set);
     EXPECT_EQ(kernels_for<CohesiveCapKernels>(set).instruction_set, set);
+    EXPECT_EQ(kernels_for<NorSandKernels>(set).instruction_set, set);
     EXPECT_EQ(kernels_for<NeoHookeanKernels>(set).instruction_set, set);
   }
   EXPECT_EQ(kernels<NeoHookeanKernels>().instruction_set, chosen_instruction_set());
@@ -90,6 +92,11 @@ TEST(Kernels, InstructionSetsAgree) {
         "cohesive_cap density 200 nu_p 0.1 d 2e3 d_density 200 d_exponent 3 beta 30 "
         "tension_ratio 0.2 eps_vol_pl_0 0.3" +
         snow + more);
+  for (const std::string more : {"N 0.5", "N 0.3 K 0.8", "N 0.6 K 0.7 section matsuoka_nakai"})
+    expect_instruction_sets_to_agree<NorSand, NorSandKernels>(
+        "norsand density 1600 e0 0.7 M 1.2 gamma 0.8 lambda 0.02 chi 3.5 H 100 G 4e7 n 0.45 nu "
+        "0.2 " +
+        more);
   expect_instruction_sets_to_agree<CrushableFoam, CrushableFoamKernels>(
       "crushable_foam density 200 pt 11.376 sigma0 275.79 elasticity porous elasticity.kappa 0.005 "
       "elasticity.e0 3.5 pt_el 113.76 nu 0.3 hardening exponential pc0 113.76 lambda 0.35 "

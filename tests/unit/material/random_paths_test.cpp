@@ -118,6 +118,19 @@ std::string random_cohesive_cap(Dice& dice) {
   return material += random_hardening(dice, pc);
 }
 
+std::string random_norsand(Dice& dice) {
+  const double M = dice.between(0.6, 1.7), N = dice.chance(0.3) ? 0.5 : dice.between(0.1, 0.6),
+               lambda = dice.chance(0.1) ? 0.0 : dice.between(0.005, 0.08),
+               chi = dice.between(1, 5), e0 = dice.between(0.4, 1.2), H = dice.decades(20, 1000),
+               shear = dice.decades(1e6, 1e9), exponent = dice.between(0.2, 1),
+               nu = dice.between(0, 0.2), pt = dice.decades(1, 1e3);
+  const std::string section = dice.section();
+  return fmt::format(
+      "norsand density 1500 e0 {} M {} N {} gamma 0.85 lambda {} chi {} H {} H_psi {} G {} n {} nu "
+      "{} pt {} {}",
+      e0, M, N, lambda, chi, H, dice.chance(0.5) ? 0.0 : 2 * H, shear, exponent, nu, pt, section);
+}
+
 struct Family {
   std::string name;
   std::string (*random)(Dice&);
@@ -183,7 +196,12 @@ TEST(RandomPaths, TenThousandStayOnTheSurfaceAndDissipate) {
         Family{"cohesive_cap",
                random_cohesive_cap,
                5000,
-               {Branch::elastic, Branch::shear, Branch::cap, Branch::tension}}}) {
+               {Branch::elastic, Branch::shear, Branch::cap, Branch::tension}},
+        Family{
+            "norsand",
+            random_norsand,
+            5000,
+            {Branch::elastic, Branch::shear, Branch::transition, Branch::cap, Branch::tension}}}) {
     Tally tally;
     for (int path = 0; path < family.paths; ++path) {
       expect_sound_path(dice, family.random(dice), tally);

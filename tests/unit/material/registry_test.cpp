@@ -24,6 +24,9 @@ const std::string yield = "drucker_prager_cap density 200 d 5e3 beta 22.53 R 0.0
 const std::string clay = "cohesive_cam_clay density 200 M 3.3";
 const std::string cap = "cohesive_cap density 200 nu_p 0.1 d 1e3 d_density 200 d_exponent 3";
 
+const std::string sand =
+    "norsand density 1600 e0 0.7 M 1.2 gamma 0.8 lambda 0.02 H 100 G 4e7 n 0.5";
+
 std::string message_of(const std::string& text) {
   return error_of<InputError>([&] { material_of(text); });
 }
@@ -45,7 +48,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Refusal{"mud density 1",
                 {"unknown law 'mud'",
-                 "drucker_prager_cap, crushable_foam, cohesive_cam_clay, cohesive_cap, elastic, "
+                 "drucker_prager_cap, crushable_foam, cohesive_cam_clay, cohesive_cap, norsand, "
+                 "elastic, "
                  "neo_hookean"}},
         Refusal{"drucker_prager_cap density 200 beta 22.53 R 0.02" + elastic + table,
                 {"law drucker_prager_cap, keyword 'd' is missing", "cohesion"}},
@@ -145,6 +149,9 @@ INSTANTIATE_TEST_SUITE_P(
                     " beta 30 tension_ratio 0.1 elasticity porous kappa 0.01 e0 1 pt_el 50 nu 0.3" +
                     table,
                 {"keyword 'pt_el' is 50 Pa", "above the tensile strength at the start, 100 Pa"}},
+        Refusal{sand + " chi 3 nu 0.2 N 0.9", {"keyword 'N' is 0.9", "in [0.05, 0.8]"}},
+        Refusal{sand + " chi 300 nu 0.2", {"keyword 'chi' is 300", "at most 96", "too large"}},
+        Refusal{sand + " chi 3 nu 0.45", {"keyword 'nu' is 0.45", "at most 0.9", "0.1 to 0.3"}},
         Refusal{"elastic density 0" + elastic,
                 {"law elastic, keyword 'density' is 0", "> 0 [kg/m3]"}},
         Refusal{"neo_hookean density 1100 G 1e6", {"keyword 'bulk' is missing"}}));

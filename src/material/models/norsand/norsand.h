@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// NorSand, a critical state law of sand: strength and dilatancy depend on density and pressure,
+/// and dense sand peaks and falls to the critical state. Surface and flow are those of
+/// [Jefferies1993], the hardening is that of [Jefferies2005]. Equations: theory: sand, eqs. 1
+/// to 6.
+///
+/// With P = p + pt, the image pressure P_i, x = P/P_i, the yield measure t of the section
+/// (section.h) and the dilatancy D = d(eps_v)/d(eps_q) of plastic flow, compaction positive:
+///   yield      t = eta P,  eta = M - (1 - N) D,  x = (1 + N D/M)^((1 - N)/N)
+///   flow       associated; D falls from M/(1 - N) at the tip (t = 0) over 0 at the image
+///   limit      D >= D_l = chi_i psi_i,  psi_i = e - gamma + lambda ln P_i
+///   hardening  d(ln P_i) = (H - H_psi psi_i) (x^2/x_l - x) d(eps_q),  x_l of D_l
+///   elasticity G = G_ref (P/100 kPa)^n, K = G 2 (1 + nu)/(3 (1 - 2 nu))
+/// so that eta <= M - (1 - N) chi psi. An elastic step that would leave x < x_l takes P_i along
+/// (inner cap). At the tip flow may be volumetric, and (1 - N) d(eps_v)/M takes the place of
+/// d(eps_q). Sand with D_l >= M/(1 - N) is too loose to bear shear, and compression softens it: so
+/// grains that had separated bear a load only after the void ratio has fallen again.
+///
+/// psi_i in D_l and H is that of P_i at the start of a step and of the void ratio at its end.
+/// Tension beyond P = 0 opens the sand. The dissipation is (M + N D) P d(eps_q) >= 0; the work
+/// against pt counts as frozen energy.
+///
+/// K and G are those of the pressure at the start of the step (hypoelastic): closed elastic cycles
+/// of pressure and shear together do not conserve energy exactly.
+
+#include "material/material_model.h"
+#include "material/models/norsand/norsand_parameters.h"
+
+namespace furrow {
+
+class NorSand : public Material {
+ public:
+  /// Indices of the internal variables in the state.
+  enum : std::size_t { void_ratio = field::internal, image_pressure, eps_dev_pl };
+
+  static MaterialModel model();
+  /// @param density     rho0 [kg/m^3]
+  /// @param void_ratio  at the start
+  NorSand(double density, const NorSandParameters& parameters, double void_ratio);
+
+  UpdateReport update_block(const PointBlock& block) const override;
+  ElasticModuli moduli(const VectorX& state) const override;
+  double largest_wave_speed(const PointBlock& block) const override;
+  double yield_function(const VectorX& state) const override;
+  double stress_scale(const VectorX& state) const override;
+  std::vector<Vector2> yield_surface(const VectorX& state, std::size_t points = 200) const override;
+
+  const NorSandParameters& parameters() const { return parameters_; }
+  /// Void ratio of the critical state at P = p + pt [Pa].
+  double critical_void_ratio(double pressure) const;
+
+ private:
+  double strength(double P, double image) const;  ///< t on the surface [Pa]
+
+  NorSandParameters parameters_;
+};
+
+}  // namespace furrow
