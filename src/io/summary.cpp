@@ -170,6 +170,8 @@ Summary summarise(const std::string& folder, const ResistanceOptions& options) {
   summary.closed = has_closing(path);
   if (summary.closed) summary.closing = read_closing(path);
   const History history = read_history(path);
+  for (const Channel& channel : history.channels())
+    summary.definitions[channel.name] = channel.meaning;
   try {
     if (count_passes(history) > 1 && !options.window.given())
       summary.passes = measure_passes(history, options);
@@ -202,11 +204,16 @@ std::string summary_text(const Summary& s) {
       "Signs: force_z carries the wheel; drawbar pull > 0 pulls the vehicle forward; resistance "
       "coefficient (towed wheel) =\n"
       "-force_x/force_z; net traction coefficient (driven wheel) = drawbar pull/force_z;\n"
-      "slip > 0 when driving, (v_rim - v)/max(|v_rim|, |v|); lateral force > 0 to the left of the "
-      "heading, moments of the ground\n"
-      "about the axle centre: overturning > 0 tips the top to the right, aligning > 0 turns to the "
-      "left. Effective input: "
-      "/run/effective_input of history.h5.\n";
+      "slip > 0 when driving; moments of the ground about the axle centre: overturning > 0 tips "
+      "the "
+      "top to the right,\n"
+      "aligning > 0 turns to the left.\n"
+      "Frames: tractive force (forward) and lateral force (to the left) are in the frame of the "
+      "wheel; force_x and force_y are\n"
+      "in the frame of the travel. Without a slip angle they agree.\n";
+  if (const auto slip = s.definitions.find("slip"); slip != s.definitions.end())
+    text += "Slip: " + slip->second + ".\n";
+  text += "Effective input: /run/effective_input of history.h5.\n";
   return text;
 }
 
@@ -226,7 +233,12 @@ std::string summary_json(const Summary& s) {
                       {"distance", r.window.distance},
                       {"how", r.window.how},
                       {"warning", r.window.warning}};
-    for (const SteadyValue& v : r.values) json["quantities"][v.name] = json_of(v);
+    for (const SteadyValue& v : r.values) {
+      json["quantities"][v.name] = json_of(v);
+      const auto meaning = s.definitions.find(v.name);
+      if (meaning != s.definitions.end())
+        json["quantities"][v.name]["definition"] = meaning->second;
+    }
     for (const Resistance& pass : s.passes) {
       nlohmann::ordered_json values;
       for (const SteadyValue& v : pass.values) values[v.name] = json_of(v);

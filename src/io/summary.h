@@ -3,6 +3,7 @@
 /// summary.txt for a person and summary.json for a program: what a run found, how sure it is, what
 /// it cost.
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct Summary {
   Resistance resistance;  ///< of the first pass where there are several
   /// each pass of several in one rut; empty for a single one
   std::vector<Resistance> passes;
+  /// meaning of the values that are means of a channel, by name
+  std::map<std::string, std::string> definitions;
   /// why there is no resistance ("the history ends before the cruise"); empty if there is
   std::string trouble;
   RunClosing closing;

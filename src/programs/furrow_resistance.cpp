@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "end_output.h"
+#include "io/history_file.h"
 #include "io/summary.h"
 #include "io/version.h"
 #include "number_option.h"
@@ -28,9 +29,12 @@ constexpr const char* quantities[] = {"hub_drop",
                                       "net_traction_coefficient",
                                       "drive_torque",
                                       "slip",
+                                      "tractive_force",
                                       "lateral_force",
                                       "overturning_moment",
-                                      "aligning_moment"};
+                                      "aligning_moment",
+                                      "force_x",
+                                      "force_y"};
 
 void print_csv_header() {
   fmt::print("folder,steady,begin_s,end_s,distance_m");
@@ -59,6 +63,7 @@ struct Request {
   std::vector<double> distance;  // [m] the same by travel
   bool together = false;         // the wheels of one vehicle
   bool csv = false;
+  int curve = 0;  // stretches
   bool write = false;
 };
 
@@ -85,6 +90,12 @@ void declare(CLI::App& app, Request& request) {
       app.add_flag("--together", request.together,
                    "the wheels of one run together: sums, and what their resistance is made of");
   app.add_flag("--csv", request.csv, "one line of comma-separated values for each folder")
+      ->excludes(together);
+  app.add_option("--curve", request.curve,
+                 "the values over so many equal stretches of the cruise, a line of comma-separated "
+                 "values for each: the curve of a run with ramps")
+      ->check(within(Range::closed(1, 10000), ""))
+      ->excludes(by_time)
       ->excludes(together);
   app.add_flag("--write", request.write, "write summary.txt and summary.json into the folders")
       ->excludes(together);
@@ -122,6 +133,12 @@ void require_different(const std::vector<std::string>& folders) {
 
 void evaluate(const std::string& folder, const Request& request) {
   require_history(folder);
+  if (request.curve > 0) {
+    for (const furrow::Resistance& stretch :
+         furrow::measure_curve(furrow::read_history(folder + "/history.h5"), request.curve))
+      print_csv(folder, stretch);
+    return;
+  }
   const furrow::Summary summary = furrow::summarise(folder, options_of(request));
   if (request.write) furrow::write_summary(folder, summary);
   if (!summary.trouble.empty()) throw furrow::Error(summary.trouble);
@@ -149,7 +166,7 @@ int main(int argc, char** argv) {
     return 1;
   }
   int status = 0;
-  if (request.csv) print_csv_header();
+  if (request.csv || request.curve > 0) print_csv_header();
   const auto attempt = [&](const std::string& what, const auto& action) {
     try {
       action();

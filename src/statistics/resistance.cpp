@@ -18,8 +18,15 @@ namespace {
 
 // of load times radius, below which an axle torque is rounding: the wheel is towed
 constexpr double no_torque = 1e-9;
+// of the load, by which forces differ in two frames: more than rounding
+constexpr double same_frame = 1e-9;
 // of the load, below which a lateral force is that of a wheel that runs straight
 constexpr double noise_sideways = 0.02;
+
+/// Whether another value of the verdict has the same force.
+bool repeats_another(const SteadyValue& value) {
+  return value.name == "tractive_force" || value.name == "force_x" || value.name == "force_y";
+}
 
 bool is_sideways(const SteadyValue& value) {
   return value.name == "lateral_force" || value.name == "overturning_moment" ||
@@ -87,6 +94,23 @@ std::vector<double> linearised_ratio(const std::vector<double>& a, const std::ve
   return series;
 }
 
+std::vector<Resistance> measure_curve(const History& history, int stretches) {
+  const std::vector<double> time = history.column("time");
+  const double begin = time[first_row_of_cruise(history)],
+               duration = (time.back() - begin) / stretches;
+  std::vector<Resistance> curve;
+  for (int n = 0; n < stretches; ++n) {
+    ResistanceOptions options;
+    options.window.from_time = begin + n * duration;
+    options.window.to_time = n + 1 < stretches ? begin + (n + 1) * duration : time.back();
+    options.window.whole_pitches = true;
+    curve.push_back(measure_resistance(history, options));
+    for (SteadyValue& value : curve.back().values)
+      value.standard_error = value.drift_error / std::sqrt(12.0);
+  }
+  return curve;
+}
+
 Resistance measure_resistance(const History& history, const ResistanceOptions& options) {
   Resistance result;
   if (!options.window.given()) {
@@ -127,6 +151,16 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
   add("drive_torque", "N m", part("drive_torque"), torque_scale);
   result.driven = std::abs(result.values.back().mean) > no_torque * torque_scale;
   add("slip", "", part("slip"), slip_scale);
+  if (history.has("tractive_force")) {
+    const std::vector<double> tractive = part("tractive_force");
+    add("tractive_force", "N", tractive, force_scale);
+    const std::vector<double> along = part("force_x");
+    for (std::size_t i = 0; i < along.size(); ++i)
+      if (std::abs(along[i] - tractive[i]) > same_frame * std::abs(force_z[i])) {
+        for (const char* name : {"force_x", "force_y"}) add(name, "N", part(name), force_scale);
+        break;
+      }
+  }
   const bool sideways = history.has("lateral_force");
   if (sideways) {
     add("lateral_force", "N", part("lateral_force"), force_scale);
@@ -149,7 +183,7 @@ Resistance measure_resistance(const History& history, const ResistanceOptions& o
   // Values that are not steady for the same reason share it.
   std::vector<std::pair<std::string, std::string>> names_of_reason;
   for (const SteadyValue& value : result.values) {
-    if (value.steady || (straight && is_sideways(value))) continue;
+    if (value.steady || repeats_another(value) || (straight && is_sideways(value))) continue;
     const std::string why = value.verdict.substr(std::string("not steady: ").size());
     const auto same = std::find_if(names_of_reason.begin(), names_of_reason.end(),
                                    [&](const auto& known) { return known.first == why; });

@@ -31,9 +31,11 @@ struct Resistance {
   Window window;
   /// hub_drop [m], of a tyre also tyre_deflection and rut_depth [m]; force_z [N],
   /// resistance_coefficient, drawbar_pull [N], net_traction_coefficient, drive_torque [N m], slip;
-  /// where the history has them also lateral_force [N], overturning_moment and aligning_moment [N
-  /// m]. These count for the verdict if the lateral force exceeds 2 % of force_z; without slip
-  /// angle and camber they are noise
+  /// where the history has them also tractive_force and lateral_force [N], overturning_moment and
+  /// aligning_moment [N m]. The last three count for the verdict if the lateral force exceeds 2 %
+  /// of force_z; without slip angle and camber they are noise. If the heading is not the travel,
+  /// also force_x and force_y [N]. The tractive force and these repeat other values, and do not
+  /// count
   std::vector<SteadyValue> values;
   ResistanceParts parts;
   bool driven = false;  ///< an axle torque drives or brakes the wheel: it is not towed
@@ -61,5 +63,10 @@ std::vector<double> linearised_ratio(const std::vector<double>& a, const std::ve
 /// @throws StateError for such a wheel, Error for a missing channel, a history that ends before the
 /// cruise, or rows that are missing
 Resistance measure_resistance(const History& history, const ResistanceOptions& options = {});
+
+/// The values over equal stretches of the cruise: a curve of a run whose targets change slowly. The
+/// standard errors are those of the values less their trend; the verdicts have no meaning here.
+/// @throws as measure_resistance()
+std::vector<Resistance> measure_curve(const History& history, int stretches);
 
 }  // namespace furrow

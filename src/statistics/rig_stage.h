@@ -16,6 +16,9 @@ constexpr char pass_channel[] = "pass";
 /// Name of the channel that is 1 where the axle is free along x: speed and slip are then answers.
 constexpr char axle_free_channel[] = "axle_free";
 
+/// Name of the channel that counts the pitches of grousers by which the wheel has turned.
+constexpr char grouser_channel[] = "grouser_pitches";
+
 /// Names of three depths [m]: of the hub, of the tyre's deflection, of the ground below the wheel.
 constexpr char hub_drop_channel[] = "hub_drop";
 constexpr char tyre_deflection_channel[] = "tyre_deflection";

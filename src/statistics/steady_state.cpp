@@ -145,6 +145,27 @@ Window rows_between(const std::vector<double>& column, std::optional<double> fro
   return window;
 }
 
+/// The beginning of [first, last) goes up until the rows cover whole pitches of grousers; a row
+/// counts for its spacing.
+void trim_to_whole_pitches(const History& history, Window& window) {
+  if (!history.has(grouser_channel) || window.rows() < 2) return;
+  const std::vector<double> pitches = history.column(grouser_channel);
+  const double end = pitches[window.last - 1];
+  const double row = std::abs(end - pitches[window.first]) / static_cast<double>(window.rows() - 1);
+  const auto covered = [&](std::size_t first) { return std::abs(end - pitches[first]) + row; };
+  const double all = covered(window.first);
+  if (all == 0.0) return;  // smooth, or without spin
+  const double whole = std::floor(all + 0.5 * row);
+  if (whole < 1.0) {
+    if (!window.warning.empty()) window.warning += "; ";
+    window.warning += "the window is shorter than the pitch of the grousers: run longer";
+    return;
+  }
+  const auto error = [&](std::size_t first) { return std::abs(covered(first) - whole); };
+  while (window.rows() > 2 && error(window.first + 1) < error(window.first)) ++window.first;
+  window.how += fmt::format(", trimmed to {:.0f} whole pitches of grousers", whole);
+}
+
 /// Of a window that was given.
 std::string doubt_of_begin(const History& history, const Window& window) {
   const bool early = has_stages(history) && history.column(stage_channel)[window.first] <
@@ -241,6 +262,7 @@ Window select_window(const History& history, const WindowRequest& request,
       window.warning =
           fmt::format("the transient of {} fills nearly half of the cruise: run longer", longest);
   }
+  if (window.automatic || request.whole_pitches) trim_to_whole_pitches(history, window);
   if (window.rows() < 2)
     throw Error(fmt::format("the window ({}) has {} row(s): widen it or record more often",
                             window.how, window.rows()));

@@ -15,6 +15,7 @@ namespace furrow {
 struct WindowRequest {
   std::optional<double> from_time, to_time;          ///< [s]
   std::optional<double> from_distance, to_distance;  ///< [m] travelled along x since the first row
+  bool whole_pitches = false;  ///< also a given window begins later, for whole pitches of grousers
 
   bool given() const { return from_time || to_time || from_distance || to_distance; }
 };
@@ -43,7 +44,8 @@ std::size_t mser_truncation(const std::vector<double>& values);
 
 /// Selects the rows of the window. Automatic: from the start of the cruise (channel `stage`,
 /// rig_stage.h; the first row without such a channel), less the longest transient of the named
-/// channels.
+/// channels. If the wheel has grousers (channel `grouser_pitches`), the window then begins later,
+/// so that it covers whole pitches to half a row.
 /// @throws InputError for a request outside of the history, or one given by both time and distance;
 /// Error when no rows remain
 Window select_window(const History& history, const WindowRequest& request,

@@ -322,6 +322,35 @@ TEST(Resistance, PlacesOfGrainsThatMissWorkAreNotShown) {
   EXPECT_NEAR(parts.unexplained, 0.5, 1e-9);
 }
 
+// A slip that grows from 0 to 0.6, a pull of 100 N x slip with noise of 2 N: the stretches give the
+// line, and errors of the noise alone.
+TEST(Resistance, ACurveHasTheErrorsOfItsScatterWithoutItsTrend) {
+  History history({{"time", "s", ""},
+                   {"x", "m", ""},
+                   {"hub_drop", "m", ""},
+                   {"force_x", "N", ""},
+                   {"force_z", "N", ""},
+                   {"drawbar_pull", "N", ""},
+                   {"drive_torque", "N m", ""},
+                   {"slip", "", ""}});
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 2.0);
+  constexpr int rows = 12000;
+  for (int i = 0; i < rows; ++i) {
+    const double slip = 0.6 * i / (rows - 1), pull = 100.0 * slip + noise(random);
+    history.append({0.001 * i, 0.001 * i, 0.01, pull, 200.0, pull, 5.0, slip});
+  }
+  const std::vector<Resistance> curve = measure_curve(history, 6);
+  ASSERT_EQ(curve.size(), 6u);
+  for (std::size_t n = 0; n < curve.size(); ++n) {
+    const double slip = 0.1 * static_cast<double>(n) + 0.05;
+    const SteadyValue& pull = curve[n].value("drawbar_pull");
+    EXPECT_NEAR(curve[n].value("slip").mean, slip, 1e-4);
+    EXPECT_NEAR(pull.standard_error, 2.0 / std::sqrt(rows / 6.0), 0.3 * pull.standard_error);
+    EXPECT_NEAR(pull.mean, 100.0 * slip, 4.0 * pull.standard_error);
+  }
+}
+
 TEST(Resistance, AShortTravelIsSaid) {
   ResistanceOptions options;
   options.shortest_distance = 20.0;

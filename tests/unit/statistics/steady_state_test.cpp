@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/types.h"
+#include "statistics/rig_stage.h"
 #include "tests/support/error_of.h"
 
 namespace furrow {
@@ -304,6 +305,41 @@ TEST(Window, ATransientWhoseRestIsNegligibleIsNone) {
   const Window window = select_window(history, {}, {"sinkage"});
   EXPECT_GE(window.first, 450u);
   EXPECT_EQ(window.warning, "");
+}
+
+// A ripple of the grousers about a mean of 1 at 0.37 pitches per second over 10.3 s of cruise. The
+// mean over whole pitches is exact, that over all rows is not.
+TEST(Window, CoversWholePitchesOfGrousers) {
+  History history(
+      {{"time", "s", ""}, {"x", "m", ""}, {grouser_channel, "", ""}, {"depth", "m", ""}});
+  double all = 0.0;
+  constexpr int rows = 1030;
+  for (int i = 0; i < rows; ++i) {
+    const double time = 0.01 * i, pitches = 0.37 * time,
+                 depth = 1.0 + 0.3 * std::sin(2.0 * pi * pitches);
+    history.append({time, 0.5 * time, pitches, depth});
+    all += depth / rows;
+  }
+  const Window window = select_window(history, {}, {});
+  EXPECT_NEAR(window.end - window.begin + 0.01, 3.0 / 0.37, 0.006);
+  EXPECT_EQ(window.last, history.size());
+  EXPECT_THAT(window.how, HasSubstr("trimmed to 3 whole pitches of grousers"));
+  double mean = 0.0;
+  for (std::size_t i = window.first; i < window.last; ++i)
+    mean += history.at(i, 3) / static_cast<double>(window.rows());
+  EXPECT_NEAR(mean, 1.0, 2e-4);
+  EXPECT_GT(std::abs(all - 1.0), 5e-3);
+  WindowRequest given;
+  given.from_time = 1.0;
+  EXPECT_NEAR(select_window(history, given, {}).begin, 1.0, 1e-12);
+}
+
+TEST(Window, ShorterThanAPitchOfGrousersIsDoubted) {
+  History history({{"time", "s", ""}, {"x", "m", ""}, {grouser_channel, "", ""}});
+  for (int i = 0; i < 100; ++i) history.append({0.01 * i, 0.01 * i, 0.005 * i});
+  const Window window = select_window(history, {}, {});
+  EXPECT_THAT(window.warning, HasSubstr("shorter than the pitch of the grousers"));
+  EXPECT_EQ(window.rows(), 100u);
 }
 
 TEST(Window, IsTheUsersByTimeOrByDistance) {
