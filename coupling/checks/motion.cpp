@@ -255,10 +255,8 @@ Found slope_is_given_once(const Scene& scene) {
                     gravity.x(), gravity.y(), gravity.z(), angle);
     const std::string where = fmt::format("fix gravity '{}'", fix->id);
     for (const auto* rig : fixes_of<const FixWheelRig>(modify))
-      if (rig->options().number("slope") != 0.0)
-        return refusal(where,
-                       fmt::format("{}, and {} is {:g}", problem, rig->options().where("slope"),
-                                   rig->options().number("slope")),
+      if (rig->rig().on_slope())
+        return refusal(where, fmt::format("{}, and fix {} has a slope", problem, rig->id),
                        "one of the two", "write 'vector 0 0 -1' and keep the slope");
     for (const auto* terrain : fixes_of<const FixTerrain>(modify))
       if (terrain->options().number("gravity") > 0.0)

@@ -13,6 +13,7 @@
 #include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/base/fix_terrain.h"
+#include "io/csv_file.h"
 #include "update.h"
 
 namespace furrow::coupling {
@@ -21,17 +22,42 @@ namespace {
 
 constexpr double min_steps_of_ramp = 10;
 
+/// The columns of the table, each over the time. @throws InputError
+Courses table_of(const Options& options) {
+  Courses courses;
+  if (!options.has("table")) return courses;
+  const std::string& file = options.text("table");
+  const CsvTable table = CsvTable::read(file);
+  const std::vector<double> time = table.numbers("time");
+  const std::vector<std::string>& known = WheelRig::changing_targets();
+  for (const std::string& name : table.names()) {
+    if (name == "time") continue;
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(options.where("table"), fmt::format("has the column '{}' in {}", name, file),
+                       fmt::format("time [s] and {}", fmt::join(known, ", ")));
+    const std::vector<double> values = table.numbers(name);
+    std::vector<std::pair<double, double>> points;
+    for (std::size_t i = 0; i < time.size(); ++i) points.emplace_back(time[i], values[i]);
+    courses.emplace(name, Course(std::move(points)));
+  }
+  if (time.empty() || courses.empty())
+    throw InputError(options.where("table"), fmt::format("is {}, which has no targets", file),
+                     "a line of names, such as time,slip, and rows of numbers");
+  return courses;
+}
+
 /// A rig is made with the wheel where the script puts it, also when the run continues: lowering,
 /// heading and camber are told from there. A wheel that comes from a restart file then goes back to
 /// the state it had.
 WheelRig make_rig(const Options& options, FixWheelHub& wheel_fix) {
   WheelHub& wheel = wheel_fix.hub();
-  if (!wheel_fix.state_as_made()) return WheelRig(options, wheel);
+  const Courses table = table_of(options);
+  if (!wheel_fix.state_as_made()) return WheelRig(options, wheel, table);
   Checkpoint now("wheel");
   wheel.checkpoint(now);
   Checkpoint as_made = *wheel_fix.state_as_made();
   wheel.checkpoint(as_made);
-  WheelRig rig(options, wheel);
+  WheelRig rig(options, wheel, table);
   Checkpoint again = now.reread();
   wheel.checkpoint(again);
   wheel.set_vertical_damping(options.number("damping"));
@@ -45,6 +71,11 @@ const StyleRow wheel_rig_style =
 
 Schema FixWheelRig::schema() {
   Schema schema = WheelRig::schema("fix wheel/rig");
+  schema
+      .text("table",
+            "CSV file with the column `time` [s] and columns named as the targets, in the place "
+            "of ramps")
+      .optional();
   schema.text("wheel", "id of the fix of the wheel or tyre to drive; one rig per wheel");
   return schema;
 }
@@ -87,12 +118,13 @@ void FixWheelRig::check_passes() {
 /// One ground has one slope. LIGGGHTS takes the gravity of clumps from fix gravity itself.
 void FixWheelRig::check_slope() {
   for (const FixWheelRig* other : fixes_of<FixWheelRig>(*modify))
-    if (other->options().number("slope") != options().number("slope"))
-      throw InputError(
-          options().where("slope"),
-          fmt::format("is {:g} degrees, and that of fix {} is {:g}", options().number("slope"),
-                      other->id, other->options().number("slope")),
-          "one slope for all rigs", "gravity is turned for the whole scene");
+    for (const char* key : {"slope", "side_slope"})
+      if (other->options().number(key) != options().number(key))
+        throw InputError(
+            options().where(key),
+            fmt::format("is {:g} degrees, and that of fix {} is {:g}", options().number(key),
+                        other->id, other->options().number(key)),
+            "one slope for all rigs", "gravity is turned for the whole scene");
   if (on_slope() && modify->n_fixes_style("multisphere") > 0)
     throw InputError(options().where("slope"), "is given with a fix multisphere",
                      "a slope with single grains",

@@ -28,7 +28,7 @@ class FixWheelRig : public FixRig, public MotionController {
 
  private:
   FixWheelHub& find_free_wheel();
-  bool on_slope() const { return options().number("slope") != 0.0; }
+  bool on_slope() const { return rig_.on_slope(); }
   void warn_of_short_ramps();
   void check_slope();
   void check_passes();

@@ -9,23 +9,19 @@
 
 namespace furrow::coupling {
 
-Vector3 tilted(const Vector3& gravity, double angle) {
-  return Eigen::AngleAxisd(angle, Vector3::UnitY()) * gravity;
-}
-
-void tilt_gravity_of_terrain(LAMMPS_NS::LAMMPS& lammps, double angle) {
+void tilt_gravity_of_terrain(LAMMPS_NS::LAMMPS& lammps, const Matrix3& tilt) {
   for (auto* fix : fixes_of<FixTerrain>(*lammps.modify)) {
     ContinuumTerrain& terrain = fix->terrain();
-    terrain.set_gravity(tilted(terrain.parameters().gravity, angle));
+    terrain.set_gravity(tilt * terrain.parameters().gravity);
   }
 }
 
-void tilt_gravity_of_grains(LAMMPS_NS::LAMMPS& lammps, double angle) {
+void tilt_gravity_of_grains(LAMMPS_NS::LAMMPS& lammps, const Matrix3& tilt) {
   const LAMMPS_NS::Atom& atom = *lammps.atom;
   for (auto* fix : fixes_of<LAMMPS_NS::FixGravity>(*lammps.modify)) {
     Vector3 gravity;
     fix->get_gravity(gravity.data());
-    const Vector3 change = tilted(gravity, angle) - gravity;
+    const Vector3 change = tilt * gravity - gravity;
     for (int i = 0; i < atom.nlocal; ++i) {
       if (!(atom.mask[i] & fix->groupbit)) continue;
       const double mass = atom.rmass ? atom.rmass[i] : atom.mass[atom.type[i]];

@@ -10,13 +10,9 @@ class LAMMPS;
 
 namespace furrow::coupling {
 
-/// Gravity turned by an angle [rad] about y: straight down becomes (-sin, 0, -cos), and x points
-/// uphill.
-Vector3 tilted(const Vector3& gravity, double angle);
-
-/// Of every continuum of the scene, in the place of its keyword's.
-void tilt_gravity_of_terrain(LAMMPS_NS::LAMMPS& lammps, double angle);
+/// Of every continuum of the scene, in the place of its keyword's. @param tilt rotation
+void tilt_gravity_of_terrain(LAMMPS_NS::LAMMPS& lammps, const Matrix3& tilt);
 /// Adds to the forces on grains what is between the gravity of each fix gravity and the turned one.
-void tilt_gravity_of_grains(LAMMPS_NS::LAMMPS& lammps, double angle);
+void tilt_gravity_of_grains(LAMMPS_NS::LAMMPS& lammps, const Matrix3& tilt);
 
 }  // namespace furrow::coupling

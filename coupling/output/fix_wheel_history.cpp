@@ -54,7 +54,7 @@ void FixWheelHistory::open(std::optional<double> resume_time) {
   Grains now = gather_grains(*lmp, ground_level);
   if (comm->me != 0) return;
   const ResultsInUse in_use;
-  open_rows("history.h5", WheelRig::channels(), options().text("title"), resume_time);
+  open_rows("history.h5", rig_fix_.rig().recorded_channels(), options().text("title"), resume_time);
   if (resume_time && now.size() > 0)
     reference_ = read_reference_grains(in_folder("history.h5"));
   else

@@ -83,6 +83,7 @@ class MeshWheel {
     reach_ = reach;
     wheel_.geometry.diameter = 2.0 * radius;
     wheel_.geometry.grousers.height = std::max(0.0, reach - radius);
+    wheel_.geometry.grousers.number = static_cast<int>(options.integer("grousers"));
     wheel_.geometry.width = upper.y() - lower.y();
     wheel_.hub.centre = read_axle(options);
     set_inertia();
@@ -179,6 +180,10 @@ Schema mesh_wheel_schema(const std::string& subject) {
               "nominal radius, for rim speed, slip and hub drop; by default the largest distance "
               "from the axle")
       .optional();
+  schema
+      .integer("grousers", Range::closed(0, 1000),
+               "number of equal sectors, such as grousers; averages cover whole sectors")
+      .by_default("0");
   schema
       .number("density", "kg/m^3", Range::positive(), "gives the mass of the solid, without `mass`")
       .optional();

@@ -26,12 +26,16 @@ class RigidWheel : public WheelHub {
   explicit RigidWheel(const RigidWheelParameters& parameters,
                       const std::string& where = "rigid wheel");
   /// A wheel of another shape. parameters.geometry gives its nominal radius and width, and in
-  /// grousers.height the part of the largest radius beyond the nominal one.
+  /// grousers the part of the largest radius beyond the nominal one and the number of sectors.
   /// @param surface about the axle centre [m]
   RigidWheel(const RigidWheelParameters& parameters, Surface surface, const std::string& where);
 
   const RigidWheelParameters& parameters() const { return parameters_; }
   double nominal_radius() const override { return parameters_.geometry.radius(); }
+  double tip_radius() const override {
+    return nominal_radius() + parameters_.geometry.grousers.height;
+  }
+  int grousers() const override { return parameters_.geometry.grousers.number; }
   double nominal_width() const override { return parameters_.geometry.width; }
   double lowest_point() const override;  ///< of the true circle and shoulders
 

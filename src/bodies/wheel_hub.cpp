@@ -155,7 +155,7 @@ void WheelHub::advance_translation(double dt, const Vector3& force) {
   for (const Coordinate axis : translations) {
     const int k = component(axis);
     const double inertia = inertia_.mass / dt;
-    const double dragged = axis == Coordinate::x ? dragged_mass_ / dt : 0.0;
+    const double dragged = axis == Coordinate::z ? 0.0 : dragged_mass_ / dt;
     const double damping = axis == Coordinate::z ? vertical_damping_ : 0.0;
     const double before = velocity_[k];
     const double applied = force[k] + load_[k];

@@ -60,8 +60,9 @@ class WheelHub : public Body {
   /// Torque of a motor or brake between carrier and wheel, > 0 drives forward [N m]; has no effect
   /// while the spin is held or prescribed.
   void set_axle_torque(double torque) { axle_torque_ = torque; }
-  /// Additional mass coupled to the hub's x motion [kg]: the vehicle's share. Its inertial force is
-  /// reported as the constraint of x, its kinetic energy as work of the drive.
+  /// Additional mass coupled to the hub's motion along x and y where it is free [kg]: the vehicle's
+  /// share. Its inertial force is reported as the constraint, its kinetic energy as work of the
+  /// drive.
   /// @throws Error for a negative mass
   void set_dragged_mass(double mass);
   /// Viscous resistance to vertical motion, taken implicitly [N s/m]; its loss is part of the
@@ -91,8 +92,8 @@ class WheelHub : public Body {
     return velocity_ + omega_.cross(point - centre_);
   }
   /// Constraint force [N] or torque [N m] on the wheel of a held or prescribed coordinate, mean of
-  /// the last step or interval. For a free spin it is the axle torque, for a free x the inertial
-  /// force of the dragged mass, for other free coordinates zero.
+  /// the last step or interval. For a free spin it is the axle torque, for a free x or y the
+  /// inertial force of the dragged mass, for other free coordinates zero.
   double constraint(Coordinate coordinate) const { return constraint_[coordinate]; }
   /// [J] dissipated by the vertical damping since the start
   double damping_loss() const { return dissipated_; }
@@ -101,6 +102,10 @@ class WheelHub : public Body {
 
   /// [m] of the unloaded wheel without grousers; defines the rim speed
   virtual double nominal_radius() const = 0;
+  /// [m] largest distance of the unloaded wheel from its axle, grousers included
+  virtual double tip_radius() const { return nominal_radius(); }
+  /// number of equal sectors of the wheel, each with a grouser; 0 for a smooth one
+  virtual int grousers() const { return 0; }
   /// [m] of the part that rolls on the ground, unloaded: of a tyre its tread or carcass
   virtual double nominal_width() const = 0;
   /// [m] z of the lowest point of the unloaded shape without grousers; defines the hub drop
@@ -154,7 +159,7 @@ class WheelHub : public Body {
   Vector3 load_ = Vector3::Zero();            // [N]
   double axle_torque_ = 0.0;                  // [N m]
   double vertical_damping_ = 0.0;             // [N s/m]
-  double dragged_mass_ = 0.0;                 // [kg] along x
+  double dragged_mass_ = 0.0;                 // [kg] along x and y
   // [J] since the start
   double given_work_ = 0.0;
   double load_work_ = 0.0;

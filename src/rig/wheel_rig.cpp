@@ -21,25 +21,62 @@ RigStage WheelRig::stage(double time) const {
                                     : RigStage::cruise;
 }
 
+Matrix3 WheelRig::tilt(double time) const {
+  const double share = load_ramp_.value(time);
+  return (Eigen::AngleAxisd(-side_slope_ * share, Vector3::UnitX()) *
+          Eigen::AngleAxisd(slope_ * share, Vector3::UnitY()))
+      .toRotationMatrix();
+}
+
 void WheelRig::apply(double time, double dt) {
   // by the middle of the step: safe against rounding of its ends
   const double middle = time + 0.5 * dt, clock = time - passes_.delay(middle);
+  follow_courses(time, dt);
   switch (stage(middle)) {
     case RigStage::settle:
       drive_vertical(clock, dt);
       wheel_.hold(Coordinate::x);
       wheel_.hold(Coordinate::spin);
+      if (lateral_free_) wheel_.hold(Coordinate::y);
       return;
     case RigStage::accelerate:
     case RigStage::cruise:
       drive_vertical(clock, dt);
       drive_travel(clock, dt);
+      if (lateral_free_) wheel_.release(Coordinate::y);
       drive_spin(clock, dt);
       return;
     case RigStage::back:
       go_back(clock, dt);
       return;
   }
+}
+
+double WheelRig::slip_angle(double time) const {
+  const auto found = courses_.find("slip_angle");
+  return found == courses_.end() ? slip_angle_
+                                 : radians(found->second.value(time - cruise_start()));
+}
+
+double WheelRig::spin_rate_of(double slip, double slip_angle) const {
+  const double speed = slip_by_total_speed_ ? speed_ : speed_ * std::cos(slip_angle);
+  return rim_speed(slip_definition_, slip, speed) / slip_radius_;
+}
+
+/// Functions of time alone: the targets in the middle of the step.
+void WheelRig::follow_courses(double time, double dt) {
+  if (courses_.empty()) return;
+  const double middle = time + 0.5 * dt, clock = middle - cruise_start();
+  for (const auto& [key, course] : courses_)
+    if (key == "load_force")
+      load_ = course.value(clock);
+    else if (key == "spin_rate")
+      spin_rate_ = course.value(clock);
+    else if (key == "slip")
+      slip_ = course.value(clock);
+    else
+      wheel_.prescribe(Coordinate::yaw, (slip_angle(time + dt) - slip_angle(time)) / dt);
+  if (mode_ == Mode::slip) spin_rate_ = spin_rate_of(slip_, slip_angle(middle));
 }
 
 /// What the wheel does depends on where it is and how the ground bears it, so that nothing else
@@ -87,8 +124,10 @@ void WheelRig::drive_vertical(double time, double dt) {
     wheel_.prescribe(Coordinate::z, lowering_ * load_ramp_.mean_rate(time, time + dt));
   } else {
     wheel_.release(Coordinate::z);
-    wheel_.set_load(load_ * load_ramp_.value(time) *
-                    Vector3(-std::sin(slope_), 0.0, -std::cos(slope_)));
+    const double across = std::sin(side_slope_), along = std::sin(slope_);
+    wheel_.set_load(
+        load_ * load_ramp_.value(time) *
+        Vector3(-along, -across * std::cos(slope_), -std::cos(side_slope_) * std::cos(slope_)));
   }
 }
 
@@ -99,8 +138,7 @@ void WheelRig::drive_spin(double time, double dt) {
       return;
     case Mode::slip:
     case Mode::spin:
-      wheel_.prescribe(Coordinate::spin,
-                       rim_speed_ / wheel_.nominal_radius() * speed_ramp_.mean(time, time + dt));
+      wheel_.prescribe(Coordinate::spin, spin_rate_ * speed_ramp_.mean(time, time + dt));
       return;
     case Mode::torque:
       wheel_.release(Coordinate::spin);

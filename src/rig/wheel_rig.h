@@ -9,6 +9,7 @@
 #include "core/options.h"
 #include "core/outputs.h"
 #include "statistics/rig_stage.h"
+#include "rig/course.h"
 #include "rig/ground_losses.h"
 #include "rig/pass_schedule.h"
 #include "rig/ramp.h"
@@ -23,19 +24,21 @@ namespace furrow {
 ///   accelerate  x follows speed x ramp; the spin is free (towed), follows the rim speed of the
 ///               slip times the same ramp, so that the slip has its value from the first step
 ///               (slip), or is driven by torque x ramp (torque);
-///   cruise      everything constant.
+///   cruise      everything constant, or along the courses of courses(), whose clock starts here.
+///               Their first values hold before.
 /// With travel free, x is released when the acceleration begins. Spin or torque and the drawbar
 /// load grow with the ramp; speed and slip result. The mass that the axle drags has inertia.
 ///
-/// On a slope the axes stay with the ground: x points uphill along it and z is normal to it. The
-/// rig turns the load; tilt() turns the weights of grains and continuum.
+/// On a slope the axes stay with the ground: x points uphill along it and z is normal to it. On a
+/// side slope the ground rises to the left, along y. The rig turns the load; tilt() turns the
+/// weights of grains and continuum.
 ///
 /// With several passes the wheel returns after the cruise of each pass but the last. The rig stops
 /// and lifts it, brings it back to its start, and lowers it until the ground bears a small part of
 /// the load. Then it settles again and rolls in its rut.
 ///
-/// y, yaw and camber are held throughout. Before `start` the wheel is held in place. Travel is
-/// along +x.
+/// y is held until the acceleration, and then held or free. Yaw follows the slip angle, camber is
+/// held. Before `start` the wheel is held in place. Travel is along +x.
 ///
 /// The load is the whole force on level ground at rest, weight of the wheel included. The rig adds
 /// the difference to the wheel's mass times gravity as a constant force at the axle, without
@@ -50,8 +53,11 @@ class WheelRig {
   static Schema schema(const std::string& subject = "wheel rig");
 
   /// Turns the wheel to its slip angle and camber. The wheel must outlive the rig.
+  /// @param table courses that are not among the options
   /// @throws InputError for keys that contradict each other
-  WheelRig(const Options& options, WheelHub& wheel);
+  WheelRig(const Options& options, WheelHub& wheel, const Courses& table = {});
+  /// The targets that can have a course.
+  static const std::vector<std::string>& changing_targets();
 
   /// Other values of the load, the speed, the slip, the torque, the spin rate or the drawbar load,
   /// from the next step on; all other keys as they were. @throws InputError, and nothing has
@@ -65,6 +71,8 @@ class WheelRig {
 
   /// Channels of measure(), in its order; the first is the time.
   static std::vector<Channel> channels();
+  /// The same, with the slip as this rig defines it.
+  std::vector<Channel> recorded_channels() const;
   /// One row: state of the wheel and the present forces on its surface. Call it when the forces of
   /// the step are known.
   std::vector<double> measure(double time, const GroundLosses& losses = {}) const;
@@ -72,24 +80,37 @@ class WheelRig {
   RigStage stage(double time) const;
   int pass(double time) const { return passes_.index(time) + 1; }  ///< from 1
   int passes() const { return passes_.passes(); }
-  /// [rad] by which gravity is turned at a time: up to the slope while the load grows
-  double tilt(double time) const { return slope_ * load_ramp_.value(time); }
+  /// Turns gravity at a time: up to the slopes while the load grows.
+  Matrix3 tilt(double time) const;
+  bool on_slope() const { return slope_ != 0.0 || side_slope_ != 0.0; }
   Mode mode() const { return mode_; }
-  /// [N] full; 0 when the sinkage is prescribed
+  /// [N] full, now; 0 when the sinkage is prescribed
   double load() const { return load_; }
-  /// [m/s] in cruise; 0 unless slip or spin is prescribed
-  double target_rim_speed() const { return rim_speed_; }
+  /// [m/s] in cruise, now; 0 unless slip or spin is prescribed
+  double target_rim_speed() const { return spin_rate_ * wheel_.nominal_radius(); }
   double cruise_start() const { return speed_ramp_.end(); }  ///< [s]
 
  private:
   struct Reading;
   static const Outputs<const Reading>& outputs();
+  void check_half_model(const Options& options) const;
+  void check_course(const std::string& target, const std::string& where,
+                    const Options& options) const;
+  void check_constants(const Options& options) const;
   void check_load(const Options& options) const;
+  void read_courses(const Options& options, const Courses& table);
+  void read_slip(const Options& options);
   void read_load(const Options& options);
   void read_vertical(const Options& options);
   void read_travel(const Options& options);
+  void read_dragged_mass(const Options& options);
   void read_drive(const Options& options);
   void read_passes(const Options& options);
+  bool has_course(const std::string& key) const { return courses_.count(key) > 0; }
+  double slip_angle(double time) const;
+  double spin_rate_of(double slip, double slip_angle) const;
+  std::string slip_meaning() const;
+  void follow_courses(double time, double dt);
   void drive_vertical(double time, double dt);
   void go_back(double time, double dt);
   void drive_travel(double time, double dt);
@@ -100,16 +121,22 @@ class WheelRig {
   bool sinkage_prescribed_ = false;
   double load_ = 0.0;      // [N]
   double lowering_ = 0.0;  // [m] upwards from the first position to the prescribed sinkage
-  bool travel_free_ = false;
-  double slope_ = 0.0;         // [rad]
-  double drawbar_load_ = 0.0;  // [N]
-  double speed_ = 0.0;         // [m/s]; 0 with travel free
-  double plane_speed_ = 0.0;   // [m/s] its component in the wheel plane, speed cos(slip angle)
-  double rim_speed_ = 0.0;     // [m/s]
-  double torque_ = 0.0;        // [N m]
-  double ground_level_ = 0.0;  // [m]
-  Ramp load_ramp_;             // begins with the settling; as all ramps, on the first pass's clock
-  Ramp speed_ramp_;            // begins with the acceleration
+  bool travel_free_ = false, lateral_free_ = false;
+  double slope_ = 0.0;                                             // [rad] along x
+  double side_slope_ = 0.0;                                        // [rad] along y
+  double drawbar_load_ = 0.0;                                      // [N]
+  double speed_ = 0.0;                                             // [m/s]; 0 with travel free
+  double spin_rate_ = 0.0;                                         // [rad/s] in cruise
+  double torque_ = 0.0;                                            // [N m]
+  double ground_level_ = 0.0;                                      // [m]
+  Courses courses_;                                                // on the clock of the cruise
+  double slip_ = 0.0;                                              // in mode slip
+  double slip_angle_ = 0.0;                                        // [rad] without a course
+  SlipDefinition slip_definition_ = SlipDefinition::larger_speed;  // of the prescribed slip
+  double slip_radius_ = 0.0;                                       // [m] of the rim speed in slip
+  bool slip_by_total_speed_ = false;
+  Ramp load_ramp_;   // begins with the settling; as all ramps, on the first pass's clock
+  Ramp speed_ramp_;  // begins with the acceleration
   PassSchedule passes_;
   double first_x_ = 0.0;         // [m] of the axle, where every pass begins
   double lifted_z_ = 0.0;        // [m] of the axle on its way back

@@ -21,8 +21,9 @@ constexpr double least_travel = 1e-3;
 constexpr double largest_torque = 100.0;
 // Of the load.
 constexpr double largest_drawbar_load = 100.0;
-constexpr double largest_speed = 1000.0;    // [m/s] of axle and rim
-constexpr double largest_gravity = 2000.0;  // [m/s^2] of a large centrifuge
+constexpr double largest_speed = 1000.0;     // [m/s] of axle and rim
+constexpr double largest_slip_radius = 2.0;  // of the nominal radius
+constexpr double largest_gravity = 2000.0;   // [m/s^2] of a large centrifuge
 // [m/s] while the wheel is brought back for another pass
 constexpr double largest_return_speed = 100.0, largest_lowering_speed = 10.0;
 
@@ -62,6 +63,20 @@ Schema WheelRig::schema(const std::string& subject) {
                 "`spin`: prescribed spin rate");
   schema.number("slip", "", Range::any(), "slip in `mode slip`; positive when driving").optional();
   schema
+      .choice("slip_radius", {"bare", "tip", "effective"},
+              "radius that gives v_rim in slip: without grousers, over their tips, or "
+              "`effective_radius`")
+      .by_default("bare");
+  schema
+      .number("effective_radius", "m", Range::positive(),
+              "radius of slip with `slip_radius effective`")
+      .optional();
+  schema
+      .choice("slip_speed", {"forward", "total"},
+              "speed v in slip: `forward`: of the axle in the wheel plane; `total`: its whole "
+              "horizontal speed")
+      .by_default("forward");
+  schema
       .choice("slip_definition", slip_definition_words(),
               "`larger_speed`: (v_rim - v)/max(|v_rim|, |v|); `rim_speed`: (v_rim - v)/v_rim; "
               "`vehicle_speed`: (v_rim - v)/v")
@@ -77,14 +92,24 @@ Schema WheelRig::schema(const std::string& subject) {
               "force that holds the axle back along x, with `travel free`; negative pushes")
       .by_default(0.0);
   schema
-      .number("dragged_mass", "kg", Range::positive(),
-              "mass that moves along x with the axle, wheel included, with `travel free`; by "
-              "default that of the load")
+      .number(
+          "dragged_mass", "kg", Range::positive(),
+          "mass that moves with the axle, wheel included, with `travel free` or `lateral free`; "
+          "by default that of the load")
       .optional();
   schema
       .number("slope", "degrees", Range::closed(-45, 45),
               "slope of the ground along x; positive uphill")
       .by_default(0.0);
+  schema
+      .number("side_slope", "degrees", Range::closed(-45, 45),
+              "slope of the ground along y; positive rises to the left")
+      .by_default(0.0);
+  schema
+      .choice("lateral", {"held", "free"},
+              "`held`: no lateral motion; `free`: forces move the axle along y from the "
+              "acceleration on")
+      .by_default("held");
   schema.integer("passes", Range::closed(1, 1000), "number of passes in the same rut")
       .by_default("1");
   schema
@@ -104,6 +129,14 @@ Schema WheelRig::schema(const std::string& subject) {
       .number("slip_angle", "degrees", Range::open(-90, 90),
               "angle from the travel to the wheel plane, about z")
       .by_default(0.0);
+  for (const std::string& target : changing_targets()) {
+    const Key& constant = *schema.find(target);
+    schema
+        .numbers(target + "_ramp", 0, "", Range::any(),
+                 fmt::format("course of `{}` in cruise: time [s] and value{}, alternately", target,
+                             constant.unit.empty() ? "" : " [" + constant.unit + "]"))
+        .optional();
+  }
   schema
       .number("camber", "degrees", Range::closed(-45, 45),
               "roll angle of the wheel about its heading")
@@ -131,7 +164,7 @@ Schema WheelRig::schema(const std::string& subject) {
   return schema;
 }
 
-WheelRig::WheelRig(const Options& options, WheelHub& wheel) : wheel_(wheel) {
+WheelRig::WheelRig(const Options& options, WheelHub& wheel, const Courses& table) : wheel_(wheel) {
   ground_level_ = options.number("ground_level");
   const double settle_time = options.number("settle_time");
   load_ramp_ = {options.number("start"), options.has("load_ramp_time")
@@ -142,16 +175,14 @@ WheelRig::WheelRig(const Options& options, WheelHub& wheel) : wheel_(wheel) {
                      fmt::format("0 to settle_time, {} s", settle_time), "lengthen settle_time");
   speed_ramp_ = {load_ramp_.start + settle_time, options.number("accelerate_time")};
 
-  for (const char* key : {"slip_angle", "camber"})
-    if (wheel_.half_model() && options.number(key) != 0.0)
-      throw InputError(options.where(key),
-                       fmt::format("is {} degrees with a half model, which moves in its plane of "
-                                   "symmetry",
-                                   options.number(key)),
-                       "0 degrees", "model the whole: 'half no', and ground without symmetry");
-  wheel_.place(wheel_.centre(), radians(options.number("slip_angle")),
-               radians(options.number("camber")));
   slope_ = radians(options.number("slope"));
+  side_slope_ = radians(options.number("side_slope"));
+  lateral_free_ = options.text("lateral") == "free";
+  slip_angle_ = radians(options.number("slip_angle"));
+  read_courses(options, table);
+  check_half_model(options);
+  wheel_.place(wheel_.centre(), slip_angle(0.0), radians(options.number("camber")));
+  read_slip(options);
   read_vertical(options);
   read_travel(options);
   read_drive(options);
@@ -160,6 +191,98 @@ WheelRig::WheelRig(const Options& options, WheelHub& wheel) : wheel_(wheel) {
   wheel_.set_axle_torque(0.0);
   for (const auto coordinate : {Coordinate::y, Coordinate::yaw, Coordinate::camber})
     wheel_.hold(coordinate);
+}
+
+const std::vector<std::string>& WheelRig::changing_targets() {
+  static const std::vector<std::string> keys = {"load_force", "slip", "spin_rate", "slip_angle"};
+  return keys;
+}
+
+void WheelRig::check_half_model(const Options& options) const {
+  if (!wheel_.half_model()) return;
+  const std::string remedy = "model the whole: 'half no', and ground without symmetry";
+  const std::string why = " with a half model, which moves in its plane of symmetry";
+  for (const char* key : {"slip_angle", "camber", "side_slope"})
+    if (options.number(key) != 0.0)
+      throw InputError(options.where(key), fmt::format("is {} degrees{}", options.number(key), why),
+                       "0 degrees", remedy);
+  if (lateral_free_) throw InputError(options.where("lateral"), "is free" + why, "held", remedy);
+  if (has_course("slip_angle"))
+    throw InputError(options.where("slip_angle_ramp"), "is given" + why, "no slip angle", remedy);
+}
+
+/// Points of the script, alternately time and value, and of the table.
+void WheelRig::read_courses(const Options& options, const Courses& table) {
+  courses_ = table;
+  for (const std::string& target : changing_targets()) {
+    const std::string key = target + "_ramp";
+    const bool has_ramp = options.given(key);
+    if (has_ramp) {
+      if (has_course(target))
+        throw InputError(options.where(key), "is given, and the table has this target too",
+                         "one of the two", "remove the keyword or the column");
+      const std::vector<double>& numbers = options.numbers(key);
+      if (numbers.size() % 2 != 0)
+        throw InputError(options.where(key), fmt::format("has {} numbers", numbers.size()),
+                         "pairs of time [s] and value", "write 'slip_ramp 0 0 6 0.6'");
+      std::vector<std::pair<double, double>> points;
+      for (std::size_t i = 0; i < numbers.size(); i += 2)
+        points.emplace_back(numbers[i], numbers[i + 1]);
+      courses_.emplace(target, Course(std::move(points)));
+    }
+    if (!has_course(target)) continue;
+    check_course(target,
+                 has_ramp ? options.where(key)
+                          : fmt::format("{}, table, column '{}'", options.subject(), target),
+                 options);
+  }
+  check_constants(options);
+  if (!courses_.empty() && options.integer("passes") > 1)
+    throw InputError(options.where("passes"),
+                     fmt::format("is {}, and {} changes over time", options.integer("passes"),
+                                 courses_.begin()->first),
+                     "one pass", "passes are compared under equal conditions");
+}
+
+void WheelRig::check_constants(const Options& options) const {
+  for (const auto& [target, course] : courses_)
+    if (options.given(target))
+      throw InputError(options.where(target), "is given, and it changes over time too",
+                       "a constant, a ramp or a column of the table", "keep the one that is meant");
+}
+
+void WheelRig::check_course(const std::string& target, const std::string& where,
+                            const Options& options) const {
+  const std::vector<Key>& keys = options.keys();
+  const Key& key =
+      *std::find_if(keys.begin(), keys.end(), [&](const Key& each) { return each.name == target; });
+  double last = -1.0;
+  for (const auto& [time, value] : courses_.at(target).points()) {
+    if (!(time >= 0.0 && time > last))
+      throw InputError(where, fmt::format("has the time {:g} s after {:g} s", time, last),
+                       "times >= 0 that grow", "count the time from the start of the cruise");
+    if (!key.range.contains(value))
+      throw InputError(where, fmt::format("has the value {:g}", value), key.allowed());
+    last = time;
+  }
+}
+
+void WheelRig::read_slip(const Options& options) {
+  slip_definition_ = slip_definition(options.text("slip_definition"));
+  slip_by_total_speed_ = options.text("slip_speed") == "total";
+  const std::string& radius = options.text("slip_radius");
+  const bool effective = radius == "effective";
+  expect_key(options, "effective_radius", effective, "with slip_radius " + radius,
+             "an effective_radius with slip_radius effective, and only there");
+  slip_radius_ = effective         ? options.number("effective_radius")
+                 : radius == "tip" ? wheel_.tip_radius()
+                                   : wheel_.nominal_radius();
+  const double ratio = slip_radius_ / wheel_.nominal_radius();
+  if (ratio < 1.0 / largest_slip_radius || ratio > largest_slip_radius)
+    throw InputError(options.where("effective_radius"), fmt::format("is {:g} m", slip_radius_),
+                     fmt::format("{:.4g} to {:.4g} m, about the radius of the wheel",
+                                 wheel_.nominal_radius() / largest_slip_radius,
+                                 wheel_.nominal_radius() * largest_slip_radius));
 }
 
 const std::vector<std::string>& WheelRig::targets() {
@@ -173,6 +296,7 @@ void WheelRig::retarget(const Options& options) {
     throw InputError(options.where("passes"),
                      fmt::format("is {}, and targets change during the run", passes_.passes()),
                      "one pass", "the passes are planned before the first");
+  check_constants(options);
   const auto read = [&](WheelRig& rig) {
     rig.read_load(options);
     rig.read_travel(options);
@@ -188,6 +312,8 @@ void WheelRig::read_load(const Options& options) {
   int count = 0;
   for (const char* key : {"load_mass", "load_force", "sinkage"})
     if (options.given(key)) given += (count++ ? " and " : "") + std::string(key);
+  if (has_course("load_force"))
+    given += (count++ ? " and " : "") + std::string("a course of load_force");
   if (count != 1)
     throw InputError(options.subject(), count == 0 ? "has no load" : fmt::format("has {}", given),
                      "exactly one of load_mass [kg], load_force [N], sinkage [m]",
@@ -197,7 +323,15 @@ void WheelRig::read_load(const Options& options) {
   sinkage_prescribed_ = options.given("sinkage");
   if (options.given("load_mass")) load_ = options.number("load_mass") * options.number("gravity");
   if (options.given("load_force")) load_ = options.number("load_force");
-  check_load(options);
+  if (!has_course("load_force")) {
+    check_load(options);
+    return;
+  }
+  const auto& points = courses_.at("load_force").points();
+  for (auto point = points.rbegin(); point != points.rend(); ++point) {  // the first remains
+    load_ = point->second;
+    check_load(options);
+  }
 }
 
 void WheelRig::read_vertical(const Options& options) {
@@ -221,7 +355,9 @@ void WheelRig::check_load(const Options& options) const {
   const double share = load_ / (wheel_.total_mass() * standard_gravity);
   if (!(share >= least_load && share <= largest_load))
     throw InputError(
-        options.where(options.given("load_mass") ? "load_mass" : "load_force"),
+        options.where(options.given("load_mass") ? "load_mass"
+                      : has_course("load_force") ? "load_force_ramp"
+                                                 : "load_force"),
         fmt::format("makes {:.4g} N, {:.3g} of the weight of the wheel's own {:.4g} kg", load_,
                     share, wheel_.total_mass()),
         fmt::format("{:g} to {:g} of it", least_load, largest_load),
@@ -244,12 +380,17 @@ void WheelRig::read_travel(const Options& options) {
   expect_key(options, "speed", !travel_free_, context,
              "a speed with travel prescribed, and only there");
   if (!travel_free_) {
-    for (const char* key : {"drawbar_load", "dragged_mass"})
-      expect_key(options, key, false, context, "only with travel free");
+    expect_key(options, "drawbar_load", false, context, "only with travel free");
+    if (!lateral_free_)
+      expect_key(options, "dragged_mass", false, context + " and lateral held",
+                 "only with travel free or lateral free");
     speed_ = options.number("speed");
-    plane_speed_ = speed_ * std::cos(radians(options.number("slip_angle")));
-    return;
   }
+  if (sinkage_prescribed_ && lateral_free_)
+    throw InputError(options.where("lateral"), "is free with a prescribed sinkage",
+                     "lateral free with load_mass or load_force", "give a load");
+  if (travel_free_ || lateral_free_) read_dragged_mass(options);
+  if (!travel_free_) return;
   if (sinkage_prescribed_)
     throw InputError(options.where("travel"), "is free with a prescribed sinkage",
                      "travel free with load_mass or load_force",
@@ -262,6 +403,9 @@ void WheelRig::read_travel(const Options& options) {
         fmt::format("is {:g} N under a load of {:.4g} N", drawbar_load_, load_),
         fmt::format("{:.3g} to {:.3g} N, {:g} times the load", -most, most, largest_drawbar_load),
         "the ground resists about the load at most");
+}
+
+void WheelRig::read_dragged_mass(const Options& options) {
   const double own = wheel_.total_mass();
   const double dragged = options.has("dragged_mass")
                              ? options.number("dragged_mass")
@@ -280,21 +424,33 @@ void WheelRig::read_drive(const Options& options) {
           : mode == "torque" ? Mode::torque
                              : Mode::spin;
   const std::string context = fmt::format("in mode {}", mode);
-  expect_key(options, "slip", mode_ == Mode::slip, context, "a slip in mode slip, and only there");
+  const auto expect_target = [&](const std::string& key, Mode mode, const std::string& allowed) {
+    if (has_course(key) && mode_ != mode)
+      throw InputError(options.where(key), "changes over time " + context, allowed,
+                       "remove its ramp or column, or change the mode");
+    if (!has_course(key)) expect_key(options, key, mode_ == mode, context, allowed);
+  };
+  expect_target("slip", Mode::slip, "a slip in mode slip, and only there");
   expect_key(options, "slip_definition", mode_ == Mode::slip, context,
              "a slip_definition in mode slip, and only there");
   expect_key(options, "torque", mode_ == Mode::torque, context,
              "a torque in mode torque, and only there");
-  expect_key(options, "spin_rate", mode_ == Mode::spin, context,
-             "a spin_rate in mode spin, and only there");
+  expect_target("spin_rate", Mode::spin, "a spin_rate in mode spin, and only there");
   if (mode_ == Mode::torque) torque_ = options.number("torque");
-  if (mode_ == Mode::spin) rim_speed_ = options.number("spin_rate") * wheel_.nominal_radius();
-  if (const double most = largest_speed / wheel_.nominal_radius();
-      std::abs(rim_speed_) > largest_speed)
-    throw InputError(options.where("spin_rate"),
-                     fmt::format("is {:g} rad/s: a rim speed of {:.3g} m/s",
-                                 options.number("spin_rate"), rim_speed_),
-                     fmt::format("{:.3g} to {:.3g} rad/s", -most, most));
+  const auto values_of = [&](const std::string& key) {
+    std::vector<double> values;
+    if (!has_course(key)) return std::vector<double>{options.number(key)};
+    for (const auto& point : courses_.at(key).points()) values.push_back(point.second);
+    return values;
+  };
+  if (mode_ == Mode::spin)
+    for (const double rate : values_of("spin_rate"))
+      if (const double most = largest_speed / wheel_.nominal_radius(); std::abs(rate) > most)
+        throw InputError(options.where("spin_rate"),
+                         fmt::format("is {:g} rad/s: a rim speed of {:.3g} m/s", rate,
+                                     rate * wheel_.nominal_radius()),
+                         fmt::format("{:.3g} to {:.3g} rad/s", -most, most));
+  if (mode_ == Mode::spin) spin_rate_ = values_of("spin_rate").front();
   const double most = largest_torque * load_ * wheel_.nominal_radius();
   if (!sinkage_prescribed_ && std::abs(torque_) > most)
     throw InputError(
@@ -310,16 +466,18 @@ void WheelRig::read_drive(const Options& options) {
   if (speed_ == 0.0)
     throw InputError(options.where("speed"), "is 0 m/s in mode slip", "a number > 0 [m/s]",
                      "give a speed, or drive a standing wheel with mode torque");
-  try {
-    rim_speed_ = rim_speed(slip_definition(options.text("slip_definition")), options.number("slip"),
-                           plane_speed_);
-  } catch (const StateError&) {
-    throw InputError(
-        options.where("slip"),
-        fmt::format("is {} with slip_definition {}", options.number("slip"),
-                    options.text("slip_definition")),
-        "-1 to below 1 by the larger speed, below 1 by rim speed, at least -1 by vehicle speed",
-        "a wheel that spins on the spot or backwards needs mode torque");
+  const std::vector<double> slips = values_of("slip");
+  for (auto slip = slips.rbegin(); slip != slips.rend(); ++slip) {  // the first remains
+    slip_ = *slip;
+    try {
+      spin_rate_ = spin_rate_of(slip_, slip_angle(0.0));
+    } catch (const StateError&) {
+      throw InputError(
+          options.where("slip"),
+          fmt::format("is {} with slip_definition {}", slip_, options.text("slip_definition")),
+          "-1 to below 1 by the larger speed, below 1 by rim speed, at least -1 by vehicle speed",
+          "a wheel that spins on the spot or backwards needs mode torque");
+    }
   }
 }
 
@@ -333,11 +491,14 @@ void WheelRig::read_passes(const Options& options) {
     expect_key(options, "lift", false, context, "with passes > 1, and only there");
     return;
   }
-  if (travel_free_ || sinkage_prescribed_)
-    throw InputError(
-        options.where("passes"),
-        fmt::format("is {} with {}", passes, travel_free_ ? "travel free" : "a prescribed sinkage"),
-        "1, or more with a speed and a load", "passes are compared at the same speed and load");
+  if (travel_free_ || lateral_free_ || sinkage_prescribed_)
+    throw InputError(options.where("passes"),
+                     fmt::format("is {} with {}", passes,
+                                 travel_free_    ? "travel free"
+                                 : lateral_free_ ? "lateral free"
+                                                 : "a prescribed sinkage"),
+                     "1, or more with a speed and a load",
+                     "passes are compared at the same speed and load");
   const double least = speed_ * speed_ramp_.integral(speed_ramp_.end());
   const double length = options.number("pass_length");
   if (!(speed_ > 0.0 && length > least))

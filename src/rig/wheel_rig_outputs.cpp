@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "rig/wheel_rig.h"
 
 namespace furrow {
@@ -29,7 +31,18 @@ struct WheelRig::Reading {
   double rim_speed() const { return wheel.rate(Coordinate::spin) * wheel.nominal_radius(); }
   double hub_drop() const { return rig.ground_level_ - wheel.lowest_point(); }  // [m]
   /// [m/s] of the axle
-  double speed_in_plane() const { return wheel.velocity().dot(heading()); }
+  double forward_speed() const { return wheel.velocity().dot(heading()); }
+  /// [m/s] that slip compares with the rim speed; positive forward
+  double slip_speed() const {
+    const double forward = forward_speed();
+    return rig.slip_by_total_speed_ ? std::copysign(wheel.velocity().head<2>().norm(), forward)
+                                    : forward;
+  }
+  double slip() const {
+    const double rim = wheel.rate(Coordinate::spin) * rig.slip_radius_, speed = slip_speed();
+    const bool at_rest = std::abs(rim) < standstill && std::abs(speed) < standstill;
+    return at_rest ? 0.0 : furrow::slip(SlipDefinition::larger_speed, rim, speed);
+  }
 };
 
 const Outputs<const WheelRig::Reading>& WheelRig::outputs() {
@@ -54,20 +67,16 @@ const Outputs<const WheelRig::Reading>& WheelRig::outputs() {
        [](R& r) { return r.wheel.velocity().z(); }},
       {"spin_angle", "rad", "turn about the axle since the start; positive rolls forward",
        [](R& r) { return r.wheel.position(Coordinate::spin); }},
+      {grouser_channel, "", "turn about the axle in pitches of grousers; 0 for a smooth wheel",
+       [](R& r) { return r.wheel.position(Coordinate::spin) * r.wheel.grousers() / (2.0 * pi); }},
       {"spin_rate", "rad/s", "rate of spin_angle, half a step before `time`",
        [](R& r) { return r.wheel.rate(Coordinate::spin); }},
       {"rim_speed", "m/s", "spin_rate times the radius without grousers",
        [](R& r) { return r.rim_speed(); }},
       {"slip", "",
        slip_formula(SlipDefinition::larger_speed) +
-           ", v_rim = rim_speed, v = speed of the axle in the wheel plane; 0 at standstill",
-       [](R& r) {
-         const bool at_rest =
-             std::abs(r.rim_speed()) < standstill && std::abs(r.speed_in_plane()) < standstill;
-         return at_rest
-                    ? 0.0
-                    : furrow::slip(SlipDefinition::larger_speed, r.rim_speed(), r.speed_in_plane());
-       }},
+           ", v_rim and v by `slip_radius` and `slip_speed` of the rig; 0 at standstill",
+       [](R& r) { return r.slip(); }},
       {hub_drop_channel, "m",
        "ground level minus lowest point of the unloaded wheel, without grousers",
        [](R& r) { return r.hub_drop(); }},
@@ -78,17 +87,23 @@ const Outputs<const WheelRig::Reading>& WheelRig::outputs() {
       {rut_depth_channel, "m",
        "ground level minus lowest point of the loaded wheel: hub_drop - tyre_deflection",
        [](R& r) { return r.hub_drop() - r.wheel.deflection(); }},
-      {"force_x", "N", "force of the ground on the wheel", [](R& r) { return r.ground.force.x(); }},
-      {"force_y", "N", "force of the ground on the wheel", [](R& r) { return r.ground.force.y(); }},
-      {"force_z", "N", "force of the ground on the wheel", [](R& r) { return r.ground.force.z(); }},
+      {"force_x", "N", "force of the ground on the wheel, along the travel",
+       [](R& r) { return r.ground.force.x(); }},
+      {"force_y", "N", "force of the ground on the wheel, to the left of the travel",
+       [](R& r) { return r.ground.force.y(); }},
+      {"force_z", "N", "force of the ground on the wheel, upwards",
+       [](R& r) { return r.ground.force.z(); }},
       {"moment_x", "N m", "moment of the ground on the wheel about the axle centre",
        [](R& r) { return r.ground.moment.x(); }},
       {"moment_y", "N m", "moment of the ground on the wheel about the axle centre",
        [](R& r) { return r.ground.moment.y(); }},
       {"moment_z", "N m", "moment of the ground on the wheel about the axle centre",
        [](R& r) { return r.ground.moment.z(); }},
+      {"tractive_force", "N",
+       "force of the ground along the wheel's heading, in the wheel frame; positive forward",
+       [](R& r) { return r.ground.force.dot(r.heading()); }},
       {"lateral_force", "N",
-       "force of the ground normal to the wheel's heading; positive to its left",
+       "side force: of the ground normal to the heading, in the wheel frame; positive to the left",
        [](R& r) { return r.ground.force.dot(r.left()); }},
       {"overturning_moment", "N m",
        "moment of the ground about the heading, at the axle centre; positive tips the top to the "
@@ -170,6 +185,23 @@ const Outputs<const WheelRig::Reading>& WheelRig::outputs() {
 }
 
 std::vector<Channel> WheelRig::channels() { return outputs().channels(); }
+
+std::string WheelRig::slip_meaning() const {
+  const char* radius = slip_radius_ == wheel_.nominal_radius() ? "bare radius"
+                       : slip_radius_ == wheel_.tip_radius()   ? "tip radius"
+                                                               : "effective radius";
+  return fmt::format("{}, v_rim = spin rate x {} {:.6g} m, v = {}; 0 at standstill",
+                     slip_formula(SlipDefinition::larger_speed), radius, slip_radius_,
+                     slip_by_total_speed_ ? "total horizontal speed of the axle"
+                                          : "forward speed of the axle in the wheel plane");
+}
+
+std::vector<Channel> WheelRig::recorded_channels() const {
+  std::vector<Channel> list = channels();
+  for (Channel& channel : list)
+    if (channel.name == "slip") channel.meaning = slip_meaning();
+  return list;
+}
 
 std::vector<double> WheelRig::measure(double time, const GroundLosses& losses) const {
   const Reading reading{*this, wheel_, time, wheel_.ground_wrench(), wheel_.energy_budget(),

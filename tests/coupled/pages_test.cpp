@@ -87,7 +87,8 @@ std::string range_of(const Key& key) {
   const std::string limits = any ? "" : key.range.text();
   if (key.kind == Key::Kind::integer) return any ? "integer" : "integer " + limits;
   if (key.kind == Key::Kind::number) return limits;
-  return fmt::format("{} numbers{}{}", key.count, any ? "" : ", each ", limits);
+  return fmt::format("{}numbers{}{}", key.count == 0 ? "" : fmt::format("{} ", key.count),
+                     any ? "" : ", each ", limits);
 }
 
 Row row_of(const Key& key) {

@@ -70,7 +70,7 @@ TEST(Slope, GrainContinuumAndWheelFollowTheirTurnedWeight) {
   // the grain falls freely, from the start
   Vector3 fall = Vector3::Zero();
   for (double t = 0.5 * step; t < cruising + time; t += step)
-    fall += step * gravity * Vector3(-std::sin(rig.tilt(t)), 0.0, -std::cos(rig.tilt(t)));
+    fall += step * (rig.tilt(t) * Vector3(0.0, 0.0, -gravity));
   const LAMMPS_NS::Atom& atom = *scene.lammps().atom;
   Vector3 v = Vector3::Zero();
   for (int i = 0; i < atom.nlocal; ++i) v = Eigen::Map<const Vector3>(atom.v[i]);

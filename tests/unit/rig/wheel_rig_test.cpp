@@ -251,6 +251,185 @@ TEST(WheelRig, ARigMadeAgainContinuesBitwise) {
                            5000);
 }
 
+TEST(Course, IsLinearBetweenItsPointsAndConstantOutside) {
+  const Course course({{1.0, 10.0}, {3.0, 20.0}, {4.0, 0.0}});
+  EXPECT_EQ(course.value(0.0), 10.0);
+  EXPECT_EQ(course.value(1.0), 10.0);
+  EXPECT_DOUBLE_EQ(course.value(2.5), 17.5);
+  EXPECT_DOUBLE_EQ(course.value(3.75), 5.0);
+  EXPECT_EQ(course.value(4.0), 0.0);
+  EXPECT_EQ(course.value(9.0), 0.0);
+}
+
+// The cruise begins at 0.4 s. Velocities are those of the middle of the step.
+TEST(WheelRig, TargetsFollowTheirRampsFromTheStartOfTheCruise) {
+  constexpr double dt = 1e-4, cruise = 0.4;
+  RigidWheel wheel = make_wheel();
+  WheelRig rig = make_rig(
+      wheel, {"load_force_ramp", "0", "60", "0.2", "90", "speed", "0.8", "mode", "slip",
+              "slip_ramp", "0", "-0.2", "0.2", "0.6", "slip_angle_ramp", "0.1", "5", "0.3", "25"});
+  const Course load({{0.0, 60.0}, {0.2, 90.0}}), slip({{0.0, -0.2}, {0.2, 0.6}}),
+      angle({{0.1, 5.0}, {0.3, 25.0}});
+  run(rig, wheel, 0.8, dt, nullptr, [&](const std::vector<double>& row) {
+    const double middle = row[0] - 0.5 * dt - cruise;
+    if (row[0] < 0.2005) return;
+    ASSERT_NEAR(row[channel("load")], load.value(middle), 1e-11);
+    ASSERT_NEAR(degrees(wheel.position(Coordinate::yaw)), angle.value(row[0] - cruise), 1e-11);
+    // the slip is that of the heading in the middle of the step, half a step before the row's
+    ASSERT_NEAR(row[channel("slip")], slip.value(middle), 1e-4);
+  });
+  EXPECT_DOUBLE_EQ(rig.load(), 90.0);
+  EXPECT_NEAR(rig.target_rim_speed(), 0.8 * std::cos(radians(25.0)) / 0.4, 1e-12);
+}
+
+TEST(WheelRig, TheSpinRateFollowsItsRampWithTheAxleFree) {
+  RigidWheel wheel = make_wheel();
+  WheelRig rig = make_rig(wheel, {"load_force", "60", "travel", "free", "mode", "spin",
+                                  "spin_rate_ramp", "0", "2", "0.2", "6"});
+  run(rig, wheel, 0.5, 1e-4, nullptr, [](const std::vector<double>&) {});
+  EXPECT_NEAR(wheel.rate(Coordinate::spin), 2.0 + 4.0 * (0.1 - 0.5e-4) / 0.2, 1e-12);
+}
+
+TEST(WheelRig, RadiusAndSpeedOfSlipSetTheSpinAndTheRecordedSlip) {
+  const auto spin_of = [](Words words) {
+    const Words common{"load_force", "60",   "speed", "0.8",        "mode",
+                       "slip",       "slip", "0.5",   "slip_angle", "20"};
+    words.insert(words.end(), common.begin(), common.end());
+    RigidWheel wheel = make_wheel();
+    WheelRig rig = make_rig(wheel, words);
+    run(rig, wheel, 0.5, 1e-4, nullptr, [](const std::vector<double>& row) {
+      if (row[0] > 0.2005) {
+        ASSERT_NEAR(row[channel("slip")], 0.5, 1e-12);
+      }
+    });
+    return wheel.rate(Coordinate::spin);
+  };
+  const double forward = 0.8 * std::cos(radians(20.0));
+  EXPECT_NEAR(spin_of({}), forward / 0.5 / 0.2, 1e-12);
+  EXPECT_NEAR(spin_of({"slip_speed", "total"}), 0.8 / 0.5 / 0.2, 1e-12);
+  EXPECT_NEAR(spin_of({"slip_radius", "effective", "effective_radius", "0.19"}),
+              forward / 0.5 / 0.19, 1e-12);
+}
+
+TEST(WheelRig, TheTipRadiusIncludesGrousersAndTheMeaningOfSlipStatesIt) {
+  RigidWheelParameters parameters = make_wheel().parameters();
+  parameters.geometry.grousers = {12, 0.02, 0.01, 0.0};
+  RigidWheel wheel(parameters);
+  WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1.1", "mode", "slip", "slip", "0.5",
+                                  "slip_radius", "tip"});
+  double pitches = 0.0;
+  run(rig, wheel, 0.6, 1e-4, nullptr,
+      [&](const std::vector<double>& row) { pitches = row[channel("grouser_pitches")]; });
+  EXPECT_NEAR(wheel.rate(Coordinate::spin), 1.1 / 0.5 / 0.22, 1e-12);
+  EXPECT_NEAR(pitches, 12.0 * wheel.position(Coordinate::spin) / (2.0 * pi), 1e-12);
+  EXPECT_THAT(rig.recorded_channels()[channel("slip")].meaning,
+              HasSubstr("v_rim = spin rate x tip radius 0.22 m, v = forward speed"));
+}
+
+// Coulomb friction opposes the travel, whatever the heading of a locked wheel.
+TEST(WheelRig, TractiveAndLateralForceAreThoseOfTheTravelInTheWheelFrame) {
+  RigidWheel wheel = make_wheel(0.2003);
+  const Floor floor;
+  WheelRig rig = make_rig(wheel, {"load_force", "60", "speed", "1", "mode", "slip", "slip", "-1",
+                                  "slip_angle", "20", "damping", "600"});
+  CruiseMean mean;
+  mean.after = 0.6;
+  run(rig, wheel, 1.0, 4e-5, &floor, std::ref(mean));
+  const double friction = 0.5 * mean.of("force_z"), psi = radians(20.0);
+  EXPECT_NEAR(mean.of("force_x"), -friction, 1e-9);
+  EXPECT_NEAR(mean.of("force_y"), 0.0, 1e-9);
+  EXPECT_NEAR(mean.of("tractive_force"), -friction * std::cos(psi), 1e-9);
+  EXPECT_NEAR(mean.of("lateral_force"), friction * std::sin(psi), 1e-9);
+}
+
+// A side slope without friction: the axle and what it drags slide down to the right, y'' = -g sin.
+TEST(WheelRig, OnASideSlopeAFreeWheelSlidesDownhill) {
+  RigidWheel wheel = make_wheel(0.2003);
+  Floor floor;
+  floor.friction = 0.0;
+  WheelRig rig = make_rig(wheel, {"load_mass", "6", "speed", "1", "mode", "towed", "side_slope",
+                                  "10", "lateral", "free", "damping", "600"});
+  std::vector<double> last;
+  run(rig, wheel, 0.7, 4e-5, &floor, [&](const std::vector<double>& row) { last = row; });
+  const double sine = std::sin(radians(10.0));
+  EXPECT_NEAR(last[channel("velocity_y")], -9.80665 * sine * 0.5, 1e-3);
+  EXPECT_LT(last[channel("y")], 0.0);
+  EXPECT_NEAR(wheel.load().y(), -6.0 * 9.80665 * sine, 1e-12);
+  EXPECT_NEAR(wheel.energy_budget().residual(), 0.0, 1e-12 * last[channel("load_work")]);
+}
+
+// With friction the side force of the ground carries m g sin, and the load is m g cos.
+TEST(WheelRig, OnASideSlopeTheSideForceIsThatOfTheWeight) {
+  for (const double slope : {10.0, -10.0}) {
+    RigidWheel wheel = make_wheel(0.2003);
+    const Floor floor;
+    WheelRig rig = make_rig(wheel, {"load_mass", "6", "speed", "1", "mode", "towed", "side_slope",
+                                    std::to_string(slope), "lateral", "free", "damping", "600"});
+    CruiseMean mean;
+    mean.after = 0.8;
+    run(rig, wheel, 1.4, 4e-5, &floor, std::ref(mean));
+    const double weight = 6.0 * 9.80665;
+    EXPECT_NEAR(mean.of("lateral_force"), weight * std::sin(radians(slope)), 0.005 * weight);
+    EXPECT_NEAR(mean.of("force_z"), weight * std::cos(radians(slope)), 0.005 * weight);
+    EXPECT_LT(mean.of("velocity_y") * slope, 0.0);
+  }
+}
+
+TEST(WheelRig, ARigWithRampsContinuesBitwise) {
+  const Words words{"load_force_ramp",
+                    "0",
+                    "60",
+                    "0.3",
+                    "90",
+                    "speed",
+                    "1",
+                    "mode",
+                    "slip",
+                    "slip_ramp",
+                    "0",
+                    "0",
+                    "0.3",
+                    "0.4",
+                    "slip_angle_ramp",
+                    "0",
+                    "0",
+                    "0.3",
+                    "10",
+                    "damping",
+                    "100",
+                    "side_slope",
+                    "5",
+                    "lateral",
+                    "free"};
+  expect_continues_bitwise([&](RigidWheel& wheel) { return make_rig(wheel, words); }, Floor(), 4600,
+                           5800);
+}
+
+TEST(WheelRig, RefusesImpossibleCourses) {
+  const auto refusal_with = [](Words words) {
+    for (const char* word : {"speed", "1", "mode", "slip"}) words.push_back(word);
+    return refusal_of(words);
+  };
+  EXPECT_THAT(refusal_with({"load_force", "60", "slip_ramp", "0", "0", "1"}),
+              HasSubstr("keyword 'slip_ramp' has 3 numbers; allowed: pairs of time [s] and value"));
+  EXPECT_THAT(refusal_with({"load_force", "60", "slip_ramp", "0", "0", "0", "0.5"}),
+              HasSubstr("keyword 'slip_ramp' has the time 0 s after 0 s; allowed: times >= 0 that "
+                        "grow; count the time from the start of the cruise"));
+  EXPECT_THAT(refusal_with({"load_force", "60", "slip_ramp", "0", "0", "1", "1"}),
+              HasSubstr("keyword 'slip' is 1 with slip_definition larger_speed"));
+  EXPECT_THAT(refusal_with({"load_force", "60", "slip", "0", "slip_ramp", "0", "0", "1", "0.5"}),
+              HasSubstr("keyword 'slip' is given, and it changes over time too"));
+  EXPECT_THAT(refusal_with({"load_mass", "6", "load_force_ramp", "0", "60", "slip", "0"}),
+              HasSubstr("has load_mass and a course of load_force"));
+  EXPECT_THAT(refusal_with({"load_force_ramp", "0", "60", "1", "-5", "slip", "0"}),
+              HasSubstr("keyword 'load_force_ramp' has the value -5; allowed: a number > 0 [N]"));
+  EXPECT_THAT(
+      refusal_of({"load_force", "60", "speed", "1", "mode", "towed", "slip_ramp", "0", "0"}),
+      HasSubstr("keyword 'slip' changes over time in mode towed"));
+  EXPECT_THAT(refusal_with({"load_force", "60", "slip", "0", "slip_radius", "effective"}),
+              HasSubstr("keyword 'effective_radius' is missing with slip_radius effective"));
+}
+
 TEST(WheelRig, RefusesContradictionsWithKeywordAndRemedy) {
   EXPECT_THAT(refusal_of({"speed", "1", "mode", "towed"}),
               HasSubstr("fix wheel/rig has no load; allowed: exactly one of load_mass [kg], "
