@@ -12,6 +12,8 @@ furrow_packages="g++ cmake ninja-build liggghts libliggghts-dev libopenmpi-dev o
 # To test as well.
 furrow_test_packages="libgtest-dev libgmock-dev libbenchmark-dev mypy chromium-headless-shell
   ffmpeg python3-pandas python3-pip python3-setuptools python3-wheel python3-mpi4py python3-nbclient python3-ipykernel"
+# For furrow-post surrogate and map.
+furrow_map_packages="python3-sklearn python3-gdal"
 # To build with sanitizers: gcc takes half an hour for the kernels then, and has no libFuzzer.
 furrow_sanitizer_packages="clang libclang-rt-dev"
 furrow_format_packages="clang-format"

@@ -3,7 +3,7 @@
 
 Folders, each of which imports only from those to its left: read (files), study (runs and their
 tables), analyse (numbers), laboratory (tests on samples), figures, sweep (curves over a variable),
-scene (the command inputs/run), cli (the command furrow-post). Steady values and their standard
+scene (the command inputs/run), soil (soil cards), surrogate (fast models), cli (the command furrow-post). Steady values and their standard
 errors come from the program furrow-resistance, never from here.
 """
 

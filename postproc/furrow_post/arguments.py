@@ -62,6 +62,14 @@ def fraction(text: str) -> float:
     return value
 
 
+def assignment(text: str) -> tuple[str, float]:
+    """("load", 600.0) of "load=600"."""
+    name, equals, value = text.partition("=")
+    if not name.strip() or not equals:
+        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=NUMBER, e.g. load=600")
+    return name.strip(), number(value)
+
+
 UNITS_OF_TIME = {"min": 60.0, "h": 3600.0, "s": 1.0}
 
 

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Where Furrow's programs and inputs are: in the source tree, or installed."""
 
+import importlib
 import os
 import shutil
 import sys
 from pathlib import Path
+from typing import Any
 
 from .errors import ResultsError
 
@@ -44,3 +46,14 @@ def find_program(name: str) -> Path:
             "the PATH"
         )
     return Path(found)
+
+
+def optional_module(name: str, package: str) -> Any:
+    """A library that few commands need. package: of Debian. @raises ResultsError where it is missing"""
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        raise ResultsError(
+            f"{sys.executable} has no {name.partition('.')[0]}; write 'apt install {package}' and use "
+            "Debian's /usr/bin/python3"
+        ) from None

@@ -22,6 +22,7 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     "choose": ("inputs/costs/wheel_on_snow.csv --error 10%",),
     "variables": ("inputs/scenes/wheel_on_snow.lig",),
     "sweep": ("results/sweep", "continuum=results/a grains=results/b -o results/both"),
+    "surrogate": ("results/a -o wheel.json", "wheel.json --at slip=0.2 load=600"),
     "view": ("results/a", "results/a results/b -o both.html"),
     "film": ("results/a film.mp4", "results/a --colour displacement --cut 0 --seconds 5"),
     "report": ("results/a", "continuum=results/a grains=results/b -o both.html"),

@@ -85,6 +85,7 @@ SUBCOMMANDS = (
         "curves over slip, load, pressure, depth or speed of folders of runs "
         "-> sweep.csv, .h5, .png, report.html",
     ),
+    Subcommand("surrogate", "a fast model of a wheel from sweeps, with checked intervals -> surrogate.json, .png"),
     Subcommand(
         "cost", "error against cost of the runs of a scene, and which to take -> cost.png, cost.csv"
     ),

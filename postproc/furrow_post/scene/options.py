@@ -35,7 +35,7 @@ NEEDS = {
 DESCRIPTION = """\
 Runs a scene and shows its results. Without a scene: the tyre of Shoop (2001) on 20 cm of snow, with
 measurements and NRMM, and its rigid wheel on fresh snow as continuum and as grains."""
-OF_SWEEPS = ("packings", "jobs", "submit", "again", "check", "formula", "measured", "point")
+OF_SWEEPS = ("samples", "packings", "jobs", "submit", "again", "check", "formula", "measured", "point")
 
 
 def called() -> str:
@@ -138,6 +138,13 @@ def _parser() -> argparse.ArgumentParser:
         metavar="NAME=VALUES",
         help="a run for each value: FIRST:LAST:COUNT or VALUE,VALUE,...; several --sweep give each combination. "
         "Finished points are kept, so the same command resumes a sweep",
+    )
+    add(
+        "--samples",
+        metavar="N",
+        type=at_least(2),
+        action=_Once,
+        help="N points that fill the box of several --sweep NAME=FIRST:LAST, for 'furrow-post surrogate'",
     )
     add("--packings", metavar="N", type=at_least(1), action=_Once, help="each point with N packings of its grains")
     add("--jobs", metavar="N", type=at_least(1), action=_Once, help="runs at a time (default 1; with --submit: no limit)")

@@ -47,6 +47,7 @@ def planned(options: argparse.Namespace, script: Path, preset: Variables) -> Pla
         options.ranks,
         options.until_steady or 0.0,
         options.time_limit or 0.0,
+        options.samples or 0,
     )
     plan, warnings = plan_of(request)
     wanted_of(options, script).check()

@@ -17,7 +17,7 @@ from ..read.script import (
 from ..study.case import FOLDER, Case
 from ..study.furrow_cases import script_case
 from .plan import Plan, Point, points_of
-from .values import Variable, further_seeds, parse_variables
+from .values import further_seeds, parse_variables, product, sampled
 
 SEED = "seed"  # the variable of a script that chooses the packing of its grains
 RESULTS = "results"  # the variable of a script that is its results folder
@@ -38,16 +38,20 @@ class Request:
     ranks: int = 1
     until_steady: float = 0.0
     time_limit: float = 0.0
+    samples: int = 0  # points in the box of the variables; 0: all combinations of values
 
 
 def plan_of(request: Request) -> tuple[Plan, list[str]]:
     """The plan, and warnings. @raises ResultsError for what the script does not take; OSError"""
-    variables = parse_variables(request.sweep)
-    names = [variable.name for variable in variables]
+    if request.samples:
+        points = sampled(request.sweep, request.samples)
+    else:
+        points = product(parse_variables(request.sweep))
+    names = list(points[0])
     given = dict(request.given)
     warnings = check_variables(request.script, request.given, RESERVED)
     settable = script_variables(request.script, given).settable
-    words = [_word_of(settable, v.name, v.values[0]) for v in variables]
+    words = [_word_of(settable, *item) for item in points[0].items()]
     swept = dict(words)
     for name in swept:
         if name in given:
@@ -56,7 +60,7 @@ def plan_of(request: Request) -> tuple[Plan, list[str]]:
         raise ResultsError(f"--sweep {' and '.join(names)} set the same variable of the script")
     check_variables(request.script, words, RESERVED, given, "--sweep")
     defaults = script_variables(request.script, given).defaults
-    values = [(v.name, value) for v in variables for value in v.values]
+    values = list(dict.fromkeys(item for point in points for item in point.items()))
     require_files(request.script, defaults, values, "--sweep")
     fixed = {**dict(request.preset), **given}
     fixed = {name: value for name, value in fixed.items() if name not in swept}
@@ -66,12 +70,12 @@ def plan_of(request: Request) -> tuple[Plan, list[str]]:
             f"{request.script}: no line reads '{RESULTS}', so that all points would write to one "
             f"folder; give the script 'variable {RESULTS} index ...' as the folder of its results"
         )
-    seeds = _seeds(request, variables, known, fixed)
+    seeds = _seeds(request, names, known, fixed)
     plan = Plan(
         str(request.script.resolve()),
         tuple(names),
         fixed,
-        points_of(variables, seeds),
+        points_of(points, seeds),
         request.ranks,
         request.until_steady,
         request.time_limit,
@@ -91,7 +95,7 @@ def _word_of(settable: Sequence[str], name: str, value: str) -> tuple[str, str]:
 
 def _seeds(
     request: Request,
-    variables: Sequence[Variable],
+    swept: Sequence[str],
     known: ScriptVariables,
     fixed: Mapping[str, str],
 ) -> list[int]:
@@ -103,7 +107,7 @@ def _seeds(
             f"--packings {request.packings}: no line of {request.script} reads '{SEED}', which "
             "chooses the packing of grains; leave --packings out"
         )
-    if SEED in {variable.name for variable in variables}:
+    if SEED in swept:
         raise ResultsError(f"--packings chooses '{SEED}', which is swept too; give one of them")
     first = fixed.get(SEED, known.defaults.get(SEED, ""))
     try:

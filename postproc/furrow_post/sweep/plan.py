@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ..errors import ResultsError, content_of
 from ..json_text import parse_json
-from .values import Variable, folder_name, product
+from .values import folder_name
 
 FILE = "sweep.json"
 
@@ -68,10 +68,10 @@ def read_plan(folder: Path) -> Plan | None:
         return Plan(variables=variables, points=points, **content)
 
 
-def points_of(variables: Sequence[Variable], seeds: Sequence[int]) -> tuple[Point, ...]:
-    """All combinations; seeds: of further packings, the first one is that of the script."""
+def points_of(rows: Sequence[Mapping[str, str]], seeds: Sequence[int]) -> tuple[Point, ...]:
+    """rows: values of each; seeds: of further packings, the first one is that of the script."""
     points = []
-    for values in product(variables):
+    for values in rows:
         points.append(Point(folder_name(values), values))
         for seed in seeds:
             points.append(Point(folder_name({**values, "seed": str(seed)}), values, str(seed)))

@@ -11,6 +11,7 @@ from furrow_post.sweep.values import (
     parse_variable,
     parse_variables,
     product,
+    sampled,
 )
 
 # text, values
@@ -83,6 +84,25 @@ class ValuesTest(unittest.TestCase):
             parse_variable("motion=mode towed,mode slip slip 0"),
             Variable("motion", ("mode towed", "mode slip slip 0")),
         )
+
+    def test_samples_fill_the_box_and_a_larger_count_keeps_the_first(self) -> None:
+        words = ("slip=-0.2:0.6", "load=300:900")
+        points = sampled(words, 60)
+        self.assertEqual(sampled(words, 20), points[:20])
+        for name, low, high in (("slip", -0.2, 0.6), ("load", 300.0, 900.0)):
+            values = sorted(float(point[name]) for point in points)
+            self.assertTrue(low <= values[0] and values[-1] <= high)
+            gaps = [b - a for a, b in zip([low, *values], [*values, high])]
+            self.assertLess(max(gaps), 0.06 * (high - low))  # without holes along any variable
+        for text, message in (
+            ("slip=0:1:3", "no range of two numbers"),
+            ("slip=a:b", "no range"),
+            ("slip=1:1", "no range"),
+        ):
+            with self.assertRaisesRegex(ResultsError, message):
+                sampled([text], 5)
+        with self.assertRaisesRegex(ResultsError, "slip is given 2 times"):
+            sampled(["slip=0:1", "slip=0:2"], 5)
 
 
 if __name__ == "__main__":

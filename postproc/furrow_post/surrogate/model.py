@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A surrogate: Gaussian processes of a wheel's answers over the inputs of a sweep, and its JSON file."""
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from .. import __version__
+from ..arrays import Booleans, Floats
+from ..errors import ResultsError, content_of
+from ..json_text import parse_json
+from .gaussian_process import HeldOut, Process, fit_process, require_calibrated
+from .training import QUANTITIES, Training
+
+FORMAT = "furrow surrogate 1"
+DECADE = 10.0  # inputs that span more are scaled by their logarithm
+
+
+@dataclass(frozen=True)
+class Input:
+    """An input with its training range."""
+
+    name: str
+    unit: str
+    low: float
+    high: float
+
+    @property
+    def logarithmic(self) -> bool:
+        return self.low > 0 and self.high > DECADE * self.low
+
+    def scaled(self, values: Floats) -> Floats:
+        """From the range to [0, 1]."""
+        low, high = self.low, self.high
+        if self.logarithmic:
+            values, low, high = np.log(values), math.log(low), math.log(high)
+        return (values - low) / (high - low)
+
+    def physical(self, scaled: Floats) -> Floats:
+        if self.logarithmic:
+            physical: Floats = self.low * (self.high / self.low) ** scaled
+            return physical
+        return self.low + scaled * (self.high - self.low)
+
+
+@dataclass(frozen=True)
+class Surrogate:
+    inputs: tuple[Input, ...]
+    processes: Mapping[str, Process]  # by quantity
+    checks: Mapping[str, Mapping[str, float]]  # by quantity: rms_error, coverage
+    constants: Mapping[str, float]
+    origin: Mapping[str, str]
+
+    @property
+    def names(self) -> list[str]:
+        return [one.name for one in self.inputs]
+
+    def constant(self, name: str, use: str) -> float:
+        """@raises ResultsError"""
+        if name not in self.constants:
+            raise ResultsError(
+                f"the surrogate has no {name}, neither as input nor as constant; {use}"
+            )
+        return self.constants[name]
+
+    def scaled(self, values: Mapping[str, Floats | float]) -> Floats:
+        """(..., inputs) in [0, 1] inside the training ranges, of all inputs by name."""
+        columns = [one.scaled(np.asarray(values[one.name], float)) for one in self.inputs]
+        return np.stack(np.broadcast_arrays(*columns), -1)
+
+    def inside(self, name: str, values: Floats) -> Booleans:
+        """Whether values of an input lie in its training range, but for rounding."""
+        one = self.inputs[self.names.index(name)]
+        slack = 1e-6 * (one.high - one.low)
+        found: Booleans = (values >= one.low - slack) & (values <= one.high + slack)
+        return found
+
+    def require(self, values: Mapping[str, Floats | float]) -> None:
+        """@raises ResultsError for other names than the inputs, or values outside of their ranges"""
+        for name in values:
+            if name not in self.names:
+                raise ResultsError(
+                    f"the surrogate has no input '{name}'; it has {', '.join(self.names)}"
+                )
+        for one in self.inputs:
+            if one.name not in values:
+                raise ResultsError(f"the surrogate needs a value of '{one.name}' ({_range(one)})")
+            given = np.asarray(values[one.name], float).ravel()
+            outside = given[~self.inside(one.name, given)]
+            if len(outside):
+                raise ResultsError(
+                    f"{one.name}: {outside[0]:g} lies outside of the training range ({_range(one)}); a "
+                    "surrogate does not extrapolate. Add runs there, or stay inside"
+                )
+
+    def write(self, file: Path) -> None:
+        first = next(iter(self.processes.values()))
+        content = {
+            "format": FORMAT,
+            **self.origin,
+            "constants": dict(self.constants),
+            "inputs": [
+                {
+                    "name": one.name,
+                    "unit": one.unit,
+                    "low": one.low,
+                    "high": one.high,
+                    "scale": "logarithmic" if one.logarithmic else "linear",
+                    "values": one.physical(first.x[:, k]).tolist(),
+                }
+                for k, one in enumerate(self.inputs)
+            ],
+            "kernel": "Matern 5/2 of scaled inputs, of (value - mean)/deviation of the training values",
+            "quantities": {
+                name: {
+                    "unit": QUANTITIES[name],
+                    **self.checks[name],
+                    "factor": process.factor,
+                    "signal": process.signal,
+                    "noise": process.noise,
+                    "lengths": process.lengths.tolist(),
+                    "values": process.y.tolist(),
+                }
+                for name, process in self.processes.items()
+            },
+        }
+        file.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+
+
+def _range(one: Input) -> str:
+    return f"{one.low:g} to {one.high:g} {one.unit}".strip()
+
+
+def fit(training: Training, origin: Mapping[str, str]) -> tuple[Surrogate, dict[str, HeldOut]]:
+    """@raises ResultsError where the intervals of a quantity are not those of the held-out runs"""
+    inputs = tuple(
+        Input(name, unit, float(low), float(high))
+        for name, unit, low, high in zip(
+            training.names, training.units, training.inputs.min(0), training.inputs.max(0)
+        )
+    )
+    x = np.column_stack([one.scaled(training.inputs[:, k]) for k, one in enumerate(inputs)])
+    processes, held_out = {}, {}
+    for name, y in training.quantities.items():
+        processes[name], held_out[name] = fit_process(x, y)
+        require_calibrated(name, held_out[name])
+    checks = {
+        name: {"rms_error": held.rms_error, "coverage": held.coverage}
+        for name, held in held_out.items()
+    }
+    named = {"program": f"furrow-post {__version__}", **origin}
+    return Surrogate(inputs, processes, checks, training.constants, named), held_out
+
+
+def read_surrogate(file: Path) -> Surrogate:
+    """@raises ResultsError, OSError"""
+    with content_of(file, "make it with 'furrow-post surrogate'"):
+        content = parse_json(file.read_text(encoding="utf-8"))
+        if content["format"] != FORMAT:
+            raise ResultsError(
+                f"{file}: is of the format '{content['format']}', not '{FORMAT}'; make it again"
+            )
+        rows: Sequence[Mapping[str, object]] = content["inputs"]
+        inputs = tuple(Input(**{key: row[key] for key in ("name", "unit", "low", "high")}) for row in rows)  # type: ignore[arg-type]
+        x = np.column_stack(
+            [one.scaled(np.array(row["values"], float)) for one, row in zip(inputs, rows)]
+        )
+        processes, checks = {}, {}
+        for name in QUANTITIES:
+            one = content["quantities"][name]
+            processes[name] = Process(
+                x,
+                np.array(one["values"], float),
+                np.array(one["lengths"], float),
+                one["signal"],
+                one["noise"],
+                one["factor"],
+            )
+            checks[name] = {key: one[key] for key in ("rms_error", "coverage")}
+        origin = {key: content[key] for key in ("program", "source", "commit", "fitted")}
+        return Surrogate(inputs, processes, checks, content["constants"], origin)
