@@ -242,7 +242,7 @@ def sand_drained(void, M=1.25, N=0.5, chi=4.0, gamma=0.82, slope=0.02, H=100.0, 
         G = G_r * np.sqrt(P / 1e5)
         K = 2 * (1 + nu) / (3 * (1 - 2 * nu)) * G
         limit = chi_i * (void - gamma + slope * np.log(image / 1e3))
-        image = min(image, P / sand_ratio(limit, M, N))
+        image = min(image, P / sand_ratio(limit, M, N))  # a short way along the cone
         D = M / N * ((P / image) ** (N / (1 - N)) - 1)
         dv, flow = step * 3 * G / (3 * K + G), 0.0  # elastic, at constant lateral stress
         trial = q + 3 * G * (step - dv / 3)

@@ -4,8 +4,7 @@
 
 Nothing of Furrow is used. The plastic multiplier follows from the consistency condition with
 numerical derivatives of the yield function. The paths start isotropically inside the surface. First
-yield and the arrival at the limit of dilatancy, where the image pressure follows the pressure, are
-located as events.
+yield and the arrival at the limit of dilatancy, and the departure from it, are located as events.
 """
 
 import sys
@@ -34,20 +33,11 @@ def lowest_ratio(void, image):
     return (1 + N * CHI_I * psi_i(void, image) / M) ** ((1 - N) / N)
 
 
-def limited_image(P, void):
-    """ln of the image pressure at the limit, by a contraction."""
-    image = np.log(P)
-    for _ in range(40):
-        image = np.log(P) - np.log(lowest_ratio(void, image))
-    return image
-
-
 def excess(y, limited=False):
     """Yield function over P; y: P = p + pt, q, ln of the image pressure, void ratio."""
     P, q, image, void = y[:4]
-    if limited:
-        image = limited_image(P, void)
-    return q / P - M + (1 - N) * dilatancy(P / np.exp(image))
+    D = CHI_I * psi_i(void, image) if limited else dilatancy(P / np.exp(image))
+    return q / P - M + (1 - N) * D
 
 
 def gradient(y, limited):
@@ -72,13 +62,11 @@ def rates(y, path, phase):
     hardening = 0.0
     if plastic:
         f = gradient(y, phase == "limit")
-        if phase == "limit":
-            image = limited_image(P, void)
         psi = psi_i(void, image)
-        x = P / np.exp(image)
-        D = dilatancy(x)
-        if phase == "surface":
-            hardening = max(H - H_PSI * psi, 0.1 * H) * (x**2 / lowest_ratio(void, image) - x)
+        x, lowest = P / np.exp(image), lowest_ratio(void, image)
+        D = CHI_I * psi if phase == "limit" else dilatancy(x)
+        modulus = max(H - H_PSI * psi, 0.1 * H)
+        hardening = modulus * (x / lowest - 1 if phase == "limit" else x**2 / lowest - x)
         stiffness = f[0] * K * D + f[1] * 3 * G - f[2] * hardening
 
     def response(volume):
@@ -109,28 +97,31 @@ def integrate(path, void, pressure, strains):
     def arrives(_, y):
         return y[0] / np.exp(y[2]) - lowest_ratio(y[3], y[2])
 
-    yields.terminal, yields.direction = True, 1
-    arrives.terminal, arrives.direction = True, -1
+    def departs(t, y):
+        return arrives(t, y)
+
+    for event, direction in ((yields, 1), (arrives, -1), (departs, 1)):
+        event.terminal, event.direction = True, direction
     y = np.array((pressure + PT, 0.0, np.log(0.8 * (pressure + PT)), void, 0.0))
-    start, rows = 0.0, []
-    for phase, event in (("elastic", yields), ("surface", arrives), ("limit", None)):
-        left = strains[strains > start]
+    following = {"elastic": "surface", "surface": "limit", "limit": "surface"}
+    events = {"elastic": yields, "surface": arrives, "limit": departs}
+    start, rows, phase = 0.0, [], "elastic"
+    while len(rows) < len(strains):
         solution = solve_ivp(
             lambda t, y, phase=phase: rates(y[:4], path, phase),
             (start, strains[-1]),
             y,
-            events=event,
-            t_eval=left,
+            events=events[phase],
+            t_eval=strains[strains > start],
             rtol=1e-9,
             atol=1e-10,
             method="DOP853",
         )
         assert solution.success
         rows.extend(np.array(solution.y).T)
-        if not event or not len(solution.t_events[0]):
-            break
-        start, y = float(solution.t_events[0][0]), solution.y_events[0][0]
-    assert len(rows) == len(strains)
+        if len(solution.t_events[0]):
+            start, y = float(solution.t_events[0][0]), solution.y_events[0][0]
+            phase = following[phase]
     return rows
 
 

@@ -170,6 +170,24 @@ TEST(NorSandClosedForm, ExtensionHasTheRatioOfItsSection) {
   EXPECT_NEAR(ratio_of(state), K * M, 0.01 * K * M);
 }
 
+/// Dense preloaded sand is elastic in confined compression until the limit of its density.
+TEST(NorSandClosedForm, PreloadedSandHasTheElasticLateralStress) {
+  const double nu = 0.2;
+  const auto material = material_of(sand(0.55, 0.35, "image_pressure 1e6"));
+  VectorX state = material->initial_state();
+  for (int step = 0; step < 200; ++step)
+    material->update_point(stretch(strain_of(0, 0, -2e-5)), state);
+  EXPECT_NEAR(state[0] / state[2], nu / (1 - nu), 1e-9);
+  EXPECT_EQ(state[field::dissipated_energy], 0.0);
+  // ... and a smaller preload yields first
+  const auto softer = material_of(sand(0.55, 0.35, "image_pressure 1e3"));
+  VectorX other = softer->initial_state();
+  for (int step = 0; step < 200; ++step)
+    softer->update_point(stretch(strain_of(0, 0, -2e-5)), other);
+  EXPECT_LT(-other[2], -0.95 * state[2]);
+  EXPECT_GT(other[field::dissipated_energy], 0.0);
+}
+
 /// Grains that have separated bear nothing until they are as dense again as the loosest sand that
 /// has a strength, D_l = M/(1 - N).
 TEST(NorSandLowStress, SeparatedSandBearsNothingUntilItIsDenseAgain) {

@@ -48,7 +48,8 @@ std::unique_ptr<Material> create_norsand(const MaterialOptions& sections) {
   q.floor = 0.01 * q.pt;
   q.tip = std::pow(1.0 / (1.0 - q.N), (1.0 - q.N) / q.N);
   q.section = make_section(o);
-  return std::make_unique<NorSand>(o.number("density"), q, o.number("e0"));
+  return std::make_unique<NorSand>(o.number("density"), q, o.number("e0"),
+                                   o.has("image_pressure") ? o.number("image_pressure") : q.pt);
 }
 
 std::vector<std::string> doubts_of_norsand(const MaterialOptions& sections) {
@@ -94,10 +95,11 @@ MaterialModel NorSand::model() {
   schema.number("G", "Pa", Range::positive(), "shear modulus at 100 kPa");
   schema.number("n", "", Range::closed(0.2, 1.0), "exponent of the shear modulus over pressure");
   schema.number("nu", "", Range{-1.0, 0.5, true, true}, "Poisson's ratio");
+  schema.number("pt", "Pa", Range::positive(), "hydrostatic tensile strength").by_default(10.0);
   schema
-      .number("pt", "Pa", Range::positive(),
-              "hydrostatic tensile strength; and the image pressure at the start")
-      .by_default(10.0);
+      .number("image_pressure", "Pa", Range::positive(),
+              "size of the yield surface at the start, from preloading; pt unless given")
+      .optional();
   declare_section(schema);
   MaterialModel model;
   model.name = "norsand";
@@ -107,17 +109,19 @@ MaterialModel NorSand::model() {
   model.create = create_norsand;
   model.doubts = doubts_of_norsand;
   const std::string sand = " M 1.25 gamma 0.85 lambda 0.02 chi 3.5 N 0.5 H 100 G 40e6 n 0.5 nu 0.2";
-  model.examples = {"density 1700 e0 0.6" + sand, "density 1450 e0 0.9" + sand + " H_psi 300",
+  model.examples = {"density 1700 e0 0.6" + sand,
+                    "density 1450 e0 0.9" + sand + " H_psi 300 image_pressure 2e3",
                     "density 1600 e0 0.7 pt 100 K 0.72 section matsuoka_nakai" + sand,
                     "density 1700 e0 0.55 K 0.8 M 1.25 gamma 0.85 lambda 0.02 chi 3.5 N 0.3 H 100 "
                     "G 40e6 n 0.4 nu 0.2"};
   return model;
 }
 
-NorSand::NorSand(double density, const NorSandParameters& parameters, double void_ratio)
+NorSand::NorSand(double density, const NorSandParameters& parameters, double void_ratio,
+                 double image_pressure)
     : Material("norsand", density,
                {{"void_ratio", "", "volume of voids over volume of grains", void_ratio},
-                {"image_pressure", "Pa", "size of the yield surface", parameters.pt},
+                {"image_pressure", "Pa", "size of the yield surface", image_pressure},
                 {"eps_dev_pl", "", "equivalent plastic strain, of the deviatoric part"}}),
       parameters_(parameters) {}
 

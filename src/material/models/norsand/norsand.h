@@ -12,10 +12,11 @@
 ///   limit      D >= D_l = chi_i psi_i,  psi_i = e - gamma + lambda ln P_i
 ///   hardening  d(ln P_i) = (H - H_psi psi_i) (x^2/x_l - x) d(eps_q),  x_l of D_l
 ///   elasticity G = G_ref (P/100 kPa)^n, K = G 2 (1 + nu)/(3 (1 - 2 nu))
-/// so that eta <= M - (1 - N) chi psi. An elastic step that would leave x < x_l takes P_i along
-/// (inner cap). At the tip flow may be volumetric, and (1 - N) d(eps_v)/M takes the place of
-/// d(eps_q). Sand with D_l >= M/(1 - N) is too loose to bear shear, and compression softens it: so
-/// grains that had separated bear a load only after the void ratio has fallen again.
+/// so that eta <= M - (1 - N) chi psi. At the limit, x < x_l, the surface is a cone, and P_i falls
+/// by d(ln P_i) = -(H - H_psi psi_i) (1 - x/x_l) d(eps_q). At the tip flow may be volumetric, and
+/// (1 - N) d(eps_v)/M takes the place of d(eps_q). Sand with D_l >= M/(1 - N) is too loose to bear
+/// shear, and compression softens it: so grains that had separated bear a load only after the void
+/// ratio has fallen again.
 ///
 /// psi_i in D_l and H is that of P_i at the start of a step and of the void ratio at its end.
 /// Tension beyond P = 0 opens the sand. The dissipation is (M + N D) P d(eps_q) >= 0; the work
@@ -36,8 +37,9 @@ class NorSand : public Material {
 
   static MaterialModel model();
   /// @param density     rho0 [kg/m^3]
-  /// @param void_ratio  at the start
-  NorSand(double density, const NorSandParameters& parameters, double void_ratio);
+  /// @param void_ratio, image_pressure  at the start; [Pa]
+  NorSand(double density, const NorSandParameters& parameters, double void_ratio,
+          double image_pressure);
 
   UpdateReport update_block(const PointBlock& block) const override;
   ElasticModuli moduli(const VectorX& state) const override;

@@ -7,8 +7,8 @@
 /// and the hardening, with u = H Deps_q (x^2/x_l - x), leaves one equation
 ///   R(D) = P - x P_i (1 + u) = 0  (u >= 0)  or  P (1 - u) - x P_i = 0  (u < 0)
 /// in the bracket from max(D_l, (M - t_tr/P_tr)/(1 - N)), where Deps_q = 0, to M/(1 - N).
-/// R <= 0 already at D_l: the point is on the inner cap, and P_i follows P. R > 0 still at the end:
-/// it is at the tip of the surface, where t = 0, and P solves a linear or quadratic equation.
+/// R <= 0 already at D_l: the point is on the cone of the limit. R > 0 still at the end: it is at
+/// the tip of the surface, where t = 0, and P solves a linear or quadratic equation.
 /// P(D_l) <= 0: it opens. model() refuses moduli for which a denominator could vanish.
 
 #include "material/block_update.h"
@@ -75,6 +75,7 @@ struct NorSandKernel {
     const Mask yielding = t_tr > stress_ratio(D_tr) * P_tr + Lanes(1e-13) * abs(P_tr) ||
                           x_tr > tip * Lanes(1.0 + 1e-13) || P_tr < Lanes(0.0);
     Lanes P = P_tr, t = t_tr, x = max(x_tr, x_low), D = D_tr;
+    Lanes image = select(lowest >= Lanes(largest), min(image_old, P_tr / tip), image_old);
     if (any(yielding)) {
       const Lanes over_k = Lanes(1.0) / (Lanes(3.0) * deviator.stiffness(shear)), c = bulk * over_k;
       const Lanes H = max(Lanes(parameters.H) - Lanes(parameters.H_psi) * psi,
@@ -89,14 +90,14 @@ struct NorSandKernel {
           (Lanes(parameters.M) - t_tr / max(P_tr, 1e-290)) * Lanes(1.0 / (1.0 - parameters.N)),
           -1e9);
       const Mask low = yielding && no_flow <= lowest;
-      Mask opens(false), inner(false), at_tip(false);
+      Mask opens(false), on_cone(false), at_tip(false);
       if (any(low)) {
         const Lanes P_low = pressure(lowest);
         opens = low && !(P_low > Lanes(0.0));
-        inner = low && !opens && P_low <= x_low * image_old && lowest < Lanes(largest);
-        stdx::where(inner || opens, D) = lowest;
-        stdx::where(inner || opens, x) = x_low;
-        stdx::where(inner, P) = P_low;
+        on_cone = low && !opens && P_low <= x_low * image_old && lowest < Lanes(largest);
+        stdx::where(on_cone || opens, D) = lowest;
+        stdx::where(on_cone || opens, x) = x_low;
+        stdx::where(on_cone, P) = P_low;
         stdx::where(opens, P) = 0.0;
       }
       const Mask beyond = yielding && !opens && (x_tr > tip || lowest >= Lanes(largest));
@@ -116,7 +117,7 @@ struct NorSandKernel {
         stdx::where(at_tip, D) = largest;
         stdx::where(at_tip, x) = tip;
       }
-      const Mask smooth = yielding && !inner && !opens && !at_tip;
+      const Mask smooth = yielding && !on_cone && !opens && !at_tip;
       if (any(smooth)) {
         const double N = parameters.N, M = parameters.M;
         const auto residual = [&](const Lanes& at) __attribute__((always_inline))->ValueAndSlope {
@@ -145,6 +146,12 @@ struct NorSandKernel {
         stdx::where(smooth, P) = max(pressure(root), 0.0);
       }
       stdx::where(yielding, t) = min(max(stress_ratio(D), 0.0) * P, t_tr);
+      stdx::where(yielding, image) = P / x;
+      if (any(on_cone)) {
+        const Lanes flow = max(t_tr - t, 0.0) * over_k, share = P / (x_low * image_old);
+        stdx::where(on_cone, image) =
+            max(image_old / (Lanes(1.0) + H * flow * max(Lanes(1.0) - share, 0.0)), P / x_low);
+      }
     }
     const Symmetric s = deviator.stress(s_trial, t, yielding);
     const Lanes p_old = P_n - Lanes(pt), p = P - Lanes(pt);
@@ -156,8 +163,7 @@ struct NorSandKernel {
     points.frozen = Lanes(-pt) * compaction;
     points.dissipated = select(yielding, P * compaction + contract(s, gone) * half_compliance, 0.0);
     points.internal[0] = voids;
-    // The image keeps its digits where nothing moves it.
-    points.internal[1] = max(select(yielding || x_tr < x_low, P / x, image_old), floor / tip);
+    points.internal[1] = max(image, floor / tip);
     points.internal[2] =
         points.internal[2] +
         select(yielding, sqrt(contract(gone, gone) * Lanes(1.0 / 6.0)) / shear, 0.0);
