@@ -85,6 +85,7 @@ FixWheelRig::FixWheelRig(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
       wheel_fix_(find_free_wheel()),
       rig_(make_rig(options(), wheel_fix_)) {
   contribute(static_cast<MotionController&>(*this));
+  if (rig_.has_suspension()) keep_state();
 }
 
 int FixWheelRig::setmask() { return on_slope() ? LAMMPS_NS::FixConst::POST_FORCE : 0; }

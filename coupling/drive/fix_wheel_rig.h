@@ -27,6 +27,7 @@ class FixWheelRig : public FixRig, public MotionController {
   FixWheelHub& wheel_fix() const override { return wheel_fix_; }
 
  private:
+  void checkpoint(Checkpoint& state) override { rig_.checkpoint(state); }
   FixWheelHub& find_free_wheel();
   bool on_slope() const { return rig_.on_slope(); }
   void warn_of_short_ramps();

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "rig/wheel_rig.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
 
 namespace furrow {
 
@@ -9,6 +14,8 @@ namespace {
 
 // Of the load: what the ground bears when a lowered wheel has come down on it.
 constexpr double touching_share = 0.02;
+// dt^2 k/m and dt c/m of a suspension, whose force is constant over a step
+constexpr double largest_spring_step = 0.1, largest_damper_step = 0.2;
 
 }  // namespace
 
@@ -124,11 +131,34 @@ void WheelRig::drive_vertical(double time, double dt) {
     wheel_.prescribe(Coordinate::z, lowering_ * load_ramp_.mean_rate(time, time + dt));
   } else {
     wheel_.release(Coordinate::z);
+    if (suspension_) {
+      const double press = press_by_suspension(load_ramp_.value(time), dt);
+      wheel_.set_load(Vector3(0.0, 0.0, -press));
+      return;
+    }
     const double across = std::sin(side_slope_), along = std::sin(slope_);
     wheel_.set_load(
         load_ * load_ramp_.value(time) *
         Vector3(-along, -across * std::cos(slope_), -std::cos(side_slope_) * std::cos(slope_)));
   }
+}
+
+/// Weight of the wheel and force of the suspension [N], while a share of the weights acts.
+double WheelRig::press_by_suspension(double share, double dt) {
+  const double least_mass = std::min(suspension_->mass(), wheel_.total_mass());
+  if (dt * dt * suspension_->stiffness() > largest_spring_step * least_mass ||
+      dt * suspension_->damping() > largest_damper_step * least_mass)
+    throw StateError(fmt::format(
+        "wheel rig: a step of {:g} s is too long for a suspension of {:g} N/m and {:g} N s/m on "
+        "{:.4g} kg; write a smaller timestep",
+        dt, suspension_->stiffness(), suspension_->damping(), least_mass));
+  const double own = share * wheel_weight_;
+  return own + suspension_->advance(wheel_.position(Coordinate::z) - first_height_,
+                                    wheel_.rate(Coordinate::z), share * load_ - own, dt);
+}
+
+void WheelRig::checkpoint(Checkpoint& state) {
+  if (suspension_) suspension_->checkpoint(state);
 }
 
 void WheelRig::drive_spin(double time, double dt) {

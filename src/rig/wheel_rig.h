@@ -2,6 +2,7 @@
 #pragma once
 /// The test rig: lowers a wheel onto the ground, accelerates it and holds its travel constant.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "rig/pass_schedule.h"
 #include "rig/ramp.h"
 #include "rig/slip.h"
+#include "rig/suspension.h"
 
 namespace furrow {
 
@@ -44,7 +46,9 @@ namespace furrow {
 /// the difference to the wheel's mass times gravity as a constant force at the axle, without
 /// inertia.
 ///
-/// All stages are functions of time alone, so a rig needs no checkpoint.
+/// With a suspension the part beyond the wheel's weight is a mass on spring and damper.
+///
+/// All stages are functions of time alone, so a rig without suspension has no state.
 class WheelRig {
  public:
   enum class Mode { towed, slip, torque, spin };
@@ -77,6 +81,9 @@ class WheelRig {
   /// the step are known.
   std::vector<double> measure(double time, const GroundLosses& losses = {}) const;
 
+  bool has_suspension() const { return suspension_.has_value(); }
+  void checkpoint(Checkpoint& state);  ///< of the suspension
+
   RigStage stage(double time) const;
   int pass(double time) const { return passes_.index(time) + 1; }  ///< from 1
   int passes() const { return passes_.passes(); }
@@ -106,6 +113,8 @@ class WheelRig {
   void read_dragged_mass(const Options& options);
   void read_drive(const Options& options);
   void read_passes(const Options& options);
+  void read_suspension(const Options& options);
+  double press_by_suspension(double share, double dt);
   bool has_course(const std::string& key) const { return courses_.count(key) > 0; }
   double slip_angle(double time) const;
   double spin_rate_of(double slip, double slip_angle) const;
@@ -138,6 +147,9 @@ class WheelRig {
   Ramp load_ramp_;   // begins with the settling; as all ramps, on the first pass's clock
   Ramp speed_ramp_;  // begins with the acceleration
   PassSchedule passes_;
+  std::optional<Suspension> suspension_;
+  double wheel_weight_ = 0.0;    // [N] with a suspension
+  double first_height_ = 0.0;    // [m] of the axle, likewise
   double first_x_ = 0.0;         // [m] of the axle, where every pass begins
   double lifted_z_ = 0.0;        // [m] of the axle on its way back
   double lowering_speed_ = 0.0;  // [m/s]

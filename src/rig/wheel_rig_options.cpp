@@ -161,6 +161,13 @@ Schema WheelRig::schema(const std::string& subject) {
       .number("damping", "N s/m", Range::non_negative(),
               "viscous damping of the wheel's vertical motion")
       .by_default(0.0);
+  schema
+      .number("suspension_stiffness", "N/m", Range::positive(),
+              "spring between the axle and the mass that it carries; by default rigid, and the "
+              "mass without inertia")
+      .optional();
+  schema.number("suspension_damping", "N s/m", Range::non_negative(), "damper beside this spring")
+      .by_default(0.0);
   return schema;
 }
 
@@ -187,6 +194,7 @@ WheelRig::WheelRig(const Options& options, WheelHub& wheel, const Courses& table
   read_travel(options);
   read_drive(options);
   read_passes(options);
+  read_suspension(options);
   wheel_.set_vertical_damping(options.number("damping"));
   wheel_.set_axle_torque(0.0);
   for (const auto coordinate : {Coordinate::y, Coordinate::yaw, Coordinate::camber})
@@ -479,6 +487,29 @@ void WheelRig::read_drive(const Options& options) {
           "a wheel that spins on the spot or backwards needs mode torque");
     }
   }
+}
+
+void WheelRig::read_suspension(const Options& options) {
+  const bool given = options.has("suspension_stiffness");
+  if (!given) {
+    expect_key(options, "suspension_damping", false, "without suspension_stiffness",
+               "only with suspension_stiffness");
+    return;
+  }
+  const std::string where = options.where("suspension_stiffness");
+  if (on_slope() || passes_.passes() > 1 || sinkage_prescribed_)
+    throw InputError(where, "is given with a slope, passes or a prescribed sinkage",
+                     "level ground, one pass and a load", "remove it, or the other keyword");
+  const double gravity = options.number("gravity"), own = wheel_.total_mass();
+  const double sprung = load_ / gravity - own;
+  if (!(sprung > 0.0))
+    throw InputError(where, fmt::format("is given, and the load is {:.4g} kg", load_ / gravity),
+                     fmt::format("a load above {:.4g} kg, the mass of the wheel", own),
+                     "the mass of the wheel is unsprung, the rest of the load is sprung");
+  suspension_.emplace(options.number("suspension_stiffness"), options.number("suspension_damping"),
+                      sprung);
+  wheel_weight_ = own * gravity;
+  first_height_ = wheel_.position(Coordinate::z);
 }
 
 void WheelRig::read_passes(const Options& options) {

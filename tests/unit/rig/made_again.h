@@ -24,6 +24,7 @@ void expect_continues_bitwise(Make make, const Floor& floor, long from, long to)
   for (long i = 0; i < from; ++i) step(first, one, i);
   WheelRig second = make(other);
   test::hand_over(one, other);
+  test::hand_over(first, second);
   for (long i = from; i < to; ++i) {
     step(first, one, i);
     step(second, other, i);

@@ -405,6 +405,41 @@ TEST(WheelRig, ARigWithRampsContinuesBitwise) {
                            5800);
 }
 
+// The settled wheel carries the whole load, and the spring the sprung mass of 4 kg.
+TEST(WheelRig, ASuspensionCarriesTheSprungMass) {
+  RigidWheel wheel = make_wheel(0.2003);
+  const Floor floor;
+  WheelRig rig = make_rig(
+      wheel, {"load_mass", "7", "speed", "0", "mode", "towed", "damping", "600",
+              "suspension_stiffness", "2000", "suspension_damping", "120", "settle_time", "1.5"});
+  std::vector<double> last;
+  run(rig, wheel, 1.5, 4e-5, &floor, [&](const std::vector<double>& row) { last = row; });
+  const double gravity = 9.80665;
+  EXPECT_NEAR(last[channel("force_z")], 7.0 * gravity, 1e-5);
+  EXPECT_NEAR(last[channel("suspension_force")], 4.0 * gravity, 1e-5);
+  EXPECT_NEAR(last[channel("sprung_drop")], 4.0 * gravity / 2000.0 + 0.2003 - last[channel("z")],
+              1e-8);
+}
+
+TEST(WheelRig, ASuspendedRigContinuesBitwise) {
+  const Words words{
+      "load_mass",          "7", "speed", "1", "mode", "towed", "suspension_stiffness", "2000",
+      "suspension_damping", "20"};
+  expect_continues_bitwise([&](RigidWheel& wheel) { return make_rig(wheel, words); }, Floor(), 2000,
+                           3000);
+}
+
+TEST(WheelRig, ASuspensionNeedsASprungMassAndAShortStep) {
+  const Words words{"load_mass", "3", "speed", "1", "mode", "towed", "suspension_stiffness", "1e3"};
+  EXPECT_THAT(refusal_of(words), HasSubstr("keyword 'suspension_stiffness' is given, and the load "
+                                           "is 3 kg; allowed: a load above 3 kg"));
+  RigidWheel wheel = make_wheel();
+  WheelRig rig = make_rig(
+      wheel, {"load_mass", "6", "speed", "1", "mode", "towed", "suspension_stiffness", "1e6"});
+  EXPECT_THAT(error_of<StateError>([&] { rig.apply(0.05, 1e-3); }),
+              HasSubstr("a step of 0.001 s is too long for a suspension"));
+}
+
 TEST(WheelRig, RefusesImpossibleCourses) {
   const auto refusal_with = [](Words words) {
     for (const char* word : {"speed", "1", "mode", "slip"}) words.push_back(word);
