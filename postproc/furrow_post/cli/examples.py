@@ -23,6 +23,8 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     "variables": ("inputs/scenes/wheel_on_snow.lig",),
     "sweep": ("results/sweep", "continuum=results/a grains=results/b -o results/both"),
     "surrogate": ("results/a -o wheel.json", "wheel.json --at slip=0.2 load=600"),
+    "map": ("wheel.json dem.tif --classes soil.tif soils.csv --load 600 -o results/map",),
+    "identify": ("wheel.json tests.csv --set c=250 -o results/soil",),
     "view": ("results/a", "results/a results/b -o both.html"),
     "film": ("results/a film.mp4", "results/a --colour displacement --cut 0 --seconds 5"),
     "report": ("results/a", "continuum=results/a grains=results/b -o both.html"),

@@ -86,6 +86,8 @@ SUBCOMMANDS = (
         "-> sweep.csv, .h5, .png, report.html",
     ),
     Subcommand("surrogate", "a fast model of a wheel from sweeps, with checked intervals -> surrogate.json, .png"),
+    Subcommand("map", "go, pull, speed and energy of a wheel on a terrain raster -> map.tif, map.png, mobility.csv"),
+    Subcommand("identify", "soil parameters from wheel tests, by a surrogate -> posterior.csv, posterior.png"),
     Subcommand(
         "cost", "error against cost of the runs of a scene, and which to take -> cost.png, cost.csv"
     ),

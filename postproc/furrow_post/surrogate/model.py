@@ -59,14 +59,6 @@ class Surrogate:
     def names(self) -> list[str]:
         return [one.name for one in self.inputs]
 
-    def constant(self, name: str, use: str) -> float:
-        """@raises ResultsError"""
-        if name not in self.constants:
-            raise ResultsError(
-                f"the surrogate has no {name}, neither as input nor as constant; {use}"
-            )
-        return self.constants[name]
-
     def scaled(self, values: Mapping[str, Floats | float]) -> Floats:
         """(..., inputs) in [0, 1] inside the training ranges, of all inputs by name."""
         columns = [one.scaled(np.asarray(values[one.name], float)) for one in self.inputs]
@@ -89,13 +81,18 @@ class Surrogate:
         for one in self.inputs:
             if one.name not in values:
                 raise ResultsError(f"the surrogate needs a value of '{one.name}' ({_range(one)})")
-            given = np.asarray(values[one.name], float).ravel()
-            outside = given[~self.inside(one.name, given)]
-            if len(outside):
-                raise ResultsError(
-                    f"{one.name}: {outside[0]:g} lies outside of the training range ({_range(one)}); a "
-                    "surrogate does not extrapolate. Add runs there, or stay inside"
-                )
+            self.require_range(one.name, values[one.name])
+
+    def require_range(self, name: str, values: Floats | float) -> None:
+        """@raises ResultsError for values of an input outside of its training range"""
+        given = np.asarray(values, float).ravel()
+        outside = given[~self.inside(name, given)]
+        if len(outside):
+            one = self.inputs[self.names.index(name)]
+            raise ResultsError(
+                f"{name}: {outside[0]:g} lies outside of the training range ({_range(one)}); a "
+                "surrogate does not extrapolate. Add runs there, or stay inside"
+            )
 
     def write(self, file: Path) -> None:
         first = next(iter(self.processes.values()))

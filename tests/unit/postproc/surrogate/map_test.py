@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A mobility map of a wheel with a closed form, on slopes that are known."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+from osgeo import gdal
+
+from furrow_post.arrays import Floats
+from furrow_post.csv_table import read_numbers
+from furrow_post.surrogate.mobility import Vehicle, evaluate, mobility_of, tabulate
+from furrow_post.surrogate.training import HUB_DROP, PULL, TORQUE
+from support.command import run_post
+from support.surrogate import RANGES, made_surrogate, wheel
+
+gdal.UseExceptions()
+LOAD, SPEED, POWER, CELL = 600.0, 0.5, 150.0, 10.0
+PHI = {1: 26.0, 2: 32.0}  # by soil class
+ROWS, COLUMNS = 40, 60
+
+
+def write_ascii(file: Path, values: Floats, cell: float = CELL) -> None:
+    """ESRI's grid of numbers, row 0 in the north."""
+    head = f"ncols {values.shape[1]}\nnrows {values.shape[0]}\nxllcorner 0\nyllcorner 0\ncellsize {cell}\nNODATA_value -9999\n"
+    file.write_text(head + "\n".join(" ".join(f"{v:.9g}" for v in row) for row in values) + "\n")
+
+
+def closed_form(slope: float, phi: float) -> tuple[float, float, float]:
+    """Largest pull minus need, slip and energy per distance of the operating point."""
+    slip = np.linspace(*RANGES["slip"], 20001)
+    load = LOAD * np.cos(np.radians(slope))
+    answers = wheel(slip, np.array(load), np.array(phi))
+    need = np.tan(np.radians(slope))
+    k = int(np.argmax(answers[PULL] >= need))
+    rim = 1 / (1 - slip[k]) if slip[k] > 0 else 1 + slip[k]
+    return float(answers[PULL].max() - need), float(slip[k]), float(load * answers[TORQUE][k] * rim)
+
+
+class MapTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+        made_surrogate().write(self.folder / "wheel.json")
+        # Elevation over the column: the slope grows from 0 to 30 degrees
+        x = CELL * np.arange(COLUMNS)
+        self.slope = 30.0 * x / x[-1]
+        rise = np.cumsum(np.tan(np.radians(self.slope))) * CELL
+        write_ascii(self.folder / "dem.asc", np.tile(rise, (ROWS, 1)))
+        self.classes = np.where(np.arange(ROWS)[:, None] < ROWS // 2, 1.0, 2.0) * np.ones(
+            (1, COLUMNS)
+        )
+        write_ascii(self.folder / "soil.asc", self.classes)
+        rows = "".join(f"{key},{phi}\n" for key, phi in PHI.items())
+        (self.folder / "soils.csv").write_text("class,phi\n" + rows)
+
+    def tearDown(self) -> None:
+        self.temporary.cleanup()
+
+    def map(self, *words: object) -> str:
+        done = run_post(
+            "map",
+            self.folder / "wheel.json",
+            self.folder / "dem.asc",
+            "-o",
+            self.folder / "map",
+            "--load",
+            LOAD,
+            *words,
+        )
+        return done.stdout if done.returncode == 0 else done.stderr
+
+    def test_operating_point_is_that_of_the_closed_form(self) -> None:
+        vehicle = Vehicle(LOAD, SPEED)
+        slopes = np.array([0.0, 5.0, 10.0, 15.0, 25.0])
+        for phi in PHI.values():
+            fields = evaluate(made_surrogate(), vehicle, {"slope": slopes, "phi": np.full(5, phi)})
+            result = mobility_of(fields, vehicle, slopes)
+            for k, slope in enumerate(slopes):
+                margin, slip, energy = closed_form(float(slope), phi)
+                self.assertAlmostEqual(
+                    result.pull[k], max(margin, 0) * LOAD * np.cos(np.radians(slope)), delta=1.5
+                )
+                self.assertEqual(result.probability[k] > 0.5, margin > 0)
+                if margin > 0.01:
+                    self.assertAlmostEqual(result.slip[k], slip, delta=0.003)
+                    self.assertAlmostEqual(result.energy[k], energy, delta=0.01 * energy)
+                    drop = float(
+                        wheel(
+                            np.array(slip),
+                            np.array(LOAD * np.cos(np.radians(slope))),
+                            np.array(phi),
+                        )[HUB_DROP]
+                    )
+                    self.assertAlmostEqual(result.hub_drop[k], drop, delta=2e-4)
+                elif margin < -0.01:
+                    self.assertTrue(np.isnan(result.energy[k]))
+
+    def test_power_limits_speed_and_pull(self) -> None:
+        ground = {"slope": np.array([10.0]), "phi": np.array([36.0])}
+        free, limited = Vehicle(LOAD, SPEED), Vehicle(LOAD, SPEED, 60.0)
+        of = [
+            mobility_of(evaluate(made_surrogate(), one, ground), one, ground["slope"])
+            for one in (free, limited)
+        ]
+        self.assertEqual(of[0].speed[0], SPEED)
+        self.assertAlmostEqual(of[1].speed[0], 60.0 / of[0].energy[0], places=6)
+        self.assertLess(of[1].pull[0], of[0].pull[0])
+
+    def test_table_is_within_its_tolerance_of_the_surrogate(self) -> None:
+        random = np.random.default_rng(0)
+        ground = {"slope": random.uniform(0, 30, 3000), "phi": random.uniform(25, 37, 3000)}
+        surrogate, vehicle = made_surrogate(), Vehicle(LOAD, SPEED)
+        table = tabulate(surrogate, vehicle, ground)
+        exact, found = evaluate(surrogate, vehicle, ground), table.at(ground)
+        self.assertLess(
+            np.sqrt(np.mean((found["best"] - exact["best"]) ** 2)), 0.3 * exact["deviation"].mean()
+        )
+        self.assertLess(np.sqrt(np.mean((found["slip"] - exact["slip"]) ** 2)), 0.03)
+
+    def test_map_has_the_boundary_of_the_closed_form(self) -> None:
+        said = self.map(
+            "--classes", self.folder / "soil.asc", self.folder / "soils.csv", "--power", POWER
+        )
+        self.assertIn("% of the cells", said)
+        data = gdal.Open(str(self.folder / "map" / "map.tif"))
+        bands = {data.GetRasterBand(k).GetDescription(): data.GetRasterBand(k) for k in range(1, 8)}
+        self.assertEqual(bands["energy"].GetUnitType(), "J/m")
+        verdict = bands["verdict"].ReadAsArray()
+        for key, phi in PHI.items():
+            row = verdict[self.classes[:, 0] == key][5]
+            edge = np.flatnonzero(row < 2)[0]  # first column without go
+            steepest = next(s for s in np.arange(0, 45, 0.01) if closed_form(float(s), phi)[0] < 0)
+            self.assertAlmostEqual(self.slope[edge], steepest, delta=1.0)
+        self.assertGreater((self.folder / "map" / "map.png").stat().st_size, 10_000)
+        rows = read_numbers(self.folder / "map" / "mobility.csv")
+        self.assertEqual({row["soil"] for row in rows}, {1.0, 2.0})
+        for row in rows:
+            margin, _, energy = closed_form(row["slope_degrees"], PHI[int(row["soil"])])
+            if margin > 0.01:
+                self.assertAlmostEqual(row["energy_J_per_m"], energy, delta=0.01 * energy)
+
+    def test_faults_are_one_line(self) -> None:
+        other = self.folder / "other.asc"
+        write_ascii(other, np.full((3, 3), 30.0))
+        for words, message in (
+            ((), "no soil parameter phi; give it by --set"),
+            (("--set", "phi=50"), "phi: 50 lies outside of the training range"),
+            (("--set", "n=1"), "the surrogate has no soil parameter 'n'"),
+            (("--raster", f"phi={other}"), "differ from the elevation model"),
+            (("--raster", f"phi={self.folder}/no.tif"), "no such file"),
+            (("--classes", self.folder / "soil.asc", self.folder / "wheel.json"), "wheel.json"),
+        ):
+            with self.subTest(words):
+                said = self.map(*words)
+                self.assertIn(message, said)
+                self.assertEqual(said.count("\n"), 1)
+
+    def test_cells_outside_of_the_training_range_have_no_data(self) -> None:
+        phi = np.full((ROWS, COLUMNS), 30.0)
+        phi[:10] = 45.0
+        write_ascii(self.folder / "phi.asc", phi)
+        said = self.map("--raster", f"phi={self.folder / 'phi.asc'}")
+        self.assertIn(f"{10 * COLUMNS} of {ROWS * COLUMNS} cells lie outside", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
