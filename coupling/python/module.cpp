@@ -20,7 +20,7 @@
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/output/fix_wheel_history.h"
 #include "coupling/python/parts.h"
-#include "coupling/python/session.h"
+#include "coupling/session/session.h"
 #include "io/version.h"
 
 namespace {
@@ -251,6 +251,8 @@ PYBIND11_MODULE(furrow, module) {
           "Runs to the end of the script. Returns the number of steps.")
       .def("end", &Session::end, py::call_guard<py::gil_scoped_release>(),
            "Ends the run after its next step, writes its results, and skips the rest.")
+      .def("write_checkpoint", &Session::write_checkpoint, py::arg("path"),
+           "Of the present step, for read_restart; in scenes without grains.")
       .def("close", &Session::close, py::call_guard<py::gil_scoped_release>(),
            "Ends the run and frees the simulation, with the last of its arrays.")
       .def("__enter__", [](const SessionPointer& session) { return session; })

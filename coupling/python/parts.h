@@ -17,7 +17,7 @@
 #include "coupling/base/fix_terrain.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/drive/fix_wheel_rig.h"
-#include "coupling/python/session.h"
+#include "coupling/session/session.h"
 #include "modify.h"
 
 namespace furrow::coupling {

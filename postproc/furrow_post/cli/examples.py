@@ -21,6 +21,7 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     "study": ("", "snow_oedometer", "snow_plate fresh_fine --results results/plate", "--pages --check"),
     "choose": ("inputs/costs/wheel_on_snow.csv --error 10%",),
     "variables": ("inputs/scenes/wheel_on_snow.lig",),
+    "fmu": ("inputs/guide/howto/vehicle/wheel.lig -o results/wheel.fmu",),
     "sweep": ("results/sweep", "continuum=results/a grains=results/b -o results/both"),
     "surrogate": ("results/a -o wheel.json", "wheel.json --at slip=0.2 load=600"),
     "map": ("wheel.json dem.tif --classes soil.tif soils.csv --load 600 -o results/map",),

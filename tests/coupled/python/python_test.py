@@ -78,6 +78,8 @@ class Stepping(Case):
             while run.step(100):
                 grains = run.grains
                 self.assertEqual(grains["position"].shape, (len(grains["id"]), 3))
+                with self.assertRaisesRegex(furrow.Error, "is for scenes without grains"):
+                    run.write_checkpoint("own")
         self.assert_same("alone", "driven")
 
     def test_simulations_advance_alternately(self) -> None:
@@ -237,6 +239,18 @@ class Checkpoints(Case):
         with opened(results="driven", begin="read_restart driven/checkpoint.300") as run:
             run.step(1)
             self.assertEqual(run.step_number, 301)
+            run.run()
+        self.assert_same("alone", "driven")
+
+
+    def test_a_checkpoint_is_written_between_steps(self) -> None:
+        executable(SCENE, here=HERE, results="alone")
+        with opened(results="driven") as run:
+            with self.assertRaisesRegex(furrow.Error, "needs a step: there is none before the first"):
+                run.write_checkpoint("own")
+            run.step(350)
+            run.write_checkpoint("own")
+        with opened(results="driven", begin="read_restart own") as run:
             run.run()
         self.assert_same("alone", "driven")
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/python/coroutine.h"
+#include "coupling/session/coroutine.h"
 
 #include <cstdint>
 #include <new>

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/python/session.h"
+#include "coupling/session/session.h"
 
+#include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <utility>
 
 #include <unistd.h>
 
+#include "atom.h"
 #include "core/error.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/command_line.h"
@@ -17,6 +20,7 @@
 #include "coupling/run_script.h"
 #include "signal_handling.h"
 #include "update.h"
+#include "write_restart.h"
 
 namespace furrow::coupling {
 
@@ -33,6 +37,20 @@ class QuietErrors {
   QuietErrors(const QuietErrors&) = delete;
   QuietErrors& operator=(const QuietErrors&) = delete;
 };
+
+/// @throws Error where another copy of this library runs LIGGGHTS in this process
+void claim_process() {
+  static const std::string mark = std::to_string(getpid()) + ":" +
+                                  std::to_string(reinterpret_cast<std::uintptr_t>(&claim_process));
+  constexpr char name[] = "FURROW_LIBRARY_IN_PROCESS";
+  const char* found = std::getenv(name);
+  const std::string own = std::to_string(getpid()) + ":";
+  if (found && std::string(found).rfind(own, 0) == 0 && found != mark)
+    throw Error(
+        "another copy of Furrow's library runs in this process; use one copy for all simulations, "
+        "or a process for each");
+  setenv(name, mark.c_str(), 1);
+}
 
 /// Without MPI nothing can be freed: the process is at its end.
 void free_all(LAMMPS_NS::LAMMPS* lammps) {
@@ -51,6 +69,7 @@ Session::Session(std::vector<std::string> arguments, std::string temporary, MPI_
       interrupted_(std::move(interrupted)),
       script_([this] { run_whole_script(); }) {
   try {
+    claim_process();
     const CommandLine line = read_command_line(arguments_);
     on_first_rank(ranks_, [&] { check_command_line(line); });
     arguments_.insert(arguments_.begin(), "furrow");
@@ -92,6 +111,16 @@ void Session::end() {
     ~Reset() { LAMMPS_NS::SignalHandler::request_quit = false; }
   } reset;
   resume();
+}
+
+void Session::write_checkpoint(const std::string& path) {
+  const std::shared_ptr<LAMMPS_NS::LAMMPS> lammps = liggghts();
+  if (ended() || lammps->update->whichflag != 1)
+    throw Error("a checkpoint of a simulation needs a step: there is none before the first");
+  if (lammps->atom->natoms > 0)
+    throw Error("a checkpoint between steps is for scenes without grains; use the line restart");
+  std::string name = path;
+  LAMMPS_NS::WriteRestart(lammps.get()).write(name.data());
 }
 
 void Session::close() {

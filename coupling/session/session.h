@@ -11,7 +11,7 @@
 #include <mpi.h>
 
 #include "coupling/liggghts/driver.h"
-#include "coupling/python/coroutine.h"
+#include "coupling/session/coroutine.h"
 #include "lammps.h"
 
 namespace furrow::coupling {
@@ -21,6 +21,9 @@ namespace furrow::coupling {
 /// of the executable. Runs that prepare a bed do not pause.
 ///
 /// All functions are collective. @throws RunError, after which the session has ended
+///
+/// A process has one copy of this library: the functions of LIGGGHTS that another copy overrides
+/// would lead into that one.
 class Session : private Driver {
  public:
   using Interrupted = std::function<bool()>;
@@ -42,6 +45,11 @@ class Session : private Driver {
   bool ended() const { return script_.ended(); }
   /// Ends a run after its next step, with its results written, and skips the rest of the script.
   void end();
+
+  /// Of the step that is complete, also while a run pauses. @param path of a file to write
+  /// @throws Error before the first step, and with grains: their contacts are written with new
+  /// neighbour lists only
+  void write_checkpoint(const std::string& path);
 
   /// LIGGGHTS lives as long as any owner of this pointer. @throws Error after close()
   std::shared_ptr<LAMMPS_NS::LAMMPS> liggghts() const;

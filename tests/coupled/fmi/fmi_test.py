@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""An FMU of one wheel, through an importer: fmi_test.py <furrow-post>"""
+
+import ctypes
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[3]
+GUIDE = ROOT / "inputs" / "guide" / "howto"
+sys.path.insert(0, str(GUIDE / "fmi"))
+
+from importer import OK, Fmu, FmuError, Instance
+
+SCRIPT = GUIDE / "vehicle" / "wheel.lig"
+POST = ""
+STEP, BEGIN, SPEED = 4e-3, (0.0, 0.0, 0.351), (0.5, 0.1, -0.1)
+OUTPUTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z", "hub_z", "hub_spin_rate")
+
+# The same motion with the Python module, in another process
+REFERENCE = f"""
+import sys, furrow
+with furrow.Simulation(sys.argv[1], variables={{"cell": 0.04, "z": 0.351}}) as run:
+    hub = run.wheels["wheel"]
+    for k in range(100):
+        for i, name in enumerate(("x", "y", "z")):
+            target = {BEGIN}[i] + {SPEED}[i] * (k * {STEP}) + 4 * 1e-3 * {SPEED}[i]
+            hub.prescribe(name, (target - hub.position[i]) / (4 * 1e-3))
+        for name in ("yaw", "camber"):
+            hub.prescribe(name, 0.0)
+        hub.release("spin")
+        hub.set_axle_torque(20.0)
+        run.step(4)
+        print(*(value.hex() for value in (*hub.force, hub.position[2], hub.velocity[3])))
+"""
+
+
+def made(folder: Path, script: Path = SCRIPT) -> Fmu:
+    target = folder / f"{script.stem}.fmu"
+    command = [sys.executable, POST, "fmu", str(script), "-o", str(target)]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    return Fmu(target)
+
+
+def advance(wheel: Instance, begin: int, end: int) -> list[list[str]]:
+    """Steps with the motion of the reference. @return the outputs of each"""
+    rows = []
+    for k in range(begin, end):
+        for name, start, speed in zip("xyz", BEGIN, SPEED):
+            wheel.set({f"position_{name}": start + speed * (k * STEP), f"velocity_{name}": speed})
+        wheel.set({"spin_torque": 20.0})
+        wheel.step(k * STEP, STEP)
+        rows.append([wheel.get(name).hex() for name in OUTPUTS])
+    return rows
+
+
+class Case(unittest.TestCase):
+    folder: Path
+    fmu: Fmu  # one for all, because a process takes one copy of its library
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        if cls.__base__ is Case and not hasattr(Case, "fmu"):
+            Case.folder = Path(tempfile.mkdtemp())
+            unittest.addModuleCleanup(shutil.rmtree, Case.folder)
+            Case.fmu = made(Case.folder)
+
+    def instance(self, fmu: Fmu | None = None) -> Instance:
+        wheel = Instance(fmu or self.fmu)
+        self.addCleanup(wheel.free)
+        return wheel
+
+    def opened(self, script: str = "wheel.lig", **parameters: str) -> Instance:
+        wheel = self.instance()
+        given = {"cell": "0.04", "z": "0.351", **parameters}
+        wheel.initialize({"script": script, **{f"variables.{name}": value for name, value in given.items()}})
+        return wheel
+
+    def changed(self, old: str, new: str) -> str:
+        """Path of another script."""
+        text = SCRIPT.read_text(encoding="utf-8")
+        self.assertIn(old, text)
+        script = self.folder / "changed.lig"
+        script.write_text(text.replace(old, new), encoding="utf-8")
+        return str(script)
+
+
+class Results(Case):
+    def test_results_are_those_of_the_python_module(self) -> None:
+        command = [sys.executable, "-c", REFERENCE, str(SCRIPT)]
+        done = subprocess.run(command, check=True, text=True, capture_output=True)
+        expected = [line.split() for line in done.stdout.splitlines()]
+        self.assertEqual(advance(self.opened(), 0, 100), expected)
+        self.assertGreater(float.fromhex(expected[-1][2]), 1000.0)
+
+    def test_instances_advance_alternately(self) -> None:
+        alone = advance(self.opened(), 0, 60)
+        one, other = self.opened(), self.opened(cell="0.03")
+        rows = []
+        for k in range(60):
+            rows += advance(one, k, k + 1)
+            advance(other, k, k + 1)
+        self.assertEqual(rows, alone)
+
+    def test_reset_and_parameters(self) -> None:
+        wheel = self.opened()
+        first = advance(wheel, 0, 30)
+        wheel.call("fmi2Reset")
+        wheel.initialize({"variables.cell": "0.04", "variables.z": "0.351"})
+        self.assertEqual(advance(wheel, 0, 30), first)
+        by_load = self.instance()
+        by_load.initialize({"height_by_load": True, "spin_by_torque": False, "variables.z": "0.351"})
+        by_load.set({"load": 800.0, "spin_rate": 0.5})
+        forces = []
+        for k in range(1000):
+            by_load.step(k * 1e-3, 1e-3)
+            forces.append(by_load.get("force_z"))
+        gained = 35.0 * by_load.get("hub_velocity_z")  # momentum
+        self.assertAlmostEqual(sum(forces) * 1e-3, 800.0 + gained, delta=2.0)
+        self.assertEqual(by_load.get("hub_spin_rate"), 0.5)
+
+    def test_variables_have_units_and_references(self) -> None:
+        units = {unit.attrib["name"] for unit in self.fmu.description.iter("Unit")}
+        seen = set()
+        for name, variable in self.fmu.variables.items():
+            (value,) = list(variable)
+            key = (value.tag, variable.attrib["valueReference"])
+            self.assertNotIn(key, seen)
+            seen.add(key)
+            if value.tag == "Real":
+                self.assertIn(value.attrib["unit"], units, name)
+        index = list(self.fmu.variables)
+        outputs = [index[int(u.attrib["index"]) - 1] for u in self.fmu.description.find("ModelStructure/Outputs")]
+        self.assertEqual(outputs, [n for n, v in self.fmu.variables.items() if v.attrib["causality"] == "output"])
+
+
+class States(Case):
+    def test_steps_repeat_from_a_state(self) -> None:
+        wheel = self.opened()
+        fresh = wheel.get_state()
+        first = advance(wheel, 0, 50)
+        middle = wheel.get_state()
+        rest = advance(wheel, 50, 80)
+        wheel.set_state(middle)
+        self.assertEqual([wheel.get(name).hex() for name in OUTPUTS], first[-1])
+        self.assertEqual(advance(wheel, 50, 80), rest)
+        wheel.set_state(fresh)
+        self.assertEqual(advance(wheel, 0, 50), first)
+        data = wheel.serialize(middle)
+        other = self.opened()
+        loaded = other.deserialize(data)
+        other.set_state(loaded)
+        again = other.get_state()  # before a further step
+        self.assertEqual(advance(other, 50, 80), rest)
+        other.set_state(again)
+        self.assertEqual(advance(other, 50, 80), rest)
+        for state in (fresh, middle, loaded, again):
+            wheel.free_state(state)
+            self.assertIsNone(state.value)
+        with self.assertRaisesRegex(FmuError, "fmi2DeSerializeFMUstate: the bytes are no state"):
+            wheel.deserialize(data[:100])
+
+    def test_script_without_begin_has_no_states(self) -> None:
+        fmu = made(self.folder, Path(self.changed("variable        begin index", "variable begin string")))
+        fmu.library = self.fmu.library
+        self.assertEqual(fmu.flags["canGetAndSetFMUstate"], "false")
+        with self.assertRaisesRegex(FmuError, "fmi2GetFMUstate: the script has no variable 'begin'"):
+            self.instance(fmu).get_state()
+
+
+class Refusals(Case):
+    def refused(self, text: str, wheel: Instance, function: str, *arguments: object) -> None:
+        with self.assertRaisesRegex(FmuError, text):
+            getattr(wheel, function)(*arguments)
+
+    def test_wrong_sequences(self) -> None:
+        wheel = self.instance()
+        self.refused("fmi2DoStep: the call is not allowed before initialization", wheel, "step", 0.0, STEP)
+        self.refused("fmi2GetReal: the call is not allowed before initialization", wheel, "get", "force_x")
+        wheel.call("fmi2EnterInitializationMode")
+        self.refused("fmi2DoStep: the call is not allowed in initialization mode", wheel, "step", 0.0, STEP)
+        self.assertEqual(wheel.get("force_z"), 0.0)
+        self.refused("parameter 'cell' is set after outputs were read", wheel, "set", {"variables.cell": "1"})
+        wheel.call("fmi2ExitInitializationMode")
+        self.refused("fmi2EnterInitializationMode: .* not allowed between steps", wheel, "call", "fmi2EnterInitializationMode")
+        wheel.call("fmi2Terminate")
+        self.refused("fmi2DoStep: the call is not allowed after fmi2Terminate", wheel, "step", 0.0, STEP)
+
+    def test_wrong_values(self) -> None:
+        wheel = self.opened()
+        self.refused("fmi2SetReal: force_x is an output; allowed: inputs", wheel, "set", {"force_x": 1.0})
+        self.refused("communicationStepSize is 0.0015 s; allowed: multiples of .* time step of 0.001 s", wheel, "step", 0.0, 1.5e-3)
+        self.refused("currentCommunicationPoint is 1 s; allowed: 0 s", wheel, "step", 1.0, STEP)
+        self.refused("position_z is 0 at the end .* wheel is at 0.351; .* give the place", wheel, "step", 0.0, STEP)
+        wheel.set({"position_z": 0.351, "spin_torque": float("nan")})
+        self.refused("spin_torque is not finite", wheel, "step", 0.0, STEP)
+        unknown = (ctypes.c_uint * 1)(99)
+        self.refused("value reference 99 is no Real", wheel, "call", "fmi2GetReal", unknown, 1, (ctypes.c_double * 1)())
+        wheel.set({"spin_torque": 0.0})
+        wheel.step(0.0, STEP)  # refusals have moved nothing
+
+    def test_wrong_script_and_guid(self) -> None:
+        with self.assertRaisesRegex(FmuError, r"fmuGUID is '\{0\}'; allowed: '\{.*\}'; take modelDescription.xml"):
+            Instance(self.fmu, guid="{0}")
+        wheel = self.instance()
+        wheel.set({"script": "absent.lig"})
+        wheel.call("fmi2EnterInitializationMode")
+        self.refused("script '.*absent.lig' cannot be read", wheel, "call", "fmi2ExitInitializationMode")
+        rig = "fix rig all wheel/rig wheel wheel load_force 9 mode towed speed 1 settle_time 1 accelerate_time 1 ground_level 0"
+        for old, new, text in (
+            ("mass ${mass}", "mas ${mass}", "fix wheel/rigid.*'mas'(.|\n)*changed.lig, line"),
+            ("fix             wheel all", "run 1 #", "has 0 wheels; allowed: one wheel or tyre"),
+            ("# as long", rig + "\n#", "has a fix wheel/rig; allowed: a wheel without a rig"),
+        ):
+            wheel = self.instance()
+            wheel.set({"script": self.changed(old, new)})
+            wheel.call("fmi2EnterInitializationMode")
+            self.refused(text, wheel, "call", "fmi2ExitInitializationMode")
+
+    def test_end_of_the_script_discards_the_step(self) -> None:
+        wheel = self.opened(self.changed("1000000000", "10"))
+        advance(wheel, 0, 2)
+        self.refused("the script ended at 0.01 s; give its command run more steps", wheel, "step", 2 * STEP, STEP)
+        ended, time = ctypes.c_int(), ctypes.c_double()
+        self.assertEqual(wheel.status("fmi2GetBooleanStatus", 3, ctypes.byref(ended)), OK)
+        self.assertEqual(wheel.status("fmi2GetRealStatus", 2, ctypes.byref(time)), OK)
+        self.assertEqual((ended.value, round(time.value, 9)), (1, 0.01))
+        wheel.call("fmi2Terminate")
+        self.assertGreater(wheel.get("hub_z"), 0.3)
+
+    def test_a_second_copy_of_the_library_is_refused(self) -> None:
+        self.opened()
+        copy = made(self.folder)
+        wheel = self.instance(copy)
+        wheel.call("fmi2EnterInitializationMode")
+        self.refused("another copy of Furrow's library runs", wheel, "call", "fmi2ExitInitializationMode")
+
+
+if __name__ == "__main__":
+    POST = sys.argv.pop(1)
+    unittest.main(verbosity=2)
