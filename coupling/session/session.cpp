@@ -46,9 +46,7 @@ void claim_process() {
   const char* found = std::getenv(name);
   const std::string own = std::to_string(getpid()) + ":";
   if (found && std::string(found).rfind(own, 0) == 0 && found != mark)
-    throw Error(
-        "another copy of Furrow's library runs in this process; use one copy for all simulations, "
-        "or a process for each");
+    throw Error("another copy of Furrow's library runs in this process; use a process for each");
   setenv(name, mark.c_str(), 1);
 }
 
@@ -115,10 +113,10 @@ void Session::end() {
 
 void Session::write_checkpoint(const std::string& path) {
   const std::shared_ptr<LAMMPS_NS::LAMMPS> lammps = liggghts();
-  if (ended() || lammps->update->whichflag != 1)
-    throw Error("a checkpoint of a simulation needs a step: there is none before the first");
   if (lammps->atom->natoms > 0)
     throw Error("a checkpoint between steps is for scenes without grains; use the line restart");
+  if (ended() || lammps->update->whichflag != 1)
+    throw Error("a checkpoint between steps needs a run that has begun and has not ended");
   std::string name = path;
   LAMMPS_NS::WriteRestart(lammps.get()).write(name.data());
 }

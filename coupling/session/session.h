@@ -47,7 +47,7 @@ class Session : private Driver {
   void end();
 
   /// Of the step that is complete, also while a run pauses. @param path of a file to write
-  /// @throws Error before the first step, and with grains: their contacts are written with new
+  /// @throws Error outside of a run, and with grains: their contacts are written with new
   /// neighbour lists only
   void write_checkpoint(const std::string& path);
 

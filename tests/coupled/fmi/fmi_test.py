@@ -59,7 +59,7 @@ def advance(wheel: Instance, begin: int, end: int) -> list[list[str]]:
 
 class Case(unittest.TestCase):
     folder: Path
-    fmu: Fmu  # one for all, because a process takes one copy of its library
+    fmu: Fmu
 
     @classmethod
     def setUpClass(cls) -> None:
@@ -104,6 +104,18 @@ class Results(Case):
             rows += advance(one, k, k + 1)
             advance(other, k, k + 1)
         self.assertEqual(rows, alone)
+
+    def test_copies_of_the_library_advance_alternately(self) -> None:
+        alone = advance(self.opened(), 0, 30)
+        copy = made(self.folder)
+        self.assertNotEqual(copy.folder.name, self.fmu.folder.name)
+        one, other = self.opened(), self.instance(copy)
+        other.initialize({"variables.cell": "0.04", "variables.z": "0.351"})
+        for k in range(30):
+            for wheel in (one, other):
+                self.assertEqual(advance(wheel, k, k + 1), [alone[k]])
+        with self.assertRaisesRegex(FmuError, "time step of 0.001 s"):
+            other.step(30 * STEP, 1e-5)
 
     def test_reset_and_parameters(self) -> None:
         wheel = self.opened()
@@ -165,7 +177,6 @@ class States(Case):
 
     def test_script_without_begin_has_no_states(self) -> None:
         fmu = made(self.folder, Path(self.changed("variable        begin index", "variable begin string")))
-        fmu.library = self.fmu.library
         self.assertEqual(fmu.flags["canGetAndSetFMUstate"], "false")
         with self.assertRaisesRegex(FmuError, "fmi2GetFMUstate: the script has no variable 'begin'"):
             self.instance(fmu).get_state()
@@ -231,12 +242,12 @@ class Refusals(Case):
         wheel.call("fmi2Terminate")
         self.assertGreater(wheel.get("hub_z"), 0.3)
 
-    def test_a_second_copy_of_the_library_is_refused(self) -> None:
+    def test_the_python_module_in_the_same_process_is_refused(self) -> None:
         self.opened()
-        copy = made(self.folder)
-        wheel = self.instance(copy)
-        wheel.call("fmi2EnterInitializationMode")
-        self.refused("another copy of Furrow's library runs", wheel, "call", "fmi2ExitInitializationMode")
+        import furrow
+
+        with self.assertRaisesRegex(furrow.Error, "another copy of Furrow's library runs in this process"):
+            furrow.Simulation(SCRIPT)
 
 
 if __name__ == "__main__":

@@ -246,7 +246,7 @@ class Checkpoints(Case):
     def test_a_checkpoint_is_written_between_steps(self) -> None:
         executable(SCENE, here=HERE, results="alone")
         with opened(results="driven") as run:
-            with self.assertRaisesRegex(furrow.Error, "needs a step: there is none before the first"):
+            with self.assertRaisesRegex(furrow.Error, "needs a run that has begun"):
                 run.write_checkpoint("own")
             run.step(350)
             run.write_checkpoint("own")
