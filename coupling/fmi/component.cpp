@@ -44,68 +44,68 @@ class WheelComponent : public Component {
       : fmu_(name, guid, resources, callbacks) {}
 
   fmi2Status set_up(double start) override {
-    return guarded("fmi2SetupExperiment", [&] { fmu_.set_up(start); });
+    return guarded("SetupExperiment", [&] { fmu_.set_up(start); });
   }
   fmi2Status enter_initialization() override {
-    return guarded("fmi2EnterInitializationMode", [&] { fmu_.enter_initialization(); });
+    return guarded("EnterInitializationMode", [&] { fmu_.enter_initialization(); });
   }
   fmi2Status exit_initialization() override {
-    return guarded("fmi2ExitInitializationMode", [&] { fmu_.exit_initialization(); });
+    return guarded("ExitInitializationMode", [&] { fmu_.exit_initialization(); });
   }
   fmi2Status step(double time, double length) override {
     fmi2Status status = fmi2OK;
-    const fmi2Status thrown = guarded("fmi2DoStep", [&] { status = fmu_.step(time, length); });
+    const fmi2Status thrown = guarded("DoStep", [&] { status = fmu_.step(time, length); });
     return thrown == fmi2OK ? status : thrown;
   }
   fmi2Status terminate() override {
-    return guarded("fmi2Terminate", [&] { fmu_.terminate(); });
+    return guarded("Terminate", [&] { fmu_.terminate(); });
   }
   fmi2Status reset() override {
-    return guarded("fmi2Reset", [&] { fmu_.reset(); });
+    return guarded("Reset", [&] { fmu_.reset(); });
   }
 
   fmi2Status get_reals(References references, std::size_t count, fmi2Real* values) override {
-    return guarded("fmi2GetReal", [&] {
+    return guarded("GetReal", [&] {
       for (std::size_t i = 0; i < count; ++i) values[i] = fmu_.real(references[i]);
     });
   }
   fmi2Status get_booleans(References references, std::size_t count, fmi2Boolean* values) override {
-    return guarded("fmi2GetBoolean", [&] {
+    return guarded("GetBoolean", [&] {
       for (std::size_t i = 0; i < count; ++i) values[i] = fmu_.boolean(references[i]);
     });
   }
   fmi2Status get_strings(References references, std::size_t count, fmi2String* values) override {
-    return guarded("fmi2GetString", [&] {
+    return guarded("GetString", [&] {
       for (std::size_t i = 0; i < count; ++i) values[i] = fmu_.string(references[i]).c_str();
     });
   }
   fmi2Status set_reals(References references, std::size_t count, const fmi2Real* values) override {
-    return guarded("fmi2SetReal", [&] {
+    return guarded("SetReal", [&] {
       for (std::size_t i = 0; i < count; ++i) fmu_.set_real(references[i], values[i]);
     });
   }
   fmi2Status set_booleans(References references, std::size_t count,
                           const fmi2Boolean* values) override {
-    return guarded("fmi2SetBoolean", [&] {
+    return guarded("SetBoolean", [&] {
       for (std::size_t i = 0; i < count; ++i) fmu_.set_boolean(references[i], values[i] != 0);
     });
   }
   fmi2Status set_strings(References references, std::size_t count,
                          const fmi2String* values) override {
-    return guarded("fmi2SetString", [&] {
+    return guarded("SetString", [&] {
       for (std::size_t i = 0; i < count; ++i) fmu_.set_string(references[i], values[i]);
     });
   }
 
   fmi2Status get_state(fmi2FMUstate* state) override {
-    return guarded("fmi2GetFMUstate", [&] {
+    return guarded("GetFMUstate", [&] {
       std::unique_ptr<WheelFmu::Snapshot> made = fmu_.snapshot();
       delete static_cast<WheelFmu::Snapshot*>(*state);  // one that is to be overwritten
       *state = made.release();
     });
   }
   fmi2Status set_state(fmi2FMUstate state) override {
-    return guarded("fmi2SetFMUstate", [&] { fmu_.restore(snapshot_of(state)); });
+    return guarded("SetFMUstate", [&] { fmu_.restore(snapshot_of(state)); });
   }
   fmi2Status free_state(fmi2FMUstate* state) override {
     if (!state) return fmi2OK;
@@ -114,17 +114,17 @@ class WheelComponent : public Component {
     return fmi2OK;
   }
   fmi2Status size_of_state(fmi2FMUstate state, std::size_t* size) override {
-    return guarded("fmi2SerializedFMUstateSize", [&] { *size = pack(snapshot_of(state)).size(); });
+    return guarded("SerializedFMUstateSize", [&] { *size = pack(snapshot_of(state)).size(); });
   }
   fmi2Status pack_state(fmi2FMUstate state, fmi2Byte* bytes, std::size_t size) override {
-    return guarded("fmi2SerializeFMUstate", [&] {
+    return guarded("SerializeFMUstate", [&] {
       const std::vector<std::uint8_t> packed = pack(snapshot_of(state));
       if (size < packed.size()) throw Error("the array is shorter than the state");
       std::memcpy(bytes, packed.data(), packed.size());
     });
   }
   fmi2Status unpack_state(const fmi2Byte* bytes, std::size_t size, fmi2FMUstate* state) override {
-    return guarded("fmi2DeSerializeFMUstate", [&] { *state = unpack(bytes, size).release(); });
+    return guarded("DeSerializeFMUstate", [&] { *state = unpack(bytes, size).release(); });
   }
 
   fmi2Status last_time(fmi2Real* value) override {

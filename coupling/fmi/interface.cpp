@@ -206,13 +206,13 @@ FMI_EXPORTED fmi2Status fmi2GetStringStatus(fmi2Component, const fmi2StatusKind,
   return fmi2Discard;
 }
 
-/// For furrow-post fmu: modelDescription.xml of the contents in a file. @return its number of
-/// bytes; with a sufficient size the text is written. -1 for a wrong file
-FMI_EXPORTED long furrow_describe_fmu(const char* contents, const char* name, char* text,
-                                      std::size_t size) {
+/// For furrow-post fmu: modelDescription.xml of the contents in a file. @param version of FMI: 2, 3
+/// @return its number of bytes; with a sufficient size the text is written. -1 for a wrong file
+FMI_EXPORTED long furrow_describe_fmu(const char* contents, const char* name, int version,
+                                      char* text, std::size_t size) {
   namespace fmi = furrow::coupling::fmi;
   try {
-    const std::string made = fmi::describe(fmi::read_contents(contents), name);
+    const std::string made = fmi::describe(fmi::read_contents(contents), name, version);
     if (made.size() <= size) std::memcpy(text, made.data(), made.size());
     return static_cast<long>(made.size());
   } catch (const std::exception&) {

@@ -116,7 +116,7 @@ std::array<double, 5> OneWheel::rates(double seconds, const Values& values) cons
     const double limit = i <= height ? hub().nominal_radius() : largest_turn;
     if (!(std::abs(travel) <= limit))
       throw InputError(
-          fmt::format("fmi2DoStep: {}", reals[position_x + i].name),
+          fmt::format("DoStep: {}", reals[position_x + i].name),
           fmt::format("is {} at the end of the step, and the wheel is at {}", target, pose_[i]),
           fmt::format("at most {} away", limit),
           "give the place of the wheel in the script, or a shorter step");
@@ -129,12 +129,11 @@ double OneWheel::advance(double step, Values& values) {
   const double own = session_->liggghts()->update->dt;
   const double count = std::round(step / own);
   if (!(count >= 1) || std::abs(step - count * own) > same_step * step)
-    throw InputError("fmi2DoStep: communicationStepSize", fmt::format("is {} s", step),
+    throw InputError("DoStep: communicationStepSize", fmt::format("is {} s", step),
                      fmt::format("multiples of the script's time step of {} s", own));
   for (const Real each : {load, spin_torque, spin_rate})
     if (!std::isfinite(values.reals[each]))
-      throw InputError(fmt::format("fmi2DoStep: {}", reals[each].name), "is not finite",
-                       "a number");
+      throw InputError(fmt::format("DoStep: {}", reals[each].name), "is not finite", "a number");
   const std::array<double, 5> rate = rates(count * own, values);
   WheelHub& wheel = hub();
   for (std::size_t i = 0; i < rate.size(); ++i) wheel.prescribe(coordinates[i], rate[i]);

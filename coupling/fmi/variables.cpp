@@ -74,17 +74,57 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-std::string variable(const std::string& name, unsigned reference, const std::string& meaning,
-                     const char* kind, const std::string& value) {
-  return fmt::format(
-      "    <ScalarVariable name=\"{}\" valueReference=\"{}\" description=\"{}\" {}>{}"
-      "</ScalarVariable>\n",
-      escaped(name), reference, escaped(meaning), kind, value);
+/// One variable of modelDescription.xml.
+std::string real(unsigned i, int version) {
+  const Variable& each = reals[i];
+  const bool given = i < first_output;
+  const std::string attributes = fmt::format(
+      "name=\"{}\" valueReference=\"{}\" description=\"{}\" causality=\"{}\" "
+      "variability=\"continuous\"",
+      each.name, i, each.meaning, given ? "input" : "output");
+  const std::string value = fmt::format("unit=\"{}\"{}", each.unit, given ? " start=\"0\"" : "");
+  if (version == 3) return fmt::format("    <Float64 {} {}/>\n", attributes, value);
+  return fmt::format("    <ScalarVariable {}><Real {}/></ScalarVariable>\n", attributes, value);
 }
 
-constexpr char input[] = "causality=\"input\" variability=\"continuous\"";
-constexpr char output[] = "causality=\"output\" variability=\"continuous\"";
-constexpr char parameter[] = "causality=\"parameter\" variability=\"fixed\" initial=\"exact\"";
+std::string parameter(const std::string& name, unsigned reference, const std::string& meaning) {
+  return fmt::format(
+      "name=\"{}\" valueReference=\"{}\" description=\"{}\" causality=\"parameter\" "
+      "variability=\"fixed\" initial=\"exact\"",
+      escaped(name), reference, escaped(meaning));
+}
+
+std::string boolean(unsigned i, int version) {
+  const std::string attributes =
+      parameter(booleans[i].name, i + (version == 3 ? first_boolean_of_3 : 0), booleans[i].meaning);
+  const std::string value = fmt::format("start=\"{}\"", boolean_starts[i]);
+  if (version == 3) return fmt::format("    <Boolean {} {}/>\n", attributes, value);
+  return fmt::format("    <ScalarVariable {}><Boolean {}/></ScalarVariable>\n", attributes, value);
+}
+
+std::string text(const std::string& name, unsigned i, const std::string& meaning,
+                 const std::string& value, int version) {
+  const std::string attributes =
+      parameter(name, i + (version == 3 ? first_string_of_3 : 0), meaning);
+  if (version == 3)
+    return fmt::format("    <String {}><Start value=\"{}\"/></String>\n", attributes,
+                       escaped(value));
+  return fmt::format("    <ScalarVariable {}><String start=\"{}\"/></ScalarVariable>\n", attributes,
+                     escaped(value));
+}
+
+/// The outputs, which are also unknown at the start.
+std::string structure(int version) {
+  std::string outputs, unknowns;
+  for (unsigned i = first_output; i < real_count; ++i) {
+    outputs += version == 3 ? fmt::format("    <Output valueReference=\"{}\"/>\n", i)
+                            : fmt::format("      <Unknown index=\"{}\"/>\n", i + 1);
+    unknowns += fmt::format("    <InitialUnknown valueReference=\"{}\"/>\n", i);
+  }
+  if (version == 3) return outputs + unknowns;
+  return "    <Outputs>\n" + outputs + "    </Outputs>\n    <InitialUnknowns>\n" + outputs +
+         "    </InitialUnknowns>\n";
+}
 
 constexpr char units[] = R"(  <UnitDefinitions>
     <Unit name="m"><BaseUnit m="1"/></Unit>
@@ -98,52 +138,41 @@ constexpr char units[] = R"(  <UnitDefinitions>
 
 }  // namespace
 
-std::string describe(const Contents& contents, const std::string& name) {
-  std::string variables, outputs;
-  for (unsigned i = 0; i < real_count; ++i) {
-    const Variable& each = reals[i];
-    const bool given = i < first_output;
-    variables +=
-        variable(each.name, i, each.meaning, given ? input : output,
-                 fmt::format("<Real unit=\"{}\"{}/>", each.unit, given ? " start=\"0\"" : ""));
-    if (!given) outputs += fmt::format("      <Unknown index=\"{}\"/>\n", i + 1);
-  }
-  for (unsigned i = 0; i < boolean_count; ++i)
-    variables += variable(booleans[i].name, i, booleans[i].meaning, parameter,
-                          fmt::format("<Boolean start=\"{}\"/>", boolean_starts[i]));
-  const auto text = [&](const std::string& of, unsigned i, const std::string& meaning,
-                        const std::string& value) {
-    variables +=
-        variable(of, i, meaning, parameter, fmt::format("<String start=\"{}\"/>", escaped(value)));
-  };
+std::string describe(const Contents& contents, const std::string& name, int version) {
+  std::string variables;
+  for (unsigned i = 0; i < real_count; ++i) variables += real(i, version);
+  for (unsigned i = 0; i < boolean_count; ++i) variables += boolean(i, version);
   for (unsigned i = 0; i < first_script_variable; ++i)
-    text(strings[i].name, i, strings[i].meaning, i == script ? contents.script : "");
+    variables +=
+        text(strings[i].name, i, strings[i].meaning, i == script ? contents.script : "", version);
   for (std::size_t i = 0; i < contents.variables.size(); ++i)
-    text("variables." + contents.variables[i].name,
-         first_script_variable + static_cast<unsigned>(i), "Variable of the script",
-         contents.variables[i].value);
+    variables += text("variables." + contents.variables[i].name,
+                      first_script_variable + static_cast<unsigned>(i), "Variable of the script",
+                      contents.variables[i].value, version);
+  const bool third = version == 3;
   return fmt::format(
       R"(<?xml version="1.0" encoding="UTF-8"?>
-<fmiModelDescription fmiVersion="2.0" modelName="{}" guid="{}" description="One wheel on soft ground"
-    generationTool="Furrow {}" variableNamingConvention="structured" numberOfEventIndicators="0">
-  <CoSimulation modelIdentifier="furrow_wheel" canHandleVariableCommunicationStepSize="true"
-      canNotUseMemoryManagementFunctions="true" canGetAndSetFMUstate="{}" canSerializeFMUstate="{}"/>
-{}  <LogCategories>
+<fmiModelDescription fmiVersion="{version}.0" modelName="{name}" {token}="{guid}"
+    description="One wheel on soft ground" generationTool="Furrow {furrow}" variableNamingConvention="structured">
+  <CoSimulation modelIdentifier="furrow_wheel" canHandleVariableCommunicationStepSize="true"{memory}
+      canGetAndSetFMU{state}="{states}" canSerializeFMU{state}="{states}"/>
+{units}  <LogCategories>
     <Category name="logStatusError"/>
     <Category name="logStatusDiscard"/>
   </LogCategories>
   <ModelVariables>
-{}  </ModelVariables>
+{variables}  </ModelVariables>
   <ModelStructure>
-    <Outputs>
-{}    </Outputs>
-    <InitialUnknowns>
-{}    </InitialUnknowns>
-  </ModelStructure>
+{structure}  </ModelStructure>
 </fmiModelDescription>
 )",
-      escaped(name), escaped(contents.guid), version(), contents.keeps_states,
-      contents.keeps_states, units, variables, outputs, outputs);
+      fmt::arg("version", version), fmt::arg("name", escaped(name)),
+      fmt::arg("token", third ? "instantiationToken" : "guid"),
+      fmt::arg("guid", escaped(contents.guid)), fmt::arg("furrow", furrow::version()),
+      fmt::arg("memory", third ? "" : " canNotUseMemoryManagementFunctions=\"true\""),
+      fmt::arg("state", third ? "State" : "state"), fmt::arg("states", contents.keeps_states),
+      fmt::arg("units", units), fmt::arg("variables", variables),
+      fmt::arg("structure", structure(version)));
 }
 
 }  // namespace furrow::coupling::fmi

@@ -43,6 +43,9 @@ enum Boolean : unsigned { spin_by_torque, height_by_load, boolean_count };
 /// Value references of the String parameters; those of the script's variables follow.
 enum String : unsigned { script, log, first_script_variable };
 
+/// FMI 3.0 counts all types together; Real variables begin at 0 there as well.
+constexpr unsigned first_boolean_of_3 = 1000, first_string_of_3 = 2000;
+
 struct Variable {
   const char* name;
   const char* unit;
@@ -65,7 +68,7 @@ struct Contents {
 /// @throws Error that names the file
 Contents read_contents(const std::string& file);
 
-/// modelDescription.xml. @param name of the model
-std::string describe(const Contents& contents, const std::string& name);
+/// modelDescription.xml of FMI 2.0 or 3.0. @param name of the model
+std::string describe(const Contents& contents, const std::string& name, int version);
 
 }  // namespace furrow::coupling::fmi

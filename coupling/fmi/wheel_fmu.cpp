@@ -44,7 +44,7 @@ const char* name_of(WheelFmu::Phase phase) {
     case WheelFmu::Phase::discarded:
       return "at the end of the script";
     case WheelFmu::Phase::terminated:
-      return "after fmi2Terminate";
+      return "after Terminate";
     default:
       return "after an error";
   }
@@ -68,7 +68,7 @@ WheelFmu::WheelFmu(std::string name, const std::string& guid, const std::string&
       contents_(read_contents((std::filesystem::path(resources_) / "furrow.json").string())),
       values_(start_values()) {
   if (guid != contents_.guid)
-    throw InputError("fmi2Instantiate: fmuGUID", "is '" + guid + "'", "'" + contents_.guid + "'",
+    throw InputError("Instantiate: the GUID", "is '" + guid + "'", "'" + contents_.guid + "'",
                      "take modelDescription.xml and resources from the same FMU");
 }
 
@@ -123,7 +123,7 @@ void WheelFmu::exit_initialization() {
 fmi2Status WheelFmu::step(double time, double length) {
   need({Phase::stepping});
   if (!(std::abs(time - time_) <= same_time * std::max(1.0, std::abs(time_))))
-    throw InputError("fmi2DoStep: currentCommunicationPoint", fmt::format("is {} s", time),
+    throw InputError("DoStep: currentCommunicationPoint", fmt::format("is {} s", time),
                      fmt::format("{} s, the end of the step before", time_));
   const double done = wheel_->advance(length, values_);
   time_ = time + done;
@@ -169,8 +169,7 @@ const std::string& WheelFmu::string(fmi2ValueReference reference) const {
 void WheelFmu::set_real(fmi2ValueReference reference, double value) {
   double& place = at(values_.reals, reference, "Real");
   if (reference >= first_output)
-    throw InputError(fmt::format("fmi2SetReal: {}", reals[reference].name), "is an output",
-                     "inputs");
+    throw InputError(fmt::format("SetReal: {}", reals[reference].name), "is an output", "inputs");
   need({Phase::instantiated, Phase::initializing, Phase::stepping});
   place = value;
 }

@@ -16,11 +16,13 @@ from ..programs import find_program
 from ..read.script import script_variables
 
 LIBRARY = "furrow_wheel.so"
+PLATFORMS = {2: "linux64", 3: "x86_64-linux"}  # by version of FMI
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("script", type=Path, help="one wheel on its ground, without a wheel/rig")
     parser.add_argument("files", nargs="*", type=Path, help="that the script names, for its folder")
+    parser.add_argument("--fmi", type=int, choices=PLATFORMS, default=2, help="version of FMI (default: 2)")
     parser.add_argument("-o", "--output", type=path, help="file to write (default: <script>.fmu)")
 
 
@@ -42,12 +44,13 @@ def run(arguments: argparse.Namespace) -> None:
         "keeps_states": "begin" in known.defaults,
     }
     text = script.read_text(encoding="utf-8")
-    fingerprint = json.dumps([contents, text, library.stat().st_size])
+    fingerprint = json.dumps([contents, text, arguments.fmi, library.stat().st_size])
     contents["guid"] = f"{{{uuid.uuid5(uuid.NAMESPACE_URL, fingerprint)}}}"
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
-        archive.writestr("modelDescription.xml", _description(library, contents, script.stem))
+        description = _description(library, contents, script.stem, arguments.fmi)
+        archive.writestr("modelDescription.xml", description)
         archive.writestr("resources/furrow.json", json.dumps(contents, indent=2))
-        archive.write(library, f"binaries/linux64/{LIBRARY}")
+        archive.write(library, f"binaries/{PLATFORMS[arguments.fmi]}/{LIBRARY}")
         for each in (script, *files):
             archive.write(each, f"resources/{each.name}")
     states = "with" if contents["keeps_states"] else "without"
@@ -62,14 +65,14 @@ def _library() -> Path:
     raise ResultsError(f"there is no {LIBRARY} below {folder}; build or install Furrow with its FMU")
 
 
-def _description(library: Path, contents: dict[str, object], name: str) -> bytes:
+def _description(library: Path, contents: dict[str, object], name: str, version: int) -> bytes:
     """modelDescription.xml as the library writes it, which has the table of variables."""
     describe = ctypes.CDLL(str(library)).furrow_describe_fmu
     describe.restype = ctypes.c_long
     with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
         json.dump(contents, file)
         file.flush()
-        given = (file.name.encode(), name.encode())
+        given = (file.name.encode(), name.encode(), version)
         size = int(describe(*given, None, ctypes.c_size_t(0)))
         buffer = ctypes.create_string_buffer(max(size, 0))
         if size < 0 or describe(*given, buffer, ctypes.c_size_t(size)) != size:

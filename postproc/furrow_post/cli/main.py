@@ -100,7 +100,7 @@ SUBCOMMANDS = (
     Subcommand(
         "variables", "the variables of a script that 'inputs/run SCRIPT -v NAME VALUE' may set"
     ),
-    Subcommand("fmu", "a script of one wheel as a co-simulation FMU (FMI 2.0) -> <script>.fmu"),
+    Subcommand("fmu", "a script of one wheel as a co-simulation FMU (FMI 2.0, 3.0) -> <script>.fmu"),
     Subcommand(
         "view",
         "one or two runs in 3D, in one self-contained page: time, colours, cut -> view.html",

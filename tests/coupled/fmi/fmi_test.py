@@ -14,6 +14,7 @@ GUIDE = ROOT / "inputs" / "guide" / "howto"
 sys.path.insert(0, str(GUIDE / "fmi"))
 
 from importer import OK, Fmu, FmuError, Instance
+from importer3 import Fmu3, Instance3
 
 SCRIPT = GUIDE / "vehicle" / "wheel.lig"
 POST = ""
@@ -38,11 +39,15 @@ with furrow.Simulation(sys.argv[1], variables={{"cell": 0.04, "z": 0.351}}) as r
 """
 
 
-def made(folder: Path, script: Path = SCRIPT) -> Fmu:
+def exported(folder: Path, script: Path = SCRIPT, fmi: int = 2) -> Path:
     target = folder / f"{script.stem}.fmu"
-    command = [sys.executable, POST, "fmu", str(script), "-o", str(target)]
+    command = [sys.executable, POST, "fmu", str(script), "-o", str(target), "--fmi", str(fmi)]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-    return Fmu(target)
+    return target
+
+
+def made(folder: Path, script: Path = SCRIPT) -> Fmu:
+    return Fmu(exported(folder, script))
 
 
 def advance(wheel: Instance, begin: int, end: int) -> list[list[str]]:
@@ -149,6 +154,32 @@ class Results(Case):
         self.assertEqual(outputs, [n for n, v in self.fmu.variables.items() if v.attrib["causality"] == "output"])
 
 
+class Version3(Case):
+    def test_results_states_and_refusals_are_those_of_fmi_2(self) -> None:
+        expected = advance(self.opened(), 0, 40)
+        fmu = Fmu3(exported(self.folder, fmi=3))
+        references = [variable.attrib["valueReference"] for variable in fmu.variables.values()]
+        self.assertEqual(len(set(references)), len(references))
+        self.assertEqual(set(fmu.variables), set(self.fmu.variables))
+        with self.assertRaisesRegex(FmuError, "the GUID is 'other'; allowed"):
+            Instance3(fmu, token="other")
+        wheel = Instance3(fmu)
+        self.addCleanup(wheel.free)
+        self.assertIs(wheel.get("spin_by_torque"), True)
+        wheel.initialize({"spin_by_torque": True, "variables.cell": "0.04", "variables.z": "0.351"})
+        self.assertEqual(advance(wheel, 0, 20), expected[:20])
+        state = wheel.deserialize(wheel.serialize(wheel.get_state()))
+        self.assertEqual(advance(wheel, 20, 40), expected[20:])
+        wheel.set_state(state)
+        self.assertEqual(advance(wheel, 20, 40), expected[20:])
+        wheel.free_state(state)
+        self.assertEqual(([flag.value for flag in wheel.flags], round(wheel.last.value, 9)), ([False] * 3, 40 * STEP))
+        with self.assertRaisesRegex(FmuError, "communicationStepSize is 1e-05 s"):
+            wheel.step(40 * STEP, 1e-5)
+        with self.assertRaisesRegex(FmuError, "fmi3GetClock: this FMU does not have the function"):
+            wheel.call("fmi3GetClock")
+
+
 class States(Case):
     def test_steps_repeat_from_a_state(self) -> None:
         wheel = self.opened()
@@ -172,13 +203,13 @@ class States(Case):
         for state in (fresh, middle, loaded, again):
             wheel.free_state(state)
             self.assertIsNone(state.value)
-        with self.assertRaisesRegex(FmuError, "fmi2DeSerializeFMUstate: the bytes are no state"):
+        with self.assertRaisesRegex(FmuError, "DeSerializeFMUstate: the bytes are no state"):
             wheel.deserialize(data[:100])
 
     def test_script_without_begin_has_no_states(self) -> None:
         fmu = made(self.folder, Path(self.changed("variable        begin index", "variable begin string")))
         self.assertEqual(fmu.flags["canGetAndSetFMUstate"], "false")
-        with self.assertRaisesRegex(FmuError, "fmi2GetFMUstate: the script has no variable 'begin'"):
+        with self.assertRaisesRegex(FmuError, "GetFMUstate: the script has no variable 'begin'"):
             self.instance(fmu).get_state()
 
 
@@ -189,20 +220,20 @@ class Refusals(Case):
 
     def test_wrong_sequences(self) -> None:
         wheel = self.instance()
-        self.refused("fmi2DoStep: the call is not allowed before initialization", wheel, "step", 0.0, STEP)
-        self.refused("fmi2GetReal: the call is not allowed before initialization", wheel, "get", "force_x")
+        self.refused("DoStep: the call is not allowed before initialization", wheel, "step", 0.0, STEP)
+        self.refused("GetReal: the call is not allowed before initialization", wheel, "get", "force_x")
         wheel.call("fmi2EnterInitializationMode")
-        self.refused("fmi2DoStep: the call is not allowed in initialization mode", wheel, "step", 0.0, STEP)
+        self.refused("DoStep: the call is not allowed in initialization mode", wheel, "step", 0.0, STEP)
         self.assertEqual(wheel.get("force_z"), 0.0)
         self.refused("parameter 'cell' is set after outputs were read", wheel, "set", {"variables.cell": "1"})
         wheel.call("fmi2ExitInitializationMode")
-        self.refused("fmi2EnterInitializationMode: .* not allowed between steps", wheel, "call", "fmi2EnterInitializationMode")
+        self.refused("EnterInitializationMode: .* not allowed between steps", wheel, "call", "fmi2EnterInitializationMode")
         wheel.call("fmi2Terminate")
-        self.refused("fmi2DoStep: the call is not allowed after fmi2Terminate", wheel, "step", 0.0, STEP)
+        self.refused("DoStep: the call is not allowed after Terminate", wheel, "step", 0.0, STEP)
 
     def test_wrong_values(self) -> None:
         wheel = self.opened()
-        self.refused("fmi2SetReal: force_x is an output; allowed: inputs", wheel, "set", {"force_x": 1.0})
+        self.refused("SetReal: force_x is an output; allowed: inputs", wheel, "set", {"force_x": 1.0})
         self.refused("communicationStepSize is 0.0015 s; allowed: multiples of .* time step of 0.001 s", wheel, "step", 0.0, 1.5e-3)
         self.refused("currentCommunicationPoint is 1 s; allowed: 0 s", wheel, "step", 1.0, STEP)
         self.refused("position_z is 0 at the end .* wheel is at 0.351; .* give the place", wheel, "step", 0.0, STEP)
@@ -214,7 +245,7 @@ class Refusals(Case):
         wheel.step(0.0, STEP)  # refusals have moved nothing
 
     def test_wrong_script_and_guid(self) -> None:
-        with self.assertRaisesRegex(FmuError, r"fmuGUID is '\{0\}'; allowed: '\{.*\}'; take modelDescription.xml"):
+        with self.assertRaisesRegex(FmuError, r"the GUID is '\{0\}'; allowed: '\{.*\}'; take modelDescription.xml"):
             Instance(self.fmu, guid="{0}")
         wheel = self.instance()
         wheel.set({"script": "absent.lig"})
