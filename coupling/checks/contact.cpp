@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -28,6 +29,9 @@ constexpr double nearly = 0.98;
 // A plane in the place of a surface mesh: cosine between both normals, share of the mesh's area,
 // and distance behind the mesh in radii of a grain.
 constexpr double aligned = 0.7, covered_share = 0.05, behind = 0.5;
+// Of terrain under a wheel, in lengths of the wheel.
+constexpr double longest_window = 30.0, longest_track = 200.0, widest_terrain = 30.0,
+                 deepest_terrain = 10.0;
 // Of surcharge and weight, either over the other.
 constexpr double surcharge_ratio = 2.0;
 
@@ -267,6 +271,25 @@ Found terrain_is_long_enough(const Scene&, FixContactContinuum& contact) {
     return refusal(where, problem, "ground longer than the body", "make it longer");
   return warning(
       fmt::format("{} {}; its ends restrain the ground: make it longer", where, problem));
+}
+
+Found terrain_has_the_size_of_a_wheels(const Scene&, FixContactContinuum& contact) {
+  const Pair pair = describe(contact);
+  if (!is_wheel(pair.body)) return {};
+  const Options& options = pair.terrain.options();
+  const double wheel = pair.body_x.length();
+  const std::pair<const char*, double> sizes[] = {
+      {"length", pair.terrain.moves() ? longest_window : longest_track},
+      {"width", widest_terrain},
+      {"depth", deepest_terrain}};
+  for (const auto& [key, most] : sizes)
+    if (options.has(key) && options.number(key) > most * wheel)
+      return warning(fmt::format(
+          "{} is {:g} m, {:.3g} times the length of '{}', {:.4g} m; ground that matters has at "
+          "most {:g}; give m, not cm",
+          options.where(key), options.number(key), options.number(key) / wheel, pair.body.id, wheel,
+          most));
+  return {};
 }
 
 Found cells_show_the_body(const Scene&, FixContactContinuum& contact) {

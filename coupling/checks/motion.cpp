@@ -34,12 +34,13 @@ constexpr double straight = 1.0;         // [degrees] of gravity from straight d
 constexpr double largest_gravity = 2e3;  // [m/s^2] of a large centrifuge; 9806 would be mm/s^2
 // Of planets and moons that a vehicle may roll on, by a wide margin.
 const Range usual_gravity = Range::closed(0.05, 30.0);
-// Load over width and length of the body [Pa]; tyres of lorries have 2e5, steel wheels on rails
-// 1e6.
-constexpr double usual_pressure = 2e6;
+// Load over width and length of the body [Pa]; tyres of lorries have 1e5, of aircraft 4e5.
+constexpr double usual_pressure = 5e5;
 // Between two values of one gravity, over the larger.
 constexpr double same_gravity = 2e-3, similar_gravity = 0.05;
 constexpr double same_pace = 1e-9;  // of speeds and times of two rigs
+// Over sqrt(g length of the body), and on a rigid plane [m/s]: a speed in another unit is beyond.
+constexpr double usual_froude = 1.0, usual_road_speed = 70.0;
 // over the wave speed
 constexpr double mach_warning = 0.3, mach_limit = 1.0;
 // travel in a step over the radius of the smallest grain
@@ -100,6 +101,16 @@ std::vector<GivenGravity> gravities(const Scene& scene) {
 /// [degrees] 0 for none
 double angle_from_down(const Vector3& gravity) {
   return gravity.norm() > 0.0 ? degrees(std::acos(-gravity.z() / gravity.norm())) : 0.0;
+}
+
+bool touches_plane_only(const Scene& scene, const FixBody& body) {
+  const LAMMPS_NS::Modify& modify = *scene.lammps.modify;
+  const auto on_body = [&](const auto* contact) { return contact->uses(body); };
+  const auto planes = fixes_of<const FixContactPlane>(modify);
+  const auto grounds = fixes_of<const FixContactContinuum>(modify);
+  return std::any_of(planes.begin(), planes.end(), on_body) &&
+         std::none_of(grounds.begin(), grounds.end(), on_body) &&
+         !touches_grains(scene.lammps, body);
 }
 
 bool rolls_on(const Scene& scene, const FixWheelRig& rig, const FixTerrain& terrain) {
@@ -332,6 +343,46 @@ Found waves_outrun_body(const Scene& scene, FixContactContinuum& contact) {
     const auto* wheel = dynamic_cast<const WheelHub*>(&driven.body.body());
     if (wheel && driven.options.has("spin_rate"))
       return judged({driven.options, "spin_rate", "rad/s"}, wheel->nominal_radius());
+  }
+  return {};
+}
+
+Found speed_suits_the_ground(const Scene& scene, const DrivenBody& driven) {
+  const Options& options = driven.options;
+  const auto* wheel = dynamic_cast<const WheelHub*>(&driven.body.body());
+  const bool moves = options.has("speed");
+  if (!moves && !(wheel && options.has("spin_rate"))) return {};
+  const GivenSpeed given{options, moves ? "speed" : "spin_rate", moves ? "m/s" : "rad/s"};
+  const double speed = std::abs(given.value()) * (moves ? 1.0 : wheel->nominal_radius());
+  const auto [lower, upper] = driven.body.body().surface().bounds();
+  const double gravity = options.has("gravity") ? options.number("gravity") : standard_gravity;
+  const double usual = touches_plane_only(scene, driven.body)
+                           ? usual_road_speed
+                           : usual_froude * std::sqrt(gravity * (upper.x() - lower.x()));
+  if (speed <= usual) return {};
+  const std::string units =
+      moves ? fmt::format("m/s; {0:g} km/h are {1:.4g}, {0:g} cm/s are {2:.4g}", given.value(),
+                          given.value() / 3.6, given.value() / 100.0)
+            : fmt::format("rad/s; {0:g} rpm are {1:.4g}, {0:g} degrees/s are {2:.4g}",
+                          given.value(), given.value() * pi / 30.0, radians(given.value()));
+  return warning(fmt::format(
+      "{} is {:.4g} {}, and '{}' usually has at most {:.2g} m/s here; faster, the inertia of the "
+      "ground counts; give {}",
+      options.where(given.key), given.value(),
+      moves ? "m/s" : fmt::format("rad/s, a rim speed of {:.3g} m/s", speed), driven.body.id, usual,
+      units));
+}
+
+Found sinkage_ends_above_the_base(const Scene& scene, FixContactContinuum& contact) {
+  const double depth = contact.terrain_fix().options().number("depth");
+  for (const DrivenBody& driven : driven_bodies(*scene.lammps.modify)) {
+    if (&contact.body_fix() != &driven.body || !driven.options.has("sinkage")) continue;
+    const double sinkage = driven.options.number("sinkage");
+    if (sinkage < depth) continue;
+    return refusal(driven.options.where("sinkage"),
+                   fmt::format("is {:g} m, and terrain '{}' is {:g} m deep", sinkage,
+                               contact.terrain_fix().id, depth),
+                   "less than the depth of the terrain", "give both in m");
   }
   return {};
 }

@@ -88,6 +88,9 @@ Found body_sets_off(const Scene& scene, const DrivenBody& driven);
 Found body_comes_to_its_speed(const Scene& scene, const DrivenBody& driven);
 /// Beyond the waves' speed the ground ahead answers as to an impact, not to a roll.
 Found waves_outrun_body(const Scene& scene, FixContactContinuum& contact);
+/// Kilometres per hour or centimetres per second for metres per second.
+Found speed_suits_the_ground(const Scene& scene, const DrivenBody& driven);
+Found sinkage_ends_above_the_base(const Scene& scene, FixContactContinuum& contact);
 /// Grams for kilograms, millimetres for metres.
 Found load_suits_the_body(const Scene& scene, const DrivenBody& driven);
 Found body_passes_no_grain_in_a_step(const Scene& scene, const DrivenBody& driven);
@@ -136,6 +139,8 @@ Found body_touches_something(const Scene& scene, FixBody& body);
 // Is continuum terrain large enough, and fine enough, for what presses on it?
 Found terrain_is_wide_enough(const Scene& scene, FixContactContinuum& contact);
 Found terrain_is_long_enough(const Scene& scene, FixContactContinuum& contact);
+/// Centimetres for metres.
+Found terrain_has_the_size_of_a_wheels(const Scene& scene, FixContactContinuum& contact);
 Found cells_show_the_body(const Scene& scene, FixContactContinuum& contact);
 Found body_is_over_terrain(const Scene& scene, FixContactContinuum& contact);
 Found cells_enter_grooves(const Scene& scene, FixContactContinuum& contact);

@@ -62,6 +62,15 @@ std::string quoted(const char* command, const fs::path& path) {
   return fmt::format("{} \"{}\"", command, path.string());
 }
 
+/// In the place of what has its name; a link is removed and not followed.
+void make_new_folder(const fs::path& folder) {
+  std::error_code failed;
+  fs::remove_all(folder, failed);
+  if (!fs::create_directory(folder, failed))
+    throw Error(fmt::format("command bed: the folder {} cannot be made ({})", folder.string(),
+                            failed ? failed.message() : "something has its name"));
+}
+
 /// Makes the folder, and a file in it for a moment. @throws InputError
 void check_folder(const fs::path& folder) {
   const fs::path trial = folder / fmt::format("trial{}", getpid());
@@ -229,6 +238,7 @@ void CommandBed::keep(const Request& request, const KeptBed& bed) {
   text += "\n# made by:\n" + request.identity() + '\n';
 
   const KeptBed part(broadcast(fmt::format("{}.part{}", bed.folder.string(), getpid()), world));
+  on_first_rank(world, [&] { make_new_folder(part.folder); });
   input->one(quoted("write_restart", part.restart()).c_str());
   on_first_rank(world, [&] {
     write_sealed_text(part.facts(), text);

@@ -215,6 +215,25 @@ void FixTerrainContinuum::warn_of_extremes() {
          fmt::format("{} is free: nothing supports the terrain, and it falls out of its grid; "
                      "write 'base rough' or 'smooth', or 'gravity 0'",
                      options().where("base")));
+  for (const char* sides : {"ends", "sides"})
+    if (options().text(sides) == "free" && options().number("gravity") > 0.0)
+      warn(*lmp,
+           fmt::format("{} is free: nothing holds the terrain there, and its weight pushes it "
+                       "out; write '{} smooth' or 'rough', or 'gravity 0'",
+                       options().where(sides), sides));
+  for (const auto& [part, whole] :
+       {std::pair("fine_length", "length"), std::pair("fine_width", "width"),
+        std::pair("fine_depth", "depth")})
+    if (options().has(part) && options().has(whole) &&
+        options().number(part) > options().number(whole))
+      warn(*lmp, fmt::format("{} is {:g} m, and '{}' {:g} m: all cells are as fine as 'cell'; "
+                             "remove it, or give m, not cm",
+                             options().where(part), options().number(part), whole,
+                             options().number(whole)));
+  if (options().number("surcharge") > 0.0 && !options().flag("surface_mesh"))
+    warn(*lmp, fmt::format("{} is given without 'surface_mesh yes': no grains can lie on the "
+                           "terrain, whose stress starts as if they did; remove it",
+                           options().where("surcharge")));
   if (above > most_empty_cells * below)
     warn(*lmp, fmt::format("{}: {} layers of cells reach {:.4g} m above the surface, {} lie below: "
                            "they stay empty and cost time; make clearance_above smaller",

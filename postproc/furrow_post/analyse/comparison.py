@@ -79,7 +79,7 @@ def compare(
     result = Comparison(runs, differences=differences)
     known = cost_table.families(table) if table else {}
     for run in runs:
-        if run.ground != "none":
+        if run.has_density:
             result.tracks[run.label] = track_density(run)
         result.entries += entries_of_run(run, known)
         result.entries += best_estimates(run, known)

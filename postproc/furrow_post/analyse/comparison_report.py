@@ -152,7 +152,7 @@ def _write_hdf5(content: Any, result: Comparison, lines: list[dict[str, str | fl
             group[f"settling/{name}"] = values
         for name, condition in run.conditions.items():
             group.attrs[name] = condition.value
-        if run.ground != "none":
+        if run.has_density:
             for name, cut in zip(("lengthwise", "across"), sections(run)):
                 part = group.create_group(f"density/{name}")
                 part["density"], part["edges"] = cut.density, cut.across_edges

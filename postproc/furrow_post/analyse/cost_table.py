@@ -221,7 +221,7 @@ class Family:
 
     def packing(self, key: str) -> float:
         """Standard deviation of one packing; 0 of a lattice, NaN where there is one alone."""
-        if self.key.ground == "continuum":
+        if self.key.ground in ("continuum", "scm"):
             return 0.0  # nothing is random
         return pooled_scatter(self._values_of(key, base.size) for base in self.bases)
 

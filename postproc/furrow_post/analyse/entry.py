@@ -68,7 +68,7 @@ def entries_of_run(run: WheelRun, families: Mapping[FamilyKey, Family]) -> list[
         if family:
             parts = family.components(quantity.key, run.size, value.standard_error)
         else:
-            packing = 0.0 if run.ground == "continuum" else math.nan
+            packing = 0.0 if run.ground in ("continuum", "scm") else math.nan
             parts = Components(time=value.standard_error, packing=packing)
         note = "" if value.steady else "not called steady"
         entries.append(Entry(quantity, run.label, value.mean, parts, RUN, note, run.cpu_time))

@@ -19,7 +19,6 @@ from scipy.spatial import cKDTree
 
 from ..analyse.rut import RutDensities, rut_densities, rut_place
 from ..arrays import Floats
-from ..errors import ResultsError
 from ..read.results import Surface
 from ..read.terrain import Outline, Terrain
 from .canvas import View
@@ -124,10 +123,8 @@ def _section_image(
     NaN outside of the terrain; and the extent. position, pixel [m]
     """
     along = 1 - axis
-    slab = np.abs(terrain.x[:, axis] - position) < 0.75 * terrain.spacing
+    slab = terrain.near_plane(axis, position)
     flat = terrain.x[slab][:, [along, 2]]
-    if len(flat) == 0:
-        raise ResultsError(f"there is no terrain at {'xy'[axis]} = {position:.3f} m")
     low = flat.min(axis=0) - 0.5 * terrain.spacing
     high = flat.max(axis=0) + 0.5 * terrain.spacing
     low[1] = min(low[1], 0.0)
@@ -135,7 +132,7 @@ def _section_image(
     across, up = (low[k] + pixel * (np.arange(n) + 0.5) for k, n in enumerate((columns, rows)))
     grid = np.stack(np.meshgrid(across, up), axis=-1).reshape(-1, 2)
     # Compacted ground is flattened: a particle fills the height that it has
-    distance, nearest = cKDTree(flat).query(grid, k=4)
+    distance, nearest = cKDTree(flat).query(grid, k=range(1, min(4, len(flat)) + 1))
     squeeze = np.clip(terrain.undisturbed / terrain.density[slab], 0.2, 1.5)
     offset = np.abs(grid[:, None, :] - flat[nearest])
     reach = 0.75 * terrain.spacing * _coarseness(terrain)[slab][nearest]

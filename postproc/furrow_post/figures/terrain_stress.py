@@ -91,7 +91,7 @@ def _draw_field(
     position: float,
 ) -> None:
     """A number of each particle on the plane x[axis] = position [m], with its scale from 0."""
-    near = np.abs(terrain.x[:, axis] - position) < 0.75 * terrain.spacing
+    near = terrain.near_plane(axis, position)
     norm = Normalize(0.0, round_up(float(np.percentile(values[near], PERCENTILE))))
     draw_section(axes, terrain, values, body.surface, norm, axis, position)
     scale = ScalarMappable(norm, GROUND_COLOURS)
@@ -112,9 +112,9 @@ def _draw_crosses(
     Arms are as long as the square root of the stress, the longest as long as a particle is wide.
     """
     along = 1 - axis
-    near = np.flatnonzero(np.abs(terrain.x[:, axis] - position) < 0.5 * terrain.spacing)
+    near = np.flatnonzero(terrain.near_plane(axis, position))
     values, directions = in_plane(stress.tensor(near), along)
-    greatest = float(np.percentile(np.abs(values), PERCENTILE))
+    greatest = float(np.percentile(np.abs(values), PERCENTILE)) or 1.0
     place = terrain.x[near][:, [along, 2]]
     for k in range(2):
         size = np.sqrt(np.clip(np.abs(values[:, k]) / greatest, 0.0, 1.0))

@@ -117,6 +117,16 @@ class Terrain:
         same: Booleans = np.abs(self.initial_position[:, 2] - level) < 1e-5
         return same
 
+    def near_plane(self, axis: int, position: float) -> Booleans:
+        """Particles (n) whose width the plane x[axis] = position [m] cuts, and a little more.
+
+        @raises ResultsError where there is none
+        """
+        near: Booleans = np.abs(self.x[:, axis] - position) < 0.75 * self.spacing
+        if not near.any():
+            raise ResultsError(f"there is no terrain at {'xy'[axis]} = {position:.3f} m")
+        return near
+
     def mean_density(self, inside: Booleans) -> float:
         """Mass over volume of the particles inside (n) [kg/m3]; NaN where there is none."""
         volume = self.volume[inside].sum()

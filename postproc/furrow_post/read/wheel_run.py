@@ -59,7 +59,7 @@ class WheelRun:
     folder: Path
     results: Results
     label: str
-    ground: str  # "grains", "continuum", "hybrid": grains on a continuum; or "none"
+    ground: str  # "grains", "continuum", "hybrid": grains on a continuum; "scm" or "none"
     deformable: bool  # a tyre, whose outline changes under load
     conditions: dict[str, Condition] = field(default_factory=dict)
     size: float = float("nan")  # cell or mean grain diameter [m]
@@ -102,11 +102,18 @@ class WheelRun:
         return "half" if self.half else "whole"
 
     @property
+    def has_density(self) -> bool:
+        """Whether the ground has grains or particles, and so a density at each point."""
+        return self.ground not in ("scm", "none")
+
+    @property
     def elements_name(self) -> str:
-        return "particles" if self.ground == "continuum" else "grains"
+        return {"continuum": "particles", "scm": "cells"}.get(self.ground, "grains")
 
     def describe_size(self) -> str:
-        kind = "cells" if self.ground == "continuum" else "grains"
+        if self.ground == "none":
+            return "none"
+        kind = "cells" if self.ground in ("continuum", "scm") else "grains"
         return f"{kind} of {1e3 * self.size:.3g} mm"
 
     def relabelled(self, label: str) -> "WheelRun":
@@ -124,6 +131,7 @@ def read_wheel_run(folder: Path | str, label: str | None = None) -> WheelRun:
             "(none of its styles is of the kind wheel, or none is a rig)"
         )
     soil, bed = styles.of_kind("terrain"), styles.of_style("bed")
+    scm = styles.of_kind("scm")
     if soil and not terrain_file(results.folder).is_file():
         raise ResultsError(
             f"{results.folder}: has no {FILE}; give the scene a fix terrain/history with the same "
@@ -136,12 +144,14 @@ def read_wheel_run(folder: Path | str, label: str | None = None) -> WheelRun:
         results.folder,
         results,
         label or results.folder.resolve().name,
-        _ground_of(soil, reference),
+        "scm" if scm else _ground_of(soil, reference),
         deformable=not wheel.style.startswith("wheel/"),
     )
     run.conditions.update(_rig_conditions(rig))
     run.conditions.update(_wheel_conditions(wheel, results))
-    if soil and run.ground == "continuum":
+    if scm:
+        _read_scm(run, scm)
+    elif soil and run.ground == "continuum":
         _read_continuum(run, soil)
     elif reference:
         _read_grains(run, bed, reference, soil)
@@ -210,6 +220,12 @@ def _read_continuum(run: WheelRun, soil: Style) -> None:
     # compaction is ln(rho/rho_0) of a particle
     initial = float(np.average(density * np.exp(-compaction), weights=volume * density))
     run.conditions["density"] = Condition(initial, "kg/m3")
+
+
+def _read_scm(run: WheelRun, scm: Style) -> None:
+    run.size = scm.number("cell")
+    run.domain = (scm.number("length"), scm.number("width"))
+    run.elements = round(run.domain[0] * run.domain[1] / run.size**2)
 
 
 def _read_grains(

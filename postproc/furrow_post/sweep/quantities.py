@@ -48,7 +48,7 @@ def quantities(runs: Sequence[WheelRun], families: Families) -> dict[str, Value]
 
 
 def _of_run(run: WheelRun, families: Families) -> dict[str, Value]:
-    packing = 0.0 if run.ground in ("continuum", "none") else math.nan
+    packing = 0.0 if run.ground in ("continuum", "scm", "none") else math.nan
     summary = Summary(run.folder)
     found: dict[str, Value] = {}
     for name in summary.quantities:

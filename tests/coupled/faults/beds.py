@@ -6,6 +6,7 @@
 
 import os
 import re
+import shutil
 import sys
 
 from faults import WHEEL, Table, run_script
@@ -178,6 +179,12 @@ def foreign(furrow, table, beds):
         path.unlink()
         moved.rename(path)
     table.check("own again", start(), 0, absent=["Making the bed"])
+    shutil.rmtree(folder)
+    elsewhere = table.folder / "elsewhere"
+    elsewhere.mkdir()
+    link = f'ln -s "{elsewhere}" "{folder}.part$$"; exec "$@"'  # the name under which it is made
+    table.check("part, a link", run_script(furrow, table.folder, script, launcher=["bash", "-c", link, "bash"], FURROW_CACHE="foreign"), 0)
+    table.expect("nothing is written through it", not list(elsewhere.iterdir()), list(elsewhere.iterdir()))
 
 
 def main(furrow, beds, *mpirun):

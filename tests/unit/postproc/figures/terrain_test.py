@@ -214,6 +214,31 @@ class TerrainTest(unittest.TestCase):
         self.assertGreater(shapes[1], shapes[0])
         self.assertGreater(dark[2], 2 * dark[1])
 
+    def test_stress_is_drawn_where_the_axle_is_between_two_layers(self) -> None:
+        """A run that stopped early: no particle lies within half a spacing of the axle."""
+        write_stress(self.folder / "terrain.h5")
+        with h5py.File(self.folder / "terrain.h5", "a") as content:
+            x = content["terrain/x"][()]
+            x[:, 0] += np.where(x[:, 0] < AXLE, -0.004, 0.004)
+            content["terrain/x"][...] = x
+        target = self.folder / "stress.png"
+        draw_stress(self.folder, "synthetic", target, dpi=60)
+        self.assertGreater(target.stat().st_size, 0)
+
+    def test_a_section_of_three_particles_is_drawn(self) -> None:
+        target = self.folder / "terrain.png"
+        with h5py.File(self.folder / "terrain.h5", "a") as content:
+            group = content["terrain"]
+            x = group["x"][()]
+            away = np.abs(x[:, 0] - AXLE) < 0.1
+            away[np.flatnonzero(np.abs(x[:, 0] - AXLE) < 0.6 * SPACING)[:3]] = False
+            for name in ("x", "initial_position", "density", "volume"):
+                values = group[name][()][~away]
+                del group[name]
+                group[name] = values
+        draw_terrain(self.folder, "synthetic", "", target, pixels=100, dpi=60)
+        self.assertGreater(target.stat().st_size, 0)
+
     def test_folder_without_terrain_is_refused(self) -> None:
         for name in ("terrain.h5", "history.h5"):
             (self.folder / name).unlink()

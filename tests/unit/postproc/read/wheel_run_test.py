@@ -143,6 +143,14 @@ class WheelRunTest(unittest.TestCase):
         np.testing.assert_allclose(bed.image_of(wheel).x, wheel.x - [4, 0, 0])
         np.testing.assert_allclose(bed.image_of(bed.image_of(wheel)).x, wheel.x - [4, 0, 0])
 
+    def test_a_height_field_is_ground_of_cells_without_density(self) -> None:
+        scm = style("scm", "terrain/scm", length=3.0, width=1.0, cell=0.02)
+        write_run(self.folder, styles=[rigid_wheel(), rig(), scm])
+        run = read_wheel_run(self.folder)
+        self.assertEqual((run.ground, run.has_density, run.elements), ("scm", False, 7500))
+        self.assertEqual(run.describe_size(), "cells of 20 mm")
+        self.assertEqual((run.domain, run.elements_name), ((3.0, 1.0), "cells"))
+
     def test_results_of_an_older_version_are_refused(self) -> None:
         write_run(self.folder)
         with h5py.File(self.folder / "history.h5", "a") as content:
