@@ -69,6 +69,7 @@ show_build_errors() {
 }
 
 # Open MPI refuses root and more ranks than cores unless it is configured; waiting ranks should
-# yield where cores are shared.
+# yield where cores are shared. Bound ranks of two programs would wait for the same cores.
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=none
+export OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1
 [ "$(id -u)" -ne 0 ] || export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1

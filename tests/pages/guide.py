@@ -3,8 +3,8 @@
 
 Each page is a session. Its files are saved, its commands run one after the other in a scratch tree
 that looks like the source tree, and its script fragments run in the place of the same lines of a
-complete script. A scene runs small, with the variables of its line "# Quick:". A sweep is checked.
-Commands that several pages show run once.
+complete script. A scene runs small, with the variables of its line "# Quick:" or of COARSE. A sweep is
+checked. Commands that several pages show run once.
 """
 
 import os
@@ -32,6 +32,13 @@ ELSEWHERE = (
     (r"bash inputs/run$", "scenes.two_grounds"),
     (r"(cmake|ctest) ", "this build"),
 )
+# Smaller than the quick versions, whose values tests/scenes checks
+COARSE = {
+    "two_axles": {"cell": "0.1", "distance": "0.4"},
+    "tyre_on_snow": {"cell": "0.1", "distance": "0.25"},
+    "wheel_on_sintered_snow": {"diameter": "0.08", "travel": "0.3"},
+    "wheel_on_snow": {"distance": "0.3"},
+}
 
 
 class Session:
@@ -88,34 +95,34 @@ class Session:
         if words[:2] != ["bash", "inputs/run"] or "--help" in words:
             return command
         scene = words[2]
-        if "--quick" in words:  # into this tree, and not into that of the program
-            folder = "" if "-o" in words else f" -o results/{Path(scene).stem}_quick"
-            return f"{command} --no-build{folder}"
+        script = scene if scene.endswith(".lig") else f"inputs/scenes/{scene}.lig"  # of this tree
         if "--error" in words:  # the choice; the run takes minutes
             error = words[words.index("--error") + 1]
             return f"postproc/furrow-post choose inputs/costs/{scene}.csv --error {error}"
         if "--sweep" in words:
             return f"{command} --no-build --check"
         given = {words[k + 1]: words[k + 2] for k, word in enumerate(words) if word == "-v"}
-        folder = f"results/{Path(scene).stem}"
+        quick = "--quick" in words
+        folder = f"results/{Path(scene).stem}{'_quick' if quick else ''}"
         if "-o" in words:
             folder = words[words.index("-o") + 1]
         own = [scene, *(Path(value).name for value in given.values())]
         if not re.search(rf"{folder}\b", later) and not self.saved & set(own):
-            script = scene if scene.endswith(".lig") else f"inputs/scenes/{scene}.lig"
             pairs = [word for pair in given.items() for word in pair]
             return f"postproc/furrow-post variables -- {shlex.join([script, *pairs])}"
-        for name, value in self.quick(scene).items():
-            if name in ("cell", "diameter") and name in given:  # a coarser one is quick as well
-                value = str(max(value, given[name], key=float))
-            given[name] = value
-        others = [word for name, value in given.items() for word in ("-v", name, value)]
-        script = scene if scene.endswith(".lig") else f"inputs/scenes/{scene}.lig"  # of this tree
-        return shlex.join(["bash", "inputs/run", script, "--no-build", *others, "-o", folder])
+        if "-o" not in words:  # into this tree, and not into that of the program
+            words += ["-o", folder]
+        for name, value in COARSE.get(scene, {}).items():
+            if name not in given:
+                words += ["-v", name, value]
+        for name in {"cell", "diameter"} & given.keys():  # a coarser one is quick as well
+            place = words.index(given[name], words.index(name))
+            words[place] = max(self.quick(script)[name], given[name], key=float)
+        words[2:3] = [script, "--no-build", *([] if quick else ["--quick"])]
+        return shlex.join(words)
 
-    def quick(self, scene: str) -> dict[str, str]:
-        script = self.root / (scene if scene.endswith(".lig") else f"inputs/scenes/{scene}.lig")
-        line = re.search(r"^# Quick: *(.*)$", script.read_text(encoding="utf-8"), re.M)
+    def quick(self, script: str) -> dict[str, str]:
+        line = re.search(r"^# Quick: *(.*)$", (self.root / script).read_text(encoding="utf-8"), re.M)
         if line is None:
             sys.exit(f"{script}: has no line '# Quick:' for the small version")
         words = shlex.split(line[1])

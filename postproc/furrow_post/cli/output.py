@@ -4,7 +4,7 @@
 import argparse
 from pathlib import Path
 
-from ..arguments import path, words
+from ..arguments import at_least, path, words
 from ..errors import ResultsError
 
 FORMATS = ("png", "svg", "pdf")
@@ -19,6 +19,12 @@ def add_output(
 ) -> None:
     parser.add_argument("-o", "--output", type=path, help=text)
     parser.add_argument("--format", choices=FORMATS, help="default: that of --output, or png")
+
+
+def add_pixels(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--pixels", type=at_least(100), default=1000, help="width of the view from behind (default: %(default)s)"
+    )
 
 
 def target(arguments: argparse.Namespace, folder: Path, name: str) -> Path:

@@ -12,12 +12,13 @@ from ..figures.terrain_stress import draw_stress
 from ..read.results import Results
 from ..read.summary import Summary
 from ..read.terrain import Outline, Terrain, read_terrain_fields
-from .output import add_output, add_results, target
+from .output import add_output, add_pixels, add_results, target
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_results(parser)
     add_output(parser)
+    add_pixels(parser)
 
 
 def run(arguments: argparse.Namespace) -> None:
@@ -28,7 +29,8 @@ def run(arguments: argparse.Namespace) -> None:
     has_history = (folder / "history.h5").is_file()
     title = Results(folder).title if has_history else folder.resolve().name
     file = target(arguments, folder, "terrain")
-    print(draw_terrain(folder, title, Summary(folder).line(), file).report())
+    numbers = Summary(folder).line()
+    print(draw_terrain(folder, title, numbers, file, arguments.pixels).report())
     terrain = Terrain.read(folder)
     body = Outline(folder, terrain)
     if body.surface is not None:

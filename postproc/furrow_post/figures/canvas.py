@@ -140,13 +140,13 @@ class Canvas:
                 mixed = np.stack([u[inside], v[inside], w[inside]], axis=1) @ normals[t]
                 normal[where] = mixed / np.linalg.norm(mixed, axis=1, keepdims=True)
 
-    def world_points(self) -> Floats:
-        """(pixels, 3) The point each pixel shows; at infinity where it shows none."""
-        row, column = np.divmod(np.arange(self.depth.size), self.width)
+    def world_points(self, pixels: Integers) -> Floats:
+        """(n, 3) The points that n pixels show; at infinity where they show none."""
+        row, column = np.divmod(pixels, self.width)
         right = self.low[0] + (column + 0.5) * self.pixel
         up = self.low[1] + (row + 0.5) * self.pixel
         axes: Floats = np.vstack([self.view.right, self.view.up, self.view.towards])
-        shown: Floats = np.column_stack([right, up, self.depth])
+        shown: Floats = np.column_stack([right, up, self.depth[pixels]])
         points: Floats = shown @ axes
         return points
 

@@ -32,7 +32,7 @@ WIDTH = 11.0  # of the figure [inch]
 HEAD = 0.95  # of its title [inch]
 
 
-def draw_picture(results: Results, numbers: str, target: Path, pixels: int = 1500) -> None:
+def draw_picture(results: Results, numbers: str, target: Path, pixels: int = 1000) -> None:
     """Draws the picture of a run.
 
     numbers: a line of results for the title, or ""; pixels: width of the oblique view. @raises

@@ -86,7 +86,7 @@ def shaded_picture(
 
     seen = np.flatnonzero(canvas.object != NOTHING)
     facing = np.clip(normal[seen] @ canvas.view.project(sun.towards), 0, 1)
-    light = facing * _lit(shadow_map, canvas.world_points()[seen], 0.7 * radius.mean())
+    light = facing * _lit(shadow_map, canvas.world_points(seen), 0.7 * radius.mean())
     upward = normal[seen] @ canvas.view.project(np.array([0, 0, 1.0])).clip(0)
     brightness = np.zeros(canvas.depth.size)
     brightness[seen] = 0.42 + 0.26 * upward + 0.62 * light
@@ -117,16 +117,18 @@ def _lit(shadow_map: Canvas, points: Floats, bias: float) -> Floats:
 
 def _openness(canvas: Canvas, length: float) -> Floats:
     """Ambient occlusion: darker where the surroundings (within length) are nearer to the viewer."""
-    depth = canvas.image(canvas.depth)
+    depth = canvas.image(canvas.depth)[::SUPERSAMPLE, ::SUPERSAMPLE]  # it varies little
     filled = np.where(np.isfinite(depth), depth, 0.0)
     weight = np.isfinite(depth).astype(float)
     factor = np.ones_like(depth)
     for reach, strength in ((length, 0.10), (3 * length, 0.10)):
-        cells = max(int(reach / canvas.pixel), 1)
+        cells = max(int(reach / (SUPERSAMPLE * canvas.pixel)), 1)
         mean = _box_mean(filled, cells) / np.maximum(_box_mean(weight, cells), 1e-9)
         buried = np.where(np.isfinite(depth), mean - filled, 0.0) / reach
         factor -= strength * np.clip(4.0 * buried, -0.6, 2.0)
-    return factor
+    for axis in (0, 1):
+        factor = factor.repeat(SUPERSAMPLE, axis)
+    return factor[: canvas.height, : canvas.width]
 
 
 def _shrunk(picture: Floats, factor: int) -> Floats:

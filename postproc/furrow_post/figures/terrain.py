@@ -38,7 +38,7 @@ Extent = tuple[float, float, float, float]  # left, right, bottom, top [m]
 
 
 def draw_terrain(
-    folder: Path, title: str, numbers: str, target: Path, pixels: int = 1400, dpi: float = 150
+    folder: Path, title: str, numbers: str, target: Path, pixels: int = 1000, dpi: float = 150
 ) -> RutDensities:
     """Draws the terrain at the end of the run in folder, and returns the densities of its rut.
 

@@ -160,5 +160,5 @@ def _run_and_show(run: SceneRun, runs: Runs, quick: bool = False) -> None:
     print(f"Running on {run.ranks} rank(s); results in {run.folder}", flush=True)
     run_scene(run, runs)
     if (run.folder / "history.h5").is_file():
-        show(run.folder)
+        show(run.folder, quick)
         print(summary_text(run.folder, quick), end="")

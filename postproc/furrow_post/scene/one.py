@@ -125,15 +125,15 @@ def post(*words: object, shown: bool = True) -> None:
         raise Failed(done.returncode)
 
 
-def show(folder: Path, shown: bool = True) -> None:
-    """Pictures of a run with a history."""
+def show(folder: Path, quick: bool, shown: bool = True) -> None:
+    """Pictures of a run with a history; those of a quick run are small."""
     if not (folder / "history.h5").is_file():
         return
     post("plot", folder, shown=shown)
     # Neither a rigid plane nor a height field has grains or particles to draw
     cost = parse_json((folder / "summary.json").read_text()).get("cost", {})
     if cost.get("grains") or (folder / "terrain.h5").is_file():
-        post("picture", folder, shown=shown)
+        post("picture", folder, *(("--pixels", 500) if quick else ()), shown=shown)
 
 
 def words_of(scene: str, variables: Sequence[tuple[str, str]]) -> str:

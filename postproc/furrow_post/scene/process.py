@@ -28,7 +28,9 @@ SHOWN = re.compile(r"\[|.*ERROR|.*WARNING: *[^ ]|  at |.*Making the bed|run_unti
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 # furrow ends, with a checkpoint, when this program is killed
 PREFIX = ("setpriv", "--pdeathsig", "TERM")
-OPEN_MPI = {  # waiting ranks yield where cores are shared; ranks have time to write a checkpoint
+# Two runs side by side are not bound to the same cores; ranks have time to write a checkpoint
+OPEN_MPI = {
+    "OMPI_MCA_hwloc_base_binding_policy": "none",
     "OMPI_MCA_rmaps_base_oversubscribe": "1",
     "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
     "OMPI_MCA_odls_base_sigkill_timeout": "10",

@@ -45,7 +45,7 @@ def run_two_grounds(folder: Path, quick: bool, runs: Runs) -> None:
             for name in names:
                 _run(name, folder, quick, runs)
             for name in names:
-                show(folder / name, shown=False)
+                show(folder / name, quick, shown=False)
         except (ResultsError, Stopped, Failed, OSError) as error:
             troubles.append(error)
 
@@ -58,7 +58,7 @@ def run_two_grounds(folder: Path, quick: bool, runs: Runs) -> None:
     other.join()
     for trouble in troubles:
         raise trouble
-    show(folder / "grains", shown=False)
+    show(folder / "grains", quick, shown=False)
     print(
         "\nThe tyre against measurements; fitted: on snow whose soft beginning was identified on such "
         "wheels;\npredicted: on snow known by the oedometer alone"

@@ -1,58 +1,33 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 cmake_minimum_required(VERSION 3.25)
-# mypy over the package, then over each folder of drivers by itself (they have modules of the same
-# names), then over the tests.
-set(failed "")
+# mypy over the package, the drivers and the tests. Folders of drivers import their own modules; those
+# that have modules of the same names are checked in different calls.
+set(tests ${SOURCE}/tests/unit/postproc)
+set(validation inputs/validation)
 
-# check(<folder>... FILES <file>...): files that find their modules in the folders
+# check(<folder where modules are found>... FILES <file>...)
 function(check)
   cmake_parse_arguments(PARSE_ARGV 0 ARG "" "" "FILES")
   list(JOIN ARG_UNPARSED_ARGUMENTS ":" path)
-  execute_process(COMMAND ${CMAKE_COMMAND} -E env MYPYPATH=${path} ${MYPY} --config-file ${SOURCE}/postproc/pyproject.toml
-                          --cache-dir ${CACHE} ${ARG_FILES}
-                  RESULT_VARIABLE result)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env MYPYPATH=${path} ${MYPY} --config-file postproc/pyproject.toml
+                          --namespace-packages --explicit-package-bases --cache-dir ${CACHE} ${ARG_FILES}
+                  WORKING_DIRECTORY ${SOURCE} RESULT_VARIABLE result)
   if(NOT result EQUAL 0)
-    set(failed ${failed} ${ARG_FILES} PARENT_SCOPE)
+    set(failed TRUE PARENT_SCOPE)
   endif()
 endfunction()
 
-check(${SOURCE}/postproc FILES ${SOURCE}/postproc/furrow_post)
-
-file(GLOB_RECURSE drivers ${SOURCE}/inputs/*.py)
-set(folders "")
-foreach(driver ${drivers})
-  get_filename_component(folder ${driver} DIRECTORY)
-  list(APPEND folders ${folder})
+file(GLOB_RECURSE alone RELATIVE ${SOURCE} ${SOURCE}/inputs/*.py)
+list(FILTER alone EXCLUDE REGEX "^inputs/(laboratory|crosscheck|validation/grains|validation/snow_wheel)/")
+foreach(folder laboratory crosscheck validation/grains validation/snow_wheel)
+  file(GLOB of_${folder} RELATIVE ${SOURCE} ${SOURCE}/inputs/${folder}/*.py)
 endforeach()
-list(REMOVE_DUPLICATES folders)
-foreach(folder ${folders})
-  file(GLOB files ${folder}/*.py)
-  check(${SOURCE}/postproc ${folder} FILES ${files})
-endforeach()
-
-set(tests ${SOURCE}/tests/unit/postproc)
-file(GLOB support ${tests}/support/*.py ${tests}/rooms_test.py)
-check(${SOURCE}/postproc ${tests} FILES ${support})
-foreach(room read analyse laboratory figures cli scene study surrogate sweep faults)
-  file(GLOB files ${tests}/${room}/*.py)
-  check(${SOURCE}/postproc ${tests} FILES ${files})
-endforeach()
-# A test of a driver imports the modules of its folder
-foreach(pair costs=costs crosscheck=crosscheck grains=validation/grains laboratory_cone=laboratory
-             laboratory_identify=laboratory laboratory_snow=laboratory
-             report_wheel=validation/report_wheel snow_wheel=validation/snow_wheel
-             study_pages=validation tyre_on_snow=validation/tyre_on_snow tyre_table6=validation/tyre_table6 tyre_files= start=)
-  string(REPLACE "=" ";" pair ${pair})
-  list(GET pair 0 name)
-  list(LENGTH pair length)
-  set(folder ${SOURCE}/inputs)
-  if(length GREATER 1)
-    list(GET pair 1 place)
-    set(folder ${SOURCE}/inputs/${place})
-  endif()
-  check(${SOURCE}/postproc ${tests} ${folder} FILES ${tests}/drivers/${name}_test.py)
-endforeach()
-
+file(GLOB_RECURSE of_tests RELATIVE ${SOURCE} ${tests}/*.py)
+file(GLOB examples RELATIVE ${SOURCE} ${SOURCE}/inputs/guide/howto/*)
+check(postproc inputs inputs/laboratory ${examples} FILES postproc/furrow_post ${alone} ${of_laboratory})
+check(postproc inputs/crosscheck ${validation}/grains FILES ${of_crosscheck} ${of_validation/grains})
+check(postproc ${validation}/snow_wheel FILES ${of_validation/snow_wheel})
+check(postproc ${tests} inputs/laboratory inputs/crosscheck ${validation}/grains FILES ${of_tests})
 if(failed)
   message(FATAL_ERROR "mypy: see above")
 endif()

@@ -12,8 +12,9 @@ import tempfile
 import time
 import unittest
 from pathlib import Path
+from unittest import mock
 
-from support.command import FURROW_POST, SOURCE
+from support.command import FURROW_POST, SOURCE, run_post
 
 # Says how it was started; waits for a file "go", and ends with a checkpoint when it gets a signal
 PROGRAM = """#!{python}
@@ -65,9 +66,8 @@ class CommandTest(unittest.TestCase):
         return [sys.executable, str(FURROW_POST), "run", *words]
 
     def run_it(self, *words: str) -> "subprocess.CompletedProcess[str]":
-        return subprocess.run(
-            self.command(*words), cwd=self.folder, env=self.environment, capture_output=True, text=True
-        )
+        with mock.patch.dict(os.environ, self.environment):
+            return run_post("run", *words, folder=self.folder)
 
     def started(self, results: str = "out") -> str:
         return (self.folder / results / "screen.txt").read_text().splitlines()[0]

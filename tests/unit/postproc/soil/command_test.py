@@ -4,13 +4,13 @@
 import math
 import os
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 from furrow_post.soil.card import read_card
-from support.command import SOURCE
+from support.command import SOURCE, run_soil
 
 TRUTH = {"k_c": -4e3, "k_phi": 5e5, "n": 0.6, "c": 400.0, "phi": 30.0, "K": 0.006}
 CONE = (2e4, 8e5)  # [Pa] at the surface, [Pa/m]
@@ -67,14 +67,8 @@ class CardCommandTest(unittest.TestCase):
         program.chmod(0o755)
 
     def soil(self, *words: object) -> subprocess.CompletedProcess[str]:
-        return subprocess.run(
-            [sys.executable, str(SOURCE / "postproc" / "furrow-soil"), *map(str, words)],
-            capture_output=True,
-            text=True,
-            timeout=240,
-            cwd=self.folder,
-            env={**os.environ, "FURROW_BUILD": str(self.folder)},
-        )
+        with mock.patch.dict(os.environ, FURROW_BUILD=str(self.folder)):
+            return run_soil(*words, folder=self.folder)
 
     def runs(self) -> list[str]:
         return (self.folder / "log.txt").read_text().split()

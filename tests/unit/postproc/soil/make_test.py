@@ -2,8 +2,6 @@
 """Material files of furrow-soil make: closed forms, virtual tests of the laws, and refusals."""
 
 import math
-import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -24,19 +22,9 @@ from furrow_post.soil.make import (
 )
 from furrow_post.soil.material import read_material
 from furrow_post.soil.point import confined_strain, oedometer_misfit
-from support.command import SOURCE
+from support.command import SOURCE, run_soil
 
 OEDOMETER = "# mine\nstress_Pa,strain\n1e4,0.02\n2e4,0.03\n5e4,0.045\n1e5,0.06\n3e5,0.09\n"
-
-
-def run_soil(*arguments: object, folder: Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, str(SOURCE / "postproc" / "furrow-soil"), *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        timeout=240,
-        cwd=folder,
-    )
 
 
 class MakeTest(unittest.TestCase):
