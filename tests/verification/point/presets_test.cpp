@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Every preset of inputs/materials against its source (keys: inputs/validation/references.md).
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -102,6 +103,86 @@ TEST(Presets, DrySandFollowsTheOedometerOfItsGrains) {
       EXPECT_NEAR(sand->current_density(history.records[200 * (i + 1)].state) / rho[i], 1.0, 1.5e-3)
           << name << ", row " << i;
   }
+}
+
+/// The sand of a packing in inputs/laboratory/records/sand_dry.csv.
+std::unique_ptr<Material> norsand_of(double pour_friction) {
+  const std::string density = pour_friction < 0.1 ? "dense" : pour_friction > 0.5 ? "loose" : "dry";
+  return file_of("norsand_" + density).make();
+}
+
+/// Triaxial compression from isotropic stress: q/p at axial strains, a multiple of 0.005 each.
+std::vector<double> stress_ratios(const Material& sand, double confinement,
+                                  const std::vector<double>& strains) {
+  PointPath path;
+  path.type = "triaxial";
+  path.segments.resize(2);
+  PathSegment& first = path.segments[0];
+  for (std::size_t k = 0; k < 3; ++k) {
+    first.control[k] = Control::stress;
+    first.target[static_cast<Eigen::Index>(k)] = -confinement;
+  }
+  first.steps = 100;
+  path.segments[1] = first;
+  path.segments[1].control[2] = Control::strain;
+  path.segments[1].target[2] = -strains.back();
+  path.segments[1].steps = static_cast<int>(std::lround(strains.back() / 5e-4));
+  const PointHistory history = drive_point(sand, path);
+  std::vector<double> ratios;
+  for (const double strain : strains) {
+    const auto row = static_cast<std::size_t>(std::lround(strain / 5e-4));
+    const Invariants stress = invariants(stress_of(history.records.at(100 + row).state));
+    ratios.push_back(stress.q / stress.p);
+  }
+  return ratios;
+}
+
+/// Peak and end of triaxial compression in three densities are within a tenth of those of the
+/// grains; the oedometer of the medium density within 15 % of the compression and 0.05 of K0.
+TEST(Presets, NorSandFollowsTheTestsOnItsGrains) {
+  const CsvTable table = CsvTable::read(inputs + "/laboratory/records/sand_dry.csv");
+  // An oedometer has no confinement, and the packing before the test has level 0.
+  const std::vector<double> friction = table.numbers("pour_friction"),
+                            confinement = table.numbers("confinement_Pa"),
+                            level = table.numbers("level"), ratio = table.numbers("ratio"),
+                            voids = table.numbers("void_ratio");
+  int packings = 0;
+  for (std::size_t row = 0; row < level.size(); ++row) {
+    if (confinement[row] == 0 || level[row] != 0) continue;
+    std::vector<double> strains, grains;
+    for (std::size_t k = row + 1; k < level.size() && level[k] > 0; ++k) {
+      strains.push_back(level[k]);
+      grains.push_back(ratio[k]);
+    }
+    const auto sand = norsand_of(friction[row]);
+    const std::vector<double> law = stress_ratios(*sand, confinement[row], strains);
+    const auto largest = [](const std::vector<double>& v) {
+      return *std::max_element(v.begin(), v.end());
+    };
+    EXPECT_NEAR(largest(law) / largest(grains), 1.0, 0.1)
+        << friction[row] << " " << confinement[row];
+    EXPECT_NEAR(law.back() / grains.back(), 1.0, 0.1) << friction[row] << " " << confinement[row];
+    ++packings;
+  }
+  EXPECT_EQ(packings, 6);
+
+  const auto sand = norsand_of(0.3);
+  double loose = 0;
+  std::vector<double> stresses;
+  for (std::size_t row = 0; row < level.size(); ++row) {
+    if (confinement[row] != 0 || friction[row] != 0.3) continue;
+    if (level[row] == 0) {
+      loose = voids[row];
+      continue;
+    }
+    stresses.push_back(level[row]);
+    if (level[row] < 5e3) continue;
+    const VectorX state = oedometer(*sand, stresses).records.back().state;
+    const double compaction = std::log(sand->current_density(state) / sand->density());
+    EXPECT_NEAR(compaction / std::log((1 + loose) / (1 + voids[row])), 1.0, 0.15) << level[row];
+    EXPECT_NEAR(state[0] / state[2], ratio[row], 0.05) << level[row];
+  }
+  EXPECT_EQ(stresses.size(), 7u);
 }
 
 /// The curve that the clusters of the ground snow_bonded_field were calibrated on is this law's.
