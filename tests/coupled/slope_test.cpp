@@ -17,8 +17,9 @@
 namespace furrow::test {
 namespace {
 
-constexpr double gravity = 9.80665, slope = -10.0, step = 5e-5;  // [m/s^2], [degrees], [s]
-constexpr double settled = 0.1, cruising = 0.12;                 // [s]
+constexpr double gravity = 9.80665, step = 5e-5;   // [m/s^2], [s]
+constexpr double slope = -10.0, side_slope = 5.0;  // [degrees]
+constexpr double settled = 0.1, cruising = 0.12;   // [s]
 
 template <class Fix>
 Fix& fix_of(Scene& scene, const char* id) {
@@ -51,9 +52,10 @@ TEST(Slope, GrainContinuumAndWheelFollowTheirTurnedWeight) {
       "0.1001\n"
       "fix road all contact/plane body wheel level 0 friction 0.5 stiffness 1e8 "
       "tangential_stiffness 1e8\n"
-      "fix rig all wheel/rig wheel wheel load_mass 5 mode towed travel free slope {} settle_time "
+      "fix rig all wheel/rig wheel wheel load_mass 5 mode towed travel free slope {} side_slope {} "
+      "settle_time "
       "{} accelerate_time {} ground_level 0 damping 300",
-      slope, settled, cruising - settled));
+      slope, side_slope, settled, cruising - settled));
   const WheelRig& rig = fix_of<coupling::FixWheelRig>(scene, "rig").rig();
   ContinuumTerrain& block = fix_of<coupling::FixTerrainContinuum>(scene, "block").terrain();
   const History channels(WheelRig::channels());
@@ -80,7 +82,9 @@ TEST(Slope, GrainContinuumAndWheelFollowTheirTurnedWeight) {
   const Vector3 held = (block.boundary_impulse(Face::z_lower) - base) / time;
   const double weight = mass_of(block) * gravity;
   EXPECT_NEAR(held.x(), weight * std::sin(radians(slope)), 5e-3 * weight);
-  EXPECT_NEAR(held.z(), weight * std::cos(radians(slope)), 5e-3 * weight);
+  const double across = std::sin(radians(side_slope)), down = std::cos(radians(side_slope));
+  EXPECT_NEAR(held.y(), weight * across * std::cos(radians(slope)), 5e-3 * weight);
+  EXPECT_NEAR(held.z(), weight * down * std::cos(radians(slope)), 5e-3 * weight);
 
   // the wheel rolls: a = -g sin/(1 + I/(m r^2))
   const double a = -gravity * std::sin(radians(slope)) / (1.0 + 0.012 / (5.0 * 0.1 * 0.1));

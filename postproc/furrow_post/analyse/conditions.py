@@ -29,6 +29,7 @@ TOLERANCES = {
     "slip_angle": Tolerance(0.0, 0.5),
     "camber": Tolerance(0.0, 0.5),
     "slope": Tolerance(0.0, 0.5),
+    "side_slope": Tolerance(0.0, 0.5),
     "gravity": Tolerance(0.01, 0.0),
 }
 
@@ -68,6 +69,9 @@ def incomparable(
     if len({run.wheel for run in runs}) > 1:
         text = "; ".join(f"{run.label}: {run.wheel}" for run in runs)
         found.append(Difference("wheel", text))
+    if len({run.text("slip_definition") for run in runs} - {""}) > 1:
+        text = "; ".join(f"{run.label}: {run.text('slip_definition')}" for run in runs)
+        found.append(Difference("slip definition", text))
     for name, tolerance in tolerances.items():
         have = [run for run in runs if np.isfinite(run.number(name))]
         if len(have) < 2 or name in answers:

@@ -179,10 +179,25 @@ def _rig_conditions(rig: Style) -> dict[str, Condition]:
         "slip_angle": Condition(rig.number("slip_angle", 0.0), "deg"),
         "camber": Condition(rig.number("camber", 0.0), "deg"),
         "slope": Condition(rig.number("slope", 0.0), "deg"),
+        "side_slope": Condition(rig.number("side_slope", 0.0), "deg"),
+        "slip_definition": Condition(_slip_definition(rig)),
         "travel": Condition(rig.text("travel") if rig.has("travel") else "prescribed"),
         "gravity": Condition(gravity, "m/s2"),
         "ground_level": Condition(rig.number("ground_level"), "m"),
     }
+
+
+def _slip_definition(rig: Style) -> str:
+    """Radius and speed; those of a rig that does not have them are the default."""
+    radius, speed = (
+        rig.text(key) if rig.has(key) else default
+        for key, default in (("slip_radius", "bare"), ("slip_speed", "forward"))
+    )
+    if radius == "effective":
+        radius = f"effective radius {rig.number('effective_radius'):g} m"
+    else:
+        radius = f"{radius} radius"
+    return f"{radius}, {speed} speed"
 
 
 def _wheel_conditions(wheel: Style, results: Results) -> dict[str, Condition]:

@@ -42,6 +42,7 @@ CONDITIONS = {
         Axis("slip_angle", "slip angle", "degrees"),
         Axis("camber", "camber", "degrees"),
         Axis(SLOPE, "slope", "degrees"),
+        Axis("side_slope", "side slope", "degrees"),
         Axis("density", "density", "kg/m³"),
     )
 }
@@ -206,7 +207,7 @@ def _curves(x: Axis, points: Sequence[SweepPoint]) -> list[Curve]:
             *(Curve(f"{axis.name.split(' /')[0]} {against}", axis) for axis in answers),
         ]
     further = [TORQUE] if has(TORQUE) else []
-    if x.key in ("slip_angle", "camber"):
+    if x.key in ("slip_angle", "camber", "side_slope"):
         further += [axis for axis in SIDEWAYS if has(axis)]
     return [
         Curve(f"resistance {against}", RESISTANCE),

@@ -128,6 +128,13 @@ class CompareTest(unittest.TestCase):
             found = [difference.condition for difference in conditions.incomparable(runs)]
             self.assertEqual(found, differences, modes)
 
+    def test_another_definition_of_slip_is_not_comparable(self) -> None:
+        runs = [self.read("a", "a"), self.read("b", "b")]
+        self.assertEqual(runs[0].text("slip_definition"), "bare radius, forward speed")
+        runs[1].conditions["slip_definition"] = Condition("tip radius, forward speed")
+        found = [difference.condition for difference in conditions.incomparable(runs)]
+        self.assertEqual(found, ["slip definition"])
+
     def test_a_run_called_measured_is_compared_as_any_other(self) -> None:
         runs = [self.read("a", "measured"), self.read("b", "b", sinkage=0.06)]
         result = comparison.compare(runs)
