@@ -11,6 +11,7 @@ endfunction()
 file(GLOB howto RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/inputs/guide/howto/*.md
      ${PROJECT_SOURCE_DIR}/inputs/guide/*.md)
 guide_test(howto ${PROJECT_BINARY_DIR} ${howto})
+set_tests_properties(pages.howto PROPERTIES COST 200)  # the longest start first
 set(tutorial inputs/guide/tutorials)
 guide_test(first_run ${PROJECT_BINARY_DIR} README.md ${tutorial}/1_first_run.md)
 guide_test(my_tyre ${PROJECT_BINARY_DIR} ${tutorial}/2_my_tyre_my_sand.md)

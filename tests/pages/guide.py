@@ -37,7 +37,7 @@ COARSE = {
     "two_axles": {"cell": "0.1", "distance": "0.4"},
     "tyre_on_snow": {"cell": "0.1", "distance": "0.25"},
     "wheel_on_sintered_snow": {"diameter": "0.08", "travel": "0.3"},
-    "wheel_on_snow": {"distance": "0.3"},
+    "wheel_on_snow": {"distance": "0.3", "vtk": "600"},
 }
 
 
