@@ -35,7 +35,7 @@ constexpr double largest_gravity = 2e3;  // [m/s^2] of a large centrifuge; 9806 
 // Of planets and moons that a vehicle may roll on, by a wide margin.
 const Range usual_gravity = Range::closed(0.05, 30.0);
 // Load over width and length of the body [Pa]; tyres of lorries have 1e5, of aircraft 4e5.
-constexpr double usual_pressure = 5e5;
+const Range usual_pressure = Range::closed(20.0, 5e5);
 // Between two values of one gravity, over the larger.
 constexpr double same_gravity = 2e-3, similar_gravity = 0.05;
 constexpr double same_pace = 1e-9;  // of speeds and times of two rigs
@@ -389,19 +389,23 @@ Found sinkage_ends_above_the_base(const Scene& scene, FixContactContinuum& conta
 
 Found load_suits_the_body(const Scene&, const DrivenBody& driven) {
   const Options& options = driven.options;
+  const auto* key = [&] {
+    for (const char* name : {"load_mass", "load_force", "load"})
+      if (options.has(name)) return name;
+    return "";
+  }();
+  if (!*key) return {};
   const bool mass = options.has("load_mass");
-  if (!mass && !options.has("load_force")) return {};
-  const std::string key = mass ? "load_mass" : "load_force";
   const double load = options.number(key) * (mass ? options.number("gravity") : 1.0);
   const Body& body = driven.body.body();
   const auto [lower, upper] = body.surface().bounds();
   const Vector3 size = upper - lower;
   const double pressure = load / (size.x() * size.y() * (body.half_model() ? 2.0 : 1.0));
-  if (pressure <= usual_pressure) return {};
+  if (usual_pressure.contains(pressure)) return {};
   return warning(fmt::format(
-      "{} makes {:.4g} N, {:.3g} Pa over length and width of '{}'; wheels and tyres have at most "
-      "{:g} Pa; give kg or N, and its size in m",
-      options.where(key), load, pressure, driven.body.id, usual_pressure));
+      "{} makes {:.4g} N, {:.3g} Pa over length and width of '{}'; wheels, tyres and plates have "
+      "{} Pa; give kg or N, and its size in m",
+      options.where(key), load, pressure, driven.body.id, usual_pressure.text()));
 }
 
 Found body_passes_no_grain_in_a_step(const Scene& scene, const DrivenBody& driven) {

@@ -24,6 +24,9 @@ PlateGeometry geometry_from(const Options& options) {
   plate.elements = static_cast<int>(options.integer("elements"));
   plate.inner_size = options.number("inner_size");
   plate.angle = options.number("angle");
+  if (options.given("angle") && plate.shape != PlateShape::cone)
+    throw InputError(options.where("angle"), fmt::format("is given for a {}", shape),
+                     "an apex angle of a cone", "remove it, or write 'shape cone'");
   return plate;
 }
 

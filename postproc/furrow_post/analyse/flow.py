@@ -193,7 +193,7 @@ def compare_flows(runs: Sequence[WheelRun], width: float | None = None) -> FlowC
         raise ResultsError(f"flow compares two results folders, not {len(runs)}")
     for run in runs:
         if not run.has_density:
-            raise ResultsError(f"{run.label}: has no grains and no continuum, and so no flow")
+            raise ResultsError(f"{run.label}: has no terrain of grains or of a continuum, and so no flow")
     taken = [_points_in_plane(run) for run in runs]
     least = GRAINS_PER_WIDTH * max(size for _, size in taken)
     kernel = least if width is None else width
