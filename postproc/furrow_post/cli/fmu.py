@@ -59,7 +59,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 def _library() -> Path:
     folder = find_program("furrow").resolve().parent.parent
-    for place in (folder / "fmi", *folder.glob("lib/**/furrow")):
+    for place in (folder / "fmi", folder / "lib" / "furrow", *folder.glob("lib/*/furrow")):
         if (place / LIBRARY).is_file():
             return place / LIBRARY
     raise ResultsError(f"there is no {LIBRARY} below {folder}; build or install Furrow with its FMU")
