@@ -104,8 +104,9 @@ TEST(NorSandReference, PathsConvergeToTheRateEquations) {
 /// Loose and dense sand end on the critical state line at the critical stress ratio.
 TEST(NorSandClosedForm, LooseAndDenseSandEndInTheSameCriticalState) {
   const double lateral = 2e4;
-  for (const double void_ratio : {0.6, 0.7, 0.85}) {
-    const auto material = material_of(sand(void_ratio, 0.35, ""));
+  for (const double void_ratio : {0.6, 0.7, 0.85, -0.6, -0.85}) {  // negative: the curved line
+    const auto material =
+        material_of(sand(std::abs(void_ratio), 0.35, void_ratio < 0 ? "csl_exponent 0.6" : ""));
     VectorX state = state_at(*material, lateral, 0.8);
     for (int step = 0; step < 3000; ++step) drained_step(*material, state, 5e-4, lateral);
     const double P = invariants(stress_of(state)).p + 10;

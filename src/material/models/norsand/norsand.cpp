@@ -26,9 +26,13 @@ std::unique_ptr<Material> create_norsand(const MaterialOptions& sections) {
   q.H = o.number("H");
   q.H_psi = o.number("H_psi");
   q.lambda = o.number("lambda");
-  q.gamma = o.number("gamma") + q.lambda * std::log(1e3);  // from 1 kPa to 1 Pa
-  // At the peak psi_i = psi - lambda ln x, and ln x is nearly (1 - N) D/M.
-  const double chi = o.number("chi"), slope = (1.0 - q.N) * q.lambda * chi / q.M;
+  q.csl_exponent = o.number("csl_exponent");
+  const bool straight = q.csl_exponent == 0.0;
+  q.gamma = o.number("gamma") + (straight ? q.lambda * std::log(1e3) : 0.0);  // from 1 kPa to 1 Pa
+  // At the peak psi_i = psi - lambda ln x, and ln x is nearly (1 - N) D/M; with an exponent the
+  // slope over ln p is that at the reference pressure.
+  const double chi = o.number("chi"),
+               slope = (1.0 - q.N) * q.lambda * (straight ? 1.0 : q.csl_exponent) * chi / q.M;
   if (slope > largest_slope)
     throw InputError(o.where("chi"), fmt::format("is {:g}: too large for this lambda", chi),
                      fmt::format("at most {:.4g}", chi * largest_slope / slope),
@@ -78,9 +82,14 @@ MaterialModel NorSand::model() {
   schema.number("e0", "", Range::positive(), "void ratio at the start");
   schema.number("M", "", Range{0.0, 2.0, true, false},
                 "critical stress ratio q/p in triaxial compression");
-  schema.number("gamma", "", Range::positive(), "void ratio of the critical state at 1 kPa");
+  schema.number("gamma", "", Range::positive(),
+                "void ratio of the critical state at 1 kPa; with csl_exponent at zero pressure");
   schema.number("lambda", "", Range::non_negative(),
                 "slope of the critical state line: decrease of the void ratio over ln p");
+  schema
+      .number("csl_exponent", "", Range::closed(0.0, 1.0),
+              "0: line over ln p; else e = gamma - lambda (p/100 kPa)^csl_exponent")
+      .by_default(0.0);
   schema.number("chi", "", Range::positive(),
                 "dilatancy: the largest is chi times the state parameter, in triaxial compression");
   schema
@@ -112,7 +121,8 @@ MaterialModel NorSand::model() {
   model.examples = {"density 1700 e0 0.6" + sand,
                     "density 1450 e0 0.9" + sand + " H_psi 300 image_pressure 2e3",
                     "density 1600 e0 0.7 pt 100 K 0.72 section matsuoka_nakai" + sand,
-                    "density 1700 e0 0.55 K 0.8 M 1.25 gamma 0.85 lambda 0.02 chi 3.5 N 0.3 H 100 "
+                    "density 1700 e0 0.55 K 0.8 M 1.25 gamma 0.85 lambda 0.1 csl_exponent 0.7 chi "
+                    "3.5 N 0.3 H 100 "
                     "G 40e6 n 0.4 nu 0.2"};
   return model;
 }
@@ -156,7 +166,11 @@ double NorSand::largest_wave_speed(const PointBlock& block) const {
 }
 
 double NorSand::critical_void_ratio(double pressure) const {
-  return parameters_.gamma - parameters_.lambda * std::log(pressure);
+  return parameters_.gamma -
+         parameters_.lambda * (parameters_.csl_exponent > 0.0
+                                   ? std::pow(pressure / NorSandParameters::reference_pressure,
+                                              parameters_.csl_exponent)
+                                   : std::log(pressure));
 }
 
 double NorSand::strength(double P, double image) const {

@@ -9,7 +9,7 @@
 /// (section.h) and the dilatancy D = d(eps_v)/d(eps_q) of plastic flow, compaction positive:
 ///   yield      t = eta P,  eta = M - (1 - N) D,  x = (1 + N D/M)^((1 - N)/N)
 ///   flow       associated; D falls from M/(1 - N) at the tip (t = 0) over 0 at the image
-///   limit      D >= D_l = chi_i psi_i,  psi_i = e - gamma + lambda ln P_i
+///   limit      D >= D_l = chi_i psi_i,  psi_i = e - e_c(P_i)
 ///   hardening  d(ln P_i) = (H - H_psi psi_i) (x^2/x_l - x) d(eps_q),  x_l of D_l
 ///   elasticity G = G_ref (P/100 kPa)^n, K = G 2 (1 + nu)/(3 (1 - 2 nu))
 /// so that eta <= M - (1 - N) chi psi. At the limit, x < x_l, the surface is a cone, and P_i falls

@@ -63,8 +63,11 @@ struct NorSandKernel {
         points.internal[0] + (Lanes(1.0) + points.internal[0]) * exponential_minus_one(-dv);
     const Lanes image_old = points.internal[1];
 
-    const Lanes psi =
-        voids - Lanes(parameters.gamma) + Lanes(parameters.lambda) * logarithm(image_old);
+    const Lanes fall = parameters.csl_exponent > 0.0
+                           ? power(image_old * Lanes(1.0 / NorSandParameters::reference_pressure),
+                                   parameters.csl_exponent)
+                           : logarithm(image_old);
+    const Lanes psi = voids - Lanes(parameters.gamma) + Lanes(parameters.lambda) * fall;
     const Lanes limit = min(max(Lanes(parameters.chi_i) * psi, -parameters.M),
                             NorSandParameters::loosest * largest);
     const Lanes x_l = ratio(limit), lowest = min(limit, largest), x_low = min(x_l, tip);

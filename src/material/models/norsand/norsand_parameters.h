@@ -9,14 +9,15 @@
 namespace furrow {
 
 struct NorSandParameters {
-  double M = 1.2;       ///< critical stress ratio in triaxial compression
-  double N = 0.5;       ///< volumetric coupling
-  double chi_i = 4.0;   ///< dilatancy over the state parameter of the image
-  double H = 100.0;     ///< plastic hardening modulus
-  double H_psi = 0.0;   ///< its decrease with the state parameter of the image
-  double gamma = 1.0;   ///< critical void ratio at p = 1 Pa
-  double lambda = 0.0;  ///< slope of the critical state line over ln p
-  double shear = 0.0;   ///< G at the reference pressure [Pa]
+  double M = 1.2;             ///< critical stress ratio in triaxial compression
+  double N = 0.5;             ///< volumetric coupling
+  double chi_i = 4.0;         ///< dilatancy over the state parameter of the image
+  double H = 100.0;           ///< plastic hardening modulus
+  double H_psi = 0.0;         ///< its decrease with the state parameter of the image
+  double gamma = 1.0;         ///< critical void ratio at p = 1 Pa, or at p = 0 with an exponent
+  double lambda = 0.0;        ///< slope of the critical state line
+  double csl_exponent = 0.0;  ///< 0: over ln p
+  double shear = 0.0;         ///< G at the reference pressure [Pa]
   double exponent = 0.5;
   double bulk_ratio = 1.0;  ///< K/G
   double pt = 10.0;         ///< hydrostatic tensile strength [Pa]
