@@ -1,0 +1,227 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The matrix of tests and materials: two laws, grains and measurements of one snow."""
+
+import math
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from furrow_post.analyse.evaluations import path_states, plate_curve, steady_columns
+from furrow_post.arrays import Floats
+from furrow_post.csv_table import read_columns, read_rows
+from furrow_post.figures.style import RUN_COLOURS, annotate_panel, panel_letters, save, use_style
+from furrow_post.read.results import Results
+from furrow_post.study.output import Output
+from furrow_post.study.runs import Run, Runs
+
+REFERENCE = read_rows(Path(__file__).resolve().parent / "reference.csv")
+LAWS = {"snow": "snow", "clay": "Cam clay"}  # end of a run's name -> legend
+STRESSES = (10, 50, 100, 200, 500, 1000)  # [kPa] of the oedometer
+PRESSURES = (2, 10, 30)  # [kPa] from all sides
+STEPS, STRAIN = 200, 0.2
+SINKAGES = (25, 50, 100, 228)  # [mm]
+NEAR = 2.5  # [mm] of sinkage around it that is averaged
+MODES = {"towed": "towed", "slip_0": "slip 0", "slip_10": "slip 0.1", "slip_30": "slip 0.3", "slip_60": "slip 0.6"}
+WINDOW = 0.5  # [m] of travel
+LOAD, RADIUS = 6237.0, 0.37  # [N], [m] of the wheel
+Key = tuple[str, str, str]  # test, at, quantity
+Values = dict[Key, float]
+
+
+def last_piece(run: Run) -> dict[str, Floats]:
+    """Columns of point.csv from the end of the last piece but one."""
+    columns = read_columns(run.folder / "point.csv")
+    begins = int(np.flatnonzero(columns["segment"] < columns["segment"][-1])[-1])
+    return {name: column[begins:] for name, column in columns.items()}
+
+
+def oedometer(run: Run) -> Values:
+    found: Values = {}
+    for state, stress in zip(path_states(run.folder, STEPS, len(STRESSES)), STRESSES):
+        found["oedometer", f"{stress} kPa", "density"] = state["density"]
+        found["oedometer", f"{stress} kPa", "K0"] = state["stress_xx"] / state["stress_zz"]
+    return found
+
+
+def hydrostatic(run: Run) -> Values:
+    states = path_states(run.folder, STEPS, len(PRESSURES))
+    return {("all-round", f"{p} kPa", "density"): state["density"] for state, p in zip(states, PRESSURES)}
+
+
+def triaxial(run: Run) -> Values:
+    piece = last_piece(run)
+    deviator = float(piece["stress_xx"][-1] - piece["stress_zz"][-1])
+    return {("triaxial", "600 Pa", "deviator at 0.2"): deviator}
+
+
+def density_of(run: Run) -> str:
+    return f"{run.name.split('_')[1]} kg/m3"
+
+
+def shear(run: Run) -> Values:
+    return {("shear", density_of(run), "strength"): float(np.abs(last_piece(run)["stress_xz"]).max())}
+
+
+def free_sides(run: Run) -> Values:
+    piece = last_piece(run)
+    axial = piece["strain_zz"][0] - piece["strain_zz"]
+    lateral = piece["strain_xx"] - piece["strain_xx"][0]
+    end = min(STRAIN, float(axial.max()))
+    return {
+        ("free sides", density_of(run), "stress at 0.2"): float(np.interp(end, axial, -piece["stress_zz"])),
+        ("free sides", density_of(run), "lateral strain ratio"): float(np.interp(end, axial, lateral)) / end,
+    }
+
+
+def tension(run: Run) -> Values:
+    return {("tension", density_of(run), "strength"): float(last_piece(run)["stress_zz"].max())}
+
+
+def plate(run: Run) -> Values:
+    curve = plate_curve(run.folder)
+    sinkage, pressure = 1e3 * curve[:, 1], curve[:, 3]
+    near = {mm: abs(sinkage - mm) < NEAR for mm in SINKAGES}
+    return {("plate", f"{mm} mm", "pressure"): float(pressure[rows].mean()) for mm, rows in near.items()}
+
+
+def wheel(run: Run) -> Values:
+    history = Results(run.folder).columns
+    means = steady_columns(history, WINDOW)
+    x = history["x"] - history["x"][0]
+    at = MODES[run.name.rpartition("_")[0]]
+    found: Values = {
+        ("wheel", at, "hub drop"): means["sinkage_m"],
+        ("wheel", at, "traction"): -means["resistance"],
+    }
+    if at != "towed":
+        found["wheel", at, "torque"] = float(history["drive_torque"][x > x[-1] - WINDOW].mean())
+    return found
+
+
+def choice_row(run: Run) -> dict[str, Any]:
+    """A towed wheel on another reading of the laboratory tests."""
+    means = steady_columns(Results(run.folder).columns, WINDOW)
+    row: dict[str, Any] = {"run": run.name, "what": run.what or "`snow`"}
+    return row | {name: means[name] for name in ("sinkage_m", "resistance")}
+
+
+EVALUATIONS: dict[str, Callable[[Run], Values]] = {
+    "oedometer": oedometer,
+    "hydrostatic": hydrostatic,
+    "triaxial": triaxial,
+    "shear": shear,
+    "unconfined": free_sides,
+    "tension": tension,
+    "plate": plate,
+    "wheel": wheel,
+    "wheel_clay": wheel,
+}
+
+
+def rounded(value: float) -> float:
+    """Four digits."""
+    return float(f"{value:.4g}") if math.isfinite(value) else value
+
+
+def number(text: str) -> float:
+    return float(text) if text else math.nan
+
+
+def distance(value: float, row: dict[str, str]) -> float:
+    """From the grains, else from the measurement or its range, in the measure of the goal."""
+    low = number(row["grains"])
+    high = low
+    if math.isnan(low):
+        low, high = number(row["measured"]), number(row["measured_to"] or row["measured"])
+    if math.isnan(low):
+        return low
+    off = value - min(max(value, low), high)
+    if row["kind"] == "relative":
+        return off / low
+    return off / (LOAD * RADIUS) if row["kind"] == "load" else off
+
+
+def verdict(value: float, row: dict[str, str]) -> str:
+    if math.isnan(value):
+        return ""
+    off = distance(value, row)
+    return "" if math.isnan(off) else ("met" if abs(off) <= float(row["goal"]) else "missed")
+
+
+def matrix(laws: dict[str, Values]) -> list[dict[str, Any]]:
+    rows = []
+    for reference in REFERENCE:
+        key: Key = (reference["test"], reference["at"], reference["quantity"])
+        row: dict[str, Any] = {name: reference[name] for name in ("test", "at", "quantity", "unit")}
+        for law, values in laws.items():
+            row[law] = rounded(values[key]) if key in values else ""
+        row |= {name: reference[name] for name in ("grains", "grains_error", "measured", "measured_to")}
+        row |= {name: reference[name] for name in ("goal", "kind", "label")}
+        for law, values in laws.items():
+            value = values.get(key, math.nan)
+            off = distance(value, reference)
+            row[f"{law}_off"] = "" if math.isnan(off) else round(off, 3)
+            row[f"{law}_verdict"] = verdict(value, reference)
+        rows.append(row)
+    return rows
+
+
+def reference_points(test: str, quantity: str, column: str) -> tuple[list[float], list[float]]:
+    """Where a test was made, as its first number, and the values of a column."""
+    rows = [r for r in REFERENCE if (r["test"], r["quantity"]) == (test, quantity) and r[column]]
+    return [position(row["at"]) for row in rows], [float(row[column]) for row in rows]
+
+
+def position(at: str) -> float:
+    return float(next(word for word in at.split() if word.replace(".", "").isdigit()))
+
+
+def draw(laws: dict[str, Values], runs: Runs, target: Path) -> None:
+    use_style()
+    figure, grid = plt.subplots(2, 2, figsize=(8.4, 6.4), layout="constrained")
+    letters = dict(zip(("shear", "oedometer", "plate", "wheel"), panel_letters()))
+    panels = (
+        (grid[0, 0], "shear", "strength", 1e-3, "density, kg/m³", "shear strength, kPa"),
+        (grid[0, 1], "oedometer", "K0", 1.0, "axial stress, kPa", "K0"),
+        (grid[1, 1], "wheel", "torque", 1.0, "slip", "torque of the wheel, N m"),
+    )
+    for axes, test, quantity, scale, x_label, text in panels:
+        for (law, values), colour in zip(laws.items(), RUN_COLOURS):
+            found = [(position(at), scale * v) for (t, at, q), v in values.items() if (t, q) == (test, quantity)]
+            axes.plot(*zip(*sorted(found)), "o-", color=colour, label=LAWS[law])
+        x, y = reference_points(test, quantity, "grains")
+        axes.plot(x, [scale * value for value in y], "s", color=RUN_COLOURS[2], label="grains")
+        axes.set(xlabel=x_label)
+        annotate_panel(axes, letters[test], text)
+    x, low = reference_points("shear", "strength", "measured")
+    high = reference_points("shear", "strength", "measured_to")[1]
+    grid[0, 0].vlines(x, [1e-3 * v for v in low], [1e-3 * v for v in high], color="0.6", lw=4, alpha=0.5, label="measured")
+    grid[0, 0].set(yscale="log")
+    grid[0, 1].set(xscale="log", ylim=(0, 0.5))
+    axes = grid[1, 0]
+    for law, colour in zip(laws, RUN_COLOURS):
+        if run := runs.one(f"plate_{law}"):
+            curve = plate_curve(run.folder)
+            axes.plot(1e3 * curve[:, 1], 1e-3 * curve[:, 3], color=colour, label=LAWS[law])
+    for column, marker, colour in (("grains", "s", RUN_COLOURS[2]), ("measured", "*", "k")):
+        x, y = reference_points("plate", "pressure", column)
+        axes.plot(x, [1e-3 * value for value in y], marker, color=colour, label=column)
+    axes.set(xlabel="sinkage, mm", ylim=(0, None))
+    annotate_panel(axes, letters["plate"], "pressure of the plate, kPa")
+    grid[0, 0].legend()
+    axes.legend()
+    save(figure, target, dpi=110)
+
+
+def evaluate(runs: Runs, output: Output) -> Sequence[str]:
+    laws: dict[str, Values] = {law: {} for law in LAWS}
+    for stage, evaluation in EVALUATIONS.items():
+        for run in runs.done(stage):
+            laws[run.name.rpartition("_")[2]].update(evaluation(run))
+    output.table("results.csv", matrix(laws))
+    output.table("choices.csv", [choice_row(run) for run in runs.done("choices", "towed_snow")])
+    draw(laws, runs, output.path("matrix.png"))
+    return []
