@@ -191,7 +191,8 @@ def draw(laws: dict[str, Values], runs: Runs, target: Path) -> None:
     for axes, test, quantity, scale, x_label, text in panels:
         for (law, values), colour in zip(laws.items(), RUN_COLOURS):
             found = [(position(at), scale * v) for (t, at, q), v in values.items() if (t, q) == (test, quantity)]
-            axes.plot(*zip(*sorted(found)), "o-", color=colour, label=LAWS[law])
+            if found:
+                axes.plot(*zip(*sorted(found)), "o-", color=colour, label=LAWS[law])
         x, y = reference_points(test, quantity, "grains")
         axes.plot(x, [scale * value for value in y], "s", color=RUN_COLOURS[2], label="grains")
         axes.set(xlabel=x_label)
