@@ -179,20 +179,31 @@ Component* make(fmi2String name, fmi2String guid, fmi2String resources,
   }
 }
 
+constexpr char variable[] = "FURROW_FMU_IN_PROCESS";
+
+/// Begins the value of the variable in this process, for this layout of Component.
+std::string mark() {
+  constexpr int layout = 1;  // another number for other functions
+  return fmt::format("{}:{}:", getpid(), layout);
+}
+
+/// That of the copy which was loaded first: LIGGGHTS calls the functions of that one.
+Maker first_maker() {
+  const std::string own = mark();
+  const char* found = std::getenv(variable);
+  if (found && std::string(found).rfind(own, 0) == 0)
+    return reinterpret_cast<Maker>(static_cast<std::uintptr_t>(std::stoull(found + own.size())));
+  setenv(variable, (own + std::to_string(reinterpret_cast<std::uintptr_t>(make))).c_str(), 1);
+  return make;
+}
+
+__attribute__((constructor)) void when_loaded() { first_maker(); }
+
 }  // namespace
 
 Component* make_component(fmi2String name, fmi2String guid, fmi2String resources,
                           const fmi2CallbackFunctions& callbacks) {
-  constexpr char variable[] = "FURROW_FMU_IN_PROCESS";
-  constexpr int layout = 1;  // of Component: another number for other functions
-  const std::string mark = fmt::format("{}:{}:", getpid(), layout);
-  const char* found = std::getenv(variable);
-  Maker first = make;
-  if (found && std::string(found).rfind(mark, 0) == 0)
-    first = reinterpret_cast<Maker>(static_cast<std::uintptr_t>(std::stoull(found + mark.size())));
-  else
-    setenv(variable, (mark + std::to_string(reinterpret_cast<std::uintptr_t>(make))).c_str(), 1);
-  return first(name, guid, resources, &callbacks);
+  return first_maker()(name, guid, resources, &callbacks);
 }
 
 }  // namespace furrow::coupling::fmi

@@ -114,7 +114,7 @@ class Results(Case):
         alone = advance(self.opened(), 0, 30)
         copy = made(self.folder)
         self.assertNotEqual(copy.folder.name, self.fmu.folder.name)
-        one, other = self.opened(), self.instance(copy)
+        other, one = self.instance(copy), self.opened()
         other.initialize({"variables.cell": "0.04", "variables.z": "0.351"})
         for k in range(30):
             for wheel in (one, other):
@@ -205,6 +205,16 @@ class States(Case):
             self.assertIsNone(state.value)
         with self.assertRaisesRegex(FmuError, "DeSerializeFMUstate: the bytes are no state"):
             wheel.deserialize(data[:100])
+
+    def test_steps_on_a_continuum_repeat_from_a_state(self) -> None:
+        wheel = self.opened(snow="1", here=str(SCRIPT.parent), step="2e-4")
+        advance(wheel, 0, 3)
+        state = wheel.get_state()
+        rest = advance(wheel, 3, 5)
+        wheel.set_state(state)
+        self.assertEqual(advance(wheel, 3, 5), rest)
+        self.assertGreater(float.fromhex(rest[-1][2]), 50.0)
+        wheel.free_state(state)
 
     def test_script_without_begin_has_no_states(self) -> None:
         fmu = made(self.folder, Path(self.changed("variable        begin index", "variable begin string")))
