@@ -18,7 +18,7 @@ SOIL = {"phi": (24.0, 38.0), "k": (0.5, 2.0)}
 ERRORS = {PULL: 0.02, TORQUE: 0.02, HUB_DROP: 0.001}
 SLIP, LOAD = np.array([0.0, 0.15, 0.3, 0.5]), np.array([400.0, 600.0, 600.0, 800.0])
 REPETITIONS = 20
-SURROGATE = made_surrogate(70, {**RANGES, **SOIL})
+SURROGATE = made_surrogate(50, {**RANGES, **SOIL})
 
 
 def tests_of(phi: float, k: float, random: np.random.Generator, names: tuple[str, ...]) -> Tests:
@@ -42,7 +42,7 @@ class IdentifyTest(unittest.TestCase):
         for repetition in range(REPETITIONS):
             hidden = {name: float(random.uniform(low, high)) for name, (low, high) in SOIL.items()}
             tests = tests_of(hidden["phi"], hidden["k"], random, tuple(ERRORS))
-            posterior = identify(SURROGATE, tests, repetition, steps=160)
+            posterior = identify(SURROGATE, tests, repetition, steps=100)
             ratios.append(posterior.ratio)
             for name, samples in zip(posterior.names, posterior.samples.T):
                 low, high = np.percentile(samples, (10, 90))
@@ -53,7 +53,7 @@ class IdentifyTest(unittest.TestCase):
 
     def test_width_is_that_of_linear_theory(self) -> None:
         exact = tests_of(31.0, 1.0, np.random.default_rng(0), tuple(ERRORS))
-        posterior = identify(SURROGATE, exact)
+        posterior = identify(SURROGATE, exact, steps=300)
         step = {"phi": 0.1, "k": 0.01}
         columns = []
         for name, h in step.items():
@@ -75,7 +75,9 @@ class IdentifyTest(unittest.TestCase):
         np.testing.assert_allclose(np.std(posterior.samples, axis=0), expected, rtol=0.25)
 
     def test_what_torque_cannot_identify_is_stated(self) -> None:
-        posterior = identify(SURROGATE, tests_of(31.0, 1.0, np.random.default_rng(1), (TORQUE,)))
+        posterior = identify(
+            SURROGATE, tests_of(31.0, 1.0, np.random.default_rng(1), (TORQUE,)), steps=100
+        )
         self.assertIn("k is not identified", " ".join(posterior.remarks()))
         self.assertNotIn("phi is not", " ".join(posterior.remarks()))
 
