@@ -16,6 +16,7 @@ set(tutorial inputs/guide/tutorials)
 guide_test(first_run ${PROJECT_BINARY_DIR} README.md ${tutorial}/1_first_run.md)
 guide_test(my_tyre ${PROJECT_BINARY_DIR} ${tutorial}/2_my_tyre_my_sand.md)
 guide_test(my_script ${PROJECT_BINARY_DIR} ${tutorial}/3_wheel_in_my_script.md)
+set_tests_properties(pages.my_script PROPERTIES FIXTURES_SETUP own_script)  # for pages.commands
 guide_test(my_soil ${PROJECT_BINARY_DIR} ${tutorial}/4_soil_from_tests.md)
 guide_test(which_ground ${PROJECT_BINARY_DIR} ${tutorial}/5_which_ground.md)
 guide_test(soil_card ${PROJECT_BINARY_DIR} ${tutorial}/8_soil_card.md)

@@ -6,7 +6,7 @@ import sys
 import tempfile
 import unittest
 
-from support.command import FURROW_POST, SOURCE
+from support.command import SOURCE, run_post
 
 INPUTS = SOURCE / "inputs"
 OTHERS = (INPUTS / "crosscheck" / "run.py", INPUTS / "costs" / "run.py")
@@ -41,11 +41,13 @@ class DriversTest(unittest.TestCase):
 
     def test_list_names_every_run_once(self) -> None:
         with tempfile.TemporaryDirectory() as results:
-            commands: list[list[object]] = [[driver] for driver in DRIVERS]
-            commands += [[FURROW_POST, "study", folder] for folder in DEFINED]
-            for command in commands:
-                with self.subTest(command=command):
-                    done = start(*command, "--list", "--results", results)
+            for place in (*DRIVERS, *DEFINED):
+                with self.subTest(place=place):
+                    words = ("--list", "--results", results)
+                    if place in DRIVERS:
+                        done = start(place, *words)
+                    else:
+                        done = run_post("study", place, *words, folder=SOURCE)
                     self.assertEqual(done.returncode, 0, done.stderr)
                     names = [line.split()[1] for line in done.stdout.splitlines()]
                     self.assertGreaterEqual(len(names), 4)
