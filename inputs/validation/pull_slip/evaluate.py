@@ -11,6 +11,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 
+from furrow_post.errors import ResultsError
 from furrow_post.figures.style import annotate_panel, save, use_style
 from furrow_post.programs import find_program
 from furrow_post.study.output import Output
@@ -24,14 +25,14 @@ Row = dict[str, float]
 
 
 def evaluated(folder: Path, *options: str) -> list[Row]:
-    """The lines that furrow-resistance prints of a run."""
+    """The lines that furrow-resistance prints of a run. @raises ResultsError"""
     program = find_program("furrow-resistance")
-    printed = subprocess.run(
-        [str(program), *options, str(folder)], capture_output=True, text=True, check=True
-    ).stdout
+    done = subprocess.run([str(program), *options, str(folder)], capture_output=True, text=True)
+    if done.returncode:
+        raise ResultsError(f"{folder}: {done.stderr.strip() or program} (status {done.returncode})")
     return [
         {name: float(text) for name, text in row.items() if name != "folder" and text}
-        for row in csv.DictReader(printed.splitlines())
+        for row in csv.DictReader(done.stdout.splitlines())
     ]
 
 
