@@ -17,6 +17,7 @@ SCALES = (1.0, 1e3, 1e-3, 1e2, 1e-2, 10.0, 0.1)  # between the units of tables a
 # Numbers of pages that no table of the study need have, with where they are from
 ELSEWHERE = {
     "cmu_sand": {"0.071"},  # mean of several rows
+    "pull_slip": {"67", "600", "3000"},  # cell and loads, defaults of its scripts
     "sand_zones": {"-0.33"},  # slip of the towed wheel: results of the run
     "snow_oedometer": {"0.12"},  # K0, [Shoop2001] eq 24
     # densities measured beside the wheel, [Shoop2001] Fig 67, final ones under wheels [CRREL95-7]
