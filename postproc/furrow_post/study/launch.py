@@ -153,7 +153,8 @@ def _start(case: Case, command: list[str], folder: Path) -> _Attempt:
     process.returncode = os.waitstatus_to_exitcode(status)
     # furrow takes a signal as a wish for a checkpoint, ends the run and exits with 128 and the signal
     by_signal = {-process.returncode, process.returncode - 128} & set(INTERRUPTIONS)
-    if by_signal or any(folder.glob("restart_forced*")):
+    # mpirun may end with another status. A run that was killed before may write its checkpoint late.
+    if by_signal or (process.returncode and any(folder.glob("restart_forced*"))):
         raise Interrupted(f"{folder} was interrupted; start again")
     error = ""
     if late.is_set():

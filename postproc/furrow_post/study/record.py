@@ -72,7 +72,8 @@ def forget(folder: Path) -> None:
     """Removes what an earlier run in the folder could be taken for finished by."""
     for name in (FINISHED, FAILED, "facts.txt", "laboratory.json"):
         (folder / name).unlink(missing_ok=True)
-    for checkpoint in folder.glob("restart_forced*.data"):
-        checkpoint.unlink()
-    for particles in folder.glob("restart_forced*.particles"):
-        shutil.rmtree(particles)
+    for checkpoint in folder.glob("restart_forced*"):
+        if checkpoint.is_dir() and not checkpoint.is_symlink():
+            shutil.rmtree(checkpoint)
+        else:
+            checkpoint.unlink()

@@ -171,7 +171,7 @@ class RunnerTest(unittest.TestCase):
         self.assertEqual(len(self.tree.starts()), 1)  # no second attempt: it would take as long
 
     def test_an_interrupted_run_leaves_nothing(self) -> None:
-        for variables in ({"signal": int(signal.SIGTERM)}, {"checkpoint": 1}):
+        for variables in ({"signal": int(signal.SIGTERM)}, {"checkpoint": 1, "status": 1}):
             case = self.tree.case("a", **variables)
             with self.assertRaisesRegex(Interrupted, "was interrupted; start again"):
                 self.runner.run([case])
@@ -179,6 +179,12 @@ class RunnerTest(unittest.TestCase):
         after = self.tree.case("a")
         self.runner.run([after])  # an old checkpoint is no interruption
         self.assertEqual(self.runner.state(after), State.DONE)
+
+    def test_a_run_to_the_end_beside_a_late_checkpoint_is_done(self) -> None:
+        """A run that was killed before may write its checkpoint while the next one runs."""
+        case = self.tree.case("a", checkpoint=1)
+        self.runner.run([case])
+        self.assertEqual(self.runner.state(case), State.DONE)
 
     def test_a_crash_is_a_failure(self) -> None:
         case = self.tree.case("a", signal=int(signal.SIGSEGV))
