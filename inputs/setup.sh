@@ -68,8 +68,8 @@ show_build_errors() {
   { grep -E -A 4 'error:|undefined reference|ld returned|CMake Error' "$1" || tail -n 40 "$1"; } | head -n 60 >&2
 }
 
-# Open MPI refuses root and more ranks than cores unless it is configured; waiting ranks should
-# yield where cores are shared. Bound ranks of two programs would wait for the same cores.
+# Open MPI refuses root and more ranks than cores unless it is configured. Bound ranks of two
+# programs would wait for the same cores.
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=none
-export OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1
+export OMPI_MCA_hwloc_base_binding_policy=none
 [ "$(id -u)" -ne 0 ] || export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
