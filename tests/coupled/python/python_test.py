@@ -315,7 +315,7 @@ except furrow.Error as error:
     assert "Unknown command" in str(error) and "line 1: nonsense line" in str(error), str(error)
 else:
     raise SystemExit("no error")
-print("rank", MPI.COMM_WORLD.rank, "of", MPI.COMM_WORLD.size)
+sys.stdout.write(f"rank {MPI.COMM_WORLD.rank} of {MPI.COMM_WORLD.size}\\n")  # print mixes ranks
 """
 
 
