@@ -78,6 +78,14 @@ ElasticityParameters make_elasticity(const SectionOptions& section) {
   return e;
 }
 
+void check_reaches_tension(const ElasticityParameters& parameters, double tensile) {
+  if (parameters.porous && parameters.limit <= tensile)
+    throw InputError("elasticity porous, keyword 'pt_el'",
+                     fmt::format("is {} Pa", parameters.limit),
+                     fmt::format("above the tensile strength at the start, {:.6g} Pa", tensile),
+                     "the pressure could not reach it");
+}
+
 double initial_pressure(const ElasticityParameters& parameters) {
   return parameters.porous ? parameters.p0 : 0.0;
 }

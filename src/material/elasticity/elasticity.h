@@ -18,6 +18,9 @@ namespace furrow {
 SectionSchema elasticity_section();
 /// @throws InputError for values that exclude each other
 ElasticityParameters make_elasticity(const SectionOptions& section);
+/// @param tensile  strength in hydrostatic tension at the start [Pa]
+/// @throws InputError where porous elasticity does not reach it
+void check_reaches_tension(const ElasticityParameters& parameters, double tensile);
 /// The pressure at which a run starts: 0, or p0 of porous elasticity [Pa].
 double initial_pressure(const ElasticityParameters& parameters);
 /// "eps_dev_pl" of a law that yields: the sum of sqrt(2/3 de:de) over the deviatoric plastic

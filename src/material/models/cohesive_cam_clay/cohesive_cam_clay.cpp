@@ -33,12 +33,8 @@ std::unique_ptr<Material> create_cohesive_cam_clay(const MaterialOptions& sectio
   parameters.radius = 0.5 * (1.0 + beta);
   parameters.aspect = o.number("M") / std::sqrt(1.0 + 2.0 * beta);
   check_initial(parameters.hardening, o, "eps_vol_pl_0");
-  const double tensile = beta * strength_at(parameters.hardening, eps_vol_pl_0);
-  if (parameters.elasticity.porous && parameters.elasticity.limit <= tensile)
-    throw InputError("elasticity porous, keyword 'pt_el'",
-                     fmt::format("is {} Pa", parameters.elasticity.limit),
-                     fmt::format("above the tensile strength at the start, {:.6g} Pa", tensile),
-                     "the pressure could not reach it");
+  check_reaches_tension(parameters.elasticity,
+                        beta * strength_at(parameters.hardening, eps_vol_pl_0));
   return std::make_unique<CohesiveCamClay>(o.number("density"), parameters, eps_vol_pl_0);
 }
 

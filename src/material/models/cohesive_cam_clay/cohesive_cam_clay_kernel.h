@@ -16,6 +16,7 @@
 #include "material/block_update.h"
 #include "material/elasticity/elasticity_kernel.h"
 #include "material/hardening/hardening_kernel.h"
+#include "material/hardening_step.h"
 #include "material/models/cohesive_cam_clay/cohesive_cam_clay_parameters.h"
 #include "simd/root_solver.h"
 
@@ -87,20 +88,8 @@ struct CohesiveCamClayKernel {
       stdx::where(yielding, points.branch) =
           select(sign > Lanes(0.0), double(Branch::cap), loosening);
     }
-    const Symmetric s = s_trial * scale;
-    const Lanes back_stress = centre * p0, half_compliance = Lanes(0.5) / elastic.shear;
-    points.stored = elastic.volumetric_work(dv - compaction, p) +
-                    contract(s + s_old, s - s_old) * half_compliance * Lanes(0.5);
-    points.frozen = back_stress * compaction;
-    points.dissipated = (p - back_stress) * compaction +
-                        select(yielding, contract(s, s_trial - s) * half_compliance, 0.0);
-    points.internal[0] = eps_old + compaction;
-    points.internal[1] =
-        points.internal[1] + select(yielding, elastic.equivalent_strain(s_trial - s), 0.0);
-    points.stress = s.plus_identity(-p);
-    points.below_data = hardening.below(points.internal[0]);
-    points.beyond_data = hardening.beyond(points.internal[0]);
-    points.stopped = hardening.stopped(points.internal[0]);
+    end_hardening_step(strain, elastic, s_trial,
+                       {s_trial * scale, p, compaction, centre * p0, yielding}, hardening, points);
   }
 };
 

@@ -36,13 +36,8 @@ std::unique_ptr<Material> create_cohesive_cap(const MaterialOptions& sections) {
                                  1.0 / parameters.tan_beta));
   const double eps_vol_pl_0 = o.number("eps_vol_pl_0");
   check_initial(parameters.hardening, o, "eps_vol_pl_0");
-  const double tensile =
-      parameters.tension * parameters.d * std::exp(parameters.growth * eps_vol_pl_0);
-  if (parameters.elasticity.porous && parameters.elasticity.limit <= tensile)
-    throw InputError("elasticity porous, keyword 'pt_el'",
-                     fmt::format("is {} Pa", parameters.elasticity.limit),
-                     fmt::format("above the tensile strength at the start, {:.6g} Pa", tensile),
-                     "the pressure could not reach it");
+  check_reaches_tension(parameters.elasticity, parameters.tension * parameters.d *
+                                                   std::exp(parameters.growth * eps_vol_pl_0));
   return std::make_unique<CohesiveCap>(density, parameters, eps_vol_pl_0);
 }
 

@@ -2,17 +2,20 @@
 #pragma once
 /// Kernel of the cohesive cap law: backward Euler return mapping. Equations: cohesive_cap.h.
 ///
-/// Unknown is the size y of the volumetric plastic strain of the step, De = +-y. On the cap flow is
-/// along (b^2 p, q), so the deviator shrinks radially, and the shear line cuts it where both flow:
+/// Unknown is the size y of the volumetric plastic strain of the step, De = +-y. Flow on the cap is
+/// along (b^2 p, q), so the deviator shrinks radially. The shear line cuts it where both flow.
 ///   p = p_el(dv - y),  q = min( q_tr p/(p + (3 G/b^2) y),  d(eps_n + y) + p tan(beta) )
+/// Corner and cap are thus one equation.
 ///   f(y) = sqrt(p^2 + (q/A)^2) - pc(eps_n + y) = 0
-/// Corner and cap are thus one equation. Tension has f(y) = -p_el(dv + y) - tension_ratio d(eps_n -
-/// y). At the y where p = 0 either f is negative, so the root is bracketed. Shear alone leaves p
-/// and cuts q.
+/// Tension has another one.
+///   f(y) = -p_el(dv + y) - tension_ratio d(eps_n - y) = 0
+/// At the y where p = 0 either f is negative, so the root is bracketed. Shear alone leaves p and
+/// cuts q.
 
 #include "material/block_update.h"
 #include "material/elasticity/elasticity_kernel.h"
 #include "material/hardening/hardening_kernel.h"
+#include "material/hardening_step.h"
 #include "material/models/cohesive_cap/cohesive_cap_parameters.h"
 #include "simd/root_solver.h"
 
@@ -113,19 +116,8 @@ struct CohesiveCapKernel {
           select(opening, double(Branch::tension), double(Branch::cap));
     }
     const Lanes scale = select(yielding, q / max(q_trial, 1e-290), 1.0);
-    const Symmetric s = s_trial * scale;
-    const Lanes half_compliance = Lanes(0.5) / elastic.shear;
-    points.stored = elastic.volumetric_work(dv - compaction, p) +
-                    contract(s + s_old, s - s_old) * half_compliance * Lanes(0.5);
-    points.dissipated =
-        p * compaction + select(yielding, contract(s, s_trial - s) * half_compliance, 0.0);
-    points.internal[0] = eps_old + compaction;
-    points.internal[1] =
-        points.internal[1] + select(yielding, elastic.equivalent_strain(s_trial - s), 0.0);
-    points.stress = s.plus_identity(-p);
-    points.below_data = hardening.below(points.internal[0]);
-    points.beyond_data = hardening.beyond(points.internal[0]);
-    points.stopped = hardening.stopped(points.internal[0]);
+    end_hardening_step(strain, elastic, s_trial, {s_trial * scale, p, compaction, 0.0, yielding},
+                       hardening, points);
   }
 };
 

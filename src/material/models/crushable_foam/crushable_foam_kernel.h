@@ -12,6 +12,7 @@
 #include "material/deviatoric_return.h"
 #include "material/elasticity/elasticity_kernel.h"
 #include "material/hardening/hardening_kernel.h"
+#include "material/hardening_step.h"
 #include "material/models/crushable_foam/crushable_foam_parameters.h"
 #include "simd/root_solver.h"
 
@@ -81,19 +82,8 @@ struct CrushableFoamKernel {
       stdx::where(yielding, points.branch) =
           select(sign > Lanes(0.0), double(Branch::cap), double(Branch::tension));
     }
-    const Symmetric s = s_trial * scale;
-    const Lanes elastic_strain = dv - compaction, half_compliance = Lanes(0.5) / elastic.shear;
-    points.stored = elastic.volumetric_work(elastic_strain, p) +
-                    contract(s + s_old, s - s_old) * half_compliance * Lanes(0.5);
-    points.dissipated =
-        p * compaction + select(yielding, contract(s, s_trial - s) * half_compliance, 0.0);
-    points.internal[0] = eps_old + compaction;
-    points.internal[1] =
-        points.internal[1] + select(yielding, elastic.equivalent_strain(s_trial - s), 0.0);
-    points.stress = s.plus_identity(-p);
-    points.below_data = hardening.below(points.internal[0]);
-    points.beyond_data = hardening.beyond(points.internal[0]);
-    points.stopped = hardening.stopped(points.internal[0]);
+    end_hardening_step(strain, elastic, s_trial, {s_trial * scale, p, compaction, 0.0, yielding},
+                       hardening, points);
   }
 };
 
