@@ -6,25 +6,20 @@
 #include <cstring>
 #include <string>
 
-#include <fmt/format.h>
 #include <mpi.h>
-#include <unistd.h>
 
 #include "core/error.h"
 #include "coupling/fmi/wheel_fmu.h"
 #include "coupling/liggghts/error_policy.h"
+#include "coupling/session/host_process.h"
 
 namespace furrow::coupling::fmi {
 
 namespace {
 
-void start_mpi() {
-  int initialized = 0, finalized = 0;
-  MPI_Finalized(&finalized);
-  if (finalized) throw Error("MPI has ended in this process; start another one");
-  MPI_Initialized(&initialized);
-  if (initialized) return;
-  MPI_Init(nullptr, nullptr);
+/// MPI ends with the process if it begins here.
+void keep_mpi() {
+  if (!start_mpi()) return;
   std::atexit([] {
     int ended = 0;
     MPI_Finalized(&ended);
@@ -168,7 +163,7 @@ using Maker = Component* (*)(fmi2String, fmi2String, fmi2String, const fmi2Callb
 Component* make(fmi2String name, fmi2String guid, fmi2String resources,
                 const fmi2CallbackFunctions* callbacks) {
   try {
-    start_mpi();
+    keep_mpi();
     throw_errors();
     return new WheelComponent(name, guid, resources, *callbacks);
   } catch (const std::exception& problem) {
@@ -179,21 +174,13 @@ Component* make(fmi2String name, fmi2String guid, fmi2String resources,
   }
 }
 
-constexpr char variable[] = "FURROW_FMU_IN_PROCESS";
-
-/// Begins the value of the variable in this process, for this layout of Component.
-std::string mark() {
-  constexpr int layout = 1;  // another number for other functions
-  return fmt::format("{}:{}:", getpid(), layout);
-}
-
 /// That of the copy which was loaded first: LIGGGHTS calls the functions of that one.
 Maker first_maker() {
-  const std::string own = mark();
-  const char* found = std::getenv(variable);
-  if (found && std::string(found).rfind(own, 0) == 0)
-    return reinterpret_cast<Maker>(static_cast<std::uintptr_t>(std::stoull(found + own.size())));
-  setenv(variable, (own + std::to_string(reinterpret_cast<std::uintptr_t>(make))).c_str(), 1);
+  constexpr char variable[] = "FURROW_FMU_IN_PROCESS_1";  // another number for other functions
+  const std::string found = shared_text(variable);
+  if (!found.empty())
+    return reinterpret_cast<Maker>(static_cast<std::uintptr_t>(std::stoull(found)));
+  share_text(variable, std::to_string(reinterpret_cast<std::uintptr_t>(make)));
   return make;
 }
 

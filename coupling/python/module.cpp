@@ -20,6 +20,7 @@
 #include "coupling/liggghts/style_registry.h"
 #include "coupling/output/fix_wheel_history.h"
 #include "coupling/python/parts.h"
+#include "coupling/session/host_process.h"
 #include "coupling/session/session.h"
 #include "io/version.h"
 
@@ -30,12 +31,6 @@ using namespace furrow::coupling;
 using SessionPointer = std::shared_ptr<Session>;
 
 // ---- MPI ----------------------------------------------------------------------------------------
-
-void start_mpi() {
-  int initialized = 0;
-  MPI_Initialized(&initialized);
-  if (!initialized) MPI_Init(nullptr, nullptr);
-}
 
 /// At the end of Python. What mpi4py has started, it finalizes itself, later.
 void close_all(const std::vector<std::weak_ptr<Session>>& sessions, bool started_here) {

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <iostream>
 #include <utility>
 
@@ -18,6 +17,7 @@
 #include "coupling/liggghts/first_rank.h"
 #include "coupling/liggghts/signals.h"
 #include "coupling/run_script.h"
+#include "coupling/session/host_process.h"
 #include "signal_handling.h"
 #include "update.h"
 #include "write_restart.h"
@@ -40,14 +40,12 @@ class QuietErrors {
 
 /// @throws Error where another copy of this library runs LIGGGHTS in this process
 void claim_process() {
-  static const std::string mark = std::to_string(getpid()) + ":" +
-                                  std::to_string(reinterpret_cast<std::uintptr_t>(&claim_process));
-  constexpr char name[] = "FURROW_LIBRARY_IN_PROCESS";
-  const char* found = std::getenv(name);
-  const std::string own = std::to_string(getpid()) + ":";
-  if (found && std::string(found).rfind(own, 0) == 0 && found != mark)
+  constexpr char variable[] = "FURROW_LIBRARY_IN_PROCESS";
+  const std::string own = std::to_string(reinterpret_cast<std::uintptr_t>(&claim_process));
+  const std::string found = shared_text(variable);
+  if (!found.empty() && found != own)
     throw Error("another copy of Furrow's library runs in this process; use a process for each");
-  setenv(name, mark.c_str(), 1);
+  share_text(variable, own);
 }
 
 /// Without MPI nothing can be freed: the process is at its end.
