@@ -8,8 +8,6 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from scipy.stats import qmc
-
 from ..errors import ResultsError
 
 HOW = "write NAME=FIRST:LAST:COUNT, or NAME=VALUE,VALUE,..."
@@ -100,6 +98,8 @@ def sampled(texts: Sequence[str], count: int) -> list[dict[str, str]]:
 
     A larger count keeps the points of a smaller one. @raises ResultsError
     """
+    from scipy.stats import qmc  # half a second, which no other command shall pay
+
     if count > MOST_POINTS:
         raise ResultsError(f"--samples {count}: at most {MOST_POINTS}")
     names, boxes = [], []
