@@ -12,6 +12,7 @@ import numpy as np
 
 from ..errors import ResultsError
 from ..formatting import duration
+from ..read.wheel_run import cells_or_grains
 from . import cost_table
 from .cost_table import QUANTITY_KEYS, Components, FamilyKey, Row
 
@@ -54,12 +55,8 @@ class Assessed(HasErrors):
 
     def describe(self) -> str:
         row = self.row
-        kind = elements_name(row.ground)
+        kind = cells_or_grains(row.ground)
         return f"{row.ground}, {kind} of {1e3 * row.size:.3g} mm, {row.model} model, {row.wheel}"
-
-
-def elements_name(ground: str) -> str:
-    return "cells" if ground == "continuum" else "grains"
 
 
 def assess(rows: Sequence[Row], wheel: str = "") -> list[Assessed]:
@@ -200,7 +197,7 @@ def advice(assessed: Sequence[Assessed], error: float) -> list[str]:
 def extrapolation_advice(assessed: Sequence[Assessed], error: float) -> list[str]:
     """What the cheapest family would need, as a sentence, or nothing."""
     return [
-        f"By its fit, {family.ground} would need {elements_name(family.ground)} of about "
+        f"By its fit, {family.ground} would need {cells_or_grains(family.ground)} of about "
         f"{1e3 * size:.2g} mm and {duration(cpu_time)} of one core: an extrapolation."
         for family, size, cpu_time in needed(assessed, error)[:1]
     ]

@@ -18,7 +18,7 @@ from typing import Any, ClassVar, NamedTuple
 
 from ..csv_table import read_comments, read_rows
 from ..errors import ResultsError, content_of
-from ..read.wheel_run import WheelRun
+from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun
 from .grid_convergence import (
     Convergence,
     grid_convergence,
@@ -221,7 +221,7 @@ class Family:
 
     def packing(self, key: str) -> float:
         """Standard deviation of one packing; 0 of a lattice, NaN where there is one alone."""
-        if self.key.ground in ("continuum", "scm"):
+        if self.key.ground in GROUNDS_OF_CELLS:
             return 0.0  # nothing is random
         return pooled_scatter(self._values_of(key, base.size) for base in self.bases)
 

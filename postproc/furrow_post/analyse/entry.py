@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..formatting import value_text
-from ..read.wheel_run import WheelRun
+from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun
 from .cost_table import Components, Family, FamilyKey
 from .prediction import Prediction
 from .verdict import QUANTITIES, Quantity
@@ -68,7 +68,7 @@ def entries_of_run(run: WheelRun, families: Mapping[FamilyKey, Family]) -> list[
         if family:
             parts = family.components(quantity.key, run.size, value.standard_error)
         else:
-            packing = 0.0 if run.ground in ("continuum", "scm") else math.nan
+            packing = 0.0 if run.ground in GROUNDS_OF_CELLS else math.nan
             parts = Components(time=value.standard_error, packing=packing)
         note = "" if value.steady else "not called steady"
         entries.append(Entry(quantity, run.label, value.mean, parts, RUN, note, run.cpu_time))

@@ -16,7 +16,8 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from .cost import Assessed, ByQuantity, HasErrors, elements_name
+from ..read.wheel_run import cells_or_grains
+from .cost import Assessed, ByQuantity, HasErrors
 from .cost_table import QUANTITY_KEYS
 
 
@@ -45,7 +46,7 @@ class Pair(HasErrors):
     def describe(self) -> str:
         row, sizes = self.fine.row, [1e3 * run.row.size for run in self.runs]
         return (
-            f"{row.ground}, {elements_name(row.ground)} of {sizes[0]:.3g} and {sizes[1]:.3g} mm "
+            f"{row.ground}, {cells_or_grains(row.ground)} of {sizes[0]:.3g} and {sizes[1]:.3g} mm "
             f"extrapolated to size zero, {row.model} model, {row.wheel}"
         )
 

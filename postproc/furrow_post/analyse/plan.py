@@ -24,7 +24,8 @@ import numpy as np
 
 from ..errors import ResultsError
 from ..formatting import duration
-from .cost import ByQuantity, elements_name
+from ..read.wheel_run import cells_or_grains
+from .cost import ByQuantity
 from .cost_table import QUANTITY_KEYS, Family, Row
 from .grid_convergence import COVERAGE, SAFE, Convergence, noise_of, zero_variance
 from .verdict import QUANTITIES, Quantity
@@ -120,7 +121,7 @@ def _known(family: Family, key: str) -> Convergence:
     if series is None or reason:
         raise ResultsError(
             f"{' '.join(family.key)}, {key}: {reason}, so that no value at zero size is known; add a "
-            f"run with finer {elements_name(family.key.ground)}, or longer runs"
+            f"run with finer {cells_or_grains(family.key.ground)}, or longer runs"
         )
     return series
 
@@ -179,7 +180,7 @@ def _candidates(family: Family, points: Sequence[Point]) -> list[tuple[str, floa
         cpu_time=finest.cpu_time * FINER ** _cost_exponent(family.bases),
     )
     finer = replace(finer, name=_size_text(finer))
-    name = f"a run with {elements_name(family.key.ground)} of {finer.name}{_length_text(finer)}"
+    name = f"a run with {cells_or_grains(family.key.ground)} of {finer.name}{_length_text(finer)}"
     found.append((name, finer.cpu_time, [*points, finer]))
     return found
 

@@ -31,6 +31,12 @@ STEADY_QUANTITIES = (
 # Those that are means of a channel of the history
 FROM_CHANNELS = ("hub_drop", "force_z", "drawbar_pull", "drive_torque")
 SAME_MEAN = 0.02  # relative difference of means over one window: rows at its ends
+GROUNDS_OF_CELLS = ("continuum", "scm")  # nothing in them is random
+
+
+def cells_or_grains(ground: str) -> str:
+    """Whose size is that of a run."""
+    return "cells" if ground in GROUNDS_OF_CELLS else "grains"
 
 
 @dataclass(frozen=True)
@@ -113,8 +119,7 @@ class WheelRun:
     def describe_size(self) -> str:
         if self.ground == "none":
             return "none"
-        kind = "cells" if self.ground in ("continuum", "scm") else "grains"
-        return f"{kind} of {1e3 * self.size:.3g} mm"
+        return f"{cells_or_grains(self.ground)} of {1e3 * self.size:.3g} mm"
 
     def relabelled(self, label: str) -> "WheelRun":
         return replace(self, label=label)

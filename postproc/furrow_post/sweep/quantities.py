@@ -20,7 +20,7 @@ import numpy as np
 from ..analyse.cost_table import Components, Family, FamilyKey
 from ..analyse.entry import NAME_IN_RUN, entries_of_run
 from ..read.summary import Summary
-from ..read.wheel_run import WheelRun
+from ..read.wheel_run import GROUNDS_OF_CELLS, WheelRun
 
 Families = Mapping[FamilyKey, Family]
 
@@ -48,7 +48,7 @@ def quantities(runs: Sequence[WheelRun], families: Families) -> dict[str, Value]
 
 
 def _of_run(run: WheelRun, families: Families) -> dict[str, Value]:
-    packing = 0.0 if run.ground in ("continuum", "scm", "none") else math.nan
+    packing = 0.0 if run.ground in (*GROUNDS_OF_CELLS, "none") else math.nan
     summary = Summary(run.folder)
     found: dict[str, Value] = {}
     for name in summary.quantities:
