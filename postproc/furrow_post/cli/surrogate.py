@@ -2,7 +2,6 @@
 """furrow-post surrogate: fits Gaussian processes to sweeps, and predicts with them."""
 
 import argparse
-import json
 from collections.abc import Mapping
 from datetime import datetime, timezone
 from pathlib import Path
@@ -10,7 +9,7 @@ from pathlib import Path
 from ..arguments import assignment, path
 from ..errors import ResultsError
 from ..formatting import in_unit, with_error
-from ..study.record import FINISHED
+from ..study.record import FINISHED, read_record
 from ..study.tables import in_columns
 from ..surrogate.gaussian_process import Z_95, HeldOut
 from ..surrogate.held_out import draw_held_out
@@ -70,12 +69,8 @@ def _fit(sources: list[Path], output: Path | None) -> Surrogate:
 
 
 def _origin(sources: list[Path]) -> dict[str, str]:
-    commits = set()
-    for record in (file for source in sources for file in source.glob(f"*/{FINISHED}")):
-        try:
-            commits.add(str(json.loads(record.read_text(encoding="utf-8"))["commit"]))
-        except (OSError, ValueError, KeyError, TypeError):
-            continue
+    files = (file for source in sources for file in source.glob(f"*/{FINISHED}"))
+    commits = {record.commit for record in map(read_record, files) if record}
     return {
         "source": ", ".join(source.name for source in sources),
         "commit": " ".join(sorted(commits)),

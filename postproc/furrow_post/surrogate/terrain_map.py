@@ -125,12 +125,12 @@ def draw_map(result: Map, like: Raster, target: Path) -> None:
     extent = np.array([x0, x0 + columns * dx, y0 + rows * dy, y0]) / 1e3
     colours = ListedColormap(["#a3264f", "#f0b55e", "#4d8a4a"])
     shown = (
-        ("go, uncertain, no-go", result.verdict, colours, 1.0),
-        ("drawbar pull that remains [N]", result.bands["pull"][0], "viridis", 1.0),
-        ("energy per distance [J/m]", result.bands["energy"][0], "magma_r", 1.0),
-        ("probability of go", result.bands["probability"][0], "RdYlGn", 1.0),
+        ("go, uncertain, no-go", result.verdict, colours),
+        ("drawbar pull that remains [N]", result.bands["pull"][0], "viridis"),
+        ("energy per distance [J/m]", result.bands["energy"][0], "magma_r"),
+        ("probability of go", result.bands["probability"][0], "RdYlGn"),
     )
-    for axes, letter, (title, values, colour, _) in zip(panels.flat, panel_letters(), shown):
+    for axes, letter, (title, values, colour) in zip(panels.flat, panel_letters(), shown):
         norm = BoundaryNorm([-0.5, 0.5, 1.5, 2.5], 3) if colour is colours else None
         axes.set_facecolor("0.85")
         image = axes.imshow(
@@ -153,10 +153,10 @@ def write_mobility_table(
 ) -> int:
     """A row per soil and slope, for tools that read speed, go and pull by soil and slope. @return rows"""
     rows = []
+    inside = SLOPES[_inside(surrogate, vehicle, {"slope": SLOPES})]
+    if not len(inside):
+        soils = {}
     for soil, parameters in soils.items():
-        inside = SLOPES[_inside(surrogate, vehicle, {"slope": SLOPES})]
-        if not len(inside):
-            continue
         ground = {
             "slope": inside,
             **{name: np.full(len(inside), value) for name, value in parameters.items()},
