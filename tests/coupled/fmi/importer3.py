@@ -2,14 +2,11 @@
 """The importer of the guide for FMI 3.0."""
 
 import ctypes
-import tempfile
-import xml.etree.ElementTree
-import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from importer import FmuError, Instance
+from importer import Fmu, FmuError, Instance
 
 Log = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_int, ctypes.c_char_p, ctypes.c_char_p)
 ARRAYS: dict[str, Any] = {"Float64": ctypes.c_double * 1, "Boolean": ctypes.c_bool * 1, "String": ctypes.c_char_p * 1}
@@ -18,16 +15,11 @@ STATES = {"fmi2GetFMUstate": "fmi3GetFMUState", "fmi2SetFMUstate": "fmi3SetFMUSt
           "fmi2SerializeFMUstate": "fmi3SerializeFMUState", "fmi2DeSerializeFMUstate": "fmi3DeserializeFMUState"}
 
 
-class Fmu3:
+class Fmu3(Fmu):
     def __init__(self, file: Path) -> None:
-        self.folder = tempfile.TemporaryDirectory()
-        with zipfile.ZipFile(file) as archive:
-            archive.extractall(self.folder.name)
-        place = Path(self.folder.name)
-        self.resources = f"{place}/resources/"
-        self.description = xml.etree.ElementTree.parse(place / "modelDescription.xml").getroot()
+        super().__init__(file, "x86_64-linux")
+        self.resources = f"{self.folder.name}/resources/"
         self.variables = {v.attrib["name"]: v for v in self.description.find("ModelVariables") or ()}
-        self.library = ctypes.CDLL(str(place / "binaries" / "x86_64-linux" / "furrow_wheel.so"))
 
 
 class Instance3(Instance):

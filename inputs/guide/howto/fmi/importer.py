@@ -34,7 +34,7 @@ class FmuError(RuntimeError):
 class Fmu:
     """A file .fmu, unpacked and loaded. Its instances are made by Instance."""
 
-    def __init__(self, file: Path) -> None:
+    def __init__(self, file: Path, platform: str = "linux64") -> None:
         self.folder = tempfile.TemporaryDirectory()
         with zipfile.ZipFile(file) as archive:
             archive.extractall(self.folder.name)
@@ -43,7 +43,7 @@ class Fmu:
         self.description = xml.etree.ElementTree.parse(place / "modelDescription.xml").getroot()
         self.flags = self.description.find("CoSimulation").attrib  # type: ignore[union-attr]
         self.variables = {v.attrib["name"]: v for v in self.description.iter("ScalarVariable")}
-        self.library = ctypes.CDLL(str(place / "binaries" / "linux64" / f"{self.flags['modelIdentifier']}.so"))
+        self.library = ctypes.CDLL(str(place / "binaries" / platform / f"{self.flags['modelIdentifier']}.so"))
 
 
 class Instance:
