@@ -2,14 +2,17 @@
 #pragma once
 /// Kernel of NorSand: backward Euler, with the dilatancy D as unknown. Equations: norsand.h.
 ///
-/// With the trial (P_tr, t_tr) and k = 3 G of the return of t, flow and elasticity give for every D
+/// The elastic trial has P_tr and t_tr. The return of t has the stiffness k = 3 G. Flow and
+/// elasticity give the pressure and the plastic shear of every D.
 ///   P(D) = (P_tr - K D t_tr/k)/(1 - K D eta/k),   Deps_q(D) = (t_tr - eta P)/k
-/// and the hardening, with u = H Deps_q (x^2/x_l - x), leaves one equation
-///   R(D) = P - x P_i (1 + u) = 0  (u >= 0)  or  P (1 - u) - x P_i = 0  (u < 0)
-/// in the bracket from max(D_l, (M - t_tr/P_tr)/(1 - N)), where Deps_q = 0, to M/(1 - N).
-/// R <= 0 already at D_l: the point is on the cone of the limit. R > 0 still at the end: it is at
-/// the tip of the surface, where t = 0, and P solves a linear or quadratic equation.
-/// P(D_l) <= 0: it opens. model() refuses moduli for which a denominator could vanish.
+/// The step hardens by u = H Deps_q (x^2/x_l - x). One equation R(D) = 0 remains.
+///   R = P - x P_i (1 + u) where u >= 0.
+///   R = P (1 - u) - x P_i where u < 0.
+/// Its root lies between the D without flow, max(D_l, (M - t_tr/P_tr)/(1 - N)), and M/(1 - N).
+///
+/// If R <= 0 at D_l, the point is on the cone of the limit. If R > 0 at M/(1 - N), it is at the tip
+/// of the surface, where t = 0 and P solves a linear or quadratic equation. If P(D_l) <= 0, it
+/// opens. model() refuses moduli for which a denominator could vanish.
 
 #include "material/block_update.h"
 #include "material/deviatoric_return.h"
@@ -166,7 +169,9 @@ struct NorSandKernel {
     points.frozen = Lanes(-pt) * compaction;
     points.dissipated = select(yielding, P * compaction + contract(s, gone) * half_compliance, 0.0);
     points.internal[0] = voids;
-    points.internal[1] = max(image, floor / tip);
+    // A selection keeps NaN, which stops the run. The maximum may drop it.
+    const Lanes image_floor = floor / tip;
+    points.internal[1] = select(image < image_floor, image_floor, image);
     points.internal[2] =
         points.internal[2] +
         select(yielding, sqrt(contract(gone, gone) * Lanes(1.0 / 6.0)) / shear, 0.0);
