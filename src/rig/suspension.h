@@ -6,11 +6,10 @@
 
 namespace furrow {
 
-/// The sprung mass m moves vertically. With the heights h of the axle and s of the mass, both from
-/// the start,
-///   F = k (h - s) + c (h' - s'),   m s'' = F - W,
-/// where F presses the axle down and W is the weight that the mass carries. The damper is implicit
-/// in the velocity of the mass; velocities are half a step behind positions.
+/// The sprung mass m moves vertically. The heights h of the axle and s of the mass count from the
+/// start. The force F presses the axle down, and the mass carries the weight W.
+///   F = k (h - s) + c (h' - s'),   m s'' = F - W
+/// The damper is implicit in the velocity of the mass. Velocities are half a step behind positions.
 class Suspension {
  public:
   /// @param stiffness k [N/m]; @param damping c [N s/m]; @param mass m [kg]

@@ -19,15 +19,14 @@
 
 namespace furrow {
 
-/// Stages, one after the other:
-///   settle      x, y and spin held, the load grows smoothly from 0 over load_ramp_time (or the
-///               wheel is lowered to its sinkage); the spin is held so that every run starts to
-///               roll from the same, unturned wheel;
-///   accelerate  x follows speed x ramp; the spin is free (towed), follows the rim speed of the
-///               slip times the same ramp, so that the slip has its value from the first step
-///               (slip), or is driven by torque x ramp (torque);
-///   cruise      everything constant, or along the courses of courses(), whose clock starts here.
-///               Their first values hold before.
+/// The stages follow each other.
+///   settle      x, y and spin are held. The load grows smoothly from 0 over load_ramp_time, or the
+///               wheel comes down to its sinkage. Every run starts to roll from an unturned wheel.
+///   accelerate  x follows speed x ramp. The spin is free (towed), follows the rim speed of the
+///               slip times the same ramp (slip), or is driven by torque x ramp (torque). The slip
+///               thus has its value from the first step.
+///   cruise      Everything is constant, or follows its course. The clock of the courses starts
+///               here, and their first values hold before.
 /// With travel free, x is released when the acceleration begins. Spin or torque and the drawbar
 /// load grow with the ramp; speed and slip result. The mass that the axle drags has inertia.
 ///

@@ -3,16 +3,18 @@
 /// Cohesive cap law of compressible snow: lateral stress, shear strength and compaction curve are
 /// independent. Equations: theory: snow, eqs. 1 to 6.
 ///
-/// Three surfaces, all functions of the volumetric plastic strain:
-///   cap      p^2 + (q/A)^2 = pc^2 at p > 0, q = A pc at p <= 0; pc by the hardening
-///   shear    q = d + p tan(beta), d = d_0 exp(m eps_vol_pl): a power of the density
-///   tension  p = -tension_ratio d
-/// Flow on the cap follows g = sqrt(q^2 + b^2 p^2) of metal foams [Deshpande2000], where
-/// b^2 = 9/2 (1 - 2 nu_p)/(1 + nu_p). The plastic Poisson's ratio nu_p sets K0 = nu_p/(1 - nu_p) in
-/// confined compression unless the shear line limits q; then K0 is larger (eq. 5). Flow on the
-/// shear line keeps the volume, tension opens the material without shear. [Haehnel2004] combines a
-/// shear line and a cap for snow; here the cap has its flow potential and cohesion grows with
-/// density. All plastic work is dissipated.
+/// Three surfaces depend on the volumetric plastic strain. The hardening gives pc of the cap.
+///   p^2 + (q/A)^2 = pc^2 at p > 0, q = A pc at p <= 0
+/// The cohesion of the shear line is a power of the density.
+///   q = d + p tan(beta), d = d_0 exp(m eps_vol_pl)
+/// Tension ends at p = -tension_ratio d.
+///
+/// Flow on the cap follows the potential of metal foams [Deshpande2000].
+///   g = sqrt(q^2 + b^2 p^2), b^2 = 9/2 (1 - 2 nu_p)/(1 + nu_p)
+/// The plastic Poisson's ratio nu_p sets K0 = nu_p/(1 - nu_p) in confined compression. K0 is larger
+/// where the shear line limits q (eq. 5). Flow on the shear line keeps the volume. Tension opens
+/// the material without shear. [Haehnel2004] combines a shear line and a cap for snow. Here the cap
+/// has its own flow potential, and cohesion grows with density. All plastic work is dissipated.
 
 #include "material/material_model.h"
 #include "material/models/cohesive_cap/cohesive_cap_parameters.h"

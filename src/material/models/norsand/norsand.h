@@ -5,18 +5,24 @@
 /// [Jefferies1993], the hardening is that of [Jefferies2005]. Equations: theory: sand, eqs. 1
 /// to 6.
 ///
-/// With P = p + pt, the image pressure P_i, x = P/P_i, the yield measure t of the section
-/// (section.h) and the dilatancy D = d(eps_v)/d(eps_q) of plastic flow, compaction positive:
-///   yield      t = eta P,  eta = M - (1 - N) D,  x = (1 + N D/M)^((1 - N)/N)
-///   flow       associated; D falls from M/(1 - N) at the tip (t = 0) over 0 at the image
-///   limit      D >= D_l = chi_i psi_i,  psi_i = e - e_c(P_i)
-///   hardening  d(ln P_i) = (H - H_psi psi_i) (x^2/x_l - x) d(eps_q),  x_l of D_l
-///   elasticity G = G_ref (P/100 kPa)^n, K = G 2 (1 + nu)/(3 (1 - 2 nu))
-/// so that eta <= M - (1 - N) chi psi. At the limit, x < x_l, the surface is a cone, and P_i falls
-/// by d(ln P_i) = -(H - H_psi psi_i) (1 - x/x_l) d(eps_q). At the tip flow may be volumetric, and
-/// (1 - N) d(eps_v)/M takes the place of d(eps_q). Sand with D_l >= M/(1 - N) is too loose to bear
-/// shear, and compression softens it: so grains that had separated bear a load only after the void
-/// ratio has fallen again.
+/// Pressures count from the tensile strength, P = p + pt. The size of the surface is the image
+/// pressure P_i, and x = P/P_i. The section gives the yield measure t (section.h). D is the
+/// dilatancy d(eps_v)/d(eps_q) of plastic flow, compaction positive.
+///
+/// Yield is at t = eta P.
+///   eta = M - (1 - N) D,  x = (1 + N D/M)^((1 - N)/N)
+/// Flow is associated. D falls from M/(1 - N) at the tip, where t = 0, through 0 at the image.
+/// D is at least D_l, so that eta <= M - (1 - N) chi psi.
+///   D_l = chi_i psi_i,  psi_i = e - e_c(P_i)
+/// The surface hardens with plastic shear; x_l is the x of D_l.
+///   d(ln P_i) = (H - H_psi psi_i) (x^2/x_l - x) d(eps_q)
+/// Elasticity depends on the pressure.
+///   G = G_ref (P/100 kPa)^n,  K = G 2 (1 + nu)/(3 (1 - 2 nu))
+///
+/// At the limit, x < x_l, the surface is a cone. P_i then falls by d(ln P_i) = -(H - H_psi psi_i)
+/// (1 - x/x_l) d(eps_q). At the tip flow may be volumetric, and (1 - N) d(eps_v)/M takes the place
+/// of d(eps_q). Sand with D_l >= M/(1 - N) is too loose to bear shear, and compression softens it.
+/// Grains that had separated thus bear a load only after the void ratio has fallen again.
 ///
 /// psi_i in D_l and H is that of P_i at the start of a step and of the void ratio at its end.
 /// Tension beyond P = 0 opens the sand. The dissipation is (M + N D) P d(eps_q) >= 0; the work
