@@ -12,7 +12,7 @@ from typing import Any
 from ..errors import ResultsError
 from ..programs import find_program, source_tree
 from ..read.script import RESERVED, check_variables
-from ..sweep.cases import continued_script
+from ..sweep.continued import continued_script
 from ..sweep.plan import Plan
 from .catalogue import Variables, head_lines, quick_variables, script_of
 from .choice import Chosen, choose, outcome, table_of

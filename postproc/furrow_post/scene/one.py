@@ -14,7 +14,7 @@ from ..json_text import parse_json
 from ..programs import PACKAGE, find_program
 from ..read.script import script_variables
 from ..study.launch import is_busy
-from ..sweep.cases import CONTINUED, RESULTS, continued_script
+from ..sweep.continued import CONTINUED, RESULTS, continued_script
 from .catalogue import Variables, is_shipped
 from .process import Failed, Runs, Stopped
 from .restart import continuation, write_command

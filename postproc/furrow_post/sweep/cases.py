@@ -16,14 +16,14 @@ from ..read.script import (
 )
 from ..study.case import FOLDER, Case
 from ..study.furrow_cases import script_case
+from .continued import CONTINUED, RESULTS, continued_script
 from .plan import Plan, Point, points_of
-from .values import further_seeds, parse_variables, product, sampled
+from .sampling import sampled
+from .values import further_seeds, parse_variables, product
 
 SEED = "seed"  # the variable of a script that chooses the packing of its grains
-RESULTS = "results"  # the variable of a script that is its results folder
 MOTION = "motion"  # the variable of a script that has the mode of its rig
 DRIVEN = {"slip": "mode slip slip {}", "torque": "mode torque torque {}"}  # values of MOTION
-CONTINUED = "until_steady.lig"  # the script of a run that goes on until it is steady
 
 
 @dataclass(frozen=True)
@@ -139,20 +139,6 @@ def case_of(plan: Plan, point: Point) -> Case:
         # A run until it is steady ends by itself
         time_limit=math.inf if plan.until_steady or not plan.time_limit else plan.time_limit,
     )
-
-
-def continued_script(script: Path, error: float, time_limit: float) -> str:
-    """A script that runs another one, and on until hub drop and resistance are steady.
-
-    @raises ResultsError for a path that LIGGGHTS cannot include
-    """
-    if len(str(script).split()) > 1:
-        raise ResultsError(
-            f"--until-steady: {script} has blanks in its path, from which LIGGGHTS cannot include; "
-            "move it"
-        )
-    limit = f" wall_time {time_limit:.10g}" if time_limit else ""
-    return f"include {script}\nrun_until_steady error {error:.10g}{limit}\n"
 
 
 def _as_word(script: Path, value: str) -> str:

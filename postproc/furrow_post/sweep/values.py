@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from ..errors import ResultsError
 
 HOW = "write NAME=FIRST:LAST:COUNT, or NAME=VALUE,VALUE,..."
-HOW_SAMPLED = "with --samples write NAME=FIRST:LAST"
 MOST_POINTS = 10000
 UNSAFE = re.compile(r"[^A-Za-z0-9.+-]+")  # in the name of a folder
 
@@ -32,7 +31,7 @@ def parse_variable(text: str) -> Variable:
     if not values:
         raise ResultsError(f"--sweep {name} has no values; {HOW}")
     fields = values.split(":")
-    is_range = _number(fields[0]) is not None or re.fullmatch(r"[^/:]+:[^/:]+:\s*\d+\s*", values)
+    is_range = number_of(fields[0]) is not None or re.fullmatch(r"[^/:]+:[^/:]+:\s*\d+\s*", values)
     if len(fields) > 1 and "," not in values and is_range:
         return Variable(name, tuple(_range(name, values, fields)))
     listed = [value.strip() for value in values.split(",")]
@@ -47,7 +46,7 @@ def parse_variable(text: str) -> Variable:
     return Variable(name, tuple(listed))
 
 
-def _number(text: str) -> float | None:
+def number_of(text: str) -> float | None:
     try:
         value = float(text)
     except ValueError:
@@ -57,7 +56,7 @@ def _number(text: str) -> float | None:
 
 def _range(name: str, text: str, fields: Sequence[str]) -> Iterator[str]:
     """@raises ResultsError"""
-    ends = [_number(field) for field in fields[:2]]
+    ends = [number_of(field) for field in fields[:2]]
     if len(fields) != 3 or None in ends:
         raise ResultsError(f"--sweep {name}: '{text}' is no range FIRST:LAST:COUNT; {HOW}")
     first, last = (end for end in ends if end is not None)
@@ -80,42 +79,17 @@ def _range(name: str, text: str, fields: Sequence[str]) -> Iterator[str]:
 def parse_variables(texts: Sequence[str]) -> tuple[Variable, ...]:
     """@raises ResultsError, also for a variable that is given twice or too many points"""
     variables = tuple(map(parse_variable, texts))
-    _require_once([variable.name for variable in variables])
+    require_once([variable.name for variable in variables])
     points = math.prod(len(variable.values) for variable in variables)
     if points > MOST_POINTS:
         raise ResultsError(f"--sweep asks for {points} points; at most {MOST_POINTS}")
     return variables
 
 
-def _require_once(names: Sequence[str]) -> None:
+def require_once(names: Sequence[str]) -> None:
     for name in names:
         if names.count(name) > 1:
             raise ResultsError(f"--sweep {name} is given {names.count(name)} times; give it once")
-
-
-def sampled(texts: Sequence[str], count: int) -> list[dict[str, str]]:
-    """Name -> value of points that fill the box of NAME=FIRST:LAST,... evenly (Halton's sequence).
-
-    A larger count keeps the points of a smaller one. @raises ResultsError
-    """
-    from scipy.stats import qmc  # half a second, which no other command shall pay
-
-    if count > MOST_POINTS:
-        raise ResultsError(f"--samples {count}: at most {MOST_POINTS}")
-    names, boxes = [], []
-    for text in texts:
-        name, _, values = (part.strip() for part in text.partition("="))
-        ends = [end for end in map(_number, values.split(":")) if end is not None]
-        if not name or len(ends) != 2 or values.count(":") != 1 or ends[0] == ends[1]:
-            raise ResultsError(f"--sweep '{text}' is no range of two numbers; {HOW_SAMPLED}")
-        names.append(name)
-        boxes.append((min(ends), max(ends)))
-    _require_once(names)
-    unit = qmc.Halton(len(names), seed=0).random(count)
-    return [
-        {name: f"{low + u * (high - low):.5g}" for name, (low, high), u in zip(names, boxes, row)}
-        for row in unit
-    ]
 
 
 def product(variables: Sequence[Variable]) -> list[dict[str, str]]:
