@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The matrix of tests and materials: two laws, grains and measurements of one snow."""
+"""The matrix of tests and materials: two laws, friction that slip mobilises, grains, measurements."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -18,7 +18,8 @@ from furrow_post.study.output import Output
 from furrow_post.study.runs import Run, Runs
 
 REFERENCE = read_rows(Path(__file__).resolve().parent / "reference.csv")
-LAWS = {"snow": "snow", "clay": "Cam clay"}  # end of a run's name -> legend
+# End of a run's name -> legend. 4 cm: slip length of the contact with the wheel
+LAWS = {"snow": "snow", "clay": "Cam clay", "snow4cm": "snow, 4 cm", "clay4cm": "Cam clay, 4 cm"}
 STRESSES = (10, 50, 100, 200, 500, 1000)  # [kPa] of the oedometer
 PRESSURES = (2, 10, 30)  # [kPa] from all sides
 STEPS, STRAIN = 200, 0.2
@@ -118,6 +119,7 @@ EVALUATIONS: dict[str, Callable[[Run], Values]] = {
     "plate": plate,
     "wheel": wheel,
     "wheel_clay": wheel,
+    "wheel_mobilised": wheel,
 }
 
 
@@ -194,7 +196,7 @@ def draw(laws: dict[str, Values], runs: Runs, target: Path) -> None:
             if found:
                 axes.plot(*zip(*sorted(found)), "o-", color=colour, label=LAWS[law])
         x, y = reference_points(test, quantity, "grains")
-        axes.plot(x, [scale * value for value in y], "s", color=RUN_COLOURS[2], label="grains")
+        axes.plot(x, [scale * value for value in y], "s", color=RUN_COLOURS[4], label="grains")
         axes.set(xlabel=x_label)
         annotate_panel(axes, letters[test], text)
     x, low = reference_points("shear", "strength", "measured")
@@ -207,12 +209,13 @@ def draw(laws: dict[str, Values], runs: Runs, target: Path) -> None:
         if run := runs.one(f"plate_{law}"):
             curve = plate_curve(run.folder)
             axes.plot(1e3 * curve[:, 1], 1e-3 * curve[:, 3], color=colour, label=LAWS[law])
-    for column, marker, colour in (("grains", "s", RUN_COLOURS[2]), ("measured", "*", "k")):
+    for column, marker, colour in (("grains", "s", RUN_COLOURS[4]), ("measured", "*", "k")):
         x, y = reference_points("plate", "pressure", column)
         axes.plot(x, [1e-3 * value for value in y], marker, color=colour, label=column)
     axes.set(xlabel="sinkage, mm", ylim=(0, None))
     annotate_panel(axes, letters["plate"], "pressure of the plate, kPa")
     grid[0, 0].legend()
+    grid[1, 1].legend()
     axes.legend()
     save(figure, target, dpi=110)
 
