@@ -20,6 +20,7 @@ class WheelOnGround {
  public:
   static constexpr double depth = 0.2, radius = 0.37, width = 0.272;  // [m]
   static constexpr double speed = 2.2352;                             // [m/s]
+  static constexpr double mass = 636.0, load = mass * 9.80665;        // [kg], [N]
 
   struct Ground {
     double cell = 0.04, length = 1.6, half_width = 0.4;  ///< [m]
@@ -33,8 +34,8 @@ class WheelOnGround {
       : soil_(terrain(ground), ranks),
         wheel_(parameters()),
         rig_(WheelRig::schema().read(
-                 {"load_mass", "636", "speed", fmt::to_string(speed), "mode", "slip", "slip", "0",
-                  "settle_time", fmt::to_string(settle_time), "load_ramp_time",
+                 {"load_mass", fmt::to_string(mass), "speed", fmt::to_string(speed), "mode", "slip",
+                  "slip", "0", "settle_time", fmt::to_string(settle_time), "load_ramp_time",
                   fmt::to_string(settle_time), "accelerate_time", fmt::to_string(accelerate_time),
                   "ground_level", fmt::to_string(depth), "damping", "3000"}),
              wheel_),
@@ -86,7 +87,7 @@ class WheelOnGround {
     wheel.geometry.diameter = 2.0 * radius;
     wheel.geometry.width = width;
     wheel.geometry.shoulder = 0.051;
-    wheel.hub = {{636.0, 2.15, 1.5}, {0.0, 0.0, depth + radius + 0.005}};
+    wheel.hub = {{mass, 2.15, 1.5}, {0.0, 0.0, depth + radius + 0.005}};
     return wheel;
   }
 
