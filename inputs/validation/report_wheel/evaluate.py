@@ -50,15 +50,22 @@ SERIES = (  # names of runs, look, words of the figure
     ("d_5", "s", "d 5 kPa, zero slip"),
 )
 # run -> the run that it differs from in one thing
+IN_BOTH_CELLS = {  # of 5 cm, and of 10 cm, whose names end with COARSE
+    "absorbing_5": "d_5",
+    "absorbing_30": "d_30",
+    "slide_d5": "d_5",
+    "slide_d30": "d_30",
+    **{f"friction_{name}_d5": "d_5" for name in ("0.1", "0.8", "rough")},
+    **{f"friction_{name}": "d_30" for name in ("0.1", "0.8", "rough")},
+}
+COARSE = "_cell_10"
 EFFECTS = {
     "soft": "base",
     "stiff": "base",
-    "absorbing_5": "d_5",
-    "absorbing_30": "d_30",
+    f"soft{COARSE}": "cell_10",
     "impulse_cell_10": "cell_10",
     "d_30_impulse_cell_10": "d_30_cell_10",
-    **{f"friction_{name}_d5": "d_5" for name in ("0.1", "0.8", "rough")},
-    **{f"friction_{name}": "d_30" for name in ("0.1", "0.8", "rough")},
+    **{f"{run}{end}": f"{base}{end}" for run, base in IN_BOTH_CELLS.items() for end in ("", COARSE)},
 }
 FIELDS = ("d_5", "d_10", "d_20", "d_30")  # runs whose ground is looked into
 
