@@ -20,7 +20,7 @@ namespace {
 [[noreturn]] void refuse(const std::string& difference) {
   throw Error(fmt::format(
       "the installed LIGGGHTS library is not the one that furrow was built for: {}; furrow uses "
-      "the class layout of {}: install libliggghts3 {} of Debian 12",
+      "the class layout of {}: install liggghts {} of Debian 12 or 13",
       difference, liggghts_version, liggghts_version));
 }
 

@@ -92,7 +92,7 @@ FURROW_EXPORTED void LAMMPS::create() {
   const auto original = next_function<void(LAMMPS*)>(symbol::create);
   if (!original) {  // without it there is no instance that check_library() could look at
     std::fprintf(stderr,
-                 "ERROR: the LIGGGHTS library has no %s; install libliggghts3 %s of Debian 12\n",
+                 "ERROR: the LIGGGHTS library has no %s; install liggghts %s of Debian 12 or 13\n",
                  symbol::create, furrow::coupling::liggghts_version);
     MPI_Abort(MPI_COMM_WORLD, 1);
   }

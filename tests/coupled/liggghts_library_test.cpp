@@ -59,7 +59,7 @@ TEST(LiggghtsLibrary, AnotherVersionIsRefusedWithWhatToInstall) {
   }
   scene.lammps().universe->version = version;
   EXPECT_THAT(message, HasSubstr("it calls itself 'Version 3.9.1'"));
-  EXPECT_THAT(message, HasSubstr("install libliggghts3 3.8.0 of Debian 12"));
+  EXPECT_THAT(message, HasSubstr("install liggghts 3.8.0 of Debian 12 or 13"));
 }
 
 /// Of libliggghts-dev 3.8.0+repack1-9 on amd64: a subclass must agree with the library's objects.
