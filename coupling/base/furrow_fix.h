@@ -43,8 +43,8 @@ class FurrowFix : public LAMMPS_NS::Fix, public HasOptions, public UsesFix, publ
   std::string name() const { return name_of(*this); }
   bool must_be_restored() const override { return restart_global && state_needs_options(); }
   /// Keywords with their values, equal for equal numbers, but for those that may change when a run
-  /// is continued.
-  std::vector<std::pair<std::string, std::string>> settings() const;
+  /// is continued. A file that is read may add its contents.
+  virtual std::vector<std::pair<std::string, std::string>> settings() const;
   bool restored() const override { return restored_; }
 
   int setmask() override { return 0; }

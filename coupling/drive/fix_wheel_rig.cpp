@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/checksum.h"
 #include "core/error.h"
 #include "coupling/base/fix_coupled_system.h"
 #include "coupling/liggghts/fixes_of.h"
@@ -49,9 +50,8 @@ Courses table_of(const Options& options) {
 /// A rig is made with the wheel where the script puts it, also when the run continues: lowering,
 /// heading and camber are told from there. A wheel that comes from a restart file then goes back to
 /// the state it had.
-WheelRig make_rig(const Options& options, FixWheelHub& wheel_fix) {
+WheelRig make_rig(const Options& options, FixWheelHub& wheel_fix, const Courses& table) {
   WheelHub& wheel = wheel_fix.hub();
-  const Courses table = table_of(options);
   if (!wheel_fix.state_as_made()) return WheelRig(options, wheel, table);
   Checkpoint now("wheel");
   wheel.checkpoint(now);
@@ -83,9 +83,24 @@ Schema FixWheelRig::schema() {
 FixWheelRig::FixWheelRig(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixRig(lammps, narg, arg, schema()),
       wheel_fix_(find_free_wheel()),
-      rig_(make_rig(options(), wheel_fix_)) {
+      table_(table_of(options())),
+      rig_(make_rig(options(), wheel_fix_, table_)) {
   contribute(static_cast<MotionController&>(*this));
   if (rig_.has_suspension()) keep_state();
+}
+
+std::vector<std::pair<std::string, std::string>> FixWheelRig::settings() const {
+  auto list = FurrowFix::settings();
+  Checksum sum;
+  for (const auto& [target, course] : table_) {
+    sum.add(target.data(), target.size());
+    for (const auto& [time, value] : course.points())
+      for (const double number : {time, value}) sum.add(&number, sizeof number);
+  }
+  for (auto& [key, value] : list)
+    if (key == "table" && !table_.empty())
+      value += fmt::format(" with checksum {:016x}", sum.value());
+  return list;
 }
 
 int FixWheelRig::setmask() { return on_slope() ? LAMMPS_NS::FixConst::POST_FORCE : 0; }

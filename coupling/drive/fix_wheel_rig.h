@@ -23,6 +23,8 @@ class FixWheelRig : public FixRig, public MotionController {
   /// @throws InputError, and nothing has changed
   void change_targets(const std::vector<Entry>& targets);
 
+  /// The table with the checksum of its numbers.
+  std::vector<std::pair<std::string, std::string>> settings() const override;
   const WheelRig& rig() const override { return rig_; }
   FixWheelHub& wheel_fix() const override { return wheel_fix_; }
 
@@ -35,6 +37,7 @@ class FixWheelRig : public FixRig, public MotionController {
   void check_passes();
 
   FixWheelHub& wheel_fix_;
+  const Courses table_;
   WheelRig rig_;
   bool warned_ = false;  // of short ramps
 };

@@ -167,6 +167,15 @@ def belongs_together(furrow, table):
             ("no line", whole.replace(rig, ""),
              ["WARNING: the run of the checkpoint had fix wheel/rig 'rig', and the script that continues has no"], [])):
         table.check(f"with a rig: {name}", run_script(furrow, folder, script), 0, *texts, absent=absent)
+    targets = table.folder / "targets.csv"
+    targets.write_text("time,slip\n0,0\n1,0.2\n")
+    by_table = rig.replace("mode towed", "mode slip table targets.csv")
+    table.check("with targets", run_script(furrow, folder, GRAINS + WHEEL + by_table + "run 10\nwrite_restart ck.targets\n"), 0)
+    whole = CONTINUED.format(file="ck.targets") + WHEEL + by_table + "run 5\n"
+    table.check("with targets: continued", run_script(furrow, folder, whole), 0, absent=["checkpoint was written"])
+    targets.write_text("time,slip\n0,0\n1,0.3\n")
+    table.check("with targets: another table", run_script(furrow, folder, whole), 0,
+                "WARNING: fix wheel/rig 'rig', keyword 'table' is targets.csv with checksum", "and was targets.csv with checksum")
     grains = CONTINUED.format(file="ck unchecked") + "run 5\n"
     table.check("with a wheel: grains alone", run_script(furrow, folder, grains), 0)
 
