@@ -14,6 +14,8 @@ namespace furrow {
 namespace {
 
 constexpr double largest_skew = radians(60);
+// Diameter over width: of rollers and bicycles 0.3 and 30
+const Range usual_shapes = Range::closed(0.05, 100.0);
 
 void check_grousers(const WheelGeometry& wheel, const std::string& where) {
   const Grousers& bars = wheel.grousers;
@@ -46,6 +48,13 @@ void check_grousers(const WheelGeometry& wheel, const std::string& where) {
 void check(const WheelGeometry& wheel, const std::string& where) {
   check_number(wheel.diameter, Range::positive(), where + ", diameter", "m");
   check_number(wheel.width, Range::positive(), where + ", width", "m");
+  if (const double ratio = wheel.diameter / wheel.width; !usual_shapes.contains(ratio))
+    throw InputError(
+        where,
+        fmt::format("has a diameter of {:g} m and a width of {:g} m: a ratio of {:.3g}",
+                    wheel.diameter, wheel.width, ratio),
+        fmt::format("a ratio of {:g} to {:g}", usual_shapes.lower, usual_shapes.upper),
+        "give both in m, not in mm or cm");
   if (!(wheel.shoulder >= 0.0 && wheel.shoulder <= 0.5 * wheel.width &&
         wheel.shoulder < wheel.radius()))
     throw InputError(where, fmt::format("has shoulder {} m", wheel.shoulder),

@@ -290,6 +290,9 @@ TEST(WheelMesh, RefusesImpossibleShapes) {
   wheel = tr_wheel();
   wheel.shoulder = 0.001;
   EXPECT_THAT(refusal_of(wheel), HasSubstr("would have sliver triangles"));
+  wheel = tr_wheel();
+  wheel.diameter = 740.0;
+  EXPECT_THAT(refusal_of(wheel), HasSubstr("has a diameter of 740 m and a width of 0.272 m"));
 }
 
 TEST(WheelMesh, RefusesImpossibleGrousers) {
