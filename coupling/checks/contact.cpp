@@ -12,6 +12,7 @@
 #include "coupling/liggghts/fixes_of.h"
 #include "coupling/bodies/fix_plate_rigid.h"
 #include "coupling/bodies/fix_tyre_brick.h"
+#include "coupling/base/fix_scm.h"
 #include "coupling/base/fix_wheel_hub.h"
 #include "coupling/checks/scene_checks.h"
 #include "domain.h"
@@ -34,6 +35,8 @@ constexpr double longest_window = 30.0, longest_track = 200.0, widest_terrain = 
                  deepest_terrain = 10.0;
 // Of surcharge and weight, either over the other.
 constexpr double surcharge_ratio = 2.0;
+// Force on the steep faces of a wheel along its axle, over the vertical force on the wheel
+constexpr double small_side_force = 0.03;
 
 struct Span {
   double lower, upper;  // [m]
@@ -73,6 +76,21 @@ double cells_within(const Axis& axis, const Span& span) {
     count += std::max(0.0, upper - lower) / axis.length(c);
   }
   return count;
+}
+
+/// @param across, along  cells across a body, and in the radius of a wheel or along a plate
+Found judge_cells(const Options& terrain, const FixBody& body, double across, double along,
+                  const std::string& remedy) {
+  const double fewest = std::min(across, along);
+  if (fewest >= nearly * good_cells) return {};
+  const std::string where = terrain.where("cell");
+  const std::string problem =
+      fmt::format("is {:.4g} m: {:.2g} cells across '{}' and {:.2g} {}", terrain.number("cell"),
+                  across, body.id, along, is_wheel(body) ? "in its radius" : "along it");
+  if (fewest < nearly * min_cells)
+    return refusal(where, problem, fmt::format("at least {:g} of both", min_cells), remedy);
+  return warning(fmt::format("{} {} (recommended: at least {:g}): forces will be coarse; {}", where,
+                             problem, good_cells, remedy));
 }
 
 bool in_a_wall(const LAMMPS_NS::Modify& modify, const FixMeshBody& mesh) {
@@ -298,19 +316,47 @@ Found cells_show_the_body(const Scene&, FixContactContinuum& contact) {
   // Half of the ground has half of the cells.
   const double across =
       (pair.terrain.half_model() ? 2.0 : 1.0) * cells_within(grid.axis(1), pair.body_y);
-  const bool wheel = is_wheel(pair.body);
-  const double along = (wheel ? 0.5 : 1.0) * pair.body_x.length() / grid.axis(0).shortest();
-  const double fewest = std::min(across, along);
-  if (fewest >= nearly * good_cells) return {};
-  const std::string where = pair.terrain.options().where("cell");
-  const std::string problem = fmt::format(
-      "is {:.4g} m: {:.2g} cells across '{}' and {:.2g} {}", pair.terrain.options().number("cell"),
-      across, pair.body.id, along, wheel ? "in its radius" : "along it");
-  const std::string remedy = "choose smaller cells, and a larger fine_width if there is one";
-  if (fewest < nearly * min_cells)
-    return refusal(where, problem, fmt::format("at least {:g} of both", min_cells), remedy);
-  return warning(fmt::format("{} {} (recommended: at least {:g}): forces will be coarse; {}", where,
-                             problem, good_cells, remedy));
+  const double along =
+      (is_wheel(pair.body) ? 0.5 : 1.0) * pair.body_x.length() / grid.axis(0).shortest();
+  return judge_cells(pair.terrain.options(), pair.body, across, along,
+                     "choose smaller cells, and a larger fine_width if there is one");
+}
+
+Found cells_of_the_field_show_the_body(const Scene&, FixContactScm& contact) {
+  const FixBody& body = contact.body_fix();
+  const Options& options = contact.terrain_fix().options();
+  const auto [lower, upper] = body.body().surface().bounds();
+  const Vector3 cells = (upper - lower) / options.number("cell");
+  return judge_cells(options, body, (body.body().half_model() ? 2.0 : 1.0) * cells.y(),
+                     (is_wheel(body) ? 0.5 : 1.0) * cells.x(), "choose smaller cells, in m");
+}
+
+Found wheel_on_a_field_has_no_camber(const Scene& scene, FixContactScm& contact) {
+  for (const DrivenBody& driven : driven_bodies(*scene.lammps.modify))
+    if (&driven.body == &contact.body_fix() && driven.options.has("camber") &&
+        driven.options.number("camber") != 0.0)
+      return refusal(
+          driven.options.where("camber"),
+          fmt::format("is {:g} degrees, and '{}' stands on '{}': the soil contact model "
+                      "does not compute the force on its lower side",
+                      driven.options.number("camber"), driven.body.id, contact.terrain_fix().id),
+          "0 degrees", "use terrain/continuum or grains for a wheel with camber");
+  return {};
+}
+
+Found sides_on_a_field_carry_little(const Scene&, FixContactScm& contact) {
+  const auto* wheel = dynamic_cast<const WheelHub*>(&contact.body_fix().body());
+  if (!wheel || wheel->half_model()) return {};
+  const ScmContact::Step& step = contact.contact().step();
+  if (std::abs(step.of_steep_faces.dot(wheel->axle())) <= small_side_force * step.force.z())
+    return {};
+  const std::string finding = fmt::format("{}: steep faces of '{}' lie in the soil",
+                                          contact.options().subject(), contact.body_fix().id);
+  return warning(fmt::format(
+      "{}, and their force along the axle is more than {:g} of the vertical force; the soil "
+      "contact model does not compute it, so lateral forces are wrong; remove camber, use a "
+      "mesh with upright sides, or terrain/continuum",
+      finding, small_side_force));
 }
 
 /// A wheel may stand over an end of the ground, but not over its side.

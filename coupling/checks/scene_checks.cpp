@@ -107,6 +107,8 @@ constexpr Rule rules[] = {
     rule<terrain_is_long_enough>(When::before_run),
     rule<terrain_has_the_size_of_a_wheels>(When::before_run),
     rule<cells_show_the_body>(When::before_run),
+    rule<cells_of_the_field_show_the_body>(When::before_run),
+    rule<wheel_on_a_field_has_no_camber>(When::before_run),
     rule<body_is_over_terrain>(When::before_run),
     rule<cells_enter_grooves>(When::before_run),
     rule<turning_plate_has_whole_terrain>(When::before_run),
@@ -129,6 +131,7 @@ constexpr Rule rules[] = {
     rule<grains_have_a_floor>(When::first_step),
     rule<body_stays_off_the_surface_mesh>(When::during_run),
     rule<body_stays_off_the_base>(When::during_run),
+    rule<sides_on_a_field_carry_little>(When::during_run),
 
     rule<grains_stay_in_the_box>(When::after_run),
 };

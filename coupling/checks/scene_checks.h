@@ -17,6 +17,7 @@
 #include "coupling/contact/fix_mesh_body.h"
 #include "coupling/contact/fix_contact_continuum.h"
 #include "coupling/contact/fix_contact_plane.h"
+#include "coupling/contact/fix_contact_scm.h"
 #include "coupling/contact/fix_wall_gran_body.h"
 #include "coupling/base/fix_terrain.h"
 #include "coupling/grains/fix_grain_work.h"
@@ -142,6 +143,12 @@ Found terrain_is_long_enough(const Scene& scene, FixContactContinuum& contact);
 /// Centimetres for metres.
 Found terrain_has_the_size_of_a_wheels(const Scene& scene, FixContactContinuum& contact);
 Found cells_show_the_body(const Scene& scene, FixContactContinuum& contact);
+Found cells_of_the_field_show_the_body(const Scene& scene, FixContactScm& contact);
+/// The soil contact model has no pressure on upright faces. With camber a side of a wheel is not
+/// upright.
+Found wheel_on_a_field_has_no_camber(const Scene& scene, FixContactScm& contact);
+/// During a run: does soil at the sides of a wheel push it along its axle?
+Found sides_on_a_field_carry_little(const Scene& scene, FixContactScm& contact);
 Found body_is_over_terrain(const Scene& scene, FixContactContinuum& contact);
 Found cells_enter_grooves(const Scene& scene, FixContactContinuum& contact);
 Found turning_plate_has_whole_terrain(const Scene& scene, FixContactContinuum& contact);

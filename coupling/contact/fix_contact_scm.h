@@ -17,6 +17,7 @@ class FixContactScm : public FixContact {
   static const Outputs<FixContactScm>& outputs();
 
   const FixScm& terrain_fix() const { return terrain_fix_; }
+  const ScmContact& contact() const { return contact_; }
   void add_losses(const Body& wheel, GroundLosses& losses) const override;
   void init() override {
     collectively([&] { check_stability(); });

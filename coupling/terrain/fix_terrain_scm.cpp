@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "comm.h"
+#include "coupling/liggghts/script.h"
 #include "coupling/liggghts/style_registry.h"
 
 namespace furrow::coupling {
@@ -21,6 +22,8 @@ Schema FixTerrainScm::schema() {
 
 FixTerrainScm::FixTerrainScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg)
     : FixScm(lammps, narg, arg, schema()) {
+  for (const std::string& doubt : doubts(soil()))
+    warn(*lmp, fmt::format("{}: {}", options().subject(), doubt));
   if (comm->me == 0 && screen)
     fmt::print(screen, "Height field: {} x {} cells of {:.4g} m, z = {:.4g} m\n", field().columns(),
                field().rows(), field().cell(), field().parameters().level);

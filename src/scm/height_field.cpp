@@ -50,6 +50,11 @@ HeightField::HeightField(const HeightFieldParameters& parameters, const std::str
   check(parameters.length, "length");
   check(parameters.width, "width");
   check(parameters.cell, "cell");
+  const double side = std::min(parameters.length, parameters.width);
+  need(parameters.cell <= side, where + ", keyword 'cell'",
+       fmt::format("is {:g} m, and the ground {:g} m x {:g} m", parameters.cell, parameters.length,
+                   parameters.width),
+       fmt::format("at most {:g} m", side), "give all in m, and at least 4 cells across a wheel");
   const double count = parameters.length / parameters.cell * (parameters.width / parameters.cell);
   need(count <= most_cells, where + ", keyword 'cell'",
        fmt::format("is {:g} m, which makes {:.3g} cells", parameters.cell, count),

@@ -12,6 +12,8 @@ namespace furrow {
 namespace {
 
 constexpr double full = 1.0 - 1e-9;  // of the area of a cell
+// Of a face to the horizontal. Of steeper ones the footprint takes the foot only.
+constexpr double steepest_slope = 3.0;
 
 }  // namespace
 
@@ -150,6 +152,7 @@ void ScmContact::shear_triangle(std::size_t first, std::size_t end, double dt) {
   const Vector3 vector = surface.area_vector(static_cast<std::size_t>(triangle));
   const Vector3 normal = vector.normalized();
   const double slope = 1.0 / std::abs(normal.z());  // area over that seen from above
+  const bool steep = slope > std::hypot(1.0, steepest_slope);
   double area = 0.0;
   Vector3 velocity = Vector3::Zero();
   for (std::size_t p = first; p < end; ++p) {
@@ -185,6 +188,7 @@ void ScmContact::shear_triangle(std::size_t first, std::size_t end, double dt) {
     surface.f.col(nodes[1]) += b * force;
     surface.f.col(nodes[2]) += c * force;
     step_.force += force;
+    if (steep) step_.of_steep_faces += force;
     losses_.shear -= shear_force.dot(moving) * dt;
     if (record)
       record->add(place_of(p, surface.x), (body_.half_model() ? 2.0 : 1.0) * force, moving, dt);

@@ -23,12 +23,13 @@ class ScmContact : public Contact {
   };
   /// Of the last apply(); of a half model, of the half.
   struct Step {
-    Vector3 force = Vector3::Zero();  ///< on the body [N]
-    double area = 0.0;                ///< in contact, seen from above [m^2]
-    double width = 0.0;               ///< b in k_c/b [m]; 0 without contact or k_c
-    double pressure = 0.0;            ///< largest [Pa]
-    double sinkage = 0.0;             ///< largest [m]
-    double stored = 0.0;              ///< elastic energy of the soil below the body [J]
+    Vector3 force = Vector3::Zero();           ///< on the body [N]
+    double area = 0.0;                         ///< in contact, seen from above [m^2]
+    double width = 0.0;                        ///< b in k_c/b [m]; 0 without contact or k_c
+    double pressure = 0.0;                     ///< largest [Pa]
+    double sinkage = 0.0;                      ///< largest [m]
+    double stored = 0.0;                       ///< elastic energy of the soil below the body [J]
+    Vector3 of_steep_faces = Vector3::Zero();  ///< part of the force [N]; not in checkpoints
   };
   /// Since the start; of a half model, of the half [J].
   struct Losses {

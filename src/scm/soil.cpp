@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "scm/soil.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "core/check_number.h"
@@ -11,8 +13,17 @@ namespace furrow {
 
 namespace {
 
-constexpr double largest_angle = 60.0;  // degrees
+constexpr double least_angle = 2.0, largest_angle = 60.0;  // degrees
 const Range exponents{0.0, 3.0, true, false};
+// Soils of [Wong2008] and snow, by a wide margin: c to 7e4 Pa, K to 0.04 m
+const Range cohesions = Range::closed(0.0, 5e5), shear_lengths{0.0, 0.3, true, false};
+constexpr double least_cohesion = 20.0;  // [Pa]
+// Bekker's pressure at this sinkage under a contact of this width [m]: snow has 2 kPa, heavy clay
+// 1.1 MPa [Wong2008]; 10 times less and more
+constexpr double usual_sinkage = 0.05, usual_width = 0.1;
+const Range pressures = Range::closed(200.0, 1e7);
+constexpr double least_modulus = 1e4;  // [N/m^(n+2)] of k_phi; snow has 6.6e4 [Wong2008]
+constexpr char si_of_modulus[] = "give N/m^(n+2), not kN/m^(n+2) or MN/m^(n+2)";
 
 }  // namespace
 
@@ -42,13 +53,12 @@ void declare_soil(Schema& schema) {
   schema.number("k_c", "N/m^(n+1)", Range::any(), "Bekker's cohesive modulus").by_default(0.0);
   schema.number("k_phi", "N/m^(n+2)", Range::any(), "Bekker's frictional modulus").optional();
   schema.number("n", "", exponents, "Bekker's exponent of the sinkage").optional();
-  schema.number("c", "Pa", Range::non_negative(), "cohesion").optional();
+  schema.number("c", "Pa", cohesions, "cohesion").optional();
   schema
       .number("phi", "degrees", Range::closed(0.0, largest_angle),
-              "angle of internal friction, and of repose of the soil at the sides")
+              "angle of internal friction, and of repose of the soil at the sides; 0, or 2 or more")
       .optional();
-  schema.number("K", "m", Range::positive(), "shear displacement of Janosi and Hanamoto")
-      .optional();
+  schema.number("K", "m", shear_lengths, "shear displacement of Janosi and Hanamoto").optional();
   schema
       .number("stiffness", "Pa/m", Range::positive(),
               "pressure per elastic sinkage, of unloading and reloading")
@@ -60,6 +70,46 @@ void declare_soil(Schema& schema) {
               "share of the displaced volume that moves to the sides of the rut")
       .by_default(0.0);
 }
+
+namespace {
+
+/// @throws InputError for values that only another unit explains
+/// @param where names the source of a key
+template <class Where>
+void check_plausible(const Soil& soil, Where where) {
+  const double angle = degrees(soil.friction_angle);
+  if (angle > 0.0 && angle < least_angle)
+    throw InputError(where("phi"), fmt::format("is {:g} degrees", angle),
+                     fmt::format("0, or {:g} to {:g} degrees", least_angle, largest_angle),
+                     "give degrees, not radians");
+  if (soil.k_phi > 0.0 && soil.k_phi < least_modulus)
+    throw InputError(
+        where("k_phi"), fmt::format("is {:g} N/m^(n+2)", soil.k_phi),
+        fmt::format("at least {:g} N/m^(n+2), or below 0 for a large k_c", least_modulus),
+        si_of_modulus);
+  const double modulus = soil.k_c / usual_width + soil.k_phi;
+  if (modulus <= 0.0) return;  // refused during the run, where the width is known
+  const double pressure = modulus * std::pow(usual_sinkage, soil.n);
+  if (!pressures.contains(pressure))
+    throw InputError(
+        where("k_phi"),
+        fmt::format("is {:g}, and k_c {:g} and n {:g}: a pressure of {:.3g} Pa at a "
+                    "sinkage of {:g} m under a contact {:g} m wide",
+                    soil.k_phi, soil.k_c, soil.n, pressure, usual_sinkage, usual_width),
+        fmt::format("a pressure of {:g} to {:g} Pa, from snow to heavy clay", pressures.lower,
+                    pressures.upper),
+        si_of_modulus);
+  const double least_stiffness = pressure / usual_sinkage;
+  if (soil.stiffness < least_stiffness)
+    throw InputError(
+        where("stiffness"), fmt::format("is {:g} Pa/m", soil.stiffness),
+        fmt::format("at least {:.3g} Pa/m for this soil, which has {:.3g} Pa at a sinkage of "
+                    "{:g} m and would spring back by more than that",
+                    least_stiffness, pressure, usual_sinkage),
+        "give Pa/m, not kPa/m");
+}
+
+}  // namespace
 
 Soil soil_from(const Options& options, const std::map<std::string, double>& card) {
   const auto value = [&](const char* key) {
@@ -80,6 +130,10 @@ Soil soil_from(const Options& options, const std::map<std::string, double>& card
   soil.damping = value("damping");
   soil.flow = value("flow");
   check(soil, options.subject());
+  check_plausible(soil, [&](const char* key) {
+    return options.given(key) || !card.count(key) ? options.where(key)
+                                                  : fmt::format("soil card, {}", key);
+  });
   return soil;
 }
 
@@ -88,14 +142,21 @@ void check(const Soil& soil, const std::string& where) {
     check_number(value, range, fmt::format("{}, {}", where, name), unit);
   };
   in(soil.n, exponents, "n", "");
-  in(soil.cohesion, Range::non_negative(), "cohesion", "Pa");
+  in(soil.cohesion, cohesions, "cohesion", "Pa");
   in(soil.friction_angle, Range::closed(0.0, radians(largest_angle)), "friction angle", "rad");
-  in(soil.shear_length, Range::positive(), "K", "m");
+  in(soil.shear_length, shear_lengths, "K", "m");
   in(soil.stiffness, Range::positive(), "stiffness", "Pa/m");
   in(soil.damping, Range::non_negative(), "damping", "Pa s/m");
   in(soil.flow, Range::closed(0.0, 1.0), "flow", "");
   need(soil.k_c > 0.0 || soil.k_phi > 0.0, where, "has neither 'k_c' nor 'k_phi' above 0",
        "a soil that resists", "give 'k_phi'");
+}
+
+std::vector<std::string> doubts(const Soil& soil) {
+  if (soil.cohesion == 0.0 || soil.cohesion >= least_cohesion) return {};
+  return {
+      fmt::format("the cohesion c is {:g} Pa; soils have 0, or {:g} Pa and more; give Pa, not kPa",
+                  soil.cohesion, least_cohesion)};
 }
 
 }  // namespace furrow

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/checkpoint.h"
 #include "core/options.h"
@@ -31,9 +32,11 @@ struct Soil {
 /// The keys of a soil; angles in degrees.
 void declare_soil(Schema& schema);
 /// @param card  values by the same keys, for those that are not given
-/// @throws InputError for a key that neither has
+/// @throws InputError for a key that neither has, and for values that no soil has
 Soil soil_from(const Options& options, const std::map<std::string, double>& card = {});
 /// @throws InputError for values out of range @param where names the soil
 void check(const Soil& soil, const std::string& where);
+/// Warnings of values that are unusual for soils, a sentence each.
+std::vector<std::string> doubts(const Soil& soil);
 
 }  // namespace furrow

@@ -199,7 +199,38 @@ TEST(ScmPlate, LineOfASoilHasPriorityOverItsCard) {
   EXPECT_THROW(soil_from(schema.read(words), {{"n", 1.1}}), InputError);
 }
 
+TEST(ScmPlate, ValuesInOtherUnitsAreRefusedOrDoubted) {
+  Schema schema("soil");
+  declare_soil(schema);
+  const std::vector<std::string> none;
+  const std::map<std::string, double> sand = {{"k_c", 15600.0}, {"k_phi", 2407400.0},
+                                              {"n", 1.1},       {"c", 250.0},
+                                              {"phi", 31.9},    {"K", 0.0114}};
+  EXPECT_TRUE(doubts(soil_from(schema.read(none), sand)).empty());
+  EXPECT_EQ(doubts(soil_from(schema.read(std::vector<std::string>{"c", "0.25"}), sand)).size(), 1u);
+  for (const auto& [key, value] : std::map<std::string, double>{
+           {"k_phi", 2407.4}, {"phi", 0.557}, {"K", 11.4}, {"c", 2.5e6}, {"stiffness", 1e5}}) {
+    auto other = sand;
+    other[key] = value;
+    EXPECT_THROW(soil_from(schema.read(none), other), InputError) << key;
+  }
+  // snow and heavy clay of [Wong2008]
+  soil_from(schema.read(none), {{"k_c", 4370.0},
+                                {"k_phi", 196720.0},
+                                {"n", 1.6},
+                                {"c", 1030.0},
+                                {"phi", 19.7},
+                                {"K", 0.04}});
+  soil_from(schema.read(none), {{"k_c", 12700.0},
+                                {"k_phi", 1555950.0},
+                                {"n", 0.13},
+                                {"c", 68950.0},
+                                {"phi", 34.0},
+                                {"K", 0.01}});
+}
+
 TEST(ScmPlate, FieldsThatCannotBeAreRefused) {
+  EXPECT_THROW(HeightField({0.6, 0.1, Vector2::Zero(), 0.0, 0.2}), InputError);
   EXPECT_THROW(HeightField({0.6, -0.6, Vector2::Zero(), 0.0, 0.02}), InputError);
   EXPECT_THROW(HeightField({6e3, 6e3, Vector2::Zero(), 0.0, 0.02}), InputError);
   Soil soil = loam();

@@ -203,5 +203,22 @@ TEST(ScmWheel, SecondPassIsShallower) {
   EXPECT_LT(drop[2] - drop[1], drop[1] - drop[0]);
 }
 
+/// Upright sides have no pressure. With any camber the lower side does: its force is reported.
+TEST(ScmWheel, ForceOfSteepFacesIsThatAlongTheAxle) {
+  const auto after = [](double camber) {
+    Rolling rolling(without_shear(), 0.01, 0.0, 180);
+    rolling.wheel.place(rolling.wheel.centre(), 0.0, camber);
+    rolling.roll(100, 2.5e-4);
+    const Vector3 axle = rolling.wheel.axle();
+    const ScmContact::Step& step = rolling.contact.step();
+    return Vector3(step.of_steep_faces.dot(axle), step.force.dot(axle), step.force.z());
+  };
+  const Vector3 upright = after(0.0), cambered = after(1e-4);
+  EXPECT_EQ(upright[0], 0.0);
+  EXPECT_NEAR(upright[1], 0.0, 1e-12 * upright[2]);
+  EXPECT_GT(std::abs(cambered[0]), 0.1 * cambered[2]);
+  EXPECT_NEAR(cambered[0], cambered[1], 1e-3 * cambered[2]);
+}
+
 }  // namespace
 }  // namespace furrow
