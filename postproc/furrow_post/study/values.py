@@ -123,6 +123,7 @@ class Value:
     id: str
     stored: Stored | None = None
     error: float | Stored | tuple[Part, ...] | None = None  # standard error, of parts their root sum square
+    over: Stored | None = None  # divides the stored number: the value is a ratio
     next: Stored | None = None  # the same with the next size of cells: its distance is the error
     unit: str = ""
     place: str = ""  # page, table or figure of the source
@@ -148,7 +149,9 @@ class Value:
         return self.id.partition(".")[0]
 
     def computed(self, folder: Path | None = None) -> float | None:
-        return self.stored.read(folder) if self.stored else None
+        if self.stored is None:
+            return None
+        return self.stored.read(folder) / (self.over.read(folder) if self.over else 1.0)
 
     def uncertainty(self) -> float | None:
         """Standard error of the computed value; None where it is not known."""
@@ -310,13 +313,15 @@ class _Reader:
         given["stored"] = stored
         if isinstance(given.get("error"), Sequence) and not isinstance(given["error"], str):
             given["error"] = tuple(self.part(entry, stored, where) for entry in given["error"])
-        for key in ("error", "next", "reference", "cost"):
+        for key in ("error", "over", "next", "reference", "cost"):
             if key in given and not isinstance(given[key], tuple) and not isinstance(given[key], (int, float)):
                 one = self.stored(given[key], stored, f"{where}: {key}")
                 if key == "cost" and isinstance(given[key], str):  # in seconds, whatever the value
                     one = Stored(one.table, one.row, one.column)
                 given[key] = one
         value = Value(**given)
+        if value.over and value.next:
+            raise ResultsError(f"{where}: next is no error of a ratio; give error in place of it")
         for key, allowed in (("label", LABELS), ("reference_of", ("", *REFERENCES)),
                              ("limit", ("", "upper", "lower")), ("without", VERDICTS)):
             if getattr(value, key) not in allowed:

@@ -93,6 +93,13 @@ class EntryTest(unittest.TestCase):
         self.assertAlmostEqual(value.uncertainty() or 0, 0.66)
         self.assertEqual(value.verdict(), "agrees")
 
+    def test_a_ratio_divides_two_stored_numbers(self) -> None:
+        value = self.value(", over: {row: {run: b}, scale: 1}, reference: 90, reference_of: report")
+        self.assertAlmostEqual(value.computed() or 0, 12.34 / 0.130)
+        self.assertEqual(value.row()["error"], "not estimated")
+        with self.assertRaisesRegex(ResultsError, "next is no error of a ratio"):
+            self.value(", over: {row: {run: b}}, next: {row: {run: b}}")
+
     def test_parts_of_an_error_add_as_their_squares(self) -> None:
         parts = "{of: time average, column: e}, {of: cells, between: [{row: {run: a}}, {row: {run: b}}]}"
         value = self.value(f", error: [{parts}]")
