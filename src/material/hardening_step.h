@@ -18,6 +18,17 @@ struct ReturnedPoint {
   Mask yielding;
 };
 
+/// Viscous overstress (theory: snow, eq. 7): the share of the return that fits into the step. The
+/// state at its end stays beyond the yield surface. A sudden step is elastic.
+FURROW_INLINE void delay_return(double relaxation_time, double time_step, const Lanes& dv,
+                                const ElasticStep& elastic, const Symmetric& s_trial,
+                                ReturnedPoint& end) {
+  const Lanes share = time_step / (relaxation_time + time_step);
+  end.deviator = s_trial + (end.deviator - s_trial) * share;
+  end.compaction = end.compaction * share;
+  end.p = select(end.yielding, elastic.pressure(dv - end.compaction), end.p);
+}
+
 /// Energies, stress and internal variables: the volumetric plastic strain, which the hardening
 /// reads, and the equivalent one of the deviator.
 FURROW_INLINE void end_hardening_step(const Symmetric& strain, const ElasticStep& elastic,

@@ -351,7 +351,7 @@ TEST_P(MaterialConformance, EquivalentPlasticStrainIsWhatElasticityDoesNotTake) 
     for (int k = 0; k < 6; ++k) strain[k] = strain_scale(state) * normal_(engine_);
     strain.head<3>().array() -= 0.3 * strain_scale(state);
     const VectorX before = state;
-    update(stretch(strain), state, 0.0);
+    update(stretch(strain), state, time_step_);
     const Matrix3 plastic = deviator(strain) - deviator(stress_of(state) - stress_of(before)) /
                                                    (2 * material_->moduli(before).shear);
     const double part = std::sqrt(2.0 / 3.0) * plastic.norm();

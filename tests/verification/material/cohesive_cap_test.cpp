@@ -22,7 +22,8 @@ double strength(double eps) { return first_strength * std::exp(growth * eps); }
 struct Snow {
   double nu_p = 0.1, d = 2e3, exponent = 3, beta = 30, tension = 0.2;
   double E = 1e10;
-  double aspect = 0;  ///< 0: associated
+  double aspect = 0;      ///< 0: associated
+  double relaxation = 0;  ///< [s]
 
   double tan_beta() const { return std::tan(radians(beta)); }
   double flow() const { return 4.5 * (1 - 2 * nu_p) / (1 + nu_p); }
@@ -37,6 +38,7 @@ struct Snow {
         "eps_vol_pl 0 1 interpolation log beyond extrapolate",
         density, nu_p, d, density, exponent, beta, tension, eps, E, first_strength, strength(1));
     if (aspect > 0) text += fmt::format(" aspect {}", aspect);
+    if (relaxation > 0) text += fmt::format(" relaxation_time {:.17g}", relaxation);
     return material_of(text);
   }
 };
@@ -171,6 +173,47 @@ TEST(CohesiveCapClosedForm, UniaxialTension) {
       const Branch expected = tension < 0.3 ? Branch::tension : Branch::shear;
       EXPECT_EQ(branch, share > 1 ? expected : Branch::elastic) << tension;
     }
+  }
+}
+
+/// Simple shear at a constant rate, then at rest: the overstress approaches 2 G t e' and decays,
+/// both with the relaxation time t.
+TEST(CohesiveCapClosedForm, OverstressInShearGrowsAndRelaxesExponentially) {
+  Snow snow;
+  snow.beta = 0;
+  snow.E = 1e8;
+  snow.relaxation = 0.02;
+  const double eps = 0.6, shear = snow.E / 2.4, limit = snow.cohesion(eps) / std::sqrt(3);
+  const auto material = snow.material(eps);
+  EXPECT_TRUE(material->rate_dependent());
+  EXPECT_FALSE(Snow{}.material()->rate_dependent());
+  const int steps = 500;  // per relaxation time
+  const double dt = snow.relaxation / steps, strain = limit / (2 * shear) / steps;
+  VectorX state = material->initial_state();
+  for (int step = 0; step < 4 * steps; ++step)  // yields after one relaxation time
+    material->update_point(stretch(strain_of(0, 0, 0, strain)), state, nullptr, dt);
+  EXPECT_NEAR(state[field::stress + 5] / limit, 2 - std::exp(-3.0), 1e-3);
+  for (int step = 0; step < steps; ++step)
+    material->update_point(Matrix3::Zero(), state, nullptr, dt);
+  EXPECT_NEAR(state[field::stress + 5] / limit, 1 + (1 - std::exp(-3.0)) * std::exp(-1.0), 1e-3);
+  EXPECT_NEAR(eps_of(state), eps, 1e-14);
+}
+
+/// Confined compression at a constant rate: the elastic stress of t e' adds to the strength.
+TEST(CohesiveCapClosedForm, OverstressInConfinedCompressionIsProportionalToTheRate) {
+  for (const double rate : {0.1, 1.0, 10.0}) {
+    Snow snow{0.1, 1e6, 9, 30, 0.2, 1e10};
+    snow.relaxation = 2e-6;
+    const auto material = snow.material();
+    VectorX state = material->initial_state();
+    for (int step = 0; step < 400; ++step)
+      material->update_point(stretch(strain_of(0, 0, -1e-3)), state, nullptr, 1e-3 / rate);
+    const double slope = 2.0 / 3.0 * snow.flow(), A = snow.A();
+    const double p = strength(eps_of(state)) / std::hypot(1.0, slope / A);
+    const double modulus = snow.E * 0.8 / (1.2 * 0.6), lateral = 0.25 * modulus;
+    const double over = snow.relaxation * rate;
+    EXPECT_NEAR(-state[2] / (p * (1 + 2 * slope / 3) + modulus * over), 1.0, 2e-4) << rate;
+    EXPECT_NEAR(-state[0] / (p * (1 - slope / 3) + lateral * over), 1.0, 2e-4) << rate;
   }
 }
 

@@ -28,6 +28,7 @@ std::unique_ptr<Material> create_cohesive_cap(const MaterialOptions& sections) {
   parameters.tan_beta = std::tan(radians(o.number("beta")));
   parameters.tension = o.number("tension_ratio");
   parameters.growth = o.number("d_exponent");
+  parameters.relaxation = o.number("relaxation_time");
   parameters.d = o.number("d") * std::pow(density / o.number("d_density"), parameters.growth);
   if (parameters.tension * parameters.tan_beta > 1.0)
     throw InputError(o.where("tension_ratio"), fmt::format("is {:g}", parameters.tension),
@@ -64,6 +65,10 @@ MaterialModel CohesiveCap::model() {
       .number("eps_vol_pl_0", "", Range::any(),
               "initial volumetric plastic strain, compression positive")
       .by_default(0.0);
+  schema
+      .number("relaxation_time", "s", Range::non_negative(),
+              "relaxation time of the viscous overstress; 0: strength without rate")
+      .by_default(0.0);
   MaterialModel model;
   model.name = "cohesive_cap";
   model.meaning = "compressible snow: K0, cohesion over density and compaction curve independent";
@@ -79,6 +84,7 @@ MaterialModel CohesiveCap::model() {
       "eps_vol_pl_0 0.3 elasticity porous elasticity.kappa 0.005 elasticity.e0 3.5 "
       "elasticity.p0 10 pt_el 1e3 nu 0.3 "
       "hardening exponential pc0 113.76 lambda 0.35 hardening.kappa 0.005 hardening.e0 3.5"};
+  model.examples.push_back(model.examples.front() + " relaxation_time 1e-3");
   return model;
 }
 

@@ -15,6 +15,8 @@
 /// where the shear line limits q (eq. 5). Flow on the shear line keeps the volume. Tension opens
 /// the material without shear. [Haehnel2004] combines a shear line and a cap for snow. Here the cap
 /// has its own flow potential, and cohesion grows with density. All plastic work is dissipated.
+///
+/// With a relaxation time the stress may be beyond the surfaces for a time (eq. 7).
 
 #include "material/material_model.h"
 #include "material/models/cohesive_cap/cohesive_cap_parameters.h"
@@ -34,6 +36,7 @@ class CohesiveCap : public Material {
   UpdateReport update_block(const PointBlock& block) const override;
   ElasticModuli moduli(const VectorX& state) const override;
   double largest_wave_speed(const PointBlock& block) const override;
+  bool rate_dependent() const override { return parameters_.relaxation > 0.0; }
   double yield_function(const VectorX& state) const override;
   double stress_scale(const VectorX& state) const override;
   std::vector<Vector2> yield_surface(const VectorX& state, std::size_t points = 200) const override;

@@ -116,8 +116,10 @@ struct CohesiveCapKernel {
           select(opening, double(Branch::tension), double(Branch::cap));
     }
     const Lanes scale = select(yielding, q / max(q_trial, 1e-290), 1.0);
-    end_hardening_step(strain, elastic, s_trial, {s_trial * scale, p, compaction, 0.0, yielding},
-                       hardening, points);
+    ReturnedPoint end{s_trial * scale, p, compaction, 0.0, yielding};
+    if (parameters.relaxation > 0.0)
+      delay_return(parameters.relaxation, points.time_step, dv, elastic, s_trial, end);
+    end_hardening_step(strain, elastic, s_trial, end, hardening, points);
   }
 };
 

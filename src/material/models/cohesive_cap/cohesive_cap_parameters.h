@@ -18,6 +18,7 @@ struct CohesiveCapParameters {
   double tension = 0.0;   ///< hydrostatic tensile strength over d
   double d = 0.0;         ///< intercept of the shear line at eps_vol_pl = 0 [Pa]
   double growth = 0.0;    ///< m of d exp(m eps_vol_pl)
+  double relaxation = 0;  ///< relaxation time of the overstress [s]; 0: none
 };
 
 /// Kernels of cohesive_cap_kernel.h.
