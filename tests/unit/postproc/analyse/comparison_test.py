@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Verdicts on two values, the verdict on all of them, and what pure functions leave alone."""
 
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -18,6 +17,7 @@ from furrow_post.errors import ResultsError
 from furrow_post.read.results import Results, Surface
 from furrow_post.read.summary import SteadyValue
 from furrow_post.read.wheel_run import Condition, WheelRun, read_wheel_run
+from support.folder import FolderTest
 from support.runs import write_run
 from support.tables import CONTINUUM, row
 
@@ -97,14 +97,7 @@ class OverallTest(unittest.TestCase):
         self.assertEqual(self.verdict((measured, entry("b", 0.2, 0.001))), "")
 
 
-class CompareTest(unittest.TestCase):
-    def setUp(self) -> None:
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(self.temporary.name)
-
-    def tearDown(self) -> None:
-        self.temporary.cleanup()
-
+class CompareTest(FolderTest):
     def read(self, name: str, label: str, sinkage: float = 0.05) -> WheelRun:
         write_run(self.folder / name, sinkage=sinkage)
         return read_wheel_run(self.folder / name, label)

@@ -2,7 +2,6 @@
 """Flow fields of ground that moves and bears in closed form: kernel, floor, differences,
 refusals."""
 
-import tempfile
 import unittest
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -17,6 +16,7 @@ from furrow_post.csv_table import read_rows
 from furrow_post.errors import ResultsError
 from furrow_post.read.wheel_run import read_wheel_run
 from support.command import run_post
+from support.folder import FolderTest
 from support.runs import rig, rigid_wheel, style, write_grains, write_run
 
 CELL, DEPTH, DENSITY = 0.02, 0.2, 200.0  # [m], [m], [kg/m3]
@@ -79,12 +79,7 @@ def shear(x: Floats) -> Floats:
     return moved
 
 
-class FlowTest(unittest.TestCase):
-    def setUp(self) -> None:
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = Path(scratch.name)
-
+class FlowTest(FolderTest):
     def of(self, a: Move, b: Move, density: float = DENSITY) -> FlowComparison:
         write_moved(self.folder / "a", a)
         write_moved(self.folder / "b", b, density)

@@ -4,22 +4,19 @@
 import contextlib
 import csv
 import io
-import shutil
-import tempfile
 import unittest
-from pathlib import Path
 
 import h5py
 import numpy as np
 
 from furrow_post.cli.main import main
+from support.folder import FolderTest
 from support.runs import write_run
 
 
-class ExportTest(unittest.TestCase):
+class ExportTest(FolderTest):
     def setUp(self) -> None:
-        self.folder = Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.folder)
+        super().setUp()
         for name, sinkage in (("a", 0.05), ("b", 0.1 / 3)):
             write_run(self.folder / name, sinkage=sinkage)
             with h5py.File(self.folder / name / "history.h5", "r+") as content:

@@ -2,9 +2,7 @@
 """inputs/laboratory/cone.py finds the cone that the ends of tests were made with."""
 
 import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 
@@ -13,6 +11,7 @@ from furrow_post.errors import ResultsError
 from furrow_post.laboratory.evaluation import values_of
 from furrow_post.read.laboratory import LaboratoryTest
 from support.command import SOURCE
+from support.folder import FolderTest
 from support.laboratory import cell_rows, write_test
 
 sys.path.insert(0, str(SOURCE / "inputs" / "laboratory"))
@@ -23,14 +22,7 @@ TANGENT, K = 1.1, 0.75
 GROWTH = 0.1  # of volume, per driven strain
 
 
-class ConeTest(unittest.TestCase):
-    def setUp(self) -> None:
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(self.temporary.name)
-
-    def tearDown(self) -> None:
-        self.temporary.cleanup()
-
+class ConeTest(FolderTest):
     def made(self, kind: str, end: Floats, strain: Floats) -> LaboratoryTest:
         """From the smallest stress to those at the end, at constant q/p from a tenth on."""
         driven = np.linspace(0, 0.2, 400)[:, None]

@@ -4,14 +4,13 @@
 import contextlib
 import io
 import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 
 from furrow_post.read.laboratory import LaboratoryTest
 from support.command import SOURCE
+from support.folder import FolderTest
 from support.laboratory import cell_rows, triaxial_stress, write_test
 
 sys.path.insert(0, str(SOURCE / "inputs" / "laboratory"))
@@ -21,14 +20,7 @@ import identify
 TANGENT, E, NU, R, H = 1.1, 4e6, 0.2, 0.3, 2e6  # p_b = its first value + H eps
 
 
-class CapLawTest(unittest.TestCase):
-    def setUp(self) -> None:
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(self.temporary.name)
-
-    def tearDown(self) -> None:
-        self.temporary.cleanup()
-
+class CapLawTest(FolderTest):
     def triaxial(self, lateral: float, end: float = 0.2) -> LaboratoryTest:
         axial = np.linspace(0, end, 4000)
         q = np.minimum(E * axial, lateral * TANGENT / (1 - TANGENT / 3))

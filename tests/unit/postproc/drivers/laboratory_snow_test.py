@@ -4,10 +4,8 @@ made with, and that the preset is what it makes of its record; snow_strength.py:
 
 import re
 import sys
-import tempfile
 import unittest
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
@@ -15,6 +13,7 @@ from furrow_post.errors import ResultsError
 from furrow_post.read.laboratory import LaboratoryTest
 from furrow_post.study.launch import Tools
 from support.command import SOURCE
+from support.folder import FolderTest
 from support.laboratory import cell_rows, triaxial_stress, write_test
 
 sys.path.insert(0, str(SOURCE / "inputs" / "laboratory"))
@@ -46,16 +45,7 @@ def shear_strength(M: float, beta: float, p0: float, load: float) -> float:
     return float(np.sqrt(q2 / 3 - 3 * side**2))
 
 
-class WithFolder(unittest.TestCase):
-    def setUp(self) -> None:
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(self.temporary.name)
-
-    def tearDown(self) -> None:
-        self.temporary.cleanup()
-
-
-class RecordTest(WithFolder):
+class RecordTest(FolderTest):
     def test_curves_in_closed_form(self) -> None:
         """Two packings, one 10 % stronger: means, scatter, and the place of each value."""
         tests = []
@@ -113,7 +103,7 @@ class RecordTest(WithFolder):
             record_of([])
 
 
-class FitTest(WithFolder):
+class FitTest(FolderTest):
     def points(self) -> Points:
         return Points(Tools.of(SOURCE / "inputs" / "laboratory" / "run.py"), self.folder)
 

@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """inputs/validation/sand_zones: places of greatest stress and zones of flow of made-up ground."""
 
-import tempfile
 import unittest
-from pathlib import Path
 
 import h5py
 import numpy as np
 
 from support.evaluation import evaluation
+from support.folder import FolderTest
 from support.rut import wheel
 
 zones = evaluation("sand_zones")
@@ -16,14 +15,12 @@ zones = evaluation("sand_zones")
 SPACING, DEPTH, AXLE, AHEAD = 0.0125, 0.25, 0.5, 0.05  # [m]
 
 
-class ZonesTest(unittest.TestCase):
+class ZonesTest(FolderTest):
     """Compression is greatest 5 cm ahead; what is ahead of the axle moves forward, the rest back
     at a third of the speed."""
 
     def setUp(self) -> None:
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
+        super().setUp()
         axes = [np.arange(0.5 * SPACING, length, SPACING) for length in (1.0, 0.25, DEPTH)]
         x = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
         ones = np.ones(len(x))

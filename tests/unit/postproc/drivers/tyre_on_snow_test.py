@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """inputs/validation/tyre_on_snow: where a tread lifts, and how its pressure alternates."""
 
-import tempfile
 import unittest
-from pathlib import Path
 
 import h5py
 import numpy as np
 
 from furrow_post.errors import ResultsError
 from support.evaluation import evaluation
+from support.folder import FolderTest
 
 run = evaluation("tyre_on_snow")
 
@@ -29,12 +28,7 @@ class UnevennessTest(unittest.TestCase):
         self.assertAlmostEqual(run.unevenness(lines)[0], 0.3)
 
 
-class LinesTest(unittest.TestCase):
-    def setUp(self) -> None:
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-
+class LinesTest(FolderTest):
     def test_a_node_that_does_not_touch_bears_nothing(self) -> None:
         """Two lines; the second node of the second one is not in the file."""
         step, across = run.NODE_STEP, run.HALF_TREAD / run.ACROSS_HALF

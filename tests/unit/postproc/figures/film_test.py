@@ -4,15 +4,14 @@
 import os
 import shutil
 import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 
 from furrow_post.figures.moving import MovingPictures
 from furrow_post.read.motion import read_motion
 from support.command import run_post
+from support.folder import FolderTest
 from support.motion import FRAMES, write_moving_run, write_rolling_wheel
 from support.runs import RADIUS
 
@@ -26,10 +25,9 @@ def wheel_area(pictures: MovingPictures) -> float:
     return float(np.count_nonzero((blue - red > 5) & (blue < 200)) * pictures.pixel**2)
 
 
-class FilmTest(unittest.TestCase):
+class FilmTest(FolderTest):
     def setUp(self) -> None:
-        self.folder = Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.folder)
+        super().setUp()
         self.run_folder = write_moving_run(self.folder / "run", "continuum")
 
     def test_has_the_frames_of_the_run(self) -> None:

@@ -3,7 +3,6 @@
 
 import os
 import subprocess
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -13,17 +12,13 @@ import numpy as np
 from furrow_post.csv_table import read_columns
 from furrow_post.figures.modes import read_modes
 from support.command import SOURCE, run_post
+from support.folder import FolderTest
 
 FURROW_TYRE = Path(os.environ["FURROW_BUILD"]) / "bin" / "furrow-tyre"
 COUNT = 5
 
 
-class ModesTest(unittest.TestCase):
-    def setUp(self) -> None:
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = Path(scratch.name)
-
+class ModesTest(FolderTest):
     def test_table_shapes_and_figure(self) -> None:
         tyre = SOURCE / "inputs/tyres/p235_75r15.yaml"
         options = f"--mesh 4 36 --pressure 20 --modes {COUNT} --folder".split()

@@ -2,7 +2,6 @@
 """Continuum terrain made here: densities in closed form, a picture with something on it."""
 
 import json
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -18,6 +17,7 @@ from furrow_post.figures.terrain import draw_terrain
 from furrow_post.figures.terrain_stress import draw_stress
 from furrow_post.read.terrain import Outline, Terrain, TerrainStress
 from support.command import run_post
+from support.folder import FolderTest
 from support.rut import wheel
 
 SPACING, DEPTH, DENSITY = 0.02, 0.2, 200.0  # [m], [m], [kg/m3]
@@ -61,17 +61,13 @@ def write_stress(path: Path) -> None:
         group["compression_axis"] = np.tile([-(0.5**0.5), 0.0, 0.5**0.5], (count, 1))
 
 
-class TerrainTest(unittest.TestCase):
+class TerrainTest(FolderTest):
     def setUp(self) -> None:
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(self.temporary.name)
+        super().setUp()
         write_terrain(self.folder / "terrain.h5")
         triangles, x = wheel(RADIUS, WIDTH, [AXLE, 0.0, 0.5 * DEPTH + RADIUS])
         with h5py.File(self.folder / "history.h5", "w") as content:
             content["surface/triangles"], content["surface/x"] = triangles, x
-
-    def tearDown(self) -> None:
-        self.temporary.cleanup()
 
     def test_densities_are_those_of_the_terrain(self) -> None:
         terrain = Terrain.read(self.folder)

@@ -5,7 +5,6 @@ wedge; refusals."""
 import contextlib
 import io
 import json
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -19,19 +18,13 @@ from furrow_post.laboratory.quantity import LaboratoryQuantity
 from furrow_post.laboratory.reference import reference_error
 from furrow_post.laboratory.together import together
 from furrow_post.read.laboratory import LaboratoryTest, read_oedometer_reference
+from support.folder import FolderTest
 from support.laboratory import cell_rows, triaxial_stress, write_test
 
 PHI, COHESION = 31.0, 2000.0  # [degrees], [Pa]
 
 
-class LaboratoryTests(unittest.TestCase):
-    def setUp(self) -> None:
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(self.temporary.name)
-
-    def tearDown(self) -> None:
-        self.temporary.cleanup()
-
+class LaboratoryTests(FolderTest):
     def values(self, folder: Path) -> dict[str, float]:
         return values_of(LaboratoryTest(folder))
 

@@ -5,23 +5,21 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 from unittest import mock
 
 import furrow_post
 from furrow_post.errors import ResultsError
 from support.command import SOURCE
+from support.folder import FolderTest
 from support.runs import write_run
 
 
-class LoadTest(unittest.TestCase):
+class LoadTest(FolderTest):
     def setUp(self) -> None:
-        self.folder = Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.folder)
+        super().setUp()
         write_run(self.folder)
 
     def test_channels_are_the_columns_of_the_file(self) -> None:

@@ -1,10 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Frames of a run: what VTK wrote is what is read; frames that are damaged or not there."""
 
-import shutil
-import tempfile
 import unittest
-from pathlib import Path
 
 import h5py
 import numpy as np
@@ -12,6 +9,7 @@ import numpy as np
 from furrow_post.errors import ResultsError
 from furrow_post.read.motion import read_motion
 from furrow_post.read.vtk import read_series, read_vtp
+from support.folder import FolderTest
 from support.motion import (
     FRAMES,
     INTERVAL,
@@ -25,11 +23,7 @@ from support.motion import (
 from support.runs import write_run
 
 
-class MotionTest(unittest.TestCase):
-    def setUp(self) -> None:
-        self.folder = Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.folder)
-
+class MotionTest(FolderTest):
     def test_a_file_of_vtk_has_its_points_triangles_and_fields(self) -> None:
         random = np.random.default_rng(5)
         for count in (1, 7, 9000):  # the last in several blocks of zlib

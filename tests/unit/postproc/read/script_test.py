@@ -2,13 +2,12 @@
 """Variables of LIGGGHTS scripts: what -v may set, through included files and beds."""
 
 import os
-import tempfile
 import unittest
-from pathlib import Path
 
 from furrow_post.errors import ResultsError
 from furrow_post.read.script import check_variables, script_variables
 from support.command import SOURCE
+from support.folder import FolderTest
 
 MAIN = """# variable commented index 1
 variable   here index .      # the folder
@@ -26,10 +25,9 @@ print      "$q ${bed_level}"
 """
 
 
-class ScriptTest(unittest.TestCase):
+class ScriptTest(FolderTest):
     def setUp(self) -> None:
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(self.temporary.name)
+        super().setUp()
         self.script = self.folder / "main.lig"
         self.script.write_text(MAIN)
         for name, text in (
@@ -40,9 +38,6 @@ class ScriptTest(unittest.TestCase):
             (self.folder / name).parent.mkdir(exist_ok=True)
             (self.folder / name).write_text(text)
         self.here = {"here": str(self.folder)}
-
-    def tearDown(self) -> None:
-        self.temporary.cleanup()
 
     def test_declared_and_read_names(self) -> None:
         found = script_variables(self.script, self.here)

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Conditions of a run come from /run/styles; a wheel is whatever is of that kind."""
 
-import tempfile
 import unittest
-from pathlib import Path
 
 import h5py
 import numpy as np
@@ -13,19 +11,13 @@ from furrow_post.errors import ResultsError
 from furrow_post.read.results import Grains, Results, Surface
 from furrow_post.read.styles import Styles
 from furrow_post.read.wheel_run import read_wheel_run
+from support.folder import FolderTest
 from support.runs import RADIUS, rig, rigid_wheel, style, write_grains, write_run
 
 TYRE = style("wheel", "tyre/modal", "wheel", pressure=2.4e5, modes=12, half=True)
 
 
-class WheelRunTest(unittest.TestCase):
-    def setUp(self) -> None:
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(self.temporary.name)
-
-    def tearDown(self) -> None:
-        self.temporary.cleanup()
-
+class WheelRunTest(FolderTest):
     def test_slip_in_both_definitions(self) -> None:
         write_run(self.folder)
         run = read_wheel_run(self.folder)

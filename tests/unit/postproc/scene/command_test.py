@@ -4,17 +4,16 @@
 import json
 import os
 import re
-import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 from pathlib import Path
 from unittest import mock
 
 from support.command import FURROW_POST, SOURCE, run_post
+from support.folder import FolderTest
 
 # Says how it was started; waits for a file "go", and ends with a checkpoint when it gets a signal
 PROGRAM = """#!{python}
@@ -48,10 +47,9 @@ print "${results} ${speed} ${wait} ${fail}"
 """
 
 
-class CommandTest(unittest.TestCase):
+class CommandTest(FolderTest):
     def setUp(self) -> None:
-        self.folder = Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.folder)
+        super().setUp()
         program = self.folder / "build" / "bin" / "furrow"
         program.parent.mkdir(parents=True)
         program.write_text(PROGRAM.format(python=sys.executable))

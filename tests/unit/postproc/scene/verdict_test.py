@@ -2,21 +2,18 @@
 """The verdict on the screen: short for a quick run, positive where the main values are steady."""
 
 import json
-import shutil
-import tempfile
 import unittest
-from pathlib import Path
 
 from furrow_post.scene.verdict import summary_text
+from support.folder import FolderTest
 from support.runs import write_run
 
 LONG = "not steady: the transient of force_x fills nearly half of the cruise"
 
 
-class VerdictTest(unittest.TestCase):
+class VerdictTest(FolderTest):
     def setUp(self) -> None:
-        self.folder = Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.folder)
+        super().setUp()
         write_run(self.folder)
         (self.folder / "summary.txt").write_text(f"hub drop 5\nVerdict: {LONG}\nWindow: 1 s\n")
 

@@ -4,9 +4,7 @@
 import json
 import math
 import re
-import tempfile
 import unittest
-from pathlib import Path
 
 from furrow_post.analyse import empirical
 from furrow_post.csv_table import read_rows
@@ -14,6 +12,7 @@ from furrow_post.errors import ResultsError
 from furrow_post.soil.card import UNITS, SoilCard, read_card, write_card
 from furrow_post.soil.exports import write_altair, write_chrono, write_table
 from furrow_post.soil.fits import Cone, Fitted, PressureSinkage, Range, Shear
+from support.folder import FolderTest
 
 CARD = SoilCard(
     "Soil card of loose sand",
@@ -42,11 +41,9 @@ CARD = SoilCard(
 )
 
 
-class SoilCardTest(unittest.TestCase):
+class SoilCardTest(FolderTest):
     def setUp(self) -> None:
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = Path(scratch.name)
+        super().setUp()
         self.path = self.folder / "card.yaml"
         write_card(CARD, self.path)
 

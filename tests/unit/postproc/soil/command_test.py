@@ -4,13 +4,12 @@
 import math
 import os
 import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 from unittest import mock
 
 from furrow_post.soil.card import read_card
 from support.command import SOURCE, run_soil
+from support.folder import FolderTest
 
 TRUTH = {"k_c": -4e3, "k_phi": 5e5, "n": 0.6, "c": 400.0, "phi": 30.0, "K": 0.006}
 CONE = (2e4, 8e5)  # [Pa] at the surface, [Pa/m]
@@ -51,11 +50,9 @@ sys.exit(STATUS)
 """
 
 
-class CardCommandTest(unittest.TestCase):
+class CardCommandTest(FolderTest):
     def setUp(self) -> None:
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = Path(scratch.name)
+        super().setUp()
         (self.folder / "bin").mkdir()
         self.furrow(0)
 

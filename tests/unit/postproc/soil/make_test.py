@@ -2,9 +2,7 @@
 """Material files of furrow-soil make: closed forms, virtual tests of the laws, and refusals."""
 
 import math
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 import yaml
@@ -23,15 +21,14 @@ from furrow_post.soil.make import (
 from furrow_post.soil.material import read_material
 from furrow_post.soil.point import confined_strain, oedometer_misfit
 from support.command import SOURCE, run_soil
+from support.folder import FolderTest
 
 OEDOMETER = "# mine\nstress_Pa,strain\n1e4,0.02\n2e4,0.03\n5e4,0.045\n1e5,0.06\n3e5,0.09\n"
 
 
-class MakeTest(unittest.TestCase):
+class MakeTest(FolderTest):
     def setUp(self) -> None:
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = Path(scratch.name)
+        super().setUp()
         self.table = self.folder / "oedometer.csv"
         self.table.write_text(OEDOMETER, encoding="utf-8")
         self.file = self.folder / "mine.yaml"

@@ -11,19 +11,15 @@ from furrow_post.errors import ResultsError
 from furrow_post.study.repeat import difference, known_cost
 from furrow_post.study.values import Registry, Stored, Value, values_of
 from support.command import SOURCE, run_post
+from support.folder import FolderTest
 
 VALIDATION = SOURCE / "inputs" / "validation"
 # Of each other: a coarse mesh and the fine one, one rig and the other
 OWN_CHECKS = {"free_travel", "tyre_brick"}
 
 
-class GuardTest(unittest.TestCase):
+class GuardTest(FolderTest):
     """Every value has a command that makes it and a test that repeats it."""
-
-    def setUp(self) -> None:
-        temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(temporary.name)
-        self.addCleanup(temporary.cleanup)
 
     def test_every_value_is_repeated(self) -> None:
         """By a test of seconds in tests/run, or by one of hours under the label study."""

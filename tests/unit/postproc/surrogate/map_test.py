@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A mobility map of a wheel with a closed form, on slopes that are known."""
 
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from furrow_post.csv_table import read_numbers
 from furrow_post.surrogate.mobility import Vehicle, evaluate, mobility_of, tabulate
 from furrow_post.surrogate.training import HUB_DROP, PULL, TORQUE
 from support.command import run_post
+from support.folder import FolderTest
 from support.surrogate import RANGES, made_surrogate, wheel
 
 gdal.UseExceptions()
@@ -38,10 +38,9 @@ def closed_form(slope: float, phi: float) -> tuple[float, float, float]:
     return float(answers[PULL].max() - need), float(slip[k]), float(load * answers[TORQUE][k] * rim)
 
 
-class MapTest(unittest.TestCase):
+class MapTest(FolderTest):
     def setUp(self) -> None:
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(self.temporary.name)
+        super().setUp()
         made_surrogate().write(self.folder / "wheel.json")
         # Elevation over the column: the slope grows from 0 to 30 degrees
         x = CELL * np.arange(COLUMNS)
@@ -54,9 +53,6 @@ class MapTest(unittest.TestCase):
         write_ascii(self.folder / "soil.asc", self.classes)
         rows = "".join(f"{key},{phi}\n" for key, phi in PHI.items())
         (self.folder / "soils.csv").write_text("class,phi\n" + rows)
-
-    def tearDown(self) -> None:
-        self.temporary.cleanup()
 
     def map(self, *words: object) -> str:
         done = run_post(

@@ -3,7 +3,6 @@
 
 import math
 import re
-import tempfile
 import unittest
 from html.parser import HTMLParser
 from pathlib import Path
@@ -19,6 +18,7 @@ from furrow_post.sweep.curves import EFFICIENCY, PULL, HUB_DROP, TORQUE
 from furrow_post.sweep.output import Named, Wanted, evaluate, report_lines, write_sweep
 from furrow_post.sweep.plan import Plan, Point
 from support.command import SOURCE
+from support.folder import FolderTest
 from support.runs import RADIUS, add_parts, rig, rigid_wheel, write_run
 
 LOAD = 2000.0  # [N]
@@ -41,14 +41,7 @@ def write_pulling(folder: Path, sinkage: float = 0.05) -> None:
     Plan("scene.lig", ("slip",), points=tuple(points)).write(folder)
 
 
-class OutputTest(unittest.TestCase):
-    def setUp(self) -> None:
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(self.temporary.name)
-
-    def tearDown(self) -> None:
-        self.temporary.cleanup()
-
+class OutputTest(FolderTest):
     def test_pull_slip_has_its_coefficients(self) -> None:
         write_pulling(self.folder / "a")
         result = evaluate([Named(self.folder / "a")], Wanted())

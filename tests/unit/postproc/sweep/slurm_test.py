@@ -3,9 +3,7 @@
 
 import os
 import sys
-import tempfile
 import unittest
-from pathlib import Path
 from unittest import mock
 
 from furrow_post.errors import ResultsError
@@ -13,6 +11,7 @@ from furrow_post.study.case import Case
 from furrow_post.study.runner import Runner, State
 from furrow_post.sweep import slurm
 from support.fake import FakeTree
+from support.folder import FolderTest
 
 # Starts every task at once and leaves them; the queue is empty when no task is left
 SBATCH = """#!/bin/bash
@@ -31,10 +30,9 @@ while read -r task; do ! kill -0 "$task" 2>/dev/null || echo RUNNING; done <"$(d
 """
 
 
-class SlurmTest(unittest.TestCase):
+class SlurmTest(FolderTest):
     def setUp(self) -> None:
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(self.temporary.name)
+        super().setUp()
         programs = self.folder / "programs"
         programs.mkdir()
         for name, text in (("sbatch", SBATCH), ("squeue", SQUEUE)):
@@ -48,9 +46,6 @@ class SlurmTest(unittest.TestCase):
             patch = mock.patch.object(slurm, name, length)
             patch.start()
             self.addCleanup(patch.stop)
-
-    def tearDown(self) -> None:
-        self.temporary.cleanup()
 
     def submitted(self, cases: list[Case], lost: str = "") -> slurm.Job:
         """A job whose tasks make the runs but that of this name."""
