@@ -44,14 +44,11 @@ class CompareCommandTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
         cls.folder = Path(tempfile.mkdtemp())
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
         write_run(cls.folder / "a")
         add_parts(cls.folder / "a", {"compaction": 150.0, "friction of wheel and ground": 50.0})
         write_run(cls.folder / "b", sinkage=0.051)
         write_run(cls.folder / "heavy", load=1100.0)
-
-    @classmethod
-    def tearDownClass(cls) -> None:
-        shutil.rmtree(cls.folder)
 
     def run_post(self, *arguments: object) -> "CompletedProcess[str]":
         return run_post(*arguments, folder=self.folder)

@@ -39,12 +39,9 @@ class SingleRunTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
         cls.folder = Path(tempfile.mkdtemp())
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
         write_noisy_history(cls.folder / "history.h5")
         write_rut(cls.folder / "history.h5", diameter=0.016)
-
-    @classmethod
-    def tearDownClass(cls) -> None:
-        shutil.rmtree(cls.folder)
 
     def expect_picture(self, path: Path, least_colours: int) -> None:
         pixels = matplotlib.image.imread(path)[:, :, :3]

@@ -179,15 +179,12 @@ class ResultsFaultsTest(FaultsTest):
     @classmethod
     def setUpClass(cls) -> None:
         cls.folder = Path(tempfile.mkdtemp())
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
         write_run(cls.folder / "good")
         write_run(cls.folder / "other", sinkage=0.051)
         (cls.folder / "grains").mkdir()
         write_noisy_history(cls.folder / "grains" / "history.h5")
         write_rut(cls.folder / "grains" / "history.h5", diameter=0.03)
-
-    @classmethod
-    def tearDownClass(cls) -> None:
-        shutil.rmtree(cls.folder)
 
     def copy(self, of: str = "good") -> Path:
         target = Path(tempfile.mkdtemp(dir=self.folder)) / "run"
