@@ -16,6 +16,7 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     "empirical": ("nrmm --help",),
     "compare": ("continuum=results/a grains=results/b -o results/both",),
     "flow": ("results/a results/b",),
+    "compaction": ("results/a", "soft=results/a hard=results/b -o results/both"),
     "cost": ("coarse=results/a fine=results/b", "inputs/costs/wheel_on_snow.csv"),
     "plan": ("inputs/costs/wheel_on_snow.csv --sinkage 3% --coefficient 0.01",),
     "study": ("", "snow_oedometer", "snow_plate fresh_fine --results results/plate", "--pages --check"),

@@ -81,6 +81,11 @@ SUBCOMMANDS = (
         "-> flow.csv, .h5, .png",
     ),
     Subcommand(
+        "compaction",
+        "stress and density at depth below the track, with Boussinesq and Soehne "
+        "-> compaction.csv, .png",
+    ),
+    Subcommand(
         "sweep",
         "curves over slip, load, pressure, depth or speed of folders of runs "
         "-> sweep.csv, .h5, .png, report.html",
