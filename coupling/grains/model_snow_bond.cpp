@@ -352,11 +352,7 @@ using SnowModel =
     LIGGGHTS::ContactModels::ContactModel<LIGGGHTS::ContactModels::GranStyle<snow_bond_id>>;
 using SnowPairs = LIGGGHTS::PairStyles::Granular<SnowModel>;
 
-struct ModelOfSnowPairs {
-  using type = SnowModel SnowPairs::*;
-  friend type member(ModelOfSnowPairs);
-};
-template struct Expose<ModelOfSnowPairs, &SnowPairs::cmodel>;
+FURROW_EXPOSE(ModelOfSnowPairs, SnowPairs, SnowModel, cmodel);
 
 }  // namespace exposed
 

@@ -15,89 +15,20 @@ namespace exposed {
 using FixMap = std::map<std::string, FixCreator>;
 using CommandMap = std::map<std::string, CommandCreator>;
 
-struct ModifyFixMap {
-  using type = FixMap* LAMMPS_NS::Modify::*;
-  friend type member(ModifyFixMap);
-};
-template struct Expose<ModifyFixMap, &LAMMPS_NS::Modify::fix_map>;
-
-struct ModifyRestartStyles {
-  using type = char** LAMMPS_NS::Modify::*;
-  friend type member(ModifyRestartStyles);
-};
-template struct Expose<ModifyRestartStyles, &LAMMPS_NS::Modify::style_restart_global>;
-
-struct InputCommandMap {
-  using type = CommandMap* LAMMPS_NS::Input::*;
-  friend type member(InputCommandMap);
-};
-template struct Expose<InputCommandMap, &LAMMPS_NS::Input::command_map>;
-
-struct InputLine {
-  using type = char* LAMMPS_NS::Input::*;
-  friend type member(InputLine);
-};
-template struct Expose<InputLine, &LAMMPS_NS::Input::line>;
-
-struct InputScripts {
-  using type = int LAMMPS_NS::Input::*;
-  friend type member(InputScripts);
-};
-template struct Expose<InputScripts, &LAMMPS_NS::Input::nfile>;
-
-struct InputCommand {
-  using type = char* LAMMPS_NS::Input::*;
-  friend type member(InputCommand);
-};
-template struct Expose<InputCommand, &LAMMPS_NS::Input::command>;
-
-struct FixMeshMesh {
-  using type = LAMMPS_NS::AbstractMesh* LAMMPS_NS::FixMesh::*;
-  friend type member(FixMeshMesh);
-};
-template struct Expose<FixMeshMesh, &LAMMPS_NS::FixMesh::mesh_>;
-
-struct AveTimeFile {
-  using type = FILE* LAMMPS_NS::FixAveTime::*;
-  friend type member(AveTimeFile);
-};
-template struct Expose<AveTimeFile, &LAMMPS_NS::FixAveTime::fp>;
-
-struct OutputRestartsSingle {
-  using type = bool LAMMPS_NS::Output::*;
-  friend type member(OutputRestartsSingle);
-};
-template struct Expose<OutputRestartsSingle, &LAMMPS_NS::Output::restart_flag_single>;
-
-struct OutputRestartsDouble {
-  using type = bool LAMMPS_NS::Output::*;
-  friend type member(OutputRestartsDouble);
-};
-template struct Expose<OutputRestartsDouble, &LAMMPS_NS::Output::restart_flag_double>;
-
-struct OutputRestartName {
-  using type = char* LAMMPS_NS::Output::*;
-  friend type member(OutputRestartName);
-};
-template struct Expose<OutputRestartName, &LAMMPS_NS::Output::restart1>;
-
-struct OutputRestartNameA {
-  using type = char* LAMMPS_NS::Output::*;
-  friend type member(OutputRestartNameA);
-};
-template struct Expose<OutputRestartNameA, &LAMMPS_NS::Output::restart2a>;
-
-struct OutputRestartNameB {
-  using type = char* LAMMPS_NS::Output::*;
-  friend type member(OutputRestartNameB);
-};
-template struct Expose<OutputRestartNameB, &LAMMPS_NS::Output::restart2b>;
-
-struct HistoryKeep {
-  using type = bool** LAMMPS_NS::FixContactHistoryMesh::*;
-  friend type member(HistoryKeep);
-};
-template struct Expose<HistoryKeep, &LAMMPS_NS::FixContactHistoryMesh::keepflag_>;
+FURROW_EXPOSE(ModifyFixMap, LAMMPS_NS::Modify, FixMap*, fix_map);
+FURROW_EXPOSE(ModifyRestartStyles, LAMMPS_NS::Modify, char**, style_restart_global);
+FURROW_EXPOSE(InputCommandMap, LAMMPS_NS::Input, CommandMap*, command_map);
+FURROW_EXPOSE(InputLine, LAMMPS_NS::Input, char*, line);
+FURROW_EXPOSE(InputScripts, LAMMPS_NS::Input, int, nfile);
+FURROW_EXPOSE(InputCommand, LAMMPS_NS::Input, char*, command);
+FURROW_EXPOSE(FixMeshMesh, LAMMPS_NS::FixMesh, LAMMPS_NS::AbstractMesh*, mesh_);
+FURROW_EXPOSE(AveTimeFile, LAMMPS_NS::FixAveTime, FILE*, fp);
+FURROW_EXPOSE(OutputRestartsSingle, LAMMPS_NS::Output, bool, restart_flag_single);
+FURROW_EXPOSE(OutputRestartsDouble, LAMMPS_NS::Output, bool, restart_flag_double);
+FURROW_EXPOSE(OutputRestartName, LAMMPS_NS::Output, char*, restart1);
+FURROW_EXPOSE(OutputRestartNameA, LAMMPS_NS::Output, char*, restart2a);
+FURROW_EXPOSE(OutputRestartNameB, LAMMPS_NS::Output, char*, restart2b);
+FURROW_EXPOSE(HistoryKeep, LAMMPS_NS::FixContactHistoryMesh, bool**, keepflag_);
 
 }  // namespace exposed
 

@@ -10,31 +10,22 @@ namespace furrow::coupling {
 
 namespace exposed {
 
-#define FURROW_EXPOSE(Tag, Type, member_name)   \
-  struct Tag {                                  \
-    using type = Type LAMMPS_NS::FixAveTime::*; \
-    friend type member(Tag);                    \
-  };                                            \
-  template struct Expose<Tag, &LAMMPS_NS::FixAveTime::member_name>
-
-FURROW_EXPOSE(AveTimeMode, int, mode);
-FURROW_EXPOSE(AveTimeKind, int, ave);
-FURROW_EXPOSE(AveTimeValues, int, nvalues);
-FURROW_EXPOSE(AveTimeRows, int, nrows);
-FURROW_EXPOSE(AveTimeWindow, int, nwindow);
-FURROW_EXPOSE(AveTimeRepeat, int, irepeat);
-FURROW_EXPOSE(AveTimeNext, LAMMPS_NS::bigint, nvalid);
-FURROW_EXPOSE(AveTimeNorm, int, norm);
-FURROW_EXPOSE(AveTimeInWindow, int, iwindow);
-FURROW_EXPOSE(AveTimeWindowFull, int, window_limit);
-FURROW_EXPOSE(AveTimeSum, double*, vector);
-FURROW_EXPOSE(AveTimeTotal, double*, vector_total);
-FURROW_EXPOSE(AveTimeList, double**, vector_list);
-FURROW_EXPOSE(AveTimeSums, double**, array);
-FURROW_EXPOSE(AveTimeTotals, double**, array_total);
-FURROW_EXPOSE(AveTimeLists, double***, array_list);
-
-#undef FURROW_EXPOSE
+FURROW_EXPOSE(AveTimeMode, LAMMPS_NS::FixAveTime, int, mode);
+FURROW_EXPOSE(AveTimeKind, LAMMPS_NS::FixAveTime, int, ave);
+FURROW_EXPOSE(AveTimeValues, LAMMPS_NS::FixAveTime, int, nvalues);
+FURROW_EXPOSE(AveTimeRows, LAMMPS_NS::FixAveTime, int, nrows);
+FURROW_EXPOSE(AveTimeWindow, LAMMPS_NS::FixAveTime, int, nwindow);
+FURROW_EXPOSE(AveTimeRepeat, LAMMPS_NS::FixAveTime, int, irepeat);
+FURROW_EXPOSE(AveTimeNext, LAMMPS_NS::FixAveTime, LAMMPS_NS::bigint, nvalid);
+FURROW_EXPOSE(AveTimeNorm, LAMMPS_NS::FixAveTime, int, norm);
+FURROW_EXPOSE(AveTimeInWindow, LAMMPS_NS::FixAveTime, int, iwindow);
+FURROW_EXPOSE(AveTimeWindowFull, LAMMPS_NS::FixAveTime, int, window_limit);
+FURROW_EXPOSE(AveTimeSum, LAMMPS_NS::FixAveTime, double*, vector);
+FURROW_EXPOSE(AveTimeTotal, LAMMPS_NS::FixAveTime, double*, vector_total);
+FURROW_EXPOSE(AveTimeList, LAMMPS_NS::FixAveTime, double**, vector_list);
+FURROW_EXPOSE(AveTimeSums, LAMMPS_NS::FixAveTime, double**, array);
+FURROW_EXPOSE(AveTimeTotals, LAMMPS_NS::FixAveTime, double**, array_total);
+FURROW_EXPOSE(AveTimeLists, LAMMPS_NS::FixAveTime, double***, array_list);
 
 }  // namespace exposed
 

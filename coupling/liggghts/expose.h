@@ -11,4 +11,12 @@ struct Expose {
   friend typename Tag::type member(Tag) { return Member; }
 };
 
+/// The tag of `Type Class::*name`, and the function that it declares; within this namespace.
+#define FURROW_EXPOSE(Tag, Class, Type, name) \
+  struct Tag {                                \
+    using type = Type Class::*;               \
+    friend type member(Tag);                  \
+  };                                          \
+  template struct Expose<Tag, &Class::name>
+
 }  // namespace furrow::coupling::exposed
