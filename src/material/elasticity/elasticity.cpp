@@ -90,8 +90,9 @@ double initial_pressure(const ElasticityParameters& parameters) {
   return parameters.porous ? parameters.p0 : 0.0;
 }
 
-StateVariable equivalent_plastic_strain() {
-  return {"eps_dev_pl", "", "equivalent plastic strain, of the deviatoric part"};
+std::vector<StateVariable> plastic_strains(double eps_vol_pl_0) {
+  return {{"eps_vol_pl", "", "volumetric plastic strain, compression positive", eps_vol_pl_0},
+          {"eps_dev_pl", "", "equivalent plastic strain, of the deviatoric part"}};
 }
 
 ElasticModuli moduli_at(const ElasticityParameters& e, double p) {

@@ -7,9 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "material/elasticity/elasticity.h"
 #include "material/hardening/hardening.h"
-#include "simd/dispatch.h"
 
 namespace furrow {
 
@@ -79,23 +77,7 @@ MaterialModel CohesiveCamClay::model() {
 
 CohesiveCamClay::CohesiveCamClay(double density, const CohesiveCamClayParameters& parameters,
                                  double eps_vol_pl_0)
-    : Material("cohesive_cam_clay", density,
-               {{"eps_vol_pl", "", "volumetric plastic strain, compression positive", eps_vol_pl_0},
-                equivalent_plastic_strain()},
-               initial_pressure(parameters.elasticity)),
-      parameters_(parameters) {}
-
-UpdateReport CohesiveCamClay::update_block(const PointBlock& block) const {
-  return checked(kernels<CohesiveCamClayKernels>().update(parameters_, density(), block), block);
-}
-
-ElasticModuli CohesiveCamClay::moduli(const VectorX& state) const {
-  return moduli_at(parameters_.elasticity, invariants(stress_of(state)).p);
-}
-
-double CohesiveCamClay::largest_wave_speed(const PointBlock& block) const {
-  return largest_elastic_wave_speed(parameters_.elasticity, density(), block);
-}
+    : ElasticKernelLaw("cohesive_cam_clay", density, parameters, plastic_strains(eps_vol_pl_0)) {}
 
 double CohesiveCamClay::p0(double eps) const { return strength_at(parameters_.hardening, eps); }
 

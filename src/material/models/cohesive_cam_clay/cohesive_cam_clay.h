@@ -15,12 +15,12 @@
 /// Frozen energy (theory: laws, eq. 19): back stress c; the dissipation is Lambda' (f + a) >= 0.
 /// beta <= 1 keeps c >= 0. src/material/snow.md shows what the law does with snow.
 
-#include "material/material_model.h"
+#include "material/kernel_law.h"
 #include "material/models/cohesive_cam_clay/cohesive_cam_clay_parameters.h"
 
 namespace furrow {
 
-class CohesiveCamClay : public Material {
+class CohesiveCamClay : public ElasticKernelLaw<CohesiveCamClayParameters, CohesiveCamClayKernels> {
  public:
   /// Indices of the internal variables in the state.
   enum : std::size_t { eps_vol_pl = field::internal, eps_dev_pl };
@@ -30,18 +30,11 @@ class CohesiveCamClay : public Material {
   /// @param eps_vol_pl_0  initial volumetric plastic strain: size of the ellipse
   CohesiveCamClay(double density, const CohesiveCamClayParameters& parameters, double eps_vol_pl_0);
 
-  UpdateReport update_block(const PointBlock& block) const override;
-  ElasticModuli moduli(const VectorX& state) const override;
-  double largest_wave_speed(const PointBlock& block) const override;
   double yield_function(const VectorX& state) const override;
   double stress_scale(const VectorX& state) const override;
   std::vector<Vector2> yield_surface(const VectorX& state, std::size_t points = 200) const override;
 
-  const CohesiveCamClayParameters& parameters() const { return parameters_; }
   double p0(double eps) const;  ///< yield strength in hydrostatic compression [Pa]
-
- private:
-  CohesiveCamClayParameters parameters_;
 };
 
 }  // namespace furrow

@@ -90,9 +90,7 @@ MaterialModel CohesiveCap::model() {
 
 CohesiveCap::CohesiveCap(double density, const CohesiveCapParameters& parameters,
                          double eps_vol_pl_0)
-    : Material("cohesive_cap", density,
-               {{"eps_vol_pl", "", "volumetric plastic strain, compression positive", eps_vol_pl_0},
-                equivalent_plastic_strain()},
+    : Material("cohesive_cap", density, plastic_strains(eps_vol_pl_0),
                initial_pressure(parameters.elasticity)),
       parameters_(parameters) {}
 

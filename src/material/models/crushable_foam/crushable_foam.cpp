@@ -7,10 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "material/elasticity/elasticity.h"
 #include "material/hardening/hardening.h"
 #include "material/section/section.h"
-#include "simd/dispatch.h"
 
 namespace furrow {
 
@@ -100,19 +98,7 @@ MaterialModel CrushableFoam::model() {
 }
 
 CrushableFoam::CrushableFoam(double density, const CrushableFoamParameters& parameters)
-    : Material("crushable_foam", density,
-               {{"eps_vol_pl", "", "volumetric plastic strain, compression positive", 0.0},
-                equivalent_plastic_strain()},
-               initial_pressure(parameters.elasticity)),
-      parameters_(parameters) {}
-
-UpdateReport CrushableFoam::update_block(const PointBlock& block) const {
-  return checked(kernels<CrushableFoamKernels>().update(parameters_, density(), block), block);
-}
-
-ElasticModuli CrushableFoam::moduli(const VectorX& state) const {
-  return moduli_at(parameters_.elasticity, invariants(stress_of(state)).p);
-}
+    : ElasticKernelLaw("crushable_foam", density, parameters, plastic_strains()) {}
 
 double CrushableFoam::pc(double eps) const { return strength_at(parameters_.hardening, eps); }
 
@@ -122,10 +108,6 @@ double CrushableFoam::yield_function(const VectorX& state) const {
   const double pt = parameters_.pt;
   const double t = yield_measure(stress, parameters_.section);
   return std::hypot(stress.p - 0.5 * (strength - pt), t / parameters_.M) - 0.5 * (strength + pt);
-}
-
-double CrushableFoam::largest_wave_speed(const PointBlock& block) const {
-  return largest_elastic_wave_speed(parameters_.elasticity, density(), block);
 }
 
 double CrushableFoam::stress_scale(const VectorX& state) const {

@@ -11,12 +11,12 @@
 /// Table 1 of [Shoop2001] can be read as pc0 or as pc0 + pt: the key pc0_reading chooses. All
 /// plastic work is dissipated.
 
-#include "material/material_model.h"
+#include "material/kernel_law.h"
 #include "material/models/crushable_foam/crushable_foam_parameters.h"
 
 namespace furrow {
 
-class CrushableFoam : public Material {
+class CrushableFoam : public ElasticKernelLaw<CrushableFoamParameters, CrushableFoamKernels> {
  public:
   /// Indices of the internal variables in the state.
   enum : std::size_t { eps_vol_pl = field::internal, eps_dev_pl };
@@ -26,18 +26,11 @@ class CrushableFoam : public Material {
   CrushableFoam(double density, const CrushableFoamParameters& parameters);
 
   bool stress_has_jumps() const override { return true; }
-  UpdateReport update_block(const PointBlock& block) const override;
-  ElasticModuli moduli(const VectorX& state) const override;
-  double largest_wave_speed(const PointBlock& block) const override;
   double yield_function(const VectorX& state) const override;
   double stress_scale(const VectorX& state) const override;
   std::vector<Vector2> yield_surface(const VectorX& state, std::size_t points = 200) const override;
 
-  const CrushableFoamParameters& parameters() const { return parameters_; }
   double pc(double eps) const;  ///< yield strength in hydrostatic compression [Pa]
-
- private:
-  CrushableFoamParameters parameters_;
 };
 
 }  // namespace furrow

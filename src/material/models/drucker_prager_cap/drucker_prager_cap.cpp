@@ -7,10 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "material/elasticity/elasticity.h"
 #include "material/hardening/hardening.h"
 #include "material/section/section.h"
-#include "simd/dispatch.h"
 
 namespace furrow {
 
@@ -142,23 +140,7 @@ MaterialModel DruckerPragerCap::model() {
 
 DruckerPragerCap::DruckerPragerCap(double density, const DruckerPragerCapParameters& parameters,
                                    double eps_vol_pl_0)
-    : Material("drucker_prager_cap", density,
-               {{"eps_vol_pl", "", "volumetric plastic strain, compression positive", eps_vol_pl_0},
-                equivalent_plastic_strain()},
-               initial_pressure(parameters.elasticity)),
-      parameters_(parameters) {}
-
-UpdateReport DruckerPragerCap::update_block(const PointBlock& block) const {
-  return checked(kernels<DruckerPragerCapKernels>().update(parameters_, density(), block), block);
-}
-
-ElasticModuli DruckerPragerCap::moduli(const VectorX& state) const {
-  return moduli_at(parameters_.elasticity, invariants(stress_of(state)).p);
-}
-
-double DruckerPragerCap::largest_wave_speed(const PointBlock& block) const {
-  return largest_elastic_wave_speed(parameters_.elasticity, density(), block);
-}
+    : ElasticKernelLaw("drucker_prager_cap", density, parameters, plastic_strains(eps_vol_pl_0)) {}
 
 double DruckerPragerCap::pb(double eps) const { return strength_at(parameters_.hardening, eps); }
 

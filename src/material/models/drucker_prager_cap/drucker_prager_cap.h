@@ -9,12 +9,13 @@
 /// frozen energy pa d(eps_vol_pl) is never negative, because both potentials grow away from (pa, 0)
 /// [Collins2005].
 
-#include "material/material_model.h"
+#include "material/kernel_law.h"
 #include "material/models/drucker_prager_cap/drucker_prager_cap_parameters.h"
 
 namespace furrow {
 
-class DruckerPragerCap : public Material {
+class DruckerPragerCap
+    : public ElasticKernelLaw<DruckerPragerCapParameters, DruckerPragerCapKernels> {
  public:
   /// Indices of the internal variables in the state.
   enum : std::size_t { eps_vol_pl = field::internal, eps_dev_pl };
@@ -25,14 +26,10 @@ class DruckerPragerCap : public Material {
   DruckerPragerCap(double density, const DruckerPragerCapParameters& parameters,
                    double eps_vol_pl_0);
 
-  UpdateReport update_block(const PointBlock& block) const override;
-  ElasticModuli moduli(const VectorX& state) const override;
-  double largest_wave_speed(const PointBlock& block) const override;
   double yield_function(const VectorX& state) const override;
   double stress_scale(const VectorX& state) const override;
   std::vector<Vector2> yield_surface(const VectorX& state, std::size_t points = 200) const override;
 
-  const DruckerPragerCapParameters& parameters() const { return parameters_; }
   double pb(double eps) const;  ///< tip of the cap [Pa]
   double pa(double eps) const;  ///< pressure at the top of the cap, the critical state [Pa]
 
@@ -41,8 +38,6 @@ class DruckerPragerCap : public Material {
   double shear_strength(double p, double eps) const;
   /// t on the whole surface, 0 outside its range of p
   double strength(double p, double eps) const;
-
-  DruckerPragerCapParameters parameters_;
 };
 
 }  // namespace furrow

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "material/models/elastic/elastic.h"
 
-#include "material/elasticity/elasticity.h"
-#include "simd/dispatch.h"
-
 namespace furrow {
 
 MaterialModel Elastic::model() {
@@ -23,19 +20,6 @@ MaterialModel Elastic::model() {
 }
 
 Elastic::Elastic(double density, const ElasticParameters& parameters)
-    : Material("elastic", density, {}, initial_pressure(parameters.elasticity)),
-      parameters_(parameters) {}
-
-UpdateReport Elastic::update_block(const PointBlock& block) const {
-  return checked(kernels<ElasticKernels>().update(parameters_, density(), block), block);
-}
-
-ElasticModuli Elastic::moduli(const VectorX& state) const {
-  return moduli_at(parameters_.elasticity, invariants(stress_of(state)).p);
-}
-
-double Elastic::largest_wave_speed(const PointBlock& block) const {
-  return largest_elastic_wave_speed(parameters_.elasticity, density(), block);
-}
+    : ElasticKernelLaw("elastic", density, parameters, {}) {}
 
 }  // namespace furrow

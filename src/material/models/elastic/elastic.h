@@ -3,23 +3,16 @@
 /// Elastic ground: linear or porous elasticity (elasticity.h) without yielding. Rate form
 /// (hypoelastic) under finite strain.
 
-#include "material/material_model.h"
+#include "material/kernel_law.h"
 #include "material/models/elastic/elastic_parameters.h"
 
 namespace furrow {
 
-class Elastic : public Material {
+class Elastic : public ElasticKernelLaw<ElasticParameters, ElasticKernels> {
  public:
   static MaterialModel model();
   /// @param density  rho0 [kg/m^3]
   Elastic(double density, const ElasticParameters& parameters);
-
-  UpdateReport update_block(const PointBlock& block) const override;
-  ElasticModuli moduli(const VectorX& state) const override;
-  double largest_wave_speed(const PointBlock& block) const override;
-
- private:
-  ElasticParameters parameters_;
 };
 
 }  // namespace furrow

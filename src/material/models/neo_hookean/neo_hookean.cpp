@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "simd/dispatch.h"
-
 namespace furrow {
 
 namespace {
@@ -44,14 +42,9 @@ MaterialModel NeoHookean::model() {
 }
 
 NeoHookean::NeoHookean(double density, const NeoHookeanParameters& parameters)
-    : Material("neo_hookean", density,
-               {{"b_minus_i", "", "left Cauchy-Green tensor minus identity", 0.0,
-                 StateVariable::Kind::symmetric_tensor}}),
-      parameters_(parameters) {}
-
-UpdateReport NeoHookean::update_block(const PointBlock& block) const {
-  return checked(kernels<NeoHookeanKernels>().update(parameters_, density(), block), block);
-}
+    : KernelLaw("neo_hookean", density, parameters,
+                {{"b_minus_i", "", "left Cauchy-Green tensor minus identity", 0.0,
+                  StateVariable::Kind::symmetric_tensor}}) {}
 
 ElasticModuli NeoHookean::moduli(const VectorX& state) const {
   // Along the axis of the largest principal stretch, with lambda^2 <= 1 + |b - I|: acoustic tensor

@@ -6,12 +6,12 @@
 /// The state is the left Cauchy-Green tensor b. The stress follows from it, so setting the stress
 /// alone has no effect.
 
-#include "material/material_model.h"
+#include "material/kernel_law.h"
 #include "material/models/neo_hookean/neo_hookean_parameters.h"
 
 namespace furrow {
 
-class NeoHookean : public Material {
+class NeoHookean : public KernelLaw<NeoHookeanParameters, NeoHookeanKernels> {
  public:
   enum : std::size_t { b_minus_identity = field::internal };  ///< six fields xx, yy, zz, xy, yz, xz
 
@@ -19,12 +19,8 @@ class NeoHookean : public Material {
   /// @param density  rho0 [kg/m^3]
   NeoHookean(double density, const NeoHookeanParameters& parameters);
 
-  UpdateReport update_block(const PointBlock& block) const override;
   /// A bound: the small-strain moduli, raised by the stretch of the state.
   ElasticModuli moduli(const VectorX& state) const override;
-
- private:
-  NeoHookeanParameters parameters_;
 };
 
 }  // namespace furrow

@@ -8,7 +8,6 @@
 
 #include "core/error.h"
 #include "material/section/section.h"
-#include "simd/dispatch.h"
 
 namespace furrow {
 
@@ -129,15 +128,10 @@ MaterialModel NorSand::model() {
 
 NorSand::NorSand(double density, const NorSandParameters& parameters, double void_ratio,
                  double image_pressure)
-    : Material("norsand", density,
-               {{"void_ratio", "", "volume of voids over volume of grains", void_ratio},
-                {"image_pressure", "Pa", "size of the yield surface", image_pressure},
-                {"eps_dev_pl", "", "equivalent plastic strain, of the deviatoric part"}}),
-      parameters_(parameters) {}
-
-UpdateReport NorSand::update_block(const PointBlock& block) const {
-  return checked(kernels<NorSandKernels>().update(parameters_, density(), block), block);
-}
+    : KernelLaw("norsand", density, parameters,
+                {{"void_ratio", "", "volume of voids over volume of grains", void_ratio},
+                 {"image_pressure", "Pa", "size of the yield surface", image_pressure},
+                 {"eps_dev_pl", "", "equivalent plastic strain, of the deviatoric part"}}) {}
 
 ElasticModuli NorSand::moduli(const VectorX& state) const {
   const double P = std::max(invariants(stress_of(state)).p + parameters_.pt, parameters_.floor);

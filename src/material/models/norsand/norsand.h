@@ -31,12 +31,12 @@
 /// K and G are those of the pressure at the start of the step (hypoelastic): closed elastic cycles
 /// of pressure and shear together do not conserve energy exactly.
 
-#include "material/material_model.h"
+#include "material/kernel_law.h"
 #include "material/models/norsand/norsand_parameters.h"
 
 namespace furrow {
 
-class NorSand : public Material {
+class NorSand : public KernelLaw<NorSandParameters, NorSandKernels> {
  public:
   /// Indices of the internal variables in the state.
   enum : std::size_t { void_ratio = field::internal, image_pressure, eps_dev_pl };
@@ -47,21 +47,17 @@ class NorSand : public Material {
   NorSand(double density, const NorSandParameters& parameters, double void_ratio,
           double image_pressure);
 
-  UpdateReport update_block(const PointBlock& block) const override;
   ElasticModuli moduli(const VectorX& state) const override;
   double largest_wave_speed(const PointBlock& block) const override;
   double yield_function(const VectorX& state) const override;
   double stress_scale(const VectorX& state) const override;
   std::vector<Vector2> yield_surface(const VectorX& state, std::size_t points = 200) const override;
 
-  const NorSandParameters& parameters() const { return parameters_; }
   /// Void ratio of the critical state at P = p + pt [Pa].
   double critical_void_ratio(double pressure) const;
 
  private:
   double strength(double P, double image) const;  ///< t on the surface [Pa]
-
-  NorSandParameters parameters_;
 };
 
 }  // namespace furrow
