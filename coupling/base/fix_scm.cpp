@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "coupling/liggghts/script.h"
+#include "io/heightmap_file.h"
 #include "io/soil_card_file.h"
 
 namespace furrow::coupling {
@@ -13,6 +14,12 @@ namespace {
 std::map<std::string, double> card_of(const Options& options, const std::string& folder) {
   if (!options.given("card")) return {};
   return read_soil_card((std::filesystem::path(folder) / options.text("card")).string());
+}
+
+HeightFieldParameters field_of(const Options& options, const std::string& folder) {
+  HeightFieldParameters field = height_field_from(options);
+  field.relief = read_relief(options, folder);
+  return field;
 }
 
 }  // namespace
@@ -32,7 +39,7 @@ const Outputs<FixScm>& FixScm::outputs() {
 FixScm::FixScm(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, const Schema& schema)
     : FurrowFix(lammps, narg, arg, schema),
       soil_(soil_from(options(), card_of(options(), script_folder(*lammps)))),
-      field_(height_field_from(options()), options().subject()) {
+      field_(field_of(options(), script_folder(*lammps)), options().subject()) {
   keep_state();
   provide(outputs());
 }

@@ -15,6 +15,7 @@ const StyleRow terrain_scm_style =
 Schema FixTerrainScm::schema() {
   Schema schema("fix terrain/scm");
   declare_height_field(schema);
+  declare_relief(schema);
   schema.text("card", "soil card that gives the parameters which the line does not").optional();
   declare_soil(schema);
   return schema;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "io/heightmap_file.h"
 #include "io/material_file.h"
 #include "io/slide_input.h"
 #include "material/plausibility.h"
@@ -241,6 +242,7 @@ Schema terrain_schema(const std::string& subject, const std::optional<GroundSize
   schema.numbers("centre", 2, "m", Range::any(), "x y of the middle")
       .by_default(std::vector<double>{0.0, 0.0});
   schema.number("surface", "m", Range::any(), "z of the undisturbed surface").by_default(0.0);
+  declare_relief(schema);
   schema
       .number("clearance_above", "m", Range::positive(),
               "height of the grid above the surface; by default six cells or the depth, whichever "
@@ -329,6 +331,7 @@ TerrainParameters read_terrain(const Options& options, const std::string& folder
   check_cells(options);
   ground.layers = read_layers(options, folder);
   ground.surface = options.number("surface");
+  ground.relief = read_relief(options, folder);
   const double x = options.numbers("centre")[0], y = options.numbers("centre")[1];
   const double half_length = 0.5 * options.number("length"),
                half_width = 0.5 * options.number("width");
@@ -354,6 +357,10 @@ TerrainParameters read_terrain(const Options& options, const std::string& folder
                      "remove one of the two");
   ground.surface_mesh = options.flag("surface_mesh");
   ground.surface_mesh_every = read_surface_mesh_every(options, ground);
+  if (!ground.relief.flat() && ground.surface_mesh)
+    throw InputError(options.where("surface_mesh"), "is given for ground that is not flat",
+                     "flat ground below grains",
+                     "remove the keywords of the relief, or 'surface_mesh'");
   ground.trough = read_trough(options);
   ground.multirate = options.flag("multirate");
   if (ground.multirate && !ground.surface_mesh)

@@ -12,6 +12,7 @@ namespace furrow {
 
 namespace {
 
+constexpr double least_cells = 2.0;    // below a relief, and one above it
 constexpr double max_off_knot = 1e-6;  // of the cell: the surface is where two cells meet
 
 /// Levels of particles from the surface down, with their state.
@@ -27,6 +28,12 @@ std::vector<ParticleLevel> make_levels(const TerrainParameters& parameters, cons
       level.half = 0.5 * z.length(cell) / count;
       levels.push_back(level);
     }
+  }
+  // The same levels, counted from the surface, reach the base below the highest relief.
+  const double lowest = z.lower() - (z.upper() - parameters.surface);
+  while (!parameters.relief.flat() && levels.back().z > lowest) {
+    levels.push_back(levels.back());
+    levels.back().z -= 2.0 * levels.back().half;
   }
   find_overburden(parameters, parameters.trough ? 0.0 : parameters.surcharge, levels);
   return levels;
@@ -84,7 +91,13 @@ Grid make_grid(const TerrainParameters& parameters, const std::string& where) {
 
 TerrainFill::TerrainFill(const TerrainParameters& parameters, const Grid& grid,
                          const std::string& where)
-    : layers_(parameters.layers),
+    : where_(where),
+      layers_(parameters.layers),
+      relief_(parameters.relief),
+      base_(grid.axis(2).lower()),
+      depth_(parameters.surface - base_),
+      clearance_(grid.axis(2).upper() - parameters.surface),
+      shortest_cell_(grid.axis(2).shortest()),
       slide_(parameters.slide),
       particles_per_cell_(parameters.particles_per_cell),
       levels_(make_levels(parameters, grid)),
@@ -120,24 +133,50 @@ void TerrainFill::add_cells(int x_cell, Discretisation& discretisation) {
       const double half_x = 0.5 * x.length(x_cell) / particles_per_cell_[0],
                    half_y = 0.5 * y.length(y_cell) / rows;
       for (int j = 0; j < rows; ++j) {
+        const std::array<double, 2> place = {x.knot(x_cell) + (2 * i + 1) * half_x,
+                                             y.knot(y_cell) + (2 * j + 1) * half_y};
+        const double height = height_at(place);
         if (mine)
-          add_stack({x.knot(x_cell) + (2 * i + 1) * half_x, y.knot(y_cell) + (2 * j + 1) * half_y},
-                    {half_x, half_y}, static_cast<std::size_t>(y_cell * rows + j), discretisation);
+          add_stack(place, {half_x, half_y}, height, static_cast<std::size_t>(y_cell * rows + j),
+                    discretisation);
         next_id_ += static_cast<double>(levels_.size());
       }
     }
 }
 
-/// The particles of a place (x, y), which stand for ground of two half spacings [m].
+/// Of the relief [m]. Every rank asks for every place, so that all of them throw.
+double TerrainFill::height_at(const std::array<double, 2>& place) const {
+  const double height = relief_.height(place[0], place[1]);
+  const double lowest = least_cells * shortest_cell_ - depth_,
+               highest = clearance_ - shortest_cell_;
+  if (relief_.flat() || (height >= lowest && height <= highest)) return height;
+  throw InputError(
+      where_,
+      fmt::format("has its surface {:.4g} m {} 'surface' at x = {:.4g}, y = {:.4g} m",
+                  std::abs(height), height < 0.0 ? "below" : "above", place[0], place[1]),
+      fmt::format("heights from {:.4g} to {:.4g} m within depth and clearance", lowest, highest),
+      fmt::format("raise '{}', or give all heights in m",
+                  height < 0.0 ? "depth" : "clearance_above"));
+}
+
+/// The particles of a place (x, y), which stand for ground of two half spacings [m]. A relief lifts
+/// the levels by its height; the lowest one that it leaves reaches down to the base.
 void TerrainFill::add_stack(const std::array<double, 2>& place,
-                            const std::array<double, 2>& half_spacing, std::size_t row,
-                            Discretisation& discretisation) {
+                            const std::array<double, 2>& half_spacing, double height,
+                            std::size_t row, Discretisation& discretisation) {
   const std::size_t first = first_level(row);
   const std::vector<ParticleLevel>& levels = first > 0 ? levels_below_trough_ : levels_;
-  for (std::size_t n = 0; n < levels.size(); ++n) {
+  bool lowest = false;
+  for (std::size_t n = 0; n < levels.size() && !lowest; ++n) {
     const ParticleLevel& level = levels[n];
-    const double position[3] = {place[0], place[1], level.z};
-    const double half[3] = {half_spacing[0], half_spacing[1], level.half};
+    double position[3] = {place[0], place[1], level.z + height};
+    double half[3] = {half_spacing[0], half_spacing[1], level.half};
+    if (const double left = position[2] + half[2] - base_;
+        !relief_.flat() && left < 3.0 * half[2]) {
+      half[2] = 0.5 * left;
+      position[2] = base_ + half[2];
+      lowest = true;
+    }
     const std::size_t side = slide_ ? slide_->side(Eigen::Map<const Vector3>(position)) : 0;
     Particles& particles = discretisation.groups[side * layers_.size() + level.layer].particles;
     const std::size_t p = particles.append(1);
@@ -147,7 +186,7 @@ void TerrainFill::add_stack(const std::array<double, 2>& place,
       particles.data(column::half_x + a)[p] = half[a];
     }
     particles.data(column::volume)[p] =
-        8.0 * half[0] * half[1] * level.half / level.state[field::volume_ratio];
+        8.0 * half[0] * half[1] * half[2] / level.state[field::volume_ratio];
     particles.data(column::id)[p] = next_id_ + static_cast<double>(first + n);
     particles.set_state(p, level.state);
   }
@@ -176,6 +215,9 @@ std::size_t TerrainFill::column_of(const Grid& grid, double id) const {
   return static_cast<std::size_t>(id) / (rows(grid) * levels_.size());
 }
 
-void TerrainFill::checkpoint(Checkpoint& state) { state.value("next_id", next_id_); }
+void TerrainFill::checkpoint(Checkpoint& state) {
+  relief_.match(state);
+  state.value("next_id", next_id_);
+}
 
 }  // namespace furrow

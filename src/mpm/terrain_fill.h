@@ -46,10 +46,15 @@ class TerrainFill {
   void checkpoint(Checkpoint& state);
 
  private:
+  double height_at(const std::array<double, 2>& place) const;
   void add_stack(const std::array<double, 2>& place, const std::array<double, 2>& half_spacing,
-                 std::size_t row, Discretisation& discretisation);
+                 double height, std::size_t row, Discretisation& discretisation);
 
+  std::string where_;
   std::vector<TerrainLayer> layers_;
+  GroundRelief relief_;
+  double base_, depth_, clearance_;  // z of the base, heights of ground and of grid above it [m]
+  double shortest_cell_;             // along z [m]
   std::optional<SlideSurface> slide_;
   std::array<int, 3> particles_per_cell_;
   std::vector<ParticleLevel> levels_;  // from the surface down

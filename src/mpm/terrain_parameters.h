@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/options.h"
+#include "geometry/ground_relief.h"
 #include "material/material.h"
 #include "mpm/axis.h"
 #include "mpm/block_layout.h"
@@ -36,8 +37,9 @@ struct Trough {
 struct TerrainParameters {
   AxisLayout x;  ///< of the grid
   AxisLayout y;
-  AxisLayout z;          ///< reaches above the surface, for ground that is pushed up
-  double surface = 0.0;  ///< z of the undisturbed surface [m]; a knot of the z axis
+  AxisLayout z;              ///< reaches above the surface, for ground that is pushed up
+  double surface = 0.0;      ///< z of the undisturbed surface [m]; a knot of the z axis
+  GroundRelief relief = {};  ///< of that surface
   std::vector<TerrainLayer> layers;
   /// in the order of Face: both ends and both sides smooth, a rough base, a free top
   FaceArray<BoundaryKind> boundary = {BoundaryKind::smooth, BoundaryKind::smooth,

@@ -65,6 +65,19 @@ HeightField::HeightField(const HeightFieldParameters& parameters, const std::str
   const auto size = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
   surface_.assign(size, parameters.level);
   reference_.assign(size, parameters.level);
+  if (parameters.relief.flat()) return;
+  for (int row = 0; row < rows_; ++row)
+    for (int column = 0; column < columns_; ++column) {
+      const Vector2 centre = lower_ + parameters.cell * Vector2(column + 0.5, row + 0.5);
+      undisturbed_.push_back(parameters.level + parameters.relief.height(centre.x(), centre.y()));
+    }
+  surface_ = reference_ = undisturbed_;
+  const auto [lowest, highest] = std::minmax_element(surface_.begin(), surface_.end());
+  highest_ = *highest;
+  need(*highest - *lowest <= parameters.length, where,
+       fmt::format("has heights from {:.4g} to {:.4g} m over a length of {:.4g} m", *lowest,
+                   *highest, parameters.length),
+       "heights that differ by less than the length", "give all lengths and heights in m");
 }
 
 void HeightField::raise(std::size_t cell, double height) {
@@ -93,13 +106,13 @@ double HeightField::deepest() const {
 
 double HeightField::volume_above() const {
   double sum = 0.0;
-  for (const double z : surface_) sum += std::max(0.0, z - parameters_.level);
+  for (std::size_t c = 0; c < cells(); ++c) sum += std::max(0.0, surface_[c] - undisturbed(c));
   return sum * cell_area();
 }
 
 double HeightField::volume_below() const {
   double sum = 0.0;
-  for (const double z : surface_) sum += std::max(0.0, parameters_.level - z);
+  for (std::size_t c = 0; c < cells(); ++c) sum += std::max(0.0, undisturbed(c) - surface_[c]);
   return sum * cell_area();
 }
 
@@ -124,6 +137,7 @@ void HeightField::checkpoint(Checkpoint& state) {
   state.match("rows", rows_);
   state.match("cell", parameters_.cell);
   state.match("level", parameters_.level);
+  parameters_.relief.match(state);
   state.values("surface", surface_);
   state.values("reference", reference_);
   state.value("highest", highest_);

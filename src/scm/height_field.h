@@ -8,6 +8,7 @@
 #include "core/checkpoint.h"
 #include "core/options.h"
 #include "core/types.h"
+#include "geometry/ground_relief.h"
 #include "geometry/surface.h"
 
 namespace furrow {
@@ -18,9 +19,10 @@ struct HeightFieldParameters {
   Vector2 centre = Vector2::Zero();  ///< [m]
   double level = 0.0;                ///< z of the undisturbed surface [m]
   double cell = 0.0;                 ///< [m]
+  GroundRelief relief = {};          ///< of the undisturbed surface above the level
 };
 
-/// The keys of a height field.
+/// The keys of a height field without those of its relief.
 void declare_height_field(Schema& schema);
 HeightFieldParameters height_field_from(const Options& options);
 
@@ -64,12 +66,16 @@ class HeightField {
 
  private:
   void raise(std::size_t cell, double height);
+  double undisturbed(std::size_t cell) const {
+    return undisturbed_.empty() ? parameters_.level : undisturbed_[cell];
+  }
 
   HeightFieldParameters parameters_;
   Vector2 lower_ = Vector2::Zero();
   int columns_ = 0, rows_ = 0;
   double highest_ = 0.0;
   std::vector<double> surface_, reference_;  // of each cell [m]
+  std::vector<double> undisturbed_;          // the same at the start; empty on flat ground
 };
 
 }  // namespace furrow

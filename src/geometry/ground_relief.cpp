@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "geometry/ground_relief.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/check_number.h"
+#include "core/checksum.h"
+#include "core/error.h"
+
+namespace furrow {
+
+namespace {
+
+constexpr double reference_frequency = 0.1;  // n0 of ISO 8608 [cycles/m]
+constexpr int waves = 256;                   // of a random profile, in equal bands of log(n)
+constexpr double round_off = 1e-9;           // of a spacing
+
+/// The node below a coordinate, and the place between it and the next as 0 to 1.
+std::pair<int, double> between(double coordinate, double lower, double spacing, int count) {
+  const double place = std::clamp((coordinate - lower) / spacing, 0.0, count - 1.0);
+  const int node = std::min(static_cast<int>(place), std::max(0, count - 2));
+  return {node, place - node};
+}
+
+/// Equal on every platform, unlike the distributions of the standard library.
+double uniform(std::mt19937& generator) { return (generator() + 0.5) / 4294967296.0; }
+
+}  // namespace
+
+double Heightmap::height(double x, double y) const {
+  const Vector2 first = lower - 0.5 * spacing;
+  const Vector2 last = first + Vector2(columns * spacing.x(), rows * spacing.y());
+  const Vector2 slack = round_off * spacing;
+  if (x < first.x() - slack.x() || y < first.y() - slack.y() || x > last.x() + slack.x() ||
+      y > last.y() + slack.y())
+    throw InputError(
+        name, fmt::format("does not cover x = {:.6g}, y = {:.6g} m of the ground", x, y),
+        fmt::format("places with x from {:.6g} to {:.6g} and y from {:.6g} to {:.6g} m", first.x(),
+                    last.x(), first.y(), last.y()),
+        "give the file's x, y and z of the ground's origin as 'heightmap_origin', or a larger map");
+  const auto [i, u] = between(x, lower.x(), spacing.x(), columns);
+  const auto [j, v] = between(y, lower.y(), spacing.y(), rows);
+  const auto at = [&](int column, int row) {
+    return heights[static_cast<std::size_t>(std::min(row, rows - 1)) *
+                       static_cast<std::size_t>(columns) +
+                   static_cast<std::size_t>(std::min(column, columns - 1))];
+  };
+  return (1.0 - v) * ((1.0 - u) * at(i, j) + u * at(i + 1, j)) +
+         v * ((1.0 - u) * at(i, j + 1) + u * at(i + 1, j + 1));
+}
+
+GroundRelief::GroundRelief(ReliefParameters parameters, const std::string& where)
+    : parameters_(std::move(parameters)) {
+  const ReliefParameters& p = parameters_;
+  flat_ = !p.heightmap && !p.washboard && !p.roughness && !p.trapezoid && !p.half_cylinder;
+  need(!p.flat_until || p.washboard || p.roughness, where + ", keyword 'flat_until'",
+       "is given without 'washboard' or 'roughness'", "the start of one of them", "remove it");
+  need(!p.washboard || (*p.washboard)[0] > 0.0, where + ", keyword 'washboard'",
+       "has a wavelength that is not > 0", "wavelength > 0 and amplitude [m]");
+  need(!p.trapezoid || ((*p.trapezoid)[2] >= 0.0 && (*p.trapezoid)[3] > (*p.trapezoid)[2]),
+       where + ", keyword 'trapezoid'", "has a top that is not shorter than its base",
+       "x height top base [m], with 0 <= top < base");
+  need(!p.half_cylinder || (*p.half_cylinder)[1] > 0.0, where + ", keyword 'half_cylinder'",
+       "has a radius that is not > 0", "x and radius > 0 [m]");
+  if (!p.roughness) return;
+  need(p.roughness->lowest > 0.0 && p.roughness->highest > p.roughness->lowest,
+       where + ", keyword 'roughness_band'",
+       fmt::format("is {:g} {:g}", p.roughness->lowest, p.roughness->highest),
+       "two frequencies > 0 [cycles/m], the lower one first");
+  add_waves(*p.roughness);
+}
+
+/// One wave of each band has the power of the band, at a random place in it.
+void GroundRelief::add_waves(const Roughness& roughness) {
+  std::mt19937 generator(roughness.seed);
+  const double ratio = roughness.highest / roughness.lowest;
+  const double power = roughness.density * reference_frequency * reference_frequency;
+  for (int n = 0; n < waves; ++n) {
+    const double low = roughness.lowest * std::pow(ratio, static_cast<double>(n) / waves),
+                 high = roughness.lowest * std::pow(ratio, (n + 1.0) / waves);
+    const double frequency = low * std::pow(high / low, uniform(generator));
+    waves_.push_back({std::sqrt(2.0 * power * (1.0 / low - 1.0 / high)), 2.0 * pi * frequency,
+                      2.0 * pi * uniform(generator)});
+  }
+  if (parameters_.flat_until) waves_at_start_ = waves_at(*parameters_.flat_until);
+}
+
+double GroundRelief::waves_at(double x) const {
+  double sum = 0.0;
+  for (const Wave& wave : waves_)
+    sum += wave.amplitude * std::sin(wave.wave_number * x + wave.phase);
+  return sum;
+}
+
+double GroundRelief::height(double x, double y) const {
+  if (flat_) return 0.0;
+  const ReliefParameters& p = parameters_;
+  double height = p.heightmap ? p.heightmap->height(x, y) : 0.0;
+  if (p.trapezoid) {
+    const Eigen::Vector4d& shape = *p.trapezoid;
+    const double from_foot = 0.5 * shape[3] - std::abs(x - shape[0]);
+    height += shape[1] * std::clamp(2.0 * from_foot / (shape[3] - shape[2]), 0.0, 1.0);
+  }
+  if (p.half_cylinder) {
+    const double from_axis = x - (*p.half_cylinder)[0], radius = (*p.half_cylinder)[1];
+    height += std::sqrt(std::max(0.0, radius * radius - from_axis * from_axis));
+  }
+  if (p.flat_until && x <= *p.flat_until) return height;
+  if (p.washboard)
+    height += (*p.washboard)[1] *
+              std::sin(2.0 * pi * (x - p.flat_until.value_or(0.0)) / (*p.washboard)[0]);
+  if (p.roughness) height += waves_at(x) - waves_at_start_;
+  return height;
+}
+
+void GroundRelief::match(Checkpoint& state) const {
+  if (!parameters_.heightmap) return;
+  const Heightmap& map = *parameters_.heightmap;
+  state.match("columns of the heightmap", map.columns);
+  state.match("rows of the heightmap", map.rows);
+  Checksum checksum;
+  checksum.add(map.lower.data(), 2 * sizeof(double));
+  checksum.add(map.spacing.data(), 2 * sizeof(double));
+  checksum.add(map.heights.data(), map.heights.size() * sizeof(double));
+  state.match("checksum of the heightmap", fmt::format("{:016x}", checksum.value()));
+}
+
+void declare_relief(Schema& schema) {
+  schema
+      .text("heightmap",
+            "file of heights above `surface`, ESRI ASCII grid or text with x y z; path relative "
+            "to the script")
+      .optional()
+      .may_change();  // of place: checkpoints compare the heights
+  schema
+      .numbers("heightmap_origin", 3, "m", Range::any(), "x y z in the file of the ground's origin")
+      .by_default(std::vector<double>{0.0, 0.0, 0.0});
+  schema.numbers("washboard", 2, "m", Range::any(), "wavelength along x and amplitude of a sine")
+      .optional();
+  schema
+      .number("roughness", "m^3", Range::positive(),
+              "spectral density at 0.1 cycles/m of a random profile along x by ISO 8608")
+      .optional();
+  schema
+      .numbers("roughness_band", 2, "cycles/m", Range::positive(),
+               "lowest and highest spatial frequency of `roughness`")
+      .by_default(std::vector<double>{0.011, 2.83});
+  schema.integer("roughness_seed", Range::closed(0.0, 4294967295.0), "seed of `roughness`")
+      .by_default("1");
+  schema.number("flat_until", "m", Range::any(), "x where `washboard` and `roughness` begin")
+      .optional();
+  schema
+      .numbers("trapezoid", 4, "m", Range::any(),
+               "obstacle across x: x of its middle, height, length of top and of base; a ditch has "
+               "a negative height")
+      .optional();
+  schema
+      .numbers("half_cylinder", 2, "m", Range::any(), "obstacle across x: x of its axis and radius")
+      .optional();
+}
+
+GroundRelief relief_from(const Options& options, std::optional<Heightmap> heightmap) {
+  ReliefParameters relief;
+  relief.heightmap = std::move(heightmap);
+  const auto numbers = [&](const char* key) { return options.numbers(key).data(); };
+  if (options.given("washboard"))
+    relief.washboard = Eigen::Map<const Vector2>(numbers("washboard"));
+  if (options.given("trapezoid"))
+    relief.trapezoid = Eigen::Map<const Eigen::Vector4d>(numbers("trapezoid"));
+  if (options.given("half_cylinder"))
+    relief.half_cylinder = Eigen::Map<const Vector2>(numbers("half_cylinder"));
+  if (options.given("flat_until")) relief.flat_until = options.number("flat_until");
+  if (options.given("roughness"))
+    relief.roughness = Roughness{options.number("roughness"), numbers("roughness_band")[0],
+                                 numbers("roughness_band")[1],
+                                 static_cast<std::uint32_t>(options.integer("roughness_seed"))};
+  for (const char* key : {"roughness_band", "roughness_seed"})
+    need(!options.given(key) || relief.roughness, options.where(key),
+         "is given without 'roughness'", "a property of a random profile", "remove it");
+  need(!options.given("heightmap_origin") || relief.heightmap, options.where("heightmap_origin"),
+       "is given without 'heightmap'", "a place in a heightmap", "remove it");
+  return GroundRelief(std::move(relief), options.subject());
+}
+
+}  // namespace furrow

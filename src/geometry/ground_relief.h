@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The initial surface of ground that is not flat: heights above its level.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/checkpoint.h"
+#include "core/options.h"
+#include "core/types.h"
+
+namespace furrow {
+
+/// Heights at the nodes of a regular grid, x fastest.
+struct Heightmap {
+  std::string name;                   ///< for errors
+  Vector2 lower = Vector2::Zero();    ///< node of the lowest x and y [m]
+  Vector2 spacing = Vector2::Zero();  ///< of nodes [m]
+  int columns = 0, rows = 0;          ///< along x, along y
+  std::vector<double> heights = {};   ///< [m]
+
+  /// Bilinear. A node stands for half a spacing around it, so that the map ends there.
+  /// @throws InputError outside of the map
+  double height(double x, double y) const;
+};
+
+/// A random profile along x with the spectrum of ISO 8608: the displacement spectral density is
+/// G(n) = G(n0) (n/n0)^-2 over the spatial frequency n, with n0 = 0.1 cycles/m.
+struct Roughness {
+  double density = 0.0;                   ///< G(n0) [m^3]
+  double lowest = 0.011, highest = 2.83;  ///< spatial frequencies [cycles/m]
+  std::uint32_t seed = 1;
+};
+
+struct ReliefParameters {
+  std::optional<Heightmap> heightmap = {};
+  std::optional<Vector2> washboard = {};  ///< wavelength, amplitude [m]
+  std::optional<Roughness> roughness = {};
+  std::optional<Eigen::Vector4d> trapezoid =
+      {};  ///< x of the middle, height, length of top, of base [m]
+  std::optional<Vector2> half_cylinder = {};  ///< x of the axis, radius [m]
+  std::optional<double> flat_until = {};      ///< x where washboard and roughness begin [m]
+};
+
+/// The sum of all given shapes, a function of the place alone.
+class GroundRelief {
+ public:
+  GroundRelief() = default;  ///< flat
+  /// @throws InputError for a shape that cannot be
+  GroundRelief(ReliefParameters parameters, const std::string& where);
+
+  bool flat() const { return flat_; }
+  double height(double x, double y) const;  ///< [m] @throws InputError outside of a heightmap
+  /// A run that continues must have the same heightmap. Keywords are compared by the fix.
+  void match(Checkpoint& state) const;
+
+ private:
+  struct Wave {
+    double amplitude, wave_number, phase;  // [m], [rad/m], [rad]
+  };
+  void add_waves(const Roughness& roughness);
+  double waves_at(double x) const;
+
+  ReliefParameters parameters_;
+  bool flat_ = true;
+  std::vector<Wave> waves_;
+  double waves_at_start_ = 0.0;  // [m]
+};
+
+/// The keys of a relief but for those of its heightmap's file, which are read by io.
+void declare_relief(Schema& schema);
+/// The same from a line. @param heightmap  of the file that the line names
+GroundRelief relief_from(const Options& options, std::optional<Heightmap> heightmap);
+
+}  // namespace furrow

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Surfaces that are not flat: the shapes, and the spectrum of a random profile.
+#include "geometry/ground_relief.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+#include "tests/support/error_of.h"
+
+namespace furrow {
+namespace {
+
+using test::error_of;
+using ::testing::HasSubstr;
+
+GroundRelief relief_of(const std::vector<std::string>& words) {
+  Schema schema("fix terrain");
+  declare_relief(schema);
+  return relief_from(schema.read(words), {});
+}
+
+TEST(GroundRelief, HeightsAreThoseOfTheShapesAndAddUp) {
+  EXPECT_TRUE(relief_of({}).flat());
+  EXPECT_EQ(relief_of({}).height(3.0, 4.0), 0.0);
+  const GroundRelief sine = relief_of({"washboard", "0.8", "0.03", "flat_until", "0.5"});
+  EXPECT_EQ(sine.height(0.4, 0.0), 0.0);
+  EXPECT_NEAR(sine.height(0.7, 9.0), 0.03, 1e-15);
+  EXPECT_NEAR(sine.height(0.5 + 0.8 * 7.0 + 0.6, 0.0), -0.03, 1e-14);
+  const GroundRelief step = relief_of({"trapezoid", "1", "0.1", "0.2", "0.6"});
+  EXPECT_NEAR(step.height(1.1, 0.0), 0.1, 1e-15);
+  EXPECT_NEAR(step.height(1.2, 0.0), 0.05, 1e-15);
+  EXPECT_EQ(step.height(1.31, 0.0), 0.0);
+  const GroundRelief log = relief_of({"half_cylinder", "1", "0.1"});
+  EXPECT_NEAR(log.height(1.06, 0.0), 0.08, 1e-15);
+  EXPECT_EQ(log.height(0.89, 0.0), 0.0);
+  const GroundRelief both = relief_of({"half_cylinder", "1", "0.1", "washboard", "0.8", "0.03"});
+  EXPECT_NEAR(both.height(1.0, 0.0), 0.1 + 0.03, 1e-15);
+}
+
+/// By a Hann window and Fourier sums over 400 m, mean of several seeds: in each octave the power
+/// per frequency is that of ISO 8608, G(n0) (n/n0)^-2.
+TEST(GroundRelief, PeriodogramOfARandomProfileHasTheSpectrumOfIso8608) {
+  constexpr double density = 256e-6, length = 400.0, step = 0.1, n0 = 0.1;
+  constexpr int points = 4000, seeds = 12;
+  const std::vector<double> octaves = {0.02, 0.04, 0.08, 0.16, 0.32, 0.64, 1.28};  // [cycles/m]
+  std::vector<double> measured(octaves.size(), 0.0), expected(octaves.size(), 0.0);
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const GroundRelief relief =
+        relief_of({"roughness", "256e-6", "roughness_seed", std::to_string(seed)});
+    VectorX heights(points);
+    for (int i = 0; i < points; ++i)
+      heights[i] = (1.0 - std::cos(2.0 * pi * i / points)) * relief.height(i * step, 0.0);
+    for (std::size_t k = 0; k < octaves.size(); ++k) {
+      const int first = static_cast<int>(octaves[k] * length);
+      for (int bin = first; bin < 2 * first; bin += std::max(1, first / 16)) {
+        const double n = bin / length;
+        double cosine = 0.0, sine = 0.0;
+        for (int i = 0; i < points; ++i) {
+          cosine += heights[i] * std::cos(2.0 * pi * n * i * step);
+          sine += heights[i] * std::sin(2.0 * pi * n * i * step);
+        }
+        // the window 1 - cos has the mean square 1.5
+        measured[k] += 2.0 * step * (cosine * cosine + sine * sine) / (1.5 * points);
+        expected[k] += density * std::pow(n / n0, -2.0);
+      }
+    }
+  }
+  for (std::size_t k = 0; k < octaves.size(); ++k)
+    EXPECT_NEAR(measured[k] / expected[k], 1.0, 0.25) << octaves[k];
+}
+
+TEST(GroundRelief, SeedAndPlaceAloneGiveTheHeight) {
+  const std::vector<std::string> words = {"roughness", "1e-3", "roughness_seed", "7"};
+  const GroundRelief one = relief_of(words), same = relief_of(words),
+                     other = relief_of({"roughness", "1e-3", "roughness_seed", "8"});
+  EXPECT_EQ(one.height(123.4, 0.0), same.height(123.4, 5.0));
+  EXPECT_NE(one.height(123.4, 0.0), other.height(123.4, 0.0));
+  const GroundRelief later = relief_of({"roughness", "1e-3", "flat_until", "2"});
+  EXPECT_EQ(later.height(2.0, 0.0), 0.0);
+  EXPECT_LT(std::abs(later.height(2.0 + 1e-6, 0.0)), 1e-6);  // continuous
+}
+
+TEST(GroundRelief, ShapesThatCannotBeAreRefusedWithTheirKeyword) {
+  const auto refusal = [](const std::vector<std::string>& words) {
+    return error_of<InputError>([&] { relief_of(words); });
+  };
+  EXPECT_THAT(refusal({"washboard", "0", "0.1"}), HasSubstr("keyword 'washboard'"));
+  EXPECT_THAT(refusal({"trapezoid", "0", "0.1", "0.5", "0.5"}), HasSubstr("keyword 'trapezoid'"));
+  EXPECT_THAT(refusal({"half_cylinder", "0", "-1"}), HasSubstr("keyword 'half_cylinder'"));
+  EXPECT_THAT(refusal({"roughness", "1e-6", "roughness_band", "2", "1"}),
+              HasSubstr("keyword 'roughness_band'"));
+  EXPECT_THAT(refusal({"flat_until", "1"}), HasSubstr("keyword 'flat_until'"));
+  EXPECT_THAT(refusal({"roughness_seed", "3"}), HasSubstr("without 'roughness'"));
+  EXPECT_THAT(refusal({"heightmap_origin", "0", "0", "0"}), HasSubstr("without 'heightmap'"));
+}
+
+}  // namespace
+}  // namespace furrow

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Heightmaps: both formats give the same surface, and faulty files are refused with their line.
+#include "io/heightmap_file.h"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+#include "scratch.h"
+#include "tests/support/error_of.h"
+
+namespace furrow {
+namespace {
+
+using test::error_of;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+struct HeightmapFile : ::testing::Test {
+  std::string write(const std::string& text) const {
+    const std::string path = scratch.path("map");
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
+  }
+  std::string refusal(const std::string& text) const {
+    const std::string path = write(text);
+    return error_of<InputError>([&] { read_heightmap(path); });
+  }
+  Scratch scratch;
+};
+
+/// z = 0.1 x + 0.02 y at nodes of 0.5 m from (10, 20) on, the north first.
+constexpr const char* grid =
+    "ncols 3\nnrows 2\nxllcorner 9.75\nyllcorner 19.75\ncellsize 0.5\nNODATA_value -9999\n"
+    "1.41 1.46 1.51\n1.40 1.45 1.50\n";
+constexpr const char* points =
+    "# x y z\n10 20 1.40\n10.5 20 1.45\n11 20 1.50\n11 20.5 1.51\n10, 20.5, 1.41\n10.5 20.5 1.46\n";
+
+TEST_F(HeightmapFile, GridAndPointsInAnyOrderGiveTheSameBilinearSurface) {
+  for (const char* text : {grid, points}) {
+    const Heightmap map = read_heightmap(write(text), Vector3(10.0, 20.0, 1.4));
+    for (const Vector2& place : {Vector2(0.0, 0.0), Vector2(0.3, 0.1), Vector2(1.0, 0.5)})
+      EXPECT_NEAR(map.height(place.x(), place.y()), 0.1 * place.x() + 0.02 * place.y(), 1e-12);
+    EXPECT_NEAR(map.height(-0.2, 0.0), 0.0, 1e-12);  // in the first cell
+    EXPECT_THAT(error_of<InputError>([&] { map.height(1.3, 0.0); }),
+                AllOf(HasSubstr("does not cover x = 1.3"), HasSubstr("heightmap_origin")));
+  }
+}
+
+TEST_F(HeightmapFile, CornerAndCentreOfACellAreToldApart) {
+  std::string text = grid;
+  text.replace(text.find("xllcorner 9.75"), 14, "xllcenter 10.0");
+  text.replace(text.find("yllcorner 19.75"), 15, "yllcenter 20.0");
+  EXPECT_EQ(read_heightmap(write(text)).lower, read_heightmap(write(grid)).lower);
+}
+
+TEST_F(HeightmapFile, FaultyFilesAreRefusedWithTheirLine) {
+  const auto with = [](const std::string& from, const std::string& to) {
+    std::string text = grid;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  EXPECT_THAT(refusal(with("1.46", "-9999")), AllOf(HasSubstr("line 7"), HasSubstr("no height")));
+  EXPECT_THAT(refusal(with("1.40", "nan")), AllOf(HasSubstr("line 8"), HasSubstr("no height")));
+  EXPECT_THAT(refusal(with("1.45", "1,45x")), HasSubstr("line 8"));
+  EXPECT_THAT(refusal(with(" 1.50", "")), HasSubstr("has 5 heights"));
+  EXPECT_THAT(refusal(with("1.50", "1.50 1.6")), HasSubstr("more heights"));
+  EXPECT_THAT(refusal(with("cellsize 0.5\n", "")), HasSubstr("no 'cellsize'"));
+  EXPECT_THAT(refusal(with("ncols 3", "ncols 3e9")), HasSubstr("columns"));
+  EXPECT_THAT(refusal("10 20 1\n10.5 20 1\n10 20.5 1\n"), HasSubstr("no height at x = 10.5"));
+  EXPECT_THAT(refusal("0 0 1\n1 0 1\n0 1 1\n1.3 1 1\n"), HasSubstr("regular grid"));
+  EXPECT_THAT(refusal("0 0 1\n1 0 1\n0 0 2\n1 1 1\n0 1 1\n"),
+              AllOf(HasSubstr("line 3"), HasSubstr("repeats a point")));
+  EXPECT_THAT(refusal("0 0\n"), HasSubstr("x y z"));
+  EXPECT_THAT(refusal(""), HasSubstr("is empty"));
+  EXPECT_THAT(refusal(std::string("II*\0\x08\0\0\0", 8)), HasSubstr("gdal_translate -of AAIGrid"));
+  EXPECT_THAT(error_of<InputError>([] { read_heightmap("nowhere.asc"); }),
+              HasSubstr("does not exist"));
+}
+
+}  // namespace
+}  // namespace furrow
