@@ -30,7 +30,7 @@ struct HeightmapFile : ::testing::Test {
   Scratch scratch;
 };
 
-/// z = 0.1 x + 0.02 y at nodes of 0.5 m from (10, 20) on, the north first.
+/// A plane over a regular grid, the north first.
 constexpr const char* grid =
     "ncols 3\nnrows 2\nxllcorner 9.75\nyllcorner 19.75\ncellsize 0.5\nNODATA_value -9999\n"
     "1.41 1.46 1.51\n1.40 1.45 1.50\n";

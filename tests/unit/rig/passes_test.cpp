@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 using Words = std::vector<std::string>;
 
 constexpr double dt = 1e-4, height = 0.2003;  // [s], [m] of the axle at the start
-// settle 0.3 s, accelerate 0.1 s over 0.05 m, cruise 0.35 s; back 0.3 s: a period of 1.05 s
+// settle, accelerate, cruise and back: a period of 1.05 s
 const Words three{
     "load_force",  "60",  "speed",           "1",   "mode",         "towed", "damping", "600",
     "settle_time", "0.3", "accelerate_time", "0.1", "ground_level", "0",     "passes",  "3",

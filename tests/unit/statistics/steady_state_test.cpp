@@ -246,8 +246,7 @@ TEST(SteadyState, MserStopsAtHalfOfASignalThatNeverSettles) {
   EXPECT_EQ(mser_truncation(values), 500u);
 }
 
-/// 1 s settle, 1 s accelerate, 8 s cruise at 2 m/s; rows every 0.01 s; a force that decays into
-/// noise.
+/// It settles and accelerates for 1 s each, then cruises. The force decays into noise.
 History rolling(double transient_time, double end = 10.0) {
   History history({{"time", "s", ""}, {"stage", "", ""}, {"x", "m", ""}, {"force", "N", ""}});
   std::mt19937 random(5);
